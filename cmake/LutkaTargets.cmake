@@ -1,0 +1,59 @@
+# One function for each kind of target, so that warnings, sanitizers and include roots are the same everywhere.
+
+# Everything that our own targets, and only they, are compiled with.
+add_library(lutka_options INTERFACE)
+target_compile_options(lutka_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  # Contracting a*b+c into one fused operation depends on compiler, flags and inlining: without this the same
+  # simulation gives other bits in other builds, and the determinism tests (state hashes) mean nothing.
+  -ffp-contract=off
+  # GCC 12 reports these falsely from inside the standard library at -O2 and above (GCC bugs 105651, 105329),
+  # the last one for glm vectors in initialiser lists.
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-stringop-overflow -Wno-array-bounds -Wno-maybe-uninitialized>)
+if(LUTKA_WARNINGS_AS_ERRORS)
+  target_compile_options(lutka_options INTERFACE -Werror)
+endif()
+if(LUTKA_SANITIZE)
+  target_compile_options(lutka_options INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer
+                         -fno-sanitize-recover=undefined)
+  target_link_options(lutka_options INTERFACE -fsanitize=address,undefined)
+endif()
+if(LUTKA_CLANG_TIDY)
+  find_program(LUTKA_CLANG_TIDY_EXE NAMES clang-tidy clang-tidy-16 clang-tidy-14 REQUIRED)
+endif()
+
+function(lutka_common target)
+  target_link_libraries(${target} PRIVATE lutka_options)
+  if(LUTKA_CLANG_TIDY)
+    set_target_properties(${target} PROPERTIES CXX_CLANG_TIDY "${LUTKA_CLANG_TIDY_EXE};--quiet")
+  endif()
+endfunction()
+
+# lutka_library(NAME SOURCES … LINK … [PRIVATE_LINK …]): a static library `lutka_NAME`, alias `Lutka::NAME`.
+# LINK holds the layers that its headers use; a third party that only its sources include goes to PRIVATE_LINK.
+function(lutka_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  add_library(lutka_${name} STATIC ${ARG_SOURCES})
+  add_library(Lutka::${name} ALIAS lutka_${name})
+  set_target_properties(lutka_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_compile_features(lutka_${name} PUBLIC cxx_std_20)
+  target_include_directories(lutka_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include/lutka>)
+  target_link_libraries(lutka_${name} PUBLIC ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
+  lutka_common(lutka_${name})
+endfunction()
+
+# lutka_test(NAME SOURCES … LINK …): a Catch2 executable `test_NAME`, each of its test cases one CTest test.
+function(lutka_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(test_${name} ${ARG_SOURCES})
+  target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_link_libraries(test_${name} PRIVATE ${ARG_LINK} lutka_test_support)
+  target_compile_definitions(test_${name} PRIVATE
+    LUTKA_ZOO_DIR="${LUTKA_ZOO_DIR}" LUTKA_ASSETS_DIR="${PROJECT_SOURCE_DIR}/assets"
+    LUTKA_TESTS_DIR="${PROJECT_SOURCE_DIR}/tests" LUTKA_BINARY="${CMAKE_BINARY_DIR}/lutka")
+  lutka_common(test_${name})
+  # `-w NoTests`: a name that matches nothing fails instead of passing without having run.
+  catch_discover_tests(test_${name} TEST_PREFIX "${name}: " EXTRA_ARGS -w NoTests
+                       PROPERTIES SKIP_RETURN_CODE 4 TIMEOUT 600)
+endfunction()

@@ -1,0 +1,1 @@
+#include "animation/export/write_glb.hpp"

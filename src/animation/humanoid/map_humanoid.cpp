@@ -1,0 +1,1 @@
+#include "animation/humanoid/map_humanoid.hpp"

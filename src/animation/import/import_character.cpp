@@ -1,0 +1,1 @@
+#include "animation/import/import_character.hpp"

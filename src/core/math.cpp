@@ -1,0 +1,36 @@
+#include "core/math.hpp"
+
+#include <glm/geometric.hpp>
+
+namespace lutka {
+
+quat rotationBetween(const vec3& from, const vec3& to) {
+    const vec3 a = glm::normalize(from);
+    const vec3 b = glm::normalize(to);
+    const float cosine = glm::dot(a, b);
+    if (cosine < -0.999999F) return glm::angleAxis(kPi, anyPerpendicular(a));
+    const vec3 axis = glm::cross(a, b);
+    // Half-angle form: (1 + cos, axis * sin) is the wanted quaternion up to its length.
+    return glm::normalize(quat(1.0F + cosine, axis.x, axis.y, axis.z));
+}
+
+vec3 rotationVector(const quat& rotation) {
+    const quat q = rotation.w < 0.0F ? -rotation : rotation;
+    const vec3 v(q.x, q.y, q.z);
+    const float sine = glm::length(v);
+    if (sine < 1e-9F) return 2.0F * v;
+    return v * (2.0F * std::atan2(sine, q.w) / sine);
+}
+
+vec3 anyPerpendicular(const vec3& direction) {
+    const vec3 other = std::abs(direction.x) < 0.6F ? vec3(1, 0, 0) : vec3(0, 1, 0);
+    return glm::normalize(glm::cross(direction, other));
+}
+
+quat rotationFromXY(const vec3& x, const vec3& y) {
+    const vec3 unitX = glm::normalize(x);
+    const vec3 unitZ = glm::normalize(glm::cross(unitX, y));
+    return glm::normalize(glm::quat_cast(mat3(unitX, glm::cross(unitZ, unitX), unitZ)));
+}
+
+}  // namespace lutka

@@ -1,0 +1,47 @@
+#include "core/task_pool.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <thread>
+
+namespace lutka {
+
+struct TaskPool::Arena {
+    explicit Arena(int threads)
+        : limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)), arena(threads) {}
+    tbb::global_control limit;  // without it TBB caps the arena at the number of processors
+    tbb::task_arena arena;
+};
+
+TaskPool::TaskPool(int threads) {
+    const int wanted = threads == 0 ? static_cast<int>(std::thread::hardware_concurrency()) : threads;
+    threads_ = std::clamp(wanted, 1, 256);
+    if (threads_ > 1) arena_ = std::make_unique<Arena>(threads_);
+}
+
+TaskPool::~TaskPool() = default;
+TaskPool::TaskPool(TaskPool&&) noexcept = default;
+TaskPool& TaskPool::operator=(TaskPool&&) noexcept = default;
+
+int TaskPool::threads() const {
+    return threads_;
+}
+
+void TaskPool::parallelFor(std::size_t count, std::size_t grain,
+                           const std::function<void(std::size_t, std::size_t)>& body) const {
+    if (count == 0) return;
+    if (arena_ == nullptr || count <= grain) {
+        body(0, count);
+        return;
+    }
+    arena_->arena.execute([&] {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, std::max<std::size_t>(grain, 1)),
+                          [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
+    });
+}
+
+}  // namespace lutka

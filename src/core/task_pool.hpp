@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace lutka {
+
+/// Runs independent pieces of work on several threads, with blocking waits (no spinning). oneTBB behind one header.
+/// Results never depend on the number of threads as long as the pieces are independent.
+class TaskPool {
+  public:
+    /// `threads` includes the calling thread; 0 takes one a processor. Clamped to [1, 256].
+    explicit TaskPool(int threads = 1);
+    ~TaskPool();
+    TaskPool(TaskPool&&) noexcept;
+    TaskPool& operator=(TaskPool&&) noexcept;
+
+    [[nodiscard]] int threads() const;
+
+    /// Calls body(begin, end) over [0, count) in pieces of at least `grain` items and returns when all are done.
+    /// With one thread it is a plain call of body(0, count).
+    void parallelFor(std::size_t count, std::size_t grain,
+                     const std::function<void(std::size_t begin, std::size_t end)>& body) const;
+
+  private:
+    struct Arena;
+    std::unique_ptr<Arena> arena_;
+    int threads_ = 1;
+};
+
+}  // namespace lutka

@@ -1,0 +1,1 @@
+#include "physics/bullet/bullet_world.hpp"

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "animation/humanoid/roles.hpp"
+#include "core/rigid_transform.hpp"
+
+namespace lutka::physics {
+
+using animation::Role;
+
+/// The collision shape of a body, centred on the body's origin.
+struct BodyShape {
+    enum class Kind { capsule, box, sphere };
+    Kind kind = Kind::capsule;
+    float radius = 0.05F;                ///< Metres, > 0; capsule and sphere.
+    float halfLength = 0.1F;             ///< Metres, >= 0; capsule: half the distance of the cap centres, along body Y.
+    vec3 halfExtents{0.1F, 0.1F, 0.1F};  ///< Metres, > 0; box.
+};
+
+/// A rigid body that stands for the part of the character that one joint moves.
+struct BodyProfile {
+    Role role = Role::hips;
+    std::string joint;      ///< The joint's name in the rig that the profile was made for.
+    std::string jointPath;  ///< Its unique path (names from the root joined by '/').
+    BodyShape shape;
+    RigidTransform jointFromBody;       ///< Body origin = centre of mass; a capsule's axis is body Y.
+    float massKg = 1.0F;                ///< > 0.
+    vec3 inertia{0.01F, 0.01F, 0.01F};  ///< Principal moments about the body's axes, kg m², > 0.
+};
+
+/// The limits of a hinge: rotation of the child about frame z, positive by the right-hand rule, 0 in the neutral pose.
+struct HingeLimits {
+    float lower = 0.0F;  ///< Radians, in [-pi, 0].
+    float upper = 0.0F;  ///< Radians, in [0, pi].
+};
+
+/// The limits of a cone-twist joint about its neutral pose, where both frames agree.
+///
+/// Swing moves frame x (along the child) inside an elliptic cone about the parent frame's x: with the swing's rotation
+/// vector s (perpendicular to x), (s.y / swingY)² + (s.z / swingZ)² <= 1. Twist is the remaining rotation about x.
+struct ConeTwistLimits {
+    float swingY = 0.0F;  ///< Radians, (0, pi): largest rotation about the parent frame's y (moves x towards ∓z).
+    float swingZ = 0.0F;  ///< Radians, (0, pi): largest rotation about the parent frame's z (moves x towards ±y).
+    float twist = 0.0F;   ///< Radians, (0, pi): twist stays in [-twist, twist].
+};
+
+/// What links two bodies. The anchors are the same point in the bind pose; frame orientations are equal in the
+/// constraint's neutral pose (the middle of its range), not in the bind pose:
+/// R_worldFromParent · parentFromFrame.rotation == R_worldFromChild · childFromFrame.rotation.
+struct ConstraintProfile {
+    enum class Kind { hinge, coneTwist };
+    Kind kind = Kind::coneTwist;
+    int parent = 0;                  ///< Index into RagdollProfile::bodies.
+    int child = 0;                   ///< Likewise; every body but the first is the child of exactly one constraint.
+    RigidTransform parentFromFrame;  ///< Frame x: twist axis, along the child; frame z: hinge axis.
+    RigidTransform childFromFrame;
+    HingeLimits hinge;        ///< Used when kind is hinge.
+    ConeTwistLimits cone;     ///< Used when kind is coneTwist.
+    float frictionNm = 0.0F;  ///< Largest torque of dry friction in the joint, N m, >= 0. More: stiffer, calmer.
+};
+
+/// A checked, portable ragdoll: everything the simulation needs, nothing of a running world. Bodies come parents first;
+/// bodies[0] (the hips) is the root. Serialisable; shared by any number of instances.
+struct RagdollProfile {
+    static constexpr int kVersion = 1;
+
+    std::string name;                    ///< The character's name.
+    float heightM = 1.75F;               ///< Of the standing figure, metres, > 0.
+    float totalMassKg = 75.0F;           ///< Sum of the bodies' masses, > 0.
+    quat standardFromModel{1, 0, 0, 0};  ///< See HumanoidMap.
+    std::vector<BodyProfile> bodies;
+    std::vector<ConstraintProfile> constraints;  ///< constraints[i].child == i + 1.
+    std::vector<std::pair<int, int>>
+        filteredPairs;  ///< Bodies that never collide, beside the linked ones; first < second.
+};
+
+/// Index of the body with that role; -1 when there is none.
+[[nodiscard]] int bodyOf(const RagdollProfile& profile, Role role);
+
+/// All that is wrong with a profile (indices, signs, ranges, non-finite numbers, cycles); empty when valid.
+[[nodiscard]] std::vector<std::string> validate(const RagdollProfile& profile);
+
+}  // namespace lutka::physics

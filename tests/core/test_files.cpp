@@ -1,0 +1,89 @@
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "core/files.hpp"
+#include "support/catch.hpp"
+
+using namespace lutka;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct TemporaryFolder {
+    TemporaryFolder() : path(fs::temp_directory_path() / ("lutka_files_" + std::to_string(::getpid()))) {
+        fs::create_directories(path);
+    }
+    ~TemporaryFolder() { fs::remove_all(path); }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    fs::path path;
+};
+
+std::string contents(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream out;
+    out << in.rdbuf();
+    return out.str();
+}
+
+std::ptrdiff_t filesIn(const fs::path& folder) {
+    return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+}
+
+}  // namespace
+
+TEST_CASE("a file is written whole, with its missing folders") {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path / "a" / "b.txt";
+    REQUIRE(writeFileAtomically(file, "hello"));
+    CHECK(contents(file) == "hello");
+    REQUIRE(writeFileAtomically(file, "again"));
+    CHECK(contents(file) == "again");
+    CHECK(filesIn(file.parent_path()) == 1);
+}
+
+TEST_CASE("a writer that fails leaves the old file and nothing beside it") {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path / "kept.txt";
+    REQUIRE(writeFileAtomically(file, "old"));
+    const auto result = writeFileAtomically(file, [](const fs::path& temporary) -> Result<void> {
+        std::ofstream(temporary) << "half";
+        return Error{ErrorCode::output, "the encoder broke", temporary.string(), ""};
+    });
+    REQUIRE_FALSE(result);
+    CHECK(result.error().location == file.string());
+    CHECK(contents(file) == "old");
+    CHECK(filesIn(folder.path) == 1);
+}
+
+TEST_CASE("a full disk is an output error that names the file") {
+    if (!fs::exists("/dev/full")) return;
+    const auto result = writeFileAtomically("/dev/full/x", "data");
+    REQUIRE_FALSE(result);
+    CHECK(result.error().code == ErrorCode::output);
+    CHECK(result.error().text().find("/dev/full/x") != std::string::npos);
+}
+
+TEST_CASE("reading a missing file, a folder or a file above the cap is an input error") {
+    const TemporaryFolder folder;
+    const auto missing = readFile(folder.path / "nothing");
+    REQUIRE_FALSE(missing);
+    CHECK(missing.error().code == ErrorCode::input);
+    CHECK(missing.error().text().find("nothing") != std::string::npos);
+    CHECK_FALSE(readFile(folder.path));
+    REQUIRE(writeFileAtomically(folder.path / "big", "0123456789"));
+    CHECK_FALSE(readFile(folder.path / "big", 9));
+    const auto whole = readFile(folder.path / "big", 10);
+    REQUIRE(whole);
+    CHECK(whole.value().size() == 10);
+}
+
+TEST_CASE("a missing asset names where it was looked for and the mend") {
+    const auto found = findAsset("no/such/asset");
+    REQUIRE_FALSE(found);
+    CHECK(found.error().code == ErrorCode::input);
+    CHECK(found.error().mend.find("LUTKA_ASSETS") != std::string::npos);
+}
