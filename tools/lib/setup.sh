@@ -1,0 +1,51 @@
+# Sourced by tools/run and tools/test: packages, configure, build. Debian 12 (bookworm); needs bash, and apt for what is
+# missing. Prints what it does, and asks for nothing when everything is there.
+
+LUTKA_ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+
+# What the build needs, in DESIGN's order: tools, physics, import, window and GL, maths, UI, data, logs, threads.
+LUTKA_BUILD_PACKAGES=(
+  g++ cmake ninja-build ccache pkg-config python3-glad
+  libbullet-dev libassimp-dev libglfw3-dev libgl-dev libegl-dev libgl1-mesa-dri libegl1
+  libglm-dev libimgui-dev nlohmann-json3-dev libcli11-dev libtinygltf-dev libstb-dev
+  libspdlog-dev libfmt-dev libtbb-dev catch2
+)
+LUTKA_RUN_PACKAGES=(ffmpeg fonts-dejavu-core)
+LUTKA_TEST_PACKAGES=(clang-format-14 clang-tidy-14 xvfb xauth xdotool python3 python3-numpy python3-jsonschema)
+
+say() { printf '\033[1m==> %s\033[0m\n' "$*" >&2; }
+fail() { printf 'lutka: %s\n' "$*" >&2; exit 1; }
+
+# install_missing PACKAGE...: by apt, only those that are not there.
+install_missing() {
+  local missing=() package
+  for package in "$@"; do
+    dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
+  done
+  [ ${#missing[@]} -eq 0 ] && return 0
+  command -v apt-get >/dev/null || fail "these packages are missing and apt-get is not there: ${missing[*]}"
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || fail "these packages are missing; install them as root: ${missing[*]}"
+    as_root=(sudo)
+  fi
+  say "installing by apt: ${missing[*]}"
+  "${as_root[@]}" apt-get update -qq || fail "apt-get update failed"
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" \
+    >/dev/null || fail "apt-get could not install: ${missing[*]}"
+}
+
+# configure_and_build [-DNAME=VALUE ...] -- [TARGET ...]: the release preset, in build/.
+configure_and_build() {
+  local definitions=()
+  while [ $# -gt 0 ] && [ "$1" != -- ]; do definitions+=("$1"); shift; done
+  [ "${1:-}" = -- ] && shift
+  say "configuring (release, Ninja)"
+  (cd "$LUTKA_ROOT" && cmake --preset release "${definitions[@]}" >build.log 2>&1) ||
+    { cat "$LUTKA_ROOT/build.log" >&2; rm -f "$LUTKA_ROOT/build.log"; fail "cmake could not configure the build"; }
+  rm -f "$LUTKA_ROOT/build.log"
+  say "building"
+  local targets=() target
+  for target in "$@"; do targets+=(--target "$target"); done
+  cmake --build "$LUTKA_ROOT/build" "${targets[@]}" >&2 || fail "the build failed"
+}
