@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/result.hpp"
+#include "render/extent.hpp"
+
+struct GLFWwindow;
+
+namespace lutka::render {
+
+/// How to open a window.
+struct WindowOptions {
+    std::string title = "Lutka";
+    Extent size{1280, 720};  ///< Screen coordinates.
+    bool visible = true;
+    bool vsync = true;
+};
+
+/// An OpenGL 3.3 core context with its functions loaded, current on the thread that made it. It owns its display
+/// connection or window; Renderer and every other GL object must die before it.
+class GlContext {
+  public:
+    /// Without a display or window, by EGL: Mesa's surfaceless platform first, then the GPUs that EGL enumerates, then
+    /// the default display. Works on Mesa's software rasteriser. Fails with ErrorCode::noDisplay.
+    [[nodiscard]] static Result<GlContext> createHeadless();
+
+    /// A GLFW window (GLFW is initialised for it). Fails with ErrorCode::noDisplay.
+    [[nodiscard]] static Result<GlContext> createWindow(const WindowOptions& options);
+
+    GlContext(GlContext&&) noexcept;
+    GlContext& operator=(GlContext&&) noexcept;
+    ~GlContext();
+
+    void makeCurrent();
+
+    /// The window; null when headless. For callbacks and the UI's back end: GLFW's user pointer is the caller's.
+    [[nodiscard]] GLFWwindow* window() const;
+
+    /// The window's framebuffer in pixels; {0, 0} while it is minimised and when headless.
+    [[nodiscard]] Extent framebufferSize() const;
+
+    /// Shows what was drawn; nothing when headless.
+    void swapBuffers();
+    void setVsync(bool on);
+
+    /// The driver's own words, for reports: "vendor, renderer, version".
+    [[nodiscard]] const std::string& description() const;
+
+  private:
+    struct State;
+    explicit GlContext(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace lutka::render

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "animation/character.hpp"
+#include "animation/skinning.hpp"
+#include "core/result.hpp"
+#include "render/frame.hpp"
+#include "render/gl/gl_context.hpp"
+#include "render/image.hpp"
+
+namespace lutka::render {
+
+struct RendererOptions {
+    int samples = 4;           ///< Multisampling of the picture, 1 (off) to what the driver offers.
+    int shadowMapSize = 2048;  ///< Texels a side, [256, 8192]. More: finer shadow edges.
+};
+
+/// Draws FrameDescriptions with OpenGL 3.3: skinned characters (GPU skinning, instanced by mesh), props, floor, shadow,
+/// debug geometry. The picture is made in an offscreen multisampled framebuffer, from where it is read (headless),
+/// shown in a window, or used as a texture.
+///
+/// All calls need the context current, on the thread that made it.
+class Renderer {
+  public:
+    /// Compiles the shaders of assets/shaders. `context` must outlive the renderer. Fails with ErrorCode::input for a
+    /// missing shader, ErrorCode::internal naming file and line for one that does not compile.
+    [[nodiscard]] static Result<Renderer> create(GlContext& context, const RendererOptions& options = {});
+
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+    ~Renderer();
+
+    /// Uploads meshes, materials and textures (mipmapped, colour ones as sRGB). The character may be changed or freed
+    /// afterwards. Fails with ErrorCode::input when a mesh's arrays or indices do not fit together.
+    [[nodiscard]] Result<CharacterHandle> uploadCharacter(const animation::Character& character);
+    /// Frees it; the handle is then invalid.
+    void removeCharacter(CharacterHandle character);
+
+    /// What was odd about uploaded materials (a texture index without a texture …), a sentence each.
+    [[nodiscard]] std::span<const std::string> warnings() const;
+
+    /// Draws a frame of that size into the offscreen target. Items with an invalid handle or a palette of the wrong
+    /// size are a caller's bug.
+    void draw(const FrameDescription& frame, Extent size);
+
+    /// The last frame, read back; waits for the GPU.
+    [[nodiscard]] Image readPixels();
+    /// The same into a picture that is reused from frame to frame.
+    void readPixels(Image& image);
+
+    /// Copies the last frame to the window's framebuffer (scaled to it when the sizes differ) and leaves the window's
+    /// framebuffer bound, ready for the UI to be drawn over it.
+    void present(Extent windowFramebuffer);
+
+    /// Draws UI (or anything) over the last frame in the offscreen target, so that a headless editor's picture has its
+    /// panels: binds the resolved, single-sampled target and its viewport until the next draw().
+    void bindResolvedTarget();
+
+    /// GL name of the last frame's texture (sRGB8_ALPHA8, upside down as GL has it), for panels that show it.
+    [[nodiscard]] unsigned int colorTexture() const;
+
+    [[nodiscard]] const FrameStats& stats() const;
+
+    /// Runs the skinning of the vertex shader on one mesh and reads the result back by transform feedback: the proof
+    /// that it equals skinVertices(). `positions` and `normals` hold one element a vertex of meshes[mesh].
+    void skinOnGpu(CharacterHandle character, int mesh, std::span<const animation::SkinMatrix> palette,
+                   std::span<vec3> positions, std::span<vec3> normals);
+
+  private:
+    struct State;
+    explicit Renderer(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace lutka::render
