@@ -160,7 +160,7 @@ class Figure:
         size = np.where(fingers, .0062, size)
         head = p[:, 1] > 1.46
         front = (p[:, 2] > .05) & (p[:, 1] > 1.53)
-        return np.where(head, np.where(front, .0090, .0150), size)
+        return 1.06 * np.where(head, np.where(front, .0090, .0150), size)
 
 
 def _turned(about_z, about_y):

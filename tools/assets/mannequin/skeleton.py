@@ -1,7 +1,8 @@
 """Joints of the figure: names (VRM 1.0 humanoid), bind positions and local frames.
 
 Metres, Y up, facing +Z, the character's left at +X, feet on y = 0. Only the left half is written down; the right half is its
-mirror image. Every joint's local +Y points along the limb to the next joint; its +X is the axis about which the limb flexes.
+mirror image. Every joint's local +Y points along the limb to the next joint; a positive turn about its +X flexes it
+(hip and elbow forward, knee back, fingers to the palm; clavicle and foot up).
 """
 import numpy as np
 
@@ -64,16 +65,16 @@ THUMB_RADII = (.0150, .0122, .0112, .0080)
 def _limb_joints(side):
     """(name, parent, position, end, flexion axis) of one side, positions of the left side."""
     across = np.array([1.0, 0, 0])
-    rows = [("Shoulder", "upperChest", np.array([0.022, 1.430, 0.010]), SHOULDER, -FORWARD),
-            ("UpperArm", "Shoulder", SHOULDER, ELBOW, ARM_UP), ("LowerArm", "UpperArm", ELBOW, WRIST, ARM_UP),
-            ("Hand", "LowerArm", WRIST, hand_point(0.094, 0.01, 0), HAND_SIDE),
-            ("UpperLeg", "hips", HIP, KNEE, -across), ("LowerLeg", "UpperLeg", KNEE, ANKLE, -across),
+    rows = [("Shoulder", "upperChest", np.array([0.022, 1.430, 0.010]), SHOULDER, FORWARD),
+            ("UpperArm", "Shoulder", SHOULDER, ELBOW, -ARM_UP), ("LowerArm", "UpperArm", ELBOW, WRIST, -ARM_UP),
+            ("Hand", "LowerArm", WRIST, hand_point(0.094, 0.01, 0), -HAND_SIDE),
+            ("UpperLeg", "hips", HIP, KNEE, -across), ("LowerLeg", "UpperLeg", KNEE, ANKLE, across),
             ("Foot", "LowerLeg", ANKLE, BALL, -across), ("Toes", "Foot", BALL, TOE_TIP, -across)]
     chains = {"Thumb": (THUMB, ("Metacarpal", "Proximal", "Distal"))}
     chains.update({n: (p, ("Proximal", "Intermediate", "Distal")) for n, p in FINGERS.items()})
     for finger, (points, parts) in chains.items():
         parent = "Hand"
-        axis = -ARM_UP if finger == "Thumb" else HAND_SIDE
+        axis = ARM_UP if finger == "Thumb" else -HAND_SIDE
         for k, part in enumerate(parts):
             rows.append((finger + part, parent, points[k], points[k + 1], axis))
             parent = finger + part
