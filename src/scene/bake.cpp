@@ -1,0 +1,22 @@
+#include "scene/bake.hpp"
+
+#include "animation/pose.hpp"
+
+namespace lutka::scene {
+
+ClipBaker::ClipBaker(int doll, float framesPerSecond, std::string name) : doll_(doll) {
+    clip_.name = std::move(name);
+    clip_.framesPerSecond = framesPerSecond;
+}
+
+void ClipBaker::sample(Simulation& simulation) {
+    const animation::Skeleton& skeleton = simulation.asset().character.skeleton;
+    model_.resize(skeleton.parents.size());
+    local_.resize(skeleton.parents.size());
+    simulation.pose(doll_, 1.0F, model_);
+    animation::modelToLocal(skeleton, model_, local_);
+    clip_.parentFromJoint.insert(clip_.parentFromJoint.end(), local_.begin(), local_.end());
+    ++clip_.frameCount;
+}
+
+}  // namespace lutka::scene

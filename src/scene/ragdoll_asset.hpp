@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "animation/character.hpp"
+#include "animation/humanoid/map_humanoid.hpp"
+#include "animation/import/import_character.hpp"
+#include "core/result.hpp"
+#include "physics/fit_ragdoll.hpp"
+#include "physics/profile.hpp"
+#include "physics/rig.hpp"
+
+namespace lutka::scene {
+
+/// A character with everything that follows from it: what a simulation, the CLI and the editor start from.
+struct RagdollAsset {
+    animation::Character character;
+    animation::HumanoidMap map;
+    physics::RagdollProfile profile;
+    physics::Rig rig;
+};
+
+struct LoadOptions {
+    animation::ImportOptions import;
+    animation::MapOptions map;
+    physics::FitOptions fit;
+    std::optional<std::filesystem::path> profile;  ///< Set: this file's profile instead of a fitted one.
+};
+
+/// import → map → fit (or read the profile and bind it). Fails with ErrorCode::input: the file can't be read, isn't a
+/// humanoid (the reason is the mapper's), or the profile doesn't fit the rig.
+[[nodiscard]] Result<std::unique_ptr<RagdollAsset>> loadRagdoll(const std::filesystem::path& model,
+                                                                const LoadOptions& options = {});
+
+/// map → fit → bind for a character that is there already.
+[[nodiscard]] Result<std::unique_ptr<RagdollAsset>> makeRagdoll(animation::Character character,
+                                                                const LoadOptions& options = {});
+
+}  // namespace lutka::scene

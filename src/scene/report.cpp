@@ -1,0 +1,89 @@
+#include "scene/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <vector>
+
+namespace lutka::scene {
+namespace {
+
+// Keys come out in the order they are written.
+using Json = nlohmann::ordered_json;
+
+Json qualityJson(const physics::Quality& q) {
+    Json json;
+    json["jointSeparationM"] = {
+        {"max", q.jointSeparationM.max}, {"p99", q.jointSeparationM.p99}, {"mean", q.jointSeparationM.mean}};
+    json["limitViolationDeg"] = {{"max", q.limitViolationDeg.max}, {"p99", q.limitViolationDeg.p99}};
+    json["floorPenetrationM"] = {{"max", q.floorPenetrationM}};
+    json["selfPenetrationM"] = {{"max", q.selfPenetrationM}};
+    json["energyGrowthJ"] = q.energyGrowthJ;
+    json["initialEnergyJ"] = q.initialEnergyJ;
+    json["settleSeconds"] = q.settleSeconds ? Json(*q.settleSeconds) : Json(nullptr);
+    json["residualSpeedMps"] = q.residualSpeedMps;
+    json["nonFinite"] = q.nonFinite;
+    return json;
+}
+
+}  // namespace
+
+StepTimes summarise(std::span<const float> stepMs) {
+    if (stepMs.empty()) return {};
+    std::vector<float> sorted(stepMs.begin(), stepMs.end());
+    std::sort(sorted.begin(), sorted.end());
+    const auto at = [&](double share) {
+        return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+    };
+    const float sum = std::accumulate(sorted.begin(), sorted.end(), 0.0F);
+    return {sum / static_cast<float>(sorted.size()), at(0.5), at(0.99)};
+}
+
+std::string reportJson(const Simulation& simulation) {
+    const SimulationOptions& options = simulation.options();
+    const StepTimes times = summarise(simulation.stepMs());
+    const physics::RagdollProfile& profile = simulation.asset().profile;
+    const auto dolls = static_cast<std::size_t>(simulation.dollCount());
+    Json json;
+    json["model"] = simulation.asset().character.file.string();
+    json["scene"] = simulation.scenario().name;
+    json["solver"] = options.world.solver == physics::SolverKind::stock ? "stock" : "bullet";
+    json["count"] = simulation.dollCount();
+    json["seconds"] = simulation.seconds();
+    json["dt"] = options.dt;
+    json["substeps"] = simulation.world().substepsPerStep();
+    json["threads"] = options.world.threads;
+    json["steps"] = simulation.steps();
+    json["stateHash"] = fmt::format("{:016x}", simulation.stateHash());
+    json["wallMsPerStep"] = {{"mean", times.mean}, {"p50", times.p50}, {"p99", times.p99}};
+    json["quality"] = qualityJson(simulation.quality());
+    json["bodies"] = profile.bodies.size() * dolls;
+    json["constraints"] = profile.constraints.size() * dolls;
+    return json.dump(2) + "\n";
+}
+
+std::string reportText(const Simulation& simulation) {
+    const physics::Quality q = simulation.quality();
+    const StepTimes times = summarise(simulation.stepMs());
+    const physics::RagdollProfile& profile = simulation.asset().profile;
+    std::string text =
+        fmt::format("{}, scene {}: {} × {} bodies, {:.1f} s in {} steps\n", simulation.asset().character.name,
+                    simulation.scenario().name, simulation.dollCount(), profile.bodies.size(), simulation.seconds(),
+                    simulation.steps());
+    text += fmt::format("  joint separation   {:7.2f} mm at most, {:.2f} mm p99\n", q.jointSeparationM.max * 1e3F,
+                        q.jointSeparationM.p99 * 1e3F);
+    text += fmt::format("  past the limits    {:7.2f} deg at most, {:.2f} deg p99\n", q.limitViolationDeg.max,
+                        q.limitViolationDeg.p99);
+    text += fmt::format("  into the ground    {:7.2f} mm, into itself {:.2f} mm\n", q.floorPenetrationM * 1e3F,
+                        q.selfPenetrationM * 1e3F);
+    text += fmt::format("  energy growth      {:7.2f} J of {:.0f} J\n", q.energyGrowthJ, q.initialEnergyJ);
+    text += q.settleSeconds ? fmt::format("  at rest            {:7.2f} s after the first contact\n", *q.settleSeconds)
+                            : fmt::format("  not at rest        {:7.3f} m/s at the end\n", q.residualSpeedMps);
+    text += fmt::format("  time a step        {:7.2f} ms in the median, {:.2f} ms p99\n", times.p50, times.p99);
+    if (q.nonFinite > 0) text += fmt::format("  NOT FINITE         {:7} body states\n", q.nonFinite);
+    return text;
+}
+
+}  // namespace lutka::scene

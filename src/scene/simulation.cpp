@@ -1,0 +1,171 @@
+#include "scene/simulation.hpp"
+
+#include <chrono>
+#include <glm/geometric.hpp>
+
+#include "core/random.hpp"
+#include "physics/bullet/bullet_world.hpp"
+#include "scene/start_pose.hpp"
+
+namespace lutka::scene {
+namespace {
+
+using physics::BodyState;
+
+vec3 centreOfMass(const physics::RagdollProfile& profile, std::span<const BodyState> bodies) {
+    vec3 sum(0);
+    float mass = 0;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        sum += bodies[i].worldFromBody.translation * profile.bodies[i].massKg;
+        mass += profile.bodies[i].massKg;
+    }
+    return sum / mass;
+}
+
+// Model space → world at a placement, the placement's own velocities added.
+void place(const physics::RagdollProfile& profile, const Placement& placement, std::span<const BodyState> inModel,
+           std::span<BodyState> inWorld) {
+    const RigidTransform& worldFromModel = placement.worldFromModel;
+    for (std::size_t i = 0; i < inModel.size(); ++i) {
+        inWorld[i].worldFromBody = worldFromModel * inModel[i].worldFromBody;
+        inWorld[i].linearVelocity = worldFromModel.rotation * inModel[i].linearVelocity;
+        inWorld[i].angularVelocity = worldFromModel.rotation * inModel[i].angularVelocity;
+    }
+    const vec3 centre = centreOfMass(profile, inWorld);
+    for (BodyState& body : inWorld) {
+        const vec3 arm = body.worldFromBody.translation - centre;
+        body.linearVelocity += placement.linearVelocity + glm::cross(placement.angularVelocity, arm);
+        body.angularVelocity += placement.angularVelocity;
+    }
+}
+
+// The far end of a limb's body: where a hand is held.
+vec3 tipOf(const physics::BodyProfile& body, const RigidTransform& worldFromBody, const vec3& worldJoint) {
+    if (body.shape.kind != physics::BodyShape::Kind::capsule) return worldFromBody.translation;
+    const vec3 up = worldFromBody * vec3(0, body.shape.halfLength, 0);
+    const vec3 down = worldFromBody * vec3(0, -body.shape.halfLength, 0);
+    return glm::distance(up, worldJoint) > glm::distance(down, worldJoint) ? up : down;
+}
+
+// Strong enough to hold several figures' weight: a pin is a part of the scene, not a user's pull.
+constexpr float kPinForceN = 5000.0F;
+constexpr int kFirstPinId = 1000;
+
+}  // namespace
+
+Result<std::unique_ptr<Simulation>> Simulation::create(const RagdollAsset& asset, Scenario scenario,
+                                                       const SimulationOptions& options) {
+    auto start = startBodies(asset, options);
+    if (!start) return start.error();
+    std::unique_ptr<Simulation> simulation(new Simulation(asset, std::move(scenario), options));
+    simulation->startInModel_ = std::move(start).value();
+    simulation->build();
+    return simulation;
+}
+
+Simulation::Simulation(const RagdollAsset& asset, Scenario scenario, const SimulationOptions& options)
+    : asset_(asset), scenario_(std::move(scenario)), options_(options) {}
+
+void Simulation::build() {
+    const physics::RagdollProfile& profile = asset_.profile;
+    meter_.reset();
+    world_ = physics::createBulletWorld(options_.world);
+    for (const physics::StaticShape& shape : scenario_.statics)
+        world_->addStatic(shape);
+    for (const physics::DynamicProp& prop : scenario_.props)
+        world_->addProp(prop);
+    scratch_.resize(profile.bodies.size());
+    for (const Placement& placement : scenario_.dolls) {
+        place(profile, placement, startInModel_, scratch_);
+        world_->addDoll(profile, scratch_);
+    }
+    for (std::size_t i = 0; i < scenario_.pins.size(); ++i) {
+        const Pin& pin = scenario_.pins[i];
+        const int body = physics::bodyOf(profile, pin.role);
+        if (body < 0) continue;  // a figure without hands falls
+        place(profile, scenario_.dolls[pin.doll], startInModel_, scratch_);
+        const RigidTransform& worldFromBody = scratch_[body].worldFromBody;
+        const vec3 joint = worldFromBody * asset_.rig.bodyFromJoint[body].translation;
+        const vec3 tip = tipOf(profile.bodies[body], worldFromBody, joint);
+        world_->setDrag(kFirstPinId + static_cast<int>(i),
+                        {pin.doll, body, inverse(worldFromBody) * tip, tip, kPinForceN});
+    }
+    if (options_.measure) {
+        meter_ = std::make_unique<physics::QualityMeter>(*world_, scenario_.statics, options_.world.gravity);
+    }
+    stepMs_.clear();
+    secondsMeasured_ = 0;
+    remember();
+    previous_ = present_;
+    mixed_.resize(profile.bodies.size());
+}
+
+void Simulation::reset() {
+    build();
+}
+
+void Simulation::remember() {
+    const std::size_t bodies = asset_.profile.bodies.size();
+    present_.resize(bodies * scenario_.dolls.size() + scenario_.props.size());
+    for (int doll = 0; doll < dollCount(); ++doll) {
+        world_->getBodies(doll, scratch_);
+        for (std::size_t i = 0; i < bodies; ++i)
+            present_[doll * bodies + i] = scratch_[i].worldFromBody;
+    }
+    for (int prop = 0; prop < world_->propCount(); ++prop) {
+        present_[bodies * scenario_.dolls.size() + prop] = world_->propState(prop).worldFromBody;
+    }
+}
+
+void Simulation::step() {
+    using Clock = std::chrono::steady_clock;
+    const auto before = Clock::now();
+    if (meter_ != nullptr) {
+        const double substep = static_cast<double>(options_.dt) / world_->substepsPerStep();
+        world_->step(options_.dt, [&] {
+            secondsMeasured_ += substep;
+            meter_->sample(secondsMeasured_);
+        });
+    } else {
+        world_->step(options_.dt);
+    }
+    stepMs_.push_back(std::chrono::duration<float, std::milli>(Clock::now() - before).count());
+    std::swap(previous_, present_);
+    remember();
+}
+
+std::span<const RigidTransform> Simulation::worldFromBody(int doll, float alpha) {
+    const std::size_t bodies = asset_.profile.bodies.size();
+    const std::size_t first = static_cast<std::size_t>(doll) * bodies;
+    if (alpha >= 1.0F) return std::span(present_).subspan(first, bodies);
+    for (std::size_t i = 0; i < bodies; ++i) {
+        mixed_[i] = interpolate(previous_[first + i], present_[first + i], alpha);
+    }
+    return mixed_;
+}
+
+RigidTransform Simulation::worldFromProp(int prop, float alpha) const {
+    const std::size_t at = asset_.profile.bodies.size() * scenario_.dolls.size() + static_cast<std::size_t>(prop);
+    return interpolate(previous_[at], present_[at], alpha);
+}
+
+void Simulation::pose(int doll, float alpha, std::span<RigidTransform> modelFromJoint) {
+    physics::poseFromBodies(asset_.rig, asset_.character.skeleton, worldFromBody(doll, alpha), worldFromModel(doll),
+                            modelFromJoint);
+}
+
+physics::Quality Simulation::quality() const {
+    return meter_ != nullptr ? meter_->result() : physics::Quality{};
+}
+
+std::uint64_t Simulation::stateHash() const {
+    std::uint64_t hash = kHashStart;
+    for (int doll = 0; doll < dollCount(); ++doll) {
+        world_->getBodies(doll, scratch_);
+        for (const BodyState& body : scratch_)
+            hash = hashBytes(&body, sizeof body, hash);
+    }
+    return hash;
+}
+
+}  // namespace lutka::scene
