@@ -1,3 +1,52 @@
-int main() {
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <exception>
+
+#include "commands.hpp"
+#include "options.hpp"
+
+namespace {
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 done; 1 internal failure; 2 wrong usage; 3 the input can't be read or is not usable;\n"
+    "4 `check` found errors; 5 an output can't be written; 6 no display or no GL context.";
+
+int runCommandLine(int argc, char** argv) {
+    CLI::App app("Lutka turns any rigged character into a physically sound ragdoll.", "lutka");
+    app.set_version_flag("--version", LUTKA_VERSION);
+    app.footer(kExitCodes);
+    app.require_subcommand(1);
+    lutka::cli::addInspect(app);
+    lutka::cli::addMap(app);
+    lutka::cli::addBuild(app);
+    lutka::cli::addSimulate(app);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& asked) {
+        return app.exit(asked);
+    } catch (const CLI::ParseError& wrong) {
+        app.exit(wrong);
+        return static_cast<int>(lutka::ErrorCode::usage);
+    }
     return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    // Facts go to stdout, everything else to stderr, so that `--json` can be piped.
+    spdlog::set_default_logger(spdlog::stderr_color_mt("lutka"));
+    spdlog::set_pattern("lutka: %^%l%$: %v");
+    try {
+        return runCommandLine(argc, argv);
+    } catch (const lutka::cli::Exit& exit) {
+        return exit.code;
+    } catch (const std::bad_alloc&) {
+        spdlog::critical("out of memory");
+    } catch (const std::exception& unexpected) {
+        spdlog::critical("internal failure: {}", unexpected.what());
+    }
+    return static_cast<int>(lutka::ErrorCode::internal);
 }

@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "commands.hpp"
+#include "options.hpp"
+#include "physics/profile_io.hpp"
+
+namespace lutka::cli {
+namespace {
+
+struct Options {
+    RagdollOptions ragdoll;
+    std::filesystem::path out;
+    bool json = false;
+};
+
+std::string shapeText(const physics::BodyShape& shape) {
+    switch (shape.kind) {
+        case physics::BodyShape::Kind::capsule:
+            return fmt::format("capsule r {:.3f} l {:.3f}", shape.radius, shape.halfLength * 2.0F);
+        case physics::BodyShape::Kind::sphere:
+            return fmt::format("sphere r {:.3f}", shape.radius);
+        case physics::BodyShape::Kind::box:
+            break;
+    }
+    return fmt::format("box {:.3f} {:.3f} {:.3f}", shape.halfExtents.x * 2, shape.halfExtents.y * 2,
+                       shape.halfExtents.z * 2);
+}
+
+std::string limitText(const physics::ConstraintProfile& c) {
+    if (c.kind == physics::ConstraintProfile::Kind::hinge) {
+        return fmt::format("hinge {:.0f}..{:.0f} deg", degrees(c.hinge.lower), degrees(c.hinge.upper));
+    }
+    return fmt::format("cone {:.0f} x {:.0f}, twist {:.0f} deg", degrees(c.cone.swingY), degrees(c.cone.swingZ),
+                       degrees(c.cone.twist));
+}
+
+void printTable(const physics::RagdollProfile& profile) {
+    fmt::print("{:<15} {:<28} {:<26} {:>8}  {}\n", "BODY", "JOINT", "SHAPE (m)", "MASS", "LIMITS");
+    for (std::size_t i = 0; i < profile.bodies.size(); ++i) {
+        const physics::BodyProfile& body = profile.bodies[i];
+        fmt::print("{:<15} {:<28} {:<26} {:>5.2f} kg  {}\n", animation::roleName(body.role), body.joint,
+                   shapeText(body.shape), body.massKg, i == 0 ? "" : limitText(profile.constraints[i - 1]));
+    }
+    fmt::print("{:.2f} m tall, {:.1f} kg, {} bodies, {} constraints, {} pairs that don't collide beside the linked\n",
+               profile.heightM, profile.totalMassKg, profile.bodies.size(), profile.constraints.size(),
+               profile.filteredPairs.size());
+}
+
+void run(const Options& options) {
+    const auto asset = orLeave(scene::loadRagdoll(options.ragdoll.model.model, options.ragdoll.load()));
+    printWarnings(asset->character);
+    printWarnings(asset->map);
+    if (!options.out.empty()) orLeave(physics::saveProfile(options.out, asset->profile));
+    if (options.json) {
+        fmt::print("{}", physics::profileToJson(asset->profile));
+    } else {
+        printTable(asset->profile);
+    }
+}
+
+}  // namespace
+
+void addBuild(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("build", "Make the whole ragdoll profile: map, fit, masses, limits, filter");
+    options->ragdoll.addTo(*command);
+    command->add_option("-o,--output", options->out, "write the profile (*.ragdoll.json)");
+    command->add_flag("--json", options->json, "print the profile as JSON on stdout");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace lutka::cli

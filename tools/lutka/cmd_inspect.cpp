@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "options.hpp"
+
+namespace lutka::cli {
+namespace {
+
+using animation::Character;
+using animation::Skeleton;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+    ModelOptions model;
+    bool json = false;
+};
+
+Json vecJson(const vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+Json inspectJson(const Character& character) {
+    const Skeleton& skeleton = character.skeleton;
+    Json json;
+    json["model"] = character.file.string();
+    json["units"] = {{"metresPerFileUnit", character.units.metresPerFileUnit},
+                     {"source", character.units.unitSource},
+                     {"up", character.units.upAxis},
+                     {"upSource", character.units.upSource}};
+    json["joints"] = Json::array();
+    for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
+        json["joints"].push_back({{"name", skeleton.names[joint]},
+                                  {"path", animation::jointPath(skeleton, joint)},
+                                  {"parent", skeleton.parents[joint]},
+                                  {"bindPosition", vecJson(skeleton.bindModelFromJoint[joint].translation)},
+                                  {"skinWeight", skeleton.skinWeight[joint]}});
+    }
+    json["meshes"] = Json::array();
+    for (const animation::SkinnedMesh& mesh : character.meshes) {
+        json["meshes"].push_back({{"name", mesh.name},
+                                  {"vertices", mesh.positions.size()},
+                                  {"triangles", mesh.indices.size() / 3},
+                                  {"skinned", !mesh.rigid},
+                                  {"material", mesh.material}});
+    }
+    json["clips"] = Json::array();
+    for (const animation::Clip& clip : character.clips) {
+        json["clips"].push_back({{"name", clip.name}, {"seconds", clip.seconds()}, {"frames", clip.frameCount}});
+    }
+    json["materials"] = Json::array();
+    for (const animation::Material& material : character.materials)
+        json["materials"].push_back(material.name);
+    json["textures"] = Json::array();
+    for (const animation::Texture& texture : character.textures) {
+        json["textures"].push_back({{"name", texture.name}, {"width", texture.width}, {"height", texture.height}});
+    }
+    json["warnings"] = character.warnings;
+    return json;
+}
+
+void printTree(const Skeleton& skeleton, const std::vector<std::vector<int>>& children, int joint, int depth) {
+    const vec3& p = skeleton.bindModelFromJoint[joint].translation;
+    fmt::print("  {:{}}{:<{}} {:8.3f} {:8.3f} {:8.3f} {:9.1f}\n", "", depth * 2, skeleton.names[joint],
+               std::max(1, 48 - depth * 2), p.x, p.y, p.z, skeleton.skinWeight[joint]);
+    for (const int child : children[joint])
+        printTree(skeleton, children, child, depth + 1);
+}
+
+void printText(const Character& character) {
+    const Skeleton& skeleton = character.skeleton;
+    fmt::print("{}\n", character.file.string());
+    fmt::print("units      1 file unit = {} m ({}), up {} ({})\n", character.units.metresPerFileUnit,
+               character.units.unitSource, character.units.upAxis, character.units.upSource);
+    fmt::print("joints     {}: bind position in metres, and the skin weight each carries in vertices\n",
+               skeleton.jointCount());
+    const auto children = animation::childrenOf(skeleton);
+    for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
+        if (skeleton.parents[joint] == animation::kNoJoint) printTree(skeleton, children, joint, 0);
+    }
+    fmt::print("meshes     {}\n", character.meshes.size());
+    for (const animation::SkinnedMesh& mesh : character.meshes) {
+        fmt::print("  {:<48} {:>7} vertices {:>7} triangles{}\n", mesh.name, mesh.positions.size(),
+                   mesh.indices.size() / 3, mesh.rigid ? ", rigid" : "");
+    }
+    fmt::print("clips      {}\n", character.clips.size());
+    for (const animation::Clip& clip : character.clips) {
+        fmt::print("  {:<48} {:7.2f} s, {} frames\n", clip.name, clip.seconds(), clip.frameCount);
+    }
+    fmt::print("materials  {}, textures {}\n", character.materials.size(), character.textures.size());
+    if (!character.warnings.empty()) fmt::print("repaired or noticed\n");
+    for (const std::string& warning : character.warnings)
+        fmt::print("  {}\n", warning);
+}
+
+void run(const Options& options) {
+    const Character character = orLeave(animation::importCharacter(options.model.model, options.model.import()));
+    if (options.json) {
+        fmt::print("{}\n", inspectJson(character).dump(2, ' ', false, Json::error_handler_t::replace));
+    } else {
+        printText(character);
+    }
+}
+
+}  // namespace
+
+void addInspect(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("inspect", "Show the skeleton, meshes, clips, units and what was repaired");
+    options->model.addTo(*command);
+    options->model.textures = true;
+    command->add_flag("--json", options->json, "print it as JSON on stdout");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace lutka::cli

@@ -1,0 +1,31 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "commands.hpp"
+#include "run_simulation.hpp"
+#include "scene/report.hpp"
+
+namespace lutka::cli {
+namespace {
+
+void run(const SimulateOptions& options) {
+    Run run = prepare(options);
+    execute(options, run);
+    fmt::print("{}", options.json ? scene::reportJson(*run.simulation) : scene::reportText(*run.simulation));
+    if (run.simulation->quality().nonFinite > 0) {
+        leave({ErrorCode::internal, "the simulation gave numbers that are not finite",
+               options.ragdoll.model.model.string(), "please report the model and the options"});
+    }
+}
+
+}  // namespace
+
+void addSimulate(CLI::App& app) {
+    auto options = std::make_shared<SimulateOptions>();
+    CLI::App* command = app.add_subcommand("simulate", "Let the character fall without a window and measure it");
+    options->addTo(*command);
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace lutka::cli

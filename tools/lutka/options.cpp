@@ -1,0 +1,168 @@
+#include "options.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <map>
+
+namespace lutka::cli {
+namespace {
+
+const std::map<std::string, animation::UpAxis> kUpAxes = {
+    {"+x", animation::UpAxis::positiveX}, {"-x", animation::UpAxis::negativeX}, {"+y", animation::UpAxis::positiveY},
+    {"-y", animation::UpAxis::negativeY}, {"+z", animation::UpAxis::positiveZ}, {"-z", animation::UpAxis::negativeZ},
+    {"x", animation::UpAxis::positiveX},  {"y", animation::UpAxis::positiveY},  {"z", animation::UpAxis::positiveZ}};
+
+const std::map<std::string, physics::MassTable> kMassTables = {{"de-leva-male", physics::MassTable::deLevaMale},
+                                                               {"de-leva-female", physics::MassTable::deLevaFemale},
+                                                               {"winter", physics::MassTable::winter}};
+
+const std::map<std::string, physics::MassPreset> kMassPresets = {{"anatomical", physics::MassPreset::anatomical},
+                                                                 {"balanced", physics::MassPreset::balanced},
+                                                                 {"uniform", physics::MassPreset::uniform},
+                                                                 {"volume", physics::MassPreset::volume}};
+
+void addExtraBodies(const std::string& list, physics::FitOptions& fit) {
+    for (const std::string& word : CLI::detail::split(list, ',')) {
+        if (word == "shoulders") {
+            fit.shoulderBodies = true;
+        } else if (word == "neck") {
+            fit.neckBody = true;
+        } else if (word == "toes") {
+            fit.toeBodies = true;
+        } else if (word == "trunk") {
+            fit.allTrunkBodies = true;
+        } else if (!word.empty()) {
+            leave({ErrorCode::usage, fmt::format("there are no extra bodies named '{}'", word), "--bodies",
+                   "shoulders, neck, toes and trunk can be had"});
+        }
+    }
+}
+
+// NAME or NAME@SECONDS; a name may hold '@' when what follows the last one isn't a number.
+scene::ClipStart parseClipStart(const std::string& text) {
+    const std::size_t at = text.rfind('@');
+    if (at != std::string::npos) {
+        char* end = nullptr;
+        const float seconds = std::strtof(text.c_str() + at + 1, &end);
+        if (end != text.c_str() + at + 1 && *end == '\0' && std::isfinite(seconds)) {
+            return {text.substr(0, at), seconds};
+        }
+    }
+    return {text, 0.0F};
+}
+
+}  // namespace
+
+void leave(const Error& error) {
+    spdlog::error("{}", error.text());
+    throw Exit{static_cast<int>(error.code)};
+}
+
+void ModelOptions::addTo(CLI::App& app) {
+    app.add_option("MODEL", model, "rigged character in any format that Assimp reads")->required();
+    app.add_option("--scale", scale, "metres a file unit, instead of what the file or the figure's height says")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--up", up, "the file's up axis: x, y, z, -x, -y or -z")
+        ->check(CLI::IsMember(&kUpAxes, CLI::ignore_case));
+}
+
+animation::ImportOptions ModelOptions::import() const {
+    animation::ImportOptions options;
+    options.metresPerFileUnit = scale;
+    if (!up.empty()) options.up = kUpAxes.at(CLI::detail::to_lower(up));
+    options.loadTextures = textures;
+    return options;
+}
+
+void RagdollOptions::addTo(CLI::App& app) {
+    model.addTo(app);
+    app.add_option("--profile", profile, "ragdoll profile (*.ragdoll.json) instead of a fitted one");
+    app.add_option("--mass", massKg, "total mass in kilograms")->check(CLI::PositiveNumber)->capture_default_str();
+    app.add_option("--mass-table", massTable, "shares of the segments")
+        ->check(CLI::IsMember(&kMassTables))
+        ->capture_default_str();
+    app.add_option("--masses", massPreset, "how the total is split")
+        ->check(CLI::IsMember(&kMassPresets))
+        ->capture_default_str();
+    app.add_option("--bodies", bodies, "bodies beside the 16: shoulders,neck,toes,trunk (comma separated)");
+}
+
+scene::LoadOptions RagdollOptions::load() const {
+    scene::LoadOptions options;
+    options.import = model.import();
+    options.profile = profile;
+    options.fit.totalMassKg = massKg;
+    options.fit.massTable = kMassTables.at(massTable);
+    options.fit.massPreset = kMassPresets.at(massPreset);
+    addExtraBodies(bodies, options.fit);
+    return options;
+}
+
+void SimulateOptions::addTo(CLI::App& app) {
+    ragdoll.addTo(app);
+    std::string scenes;
+    for (const scene::ScenarioInfo& info : scene::scenarioRegistry()) {
+        scenes += fmt::format("{}{}", scenes.empty() ? "" : ", ", info.name);
+    }
+    app.add_option("--scene", scene, "one of " + scenes)->capture_default_str();
+    app.add_option("--count", count, "number of dolls")->check(CLI::Range(1, 10000))->capture_default_str();
+    app.add_option("--seconds", seconds, "length of the run; default: what the scene needs")
+        ->check(CLI::Range(0.0, 3600.0));
+    app.add_option("--threads", threads, "threads to step with")->check(CLI::Range(1, 256))->capture_default_str();
+    app.add_option("--seed", seed, "varies the start; 0 stands upright")->capture_default_str();
+    app.add_option("--solver", solver, "stock: plain Bullet; bullet: Bullet tuned for ragdolls")
+        ->check(CLI::IsMember({"stock", "bullet"}))
+        ->capture_default_str();
+    app.add_option("--pose", pose, "the pose to start in: the bind pose or the file's node pose")
+        ->check(CLI::IsMember({"bind", "node"}))
+        ->capture_default_str();
+    app.add_option("--from-clip", fromClip, "start from a clip's pose and velocities: NAME or NAME@SECONDS");
+    app.add_option("--out", bakedOut, "write the first doll's fall as an animation of its skin (.glb)");
+    app.add_option("--mesh-out", meshOut, "write the first doll's skin of the last frame (.obj)");
+    app.add_option("--report", report, "write the figures of the run (.json)");
+    auto* recordOption = app.add_option("--record", recordTo, "write the bodies of every step");
+    app.add_option("--replay", replayFrom, "play a recording instead of simulating")->excludes(recordOption);
+    app.add_flag("--json", json, "print the report as JSON on stdout");
+}
+
+scene::SimulationOptions SimulateOptions::simulation() const {
+    scene::SimulationOptions options;
+    options.world.solver = solver == "stock" ? physics::SolverKind::stock : physics::SolverKind::bullet;
+    options.world.threads = threads;
+    options.pose = pose == "node" ? scene::StartPose::node : scene::StartPose::bind;
+    if (!fromClip.empty()) options.fromClip = parseClipStart(fromClip);
+    return options;
+}
+
+Progress::Progress(std::string what, int total)
+    : what_(std::move(what)), total_(std::max(total, 1)), terminal_(::isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+    if (terminal_) fmt::print(stderr, "\r\033[K");
+}
+
+void Progress::at(int done) {
+    using namespace std::chrono_literals;
+    if (!terminal_) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (now - drawn_ < 100ms && done < total_) return;
+    drawn_ = now;
+    constexpr int width = 30;
+    const int filled = width * done / total_;
+    fmt::print(stderr, "\r\033[K{} [{:#<{}}{:.<{}}] {}/{}", what_, "", filled, "", width - filled, done, total_);
+    std::fflush(stderr);
+}
+
+void printWarnings(const animation::Character& character) {
+    for (const std::string& warning : character.warnings)
+        spdlog::warn("{}: {}", character.file.string(), warning);
+}
+
+void printWarnings(const animation::HumanoidMap& map) {
+    for (const std::string& warning : map.warnings)
+        spdlog::warn("{}", warning);
+}
+
+}  // namespace lutka::cli

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/result.hpp"
+#include "scene/ragdoll_asset.hpp"
+#include "scene/simulation.hpp"
+
+namespace lutka::cli {
+
+/// What ends a command early; main() turns it into the process's exit code.
+struct Exit {
+    int code = 0;
+};
+
+/// Prints the error to stderr and leaves with its exit code.
+[[noreturn]] void leave(const Error& error);
+
+/// The value, or leave() with the error.
+template <class T>
+[[nodiscard]] T orLeave(Result<T> result) {
+    if (!result) leave(result.error());
+    return std::move(result).value();
+}
+inline void orLeave(const Result<void>& result) {
+    if (!result) leave(result.error());
+}
+
+/// MODEL, --scale, --up: what every command that loads a model takes.
+struct ModelOptions {
+    std::filesystem::path model;
+    std::optional<float> scale;
+    std::string up;
+    bool textures = false;  ///< Set by commands that draw.
+
+    void addTo(CLI::App& app);
+    [[nodiscard]] animation::ImportOptions import() const;
+};
+
+/// --profile and the options of the fit.
+struct RagdollOptions {
+    ModelOptions model;
+    std::optional<std::filesystem::path> profile;
+    float massKg = 75.0F;
+    std::string massTable = "de-leva-male";
+    std::string massPreset = "anatomical";
+    std::string bodies;  ///< Extra bodies, comma separated: shoulders,neck,toes,trunk.
+
+    void addTo(CLI::App& app);
+    [[nodiscard]] scene::LoadOptions load() const;
+};
+
+/// --scene and everything else that simulate and render share.
+struct SimulateOptions {
+    RagdollOptions ragdoll;
+    std::string scene = "drop";
+    int count = 1;
+    std::optional<float> seconds;
+    int threads = 1;
+    std::uint64_t seed = 0;
+    std::string solver = "bullet";
+    std::string pose = "bind";
+    std::string fromClip;
+    std::filesystem::path bakedOut;
+    std::filesystem::path meshOut;
+    std::filesystem::path report;
+    std::filesystem::path recordTo;
+    std::filesystem::path replayFrom;
+    bool json = false;
+
+    void addTo(CLI::App& app);
+    [[nodiscard]] scene::SimulationOptions simulation() const;
+};
+
+/// A bar on stderr while it is a terminal; silent otherwise.
+class Progress {
+  public:
+    Progress(std::string what, int total);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+    void at(int done);
+
+  private:
+    std::string what_;
+    int total_;
+    bool terminal_;
+    std::chrono::steady_clock::time_point drawn_;
+};
+
+/// Prints the character's and the map's warnings to stderr, one a line.
+void printWarnings(const animation::Character& character);
+void printWarnings(const animation::HumanoidMap& map);
+
+}  // namespace lutka::cli

@@ -1,0 +1,83 @@
+#include "run_simulation.hpp"
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "animation/export/write_glb.hpp"
+#include "animation/export/write_obj.hpp"
+#include "animation/skinning.hpp"
+#include "core/files.hpp"
+#include "scene/bake.hpp"
+#include "scene/recording.hpp"
+#include "scene/report.hpp"
+
+namespace lutka::cli {
+namespace {
+
+void writeLastMesh(const std::filesystem::path& file, Run& run) {
+    const animation::Character& character = run.asset->character;
+    std::vector<RigidTransform> pose(character.skeleton.parents.size());
+    std::vector<animation::SkinMatrix> palette(pose.size());
+    run.simulation->pose(0, 1.0F, pose);
+    animation::skinMatrices(character.skeleton.bindModelFromJoint, pose, palette);
+    orLeave(animation::writeObj(file, character, palette, run.simulation->worldFromModel(0)));
+}
+
+// Writing is the last thing of a long run: what can't be written is better known before it.
+void checkWritable(const std::filesystem::path& file) {
+    if (file.empty()) return;
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed || !std::filesystem::is_directory(folder)) {
+        leave({ErrorCode::output, "can't be written: its folder can't be made", file.string(),
+               "check the path and its permissions"});
+    }
+}
+
+}  // namespace
+
+Run prepare(const SimulateOptions& options) {
+    for (const auto& file : {options.bakedOut, options.meshOut, options.report, options.recordTo})
+        checkWritable(file);
+    Run run;
+    run.asset = orLeave(scene::loadRagdoll(options.ragdoll.model.model, options.ragdoll.load()));
+    printWarnings(run.asset->character);
+    printWarnings(run.asset->map);
+    const scene::FigureBounds figure = scene::figureBounds(run.asset->profile, run.asset->rig);
+    auto scenario = orLeave(
+        scene::makeScenario(options.scene, options.count, options.seed, figure, run.asset->profile.standardFromModel));
+    const float seconds = options.seconds.value_or(scenario.seconds);
+    const scene::SimulationOptions simulation = options.simulation();
+    run.simulation = orLeave(scene::Simulation::create(*run.asset, std::move(scenario), simulation));
+    run.steps = static_cast<int>(std::lround(seconds / simulation.dt));
+    return run;
+}
+
+void execute(const SimulateOptions& options, Run& run, const std::function<void(scene::Simulation&)>& afterStep) {
+    scene::Simulation& simulation = *run.simulation;
+    scene::ClipBaker baker(0, 1.0F / simulation.options().dt, "lutka_" + options.scene);
+    scene::Recording recording = scene::beginRecording(simulation);
+    const bool bake = !options.bakedOut.empty();
+    const bool recordSteps = !options.recordTo.empty();
+    if (bake) baker.sample(simulation);
+    if (recordSteps) scene::record(simulation, recording);
+    Progress progress("simulating", run.steps);
+    for (int step = 0; step < run.steps; ++step) {
+        simulation.step();
+        if (bake) baker.sample(simulation);
+        if (recordSteps) scene::record(simulation, recording);
+        if (afterStep) afterStep(simulation);
+        progress.at(step + 1);
+    }
+    if (bake) {
+        orLeave(animation::writeGlb(options.bakedOut, run.asset->character, std::span(&baker.clip(), 1),
+                                    simulation.worldFromModel(0)));
+    }
+    if (!options.meshOut.empty()) writeLastMesh(options.meshOut, run);
+    if (recordSteps) orLeave(scene::saveRecording(options.recordTo, recording));
+    if (!options.report.empty()) orLeave(writeFileAtomically(options.report, scene::reportJson(simulation)));
+}
+
+}  // namespace lutka::cli

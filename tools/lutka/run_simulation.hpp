@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "options.hpp"
+#include "scene/ragdoll_asset.hpp"
+#include "scene/simulation.hpp"
+
+namespace lutka::cli {
+
+/// A loaded asset with its simulation at the start.
+struct Run {
+    std::unique_ptr<scene::RagdollAsset> asset;
+    std::unique_ptr<scene::Simulation> simulation;
+    int steps = 0;  ///< What --seconds, or the scene, asks for.
+};
+
+/// Loads the model and sets the scene up; leaves on errors.
+[[nodiscard]] Run prepare(const SimulateOptions& options);
+
+/// Steps to the end, calls `afterStep` after every step, and writes what the options ask for: baked clip, mesh, report
+/// and recording. Leaves on errors.
+void execute(const SimulateOptions& options, Run& run, const std::function<void(scene::Simulation&)>& afterStep = {});
+
+}  // namespace lutka::cli
