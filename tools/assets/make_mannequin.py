@@ -12,7 +12,7 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"  # sums in one order: the file must not
 
 import numpy as np  # noqa: E402
 
-from mannequin import clips, fields, paint, remesh, surface, unwrap  # noqa: E402
+from mannequin import clips, fields, paint, parts, remesh, surface, unwrap  # noqa: E402
 from mannequin.figure import Figure  # noqa: E402
 from mannequin.glb import Document  # noqa: E402
 from mannequin.skeleton import joints as make_joints  # noqa: E402
@@ -45,29 +45,6 @@ def half_surface(figure):
     for line in paint.Paint(figure).lines():
         vertices, triangles = remesh.cut(vertices, triangles, line, project)
     return project(vertices, 6), triangles
-
-
-def part_labels(figure, vertices, triangles, normals):
-    """Chart labels: body part, front or back."""
-    centre = vertices[triangles].mean(axis=1)
-    normal = normals[triangles].sum(axis=1)
-    arm_field, hand_field = figure.arm(centre), figure.hand(centre)
-    on_arm = (np.minimum(arm_field, hand_field) < np.minimum(figure.torso(centre), figure.leg(centre))) & (centre[:, 0] > .15)
-    from mannequin import skeleton as sk
-    hand = on_arm & ((centre - sk.WRIST) @ sk.FOREARM_AXIS > 0)
-    sole = (centre[:, 1] < .03) & (normal[:, 1] < -1.5)
-    head = centre[:, 1] + .3 * centre[:, 2] > 1.503
-    leg = (centre[:, 1] < .93) & ~on_arm & (.673 * centre[:, 0] - .74 * (centre[:, 1] - .835) > 0)
-    part = np.select([hand, on_arm, sole, head, leg], [1, 2, 3, 4, 5], 0)
-    middle = np.select([part == 5, part == 2], [np.interp(centre[:, 1], [.08, .5, .9], [-.026, .004, 0]), figure_arm_middle(centre)], -.005)
-    front = np.where(part == 1, normal @ sk.ARM_UP > 0, centre[:, 2] > middle)
-    return part * 2 + (front & (part != 3))
-
-
-def figure_arm_middle(points):
-    from mannequin import skeleton as sk
-    s = (points - sk.SHOULDER) @ sk.ARM_AXIS
-    return sk.SHOULDER[2] + np.maximum(0, s - sk.UPPER_ARM) * np.tan(sk.ELBOW_BEND)
 
 
 def mirror(vertices, triangles):
@@ -147,7 +124,7 @@ def build(path):
     half_normals = normals_of(figure)(half)
     normals = np.vstack([half_normals, half_normals[half[:, 0] != 0] * [-1, 1, 1]])
     weights = skin_weights(figure, whole, triangles, back, [j.name for j in joints])
-    chart = unwrap.charts(half_triangles, part_labels(figure, half, half_triangles, half_normals))
+    chart = unwrap.charts(half_triangles, parts.labels(figure, half, half_triangles, half_normals))
     vertex, uv, corner = unwrap.unwrap(half, half_triangles, chart)
     material = paint.Paint(figure).material(half[half_triangles].mean(axis=1))
 

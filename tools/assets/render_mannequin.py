@@ -18,11 +18,12 @@ from mathutils import Quaternion, Vector  # noqa: E402
 BODY = [(0, 0, (0, 0, .88), 1.90, 560, 640), (90, 0, (0, 0, .88), 1.90, 330, 640), (35, 8, (0, 0, .88), 1.90, 480, 640),
         (180, 0, (0, 0, .88), 1.90, 560, 640)]
 CLOSE = [(0, 0, (0, 0, 1.60), .44, 420, 420), (35, 5, (0, 0, 1.60), .44, 420, 420), (90, 0, (0, 0, 1.60), .44, 420, 420),
-         (60, 40, (.61, -.05, .99), .30, 420, 420), (-60, -35, (.61, -.05, .99), .30, 420, 420), (40, 25, (.12, -.06, .08), .34, 420, 420)]
+         (60, 40, (.61, -.05, .99), .30, 420, 420), (-70, 0, (.61, -.05, .99), .30, 420, 420), (40, 25, (.12, -.06, .08), .34, 420, 420),
+         (150, 10, (.08, 0, 1.38), .55, 420, 420), (30, 0, (.08, 0, .92), .50, 420, 420), (110, 0, (.08, 0, .42), .50, 420, 420)]
 # Turns about each joint's own X (all flex for positive degrees), or about model axes ("y+30").
 BEND = [{"leftLowerArm": 90, "rightLowerArm": 130, "leftLowerLeg": 100, "rightLowerLeg": 60, "rightUpperLeg": 60, "leftUpperLeg": 10},
-        {"leftUpperArm": "y-70", "rightUpperArm": "y+130", "rightUpperLeg": 90, "rightLowerLeg": 90, "leftUpperLeg": "y-30", "head": "z+50"},
-        {"leftUpperArm": "y+45", "rightUpperArm": "z-60", "spine": 25, "chest": 25, "upperChest": 20, "leftFoot": -40, "rightFoot": 20},
+        {"leftUpperArm": "y+60", "rightUpperArm": "y-120", "rightUpperLeg": 90, "rightLowerLeg": 90, "leftUpperLeg": "y-30", "head": "z+50"},
+        {"leftUpperArm": "y-45", "rightUpperArm": "z+60", "spine": 25, "chest": 25, "upperChest": 20, "leftFoot": -40, "rightFoot": 20},
         {"spine": "z+20", "chest": "z+20", "upperChest": "z+15", "leftUpperLeg": -25, "rightUpperLeg": 110, "rightLowerLeg": 130,
          **{s + f + p: 60 for s in ("left",) for f in ("Index", "Middle", "Ring", "Little") for p in ("Proximal", "Intermediate", "Distal")}}]
 MODEL_AXES = {"x": (1, 0, 0), "y": (0, -1, 0), "z": (0, 0, 1)}

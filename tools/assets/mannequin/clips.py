@@ -8,11 +8,11 @@ from . import skeleton as sk
 
 WALK_SECONDS, WALK_FRAMES = 32 / 30, 32
 IDLE_SECONDS, IDLE_FRAMES = 4.0, 60
-WALK_SPEED = 0.85        # m/s of the floor under the figure
+WALK_SPEED = 0.95        # m/s of the floor under the figure
 STANCE = 0.62            # share of the cycle that a foot is on the floor
-STRIKE_AHEAD = 0.250     # m, of the flat foot's ankle ahead of the hips at heel strike
-HEEL = np.array([0, -.082, -.048])   # pivots of the foot, from the ankle, foot flat
-BALL = np.array([0, -.082, .128])
+STRIKE_AHEAD = 0.285     # m, of the flat foot's ankle ahead of the hips at heel strike
+HEEL = np.array([0, -.082, -.060])   # pivots of the foot, from the ankle, foot flat
+BALL = np.array([0, -.062, .128])    # the toe joint
 
 
 def rotation(axis, degrees):
@@ -123,7 +123,7 @@ def _walk_foot(phase):
     drag = -WALK_SPEED * WALK_SECONDS * (1 - STANCE)
     z = (start[2] * (1 + 2 * t) * (1 - t) ** 2 + drag * t * (1 - t) ** 2 + end[2] * t * t * (3 - 2 * t) + drag * t * t * (t - 1))
     y = start[1] + (end[1] - start[1]) * t * t * (3 - 2 * t) + .045 * np.sin(np.pi * t) ** 2
-    return np.array([0, y, z]), pitch, pitch * (1 - t) * .25 + max(pitch, 0) * t
+    return np.array([0, y, z]), pitch, pitch * t * (1 - t) + max(pitch, 0) * t
 
 
 def _arms_down(pose, swing, elbow):
@@ -141,7 +141,7 @@ def _arms_down(pose, swing, elbow):
 def walk_pose(joints, phase):
     pose, turn = Pose(joints), 2 * np.pi * phase
     # Lowest at the two heel strikes, and over the standing foot in between; the left foot stands in the first half.
-    pose.hips = np.array([.016 * np.sin(turn), -.036 - .014 * np.cos(2 * turn), 0])
+    pose.hips = np.array([.016 * np.sin(turn), -.021 - .013 * np.cos(2 * turn), 0])
     yaw, drop = -6 * np.cos(turn), 3 * np.sin(turn)
     pose.turn["hips"] = about_y(yaw) @ about_z(-drop) @ about_x(2)
     for name, share in (("spine", .5), ("chest", .6), ("upperChest", .6)):

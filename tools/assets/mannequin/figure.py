@@ -8,18 +8,21 @@ from . import skeleton as sk
 from .fields import Cone, Ellipsoid, Loft, carve, union
 
 X, Y, Z = np.eye(3)
+MARK_HEIGHT = 1.345  # of the mark on the chest
+# Balls (centre, radius) at shoulder and hip; where they cut the surface, discs of the joints' material lie.
+CAPS = [(sk.SHOULDER + [.022, .020, 0], .056), (sk.HIP + [.044, .000, .002], .060)]
 
 # (y, centre x, centre z, half width twice, depth to the front, depth to the back)
 TORSO = [(0.850, 0, .000, .095, .095, .070, .085), (0.885, 0, .000, .140, .140, .088, .100), (0.930, 0, .000, .164, .164, .094, .104),
          (0.975, 0, .002, .163, .163, .096, .094), (1.020, 0, .006, .148, .148, .092, .084), (1.070, 0, .008, .132, .132, .087, .078),
-         (1.115, 0, .006, .127, .127, .087, .080), (1.165, 0, .002, .133, .133, .093, .088), (1.230, 0, -.004, .146, .146, .102, .098),
-         (1.300, 0, -.010, .158, .158, .106, .104), (1.365, 0, -.018, .162, .162, .098, .098), (1.415, 0, -.024, .148, .148, .080, .084),
+         (1.115, 0, .006, .127, .127, .087, .080), (1.165, 0, .002, .133, .133, .093, .088), (1.230, 0, -.004, .148, .148, .102, .098),
+         (1.300, 0, -.010, .162, .162, .107, .104), (1.365, 0, -.018, .168, .168, .100, .098), (1.415, 0, -.024, .154, .154, .082, .084),
          (1.450, 0, -.028, .108, .108, .062, .066), (1.475, 0, -.028, .062, .062, .050, .052)]
 NECK = [(1.420, 0, -.036, .066, .066, .055, .050), (1.465, 0, -.024, .058, .058, .055, .055), (1.510, 0, -.010, .053, .053, .053, .056),
         (1.560, 0, .002, .053, .053, .050, .060), (1.600, 0, .004, .053, .053, .045, .062)]
-FACE = [(1.530, 0, .040, .026, .026, .060, .030), (1.545, 0, .035, .036, .036, .066, .035), (1.565, 0, .030, .047, .047, .068, .045),
-        (1.590, 0, .025, .056, .056, .070, .060), (1.620, 0, .020, .063, .063, .076, .075), (1.655, 0, .018, .068, .068, .080, .080),
-        (1.685, 0, .012, .068, .068, .079, .080), (1.715, 0, .004, .058, .058, .070, .070)]
+FACE = [(1.528, 0, .044, .027, .027, .050, .030), (1.540, 0, .038, .038, .038, .060, .036), (1.560, 0, .032, .049, .049, .066, .045),
+        (1.585, 0, .026, .057, .057, .071, .060), (1.615, 0, .020, .063, .063, .076, .075), (1.645, 0, .014, .066, .066, .080, .078),
+        (1.675, 0, .006, .062, .062, .078, .072), (1.700, 0, .000, .046, .046, .058, .050)]
 
 # Along the arm from the shoulder joint: (s, centre up, centre forward, radii up, down, forward, back).
 ARM_BEND = np.tan(sk.ELBOW_BEND)
@@ -58,8 +61,9 @@ class Figure:
     def __init__(self):
         self.torso = Loft((0, 0, 0), X, Z, Y, TORSO, (.03, .025), power=2.25)
         self.neck = Loft((0, 0, 0), X, Z, Y, NECK, (.03, .03))
-        self.face = Loft((0, 0, 0), X, Z, Y, FACE, (.012, .03), power=2.15)
-        self.skull = Ellipsoid((0, 1.658, -.004), (.0765, .092, .098))
+        self.face = Loft((0, 0, 0), X, Z, Y, FACE, (.014, .03), power=2.1)
+        self.skull = Ellipsoid((0, 1.658, -.002), (.0765, .092, .097))
+        self.forehead = Ellipsoid((0, 1.690, .042), (.056, .046, .049))
         self.arm = Loft(sk.SHOULDER, sk.ARM_UP, sk.FORWARD, sk.ARM_AXIS, ARM, (.03, .02))
         self.palm = Loft(sk.WRIST, sk.ARM_UP, sk.HAND_SIDE, sk.FOREARM_AXIS, PALM, (.015, .008), power=2.5)
         self.leg = Loft((0, 0, 0), X, Z, -Y, [(-r[0], *r[1:]) for r in LEG], (.05, .03))
@@ -79,18 +83,18 @@ class Figure:
     def _muscles(self):
         """(field, blend) of what lies on the torso; all are on the left and mirrored."""
         self.muscles = [
-            (Ellipsoid((.078, 1.325, .062), (.080, .058, .036), _turned(0, -18)), .040),    # pectoralis
-            (Ellipsoid((.088, 1.335, -.085), (.066, .085, .034), _turned(10, 12)), .050),   # scapula
+            (Ellipsoid((.080, 1.342, .050), (.086, .060, .034), _turned(-8, -16)), .050),   # pectoralis
+            (Ellipsoid((.088, 1.335, -.080), (.070, .088, .034), _turned(10, 12)), .060),   # scapula
             (Ellipsoid((.112, 1.250, -.045), (.045, .110, .060), _turned(-8, 0)), .050),    # latissimus
-            (Ellipsoid((.075, .915, -.068), (.078, .082, .062)), .045),                     # gluteus
-            (Cone((.020, 1.505, -.030), (.140, 1.440, -.024), .034, .034), .045),           # trapezius
-            (Cone((.028, 1.428, .040), (.160, 1.450, .000), .012, .014), .028),             # clavicle
+            (Ellipsoid((.076, .918, -.054), (.078, .082, .060)), .050),                     # gluteus
+            (Cone((.018, 1.500, -.030), (.150, 1.440, -.024), .034, .036), .060),           # trapezius
+            (Cone((.028, 1.424, .036), (.165, 1.452, .000), .011, .013), .036),             # clavicle
         ]
-        self.eye = Ellipsoid((.033, 1.643, .112), (.027, .013, .022), _turned(0, 18))
-        self.nose = Cone((0, 1.652, .090), (0, 1.606, .1030), .0070, .0115)
-        self.brow = Cone((0, 1.667, .087), (.045, 1.664, .069), .009, .009)
-        self.chin = Ellipsoid((0, 1.538, .078), (.024, .016, .020))
-        self.mouth = Ellipsoid((0, 1.574, .086), (.026, .018, .017))
+        self.eye = Ellipsoid((.036, 1.636, .108), (.030, .014, .020), _turned(0, 22))
+        self.nose = Cone((0, 1.650, .086), (0, 1.603, .1005), .0075, .0110)
+        self.brow = Cone((0, 1.662, .082), (.046, 1.660, .064), .010, .009)
+        self.chin = Ellipsoid((0, 1.538, .078), (.022, .015, .018))
+        self.mouth = Ellipsoid((0, 1.573, .078), (.032, .022, .017))
 
     def body(self, p):
         """Torso, neck and head."""
@@ -104,12 +108,13 @@ class Figure:
 
     def head(self, p):
         mirrored = p * [-1, 1, 1]
-        d = union(self.skull(p), self.face(p), .05)
+        d = union(self.skull(p), self.face(p), .06)
+        d = union(d, self.forehead(p), .035)
         d = union(d, union(self.brow(p), self.brow(mirrored), .01), .022)
-        d = carve(d, union(self.eye(p), self.eye(mirrored), .005), .020)
-        d = union(d, self.chin(p), .022)
-        d = union(d, self.mouth(p), .022)
-        return union(d, self.nose(p), .016)
+        d = carve(d, union(self.eye(p), self.eye(mirrored), .005), .026)
+        d = union(d, self.chin(p), .024)
+        d = union(d, self.mouth(p), .036)
+        return union(d, self.nose(p), .018)
 
     def finger(self, name, p):
         a, b, c = (part(p) for part in self.fingers[name])
@@ -157,7 +162,13 @@ class Figure:
         palm = self.palm(p) < .012
         size = np.where(palm & (arm > .53), .0085, size)
         fingers = np.min([self.finger(n, p) for n in self.fingers], axis=0) < .004
-        size = np.where(fingers, .0062, size)
+        size = np.where(fingers, .0060, size)
+        mark = (np.hypot(p[:, 0], p[:, 1] - MARK_HEIGHT) < .055) & (p[:, 2] > 0)
+        size = np.where(mark, .0090, size)
+        for centre, radius in CAPS:
+            size = np.where(np.abs(np.linalg.norm(p - centre, axis=1) - radius) < .012, .0120, size)
+        tips = np.min([chain[2](p) + .02 * (chain[2].parameter(p) < .55) for chain in self.fingers.values()], axis=0) < .003
+        size = np.where(tips, .0046, size)
         head = p[:, 1] > 1.46
         front = (p[:, 2] > .05) & (p[:, 1] > 1.53)
         return 1.06 * np.where(head, np.where(front, .0090, .0150), size)

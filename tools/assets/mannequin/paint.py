@@ -5,12 +5,12 @@ Negative inside. `joints` marks the dark articulations, `accent` the coloured li
 import numpy as np
 
 from . import skeleton as sk
+from .figure import CAPS, MARK_HEIGHT
 
 BODY, JOINT, ACCENT = range(3)
 
 
-def _band(coordinate, centre, half):
-    return np.abs(coordinate - centre) - half
+RING_RADIUS, RING_HALF = .028, .0085
 
 
 class Paint:
@@ -19,29 +19,28 @@ class Paint:
     def __init__(self, figure):
         self.figure = figure
 
-    def _on_arm(self, p):
-        return np.minimum(self.figure.arm(p), self.figure.hand(p)) - .02
-
     def bands(self, p):
-        """Articulations as (coordinate minus centre, half width, limb mask) triples."""
-        x, y, z = np.abs(p[:, 0]), p[:, 1], p[:, 2]
-        q = np.column_stack([x, y, z])
-        arm = self._on_arm(q)
-        s = (q - sk.SHOULDER) @ sk.ARM_AXIS
-        wrist = (q - sk.WRIST) @ sk.FOREARM_AXIS
+        """Articulations of the left half, each as (distance from the middle, half width, limb mask)."""
+        x, y, z = p.T
+        arm = np.minimum(self.figure.arm(p), self.figure.hand(p)) - .02
         leg = np.where(y < .7, -1.0, 1.0)
-        trunk = np.where(arm < 0, 1.0, -1.0)
-        neck = y + .30 * z - 1.503
-        waist = y - 1.085 - .35 * x * x / .13 + .02
-        return [(s - sk.UPPER_ARM, .036, arm), (wrist - .000, .018, arm), (y - .494 - .12 * z, .046, leg),
-                (y - .108 - .25 * (z - sk.ANKLE[2]), .017, np.where((y < .3) & (z < .06), -1.0, 1.0)), (neck, .022, trunk),
-                (waist, .040, trunk)]
+        ankle = np.where((y < .3) & (z < .06), -1.0, 1.0)
+        return [((p - sk.SHOULDER) @ sk.ARM_AXIS - sk.UPPER_ARM, .034, arm), ((p - sk.WRIST) @ sk.FOREARM_AXIS, .017, arm),
+                (y - .494 - .12 * z, .044, leg), (y - .108 - .25 * (z - sk.ANKLE[2]), .016, ankle),
+                (y + .34 * z - 1.514, .017, np.maximum(-arm, x - .10))]
 
     def joint(self, p):
-        return np.min([np.maximum(np.abs(c) - half, mask) for c, half, mask in self.bands(p)], axis=0)
+        p = np.column_stack([np.abs(p[:, 0]), p[:, 1:]])
+        fields = [np.maximum(np.abs(c) - half, mask) for c, half, mask in self.bands(p)]
+        fields += [np.linalg.norm(p - centre, axis=1) - radius for centre, radius in CAPS]
+        # The abdomen: a lens between the arch of the ribs and the iliac crests.
+        x2, y = p[:, 0] ** 2, p[:, 1]
+        abdomen = np.maximum(y - 1.152 + 2.7 * x2, 1.040 + 1.9 * x2 - y)
+        fields.append(np.where(p[:, 0] < .20, abdomen, 1.0))
+        return np.min(fields, axis=0)
 
     def chest_mark(self, p):
-        ring = np.abs(np.hypot(p[:, 0], p[:, 1] - 1.335) - .026) - .0075
+        ring = np.abs(np.hypot(p[:, 0], p[:, 1] - MARK_HEIGHT) - RING_RADIUS) - RING_HALF
         return np.where(p[:, 2] > 0, ring, 1.0)
 
     def lines(self):

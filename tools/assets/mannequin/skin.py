@@ -93,7 +93,7 @@ def _left_half(figure, p, names):
     # The shoulder: right of an upright plane through acromion and armpit, and on the arm rather than on the flank below it.
     arm_field = np.minimum(figure.arm(p), figure.hand(p))
     torso_field = np.minimum(figure.torso(p), figure.leg(p))
-    arm = smoothstep(.128, .208, x) * smoothstep(-.030, .020, torso_field - arm_field)
+    arm = smoothstep(.134, .214, x) * smoothstep(-.030, .020, torso_field - arm_field)
     # The hip: below an oblique plane from the crotch to the iliac crest, lower at the back (the fold under the gluteus).
     groin = .673 * x - .740 * (y - .835) - .30 * np.maximum(-z, 0)
     leg = smoothstep(-.058, .058, groin) * (1 - arm) * np.where(y > .79, smoothstep(-.004, .030, x), 1)
