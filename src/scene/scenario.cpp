@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/random.hpp"
+#include "scene/body_bounds.hpp"
 
 namespace lutka::scene {
 namespace {
@@ -264,21 +265,6 @@ std::string knownNames() {
     return names;
 }
 
-// Half the size of the box around a body, in the frame that `rotation` turns into.
-vec3 halfBox(const BodyShape& shape, const quat& rotation) {
-    switch (shape.kind) {
-        case BodyShape::Kind::sphere:
-            return vec3(shape.radius);
-        case BodyShape::Kind::capsule:
-            return glm::abs(rotation * vec3(0, shape.halfLength, 0)) + vec3(shape.radius);
-        case BodyShape::Kind::box:
-            break;
-    }
-    const mat3 r = glm::mat3_cast(rotation);
-    return glm::abs(r[0]) * shape.halfExtents.x + glm::abs(r[1]) * shape.halfExtents.y +
-           glm::abs(r[2]) * shape.halfExtents.z;
-}
-
 }  // namespace
 
 std::span<const ScenarioInfo> scenarioRegistry() {
@@ -290,7 +276,7 @@ FigureBounds figureBounds(const physics::RagdollProfile& profile, const physics:
     for (std::size_t body = 0; body < profile.bodies.size(); ++body) {
         const RigidTransform standardFromBody =
             RigidTransform{profile.standardFromModel, vec3(0)} * rig.bindModelFromBody[body];
-        const vec3 half = halfBox(profile.bodies[body].shape, standardFromBody.rotation);
+        const vec3 half = halfAabbOf(profile.bodies[body].shape, standardFromBody.rotation);
         bounds.low = glm::min(bounds.low, standardFromBody.translation - half);
         bounds.high = glm::max(bounds.high, standardFromBody.translation + half);
     }

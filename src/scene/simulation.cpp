@@ -1,8 +1,10 @@
 #include "scene/simulation.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <glm/geometric.hpp>
 
+#include "core/assert.hpp"
 #include "core/random.hpp"
 #include "physics/bullet/bullet_world.hpp"
 #include "scene/start_pose.hpp"
@@ -132,6 +134,13 @@ void Simulation::step() {
     stepMs_.push_back(std::chrono::duration<float, std::milli>(Clock::now() - before).count());
     std::swap(previous_, present_);
     remember();
+}
+
+void Simulation::show(std::span<const RigidTransform> frame) {
+    LUTKA_ASSERT(frame.size() == present_.size());
+    std::swap(previous_, present_);
+    std::copy(frame.begin(), frame.end(), present_.begin());
+    stepMs_.push_back(0.0F);
 }
 
 std::span<const RigidTransform> Simulation::worldFromBody(int doll, float alpha) {

@@ -42,6 +42,9 @@ class Simulation {
 
     /// One step of options().dt.
     void step();
+    /// Shows a recorded frame (bodies of every doll, then the props; world space) as the next step's state, without
+    /// physics: world() stays where it was.
+    void show(std::span<const RigidTransform> frame);
     /// Back to the start: the same bits again.
     void reset();
 

@@ -12,6 +12,10 @@ namespace {
 void run(const SimulateOptions& options) {
     Run run = prepare(options);
     execute(options, run);
+    if (run.replay) {
+        fmt::print("replayed {} steps of {}\n", run.steps, run.replay->model);
+        return;
+    }
     fmt::print("{}", options.json ? scene::reportJson(*run.simulation) : scene::reportText(*run.simulation));
     if (run.simulation->quality().nonFinite > 0) {
         leave({ErrorCode::internal, "the simulation gave numbers that are not finite",

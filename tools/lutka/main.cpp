@@ -22,6 +22,7 @@ int runCommandLine(int argc, char** argv) {
     lutka::cli::addMap(app);
     lutka::cli::addBuild(app);
     lutka::cli::addSimulate(app);
+    lutka::cli::addRender(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) {

@@ -121,10 +121,14 @@ void SimulateOptions::addTo(CLI::App& app) {
     app.add_option("--from-clip", fromClip, "start from a clip's pose and velocities: NAME or NAME@SECONDS");
     app.add_option("--out", bakedOut, "write the first doll's fall as an animation of its skin (.glb)");
     app.add_option("--mesh-out", meshOut, "write the first doll's skin of the last frame (.obj)");
-    app.add_option("--report", report, "write the figures of the run (.json)");
+    auto* reportOption = app.add_option("--report", report, "write the figures of the run (.json)");
     auto* recordOption = app.add_option("--record", recordTo, "write the bodies of every step");
-    app.add_option("--replay", replayFrom, "play a recording instead of simulating")->excludes(recordOption);
-    app.add_flag("--json", json, "print the report as JSON on stdout");
+    auto* jsonFlag = app.add_flag("--json", json, "print the report as JSON on stdout");
+    // A replay measures nothing, so it has no report.
+    app.add_option("--replay", replayFrom, "play a recording instead of simulating")
+        ->excludes(recordOption)
+        ->excludes(reportOption)
+        ->excludes(jsonFlag);
 }
 
 scene::SimulationOptions SimulateOptions::simulation() const {

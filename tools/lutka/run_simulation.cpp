@@ -1,5 +1,7 @@
 #include "run_simulation.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <optional>
@@ -36,6 +38,29 @@ void checkWritable(const std::filesystem::path& file) {
     }
 }
 
+// A recording fits a model with as many bodies; its steps are all there is.
+void checkReplay(const SimulateOptions& options, Run& run) {
+    const scene::Recording& recording = *run.replay;
+    const scene::Recording expected = scene::beginRecording(*run.simulation);
+    if (recording.bodiesPerDoll != expected.bodiesPerDoll || recording.props != expected.props) {
+        leave({ErrorCode::input,
+               fmt::format("was made of {} with {} bodies; this model has {}", recording.model, recording.bodiesPerDoll,
+                           expected.bodiesPerDoll),
+               options.replayFrom.string(), "replay it with the model and profile that it was recorded with"});
+    }
+    run.steps = recording.steps() - 1;
+    run.simulation->show(std::span(recording.frames).first(recording.frameSize()));
+}
+
+void advance(Run& run, int step) {
+    if (!run.replay) {
+        run.simulation->step();
+        return;
+    }
+    const std::size_t size = run.replay->frameSize();
+    run.simulation->show(std::span(run.replay->frames).subspan(size * (static_cast<std::size_t>(step) + 1), size));
+}
+
 }  // namespace
 
 Run prepare(const SimulateOptions& options) {
@@ -45,6 +70,7 @@ Run prepare(const SimulateOptions& options) {
     run.asset = orLeave(scene::loadRagdoll(options.ragdoll.model.model, options.ragdoll.load()));
     printWarnings(run.asset->character);
     printWarnings(run.asset->map);
+    if (!options.replayFrom.empty()) run.replay = orLeave(scene::loadRecording(options.replayFrom));
     const scene::FigureBounds figure = scene::figureBounds(run.asset->profile, run.asset->rig);
     auto scenario = orLeave(
         scene::makeScenario(options.scene, options.count, options.seed, figure, run.asset->profile.standardFromModel));
@@ -52,6 +78,7 @@ Run prepare(const SimulateOptions& options) {
     const scene::SimulationOptions simulation = options.simulation();
     run.simulation = orLeave(scene::Simulation::create(*run.asset, std::move(scenario), simulation));
     run.steps = static_cast<int>(std::lround(seconds / simulation.dt));
+    if (run.replay) checkReplay(options, run);
     return run;
 }
 
@@ -63,9 +90,9 @@ void execute(const SimulateOptions& options, Run& run, const std::function<void(
     const bool recordSteps = !options.recordTo.empty();
     if (bake) baker.sample(simulation);
     if (recordSteps) scene::record(simulation, recording);
-    Progress progress("simulating", run.steps);
+    Progress progress(run.replay ? "replaying" : "simulating", run.steps);
     for (int step = 0; step < run.steps; ++step) {
-        simulation.step();
+        advance(run, step);
         if (bake) baker.sample(simulation);
         if (recordSteps) scene::record(simulation, recording);
         if (afterStep) afterStep(simulation);

@@ -2,9 +2,11 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "options.hpp"
 #include "scene/ragdoll_asset.hpp"
+#include "scene/recording.hpp"
 #include "scene/simulation.hpp"
 
 namespace lutka::cli {
@@ -13,14 +15,15 @@ namespace lutka::cli {
 struct Run {
     std::unique_ptr<scene::RagdollAsset> asset;
     std::unique_ptr<scene::Simulation> simulation;
-    int steps = 0;  ///< What --seconds, or the scene, asks for.
+    int steps = 0;                           ///< What --seconds, the scene or the recording asks for.
+    std::optional<scene::Recording> replay;  ///< Set: shown instead of simulating.
 };
 
 /// Loads the model and sets the scene up; leaves on errors.
 [[nodiscard]] Run prepare(const SimulateOptions& options);
 
-/// Steps to the end, calls `afterStep` after every step, and writes what the options ask for: baked clip, mesh, report
-/// and recording. Leaves on errors.
+/// Steps (or replays) to the end, calls `afterStep` after every step, and writes what the options ask for: baked clip,
+/// mesh, report and recording. Leaves on errors.
 void execute(const SimulateOptions& options, Run& run, const std::function<void(scene::Simulation&)>& afterStep = {});
 
 }  // namespace lutka::cli

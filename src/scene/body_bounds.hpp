@@ -1,0 +1,10 @@
+#pragma once
+
+#include "physics/profile.hpp"
+
+namespace lutka::scene {
+
+/// Half the size of the axis-aligned box around a body's shape, in the frame that `rotation` turns into.
+[[nodiscard]] vec3 halfAabbOf(const physics::BodyShape& shape, const quat& rotation);
+
+}  // namespace lutka::scene

@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "commands.hpp"
+#include "render/frame_writer.hpp"
+#include "render/gl/gl_context.hpp"
+#include "render/gl/renderer.hpp"
+#include "run_simulation.hpp"
+#include "scene/draw_simulation.hpp"
+#include "scene/recording.hpp"
+#include "scene/report.hpp"
+
+namespace lutka::cli {
+namespace {
+
+struct Options {
+    SimulateOptions simulate;
+    std::filesystem::path out;
+    std::string size = "960x540";
+    std::string debug;
+    double framesPerSecond = 30.0;
+    float opacity = 1.0F;
+    std::optional<float> yawDeg;
+    std::optional<float> pitchDeg;
+    std::optional<float> distance;
+    bool frames = false;
+};
+
+render::Extent parseSize(const std::string& text) {
+    int width = 0;
+    int height = 0;
+    int used = 0;
+    const bool read = std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) == 2;
+    if (!read || used != static_cast<int>(text.size()) || width < 16 || height < 16 || width > 8192 || height > 8192) {
+        leave({ErrorCode::usage, fmt::format("'{}' is not a size", text), "--size",
+               "give WIDTHxHEIGHT with both from 16 to 8192"});
+    }
+    return {width, height};
+}
+
+/// Everything that draws: made once, used a frame at a time.
+class Painter {
+  public:
+    Painter(const Options& options, Run& run)
+        : options_(options),
+          size_(parseSize(options.size)),
+          layers_(orLeave(scene::parseDebugLayers(options.debug))),
+          context_(orLeave(render::GlContext::createHeadless())),
+          renderer_(orLeave(render::Renderer::create(context_))),
+          character_(orLeave(renderer_.uploadCharacter(run.asset->character))) {
+        frame_.camera = scene::cameraFor(run.simulation->scenario(), size_.aspect());
+        if (options.yawDeg) frame_.camera.yaw = radians(*options.yawDeg);
+        if (options.pitchDeg) frame_.camera.pitch = radians(*options.pitchDeg);
+        if (options.distance) frame_.camera.distance = *options.distance;
+    }
+
+    void paint(scene::Simulation& simulation, float alpha = 1.0F) {
+        frame_.clear();
+        drawer_.draw(simulation, character_, layers_, alpha, options_.opacity, frame_);
+        renderer_.draw(frame_, size_);
+        renderer_.readPixels(image_);
+    }
+
+    [[nodiscard]] const render::Image& image() const { return image_; }
+    [[nodiscard]] render::Extent size() const { return size_; }
+
+  private:
+    const Options& options_;
+    render::Extent size_;
+    scene::DebugLayers layers_;
+    render::GlContext context_;
+    render::Renderer renderer_;
+    render::CharacterHandle character_;
+    render::FrameDescription frame_;
+    scene::SimulationDrawer drawer_;
+    render::Image image_;
+};
+
+void renderPicture(const Options& options, Run& run, Painter& painter) {
+    execute(options.simulate, run);
+    painter.paint(*run.simulation);
+    orLeave(render::savePng(painter.image(), options.out));
+}
+
+// Frames come at their own rate, between the steps' states.
+void renderFrames(const Options& options, Run& run, Painter& painter) {
+    auto writer = orLeave(render::FrameWriter::open(options.out, painter.size(), options.framesPerSecond));
+    painter.paint(*run.simulation);
+    orLeave(writer.add(painter.image()));
+    double next = 1.0 / options.framesPerSecond;
+    execute(options.simulate, run, [&](scene::Simulation& simulation) {
+        const double dt = static_cast<double>(simulation.options().dt);
+        const double now = simulation.seconds();
+        for (; next <= now + 1e-9; next += 1.0 / options.framesPerSecond) {
+            painter.paint(simulation, static_cast<float>(1.0 - (now - next) / dt));
+            orLeave(writer.add(painter.image()));
+        }
+    });
+    orLeave(writer.finish());
+}
+
+void run(Options& options) {
+    options.simulate.ragdoll.model.textures = true;
+    const bool sequence = options.frames || render::FrameWriter::isVideo(options.out);
+    Run run = prepare(options.simulate);
+    Painter painter(options, run);
+    if (sequence) {
+        renderFrames(options, run, painter);
+    } else {
+        renderPicture(options, run, painter);
+    }
+    if (run.replay) {
+        fmt::print("replayed {} steps of {}\n", run.steps, run.replay->model);
+    } else {
+        fmt::print("{}",
+                   options.simulate.json ? scene::reportJson(*run.simulation) : scene::reportText(*run.simulation));
+    }
+    if (options.simulate.json) return;
+    for (const auto& file : {options.out, options.simulate.bakedOut, options.simulate.report}) {
+        if (!file.empty()) fmt::print("  wrote {}\n", file.string());
+    }
+}
+
+}  // namespace
+
+void addRender(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("render", "Draw the fall to a picture or a video, without a display");
+    options->simulate.addTo(*command);
+    command->add_option("-o,--output", options->out, "FILE.png (the last moment), FILE.mp4 or FILE.gif")->required();
+    command->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    command->add_option("--fps", options->framesPerSecond, "frames a second of a video")
+        ->check(CLI::Range(1.0, 240.0))
+        ->capture_default_str();
+    command->add_flag("--frames", options->frames, "with a .png: the whole fall as FILE_0000.png, FILE_0001.png …");
+    command->add_option("--debug", options->debug,
+                        "layers over the picture: capsules,solids,joints,limits,contacts,velocities,com,aabbs");
+    command->add_option("--opacity", options->opacity, "of the skin, 0 to 1")->check(CLI::Range(0.0, 1.0));
+    command->add_option("--yaw", options->yawDeg, "camera's heading in degrees; 0 looks at the front");
+    command->add_option("--pitch", options->pitchDeg, "camera's height in degrees")->check(CLI::Range(-89.0, 89.0));
+    command->add_option("--distance", options->distance, "camera's distance in metres")->check(CLI::PositiveNumber);
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace lutka::cli
