@@ -1,1 +1,120 @@
 #include "animation/import/import_character.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "animation/import/bind_pose.hpp"
+#include "animation/import/clip_sampling.hpp"
+#include "animation/import/material_conversion.hpp"
+#include "animation/import/mesh_conversion.hpp"
+#include "animation/import/node_tree.hpp"
+#include "animation/import/rigid_pose.hpp"
+#include "animation/import/scene_file.hpp"
+#include "animation/import/units.hpp"
+#include "animation/pose.hpp"
+
+namespace lutka::animation {
+namespace {
+
+using namespace rig_import;
+
+// Scale that a joint has in a pose but not in the bind pose is dropped; below this share nobody sees it.
+constexpr double kVisibleScale = 0.01;
+
+SceneConvention conventionOf(const SceneFile& file, const std::filesystem::path& path) {
+    const std::string extension = path.extension().string();
+    return {file.gltf.has_value(), extension == ".dae" || extension == ".DAE", file.scene->mMetaData};
+}
+
+// What the height of the figure is measured on: skins and their joints, else rigid meshes, else all joints.
+std::vector<vec3> pointsOfFigure(const Character& character, std::span<const dmat4> bind) {
+    std::vector<vec3> points;
+    bool skinned = false;
+    for (const SkinnedMesh& mesh : character.meshes)
+        skinned = skinned || !mesh.rigid;
+    for (const SkinnedMesh& mesh : character.meshes) {
+        if (skinned == !mesh.rigid) points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
+    }
+    for (std::size_t joint = 0; joint < bind.size(); ++joint) {
+        const bool deforms = character.skeleton.skinWeight[joint] > 0.0F && skinned;
+        if (deforms || character.meshes.empty()) points.emplace_back(bind[joint][3]);
+    }
+    return points;
+}
+
+void settleMeshes(const UnitsAndAxes& units, std::vector<SkinnedMesh>& meshes) {
+    const mat3 rotation(units.rotation);
+    const mat3 scaled(units.scale * units.rotation);
+    for (SkinnedMesh& mesh : meshes) {
+        for (vec3& position : mesh.positions)
+            position = scaled * position;
+        for (vec3& normal : mesh.normals)
+            normal = rotation * normal;
+        for (vec4& tangent : mesh.tangents)
+            tangent = vec4(rotation * vec3(tangent), tangent.w);
+    }
+}
+
+void poseNodes(const NodeTree& tree, const RigidPoser& poser, std::span<const bool> matters, Character& character) {
+    std::vector<dmat4> sceneFromNode;
+    sceneFromNode.reserve(tree.nodes.size());
+    for (const NodeTree::Node& node : tree.nodes)
+        sceneFromNode.push_back(node.sceneFromNode);
+    std::vector<RigidTransform> modelFromJoint(tree.nodeOfJoint.size());
+    const double worst = poser.pose(sceneFromNode, 1.0, matters, modelFromJoint);
+    modelToLocal(character.skeleton, modelFromJoint, character.skeleton.nodeParentFromJoint);
+    if (worst > kVisibleScale) {
+        character.warnings.push_back(
+            fmt::format("the nodes' pose scales joints by up to {:.1f} % against the bind pose; the scale was dropped",
+                        100.0 * worst));
+    }
+}
+
+// Skeleton and clips from the solved bind pose and the settled units.
+void buildMotion(const SceneFile& file, const NodeTree& tree, std::span<const dmat4> bind, const UnitsAndAxes& units,
+                 Character& character) {
+    const std::size_t count = tree.nodeOfJoint.size();
+    const RigidPoser poser(tree, bind, units.modelFromScene());
+    const auto matters = std::make_unique<bool[]>(count);
+    for (std::size_t joint = 0; joint < count; ++joint)
+        matters[joint] = character.skeleton.skinWeight[joint] > 0.0F;
+    character.skeleton.bindModelFromJoint = poser.bindModelFromJoint();
+    character.skeleton.nodeParentFromJoint.resize(count);
+    poseNodes(tree, poser, {matters.get(), count}, character);
+    character.clips =
+        sampleAnimations(*file.scene, tree, poser, character.skeleton, {matters.get(), count}, character.warnings);
+}
+
+}  // namespace
+
+Result<Character> importCharacter(const std::filesystem::path& file, const ImportOptions& options) {
+    Result<SceneFile> opened = readScene(file);
+    if (!opened) return opened.error();
+    const SceneFile& source = opened.value();
+    Result<NodeTree> read = readNodeTree(*source.scene, file.string());
+    if (!read) return read.error();
+    const NodeTree& tree = read.value();
+
+    Character character;
+    character.name = file.stem().string();
+    character.file = file;
+    if (source.gltf) character.warnings = source.gltf->warnings;
+    character.skeleton.names = tree.jointNames;
+    character.skeleton.parents = tree.jointParents;
+    character.skeleton.skinWeight.assign(tree.nodeOfJoint.size(), 0.0F);
+
+    const std::vector<MeshInstance> instances = bindMeshes(*source.scene, tree, character.warnings);
+    const std::vector<dmat4> bind = solveBindPose(tree, instances);
+    character.meshes = convertMeshes(tree, instances, bind, character.skeleton.skinWeight, character.warnings);
+    const UnitsAndAxes units =
+        settleUnits(conventionOf(source, file), pointsOfFigure(character, bind), options, character.warnings);
+    character.units = units.info;
+    settleMeshes(units, character.meshes);
+    buildMotion(source, tree, bind, units, character);
+    convertMaterials(*source.scene, file, options.loadTextures, character);
+    if (source.gltf) character.vrmHumanoid = vrmHumanoid(*source.gltf, tree, character.warnings);
+    return character;
+}
+
+}  // namespace lutka::animation

@@ -1,0 +1,91 @@
+#include "animation/import/affine.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
+
+namespace lutka::animation::rig_import {
+namespace {
+
+bool isFinite(const dmat4& matrix) {
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            if (!std::isfinite(matrix[column][row])) return false;
+        }
+    }
+    return true;
+}
+
+// Determinant of the linear part over the product of its columns' lengths: 1 for orthogonal columns, 0 for flat ones.
+double solidity(const dmat3& m) {
+    const double lengths = glm::length(m[0]) * glm::length(m[1]) * glm::length(m[2]);
+    return lengths > 0.0 ? std::abs(glm::determinant(m)) / lengths : 0.0;
+}
+
+// A rotation from what is left of a flat frame: the longest column is kept, the next made perpendicular to it.
+dmat3 rotationFromFlat(const dmat3& m) {
+    std::array<int, 3> order = {0, 1, 2};
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return glm::length(m[a]) > glm::length(m[b]); });
+    dmat3 out(1.0);
+    if (!(glm::length(m[order[0]]) > 1e-30)) return out;
+    const dvec3 first = glm::normalize(m[order[0]]);
+    dvec3 second = m[order[1]] - first * glm::dot(first, m[order[1]]);
+    if (!(glm::length(second) > 1e-9 * glm::length(m[order[0]]))) {
+        const dvec3 other = std::abs(first.x) < 0.6 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
+        second = glm::cross(first, other);
+    }
+    out[order[0]] = first;
+    out[order[1]] = glm::normalize(second);
+    out[order[2]] = glm::cross(out[order[0]], out[order[1]]);
+    if (glm::determinant(out) < 0.0) out[order[2]] = -out[order[2]];
+    return out;
+}
+
+}  // namespace
+
+dmat4 fromAssimp(const aiMatrix4x4& m) {
+    return {dvec4(m.a1, m.b1, m.c1, m.d1), dvec4(m.a2, m.b2, m.c2, m.d2), dvec4(m.a3, m.b3, m.c3, m.d3),
+            dvec4(m.a4, m.b4, m.c4, m.d4)};
+}
+
+double meanScale(const dmat4& matrix) {
+    return std::cbrt(std::abs(glm::determinant(dmat3(matrix))));
+}
+
+bool isInvertible(const dmat4& matrix) {
+    return isFinite(matrix) && solidity(dmat3(matrix)) > 1e-7 && meanScale(matrix) > 1e-12;
+}
+
+dmat3 nearestRotation(const dmat4& matrix) {
+    dmat3 m(matrix);
+    if (!isFinite(matrix)) return dmat3(1.0);
+    if (!isInvertible(matrix)) return rotationFromFlat(m);
+    m /= meanScale(matrix);
+    for (int i = 0; i < 60; ++i) {
+        const dmat3 next = 0.5 * (m + glm::inverse(glm::transpose(m)));
+        double change = 0.0;
+        for (int column = 0; column < 3; ++column)
+            change = std::max(change, glm::length(next[column] - m[column]));
+        m = next;
+        if (change < 1e-13) break;
+    }
+    return glm::determinant(m) < 0.0 ? -m : m;
+}
+
+RigidTransform rigidPart(const dmat4& matrix) {
+    const dvec3 translation(matrix[3]);
+    const bool usable = std::isfinite(translation.x) && std::isfinite(translation.y) && std::isfinite(translation.z);
+    const glm::dquat rotation = glm::normalize(glm::quat_cast(nearestRotation(matrix)));
+    return {glm::normalize(quat(rotation)), usable ? vec3(translation) : vec3(0)};
+}
+
+double angleBetween(const dmat3& a, const dmat3& b) {
+    const dmat3 between = glm::transpose(a) * b;
+    const double trace = between[0][0] + between[1][1] + between[2][2];
+    return std::acos(std::clamp((trace - 1.0) / 2.0, -1.0, 1.0));
+}
+
+}  // namespace lutka::animation::rig_import

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <assimp/matrix4x4.h>
+#include <assimp/vector3.h>
+
+#include <glm/mat4x4.hpp>
+
+#include "core/rigid_transform.hpp"
+
+namespace lutka::animation::rig_import {
+
+/// The import's own arithmetic is in double precision: files chain scales of 0.01 and 100 over many nodes.
+using glm::dmat3;
+using glm::dmat4;
+using glm::dvec3;
+using glm::dvec4;
+
+[[nodiscard]] dmat4 fromAssimp(const aiMatrix4x4& matrix);
+[[nodiscard]] inline dvec3 fromAssimp(const aiVector3D& v) {
+    return {v.x, v.y, v.z};
+}
+
+/// The mean factor by which lengths grow: the cube root of the determinant's magnitude.
+[[nodiscard]] double meanScale(const dmat4& matrix);
+
+/// Whether all is finite and the linear part can be inverted without losing all digits.
+[[nodiscard]] bool isInvertible(const dmat4& matrix);
+
+/// The proper rotation nearest to the linear part (polar decomposition by Newton's iteration, Higham 1986). Where that
+/// is a mirror, the point reflection is taken out. Columns of length zero are replaced by perpendiculars.
+[[nodiscard]] dmat3 nearestRotation(const dmat4& matrix);
+
+/// nearestRotation and the translation.
+[[nodiscard]] RigidTransform rigidPart(const dmat4& matrix);
+
+/// Angle of the rotation between two rotations, [0, pi].
+[[nodiscard]] double angleBetween(const dmat3& a, const dmat3& b);
+
+}  // namespace lutka::animation::rig_import

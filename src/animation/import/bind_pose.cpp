@@ -1,0 +1,239 @@
+#include "animation/import/bind_pose.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <optional>
+
+namespace lutka::animation::rig_import {
+namespace {
+
+// How far the mesh node's frame may be from the joints' and still be taken for the bind pose's.
+constexpr double kScaleTolerance = 1.1;
+constexpr double kAngleTolerance = 0.8;   // 45 degrees
+constexpr double kPlaceTolerance = 0.75;  // mesh sizes
+// The medoid compares every joint with every other; beyond this many only the heaviest ones are asked.
+constexpr std::size_t kMaxVoters = 200;
+
+struct Box {
+    dvec3 centre{0};
+    double size = 1.0;
+};
+
+Box boxOf(const aiMesh& mesh) {
+    dvec3 low(std::numeric_limits<double>::max());
+    dvec3 high(std::numeric_limits<double>::lowest());
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+        const dvec3 p = fromAssimp(mesh.mVertices[i]);
+        if (!std::isfinite(p.x + p.y + p.z)) continue;
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    if (low.x > high.x) return {};
+    return {0.5 * (low + high), std::max(glm::distance(low, high), 1e-12)};
+}
+
+struct Vote {
+    dmat4 sceneFromMesh;
+    double weight;
+};
+
+// How differently two frames place the mesh, in sizes of the placed mesh.
+double disagreement(const Box& box, const dmat4& a, const dmat4& b) {
+    double sum = 0.0;
+    for (int corner = 0; corner < 4; ++corner) {
+        dvec3 point = box.centre;
+        if (corner > 0) point[corner - 1] += 0.5 * box.size;
+        sum += glm::distance(dvec3(a * dvec4(point, 1.0)), dvec3(b * dvec4(point, 1.0)));
+    }
+    return sum / (4.0 * box.size * std::max({meanScale(a), meanScale(b), 1e-30}));
+}
+
+// The vote with the smallest weighted distance to all others; each distance counts at most 1, so that strays have no
+// say.
+const dmat4& medoid(const Box& box, std::vector<Vote>& votes) {
+    if (votes.size() > kMaxVoters) {
+        std::stable_sort(votes.begin(), votes.end(), [](const Vote& a, const Vote& b) { return a.weight > b.weight; });
+        votes.resize(kMaxVoters);
+    }
+    std::size_t best = 0;
+    double bestSum = std::numeric_limits<double>::max();
+    for (std::size_t i = 0; i < votes.size(); ++i) {
+        double sum = 0.0;
+        for (const Vote& other : votes)
+            sum += other.weight * std::min(disagreement(box, votes[i].sceneFromMesh, other.sceneFromMesh), 1.0);
+        if (sum < bestSum) {
+            bestSum = sum;
+            best = i;
+        }
+    }
+    return votes[best].sceneFromMesh;
+}
+
+bool agrees(const Box& box, const dmat4& meshNode, const dmat4& centre) {
+    if (!isInvertible(meshNode)) return false;
+    const double ratio = meanScale(meshNode) / meanScale(centre);
+    const dvec3 shift((meshNode - centre) * dvec4(box.centre, 1.0));
+    return ratio < kScaleTolerance && ratio > 1.0 / kScaleTolerance &&
+           angleBetween(nearestRotation(meshNode), nearestRotation(centre)) < kAngleTolerance &&
+           glm::length(shift) < kPlaceTolerance * box.size * meanScale(centre);
+}
+
+class BindSolver {
+  public:
+    BindSolver(const NodeTree& tree, std::span<const MeshInstance> meshes)
+        : tree_(tree), meshes_(meshes), settled_(meshes.size(), false), bind_(tree.nodeOfJoint.size()) {}
+
+    // The heaviest mesh first; from there through shared joints; then the next heaviest that is left.
+    std::vector<dmat4> solve() {
+        for (int mesh = heaviestLeft(); mesh >= 0; mesh = heaviestLeft()) {
+            settle(mesh, frameOfFirst(meshes_[mesh]));
+            for (int next = nextLinked(); next >= 0; next = nextLinked())
+                settle(next, frameFromShared(meshes_[next]));
+        }
+        return carryOthers();
+    }
+
+  private:
+    static double weightOf(const MeshInstance& mesh) {
+        double sum = 0.0;
+        for (const SkinJoint& joint : mesh.joints)
+            sum += joint.weight;
+        return sum;
+    }
+
+    int heaviestLeft() const {
+        int best = -1;
+        double most = 0.0;
+        for (std::size_t i = 0; i < meshes_.size(); ++i) {
+            const double weight = settled_[i] ? 0.0 : weightOf(meshes_[i]);
+            if (weight > most) {
+                most = weight;
+                best = static_cast<int>(i);
+            }
+        }
+        return best;
+    }
+
+    double sharedWeight(const MeshInstance& mesh) const {
+        double sum = 0.0;
+        for (const SkinJoint& joint : mesh.joints)
+            sum += bind_[joint.joint] ? joint.weight : 0.0;
+        return sum;
+    }
+
+    int nextLinked() const {
+        int best = -1;
+        double most = 0.0;
+        for (std::size_t i = 0; i < meshes_.size(); ++i) {
+            const double shared = settled_[i] ? 0.0 : sharedWeight(meshes_[i]);
+            if (shared > most) {
+                most = shared;
+                best = static_cast<int>(i);
+            }
+        }
+        return best;
+    }
+
+    // The nearest ancestor whose bind frame is known; -1 without.
+    int boundAncestor(int joint) const {
+        while (joint >= 0 && !bind_[joint])
+            joint = tree_.jointParents[joint];
+        return joint;
+    }
+
+    dmat4 frameOfFirst(const MeshInstance& mesh) const {
+        const Box box = boxOf(*mesh.mesh);
+        std::vector<Vote> votes;
+        for (const SkinJoint& joint : mesh.joints) {
+            const dmat4 frame = tree_.sceneFromJoint(joint.joint) * joint.jointFromMesh;
+            if (isInvertible(frame)) votes.push_back({carried(joint.joint, frame), joint.weight});
+        }
+        const dmat4& meshNode = tree_.nodes[mesh.node].sceneFromNode;
+        if (votes.empty()) return isInvertible(meshNode) ? meshNode : dmat4(1.0);
+        const dmat4& centre = medoid(box, votes);
+        return agrees(box, meshNode, centre) ? meshNode : centre;
+    }
+
+    // A mesh that shares no joint with a settled one moves along with the settled joint above it.
+    dmat4 carried(int joint, const dmat4& frame) const {
+        const int ancestor = boundAncestor(joint);
+        if (ancestor < 0 || !isInvertible(tree_.sceneFromJoint(ancestor))) return frame;
+        return *bind_[ancestor] * glm::inverse(tree_.sceneFromJoint(ancestor)) * frame;
+    }
+
+    dmat4 frameFromShared(const MeshInstance& mesh) const {
+        std::vector<Vote> votes;
+        for (const SkinJoint& joint : mesh.joints) {
+            if (bind_[joint.joint]) votes.push_back({*bind_[joint.joint] * joint.jointFromMesh, joint.weight});
+        }
+        return medoid(boxOf(*mesh.mesh), votes);
+    }
+
+    void settle(int index, const dmat4& sceneFromMesh) {
+        settled_[index] = true;
+        for (const SkinJoint& joint : meshes_[index].joints) {
+            if (!bind_[joint.joint]) bind_[joint.joint] = sceneFromMesh * glm::inverse(joint.jointFromMesh);
+        }
+    }
+
+    // bind of `from` times the way from `from` to `to` in the nodes' pose; where that can't be told, the rigid part.
+    dmat4 carry(const dmat4& bindOfFrom, int from, int to) const {
+        const dmat4& start = tree_.sceneFromJoint(from);
+        const dmat4 end = tree_.sceneFromJoint(to);
+        const dmat4 moved = isInvertible(start) ? bindOfFrom * glm::inverse(start) * end : end;
+        return isInvertible(moved) ? moved : dmat4(toMatrix(rigidPart(moved)));
+    }
+
+    std::vector<dmat4> carryOthers() const {
+        const int count = tree_.jointCount();
+        std::vector<int> source(count, -1);
+        for (int joint = 0; joint < count; ++joint) {
+            const int parent = tree_.jointParents[joint];
+            source[joint] = bind_[joint] ? joint : (parent >= 0 ? source[parent] : -1);
+        }
+        // What has no skinned ancestor takes the nearest skinned descendant (children come after their parents).
+        std::vector<int> depth(count, 0);
+        std::vector<int> below(count, -1);
+        for (int joint = count - 1; joint >= 0; --joint) {
+            if (bind_[joint]) below[joint] = joint;
+            if (bind_[joint]) depth[joint] = 0;
+            const int parent = tree_.jointParents[joint];
+            if (parent < 0 || below[joint] < 0) continue;
+            if (below[parent] < 0 || depth[joint] + 1 <= depth[parent]) {
+                below[parent] = below[joint];
+                depth[parent] = depth[joint] + 1;
+            }
+        }
+        std::vector<dmat4> out(count);
+        for (int joint = 0; joint < count; ++joint) {
+            const int parent = tree_.jointParents[joint];
+            if (bind_[joint] && isInvertible(*bind_[joint])) {
+                out[joint] = *bind_[joint];
+            } else if (source[joint] < 0 && below[joint] >= 0) {
+                out[joint] = carry(*bind_[below[joint]], below[joint], joint);
+            } else if (parent >= 0) {
+                out[joint] = carry(out[parent], parent, joint);
+            } else {
+                const dmat4& own = tree_.sceneFromJoint(joint);
+                out[joint] = isInvertible(own) ? own : dmat4(toMatrix(rigidPart(own)));
+            }
+        }
+        return out;
+    }
+
+    const NodeTree& tree_;
+    std::span<const MeshInstance> meshes_;
+    std::vector<bool> settled_;
+    std::vector<std::optional<dmat4>> bind_;
+};
+
+}  // namespace
+
+std::vector<dmat4> solveBindPose(const NodeTree& tree, std::span<const MeshInstance> meshes) {
+    return BindSolver(tree, meshes).solve();
+}
+
+}  // namespace lutka::animation::rig_import

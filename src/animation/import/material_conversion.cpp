@@ -1,0 +1,131 @@
+#include "animation/import/material_conversion.hpp"
+
+#include <assimp/GltfMaterial.h>
+#include <assimp/material.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "animation/import/texture_loader.hpp"
+
+namespace lutka::animation::rig_import {
+namespace {
+
+float linearFromSrgb(float c) {
+    return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
+}
+
+float clampUnit(float value, float otherwise) {
+    return std::isfinite(value) ? std::clamp(value, 0.0F, 1.0F) : otherwise;
+}
+
+vec4 clampUnit(const aiColor4D& c) {
+    return {clampUnit(c.r, 0.8F), clampUnit(c.g, 0.8F), clampUnit(c.b, 0.8F), clampUnit(c.a, 1.0F)};
+}
+
+// Roughness of the microfacet distribution that falls off like a Phong lobe of that exponent (Walter et al. 2007, with
+// roughness the square root of its alpha).
+float roughnessFromShininess(float shininess) {
+    return std::clamp(std::pow(2.0F / (std::max(shininess, 0.0F) + 2.0F), 0.25F), 0.05F, 1.0F);
+}
+
+void readPbrFactors(const aiMaterial& source, Material& material) {
+    aiColor4D color(1, 1, 1, 1);
+    source.Get(AI_MATKEY_BASE_COLOR, color);
+    material.baseColor = clampUnit(color);
+    float value = 1.0F;
+    if (source.Get(AI_MATKEY_METALLIC_FACTOR, value) == aiReturn_SUCCESS) material.metallic = clampUnit(value, 0.0F);
+    if (source.Get(AI_MATKEY_ROUGHNESS_FACTOR, value) == aiReturn_SUCCESS) material.roughness = clampUnit(value, 0.7F);
+    aiString mode;
+    if (source.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == aiReturn_SUCCESS) {
+        if (mode == aiString("MASK")) material.alphaMode = Material::AlphaMode::mask;
+        if (mode == aiString("BLEND")) material.alphaMode = Material::AlphaMode::blend;
+    }
+    if (source.Get(AI_MATKEY_GLTF_ALPHACUTOFF, value) == aiReturn_SUCCESS)
+        material.alphaCutoff = clampUnit(value, 0.5F);
+}
+
+void readPhongFactors(const aiMaterial& source, Material& material) {
+    aiColor4D color(0.8F, 0.8F, 0.8F, 1.0F);
+    source.Get(AI_MATKEY_COLOR_DIFFUSE, color);
+    material.baseColor = clampUnit(color);
+    for (int i = 0; i < 3; ++i)
+        material.baseColor[i] = linearFromSrgb(material.baseColor[i]);
+    float value = 0.0F;
+    if (source.Get(AI_MATKEY_SHININESS, value) == aiReturn_SUCCESS && value > 0.0F)
+        material.roughness = roughnessFromShininess(value);
+    // Exporters disagree about which end of FBX's transparency is opaque: a material that would be invisible is not.
+    material.baseColor.a = 1.0F;
+    if (source.Get(AI_MATKEY_OPACITY, value) == aiReturn_SUCCESS && value > 0.01F && value < 0.99F) {
+        material.baseColor.a = value;
+        material.alphaMode = Material::AlphaMode::blend;
+    }
+}
+
+bool isPbr(const aiMaterial& source) {
+    aiColor4D color;
+    float value = 0.0F;
+    return source.Get(AI_MATKEY_BASE_COLOR, color) == aiReturn_SUCCESS ||
+           source.Get(AI_MATKEY_METALLIC_FACTOR, value) == aiReturn_SUCCESS;
+}
+
+// The first texture of the first kind that the material has.
+int textureOf(const aiMaterial& source, std::initializer_list<aiTextureType> kinds, TextureLoader& loader) {
+    for (const aiTextureType kind : kinds) {
+        aiString path;
+        if (source.GetTexture(kind, 0, &path) == aiReturn_SUCCESS && path.length > 0) return loader.load(path.C_Str());
+    }
+    return Material::kNoTexture;
+}
+
+void readTextures(const aiMaterial& source, bool pbr, TextureLoader& loader, Material& material) {
+    material.baseColorTexture = textureOf(source, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}, loader);
+    material.normalTexture = textureOf(source, {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA}, loader);
+    material.emissiveTexture = textureOf(source, {aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR}, loader);
+    if (!pbr) {
+        // In the Phong world a texture replaces the colour instead of tinting it.
+        if (material.baseColorTexture != Material::kNoTexture) material.baseColor = {1, 1, 1, material.baseColor.a};
+        return;
+    }
+    material.metallicRoughnessTexture = textureOf(source, {aiTextureType_UNKNOWN}, loader);
+    material.occlusionTexture = textureOf(source, {aiTextureType_LIGHTMAP, aiTextureType_AMBIENT_OCCLUSION}, loader);
+}
+
+Material convert(const aiMaterial& source, TextureLoader& loader) {
+    Material material;
+    aiString name;
+    if (source.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS) material.name = name.C_Str();
+    const bool pbr = isPbr(source);
+    pbr ? readPbrFactors(source, material) : readPhongFactors(source, material);
+    aiColor4D emissive(0, 0, 0, 1);
+    if (source.Get(AI_MATKEY_COLOR_EMISSIVE, emissive) == aiReturn_SUCCESS)
+        material.emissive = vec3(clampUnit(emissive.r, 0), clampUnit(emissive.g, 0), clampUnit(emissive.b, 0));
+    int twoSided = 0;
+    if (source.Get(AI_MATKEY_TWOSIDED, twoSided) == aiReturn_SUCCESS) material.doubleSided = twoSided != 0;
+    readTextures(source, pbr, loader, material);
+    return material;
+}
+
+}  // namespace
+
+void convertMaterials(const aiScene& scene, const std::filesystem::path& file, bool loadTextures,
+                      Character& character) {
+    TextureLoader loader(scene, file, loadTextures);
+    for (unsigned i = 0; i < scene.mNumMaterials; ++i)
+        character.materials.push_back(convert(*scene.mMaterials[i], loader));
+    if (character.materials.empty() && !character.meshes.empty()) character.materials.emplace_back();
+    for (SkinnedMesh& mesh : character.meshes) {
+        if (mesh.material >= static_cast<int>(character.materials.size())) mesh.material = 0;
+    }
+    if (!loader.missing().empty()) {
+        std::string list;
+        for (const std::string& name : loader.missing())
+            list += (list.empty() ? "" : ", ") + name;
+        character.warnings.push_back(fmt::format("{} pictures were not found or can't be decoded and were left out: {}",
+                                                 loader.missing().size(), list));
+    }
+    character.textures = loader.takeTextures();
+}
+
+}  // namespace lutka::animation::rig_import

@@ -1,0 +1,143 @@
+#include "animation/import/mesh_conversion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "animation/import/mesh_repair.hpp"
+#include "animation/import/vertex_weights.hpp"
+
+namespace lutka::animation::rig_import {
+namespace {
+
+// Where the vertices of each joint of the skin go: bind frame times offset. All equal unless meshes contradict each
+// other about the bind pose of a joint that they share; then each vertex follows its own joints.
+std::vector<dmat4> placements(const NodeTree& tree, const MeshInstance& instance, std::span<const dmat4> bind) {
+    std::vector<dmat4> sceneFromMesh(tree.nodeOfJoint.size(), dmat4(0.0));
+    for (const SkinJoint& joint : instance.joints)
+        sceneFromMesh[joint.joint] = bind[joint.joint] * joint.jointFromMesh;
+    return sceneFromMesh;
+}
+
+// The deforming joint that stray vertices follow: the nearest above the mesh node, else the topmost of the skin.
+int fallbackJointOf(const NodeTree& tree, const MeshInstance& instance) {
+    for (int joint = tree.nodes[instance.node].joint; joint >= 0; joint = tree.jointParents[joint]) {
+        for (const SkinJoint& skinned : instance.joints) {
+            if (skinned.joint == joint) return joint;
+        }
+    }
+    return std::min_element(instance.joints.begin(), instance.joints.end(),
+                            [](const SkinJoint& a, const SkinJoint& b) { return a.joint < b.joint; })
+        ->joint;
+}
+
+vec3 unitOrUp(const dvec3& v) {
+    const double length = glm::length(v);
+    return std::isfinite(length) && length > 1e-20 ? vec3(v / length) : vec3(0, 1, 0);
+}
+
+void copyTriangles(const aiMesh& source, bool mirrored, SkinnedMesh& mesh) {
+    mesh.indices.reserve(static_cast<std::size_t>(source.mNumFaces) * 3);
+    for (unsigned f = 0; f < source.mNumFaces; ++f) {
+        const aiFace& face = source.mFaces[f];
+        if (face.mNumIndices != 3) continue;
+        const unsigned a = face.mIndices[0];
+        const unsigned b = face.mIndices[mirrored ? 2 : 1];
+        const unsigned c = face.mIndices[mirrored ? 1 : 2];
+        if (a < source.mNumVertices && b < source.mNumVertices && c < source.mNumVertices) {
+            mesh.indices.insert(mesh.indices.end(), {a, b, c});
+        }
+    }
+}
+
+void copyVertices(const aiMesh& source, std::span<const VertexSkin> skins, std::span<const dmat4> sceneFromMesh,
+                  SkinnedMesh& mesh) {
+    for (unsigned v = 0; v < source.mNumVertices; ++v) {
+        const VertexSkin& skin = skins[v];
+        dmat4 place(0.0);
+        for (int i = 0; i < kMaxInfluences; ++i)
+            place += static_cast<double>(skin.weights[i]) * sceneFromMesh[skin.joints[i]];
+        mesh.positions.emplace_back(place * dvec4(fromAssimp(source.mVertices[v]), 1.0));
+        const dmat3 turn(place);
+        // The cofactor matrix: the inverse transpose without the division, which a flat frame would not survive.
+        const dmat3 normalTurn(glm::cross(turn[1], turn[2]), glm::cross(turn[2], turn[0]),
+                               glm::cross(turn[0], turn[1]));
+        const double side = glm::determinant(turn) < 0.0 ? -1.0 : 1.0;
+        if (source.HasNormals()) mesh.normals.push_back(unitOrUp(side * (normalTurn * fromAssimp(source.mNormals[v]))));
+        if (source.HasTextureCoords(0)) {
+            const aiVector3D& uv = source.mTextureCoords[0][v];
+            // Assimp's pictures start at the lower left.
+            mesh.uvs.emplace_back(std::isfinite(uv.x) ? uv.x : 0.0F, std::isfinite(uv.y) ? 1.0F - uv.y : 0.0F);
+        }
+        if (source.HasTangentsAndBitangents() && source.HasNormals() && source.HasTextureCoords(0)) {
+            const dvec3 n = fromAssimp(source.mNormals[v]);
+            const dvec3 t = fromAssimp(source.mTangents[v]);
+            const double hand = glm::dot(glm::cross(n, t), fromAssimp(source.mBitangents[v])) < 0.0 ? -1.0 : 1.0;
+            mesh.tangents.emplace_back(unitOrUp(turn * t), static_cast<float>(hand * side));
+        }
+        mesh.joints.push_back(skin.joints);
+        mesh.weights.push_back(skin.weights);
+    }
+}
+
+std::string nameOf(const NodeTree& tree, const MeshInstance& instance) {
+    const std::string own = instance.mesh->mName.C_Str();
+    return own.empty() ? tree.nodes[instance.node].source->mName.C_Str() : own;
+}
+
+SkinnedMesh convertMesh(const NodeTree& tree, const MeshInstance& instance, std::span<const dmat4> bind,
+                        WeightRepairs& repairs) {
+    SkinnedMesh mesh;
+    mesh.name = nameOf(tree, instance);
+    mesh.material = static_cast<int>(instance.mesh->mMaterialIndex);
+    mesh.rigid = instance.joints.empty();
+    std::vector<VertexSkin> skins;
+    std::vector<dmat4> sceneFromMesh;
+    int guide = 0;
+    if (mesh.rigid) {
+        const NodeTree::Node& node = tree.nodes[instance.node];
+        guide = node.joint;
+        skins.assign(instance.mesh->mNumVertices, VertexSkin{{static_cast<std::uint16_t>(guide)}, {1.0F}});
+        // A helper below the joint (FBX geometry offsets) adds its own way to the joint's.
+        const dmat4& joint = tree.sceneFromJoint(guide);
+        const dmat4 way = isInvertible(joint) ? glm::inverse(joint) * node.sceneFromNode : dmat4(1.0);
+        sceneFromMesh.assign(bind.begin(), bind.end());
+        sceneFromMesh[guide] = bind[guide] * way;
+    } else {
+        guide = fallbackJointOf(tree, instance);
+        skins = readWeights(instance, guide, repairs);
+        sceneFromMesh = placements(tree, instance, bind);
+    }
+    copyVertices(*instance.mesh, skins, sceneFromMesh, mesh);
+    copyTriangles(*instance.mesh, glm::determinant(dmat3(sceneFromMesh[guide])) < 0.0, mesh);
+    return mesh;
+}
+
+}  // namespace
+
+std::vector<SkinnedMesh> convertMeshes(const NodeTree& tree, std::span<const MeshInstance> instances,
+                                       std::span<const dmat4> bindSceneFromJoint, std::span<float> skinWeight,
+                                       std::vector<std::string>& warnings) {
+    std::vector<SkinnedMesh> meshes;
+    WeightRepairs repairs;
+    MeshRepairs meshRepairs;
+    for (const MeshInstance& instance : instances) {
+        SkinnedMesh mesh = convertMesh(tree, instance, bindSceneFromJoint, repairs);
+        repairMesh(mesh, meshRepairs);
+        if (mesh.indices.empty()) continue;
+        for (std::size_t v = 0; v < mesh.joints.size(); ++v) {
+            for (int i = 0; i < kMaxInfluences; ++i)
+                skinWeight[mesh.joints[v][i]] += mesh.weights[v][i];
+        }
+        meshes.push_back(std::move(mesh));
+    }
+    for (std::string& sentence : repairs.sentences())
+        warnings.push_back(std::move(sentence));
+    for (std::string& sentence : meshRepairs.sentences())
+        warnings.push_back(std::move(sentence));
+    return meshes;
+}
+
+}  // namespace lutka::animation::rig_import

@@ -1,0 +1,181 @@
+#include "animation/import/mesh_repair.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <unordered_map>
+
+#include "core/random.hpp"
+
+namespace lutka::animation::rig_import {
+namespace {
+
+void dropBadVertices(SkinnedMesh& mesh, MeshRepairs& repairs) {
+    std::vector<bool> bad(mesh.positions.size(), false);
+    bool any = false;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        if (isFinite(mesh.positions[v])) continue;
+        bad[v] = any = true;
+        mesh.positions[v] = vec3(0);
+        ++repairs.badVertices;
+    }
+    if (!any) return;
+    std::vector<std::uint32_t> kept;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        if (bad[mesh.indices[i]] || bad[mesh.indices[i + 1]] || bad[mesh.indices[i + 2]]) continue;
+        kept.insert(kept.end(), mesh.indices.begin() + static_cast<std::ptrdiff_t>(i),
+                    mesh.indices.begin() + static_cast<std::ptrdiff_t>(i) + 3);
+    }
+    mesh.indices = std::move(kept);
+}
+
+template <class T>
+std::uint64_t fold(const std::vector<T>& values, std::uint32_t v, std::uint64_t hash) {
+    return values.empty() ? hash : hashBytes(&values[v], sizeof(T), hash);
+}
+
+template <class T>
+bool same(const std::vector<T>& values, std::uint32_t a, std::uint32_t b) {
+    return values.empty() || std::memcmp(&values[a], &values[b], sizeof(T)) == 0;
+}
+
+bool sameVertex(const SkinnedMesh& m, std::uint32_t a, std::uint32_t b) {
+    return same(m.positions, a, b) && same(m.normals, a, b) && same(m.tangents, a, b) && same(m.uvs, a, b) &&
+           same(m.joints, a, b) && same(m.weights, a, b);
+}
+
+template <class T>
+void compact(std::vector<T>& values, const std::vector<std::uint32_t>& kept) {
+    if (values.empty()) return;
+    std::vector<T> out;
+    out.reserve(kept.size());
+    for (const std::uint32_t v : kept)
+        out.push_back(values[v]);
+    values = std::move(out);
+}
+
+// Importers give one vertex a corner; only what is used stays, in the order of first use of the vertex array.
+void mergeVertices(SkinnedMesh& mesh) {
+    constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
+    std::vector<bool> used(mesh.positions.size(), false);
+    for (const std::uint32_t v : mesh.indices)
+        used[v] = true;
+    std::unordered_multimap<std::uint64_t, std::uint32_t> firstOf;
+    std::vector<std::uint32_t> kept;
+    std::vector<std::uint32_t> newIndex(mesh.positions.size(), kUnused);
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+        if (!used[v]) continue;
+        std::uint64_t hash = fold(mesh.positions, v, kHashStart);
+        hash = fold(mesh.uvs, v, fold(mesh.normals, v, hash));
+        hash = fold(mesh.weights, v, fold(mesh.joints, v, hash));
+        const auto [first, last] = firstOf.equal_range(hash);
+        for (auto at = first; at != last && newIndex[v] == kUnused; ++at) {
+            if (sameVertex(mesh, at->second, v)) newIndex[v] = newIndex[at->second];
+        }
+        if (newIndex[v] != kUnused) continue;
+        newIndex[v] = static_cast<std::uint32_t>(kept.size());
+        firstOf.emplace(hash, v);
+        kept.push_back(v);
+    }
+    for (std::uint32_t& v : mesh.indices)
+        v = newIndex[v];
+    compact(mesh.positions, kept);
+    compact(mesh.normals, kept);
+    compact(mesh.tangents, kept);
+    compact(mesh.uvs, kept);
+    compact(mesh.joints, kept);
+    compact(mesh.weights, kept);
+}
+
+vec3 areaNormal(const SkinnedMesh& mesh, std::size_t triangle) {
+    const vec3& a = mesh.positions[mesh.indices[triangle]];
+    return glm::cross(mesh.positions[mesh.indices[triangle + 1]] - a, mesh.positions[mesh.indices[triangle + 2]] - a);
+}
+
+// Left-handed formats reach us with their triangles the wrong way round; the normals know.
+void turnAgainstNormals(SkinnedMesh& mesh, MeshRepairs& repairs) {
+    double with = 0.0;
+    double against = 0.0;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const vec3 side = areaNormal(mesh, i);
+        const vec3 normal =
+            mesh.normals[mesh.indices[i]] + mesh.normals[mesh.indices[i + 1]] + mesh.normals[mesh.indices[i + 2]];
+        const double cosine = glm::dot(side, normal);
+        (cosine < 0.0 ? against : with) += std::abs(cosine);
+    }
+    if (against <= 3.0 * with) return;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+        std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+    ++repairs.turnedMeshes;
+}
+
+void makeNormals(SkinnedMesh& mesh) {
+    std::vector<vec3> sums(mesh.positions.size(), vec3(0));
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const vec3 side = areaNormal(mesh, i);
+        for (std::size_t corner = 0; corner < 3; ++corner)
+            sums[mesh.indices[i + corner]] += side;
+    }
+    for (vec3& sum : sums) {
+        const float length = glm::length(sum);
+        sum = length > 0.0F ? sum / length : vec3(0, 1, 0);
+    }
+    mesh.normals = std::move(sums);
+}
+
+// Per-vertex tangents from the UVs' gradients (Lengyel 2001), made perpendicular to the normal.
+void makeTangents(SkinnedMesh& mesh) {
+    std::vector<vec3> along(mesh.positions.size(), vec3(0));
+    std::vector<vec3> across(mesh.positions.size(), vec3(0));
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const std::uint32_t* corner = &mesh.indices[i];
+        const vec3 e1 = mesh.positions[corner[1]] - mesh.positions[corner[0]];
+        const vec3 e2 = mesh.positions[corner[2]] - mesh.positions[corner[0]];
+        const vec2 d1 = mesh.uvs[corner[1]] - mesh.uvs[corner[0]];
+        const vec2 d2 = mesh.uvs[corner[2]] - mesh.uvs[corner[0]];
+        const float area = d1.x * d2.y - d2.x * d1.y;
+        if (std::abs(area) < 1e-20F) continue;
+        for (int k = 0; k < 3; ++k) {
+            along[corner[k]] += (e1 * d2.y - e2 * d1.y) / area;
+            across[corner[k]] += (e2 * d1.x - e1 * d2.x) / area;
+        }
+    }
+    mesh.tangents.reserve(mesh.positions.size());
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const vec3& n = mesh.normals[v];
+        const vec3 flat = along[v] - n * glm::dot(n, along[v]);
+        const float length = glm::length(flat);
+        const vec3 t = length > 1e-12F && std::isfinite(length) ? flat / length : anyPerpendicular(n);
+        // glTF's v runs down the picture, the bitangent up it.
+        mesh.tangents.emplace_back(t, glm::dot(glm::cross(n, t), across[v]) > 0.0F ? -1.0F : 1.0F);
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> MeshRepairs::sentences() const {
+    std::vector<std::string> out;
+    if (badVertices > 0) {
+        out.push_back(fmt::format("{} vertices have no finite position; their triangles were dropped", badVertices));
+    }
+    if (turnedMeshes > 0) {
+        out.push_back(
+            fmt::format("{} meshes had their triangles wound against their normals and were turned", turnedMeshes));
+    }
+    return out;
+}
+
+void repairMesh(SkinnedMesh& mesh, MeshRepairs& repairs) {
+    dropBadVertices(mesh, repairs);
+    mergeVertices(mesh);
+    if (mesh.normals.empty()) {
+        makeNormals(mesh);
+    } else {
+        turnAgainstNormals(mesh, repairs);
+    }
+    if (mesh.tangents.empty() && !mesh.uvs.empty()) makeTangents(mesh);
+}
+
+}  // namespace lutka::animation::rig_import

@@ -1,0 +1,134 @@
+#include "animation/import/texture_loader.hpp"
+
+#include <stb/stb_image.h>
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+#include <system_error>
+
+#include "core/files.hpp"
+
+namespace lutka::animation::rig_import {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMaxSide = 16384;
+constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30U;
+
+std::optional<Texture> decodeBytes(const unsigned char* bytes, std::size_t size) {
+    const int length = static_cast<int>(std::min(size, kMaxFileBytes));
+    Texture texture;
+    int channels = 0;
+    if (stbi_info_from_memory(bytes, length, &texture.width, &texture.height, &channels) == 0) return std::nullopt;
+    if (texture.width <= 0 || texture.height <= 0 || texture.width > kMaxSide || texture.height > kMaxSide)
+        return std::nullopt;
+    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+        stbi_load_from_memory(bytes, length, &texture.width, &texture.height, &channels, 4), stbi_image_free);
+    if (!pixels) return std::nullopt;
+    const std::size_t count =
+        std::size_t{4} * static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height);
+    texture.rgba.assign(pixels.get(), pixels.get() + count);
+    return texture;
+}
+
+// A picture in the scene: a compressed file (height 0, width its bytes) or plain BGRA texels.
+std::optional<Texture> decodeEmbedded(const aiTexture& source) {
+    if (source.mHeight == 0) return decodeBytes(reinterpret_cast<const unsigned char*>(source.pcData), source.mWidth);
+    if (source.mWidth > kMaxSide || source.mHeight > kMaxSide) return std::nullopt;
+    Texture texture;
+    texture.width = static_cast<int>(source.mWidth);
+    texture.height = static_cast<int>(source.mHeight);
+    const std::size_t count = static_cast<std::size_t>(source.mWidth) * source.mHeight;
+    for (std::size_t i = 0; i < count; ++i) {
+        const aiTexel& texel = source.pcData[i];
+        texture.rgba.insert(texture.rgba.end(), {texel.r, texel.g, texel.b, texel.a});
+    }
+    return texture;
+}
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+// "%20" and the like, as URIs in glTF write them.
+std::string decodePercents(const std::string& text) {
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool escape = text[i] == '%' && i + 2 < text.size() &&
+                            std::isxdigit(static_cast<unsigned char>(text[i + 1])) != 0 &&
+                            std::isxdigit(static_cast<unsigned char>(text[i + 2])) != 0;
+        if (escape) {
+            out += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
+            i += 2;
+        } else {
+            out += text[i];
+        }
+    }
+    return out;
+}
+
+std::optional<fs::path> findIn(const fs::path& folder, const std::string& name) {
+    std::error_code failed;
+    for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
+        if (lower(at->path().filename().string()) == lower(name) && at->is_regular_file(failed)) return at->path();
+    }
+    return std::nullopt;
+}
+
+std::optional<fs::path> findPicture(const fs::path& folder, std::string path) {
+    std::replace(path.begin(), path.end(), '\\', '/');
+    for (const std::string& spelling : {path, decodePercents(path)}) {
+        const fs::path written(spelling);
+        const bool windowsDrive = spelling.size() > 1 && spelling[1] == ':';
+        std::error_code ignored;
+        if (written.is_relative() && !windowsDrive && fs::is_regular_file(folder / written, ignored))
+            return folder / written;
+        const std::string name = written.filename().string();
+        if (name.empty()) continue;
+        const fs::path above = folder / "..";
+        for (const fs::path& place : {folder, folder / "textures", folder / "Textures", folder / "tex",
+                                      above / "textures", above / "Textures"}) {
+            if (auto found = findIn(place, name)) return found;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+TextureLoader::TextureLoader(const aiScene& scene, const fs::path& model, bool enabled)
+    : scene_(scene), folder_(model.has_parent_path() ? model.parent_path() : fs::path(".")), enabled_(enabled) {}
+
+int TextureLoader::load(const std::string& path) {
+    if (!enabled_) return Material::kNoTexture;
+    if (const auto known = known_.find(path); known != known_.end()) return known->second;
+    int index = Material::kNoTexture;
+    if (std::optional<Texture> texture = decode(path)) {
+        index = static_cast<int>(textures_.size());
+        textures_.push_back(*std::move(texture));
+    } else {
+        missing_.push_back(path);
+    }
+    known_[path] = index;
+    return index;
+}
+
+std::optional<Texture> TextureLoader::decode(const std::string& path) const {
+    if (const aiTexture* embedded = scene_.GetEmbeddedTexture(path.c_str())) {
+        std::optional<Texture> texture = decodeEmbedded(*embedded);
+        if (texture) texture->name = embedded->mFilename.length > 0 ? embedded->mFilename.C_Str() : path;
+        return texture;
+    }
+    const std::optional<fs::path> file = findPicture(folder_, path);
+    if (!file) return std::nullopt;
+    const Result<std::vector<unsigned char>> bytes = readFile(*file, kMaxFileBytes);
+    if (!bytes) return std::nullopt;
+    std::optional<Texture> texture = decodeBytes(bytes.value().data(), bytes.value().size());
+    if (texture) texture->name = file->filename().string();
+    return texture;
+}
+
+}  // namespace lutka::animation::rig_import

@@ -1,0 +1,200 @@
+#include "animation/import/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace lutka::animation::rig_import {
+namespace {
+
+constexpr double kLeastHeight = 0.4;
+constexpr double kMostHeight = 3.5;
+constexpr double kUsualHeight = 1.75;
+
+// Rotation that takes the axis to +Y; the two others keep a right-handed order.
+dmat3 yFrom(UpAxis up) {
+    switch (up) {
+        case UpAxis::positiveX:
+            return {dvec3(0, 1, 0), dvec3(-1, 0, 0), dvec3(0, 0, 1)};
+        case UpAxis::negativeX:
+            return {dvec3(0, -1, 0), dvec3(1, 0, 0), dvec3(0, 0, 1)};
+        case UpAxis::positiveY:
+            return dmat3(1.0);
+        case UpAxis::negativeY:
+            return {dvec3(1, 0, 0), dvec3(0, -1, 0), dvec3(0, 0, -1)};
+        case UpAxis::positiveZ:
+            return {dvec3(1, 0, 0), dvec3(0, 0, -1), dvec3(0, 1, 0)};
+        case UpAxis::negativeZ:
+            return {dvec3(1, 0, 0), dvec3(0, 0, 1), dvec3(0, -1, 0)};
+    }
+    return dmat3(1.0);
+}
+
+const char* nameOf(UpAxis up) {
+    constexpr std::array<const char*, 6> kNames = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
+    return kNames[static_cast<std::size_t>(up)];
+}
+
+UpAxis axisOf(int axis, bool positive) {
+    return static_cast<UpAxis>(2 * axis + (positive ? 0 : 1));
+}
+
+struct Extents {
+    dvec3 low{0};
+    dvec3 high{0};
+    [[nodiscard]] dvec3 size() const { return high - low; }
+};
+
+Extents extentsOf(std::span<const vec3> points) {
+    Extents out;
+    bool first = true;
+    for (const vec3& point : points) {
+        if (!isFinite(point)) continue;
+        out.low = first ? dvec3(point) : glm::min(out.low, dvec3(point));
+        out.high = first ? dvec3(point) : glm::max(out.high, dvec3(point));
+        first = false;
+    }
+    return out;
+}
+
+template <class T>
+std::optional<T> metadataValue(const aiMetadata* metadata, const char* key) {
+    T value{};
+    if (metadata == nullptr || !metadata->Get(key, value)) return std::nullopt;
+    return value;
+}
+
+std::optional<double> fbxUnit(const aiMetadata* metadata) {
+    const auto asDouble = metadataValue<double>(metadata, "UnitScaleFactor");
+    const auto asFloat = metadataValue<float>(metadata, "UnitScaleFactor");
+    const std::optional<double> centimetres = asDouble  ? asDouble
+                                              : asFloat ? std::optional<double>(*asFloat)
+                                                        : asDouble;
+    if (!centimetres || !std::isfinite(*centimetres) || !(*centimetres > 0.0)) return std::nullopt;
+    return 0.01 * *centimetres;
+}
+
+std::optional<UpAxis> fbxUp(const aiMetadata* metadata) {
+    const auto axis = metadataValue<std::int32_t>(metadata, "UpAxis");
+    const auto sign = metadataValue<std::int32_t>(metadata, "UpAxisSign");
+    if (!axis || *axis < 0 || *axis > 2) return std::nullopt;
+    return axisOf(*axis, sign.value_or(1) >= 0);
+}
+
+// A figure flat along the stated axis that stands on the origin along another one, the same on both sides of the third:
+// then it is that other axis. Anything less clear is left alone.
+std::optional<UpAxis> contradictingUp(const Extents& box, UpAxis stated) {
+    const int up = static_cast<int>(stated) / 2;
+    const dvec3 size = box.size();
+    std::optional<UpAxis> found;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (axis == up || size[axis] < 2.5 * size[up]) continue;
+        const int side = 3 - up - axis;
+        const bool symmetric = std::abs(box.low[side] + box.high[side]) < 0.1 * size[side];
+        const bool standsUpright = std::abs(box.low[axis]) < 0.06 * size[axis];
+        const bool hangsDown = std::abs(box.high[axis]) < 0.06 * size[axis];
+        if (!symmetric || standsUpright == hangsDown) continue;
+        if (found) return std::nullopt;
+        found = axisOf(axis, standsUpright);
+    }
+    return found;
+}
+
+void settleUp(const SceneConvention& convention, const Extents& box, const ImportOptions& options, UnitsAndAxes& out,
+              std::vector<std::string>& warnings) {
+    UpAxis up = UpAxis::positiveY;
+    if (options.up) {
+        up = *options.up;
+        out.info.upSource = "--up";
+    } else {
+        const std::optional<UpAxis> stated = fbxUp(convention.metadata);
+        up = stated.value_or(UpAxis::positiveY);
+        out.info.upSource = stated                 ? "FBX UpAxis"
+                            : convention.isGltf    ? "glTF"
+                            : convention.isCollada ? "Collada up_axis"
+                                                   : "assumed";
+        if (const auto other = contradictingUp(box, up)) {
+            warnings.push_back(
+                fmt::format("{} is up according to {}, but the figure lies flat that way and stands along "
+                            "{}, which is taken instead (--up overrides)",
+                            nameOf(up), out.info.upSource, nameOf(*other)));
+            up = *other;
+            out.info.upSource = "the figure";
+        }
+    }
+    out.info.upAxis = nameOf(up);
+    out.rotation = yFrom(up);
+}
+
+// The usual unit under which the figure is as tall as a person, in metres.
+std::optional<double> usualUnit(double height) {
+    constexpr std::array<double, 9> kUnits = {1.0, 0.01, 0.1, 0.0254, 0.001, 0.3048, 10.0, 100.0, 1000.0};
+    for (const auto& [least, most] : {std::pair{1.4, 2.1}, std::pair{1.0, 2.5}, std::pair{0.6, 3.0}}) {
+        for (const double unit : kUnits) {
+            if (height * unit >= least && height * unit <= most) return unit;
+        }
+    }
+    return std::nullopt;
+}
+
+// The unit that the file itself states, and where.
+std::pair<std::optional<double>, std::string> statedUnit(const SceneConvention& convention) {
+    if (convention.isGltf) return {1.0, "glTF"};
+    if (convention.isCollada) return {1.0, "Collada unit"};
+    return {fbxUnit(convention.metadata), "FBX UnitScaleFactor"};
+}
+
+void settleScale(const SceneConvention& convention, const Extents& box, const ImportOptions& options, UnitsAndAxes& out,
+                 std::vector<std::string>& warnings) {
+    if (options.metresPerFileUnit) {
+        out.scale = *options.metresPerFileUnit;
+        out.info.unitSource = "--scale";
+        return;
+    }
+    // The figure may lie, or the axis be unknown: then its longest side is its height.
+    const dvec3 size = glm::abs(out.rotation * box.size());
+    const double longest = std::max({size.x, size.y, size.z});
+    const double height = size.y < 0.3 * longest ? longest : size.y;
+    const auto [stated, source] = statedUnit(convention);
+    if (stated && (height * *stated >= kLeastHeight || !(height > 0.0)) && height * *stated <= kMostHeight) {
+        out.scale = *stated;
+        out.info.unitSource = source;
+        return;
+    }
+    if (!(height > 0.0) || !std::isfinite(height)) {
+        out.scale = stated.value_or(1.0);
+        out.info.unitSource = stated ? source : "assumed";
+        return;
+    }
+    const std::optional<double> usual = usualUnit(height);
+    out.scale = usual.value_or(kUsualHeight / height);
+    out.info.unitSource = "height of the figure";
+    const std::string why = stated
+                                ? fmt::format("by {} the figure would be {:.3g} m tall", source, height * *stated)
+                                : fmt::format("the file states no unit, and the figure is {:.4g} units tall", height);
+    if (stated || out.scale != 1.0) {
+        warnings.push_back(fmt::format("{}: took {:.4g} m a unit, which makes it {:.3g} m (--scale overrides)", why,
+                                       out.scale, height * out.scale));
+    }
+}
+
+}  // namespace
+
+dmat4 UnitsAndAxes::modelFromScene() const {
+    return dmat4(scale * rotation);
+}
+
+UnitsAndAxes settleUnits(const SceneConvention& convention, std::span<const vec3> points, const ImportOptions& options,
+                         std::vector<std::string>& warnings) {
+    UnitsAndAxes out;
+    const Extents box = extentsOf(points);
+    settleUp(convention, box, options, out, warnings);
+    settleScale(convention, box, options, out, warnings);
+    out.info.metresPerFileUnit = static_cast<float>(out.scale);
+    return out;
+}
+
+}  // namespace lutka::animation::rig_import

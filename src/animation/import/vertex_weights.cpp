@@ -1,0 +1,107 @@
+#include "animation/import/vertex_weights.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lutka::animation::rig_import {
+namespace {
+
+struct Influence {
+    int joint;
+    double weight;
+};
+
+// A joint may be listed twice; its weights add up.
+void add(std::vector<Influence>& influences, int joint, double weight) {
+    for (Influence& known : influences) {
+        if (known.joint == joint) {
+            known.weight += weight;
+            return;
+        }
+    }
+    influences.push_back({joint, weight});
+}
+
+VertexSkin strongest(std::vector<Influence>& influences, WeightRepairs& repairs) {
+    std::stable_sort(influences.begin(), influences.end(),
+                     [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
+    double all = 0.0;
+    for (const Influence& influence : influences)
+        all += influence.weight;
+    const std::size_t kept = std::min<std::size_t>(influences.size(), kMaxInfluences);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kept; ++i)
+        sum += influences[i].weight;
+    if (std::abs(all - 1.0) > 0.01) {
+        ++repairs.unnormalised;
+        repairs.largestSumError = std::max(repairs.largestSumError, std::abs(all - 1.0));
+    }
+    if (influences.size() > kMaxInfluences) {
+        ++repairs.dropped;
+        repairs.mostInfluences = std::max(repairs.mostInfluences, static_cast<int>(influences.size()));
+        repairs.largestDropped = std::max(repairs.largestDropped, 1.0 - sum / all);
+    }
+    VertexSkin skin;
+    for (std::size_t i = 0; i < kept; ++i) {
+        skin.joints[i] = static_cast<std::uint16_t>(influences[i].joint);
+        skin.weights[i] = static_cast<float>(influences[i].weight / sum);
+    }
+    return skin;
+}
+
+}  // namespace
+
+std::vector<std::string> WeightRepairs::sentences() const {
+    std::vector<std::string> out;
+    if (dropped > 0) {
+        out.push_back(
+            fmt::format("{} of {} vertices had more than {} influences (up to {}); the weakest were dropped, "
+                        "at most {:.1f} % of a vertex's weight",
+                        dropped, vertices, kMaxInfluences, mostInfluences, 100.0 * largestDropped));
+    }
+    if (unweighted > 0) {
+        out.push_back(
+            fmt::format("{} of {} vertices of skinned meshes had no weight and were bound to the nearest "
+                        "deforming joint above them",
+                        unweighted, vertices));
+    }
+    if (invalid > 0) out.push_back(fmt::format("{} invalid skin weights were dropped", invalid));
+    if (unnormalised > 0) {
+        out.push_back(
+            fmt::format("the weights of {} of {} vertices did not sum to 1 (off by up to {:.3g}) and were "
+                        "normalised",
+                        unnormalised, vertices, largestSumError));
+    }
+    return out;
+}
+
+std::vector<VertexSkin> readWeights(const MeshInstance& instance, int fallbackJoint, WeightRepairs& repairs) {
+    std::vector<std::vector<Influence>> influences(instance.mesh->mNumVertices);
+    for (const SkinJoint& joint : instance.joints) {
+        for (unsigned i = 0; i < joint.source->mNumWeights; ++i) {
+            const aiVertexWeight& entry = joint.source->mWeights[i];
+            const double weight = entry.mWeight;
+            if (entry.mVertexId >= influences.size() || !std::isfinite(weight) || weight < 0.0) {
+                ++repairs.invalid;
+            } else if (weight > 0.0) {
+                add(influences[entry.mVertexId], joint.joint, weight);
+            }
+        }
+    }
+    std::vector<VertexSkin> skins;
+    skins.reserve(influences.size());
+    repairs.vertices += static_cast<int>(influences.size());
+    for (std::vector<Influence>& vertex : influences) {
+        if (vertex.empty()) {
+            ++repairs.unweighted;
+            skins.push_back({{static_cast<std::uint16_t>(fallbackJoint)}, {1.0F}});
+        } else {
+            skins.push_back(strongest(vertex, repairs));
+        }
+    }
+    return skins;
+}
+
+}  // namespace lutka::animation::rig_import
