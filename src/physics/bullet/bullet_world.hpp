@@ -6,8 +6,27 @@
 
 namespace lutka::physics {
 
+/// What SolverKind::bullet is set to; docs/physics.md says how the defaults were found. `stock` ignores it.
+struct BulletTuning {
+    int substeps = 8;     ///< Of one frame, >= 1. More: tighter joints and contacts, proportional cost.
+    int iterations = 20;  ///< Of the solver in a substep, >= 1. More: tighter.
+
+    float jointErp = 0.05F;       ///< Part of a joint's gap mended in a substep, (0, 1]. More: tighter, adds energy.
+    float limitErp = 0.1F;        ///< The same for angles past their limit.
+    float contactErp = 0.2F;      ///< The same for penetration; mended beside the velocities, so it adds no energy.
+    float contactMargin = 0.04F;  ///< Metres: how far apart shapes have contact points already (they only bound speed).
+    float maxPushSpeed = 1.0F;    ///< m/s: bound on the speed at which overlapping shapes part.
+    bool warmStart = true;        ///< Starts each substep from the impulses of the one before.
+
+    float linearDamping = 0.02F;  ///< Part of the speed lost in a second, [0, 1]: air.
+    float angularDamping = 0.3F;  ///< The same for turning.
+    float sleepSpeed = 0.03F;     ///< m/s, and
+    float sleepTurn = 0.04F;      ///< rad/s: slower for `sleepSeconds`, all bodies that touch fall asleep.
+    float sleepSeconds = 1.0F;
+};
+
 /// A Bullet world behind the World interface. SolverKind::stock is a plain btDiscreteDynamicsWorld with Bullet's own
 /// defaults, the baseline of every ratio; SolverKind::bullet has our settings (docs/physics.md).
-[[nodiscard]] std::unique_ptr<World> createBulletWorld(const WorldSettings& settings);
+[[nodiscard]] std::unique_ptr<World> createBulletWorld(const WorldSettings& settings, const BulletTuning& tuning = {});
 
 }  // namespace lutka::physics

@@ -1,0 +1,146 @@
+#include "physics/bullet/ragdoll.hpp"
+
+#include <algorithm>
+
+#include "core/assert.hpp"
+#include "physics/bullet/convert.hpp"
+
+namespace lutka::physics {
+
+std::unique_ptr<btCollisionShape> makeShape(const BodyShape& shape) {
+    switch (shape.kind) {
+        case BodyShape::Kind::capsule:
+            return std::make_unique<btCapsuleShape>(shape.radius, 2.0F * shape.halfLength);
+        case BodyShape::Kind::box:
+            return std::make_unique<btBoxShape>(toBullet(shape.halfExtents));
+        case BodyShape::Kind::sphere:
+            break;
+    }
+    return std::make_unique<btSphereShape>(shape.radius);
+}
+
+BodyInWorld makeBody(const BodyShape& shape, float massKg, const vec3& inertia, const BodyState& state) {
+    BodyInWorld made{makeShape(shape), nullptr};
+    const btRigidBody::btRigidBodyConstructionInfo info(massKg, nullptr, made.shape.get(), toBullet(inertia));
+    made.body = std::make_unique<btRigidBody>(info);
+    made.body->setUserIndex(-1);
+    setState(*made.body, state);
+    return made;
+}
+
+BodyState stateOf(const btRigidBody& body) {
+    return {fromBullet(body.getWorldTransform()), fromBullet(body.getLinearVelocity()),
+            fromBullet(body.getAngularVelocity())};
+}
+
+void setState(btRigidBody& body, const BodyState& state) {
+    const btTransform worldFromBody = toBullet(state.worldFromBody);
+    body.setWorldTransform(worldFromBody);
+    body.setInterpolationWorldTransform(worldFromBody);
+    body.setLinearVelocity(toBullet(state.linearVelocity));
+    body.setAngularVelocity(toBullet(state.angularVelocity));
+    body.setInterpolationLinearVelocity(body.getLinearVelocity());
+    body.setInterpolationAngularVelocity(body.getAngularVelocity());
+    body.updateInertiaTensor();
+    body.clearForces();
+    body.activate(true);
+}
+
+Ragdoll::Ragdoll(btDiscreteDynamicsWorld& world, int index, const RagdollProfile& profile,
+                 std::span<const BodyState> bodies, const BulletTuning& tuning, const JointTuning& jointTuning,
+                 bool stockJoints, bool sleeping)
+    : world_(world), profile_(profile) {
+    LUTKA_ASSERT(bodies.size() == profile.bodies.size());
+    const std::size_t count = profile.bodies.size();
+    collides_.assign(count * count, 1);
+    const auto never = [&](std::size_t a, std::size_t b) { collides_[a * count + b] = collides_[b * count + a] = 0; };
+    for (const ConstraintProfile& constraint : profile.constraints)
+        never(constraint.parent, constraint.child);
+    for (const auto& [a, b] : profile.filteredPairs)
+        never(a, b);
+    addBodies(index, bodies, tuning, stockJoints, sleeping);
+    if (stockJoints)
+        addStockConstraints();
+    else
+        addJoints(jointTuning);
+}
+
+Ragdoll::~Ragdoll() {
+    for (const auto& constraint : constraints_)
+        world_.removeConstraint(constraint.get());
+    for (const BodyInWorld& made : bodies_)
+        world_.removeRigidBody(made.body.get());
+}
+
+void Ragdoll::addBodies(int index, std::span<const BodyState> states, const BulletTuning& tuning, bool stock,
+                        bool sleeping) {
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const BodyProfile& body = profile_.bodies[i];
+        bodies_.push_back(makeBody(body.shape, body.massKg, body.inertia, states[i]));
+        btRigidBody& made = *bodies_.back().body;
+        made.setUserIndex(index);
+        made.setUserIndex2(static_cast<int>(i));
+        made.setUserPointer(this);
+        if (!stock) made.setDamping(tuning.linearDamping, tuning.angularDamping);
+        if (!sleeping) made.setActivationState(DISABLE_DEACTIVATION);
+    }
+    // Only now, for the pair filter asks for all of them.
+    for (const BodyInWorld& made : bodies_)
+        world_.addRigidBody(made.body.get());
+}
+
+void Ragdoll::addStockConstraints() {
+    for (const ConstraintProfile& c : profile_.constraints) {
+        btRigidBody& parent = body(c.parent);
+        btRigidBody& child = body(c.child);
+        const btTransform parentFrame = toBullet(c.parentFromFrame);
+        const btTransform childFrame = toBullet(c.childFromFrame);
+        if (c.kind == ConstraintProfile::Kind::hinge) {
+            // With the child's angle read in the parent's frame it has the sign of a rotation about frame z.
+            auto hinge = std::make_unique<btHingeConstraint>(parent, child, parentFrame, childFrame, true);
+            hinge->setLimit(c.hinge.lower, c.hinge.upper);
+            constraints_.push_back(std::move(hinge));
+        } else {
+            auto cone = std::make_unique<btConeTwistConstraint>(parent, child, parentFrame, childFrame);
+            cone->setLimit(c.cone.swingZ, c.cone.swingY, c.cone.twist);  // span 1 is the one about z
+            constraints_.push_back(std::move(cone));
+        }
+        world_.addConstraint(constraints_.back().get(), true);
+    }
+    for (const auto& [a, b] : profile_.filteredPairs)
+        body(a).setIgnoreCollisionCheck(&body(b), true);
+}
+
+void Ragdoll::addJoints(const JointTuning& tuning) {
+    for (const ConstraintProfile& c : profile_.constraints) {
+        auto joint = std::make_unique<RagdollJoint>(c, body(c.parent), body(c.child), tuning);
+        joints_.push_back(joint.get());
+        constraints_.push_back(std::move(joint));
+        world_.addConstraint(constraints_.back().get(), true);
+    }
+}
+
+bool Ragdoll::isAsleep() const {
+    return std::all_of(bodies_.begin(), bodies_.end(),
+                       [](const BodyInWorld& made) { return made.body->getActivationState() == ISLAND_SLEEPING; });
+}
+
+void Ragdoll::setBodies(std::span<const BodyState> bodies) {
+    LUTKA_ASSERT(bodies.size() == bodies_.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        setState(*bodies_[i].body, bodies[i]);
+        world_.updateSingleAabb(bodies_[i].body.get());
+        // Contacts of the old place would push in the new one.
+        world_.getBroadphase()->getOverlappingPairCache()->cleanProxyFromPairs(bodies_[i].body->getBroadphaseHandle(),
+                                                                               world_.getDispatcher());
+    }
+    for (RagdollJoint* joint : joints_)
+        joint->forgetImpulses();
+}
+
+void Ragdoll::wake() {
+    for (const BodyInWorld& made : bodies_)
+        made.body->activate(true);
+}
+
+}  // namespace lutka::physics

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "physics/bullet/bullet_world.hpp"
+#include "physics/bullet/ragdoll_joint.hpp"
+#include "physics/world.hpp"
+
+namespace lutka::physics {
+
+/// Bullet's shape for a profile's.
+[[nodiscard]] std::unique_ptr<btCollisionShape> makeShape(const BodyShape& shape);
+
+/// A rigid body with the shape that it uses.
+struct BodyInWorld {
+    std::unique_ptr<btCollisionShape> shape;
+    std::unique_ptr<btRigidBody> body;
+};
+/// A body in `state` that collides as `shape`; not yet in a world.
+[[nodiscard]] BodyInWorld makeBody(const BodyShape& shape, float massKg, const vec3& inertia, const BodyState& state);
+
+[[nodiscard]] BodyState stateOf(const btRigidBody& body);
+/// Places a body, without a trace of where it was before.
+void setState(btRigidBody& body, const BodyState& state);
+
+/// One doll's bodies and constraints in a Bullet world, which must outlive it.
+class Ragdoll {
+  public:
+    /// Adds the doll to `world`. `stockJoints`: Bullet's own hinge and cone-twist instead of RagdollJoint. `tuning`
+    /// must outlive the doll.
+    Ragdoll(btDiscreteDynamicsWorld& world, int index, const RagdollProfile& profile, std::span<const BodyState> bodies,
+            const BulletTuning& tuning, const JointTuning& jointTuning, bool stockJoints, bool sleeping);
+    ~Ragdoll();
+    Ragdoll(const Ragdoll&) = delete;
+    Ragdoll& operator=(const Ragdoll&) = delete;
+
+    [[nodiscard]] const RagdollProfile& profile() const { return profile_; }
+    [[nodiscard]] btRigidBody& body(int index) const { return *bodies_[index].body; }
+    [[nodiscard]] int bodyCount() const { return static_cast<int>(bodies_.size()); }
+    /// Whether two of its bodies may touch: neither linked nor filtered.
+    [[nodiscard]] bool mayCollide(int a, int b) const { return collides_[a * bodies_.size() + b] != 0; }
+    [[nodiscard]] bool isAsleep() const;
+
+    void setBodies(std::span<const BodyState> bodies);
+    void wake();
+
+  private:
+    void addBodies(int index, std::span<const BodyState> states, const BulletTuning& tuning, bool stock, bool sleeping);
+    void addStockConstraints();
+    void addJoints(const JointTuning& tuning);
+
+    btDiscreteDynamicsWorld& world_;
+    const RagdollProfile& profile_;
+    std::vector<BodyInWorld> bodies_;
+    std::vector<std::unique_ptr<btTypedConstraint>> constraints_;
+    std::vector<RagdollJoint*> joints_;  // the constraints that are ours
+    std::vector<std::uint8_t> collides_;
+};
+
+}  // namespace lutka::physics

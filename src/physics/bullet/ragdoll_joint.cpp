@@ -1,0 +1,187 @@
+#include "physics/bullet/ragdoll_joint.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "core/assert.hpp"
+#include "physics/bullet/convert.hpp"
+#include "physics/joint_angles.hpp"
+
+namespace lutka::physics {
+namespace {
+
+// Where each kind of row keeps its impulse between steps. Opposite limits have slots of their own, for their impulses
+// have nothing in common.
+enum Slot {
+    pointX,
+    pointY,
+    pointZ,
+    alignX,
+    alignY,
+    frictionX,
+    frictionY,
+    frictionZ,
+    hingeLower,
+    hingeUpper,
+    swingLimit,
+    twistLower,
+    twistUpper
+};
+constexpr int kLinearRows = 3;
+
+void setVector(btScalar* row, const vec3& v) {
+    row[0] = v.x;
+    row[1] = v.y;
+    row[2] = v.z;
+}
+
+}  // namespace
+
+RagdollJoint::RagdollJoint(const ConstraintProfile& profile, btRigidBody& parent, btRigidBody& child,
+                           const JointTuning& tuning)
+    : btTypedConstraint(D6_CONSTRAINT_TYPE, parent, child), profile_(profile), tuning_(tuning) {
+    setUserConstraintType(kUserType);
+}
+
+void RagdollJoint::addRow(const AngularRow& row) {
+    LUTKA_ASSERT(rowCount_ + kLinearRows < kMaxRows);
+    slots_[kLinearRows + rowCount_] = row.slot;
+    rows_[rowCount_++] = row;
+}
+
+void RagdollJoint::prepare() {
+    const mat3 worldFromParent = fromBullet(m_rbA.getWorldTransform().getBasis());
+    const mat3 worldFromChild = fromBullet(m_rbB.getWorldTransform().getBasis());
+    parentArm_ = worldFromParent * profile_.parentFromFrame.translation;
+    childArm_ = worldFromChild * profile_.childFromFrame.translation;
+    gap_ = fromBullet(m_rbB.getWorldTransform().getOrigin() - m_rbA.getWorldTransform().getOrigin()) + childArm_ -
+           parentArm_;
+    slots_[0] = pointX;
+    slots_[1] = pointY;
+    slots_[2] = pointZ;
+    rowCount_ = 0;
+    const mat3 parentAxes = worldFromParent * glm::mat3_cast(profile_.parentFromFrame.rotation);
+    const mat3 childAxes = worldFromChild * glm::mat3_cast(profile_.childFromFrame.rotation);
+    if (profile_.kind == ConstraintProfile::Kind::hinge)
+        prepareHinge(parentAxes, childAxes);
+    else
+        prepareCone(parentAxes, glm::normalize(glm::quat_cast(glm::transpose(parentAxes) * childAxes)));
+}
+
+void RagdollJoint::prepareHinge(const mat3& parentAxes, const mat3& childAxes) {
+    const vec3 wrong = glm::cross(parentAxes[2], childAxes[2]);
+    addRow({alignX, parentAxes[0], glm::dot(wrong, parentAxes[0]), AngularRow::Kind::align});
+    addRow({alignY, parentAxes[1], glm::dot(wrong, parentAxes[1]), AngularRow::Kind::align});
+    const vec3 axis = parentAxes[2];
+    if (profile_.frictionNm > 0.0F) addRow({frictionZ, axis, 0, AngularRow::Kind::friction});
+    const float angle = std::atan2(glm::dot(childAxes[0], parentAxes[1]), glm::dot(childAxes[0], parentAxes[0]));
+    const float aboveLower = angle - profile_.hinge.lower;
+    const float belowUpper = profile_.hinge.upper - angle;
+    if (std::min(aboveLower, belowUpper) > tuning_.limitMargin) return;
+    if (aboveLower < belowUpper)
+        addRow({hingeLower, axis, aboveLower, AngularRow::Kind::limit});
+    else
+        addRow({hingeUpper, -axis, belowUpper, AngularRow::Kind::limit});
+}
+
+// With the swing s = a u (u across x), v = x × u and the relative angular velocity w in the parent's frame:
+//   da/dt = w·u,   a du/dt = a (w·x + cot(a) w·v) v,   dtwist/dt = w·x - tan(a/2) w·v.
+void RagdollJoint::prepareCone(const mat3& parentAxes, const quat& parentFromChild) {
+    if (profile_.frictionNm > 0.0F) {
+        addRow({frictionX, parentAxes[0], 0, AngularRow::Kind::friction});
+        addRow({frictionY, parentAxes[1], 0, AngularRow::Kind::friction});
+        addRow({frictionZ, parentAxes[2], 0, AngularRow::Kind::friction});
+    }
+    constexpr float kLargestSwing = 3.0F;  // the formulas have their pole at pi
+    const SwingTwist now = swingTwistOf(parentFromChild);
+    const float swing = glm::length(now.swing);
+    const vec3 u = swing > 1e-4F ? now.swing / swing : vec3(0, 1, 0);
+    const vec3 v(0, -u.z, u.y);
+    const float bounded = std::min(swing, kLargestSwing);
+    const vec3 scaled(0, now.swing.y / profile_.cone.swingY, now.swing.z / profile_.cone.swingZ);
+    const float outness = glm::length(scaled);  // 1 on the ellipse
+    if (outness > 1e-3F) {
+        const float remaining = swing / outness - swing;
+        if (remaining < tuning_.limitMargin) {
+            const vec3 normal =
+                glm::normalize(vec3(0, scaled.y / profile_.cone.swingY, scaled.z / profile_.cone.swingZ));
+            const float turn = bounded > 1e-3F ? bounded / std::tan(bounded) : 1.0F;
+            const float alongV = glm::dot(normal, v);
+            const vec3 gradient(alongV * bounded, glm::dot(normal, u) * u.y + alongV * turn * v.y,
+                                glm::dot(normal, u) * u.z + alongV * turn * v.z);
+            // Along the ray from the centre the distance is longer than along the normal by the cosine between them.
+            addRow({swingLimit, parentAxes * -gradient, remaining * std::max(glm::dot(normal, u), 0.1F),
+                    AngularRow::Kind::limit});
+        }
+    }
+    const float aboveLower = profile_.cone.twist + now.twist;
+    const float belowUpper = profile_.cone.twist - now.twist;
+    if (std::min(aboveLower, belowUpper) > tuning_.limitMargin) return;
+    const vec3 axis = parentAxes * (vec3(1, 0, 0) - std::tan(0.5F * bounded) * v);
+    if (aboveLower < belowUpper)
+        addRow({twistLower, axis, aboveLower, AngularRow::Kind::limit});
+    else
+        addRow({twistUpper, -axis, belowUpper, AngularRow::Kind::limit});
+}
+
+void RagdollJoint::getInfo1(btConstraintInfo1* info) {
+    prepare();
+    info->m_numConstraintRows = kLinearRows + rowCount_;
+    info->nub = 0;
+}
+
+void RagdollJoint::getInfo2(btConstraintInfo2* info) {
+    const float mend = tuning_.erp * info->fps;
+    const float speed = mend * glm::length(gap_);
+    const vec3 target = gap_ * (speed > tuning_.maxMendSpeed ? mend * tuning_.maxMendSpeed / speed : mend);
+    for (int i = 0; i < kLinearRows; ++i) {
+        vec3 direction(0);
+        direction[i] = 1.0F;
+        setVector(info->m_J1linearAxis + i * info->rowskip, direction);
+        setVector(info->m_J1angularAxis + i * info->rowskip, glm::cross(parentArm_, direction));
+        setVector(info->m_J2linearAxis + i * info->rowskip, -direction);
+        setVector(info->m_J2angularAxis + i * info->rowskip, -glm::cross(childArm_, direction));
+        info->m_constraintError[i * info->rowskip] = target[i];
+    }
+    for (int i = 0; i < rowCount_; ++i) {
+        const AngularRow& row = rows_[i];
+        const int at = (kLinearRows + i) * info->rowskip;
+        setVector(info->m_J1angularAxis + at, -row.axis);
+        setVector(info->m_J2angularAxis + at, row.axis);
+        float& error = info->m_constraintError[at];
+        switch (row.kind) {
+            case AngularRow::Kind::align:
+                error = std::clamp(-mend * row.error, -tuning_.maxMendTurn, tuning_.maxMendTurn);
+                break;
+            case AngularRow::Kind::friction:
+                info->m_lowerLimit[at] = -profile_.frictionNm / info->fps;
+                info->m_upperLimit[at] = profile_.frictionNm / info->fps;
+                break;
+            case AngularRow::Kind::limit:
+                // Before the limit the row only bounds the speed towards it.
+                error = row.error > 0.0F ? -row.error * info->fps
+                                         : std::min(-tuning_.limitErp * info->fps * row.error, tuning_.maxMendTurn);
+                info->m_lowerLimit[at] = 0.0F;
+                info->m_upperLimit[at] = SIMD_INFINITY;
+                break;
+        }
+    }
+}
+
+// Bullet's per-constraint parameters are not used: the world's JointTuning holds for all joints.
+void RagdollJoint::setParam(int /*num*/, btScalar /*value*/, int /*axis*/) {}
+btScalar RagdollJoint::getParam(int /*num*/, int /*axis*/) const {
+    return 0.0F;
+}
+
+void RagdollJoint::finishStoring() {
+    impulses_ = newImpulses_;
+    newImpulses_.fill(0.0F);
+}
+
+void RagdollJoint::forgetImpulses() {
+    impulses_.fill(0.0F);
+    newImpulses_.fill(0.0F);
+}
+
+}  // namespace lutka::physics

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
+
+#include <array>
+
+#include "physics/profile.hpp"
+
+namespace lutka::physics {
+
+/// How firmly a joint is held; the same for all joints of a world.
+struct JointTuning {
+    float erp = 0.1F;           ///< Part of a position error mended in a substep, (0, 1]. More: tighter, more energy.
+    float limitErp = 0.1F;      ///< The same for angles past a limit.
+    float maxMendSpeed = 3.0F;  ///< m/s: bound on the speed that mending a gap may give.
+    float maxMendTurn = 6.0F;   ///< rad/s: the same for angles.
+    float limitMargin = 0.1F;   ///< Radians before a limit from where its row is active (it only bounds the speed).
+};
+
+/// A hinge or cone-twist of a profile as rows for Bullet's solvers (docs/physics.md): three rows close the anchors, a
+/// hinge has two more that align the axes; limits are one-sided rows that are active before they are reached, with the
+/// speed that would just reach them as the bound, so that nothing runs past; dry friction is a motor of speed 0.
+///
+/// Unlike btConeTwistConstraint, the swing ellipse is fixed in the parent's frame, whatever the twist, and the rows are
+/// the exact gradients of swing and twist.
+class RagdollJoint final : public btTypedConstraint {
+  public:
+    static constexpr int kUserType = 0x4C54;  ///< getUserConstraintType() of every RagdollJoint.
+    static constexpr int kMaxRows = 8;
+
+    /// Body A is the parent, body B the child. `tuning` must outlive the joint.
+    RagdollJoint(const ConstraintProfile& profile, btRigidBody& parent, btRigidBody& child, const JointTuning& tuning);
+
+    void getInfo1(btConstraintInfo1* info) override;
+    void getInfo2(btConstraintInfo2* info) override;
+    void setParam(int num, btScalar value, int axis) override;
+    [[nodiscard]] btScalar getParam(int num, int axis) const override;
+
+    /// The impulse of the present rows in the step before, for warm starting; 0 for a row that is new.
+    [[nodiscard]] float storedImpulse(int row) const { return impulses_[slots_[row]]; }
+    void storeImpulse(int row, float impulse) { newImpulses_[slots_[row]] = impulse; }
+    /// Call when all rows of a step are stored: forgets rows that were not active.
+    void finishStoring();
+    void forgetImpulses();
+
+  private:
+    // One angular row; linear rows need only the anchors.
+    struct AngularRow {
+        int slot = 0;
+        vec3 axis{0, 0, 0};  // world; the row's speed is axis · (child's - parent's angular velocity)
+        float error = 0;     // radians that remain (one-sided: before the limit) or are wrong (two-sided)
+        enum class Kind { align, friction, limit } kind = Kind::align;
+    };
+    void prepare();
+    void prepareHinge(const mat3& parentAxes, const mat3& childAxes);
+    void prepareCone(const mat3& parentAxes, const quat& parentFromChild);
+    void addRow(const AngularRow& row);
+
+    const ConstraintProfile& profile_;
+    const JointTuning& tuning_;
+    std::array<AngularRow, kMaxRows> rows_;
+    int rowCount_ = 0;
+    vec3 parentArm_{0, 0, 0};
+    vec3 childArm_{0, 0, 0};
+    vec3 gap_{0, 0, 0};  // from the parent's anchor to the child's, world
+
+    static constexpr int kSlots = 14;
+    std::array<int, kMaxRows> slots_{};
+    std::array<float, kSlots> impulses_{};
+    std::array<float, kSlots> newImpulses_{};
+};
+
+}  // namespace lutka::physics
