@@ -77,6 +77,8 @@ struct RagdollProfile {
     std::vector<ConstraintProfile> constraints;  ///< constraints[i].child == i + 1.
     std::vector<std::pair<int, int>>
         filteredPairs;  ///< Bodies that never collide, beside the linked ones; first < second.
+    /// What the fit had to bend, a sentence each with its figures (a limit widened to hold the bind pose). For people.
+    std::vector<std::string> notes;
 };
 
 /// Index of the body with that role; -1 when there is none.

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <vector>
+
+#include "animation/character.hpp"
+#include "animation/humanoid/map_humanoid.hpp"
+#include "physics/fit_ragdoll.hpp"
+
+namespace lutka::physics {
+
+/// A point of the skin with the area it stands for, in the standard stance's axes (+Y up, facing +Z, left at +X;
+/// the origin is the model's).
+struct SkinPoint {
+    vec3 position{0, 0, 0};
+    float area = 0.0F;  ///< A third of the area of the triangles around the vertex, m².
+};
+
+/// A body to be made: whose it is and where its segment runs. Positions in the standard stance's axes.
+struct PlannedBody {
+    Role role = Role::hips;
+    int joint = animation::kNoJoint;
+    int parent = -1;              ///< Index of the parent body; -1 for the first.
+    vec3 start{0, 0, 0};          ///< The joint.
+    vec3 end{0, 0, 0};            ///< The next joint down the limb, or the tip.
+    bool endsAtJoint = false;     ///< False: `end` is a tip, from the skin or from proportions.
+    std::vector<SkinPoint> skin;  ///< The vertices that the joint and what follows it own.
+
+    [[nodiscard]] vec3 direction() const;  ///< Unit, from start to end.
+    [[nodiscard]] float length() const;
+};
+
+/// Which bodies a ragdoll will have and which part of the character each stands for.
+struct BodyPlan {
+    std::vector<PlannedBody> bodies;  ///< Parents first; bodies[0] is the hips.
+    std::vector<int> bodyOfJoint;     ///< One a joint of the skeleton: the body that its skin belongs to.
+    float heightM = 0.0F;             ///< Of the standing figure: crown to sole.
+    float middleX = 0.0F;             ///< The plane of symmetry, in the standard stance's axes.
+    /// Whether every joint of a left body lies within kSymmetryTolerance · height of its right counterpart's mirror
+    /// image. Left and right shapes are then made equal.
+    bool symmetric = false;
+
+    [[nodiscard]] int bodyOf(Role role) const;
+    [[nodiscard]] vec3 mirror(const vec3& point) const { return {2.0F * middleX - point.x, point.y, point.z}; }
+};
+inline constexpr float kSymmetryTolerance = 0.02F;
+
+/// The direction in which a role's segment runs from its joint when the figure stands with arms hanging and palms to
+/// the thighs, in the standard stance's axes; for the left side and the middle (mirror x for the right).
+[[nodiscard]] vec3 standingDirection(Role role);
+
+/// Which roles get a body: hips, spine, the topmost trunk role, head and the limbs, as far as they are mapped, and what
+/// the options add; with the segments and the skin of each. The map must be a humanoid's with hips.
+///
+/// A joint's skin belongs to its own body, else to that of the nearest joint above it with a role (a role without a
+/// body counts for the nearest role above that has one), else, where a rig hangs limbs on control joints, to the body
+/// whose segment is nearest.
+[[nodiscard]] BodyPlan planBodies(const animation::Character& character, const animation::HumanoidMap& map,
+                                  const FitOptions& options);
+
+/// The body that carries a role's part: its own, else that of the nearest role above; 0 when there is none.
+[[nodiscard]] int bodyCarrying(const BodyPlan& plan, Role role);
+
+}  // namespace lutka::physics

@@ -1,0 +1,73 @@
+#include "physics/fit_ragdoll.hpp"
+
+#include <algorithm>
+
+#include "physics/anatomy.hpp"
+#include "physics/body_plan.hpp"
+#include "physics/fit_shapes.hpp"
+#include "physics/limits.hpp"
+#include "physics/masses.hpp"
+#include "physics/separate_shapes.hpp"
+
+namespace lutka::physics {
+namespace {
+
+Result<void> checkInput(const animation::Character& character, const animation::HumanoidMap& map,
+                        const FitOptions& options) {
+    const auto fail = [&](std::string message, std::string mend) {
+        return Error{ErrorCode::input, std::move(message), character.name, std::move(mend)};
+    };
+    if (!map.humanoid || map.jointOf(Role::hips) == animation::kNoJoint) {
+        return fail("not a humanoid: no joint plays the hips", "look at `lutka map` and bind the roles by hand");
+    }
+    if (!(options.totalMassKg > 0.0F) || !std::isfinite(options.totalMassKg)) {
+        return Error{ErrorCode::usage, "the total mass must be above 0 kg", {}, {}};
+    }
+    return {};
+}
+
+void addBodies(RagdollProfile& profile, const animation::Character& character, const BodyPlan& plan,
+               const std::vector<PlacedShape>& shapes) {
+    const RigidTransform modelFromStandard{glm::conjugate(profile.standardFromModel), vec3(0)};
+    for (std::size_t i = 0; i < plan.bodies.size(); ++i) {
+        const PlannedBody& planned = plan.bodies[i];
+        BodyProfile& body = profile.bodies.emplace_back();
+        body.role = planned.role;
+        body.joint = character.skeleton.names[planned.joint];
+        body.jointPath = jointPath(character.skeleton, planned.joint);
+        body.shape = shapes[i].shape;
+        const RigidTransform modelFromBody = modelFromStandard * shapes[i].standardFromBody;
+        body.jointFromBody = inverse(character.skeleton.bindModelFromJoint[planned.joint]) * modelFromBody;
+        body.jointFromBody.rotation = glm::normalize(body.jointFromBody.rotation);
+    }
+}
+
+}  // namespace
+
+Result<RagdollProfile> fitRagdoll(const animation::Character& character, const animation::HumanoidMap& map,
+                                  const FitOptions& options) {
+    if (const Result<void> checked = checkInput(character, map, options); !checked) return checked.error();
+    const BodyPlan plan = planBodies(character, map, options);
+    const Anatomy anatomy = findAnatomy(plan);
+    const std::vector<PlacedShape> shapes = fitShapes(plan, anatomy);
+
+    RagdollProfile profile;
+    profile.name = character.name;
+    profile.heightM = plan.heightM;
+    profile.totalMassKg = options.totalMassKg;
+    profile.standardFromModel = map.standardFromModel;
+    addBodies(profile, character, plan, shapes);
+    assignMasses(profile.bodies, options);
+    profile.constraints = makeConstraints(plan, anatomy, shapes, profile.notes);
+    setJointFriction(profile);
+    std::vector<RigidTransform> placed;
+    for (const PlacedShape& shape : shapes)
+        placed.push_back(shape.standardFromBody);
+    profile.filteredPairs = pairsToFilter(profile, placed);
+    if (const std::vector<std::string> problems = validate(profile); !problems.empty()) {
+        return Error{ErrorCode::input, "no valid ragdoll comes out: " + problems.front(), character.name, {}};
+    }
+    return profile;
+}
+
+}  // namespace lutka::physics

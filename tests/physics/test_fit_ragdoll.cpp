@@ -1,0 +1,120 @@
+#include "physics/fit_ragdoll.hpp"
+
+#include <glm/geometric.hpp>
+
+#include "support/catch.hpp"
+#include "support/rigs.hpp"
+
+using namespace lutka;
+using namespace lutka::physics;
+
+namespace {
+
+RagdollProfile fitBiped(const FitOptions& options = {}) {
+    const auto biped = test::makeBiped();
+    Result<RagdollProfile> fitted = fitRagdoll(biped, test::mapOfBiped(biped), options);
+    REQUIRE(fitted);
+    CHECK(validate(fitted.value()).empty());
+    return std::move(fitted).value();
+}
+
+RigidTransform modelFromBody(const animation::Character& character, const BodyProfile& body) {
+    return character.skeleton.bindModelFromJoint[findJoint(character.skeleton, body.joint)] * body.jointFromBody;
+}
+
+}  // namespace
+
+TEST_CASE("the biped gets sixteen bodies with the hips first") {
+    const RagdollProfile profile = fitBiped();
+    CHECK(profile.bodies.size() == 16);
+    CHECK(profile.bodies[0].role == Role::hips);
+    CHECK(profile.heightM == Approx(1.75).margin(0.05));
+    CHECK(profile.notes.empty());
+    CHECK(profile.filteredPairs.empty());
+}
+
+TEST_CASE("capsules lie in the tubes that the biped's skin is made of") {
+    const auto biped = test::makeBiped();
+    const RagdollProfile profile = fitBiped();
+    struct Tube {
+        Role role;
+        float radius;
+        vec3 axis;
+    };
+    for (const Tube& tube : {Tube{Role::leftUpperArm, 0.05F, {1, 0, 0}}, Tube{Role::leftLowerArm, 0.04F, {1, 0, 0}},
+                             Tube{Role::rightHand, 0.03F, {1, 0, 0}}, Tube{Role::leftUpperLeg, 0.08F, {0, 1, 0}},
+                             Tube{Role::rightLowerLeg, 0.055F, {0, 1, 0}}, Tube{Role::leftFoot, 0.04F, {0, 0, 1}},
+                             Tube{Role::head, 0.09F, {0, 1, 0}}, Tube{Role::chest, 0.15F, {0, 1, 0}}}) {
+        const BodyProfile& body = profile.bodies[bodyOf(profile, tube.role)];
+        INFO(roleName(tube.role));
+        CHECK(body.shape.kind == BodyShape::Kind::capsule);
+        CHECK(body.shape.radius == Approx(tube.radius).epsilon(0.03));
+        const vec3 axis = modelFromBody(biped, body).rotation * vec3(0, 1, 0);
+        CHECK(std::abs(glm::dot(axis, tube.axis)) > 0.99F);
+    }
+}
+
+TEST_CASE("both sides of a symmetric figure are mirror images") {
+    const auto biped = test::makeBiped();
+    const RagdollProfile profile = fitBiped();
+    for (const BodyProfile& body : profile.bodies) {
+        const BodyProfile& other = profile.bodies[bodyOf(profile, mirrored(body.role))];
+        CHECK(body.shape.radius == other.shape.radius);
+        CHECK(body.shape.halfLength == Approx(other.shape.halfLength).epsilon(1e-6));
+        const vec3 here = modelFromBody(biped, body).translation;
+        const vec3 there = modelFromBody(biped, other).translation;
+        CHECK(glm::distance(here * vec3(-1, 1, 1), there) < 1e-5F);
+    }
+}
+
+TEST_CASE("options add bodies for clavicles, neck and the whole trunk") {
+    FitOptions options;
+    options.shoulderBodies = options.neckBody = options.allTrunkBodies = options.toeBodies = true;
+    const RagdollProfile profile = fitBiped(options);
+    CHECK(profile.bodies.size() == 19);  // the biped has no toes and no upper chest
+    CHECK(bodyOf(profile, Role::neck) >= 0);
+    const int arm = bodyOf(profile, Role::rightUpperArm);
+    CHECK(profile.bodies[profile.constraints[arm - 1].parent].role == Role::rightShoulder);
+}
+
+TEST_CASE("missing roles give fewer bodies, hung on the nearest body above") {
+    const auto biped = test::makeBiped();
+    auto map = test::mapOfBiped(biped);
+    for (const Role role : {Role::leftHand, Role::rightHand, Role::chest, Role::neck, Role::leftFoot, Role::rightFoot})
+        map.roles[animation::indexOf(role)].reset();
+    const auto fitted = fitRagdoll(biped, map);
+    REQUIRE(fitted);
+    const RagdollProfile& profile = fitted.value();
+    CHECK(profile.bodies.size() == 11);
+    CHECK(profile.bodies[profile.constraints[bodyOf(profile, Role::leftUpperArm) - 1].parent].role == Role::spine);
+    // The forearm takes over the hand's skin and mass.
+    const BodyProfile& forearm = profile.bodies[bodyOf(profile, Role::leftLowerArm)];
+    CHECK(forearm.massKg == Approx(75.0F * (0.0162F + 0.0061F)).epsilon(1e-3));
+    CHECK(2.0F * (forearm.shape.halfLength + forearm.shape.radius) > 0.4F);
+}
+
+TEST_CASE("a figure without a skin gets a man's proportions") {
+    auto biped = test::makeBiped();
+    const auto map = test::mapOfBiped(biped);
+    biped.meshes.clear();
+    const auto fitted = fitRagdoll(biped, map);
+    REQUIRE(fitted);
+    const RagdollProfile& profile = fitted.value();
+    CHECK(profile.bodies.size() == 16);
+    CHECK(profile.heightM == Approx(1.75).epsilon(0.05));
+    for (const BodyProfile& body : profile.bodies) {
+        INFO(roleName(body.role));
+        CHECK(body.shape.radius > 0.01F * profile.heightM);
+        CHECK(body.shape.radius < 0.1F * profile.heightM);
+    }
+}
+
+TEST_CASE("a map without hips and a total mass of nothing are refused") {
+    const auto biped = test::makeBiped();
+    const auto refused = fitRagdoll(biped, {});
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().code == ErrorCode::input);
+    FitOptions options;
+    options.totalMassKg = 0.0F;
+    CHECK_FALSE(fitRagdoll(biped, test::mapOfBiped(biped), options));
+}
