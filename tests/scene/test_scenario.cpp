@@ -1,1 +1,95 @@
+#include "scene/scenario.hpp"
+
+#include <glm/geometric.hpp>
+
+#include "scene/body_bounds.hpp"
 #include "support/catch.hpp"
+#include "support/ragdolls.hpp"
+
+using namespace lutka;
+using namespace lutka::scene;
+
+namespace {
+
+Scenario make(const RagdollAsset& asset, std::string_view name, int count = 1, std::uint64_t seed = 0) {
+    auto scenario =
+        makeScenario(name, count, seed, figureBounds(asset.profile, asset.rig), asset.profile.standardFromModel);
+    REQUIRE(scenario);
+    return std::move(scenario).value();
+}
+
+// Lowest point of any body of a doll as it is placed.
+float lowestPoint(const RagdollAsset& asset, const Placement& placement) {
+    float lowest = 1e9F;
+    for (std::size_t body = 0; body < asset.profile.bodies.size(); ++body) {
+        const RigidTransform world = placement.worldFromModel * asset.rig.bindModelFromBody[body];
+        lowest = std::min(lowest, world.translation.y - halfAabbOf(asset.profile.bodies[body].shape, world.rotation).y);
+    }
+    return lowest;
+}
+
+bool sameStart(const Scenario& a, const Scenario& b) {
+    for (std::size_t i = 0; i < a.dolls.size(); ++i) {
+        const Placement& p = a.dolls[i];
+        const Placement& q = b.dolls[i];
+        if (p.worldFromModel.translation != q.worldFromModel.translation || p.linearVelocity != q.linearVelocity ||
+            p.worldFromModel.rotation != q.worldFromModel.rotation || p.angularVelocity != q.angularVelocity) {
+            return false;
+        }
+    }
+    return a.dolls.size() == b.dolls.size();
+}
+
+}  // namespace
+
+TEST_CASE("every scene of the registry has its dolls above the ground and something to fall on") {
+    const auto asset = test::bipedRagdoll();
+    for (const ScenarioInfo& info : scenarioRegistry()) {
+        INFO(info.name);
+        const Scenario scenario = make(*asset, info.name, 3, 7);
+        CHECK(scenario.dolls.size() == 3);
+        CHECK_FALSE(scenario.statics.empty());
+        for (const Placement& doll : scenario.dolls)
+            CHECK(lowestPoint(*asset, doll) > 0.0F);
+    }
+}
+
+TEST_CASE("drop hangs the soles one metre above the floor, upright for seed 0") {
+    const auto asset = test::bipedRagdoll();
+    const Scenario scenario = make(*asset, "drop");
+    CHECK(lowestPoint(*asset, scenario.dolls[0]) == Approx(1.0F).margin(1e-4));
+    const quat standing = scenario.dolls[0].worldFromModel.rotation * glm::conjugate(asset->profile.standardFromModel);
+    CHECK(glm::length(rotationVector(standing)) < 1e-4F);
+}
+
+TEST_CASE("the same seed gives the same start and another seed another one") {
+    const auto asset = test::bipedRagdoll();
+    for (const ScenarioInfo& info : scenarioRegistry()) {
+        INFO(info.name);
+        CHECK(sameStart(make(*asset, info.name, 4, 5), make(*asset, info.name, 4, 5)));
+        CHECK_FALSE(sameStart(make(*asset, info.name, 4, 5), make(*asset, info.name, 4, 6)));
+    }
+}
+
+TEST_CASE("a figure that faces elsewhere in its file stands the same way in a scene") {
+    const FigureBounds figure{{-0.8F, 0, -0.1F}, {0.8F, 1.75F, 0.1F}};
+    const quat turned = glm::angleAxis(1.0F, vec3(0, 1, 0));
+    const auto straight = makeScenario("drop", 1, 0, figure, quat(1, 0, 0, 0));
+    const auto other = makeScenario("drop", 1, 0, figure, turned);
+    REQUIRE(straight);
+    REQUIRE(other);
+    const vec3 point(0.2F, 1.0F, 0.1F);  // in the standard stance
+    const vec3 a = straight.value().dolls[0].worldFromModel * point;
+    const vec3 b = other.value().dolls[0].worldFromModel * (glm::conjugate(turned) * point);
+    CHECK(glm::distance(a, b) < 1e-5F);
+}
+
+TEST_CASE("an unknown scene and an absurd count are usage errors that list what there is") {
+    const FigureBounds figure{vec3(-1), vec3(1)};
+    const auto unknown = makeScenario("dropp", 1, 0, figure, quat(1, 0, 0, 0));
+    REQUIRE_FALSE(unknown);
+    CHECK(unknown.error().code == ErrorCode::usage);
+    CHECK(unknown.error().mend.find("drop, spread") != std::string::npos);
+    CHECK_FALSE(makeScenario("drop", 0, 0, figure, quat(1, 0, 0, 0)));
+    CHECK_FALSE(makeScenario("drop", 10001, 0, figure, quat(1, 0, 0, 0)));
+}

@@ -1,0 +1,83 @@
+#include "scene/recording.hpp"
+
+#include <unistd.h>
+
+#include <fstream>
+
+#include "core/files.hpp"
+#include "support/catch.hpp"
+
+using namespace lutka;
+using namespace lutka::scene;
+namespace fs = std::filesystem;
+
+namespace {
+
+Recording sample() {
+    Recording recording;
+    recording.model = "figure";
+    recording.scene = "drop";
+    recording.dolls = 2;
+    recording.bodiesPerDoll = 3;
+    recording.props = 1;
+    for (int i = 0; i < 4 * 7; ++i) {
+        recording.frames.push_back({quat(0, 1, 0, 0), vec3(static_cast<float>(i), 0.5F, -2)});
+    }
+    return recording;
+}
+
+fs::path temporaryFile() {
+    return fs::temp_directory_path() / ("lutka_recording_" + std::to_string(::getpid()));
+}
+
+struct RemoveAtEnd {
+    fs::path file;
+    ~RemoveAtEnd() { fs::remove(file); }
+};
+
+}  // namespace
+
+TEST_CASE("a recording comes back as it was") {
+    const RemoveAtEnd file{temporaryFile()};
+    const Recording written = sample();
+    CHECK(written.steps() == 4);
+    REQUIRE(saveRecording(file.file, written));
+    const auto read = loadRecording(file.file);
+    REQUIRE(read);
+    CHECK(read.value().model == "figure");
+    CHECK(read.value().scene == "drop");
+    CHECK(read.value().dolls == 2);
+    CHECK(read.value().bodiesPerDoll == 3);
+    CHECK(read.value().props == 1);
+    REQUIRE(read.value().frames.size() == written.frames.size());
+    for (std::size_t i = 0; i < written.frames.size(); ++i) {
+        CHECK(read.value().frames[i].translation == written.frames[i].translation);
+        CHECK(read.value().frames[i].rotation == written.frames[i].rotation);
+    }
+}
+
+TEST_CASE("a damaged recording is an input error that says what is wrong") {
+    const RemoveAtEnd file{temporaryFile()};
+    REQUIRE(saveRecording(file.file, sample()));
+    const auto bytes = readFile(file.file);
+    REQUIRE(bytes);
+    const std::string good(bytes.value().begin(), bytes.value().end());
+    const auto refusal = [&](const std::string& content) {
+        REQUIRE(writeFileAtomically(file.file, content));
+        const auto read = loadRecording(file.file);
+        REQUIRE_FALSE(read);
+        CHECK(read.error().code == ErrorCode::input);
+        return read.error().message;
+    };
+    CHECK(refusal(good.substr(0, good.size() - 5)) == "is cut short");
+    CHECK(refusal(good.substr(0, good.find('\n') + 1)) == "is cut short");
+    CHECK(refusal("hello\n") == "is not a recording of ours");
+    CHECK(refusal("no newline") == "is not a recording of ours");
+    std::string notFinite = good;
+    const float nan = NAN;
+    std::memcpy(notFinite.data() + notFinite.find('\n') + 1, &nan, sizeof nan);
+    CHECK(refusal(notFinite) == "holds a frame that is not finite");
+    std::string tooMany = good;
+    tooMany.replace(tooMany.find("\"dolls\":2"), 9, "\"dolls\":0");
+    CHECK(refusal(tooMany) == "has counts or a step that are out of range");
+}

@@ -1,0 +1,48 @@
+#include "scene/report.hpp"
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "support/ragdolls.hpp"
+
+using namespace lutka;
+using namespace lutka::scene;
+
+TEST_CASE("step times are summarised by mean, median and 99th percentile") {
+    std::vector<float> ms(101);
+    for (std::size_t i = 0; i < ms.size(); ++i)
+        ms[i] = static_cast<float>(100 - i);
+    const StepTimes times = summarise(ms);
+    CHECK(times.mean == Approx(50));
+    CHECK(times.p50 == Approx(50));
+    CHECK(times.p99 == Approx(99));
+    CHECK(summarise({}).mean == 0.0F);
+}
+
+TEST_CASE("the report is one JSON document with every key of the contract") {
+    const auto asset = test::bipedRagdoll();
+    auto scenario =
+        makeScenario("drop", 2, 1, figureBounds(asset->profile, asset->rig), asset->profile.standardFromModel);
+    REQUIRE(scenario);
+    const auto simulation = Simulation::create(*asset, std::move(scenario).value(), {});
+    REQUIRE(simulation);
+    for (int step = 0; step < 30; ++step)
+        simulation.value()->step();
+    const auto json = nlohmann::json::parse(reportJson(*simulation.value()));
+    for (const char* key : {"model", "scene", "count", "seconds", "dt", "substeps", "threads", "steps", "stateHash",
+                            "wallMsPerStep", "quality", "bodies", "constraints"}) {
+        INFO(key);
+        CHECK(json.contains(key));
+    }
+    for (const char* key : {"jointSeparationM", "limitViolationDeg", "floorPenetrationM", "selfPenetrationM",
+                            "energyGrowthJ", "settleSeconds", "residualSpeedMps", "nonFinite"}) {
+        INFO(key);
+        CHECK(json["quality"].contains(key));
+    }
+    CHECK(json["count"] == 2);
+    CHECK(json["steps"] == 30);
+    CHECK(json["bodies"] == 2 * asset->profile.bodies.size());
+    CHECK(json["quality"]["settleSeconds"].is_null());
+    CHECK(json["stateHash"].get<std::string>().size() == 16);
+}
