@@ -106,6 +106,11 @@ void Simulation::reset() {
     build();
 }
 
+void Simulation::refresh() {
+    remember();
+    previous_ = present_;
+}
+
 void Simulation::remember() {
     const std::size_t bodies = asset_.profile.bodies.size();
     present_.resize(bodies * scenario_.dolls.size() + scenario_.props.size());

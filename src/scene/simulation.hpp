@@ -47,6 +47,8 @@ class Simulation {
     void show(std::span<const RigidTransform> frame);
     /// Back to the start: the same bits again.
     void reset();
+    /// Call after placing bodies in world() by hand: what is shown is where they are now, not on the way there.
+    void refresh();
 
     [[nodiscard]] int steps() const { return static_cast<int>(stepMs_.size()); }
     [[nodiscard]] double seconds() const { return static_cast<double>(steps()) * static_cast<double>(options_.dt); }
