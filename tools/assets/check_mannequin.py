@@ -147,7 +147,7 @@ def check_weights(model, mesh, expect):
     expect(moved < 1e-5, f"the nodes' pose is the bind pose (skin moves by {moved:.2e} m)")
 
 
-def _dense(model, mesh, first):
+def _dense(mesh, first):
     table = np.zeros((len(mesh["POSITION"]), len(BODY_JOINTS)))
     for k in range(4):
         np.add.at(table, (np.arange(len(table)), mesh["JOINTS_0"][:, k].astype(int)), mesh["WEIGHTS_0"][:, k])
@@ -156,7 +156,7 @@ def _dense(model, mesh, first):
 
 def check_symmetry(model, mesh, expect):
     _, first = np.unique(np.round(mesh["POSITION"] * 1e6).astype(np.int64), axis=0, return_index=True)
-    p, n, weights = mesh["POSITION"][first], mesh["NORMAL"][first], _dense(model, mesh, first)
+    p, n, weights = mesh["POSITION"][first], mesh["NORMAL"][first], _dense(mesh, first)
     image = p * [-1, 1, 1]
     order, other = np.lexsort(np.round(p * 1e5).T), np.lexsort(np.round(image * 1e5).T)
     expect(np.abs(p[order] - image[other]).max() < 1e-4, "positions are mirror-symmetric to 1e-4 m")

@@ -97,7 +97,8 @@ def add_skeleton(document, joints):
         parent = joints[index[j.parent]] if j.parent else None
         frame = parent.rotation if parent else np.eye(3)
         offset = frame.T @ (j.position - (parent.position if parent else 0))
-        node = {"name": j.name, "translation": offset.round(9).tolist(), "rotation": clips.quaternion(frame.T @ j.rotation).round(9).tolist()}
+        turn = clips.quaternion(frame.T @ j.rotation)
+        node = {"name": j.name, "translation": offset.round(9).tolist(), "rotation": turn.round(9).tolist()}
         children = [2 + index[k.name] for k in joints if k.parent == j.name]
         if children:
             node["children"] = children
@@ -139,7 +140,8 @@ def build(path):
     add_skeleton(document, joints)
     add_clips(document, joints)
     document.write(path)
-    print(f"{os.path.relpath(path)}: {len(triangles)} triangles, {len(whole)} vertices, {len(joints)} joints, {chart.max() + 1} charts a side")
+    print(f"{os.path.relpath(path)}: {len(triangles)} triangles, {len(whole)} vertices, {len(joints)} joints, "
+          f"{chart.max() + 1} charts a side")
 
 
 if __name__ == "__main__":

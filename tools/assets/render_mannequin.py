@@ -2,7 +2,7 @@
 
     blender -b -noaudio --python tools/assets/render_mannequin.py -- MODEL.glb FOLDER [SHEET...]
 
-Sheets: body, close, bend, walk, idle, uv. Each is one PNG a picture, named SHEET_N.png in FOLDER.
+Sheets: body, close, bend, flex, walk, idle, uv. Each is one PNG a picture, named SHEET_N.png in FOLDER.
 """
 import math
 import os
@@ -17,16 +17,32 @@ from mathutils import Quaternion, Vector  # noqa: E402
 # azimuth and elevation in degrees, target (Blender axes: Z up, the figure faces -Y), width of the picture in metres, pixels
 BODY = [(0, 0, (0, 0, .88), 1.90, 560, 640), (90, 0, (0, 0, .88), 1.90, 330, 640), (35, 8, (0, 0, .88), 1.90, 480, 640),
         (180, 0, (0, 0, .88), 1.90, 560, 640)]
-CLOSE = [(0, 0, (0, 0, 1.60), .44, 420, 420), (35, 5, (0, 0, 1.60), .44, 420, 420), (90, 0, (0, 0, 1.60), .44, 420, 420),
-         (60, 40, (.61, -.05, .99), .30, 420, 420), (-70, 0, (.61, -.05, .99), .30, 420, 420), (40, 25, (.12, -.06, .08), .34, 420, 420),
-         (150, 10, (.08, 0, 1.38), .55, 420, 420), (30, 0, (.08, 0, .92), .50, 420, 420), (110, 0, (.08, 0, .42), .50, 420, 420)]
-# Turns about each joint's own X (all flex for positive degrees), or about model axes ("y+30").
-BEND = [{"leftLowerArm": 90, "rightLowerArm": 130, "leftLowerLeg": 100, "rightLowerLeg": 60, "rightUpperLeg": 60, "leftUpperLeg": 10},
-        {"leftUpperArm": "y+60", "rightUpperArm": "y-120", "rightUpperLeg": 90, "rightLowerLeg": 90, "leftUpperLeg": "y-30", "head": "z+50"},
-        {"leftUpperArm": "y-45", "rightUpperArm": "z+60", "spine": 25, "chest": 25, "upperChest": 20, "leftFoot": -40, "rightFoot": 20},
-        {"spine": "z+20", "chest": "z+20", "upperChest": "z+15", "leftUpperLeg": -25, "rightUpperLeg": 110, "rightLowerLeg": 130,
-         **{s + f + p: 60 for s in ("left",) for f in ("Index", "Middle", "Ring", "Little") for p in ("Proximal", "Intermediate", "Distal")}}]
-MODEL_AXES = {"x": (1, 0, 0), "y": (0, -1, 0), "z": (0, 0, 1)}
+CLOSE = [
+    (0, 0, (0, 0, 1.60), .44, 420, 420), (35, 5, (0, 0, 1.60), .44, 420, 420), (90, 0, (0, 0, 1.60), .44, 420, 420),
+    (60, 40, (.61, -.05, .99), .30, 420, 420), (-70, 0, (.61, -.05, .99), .30, 420, 420), (40, 25, (.12, -.06, .08), .34, 420, 420),
+    (150, 10, (.08, 0, 1.38), .55, 420, 420), (30, 0, (.08, 0, .92), .50, 420, 420), (110, 0, (.08, 0, .42), .50, 420, 420)]
+# Turns about each joint's own X in degrees, or about an axis of the model ("y+30": y is forward, z is up).
+LONG_FINGERS = ["left" + f + p for f in ("Index", "Middle", "Ring", "Little") for p in ("Proximal", "Intermediate", "Distal")]
+BEND = [
+    {"leftLowerArm": 90, "rightLowerArm": 130, "leftLowerLeg": 100, "rightLowerLeg": 60, "rightUpperLeg": 60, "leftUpperLeg": 10},
+    {"leftUpperArm": "y+60", "rightUpperArm": "y-120", "rightUpperLeg": 90, "rightLowerLeg": 90, "leftUpperLeg": "y-30",
+     "head": "z+50"},
+    {"leftUpperArm": "y-45", "rightUpperArm": "z+60", "spine": 25, "chest": 25, "upperChest": 20, "leftFoot": -40, "rightFoot": 20},
+    {"spine": "z+20", "chest": "z+20", "upperChest": "z+15", "leftUpperLeg": -25, "rightUpperLeg": 110, "rightLowerLeg": 130,
+     **{name: 60 for name in LONG_FINGERS}}]
+# Close-ups of bent joints: turns, then the view.
+FIST = {**{name: 75 for name in LONG_FINGERS}, "leftThumbProximal": 40, "leftThumbDistal": 40}
+FLEX = [
+    ({"leftLowerArm": 90}, (0, 35, (.38, -.05, 1.22), .42, 420, 420)),
+    ({"leftLowerArm": 135}, (-40, 10, (.38, -.05, 1.25), .42, 420, 420)),
+    (FIST, (-70, 0, (.59, -.05, 1.02), .26, 420, 420)),
+    ({"leftLowerLeg": 100}, (90, 5, (.1, .08, .48), .50, 420, 420)),
+    ({"leftUpperLeg": 100, "leftLowerLeg": 120}, (60, 10, (.05, -.1, .92), .62, 420, 420)),
+    ({"leftUpperArm": "y+80", "leftShoulder": 15}, (20, 0, (.15, 0, 1.42), .55, 420, 420)),
+    ({"leftUpperArm": "y-42"}, (15, 0, (.15, 0, 1.32), .50, 420, 420)),
+    ({"leftFoot": -35, "leftToes": 35}, (75, 5, (.12, -.05, .08), .40, 420, 420)),
+    ({"leftUpperLeg": -35, "rightUpperLeg": 60}, (160, 0, (0, 0, .92), .60, 420, 420))]
+MODEL_AXES = {"y": (0, -1, 0), "z": (0, 0, 1)}
 
 
 def material(name, colour, rough):
@@ -107,7 +123,8 @@ def checkerboard():
 def main():
     model, folder, *sheets = sys.argv[sys.argv.index("--") + 1:]
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    bpy.ops.import_scene.gltf(filepath=os.path.abspath(model))
+    # Vertices split along texture seams are merged: Blender bends normals by its own fans, which would show every seam.
+    bpy.ops.import_scene.gltf(filepath=os.path.abspath(model), merge_vertices=True)
     armature = next(o for o in bpy.data.objects if o.type == "ARMATURE")
     stage()
 
@@ -121,6 +138,9 @@ def main():
     for k, turns in enumerate(BEND if "bend" in sheets else []):
         bend(armature, turns)
         shoot(path("bend", k), (25, 30, 60, -25)[k], 5, (0, 0, .92), 2.0, 480, 520)
+    for k, (turns, view) in enumerate(FLEX if "flex" in sheets else []):
+        bend(armature, turns)
+        shoot(path("flex", k), *view)
     for clip in ("walk", "idle"):
         for k in range(6 if clip in sheets else 0):
             play(armature, clip, k / (8 if clip == "walk" else 6))

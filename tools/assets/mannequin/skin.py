@@ -6,6 +6,7 @@ import numpy as np
 
 from . import skeleton as sk
 from .fields import smoothstep
+from .figure import ARMPIT
 
 
 class Weights:
@@ -37,7 +38,7 @@ def _torso(weights, p, share):
         weights.add(name, share * part)
 
 
-def _leg(weights, figure, p, share):
+def _leg(weights, p, share):
     along = (p - sk.ANKLE) @ sk.FOOT_AXIS
     knee = p[:, 1] - .2 * (p[:, 2] - sk.KNEE[2])
     upper, lower = _steps(-knee, [(-sk.KNEE[1], .048)])
@@ -99,7 +100,7 @@ def _left_half(figure, p, names):
     leg = smoothstep(-.058, .058, groin) * (1 - arm) * np.where(y > .79, smoothstep(-.004, .030, x), 1)
     leg = np.where(y < 1.02, leg, 0) * (arm_field > .02)
     _torso(weights, p, 1 - arm - leg)
-    _leg(weights, figure, p, leg)
+    _leg(weights, p, leg)
     _arm(weights, figure, p, arm)
     return weights.table
 
@@ -110,7 +111,8 @@ def mirrored_columns(names):
     return [names.index(n) for n in other]
 
 
-def _spread(table, triangles, rounds, rate=.5):
+def _spread(table, triangles, rounds, rate):
+    """Averages with the neighbours along the surface; `rate` in 0..1, a number or one for each vertex."""
     edges = np.unique(np.sort(np.vstack([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1), axis=0)
     valence = np.bincount(edges.ravel(), minlength=len(table))[:, None]
     for _ in range(rounds):
@@ -145,7 +147,10 @@ def skin_weights(figure, vertices, triangles, mirror_of, names):
     table = np.where(left[:, None], table, table[:, columns])
     seam = mirror_of == np.arange(len(vertices))
     table[seam] = .5 * (table[seam] + table[seam][:, columns])
-    table = _spread(table, triangles, rounds=4)
+    table = _spread(table, triangles, rounds=4, rate=.5)
+    # The armpit is where the skin stretches most: the change from flank to arm is drawn out over a hand's breadth.
+    armpit = 1 - smoothstep(.050, .115, np.linalg.norm(folded - ARMPIT, axis=1))
+    table = _spread(table, triangles, rounds=24, rate=.6 * armpit[:, None])
     table = .5 * (table + table[mirror_of][:, columns])
     table = _four_largest(table, seam, columns)
     return np.where(left[:, None], table, table[mirror_of][:, columns])
