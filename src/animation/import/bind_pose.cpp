@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
 #include <optional>
@@ -11,7 +12,7 @@ namespace lutka::animation::rig_import {
 namespace {
 
 // How far the mesh node's frame may be from the joints' and still be taken for the bind pose's.
-constexpr double kScaleTolerance = 1.1;
+constexpr double kSameScale = 1e-3;
 constexpr double kAngleTolerance = 0.8;   // 45 degrees
 constexpr double kPlaceTolerance = 0.75;  // mesh sizes
 // The medoid compares every joint with every other; beyond this many only the heaviest ones are asked.
@@ -72,19 +73,31 @@ const dmat4& medoid(const Box& box, std::vector<Vote>& votes) {
     return votes[best].sceneFromMesh;
 }
 
-bool agrees(const Box& box, const dmat4& meshNode, const dmat4& centre) {
-    if (!isInvertible(meshNode)) return false;
-    const double ratio = meanScale(meshNode) / meanScale(centre);
-    const dvec3 shift((meshNode - centre) * dvec4(box.centre, 1.0));
-    return ratio < kScaleTolerance && ratio > 1.0 / kScaleTolerance &&
-           angleBetween(nearestRotation(meshNode), nearestRotation(centre)) < kAngleTolerance &&
-           glm::length(shift) < kPlaceTolerance * box.size * meanScale(centre);
+// The mesh node's frame, brought to the size that the joints give the mesh, when it points and lies about where they
+// do; else theirs. (glTF ignores the mesh node's frame, so nothing obliges an exporter to make it fit.)
+dmat4 chooseFrame(const Box& box, const dmat4& meshNode, const dmat4& joints) {
+    if (!isInvertible(meshNode) || angleBetween(nearestRotation(meshNode), nearestRotation(joints)) > kAngleTolerance) {
+        return joints;
+    }
+    const double ratio = meanScale(joints) / meanScale(meshNode);
+    dmat4 frame = meshNode;
+    // About the scene's origin, so that what stands on the floor goes on standing there.
+    if (std::abs(ratio - 1.0) > kSameScale) frame = glm::scale(dmat4(1.0), dvec3(ratio)) * meshNode;
+    const dvec3 shift((joints - frame) * dvec4(box.centre, 1.0));
+    if (glm::length(shift) > kPlaceTolerance * box.size * meanScale(joints)) {
+        frame = glm::translate(dmat4(1.0), shift) * frame;
+    }
+    return frame;
 }
 
 class BindSolver {
   public:
-    BindSolver(const NodeTree& tree, std::span<const MeshInstance> meshes)
-        : tree_(tree), meshes_(meshes), settled_(meshes.size(), false), bind_(tree.nodeOfJoint.size()) {}
+    BindSolver(const NodeTree& tree, std::span<const MeshInstance> meshes, bool nodesArePosed)
+        : tree_(tree),
+          meshes_(meshes),
+          nodesArePosed_(nodesArePosed),
+          settled_(meshes.size(), false),
+          bind_(tree.nodeOfJoint.size()) {}
 
     // The heaviest mesh first; from there through shared joints; then the next heaviest that is left.
     std::vector<dmat4> solve() {
@@ -152,9 +165,8 @@ class BindSolver {
             if (isInvertible(frame)) votes.push_back({carried(joint.joint, frame), joint.weight});
         }
         const dmat4& meshNode = tree_.nodes[mesh.node].sceneFromNode;
-        if (votes.empty()) return isInvertible(meshNode) ? meshNode : dmat4(1.0);
-        const dmat4& centre = medoid(box, votes);
-        return agrees(box, meshNode, centre) ? meshNode : centre;
+        if (votes.empty() || !nodesArePosed_) return isInvertible(meshNode) ? meshNode : dmat4(1.0);
+        return chooseFrame(box, meshNode, medoid(box, votes));
     }
 
     // A mesh that shares no joint with a settled one moves along with the settled joint above it.
@@ -226,14 +238,15 @@ class BindSolver {
 
     const NodeTree& tree_;
     std::span<const MeshInstance> meshes_;
+    bool nodesArePosed_;
     std::vector<bool> settled_;
     std::vector<std::optional<dmat4>> bind_;
 };
 
 }  // namespace
 
-std::vector<dmat4> solveBindPose(const NodeTree& tree, std::span<const MeshInstance> meshes) {
-    return BindSolver(tree, meshes).solve();
+std::vector<dmat4> solveBindPose(const NodeTree& tree, std::span<const MeshInstance> meshes, bool nodesArePosed) {
+    return BindSolver(tree, meshes, nodesArePosed).solve();
 }
 
 }  // namespace lutka::animation::rig_import

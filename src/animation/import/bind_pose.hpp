@@ -12,9 +12,12 @@ namespace lutka::animation::rig_import {
 /// Assimp skins a vertex as sum(weight * sceneFromJoint * jointFromMesh * v). Undeformed, all sceneFromJoint *
 /// jointFromMesh of a mesh equal one matrix, sceneFromMesh, which the file does not state: only the offsets do, and
 /// they fix it up to a common factor. It is chosen so that the bind pose lies where the nodes are: the mesh node's own
-/// frame where the joints agree with it in scale, direction and place, else the most central of the joints' products.
+/// direction and place where the joints agree with it, else the most central of the joints' products; the size is
+/// always the joints'.
 /// Meshes that share joints share the choice. Joints without a skin keep the place relative to their nearest skinned
-/// ancestor (else descendant) that they have in the nodes' pose.
-[[nodiscard]] std::vector<dmat4> solveBindPose(const NodeTree& tree, std::span<const MeshInstance> meshes);
+/// ancestor (else descendant) that they have in the nodes' pose. With `nodesArePosed` false (a format whose hierarchy
+/// Assimp loses) the joints' nodes have no say.
+[[nodiscard]] std::vector<dmat4> solveBindPose(const NodeTree& tree, std::span<const MeshInstance> meshes,
+                                               bool nodesArePosed);
 
 }  // namespace lutka::animation::rig_import

@@ -27,18 +27,34 @@ SceneConvention conventionOf(const SceneFile& file, const std::filesystem::path&
     return {file.gltf.has_value(), extension == ".dae" || extension == ".DAE", file.scene->mMetaData};
 }
 
-// What the height of the figure is measured on: skins and their joints, else rigid meshes, else all joints.
+// The root of the part of the tree that holds most joints: leaves out cameras, lights and helpers beside the figure.
+int rootOfFigure(const Skeleton& skeleton) {
+    const int count = skeleton.jointCount();
+    std::vector<int> size(count, 1);
+    for (int joint = count - 1; joint > 0; --joint) {
+        if (skeleton.parents[joint] != kNoJoint) size[skeleton.parents[joint]] += size[joint];
+    }
+    int root = 0;
+    for (int joint = 1; joint < count; ++joint) {
+        if (skeleton.parents[joint] == root && size[joint] * 5 > size[root] * 4) root = joint;
+    }
+    return root;
+}
+
+// What the height of the figure is measured on: skins and their joints, else rigid meshes, else the joints alone.
 std::vector<vec3> pointsOfFigure(const Character& character, std::span<const dmat4> bind) {
     std::vector<vec3> points;
+    const int root = rootOfFigure(character.skeleton);
     bool skinned = false;
     for (const SkinnedMesh& mesh : character.meshes)
         skinned = skinned || !mesh.rigid;
     for (const SkinnedMesh& mesh : character.meshes) {
         if (skinned == !mesh.rigid) points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
     }
-    for (std::size_t joint = 0; joint < bind.size(); ++joint) {
+    for (int joint = 0; joint < character.skeleton.jointCount(); ++joint) {
         const bool deforms = character.skeleton.skinWeight[joint] > 0.0F && skinned;
-        if (deforms || character.meshes.empty()) points.emplace_back(bind[joint][3]);
+        const bool alone = character.meshes.empty() && isAncestorOrSelf(character.skeleton, root, joint);
+        if (deforms || alone) points.emplace_back(bind[joint][3]);
     }
     return points;
 }
@@ -81,6 +97,11 @@ void buildMotion(const SceneFile& file, const NodeTree& tree, std::span<const dm
         matters[joint] = character.skeleton.skinWeight[joint] > 0.0F;
     character.skeleton.bindModelFromJoint = poser.bindModelFromJoint();
     character.skeleton.nodeParentFromJoint.resize(count);
+    if (!nodesArePosed(tree)) {
+        modelToLocal(character.skeleton, poser.bindModelFromJoint(), character.skeleton.nodeParentFromJoint);
+        character.warnings.push_back("the file's joint hierarchy and clips can't be read; the bind pose can");
+        return;
+    }
     poseNodes(tree, poser, {matters.get(), count}, character);
     character.clips =
         sampleAnimations(*file.scene, tree, poser, character.skeleton, {matters.get(), count}, character.warnings);
@@ -105,7 +126,7 @@ Result<Character> importCharacter(const std::filesystem::path& file, const Impor
     character.skeleton.skinWeight.assign(tree.nodeOfJoint.size(), 0.0F);
 
     const std::vector<MeshInstance> instances = bindMeshes(*source.scene, tree, character.warnings);
-    const std::vector<dmat4> bind = solveBindPose(tree, instances);
+    const std::vector<dmat4> bind = solveBindPose(tree, instances, nodesArePosed(tree));
     character.meshes = convertMeshes(tree, instances, bind, character.skeleton.skinWeight, character.warnings);
     const UnitsAndAxes units =
         settleUnits(conventionOf(source, file), pointsOfFigure(character, bind), options, character.warnings);

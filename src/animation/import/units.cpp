@@ -10,7 +10,7 @@
 namespace lutka::animation::rig_import {
 namespace {
 
-constexpr double kLeastHeight = 0.4;
+constexpr double kLeastHeight = 0.3;
 constexpr double kMostHeight = 3.5;
 constexpr double kUsualHeight = 1.75;
 
@@ -131,8 +131,8 @@ void settleUp(const SceneConvention& convention, const Extents& box, const Impor
 
 // The usual unit under which the figure is as tall as a person, in metres.
 std::optional<double> usualUnit(double height) {
-    constexpr std::array<double, 9> kUnits = {1.0, 0.01, 0.1, 0.0254, 0.001, 0.3048, 10.0, 100.0, 1000.0};
-    for (const auto& [least, most] : {std::pair{1.4, 2.1}, std::pair{1.0, 2.5}, std::pair{0.6, 3.0}}) {
+    constexpr std::array<double, 8> kUnits = {1.0, 0.01, 0.1, 0.0254, 0.001, 10.0, 100.0, 1000.0};
+    for (const auto& [least, most] : {std::pair{1.4, 2.1}, std::pair{0.8, 2.5}}) {
         for (const double unit : kUnits) {
             if (height * unit >= least && height * unit <= most) return unit;
         }

@@ -31,7 +31,7 @@ struct SceneConvention {
 /// Settles units and up axis: the options', else the file's own where they give a plausible figure, else a guess from
 /// the figure (`points`: where it stands in scene space, vertices and joints) with a warning.
 ///
-/// Plausible is a height of 0.4 to 3.5 m. Otherwise the unit is the one among decimetre, centimetre, inch, foot,
+/// Plausible is a height of 0.3 to 3.5 m. Otherwise the unit is the one among centimetre, decimetre, inch,
 /// millimetre … that makes the figure as tall as a person, else whatever makes it 1.75 m.
 [[nodiscard]] UnitsAndAxes settleUnits(const SceneConvention& convention, std::span<const vec3> points,
                                        const ImportOptions& options, std::vector<std::string>& warnings);
