@@ -102,11 +102,11 @@ def check_tree(model, expect):
     expect(not {"translation", "rotation", "scale", "matrix"} & set(root), "the root is the identity")
     expect(all("scale" not in n and "matrix" not in n for n in model.nodes), "no node has a scale")
     expect(len(document["materials"]) >= 2 and all("pbrMetallicRoughness" in m for m in document["materials"]), "two PBR materials or more")
+    expect(sorted(clip["name"] for clip in document["animations"]) == ["idle", "walk"], "the clips idle and walk")
 
 
 def check_surface(mesh, triangles, expect):
     p, uv = mesh["POSITION"], mesh["TEXCOORD_0"]
-    expect(all(np.isfinite(a).all() for a in mesh.values()), "all vertex data are finite")
     expect(8000 <= len(triangles) <= 20000, f"8,000 to 20,000 triangles (has {len(triangles)})")
     height = p[:, 1].max() - p[:, 1].min()
     expect(1.70 <= height <= 1.80, f"1.70 to 1.80 m tall (is {height:.4f})")
@@ -203,13 +203,13 @@ def main():
     model = Model(path)
     mesh, triangles = model.mesh()
     check_tree(model, expect)
-    check_surface(mesh, triangles, expect)
-    check_weights(model, mesh, expect)
-    check_symmetry(model, mesh, expect)
-    clips = {clip["name"]: clip for clip in model.json["animations"]}
-    expect(sorted(clips) == ["idle", "walk"], "the clips idle and walk")
-    for clip in clips.values():
-        check_clip(model, mesh, clip, expect)
+    expect(all(np.isfinite(a).all() for a in mesh.values()), "all vertex data are finite")
+    if not faults:  # what follows relies on the names and on numbers
+        check_surface(mesh, triangles, expect)
+        check_weights(model, mesh, expect)
+        check_symmetry(model, mesh, expect)
+        for clip in model.json["animations"]:
+            check_clip(model, mesh, clip, expect)
     for fault in faults:
         print("FAULT, expected: " + fault)
     print(f"{os.path.basename(path)}: {len(triangles)} triangles, {len(mesh['POSITION'])} vertices, {len(faults)} faults")
