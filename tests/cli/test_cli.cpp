@@ -1,1 +1,189 @@
+#include <nlohmann/json.hpp>
+
 #include "support/catch.hpp"
+#include "support/command.hpp"
+#include "support/zoo.hpp"
+
+using namespace lutka::test;
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string kMannequin = quoted(LUTKA_ASSETS_DIR "/models/mannequin.glb");
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("every command explains itself") {
+    const CommandResult all = lutkaCommand("--help");
+    CHECK(all.code == 0);
+    CHECK(contains(all.out, "Exit codes"));
+    for (const char* command : {"inspect", "map", "build", "simulate", "render"}) {
+        INFO(command);
+        const CommandResult help = lutkaCommand(std::string(command) + " --help");
+        CHECK(help.code == 0);
+        CHECK(contains(help.out, "MODEL"));
+        CHECK(contains(all.out, command));
+    }
+}
+
+TEST_CASE("wrong usage ends with 2 and says what is wrong") {
+    CHECK(lutkaCommand("").code == 2);
+    CHECK(lutkaCommand("dance").code == 2);
+    CHECK(lutkaCommand("map").code == 2);
+    CHECK(lutkaCommand("simulate " + kMannequin + " --count 0").code == 2);
+    const CommandResult scene = lutkaCommand("simulate " + kMannequin + " --scene dropp");
+    CHECK(scene.code == 2);
+    CHECK(contains(scene.err, "stairs"));
+    CHECK(lutkaCommand("render " + kMannequin + " -o x.png --size 10by10").code == 2);
+    CHECK(lutkaCommand("simulate " + kMannequin + " --from-clip moonwalk").code == 2);
+}
+
+TEST_CASE("a file that is missing, empty or no model ends with 3 and is named") {
+    const ScratchFolder folder;
+    std::ofstream(folder / "empty.glb").flush();
+    std::ofstream(folder / "words.fbx") << "not a model";
+    for (const char* name : {"missing.glb", "empty.glb", "words.fbx"}) {
+        INFO(name);
+        const CommandResult result = lutkaCommand("inspect " + quoted(folder / name));
+        CHECK(result.code == 3);
+        CHECK(contains(result.err, name));
+        CHECK(result.out.empty());
+    }
+    const CommandResult map = lutkaCommand("map --json " + quoted(folder / "missing.glb"));
+    CHECK(map.code == 3);
+    CHECK(Json::parse(map.out)["humanoid"] == false);
+}
+
+TEST_CASE("inspect shows the mannequin's joints, meshes and clips") {
+    const CommandResult text = lutkaCommand("inspect " + kMannequin);
+    REQUIRE(text.code == 0);
+    CHECK(contains(text.out, "leftUpperArm"));
+    CHECK(contains(text.out, "walk"));
+    const Json json = Json::parse(lutkaCommand("inspect --json " + kMannequin).out);
+    CHECK(json["joints"].size() >= 45);
+    CHECK(json["meshes"].size() >= 1);
+    CHECK(json["clips"].size() == 2);
+    CHECK(json["units"]["metresPerFileUnit"] == 1.0);
+}
+
+TEST_CASE("map binds every joint of the mannequin to the role that it is named after") {
+    const CommandResult result = lutkaCommand("map --json " + kMannequin);
+    REQUIRE(result.code == 0);
+    const Json json = Json::parse(result.out);
+    CHECK(json["humanoid"] == true);
+    CHECK(json["missing"].empty());
+    CHECK(json["roles"].size() == 22);
+    for (const auto& [role, binding] : json["roles"].items()) {
+        CHECK(binding["joint"] == role);
+        CHECK_FALSE(binding["reason"].get<std::string>().empty());
+    }
+}
+
+TEST_CASE("a profile that was written and read again gives the same fall to the bit") {
+    const ScratchFolder folder;
+    const std::string profile = folder / "mannequin.ragdoll.json";
+    REQUIRE(lutkaCommand("build " + kMannequin + " -o " + profile).code == 0);
+    const std::string simulate = "simulate " + kMannequin + " --seconds 1 --json";
+    const Json fitted = Json::parse(lutkaCommand(simulate).out);
+    const Json read = Json::parse(lutkaCommand(simulate + " --profile " + profile).out);
+    CHECK(fitted["stateHash"] == read["stateHash"]);
+    CHECK(fitted["bodies"] == 16);
+}
+
+TEST_CASE("a profile with faults ends with 3 and lists them all") {
+    const ScratchFolder folder;
+    const std::string profile = folder / "broken.ragdoll.json";
+    REQUIRE(lutkaCommand("build " + kMannequin + " -o " + profile).code == 0);
+    Json json = Json::parse(fileText(profile));
+    json["bodies"][3]["massKg"] = -1;
+    json["bodies"][5]["colour"] = "red";
+    std::ofstream(profile) << json.dump();
+    const CommandResult result = lutkaCommand("simulate " + kMannequin + " --profile " + profile);
+    CHECK(result.code == 3);
+    CHECK(contains(result.err, "/bodies/3"));
+    CHECK(contains(result.err, "colour"));
+}
+
+TEST_CASE("simulate writes the baked clip, the last mesh and the report") {
+    const ScratchFolder folder;
+    const CommandResult result =
+        lutkaCommand("simulate " + kMannequin + " --seconds 1 --out " + (folder / "fall.glb") + " --mesh-out " +
+                     (folder / "last.obj") + " --report " + (folder / "report.json"));
+    REQUIRE(result.code == 0);
+    const Json report = Json::parse(fileText(folder / "report.json"));
+    CHECK(report["steps"] == 60);
+    CHECK(report["quality"]["nonFinite"] == 0);
+    CHECK(fileText(folder / "last.obj").substr(0, 200).find("v ") != std::string::npos);
+    const Json baked = Json::parse(lutkaCommand("inspect --json " + (folder / "fall.glb")).out);
+    CHECK(baked["clips"][0]["seconds"].get<double>() == Approx(1.0).margin(0.02));
+}
+
+TEST_CASE("an output that can't be written ends with 5 and leaves nothing") {
+    const ScratchFolder folder;
+    std::ofstream(folder / "file") << "in the way";
+    const std::string target = folder / "file/report.json";
+    const CommandResult result = lutkaCommand("simulate " + kMannequin + " --seconds 0.1 --report " + target);
+    CHECK(result.code == 5);
+    CHECK(contains(result.err, "report.json"));
+    CHECK(fileText(folder / "file") == "in the way");
+}
+
+TEST_CASE("a recording is replayed to the same picture") {
+    const ScratchFolder folder;
+    const std::string common = "render " + kMannequin + " --size 160x120 ";
+    const CommandResult recorded =
+        lutkaCommand(common + "--seconds 1 --record " + (folder / "run") + " -o " + (folder / "a.png"));
+    if (recorded.code == 6) {
+        WARN("skipped: no GL context can be had");
+        return;
+    }
+    REQUIRE(recorded.code == 0);
+    REQUIRE(lutkaCommand(common + "--replay " + (folder / "run") + " -o " + (folder / "b.png")).code == 0);
+    CHECK(fileText(folder / "a.png").size() > 2000);
+    CHECK(fileText(folder / "a.png") == fileText(folder / "b.png"));
+}
+
+TEST_CASE("what is not a humanoid is refused with 3 and a reason") {
+    if (!zooIsThere()) return;
+    for (const char* model : {"fox/Fox.glb", "webxr_hand/hand_left.glb", "nonhum_static_mannequin/m2m_mannequin.glb",
+                              "quat_trex/dinosaurs_pack_Trex.glb", "nonhum_velociraptor/q_velociraptor.fbx"}) {
+        INFO(model);
+        const CommandResult result = lutkaCommand("map --json " + quoted(zooFile(model)));
+        CHECK(result.code == 3);
+        const Json json = Json::parse(result.out);
+        CHECK(json["humanoid"] == false);
+        REQUIRE_FALSE(json["warnings"].empty());
+        CHECK(json["warnings"][0].get<std::string>().size() > 10);
+        CHECK(lutkaCommand("simulate " + quoted(zooFile(model))).code == 3);
+    }
+}
+
+TEST_CASE("every humanoid of the zoo falls, stays finite and comes to rest") {
+    if (!zooIsThere()) return;
+    int humanoids = 0;
+    int resting = 0;
+    for (const auto& entry : fs::directory_iterator(LUTKA_ZOO_DIR)) {
+        const fs::path truthFile = entry.path() / "truth.json";
+        if (!fs::exists(truthFile)) continue;
+        const Json truth = Json::parse(fileText(truthFile));
+        if (truth["humanoid"] != true) continue;
+        const fs::path model = entry.path() / truth["file"].get<std::string>();
+        INFO(model.filename().string());
+        const CommandResult result = lutkaCommand("simulate --json --seconds 8 " + quoted(model));
+        CHECK(result.code == 0);
+        if (result.code != 0) continue;
+        const Json quality = Json::parse(result.out)["quality"];
+        ++humanoids;
+        CHECK(quality["nonFinite"] == 0);
+        CHECK(quality["jointSeparationM"]["max"].get<double>() < 0.03);
+        CHECK(quality["residualSpeedMps"].get<double>() < 0.05);
+        if (!quality["settleSeconds"].is_null()) ++resting;
+    }
+    CHECK(humanoids >= 20);
+    CHECK(resting >= humanoids * 9 / 10);
+}

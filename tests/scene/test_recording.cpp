@@ -2,7 +2,8 @@
 
 #include <unistd.h>
 
-#include <fstream>
+#include <cmath>
+#include <cstring>
 
 #include "core/files.hpp"
 #include "support/catch.hpp"

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace lutka::test {
+
+inline std::string fileText(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream out;
+    out << in.rdbuf();
+    return out.str();
+}
+
+/// A folder of its own, removed at the end.
+struct ScratchFolder {
+    ScratchFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "lutka_test_XXXXXX").string();
+        path = ::mkdtemp(name.data());
+    }
+    ~ScratchFolder() { std::filesystem::remove_all(path); }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    [[nodiscard]] std::string operator/(const std::string& name) const { return (path / name).string(); }
+
+    std::filesystem::path path;
+};
+
+struct CommandResult {
+    int code = -1;  ///< Exit code; -1 when it was ended by a signal.
+    std::string out;
+    std::string err;
+};
+
+/// Runs a shell command line without a display and collects what it prints.
+inline CommandResult runCommand(const std::string& line) {
+    const ScratchFolder folder;
+    const std::string out = folder / "out";
+    const std::string err = folder / "err";
+    const int status =
+        std::system(("env -u DISPLAY -u WAYLAND_DISPLAY " + line + " >" + out + " 2>" + err + " </dev/null").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, fileText(out), fileText(err)};
+}
+
+/// Runs the shipped binary.
+inline CommandResult lutkaCommand(const std::string& arguments) {
+    return runCommand("'" LUTKA_BINARY "' " + arguments);
+}
+
+inline std::string quoted(const std::filesystem::path& file) {
+    return "'" + file.string() + "'";
+}
+
+}  // namespace lutka::test
