@@ -1,0 +1,51 @@
+#include <array>
+
+#include "animation/export/glb_parts.hpp"
+
+namespace lutka::animation::glb {
+namespace {
+
+std::vector<double> components(const quat& q) {
+    return {q.x, q.y, q.z, q.w};
+}
+
+std::vector<double> components(const vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+// glTF demands the last row of an inverse bind matrix to be exactly (0, 0, 0, 1), which a rigid transform gives.
+std::array<float, 16> columns(const mat4& m) {
+    std::array<float, 16> out{};
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row)
+            out[static_cast<std::size_t>(4 * column + row)] = m[column][row];
+    }
+    return out;
+}
+
+}  // namespace
+
+int addSkeleton(const Skeleton& skeleton, std::span<const RigidTransform> parentFromJoint, int wrapper,
+                BufferBuilder& buffer, tinygltf::Model& model) {
+    const int first = static_cast<int>(model.nodes.size());
+    tinygltf::Skin skin;
+    skin.skeleton = wrapper;
+    std::vector<std::array<float, 16>> inverseBinds;
+    for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
+        tinygltf::Node node;
+        node.name = utf8(skeleton.names[joint]);
+        node.rotation = components(parentFromJoint[joint].rotation);
+        node.translation = components(parentFromJoint[joint].translation);
+        model.nodes.push_back(std::move(node));
+        const int parent = skeleton.parents[joint];
+        model.nodes[parent == kNoJoint ? wrapper : first + parent].children.push_back(first + joint);
+        skin.joints.push_back(first + joint);
+        inverseBinds.push_back(columns(toMatrix(inverse(skeleton.bindModelFromJoint[joint]))));
+    }
+    skin.inverseBindMatrices = buffer.add(std::span<const std::array<float, 16>>(inverseBinds),
+                                          TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_MAT4, 0);
+    model.skins.push_back(std::move(skin));
+    return static_cast<int>(model.skins.size()) - 1;
+}
+
+}  // namespace lutka::animation::glb
