@@ -34,7 +34,8 @@ if(NOT EXISTS "${LUTKA_GLAD_DIR}/src/gl.c" AND NOT EXISTS "${LUTKA_GLAD_DIR}/src
 endif()
 file(GLOB LUTKA_GLAD_SOURCE "${LUTKA_GLAD_DIR}/src/*.c")
 add_library(lutka_glad STATIC ${LUTKA_GLAD_SOURCE})
-target_include_directories(lutka_glad SYSTEM PUBLIC "${LUTKA_GLAD_DIR}/include")
+target_include_directories(lutka_glad SYSTEM PUBLIC $<BUILD_INTERFACE:${LUTKA_GLAD_DIR}/include>)
+install(TARGETS lutka_glad EXPORT LutkaTargets)
 target_link_libraries(lutka_glad PUBLIC ${CMAKE_DL_LIBS})
 set_target_properties(lutka_glad PROPERTIES POSITION_INDEPENDENT_CODE ON)
 

@@ -23,7 +23,7 @@ if(LUTKA_CLANG_TIDY)
 endif()
 
 function(lutka_common target)
-  target_link_libraries(${target} PRIVATE lutka_options)
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:lutka_options>)
   if(LUTKA_CLANG_TIDY)
     set_target_properties(${target} PROPERTIES CXX_CLANG_TIDY "${LUTKA_CLANG_TIDY_EXE};--quiet")
   endif()
@@ -31,8 +31,9 @@ endfunction()
 
 # lutka_library(NAME SOURCES … LINK … [PRIVATE_LINK …]): a static library `lutka_NAME`, alias `Lutka::NAME`.
 # LINK holds the layers that its headers use; a third party that only its sources include goes to PRIVATE_LINK.
+# INTERNAL keeps a library out of the installed package.
 function(lutka_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  cmake_parse_arguments(ARG "INTERNAL" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
   add_library(lutka_${name} STATIC ${ARG_SOURCES})
   add_library(Lutka::${name} ALIAS lutka_${name})
   set_target_properties(lutka_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
@@ -41,6 +42,9 @@ function(lutka_library name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include/lutka>)
   target_link_libraries(lutka_${name} PUBLIC ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
   lutka_common(lutka_${name})
+  if(NOT ARG_INTERNAL)
+    install(TARGETS lutka_${name} EXPORT LutkaTargets)
+  endif()
 endfunction()
 
 # lutka_test(NAME SOURCES … LINK …): a Catch2 executable `test_NAME`, each of its test cases one CTest test.
