@@ -1,1 +1,147 @@
 #include "animation/humanoid/map_humanoid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "animation/humanoid/figure.hpp"
+#include "animation/humanoid/rig_features.hpp"
+#include "animation/humanoid/role_assembly.hpp"
+#include "core/assert.hpp"
+
+namespace lutka::animation {
+namespace {
+
+constexpr float kFixed = 40.0F;  // log-odds of what the user or the file says
+constexpr int kFewestJoints = 5;
+
+using FixedJoints = std::array<std::optional<int>, kRoleCount>;
+
+HumanoidMap refused(std::string reason) {
+    HumanoidMap map;
+    map.warnings.push_back("not a humanoid: " + std::move(reason));
+    return map;
+}
+
+Part partOf(Role role) {
+    constexpr std::array<Part, 8> kSided{Part::clavicle, Part::upperArm, Part::lowerArm, Part::hand,
+                                         Part::upperLeg, Part::lowerLeg, Part::foot,     Part::toes};
+    constexpr std::array<Part, 6> kCentral{Part::hips, Part::trunk, Part::trunk, Part::chest, Part::neck, Part::head};
+    const int index = indexOf(role);
+    if (sideOf(role) == Side::center) return kCentral[static_cast<std::size_t>(index)];
+    return kSided[static_cast<std::size_t>(index - indexOf(Role::leftShoulder)) % kSided.size()];
+}
+
+// A fixed binding speaks as the loudest name: the search is drawn to it and keeps the rest consistent.
+void teachFixed(const FixedJoints& fixed, RigFeatures& rig) {
+    for (int index = 0; index < kRoleCount; ++index) {
+        if (!fixed[index]) continue;
+        NameEvidence& name = rig.names[*fixed[index]];
+        name.parts.values.fill(-kFixed);
+        name.parts[partOf(roleAt(index))] = kFixed;
+        name.side = sideOf(roleAt(index));
+        name.helper = name.creature = false;
+        name.meaningful = true;
+    }
+}
+
+void bindFixed(const FixedJoints& fixed, std::string_view reason, HumanoidMap& map) {
+    for (int index = 0; index < kRoleCount; ++index) {
+        if (!fixed[index]) continue;
+        for (auto& binding : map.roles) {
+            if (binding && binding->joint == *fixed[index]) binding.reset();
+        }
+    }
+    for (int index = 0; index < kRoleCount; ++index) {
+        if (fixed[index]) map.roles[index] = RoleBinding{*fixed[index], 1.0F, std::string(reason)};
+    }
+}
+
+FixedJoints jointsOfFile(const Character& character) {
+    FixedJoints joints;
+    for (const auto& [name, joint] : character.vrmHumanoid) {
+        const auto role = roleFromName(name);
+        if (role && joint >= 0 && joint < character.skeleton.jointCount()) joints[indexOf(*role)] = joint;
+    }
+    return joints;
+}
+
+// Up and facing of a figure whose bindings, sides included, are taken as true; nothing when too few are bound.
+std::optional<quat> stanceOfBindings(const FixedJoints& joints, const Skeleton& skeleton) {
+    const auto at = [&](Role role) { return skeleton.bindModelFromJoint[*joints[indexOf(role)]].translation; };
+    for (const Role role :
+         {Role::hips, Role::leftUpperArm, Role::rightUpperArm, Role::leftUpperLeg, Role::rightUpperLeg}) {
+        if (!joints[indexOf(role)]) return std::nullopt;
+    }
+    const vec3 arms = at(Role::leftUpperArm) + at(Role::rightUpperArm);
+    const vec3 legs = at(Role::leftUpperLeg) + at(Role::rightUpperLeg);
+    const vec3 rise = arms - legs;
+    vec3 up(0);
+    const int axis = std::abs(rise.y) >= std::max(std::abs(rise.x), std::abs(rise.z)) ? 1
+                     : std::abs(rise.x) > std::abs(rise.z)                            ? 0
+                                                                                      : 2;
+    up[axis] = rise[axis] < 0.0F ? -1.0F : 1.0F;
+    vec3 left = at(Role::leftUpperArm) - at(Role::rightUpperArm) + at(Role::leftUpperLeg) - at(Role::rightUpperLeg);
+    left -= glm::dot(left, up) * up;
+    if (glm::length(left) <= 0.0F || glm::length(rise) <= 0.0F) return std::nullopt;
+    return glm::conjugate(rotationFromXY(glm::normalize(left), up));
+}
+
+void addWarnings(const Figure& figure, HumanoidMap& map) {
+    if (!figure.framed.rig->skinned)
+        map.warnings.emplace_back("the skeleton has no skin: shapes come from the joints alone");
+    if (figure.facing.namesDisagree()) {
+        map.warnings.push_back(fmt::format(
+            "left and right in the names disagree with the geometry, which is followed ({})", figure.facing.reason));
+    } else if (std::abs(figure.facing.total()) < 1.0F) {
+        map.warnings.emplace_back("front and back look alike: left and right may be exchanged");
+    }
+}
+
+void listMissing(HumanoidMap& map) {
+    map.missing.clear();
+    for (int index = 0; index < kRoleCount; ++index) {
+        if (isRequired(roleAt(index)) && !map.roles[index]) map.missing.push_back(roleAt(index));
+    }
+}
+
+}  // namespace
+
+HumanoidMap mapHumanoid(const Character& character, const MapOptions& options) {
+    const Skeleton& skeleton = character.skeleton;
+    for (const auto& joint : options.fixed)
+        LUTKA_ASSERT(!joint || (*joint >= 0 && *joint < skeleton.jointCount()));
+    if (skeleton.jointCount() == 0) return refused("it has no joints");
+    if (skeleton.jointCount() < kFewestJoints) {
+        return refused(fmt::format("{} joints are too few for a trunk, two arms and two legs", skeleton.jointCount()));
+    }
+    const FixedJoints ofFile = options.useFileHumanoid ? jointsOfFile(character) : FixedJoints{};
+    FixedJoints known = ofFile;
+    for (int index = 0; index < kRoleCount; ++index) {
+        if (options.fixed[index]) known[index] = options.fixed[index];
+    }
+    RigFeatures rig = readRig(character, options.useNames);
+    teachFixed(known, rig);
+    const Figure figure = findFigure(rig);
+    const std::optional<quat> knownStance = stanceOfBindings(known, skeleton);
+    HumanoidMap map = figure.refusal.empty() ? assembleRoles(figure) : refused(figure.refusal);
+    if (!map.humanoid && !knownStance) return map;
+    if (map.humanoid) addWarnings(figure, map);
+    if (knownStance) {
+        // Who named hips, arms and legs has settled that it is a humanoid, and its left and right.
+        if (!map.humanoid) map.warnings.clear();
+        map.humanoid = true;
+        map.confidence = std::max(map.confidence, 0.9F);
+        map.standardFromModel = *knownStance;
+    }
+    const bool wholeFile = ofFile[indexOf(Role::hips)] && ofFile[indexOf(Role::head)] && knownStance;
+    if (wholeFile) map.roles.fill(std::nullopt);  // roles that the file leaves out it has none for
+    bindFixed(ofFile, "the file's own VRM humanoid block", map);
+    bindFixed(options.fixed, "fixed by the user", map);
+    listMissing(map);
+    return map;
+}
+
+}  // namespace lutka::animation

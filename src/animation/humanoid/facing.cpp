@@ -1,0 +1,166 @@
+#include "animation/humanoid/facing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace lutka::animation {
+namespace {
+
+// Log-odds that left and right in the names are right: about one rig in thirty has them swapped.
+constexpr float kNames = 3.5F;
+constexpr float kPriorPlusZ = 0.6F;
+
+class FacingFinder {
+  public:
+    FacingFinder(const FramedRig& framed, const LimbCandidate& legs, const LimbCandidate& arms,
+                 const TrunkCandidate& trunk)
+        : framed_(framed), rig_(*framed.rig), legs_(legs), arms_(arms), trunk_(trunk) {}
+
+    Facing find() {
+        readFeet();
+        readBends();
+        readHead();
+        readHands();
+        readNames();
+        facing_.prior = kPriorPlusZ * framed_.stance.through().z;
+        return facing_;
+    }
+
+  private:
+    [[nodiscard]] const JointPair& pair(int index) const { return framed_.pairs[index]; }
+
+    // Adds the log-odds `slope` × value, no more than `most` either way.
+    void speak(float value, float slope, float most, const char* what) {
+        const float odds = std::clamp(value * slope, -most, most);
+        facing_.shape += odds;
+        if (std::abs(odds) <= loudest_) return;
+        loudest_ = std::abs(odds);
+        facing_.reason = what;
+    }
+
+    void readFeet() {
+        const auto& [upper, lower, foot, toes] = legs_.pairs;
+        if (foot == kNoPair) {
+            readSoles(lower != kNoPair ? lower : upper);
+            return;
+        }
+        const float ankle = pair(foot).position.z;
+        if (toes != kNoPair) {
+            speak((pair(toes).position.z - ankle) / legs_.length, 40.0F, 5.0F, "the toes point that way");
+        } else {
+            readTips(foot, ankle);
+        }
+        readSoles(foot);
+    }
+
+    // Joints below an ankle without toes: tips of the foot.
+    void readTips(int foot, float ankle) {
+        float sum = 0.0F;
+        int count = 0;
+        for (const int top : pair(foot).joints) {
+            for (int joint = 0; joint < rig_.count(); ++joint) {
+                if (joint == top || !rig_.isAncestorOrSelf(top, joint)) continue;
+                sum += framed_.positions[joint].z - ankle;
+                ++count;
+            }
+        }
+        if (count > 0)
+            speak(sum / static_cast<float>(count) / legs_.length, 25.0F, 3.0F, "the feet's ends lie that way");
+    }
+
+    // The lowest skin of the leg reaches farther to the front of the ankle than to its back.
+    void readSoles(int pairIndex) {
+        for (const int joint : pair(pairIndex).joints) {
+            const Box& whole = framed_.subtreeSkin[joint];
+            if (whole.count == 0) continue;
+            Box sole;
+            const float limit = whole.low.y + 0.35F * std::min(whole.high.y - whole.low.y, 0.3F * legs_.length);
+            for (const RigFeatures::Vertex& vertex : rig_.vertices) {
+                if (!rig_.isAncestorOrSelf(joint, vertex.joint)) continue;
+                const float y = glm::dot(vertex.position, framed_.stance.up);
+                if (y < limit) sole.add(vec3(0, y, glm::dot(vertex.position, framed_.stance.through())));
+            }
+            if (sole.count == 0) continue;
+            const float ankle = framed_.positions[joint].z;
+            const float reach = 0.5F * (sole.low.z + sole.high.z) - ankle;
+            speak(reach / legs_.length, 20.0F, 2.0F, "the soles reach that way");
+        }
+    }
+
+    // Knees stand in front of the line from hip to ankle, elbows behind that from shoulder to wrist.
+    void readBends() {
+        const auto bend = [&](const LimbCandidate& limb) {
+            const vec3 along = limb.tip - limb.root;
+            const vec3 middle = pair(limb.pairs[1]).position - limb.root;
+            const float share = glm::dot(middle, along) / (glm::dot(along, along) + 1e-9F);
+            return (middle.z - share * along.z) / limb.length;
+        };
+        if (legs_.jointCount() == 3) speak(bend(legs_), 40.0F, 1.5F, "the knees bend that way");
+        if (arms_.jointCount() == 3) speak(-bend(arms_), 25.0F, 1.0F, "the elbows bend that way");
+    }
+
+    void readHead() {
+        if (trunk_.head == kNoJoint) return;
+        const float neck = framed_.positions[trunk_.head].z;
+        const Box& skin = framed_.subtreeSkin[trunk_.head];
+        const float size = std::max(skin.count > 0 ? skin.high.y - skin.low.y : 0.0F, 0.02F * framed_.spread);
+        float face = 0.0F;
+        int count = 0;
+        for (int joint = 0; joint < rig_.count(); ++joint) {
+            if (joint == trunk_.head || !rig_.isAncestorOrSelf(trunk_.head, joint)) continue;
+            if (!rig_.names[joint].face || std::abs(framed_.positions[joint].x) > 0.35F * size) continue;
+            face += framed_.positions[joint].z - neck;
+            ++count;
+        }
+        if (count > 0) speak(face / static_cast<float>(count) / size, 12.0F, 2.5F, "the face's joints lie that way");
+        const Box& own = framed_.ownSkin[trunk_.head];
+        if (own.count == 0) return;
+        speak((0.5F * (own.low.z + own.high.z) - neck) / size, 5.0F, 1.2F, "the head reaches that way");
+    }
+
+    void readHands() {
+        if (arms_.pairs[2] == kNoPair) return;
+        for (const int hand : pair(arms_.pairs[2]).joints) {
+            for (const int finger : rig_.children[hand]) {
+                if (!rig_.names[finger].thumb) continue;
+                const float forward = framed_.positions[finger].z - framed_.positions[hand].z;
+                speak(forward / arms_.length, 15.0F, 0.7F, "the thumbs point that way");
+            }
+        }
+    }
+
+    void readNames() {
+        float agree = 0.0F;
+        float counted = 0.0F;
+        for (const LimbCandidate* limb : {&legs_, &arms_}) {
+            for (const int index : limb->pairs) {
+                if (index == kNoPair) continue;
+                const Side plus = rig_.names[pair(index).joints[0]].side;
+                const Side minus = rig_.names[pair(index).joints[1]].side;
+                if (plus == minus) continue;
+                counted += 1.0F;
+                agree += plus == Side::left || minus == Side::right ? 1.0F : -1.0F;
+            }
+        }
+        if (counted > 0.0F) facing_.names = kNames * agree / counted;
+        if (std::abs(facing_.names) > loudest_ + 1.0F) facing_.reason = "left and right in the names say so";
+    }
+
+    const FramedRig& framed_;
+    const RigFeatures& rig_;
+    const LimbCandidate& legs_;
+    const LimbCandidate& arms_;
+    const TrunkCandidate& trunk_;
+    Facing facing_;
+    float loudest_ = 0.0F;
+};
+
+}  // namespace
+
+Facing findFacing(const FramedRig& framed, const LimbCandidate& legs, const LimbCandidate& arms,
+                  const TrunkCandidate& trunk) {
+    return FacingFinder(framed, legs, arms, trunk).find();
+}
+
+}  // namespace lutka::animation

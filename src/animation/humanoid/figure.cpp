@@ -1,0 +1,163 @@
+#include "animation/humanoid/figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "animation/humanoid/evidence_terms.hpp"
+#include "animation/humanoid/humanoid_gate.hpp"
+
+namespace lutka::animation {
+namespace {
+
+constexpr std::size_t kCombinationsTried = 14;
+constexpr float kSnapCosine = 0.9990F;  // 2.5 degrees
+constexpr float kUnknownMargin = 6.0F;  // no other reading at all
+
+struct Combination {
+    std::size_t legs;
+    std::size_t arms;
+    float score;
+};
+
+// Terms that bind legs and arms: how they stand to each other.
+float bindingTerms(const FramedRig& framed, const LimbCandidate& legs, const LimbCandidate& arms) {
+    const float rise = arms.root.y - legs.root.y;
+    float score = rise > 0.05F * legs.length ? near(std::log(rise / legs.length), std::log(0.75F), 0.5F) : -8.0F;
+    score += near(std::log(arms.length / legs.length), std::log(0.75F), 0.4F);
+    score += atLeast((arms.tip.y - framed.floor) / legs.length, 0.45F, 0.15F, 8.0F);
+    const float tilt = std::atan2(std::abs(arms.root.z - legs.root.z), std::max(rise, 1e-6F));
+    score += atMost(tilt, radians(12.0F), radians(14.0F), 10.0F);
+    if (framed.rig->skinned) {
+        const float legSkin = framed.pairs[legs.first].subtreeWeight;
+        const float armSkin = framed.pairs[arms.first].subtreeWeight;
+        score += 1.5F * std::min(legSkin / 0.08F, 1.0F) + 1.5F * std::min(armSkin / 0.05F, 1.0F);
+    }
+    return score;
+}
+
+// Whether the two limbs can belong to one figure: no joint in both, neither hanging from the other.
+bool compatible(const FramedRig& framed, const LimbCandidate& legs, const LimbCandidate& arms) {
+    for (const int pair : legs.pairs) {
+        if (pair != kNoPair && arms.uses(pair)) return false;
+    }
+    const int leg = legs.first;
+    const int arm = arms.pairs[3] != kNoPair ? arms.pairs[3] : arms.first;
+    return !framed.isAbove(leg, arm) && !framed.isAbove(arm, leg);
+}
+
+std::vector<Combination> combine(const FramedRig& framed, const std::vector<LimbCandidate>& legs,
+                                 const std::vector<LimbCandidate>& arms) {
+    std::vector<Combination> combinations;
+    for (std::size_t leg = 0; leg < legs.size(); ++leg) {
+        for (std::size_t arm = 0; arm < arms.size(); ++arm) {
+            if (!compatible(framed, legs[leg], arms[arm])) continue;
+            const float score = legs[leg].score + arms[arm].score + bindingTerms(framed, legs[leg], arms[arm]);
+            combinations.push_back({leg, arm, score});
+        }
+    }
+    std::stable_sort(combinations.begin(), combinations.end(),
+                     [](const Combination& a, const Combination& b) { return a.score > b.score; });
+    if (combinations.size() > kCombinationsTried) combinations.resize(kCombinationsTried);
+    return combinations;
+}
+
+float limbMargin(const std::vector<LimbCandidate>& all, const LimbCandidate& best, std::size_t slot) {
+    float margin = kUnknownMargin;
+    for (const LimbCandidate& other : all) {
+        if (other.pairs[slot] != best.pairs[slot]) margin = std::min(margin, best.score - other.score);
+    }
+    return std::max(margin, 0.0F);
+}
+
+void findMargins(Figure& figure, const std::vector<LimbCandidate>& legs, const std::vector<LimbCandidate>& arms) {
+    for (std::size_t slot = 0; slot < figure.margins.legs.size(); ++slot) {
+        figure.margins.legs[slot] = limbMargin(legs, figure.legs, slot);
+        figure.margins.arms[slot] = limbMargin(arms, figure.arms, slot);
+    }
+    const auto without = [&](const TrunkBan& ban) {
+        const float other = findTrunk(figure.framed, figure.legs, figure.arms, ban).score;
+        return std::clamp(figure.trunk.score - other, 0.0F, kUnknownMargin);
+    };
+    figure.margins.hips = without({.hips = figure.trunk.hips});
+    figure.margins.chest = without({.chest = figure.trunk.chest});
+    if (figure.trunk.head != kNoJoint) figure.margins.head = without({.head = figure.trunk.head});
+}
+
+// The best reading in one stance.
+Figure readInStance(const RigFeatures& rig, const Stance& stance, float prior) {
+    Figure figure;
+    figure.framed = frameRig(rig, stance);
+    const FramedRig& framed = figure.framed;
+    const std::vector<LimbCandidate> legs = findLimbs(framed, LimbKind::leg);
+    const std::vector<LimbCandidate> arms = findLimbs(framed, LimbKind::arm);
+    if (framed.pairs.size() < 2 || legs.empty() || arms.empty()) {
+        figure.refusal = "no two pairs of limbs mirror each other";
+        return figure;
+    }
+    for (const Combination& combination : combine(framed, legs, arms)) {
+        const LimbCandidate& leg = legs[combination.legs];
+        const LimbCandidate& arm = arms[combination.arms];
+        const TrunkCandidate trunk = findTrunk(framed, leg, arm);
+        const float score = prior + combination.score + trunk.score;
+        if (score <= figure.score) continue;
+        figure.score = score;
+        figure.legs = leg;
+        figure.arms = arm;
+        figure.trunk = trunk;
+    }
+    if (figure.trunk.hips == kNoJoint) {
+        figure.refusal = "no joints stand as legs, trunk and arms of a figure";
+        return figure;
+    }
+    findMargins(figure, legs, arms);
+    figure.facing = findFacing(framed, figure.legs, figure.arms, figure.trunk);
+    figure.refusal = refusalOf(figure);
+    return figure;
+}
+
+// The plane's normal and the up axis made perpendicular, snapped to the model's axes where they nearly are those.
+Stance makeStance(MirrorPlane plane, const vec3& up) {
+    for (int axis = 0; axis < 3; ++axis) {
+        vec3 unit(0);
+        unit[axis] = 1.0F;
+        const float cosine = glm::dot(unit, plane.normal);
+        if (std::abs(cosine) < kSnapCosine) continue;
+        plane.offset = cosine < 0.0F ? -plane.offset : plane.offset;
+        plane.normal = unit;
+    }
+    plane.normal = glm::normalize(plane.normal - glm::dot(plane.normal, up) * up);
+    return {plane, up};
+}
+
+struct UpAxis {
+    vec3 axis;
+    float prior;  // log-odds against +Y, which import takes care of
+};
+
+bool better(const Figure& a, const Figure& b) {
+    return a.refusal.empty() != b.refusal.empty() ? a.refusal.empty() : a.score > b.score;
+}
+
+}  // namespace
+
+Figure findFigure(const RigFeatures& rig) {
+    constexpr float kMostLean = 0.3F;  // sine between the mirror plane and the up axis
+    const UpAxis ups[] = {{{0, 1, 0}, 0.0F},   {{0, 0, 1}, -3.0F}, {{0, -1, 0}, -5.0F},
+                          {{0, 0, -1}, -4.0F}, {{1, 0, 0}, -4.0F}, {{-1, 0, 0}, -4.0F}};
+    Figure best;
+    best.refusal = "no joints that mirror each other: nothing here has a left and a right limb";
+    const std::vector<MirrorPlane> planes = findMirrorPlanes(rig);
+    for (const UpAxis& up : ups) {
+        // +Y is what nearly every file has by now: the others are read only where it fails.
+        if (up.prior < 0.0F && best.refusal.empty()) break;
+        for (const MirrorPlane& plane : planes) {
+            if (std::abs(glm::dot(plane.normal, up.axis)) > kMostLean) continue;
+            Figure figure = readInStance(rig, makeStance(plane, up.axis), up.prior);
+            if (better(figure, best)) best = std::move(figure);
+        }
+    }
+    return best;
+}
+
+}  // namespace lutka::animation

@@ -1,0 +1,240 @@
+#include "animation/humanoid/framed_rig.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace lutka::animation {
+namespace {
+
+constexpr float kMaxCost = 1.8F;          // of a pair found by position
+constexpr float kMaxError = 0.10F;        // of the mirrored position, of the spread
+constexpr float kMinSeparation = 0.012F;  // of the spread; nearer joints lie in the plane
+constexpr float kChildLengths = 0.18F;    // log ratio of bone lengths of a pair found by structure
+
+vec3 mirrored(vec3 point) {
+    point.x = -point.x;
+    return point;
+}
+
+float nameCost(const NameEvidence& a, const NameEvidence& b) {
+    const bool sided = a.side != Side::center && b.side != Side::center;
+    if (sided && a.side == b.side) return 1.5F;
+    if (!a.meaningful && !b.meaningful) return 0.0F;
+    const bool numbers = !a.numbers.empty() && !b.numbers.empty() && a.numbers.front() != b.numbers.front();
+    if (a.words == b.words) return (sided ? -0.8F : 0.3F) + (numbers ? 0.25F : 0.0F);
+    return 0.6F;
+}
+
+class PairFinder {
+  public:
+    explicit PairFinder(FramedRig& framed) : framed_(framed), rig_(*framed.rig) {
+        framed_.pairOf.assign(framed_.positions.size(), -1);
+        centroids_.assign(framed_.positions.size(), vec3(0));
+        for (int joint = rig_.count() - 1; joint >= 0; --joint) {
+            centroids_[joint] += framed_.positions[joint];
+            if (rig_.parents[joint] != kNoJoint) centroids_[rig_.parents[joint]] += centroids_[joint];
+        }
+        for (int joint = 0; joint < rig_.count(); ++joint)
+            centroids_[joint] /= static_cast<float>(rig_.subtreeSize(joint));
+    }
+
+    void find() {
+        pairByPosition();
+        pairByStructure();
+        std::sort(framed_.pairs.begin(), framed_.pairs.end(), [this](const JointPair& a, const JointPair& b) {
+            return rig_.enter[a.joints[0]] < rig_.enter[b.joints[0]];
+        });
+        for (std::size_t i = 0; i < framed_.pairs.size(); ++i) {
+            for (const int joint : framed_.pairs[i].joints)
+                framed_.pairOf[joint] = static_cast<int>(i);
+        }
+    }
+
+  private:
+    struct Candidate {
+        int a;
+        int b;
+        float cost;
+    };
+
+    [[nodiscard]] bool parentsLinked(int a, int b) const {
+        const int parentA = rig_.parents[a];
+        const int parentB = rig_.parents[b];
+        if (parentA == parentB) return true;
+        if (parentA == kNoJoint || parentB == kNoJoint || rig_.depth[a] != rig_.depth[b]) return false;
+        const vec3 error = mirrored(framed_.positions[parentA]) - framed_.positions[parentB];
+        return glm::length(error) < 0.05F * framed_.spread;
+    }
+
+    [[nodiscard]] float separation(int a, int b) const {
+        return std::max(std::abs(framed_.positions[a].x - framed_.positions[b].x),
+                        std::abs(centroids_[a].x - centroids_[b].x));
+    }
+
+    [[nodiscard]] float structureCost(int a, int b) const {
+        const float sizes = std::log(static_cast<float>(rig_.subtreeSize(a)) / static_cast<float>(rig_.subtreeSize(b)));
+        const float depths = static_cast<float>(std::abs(rig_.depth[a] - rig_.depth[b]));
+        const float weights = std::log((rig_.subtreeWeight[a] + 0.002F) / (rig_.subtreeWeight[b] + 0.002F));
+        return 0.6F * std::abs(sizes) + 0.25F * depths + 0.25F * std::min(std::abs(weights), 3.0F) +
+               nameCost(rig_.names[a], rig_.names[b]);
+    }
+
+    void add(int a, int b) {
+        if (centroids_[a].x + framed_.positions[a].x < centroids_[b].x + framed_.positions[b].x) std::swap(a, b);
+        JointPair pair;
+        pair.joints = {a, b};
+        pair.position = 0.5F * (framed_.positions[a] + mirrored(framed_.positions[b]));
+        for (int part = 0; part < kPartCount; ++part) {
+            pair.names.values[part] = 0.5F * (rig_.names[a].parts.values[part] + rig_.names[b].parts.values[part]);
+        }
+        pair.ownWeight = rig_.ownWeight[a] + rig_.ownWeight[b];
+        pair.subtreeWeight = rig_.subtreeWeight[a] + rig_.subtreeWeight[b];
+        pair.helper = rig_.names[a].helper || rig_.names[b].helper;
+        framed_.pairOf[a] = framed_.pairOf[b] = static_cast<int>(framed_.pairs.size());
+        framed_.pairs.push_back(pair);
+    }
+
+    void addCheapest(std::vector<Candidate>& candidates) {
+        std::stable_sort(candidates.begin(), candidates.end(),
+                         [](const Candidate& x, const Candidate& y) { return x.cost < y.cost; });
+        for (const Candidate& candidate : candidates) {
+            if (framed_.pairOf[candidate.a] < 0 && framed_.pairOf[candidate.b] < 0) add(candidate.a, candidate.b);
+        }
+    }
+
+    void pairByPosition() {
+        std::vector<Candidate> candidates;
+        for (int a = 0; a < rig_.count(); ++a) {
+            for (int b = a + 1; b < rig_.count(); ++b) {
+                const float error =
+                    glm::distance(mirrored(framed_.positions[a]), framed_.positions[b]) / framed_.spread;
+                if (error > kMaxError || separation(a, b) < kMinSeparation * framed_.spread) continue;
+                if (rig_.isAncestorOrSelf(a, b) || rig_.isAncestorOrSelf(b, a)) continue;
+                const float below = glm::distance(mirrored(centroids_[a]), centroids_[b]) / framed_.spread;
+                const float cost =
+                    12.0F * error + 5.0F * below + structureCost(a, b) + (parentsLinked(a, b) ? 0.0F : 0.5F);
+                if (cost < kMaxCost) candidates.push_back({a, b, cost});
+            }
+        }
+        addCheapest(candidates);
+    }
+
+    // A pose that is not symmetric: joints that hang alike, by bone length, from a pair or on both sides of one joint.
+    void pairByStructure() {
+        for (int joint = 0; joint < rig_.count(); ++joint)
+            pairChildren(joint, joint);
+        for (std::size_t i = 0; i < framed_.pairs.size(); ++i)
+            pairChildren(framed_.pairs[i].joints[0], framed_.pairs[i].joints[1]);
+    }
+
+    void pairChildren(int parentA, int parentB) {
+        std::vector<Candidate> candidates;
+        for (const int a : rig_.children[parentA]) {
+            for (const int b : rig_.children[parentB]) {
+                if (a == b || (parentA == parentB && a > b)) continue;
+                if (framed_.pairOf[a] >= 0 || framed_.pairOf[b] >= 0) continue;
+                const float lengthA = glm::distance(framed_.positions[a], framed_.positions[parentA]);
+                const float lengthB = glm::distance(framed_.positions[b], framed_.positions[parentB]);
+                const float floor = 0.01F * framed_.spread;
+                const float lengths = std::abs(std::log((lengthA + floor) / (lengthB + floor)));
+                const bool apart =
+                    separation(a, b) > 0.05F * framed_.spread && centroids_[a].x * centroids_[b].x < 0.0F;
+                const bool named = nameCost(rig_.names[a], rig_.names[b]) < 0.0F;
+                if (lengths > kChildLengths && !named) continue;
+                if (parentA == parentB && !apart && !named) continue;
+                const float cost = 4.0F * lengths + structureCost(a, b);
+                if (cost < kMaxCost) candidates.push_back({a, b, cost});
+            }
+        }
+        addCheapest(candidates);
+    }
+
+    FramedRig& framed_;
+    const RigFeatures& rig_;
+    std::vector<vec3> centroids_;
+};
+
+void readSkin(FramedRig& framed) {
+    const RigFeatures& rig = *framed.rig;
+    const auto intoStance = [&](const vec3& p) {
+        return vec3(glm::dot(p, framed.stance.across()) - framed.stance.plane.offset, glm::dot(p, framed.stance.up),
+                    glm::dot(p, framed.stance.through()));
+    };
+    framed.positions.reserve(rig.positions.size());
+    for (const vec3& position : rig.positions)
+        framed.positions.push_back(intoStance(position));
+    framed.ownSkin.resize(rig.positions.size());
+    framed.subtreeJoints.resize(rig.positions.size());
+    std::vector<float> heights;
+    for (const RigFeatures::Vertex& vertex : rig.vertices) {
+        const vec3 position = intoStance(vertex.position);
+        framed.ownSkin[vertex.joint].add(position);
+        heights.push_back(position.y);
+    }
+    framed.subtreeSkin = framed.ownSkin;
+    for (int joint = rig.count() - 1; joint >= 0; --joint) {
+        const bool counts = !rig.skinned || rig.subtreeWeight[joint] > 0.0F;
+        if (counts) framed.subtreeJoints[joint].add(framed.positions[joint]);
+        if (counts && heights.empty()) heights.push_back(framed.positions[joint].y);
+        if (rig.parents[joint] == kNoJoint) continue;
+        framed.subtreeSkin[rig.parents[joint]].add(framed.subtreeSkin[joint]);
+        framed.subtreeJoints[rig.parents[joint]].add(framed.subtreeJoints[joint]);
+    }
+    if (rig.vertices.empty()) {
+        heights.clear();
+        for (int joint = 0; joint < rig.count(); ++joint) {
+            if (!rig.skinned || rig.subtreeWeight[joint] > 0.0F) heights.push_back(framed.positions[joint].y);
+        }
+    }
+    std::sort(heights.begin(), heights.end());
+    if (heights.empty()) return;
+    framed.floor = heights[heights.size() / 100];
+    framed.top = heights[heights.size() - 1 - heights.size() / 100];
+}
+
+}  // namespace
+
+vec3 Stance::through() const {
+    return glm::cross(plane.normal, up);
+}
+
+void Box::add(const vec3& point) {
+    low = glm::min(low, point);
+    high = glm::max(high, point);
+    sum += point;
+    ++count;
+}
+
+void Box::add(const Box& other) {
+    low = glm::min(low, other.low);
+    high = glm::max(high, other.high);
+    sum += other.sum;
+    count += other.count;
+}
+
+bool FramedRig::isAbove(int upper, int lower) const {
+    const JointPair& a = pairs[upper];
+    const JointPair& b = pairs[lower];
+    return upper != lower && rig->isAncestorOrSelf(a.joints[0], b.joints[0]) &&
+           rig->isAncestorOrSelf(a.joints[1], b.joints[1]);
+}
+
+float FramedRig::segment(int pairA, int pairB) const {
+    const auto& a = pairs[pairA].joints;
+    const auto& b = pairs[pairB].joints;
+    return 0.5F * (glm::distance(positions[a[0]], positions[b[0]]) + glm::distance(positions[a[1]], positions[b[1]]));
+}
+
+FramedRig frameRig(const RigFeatures& rig, const Stance& stance) {
+    FramedRig framed;
+    framed.rig = &rig;
+    framed.stance = stance;
+    framed.spread = spreadOf(rig);
+    readSkin(framed);
+    PairFinder(framed).find();
+    return framed;
+}
+
+}  // namespace lutka::animation

@@ -1,0 +1,178 @@
+#include "animation/humanoid/name_evidence.hpp"
+
+#include <algorithm>
+#include <bitset>
+#include <initializer_list>
+
+#include "animation/humanoid/name_lexicon.hpp"
+#include "animation/humanoid/name_tokens.hpp"
+
+namespace lutka::animation {
+namespace {
+
+constexpr float kClear = 4.5F;       // the word has one meaning in all conventions
+constexpr float kOther = -2.5F;      // the name speaks of another part
+constexpr float kNoRole = -4.0F;     // fingers, face, props, controls
+constexpr float kTwistLoss = -4.5F;  // a twist joint is still nearest to its own part
+
+struct PartScore {
+    Part part;
+    float score;
+};
+
+struct Meaning {
+    Concept word;
+    std::initializer_list<PartScore> sided;    // with a left or right in the name
+    std::initializer_list<PartScore> central;  // without
+};
+
+class Concepts {
+  public:
+    explicit Concepts(const std::vector<std::string>& words) {
+        for (const std::string& word : words) {
+            if (const auto meaning = conceptOf(word)) bits_.set(static_cast<std::size_t>(*meaning));
+        }
+    }
+    [[nodiscard]] bool has(Concept meaning) const { return bits_.test(static_cast<std::size_t>(meaning)); }
+    [[nodiscard]] bool hasAny(std::initializer_list<Concept> meanings) const {
+        return std::any_of(meanings.begin(), meanings.end(), [this](Concept m) { return has(m); });
+    }
+    [[nodiscard]] bool empty() const { return bits_.none(); }
+
+  private:
+    std::bitset<64> bits_;
+};
+
+void set(PartScores& scores, std::initializer_list<PartScore> values) {
+    scores.values.fill(kOther);
+    for (const PartScore& value : values)
+        scores[value.part] = value.score;
+}
+
+bool scoreArm(const Concepts& c, PartScores& scores) {
+    const bool low = c.has(Concept::lower);
+    if (c.has(Concept::forearm) || (c.has(Concept::arm) && low)) {
+        set(scores, {{Part::lowerArm, kClear}});
+    } else if (c.has(Concept::elbow)) {
+        set(scores, {{Part::lowerArm, 4.0F}});
+    } else if (c.has(Concept::upperArm) || (c.has(Concept::arm) && c.has(Concept::upper))) {
+        set(scores, {{Part::upperArm, kClear}});
+    } else if (c.has(Concept::wrist)) {
+        set(scores, {{Part::hand, 3.5F}, {Part::lowerArm, -0.5F}});
+    } else if (c.has(Concept::hand)) {
+        set(scores, {{Part::hand, kClear}});
+    } else if (c.has(Concept::clavicle)) {
+        set(scores, {{Part::clavicle, kClear}});
+    } else if (c.has(Concept::shoulder)) {
+        set(scores, {{Part::clavicle, 2.2F}, {Part::upperArm, 2.0F}});
+    } else if (c.has(Concept::arm)) {
+        set(scores, {{Part::upperArm, 2.4F}, {Part::clavicle, 0.8F}, {Part::lowerArm, 0.8F}, {Part::hand, -1.0F}});
+    } else {
+        return false;
+    }
+    return true;
+}
+
+bool scoreLeg(const Concepts& c, bool sided, PartScores& scores) {
+    const bool low = c.has(Concept::lower);
+    if (c.has(Concept::shin) || (c.has(Concept::leg) && low)) {
+        set(scores, {{Part::lowerLeg, kClear}});
+    } else if (c.has(Concept::knee)) {
+        set(scores, {{Part::lowerLeg, 4.0F}});
+    } else if (c.has(Concept::thigh) || (c.has(Concept::leg) && c.has(Concept::upper))) {
+        set(scores, {{Part::upperLeg, kClear}});
+    } else if (c.has(Concept::ankle)) {
+        set(scores, {{Part::foot, 4.0F}});
+    } else if (c.has(Concept::toes)) {
+        set(scores, {{Part::toes, kClear}, {Part::foot, -0.5F}});
+    } else if (c.has(Concept::heel)) {
+        set(scores, {{Part::foot, -1.5F}});
+    } else if (c.has(Concept::foot)) {
+        set(scores, {{Part::foot, 4.0F}, {Part::toes, 0.5F}});
+    } else if (sided && c.hasAny({Concept::hip, Concept::hips})) {
+        // A sided pelvis lies between the hips and the thigh; a sided hip usually is the thigh.
+        set(scores, {{Part::upperLeg, c.has(Concept::hip) ? 2.5F : -1.0F}});
+    } else if (c.has(Concept::leg)) {
+        set(scores, {{Part::lowerLeg, 2.0F}, {Part::upperLeg, 2.0F}, {Part::foot, -1.5F}});
+    } else {
+        return false;
+    }
+    return true;
+}
+
+void scoreTrunk(const Concepts& c, bool sided, PartScores& scores) {
+    const bool low = c.has(Concept::lower);
+    const bool up = c.has(Concept::upper);
+    if (sided && c.has(Concept::chest)) {
+        set(scores, {{Part::clavicle, 0.8F}});
+    } else if (c.hasAny({Concept::hips, Concept::hip}) || (low && c.hasAny({Concept::torso, Concept::body}))) {
+        set(scores, {{Part::hips, kClear}, {Part::trunk, low && c.has(Concept::body) ? -0.5F : -1.5F}});
+    } else if (c.has(Concept::neck)) {
+        set(scores, {{Part::neck, 4.0F}, {Part::head, -0.5F}, {Part::chest, -1.5F}});
+    } else if (c.has(Concept::head)) {
+        set(scores, {{Part::head, kClear}, {Part::neck, -1.5F}});
+    } else if (c.has(Concept::chest)) {
+        set(scores, {{Part::chest, 4.0F}, {Part::trunk, 2.0F}});
+    } else if (up && c.hasAny({Concept::torso, Concept::body})) {
+        set(scores, {{Part::chest, 4.0F}, {Part::trunk, 1.5F}});
+    } else if (c.has(Concept::torso)) {
+        set(scores, {{Part::chest, 2.5F}, {Part::trunk, 2.5F}, {Part::hips, 0.5F}});
+    } else if (c.has(Concept::abdomen)) {
+        set(scores, {{Part::trunk, 3.0F}, {Part::chest, -0.5F}, {Part::hips, -0.5F}});
+    } else if (c.has(Concept::spine)) {
+        set(scores, {{Part::trunk, 3.0F}, {Part::chest, up ? 3.0F : 2.5F}, {Part::hips, 0.0F}});
+    } else if (c.has(Concept::body)) {
+        set(scores, {{Part::hips, 1.0F}, {Part::trunk, 0.5F}, {Part::chest, 0.5F}});
+    } else if (c.has(Concept::root)) {
+        set(scores, {{Part::hips, 0.5F}});
+    }
+}
+
+bool takesNoRole(const Concepts& c, const NameTokens& tokens) {
+    const bool trunk = c.hasAny({Concept::spine, Concept::chest, Concept::torso, Concept::neck, Concept::hips});
+    const bool onlyMiddle = std::all_of(tokens.words.begin(), tokens.words.end(), [](const std::string& word) {
+        return conceptOf(word) != Concept::finger || word == "mid" || word == "middle";
+    });
+    if (c.has(Concept::finger) && !(trunk && onlyMiddle)) return !c.has(Concept::toes);
+    return c.hasAny({Concept::control, Concept::end, Concept::face, Concept::hair, Concept::cloth, Concept::prop,
+                     Concept::creature});
+}
+
+bool hasWord(const std::vector<std::string>& words, std::string_view word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+}  // namespace
+
+NameEvidence nameEvidence(std::string_view name) {
+    const NameTokens tokens = tokenise(name);
+    const Concepts concepts(tokens.words);
+    NameEvidence evidence;
+    evidence.side = tokens.side;
+    evidence.words = tokens.words;
+    evidence.numbers = tokens.numbers;
+    const bool sided = tokens.side != Side::center;
+    if (!scoreArm(concepts, evidence.parts) && !scoreLeg(concepts, sided, evidence.parts)) {
+        scoreTrunk(concepts, sided, evidence.parts);
+    }
+    const bool fourLegged =
+        (hasWord(tokens.words, "fore") || hasWord(tokens.words, "back")) && concepts.has(Concept::leg);
+    evidence.creature = fourLegged || concepts.has(Concept::creature);
+    evidence.tail = hasWord(tokens.words, "tail") || hasWord(tokens.words, "tails");
+    evidence.face = concepts.has(Concept::face);
+    evidence.thumb = hasWord(tokens.words, "thumb") || hasWord(tokens.words, "thumbs");
+    evidence.helper = concepts.hasAny({Concept::twist, Concept::control, Concept::end, Concept::prop});
+    evidence.meaningful = !concepts.empty();
+    if (takesNoRole(concepts, tokens) || evidence.creature) {
+        for (float& score : evidence.parts.values)
+            score = std::min(score, 0.0F) * 0.2F + kNoRole;
+    } else if (concepts.has(Concept::twist)) {
+        for (float& score : evidence.parts.values)
+            score += kTwistLoss;
+        // One convention calls its neck "NeckTwist".
+        if (concepts.has(Concept::neck)) evidence.parts[Part::neck] = 1.5F;
+    }
+    return evidence;
+}
+
+}  // namespace lutka::animation

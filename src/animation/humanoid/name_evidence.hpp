@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "animation/humanoid/parts.hpp"
+
+namespace lutka::animation {
+
+/// What a joint's name says.
+struct NameEvidence {
+    /// Log-likelihood ratio of the name under each part against none: about +4.5 for a clear word, 1 to 2 for a word
+    /// whose meaning differs between rigs ("shoulder", "leg"), 0 for a name that says nothing, negative for another
+    /// part's.
+    PartScores parts;
+    Side side = Side::center;
+    bool meaningful = false;  ///< Some word of the name is in the lexicon.
+    bool helper = false;      ///< Twist, control, tip, prop: sits at a body part without being it.
+    bool face = false;        ///< Eye, jaw, nose …: in front of the head.
+    bool thumb = false;
+    bool tail = false;
+    bool creature = false;           ///< Wing, paw, front leg …: not a human part.
+    std::vector<std::string> words;  ///< For reasons and for pairing left and right.
+    std::vector<int> numbers;        ///< As in NameTokens.
+};
+
+[[nodiscard]] NameEvidence nameEvidence(std::string_view name);
+
+}  // namespace lutka::animation

@@ -1,0 +1,128 @@
+#include "animation/humanoid/role_assembly.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+
+namespace lutka::animation {
+namespace {
+
+constexpr float kCertain = 0.99F;
+
+float probability(float logOdds) {
+    return 1.0F / (1.0F + std::exp(-logOdds));
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words)
+        text += (text.empty() ? "" : " ") + word;
+    return text;
+}
+
+class RoleAssembler {
+  public:
+    explicit RoleAssembler(const Figure& figure)
+        : figure_(figure), rig_(*figure.framed.rig), sideTrust_(probability(std::abs(figure.facing.total()))) {}
+
+    HumanoidMap assemble() {
+        map_.humanoid = true;
+        map_.confidence = std::min(probability((figure_.score - kLeastFigureScore) / 5.0F), kCertain);
+        bindTrunk();
+        constexpr std::array<Role, 4> kLegs{Role::leftUpperLeg, Role::leftLowerLeg, Role::leftFoot, Role::leftToes};
+        constexpr std::array<Role, 4> kArms{Role::leftUpperArm, Role::leftLowerArm, Role::leftHand, Role::leftShoulder};
+        bindLimb(figure_.legs, kLegs, figure_.margins.legs, "leg");
+        bindLimb(figure_.arms, kArms, figure_.margins.arms, "arm");
+        map_.standardFromModel = standardStance();
+        return map_;
+    }
+
+  private:
+    [[nodiscard]] std::string evidence(int joint, Part part) const {
+        std::string text;
+        const NameEvidence& name = rig_.names[joint];
+        if (name.meaningful && name.parts[part] > 0.0F) text += fmt::format("name \"{}\"; ", joined(name.words));
+        if (name.meaningful && name.parts[part] < 0.0F) {
+            text += fmt::format("in spite of its name (\"{}\"); ", joined(name.words));
+        }
+        return text;
+    }
+
+    [[nodiscard]] std::string skin(int joint) const {
+        if (!rig_.skinned) return {};
+        return fmt::format("; moves {:.1f} % of the skin", 100.0F * rig_.ownWeight[joint]);
+    }
+
+    void bind(Role role, int joint, Part part, float margin, const std::string& place) {
+        if (joint == kNoJoint) return;
+        const float trust = sideOf(role) == Side::center ? 1.0F : sideTrust_;
+        RoleBinding binding;
+        binding.joint = joint;
+        binding.confidence = std::min(probability(margin) * trust, kCertain);
+        binding.reason = evidence(joint, part) + place + skin(joint);
+        map_.roles[indexOf(role)] = binding;
+    }
+
+    void bindTrunk() {
+        const TrunkCandidate& trunk = figure_.trunk;
+        bind(Role::hips, trunk.hips, Part::hips, figure_.margins.hips, "central joint at the height of the thighs");
+        bind(Role::neck, trunk.neck, Part::neck, figure_.margins.head, "first joint between chest and head");
+        bind(Role::head, trunk.head, Part::head, figure_.margins.head, "top of the central chain above the arms");
+        std::vector<int> spine;
+        if (trunk.chest != trunk.hips) spine = spineBetween(figure_.framed, trunk, figure_.legs, figure_.arms);
+        spine.push_back(trunk.chest);
+        const std::size_t count = spine.size();
+        const auto place = [&](std::size_t index) {
+            if (trunk.chest == trunk.hips) return std::string("the whole trunk is this one joint");
+            return fmt::format("joint {} of {} of the spine, counted from the hips", index + 1, count);
+        };
+        const float margin = figure_.margins.chest;
+        bind(Role::spine, spine.front(), Part::trunk, margin, place(0));
+        if (count >= 2)
+            bind(Role::chest, spine[count == 2 ? 1 : (count - 1) / 2], Part::chest, margin,
+                 place(count == 2 ? 1 : (count - 1) / 2));
+        if (count >= 3) bind(Role::upperChest, spine.back(), Part::chest, margin, place(count - 1));
+    }
+
+    void bindLimb(const LimbCandidate& limb, const std::array<Role, 4>& leftRoles, const std::array<float, 4>& margins,
+                  const char* what) {
+        constexpr std::array<const char*, 3> kOrder{"first", "second", "third"};
+        const std::array<Part, 4> parts = partsOf(limb.kind);
+        const bool plusIsLeft = figure_.facing.total() >= 0.0F;
+        std::size_t order = 0;
+        for (std::size_t slot = 0; slot < leftRoles.size(); ++slot) {
+            if (limb.pairs[slot] == kNoPair) continue;
+            const char* count = slot < 3 ? kOrder[order++] : nullptr;
+            for (const bool left : {true, false}) {
+                const int joint = figure_.framed.pairs[limb.pairs[slot]].joints[left == plusIsLeft ? 0 : 1];
+                const char* side = left ? "left" : "right";
+                const std::string place = count != nullptr ? fmt::format("{} joint of the {} {}", count, side, what)
+                                          : limb.kind == LimbKind::arm
+                                              ? fmt::format("lies between the spine and the {} arm", side)
+                                              : fmt::format("lies in front of the {} foot's joint", side);
+                bind(left ? leftRoles[slot] : mirrored(leftRoles[slot]), joint, parts[slot], margins[slot], place);
+            }
+        }
+    }
+
+    [[nodiscard]] quat standardStance() const {
+        const Stance& stance = figure_.framed.stance;
+        const vec3 left = figure_.facing.total() >= 0.0F ? stance.across() : -stance.across();
+        return glm::conjugate(rotationFromXY(left, stance.up));
+    }
+
+    const Figure& figure_;
+    const RigFeatures& rig_;
+    float sideTrust_;
+    HumanoidMap map_;
+};
+
+}  // namespace
+
+HumanoidMap assembleRoles(const Figure& figure) {
+    return RoleAssembler(figure).assemble();
+}
+
+}  // namespace lutka::animation

@@ -1,0 +1,130 @@
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <glm/gtc/quaternion.hpp>
+
+#include "animation/humanoid/map_humanoid.hpp"
+#include "animation/import/import_character.hpp"
+#include "rig_variations.hpp"
+#include "support/catch.hpp"
+#include "support/zoo.hpp"
+#include "zoo_scoring.hpp"
+
+namespace lutka::test {
+namespace {
+
+using animation::Character;
+
+struct Model {
+    Truth truth;
+    Character character;
+};
+
+// Every model of the folder, loaded once. A file that can't be read at all counts as one without joints.
+const std::vector<Model>& zoo() {
+    static const std::vector<Model> models = [] {
+        std::vector<Model> loaded;
+        for (Truth& truth : readTruths(LUTKA_ZOO_DIR)) {
+            animation::ImportOptions options;
+            options.loadTextures = false;
+            auto character = animation::importCharacter(truth.file, options);
+            if (!character && truth.humanoid) FAIL_CHECK(truth.model << ": " << character.error().text());
+            loaded.push_back({std::move(truth), character ? std::move(character.value()) : Character{}});
+        }
+        return loaded;
+    }();
+    return models;
+}
+
+using Variation = std::function<Character(const Character&)>;
+
+struct Totals {
+    Score score;
+    int falselyAccepted = 0;
+};
+
+Totals scoreAll(const char* title, const Variation& vary, bool mirrored = false) {
+    Totals totals;
+    std::printf("\n%s\n", title);
+    for (const Model& model : zoo()) {
+        const Character character = vary(model.character);
+        const auto start = std::chrono::steady_clock::now();
+        const animation::HumanoidMap map = animation::mapHumanoid(character);
+        const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+        const Score score =
+            scoreMap(mirrored ? mirrorTruth(model.truth) : model.truth, map, model.character.skeleton.names);
+        std::printf("  %-30s %3d joints %6.1f ms  required %2d/%2d  optional %d/%d  confidence %.2f  %s\n",
+                    model.truth.model.c_str(), character.skeleton.jointCount(), spent.count(), score.right, score.of,
+                    score.optionalRight, score.optionalOf, static_cast<double>(map.confidence), score.faults.c_str());
+        if (!map.humanoid && !map.warnings.empty()) std::printf("      %s\n", map.warnings.front().c_str());
+        totals.score += score;
+        if (!model.truth.humanoid && map.humanoid) ++totals.falselyAccepted;
+    }
+    std::printf("  all: required %d/%d (%.1f %%), optional %d/%d\n", totals.score.right, totals.score.of,
+                100.0 * totals.score.right / totals.score.of, totals.score.optionalRight, totals.score.optionalOf);
+    return totals;
+}
+
+quat aboutY(float angle) {
+    return glm::angleAxis(angle, vec3(0, 1, 0));
+}
+
+quat zUp() {
+    return glm::angleAxis(radians(90.0F), vec3(1, 0, 0));
+}
+
+void requireNamed(const Totals& totals) {
+    CHECK(totals.falselyAccepted == 0);
+    CHECK(totals.score.right == totals.score.of);
+}
+
+void requireUnnamed(const Totals& totals) {
+    CHECK(totals.falselyAccepted == 0);
+    CHECK(static_cast<double>(totals.score.right) >= 0.95 * totals.score.of);
+}
+
+}  // namespace
+
+TEST_CASE("every test model maps to its truth", "[zoo]") {
+    if (!zooIsThere()) return;
+    requireNamed(scoreAll("as they are", [](const Character& c) { return c; }));
+}
+
+TEST_CASE("test models map without any names", "[zoo]") {
+    if (!zooIsThere()) return;
+    requireUnnamed(scoreAll("all joints named joint_N", [](const Character& c) { return withoutNames(c); }));
+}
+
+TEST_CASE("turned about the vertical test models keep their roles", "[zoo]") {
+    if (!zooIsThere()) return;
+    const quat turn = aboutY(radians(37.0F));
+    requireNamed(scoreAll("turned by 37 degrees", [&](const Character& c) { return rotated(c, turn); }));
+    requireUnnamed(
+        scoreAll("turned by 37 degrees, joint_N", [&](const Character& c) { return rotated(withoutNames(c), turn); }));
+}
+
+TEST_CASE("with Z up test models keep their roles", "[zoo]") {
+    if (!zooIsThere()) return;
+    requireNamed(scoreAll("Z up", [](const Character& c) { return rotated(c, zUp()); }));
+    requireUnnamed(scoreAll("Z up, joint_N", [](const Character& c) { return rotated(withoutNames(c), zUp()); }));
+}
+
+TEST_CASE("at any scale test models keep their roles", "[zoo]") {
+    if (!zooIsThere()) return;
+    for (const float factor : {0.01F, 100.0F}) {
+        requireNamed(scoreAll("scaled", [&](const Character& c) { return scaled(c, factor); }));
+        requireUnnamed(
+            scoreAll("scaled, joint_N", [&](const Character& c) { return scaled(withoutNames(c), factor); }));
+    }
+}
+
+TEST_CASE("mirror images of test models exchange left and right", "[zoo]") {
+    if (!zooIsThere()) return;
+    const Totals named = scoreAll(
+        "mirrored", [](const Character& c) { return mirrorImage(c); }, true);
+    requireUnnamed(named);
+    requireUnnamed(scoreAll(
+        "mirrored, joint_N", [](const Character& c) { return mirrorImage(withoutNames(c)); }, true));
+}
+
+}  // namespace lutka::test
