@@ -9,8 +9,8 @@
 namespace lutka::render {
 namespace {
 
-constexpr int kSegments = 20;  // around
-constexpr int kCapRings = 5;   // from the equator to each pole
+constexpr int kSegments = 24;  // around; with the rings the same grid as the lines of line_batch.cpp
+constexpr int kCapRings = 6;   // from the equator to each pole
 
 struct Corner {
     vec3 position;

@@ -1,0 +1,128 @@
+#include "render/gl/gl_context.hpp"
+
+// glad first: GLFW must not bring in the system's GL header.
+#include <glad/gl.h>
+
+#include <GLFW/glfw3.h>
+
+#include <utility>
+
+#include "render/gl/egl_context.hpp"
+
+namespace lutka::render {
+namespace {
+
+constexpr const char* kMend = "install a driver for OpenGL 3.3 (package libgl1-mesa-dri for software rendering)";
+
+struct DestroyWindow {
+    void operator()(GLFWwindow* window) const {
+        glfwDestroyWindow(window);
+        glfwTerminate();
+    }
+};
+
+std::string textOf(GLenum what) {
+    const GLubyte* text = glGetString(what);
+    return text != nullptr ? reinterpret_cast<const char*>(text) : "unknown";
+}
+
+Error noDisplay(const std::string& message) {
+    return {ErrorCode::noDisplay, message, "", kMend};
+}
+
+// GLFW's last words, read right after a call that failed.
+std::string glfwWords() {
+    const char* text = nullptr;
+    glfwGetError(&text);
+    return text != nullptr ? text : "no reason given";
+}
+
+}  // namespace
+
+struct GlContext::State {
+    std::unique_ptr<EglContext> egl;
+    std::unique_ptr<GLFWwindow, DestroyWindow> window;
+    std::string description;
+
+    // Loads GL's functions for the current context.
+    Result<void> load(GLADloadfunc loader) {
+        if (gladLoadGL(loader) == 0) return noDisplay("the functions of OpenGL 3.3 can't be loaded");
+        description = textOf(GL_VENDOR) + ", " + textOf(GL_RENDERER) + ", " + textOf(GL_VERSION);
+        return {};
+    }
+};
+
+GlContext::GlContext(std::unique_ptr<State> state) : state_(std::move(state)) {}
+GlContext::GlContext(GlContext&&) noexcept = default;
+GlContext& GlContext::operator=(GlContext&&) noexcept = default;
+GlContext::~GlContext() = default;
+
+Result<GlContext> GlContext::createHeadless() {
+    auto state = std::make_unique<State>();
+    Result<std::unique_ptr<EglContext>> egl = EglContext::create();
+    if (!egl) return noDisplay(egl.error().message);
+    state->egl = std::move(egl).value();
+    const Result<void> loaded = state->load(state->egl->loader());
+    if (!loaded) return loaded.error();
+    return GlContext(std::move(state));
+}
+
+Result<GlContext> GlContext::createWindow(const WindowOptions& options) {
+    if (glfwInit() != GLFW_TRUE) return noDisplay("no window system: " + glfwWords());
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
+    // The renderer multisamples in its own framebuffer; the window needs no depth.
+    glfwWindowHint(GLFW_SAMPLES, 0);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    GLFWwindow* window =
+        glfwCreateWindow(options.size.width, options.size.height, options.title.c_str(), nullptr, nullptr);
+    if (window == nullptr) {
+        const Error error = noDisplay("no window with OpenGL 3.3: " + glfwWords());
+        glfwTerminate();
+        return error;
+    }
+    auto state = std::make_unique<State>();
+    state->window.reset(window);
+    glfwMakeContextCurrent(window);
+    const Result<void> loaded = state->load(glfwGetProcAddress);
+    if (!loaded) return loaded.error();
+    glfwSwapInterval(options.vsync ? 1 : 0);
+    return GlContext(std::move(state));
+}
+
+void GlContext::makeCurrent() {
+    if (state_->window) {
+        glfwMakeContextCurrent(state_->window.get());
+    } else {
+        state_->egl->makeCurrent();
+    }
+}
+
+GLFWwindow* GlContext::window() const {
+    return state_->window.get();
+}
+
+Extent GlContext::framebufferSize() const {
+    Extent size{0, 0};
+    if (state_->window) glfwGetFramebufferSize(state_->window.get(), &size.width, &size.height);
+    return size;
+}
+
+void GlContext::swapBuffers() {
+    if (state_->window) glfwSwapBuffers(state_->window.get());
+}
+
+void GlContext::setVsync(bool on) {
+    if (state_->window) glfwSwapInterval(on ? 1 : 0);
+}
+
+const std::string& GlContext::description() const {
+    return state_->description;
+}
+
+}  // namespace lutka::render

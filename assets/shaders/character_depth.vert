@@ -1,0 +1,18 @@
+// Depth only: the shadow map, and the depth that ambient occlusion reads.
+#include "instance.glsl"
+#include "skinning.glsl"
+
+layout(location = 0) in vec3 position;
+layout(location = 3) in vec2 uv;
+layout(location = 4) in uvec4 joints;
+layout(location = 5) in vec4 weights;
+
+uniform mat4 depthFromWorld;
+
+out vec2 textureUv;
+
+void main() {
+    Rows rows = blendedRows(int(instanceTexel(5).x), joints, weights);
+    textureUv = uv;
+    gl_Position = depthFromWorld * vec4(toWorld(vec4(applyRows(rows, vec4(position, 1.0)), 1.0)), 1.0);
+}

@@ -1,0 +1,12 @@
+#ifdef ALPHA_MASK
+uniform sampler2D baseColorTexture;
+uniform vec4 baseColor;
+uniform float alphaCutoff;
+in vec2 textureUv;
+#endif
+
+void main() {
+#ifdef ALPHA_MASK
+    if (baseColor.a * texture(baseColorTexture, textureUv).a < alphaCutoff) discard;
+#endif
+}

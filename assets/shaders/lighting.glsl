@@ -1,0 +1,135 @@
+// Metallic-roughness shading (glTF 2.0, appendix B) under the sun, the local lights and the procedural sky.
+uniform sampler2DShadow shadowMap;
+uniform sampler2D occlusionMap;
+
+const float kPi = 3.14159265;
+
+struct Surface {
+    vec3 position;  // world
+    vec3 normal;    // world, unit, towards the eye's side
+    vec3 geometric; // the same before normal mapping, for the shadow's offset
+    vec3 albedo;    // linear
+    float metallic;
+    float roughness;
+    float occlusion;
+    vec3 emissive;
+};
+
+// Radiance of the sky, blurred by roughness in [0, 1]; a broad glow stands around the sun.
+vec3 skyRadiance(vec3 direction, float roughness) {
+    float blur = mix(0.06, 0.9, roughness);
+    float above = smoothstep(-blur, blur, direction.y);
+    float height = clamp(direction.y, 0.0, 1.0);
+    vec3 sky = mix(skyHorizon.rgb, skyZenith.rgb, sqrt(height) * (1.0 - 0.4 * roughness));
+    float glow = pow(max(dot(direction, sunDirection.xyz), 0.0), mix(24.0, 3.0, roughness));
+    sky += skyHorizon.rgb * glow * mix(1.2, 0.35, roughness);
+    return mix(skyGround.rgb, sky, above);
+}
+
+// What arrives from the whole hemisphere around a normal.
+vec3 skyIrradiance(vec3 normal) {
+    vec3 sky = mix(skyHorizon.rgb, skyZenith.rgb, 0.5);
+    float sun = max(dot(normal, sunDirection.xyz), 0.0);
+    return mix(skyGround.rgb, sky, 0.5 + 0.5 * normal.y) + skyHorizon.rgb * (0.16 * sun);
+}
+
+// Share of the sun that arrives, [0, 1]. The point is moved along its normal by the texels that the filter covers, so
+// that a surface does not shade itself (normal offset: Holbert 2011), more where the light grazes.
+float sunVisibility(vec3 position, vec3 normal) {
+    if (sunDirection.w < 0.5) return 1.0;
+    float cosine = clamp(dot(normal, sunDirection.xyz), 0.0, 1.0);
+    float grazing = sqrt(1.0 - cosine * cosine);
+    vec3 moved = position + normal * (shadowTexel.x * (0.6 + 1.8 * grazing) * (0.5 + sunColor.w));
+    vec3 at = (shadowFromWorld * vec4(moved, 1.0)).xyz;
+    if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at, vec3(1.0)))) return 1.0;
+    float texel = shadowTexel.y * sunColor.w;
+    float lit = 4.0 * texture(shadowMap, at);
+    lit += 2.0 * texture(shadowMap, at + vec3(texel, 0.0, 0.0));
+    lit += 2.0 * texture(shadowMap, at - vec3(texel, 0.0, 0.0));
+    lit += 2.0 * texture(shadowMap, at + vec3(0.0, texel, 0.0));
+    lit += 2.0 * texture(shadowMap, at - vec3(0.0, texel, 0.0));
+    lit += texture(shadowMap, at + vec3(texel, texel, 0.0));
+    lit += texture(shadowMap, at + vec3(-texel, texel, 0.0));
+    lit += texture(shadowMap, at + vec3(texel, -texel, 0.0));
+    lit += texture(shadowMap, at + vec3(-texel, -texel, 0.0));
+    return lit / 16.0;
+}
+
+// Share of the sky that nearby geometry leaves open at this pixel.
+float ambientVisibility() {
+    return target.w > 0.5 ? texture(occlusionMap, gl_FragCoord.xy * viewport.zw).r : 1.0;
+}
+
+// Specular reflectance of one light: GGX distribution with the height-correlated Smith term of Hammon (2017), Schlick's
+// Fresnel. The factor pi is left out, as light intensities are irradiance / pi.
+vec3 specularLobe(vec3 f0, float roughness, vec3 normal, vec3 toEye, vec3 toLight) {
+    vec3 middle = normalize(toEye + toLight);
+    float alpha = max(roughness * roughness, 0.02);
+    float nh = max(dot(normal, middle), 0.0);
+    float nl = max(dot(normal, toLight), 1e-3);
+    float nv = max(dot(normal, toEye), 1e-3);
+    float d = nh * nh * (alpha * alpha - 1.0) + 1.0;
+    float distribution = alpha * alpha / (d * d);
+    float visibility = 0.5 / mix(2.0 * nl * nv, nl + nv, alpha);
+    float grazing = 1.0 - max(dot(toEye, middle), 0.0);
+    float grazing2 = grazing * grazing;
+    vec3 fresnel = f0 + (1.0 - f0) * (grazing2 * grazing2 * grazing);
+    return fresnel * (distribution * visibility);
+}
+
+// Reflectance of a hemisphere of even light (fit of Karis 2014).
+vec3 environmentReflectance(vec3 f0, float roughness, float nv) {
+    vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
+    vec2 scaleBias = vec2(-1.04, 1.04) * a + r.zw;
+    return f0 * scaleBias.x + scaleBias.y;
+}
+
+// One local light's colour at a point, with its fall-off; `toLight` gets the unit direction.
+vec3 localLightAt(LocalLight light, vec3 position, out vec3 toLight) {
+    vec3 offset = light.positionRange.xyz - position;
+    float squared = max(dot(offset, offset), 1e-4);
+    toLight = offset * inversesqrt(squared);
+    float ratio = squared / (light.positionRange.w * light.positionRange.w);
+    float window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
+    float cosine = -dot(toLight, light.directionCosine.xyz);
+    float cone = smoothstep(light.directionCosine.w - 1e-3, light.colorCosine.w, cosine);
+    return light.colorCosine.rgb * (window * window * cone / squared);
+}
+
+// Radiance that leaves a surface towards the eye.
+vec3 shade(Surface surface) {
+    vec3 toEye = towardsEye(surface.position);
+    vec3 f0 = mix(vec3(0.04), surface.albedo, surface.metallic);
+    vec3 diffuse = surface.albedo * (1.0 - surface.metallic);
+    float nv = clamp(dot(surface.normal, toEye), 0.0, 1.0);
+
+    float open = surface.occlusion * ambientVisibility();
+    vec3 reflectance = environmentReflectance(f0, surface.roughness, nv);
+    vec3 mirrored = reflect(-toEye, surface.normal);
+    vec3 color = diffuse * skyIrradiance(surface.normal) * open;
+    color += reflectance * skyRadiance(mirrored, surface.roughness) * clamp(open * (0.4 + 0.6 * open), 0.0, 1.0);
+
+    float nl = dot(surface.normal, sunDirection.xyz);
+    if (nl > 0.0) {
+        float lit = sunVisibility(surface.position, surface.geometric);
+        vec3 lobe = specularLobe(f0, surface.roughness, surface.normal, toEye, sunDirection.xyz);
+        color += (diffuse + lobe) * sunColor.rgb * (nl * lit);
+    }
+    for (int i = 0; i < counts.x; ++i) {
+        vec3 toLight;
+        vec3 arriving = localLightAt(localLights[i], surface.position, toLight);
+        vec3 lobe = specularLobe(f0, surface.roughness, surface.normal, toEye, toLight);
+        color += (diffuse + lobe) * arriving * max(dot(surface.normal, toLight), 0.0);
+    }
+    return color + surface.emissive;
+}
+
+// Filmic tone mapping: the ACES reference transform in the fit by Hill (2015), linear sRGB in and out.
+vec3 toneMap(vec3 color) {
+    const mat3 acesFromRgb = mat3(0.59719, 0.07600, 0.02840, 0.35458, 0.90834, 0.13383, 0.04823, 0.01566, 0.83777);
+    const mat3 rgbFromAces = mat3(1.60475, -0.10208, -0.00327, -0.53108, 1.10813, -0.07276, -0.07367, -0.00605, 1.07602);
+    vec3 v = acesFromRgb * (color * forward.w * 1.45);
+    vec3 fitted = (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
+    return clamp(rgbFromAces * fitted, 0.0, 1.0);
+}

@@ -1,0 +1,121 @@
+#include "render/gl/debug_renderer.hpp"
+
+#include <cstddef>
+
+namespace lutka::render {
+namespace {
+
+void floatAttribute(GLuint location, GLint count, GLsizei stride, std::size_t offset) {
+    glEnableVertexAttribArray(location);
+    glVertexAttribPointer(location, count, GL_FLOAT, GL_FALSE, stride, attributeOffset(offset));
+}
+
+void colorAttribute(GLuint location, GLsizei stride, std::size_t offset) {
+    glEnableVertexAttribArray(location);
+    glVertexAttribPointer(location, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, attributeOffset(offset));
+}
+
+}  // namespace
+
+DebugRenderer::DebugRenderer()
+    : lineBuffer_(GL_ARRAY_BUFFER),
+      solidBuffer_(GL_ARRAY_BUFFER),
+      lineArray_(GlVertexArray::create()),
+      solidArray_(GlVertexArray::create()) {
+    // A segment is one instance: both its ends are attributes of it.
+    glBindVertexArray(lineArray_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, lineBuffer_.name());
+    constexpr GLsizei kSegment = 2 * sizeof(LineVertex);
+    floatAttribute(0, 3, kSegment, offsetof(LineVertex, position));
+    colorAttribute(1, kSegment, offsetof(LineVertex, color));
+    floatAttribute(2, 3, kSegment, sizeof(LineVertex) + offsetof(LineVertex, position));
+    colorAttribute(3, kSegment, sizeof(LineVertex) + offsetof(LineVertex, color));
+    for (GLuint location = 0; location < 4; ++location)
+        glVertexAttribDivisor(location, 1);
+
+    glBindVertexArray(solidArray_.name());
+    glBindBuffer(GL_ARRAY_BUFFER, solidBuffer_.name());
+    floatAttribute(0, 3, sizeof(SolidVertex), offsetof(SolidVertex, position));
+    floatAttribute(1, 3, sizeof(SolidVertex), offsetof(SolidVertex, normal));
+    colorAttribute(2, sizeof(SolidVertex), offsetof(SolidVertex, color));
+    glBindVertexArray(0);
+}
+
+Result<DebugRenderer> DebugRenderer::create() {
+    DebugRenderer renderer;
+    Result<ShaderProgram> lines = ShaderProgram::load("line.vert", "line.frag");
+    if (!lines) return lines.error();
+    Result<ShaderProgram> solids = ShaderProgram::load("solid.vert", "solid.frag");
+    if (!solids) return solids.error();
+    renderer.lineProgram_ = std::move(lines).value();
+    renderer.solidProgram_ = std::move(solids).value();
+    return renderer;
+}
+
+void DebugRenderer::draw(const FrameDescription& frame, FrameStats& stats) {
+    glEnable(GL_DEPTH_TEST);
+    glEnable(GL_BLEND);
+    if (!frame.solids.empty()) drawSolids(frame, stats);
+    if (!frame.lines.empty()) drawLines(frame, stats);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_TRUE);
+}
+
+void DebugRenderer::drawSolids(const FrameDescription& frame, FrameStats& stats) {
+    const std::span<const SolidVertex> vertices(frame.solids.vertices);
+    solidBuffer_.upload(vertices);
+    stats.uploadedBytes += static_cast<long long>(vertices.size_bytes());
+    glEnable(GL_CULL_FACE);
+    glBindVertexArray(solidArray_.name());
+    solidProgram_.use();
+    const auto drawOnce = [&](float opacity) {
+        solidProgram_.set("opacity", opacity);
+        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices.size()));
+        ++stats.drawCalls;
+        stats.triangles += static_cast<long long>(vertices.size() / 3);
+    };
+    // What the scene hides, before the solids' own depth comes in.
+    glDepthMask(GL_FALSE);
+    if (frame.hiddenSolidOpacity > 0.0F) {
+        glDepthFunc(GL_GREATER);
+        drawOnce(frame.hiddenSolidOpacity);
+    }
+    // Depth first, then colour where it is the nearest: shapes that overlap do not add up.
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LEQUAL);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    drawOnce(1.0F);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthMask(GL_FALSE);
+    drawOnce(1.0F);
+}
+
+void DebugRenderer::drawLines(const FrameDescription& frame, FrameStats& stats) {
+    const std::span<const LineVertex> vertices(frame.lines.vertices);
+    lineBuffer_.upload(vertices);
+    stats.uploadedBytes += static_cast<long long>(vertices.size_bytes());
+    glDisable(GL_CULL_FACE);
+    glDepthMask(GL_FALSE);
+    glBindVertexArray(lineArray_.name());
+    lineProgram_.use();
+    lineProgram_.set("lineWidth", frame.lineWidth);
+    const auto drawOnce = [&](float opacity) {
+        lineProgram_.set("opacity", opacity);
+        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(vertices.size() / 2));
+        ++stats.drawCalls;
+        stats.triangles += static_cast<long long>(vertices.size());
+    };
+    if (frame.hiddenLineOpacity >= 1.0F) {
+        glDepthFunc(GL_ALWAYS);
+        drawOnce(1.0F);
+        return;
+    }
+    if (frame.hiddenLineOpacity > 0.0F) {
+        glDepthFunc(GL_GREATER);
+        drawOnce(frame.hiddenLineOpacity);
+    }
+    glDepthFunc(GL_LEQUAL);
+    drawOnce(1.0F);
+}
+
+}  // namespace lutka::render

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "core/result.hpp"
+#include "render/frame.hpp"
+#include "render/gl/shader_program.hpp"
+#include "render/gl/stream_buffer.hpp"
+
+namespace lutka::render {
+
+/// Draws a frame's line batch and solid batch over its picture: one upload each, and two draw calls for the lines (what
+/// is seen, and faintly what is hidden), three for the solids.
+class DebugRenderer {
+  public:
+    [[nodiscard]] static Result<DebugRenderer> create();
+
+    /// The picture's framebuffer is bound, its depth is the scene's, the block `Frame` is filled.
+    void draw(const FrameDescription& frame, FrameStats& stats);
+
+  private:
+    DebugRenderer();
+    void drawSolids(const FrameDescription& frame, FrameStats& stats);
+    void drawLines(const FrameDescription& frame, FrameStats& stats);
+
+    ShaderProgram lineProgram_;
+    ShaderProgram solidProgram_;
+    StreamBuffer lineBuffer_;
+    StreamBuffer solidBuffer_;
+    GlVertexArray lineArray_;
+    GlVertexArray solidArray_;
+};
+
+}  // namespace lutka::render

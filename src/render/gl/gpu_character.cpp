@@ -1,0 +1,180 @@
+#include "render/gl/gpu_character.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace lutka::render {
+namespace {
+
+using animation::Character;
+using animation::Material;
+using animation::SkinnedMesh;
+using animation::Texture;
+
+struct Vertex {
+    vec3 position;
+    vec3 normal;
+    vec4 tangent;
+    vec2 uv;
+    std::array<std::uint16_t, animation::kMaxInfluences> joints;
+    std::array<float, animation::kMaxInfluences> weights;
+};
+static_assert(sizeof(Vertex) == 72);
+
+// The reason why a mesh can't be drawn; empty when it can.
+std::string defectOf(const SkinnedMesh& mesh, const Character& character) {
+    const std::size_t count = mesh.positions.size();
+    if (mesh.normals.size() != count || mesh.joints.size() != count || mesh.weights.size() != count) {
+        return "its vertex arrays differ in size";
+    }
+    if ((!mesh.tangents.empty() && mesh.tangents.size() != count) || (!mesh.uvs.empty() && mesh.uvs.size() != count)) {
+        return "its vertex arrays differ in size";
+    }
+    if (mesh.indices.size() % 3 != 0) return "its indices are no triangles";
+    for (const std::uint32_t index : mesh.indices) {
+        if (index >= count) return "an index points outside its vertices";
+    }
+    for (const auto& joints : mesh.joints) {
+        for (const std::uint16_t joint : joints) {
+            if (joint >= character.skeleton.parents.size()) return "a weight names a joint outside the skeleton";
+        }
+    }
+    const auto materials = static_cast<int>(character.materials.size());
+    if (mesh.material < 0 || mesh.material >= materials) return "its material does not exist";
+    return "";
+}
+
+std::vector<Vertex> interleaved(const SkinnedMesh& mesh) {
+    std::vector<Vertex> vertices(mesh.positions.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        vertices[i] = {mesh.positions[i],
+                       mesh.normals[i],
+                       mesh.tangents.empty() ? vec4(0) : mesh.tangents[i],
+                       mesh.uvs.empty() ? vec2(0) : mesh.uvs[i],
+                       mesh.joints[i],
+                       mesh.weights[i]};
+    }
+    return vertices;
+}
+
+GpuCharacter::Mesh upload(const SkinnedMesh& mesh) {
+    GpuCharacter::Mesh gpu;
+    gpu.vertexArray = GlVertexArray::create();
+    gpu.vertices = GlBuffer::create();
+    gpu.indices = GlBuffer::create();
+    gpu.indexCount = static_cast<GLsizei>(mesh.indices.size());
+    gpu.vertexCount = static_cast<GLsizei>(mesh.positions.size());
+    gpu.material = mesh.material;
+    const std::vector<Vertex> vertices = interleaved(mesh);
+    glBindVertexArray(gpu.vertexArray.name());
+    glBindBuffer(GL_ARRAY_BUFFER, gpu.vertices.name());
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),
+                 GL_STATIC_DRAW);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gpu.indices.name());
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)),
+                 mesh.indices.data(), GL_STATIC_DRAW);
+    const auto floats = [](GLuint location, GLint count, std::size_t offset) {
+        glEnableVertexAttribArray(location);
+        glVertexAttribPointer(location, count, GL_FLOAT, GL_FALSE, sizeof(Vertex), attributeOffset(offset));
+    };
+    floats(0, 3, offsetof(Vertex, position));
+    floats(1, 3, offsetof(Vertex, normal));
+    floats(2, 4, offsetof(Vertex, tangent));
+    floats(3, 2, offsetof(Vertex, uv));
+    glEnableVertexAttribArray(4);
+    glVertexAttribIPointer(4, animation::kMaxInfluences, GL_UNSIGNED_SHORT, sizeof(Vertex),
+                           attributeOffset(offsetof(Vertex, joints)));
+    floats(5, 4, offsetof(Vertex, weights));
+    glBindVertexArray(0);
+    return gpu;
+}
+
+GlTexture upload(const Texture& texture, bool srgb) {
+    GlTexture gpu = GlTexture::create();
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, gpu.name());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, texture.width, texture.height, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, texture.rgba.data());
+    glGenerateMipmap(GL_TEXTURE_2D);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
+    return gpu;
+}
+
+// Rows start at the picture's top, as UVs do in glTF, so nothing is flipped.
+bool isWhole(const Texture& texture) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    return texture.width > 0 && texture.height > 0 && texture.width <= most && texture.height <= most &&
+           texture.rgba.size() ==
+               static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height) * 4;
+}
+
+// Uploads each texture once for each colour space that materials use it in.
+class TextureUploader {
+  public:
+    TextureUploader(const Character& character, GpuCharacter& gpu, std::vector<std::string>& warnings)
+        : character_(character),
+          gpu_(gpu),
+          warnings_(warnings),
+          linear_(character.textures.size(), Material::kNoTexture),
+          srgb_(character.textures.size(), Material::kNoTexture) {}
+
+    /// The index in the GPU's list for one of the character's.
+    int operator()(int texture, bool srgb, const std::string& material) {
+        if (texture == Material::kNoTexture) return Material::kNoTexture;
+        const bool exists = texture >= 0 && texture < static_cast<int>(character_.textures.size());
+        if (!exists || !isWhole(character_.textures[texture])) {
+            warnings_.push_back(fmt::format("{}: a texture of material '{}' is missing; it is drawn without",
+                                            character_.name, material));
+            return Material::kNoTexture;
+        }
+        int& known = srgb ? srgb_[texture] : linear_[texture];
+        if (known == Material::kNoTexture) {
+            known = static_cast<int>(gpu_.textures.size());
+            gpu_.textures.push_back(upload(character_.textures[texture], srgb));
+        }
+        return known;
+    }
+
+  private:
+    const Character& character_;
+    GpuCharacter& gpu_;
+    std::vector<std::string>& warnings_;
+    std::vector<int> linear_;
+    std::vector<int> srgb_;
+};
+
+}  // namespace
+
+Result<GpuCharacter> makeGpuCharacter(const Character& character, std::vector<std::string>& warnings) {
+    for (const SkinnedMesh& mesh : character.meshes) {
+        const std::string defect = defectOf(mesh, character);
+        if (!defect.empty()) {
+            return Error{ErrorCode::input, fmt::format("the mesh '{}' can't be drawn: {}", mesh.name, defect),
+                         character.file.string(), ""};
+        }
+    }
+    GpuCharacter gpu;
+    for (const SkinnedMesh& mesh : character.meshes)
+        gpu.meshes.push_back(upload(mesh));
+    TextureUploader textures(character, gpu, warnings);
+    for (Material material : character.materials) {
+        material.baseColorTexture = textures(material.baseColorTexture, true, material.name);
+        material.metallicRoughnessTexture = textures(material.metallicRoughnessTexture, false, material.name);
+        material.normalTexture = textures(material.normalTexture, false, material.name);
+        material.occlusionTexture = textures(material.occlusionTexture, false, material.name);
+        material.emissiveTexture = textures(material.emissiveTexture, true, material.name);
+        gpu.materials.push_back(std::move(material));
+    }
+    gpu.jointBounds = jointBounds(character);
+    return gpu;
+}
+
+}  // namespace lutka::render

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+
+#include "render/frame.hpp"
+#include "render/gl/gl_object.hpp"
+
+namespace lutka::render {
+
+/// One mesh for each kind of prop, of unit measures; the vertex shader gives it its size (assets/shaders/prop.glsl).
+class PropMeshes {
+  public:
+    static constexpr int kKinds = 4;
+
+    PropMeshes();
+
+    /// Draws instances of a kind with the program in use.
+    void draw(PropItem::Kind kind, int instances) const;
+    [[nodiscard]] int triangleCount(PropItem::Kind kind) const;
+
+  private:
+    struct Mesh {
+        GlVertexArray vertexArray;
+        GlBuffer vertices;
+        GLsizei vertexCount = 0;
+    };
+    std::array<Mesh, kKinds> meshes_;
+};
+
+}  // namespace lutka::render

@@ -1,0 +1,164 @@
+#include "render/gl/renderer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+#include "core/assert.hpp"
+#include "render/gl/debug_renderer.hpp"
+#include "render/gl/render_target.hpp"
+#include "render/gl/scene_renderer.hpp"
+
+namespace lutka::render {
+
+struct Renderer::State {
+    GlContext& context;
+    CharacterStore characters;
+    std::vector<std::string> warnings;
+    SceneRenderer scene;
+    DebugRenderer debug;
+    ShaderProgram feedback;
+    TexelStream feedbackPalette;
+    PictureTarget picture;
+    FrameStats stats;
+
+    [[nodiscard]] const GpuCharacter& at(CharacterHandle handle) const {
+        LUTKA_ASSERT(handle.valid() && handle.index < static_cast<int>(characters.size()) && characters[handle.index]);
+        return *characters[handle.index];
+    }
+};
+
+Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+Result<Renderer> Renderer::create(GlContext& context, const RendererOptions& options) {
+    Result<SceneRenderer> scene = SceneRenderer::create(options.shadowMapSize);
+    if (!scene) return scene.error();
+    Result<DebugRenderer> debug = DebugRenderer::create();
+    if (!debug) return debug.error();
+    constexpr std::array<const char*, 2> kCaptured = {"skinnedPosition", "skinnedNormal"};
+    Result<ShaderProgram> feedback = ShaderProgram::load("skin_feedback.vert", "", {}, kCaptured);
+    if (!feedback) return feedback.error();
+    return Renderer(std::unique_ptr<State>(new State{context,
+                                                     {},
+                                                     {},
+                                                     std::move(scene).value(),
+                                                     std::move(debug).value(),
+                                                     std::move(feedback).value(),
+                                                     {},
+                                                     PictureTarget(options.samples),
+                                                     {}}));
+}
+
+Result<CharacterHandle> Renderer::uploadCharacter(const animation::Character& character) {
+    Result<GpuCharacter> gpu = makeGpuCharacter(character, state_->warnings);
+    if (!gpu) return gpu.error();
+    const Result<void> prepared = state_->scene.prepare(gpu.value());
+    if (!prepared) return prepared.error();
+    state_->characters.push_back(std::make_unique<GpuCharacter>(std::move(gpu).value()));
+    return CharacterHandle{static_cast<int>(state_->characters.size()) - 1};
+}
+
+void Renderer::removeCharacter(CharacterHandle character) {
+    LUTKA_ASSERT(character.valid() && character.index < static_cast<int>(state_->characters.size()));
+    state_->characters[character.index].reset();
+}
+
+std::span<const std::string> Renderer::warnings() const {
+    return state_->warnings;
+}
+
+void Renderer::draw(const FrameDescription& frame, Extent size) {
+    LUTKA_ASSERT(size.width > 0 && size.height > 0);
+    const auto start = std::chrono::steady_clock::now();
+    State& state = *state_;
+    state.stats = {};
+    state.picture.resize(size);
+    state.scene.draw(frame, state.characters, state.picture, state.stats);
+    state.debug.draw(frame, state.stats);
+    state.picture.resolve();
+    const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+    state.stats.cpuMs = spent.count();
+}
+
+Image Renderer::readPixels() {
+    Image image;
+    readPixels(image);
+    return image;
+}
+
+void Renderer::readPixels(Image& image) {
+    const Extent size = state_->picture.size();
+    image.width = size.width;
+    image.height = size.height;
+    const std::size_t row = static_cast<std::size_t>(size.width) * 4;
+    image.rgba.resize(row * static_cast<std::size_t>(size.height));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, state_->picture.resolvedFramebuffer());
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, size.width, size.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+    // GL counts rows from below.
+    for (int upper = 0, lower = size.height - 1; upper < lower; ++upper, --lower) {
+        std::swap_ranges(image.rgba.begin() + static_cast<std::ptrdiff_t>(row) * upper,
+                         image.rgba.begin() + static_cast<std::ptrdiff_t>(row) * (upper + 1),
+                         image.rgba.begin() + static_cast<std::ptrdiff_t>(row) * lower);
+    }
+}
+
+void Renderer::present(Extent windowFramebuffer) {
+    const Extent size = state_->picture.size();
+    // The bytes are sRGB already, and a window's framebuffer takes them as they are.
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, state_->picture.resolvedFramebuffer());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glBlitFramebuffer(0, 0, size.width, size.height, 0, 0, windowFramebuffer.width, windowFramebuffer.height,
+                      GL_COLOR_BUFFER_BIT, size == windowFramebuffer ? GL_NEAREST : GL_LINEAR);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, windowFramebuffer.width, windowFramebuffer.height);
+}
+
+void Renderer::bindResolvedTarget() {
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glBindFramebuffer(GL_FRAMEBUFFER, state_->picture.resolvedFramebuffer());
+    glViewport(0, 0, state_->picture.size().width, state_->picture.size().height);
+}
+
+unsigned int Renderer::colorTexture() const {
+    return state_->picture.texture();
+}
+
+const FrameStats& Renderer::stats() const {
+    return state_->stats;
+}
+
+void Renderer::skinOnGpu(CharacterHandle character, int mesh, std::span<const animation::SkinMatrix> palette,
+                         std::span<vec3> positions, std::span<vec3> normals) {
+    const GpuCharacter::Mesh& gpu = state_->at(character).meshes[mesh];
+    LUTKA_ASSERT(positions.size() == static_cast<std::size_t>(gpu.vertexCount) && normals.size() == positions.size());
+    state_->feedbackPalette.upload(palette);
+    state_->feedbackPalette.bind(static_cast<int>(TextureUnit::palettes));
+    const std::array<GlBuffer, 2> captured = {GlBuffer::create(), GlBuffer::create()};
+    for (GLuint i = 0; i < captured.size(); ++i) {
+        glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, i, captured[i].name());
+        glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, static_cast<GLsizeiptr>(positions.size_bytes()), nullptr,
+                     GL_STREAM_READ);
+    }
+    state_->feedback.use();
+    glEnable(GL_RASTERIZER_DISCARD);
+    glBindVertexArray(gpu.vertexArray.name());
+    glBeginTransformFeedback(GL_POINTS);
+    glDrawArrays(GL_POINTS, 0, gpu.vertexCount);
+    glEndTransformFeedback();
+    glDisable(GL_RASTERIZER_DISCARD);
+    const std::array<std::span<vec3>, 2> out = {positions, normals};
+    for (GLuint i = 0; i < captured.size(); ++i) {
+        glBindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, captured[i].name());
+        glGetBufferSubData(GL_TRANSFORM_FEEDBACK_BUFFER, 0, static_cast<GLsizeiptr>(out[i].size_bytes()),
+                           out[i].data());
+        glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, i, 0);
+    }
+}
+
+}  // namespace lutka::render

@@ -1,0 +1,372 @@
+#include "render/gl/scene_renderer.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/assert.hpp"
+
+namespace lutka::render {
+namespace {
+
+using animation::Material;
+
+constexpr unsigned kHasBaseColor = 1;
+constexpr unsigned kHasMetallicRoughness = 2;
+constexpr unsigned kHasNormal = 4;
+constexpr unsigned kHasOcclusion = 8;
+constexpr unsigned kHasEmissive = 16;
+constexpr unsigned kIsMasked = 32;
+
+void bindTexture(TextureUnit unit, GLuint texture) {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(GL_TEXTURE_2D, texture);
+}
+
+void bindMaterialTexture(const GpuCharacter& character, TextureUnit unit, int texture) {
+    if (texture != Material::kNoTexture) bindTexture(unit, character.textures[texture].name());
+}
+
+void setMaterial(const ShaderProgram& program, const GpuCharacter& character, const Material& material) {
+    program.set("baseColor", material.baseColor);
+    program.set("emissive", material.emissive);
+    program.set("metallic", material.metallic);
+    program.set("roughness", material.roughness);
+    program.set("alphaCutoff", material.alphaCutoff);
+    bindMaterialTexture(character, TextureUnit::baseColor, material.baseColorTexture);
+    bindMaterialTexture(character, TextureUnit::metallicRoughness, material.metallicRoughnessTexture);
+    bindMaterialTexture(character, TextureUnit::normal, material.normalTexture);
+    bindMaterialTexture(character, TextureUnit::occlusion, material.occlusionTexture);
+    bindMaterialTexture(character, TextureUnit::emissive, material.emissiveTexture);
+}
+
+// All state that a pass relies on and others (a UI's back end too) may have left otherwise.
+void setBaseState() {
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_STENCIL_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    glDisable(GL_RASTERIZER_DISCARD);
+    glEnable(GL_DEPTH_TEST);
+    glEnable(GL_MULTISAMPLE);
+    glEnable(GL_FRAMEBUFFER_SRGB);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_TRUE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glCullFace(GL_BACK);
+    glFrontFace(GL_CCW);
+    glBlendEquation(GL_FUNC_ADD);
+    // The picture stays opaque whatever is blended over it.
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    for (GLuint unit = 0; unit <= static_cast<GLuint>(TextureUnit::noisyMap); ++unit)
+        glBindSampler(unit, 0);
+}
+
+GlTexture makeWhite() {
+    GlTexture texture = GlTexture::create();
+    bindTexture(TextureUnit::baseColor, texture.name());
+    const std::array<GLubyte, 4> white = {255, 255, 255, 255};
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, white.data());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return texture;
+}
+
+}  // namespace
+
+SceneRenderer::SceneRenderer(int shadowMapSize)
+    : shadowMapSize_(std::clamp(shadowMapSize, 256, 8192)),
+      noVertices_(GlVertexArray::create()),
+      white_(makeWhite()),
+      shadowMap_(DepthTarget::Use::shadow),
+      smallDepth_(DepthTarget::Use::plain),
+      uniformBuffer_(GL_UNIFORM_BUFFER) {}
+
+Result<SceneRenderer> SceneRenderer::create(int shadowMapSize) {
+    SceneRenderer renderer(shadowMapSize);
+    struct Wanted {
+        ShaderProgram& program;
+        const char* vertexFile;
+        const char* fragmentFile;
+        std::vector<std::string> defines;
+    };
+    const std::array<Wanted, 9> all = {{
+        {renderer.characterDepth_, "character_depth.vert", "depth.frag", {}},
+        {renderer.characterDepthMasked_, "character_depth.vert", "depth.frag", {"ALPHA_MASK"}},
+        {renderer.prop_, "prop.vert", "prop.frag", {}},
+        {renderer.propDepth_, "prop_depth.vert", "depth.frag", {}},
+        {renderer.floor_, "floor.vert", "floor.frag", {}},
+        {renderer.floorDepth_, "floor.vert", "depth.frag", {}},
+        {renderer.background_, "screen.vert", "background.frag", {}},
+        {renderer.occlusion_, "screen.vert", "occlusion.frag", {}},
+        {renderer.occlusionBlur_, "screen.vert", "occlusion_blur.frag", {}},
+    }};
+    for (const Wanted& wanted : all) {
+        Result<ShaderProgram> loaded = ShaderProgram::load(wanted.vertexFile, wanted.fragmentFile, wanted.defines);
+        if (!loaded) return loaded.error();
+        wanted.program = std::move(loaded).value();
+    }
+    return renderer;
+}
+
+SceneRenderer::MaterialKey SceneRenderer::keyOf(const Material& material) {
+    MaterialKey key = 0;
+    if (material.baseColorTexture != Material::kNoTexture) key |= kHasBaseColor;
+    if (material.metallicRoughnessTexture != Material::kNoTexture) key |= kHasMetallicRoughness;
+    if (material.normalTexture != Material::kNoTexture) key |= kHasNormal;
+    if (material.occlusionTexture != Material::kNoTexture) key |= kHasOcclusion;
+    if (material.emissiveTexture != Material::kNoTexture) key |= kHasEmissive;
+    if (material.alphaMode == Material::AlphaMode::mask) key |= kIsMasked;
+    return key;
+}
+
+std::vector<std::string> SceneRenderer::definesOf(MaterialKey key) {
+    const std::array<std::pair<MaterialKey, const char*>, 6> names = {{
+        {kHasBaseColor, "BASE_TEXTURE"},
+        {kHasMetallicRoughness, "METALLIC_ROUGHNESS_TEXTURE"},
+        {kHasNormal, "NORMAL_TEXTURE"},
+        {kHasOcclusion, "OCCLUSION_TEXTURE"},
+        {kHasEmissive, "EMISSIVE_TEXTURE"},
+        {kIsMasked, "ALPHA_MASK"},
+    }};
+    std::vector<std::string> defines;
+    for (const auto& [bit, name] : names) {
+        if ((key & bit) != 0) defines.emplace_back(name);
+    }
+    return defines;
+}
+
+Result<void> SceneRenderer::prepare(const GpuCharacter& character) {
+    for (const Material& material : character.materials) {
+        const MaterialKey key = keyOf(material);
+        if (characterPrograms_.contains(key)) continue;
+        Result<ShaderProgram> loaded = ShaderProgram::load("character.vert", "character.frag", definesOf(key));
+        if (!loaded) return loaded.error();
+        characterPrograms_.emplace(key, std::move(loaded).value());
+    }
+    return {};
+}
+
+void SceneRenderer::draw(const FrameDescription& frame, const CharacterStore& characters, const PictureTarget& picture,
+                         FrameStats& stats) {
+    setBaseState();
+    upload(frame, characters, picture.size(), stats);
+    if (frame.sun.castsShadow) drawShadowMap(characters, stats);
+    bindTexture(TextureUnit::shadowMap, shadowMap_.texture());
+    if (frame.ambientOcclusion) drawOcclusion(frame, characters, picture.size(), stats);
+    bindTexture(TextureUnit::occlusionMap, frame.ambientOcclusion ? smoothOcclusion_.texture() : white_.name());
+    drawPicture(frame, characters, picture, stats);
+}
+
+void SceneRenderer::upload(const FrameDescription& frame, const CharacterStore& characters, Extent size,
+                           FrameStats& stats) {
+    const mat4 clip = clipFromWorld(frame.camera, size.aspect());
+    list_.build(frame, clip, [&](int index) {
+        LUTKA_ASSERT(index >= 0 && index < static_cast<int>(characters.size()) && characters[index]);
+        return std::span<const BoundingSphere>(characters[index]->jointBounds);
+    });
+    shadowFit_ = fitShadow(list_.casters(), frame.sun.directionToLight, frame.camera, shadowMapSize_);
+    uniforms_ = makeFrameUniforms(frame, size, shadowFit_, shadowMapSize_);
+    shadowMap_.resize({shadowMapSize_, shadowMapSize_});
+
+    uniformBuffer_.upload(std::span<const FrameUniforms>(&uniforms_, 1));
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, uniformBuffer_.name());
+    palettes_.upload(list_.palettes());
+    instances_.upload(list_.instances());
+    palettes_.bind(static_cast<int>(TextureUnit::palettes));
+    instances_.bind(static_cast<int>(TextureUnit::instances));
+    stats.uploadedBytes +=
+        static_cast<long long>(sizeof(FrameUniforms) + list_.palettes().size_bytes() + list_.instances().size_bytes());
+    stats.instances = static_cast<int>(frame.characters.size()) - list_.culled();
+    stats.culledInstances = list_.culled();
+}
+
+void SceneRenderer::drawShadowMap(const CharacterStore& characters, FrameStats& stats) {
+    shadowMap_.bindForDrawing();
+    glClear(GL_DEPTH_BUFFER_BIT);
+    // Casters between the light and the map's near plane are pressed onto it instead of being cut away.
+    glEnable(GL_DEPTH_CLAMP);
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(1.2F, 2.0F);
+    const int before = stats.drawCalls;
+    drawDepth(list_.shadow(), characters, shadowFit_.lightFromWorld, true, stats);
+    stats.shadowDrawCalls += stats.drawCalls - before;
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    glDisable(GL_DEPTH_CLAMP);
+}
+
+void SceneRenderer::drawOcclusion(const FrameDescription& frame, const CharacterStore& characters, Extent size,
+                                  FrameStats& stats) {
+    const Extent half{(size.width + 1) / 2, (size.height + 1) / 2};
+    smallDepth_.resize(half);
+    noisyOcclusion_.resize(half);
+    smoothOcclusion_.resize(half);
+
+    smallDepth_.bindForDrawing();
+    glClear(GL_DEPTH_BUFFER_BIT);
+    drawDepth(list_.opaque(), characters, uniforms_.clipFromWorld, false, stats);
+    if (frame.floor.visible) {
+        floorDepth_.use();
+        floorDepth_.set("depthFromWorld", uniforms_.clipFromWorld);
+        drawFloor(stats);
+    }
+    glDisable(GL_DEPTH_TEST);
+    bindTexture(TextureUnit::depthMap, smallDepth_.texture());
+    bindTexture(TextureUnit::noisyMap, noisyOcclusion_.texture());
+    const vec2 depthSize(half.width, half.height);
+    occlusion_.use();
+    occlusion_.set("depthSize", depthSize);
+    occlusion_.set("radiusPixels", 0.5F * clipFromView(frame.camera, size.aspect())[1][1] * depthSize.y);
+    noisyOcclusion_.bindForDrawing();
+    drawScreen(stats);
+    occlusionBlur_.use();
+    occlusionBlur_.set("depthSize", depthSize);
+    smoothOcclusion_.bindForDrawing();
+    drawScreen(stats);
+    glEnable(GL_DEPTH_TEST);
+}
+
+void SceneRenderer::drawPicture(const FrameDescription& frame, const CharacterStore& characters,
+                                const PictureTarget& picture, FrameStats& stats) {
+    picture.bindForDrawing();
+    glClear(GL_DEPTH_BUFFER_BIT);
+    glDepthMask(GL_FALSE);
+    background_.use();
+    drawScreen(stats);
+    glDepthMask(GL_TRUE);
+
+    const int before = stats.drawCalls;
+    drawCharacters(list_.opaque().characters, characters, Meshes::opaque, stats);
+    stats.characterDrawCalls += stats.drawCalls - before;
+    glDisable(GL_CULL_FACE);
+    prop_.use();
+    drawProps(list_.opaque().props, stats);
+    if (frame.floor.visible) {
+        glEnable(GL_BLEND);
+        // Behind what lies in its plane: contact lines and flat props win.
+        glEnable(GL_POLYGON_OFFSET_FILL);
+        glPolygonOffset(0.5F, 4.0F);
+        floor_.use();
+        floor_.set("depthFromWorld", uniforms_.clipFromWorld);
+        drawFloor(stats);
+        glDisable(GL_POLYGON_OFFSET_FILL);
+    }
+    drawTranslucent(characters, stats);
+}
+
+void SceneRenderer::drawFloor(FrameStats& stats) {
+    glBindVertexArray(noVertices_.name());
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    ++stats.drawCalls;
+    stats.triangles += 2;
+}
+
+void SceneRenderer::drawTranslucent(const CharacterStore& characters, FrameStats& stats) {
+    glEnable(GL_BLEND);
+    glDepthMask(GL_FALSE);
+    prop_.use();
+    drawProps(list_.translucent().props, stats);
+    int before = stats.drawCalls;
+    drawCharacters(list_.opaque().characters, characters, Meshes::blended, stats);
+    stats.characterDrawCalls += stats.drawCalls - before;
+    if (!list_.translucent().characters.empty()) {
+        // Their depth first, so that only the nearest surface of a figure is blended.
+        glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        glDepthMask(GL_TRUE);
+        DrawList::Pass figures;
+        figures.characters = list_.translucent().characters;
+        drawDepth(figures, characters, uniforms_.clipFromWorld, true, stats);
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        glDepthMask(GL_FALSE);
+        before = stats.drawCalls;
+        drawCharacters(list_.translucent().characters, characters, Meshes::all, stats);
+        stats.characterDrawCalls += stats.drawCalls - before;
+    }
+    glDepthMask(GL_TRUE);
+}
+
+void SceneRenderer::drawDepth(const DrawList::Pass& pass, const CharacterStore& characters, const mat4& depthFromWorld,
+                              bool all, FrameStats& stats) {
+    for (const ShaderProgram* program : {&characterDepth_, &characterDepthMasked_, &propDepth_}) {
+        program->use();
+        program->set("depthFromWorld", depthFromWorld);
+    }
+    glDisable(GL_CULL_FACE);
+    for (const DrawList::Batch& batch : pass.characters) {
+        const GpuCharacter& character = *characters[batch.what];
+        for (const GpuCharacter::Mesh& mesh : character.meshes) {
+            const Material& material = character.materials[mesh.material];
+            if (!all && material.alphaMode == Material::AlphaMode::blend) continue;
+            // A blended mesh casts the shadow of what is more than half opaque.
+            const bool masked = material.alphaMode != Material::AlphaMode::opaque;
+            const ShaderProgram& program = masked ? characterDepthMasked_ : characterDepth_;
+            program.use();
+            if (masked) {
+                setMaterial(program, character, material);
+                if (material.baseColorTexture == Material::kNoTexture) {
+                    bindTexture(TextureUnit::baseColor, white_.name());
+                }
+                if (material.alphaMode == Material::AlphaMode::blend) program.set("alphaCutoff", 0.5F);
+            }
+            program.set("firstInstance", batch.firstInstance);
+            glBindVertexArray(mesh.vertexArray.name());
+            glDrawElementsInstanced(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr, batch.count);
+            ++stats.drawCalls;
+            stats.triangles += static_cast<long long>(mesh.indexCount) / 3 * batch.count;
+        }
+    }
+    propDepth_.use();
+    for (const DrawList::Batch& batch : pass.props) {
+        propDepth_.set("firstInstance", batch.firstInstance);
+        propMeshes_.draw(static_cast<PropItem::Kind>(batch.what), batch.count);
+        ++stats.drawCalls;
+        stats.triangles +=
+            static_cast<long long>(propMeshes_.triangleCount(static_cast<PropItem::Kind>(batch.what))) * batch.count;
+    }
+}
+
+void SceneRenderer::drawCharacters(std::span<const DrawList::Batch> batches, const CharacterStore& characters,
+                                   Meshes which, FrameStats& stats) {
+    for (const DrawList::Batch& batch : batches) {
+        const GpuCharacter& character = *characters[batch.what];
+        for (const GpuCharacter::Mesh& mesh : character.meshes) {
+            const Material& material = character.materials[mesh.material];
+            const bool blended = material.alphaMode == Material::AlphaMode::blend;
+            if (which != Meshes::all && blended != (which == Meshes::blended)) continue;
+            const ShaderProgram& program = characterPrograms_.at(keyOf(material));
+            program.use();
+            setMaterial(program, character, material);
+            program.set("firstInstance", batch.firstInstance);
+            program.set("blended", which == Meshes::opaque ? 0.0F : 1.0F);
+            if (material.doubleSided) {
+                glDisable(GL_CULL_FACE);
+            } else {
+                glEnable(GL_CULL_FACE);
+            }
+            glBindVertexArray(mesh.vertexArray.name());
+            glDrawElementsInstanced(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr, batch.count);
+            ++stats.drawCalls;
+            stats.triangles += static_cast<long long>(mesh.indexCount) / 3 * batch.count;
+        }
+    }
+}
+
+void SceneRenderer::drawProps(std::span<const DrawList::Batch> batches, FrameStats& stats) {
+    for (const DrawList::Batch& batch : batches) {
+        const auto kind = static_cast<PropItem::Kind>(batch.what);
+        prop_.set("firstInstance", batch.firstInstance);
+        propMeshes_.draw(kind, batch.count);
+        ++stats.drawCalls;
+        stats.triangles += static_cast<long long>(propMeshes_.triangleCount(kind)) * batch.count;
+    }
+}
+
+void SceneRenderer::drawScreen(FrameStats& stats) {
+    glBindVertexArray(noVertices_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    ++stats.drawCalls;
+    ++stats.triangles;
+}
+
+}  // namespace lutka::render
