@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "physics/profile.hpp"
@@ -29,6 +30,11 @@ struct DynamicProp {
 };
 
 enum class SolverKind { stock, bullet };
+
+/// The name on the command line and in reports.
+[[nodiscard]] constexpr std::string_view solverName(SolverKind solver) {
+    return solver == SolverKind::stock ? "stock" : "bullet";
+}
 
 struct WorldSettings {
     SolverKind solver = SolverKind::bullet;
@@ -86,6 +92,8 @@ class World {
     virtual void setBodies(int doll, std::span<const BodyState> bodies) = 0;
     [[nodiscard]] virtual bool isAsleep(int doll) const = 0;
     [[nodiscard]] virtual int propCount() const = 0;
+    /// What the prop was made as; its state is that of the start.
+    [[nodiscard]] virtual const DynamicProp& propOf(int prop) const = 0;
     [[nodiscard]] virtual BodyState propState(int prop) const = 0;
 
     /// Impulse in N s at a world point of a body; wakes the doll.

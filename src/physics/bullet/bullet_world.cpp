@@ -8,6 +8,7 @@
 #include "physics/bullet/drag_constraint.hpp"
 #include "physics/bullet/dynamics_world.hpp"
 #include "physics/bullet/ragdoll.hpp"
+#include "physics/shape.hpp"
 
 namespace lutka::physics {
 namespace {
@@ -33,6 +34,7 @@ class BulletWorld final : public World {
     void setBodies(int doll, std::span<const BodyState> bodies) override { dolls_[doll]->setBodies(bodies); }
     [[nodiscard]] bool isAsleep(int doll) const override { return dolls_[doll]->isAsleep(); }
     [[nodiscard]] int propCount() const override { return static_cast<int>(props_.size()); }
+    [[nodiscard]] const DynamicProp& propOf(int prop) const override { return propSettings_[prop]; }
     [[nodiscard]] BodyState propState(int prop) const override { return stateOf(*props_[prop].body); }
     void applyImpulse(int doll, int body, const vec3& impulse, const vec3& worldPoint) override;
     [[nodiscard]] std::optional<RayHit> rayTest(const vec3& from, const vec3& to) const override;
@@ -51,6 +53,7 @@ class BulletWorld final : public World {
     BulletParts parts_;
     std::vector<BodyInWorld> statics_;
     std::vector<BodyInWorld> props_;
+    std::vector<DynamicProp> propSettings_;
     std::vector<std::unique_ptr<Ragdoll>> dolls_;
     std::map<int, std::unique_ptr<DragConstraint>> drags_;
     double dragWork_ = 0.0;
@@ -82,10 +85,8 @@ void BulletWorld::addStatic(const StaticShape& shape) {
 }
 
 int BulletWorld::addProp(const DynamicProp& prop) {
-    const std::unique_ptr<btCollisionShape> shape = makeShape(prop.shape);
-    btVector3 inertia;
-    shape->calculateLocalInertia(prop.massKg, inertia);
-    props_.push_back(makeBody(prop.shape, prop.massKg, fromBullet(inertia), prop.state));
+    props_.push_back(makeBody(prop.shape, prop.massKg, shapeInertia(prop.shape, prop.massKg), prop.state));
+    propSettings_.push_back(prop);
     btRigidBody& body = *props_.back().body;
     if (!settings_.sleeping) body.setActivationState(DISABLE_DEACTIVATION);
     if (!isStock()) body.setDamping(tuning_.linearDamping, tuning_.angularDamping);

@@ -5,7 +5,7 @@
 
 #include "core/assert.hpp"
 #include "physics/bullet/convert.hpp"
-#include "physics/joint_angles.hpp"
+#include "physics/swing_twist.hpp"
 
 namespace lutka::physics {
 namespace {
@@ -93,7 +93,7 @@ void RagdollJoint::prepareCone(const mat3& parentAxes, const quat& parentFromChi
         addRow({frictionZ, parentAxes[2], 0, AngularRow::Kind::friction});
     }
     constexpr float kLargestSwing = 3.0F;  // the formulas have their pole at pi
-    const SwingTwist now = swingTwistOf(parentFromChild);
+    const SwingTwist now = swingTwist(parentFromChild);
     const float swing = glm::length(now.swing);
     const vec3 u = swing > 1e-4F ? now.swing / swing : vec3(0, 1, 0);
     const vec3 v(0, -u.z, u.y);

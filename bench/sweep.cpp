@@ -1,0 +1,156 @@
+// Runs every scene with every seed for every combination of the settings given and prints one CSV row a combination
+// and scene: worst figures over the seeds, medians where said so.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+
+#include "trial.hpp"
+
+namespace {
+
+using namespace lutka;
+using bench::Trial;
+using bench::TrialResult;
+using bench::TrialSettings;
+
+struct Arguments {
+    std::string model;
+    std::vector<std::string> scenes{"drop", "stairs", "throw", "hang", "balls"};
+    std::vector<std::string> solvers{"bullet"};
+    std::vector<int> substeps{physics::BulletTuning{}.substeps};
+    std::vector<int> iterations{physics::BulletTuning{}.iterations};
+    std::vector<float> jointErp{physics::BulletTuning{}.jointErp};
+    std::vector<float> contactErp{physics::BulletTuning{}.contactErp};
+    int seeds = 5;
+    int count = 1;
+    bool perSeed = false;
+};
+
+void printHeader() {
+    std::puts(
+        "solver,substeps,iterations,jointErp,contactErp,scene,sepMaxMm,sepP99Mm,sepMeanMm,limitMaxDeg,limitP99Deg,"
+        "staticPenMm,selfPenMm,energyMedianPct,energyWorstPct,settledPct,settleMedianS,residualMmps,turnBeforeSleep,"
+        "nonFinite,msPerStep");
+}
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+void printRow(const TrialSettings& s, const std::vector<TrialResult>& results) {
+    const auto worst = [&](auto&& figure) {
+        double value = 0;
+        for (const TrialResult& r : results)
+            value = std::max(value, static_cast<double>(figure(r)));
+        return value;
+    };
+    std::vector<double> growth;
+    std::vector<double> settle;
+    std::vector<double> ms;
+    double mean = 0;
+    int settled = 0;
+    for (const TrialResult& r : results) {
+        growth.push_back(100.0 * static_cast<double>(r.quality.energyGrowthJ / r.quality.initialEnergyJ));
+        settle.push_back(static_cast<double>(r.quality.settleSeconds.value_or(99.0F)));
+        ms.push_back(r.msPerStep);
+        mean += static_cast<double>(r.quality.jointSeparationM.mean) / static_cast<double>(results.size());
+        settled += r.settled ? 1 : 0;
+    }
+    const bool stock = s.world.solver == physics::SolverKind::stock;
+    fmt::print("{},{},{},{},{},{},", stock ? "stock" : "bullet", stock ? 1 : s.tuning.substeps,
+               stock ? 10 : s.tuning.iterations, s.tuning.jointErp, s.tuning.contactErp, s.scene);
+    fmt::print("{:.2f},{:.2f},{:.3f},{:.1f},{:.2f},{:.2f},{:.2f},",
+               1e3 * worst([](const TrialResult& r) { return r.quality.jointSeparationM.max; }),
+               1e3 * worst([](const TrialResult& r) { return r.quality.jointSeparationM.p99; }), 1e3 * mean,
+               worst([](const TrialResult& r) { return r.quality.limitViolationDeg.max; }),
+               worst([](const TrialResult& r) { return r.quality.limitViolationDeg.p99; }),
+               1e3 * worst([](const TrialResult& r) { return r.quality.floorPenetrationM; }),
+               1e3 * worst([](const TrialResult& r) { return r.quality.selfPenetrationM; }));
+    fmt::print("{:.3f},{:.3f},{:.0f},{:.2f},{:.2f},{:.4f},{},{:.4f}\n", median(growth),
+               *std::max_element(growth.begin(), growth.end()), 100.0 * settled / static_cast<double>(results.size()),
+               median(settle), 1e3 * worst([](const TrialResult& r) { return r.quality.residualSpeedMps; }),
+               worst([](const TrialResult& r) { return r.turnBeforeSleep; }),
+               worst([](const TrialResult& r) { return r.quality.nonFinite; }), median(ms));
+    std::fflush(stdout);
+}
+
+void runScenes(const scene::RagdollAsset& asset, const Arguments& arguments, TrialSettings settings) {
+    for (const std::string& scene : arguments.scenes) {
+        settings.scene = scene;
+        std::vector<TrialResult> results;
+        for (int seed = 0; seed < arguments.seeds; ++seed) {
+            settings.seed = static_cast<std::uint64_t>(seed);
+            Trial trial(asset, settings);
+            while (trial.steps() < trial.length())
+                trial.step();
+            results.push_back(trial.result());
+            if (arguments.perSeed) printRow(settings, {results.back()});
+        }
+        if (!arguments.perSeed) printRow(settings, results);
+    }
+}
+
+void runAll(const scene::RagdollAsset& asset, const Arguments& arguments) {
+    printHeader();
+    for (const std::string& solver : arguments.solvers) {
+        TrialSettings settings;
+        settings.count = arguments.count;
+        if (solver == "stock") {
+            settings.world.solver = physics::SolverKind::stock;
+            runScenes(asset, arguments, settings);
+            continue;
+        }
+        for (const int substeps : arguments.substeps) {
+            for (const int iterations : arguments.iterations) {
+                for (const float jointErp : arguments.jointErp) {
+                    for (const float contactErp : arguments.contactErp) {
+                        settings.tuning.substeps = substeps;
+                        settings.tuning.iterations = iterations;
+                        settings.tuning.jointErp = jointErp;
+                        settings.tuning.contactErp = contactErp;
+                        runScenes(asset, arguments, settings);
+                    }
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Arguments arguments;
+    CLI::App app{"Quality and time of the physics over scenes, seeds and settings, as CSV"};
+    app.add_option("--model", arguments.model, "a rigged model instead of the hand-made doll");
+    app.add_option("--scenes", arguments.scenes)->delimiter(',');
+    app.add_option("--solvers", arguments.solvers)->delimiter(',');
+    app.add_option("--substeps", arguments.substeps)->delimiter(',');
+    app.add_option("--iterations", arguments.iterations)->delimiter(',');
+    app.add_option("--joint-erp", arguments.jointErp)->delimiter(',');
+    app.add_option("--contact-erp", arguments.contactErp)->delimiter(',');
+    app.add_option("--seeds", arguments.seeds, "how many, from 0")->check(CLI::Range(1, 10000));
+    app.add_option("--count", arguments.count, "dolls in a scene")->check(CLI::Range(1, 10000));
+    app.add_flag("--per-seed", arguments.perSeed, "a row for every seed");
+    CLI11_PARSE(app, argc, argv);
+
+    std::unique_ptr<scene::RagdollAsset> asset;
+    if (arguments.model.empty()) {
+        asset = bench::handMadeDoll();
+    } else {
+#if 0
+        auto loaded = scene::loadRagdoll(arguments.model);
+        if (!loaded) {
+            std::fprintf(stderr, "%s\n", loaded.error().text().c_str());
+            return static_cast<int>(loaded.error().code);
+        }
+        asset = std::move(loaded).value();
+#endif
+    }
+    runAll(*asset, arguments);
+    return 0;
+}
