@@ -7,29 +7,9 @@
 #include <numeric>
 #include <vector>
 
+#include "scene/quality_json.hpp"
+
 namespace lutka::scene {
-namespace {
-
-// Keys come out in the order they are written.
-using Json = nlohmann::ordered_json;
-
-Json qualityJson(const physics::Quality& q) {
-    Json json;
-    json["jointSeparationM"] = {
-        {"max", q.jointSeparationM.max}, {"p99", q.jointSeparationM.p99}, {"mean", q.jointSeparationM.mean}};
-    json["limitViolationDeg"] = {{"max", q.limitViolationDeg.max}, {"p99", q.limitViolationDeg.p99}};
-    json["floorPenetrationM"] = {{"max", q.floorPenetrationM}};
-    json["selfPenetrationM"] = {{"max", q.selfPenetrationM}};
-    json["energyGrowthJ"] = q.energyGrowthJ;
-    json["initialEnergyJ"] = q.initialEnergyJ;
-    json["settleSeconds"] = q.settleSeconds ? Json(*q.settleSeconds) : Json(nullptr);
-    json["residualSpeedMps"] = q.residualSpeedMps;
-    json["nonFinite"] = q.nonFinite;
-    return json;
-}
-
-}  // namespace
-
 StepTimes summarise(std::span<const float> stepMs) {
     if (stepMs.empty()) return {};
     std::vector<float> sorted(stepMs.begin(), stepMs.end());
@@ -46,10 +26,10 @@ std::string reportJson(const Simulation& simulation) {
     const StepTimes times = summarise(simulation.stepMs());
     const physics::RagdollProfile& profile = simulation.asset().profile;
     const auto dolls = static_cast<std::size_t>(simulation.dollCount());
-    Json json;
+    nlohmann::ordered_json json;
     json["model"] = simulation.asset().character.file.string();
     json["scene"] = simulation.scenario().name;
-    json["solver"] = options.world.solver == physics::SolverKind::stock ? "stock" : "bullet";
+    json["solver"] = physics::solverName(options.world.solver);
     json["count"] = simulation.dollCount();
     json["seconds"] = simulation.seconds();
     json["dt"] = options.dt;

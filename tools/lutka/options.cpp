@@ -23,6 +23,9 @@ const std::map<std::string, physics::MassPreset> kMassPresets = {{"anatomical", 
                                                                  {"uniform", physics::MassPreset::uniform},
                                                                  {"volume", physics::MassPreset::volume}};
 
+const std::map<std::string, physics::SolverKind> kSolvers = {{"stock", physics::SolverKind::stock},
+                                                             {"bullet", physics::SolverKind::bullet}};
+
 void addExtraBodies(const std::string& list, physics::FitOptions& fit) {
     for (const std::string& word : CLI::detail::split(list, ',')) {
         if (word == "shoulders") {
@@ -60,8 +63,8 @@ void leave(const Error& error) {
     throw Exit{static_cast<int>(error.code)};
 }
 
-void ModelOptions::addTo(CLI::App& app) {
-    app.add_option("MODEL", model, "rigged character in any format that Assimp reads")->required();
+void ModelOptions::addTo(CLI::App& app, bool required) {
+    app.add_option("MODEL", model, "rigged character in any format that Assimp reads")->required(required);
     app.add_option("--scale", scale, "metres a file unit, instead of what the file or the figure's height says")
         ->check(CLI::PositiveNumber);
     app.add_option("--up", up, "the file's up axis: x, y, z, -x, -y or -z")
@@ -76,8 +79,8 @@ animation::ImportOptions ModelOptions::import() const {
     return options;
 }
 
-void RagdollOptions::addTo(CLI::App& app) {
-    model.addTo(app);
+void RagdollOptions::addTo(CLI::App& app, bool modelRequired) {
+    model.addTo(app, modelRequired);
     app.add_option("--profile", profile, "ragdoll profile (*.ragdoll.json) instead of a fitted one");
     app.add_option("--mass", massKg, "total mass in kilograms")->check(CLI::PositiveNumber)->capture_default_str();
     app.add_option("--mass-table", massTable, "shares of the segments")
@@ -112,9 +115,7 @@ void SimulateOptions::addTo(CLI::App& app) {
         ->check(CLI::Range(0.0, 3600.0));
     app.add_option("--threads", threads, "threads to step with")->check(CLI::Range(1, 256))->capture_default_str();
     app.add_option("--seed", seed, "varies the start; 0 stands upright")->capture_default_str();
-    app.add_option("--solver", solver, "stock: plain Bullet; bullet: Bullet tuned for ragdolls")
-        ->check(CLI::IsMember({"stock", "bullet"}))
-        ->capture_default_str();
+    addSolverOption(app, solver);
     app.add_option("--pose", pose, "the pose to start in: the bind pose or the file's node pose")
         ->check(CLI::IsMember({"bind", "node"}))
         ->capture_default_str();
@@ -133,11 +134,21 @@ void SimulateOptions::addTo(CLI::App& app) {
 
 scene::SimulationOptions SimulateOptions::simulation() const {
     scene::SimulationOptions options;
-    options.world.solver = solver == "stock" ? physics::SolverKind::stock : physics::SolverKind::bullet;
+    options.world.solver = solverFromName(solver);
     options.world.threads = threads;
     options.pose = pose == "node" ? scene::StartPose::node : scene::StartPose::bind;
     if (!fromClip.empty()) options.fromClip = parseClipStart(fromClip);
     return options;
+}
+
+void addSolverOption(CLI::App& app, std::string& solver) {
+    app.add_option("--solver", solver, "stock: plain Bullet; bullet: Bullet tuned for ragdolls")
+        ->check(CLI::IsMember(&kSolvers))
+        ->capture_default_str();
+}
+
+physics::SolverKind solverFromName(const std::string& name) {
+    return kSolvers.at(name);
 }
 
 Progress::Progress(std::string what, int total)

@@ -38,7 +38,7 @@ struct ModelOptions {
     std::string up;
     bool textures = false;  ///< Set by commands that draw.
 
-    void addTo(CLI::App& app);
+    void addTo(CLI::App& app, bool required = true);
     [[nodiscard]] animation::ImportOptions import() const;
 };
 
@@ -51,7 +51,7 @@ struct RagdollOptions {
     std::string massPreset = "anatomical";
     std::string bodies;  ///< Extra bodies, comma separated: shoulders,neck,toes,trunk.
 
-    void addTo(CLI::App& app);
+    void addTo(CLI::App& app, bool modelRequired = true);
     [[nodiscard]] scene::LoadOptions load() const;
 };
 
@@ -76,6 +76,10 @@ struct SimulateOptions {
     void addTo(CLI::App& app);
     [[nodiscard]] scene::SimulationOptions simulation() const;
 };
+
+/// --solver, by the names of physics::solverName.
+void addSolverOption(CLI::App& app, std::string& solver);
+[[nodiscard]] physics::SolverKind solverFromName(const std::string& name);
 
 /// A bar on stderr while it is a terminal; silent otherwise.
 class Progress {

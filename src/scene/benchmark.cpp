@@ -1,0 +1,84 @@
+#include "scene/benchmark.hpp"
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace lutka::scene {
+namespace {
+
+// Long enough to outweigh the clock, short enough that both worlds see the same weather on a shared machine.
+constexpr int kBlock = 10;
+
+Result<std::unique_ptr<Simulation>> makeSimulation(const RagdollAsset& asset, const BenchCase& what,
+                                                   physics::SolverKind solver, bool measure) {
+    auto scenario = makeScenario(what.scene, what.count, 1, figureBounds(asset.profile, asset.rig),
+                                 asset.profile.standardFromModel);
+    if (!scenario) return scenario.error();
+    SimulationOptions options;
+    options.world.solver = solver;
+    options.world.threads = what.threads;
+    options.world.sleeping = what.sleeping;
+    options.measure = measure;
+    return Simulation::create(asset, std::move(scenario).value(), options);
+}
+
+// The last `steps` of a run, in sum.
+float sumOfLast(const Simulation& simulation, int steps) {
+    const auto times = simulation.stepMs().last(static_cast<std::size_t>(steps));
+    return std::accumulate(times.begin(), times.end(), 0.0F);
+}
+
+float medianOf(std::vector<float> values) {
+    if (values.empty()) return 0.0F;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+Result<physics::Quality> measureQuality(const RagdollAsset& asset, const BenchCase& what, physics::SolverKind solver) {
+    auto simulation = makeSimulation(asset, what, solver, true);
+    if (!simulation) return simulation.error();
+    for (int step = 0; step < what.steps; ++step)
+        simulation.value()->step();
+    return simulation.value()->quality();
+}
+
+}  // namespace
+
+Result<BenchResult> runBenchmark(const RagdollAsset& asset, const BenchCase& what) {
+    BenchResult result;
+    result.what = what;
+    auto stock = makeSimulation(asset, what, physics::SolverKind::stock, false);
+    if (!stock) return stock.error();
+    const std::size_t heapBefore = ::mallinfo2().uordblks + ::mallinfo2().hblkhd;
+    auto ours = makeSimulation(asset, what, what.solver, false);
+    if (!ours) return ours.error();
+    std::vector<float> ratios;
+    for (int done = 0; done < what.steps; done += kBlock) {
+        const int block = std::min(kBlock, what.steps - done);
+        for (int step = 0; step < block; ++step)
+            stock.value()->step();
+        for (int step = 0; step < block; ++step)
+            ours.value()->step();
+        ratios.push_back(sumOfLast(*stock.value(), block) / std::max(sumOfLast(*ours.value(), block), 1e-6F));
+    }
+    result.ours = summarise(ours.value()->stepMs());
+    result.stock = summarise(stock.value()->stepMs());
+    result.speedup = medianOf(std::move(ratios));
+    std::vector<physics::ContactPoint> contacts;
+    ours.value()->world().getContacts(contacts);
+    result.contacts = contacts.size();
+    const std::size_t heapAfter = ::mallinfo2().uordblks + ::mallinfo2().hblkhd;
+    result.memoryBytes = heapAfter > heapBefore ? heapAfter - heapBefore : 0;
+    auto quality = measureQuality(asset, what, what.solver);
+    if (!quality) return quality.error();
+    auto stockQuality = measureQuality(asset, what, physics::SolverKind::stock);
+    if (!stockQuality) return stockQuality.error();
+    result.quality = quality.value();
+    result.stockQuality = stockQuality.value();
+    return result;
+}
+
+}  // namespace lutka::scene

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/report.hpp"
+#include "scene/simulation.hpp"
+
+namespace lutka::scene {
+
+/// One case: our solver and plain Bullet (`stock`) on the same profile and scene, stepped in turn in one process.
+struct BenchCase {
+    std::string scene = "spread";
+    int count = 100;
+    int threads = 1;
+    physics::SolverKind solver = physics::SolverKind::bullet;
+    bool sleeping = false;
+    int steps = 300;  ///< Of 1/60 s.
+};
+
+struct BenchResult {
+    BenchCase what;
+    StepTimes ours;            ///< Milliseconds a step, without measuring.
+    StepTimes stock;           ///< Likewise.
+    float speedup = 0;         ///< Stock's time over ours: the median over interleaved blocks of steps.
+    physics::Quality quality;  ///< Of a run of its own, so that measuring costs no time above.
+    physics::Quality stockQuality;
+    std::uint64_t contacts = 0;     ///< Of our world at the last step.
+    std::uint64_t memoryBytes = 0;  ///< Heap that our world holds at the end.
+};
+
+/// Runs one case. Fails as makeScenario and Simulation::create do.
+[[nodiscard]] Result<BenchResult> runBenchmark(const RagdollAsset& asset, const BenchCase& what);
+
+/// `lutka bench --json`: {"machine", "cases": […]}, and the same as CSV with a header line.
+[[nodiscard]] std::string benchmarkJson(std::span<const BenchResult> results);
+[[nodiscard]] std::string benchmarkCsv(std::span<const BenchResult> results);
+
+}  // namespace lutka::scene

@@ -1,0 +1,21 @@
+#include "scene/quality_json.hpp"
+
+namespace lutka::scene {
+
+nlohmann::ordered_json qualityJson(const physics::Quality& q) {
+    nlohmann::ordered_json json;
+    json["jointSeparationM"] = {
+        {"max", q.jointSeparationM.max}, {"p99", q.jointSeparationM.p99}, {"mean", q.jointSeparationM.mean}};
+    json["limitViolationDeg"] = {{"max", q.limitViolationDeg.max}, {"p99", q.limitViolationDeg.p99}};
+    json["floorPenetrationM"] = {{"max", q.floorPenetrationM}};
+    json["selfPenetrationM"] = {{"max", q.selfPenetrationM}};
+    json["energyGrowthJ"] = q.energyGrowthJ;
+    json["initialEnergyJ"] = q.initialEnergyJ;
+    json["settleSeconds"] =
+        q.settleSeconds ? nlohmann::ordered_json(*q.settleSeconds) : nlohmann::ordered_json(nullptr);
+    json["residualSpeedMps"] = q.residualSpeedMps;
+    json["nonFinite"] = q.nonFinite;
+    return json;
+}
+
+}  // namespace lutka::scene
