@@ -12,7 +12,7 @@ float grid(vec2 at, float spacing, float width) {
     vec2 footprint = max(fwidth(p), 1e-5);
     vec2 wide = max(vec2(width / spacing), footprint);
     vec2 away = 0.5 - abs(fract(p) - 0.5);
-    vec2 line = (1.0 - smoothstep(wide - footprint, wide, away * 2.0)) * clamp(width / spacing / wide, 0.35, 1.0);
+    vec2 line = (1.0 - smoothstep(wide - footprint, wide, away * 2.0)) * clamp(width / spacing / wide, 0.45, 1.0);
     line *= 1.0 - smoothstep(0.15, 0.5, footprint);
     return max(line.x, line.y);
 }
@@ -28,8 +28,8 @@ void main() {
     surface.occlusion = 1.0;
     surface.emissive = vec3(0.0);
     if (floorGrid.x > 0.0) {
-        float line = max(0.45 * grid(worldPosition.xz, floorGrid.x, 0.006),
-                         0.8 * grid(worldPosition.xz, 4.0 * floorGrid.x, 0.010));
+        float line = max(0.45 * grid(worldPosition.xz, floorGrid.x, 0.008),
+                         0.8 * grid(worldPosition.xz, 4.0 * floorGrid.x, 0.014));
         surface.albedo *= 1.0 - floorGrid.y * line;
     }
     float away = length(worldPosition.xz - target.xz) / floorGrid.z;

@@ -15,8 +15,10 @@ layout(std140) uniform Frame {
     vec4 eye;              // xyz world position; w: 1 when orthographic
     vec4 forward;          // xyz unit view direction; w: exposure
     vec4 sunDirection;     // xyz unit, towards the light; w: 1 when it casts a shadow
-    vec4 sunColor;         // rgb times intensity; w: softness of the shadow, texels
-    vec4 shadowTexel;      // x: metres a texel, y: 1 / texels a side
+    vec4 sunColor;         // rgb times intensity
+    // x: metres a texel; y: 1 / texels a side; z: radius of the penumbra for a gap of the map's whole depth, of the map's
+    // side; w: its largest radius, of the map's side
+    vec4 shadowTexel;
     vec4 skyZenith;
     vec4 skyHorizon;
     vec4 skyGround;
@@ -25,6 +27,7 @@ layout(std140) uniform Frame {
     vec4 floorGrid;        // spacing, strength, fade distance; w: 1 when there is a floor
     vec4 target;           // xyz: what the camera looks at; w: 1 when ambient occlusion is on
     vec4 backgroundTop;
+    vec4 backgroundHorizon;
     vec4 backgroundBottom;
     ivec4 counts;          // x: local lights
     LocalLight localLights[kMaxLocalLights];

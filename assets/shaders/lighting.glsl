@@ -1,5 +1,6 @@
 // Metallic-roughness shading (glTF 2.0, appendix B) under the sun, the local lights and the procedural sky.
 uniform sampler2DShadow shadowMap;
+uniform sampler2D shadowDepth;  // the same map, uncompared
 uniform sampler2D occlusionMap;
 
 const float kPi = 3.14159265;
@@ -33,26 +34,52 @@ vec3 skyIrradiance(vec3 normal) {
     return mix(skyGround.rgb, sky, 0.5 + 0.5 * normal.y) + skyHorizon.rgb * (0.16 * sun);
 }
 
-// Share of the sun that arrives, [0, 1]. The point is moved along its normal by the texels that the filter covers, so
-// that a surface does not shade itself (normal offset: Holbert 2011), more where the light grazes.
+// A number in [0, 1) that differs from pixel to pixel without clumps (interleaved gradient noise: Jimenez 2014).
+float pixelNoise() {
+    return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+}
+
+// The tap-th of `count` points spread evenly over the unit disc (Vogel's spiral).
+vec2 discPoint(int tap, int count, float turn) {
+    float angle = float(tap) * 2.39996323 + turn;
+    return sqrt((float(tap) + 0.5) / float(count)) * vec2(cos(angle), sin(angle));
+}
+
+// Share of the sun that arrives, [0, 1], with a penumbra that widens with the distance from what casts the shadow
+// (percentage-closer soft shadows: Fernando 2005). The point is moved along its normal by the texels that the filter
+// covers, so that a surface does not shade itself (normal offset: Holbert 2011), more where the light grazes.
 float sunVisibility(vec3 position, vec3 normal) {
     if (sunDirection.w < 0.5) return 1.0;
+    const int kBlockerTaps = 6;
+    const int kTaps = 12;
     float cosine = clamp(dot(normal, sunDirection.xyz), 0.0, 1.0);
     float grazing = sqrt(1.0 - cosine * cosine);
-    vec3 moved = position + normal * (shadowTexel.x * (0.6 + 1.8 * grazing) * (0.5 + sunColor.w));
+    float turn = 6.2831853 * pixelNoise();
+    vec3 moved = position + normal * (shadowTexel.x * (1.0 + 3.0 * grazing));
     vec3 at = (shadowFromWorld * vec4(moved, 1.0)).xyz;
     if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at, vec3(1.0)))) return 1.0;
-    float texel = shadowTexel.y * sunColor.w;
-    float lit = 4.0 * texture(shadowMap, at);
-    lit += 2.0 * texture(shadowMap, at + vec3(texel, 0.0, 0.0));
-    lit += 2.0 * texture(shadowMap, at - vec3(texel, 0.0, 0.0));
-    lit += 2.0 * texture(shadowMap, at + vec3(0.0, texel, 0.0));
-    lit += 2.0 * texture(shadowMap, at - vec3(0.0, texel, 0.0));
-    lit += texture(shadowMap, at + vec3(texel, texel, 0.0));
-    lit += texture(shadowMap, at + vec3(-texel, texel, 0.0));
-    lit += texture(shadowMap, at + vec3(texel, -texel, 0.0));
-    lit += texture(shadowMap, at + vec3(-texel, -texel, 0.0));
-    return lit / 16.0;
+
+    float search = shadowTexel.w * 0.35;  // of the widest penumbra
+    float above = 0.0;
+    float blockers = 0.0;
+    for (int tap = 0; tap < kBlockerTaps; ++tap) {
+        float depth = texture(shadowDepth, at.xy + discPoint(tap, kBlockerTaps, turn) * search).r;
+        float gap = at.z - depth - search * 0.5;
+        if (gap > 0.0) {
+            above += gap;
+            blockers += 1.0;
+        }
+    }
+    float gap = blockers > 0.0 ? above / blockers : 0.0;
+    // shadowTexel.z: penumbra in map units for a gap over the whole depth of the map.
+    float radius = clamp(gap * shadowTexel.z, shadowTexel.y * 1.2, shadowTexel.w);
+    float lit = 0.0;
+    for (int tap = 0; tap < kTaps; ++tap) {
+        vec2 offset = discPoint(tap, kTaps, turn) * radius;
+        // Wider taps reach further along a slope: their reference moves with them.
+        lit += texture(shadowMap, vec3(at.xy + offset, at.z - grazing * radius * shadowTexel.y));
+    }
+    return lit / float(kTaps);
 }
 
 // Share of the sky that nearby geometry leaves open at this pixel.
@@ -129,7 +156,7 @@ vec3 shade(Surface surface) {
 vec3 toneMap(vec3 color) {
     const mat3 acesFromRgb = mat3(0.59719, 0.07600, 0.02840, 0.35458, 0.90834, 0.13383, 0.04823, 0.01566, 0.83777);
     const mat3 rgbFromAces = mat3(1.60475, -0.10208, -0.00327, -0.53108, 1.10813, -0.07276, -0.07367, -0.00605, 1.07602);
-    vec3 v = acesFromRgb * (color * forward.w * 1.45);
+    vec3 v = acesFromRgb * (color * forward.w);
     vec3 fitted = (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
     return clamp(rgbFromAces * fitted, 0.0, 1.0);
 }

@@ -55,16 +55,17 @@ struct PropItem {
 struct Floor {
     bool visible = true;
     float height = 0.0F;  ///< World y, metres.
-    Color color{186, 188, 192, 255};
+    Color color{158, 160, 164, 255};
     float gridSpacing = 0.5F;    ///< Metres between thin lines, every fourth is stronger; 0: no grid.
     float gridStrength = 0.5F;   ///< [0, 1]; more: darker lines.
     float fadeDistance = 14.0F;  ///< Metres from the camera's target at which it has melted into the background.
 };
 
-/// The backdrop: a vertical gradient of the picture.
+/// The backdrop, a gradient by the direction of view; display colours, untouched by exposure and light.
 struct Background {
-    Color top{150, 160, 174, 255};
-    Color bottom{216, 219, 223, 255};
+    Color top{104, 116, 134, 255};      ///< Straight up.
+    Color horizon{196, 200, 205, 255};  ///< At the horizon, into which the floor melts.
+    Color bottom{150, 152, 156, 255};   ///< Straight down, where there is no floor.
 };
 
 /// One picture.

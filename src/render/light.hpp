@@ -6,12 +6,13 @@ namespace lutka::render {
 
 /// The directional light, which casts the shadow.
 struct SunLight {
-    vec3 directionToLight{0.45F, 0.80F, 0.40F};  ///< World, from the scene towards the light; any length above zero.
-    vec3 color{1.0F, 0.965F, 0.91F};             ///< Linear.
-    float intensity = 2.6F;  ///< Irradiance on a surface that faces it, in units where white at 1 and exposure 1 is
+    vec3 directionToLight{-0.50F, 0.90F, 0.55F};  ///< World, from the scene towards the light; any length above zero.
+    vec3 color{1.0F, 0.965F, 0.91F};              ///< Linear.
+    float intensity = 2.2F;  ///< Irradiance on a surface that faces it, in units where white at 1 and exposure 1 is
                              ///< paper white. More: brighter, harder contrast with the shadow.
     bool castsShadow = true;
-    float shadowSoftness = 1.6F;  ///< Radius of the shadow's soft edge in texels of its map, [0.5, 4].
+    float angularRadius = 0.045F;  ///< Of the light as a disc in the sky, radians, [0, 0.2]. More: softer shadows, the
+                                   ///< more so the further from what casts them.
 };
 
 /// A point or spot light without a shadow.
@@ -30,7 +31,7 @@ struct Sky {
     vec3 zenith{0.50F, 0.60F, 0.78F};   ///< Linear radiance straight up.
     vec3 horizon{0.86F, 0.88F, 0.90F};  ///< At the horizon.
     vec3 ground{0.34F, 0.32F, 0.30F};   ///< Straight down: what the floor throws back.
-    float intensity = 0.9F;             ///< Multiplies all three.
+    float intensity = 0.75F;            ///< Multiplies all three.
 };
 
 }  // namespace lutka::render

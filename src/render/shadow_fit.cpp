@@ -34,10 +34,10 @@ ShadowFit fitShadow(const BoundingSphere& casters, const vec3& directionToLight,
     for (int column = 0; column < 3; ++column)
         viewFromWorld[column] = vec4(x[column], y[column], z[column], 0.0F);
     viewFromWorld[3] = vec4(-center, 1.0F);
-    // Depth holds all casters; what they fall on may lie further, which the lookup takes as lit or clamps.
+    // From the nearest caster to well behind the farthest one: what they fall on.
     const float reach =
         std::max(casters.empty() ? radius : casters.radius + glm::length(casters.center - seen.center), radius);
-    return {glm::ortho(-half, half, -half, half, -reach * 3.0F, reach) * viewFromWorld, texel};
+    return {glm::ortho(-half, half, -half, half, -reach, 4.0F * reach) * viewFromWorld, 5.0F * reach, texel};
 }
 
 }  // namespace lutka::render

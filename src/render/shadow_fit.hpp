@@ -8,6 +8,7 @@ namespace lutka::render {
 /// The shadow's view of the scene.
 struct ShadowFit {
     mat4 lightFromWorld{1};        ///< To the shadow map's clip space, [-1, 1]³.
+    float depthMetres = 1.0F;      ///< From its near to its far plane.
     float metresPerTexel = 0.01F;  ///< On a plane that faces the light.
 };
 

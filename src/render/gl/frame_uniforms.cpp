@@ -20,6 +20,9 @@ void setRows(InstanceTexels& texels, const RigidTransform& worldFromItem) {
         texels.worldRows[row] = {r[0][row], r[1][row], r[2][row], worldFromItem.translation[row]};
 }
 
+// Metres: wider ones would need more taps than a software rasteriser can afford.
+constexpr float kWidestPenumbra = 0.045F;
+
 FrameUniforms::Light packed(const LocalLight& light) {
     // A point light is a spot whose cone holds every direction.
     const bool everywhere = light.outerAngle >= kPi;
@@ -42,8 +45,11 @@ FrameUniforms makeFrameUniforms(const FrameDescription& frame, Extent size, cons
     u.eye = vec4(eyeOf(camera), camera.orthographic ? 1.0F : 0.0F);
     u.forward = vec4(forwardOf(camera), frame.exposure);
     u.sunDirection = vec4(glm::normalize(frame.sun.directionToLight), frame.sun.castsShadow ? 1.0F : 0.0F);
-    u.sunColor = vec4(frame.sun.color * frame.sun.intensity, std::clamp(frame.sun.shadowSoftness, 0.5F, 4.0F));
-    u.shadowTexel = vec4(shadow.metresPerTexel, 1.0F / static_cast<float>(shadowMapSize), 0, 0);
+    u.sunColor = vec4(frame.sun.color * frame.sun.intensity, 0);
+    const float side = shadow.metresPerTexel * static_cast<float>(shadowMapSize);
+    const float penumbra = std::tan(std::clamp(frame.sun.angularRadius, 0.0F, 0.2F)) * shadow.depthMetres / side;
+    u.shadowTexel = vec4(shadow.metresPerTexel, 1.0F / static_cast<float>(shadowMapSize), penumbra,
+                         std::min(kWidestPenumbra / side, 0.03F));
     u.skyZenith = vec4(frame.sky.zenith * frame.sky.intensity, 0);
     u.skyHorizon = vec4(frame.sky.horizon * frame.sky.intensity, 0);
     u.skyGround = vec4(frame.sky.ground * frame.sky.intensity, 0);
@@ -55,6 +61,7 @@ FrameUniforms makeFrameUniforms(const FrameDescription& frame, Extent size, cons
     u.floorGrid = vec4(frame.floor.gridSpacing, frame.floor.gridStrength, fade, frame.floor.visible ? 1.0F : 0.0F);
     u.target = vec4(camera.target, frame.ambientOcclusion ? 1.0F : 0.0F);
     u.backgroundTop = toLinear(frame.background.top);
+    u.backgroundHorizon = toLinear(frame.background.horizon);
     u.backgroundBottom = toLinear(frame.background.bottom);
     const std::size_t lights = std::min<std::size_t>(frame.localLights.size(), kMaxLocalLights);
     u.counts[0] = static_cast<int>(lights);

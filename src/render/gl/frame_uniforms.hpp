@@ -35,11 +35,12 @@ struct FrameUniforms {
     vec4 floorGrid{0};
     vec4 target{0};
     vec4 backgroundTop{0};
+    vec4 backgroundHorizon{0};
     vec4 backgroundBottom{0};
     std::array<int, 4> counts{};
     std::array<Light, kMaxLocalLights> localLights{};
 };
-static_assert(sizeof(FrameUniforms) == 4 * 64 + 15 * 16 + kMaxLocalLights * 48);
+static_assert(sizeof(FrameUniforms) == 4 * 64 + 16 * 16 + kMaxLocalLights * 48);
 
 /// One instance of a character or prop as assets/shaders/instance.glsl reads it.
 struct InstanceTexels {

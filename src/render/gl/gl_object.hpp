@@ -75,11 +75,21 @@ struct RenderbufferTraits {
     static void destroy(GLuint name) { glDeleteRenderbuffers(1, &name); }
 };
 
+struct SamplerTraits {
+    static GLuint create() {
+        GLuint name = 0;
+        glGenSamplers(1, &name);
+        return name;
+    }
+    static void destroy(GLuint name) { glDeleteSamplers(1, &name); }
+};
+
 using GlBuffer = GlObject<BufferTraits>;
 using GlVertexArray = GlObject<VertexArrayTraits>;
 using GlTexture = GlObject<TextureTraits>;
 using GlFramebuffer = GlObject<FramebufferTraits>;
 using GlRenderbuffer = GlObject<RenderbufferTraits>;
+using GlSampler = GlObject<SamplerTraits>;
 
 /// A vertex attribute's offset inside an interleaved vertex, as glVertexAttribPointer wants it.
 [[nodiscard]] inline const void* attributeOffset(std::size_t bytes) {

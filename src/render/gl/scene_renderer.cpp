@@ -80,8 +80,15 @@ SceneRenderer::SceneRenderer(int shadowMapSize)
       noVertices_(GlVertexArray::create()),
       white_(makeWhite()),
       shadowMap_(DepthTarget::Use::shadow),
+      uncompared_(GlSampler::create()),
       smallDepth_(DepthTarget::Use::plain),
-      uniformBuffer_(GL_UNIFORM_BUFFER) {}
+      uniformBuffer_(GL_UNIFORM_BUFFER) {
+    glSamplerParameteri(uncompared_.name(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
+    glSamplerParameteri(uncompared_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glSamplerParameteri(uncompared_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glSamplerParameteri(uncompared_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glSamplerParameteri(uncompared_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
 
 Result<SceneRenderer> SceneRenderer::create(int shadowMapSize) {
     SceneRenderer renderer(shadowMapSize);
@@ -154,6 +161,8 @@ void SceneRenderer::draw(const FrameDescription& frame, const CharacterStore& ch
     upload(frame, characters, picture.size(), stats);
     if (frame.sun.castsShadow) drawShadowMap(characters, stats);
     bindTexture(TextureUnit::shadowMap, shadowMap_.texture());
+    bindTexture(TextureUnit::shadowDepth, shadowMap_.texture());
+    glBindSampler(static_cast<GLuint>(TextureUnit::shadowDepth), uncompared_.name());
     if (frame.ambientOcclusion) drawOcclusion(frame, characters, picture.size(), stats);
     bindTexture(TextureUnit::occlusionMap, frame.ambientOcclusion ? smoothOcclusion_.texture() : white_.name());
     drawPicture(frame, characters, picture, stats);

@@ -77,6 +77,7 @@ class SceneRenderer {
     GlVertexArray noVertices_;  ///< For shapes that the vertex shader makes up.
     GlTexture white_;           ///< Stands in where a texture is missing.
     DepthTarget shadowMap_;
+    GlSampler uncompared_;  ///< Reads the shadow map's depths.
     DepthTarget smallDepth_;
     ChannelTarget noisyOcclusion_;
     ChannelTarget smoothOcclusion_;

@@ -114,7 +114,7 @@ Result<ShaderProgram> ShaderProgram::load(std::string_view vertexFile, std::stri
 
 void ShaderProgram::bindFixedUnits() const {
     use();
-    const std::array<std::pair<const char*, TextureUnit>, 11> units = {{
+    const std::array<std::pair<const char*, TextureUnit>, 12> units = {{
         {"baseColorTexture", TextureUnit::baseColor},
         {"metallicRoughnessTexture", TextureUnit::metallicRoughness},
         {"normalTexture", TextureUnit::normal},
@@ -123,6 +123,7 @@ void ShaderProgram::bindFixedUnits() const {
         {"palettes", TextureUnit::palettes},
         {"instances", TextureUnit::instances},
         {"shadowMap", TextureUnit::shadowMap},
+        {"shadowDepth", TextureUnit::shadowDepth},
         {"occlusionMap", TextureUnit::occlusionMap},
         {"depthMap", TextureUnit::depthMap},
         {"noisyMap", TextureUnit::noisyMap},

@@ -28,6 +28,7 @@ enum class TextureUnit : int {
     palettes,
     instances,
     shadowMap,
+    shadowDepth,
     occlusionMap,
     depthMap,
     noisyMap
