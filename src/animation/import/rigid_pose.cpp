@@ -2,12 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 
 #include "core/assert.hpp"
 
 namespace lutka::animation::rig_import {
+namespace {
+
+// How far the linear part stretches or shears beyond the rotation: 0.2 for a scale of 1.2, along whichever axis.
+double stretchBeyond(const dmat3& rotation, const dmat3& linear) {
+    const dmat3 stretch = glm::transpose(rotation) * linear - dmat3(1.0);
+    return std::max({glm::length(stretch[0]), glm::length(stretch[1]), glm::length(stretch[2])});
+}
+
+}  // namespace
 
 RigidPoser::RigidPoser(const NodeTree& tree, std::span<const dmat4> bindSceneFromJoint, const dmat4& modelFromScene)
     : tree_(tree), modelFromScene_(modelFromScene) {
@@ -26,10 +36,11 @@ double RigidPoser::pose(std::span<const dmat4> sceneFromNode, double uniformScal
         const RigidTransform& bind = bindModelFromJoint_[joint];
         const dmat4 moved = modelFromScene_ * sceneFromNode[tree_.nodeOfJoint[joint]] * jointFromModelBind_[joint];
         const dvec3 origin(moved * dvec4(dvec3(bind.translation), 1.0));
-        const quat turn(glm::normalize(glm::quat_cast(nearestRotation(moved))));
+        const dmat3 rotation = nearestRotation(moved);
+        const quat turn(glm::normalize(glm::quat_cast(rotation)));
         modelFromJoint[joint] = {glm::normalize(turn * bind.rotation), vec3(origin / uniformScale)};
         if (!isFinite(modelFromJoint[joint])) modelFromJoint[joint] = bind;
-        if (matters[joint]) worst = std::max(worst, std::abs(meanScale(moved) / uniformScale - 1.0));
+        if (matters[joint]) worst = std::max(worst, stretchBeyond(rotation, dmat3(moved) / uniformScale));
     }
     return worst;
 }

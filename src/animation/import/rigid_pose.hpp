@@ -18,7 +18,8 @@ class RigidPoser {
     [[nodiscard]] const std::vector<RigidTransform>& bindModelFromJoint() const { return bindModelFromJoint_; }
 
     /// Model-space frames (one a joint) of a pose given by all nodes' scene-space frames. Lengths are divided by
-    /// `uniformScale` first. Returns the largest relative scale |s - 1| among the joints with `matters` set.
+    /// `uniformScale` first. Returns the largest stretch or shear that was dropped, as a share of the length, among the
+    /// joints with `matters` set.
     double pose(std::span<const dmat4> sceneFromNode, double uniformScale, std::span<const bool> matters,
                 std::span<RigidTransform> modelFromJoint) const;
 

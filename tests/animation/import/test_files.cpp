@@ -1,0 +1,282 @@
+// Files that are broken, refused, oddly named, in odd units or without their pictures.
+
+#include <cstring>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+
+#include "animation/import/checks.hpp"
+#include "animation/import/gltf_file.hpp"
+#include "core/files.hpp"
+#include "support/catch.hpp"
+
+using namespace lutka;
+using namespace lutka::animation;
+using namespace lutka::test;
+
+namespace {
+
+Error refusal(const std::filesystem::path& file) {
+    const Result<Character> result = importCharacter(file);
+    REQUIRE_FALSE(result.ok());
+    CHECK(result.error().code == ErrorCode::input);
+    CHECK(result.error().location == file.string());
+    return result.error();
+}
+
+float heightOf(const Character& character) {
+    float low = std::numeric_limits<float>::max();
+    float high = std::numeric_limits<float>::lowest();
+    for (const vec3& p : bindVertices(character)) {
+        low = std::min(low, p.y);
+        high = std::max(high, p.y);
+    }
+    return high - low;
+}
+
+}  // namespace
+
+TEST_CASE("a missing file, a folder and a text are refused with a reason") {
+    const TemporaryFolder folder;
+    CHECK(refusal(folder / "none.fbx").message == "there is no such file");
+    CHECK(refusal(folder / ".").message == "is a folder, not a model");
+    std::ofstream(folder / "poem.fbx") << "no model at all";
+    CHECK_FALSE(refusal(folder / "poem.fbx").message.empty());
+    std::ofstream(folder / "poem.xyz") << "no model at all";
+    CHECK_FALSE(refusal(folder / "poem.xyz").message.empty());
+    std::ofstream(folder / "empty.glb") << "";
+    CHECK_FALSE(refusal(folder / "empty.glb").message.empty());
+}
+
+TEST_CASE("required extensions that can't be read are refused by name with a mend") {
+    const TemporaryFolder folder;
+    for (const char* extension : {"KHR_mesh_quantization", "EXT_meshopt_compression", "KHR_meshopt_compression",
+                                  "EXT_mesh_gpu_instancing", "ACME_geometry"}) {
+        INFO(extension);
+        GltfFile file = makePostRig();
+        file.json["extensionsRequired"] = {extension};
+        file.json["extensionsUsed"] = {extension};
+        file.saveText(folder / "rig.gltf");
+        file.saveBinary(folder / "rig.glb");
+        for (const char* name : {"rig.gltf", "rig.glb"}) {
+            const Error error = refusal(folder / name);
+            CHECK(error.message.find(extension) != std::string::npos);
+            CHECK_FALSE(error.mend.empty());
+        }
+    }
+}
+
+TEST_CASE("quantised positions are refused even when the file does not own up to them") {
+    const TemporaryFolder folder;
+    GltfFile file = makePostRig();
+    const int accessor = file.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
+    file.json["accessors"][accessor]["componentType"] = 5122;
+    file.saveText(folder / "rig.gltf");
+    CHECK(refusal(folder / "rig.gltf").message.find("KHR_mesh_quantization") != std::string::npos);
+}
+
+TEST_CASE("required extensions that only cost looks are let through") {
+    const TemporaryFolder folder;
+    GltfFile file = makePostRig();
+    file.json["extensionsRequired"] = {"KHR_materials_unlit", "KHR_texture_basisu"};
+    file.saveText(folder / "rig.gltf");
+    const Character character = imported(folder / "rig.gltf");
+    CHECK(warns(character, "KHR_texture_basisu"));
+    CHECK_FALSE(warns(character, "KHR_materials_unlit"));
+}
+
+TEST_CASE("a .vrm is read as the glTF that it is, and its humanoid block too") {
+    const TemporaryFolder folder;
+    GltfFile file = makePostRig();
+    const auto check = [&] {
+        file.saveBinary(folder / "rig.vrm");
+        const Character character = imported(folder / "rig.vrm");
+        checkInvariants(character);
+        REQUIRE(character.vrmHumanoid.count("hips") == 1);
+        CHECK(character.skeleton.names[character.vrmHumanoid.at("hips")] == "low");
+        REQUIRE(character.vrmHumanoid.count("leftThumbProximal") == 1);
+        CHECK(character.skeleton.names[character.vrmHumanoid.at("leftThumbProximal")] == "high");
+        CHECK(character.vrmHumanoid.size() == 2);
+        CHECK(warns(character, "node 99"));
+    };
+    SECTION("VRM 1.0") {
+        file.json["extensions"]["VRMC_vrm"]["humanoid"]["humanBones"] = {
+            {"hips", {{"node", 1}}}, {"leftThumbProximal", {{"node", 3}}}, {"head", {{"node", 99}}}};
+        check();
+    }
+    SECTION("VRM 0.x") {
+        file.json["extensions"]["VRM"]["humanoid"]["humanBones"] = {{{"bone", "hips"}, {"node", 1}},
+                                                                    {{"bone", "leftThumbIntermediate"}, {"node", 3}},
+                                                                    {{"bone", "head"}, {"node", 99}}};
+        check();
+    }
+    SECTION("several roots and a repeated name") {
+        file.json["nodes"][4]["name"] = "low";
+        file.addNode("other", -1);
+        file.json["extensions"]["VRMC_vrm"]["humanoid"]["humanBones"] = {
+            {"hips", {{"node", 1}}}, {"leftThumbProximal", {{"node", 3}}}, {"head", {{"node", 99}}}};
+        check();
+    }
+}
+
+TEST_CASE("a truncated file is refused at every length") {
+    const TemporaryFolder folder;
+    makePostRig().saveBinary(folder / "whole.glb");
+    const auto bytes = readFile(folder / "whole.glb");
+    REQUIRE(bytes.ok());
+    const std::string whole(bytes.value().begin(), bytes.value().end());
+    for (std::size_t length = 0; length < whole.size() - 4; length += 97) {
+        INFO(length << " of " << whole.size() << " bytes");
+        std::ofstream(folder / "cut.glb", std::ios::binary | std::ios::trunc) << whole.substr(0, length);
+        refusal(folder / "cut.glb");
+    }
+}
+
+TEST_CASE("a picture that is missing leaves the material plain, with one warning") {
+    const TemporaryFolder folder;
+    GltfFile file = makePostRig();
+    file.json["images"] = {{{"uri", "nowhere.png"}}};
+    file.json["textures"] = {{{"source", 0}}};
+    file.json["materials"] = {
+        {{"name", "cloth"},
+         {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"roughnessFactor", 0.25}}}}};
+    file.json["meshes"][0]["primitives"][0]["material"] = 0;
+    file.saveText(folder / "rig.gltf");
+    const Character character = imported(folder / "rig.gltf");
+    REQUIRE_FALSE(character.materials.empty());
+    CHECK(character.materials[0].name == "cloth");
+    CHECK(character.materials[0].baseColorTexture == Material::kNoTexture);
+    CHECK(character.materials[0].roughness == Approx(0.25F));
+    CHECK(warns(character, "nowhere.png"));
+    ImportOptions plain;
+    plain.loadTextures = false;
+    CHECK(imported(folder / "rig.gltf", plain).warnings.empty());
+}
+
+TEST_CASE("a picture is found by its base name beside an OBJ written on Windows") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder / "textures");
+    // A binary PPM: one red and one blue pixel.
+    std::ofstream(folder / "textures/Skin.ppm", std::ios::binary) << "P6 2 1 255\n"
+                                                                  << std::string("\xff\0\0\0\0\xff", 6);
+    std::ofstream(folder / "post.mtl") << "newmtl skin\nKd 0.5 0.5 0.5\nmap_Kd C:\\art\\skin.ppm\n";
+    std::ofstream(folder / "post.obj") << "mtllib post.mtl\nusemtl skin\nv 0 0 0\nv 1 0 0\nv 0 1.7 0\nvt 0 0\nvt 1 0\n"
+                                          "vt 0 1\nf 1/1 2/2 3/3\n";
+    const Character character = imported(folder / "post.obj");
+    checkInvariants(character);
+    REQUIRE(character.textures.size() == 1);
+    const Texture& texture = character.textures[0];
+    CHECK(texture.name == "Skin.ppm");
+    CHECK(texture.width == 2);
+    CHECK(texture.height == 1);
+    CHECK(texture.rgba == std::vector<std::uint8_t>{255, 0, 0, 255, 0, 0, 255, 255});
+    CHECK(character.materials[character.meshes[0].material].baseColorTexture == 0);
+    // glTF's v runs down.
+    CHECK(character.meshes[0].uvs[0].y == Approx(1.0F));
+}
+
+TEST_CASE("an absurd height is brought to a person's, with a warning") {
+    struct Case {
+        float scale;
+        float metresPerUnit;
+        float height;
+    };
+    const TemporaryFolder folder;
+    for (const Case& each :
+         {Case{100.0F, 0.01F, 1.8F}, Case{0.01F, 100.0F, 1.8F}, Case{10.0F, 0.1F, 1.8F},
+          Case{1.0F / 0.0254F, 0.0254F, 1.8F}, Case{1000.0F, 0.001F, 1.8F}, Case{2.5F, 1.75F / 4.5F, 1.75F}}) {
+        INFO(each.scale);
+        GltfFile larger;
+        const int root = larger.addNode("Armature", -1);
+        std::vector<int> nodes;
+        std::vector<mat4> binds;
+        int parent = root;
+        for (int i = 0; i < 3; ++i) {
+            const float step = 0.6F * each.scale;
+            parent = larger.addNode("j" + std::to_string(i), parent,
+                                    glm::translate(mat4(1.0F), vec3(0, i == 0 ? 0.0F : step, 0)));
+            nodes.push_back(parent);
+            binds.push_back(glm::translate(mat4(1.0F), vec3(0, -step * static_cast<float>(i), 0)));
+        }
+        const int body = larger.addNode("Body", -1);
+        larger.json["nodes"][body]["mesh"] = addPostMesh(larger, makePost(), glm::scale(mat4(1.0F), vec3(each.scale)));
+        larger.json["nodes"][body]["skin"] = addSkin(larger, nodes, binds);
+        larger.saveText(folder / "rig.gltf");
+        const Character character = imported(folder / "rig.gltf");
+        checkInvariants(character);
+        CHECK(heightOf(character) == Approx(each.height).epsilon(1e-4));
+        CHECK(character.units.metresPerFileUnit == Approx(each.metresPerUnit).epsilon(1e-4));
+        CHECK(character.units.unitSource == "height of the figure");
+        CHECK(warns(character, "--scale"));
+    }
+}
+
+TEST_CASE("a child, a short robot and a giant keep their stated size") {
+    const TemporaryFolder folder;
+    for (const float factor : {0.2F, 0.5F, 1.0F, 1.9F}) {
+        GltfFile file = makePostRig();
+        file.json["nodes"][0]["scale"] = {factor, factor, factor};
+        file.saveText(folder / "rig.gltf");
+        const Character character = imported(folder / "rig.gltf");
+        CHECK(heightOf(character) == Approx(1.8F * factor));
+        CHECK(character.warnings.empty());
+    }
+}
+
+TEST_CASE("the options override units and up axis") {
+    const TemporaryFolder folder;
+    makePostRig().saveText(folder / "rig.gltf");
+    ImportOptions options;
+    options.metresPerFileUnit = 2.0F;
+    const Character larger = imported(folder / "rig.gltf", options);
+    CHECK(heightOf(larger) == Approx(3.6F));
+    CHECK(larger.units.unitSource == "--scale");
+    const std::array<UpAxis, 6> all = {UpAxis::positiveX, UpAxis::negativeX, UpAxis::positiveY,
+                                       UpAxis::negativeY, UpAxis::positiveZ, UpAxis::negativeZ};
+    const std::array<vec3, 6> axes = {vec3(1, 0, 0),  vec3(-1, 0, 0), vec3(0, 1, 0),
+                                      vec3(0, -1, 0), vec3(0, 0, 1),  vec3(0, 0, -1)};
+    const Post post = makePost();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        options.metresPerFileUnit = 1.0F;
+        options.up = all[i];
+        const Character turned = imported(folder / "rig.gltf", options);
+        checkInvariants(turned);
+        CHECK(turned.units.upSource == "--up");
+        const std::vector<vec3> vertices = bindVertices(turned);
+        for (std::size_t v = 0; v < vertices.size(); ++v)
+            CHECK(vertices[v].y == Approx(glm::dot(post.positions[v], axes[i])).margin(1e-5));
+    }
+}
+
+TEST_CASE("a figure that plainly stands along another axis than the file says is put upright") {
+    const TemporaryFolder folder;
+    // +Z up inside a glTF, which is +Y up by definition.
+    GltfFile file = makePostRig();
+    file.json["nodes"][0]["matrix"] = std::vector<float>{1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1};
+    file.saveText(folder / "rig.gltf");
+    const Character character = imported(folder / "rig.gltf");
+    CHECK(heightOf(character) == Approx(1.8F));
+    CHECK(character.units.upAxis == "+Z");
+    CHECK(character.units.upSource == "the figure");
+    CHECK(warns(character, "--up"));
+}
+
+TEST_CASE("one vertex that is not finite costs its triangles and a warning") {
+    const TemporaryFolder folder;
+    GltfFile file = makePostRig();
+    Post post = makePost();
+    post.positions[0].y = std::numeric_limits<float>::quiet_NaN();
+    file.json["nodes"][4]["mesh"] = addPostMesh(file, post);
+    // JSON knows no NaN: the bounds must not carry it.
+    for (nlohmann::json& accessor : file.json["accessors"]) {
+        accessor.erase("min");
+        accessor.erase("max");
+    }
+    file.saveText(folder / "rig.gltf");
+    const Character character = imported(folder / "rig.gltf");
+    checkInvariants(character);
+    CHECK(warns(character, "1 vertices have no finite position"));
+    CHECK(character.meshes[0].positions.size() == 15);
+    CHECK(character.meshes[0].indices.size() == 3 * (24 - 3));
+}

@@ -1,0 +1,141 @@
+// Real models: all that import promises, on each of them.
+
+#include "support/zoo.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "animation/import/checks.hpp"
+#include "animation/import/scene_oracle.hpp"
+#include "animation/pose.hpp"
+#include "animation/skinning.hpp"
+#include "support/catch.hpp"
+
+using namespace lutka;
+using namespace lutka::animation;
+using namespace lutka::test;
+
+namespace {
+
+struct Model {
+    std::string folder;
+    std::filesystem::path file;
+    bool humanoid = false;
+    bool refused = false;    // its bytes are damaged
+    bool posedNodes = true;  // false where Assimp loses the hierarchy
+};
+
+std::vector<Model> models() {
+    std::vector<Model> out;
+    for (const auto& folder : std::filesystem::directory_iterator(LUTKA_ZOO_DIR)) {
+        std::ifstream in(folder.path() / "truth.json");
+        const nlohmann::json truth = nlohmann::json::parse(in, nullptr, false);
+        if (!truth.is_object()) continue;
+        Model model{folder.path().filename().string(), folder.path() / truth.value("file", "")};
+        model.humanoid = truth["humanoid"] == true;
+        model.refused = model.folder == "irrlicht_ninja_b3d";
+        model.posedNodes = model.folder != "hl1_man";
+        out.push_back(model);
+    }
+    std::sort(out.begin(), out.end(), [](const Model& a, const Model& b) { return a.folder < b.folder; });
+    return out;
+}
+
+// Height of vertices, or of the joints where there are none.
+float heightOf(const Character& character) {
+    float low = 1e9F;
+    float high = -1e9F;
+    const auto add = [&](const vec3& p) {
+        low = std::min(low, p.y);
+        high = std::max(high, p.y);
+    };
+    for (const vec3& p : bindVertices(character))
+        add(p);
+    if (character.meshes.empty()) {
+        for (const RigidTransform& frame : character.skeleton.bindModelFromJoint)
+            add(frame.translation);
+    }
+    return high - low;
+}
+
+// The file's units and axes to model space, as `lutka inspect` states them.
+vec3 toModel(const UnitInfo& units, const vec3& p) {
+    const vec3 scaled = units.metresPerFileUnit * p;
+    if (units.upAxis == "+Z") return {scaled.x, scaled.z, -scaled.y};
+    CHECK(units.upAxis == "+Y");
+    return scaled;
+}
+
+// Largest distance between the skin in the nodes' pose and the oracle's.
+float nodePoseError(const Character& character, const std::filesystem::path& file) {
+    const std::vector<OracleTriangle> expected = oracleTriangles(file);
+    const std::vector<RigidTransform> pose = nodePose(character.skeleton);
+    std::vector<SkinMatrix> palette(pose.size());
+    skinMatrices(character.skeleton.bindModelFromJoint, pose, palette);
+    std::size_t triangle = 0;
+    float worst = 0.0F;
+    for (const SkinnedMesh& mesh : character.meshes) {
+        std::vector<vec3> posed(mesh.positions.size());
+        skinVertices(mesh, palette, posed, {});
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3, ++triangle) {
+            REQUIRE(triangle < expected.size());
+            if (!expected[triangle].comparable) continue;
+            // The corners' order may have been turned.
+            for (const vec3& corner : expected[triangle].corners) {
+                const vec3 goal = toModel(character.units, corner);
+                float nearest = 1e9F;
+                for (std::size_t k = 0; k < 3; ++k)
+                    nearest = std::min(nearest, glm::distance(goal, posed[mesh.indices[i + k]]));
+                worst = std::max(worst, nearest);
+            }
+        }
+    }
+    CHECK(triangle == expected.size());
+    return worst;
+}
+
+}  // namespace
+
+TEST_CASE("every model of the zoo loads, or is refused for its known damage") {
+    if (!zooIsThere()) return;
+    for (const Model& model : models()) {
+        INFO(model.folder);
+        const Result<Character> result = importCharacter(model.file);
+        CHECK(result.ok() == !model.refused);
+        if (!result.ok()) {
+            CHECK(result.error().code == ErrorCode::input);
+            continue;
+        }
+        checkInvariants(result.value());
+        if (model.humanoid) {
+            CHECK(heightOf(result.value()) > 0.5F);
+            CHECK(heightOf(result.value()) < 3.0F);
+        }
+    }
+}
+
+TEST_CASE("the node pose of every zoo model shows what the file shows") {
+    if (!zooIsThere()) return;
+    for (const Model& model : models()) {
+        INFO(model.folder);
+        if (model.refused || !model.posedNodes) continue;
+        const Character character = imported(model.file);
+        const float error = nodePoseError(character, model.file) / heightOf(character);
+        std::printf("%-32s node pose against the formula: %.2e of the height\n", model.folder.c_str(), error);
+        if (!warns(character, "nodes' pose scales joints")) CHECK(error < 1e-3F);
+    }
+}
+
+TEST_CASE("a .vrm of the zoo is the same character as its .glb") {
+    if (!zooIsThere()) return;
+    const Character vrm = imported(zooFile("vrm_addon_example/Example.vrm"));
+    const Character glb = imported(zooFile("vrm_addon_example/Example.glb"));
+    CHECK(vrm.skeleton.names == glb.skeleton.names);
+    CHECK(bindVertices(vrm) == bindVertices(glb));
+    REQUIRE(vrm.vrmHumanoid.count("leftUpperArm") == 1);
+    CHECK(vrm.skeleton.names[vrm.vrmHumanoid.at("leftUpperArm")] == "upper_arm.L");
+    CHECK(vrm.vrmHumanoid == glb.vrmHumanoid);
+}
