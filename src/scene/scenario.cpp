@@ -105,6 +105,7 @@ void drop(Context& context, Scenario& scenario) {
         placement.angularVelocity = nudge(context, 1.0F);
         scenario.dolls.push_back(placement);
     }
+    scenario.focus = {0, 1.3F, 0};  // from the floor to the crown at the start
     focusOnGrid(scenario, context.count, kSpacing);
 }
 

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <memory>
 #include <optional>
 
@@ -27,7 +29,11 @@ struct Options {
     std::optional<float> pitchDeg;
     std::optional<float> distance;
     bool frames = false;
+    bool follow = false;
 };
+
+// The part of the way to the figure that a following camera goes in a frame: calm, yet never far behind.
+constexpr float kFollowShare = 0.15F;
 
 render::Extent parseSize(const std::string& text) {
     int width = 0;
@@ -59,6 +65,7 @@ class Painter {
 
     void paint(scene::Simulation& simulation, float alpha = 1.0F) {
         frame_.clear();
+        if (options_.follow) follow(simulation.worldFromBody(0, alpha));
         drawer_.draw(simulation, character_, layers_, alpha, options_.opacity, frame_);
         renderer_.draw(frame_, size_);
         renderer_.readPixels(image_);
@@ -68,7 +75,27 @@ class Painter {
     [[nodiscard]] render::Extent size() const { return size_; }
 
   private:
+    // Keeps the first doll in the middle; its distance stays what the first frame needed.
+    void follow(std::span<const RigidTransform> bodies) {
+        vec3 low = bodies[0].translation;
+        vec3 high = low;
+        for (const RigidTransform& body : bodies) {
+            low = glm::min(low, body.translation);
+            high = glm::max(high, body.translation);
+        }
+        const vec3 centre = (low + high) * 0.5F;
+        if (!following_) {
+            // Bodies' centres end short of the figure's own outline.
+            const float radius = glm::distance(low, high) * 0.5F * 1.25F;
+            render::frameSphere(frame_.camera, centre, radius, size_.aspect());
+            if (options_.distance) frame_.camera.distance = *options_.distance;
+            following_ = true;
+        }
+        frame_.camera.target += (centre - frame_.camera.target) * kFollowShare;
+    }
+
     const Options& options_;
+    bool following_ = false;
     render::Extent size_;
     scene::DebugLayers layers_;
     render::GlContext context_;
@@ -139,6 +166,7 @@ void addRender(CLI::App& app) {
     command->add_option("--debug", options->debug,
                         "layers over the picture: capsules,solids,joints,limits,contacts,velocities,com,aabbs");
     command->add_option("--opacity", options->opacity, "of the skin, 0 to 1")->check(CLI::Range(0.0, 1.0));
+    command->add_flag("--follow", options->follow, "keep the first doll in the middle of the picture");
     command->add_option("--yaw", options->yawDeg, "camera's heading in degrees; 0 looks at the front");
     command->add_option("--pitch", options->pitchDeg, "camera's height in degrees")->check(CLI::Range(-89.0, 89.0));
     command->add_option("--distance", options->distance, "camera's distance in metres")->check(CLI::PositiveNumber);
