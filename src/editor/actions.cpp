@@ -1,0 +1,135 @@
+#include "editor/actions.hpp"
+
+#include <array>
+
+namespace lutka::editor {
+namespace {
+
+constexpr Modifiers kPlain{};
+constexpr Modifiers kShift{true, false, false};
+constexpr Modifiers kControl{false, true, false};
+constexpr Modifiers kControlShift{true, true, false};
+
+constexpr std::array kBindings = {
+    Binding{Key::o, kControl, Action::openModel},
+    Binding{Key::s, kControl, Action::saveProfile},
+    Binding{Key::s, kControlShift, Action::saveProfileAs},
+    Binding{Key::e, kControl, Action::exportBaked},
+    Binding{Key::q, kControl, Action::quit},
+    Binding{Key::z, kControl, Action::undo},
+    Binding{Key::z, kControlShift, Action::redo},
+    Binding{Key::y, kControl, Action::redo},
+    Binding{Key::p, kPlain, Action::pin},
+    Binding{Key::p, kShift, Action::unpinAll},
+    Binding{Key::space, kPlain, Action::togglePlay},
+    Binding{Key::right, kPlain, Action::stepOnce},
+    Binding{Key::r, kControl, Action::reset},
+    Binding{Key::b, kPlain, Action::throwBall},
+    Binding{Key::f, kPlain, Action::focus},
+    Binding{Key::digit1, kPlain, Action::viewFront},
+    Binding{Key::digit3, kPlain, Action::viewRight},
+    Binding{Key::digit7, kPlain, Action::viewTop},
+    Binding{Key::f3, kPlain, Action::toggleDebug},
+    Binding{Key::tab, kPlain, Action::togglePanels},
+    Binding{Key::slash, kShift, Action::toggleHelp},
+    Binding{Key::f1, kPlain, Action::toggleHelp},
+};
+
+constexpr std::array kMouseHelp = {
+    HelpLine{"Left click", "select; with Shift add or take away"},
+    HelpLine{"Left drag on a body", "pull it"},
+    HelpLine{"Left drag beside", "orbit"},
+    HelpLine{"Right or middle drag", "orbit; with Shift pan"},
+    HelpLine{"Wheel", "zoom; while pulling: depth"},
+    HelpLine{"G  R  S", "grab, rotate, scale the selection"},
+    HelpLine{"X  Y  Z", "during these: along that axis; with Shift across it"},
+    HelpLine{"0-9 . -", "during these: type the value"},
+    HelpLine{"P", "while pulling: pin the body there"},
+    HelpLine{"Enter, click / Esc, right", "done / cancel"},
+    HelpLine{"Shift+A", "add a box, ball or light"},
+    HelpLine{"X, Delete", "delete the selected objects"},
+};
+
+}  // namespace
+
+std::span<const Binding> keyBindings() {
+    return kBindings;
+}
+
+std::optional<Action> actionFor(const InputEvent& event) {
+    if (event.kind != InputEvent::Kind::key || !event.pressed) return std::nullopt;
+    for (const Binding& binding : kBindings) {
+        if (binding.key == event.key && binding.modifiers == event.modifiers) return binding.action;
+    }
+    return std::nullopt;
+}
+
+std::string_view actionName(Action action) {
+    switch (action) {
+        case Action::openModel:
+            return "Open model";
+        case Action::saveProfile:
+            return "Save profile";
+        case Action::saveProfileAs:
+            return "Save profile as";
+        case Action::exportBaked:
+            return "Export baked glb";
+        case Action::quit:
+            return "Quit";
+        case Action::undo:
+            return "Undo";
+        case Action::redo:
+            return "Redo";
+        case Action::selectNone:
+            return "Select none";
+        case Action::pin:
+            return "Pin or unpin the selected body";
+        case Action::unpinAll:
+            return "Unpin all";
+        case Action::togglePlay:
+            return "Play or pause";
+        case Action::stepOnce:
+            return "Single step";
+        case Action::reset:
+            return "Reset";
+        case Action::throwBall:
+            return "Throw a ball where the mouse points";
+        case Action::focus:
+            return "Focus on the selection";
+        case Action::viewFront:
+            return "View from the front";
+        case Action::viewRight:
+            return "View from the right";
+        case Action::viewTop:
+            return "View from above";
+        case Action::toggleDebug:
+            return "Debug draw";
+        case Action::togglePanels:
+            return "Show or hide the panels";
+        case Action::toggleHelp:
+            return "Keys";
+    }
+    return "";
+}
+
+std::string shortcutText(const Binding& binding) {
+    if (binding.key == Key::slash && binding.modifiers == kShift) return "?";
+    std::string text;
+    if (binding.modifiers.control) text += "Ctrl+";
+    if (binding.modifiers.alt) text += "Alt+";
+    if (binding.modifiers.shift) text += "Shift+";
+    return text.append(keyName(binding.key));
+}
+
+std::string shortcutText(Action action) {
+    for (const Binding& binding : kBindings) {
+        if (binding.action == action) return shortcutText(binding);
+    }
+    return "";
+}
+
+std::span<const HelpLine> mouseHelp() {
+    return kMouseHelp;
+}
+
+}  // namespace lutka::editor

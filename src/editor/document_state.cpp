@@ -1,0 +1,115 @@
+#include "editor/document_state.hpp"
+
+#include <fmt/format.h>
+
+#include "physics/shape.hpp"
+
+namespace lutka::editor {
+namespace {
+
+using animation::HumanoidMap;
+using animation::Role;
+using Fixed = std::array<std::optional<int>, animation::kRoleCount>;
+
+constexpr float kLightHalfSize = 0.12F;  // of the marker that is drawn and picked
+
+void applyTo(physics::BodyProfile& body, const PartEdits& edits) {
+    if (edits.shape) body.shape = *edits.shape;
+    if (edits.massKg) body.massKg = *edits.massKg;
+    if (edits.shape || edits.massKg) body.inertia = physics::shapeInertia(body.shape, body.massKg);
+}
+
+void applyTo(physics::ConstraintProfile& constraint, const PartEdits& edits) {
+    if (edits.hinge) constraint.hinge = *edits.hinge;
+    if (edits.cone) constraint.cone = *edits.cone;
+    if (edits.frictionNm) constraint.frictionNm = *edits.frictionNm;
+}
+
+// Two roles on one joint can only come from the user's own choices.
+std::optional<Error> checkTwice(const animation::Character& character, const Fixed& fixed) {
+    for (int a = 0; a < animation::kRoleCount; ++a) {
+        for (int b = a + 1; b < animation::kRoleCount; ++b) {
+            if (!fixed[a] || fixed[a] != fixed[b] || *fixed[a] == animation::kNoJoint) continue;
+            return Error{
+                ErrorCode::input,
+                fmt::format("the joint \"{}\" cannot be both {} and {}", character.skeleton.names[*fixed[a]],
+                            animation::roleName(animation::roleAt(a)), animation::roleName(animation::roleAt(b))),
+                "", "unmap one of them first"};
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::string_view objectKindName(SceneObject::Kind kind) {
+    switch (kind) {
+        case SceneObject::Kind::box:
+            return "Box";
+        case SceneObject::Kind::ball:
+            return "Ball";
+        case SceneObject::Kind::light:
+            break;
+    }
+    return "Light";
+}
+
+vec3 halfSizeOf(const SceneObject& object) {
+    switch (object.kind) {
+        case SceneObject::Kind::box:
+            return object.halfExtents;
+        case SceneObject::Kind::ball:
+            return vec3(object.radius);
+        case SceneObject::Kind::light:
+            break;
+    }
+    return vec3(kLightHalfSize);
+}
+
+physics::RagdollProfile applyEdits(const physics::RagdollProfile& base,
+                                   const std::array<PartEdits, animation::kRoleCount>& edits) {
+    physics::RagdollProfile profile = base;
+    bool massChanged = false;
+    for (physics::BodyProfile& body : profile.bodies) {
+        const PartEdits& part = edits[animation::indexOf(body.role)];
+        massChanged = massChanged || part.massKg.has_value();
+        applyTo(body, part);
+    }
+    for (physics::ConstraintProfile& constraint : profile.constraints) {
+        applyTo(constraint, edits[animation::indexOf(profile.bodies[constraint.child].role)]);
+    }
+    if (massChanged) {
+        profile.totalMassKg = 0;
+        for (const physics::BodyProfile& body : profile.bodies)
+            profile.totalMassKg += body.massKg;
+    }
+    return profile;
+}
+
+Result<HumanoidMap> mapWithFixed(const animation::Character& character, const Fixed& fixed) {
+    if (const auto twice = checkTwice(character, fixed)) return *twice;
+    animation::MapOptions options;
+    for (int role = 0; role < animation::kRoleCount; ++role) {
+        if (fixed[role] && *fixed[role] != animation::kNoJoint) options.fixed[role] = fixed[role];
+    }
+    HumanoidMap map = animation::mapHumanoid(character, options);
+    if (!map.humanoid) {
+        return Error{ErrorCode::input,
+                     "with these bindings the figure is not a humanoid: " +
+                         (map.warnings.empty() ? std::string("no reason was given") : map.warnings.front()),
+                     "", "assign another joint"};
+    }
+    for (int role = 0; role < animation::kRoleCount; ++role) {
+        if (fixed[role] != animation::kNoJoint) continue;
+        if (animation::isRequired(animation::roleAt(role))) {
+            return Error{ErrorCode::input,
+                         fmt::format("{} is required and cannot be left without a joint",
+                                     animation::roleName(animation::roleAt(role))),
+                         "", "assign another joint instead"};
+        }
+        map.roles[role].reset();
+    }
+    return map;
+}
+
+}  // namespace lutka::editor

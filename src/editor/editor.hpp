@@ -1,0 +1,123 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "editor/actions.hpp"
+#include "editor/workspace.hpp"
+#include "render/frame.hpp"
+#include "scene/draw_simulation.hpp"
+
+namespace lutka::editor {
+
+struct EditorOptions {
+    std::filesystem::path model;
+    scene::LoadOptions load;
+    SceneSettings scene;
+    render::Extent window{1280, 720};
+    bool playing = true;
+};
+
+/// What the user interface has taken for itself.
+struct UiCapture {
+    bool mouse = false;     ///< The mouse is over a panel, or drags something of it.
+    bool keyboard = false;  ///< A text field or another widget has the keyboard.
+};
+
+/// What the picture shows beside the dolls.
+struct ViewSettings {
+    scene::DebugLayers layers;
+    bool debug = false;  ///< F3: whether `layers` are drawn.
+    float skinOpacity = 1.0F;
+    bool panels = true;
+    bool help = false;
+};
+
+/// The editor without a window, a GPU or a UI: documents, simulation, camera, selection and the state machine, driven
+/// by InputEvents and Actions. The application feeds it; panels read it and call it; tests do both.
+class Editor {
+  public:
+    /// Loads the model and sets the scene up; fails as loadRagdoll() and makeScenario() do.
+    [[nodiscard]] static Result<std::unique_ptr<Editor>> create(const EditorOptions& options);
+    /// For a document that is there already.
+    [[nodiscard]] static Result<std::unique_ptr<Editor>> create(std::unique_ptr<EditorDocument> document,
+                                                                const EditorOptions& options);
+    ~Editor();
+    Editor(const Editor&) = delete;
+    Editor& operator=(const Editor&) = delete;
+
+    /// Events come in the order in which they happened. What a panel has taken does not get here, but for the end of
+    /// what began in the view (releases, and movements of a drag).
+    void handle(const InputEvent& event, const UiCapture& capture);
+    void perform(Action action);
+    /// Once a frame, after its events: `seconds` of wall time.
+    void update(double seconds);
+    /// Fills in the frame: camera, dolls, objects, debug layers, highlights. `character` is the uploaded character().
+    void describe(render::CharacterHandle character, render::FrameDescription& frame);
+
+    /// An edit of the document on behalf of a panel: ends what is under way in the view, tells failures, and lets the
+    /// simulation follow. Whether it succeeded.
+    bool edit(const std::function<Result<void>(EditorDocument&)>& change);
+    /// Selects from a panel; nothing empties the selection.
+    void select(std::optional<Item> item, bool add = false);
+    void beginAdd(SceneObject::Kind kind);
+
+    /// Opens a model (*.ragdoll.json: a profile for the present one); the old scene stays when that fails. Asks first
+    /// when there are unsaved changes.
+    void open(const std::filesystem::path& file);
+    [[nodiscard]] Result<void> save(const std::filesystem::path& file);
+    /// The first doll's motion from the scene's start, `seconds` long, as an animation of its skin (*.glb).
+    [[nodiscard]] Result<void> exportBaked(const std::filesystem::path& file, float seconds);
+
+    /// What waits for the answer about unsaved changes.
+    enum class Answer { save, discard, cancel };
+    [[nodiscard]] bool asking() const { return afterAnswer_ != nullptr; }
+    void answer(Answer answer);
+
+    /// A dialog that the UI should show; the UI clears it.
+    enum class Dialog { none, openModel, saveAs, exportBaked };
+    Dialog dialog = Dialog::none;
+
+    [[nodiscard]] EditorDocument& document() { return *workspace_.document; }
+    [[nodiscard]] const EditorDocument& document() const { return *workspace_.document; }
+    [[nodiscard]] Player& player() { return *workspace_.player; }
+    [[nodiscard]] const Player& player() const { return *workspace_.player; }
+    [[nodiscard]] Workspace& workspace() { return workspace_; }
+    [[nodiscard]] const Workspace& workspace() const { return workspace_; }
+    [[nodiscard]] State state() const { return machine_->state(); }
+    [[nodiscard]] bool quitting() const { return quitting_; }
+    /// Grows when another character was loaded: the renderer's copy is then out of date.
+    [[nodiscard]] int characterRevision() const { return characterRevision_; }
+
+    ViewSettings view;
+
+  private:
+    Editor() = default;
+    void adopt(std::unique_ptr<EditorDocument> document);
+    void handleMouseButton(const InputEvent& event, const UiCapture& capture);
+    void handleKey(const InputEvent& event, const UiCapture& capture);
+    [[nodiscard]] bool busy() const;
+    void endTransform();
+    void afterUnsaved(std::function<void()> then);
+    void openNow(const std::filesystem::path& file);
+    void togglePin();
+    void throwBall();
+    void focus();
+    void axisView(float yaw, float pitch);
+    void drawOverlay(render::FrameDescription& frame);
+    void highlight(std::size_t firstCharacter, render::FrameDescription& frame) const;
+
+    Workspace workspace_;
+    std::unique_ptr<StateMachine> machine_;
+    scene::SimulationDrawer drawer_;
+    scene::LoadOptions load_;
+    std::array<bool, kMouseButtonCount> held_{};  // pressed in the view and not released yet
+    std::function<void()> afterAnswer_;
+    bool quitting_ = false;
+    int characterRevision_ = 0;
+};
+
+}  // namespace lutka::editor

@@ -1,0 +1,270 @@
+#include "editor/editor_document.hpp"
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+
+#include "physics/profile_io.hpp"
+#include "physics/rig.hpp"
+
+namespace lutka::editor {
+namespace {
+
+using animation::Role;
+using animation::Side;
+using physics::ConstraintProfile;
+
+Error outOfRange(const std::vector<std::string>& problems) {
+    std::string all;
+    for (const std::string& problem : problems)
+        all += fmt::format("{}{}", all.empty() ? "" : "; ", problem);
+    return {ErrorCode::usage, all, "", "choose a value inside the range"};
+}
+
+std::string partName(const physics::RagdollProfile& profile, int body) {
+    return std::string(animation::roleName(profile.bodies[body].role));
+}
+
+// The joint nearest to the mirror image of `joint` in the standard stance; kNoJoint when none is within a tenth of the
+// figure's height.
+int mirroredJoint(const animation::Character& character, const DocumentState& state, int joint) {
+    const auto& frames = character.skeleton.bindModelFromJoint;
+    const quat& standard = state.map.standardFromModel;
+    const float middle = (standard * frames[state.map.jointOf(Role::hips)].translation).x;
+    vec3 wanted = standard * frames[joint].translation;
+    wanted.x = 2.0F * middle - wanted.x;
+    int best = animation::kNoJoint;
+    float bestDistance = state.profile.heightM * 0.1F;
+    for (int other = 0; other < character.skeleton.jointCount(); ++other) {
+        const float distance = glm::distance(standard * frames[other].translation, wanted);
+        // Helpers often share a place with the joint that deforms; the skin tells them apart.
+        const bool deforms =
+            character.skeleton.skinWeight[other] > 0.0F || character.skeleton.skinWeight[joint] <= 0.0F;
+        if (other == joint || !deforms || distance >= bestDistance) continue;
+        best = other;
+        bestDistance = distance;
+    }
+    return best;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<EditorDocument>> EditorDocument::open(const std::filesystem::path& model,
+                                                             const scene::LoadOptions& options) {
+    auto asset = scene::loadRagdoll(model, options);
+    if (!asset) return asset.error();
+    auto document = std::make_unique<EditorDocument>(std::move(asset).value());
+    document->state_.fit = options.fit;
+    if (options.profile) document->profileFile_ = *options.profile;
+    return document;
+}
+
+EditorDocument::EditorDocument(std::unique_ptr<scene::RagdollAsset> asset) : asset_(std::move(asset)) {
+    state_.map = asset_->map;
+    state_.base = asset_->profile;
+    state_.profile = asset_->profile;
+    savedProfile_ = physics::profileToJson(state_.profile);
+}
+
+void EditorDocument::commitAsset() {
+    asset_->map = state_.map;
+    asset_->profile = state_.profile;
+    auto rig = physics::bindRig(state_.profile, asset_->character.skeleton);
+    LUTKA_ASSERT(rig.ok());  // apply() has bound it before
+    if (rig) asset_->rig = std::move(rig).value();
+}
+
+void EditorDocument::adopt(DocumentState state) {
+    state_ = std::move(state);
+    ++revision_;
+    unsaved_ = physics::profileToJson(state_.profile) != savedProfile_;
+}
+
+// Works on a copy, so that a change that fails half-way leaves nothing behind.
+Result<void> EditorDocument::apply(const std::string& label, const std::string& group, const Change& change) {
+    DocumentState next = state_;
+    if (auto done = change(next); !done) return done;
+    next.profile = applyEdits(next.base, next.edits);
+    if (const auto problems = physics::validate(next.profile); !problems.empty()) return outOfRange(problems);
+    if (const auto rig = physics::bindRig(next.profile, asset_->character.skeleton); !rig) return rig.error();
+    undo_.changed(state_, label, group);
+    adopt(std::move(next));
+    return {};
+}
+
+Result<void> EditorDocument::remap(DocumentState& state) const {
+    auto map = mapWithFixed(asset_->character, state.fixed);
+    if (!map) return map.error();
+    state.map = std::move(map).value();
+    auto profile = physics::fitRagdoll(asset_->character, state.map, state.fit);
+    if (!profile) return profile.error();
+    state.base = std::move(profile).value();
+    return {};
+}
+
+Result<void> EditorDocument::assignRole(Role role, int joint) {
+    LUTKA_ASSERT(joint >= 0 && joint < character().skeleton.jointCount());
+    const std::string label = fmt::format("Map {} to {}", animation::roleName(role), character().skeleton.names[joint]);
+    return apply(label, "", [&](DocumentState& next) -> Result<void> {
+        // The joint changes hands: whoever had it by the user's word is free again.
+        for (auto& fixed : next.fixed) {
+            if (fixed == joint) fixed.reset();
+        }
+        next.fixed[animation::indexOf(role)] = joint;
+        return remap(next);
+    });
+}
+
+Result<void> EditorDocument::unmapRole(Role role) {
+    return apply(fmt::format("Unmap {}", animation::roleName(role)), "", [&](DocumentState& next) {
+        next.fixed[animation::indexOf(role)] = animation::kNoJoint;
+        return remap(next);
+    });
+}
+
+Result<void> EditorDocument::mirrorRoles(Side from) {
+    return apply(from == Side::left ? "Mirror mapping left to right" : "Mirror mapping right to left", "",
+                 [&](DocumentState& next) -> Result<void> {
+                     for (int i = 0; i < animation::kRoleCount; ++i) {
+                         const Role role = animation::roleAt(i);
+                         const int joint = next.map.jointOf(role);
+                         if (animation::sideOf(role) != from || joint == animation::kNoJoint) continue;
+                         const int other = mirroredJoint(character(), next, joint);
+                         if (other == animation::kNoJoint) {
+                             return Error{
+                                 ErrorCode::input,
+                                 fmt::format("\"{}\" has no joint opposite to it", character().skeleton.names[joint]),
+                                 "", "assign the role by hand"};
+                         }
+                         next.fixed[i] = joint;
+                         next.fixed[animation::indexOf(animation::mirrored(role))] = other;
+                     }
+                     return remap(next);
+                 });
+}
+
+Result<void> EditorDocument::mapAgain(bool forgetFixed) {
+    return apply(forgetFixed ? "Map from scratch" : "Map again", "", [&](DocumentState& next) {
+        if (forgetFixed) next.fixed = {};
+        return remap(next);
+    });
+}
+
+Result<void> EditorDocument::editPart(int body, const std::string& what, const std::string& group,
+                                      const std::function<void(PartEdits&)>& change) {
+    LUTKA_ASSERT(body >= 0 && body < static_cast<int>(profile().bodies.size()));
+    const int role = animation::indexOf(profile().bodies[body].role);
+    return apply(fmt::format("{} of {}", what, partName(profile(), body)), group,
+                 [&](DocumentState& next) -> Result<void> {
+                     change(next.edits[role]);
+                     return {};
+                 });
+}
+
+Result<void> EditorDocument::setShape(int body, const physics::BodyShape& shape, const std::string& group) {
+    return editPart(body, "Shape", group, [&](PartEdits& edits) { edits.shape = shape; });
+}
+
+Result<void> EditorDocument::setMass(int body, float massKg, const std::string& group) {
+    return editPart(body, "Mass", group, [&](PartEdits& edits) { edits.massKg = massKg; });
+}
+
+Result<void> EditorDocument::setHinge(int constraint, const physics::HingeLimits& limits, const std::string& group) {
+    return editPart(profile().constraints[constraint].child, "Limits", group,
+                    [&](PartEdits& edits) { edits.hinge = limits; });
+}
+
+Result<void> EditorDocument::setCone(int constraint, const physics::ConeTwistLimits& limits, const std::string& group) {
+    return editPart(profile().constraints[constraint].child, "Limits", group,
+                    [&](PartEdits& edits) { edits.cone = limits; });
+}
+
+Result<void> EditorDocument::setFriction(int constraint, float frictionNm, const std::string& group) {
+    return editPart(profile().constraints[constraint].child, "Friction", group,
+                    [&](PartEdits& edits) { edits.frictionNm = frictionNm; });
+}
+
+Result<void> EditorDocument::resetPart(int body) {
+    return editPart(body, "Reset", "", [](PartEdits& edits) { edits = {}; });
+}
+
+Result<void> EditorDocument::mirrorPart(int body) {
+    const int other = physics::bodyOf(profile(), animation::mirrored(profile().bodies[body].role));
+    if (other < 0 || other == body) {
+        return Error{ErrorCode::usage, partName(profile(), body) + " has no other side", "", ""};
+    }
+    return editPart(other, "Mirror", "", [&](PartEdits& edits) {
+        edits.shape = profile().bodies[body].shape;
+        edits.massKg = profile().bodies[body].massKg;
+        if (body == 0 || other == 0) return;
+        const ConstraintProfile& from = profile().constraints[body - 1];
+        if (from.kind == ConstraintProfile::Kind::hinge) {
+            edits.hinge = from.hinge;
+        } else {
+            edits.cone = from.cone;
+        }
+        edits.frictionNm = from.frictionNm;
+    });
+}
+
+Result<void> EditorDocument::setFit(const physics::FitOptions& fit) {
+    return apply("Fit", "", [&](DocumentState& next) {
+        next.fit = fit;
+        return remap(next);
+    });
+}
+
+Result<void> EditorDocument::useProfile(const std::filesystem::path& file) {
+    auto profile = physics::loadProfile(file);
+    if (!profile) return profile.error();
+    auto done = apply("Open profile " + file.filename().string(), "", [&](DocumentState& next) -> Result<void> {
+        next.base = std::move(profile).value();
+        next.edits = {};
+        return {};
+    });
+    if (done) profileFile_ = file;
+    return done;
+}
+
+Result<void> EditorDocument::setScene(const SceneSettings& scene, const std::string& label, const std::string& group) {
+    // A trial set-up tells whether the scenario exists and takes the count.
+    const auto bounds = scene::figureBounds(asset_->profile, asset_->rig);
+    const auto trial =
+        scene::makeScenario(scene.scenario, scene.count, scene.seed, bounds, state_.profile.standardFromModel);
+    if (!trial) return trial.error();
+    if (!isFinite(scene.world.gravity) || scene.world.threads < 1) {
+        return Error{ErrorCode::usage, "gravity must be finite and threads at least 1", "", ""};
+    }
+    return apply(label, group, [&](DocumentState& next) -> Result<void> {
+        next.scene = scene;
+        return {};
+    });
+}
+
+void EditorDocument::cancelGroup() {
+    if (undo_.groupIsOpen()) adopt(undo_.cancelGroup());
+}
+
+void EditorDocument::undo() {
+    if (undo_.canUndo()) adopt(undo_.undo(state_));
+}
+
+void EditorDocument::redo() {
+    if (undo_.canRedo()) adopt(undo_.redo(state_));
+}
+
+std::filesystem::path EditorDocument::profileFile() const {
+    if (!profileFile_.empty()) return profileFile_;
+    std::filesystem::path file = character().file;
+    return file.replace_extension(".ragdoll.json");
+}
+
+Result<void> EditorDocument::save(const std::filesystem::path& file) {
+    if (auto saved = physics::saveProfile(file, state_.profile); !saved) return saved;
+    profileFile_ = file;
+    savedProfile_ = physics::profileToJson(state_.profile);
+    unsaved_ = false;
+    return {};
+}
+
+}  // namespace lutka::editor

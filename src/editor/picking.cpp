@@ -1,0 +1,85 @@
+#include "editor/picking.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace lutka::editor {
+namespace {
+
+constexpr float kReach = 100.0F;  // metres
+
+vec3 boxNormal(const SceneObject& object, const vec3& world) {
+    const vec3 local = inverse(object.worldFromObject) * world / halfSizeOf(object);
+    const vec3 size = glm::abs(local);
+    int axis = 0;
+    if (size.y > size[axis]) axis = 1;
+    if (size.z > size[axis]) axis = 2;
+    vec3 normal(0);
+    normal[axis] = local[axis] < 0.0F ? -1.0F : 1.0F;
+    return object.worldFromObject.rotation * normal;
+}
+
+}  // namespace
+
+std::optional<float> rayBox(const render::Ray& ray, const RigidTransform& worldFromBox, const vec3& halfExtents) {
+    const RigidTransform boxFromWorld = inverse(worldFromBox);
+    const vec3 origin = boxFromWorld * ray.origin;
+    const vec3 direction = boxFromWorld.rotation * ray.direction;
+    float enter = 0.0F;
+    float leave = std::numeric_limits<float>::max();
+    for (int axis = 0; axis < 3; ++axis) {
+        if (direction[axis] == 0.0F) {
+            if (std::abs(origin[axis]) > halfExtents[axis]) return std::nullopt;
+            continue;
+        }
+        const float a = (-halfExtents[axis] - origin[axis]) / direction[axis];
+        const float b = (halfExtents[axis] - origin[axis]) / direction[axis];
+        enter = std::max(enter, std::min(a, b));
+        leave = std::min(leave, std::max(a, b));
+    }
+    if (enter > leave) return std::nullopt;
+    return enter;
+}
+
+std::optional<Pick> pick(const render::Ray& ray, const physics::World& world, std::span<const SceneObject> objects) {
+    std::optional<Pick> nearest;
+    float distance = std::numeric_limits<float>::max();
+    bool marker = false;
+    if (const auto hit = world.rayTest(ray.origin, ray.origin + ray.direction * kReach)) {
+        distance = hit->fraction * kReach;
+        if (hit->doll >= 0) {
+            nearest = Pick{{Item::Kind::body, hit->doll, hit->body}, hit->position, hit->normal};
+        }
+    }
+    // What the world hit may be the very object: its slab is met at the same distance, and must win.
+    constexpr float tie = 0.01F;
+    distance += tie;
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const SceneObject& object = objects[i];
+        const auto entered = rayBox(ray, object.worldFromObject, halfSizeOf(object));
+        if (!entered || *entered > kReach) continue;
+        const bool isMarker = object.kind == SceneObject::Kind::light;
+        if (marker && !isMarker) continue;
+        if (marker == isMarker && *entered > distance) continue;
+        const vec3 at = ray.origin + ray.direction * *entered;
+        nearest = Pick{{Item::Kind::object, 0, static_cast<int>(i)}, at, boxNormal(object, at)};
+        distance = *entered;
+        marker = isMarker;
+    }
+    return nearest;
+}
+
+std::optional<vec3> surfaceUnder(const render::Ray& ray, const physics::World& world, float height) {
+    std::optional<float> nearest;
+    if (const auto hit = world.rayTest(ray.origin, ray.origin + ray.direction * kReach))
+        nearest = hit->fraction * kReach;
+    if (ray.direction.y < 0.0F && ray.origin.y > height) {
+        const float toPlane = (height - ray.origin.y) / ray.direction.y;
+        if (toPlane <= kReach && (!nearest || toPlane < *nearest)) nearest = toPlane;
+    }
+    if (!nearest) return std::nullopt;
+    return ray.origin + ray.direction * *nearest;
+}
+
+}  // namespace lutka::editor

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "editor/document_state.hpp"
+#include "editor/selection.hpp"
+#include "render/camera.hpp"
+
+namespace lutka::editor {
+
+/// What a ray through the picture meets first.
+struct Pick {
+    Item item;
+    vec3 position{0, 0, 0};  ///< World, on the surface.
+    vec3 normal{0, 1, 0};
+};
+
+/// Distance along the ray to where it enters the box around the frame's origin; 0 when it starts inside, nothing when
+/// it misses. The slab test in the box's own frame (Kay and Kajiya 1986). `ray.direction` may have any length > 0; the
+/// distance is in its units.
+[[nodiscard]] std::optional<float> rayBox(const render::Ray& ray, const RigidTransform& worldFromBox,
+                                          const vec3& halfExtents);
+
+/// The nearest thing under the ray: bodies by the world's ray test, objects by the slab test. Markers (lights) are in
+/// the layer before everything solid, since they are drawn over it: layers go before distance. Geometry of the scenario
+/// hides what is behind it and is not picked itself.
+[[nodiscard]] std::optional<Pick> pick(const render::Ray& ray, const physics::World& world,
+                                       std::span<const SceneObject> objects);
+
+/// Where the ray meets the horizontal plane at `height`, or the nearest solid surface before it; nothing when the ray
+/// points away from both, or the place is beyond 100 m.
+[[nodiscard]] std::optional<vec3> surfaceUnder(const render::Ray& ray, const physics::World& world, float height);
+
+}  // namespace lutka::editor

@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+
+#include "editor/states/states.hpp"
+
+namespace lutka::editor {
+namespace {
+
+constexpr float kDragPixels = 4.0F;  // a click may tremble this much
+constexpr float kDollyPerNotch = 0.89F;
+
+/// Default and Selected: what waits for the user. Clicks select; drags and keys lead on.
+class SelectHandler final : public StateHandler {
+  public:
+    explicit SelectHandler(Workspace& workspace) : workspace_(workspace) {}
+
+    void exit() override { workspace_.hint.clear(); }
+
+    void update() override {
+        const auto active = workspace_.selection.active();
+        workspace_.hint = active ? workspace_.nameOf(*active) + "   G grab  R rotate  S scale  F focus  P pin"
+                                 : "Click selects, drag pulls, right drag orbits, wheel zooms, ? shows all keys";
+    }
+
+    std::optional<Trigger> mouseMove(const vec2& position, const vec2& /*movement*/) override {
+        if (!workspace_.press || glm::distance(position, workspace_.press->position) < kDragPixels) return std::nullopt;
+        if (workspace_.press->pick) return Trigger::dragSelection;
+        workspace_.cameraButton = MouseButton::left;
+        return Trigger::dragBackground;
+    }
+
+    std::optional<Trigger> mouseButton(const InputEvent& event) override {
+        if (event.button != MouseButton::left) {
+            if (!event.pressed) return std::nullopt;
+            workspace_.cameraButton = event.button;
+            return event.modifiers.shift ? Trigger::panPressed : Trigger::orbitPressed;
+        }
+        if (!event.pressed) {
+            workspace_.press.reset();
+            return std::nullopt;
+        }
+        workspace_.press = Workspace::Press{workspace_.mouse, workspace_.pickUnderMouse()};
+        return select(workspace_.press->pick, event.modifiers.shift);
+    }
+
+    std::optional<Trigger> wheel(float notches) override {
+        render::dolly(workspace_.camera, std::pow(kDollyPerNotch, notches));
+        return std::nullopt;
+    }
+
+    std::optional<Trigger> key(const InputEvent& event) override {
+        if (!event.pressed || event.modifiers.control || event.modifiers.alt) return std::nullopt;
+        switch (event.key) {
+            case Key::g:
+                return Trigger::grabKey;
+            case Key::r:
+                return Trigger::rotateKey;
+            case Key::s:
+                return Trigger::scaleKey;
+            case Key::a:
+                if (event.modifiers.shift) return Trigger::addKey;
+                return std::nullopt;
+            case Key::x:
+            case Key::del:
+                return deleteAsked();
+            case Key::escape:
+                workspace_.selection.clear();
+                return Trigger::pickedNothing;
+            default:
+                return std::nullopt;
+        }
+    }
+
+  private:
+    std::optional<Trigger> select(const std::optional<Pick>& pick, bool add) {
+        if (pick && add) {
+            workspace_.selection.toggle(pick->item);
+        } else if (pick) {
+            workspace_.selection.set(pick->item);
+        } else if (!add) {
+            workspace_.selection.clear();
+        }
+        return workspace_.selection.empty() ? Trigger::pickedNothing : Trigger::picked;
+    }
+
+    std::optional<Trigger> deleteAsked() {
+        const auto active = workspace_.selection.active();
+        if (!active) return std::nullopt;
+        if (active->kind == Item::Kind::object) return Trigger::deleteKey;
+        workspace_.say(Toast::Kind::info,
+                       "A body belongs to its ragdoll: unmap its role under Skeleton and mapping instead");
+        return std::nullopt;
+    }
+
+    Workspace& workspace_;
+};
+
+}  // namespace
+
+std::unique_ptr<StateHandler> makeSelectHandler(Workspace& workspace) {
+    return std::make_unique<SelectHandler>(workspace);
+}
+
+}  // namespace lutka::editor

@@ -1,0 +1,384 @@
+/// Grab, Rotate and Scale. On a body, Grab pulls it through the physics, Rotate turns its whole doll, and Scale resizes
+/// its shape; on an object of the scene all three edit the document, as one entry of undo.
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+
+#include "editor/axis_lock.hpp"
+#include "editor/states/states.hpp"
+
+namespace lutka::editor {
+namespace {
+
+constexpr render::Color kPullColor{255, 196, 64, 255};
+constexpr std::array<render::Color, 3> kAxisColors = {render::colors::red, render::colors::green, render::colors::blue};
+constexpr float kGuideLength = 50.0F;    // metres; an axis guide crosses the picture
+constexpr float kDepthPerNotch = 0.06F;  // of the distance to the eye
+constexpr const char* kGroup = "transform";
+
+/// What the three share: begun by a key or by a drag, ended by release, click, Enter, Esc or right click; the axis keys
+/// and numbers.
+class TransformHandler : public StateHandler {
+  public:
+    explicit TransformHandler(Workspace& workspace) : workspace_(workspace) {}
+
+    void enter() override {
+        lock_ = {};
+        number_.clear();
+        confirmed_ = false;
+        byDrag_ = workspace_.press.has_value();
+        item_ = workspace_.selection.active();
+        startMouse_ = byDrag_ ? workspace_.press->position : workspace_.mouse;
+        if (!item_) return;
+        pivot_ = workspace_.positionOf(*item_);
+        if (item_->kind == Item::Kind::object) object_ = workspace_.player->presentObjects()[item_->index];
+        begin();
+        change();
+    }
+
+    void exit() override {
+        if (item_) finish(confirmed_);
+        workspace_.pulls.mouse.reset();
+        workspace_.pulls.applyTo(workspace_.player->simulation().world());
+        workspace_.document->endGroup();
+        workspace_.press.reset();
+        workspace_.hint.clear();
+        item_.reset();
+    }
+
+    void update() override {
+        if (item_ && !workspace_.selection.contains(*item_)) item_.reset();  // it is gone
+        if (!item_) return;
+        hold();
+        workspace_.hint = describe();
+        if (lock_.kind == AxisLock::Kind::axis) guide(lock_.axis);
+        if (lock_.kind == AxisLock::Kind::plane) {
+            for (int axis = 0; axis < 3; ++axis) {
+                if (axis != lock_.axis) guide(axis);
+            }
+        }
+    }
+
+    std::optional<Trigger> mouseMove(const vec2& /*position*/, const vec2& /*movement*/) override {
+        if (item_) change();
+        return std::nullopt;
+    }
+
+    std::optional<Trigger> mouseButton(const InputEvent& event) override {
+        if (event.button == MouseButton::left && event.pressed != byDrag_) return end(true);
+        if (event.button == MouseButton::right && event.pressed) return end(false);
+        return std::nullopt;
+    }
+
+    std::optional<Trigger> key(const InputEvent& event) override {
+        if (!event.pressed) return std::nullopt;
+        if (event.key == Key::escape) return end(false);
+        if (event.key == Key::enter) return end(true);
+        if (event.key >= Key::x && event.key <= Key::z) {
+            lock_ = pressAxis(lock_, static_cast<int>(event.key) - static_cast<int>(Key::x), event.modifiers.shift);
+        } else if (!typeNumber(event.key)) {
+            return otherKey(event.key);
+        }
+        if (item_) change();
+        return std::nullopt;
+    }
+
+  protected:
+    virtual void begin() {}
+    /// Something moved: takes over the mouse, the lock and the number.
+    virtual void change() = 0;
+    /// Once a frame: keeps up what physics would undo.
+    virtual void hold() {}
+    virtual void finish(bool confirmed) = 0;
+    [[nodiscard]] virtual std::string describe() const = 0;
+    virtual std::optional<Trigger> otherKey(Key key) {
+        if (key == Key::g) return Trigger::grabKey;
+        if (key == Key::r) return Trigger::rotateKey;
+        if (key == Key::s) return Trigger::scaleKey;
+        return std::nullopt;
+    }
+
+    [[nodiscard]] std::optional<Trigger> end(bool confirmed) {
+        confirmed_ = confirmed;
+        return workspace_.ended();
+    }
+    [[nodiscard]] bool onBody() const { return item_->kind == Item::Kind::body; }
+
+    void setObject(const SceneObject& object, const char* what) {
+        SceneSettings scene = workspace_.document->state().scene;
+        scene.objects[item_->index] = object;
+        const std::string label = fmt::format("{} {}", what, objectKindName(object.kind));
+        workspace_.report(workspace_.document->setScene(scene, label, kGroup));
+        workspace_.follow();
+    }
+
+    void keepOrCancelEdits(bool confirmed) {
+        if (confirmed) return;
+        workspace_.document->cancelGroup();
+        workspace_.follow();
+    }
+
+    [[nodiscard]] std::string suffix() const {
+        const std::string lock = lockText(lock_);
+        return (number_.text().empty() ? "" : "  [" + number_.text() + "]") + (lock.empty() ? "" : "  " + lock) +
+               (byDrag_ ? "   release: done  Esc: cancel" : "   click, Enter: done  Esc: cancel");
+    }
+
+    Workspace& workspace_;
+    std::optional<Item> item_;
+    SceneObject object_;  // as it was
+    vec3 pivot_{0, 0, 0};
+    vec2 startMouse_{0, 0};
+    AxisLock lock_;
+    NumberEntry number_;
+    bool byDrag_ = false;
+    bool confirmed_ = false;
+
+  private:
+    bool typeNumber(Key key) {
+        if (key >= Key::digit0 && key <= Key::digit9) {
+            number_.type(static_cast<int>(key) - static_cast<int>(Key::digit0));
+        } else if (key == Key::minus) {
+            number_.type(NumberEntry::kMinus);
+        } else if (key == Key::period) {
+            number_.type(NumberEntry::kPoint);
+        } else if (key == Key::backspace) {
+            number_.backspace();
+        } else {
+            return false;
+        }
+        return true;
+    }
+
+    void guide(int axis) {
+        const vec3 along = axisVector(axis) * kGuideLength;
+        workspace_.overlay.add(pivot_ - along, pivot_ + along, kAxisColors[axis]);
+    }
+};
+
+class GrabHandler final : public TransformHandler {
+  public:
+    using TransformHandler::TransformHandler;
+
+    std::optional<Trigger> wheel(float notches) override {
+        depth_ += notches * kDepthPerNotch * glm::distance(render::eyeOf(workspace_.camera), start_);
+        if (item_) change();
+        return std::nullopt;
+    }
+
+  protected:
+    void begin() override {
+        depth_ = 0;
+        start_ = byDrag_ && workspace_.press->pick ? workspace_.press->pick->position : pivot_;
+        grabbedAt_ = mousePoint().value_or(start_);
+        target_ = start_;
+        if (!onBody()) return;
+        const auto bodies = workspace_.player->bodiesOf(item_->doll);
+        Pull pull;
+        pull.doll = item_->doll;
+        pull.role = workspace_.document->profile().bodies[item_->index].role;
+        pull.bodyPoint = inverse(bodies[item_->index].worldFromBody) * start_;
+        pull.target = start_;
+        workspace_.pulls.mouse = pull;
+    }
+
+    void change() override {
+        if (const auto number = number_.value()) {
+            target_ = start_ + axisVector(lock_.kind == AxisLock::Kind::axis ? lock_.axis : 0) * *number;
+        } else if (const auto point = mousePoint()) {
+            // By a key the grab begins beside the thing: what counts is how far the mouse has gone since.
+            target_ = lock_.kind == AxisLock::Kind::axis ? *point : start_ + (*point - grabbedAt_);
+        }
+        if (onBody()) {
+            if (workspace_.pulls.mouse) workspace_.pulls.mouse->target = target_;
+            return;
+        }
+        SceneObject moved = object_;
+        moved.worldFromObject.translation += target_ - start_;
+        setObject(moved, "Move");
+    }
+
+    void hold() override {
+        if (!onBody() || !workspace_.pulls.mouse) return;
+        const auto bodies = workspace_.player->bodiesOf(item_->doll);
+        const vec3 held = bodies[item_->index].worldFromBody * workspace_.pulls.mouse->bodyPoint;
+        workspace_.overlay.add(held, target_, kPullColor);
+        render::addCross(workspace_.overlay, target_, 0.06F, kPullColor);
+    }
+
+    void finish(bool confirmed) override {
+        if (!onBody()) keepOrCancelEdits(confirmed);
+    }
+
+    std::optional<Trigger> otherKey(Key key) override {
+        if (key != Key::p || !workspace_.pulls.mouse) return TransformHandler::otherKey(key);
+        workspace_.pulls.pins.push_back(*workspace_.pulls.mouse);
+        workspace_.say(Toast::Kind::info, fmt::format("Pinned {}; P on it again lets go",
+                                                      animation::roleName(workspace_.pulls.mouse->role)));
+        return end(true);
+    }
+
+    [[nodiscard]] std::string describe() const override {
+        const vec3 d = target_ - start_;
+        const char* paused = onBody() && !workspace_.player->playing() ? "  (paused: Space lets it act)" : "";
+        return fmt::format("Grab {:+.2f} {:+.2f} {:+.2f} m{}{}{}", d.x, d.y, d.z, paused, suffix(),
+                           onBody() ? "  P: pin  wheel: depth" : "");
+    }
+
+  private:
+    [[nodiscard]] std::optional<vec3> mousePoint() const {
+        return dragTarget(workspace_.mouseRay(), start_, render::forwardOf(workspace_.camera), lock_, depth_);
+    }
+
+    vec3 start_{0, 0, 0};
+    vec3 grabbedAt_{0, 0, 0};
+    vec3 target_{0, 0, 0};
+    float depth_ = 0;
+};
+
+class RotateHandler final : public TransformHandler {
+  public:
+    using TransformHandler::TransformHandler;
+
+  protected:
+    void begin() override {
+        angle_ = 0;
+        startAngle_ = mouseAngle().value_or(0.0F);
+        if (!onBody()) return;
+        bodies_ = workspace_.player->bodiesOf(item_->doll);
+        pivot_ = bodies_.front().worldFromBody.translation;
+        startAngle_ = mouseAngle().value_or(0.0F);
+    }
+
+    void change() override {
+        if (const auto number = number_.value()) {
+            angle_ = radians(*number);
+        } else if (const auto angle = mouseAngle()) {
+            angle_ = std::remainder(*angle - startAngle_, 2.0F * kPi);
+            // The mouse goes round as the eye sees it; seen from behind an axis that is the other way.
+            if (lock_.kind != AxisLock::Kind::free && glm::dot(axis(), render::forwardOf(workspace_.camera)) > 0) {
+                angle_ = -angle_;
+            }
+        }
+        if (onBody()) return;
+        SceneObject turned = object_;
+        turned.worldFromObject.rotation = glm::normalize(rotation() * object_.worldFromObject.rotation);
+        setObject(turned, "Rotate");
+    }
+
+    // While it is turned the doll keeps still, whatever gravity wants.
+    void hold() override {
+        if (onBody()) workspace_.player->placeBodies(item_->doll, turned(rotation()));
+    }
+
+    void finish(bool confirmed) override {
+        if (!onBody()) {
+            keepOrCancelEdits(confirmed);
+        } else if (item_->doll < workspace_.player->simulation().dollCount()) {
+            workspace_.player->placeBodies(item_->doll, confirmed ? turned(rotation()) : bodies_);
+        }
+    }
+
+    [[nodiscard]] std::string describe() const override {
+        return fmt::format("Rotate {:+.1f} deg{}", degrees(angle_), suffix());
+    }
+
+  private:
+    [[nodiscard]] vec3 axis() const {
+        return lock_.kind == AxisLock::Kind::free ? -render::forwardOf(workspace_.camera) : axisVector(lock_.axis);
+    }
+    [[nodiscard]] quat rotation() const { return glm::angleAxis(angle_, axis()); }
+
+    // Counter-clockwise from the right, around where the pivot is seen.
+    [[nodiscard]] std::optional<float> mouseAngle() const {
+        const auto centre = render::project(workspace_.camera, pivot_, workspace_.window);
+        if (!centre) return std::nullopt;
+        return std::atan2(centre->y - workspace_.mouse.y, workspace_.mouse.x - centre->x);
+    }
+
+    [[nodiscard]] std::vector<physics::BodyState> turned(const quat& rotation) const {
+        std::vector<physics::BodyState> bodies = bodies_;
+        for (physics::BodyState& body : bodies) {
+            RigidTransform& frame = body.worldFromBody;
+            frame.translation = pivot_ + rotation * (frame.translation - pivot_);
+            frame.rotation = glm::normalize(rotation * frame.rotation);
+            body.linearVelocity = vec3(0);
+            body.angularVelocity = vec3(0);
+        }
+        return bodies;
+    }
+
+    std::vector<physics::BodyState> bodies_;  // as they were
+    float startAngle_ = 0;
+    float angle_ = 0;
+};
+
+class ScaleHandler final : public TransformHandler {
+  public:
+    using TransformHandler::TransformHandler;
+
+  protected:
+    void begin() override {
+        factor_ = 1;
+        startDistance_ = mouseDistance();
+        if (onBody()) shape_ = workspace_.document->profile().bodies[item_->index].shape;
+    }
+
+    void change() override {
+        constexpr float smallest = 0.05F;
+        constexpr float largest = 20.0F;
+        const float wanted = number_.value().value_or(mouseDistance() / std::max(startDistance_, 1.0F));
+        factor_ = std::clamp(wanted, smallest, largest);
+        if (onBody()) {
+            physics::BodyShape shape = shape_;
+            shape.radius *= factor_;
+            shape.halfLength *= factor_;
+            shape.halfExtents *= factor_;
+            workspace_.report(workspace_.document->setShape(item_->index, shape, kGroup));
+            workspace_.follow();
+            return;
+        }
+        SceneObject scaled = object_;
+        scaled.radius *= factor_;
+        scaled.lightIntensity *= factor_;
+        if (lock_.kind == AxisLock::Kind::free) {
+            scaled.halfExtents *= factor_;
+        } else {
+            for (int axis = 0; axis < 3; ++axis) {
+                if ((axis == lock_.axis) == (lock_.kind == AxisLock::Kind::axis)) scaled.halfExtents[axis] *= factor_;
+            }
+        }
+        setObject(scaled, "Scale");
+    }
+
+    void finish(bool confirmed) override { keepOrCancelEdits(confirmed); }
+
+    [[nodiscard]] std::string describe() const override { return fmt::format("Scale x{:.3f}{}", factor_, suffix()); }
+
+  private:
+    [[nodiscard]] float mouseDistance() const {
+        const auto centre = render::project(workspace_.camera, pivot_, workspace_.window);
+        return centre ? glm::distance(vec2(*centre), workspace_.mouse) : 1.0F;
+    }
+
+    physics::BodyShape shape_;  // as it was
+    float startDistance_ = 1;
+    float factor_ = 1;
+};
+
+}  // namespace
+
+std::unique_ptr<StateHandler> makeGrabHandler(Workspace& workspace) {
+    return std::make_unique<GrabHandler>(workspace);
+}
+
+std::unique_ptr<StateHandler> makeRotateHandler(Workspace& workspace) {
+    return std::make_unique<RotateHandler>(workspace);
+}
+
+std::unique_ptr<StateHandler> makeScaleHandler(Workspace& workspace) {
+    return std::make_unique<ScaleHandler>(workspace);
+}
+
+}  // namespace lutka::editor

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lutka::editor {
+
+/// Undo by snapshots: every entry holds the whole editable state as it was before a change. Changes that share a group
+/// (one drag of a slider) become one entry.
+template <class Snapshot>
+class UndoStack {
+  public:
+    static constexpr std::size_t kMaxEntries = 200;  ///< The oldest are forgotten beyond this.
+
+    /// Tells of a change that turned `before` into something else. A `group` other than "" that equals the last
+    /// change's joins it, until endGroup().
+    void changed(const Snapshot& before, std::string label, const std::string& group) {
+        redo_.clear();
+        if (!group.empty() && group == openGroup_ && !undo_.empty()) return;
+        openGroup_ = group;
+        undo_.push_back({before, std::move(label)});
+        if (undo_.size() > kMaxEntries) undo_.erase(undo_.begin());
+    }
+
+    void endGroup() { openGroup_.clear(); }
+    [[nodiscard]] bool groupIsOpen() const { return !openGroup_.empty() && !undo_.empty(); }
+
+    /// Takes the open group back as if it had never been: the state before it. groupIsOpen() must hold.
+    [[nodiscard]] Snapshot cancelGroup() {
+        Snapshot before = std::move(undo_.back().snapshot);
+        undo_.pop_back();
+        openGroup_.clear();
+        return before;
+    }
+
+    [[nodiscard]] bool canUndo() const { return !undo_.empty(); }
+    [[nodiscard]] bool canRedo() const { return !redo_.empty(); }
+    [[nodiscard]] std::string undoLabel() const { return undo_.empty() ? "" : undo_.back().label; }
+    [[nodiscard]] std::string redoLabel() const { return redo_.empty() ? "" : redo_.back().label; }
+    [[nodiscard]] std::size_t undoCount() const { return undo_.size(); }
+
+    /// The state before the last change, in exchange for the present one. canUndo() must hold.
+    [[nodiscard]] Snapshot undo(Snapshot present) { return swap(undo_, redo_, std::move(present)); }
+    /// The state that the last undo left. canRedo() must hold.
+    [[nodiscard]] Snapshot redo(Snapshot present) { return swap(redo_, undo_, std::move(present)); }
+
+    void clear() {
+        undo_.clear();
+        redo_.clear();
+        openGroup_.clear();
+    }
+
+  private:
+    struct Entry {
+        Snapshot snapshot;
+        std::string label;
+    };
+
+    Snapshot swap(std::vector<Entry>& from, std::vector<Entry>& to, Snapshot present) {
+        openGroup_.clear();
+        Entry entry = std::move(from.back());
+        from.pop_back();
+        to.push_back({std::move(present), entry.label});
+        return std::move(entry.snapshot);
+    }
+
+    std::vector<Entry> undo_;
+    std::vector<Entry> redo_;
+    std::string openGroup_;
+};
+
+}  // namespace lutka::editor

@@ -1,0 +1,55 @@
+#include "editor/workspace.hpp"
+
+#include <fmt/format.h>
+
+namespace lutka::editor {
+
+std::optional<Pick> Workspace::pickUnderMouse() const {
+    return pick(mouseRay(), player->simulation().world(), player->presentObjects());
+}
+
+vec3 Workspace::positionOf(const Item& item) const {
+    if (item.kind == Item::Kind::object) return player->worldFromObject(item.index).translation;
+    return player->bodiesOf(item.doll)[static_cast<std::size_t>(item.index)].worldFromBody.translation;
+}
+
+std::string Workspace::nameOf(const Item& item) const {
+    if (item.kind == Item::Kind::object) {
+        const SceneObject& object = document->state().scene.objects[item.index];
+        return fmt::format("{} {}", objectKindName(object.kind), item.index + 1);
+    }
+    const physics::BodyProfile& body = document->profile().bodies[item.index];
+    const std::string doll = player->simulation().dollCount() > 1 ? fmt::format(" of doll {}", item.doll + 1) : "";
+    return fmt::format("{}{} ({})", animation::roleName(body.role), doll, body.joint);
+}
+
+void Workspace::follow() {
+    if (!player->stale()) return;
+    report(player->rebuild(Player::Keep::motion));
+    pulls.applyTo(player->simulation().world());
+    const auto& state = document->state();
+    selection.keepIf([&](const Item& item) {
+        if (item.kind == Item::Kind::object) return item.index < static_cast<int>(state.scene.objects.size());
+        return item.doll < player->simulation().dollCount() &&
+               item.index < static_cast<int>(state.profile.bodies.size());
+    });
+}
+
+bool Workspace::report(const Result<void>& result) {
+    if (result) return false;
+    say(Toast::Kind::error, result.error().text());
+    return true;
+}
+
+void Workspace::say(Toast::Kind kind, std::string text) {
+    constexpr std::size_t maxToasts = 4;
+    constexpr std::size_t maxLog = 500;
+    log.push_back(text);
+    if (log.size() > maxLog) log.erase(log.begin());
+    const bool shown = std::any_of(toasts.begin(), toasts.end(), [&](Toast& toast) { return toast.text == text; });
+    if (shown) return;
+    if (toasts.size() >= maxToasts) toasts.erase(toasts.begin());
+    toasts.push_back({kind, std::move(text), kind == Toast::Kind::error ? 8.0F : 4.0F});
+}
+
+}  // namespace lutka::editor

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "editor/editor_document.hpp"
+#include "editor/input_event.hpp"
+#include "editor/picking.hpp"
+#include "editor/player.hpp"
+#include "editor/pulls.hpp"
+#include "editor/selection.hpp"
+#include "editor/state_machine.hpp"
+#include "render/frame.hpp"
+
+namespace lutka::editor {
+
+/// A sentence for the user that goes away by itself.
+struct Toast {
+    enum class Kind { info, warning, error };
+    Kind kind = Kind::info;
+    std::string text;
+    float secondsLeft = 4.0F;
+};
+
+/// What the states work on. Owned by the Editor; handlers borrow it.
+struct Workspace {
+    std::unique_ptr<EditorDocument> document;
+    std::unique_ptr<Player> player;
+    render::Camera camera;
+    render::Extent window;  ///< In window coordinates, like the mouse.
+    Selection selection;
+    Pulls pulls;
+
+    vec2 mouse{0, 0};
+    /// Where the left button went down in the view, and on what; set while it is held.
+    struct Press {
+        vec2 position{0, 0};
+        std::optional<Pick> pick;
+    };
+    std::optional<Press> press;
+    MouseButton cameraButton = MouseButton::middle;  ///< What drags the camera.
+
+    SceneObject::Kind addKind = SceneObject::Kind::box;
+    std::optional<SceneObject> ghost;  ///< What State::add would place.
+    std::string hint;                  ///< What the present state is doing, for the status bar.
+    render::LineBatch overlay;         ///< Lines of the present state, made anew each frame.
+    std::vector<Toast> toasts;
+    std::vector<std::string> log;
+
+    [[nodiscard]] render::Ray mouseRay() const { return render::worldRay(camera, mouse, window); }
+    [[nodiscard]] std::optional<Pick> pickUnderMouse() const;
+    /// Where an item's origin is now, world; a body's is its centre of mass.
+    [[nodiscard]] vec3 positionOf(const Item& item) const;
+    [[nodiscard]] std::string nameOf(const Item& item) const;
+    /// Makes the simulation follow the document, when that has changed.
+    void follow();
+    /// Tells the user about a failure; nothing for success. Whether it was one.
+    bool report(const Result<void>& result);
+    void say(Toast::Kind kind, std::string text);
+
+    /// Which end of a state this is.
+    [[nodiscard]] Trigger ended() const {
+        return selection.empty() ? Trigger::endedWithNothing : Trigger::endedWithSelection;
+    }
+};
+
+/// One handler for each state, all working on `workspace`, which must outlive them.
+[[nodiscard]] StateMachine::Handlers makeHandlers(Workspace& workspace);
+
+}  // namespace lutka::editor
