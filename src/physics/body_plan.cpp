@@ -6,6 +6,7 @@
 #include "core/assert.hpp"
 #include "physics/body_tips.hpp"
 #include "physics/quantile.hpp"
+#include "physics/skin_regions.hpp"
 
 namespace lutka::physics {
 namespace {
@@ -88,6 +89,9 @@ void addBodies(BodyPlan& plan, const Character& character, const HumanoidMap& ma
         PlannedBody body;
         body.role = role;
         body.joint = map.jointOf(role);
+        // A joint that plays two roles carries one body, the upper role's.
+        const auto taken = [&](const PlannedBody& other) { return other.joint == body.joint; };
+        if (std::any_of(plan.bodies.begin(), plan.bodies.end(), taken)) continue;
         body.start = map.standardFromModel * character.skeleton.bindModelFromJoint[body.joint].translation;
         const auto above = parentRole(role);
         body.parent = above ? bodyCarrying(plan, *above) : -1;
@@ -140,48 +144,6 @@ void assignJoints(BodyPlan& plan, const Character& character, const HumanoidMap&
         if (plan.bodyOfJoint[joint] >= 0) continue;
         plan.bodyOfJoint[joint] =
             nearestBody(plan, map.standardFromModel * skeleton.bindModelFromJoint[joint].translation);
-    }
-}
-
-// The body with the largest sum of a vertex's weights.
-int ownerOf(const animation::SkinnedMesh& mesh, std::size_t vertex, const std::vector<int>& bodyOfJoint) {
-    int owner = 0;
-    float most = -1.0F;
-    for (int i = 0; i < animation::kMaxInfluences; ++i) {
-        const int body = bodyOfJoint[mesh.joints[vertex][i]];
-        float sum = 0.0F;
-        for (int k = 0; k < animation::kMaxInfluences; ++k) {
-            if (bodyOfJoint[mesh.joints[vertex][k]] == body) sum += mesh.weights[vertex][k];
-        }
-        if (sum > most) {
-            most = sum;
-            owner = body;
-        }
-    }
-    return owner;
-}
-
-std::vector<float> vertexAreas(const animation::SkinnedMesh& mesh) {
-    std::vector<float> areas(mesh.positions.size(), 0.0F);
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        const std::uint32_t* corner = &mesh.indices[i];
-        const vec3& a = mesh.positions[corner[0]];
-        const float third =
-            glm::length(glm::cross(mesh.positions[corner[1]] - a, mesh.positions[corner[2]] - a)) / 6.0F;
-        for (int k = 0; k < 3; ++k)
-            areas[corner[k]] += third;
-    }
-    return areas;
-}
-
-void gatherSkin(BodyPlan& plan, const Character& character, const HumanoidMap& map) {
-    const mat3 standardFromModel = glm::mat3_cast(map.standardFromModel);
-    for (const animation::SkinnedMesh& mesh : character.meshes) {
-        const std::vector<float> areas = vertexAreas(mesh);
-        for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
-            const int body = ownerOf(mesh, vertex, plan.bodyOfJoint);
-            plan.bodies[body].skin.push_back({standardFromModel * mesh.positions[vertex], areas[vertex]});
-        }
     }
 }
 
@@ -313,9 +275,10 @@ BodyPlan planBodies(const Character& character, const HumanoidMap& map, const Fi
     plan.heightM = jointSpan(plan);
     findEnds(plan, character, map);
     assignJoints(plan, character, map);
-    gatherSkin(plan, character, map);
+    gatherSkin(plan, character, map.standardFromModel);
     plan.heightM = figureHeight(plan, jointSpan(plan));
     findEnds(plan, character, map);
+    balanceTrunk(plan);
     findTips(plan, character, map);
     findMiddle(plan);
     return plan;

@@ -30,11 +30,15 @@ TipProportions proportionsOf(Role role) {
     return {0.14F, 0.35F};
 }
 
-// A hand of a figure with large hands may reach as far as its forearm is long.
+// A hand of a figure with large hands may reach as far as its forearm is long, a large head as far as most of it does.
 float reachOf(const BodyPlan& plan, const PlannedBody& body) {
     const float reach = proportionsOf(body.role).reach * plan.heightM;
     if (isOneOf(body.role, Role::leftHand) && body.parent >= 0) {
         return std::max(reach, 0.8F * plan.bodies[body.parent].length());
+    }
+    if (body.role == Role::head && !body.skin.empty()) {
+        const auto away = [&](const SkinPoint& point) { return glm::distance(point.position, body.start); };
+        return std::max(reach, 1.5F * quantileOf(body.skin, 0.5F, away));
     }
     return reach;
 }
@@ -50,25 +54,47 @@ std::vector<SkinPoint> jointsBelow(const Character& character, const HumanoidMap
     return points;
 }
 
-void setTip(PlannedBody& body, const std::vector<SkinPoint>& points, vec3 direction, float least) {
+void setTip(PlannedBody& body, const std::vector<SkinPoint>& points, const vec3& direction, float least) {
     const auto along = [&](const SkinPoint& point) { return glm::dot(point.position - body.start, direction); };
     body.end = body.start + direction * std::max(quantileOf(points, 0.98F, along), least);
 }
 
-// The foot's way from ankle to toes: the toe joint's, else the skin's.
-vec3 footDirection(const PlannedBody& foot, const std::vector<SkinPoint>& points, const Character& character,
-                   const HumanoidMap& map) {
+// The way a foot points, level: to its toe joint, else along its skin where that is longer than wide, else ahead.
+vec3 footHeading(const PlannedBody& foot, const std::vector<SkinPoint>& points, const Character& character,
+                 const HumanoidMap& map) {
+    constexpr float kLong = 1.3F;  // ratio of the spreads
+    constexpr float kPlausible = 0.7F;
+    const vec3 ahead(0, 0, 1);
     const Role toes = sideOf(foot.role) == animation::Side::left ? Role::leftToes : Role::rightToes;
     const int joint = map.jointOf(toes);
-    if (joint != animation::kNoJoint) {
-        const vec3 toe = map.standardFromModel * character.skeleton.bindModelFromJoint[joint].translation;
-        if (glm::distance(toe, foot.start) > 1e-3F) return glm::normalize(toe - foot.start);
+    vec3 way(0);
+    if (joint != animation::kNoJoint && joint != foot.joint) {
+        way = map.standardFromModel * character.skeleton.bindModelFromJoint[joint].translation - foot.start;
+    } else if (!points.empty()) {
+        const PrincipalAxes axes = principalAxes(points);
+        if (axes.spread[0] > kLong * axes.spread[1]) way = axes.axis[0] * (axes.axis[0].z < 0.0F ? -1.0F : 1.0F);
+        if (way.z < kPlausible) way = ahead;
     }
-    if (points.size() < kFewestPoints) return foot.direction();
-    vec3 toCentre = principalAxes(points).centroid - foot.start;
-    if (toCentre.y > -glm::length(vec3(toCentre.x, 0, toCentre.z))) toCentre.y = 0.0F;
-    const float length = glm::length(toCentre);
-    return length > 1e-3F ? toCentre / length : foot.direction();
+    const vec3 level(way.x, 0, way.z);
+    return glm::length(level) > 0.25F * glm::length(way) && glm::length(way) > 1e-4F ? glm::normalize(level) : ahead;
+}
+
+// A foot runs from the ankle to the height of the skin that lies furthest along its heading; the toe joint itself may
+// lie far below the ankle.
+void setFootTip(PlannedBody& foot, const std::vector<SkinPoint>& points, const vec3& heading) {
+    const auto along = [&](const SkinPoint& point) { return glm::dot(point.position - foot.start, heading); };
+    const float front = quantileOf(points, 0.9F, along);
+    vec3 sum(0);
+    float total = 0.0F;
+    for (const SkinPoint& point : points) {
+        if (along(point) < front) continue;
+        sum += (point.area + 1e-9F) * point.position;
+        total += point.area + 1e-9F;
+    }
+    if (total <= 0.0F) return;
+    const vec3 tip = sum / total - foot.start;
+    const vec3 end = glm::dot(tip, heading) * heading + vec3(0, tip.y, 0);
+    if (glm::length(end) > 1e-3F) foot.end = foot.start + end;
 }
 
 }  // namespace
@@ -89,9 +115,11 @@ void findTips(BodyPlan& plan, const Character& character, const HumanoidMap& map
         if (points.size() < kFewestPoints) points = jointsBelow(character, map, body.joint);
         const float least = 0.3F * proportionsOf(body.role).length * plan.heightM;
         vec3 direction = body.direction();
-        if (isOneOf(body.role, Role::leftFoot) || isOneOf(body.role, Role::leftToes)) {
-            direction = footDirection(body, points, character, map);
-        } else if (body.role != Role::head && !points.empty()) {
+        if ((isOneOf(body.role, Role::leftFoot) || isOneOf(body.role, Role::leftToes)) && !points.empty()) {
+            setFootTip(body, points, footHeading(body, points, character, map));
+            continue;
+        }
+        if (body.role != Role::head && !points.empty()) {
             const vec3 toCentre = principalAxes(points).centroid - body.start;
             if (glm::length(toCentre) > 0.01F * plan.heightM) direction = glm::normalize(toCentre);
         }

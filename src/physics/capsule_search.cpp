@@ -11,6 +11,8 @@ namespace lutka::physics {
 namespace {
 
 constexpr std::size_t kMostPoints = 400;
+// Skin inside the capsule, where the capsule stands out of it, weighs more than skin outside.
+constexpr float kProtrusion = 1.5F;
 
 }  // namespace
 
@@ -33,7 +35,8 @@ float CapsuleSearch::cost(const CapsuleTrial& trial) const {
     for (const SkinPoint& point : points_) {
         const vec3 d = point.position - trial.center;
         const float beyond = std::max(0.0F, std::abs(d.y) - trial.halfLength);
-        const float distance = std::abs(std::sqrt(d.x * d.x + beyond * beyond + d.z * d.z) - trial.radius);
+        const float signedDistance = std::sqrt(d.x * d.x + beyond * beyond + d.z * d.z) - trial.radius;
+        const float distance = signedDistance < 0.0F ? -kProtrusion * signedDistance : signedDistance;
         sum += point.area * std::min(distance, cutoff_);
         total += point.area;
     }

@@ -7,6 +7,7 @@
 
 #include "physics/body_tips.hpp"
 #include "physics/capsule_search.hpp"
+#include "physics/principal_axes.hpp"
 #include "physics/quantile.hpp"
 #include "physics/separate_shapes.hpp"
 
@@ -18,6 +19,10 @@ using animation::Side;
 constexpr std::size_t kFewestPoints = 24;
 constexpr float kSmallestRadius = 0.01F;  // of the height, like the next
 constexpr float kLargestRadius = 0.15F;
+constexpr float kLargestTrunkRadius = 0.2F;
+constexpr float kLargestHeadRadius = 0.3F;
+// Skin further than this from the surface counts no more than that; of the height.
+constexpr float kCutoff = 0.04F;
 // How far a limb's cap may reach past its joint, in radii: enough to close the knee, not to look like a sausage.
 constexpr float kOvershoot = 0.5F;
 
@@ -88,6 +93,7 @@ class BodyFit {
         points_ = skinNearSegment(plan, body_);
         central_ = plan.symmetric && sideOf(body_.role) == Side::center;
         if (plan.symmetric) addMirrored(body);
+        if (points_.size() >= kFewestPoints) roughRadius_ = principalAxes(points_).spread[1];
     }
 
     [[nodiscard]] Capsule fit() const {
@@ -136,8 +142,7 @@ class BodyFit {
         for (const vec3& direction : directions) {
             const CapsuleSearch search =
                 searchAlong({plan_.middleX, body_.start.y, body_.start.z}, axesAlong(direction));
-            const Capsule capsule =
-                search.run(search.boundingTrial(), [&](CapsuleTrial& t) { keepCentral(t, search); });
+            const Capsule capsule = fitFree(search);
             const float cost = search.cost(capsule);
             if (least == 0.0F || cost < least) {
                 least = cost;
@@ -150,10 +155,20 @@ class BodyFit {
     [[nodiscard]] Capsule fitHead() const {
         const CapsuleSearch search =
             searchAlong({plan_.middleX, body_.start.y, body_.start.z}, axesAlong(rotation_ * vec3(0, 1, 0)));
+        return fitFree(search);
+    }
+
+    // Anywhere, as long as its tips stay with the skin.
+    [[nodiscard]] Capsule fitFree(const CapsuleSearch& search) const {
+        const float low = search.quantiles(0.01F).y;
+        const float high = search.quantiles(0.99F).y;
         return search.run(search.boundingTrial(), [&](CapsuleTrial& t) {
             keepCentral(t, search);
-            // The neck is not the head: the lower cap may reach below the joint by no more than half its radius.
-            t.center.y = std::max(t.center.y, t.halfLength + 0.5F * t.radius);
+            const float spare = 0.1F * t.radius;
+            const float longest = std::max(0.0F, 0.5F * (high - low) + spare - t.radius);
+            t.halfLength = std::min(t.halfLength, longest);
+            const float slack = longest - t.halfLength;
+            t.center.y = std::clamp(t.center.y, 0.5F * (low + high) - slack, 0.5F * (low + high) + slack);
         });
     }
 
@@ -235,6 +250,7 @@ class BodyFit {
     quat rotation_;
     std::vector<SkinPoint> points_;
     bool central_ = false;
+    float roughRadius_ = 0.0F;  // a large head is coarse on a large scale
 };
 
 // The mirror image of the left's shape about the right's joint.

@@ -28,7 +28,9 @@ struct Ranges {
 constexpr Span kElbow{-5, 150};  // AAOS 0..150; five degrees beyond straight are common and hold straight bind poses
 constexpr Span kKnee{-5, 135};   // AAOS 0..135; DSHS extension 0..10
 constexpr Ranges kHip{{-30, 120}, {-30, 45}, {-45, 45}};
-constexpr Ranges kAnkle{{-50, 20}, {-12, 12}, {-35, 15}};  // rotation: inversion 35, eversion 15
+// Rotation: inversion 35, eversion 15. Side: toes stand outward by the twist of the shin bone, and a bent knee lets the
+// shin turn, which a hinge does not; the ankle takes both over.
+constexpr Ranges kAnkle{{-50, 20}, {-20, 30}, {-35, 15}};
 constexpr Ranges kToes{{-30, 60}, {-10, 10}, {-10, 10}};
 constexpr Ranges kWrist{{-70, 80}, {-30, 20}, {-80, 80}};  // rotation: the forearm's pronation and supination
 constexpr Ranges kTrunk{{-25, 80}, {-35, 35}, {-45, 45}};
