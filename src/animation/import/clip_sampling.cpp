@@ -7,7 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
-#include <optional>
+#include <string_view>
 
 #include "animation/pose.hpp"
 
@@ -99,6 +99,20 @@ std::vector<int> nodesOfChannels(const aiAnimation& animation, const NodeTree& t
     return nodes;
 }
 
+// Where an FBX node has nothing but a pre-rotation, Assimp 5.2.5 splits the node into a chain of helpers and yet writes
+// one channel with the whole transform for the node itself: then the helpers above it must not turn it once more.
+void silenceHelpers(const NodeTree& tree, std::span<const int> nodesOfChannels, std::span<dmat4> parentFromNode) {
+    for (const int node : nodesOfChannels) {
+        if (node < 0 || tree.isHelper(node)) continue;
+        const std::string prefix = std::string(tree.nodes[node].source->mName.C_Str()) + kPivotMark;
+        for (int above = tree.nodes[node].parent; above >= 0 && tree.isHelper(above);
+             above = tree.nodes[above].parent) {
+            const bool own = std::string_view(tree.nodes[above].source->mName.C_Str()).starts_with(prefix);
+            if (own) parentFromNode[above] = dmat4(1.0);
+        }
+    }
+}
+
 dmat4 channelTransform(const aiNodeAnim& channel, const dmat4& own, double time) {
     aiVector3D position(static_cast<ai_real>(own[3].x), static_cast<ai_real>(own[3].y), static_cast<ai_real>(own[3].z));
     if (channel.mNumPositionKeys > 0) position = valueAt(channel.mPositionKeys, channel.mNumPositionKeys, time);
@@ -146,6 +160,7 @@ class ClipSampler {
         std::vector<dmat4> local;
         for (const NodeTree::Node& node : tree_.nodes)
             local.push_back(node.parentFromNode);
+        silenceHelpers(tree_, nodeOf, local);
         std::vector<dmat4> sceneFromNode(local.size());
         std::vector<RigidTransform> model(tree_.nodeOfJoint.size());
         clip.parentFromJoint.resize(model.size() * static_cast<std::size_t>(clip.frameCount));

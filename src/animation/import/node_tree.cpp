@@ -13,7 +13,7 @@ constexpr std::size_t kMaxJoints = 65535;
 constexpr int kMaxDepth = 4096;
 
 bool isPivotHelper(const aiNode& node) {
-    return std::string_view(node.mName.C_Str()).find("_$AssimpFbx$_") != std::string_view::npos;
+    return std::string_view(node.mName.C_Str()).find(kPivotMark) != std::string_view::npos;
 }
 
 // A transform that is not finite would spoil everything below it.

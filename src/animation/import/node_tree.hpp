@@ -13,6 +13,9 @@
 
 namespace lutka::animation::rig_import {
 
+/// What Assimp puts between a node's name and the kind of helper.
+inline constexpr const char* kPivotMark = "_$AssimpFbx$_";
+
 /// The scene's nodes, depth first, parents before children, and which of them are joints.
 ///
 /// Assimp splits an FBX node with pivots into a chain of helpers named `X_$AssimpFbx$_Rotation` … that ends in `X`. All
@@ -35,6 +38,7 @@ struct NodeTree {
 
     [[nodiscard]] int jointCount() const { return static_cast<int>(nodeOfJoint.size()); }
     [[nodiscard]] const dmat4& sceneFromJoint(int joint) const { return nodes[nodeOfJoint[joint]].sceneFromNode; }
+    [[nodiscard]] bool isHelper(int node) const { return nodeOfJoint[nodes[node].joint] != node; }
     /// Every node of that name, in file order.
     [[nodiscard]] std::vector<int> named(const std::string& name) const;
 };

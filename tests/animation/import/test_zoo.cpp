@@ -139,3 +139,17 @@ TEST_CASE("a .vrm of the zoo is the same character as its .glb") {
     CHECK(vrm.skeleton.names[vrm.vrmHumanoid.at("leftUpperArm")] == "upper_arm.L");
     CHECK(vrm.vrmHumanoid == glb.vrmHumanoid);
 }
+
+TEST_CASE("a clip of an FBX with pivots that holds still holds the node pose") {
+    if (!zooIsThere()) return;
+    const Character character = imported(zooFile("rocketbox_male/Male_Adult_17.fbx"));
+    REQUIRE(character.clips.size() == 1);
+    std::vector<RigidTransform> pose(character.skeleton.parents.size());
+    sampleClip(character.clips[0], 0.0F, pose);
+    localToModel(character.skeleton, pose, pose);
+    const std::vector<RigidTransform> expected = nodePose(character.skeleton);
+    float worst = 0.0F;
+    for (std::size_t joint = 0; joint < pose.size(); ++joint)
+        worst = std::max(worst, glm::distance(pose[joint].translation, expected[joint].translation));
+    CHECK(worst < 1e-3F);
+}
