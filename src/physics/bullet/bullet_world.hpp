@@ -8,12 +8,14 @@ namespace lutka::physics {
 
 /// What SolverKind::bullet is set to; docs/physics.md says how the defaults were found. `stock` ignores it.
 struct BulletTuning {
-    int substeps = 8;     ///< Of one frame, >= 1. More: tighter joints and contacts, proportional cost.
-    int iterations = 20;  ///< Of the solver in a substep, >= 1. More: tighter.
+    int substeps = 8;         ///< Of one frame, >= 1. More: tighter joints and contacts, proportional cost.
+    int iterations = 4;       ///< Sweeps of the mend pass in a substep, >= 1. More: tighter.
+    int relaxIterations = 2;  ///< Sweeps of the relax pass, >= 1. More: what mending pushed leaves less motion behind.
 
     float jointErp = 0.05F;       ///< Part of a joint's gap mended in a substep, (0, 1]. More: tighter, adds energy.
     float limitErp = 0.1F;        ///< The same for angles past their limit.
-    float contactErp = 0.2F;      ///< The same for penetration; mended beside the velocities, so it adds no energy.
+    float contactErp = 0.2F;      ///< The same for penetration.
+    float contactSlop = 0.0005F;  ///< Metres of penetration that are left alone, so that resting contacts stay.
     float contactMargin = 0.04F;  ///< Metres: how far apart shapes have contact points already (they only bound speed).
     float maxPushSpeed = 1.0F;    ///< m/s: bound on the speed at which overlapping shapes part.
     bool warmStart = true;        ///< Starts each substep from the impulses of the one before.

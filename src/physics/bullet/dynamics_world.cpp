@@ -1,8 +1,9 @@
 #include "physics/bullet/dynamics_world.hpp"
 
+#include <BulletCollision/CollisionDispatch/btSimulationIslandManager.h>
+
 #include "physics/bullet/convert.hpp"
 #include "physics/bullet/ragdoll.hpp"
-#include "physics/bullet/warm_solver.hpp"
 
 namespace lutka::physics {
 namespace {
@@ -21,18 +22,22 @@ struct PairFilter final : btOverlapFilterCallback {
     }
 };
 
-void tuneSolver(btContactSolverInfo& info, const BulletTuning& tuning) {
-    info.m_numIterations = tuning.iterations;
-    info.m_erp2 = tuning.contactErp;
-    info.m_splitImpulse = 1;
-    info.m_splitImpulsePenetrationThreshold = 0.0F;
-    info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_SIMD | SOLVER_USE_2_FRICTION_DIRECTIONS |
-                        SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
-    info.m_warmstartingFactor = 1.0F;
-    info.m_minimumSolverBatchSize = 1 << 20;
+template <class T>
+std::span<T* const> spanOf(const btAlignedObjectArray<T*>& array) {
+    return array.size() > 0 ? std::span<T* const>(&array[0], array.size()) : std::span<T* const>();
 }
 
 }  // namespace
+
+void DynamicsWorld::solveConstraints(btContactSolverInfo& info) {
+    // Islands decide only what sleeps and what wakes; all that is awake is solved in one go.
+    m_islandManager->buildIslands(getDispatcher(), this);
+    solver_.solve(spanOf(m_nonStaticRigidBodies), spanOf(m_constraints), *getDispatcher(), info.m_timeStep);
+}
+
+void DynamicsWorld::integrateTransforms(btScalar timeStep) {
+    solver_.moveBodies(timeStep);
+}
 
 void DynamicsWorld::updateActivationState(btScalar timeStep) {
     for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
@@ -60,12 +65,13 @@ BulletParts::BulletParts(const WorldSettings& settings, const BulletTuning& tuni
         world = std::make_unique<btDiscreteDynamicsWorld>(dispatcher.get(), broadphase.get(), solver.get(),
                                                           configuration.get());
     } else {
-        solver = std::make_unique<WarmSolver>(tuning);
+        analytic = std::make_unique<AnalyticCollisionFactory>(tuning.contactMargin);
+        analytic->registerWith(*dispatcher);
+        solver = std::make_unique<btSequentialImpulseConstraintSolver>();
         world = std::make_unique<DynamicsWorld>(dispatcher.get(), broadphase.get(), solver.get(), configuration.get(),
                                                 tuning);
         pairFilter = std::make_unique<PairFilter>();
         broadphase->getOverlappingPairCache()->setOverlapFilterCallback(pairFilter.get());
-        tuneSolver(world->getSolverInfo(), tuning);
     }
     world->setGravity(toBullet(settings.gravity));
 }

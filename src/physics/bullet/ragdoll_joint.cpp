@@ -174,6 +174,13 @@ btScalar RagdollJoint::getParam(int /*num*/, int /*axis*/) const {
     return 0.0F;
 }
 
+bool RagdollJoint::mends(int row) const {
+    if (row < kLinearRows) return true;
+    const AngularRow& angular = rows_[row - kLinearRows];
+    return angular.kind == AngularRow::Kind::align ||
+           (angular.kind == AngularRow::Kind::limit && angular.error <= 0.0F);
+}
+
 void RagdollJoint::finishStoring() {
     impulses_ = newImpulses_;
     newImpulses_.fill(0.0F);

@@ -36,6 +36,9 @@ class RagdollJoint final : public btTypedConstraint {
     void setParam(int num, btScalar value, int axis) override;
     [[nodiscard]] btScalar getParam(int num, int axis) const override;
 
+    /// Whether a present row's speed mends an error (and is left out of the velocities that the bodies keep).
+    [[nodiscard]] bool mends(int row) const;
+
     /// The impulse of the present rows in the step before, for warm starting; 0 for a row that is new.
     [[nodiscard]] float storedImpulse(int row) const { return impulses_[slots_[row]]; }
     void storeImpulse(int row, float impulse) { newImpulses_[slots_[row]] = impulse; }

@@ -1,0 +1,142 @@
+#include "physics/contacts.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <utility>
+
+namespace lutka::physics {
+namespace {
+
+using Kind = CollisionGeometry::Kind;
+
+Segment coreOf(const CollisionGeometry& round) {
+    const vec3 half = round.worldFromShape.rotation * vec3(0, round.halfLength, 0);
+    return {round.worldFromShape.translation - half, round.worldFromShape.translation + half};
+}
+
+void roundOnPlane(const CollisionGeometry& round, const CollisionGeometry& plane, float margin, ContactList& out) {
+    const vec3 normal = plane.worldFromShape.rotation * vec3(0, 1, 0);
+    const Segment core = coreOf(round);
+    const int ends = round.halfLength > 0.0F ? 2 : 1;
+    for (int end = 0; end < ends; ++end) {
+        const vec3 centre = end == 0 ? core.start : core.end;
+        const float height = glm::dot(centre - plane.worldFromShape.translation, normal);
+        if (height - round.radius < margin) out.add({end, centre - height * normal, normal, height - round.radius});
+    }
+}
+
+void boxOnPlane(const CollisionGeometry& box, const CollisionGeometry& plane, float margin, ContactList& out) {
+    const vec3 normal = plane.worldFromShape.rotation * vec3(0, 1, 0);
+    std::array<SurfaceContact, 8> corners;
+    for (int corner = 0; corner < 8; ++corner) {
+        const vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
+        const vec3 point = box.worldFromShape * (sign * box.halfExtents);
+        const float height = glm::dot(point - plane.worldFromShape.translation, normal);
+        corners[corner] = {corner, point - height * normal, normal, height};
+    }
+    std::partial_sort(corners.begin(), corners.begin() + ContactList::kMax, corners.end(),
+                      [](const SurfaceContact& p, const SurfaceContact& q) { return p.distance < q.distance; });
+    for (int i = 0; i < ContactList::kMax && corners[i].distance < margin; ++i)
+        out.add(corners[i]);
+}
+
+// One point of a round shape's core against a box.
+void pointOnBox(const vec3& inBox, const CollisionGeometry& round, const CollisionGeometry& box, float margin,
+                int feature, ContactList& out) {
+    const SurfaceDistance surface = distanceToBox(inBox, box.halfExtents);
+    if (surface.distance - round.radius >= margin) return;
+    const vec3 onBox = inBox - surface.distance * surface.normal;
+    out.add({feature, box.worldFromShape * onBox, box.worldFromShape.rotation * surface.normal,
+             surface.distance - round.radius});
+}
+
+void roundOnBox(const CollisionGeometry& round, const CollisionGeometry& box, float margin, ContactList& out) {
+    const RigidTransform boxFromWorld = inverse(box.worldFromShape);
+    const Segment world = coreOf(round);
+    const Segment core{boxFromWorld * world.start, boxFromWorld * world.end};
+    // Most pairs that the broadphase reports don't touch.
+    const vec3 centre = core.at(0.5F);
+    const float reach = round.radius + round.halfLength + margin;
+    if (distanceToBox(centre, box.halfExtents).distance > reach) return;
+    pointOnBox(core.start, round, box, margin, 0, out);
+    if (round.halfLength <= 0.0F) return;
+    pointOnBox(core.end, round, box, margin, 1, out);
+    // An edge or corner of the box may press between the ends.
+    constexpr float kNearAnEnd = 0.1F;
+    const float deepest = deepestOnSegment(core, box.halfExtents);
+    if (deepest > kNearAnEnd && deepest < 1.0F - kNearAnEnd) pointOnBox(core.at(deepest), round, box, margin, 2, out);
+}
+
+void roundPoints(const CollisionGeometry& a, const CollisionGeometry& b, const vec3& onA, const vec3& onB, float margin,
+                 int feature, ContactList& out) {
+    const vec3 between = onA - onB;
+    const float centres = glm::length(between);
+    const float distance = centres - a.radius - b.radius;
+    if (distance >= margin) return;
+    const vec3 normal = centres > 1e-5F ? between / centres : vec3(0, 1, 0);
+    out.add({feature, onB + b.radius * normal, normal, distance});
+}
+
+// The fraction of `segment` that is nearest to `point`.
+float nearestOn(const Segment& segment, const vec3& point) {
+    const vec3 along = segment.end - segment.start;
+    const float square = glm::dot(along, along);
+    return square > 0.0F ? std::clamp(glm::dot(point - segment.start, along) / square, 0.0F, 1.0F) : 0.0F;
+}
+
+void roundOnRound(const CollisionGeometry& a, const CollisionGeometry& b, float margin, ContactList& out) {
+    const float reach = a.radius + a.halfLength + b.radius + b.halfLength + margin;
+    const vec3 offset = a.worldFromShape.translation - b.worldFromShape.translation;
+    if (glm::dot(offset, offset) > reach * reach) return;
+    const Segment coreA = coreOf(a);
+    const Segment coreB = coreOf(b);
+    const vec3 alongA = coreA.end - coreA.start;
+    const vec3 alongB = coreB.end - coreB.start;
+    const SegmentPair closest = closestBetweenSegments(coreA, coreB);
+    // Side by side (within 30 degrees) they touch along a line: a contact at each end of it.
+    const float product = glm::dot(alongA, alongB);
+    if (product * product > 0.75F * glm::dot(alongA, alongA) * glm::dot(alongB, alongB) && product != 0.0F) {
+        float low = nearestOn(coreA, product > 0.0F ? coreB.start : coreB.end);
+        float high = nearestOn(coreA, product > 0.0F ? coreB.end : coreB.start);
+        constexpr float kLine = 0.15F;  // of the length: shorter is a point
+        if (high - low > kLine) {
+            for (int end = 0; end < 2; ++end) {
+                const vec3 onA = coreA.at(end == 0 ? low : high);
+                roundPoints(a, b, onA, coreB.at(nearestOn(coreB, onA)), margin, end, out);
+            }
+            if (closest.s < low + 0.3F * (high - low) || closest.s > high - 0.3F * (high - low)) return;
+        }
+    }
+    roundPoints(a, b, coreA.at(closest.s), coreB.at(closest.t), margin, 2, out);
+}
+
+void flip(ContactList& list) {
+    for (int i = 0; i < list.count; ++i) {
+        SurfaceContact& contact = list.contacts[i];
+        contact.position += contact.distance * contact.normal;
+        contact.normal = -contact.normal;
+    }
+}
+
+}  // namespace
+
+ContactList findContacts(const CollisionGeometry& a, const CollisionGeometry& b, float margin) {
+    ContactList out;
+    // Round before box before plane; the other order is the same pair seen from the other side.
+    if (a.kind > b.kind) {
+        out = findContacts(b, a, margin);
+        flip(out);
+        return out;
+    }
+    if (a.kind == Kind::round && b.kind == Kind::round)
+        roundOnRound(a, b, margin, out);
+    else if (a.kind == Kind::round && b.kind == Kind::box)
+        roundOnBox(a, b, margin, out);
+    else if (a.kind == Kind::round)
+        roundOnPlane(a, b, margin, out);
+    else if (a.kind == Kind::box && b.kind == Kind::plane)
+        boxOnPlane(a, b, margin, out);
+    return out;
+}
+
+}  // namespace lutka::physics
