@@ -26,6 +26,9 @@ constexpr double kVisibleScale = 0.01;
 struct KeyTimes {
     double first = std::numeric_limits<double>::max();  // ticks
     double last = std::numeric_limits<double>::lowest();
+
+    // A clip's time is the file's, from 0; but one cut from the middle of a long timeline starts at its first key.
+    [[nodiscard]] double start() const { return first < 0.0 || first > last - first ? first : 0.0; }
     double smallestGap = std::numeric_limits<double>::max();
 };
 
@@ -137,7 +140,7 @@ class ClipSampler {
     Clip sample(const aiAnimation& animation, std::size_t budget, std::vector<std::string>& warnings) const {
         const KeyTimes times = keyTimes(animation);
         const double ticks = animation.mTicksPerSecond > 0.0 ? animation.mTicksPerSecond : kDefaultTicksPerSecond;
-        const double seconds = std::max(0.0, (times.last - times.first) / ticks);
+        const double seconds = std::max(0.0, (times.last - times.start()) / ticks);
         Clip clip;
         clip.name = animation.mName.C_Str();
         const double rate = rateFor(ticks / times.smallestGap);
@@ -149,7 +152,7 @@ class ClipSampler {
             warnings.push_back(fmt::format("clip '{}' is {:.0f} s long; only the first {:.0f} s were kept", clip.name,
                                            seconds, clip.frameCount / rate));
         }
-        fill(animation, times.first, ticks / rate, clip, warnings);
+        fill(animation, times.start(), ticks / rate, clip, warnings);
         return clip;
     }
 

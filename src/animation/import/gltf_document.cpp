@@ -93,6 +93,8 @@ std::optional<Error> checkExtensions(GltfDocument& document, const fs::path& fil
             if (isPictureFormat(extension)) {
                 document.warnings.push_back(
                     fmt::format("pictures stored by {} can't be read; their materials stay plain", extension));
+            } else if (extension == "KHR_texture_transform") {
+                document.warnings.push_back("KHR_texture_transform is not applied: pictures may sit wrongly");
             } else if (!isHarmless(extension)) {
                 return refused(file, extension);
             }

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
+#include <sstream>
 
 #include "animation/import/checks.hpp"
 #include "animation/import/gltf_file.hpp"
@@ -16,6 +17,28 @@ using namespace lutka::animation;
 using namespace lutka::test;
 
 namespace {
+
+// A box 100 × 60 × 180 (x, y, z) on the floor of a Z-up scene, as an ASCII FBX with these global settings.
+std::string boxFbx(int upAxis, int upSign, double unit) {
+    std::ostringstream out;
+    out << "; FBX 7.4.0 project file\n"
+           "FBXHeaderExtension:  {\n FBXHeaderVersion: 1003\n FBXVersion: 7400\n}\n"
+           "GlobalSettings:  {\n Version: 1000\n Properties70:  {\n"
+        << "  P: \"UpAxis\", \"int\", \"Integer\", \"\"," << upAxis << "\n"
+        << "  P: \"UpAxisSign\", \"int\", \"Integer\", \"\"," << upSign << "\n"
+        << "  P: \"UnitScaleFactor\", \"double\", \"Number\", \"\"," << unit << "\n"
+        << " }\n}\n"
+           "Objects:  {\n"
+           " Geometry: 1, \"Geometry::Box\", \"Mesh\" {\n"
+           "  Vertices: *24 {\n   a: -50,-30,0,50,-30,0,50,30,0,-50,30,0,"
+           "-50,-30,180,50,-30,180,50,30,180,-50,30,180\n  }\n"
+           "  PolygonVertexIndex: *24 {\n   a: 0,3,2,-2,4,5,6,-8,0,1,5,-5,1,2,6,-6,2,3,7,-7,3,0,4,-8\n  }\n"
+           "  GeometryVersion: 124\n }\n"
+           " Model: 2, \"Model::Box\", \"Mesh\" {\n  Version: 232\n }\n"
+           "}\n"
+           "Connections:  {\n C: \"OO\",2,0\n C: \"OO\",1,2\n}\n";
+    return out.str();
+}
 
 Error refusal(const std::filesystem::path& file) {
     const Result<Character> result = importCharacter(file);
@@ -279,4 +302,36 @@ TEST_CASE("one vertex that is not finite costs its triangles and a warning") {
     CHECK(warns(character, "1 vertices have no finite position"));
     CHECK(character.meshes[0].positions.size() == 15);
     CHECK(character.meshes[0].indices.size() == 3 * (24 - 3));
+}
+
+TEST_CASE("units and up axis of an FBX come from its global settings") {
+    struct Case {
+        int upAxis;
+        int upSign;
+        double unit;
+        float metresPerUnit;
+        float height;
+        const char* axis;
+        const char* unitSource;
+    };
+    const TemporaryFolder folder;
+    for (const Case& each : {Case{2, 1, 1.0, 0.01F, 1.8F, "+Z", "FBX UnitScaleFactor"},
+                             Case{2, -1, 1.0, 0.01F, 1.8F, "-Z", "FBX UnitScaleFactor"},
+                             Case{0, 1, 1.0, 0.01F, 1.0F, "+X", "FBX UnitScaleFactor"},
+                             Case{2, 1, 0.5, 0.005F, 0.9F, "+Z", "FBX UnitScaleFactor"},
+                             Case{2, 1, 100.0, 0.01F, 1.8F, "+Z", "height of the figure"}}) {
+        INFO(each.axis << ' ' << each.unit);
+        std::ofstream(folder / "box.fbx") << boxFbx(each.upAxis, each.upSign, each.unit);
+        const Character character = imported(folder / "box.fbx");
+        checkInvariants(character);
+        CHECK(character.units.upAxis == each.axis);
+        CHECK(character.units.upSource == "FBX UpAxis");
+        CHECK(character.units.unitSource == each.unitSource);
+        CHECK(character.units.metresPerFileUnit == Approx(each.metresPerUnit));
+        CHECK(heightOf(character) == Approx(each.height));
+        float lowest = 1e9F;
+        for (const vec3& p : bindVertices(character))
+            lowest = std::min(lowest, p.y);
+        if (each.upAxis == 2) CHECK(lowest == Approx(each.upSign > 0 ? 0.0F : -1.8F).margin(1e-5));
+    }
 }
