@@ -93,14 +93,13 @@ class BodyFit {
         points_ = skinNearSegment(plan, body_);
         central_ = plan.symmetric && sideOf(body_.role) == Side::center;
         if (plan.symmetric) addMirrored(body);
-        if (points_.size() >= kFewestPoints) roughRadius_ = principalAxes(points_).spread[1];
+        if (points_.size() >= kFewestPoints) spread_ = principalAxes(points_).spread[1];
     }
 
     [[nodiscard]] Capsule fit() const {
         if (points_.size() < kFewestPoints) return byProportions();
         if (isOneOf(body_.role, Role::leftFoot) || isOneOf(body_.role, Role::leftToes)) return fitFoot();
-        if (isTrunk(body_.role)) return fitTrunk();
-        if (body_.role == Role::head) return fitHead();
+        if (isTrunk(body_.role) || body_.role == Role::head) return fitStandingOrLying();
         return fitLimb();
     }
 
@@ -114,11 +113,10 @@ class BodyFit {
     }
 
     [[nodiscard]] CapsuleSearch searchAlong(const vec3& origin, const quat& axes) const {
-        return {points_,
-                {axes, origin},
-                plan_.heightM * kSmallestRadius,
-                plan_.heightM * kLargestRadius,
-                0.04F * plan_.heightM};
+        const bool head = body_.role == Role::head;
+        const float largest = head ? kLargestHeadRadius : isTrunk(body_.role) ? kLargestTrunkRadius : kLargestRadius;
+        const float cutoff = std::max(kCutoff * plan_.heightM, (head ? 1.0F : 0.5F) * spread_);
+        return {points_, {axes, origin}, plan_.heightM * kSmallestRadius, plan_.heightM * largest, cutoff};
     }
 
     [[nodiscard]] Capsule fitLimb() const {
@@ -135,7 +133,7 @@ class BodyFit {
     }
 
     // Standing or lying across: whichever lies nearer to the skin.
-    [[nodiscard]] Capsule fitTrunk() const {
+    [[nodiscard]] Capsule fitStandingOrLying() const {
         const std::array<vec3, 2> directions{rotation_ * vec3(0, 1, 0), rotation_ * vec3(1, 0, 0)};
         Capsule best;
         float least = 0.0F;
@@ -150,12 +148,6 @@ class BodyFit {
             }
         }
         return best;
-    }
-
-    [[nodiscard]] Capsule fitHead() const {
-        const CapsuleSearch search =
-            searchAlong({plan_.middleX, body_.start.y, body_.start.z}, axesAlong(rotation_ * vec3(0, 1, 0)));
-        return fitFree(search);
     }
 
     // Anywhere, as long as its tips stay with the skin.
@@ -250,7 +242,7 @@ class BodyFit {
     quat rotation_;
     std::vector<SkinPoint> points_;
     bool central_ = false;
-    float roughRadius_ = 0.0F;  // a large head is coarse on a large scale
+    float spread_ = 0.0F;  // of the points, the second largest
 };
 
 // The mirror image of the left's shape about the right's joint.
