@@ -1,5 +1,6 @@
 #include "frame.glsl"
 #include "lighting.glsl"
+#include "background.glsl"
 
 in vec3 worldPosition;
 
@@ -18,23 +19,22 @@ float grid(vec2 at, float spacing, float width) {
 }
 
 void main() {
-    Surface surface;
-    surface.position = worldPosition;
-    surface.geometric = vec3(0.0, 1.0, 0.0);
-    surface.normal = surface.geometric;
-    surface.albedo = floorColor.rgb;
-    surface.metallic = 0.0;
-    surface.roughness = 0.85;
-    surface.occlusion = 1.0;
-    surface.emissive = vec3(0.0);
+    vec3 albedo = floorColor.rgb;
     if (floorGrid.x > 0.0) {
         float line = max(0.45 * grid(worldPosition.xz, floorGrid.x, 0.008),
                          0.8 * grid(worldPosition.xz, 4.0 * floorGrid.x, 0.014));
-        surface.albedo *= 1.0 - floorGrid.y * line;
+        albedo *= 1.0 - floorGrid.y * line;
     }
     float away = length(worldPosition.xz - target.xz) / floorGrid.z;
     float fade = 1.0 - smoothstep(0.25, 0.97, away);
-    // From below the floor is a veil, so that one can look up through it.
-    float side = towardsEye(worldPosition).y > 0.0 ? 1.0 : 0.3;
-    fragment = vec4(toneMap(shade(surface)), fade * fade * side);
+    vec3 color = toneMap(shadeMatteUpward(worldPosition, albedo));
+    // Seen from above it is mixed with the backdrop here, which spares the blending (several samples a pixel). From below
+    // it is a veil, so that one can look up through it.
+    vec3 toEye = towardsEye(worldPosition);
+    if (toEye.y > 0.0) {
+        float height = eye.w > 0.5 ? gl_FragCoord.y * viewport.w - 0.5 : -toEye.y;
+        fragment = vec4(mix(backdrop(height, pixelNoise()), color, fade * fade), 1.0);
+    } else {
+        fragment = vec4(color, 0.3 * fade * fade);
+    }
 }

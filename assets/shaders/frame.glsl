@@ -15,7 +15,7 @@ layout(std140) uniform Frame {
     vec4 eye;              // xyz world position; w: 1 when orthographic
     vec4 forward;          // xyz unit view direction; w: exposure
     vec4 sunDirection;     // xyz unit, towards the light; w: 1 when it casts a shadow
-    vec4 sunColor;         // rgb times intensity
+    vec4 sunColor;         // rgb times intensity; w: side of the shadow map / its depth, in metres
     // x: metres a texel; y: 1 / texels a side; z: radius of the penumbra for a gap of the map's whole depth, of the map's
     // side; w: its largest radius, of the map's side
     vec4 shadowTexel;

@@ -1,4 +1,6 @@
 // Metallic-roughness shading (glTF 2.0, appendix B) under the sun, the local lights and the procedural sky.
+#include "noise.glsl"
+
 uniform sampler2DShadow shadowMap;
 uniform sampler2D shadowDepth;  // the same map, uncompared
 uniform sampler2D occlusionMap;
@@ -34,52 +36,55 @@ vec3 skyIrradiance(vec3 normal) {
     return mix(skyGround.rgb, sky, 0.5 + 0.5 * normal.y) + skyHorizon.rgb * (0.16 * sun);
 }
 
-// A number in [0, 1) that differs from pixel to pixel without clumps (interleaved gradient noise: Jimenez 2014).
-float pixelNoise() {
-    return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
-}
-
-// The tap-th of `count` points spread evenly over the unit disc (Vogel's spiral).
-vec2 discPoint(int tap, int count, float turn) {
-    float angle = float(tap) * 2.39996323 + turn;
-    return sqrt((float(tap) + 0.5) / float(count)) * vec2(cos(angle), sin(angle));
-}
+// Turns by the golden angle: points at the radii sqrt((i + 0.5) / n) spread evenly over a disc (Vogel's spiral).
+const mat2 kGoldenTurn = mat2(-0.73736888, -0.67549029, 0.67549029, -0.73736888);
 
 // Share of the sun that arrives, [0, 1], with a penumbra that widens with the distance from what casts the shadow
-// (percentage-closer soft shadows: Fernando 2005). The point is moved along its normal by the texels that the filter
-// covers, so that a surface does not shade itself (normal offset: Holbert 2011), more where the light grazes.
+// (percentage-closer soft shadows: Fernando 2005). The point is moved along its normal by about a texel, so that a
+// surface does not shade itself (normal offset: Holbert 2011), more where the light grazes.
+//
+// The loops have bounds that depend on the pixel: a software rasteriser runs both sides of an if, but it does leave a
+// loop when no pixel of its group needs it any more.
 float sunVisibility(vec3 position, vec3 normal) {
-    if (sunDirection.w < 0.5) return 1.0;
-    const int kBlockerTaps = 6;
+    const int kBlockerTaps = 8;
     const int kTaps = 12;
     float cosine = clamp(dot(normal, sunDirection.xyz), 0.0, 1.0);
     float grazing = sqrt(1.0 - cosine * cosine);
-    float turn = 6.2831853 * pixelNoise();
     vec3 moved = position + normal * (shadowTexel.x * (1.0 + 3.0 * grazing));
     vec3 at = (shadowFromWorld * vec4(moved, 1.0)).xyz;
-    if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at, vec3(1.0)))) return 1.0;
+    bool inside = all(greaterThan(at.xy, vec2(0.0))) && all(lessThan(at, vec3(1.0)));
+    int blockerTaps = sunDirection.w > 0.5 && inside && cosine > 0.0 ? kBlockerTaps : 0;
 
-    float search = shadowTexel.w * 0.35;  // of the widest penumbra
+    float turn = 6.2831853 * pixelNoise();
+    vec2 start = vec2(cos(turn), sin(turn));
+    vec2 direction = start;
+    // How much nearer the surface itself comes to the light within the filter, in the map's depth.
+    float slope = sunColor.w * min(grazing / max(cosine, 1e-3), 3.0);
+    float search = 0.8 * shadowTexel.w;
     float above = 0.0;
     float blockers = 0.0;
-    for (int tap = 0; tap < kBlockerTaps; ++tap) {
-        float depth = texture(shadowDepth, at.xy + discPoint(tap, kBlockerTaps, turn) * search).r;
-        float gap = at.z - depth - search * 0.5;
-        if (gap > 0.0) {
-            above += gap;
-            blockers += 1.0;
-        }
+    for (int tap = 0; tap < blockerTaps; ++tap) {
+        float reach = search * sqrt((float(tap) + 0.5) / float(kBlockerTaps));
+        float gap = at.z - slope * reach - textureLod(shadowDepth, at.xy + direction * reach, 0.0).r;
+        direction = kGoldenTurn * direction;
+        float blocks = step(0.0, gap);
+        above += gap * blocks;
+        blockers += blocks;
     }
-    float gap = blockers > 0.0 ? above / blockers : 0.0;
     // shadowTexel.z: penumbra in map units for a gap over the whole depth of the map.
-    float radius = clamp(gap * shadowTexel.z, shadowTexel.y * 1.2, shadowTexel.w);
+    float radius = clamp(above / max(blockers, 1.0) * shadowTexel.z, 1.2 * shadowTexel.y, shadowTexel.w);
+    // Where no blocker was met, one may still touch the very point: a few narrow taps.
+    int taps = blockerTaps == 0 ? 0 : (blockers > 0.0 ? kTaps : 3);
     float lit = 0.0;
-    for (int tap = 0; tap < kTaps; ++tap) {
-        vec2 offset = discPoint(tap, kTaps, turn) * radius;
-        // Wider taps reach further along a slope: their reference moves with them.
-        lit += texture(shadowMap, vec3(at.xy + offset, at.z - grazing * radius * shadowTexel.y));
+    direction = start;
+    // By far less than the gap that made the filter so wide.
+    float reference = at.z - slope * radius;
+    for (int tap = 0; tap < taps; ++tap) {
+        vec2 offset = direction * (radius * sqrt((float(tap) + 0.5) / float(kTaps)));
+        direction = kGoldenTurn * direction;
+        lit += textureLod(shadowMap, vec3(at.xy + offset, reference), 0.0);
     }
-    return lit / float(kTaps);
+    return taps > 0 ? lit / float(taps) : 1.0;
 }
 
 // Share of the sky that nearby geometry leaves open at this pixel.
@@ -137,12 +142,10 @@ vec3 shade(Surface surface) {
     vec3 color = diffuse * skyIrradiance(surface.normal) * open;
     color += reflectance * skyRadiance(mirrored, surface.roughness) * clamp(open * (0.4 + 0.6 * open), 0.0, 1.0);
 
-    float nl = dot(surface.normal, sunDirection.xyz);
-    if (nl > 0.0) {
-        float lit = sunVisibility(surface.position, surface.geometric);
-        vec3 lobe = specularLobe(f0, surface.roughness, surface.normal, toEye, sunDirection.xyz);
-        color += (diffuse + lobe) * sunColor.rgb * (nl * lit);
-    }
+    float nl = max(dot(surface.normal, sunDirection.xyz), 0.0);
+    float lit = sunVisibility(surface.position, surface.geometric);
+    vec3 sunLobe = specularLobe(f0, surface.roughness, surface.normal, toEye, sunDirection.xyz);
+    color += (diffuse + sunLobe) * sunColor.rgb * (nl * lit);
     for (int i = 0; i < counts.x; ++i) {
         vec3 toLight;
         vec3 arriving = localLightAt(localLights[i], surface.position, toLight);
@@ -150,6 +153,19 @@ vec3 shade(Surface surface) {
         color += (diffuse + lobe) * arriving * max(dot(surface.normal, toLight), 0.0);
     }
     return color + surface.emissive;
+}
+
+// The same for a matte surface that faces straight up, like the floor: no reflection, which spares half the work.
+vec3 shadeMatteUpward(vec3 position, vec3 albedo) {
+    const vec3 up = vec3(0.0, 1.0, 0.0);
+    vec3 arriving = skyIrradiance(up) * ambientVisibility();
+    arriving += sunColor.rgb * (max(sunDirection.y, 0.0) * sunVisibility(position, up));
+    for (int i = 0; i < counts.x; ++i) {
+        vec3 toLight;
+        vec3 light = localLightAt(localLights[i], position, toLight);
+        arriving += light * max(toLight.y, 0.0);
+    }
+    return albedo * arriving;
 }
 
 // Filmic tone mapping: the ACES reference transform in the fit by Hill (2015), linear sRGB in and out.

@@ -1,27 +1,20 @@
 // A 4 × 4 box that stays on one surface: takes out the noise of the rotated taps.
 #include "frame.glsl"
+#include "view_depth.glsl"
 
-uniform sampler2D depthMap;
 uniform sampler2D noisyMap;
-uniform vec2 depthSize;
 
 in vec2 screenUv;
 out float fragment;
 
-// Distance along the view, from the depth buffer's value.
-float viewDepth(float depth) {
-    vec4 world = worldFromClip * vec4(0.0, 0.0, depth * 2.0 - 1.0, 1.0);
-    return dot(world.xyz / world.w - eye.xyz, forward.xyz);
-}
-
 void main() {
-    float center = viewDepth(textureLod(depthMap, screenUv, 0.0).r);
+    float center = viewDistance(textureLod(depthMap, screenUv, 0.0).r);
     float sum = 0.0;
     float weights = 0.0;
     for (int y = -2; y < 2; ++y) {
         for (int x = -2; x < 2; ++x) {
             vec2 uv = screenUv + (vec2(x, y) + 0.5) / depthSize;
-            float apart = abs(viewDepth(textureLod(depthMap, uv, 0.0).r) - center);
+            float apart = abs(viewDistance(textureLod(depthMap, uv, 0.0).r) - center);
             float weight = 1e-4 + max(0.0, 1.0 - apart / (0.02 * center + 0.05));
             sum += weight * textureLod(noisyMap, uv, 0.0).r;
             weights += weight;

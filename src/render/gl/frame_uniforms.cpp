@@ -45,8 +45,8 @@ FrameUniforms makeFrameUniforms(const FrameDescription& frame, Extent size, cons
     u.eye = vec4(eyeOf(camera), camera.orthographic ? 1.0F : 0.0F);
     u.forward = vec4(forwardOf(camera), frame.exposure);
     u.sunDirection = vec4(glm::normalize(frame.sun.directionToLight), frame.sun.castsShadow ? 1.0F : 0.0F);
-    u.sunColor = vec4(frame.sun.color * frame.sun.intensity, 0);
     const float side = shadow.metresPerTexel * static_cast<float>(shadowMapSize);
+    u.sunColor = vec4(frame.sun.color * frame.sun.intensity, side / shadow.depthMetres);
     const float penumbra = std::tan(std::clamp(frame.sun.angularRadius, 0.0F, 0.2F)) * shadow.depthMetres / side;
     u.shadowTexel = vec4(shadow.metresPerTexel, 1.0F / static_cast<float>(shadowMapSize), penumbra,
                          std::min(kWidestPenumbra / side, 0.03F));

@@ -224,13 +224,17 @@ void SceneRenderer::drawOcclusion(const FrameDescription& frame, const Character
     bindTexture(TextureUnit::depthMap, smallDepth_.texture());
     bindTexture(TextureUnit::noisyMap, noisyOcclusion_.texture());
     const vec2 depthSize(half.width, half.height);
+    const mat4 clip = clipFromView(frame.camera, size.aspect());
+    const vec4 projection(clip[0][0], clip[1][1], clip[2][2], clip[3][2]);
     occlusion_.use();
     occlusion_.set("depthSize", depthSize);
-    occlusion_.set("radiusPixels", 0.5F * clipFromView(frame.camera, size.aspect())[1][1] * depthSize.y);
+    occlusion_.set("projection", projection);
+    occlusion_.set("radiusPixels", 0.5F * clip[1][1] * depthSize.y);
     noisyOcclusion_.bindForDrawing();
     drawScreen(stats);
     occlusionBlur_.use();
     occlusionBlur_.set("depthSize", depthSize);
+    occlusionBlur_.set("projection", projection);
     smoothOcclusion_.bindForDrawing();
     drawScreen(stats);
     glEnable(GL_DEPTH_TEST);
@@ -240,19 +244,16 @@ void SceneRenderer::drawPicture(const FrameDescription& frame, const CharacterSt
                                 const PictureTarget& picture, FrameStats& stats) {
     picture.bindForDrawing();
     glClear(GL_DEPTH_BUFFER_BIT);
-    glDepthMask(GL_FALSE);
-    background_.use();
-    drawScreen(stats);
-    glDepthMask(GL_TRUE);
-
     const int before = stats.drawCalls;
     drawCharacters(list_.opaque().characters, characters, Meshes::opaque, stats);
     stats.characterDrawCalls += stats.drawCalls - before;
     glDisable(GL_CULL_FACE);
     prop_.use();
     drawProps(list_.opaque().props, stats);
+    const bool fromBelow = frame.floor.visible && eyeOf(frame.camera).y < frame.floor.height;
+    if (fromBelow) drawBackground(stats);
     if (frame.floor.visible) {
-        glEnable(GL_BLEND);
+        if (fromBelow) glEnable(GL_BLEND);
         // Behind what lies in its plane: contact lines and flat props win.
         glEnable(GL_POLYGON_OFFSET_FILL);
         glPolygonOffset(0.5F, 4.0F);
@@ -260,8 +261,18 @@ void SceneRenderer::drawPicture(const FrameDescription& frame, const CharacterSt
         floor_.set("depthFromWorld", uniforms_.clipFromWorld);
         drawFloor(stats);
         glDisable(GL_POLYGON_OFFSET_FILL);
+        glDisable(GL_BLEND);
     }
+    if (!fromBelow) drawBackground(stats);
     drawTranslucent(characters, stats);
+}
+
+// At the far plane, so that it only fills what nothing else has covered.
+void SceneRenderer::drawBackground(FrameStats& stats) {
+    background_.use();
+    glDepthMask(GL_FALSE);
+    drawScreen(stats);
+    glDepthMask(GL_TRUE);
 }
 
 void SceneRenderer::drawFloor(FrameStats& stats) {

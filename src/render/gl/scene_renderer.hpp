@@ -24,7 +24,7 @@ using CharacterStore = std::vector<std::unique_ptr<GpuCharacter>>;
 ///   shadow map ──┐
 ///   depth at half size ─▶ occlusion ─▶ blur ─┤
 ///                                            ▼
-///   background ─▶ opaque ─▶ floor ─▶ translucent      (the picture)
+///         opaque ─▶ floor ─▶ background ─▶ translucent      (the picture)
 class SceneRenderer {
   public:
     [[nodiscard]] static Result<SceneRenderer> create(int shadowMapSize);
@@ -49,6 +49,7 @@ class SceneRenderer {
     void drawOcclusion(const FrameDescription& frame, const CharacterStore& characters, Extent size, FrameStats& stats);
     void drawPicture(const FrameDescription& frame, const CharacterStore& characters, const PictureTarget& picture,
                      FrameStats& stats);
+    void drawBackground(FrameStats& stats);
     void drawFloor(FrameStats& stats);
     void drawTranslucent(const CharacterStore& characters, FrameStats& stats);
 
