@@ -15,25 +15,51 @@ using namespace lutka;
 using bench::Trial;
 using bench::TrialResult;
 using bench::TrialSettings;
+using physics::BulletTuning;
+
+// A setting that can be varied, with its values to try (its default where none are given).
+struct Knob {
+    const char* option;
+    const char* column;
+    float (*get)(const BulletTuning&);
+    void (*set)(BulletTuning&, float);
+    std::vector<float> values;
+};
+
+std::vector<Knob> knobs() {
+    const auto knob = [](const char* option, const char* column, auto get, auto set) {
+        return Knob{option, column, get, set, {get(BulletTuning{})}};
+    };
+#define LUTKA_KNOB(option, member)                                                           \
+    knob(                                                                                    \
+        option, #member, [](const BulletTuning& t) { return static_cast<float>(t.member); }, \
+        [](BulletTuning& t, float value) { t.member = static_cast<decltype(t.member)>(value); })
+    return {LUTKA_KNOB("--substeps", substeps),        LUTKA_KNOB("--sweeps", sweeps),
+            LUTKA_KNOB("--least-sweeps", leastSweeps), LUTKA_KNOB("--tolerance", tolerance),
+            LUTKA_KNOB("--mend-sweeps", mendSweeps),   LUTKA_KNOB("--joint-erp", jointErp),
+            LUTKA_KNOB("--limit-erp", limitErp),       LUTKA_KNOB("--contact-erp", contactErp),
+            LUTKA_KNOB("--margin", contactMargin),     LUTKA_KNOB("--gyration", leastGyration),
+            LUTKA_KNOB("--warm-start", warmStart),     LUTKA_KNOB("--angular-damping", angularDamping)};
+#undef LUTKA_KNOB
+}
 
 struct Arguments {
     std::string model;
     std::vector<std::string> scenes{"drop", "stairs", "throw", "hang", "balls"};
     std::vector<std::string> solvers{"bullet"};
-    std::vector<int> substeps{physics::BulletTuning{}.substeps};
-    std::vector<int> iterations{physics::BulletTuning{}.iterations};
-    std::vector<float> jointErp{physics::BulletTuning{}.jointErp};
-    std::vector<float> contactErp{physics::BulletTuning{}.contactErp};
+    std::vector<Knob> knobs = ::knobs();
     int seeds = 5;
     int count = 1;
     bool perSeed = false;
 };
 
-void printHeader() {
-    std::puts(
-        "solver,substeps,iterations,jointErp,contactErp,scene,sepMaxMm,sepP99Mm,sepMeanMm,limitMaxDeg,limitP99Deg,"
-        "staticPenMm,selfPenMm,energyMedianPct,energyWorstPct,settledPct,settleMedianS,residualMmps,turnBeforeSleep,"
-        "nonFinite,msPerStep");
+void printHeader(const Arguments& arguments) {
+    fmt::print("solver,");
+    for (const Knob& knob : arguments.knobs)
+        fmt::print("{},", knob.column);
+    fmt::print(
+        "scene,sepMaxMm,sepP99Mm,sepMeanMm,limitMaxDeg,limitP99Deg,staticPenMm,selfPenMm,energyMedianPct,"
+        "energyWorstPct,settledPct,settleMedianS,residualMmps,turnBeforeSleep,nonFinite,msPerStep\n");
 }
 
 double median(std::vector<double> values) {
@@ -42,7 +68,7 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-void printRow(const TrialSettings& s, const std::vector<TrialResult>& results) {
+void printRow(const Arguments& arguments, const TrialSettings& s, const std::vector<TrialResult>& results) {
     const auto worst = [&](auto&& figure) {
         double value = 0;
         for (const TrialResult& r : results)
@@ -61,9 +87,10 @@ void printRow(const TrialSettings& s, const std::vector<TrialResult>& results) {
         mean += static_cast<double>(r.quality.jointSeparationM.mean) / static_cast<double>(results.size());
         settled += r.settled ? 1 : 0;
     }
-    const bool stock = s.world.solver == physics::SolverKind::stock;
-    fmt::print("{},{},{},{},{},{},", stock ? "stock" : "bullet", stock ? 1 : s.tuning.substeps,
-               stock ? 10 : s.tuning.iterations, s.tuning.jointErp, s.tuning.contactErp, s.scene);
+    fmt::print("{},", s.world.solver == physics::SolverKind::stock ? "stock" : "bullet");
+    for (const Knob& knob : arguments.knobs)
+        fmt::print("{},", knob.get(s.tuning));
+    fmt::print("{},", s.scene);
     fmt::print("{:.2f},{:.2f},{:.3f},{:.1f},{:.2f},{:.2f},{:.2f},",
                1e3 * worst([](const TrialResult& r) { return r.quality.jointSeparationM.max; }),
                1e3 * worst([](const TrialResult& r) { return r.quality.jointSeparationM.p99; }), 1e3 * mean,
@@ -89,34 +116,34 @@ void runScenes(const scene::RagdollAsset& asset, const Arguments& arguments, Tri
             while (trial.steps() < trial.length())
                 trial.step();
             results.push_back(trial.result());
-            if (arguments.perSeed) printRow(settings, {results.back()});
+            if (arguments.perSeed) printRow(arguments, settings, {results.back()});
         }
-        if (!arguments.perSeed) printRow(settings, results);
+        if (!arguments.perSeed) printRow(arguments, settings, results);
+    }
+}
+
+// Every combination of the knobs from `first` on.
+void runKnobs(const scene::RagdollAsset& asset, const Arguments& arguments, TrialSettings settings, std::size_t first) {
+    if (first == arguments.knobs.size()) {
+        runScenes(asset, arguments, settings);
+        return;
+    }
+    for (const float value : arguments.knobs[first].values) {
+        arguments.knobs[first].set(settings.tuning, value);
+        runKnobs(asset, arguments, settings, first + 1);
     }
 }
 
 void runAll(const scene::RagdollAsset& asset, const Arguments& arguments) {
-    printHeader();
+    printHeader(arguments);
     for (const std::string& solver : arguments.solvers) {
         TrialSettings settings;
         settings.count = arguments.count;
         if (solver == "stock") {
             settings.world.solver = physics::SolverKind::stock;
             runScenes(asset, arguments, settings);
-            continue;
-        }
-        for (const int substeps : arguments.substeps) {
-            for (const int iterations : arguments.iterations) {
-                for (const float jointErp : arguments.jointErp) {
-                    for (const float contactErp : arguments.contactErp) {
-                        settings.tuning.substeps = substeps;
-                        settings.tuning.iterations = iterations;
-                        settings.tuning.jointErp = jointErp;
-                        settings.tuning.contactErp = contactErp;
-                        runScenes(asset, arguments, settings);
-                    }
-                }
-            }
+        } else {
+            runKnobs(asset, arguments, settings, 0);
         }
     }
 }
@@ -129,10 +156,8 @@ int main(int argc, char** argv) {
     app.add_option("--model", arguments.model, "a rigged model instead of the hand-made doll");
     app.add_option("--scenes", arguments.scenes)->delimiter(',');
     app.add_option("--solvers", arguments.solvers)->delimiter(',');
-    app.add_option("--substeps", arguments.substeps)->delimiter(',');
-    app.add_option("--iterations", arguments.iterations)->delimiter(',');
-    app.add_option("--joint-erp", arguments.jointErp)->delimiter(',');
-    app.add_option("--contact-erp", arguments.contactErp)->delimiter(',');
+    for (Knob& knob : arguments.knobs)
+        app.add_option(knob.option, knob.values)->delimiter(',');
     app.add_option("--seeds", arguments.seeds, "how many, from 0")->check(CLI::Range(1, 10000));
     app.add_option("--count", arguments.count, "dolls in a scene")->check(CLI::Range(1, 10000));
     app.add_flag("--per-seed", arguments.perSeed, "a row for every seed");

@@ -8,17 +8,22 @@ namespace lutka::physics {
 
 /// What SolverKind::bullet is set to; docs/physics.md says how the defaults were found. `stock` ignores it.
 struct BulletTuning {
-    int substeps = 8;         ///< Of one frame, >= 1. More: tighter joints and contacts, proportional cost.
-    int iterations = 4;       ///< Sweeps of the mend pass in a substep, >= 1. More: tighter.
-    int relaxIterations = 2;  ///< Sweeps of the relax pass, >= 1. More: what mending pushed leaves less motion behind.
+    int substeps = 8;     ///< Of one frame, >= 1. More: tighter joints and contacts, proportional cost.
+    int sweeps = 40;      ///< At most, over all rows of an island in a substep, >= 1. More: tighter in hard impacts.
+    int leastSweeps = 2;  ///< At least, >= 1.
+    float tolerance = 0.02F;  ///< m/s: sweeping ends when no row was wrong by more. More: faster, looser.
+    int mendSweeps = 4;       ///< At most, of the pass that mends positions, >= 1.
 
-    float jointErp = 0.05F;       ///< Part of a joint's gap mended in a substep, (0, 1]. More: tighter, adds energy.
-    float limitErp = 0.1F;        ///< The same for angles past their limit.
-    float contactErp = 0.2F;      ///< The same for penetration.
+    float jointErp = 0.5F;        ///< Part of a joint's gap mended in a substep, (0, 1]. More: tighter.
+    float limitErp = 0.3F;        ///< The same for angles past their limit.
+    float contactErp = 0.3F;      ///< The same for penetration.
     float contactSlop = 0.0005F;  ///< Metres of penetration that are left alone, so that resting contacts stay.
     float contactMargin = 0.04F;  ///< Metres: how far apart shapes have contact points already (they only bound speed).
     float maxPushSpeed = 1.0F;    ///< m/s: bound on the speed at which overlapping shapes part.
-    bool warmStart = true;        ///< Starts each substep from the impulses of the one before.
+    float leastGyration =
+        0.05F;              ///< Metres, of a figure 1.75 m tall: no body has a smaller radius of gyration about any
+                            ///< axis; thin hands and feet are given more inertia. More: tighter, more sluggish.
+    bool warmStart = true;  ///< Starts each substep from the impulses of the one before.
 
     float linearDamping = 0.02F;  ///< Part of the speed lost in a second, [0, 1]: air.
     float angularDamping = 0.3F;  ///< The same for turning.

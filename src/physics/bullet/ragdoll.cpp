@@ -1,6 +1,7 @@
 #include "physics/bullet/ragdoll.hpp"
 
 #include <algorithm>
+#include <glm/common.hpp>
 
 #include "core/assert.hpp"
 #include "physics/bullet/convert.hpp"
@@ -76,7 +77,9 @@ void Ragdoll::addBodies(int index, std::span<const BodyState> states, const Bull
                         bool sleeping) {
     for (std::size_t i = 0; i < states.size(); ++i) {
         const BodyProfile& body = profile_.bodies[i];
-        bodies_.push_back(makeBody(body.shape, body.massKg, body.inertia, states[i]));
+        const float gyration = stock ? 0.0F : tuning.leastGyration * profile_.heightM / 1.75F;
+        const vec3 inertia = glm::max(body.inertia, vec3(body.massKg * gyration * gyration));
+        bodies_.push_back(makeBody(body.shape, body.massKg, inertia, states[i]));
         btRigidBody& made = *bodies_.back().body;
         made.setUserIndex(index);
         made.setUserIndex2(static_cast<int>(i));

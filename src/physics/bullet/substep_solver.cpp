@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
+#include <utility>
 
 #include "physics/bullet/convert.hpp"
 #include "physics/bullet/ragdoll_joint.hpp"
@@ -11,6 +13,9 @@ namespace lutka::physics {
 namespace {
 
 constexpr int kFixed = 0;  // index of the body that never moves
+
+// Turns an angular row's speed into one of a point, metres: about half a limb's length.
+constexpr float kResidualArm = 0.1F;
 
 RagdollJoint* asRagdollJoint(btTypedConstraint& constraint) {
     return constraint.getUserConstraintType() == RagdollJoint::kUserType ? static_cast<RagdollJoint*>(&constraint)
@@ -29,6 +34,7 @@ int SubstepSolver::indexOf(const btCollisionObject& object) const {
 void SubstepSolver::takeBodies(std::span<btRigidBody* const> bodies, float seconds) {
     bodies_.assign(1, Body{});
     islandOfTag_.clear();
+    islands_.clear();
     for (btRigidBody* body : bodies) {
         if (!body->isActive() || body->isStaticOrKinematicObject()) continue;
         body->setCompanionId(static_cast<int>(bodies_.size()));
@@ -48,10 +54,12 @@ void SubstepSolver::takeBodies(std::span<btRigidBody* const> bodies, float secon
 
 // Bullet's tags are any numbers; ours count from 0 in the order of the bodies.
 int SubstepSolver::islandOf(int tag) {
-    if (tag < 0) return static_cast<int>(bodies_.size());
     if (tag >= static_cast<int>(islandOfTag_.size())) islandOfTag_.resize(tag + 1, -1);
-    if (islandOfTag_[tag] < 0) islandOfTag_[tag] = static_cast<int>(bodies_.size());
-    return islandOfTag_[tag];
+    if (tag >= 0 && islandOfTag_[tag] >= 0) return islandOfTag_[tag];
+    const int island = static_cast<int>(islands_.size());
+    islands_.emplace_back();
+    if (tag >= 0) islandOfTag_[tag] = island;
+    return island;
 }
 
 void SubstepSolver::finishRow(Row& row, int a, int b) const {
@@ -99,7 +107,7 @@ void SubstepSolver::takeConstraint(btTypedConstraint& constraint, float seconds)
     info.cfm = &scratch_[0].m_cfm;
     info.m_lowerLimit = &scratch_[0].m_lowerLimit;
     info.m_upperLimit = &scratch_[0].m_upperLimit;
-    info.m_numIterations = tuning_.iterations;
+    info.m_numIterations = tuning_.sweeps;
     info.m_damping = 1.0F;
     constraint.getInfo2(&info);
 
@@ -177,6 +185,7 @@ void SubstepSolver::takePoint(btManifoldPoint& point, int a, int b, float second
         finishRow(row, a, b);
     };
     along(contact.normal, normal);
+    contact.normal.high = std::numeric_limits<float>::max();
     const vec3 tangent = anyPerpendicular(normal);
     along(contact.tangents[0], tangent);
     along(contact.tangents[1], glm::cross(normal, tangent));
@@ -212,20 +221,23 @@ void SubstepSolver::apply(const Row& row, int a, int b, float impulse) {
     bodies_[b].turn += row.turnB * impulse;
 }
 
-void SubstepSolver::solveRow(Row& row, int a, int b, bool mending) {
+float SubstepSolver::solveRow(Row& row, int a, int b, bool mending) {
     const float target = mending ? row.mendTarget : row.relaxTarget;
     const float wanted = row.impulse + (target - speedAlong(row, a, b)) * row.inverseEffectiveMass;
     const float impulse = std::clamp(wanted, row.low, row.high);
-    apply(row, a, b, impulse - row.impulse);
+    const float change = impulse - row.impulse;
+    apply(row, a, b, change);
     row.impulse = impulse;
+    return row.inverseEffectiveMass > 0.0F ? std::abs(change) / row.inverseEffectiveMass : 0.0F;
 }
 
-void SubstepSolver::solveJoint(Joint& joint, bool mending) {
+float SubstepSolver::solveJoint(Joint& joint, bool mending) {
     Row* rows = &rows_[joint.first];
     const int firstScalar = joint.block ? 3 : 0;
+    float residual = 0;
     for (int i = firstScalar; i < joint.count; ++i)
-        solveRow(rows[i], joint.a, joint.b, mending);
-    if (!joint.block) return;
+        residual = std::max(residual, kResidualArm * solveRow(rows[i], joint.a, joint.b, mending));
+    if (!joint.block) return residual;
     vec3 missing;
     for (int i = 0; i < 3; ++i)
         missing[i] = (mending ? rows[i].mendTarget : rows[i].relaxTarget) - speedAlong(rows[i], joint.a, joint.b);
@@ -234,15 +246,11 @@ void SubstepSolver::solveJoint(Joint& joint, bool mending) {
         apply(rows[i], joint.a, joint.b, impulse[i]);
         rows[i].impulse += impulse[i];
     }
+    return std::max(residual, glm::length(missing));
 }
 
-void SubstepSolver::solveContact(Contact& contact, bool mending) {
-    Row& normal = contact.normal;
-    const float target = mending ? normal.mendTarget : normal.relaxTarget;
-    const float impulse = std::max(
-        normal.impulse + (target - speedAlong(normal, contact.a, contact.b)) * normal.inverseEffectiveMass, 0.0F);
-    apply(normal, contact.a, contact.b, impulse - normal.impulse);
-    normal.impulse = impulse;
+float SubstepSolver::solveContact(Contact& contact, bool mending) {
+    const float residual = solveRow(contact.normal, contact.a, contact.b, mending);
     // Both tangents at once, so that the bound is a cone and not a pyramid.
     vec2 wanted;
     for (int i = 0; i < 2; ++i) {
@@ -250,12 +258,13 @@ void SubstepSolver::solveContact(Contact& contact, bool mending) {
         wanted[i] = row.impulse - speedAlong(row, contact.a, contact.b) * row.inverseEffectiveMass;
     }
     const float length = glm::length(wanted);
-    const float bound = contact.friction * normal.impulse;
+    const float bound = contact.friction * contact.normal.impulse;
     if (length > bound) wanted *= length > 0.0F ? bound / length : 0.0F;
     for (int i = 0; i < 2; ++i) {
         apply(contact.tangents[i], contact.a, contact.b, wanted[i] - contact.tangents[i].impulse);
         contact.tangents[i].impulse = wanted[i];
     }
+    return residual;
 }
 
 // Old impulses in a new geometry can be far from the answer, and too few sweeps don't take back what they added: a doll
@@ -264,7 +273,6 @@ void SubstepSolver::solveContact(Contact& contact, bool mending) {
 // From there every row's step lessens it further, so that no substep adds energy, whatever the number of sweeps.
 void SubstepSolver::warmStart() {
     if (!tuning_.warmStart) return;
-    islands_.assign(bodies_.size(), Island{});
     pushes_.assign(bodies_.size(), Push{});
     const auto gather = [&](const Row& row, int a, int b) {
         pushes_[a].linear += row.linearA * row.impulse;
@@ -303,15 +311,58 @@ void SubstepSolver::forEachRow(const Visit& visit) {
     }
 }
 
-// Sweeps forth and back: impulses travel up a limb as fast as down.
+// Puts joints and contacts in the order of their islands, which are then solved one after the other.
+void SubstepSolver::sortByIsland() {
+    for (Island& island : islands_)
+        island = Island{};
+    const auto islandOfPair = [&](int a, int b) -> Island& { return islands_[bodies_[a != kFixed ? a : b].island]; };
+    for (const Joint& joint : joints_)
+        ++islandOfPair(joint.a, joint.b).joints;
+    for (const Contact& contact : contacts_)
+        ++islandOfPair(contact.a, contact.b).contacts;
+    int joints = 0;
+    int contacts = 0;
+    for (Island& island : islands_) {
+        island.firstJoint = joints;
+        island.firstContact = contacts;
+        joints += std::exchange(island.joints, 0);
+        contacts += std::exchange(island.contacts, 0);
+    }
+    jointOrder_.resize(joints_.size());
+    contactOrder_.resize(contacts_.size());
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+        Island& island = islandOfPair(joints_[i].a, joints_[i].b);
+        jointOrder_[island.firstJoint + island.joints++] = static_cast<int>(i);
+    }
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+        Island& island = islandOfPair(contacts_[i].a, contacts_[i].b);
+        contactOrder_[island.firstContact + island.contacts++] = static_cast<int>(i);
+    }
+}
+
+// One sweep, forth or back: impulses travel up a limb as fast as down. Returns the largest speed that a row was wrong
+// by, m/s.
+float SubstepSolver::sweep(const Island& island, bool mending, bool forth) {
+    float residual = 0;
+    for (int i = 0; i < island.joints; ++i) {
+        const int at = island.firstJoint + (forth ? i : island.joints - 1 - i);
+        residual = std::max(residual, solveJoint(joints_[jointOrder_[at]], mending));
+    }
+    for (int i = 0; i < island.contacts; ++i) {
+        const int at = island.firstContact + (forth ? i : island.contacts - 1 - i);
+        residual = std::max(residual, solveContact(contacts_[contactOrder_[at]], mending));
+    }
+    return residual;
+}
+
+// A doll that lies still is solved in a few sweeps, one that hits the floor needs many.
 void SubstepSolver::iterate(bool mending) {
-    const int count = mending ? tuning_.relaxIterations : tuning_.iterations;
-    for (int sweep = 0; sweep < count; ++sweep) {
-        const bool forth = sweep % 2 == 0;
-        for (std::size_t i = 0; i < joints_.size(); ++i)
-            solveJoint(joints_[forth ? i : joints_.size() - 1 - i], mending);
-        for (std::size_t i = 0; i < contacts_.size(); ++i)
-            solveContact(contacts_[forth ? i : contacts_.size() - 1 - i], mending);
+    const int most = mending ? tuning_.mendSweeps : tuning_.sweeps;
+    for (const Island& island : islands_) {
+        for (int i = 0; i < most; ++i) {
+            const float residual = sweep(island, mending, i % 2 == 0);
+            if (i + 1 >= tuning_.leastSweeps && residual < tuning_.tolerance) break;
+        }
     }
 }
 
@@ -367,6 +418,7 @@ void SubstepSolver::solve(std::span<btRigidBody* const> bodies, std::span<btType
     takeBodies(bodies, seconds);
     takeConstraints(constraints, seconds);
     takeContacts(dispatcher, seconds);
+    sortByIsland();
     warmStart();
     iterate(false);
     bounce();
