@@ -31,7 +31,6 @@ constexpr std::array kBindings = {
     Binding{Key::digit7, kPlain, Action::viewTop},
     Binding{Key::f3, kPlain, Action::toggleDebug},
     Binding{Key::tab, kPlain, Action::togglePanels},
-    Binding{Key::slash, kShift, Action::toggleHelp},
     Binding{Key::f1, kPlain, Action::toggleHelp},
 };
 
@@ -48,6 +47,8 @@ constexpr std::array kMouseHelp = {
     HelpLine{"Enter, click / Esc, right", "done / cancel"},
     HelpLine{"Shift+A", "add a box, ball or light"},
     HelpLine{"X, Delete", "delete the selected objects"},
+    HelpLine{"Drop a file", "open a model or a profile"},
+    HelpLine{"?", "this sheet"},
 };
 
 }  // namespace
@@ -113,7 +114,6 @@ std::string_view actionName(Action action) {
 }
 
 std::string shortcutText(const Binding& binding) {
-    if (binding.key == Key::slash && binding.modifiers == kShift) return "?";
     std::string text;
     if (binding.modifiers.control) text += "Ctrl+";
     if (binding.modifiers.alt) text += "Alt+";

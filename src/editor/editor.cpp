@@ -69,6 +69,8 @@ void Editor::handle(const InputEvent& event, const UiCapture& capture) {
             handleKey(event, capture);
             break;
         case InputEvent::Kind::text:
+            // By what is typed, not by the key: "?" lies elsewhere on every keyboard.
+            if (event.codepoint == '?' && !capture.keyboard && !busy()) perform(Action::toggleHelp);
             break;
         case InputEvent::Kind::drop:
             if (!event.files.empty()) open(event.files.front());

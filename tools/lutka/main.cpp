@@ -23,6 +23,7 @@ int runCommandLine(int argc, char** argv) {
     lutka::cli::addBuild(app);
     lutka::cli::addSimulate(app);
     lutka::cli::addRender(app);
+    lutka::cli::addEdit(app);
     lutka::cli::addBench(app);
     try {
         app.parse(argc, argv);

@@ -1,0 +1,222 @@
+#include "editor/application.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "editor/frame_history.hpp"
+#include "editor/ui/editor_ui.hpp"
+#include "editor/ui/imgui_host.hpp"
+#include "editor/user_settings.hpp"
+#include "editor/window_input.hpp"
+#include "render/gl/renderer.hpp"
+
+namespace lutka::editor {
+namespace {
+
+constexpr double kFixedFrame = 1.0 / 60.0;
+using Clock = std::chrono::steady_clock;
+
+/// Everything that lives while the editor runs, in the order of making; the GL context goes last.
+class Application {
+  public:
+    Application(const ApplicationOptions& options, render::GlContext context)
+        : options_(options), context_(std::move(context)) {}
+
+    Result<void> start();
+    Result<void> run();
+
+  private:
+    [[nodiscard]] bool scripted() const { return options_.input.has_value(); }
+    [[nodiscard]] int frameLimit() const;
+    void collectEvents();
+    Result<void> followCharacter();
+    Result<void> oneFrame(double seconds);
+    Result<void> takeScreenshots();
+    void updateTitle();
+    [[nodiscard]] double nextFrameSeconds();
+
+    const ApplicationOptions& options_;
+    render::GlContext context_;
+    std::optional<render::Renderer> renderer_;
+    std::unique_ptr<WindowInput> window_;
+    std::unique_ptr<ImguiHost> host_;
+    std::unique_ptr<EditorUi> ui_;
+    std::unique_ptr<Editor> editor_;
+    std::optional<ScriptPlayer> script_;
+    InputScript recorded_;
+    UserSettings settings_;
+
+    render::CharacterHandle character_;
+    int characterRevision_ = -1;
+    render::FrameDescription frame_;
+    FrameHistory history_;
+    std::vector<InputEvent> events_;
+    render::Extent windowSize_;
+    render::Extent pixels_;
+    int frameIndex_ = 0;
+    Clock::time_point lastFrame_ = Clock::now();
+    std::string title_;
+};
+
+// Positions of text fields and the clipboard go through GLFW; headless, Dear ImGui keeps its own clipboard.
+float monitorScale(GLFWwindow* window) {
+    float x = 1.0F;
+    float y = 1.0F;
+    if (window != nullptr) glfwGetWindowContentScale(window, &x, &y);
+    return std::clamp(std::max(x, y), 0.75F, 4.0F);
+}
+
+Result<void> Application::start() {
+    windowSize_ = options_.input ? options_.input->size : options_.editor.window;
+    auto renderer = render::Renderer::create(context_);
+    if (!renderer) return renderer.error();
+    renderer_.emplace(std::move(renderer).value());
+    if (context_.window() != nullptr) window_ = std::make_unique<WindowInput>(context_.window());
+    const float scale = options_.uiScale > 0.0F ? options_.uiScale : monitorScale(context_.window());
+    host_ = std::make_unique<ImguiHost>(scale);
+    ui_ = std::make_unique<EditorUi>(*host_);
+    EditorOptions editor = options_.editor;
+    editor.window = windowSize_;
+    auto made = Editor::create(editor);
+    if (!made) return made.error();
+    editor_ = std::move(made).value();
+    if (options_.input) script_.emplace(*options_.input);
+    recorded_.size = windowSize_;
+    if (options_.settings) settings_ = loadUserSettings(userSettingsFile());
+    return followCharacter();
+}
+
+int Application::frameLimit() const {
+    if (options_.frames) return *options_.frames;
+    int last = options_.input ? options_.input->lastFrame() : -1;
+    for (const ApplicationOptions::Screenshot& one : options_.screenshots)
+        last = std::max(last, one.frame);
+    // A window stays open for its user, unless it only plays a script or takes pictures.
+    return last >= 0 ? last + 1 : std::numeric_limits<int>::max();
+}
+
+void Application::collectEvents() {
+    events_.clear();
+    if (window_) {
+        window_->poll(events_);
+        glfwGetWindowSize(context_.window(), &windowSize_.width, &windowSize_.height);
+        // A script is the only user, but its window can still be closed.
+        if (scripted()) {
+            std::erase_if(events_, [](const InputEvent& event) { return event.kind != InputEvent::Kind::close; });
+        }
+    }
+    if (script_) {
+        for (const InputScript::Entry& entry : script_->take(frameIndex_))
+            events_.push_back(entry.event);
+    }
+    for (const InputEvent& event : events_) {
+        if (event.kind == InputEvent::Kind::resize) {
+            windowSize_ = event.size;
+            if (window_ && scripted()) glfwSetWindowSize(context_.window(), event.size.width, event.size.height);
+        }
+        if (!options_.recordInput.empty()) recorded_.entries.push_back({frameIndex_, event});
+    }
+    pixels_ = window_ ? context_.framebufferSize() : windowSize_;
+}
+
+Result<void> Application::followCharacter() {
+    if (characterRevision_ == editor_->characterRevision()) return {};
+    if (character_.valid()) renderer_->removeCharacter(character_);
+    character_ = {};
+    auto uploaded = renderer_->uploadCharacter(editor_->document().character());
+    if (!uploaded) return uploaded.error();
+    character_ = uploaded.value();
+    characterRevision_ = editor_->characterRevision();
+    settings_.remember(editor_->document().character().file);
+    if (options_.settings) saveUserSettings(userSettingsFile(), settings_);
+    ui_->state.recent = settings_.recent;
+    return {};
+}
+
+Result<void> Application::oneFrame(double seconds) {
+    collectEvents();
+    if (pixels_.width <= 0 || pixels_.height <= 0) {  // minimised
+        glfwWaitEventsTimeout(0.05);
+        return {};
+    }
+    for (const InputEvent& event : events_)
+        host_->feed(event);
+    host_->beginFrame(windowSize_, pixels_, seconds);
+    editor_->handle(windowResized(windowSize_), {});
+    const UiCapture capture = host_->capture();
+    for (const InputEvent& event : events_)
+        editor_->handle(event, capture);
+    ui_->build(*editor_, history_);
+    editor_->update(seconds);
+    if (auto followed = followCharacter(); !followed) return followed;
+    editor_->describe(character_, frame_);
+    renderer_->draw(frame_, pixels_);
+    history_.stats = renderer_->stats();
+    renderer_->bindResolvedTarget();
+    host_->draw();
+    if (auto taken = takeScreenshots(); !taken) return taken;
+    if (window_) {
+        renderer_->present(pixels_);
+        context_.swapBuffers();
+        updateTitle();
+    }
+    return {};
+}
+
+Result<void> Application::takeScreenshots() {
+    for (const ApplicationOptions::Screenshot& one : options_.screenshots) {
+        if (one.frame != frameIndex_) continue;
+        if (auto saved = render::savePng(renderer_->readPixels(), one.file); !saved) return saved;
+    }
+    return {};
+}
+
+void Application::updateTitle() {
+    const EditorDocument& document = editor_->document();
+    std::string title = fmt::format("{}{} - Lutka", document.unsaved() ? "● " : "", document.character().name);
+    if (title == title_) return;
+    title_ = std::move(title);
+    glfwSetWindowTitle(context_.window(), title_.c_str());
+}
+
+// A script's frames last 1/60 s each, whatever the machine needs: the same input gives the same simulation.
+double Application::nextFrameSeconds() {
+    const auto now = Clock::now();
+    const double seconds = std::chrono::duration<double>(now - lastFrame_).count();
+    lastFrame_ = now;
+    history_.add(static_cast<float>(seconds * 1000.0));
+    return scripted() || options_.headless || !options_.recordInput.empty() ? kFixedFrame : seconds;
+}
+
+Result<void> Application::run() {
+    const int limit = frameLimit();
+    lastFrame_ = Clock::now();
+    while (frameIndex_ < limit && !editor_->quitting()) {
+        if (auto drawn = oneFrame(nextFrameSeconds()); !drawn) return drawn;
+        ++frameIndex_;
+    }
+    if (!options_.recordInput.empty()) return saveScript(options_.recordInput, recorded_);
+    return {};
+}
+
+}  // namespace
+
+Result<void> runApplication(const ApplicationOptions& options) {
+    if (options.headless && !options.frames && !options.input && options.screenshots.empty()) {
+        return Error{ErrorCode::usage, "without a window nobody would ever end the editor", "--headless",
+                     "add --frames, --input or --screenshot-at"};
+    }
+    const render::Extent size = options.input ? options.input->size : options.editor.window;
+    auto context = options.headless ? render::GlContext::createHeadless()
+                                    : render::GlContext::createWindow({"Lutka", size, true, options.vsync});
+    if (!context) return context.error();
+    Application application(options, std::move(context).value());
+    if (auto started = application.start(); !started) return started;
+    return application.run();
+}
+
+}  // namespace lutka::editor

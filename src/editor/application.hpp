@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "core/result.hpp"
+#include "editor/editor.hpp"
+#include "editor/input_script.hpp"
+
+namespace lutka::editor {
+
+struct ApplicationOptions {
+    EditorOptions editor;
+    bool headless = false;             ///< Without a window, on an EGL context.
+    std::optional<InputScript> input;  ///< Its events in place of the user's, a frame every 1/60 s.
+    std::filesystem::path recordInput;
+    struct Screenshot {
+        int frame = 0;
+        std::filesystem::path file;
+    };
+    std::vector<Screenshot> screenshots;
+    std::optional<int> frames;  ///< Ends after so many; headless needs this, an input or a screenshot to end.
+    float uiScale = 0.0F;       ///< 0: the monitor's.
+    bool vsync = true;
+    bool settings = true;  ///< Whether recent files are read from and kept in the user's configuration folder.
+};
+
+/// Runs the editor until it is closed. Fails with ErrorCode::noDisplay without a display or GL, and with whatever
+/// loading, reading a script or writing a screenshot fails.
+[[nodiscard]] Result<void> runApplication(const ApplicationOptions& options);
+
+}  // namespace lutka::editor

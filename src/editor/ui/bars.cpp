@@ -1,0 +1,220 @@
+/// What frames the picture: menu bar, status bar, the transport over the view, and the panels' frames.
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "editor/ui/panels.hpp"
+#include "editor/ui/style.hpp"
+#include "editor/ui/widgets.hpp"
+
+namespace lutka::editor {
+namespace {
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
+                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+float statusHeight() {
+    return ImGui::GetFrameHeight() + 4.0F;
+}
+
+void item(const PanelContext& context, Action action, bool enabled = true, bool checked = false) {
+    const std::string name(actionName(action));
+    if (ImGui::MenuItem(name.c_str(), shortcutText(action).c_str(), checked, enabled)) context.editor.perform(action);
+}
+
+void fileMenu(const PanelContext& context) {
+    if (!ImGui::BeginMenu("File")) return;
+    item(context, Action::openModel);
+    if (ImGui::BeginMenu("Open recent", !context.state.recent.empty())) {
+        std::optional<std::filesystem::path> chosen;
+        for (const std::filesystem::path& file : context.state.recent) {
+            if (ImGui::MenuItem(file.filename().string().c_str())) chosen = file;
+            tooltip(file.string());
+        }
+        if (chosen) context.editor.open(*chosen);
+        ImGui::EndMenu();
+    }
+    ImGui::Separator();
+    item(context, Action::saveProfile);
+    item(context, Action::saveProfileAs);
+    item(context, Action::exportBaked);
+    ImGui::Separator();
+    item(context, Action::quit);
+    ImGui::EndMenu();
+}
+
+void editMenu(const PanelContext& context) {
+    if (!ImGui::BeginMenu("Edit")) return;
+    const EditorDocument& document = context.editor.document();
+    const std::string undo = document.canUndo() ? "Undo: " + document.undoLabel() : "Undo";
+    const std::string redo = document.canRedo() ? "Redo: " + document.redoLabel() : "Redo";
+    if (ImGui::MenuItem(undo.c_str(), shortcutText(Action::undo).c_str(), false, document.canUndo())) {
+        context.editor.perform(Action::undo);
+    }
+    if (ImGui::MenuItem(redo.c_str(), shortcutText(Action::redo).c_str(), false, document.canRedo())) {
+        context.editor.perform(Action::redo);
+    }
+    ImGui::Separator();
+    if (ImGui::BeginMenu("Add")) {
+        for (const auto kind : {SceneObject::Kind::box, SceneObject::Kind::ball, SceneObject::Kind::light}) {
+            if (ImGui::MenuItem(std::string(objectKindName(kind)).c_str())) context.editor.beginAdd(kind);
+        }
+        ImGui::EndMenu();
+    }
+    const bool selected = !context.editor.workspace().selection.empty();
+    if (ImGui::MenuItem("Select none", "Esc", false, selected)) context.editor.perform(Action::selectNone);
+    item(context, Action::pin, selected);
+    item(context, Action::unpinAll, !context.editor.workspace().pulls.pins.empty());
+    ImGui::EndMenu();
+}
+
+void viewMenu(const PanelContext& context) {
+    if (!ImGui::BeginMenu("View")) return;
+    item(context, Action::toggleDebug, true, context.editor.view.debug);
+    item(context, Action::togglePanels, true, context.editor.view.panels);
+    ImGui::Separator();
+    item(context, Action::focus);
+    item(context, Action::viewFront);
+    item(context, Action::viewRight);
+    item(context, Action::viewTop);
+    bool& flat = context.editor.workspace().camera.orthographic;
+    if (ImGui::MenuItem("Parallel projection", nullptr, flat)) flat = !flat;
+    ImGui::EndMenu();
+}
+
+void simulateMenu(const PanelContext& context) {
+    if (!ImGui::BeginMenu("Simulate")) return;
+    item(context, Action::togglePlay, true, context.editor.player().playing());
+    item(context, Action::stepOnce);
+    item(context, Action::reset);
+    item(context, Action::throwBall);
+    ImGui::EndMenu();
+}
+
+}  // namespace
+
+void drawMenuBar(const PanelContext& context) {
+    if (!ImGui::BeginMainMenuBar()) return;
+    fileMenu(context);
+    editMenu(context);
+    viewMenu(context);
+    simulateMenu(context);
+    if (ImGui::BeginMenu("Help")) {
+        item(context, Action::toggleHelp, true, context.editor.view.help);
+        ImGui::EndMenu();
+    }
+    const EditorDocument& document = context.editor.document();
+    const std::string name = document.character().name + (document.unsaved() ? "  ●" : "");
+    const float width = ImGui::CalcTextSize(name.c_str()).x;
+    ImGui::SameLine(ImGui::GetWindowWidth() - width - context.px(14));
+    ImGui::TextColored(document.unsaved() ? accentColor() : mutedColor(), "%s", name.c_str());
+    tooltip(document.unsaved()
+                ? "The ragdoll has unsaved changes (Ctrl+S saves " + document.profileFile().string() + ")"
+                : document.character().file.string());
+    ImGui::EndMainMenuBar();
+}
+
+void drawStatusBar(const PanelContext& context) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0, size.y - statusHeight()});
+    ImGui::SetNextWindowSize({size.x, statusHeight()});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(context.px(10), 3.0F));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg));
+    ImGui::Begin("##status", nullptr, kFixed | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar);
+    chip(std::string(stateName(context.editor.state())), ImGui::GetColorU32(accentColor()));
+    ImGui::SameLine();
+    ImGui::TextUnformatted(context.editor.workspace().hint.c_str());
+    const scene::Simulation& simulation = context.editor.player().simulation();
+    const std::string right = fmt::format("{:.2f} s   {:.0f} fps", simulation.seconds(), context.history.fps());
+    ImGui::SameLine(size.x - ImGui::CalcTextSize(right.c_str()).x - context.px(14));
+    ImGui::TextColored(mutedColor(), "%s", right.c_str());
+    ImGui::End();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(3);
+}
+
+void drawTransport(const PanelContext& context) {
+    Editor& editor = context.editor;
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const float left = editor.view.panels ? context.px(kLeftPanelWidth) : 0.0F;
+    const float right = editor.view.panels ? context.px(kRightPanelWidth) : 0.0F;
+    const float middle = left + (size.x - left - right) * 0.5F;
+    ImGui::SetNextWindowPos({middle, ImGui::GetFrameHeight() + context.px(8)}, ImGuiCond_Always, {0.5F, 0.0F});
+    ImGui::SetNextWindowBgAlpha(0.88F);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(context.px(6), context.px(5)));
+    ImGui::Begin("##transport", nullptr, kFixed | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_AlwaysAutoResize);
+    const ImVec2 button(context.px(62), 0);
+    if (ImGui::Button(editor.player().playing() ? "Pause" : "Play", button)) editor.perform(Action::togglePlay);
+    tooltip("Space");
+    ImGui::SameLine();
+    if (ImGui::Button("Step", button)) editor.perform(Action::stepOnce);
+    tooltip("Right arrow: one step of 1/60 s");
+    ImGui::SameLine();
+    if (ImGui::Button("Reset", button)) editor.perform(Action::reset);
+    tooltip("Ctrl+R: back to the scene's start");
+    ImGui::SameLine();
+    auto speed = static_cast<float>(editor.player().speed());
+    ImGui::SetNextItemWidth(context.px(96));
+    if (ImGui::SliderFloat("##speed", &speed, 0.05F, 1.0F, "speed %.2f")) editor.player().setSpeed(speed);
+    tooltip("Slow motion: simulated seconds a second");
+    ImGui::End();
+    ImGui::PopStyleVar();
+}
+
+void drawLeftPanel(const PanelContext& context) {
+    const float top = ImGui::GetFrameHeight();
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0, top});
+    ImGui::SetNextWindowSize({context.px(kLeftPanelWidth), size.y - top - statusHeight()});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
+    ImGui::Begin("##left", nullptr, kFixed | ImGuiWindowFlags_NoTitleBar);
+    if (ImGui::BeginTabBar("##leftTabs")) {
+        if (ImGui::BeginTabItem("Skeleton")) {
+            drawSkeletonTab(context);
+            ImGui::EndTabItem();
+        }
+        if (ImGui::BeginTabItem("Mapping")) {
+            drawMappingTab(context);
+            ImGui::EndTabItem();
+        }
+        if (ImGui::BeginTabItem("Objects")) {
+            drawObjectsTab(context);
+            ImGui::EndTabItem();
+        }
+        ImGui::EndTabBar();
+    }
+    ImGui::End();
+    ImGui::PopStyleVar();
+}
+
+void drawRightPanel(const PanelContext& context) {
+    const float top = ImGui::GetFrameHeight();
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const float width = context.px(kRightPanelWidth);
+    ImGui::SetNextWindowPos({size.x - width, top});
+    ImGui::SetNextWindowSize({width, size.y - top - statusHeight()});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
+    ImGui::Begin("##right", nullptr, kFixed | ImGuiWindowFlags_NoTitleBar);
+    if (ImGui::BeginTabBar("##rightTabs")) {
+        using Draw = void (*)(const PanelContext&);
+        constexpr std::pair<const char*, Draw> tabs[] = {{"Ragdoll", drawRagdollTab},
+                                                         {"Scene", drawSceneTab},
+                                                         {"View", drawViewTab},
+                                                         {"Stats", drawStatsTab},
+                                                         {"Log", drawLogTab}};
+        for (const auto& [name, draw] : tabs) {
+            if (!ImGui::BeginTabItem(name)) continue;
+            ImGui::BeginChild("##tab");
+            draw(context);
+            ImGui::EndChild();
+            ImGui::EndTabItem();
+        }
+        ImGui::EndTabBar();
+    }
+    ImGui::End();
+    ImGui::PopStyleVar();
+}
+
+}  // namespace lutka::editor

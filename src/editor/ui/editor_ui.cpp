@@ -1,0 +1,27 @@
+#include "editor/ui/editor_ui.hpp"
+
+#include <imgui.h>
+
+#include "editor/ui/panels.hpp"
+
+namespace lutka::editor {
+
+void EditorUi::build(Editor& editor, const FrameHistory& history) {
+    const PanelContext context{editor, state, history, host_.fonts(), host_.scale()};
+    drawMenuBar(context);
+    drawStatusBar(context);
+    if (editor.view.panels) {
+        drawLeftPanel(context);
+        drawRightPanel(context);
+    }
+    drawTransport(context);
+    drawToasts(context);
+    drawDialogs(context);
+    if (editor.view.help) drawHelp(context);
+    if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && editor.state() != State::grab &&
+        editor.state() != State::rotate && editor.state() != State::scale) {
+        editor.document().endGroup();
+    }
+}
+
+}  // namespace lutka::editor

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "editor/editor.hpp"
+#include "editor/frame_history.hpp"
+#include "editor/ui/imgui_host.hpp"
+
+namespace lutka::editor {
+
+/// What only the UI knows and nothing else depends on.
+struct UiState {
+    std::string jointFilter;
+    int scrollToJoint = -1;  ///< Joint that the tree shall bring into view.
+    std::string path;        ///< Text of the open file dialog.
+    float exportSeconds = 4.0F;
+    std::vector<std::filesystem::path> recent;
+    std::optional<Item> shownItem;  ///< What panels showed last, to notice a new selection.
+};
+
+/// All panels, over the picture. Works on the editor through its public calls only.
+class EditorUi {
+  public:
+    explicit EditorUi(const ImguiHost& host) : host_(host) {}
+
+    /// Between the host's beginFrame() and draw().
+    void build(Editor& editor, const FrameHistory& history);
+
+    UiState state;
+
+  private:
+    const ImguiHost& host_;
+};
+
+}  // namespace lutka::editor

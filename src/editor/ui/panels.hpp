@@ -1,0 +1,46 @@
+#pragma once
+
+#include "editor/editor.hpp"
+#include "editor/frame_history.hpp"
+#include "editor/ui/editor_ui.hpp"
+
+/// The parts of the UI; each draws itself into the present Dear ImGui frame.
+namespace lutka::editor {
+
+struct PanelContext {
+    Editor& editor;
+    UiState& state;
+    const FrameHistory& history;
+    const UiFonts& fonts;
+    float scale;
+
+    /// A length in units of a 96 dpi pixel.
+    [[nodiscard]] float px(float length) const { return length * scale; }
+};
+
+inline constexpr float kLeftPanelWidth = 300.0F;   ///< At scale 1.
+inline constexpr float kRightPanelWidth = 330.0F;  ///< At scale 1.
+
+void drawMenuBar(const PanelContext& context);
+void drawStatusBar(const PanelContext& context);
+void drawTransport(const PanelContext& context);
+void drawLeftPanel(const PanelContext& context);
+void drawRightPanel(const PanelContext& context);
+void drawToasts(const PanelContext& context);
+/// Open, save as, export; the question about unsaved changes; the confirmation of Delete.
+void drawDialogs(const PanelContext& context);
+void drawHelp(const PanelContext& context);
+
+/// Tabs of the left panel.
+void drawSkeletonTab(const PanelContext& context);
+void drawMappingTab(const PanelContext& context);
+void drawObjectsTab(const PanelContext& context);
+
+/// Tabs of the right panel.
+void drawRagdollTab(const PanelContext& context);
+void drawSceneTab(const PanelContext& context);
+void drawViewTab(const PanelContext& context);
+void drawStatsTab(const PanelContext& context);
+void drawLogTab(const PanelContext& context);
+
+}  // namespace lutka::editor

@@ -1,0 +1,211 @@
+/// The right panel's other tabs: scene and simulation, view, statistics, log.
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "editor/ui/panels.hpp"
+#include "editor/ui/style.hpp"
+#include "editor/ui/widgets.hpp"
+#include "scene/report.hpp"
+
+namespace lutka::editor {
+namespace {
+
+float labelWidth(const PanelContext& context) {
+    return context.px(92);
+}
+
+void change(Editor& editor, const SceneSettings& scene, const char* label, const char* group, bool restart) {
+    const bool done = editor.edit([&](EditorDocument& document) { return document.setScene(scene, label, group); });
+    if (done && restart) editor.perform(Action::reset);
+}
+
+void drawScenario(const PanelContext& context) {
+    Editor& editor = context.editor;
+    SceneSettings scene = editor.document().state().scene;
+    labelled("Scene", labelWidth(context));
+    if (ImGui::BeginCombo("##scenario", scene.scenario.c_str())) {
+        for (const scene::ScenarioInfo& info : scene::scenarioRegistry()) {
+            const std::string name(info.name);
+            if (ImGui::Selectable(name.c_str(), name == scene.scenario)) {
+                scene.scenario = name;
+                change(editor, scene, "Choose the scene", "", true);
+            }
+            tooltip(std::string(info.summary));
+        }
+        ImGui::EndCombo();
+    }
+    labelled("Dolls", labelWidth(context));
+    if (ImGui::SliderInt("##count", &scene.count, 1, 100, "%d", ImGuiSliderFlags_Logarithmic)) {
+        scene.count = std::max(scene.count, 1);
+        change(editor, scene, "Number of dolls", "count", true);
+    }
+    labelled("Seed", labelWidth(context));
+    int seed = static_cast<int>(scene.seed);
+    if (ImGui::InputInt("##seed", &seed)) {
+        scene.seed = static_cast<std::uint64_t>(std::max(seed, 0));
+        change(editor, scene, "Seed", "", true);
+    }
+    tooltip("Varies the start; 0 stands upright");
+    labelled("Start pose", labelWidth(context));
+    int pose = static_cast<int>(scene.pose);
+    if (ImGui::Combo("##pose", &pose, "Bind pose\0File's node pose\0")) {
+        scene.pose = static_cast<scene::StartPose>(pose);
+        change(editor, scene, "Start pose", "", true);
+    }
+}
+
+void drawPhysics(const PanelContext& context) {
+    Editor& editor = context.editor;
+    SceneSettings scene = editor.document().state().scene;
+    labelled("Gravity", labelWidth(context));
+    if (ImGui::SliderFloat("##gravity", &scene.world.gravity.y, -25.0F, 5.0F, "%.2f m/s²")) {
+        change(editor, scene, "Gravity", "gravity", false);
+    }
+    labelled("Solver", labelWidth(context));
+    int solver = scene.world.solver == physics::SolverKind::stock ? 0 : 1;
+    if (ImGui::Combo("##solver", &solver, "Stock Bullet\0Tuned for ragdolls\0")) {
+        scene.world.solver = solver == 0 ? physics::SolverKind::stock : physics::SolverKind::bullet;
+        change(editor, scene, "Solver", "", false);
+    }
+    labelled("Threads", labelWidth(context));
+    if (ImGui::SliderInt("##threads", &scene.world.threads, 1, 16)) {
+        scene.world.threads = std::max(scene.world.threads, 1);
+        change(editor, scene, "Threads", "threads", false);
+    }
+    if (ImGui::Checkbox("Bodies at rest sleep", &scene.world.sleeping)) change(editor, scene, "Sleeping", "", false);
+}
+
+void drawFit(const PanelContext& context) {
+    Editor& editor = context.editor;
+    physics::FitOptions fit = editor.document().state().fit;
+    bool changed = false;
+    labelled("Total mass", labelWidth(context));
+    ImGui::InputFloat("##total", &fit.totalMassKg, 0.0F, 0.0F, "%.1f kg");
+    changed |= ImGui::IsItemDeactivatedAfterEdit() && fit.totalMassKg > 0.0F;
+    labelled("Masses", labelWidth(context));
+    int preset = static_cast<int>(fit.massPreset);
+    if (ImGui::Combo("##preset", &preset, "Anatomical\0Balanced\0Uniform\0By volume\0")) {
+        fit.massPreset = static_cast<physics::MassPreset>(preset);
+        changed = true;
+    }
+    changed |= ImGui::Checkbox("Clavicles", &fit.shoulderBodies);
+    ImGui::SameLine(context.px(150));
+    changed |= ImGui::Checkbox("Neck", &fit.neckBody);
+    changed |= ImGui::Checkbox("Toes", &fit.toeBodies);
+    ImGui::SameLine(context.px(150));
+    changed |= ImGui::Checkbox("Whole trunk", &fit.allTrunkBodies);
+    if (changed) editor.edit([&](EditorDocument& document) { return document.setFit(fit); });
+}
+
+void layer(const char* name, bool& on, const char* what) {
+    ImGui::Checkbox(name, &on);
+    tooltip(what);
+}
+
+float percentile(std::vector<float> values, float share) {
+    if (values.empty()) return 0.0F;
+    std::sort(values.begin(), values.end());
+    return values[static_cast<std::size_t>(share * static_cast<float>(values.size() - 1))];
+}
+
+void plot(const PanelContext& context, const char* id, std::span<const float> values) {
+    const float most = std::max(percentile({values.begin(), values.end()}, 0.99F) * 1.4F, 1.0F);
+    ImGui::PlotLines(id, values.data(), static_cast<int>(values.size()), 0, nullptr, 0.0F, most,
+                     {ImGui::GetContentRegionAvail().x, context.px(54)});
+}
+
+void row(const char* name, const std::string& value) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextColored(mutedColor(), "%s", name);
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(value.c_str());
+}
+
+void drawQuality(const scene::Simulation& simulation) {
+    const physics::Quality quality = simulation.quality();
+    row("Joint separation", fmt::format("{:.1f} mm max, {:.1f} p99", quality.jointSeparationM.max * 1e3F,
+                                        quality.jointSeparationM.p99 * 1e3F));
+    row("Past limits",
+        fmt::format("{:.1f}° max, {:.1f}° p99", quality.limitViolationDeg.max, quality.limitViolationDeg.p99));
+    row("Into the floor", fmt::format("{:.1f} mm", quality.floorPenetrationM * 1e3F));
+    row("Into itself", fmt::format("{:.1f} mm", quality.selfPenetrationM * 1e3F));
+    row("Energy growth", fmt::format("{:.2f} J", quality.energyGrowthJ));
+    row("Settled after", quality.settleSeconds ? fmt::format("{:.2f} s", *quality.settleSeconds) : "not yet");
+    row("Speed now", fmt::format("{:.3f} m/s", quality.residualSpeedMps));
+    row("Not finite", fmt::format("{}", quality.nonFinite));
+}
+
+}  // namespace
+
+void drawSceneTab(const PanelContext& context) {
+    caption("SCENE");
+    drawScenario(context);
+    caption("SIMULATION");
+    drawPhysics(context);
+    caption("RAGDOLL FIT");
+    drawFit(context);
+}
+
+void drawViewTab(const PanelContext& context) {
+    ViewSettings& view = context.editor.view;
+    scene::DebugLayers& layers = view.layers;
+    ImGui::Checkbox("Debug draw (F3)", &view.debug);
+    ImGui::BeginDisabled(!view.debug);
+    ImGui::Indent();
+    layer("Capsules", layers.capsules, "Wireframes of the bodies, coloured by sleep");
+    layer("Solid capsules", layers.solidCapsules, "The same as translucent solids");
+    layer("Joints", layers.joints, "The skeleton, and the axes of mapped joints in red, green, blue: x, y, z");
+    layer("Limits", layers.limits, "Arcs of hinges and cones, yellow within 5° of the limit, red past it");
+    layer("Contacts", layers.contacts, "Contact points and normals of the last substep");
+    layer("Velocities", layers.velocities, "Velocity of each body's centre, a tenth of a second long");
+    layer("Centres of mass", layers.centresOfMass, "With boxes of the bodies' inertia");
+    layer("Bounding boxes", layers.aabbs, "World boxes around the bodies");
+    ImGui::Unindent();
+    ImGui::EndDisabled();
+    caption("PICTURE");
+    labelled("Skin", labelWidth(context));
+    ImGui::SliderFloat("##skin", &view.skinOpacity, 0.0F, 1.0F, "opacity %.2f");
+    labelled("Lens", labelWidth(context));
+    render::Camera& camera = context.editor.workspace().camera;
+    float lens = degrees(camera.fieldOfView);
+    if (ImGui::SliderFloat("##lens", &lens, 15.0F, 90.0F, "%.0f°")) camera.fieldOfView = radians(lens);
+    ImGui::Checkbox("Parallel projection", &camera.orthographic);
+}
+
+void drawStatsTab(const PanelContext& context) {
+    const scene::Simulation& simulation = context.editor.player().simulation();
+    const auto frames = context.history.frameMs();
+    caption("FRAME TIME");
+    plot(context, "##frames", frames);
+    const std::vector<float> all(frames.begin(), frames.end());
+    mutedText(fmt::format("p50 {:.1f} ms, p99 {:.1f} ms, {:.0f} fps", percentile(all, 0.5F), percentile(all, 0.99F),
+                          context.history.fps()));
+    caption("SIMULATION STEP");
+    const auto steps = simulation.stepMs();
+    plot(context, "##steps", steps.last(std::min(steps.size(), FrameHistory::kLength)));
+    const scene::StepTimes times = scene::summarise(steps);
+    mutedText(fmt::format("mean {:.2f} ms, p50 {:.2f}, p99 {:.2f}", times.mean, times.p50, times.p99));
+    if (!ImGui::BeginTable("##stats", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg)) return;
+    const render::FrameStats& stats = context.history.stats;
+    row("Draw calls", fmt::format("{} ({} skinned)", stats.drawCalls, stats.characterDrawCalls));
+    row("Triangles", fmt::format("{}", stats.triangles));
+    row("Uploaded", fmt::format("{} kB a frame", stats.uploadedBytes / 1024));
+    row("Dolls", fmt::format("{}, {} bodies each", simulation.dollCount(), simulation.asset().profile.bodies.size()));
+    drawQuality(simulation);
+    ImGui::EndTable();
+}
+
+void drawLogTab(const PanelContext& context) {
+    const std::vector<std::string>& log = context.editor.workspace().log;
+    if (log.empty()) mutedText("Nothing has happened yet.");
+    ImGui::PushTextWrapPos(0.0F);
+    for (const std::string& line : log)
+        ImGui::TextUnformatted(line.c_str());
+    ImGui::PopTextWrapPos();
+}
+
+}  // namespace lutka::editor

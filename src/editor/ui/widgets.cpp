@@ -1,0 +1,49 @@
+#include "editor/ui/widgets.hpp"
+
+#include <imgui.h>
+
+#include "editor/ui/style.hpp"
+
+namespace lutka::editor {
+
+void caption(const char* text) {
+    ImGui::Spacing();
+    ImGui::TextColored(mutedColor(), "%s", text);
+}
+
+void mutedText(const std::string& text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, mutedColor());
+    ImGui::PushTextWrapPos(0.0F);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+void labelled(const char* label, float labelWidth) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(label);
+    ImGui::SameLine(labelWidth);
+    ImGui::SetNextItemWidth(-1.0F);
+}
+
+void tooltip(const std::string& text) {
+    if (!ImGui::IsItemHovered()) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24.0F);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+void chip(const std::string& text, unsigned int color) {
+    const ImVec2 padding(ImGui::GetStyle().FramePadding.x, 1.0F);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const ImVec2 end(at.x + size.x + 2 * padding.x, at.y + size.y + 2 * padding.y);
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(at, end, (color & 0x00FFFFFFU) | 0x38000000U, ImGui::GetStyle().FrameRounding);
+    list->AddText({at.x + padding.x, at.y + padding.y}, color, text.c_str());
+    ImGui::Dummy({end.x - at.x, end.y - at.y});
+}
+
+}  // namespace lutka::editor

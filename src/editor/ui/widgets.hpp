@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+namespace lutka::editor {
+
+/// A muted caption over a group of fields.
+void caption(const char* text);
+/// A line of text that is wrapped at the panel's edge and muted.
+void mutedText(const std::string& text);
+/// A label at the left and the next widget at the right, filling the rest of the line.
+void labelled(const char* label, float labelWidth);
+/// Shows `text` when the last widget is hovered.
+void tooltip(const std::string& text);
+/// A small coloured word in a rounded box.
+void chip(const std::string& text, unsigned int color);
+
+}  // namespace lutka::editor

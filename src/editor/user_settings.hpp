@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace lutka::editor {
+
+/// What the editor remembers between runs.
+struct UserSettings {
+    static constexpr std::size_t kMaxRecent = 8;
+    std::vector<std::filesystem::path> recent;  ///< Models, the last one first.
+
+    /// Puts a file in front.
+    void remember(const std::filesystem::path& file);
+};
+
+/// $XDG_CONFIG_HOME/lutka/editor.json, or the same in ~/.config; empty when neither variable is set.
+[[nodiscard]] std::filesystem::path userSettingsFile();
+
+/// What the file has; defaults where it is missing or not understood: settings are never worth an error.
+[[nodiscard]] UserSettings loadUserSettings(const std::filesystem::path& file);
+void saveUserSettings(const std::filesystem::path& file, const UserSettings& settings);
+
+}  // namespace lutka::editor

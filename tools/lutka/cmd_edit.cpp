@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "commands.hpp"
+#include "core/files.hpp"
+#include "editor/application.hpp"
+#include "options.hpp"
+
+namespace lutka::cli {
+namespace {
+
+struct Options {
+    RagdollOptions ragdoll;
+    std::string scene = "drop";
+    int count = 1;
+    std::uint64_t seed = 0;
+    int threads = 1;
+    std::string solver = "bullet";
+    bool paused = false;
+    bool headless = false;
+    std::filesystem::path input;
+    std::filesystem::path recordInput;
+    std::vector<std::string> screenshots;
+    std::optional<int> frames;
+    std::string size = "1280x720";
+    float uiScale = 0.0F;
+    bool noVsync = false;
+    bool states = false;
+};
+
+editor::ApplicationOptions::Screenshot parseScreenshot(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    try {
+        if (colon != std::string::npos && colon + 1 < text.size()) {
+            return {std::stoi(text.substr(0, colon)), text.substr(colon + 1)};
+        }
+    } catch (const std::exception&) {  // not a number; told below
+    }
+    leave({ErrorCode::usage, fmt::format("\"{}\" is not FRAME:FILE.png", text), "--screenshot-at", ""});
+}
+
+render::Extent parseSize(const std::string& text) {
+    int width = 0;
+    int height = 0;
+    char rest = 0;
+    constexpr int least = 160;
+    constexpr int most = 16384;
+    const bool whole = std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) == 2;
+    if (!whole || std::min(width, height) < least || std::max(width, height) > most) {
+        leave({ErrorCode::usage, fmt::format("\"{}\" is not WxH, each in [{}, {}]", text, least, most), "--size", ""});
+    }
+    return {width, height};
+}
+
+editor::ApplicationOptions applicationOptions(const Options& options) {
+    editor::ApplicationOptions application;
+    editor::EditorOptions& edit = application.editor;
+    edit.model = options.ragdoll.model.model;
+    if (edit.model.empty()) edit.model = orLeave(findAsset("models/mannequin.glb"));
+    edit.load = options.ragdoll.load();
+    edit.load.import.loadTextures = true;
+    edit.scene.scenario = options.scene;
+    edit.scene.count = options.count;
+    edit.scene.seed = options.seed;
+    edit.scene.world.threads = options.threads;
+    edit.scene.world.solver = options.solver == "stock" ? physics::SolverKind::stock : physics::SolverKind::bullet;
+    edit.window = parseSize(options.size);
+    edit.playing = !options.paused;
+    application.headless = options.headless;
+    if (!options.input.empty()) application.input = orLeave(editor::loadScript(options.input));
+    application.recordInput = options.recordInput;
+    for (const std::string& one : options.screenshots)
+        application.screenshots.push_back(parseScreenshot(one));
+    application.frames = options.frames;
+    application.uiScale = options.uiScale;
+    application.vsync = !options.noVsync;
+    // A replay neither depends on what the user did before nor changes it.
+    application.settings = !options.headless && options.input.empty();
+    return application;
+}
+
+void run(const Options& options) {
+    if (options.states) {
+        fmt::print("{}", editor::stateDiagram());
+        return;
+    }
+    orLeave(editor::runApplication(applicationOptions(options)));
+}
+
+}  // namespace
+
+void addEdit(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("edit", "Open the editor: watch, drag and edit the ragdoll");
+    options->ragdoll.addTo(*command);
+    command->get_option("MODEL")->required(false)->description("model file; default: our own mannequin");
+    command->add_option("--scene", options->scene, "the scene to begin with")->capture_default_str();
+    command->add_option("--count", options->count, "number of dolls")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    command->add_option("--seed", options->seed, "varies the start; 0 stands upright")->capture_default_str();
+    command->add_option("--threads", options->threads, "threads to step with")->check(CLI::Range(1, 256));
+    command->add_option("--solver", options->solver, "stock or bullet")
+        ->check(CLI::IsMember({"stock", "bullet"}))
+        ->capture_default_str();
+    command->add_flag("--paused", options->paused, "begin paused");
+    command->add_flag("--headless", options->headless, "no window: draw on an EGL context");
+    command->add_option("--input", options->input, "replay window events from a file (*.jsonl)");
+    command->add_option("--record-input", options->recordInput, "write the window's events to a file (*.jsonl)");
+    command->add_option("--screenshot-at", options->screenshots, "FRAME:FILE.png, as often as wanted")
+        ->allow_extra_args(false);
+    command->add_option("--frames", options->frames, "end after so many frames")->check(CLI::Range(1, 10000000));
+    command->add_option("--size", options->size, "window size, WxH")->capture_default_str();
+    command->add_option("--ui-scale", options->uiScale, "size of the panels; default: the monitor's")
+        ->check(CLI::Range(0.5, 4.0));
+    command->add_flag("--no-vsync", options->noVsync, "don't wait for the monitor");
+    command->add_flag("--states", options->states, "print the state machine as a Mermaid diagram and end");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace lutka::cli
