@@ -30,7 +30,7 @@ std::string jointPath(const Skeleton& skeleton, int joint) {
     for (int at = joint; at != kNoJoint; at = skeleton.parents[at]) {
         std::string step = skeleton.names[at];
         if (const int ordinal = ordinalAmongSiblings(skeleton, at); ordinal > 1) step += fmt::format("#{}", ordinal);
-        path = path.empty() ? step : step + "/" + path;
+        path = path.empty() ? std::move(step) : fmt::format("{}/{}", step, path);
     }
     return path;
 }

@@ -88,9 +88,10 @@ int gridSide(int count) {
 
 vec3 gridPlace(int index, int count, float spacing) {
     const int side = gridSide(count);
+    const int row = index / side;
+    const int column = index % side;
     const float middle = static_cast<float>(side - 1) * 0.5F;
-    return {(static_cast<float>(index % side) - middle) * spacing, 0,
-            (static_cast<float>(index / side) - middle) * spacing};
+    return {(static_cast<float>(column) - middle) * spacing, 0, (static_cast<float>(row) - middle) * spacing};
 }
 
 void focusOnGrid(Scenario& scenario, int count, float spacing) {
@@ -131,7 +132,8 @@ void pile(Context& context, Scenario& scenario) {
     for (int i = 0; i < context.count; ++i) {
         vec3 centre = gridPlace(i % layer, layer, kPitSpacing);
         centre += vec3(context.random.uniform(-0.1F, 0.1F), 0, context.random.uniform(-0.1F, 0.1F));
-        centre.y = 1.3F + kLayerHeight * static_cast<float>(i / layer);
+        const int storey = i / layer;
+        centre.y = 1.3F + kLayerHeight * static_cast<float>(storey);
         scenario.dolls.push_back(placeCentre(context, centre, anyTurn(context)));
     }
     scenario.focusRadius = 5.0F;
