@@ -9,6 +9,8 @@ namespace {
 
 using Kind = CollisionGeometry::Kind;
 
+constexpr float kSamePlace = 0.005F;  // metres: contacts nearer to each other than this say the same
+
 Segment coreOf(const CollisionGeometry& round) {
     const vec3 half = round.worldFromShape.rotation * vec3(0, round.halfLength, 0);
     return {round.worldFromShape.translation - half, round.worldFromShape.translation + half};
@@ -104,7 +106,8 @@ void roundOnRound(const CollisionGeometry& a, const CollisionGeometry& b, float 
                 const vec3 onA = coreA.at(end == 0 ? low : high);
                 roundPoints(a, b, onA, coreB.at(nearestOn(coreB, onA)), margin, end, out);
             }
-            if (closest.s < low + 0.3F * (high - low) || closest.s > high - 0.3F * (high - low)) return;
+            const float nearAnEnd = kSamePlace / (2.0F * a.halfLength);
+            if (std::abs(closest.s - low) < nearAnEnd || std::abs(closest.s - high) < nearAnEnd) return;
         }
     }
     roundPoints(a, b, coreA.at(closest.s), coreB.at(closest.t), margin, 2, out);

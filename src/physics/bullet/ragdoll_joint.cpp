@@ -39,9 +39,7 @@ void setVector(btScalar* row, const vec3& v) {
 
 RagdollJoint::RagdollJoint(const ConstraintProfile& profile, btRigidBody& parent, btRigidBody& child,
                            const JointTuning& tuning)
-    : btTypedConstraint(D6_CONSTRAINT_TYPE, parent, child), profile_(profile), tuning_(tuning) {
-    setUserConstraintType(kUserType);
-}
+    : btTypedConstraint(D6_CONSTRAINT_TYPE, parent, child), profile_(profile), tuning_(tuning) {}
 
 void RagdollJoint::addRow(const AngularRow& row) {
     LUTKA_ASSERT(rowCount_ + kLinearRows < kMaxRows);
@@ -174,11 +172,12 @@ btScalar RagdollJoint::getParam(int /*num*/, int /*axis*/) const {
     return 0.0F;
 }
 
-bool RagdollJoint::mends(int row) const {
-    if (row < kLinearRows) return true;
+RowDuty RagdollJoint::dutyOf(int row) const {
+    if (row < kLinearRows) return RowDuty::mends;
     const AngularRow& angular = rows_[row - kLinearRows];
-    return angular.kind == AngularRow::Kind::align ||
-           (angular.kind == AngularRow::Kind::limit && angular.error <= 0.0F);
+    if (angular.kind == AngularRow::Kind::friction) return RowDuty::yields;
+    const bool onlyBounds = angular.kind == AngularRow::Kind::limit && angular.error > 0.0F;
+    return onlyBounds ? RowDuty::keeps : RowDuty::mends;
 }
 
 void RagdollJoint::finishStoring() {

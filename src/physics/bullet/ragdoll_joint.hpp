@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "physics/bullet/warm_started.hpp"
 #include "physics/profile.hpp"
 
 namespace lutka::physics {
@@ -23,9 +24,8 @@ struct JointTuning {
 ///
 /// Unlike btConeTwistConstraint, the swing ellipse is fixed in the parent's frame, whatever the twist, and the rows are
 /// the exact gradients of swing and twist.
-class RagdollJoint final : public btTypedConstraint {
+class RagdollJoint final : public btTypedConstraint, public WarmStarted {
   public:
-    static constexpr int kUserType = 0x4C54;  ///< getUserConstraintType() of every RagdollJoint.
     static constexpr int kMaxRows = 8;
 
     /// Body A is the parent, body B the child. `tuning` must outlive the joint.
@@ -36,14 +36,11 @@ class RagdollJoint final : public btTypedConstraint {
     void setParam(int num, btScalar value, int axis) override;
     [[nodiscard]] btScalar getParam(int num, int axis) const override;
 
-    /// Whether a present row's speed mends an error (and is left out of the velocities that the bodies keep).
-    [[nodiscard]] bool mends(int row) const;
-
-    /// The impulse of the present rows in the step before, for warm starting; 0 for a row that is new.
-    [[nodiscard]] float storedImpulse(int row) const { return impulses_[slots_[row]]; }
-    void storeImpulse(int row, float impulse) { newImpulses_[slots_[row]] = impulse; }
-    /// Call when all rows of a step are stored: forgets rows that were not active.
-    void finishStoring();
+    [[nodiscard]] bool startsWithPoint() const override { return true; }
+    [[nodiscard]] RowDuty dutyOf(int row) const override;
+    [[nodiscard]] float storedImpulse(int row) const override { return impulses_[slots_[row]]; }
+    void storeImpulse(int row, float impulse) override { newImpulses_[slots_[row]] = impulse; }
+    void finishStoring() override;
     void forgetImpulses();
 
   private:

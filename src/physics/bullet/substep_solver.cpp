@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "physics/bullet/convert.hpp"
-#include "physics/bullet/ragdoll_joint.hpp"
 
 namespace lutka::physics {
 namespace {
@@ -16,11 +15,6 @@ constexpr int kFixed = 0;  // index of the body that never moves
 
 // Turns an angular row's speed into one of a point, metres: about half a limb's length.
 constexpr float kResidualArm = 0.1F;
-
-RagdollJoint* asRagdollJoint(btTypedConstraint& constraint) {
-    return constraint.getUserConstraintType() == RagdollJoint::kUserType ? static_cast<RagdollJoint*>(&constraint)
-                                                                         : nullptr;
-}
 
 }  // namespace
 
@@ -117,8 +111,8 @@ void SubstepSolver::takeConstraint(btTypedConstraint& constraint, float seconds)
     joint.first = static_cast<int>(rows_.size());
     joint.count = size.m_numConstraintRows;
     joint.constraint = &constraint;
-    const RagdollJoint* ours = asRagdollJoint(constraint);
-    joint.block = ours != nullptr;
+    joint.warm = dynamic_cast<WarmStarted*>(&constraint);
+    joint.block = joint.warm != nullptr && joint.warm->startsWithPoint();
     for (int i = 0; i < joint.count; ++i) {
         const btSolverConstraint& given = scratch_[i];
         Row row;
@@ -127,11 +121,12 @@ void SubstepSolver::takeConstraint(btTypedConstraint& constraint, float seconds)
         row.linearB = fromBullet(given.m_contactNormal2);
         row.angularB = fromBullet(given.m_relpos2CrossNormal);
         row.mendTarget = given.m_rhs;
-        row.relaxTarget = ours != nullptr && ours->mends(i) ? 0.0F : given.m_rhs;
+        if (joint.warm != nullptr) row.duty = joint.warm->dutyOf(i);
+        row.relaxTarget = row.duty == RowDuty::mends ? 0.0F : given.m_rhs;
         row.low = given.m_lowerLimit;
         row.high = given.m_upperLimit;
-        row.impulse =
-            ours != nullptr && tuning_.warmStart ? std::clamp(ours->storedImpulse(i), row.low, row.high) : 0.0F;
+        if (joint.warm != nullptr && tuning_.warmStart)
+            row.impulse = std::clamp(joint.warm->storedImpulse(i), row.low, row.high);
         finishRow(row, joint.a, joint.b);
         rows_.push_back(row);
     }
@@ -222,6 +217,7 @@ void SubstepSolver::apply(const Row& row, int a, int b, float impulse) {
 }
 
 float SubstepSolver::solveRow(Row& row, int a, int b, bool mending) {
+    if (mending && row.duty == RowDuty::yields) return 0.0F;
     const float target = mending ? row.mendTarget : row.relaxTarget;
     const float wanted = row.impulse + (target - speedAlong(row, a, b)) * row.inverseEffectiveMass;
     const float impulse = std::clamp(wanted, row.low, row.high);
@@ -251,6 +247,7 @@ float SubstepSolver::solveJoint(Joint& joint, bool mending) {
 
 float SubstepSolver::solveContact(Contact& contact, bool mending) {
     const float residual = solveRow(contact.normal, contact.a, contact.b, mending);
+    if (mending) return residual;  // friction yields
     // Both tangents at once, so that the bound is a cone and not a pyramid.
     vec2 wanted;
     for (int i = 0; i < 2; ++i) {
@@ -396,11 +393,10 @@ void SubstepSolver::storeFeedback(const Joint& joint, float seconds) const {
 void SubstepSolver::store(float seconds) {
     for (const Joint& joint : joints_) {
         storeFeedback(joint, seconds);
-        RagdollJoint* ours = asRagdollJoint(*joint.constraint);
-        if (ours == nullptr) continue;
+        if (joint.warm == nullptr) continue;
         for (int i = 0; i < joint.count; ++i)
-            ours->storeImpulse(i, rows_[joint.first + i].impulse);
-        ours->finishStoring();
+            joint.warm->storeImpulse(i, rows_[joint.first + i].impulse);
+        joint.warm->finishStoring();
     }
     for (const Contact& contact : contacts_) {
         contact.point->m_appliedImpulse = contact.normal.impulse;

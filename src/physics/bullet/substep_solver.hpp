@@ -7,6 +7,7 @@
 
 #include "core/math.hpp"
 #include "physics/bullet/bullet_world.hpp"
+#include "physics/bullet/warm_started.hpp"
 
 namespace lutka::physics {
 
@@ -52,6 +53,7 @@ class SubstepSolver {
         float low = 0;
         float high = 0;
         float impulse = 0;
+        RowDuty duty = RowDuty::keeps;
     };
     // The rows of one constraint, [first, first + count) in rows_.
     struct Joint {
@@ -60,8 +62,9 @@ class SubstepSolver {
         int first = 0;
         int count = 0;
         btTypedConstraint* constraint = nullptr;
-        bool block = false;    // the first three rows are solved together
-        mat3 inverseBlock{0};  // inverse of their J M⁻¹ Jᵀ
+        WarmStarted* warm = nullptr;  // null: all rows keep, from no impulse
+        bool block = false;           // the first three rows are solved together
+        mat3 inverseBlock{0};         // inverse of their J M⁻¹ Jᵀ
     };
     struct Contact {
         int a = 0;

@@ -1,0 +1,221 @@
+// Quality and cost of the crowd solver beside the Bullet worlds: the same dolls and scene in every world, stepped in
+// turn within one process, so that what else the machine does hits all alike. One CSV row a solver and scene.
+
+#include <fmt/format.h>
+#include <time.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+#include "physics/bullet/bullet_world.hpp"
+#include "physics/crowd/crowd_world.hpp"
+#include "physics/quality.hpp"
+#include "scene/scenario.hpp"
+#include "support/dolls.hpp"
+#include "support/rigs.hpp"
+
+namespace {
+
+using namespace lutka;
+using physics::crowd::CrowdTuning;
+
+constexpr float kDt = 1.0F / 60.0F;
+
+struct Arguments {
+    std::vector<std::string> scenes{"spread", "pile"};
+    std::vector<std::string> solvers{"crowd"};
+    std::vector<std::string> settings;  // name=value of the crowd's tuning
+    int count = 1;
+    int firstSeed = 0;
+    int seeds = 1;
+    int steps = 300;
+    int threads = 1;
+    bool sleeping = false;
+    bool measure = true;
+};
+
+void apply(CrowdTuning& tuning, const std::string& setting) {
+    const std::size_t at = setting.find('=');
+    const std::string name = setting.substr(0, at);
+    const float value = at == std::string::npos ? 0.0F : std::stof(setting.substr(at + 1));
+    const std::map<std::string, float*> reals{
+        {"jointErp", &tuning.jointErp},         {"limitErp", &tuning.limitErp},
+        {"contactErp", &tuning.contactErp},
+        {"pushSpeed", &tuning.pushSpeed},       {"limitSpeed", &tuning.limitSpeed},
+        {"slop", &tuning.slop},                 {"margin", &tuning.margin},
+        {"rollingLever", &tuning.rollingLever}, {"linearDamping", &tuning.linearDamping},
+        {"calmSpeed", &tuning.calmSpeed},       {"calmDamping", &tuning.calmDamping},
+        {"sleepSpeed", &tuning.sleepSpeed},     {"angularDamping", &tuning.angularDamping},
+        {"leastGyration", &tuning.leastGyration}};
+    const std::map<std::string, int*> whole{{"substeps", &tuning.substeps},
+                                            {"iterations", &tuning.iterations},
+                                            {"relaxations", &tuning.relaxations}};
+    if (const auto real = reals.find(name); real != reals.end())
+        *real->second = value;
+    else if (const auto number = whole.find(name); number != whole.end())
+        *number->second = static_cast<int>(value);
+    else if (name == "baseline")
+        tuning.instructionSet = physics::crowd::InstructionSet::baseline;
+    else
+        fmt::print(stderr, "there is no setting '{}'\n", name);
+}
+
+double cpuMs() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+struct Figure {
+    physics::RagdollProfile profile;
+    animation::Character character;
+    physics::Rig rig;
+};
+
+// One world with the scene's contents, and what is known of its run.
+struct Run {
+    std::string solver;
+    std::unique_ptr<physics::World> world;
+    std::unique_ptr<physics::QualityMeter> meter;
+    double seconds = 0;
+    std::vector<double> ms;
+    std::size_t contacts = 0;
+};
+
+std::unique_ptr<physics::World> makeWorld(const std::string& solver, const Arguments& arguments) {
+    physics::WorldSettings settings;
+    settings.sleeping = arguments.sleeping;
+    settings.threads = arguments.threads;
+    settings.solver = solver == "stock" ? physics::SolverKind::stock : physics::SolverKind::bullet;
+    if (solver != "crowd") return physics::createBulletWorld(settings);
+    CrowdTuning tuning;
+    for (const std::string& setting : arguments.settings)
+        apply(tuning, setting);
+    return physics::createCrowdWorld(settings, tuning);
+}
+
+void fill(physics::World& world, const Figure& figure, const scene::Scenario& scenario) {
+    for (const physics::StaticShape& shape : scenario.statics)
+        world.addStatic(shape);
+    for (const physics::DynamicProp& prop : scenario.props)
+        world.addProp(prop);
+    std::vector<physics::BodyState> bodies(figure.profile.bodies.size());
+    for (const scene::Placement& placement : scenario.dolls) {
+        physics::bodiesFromPose(figure.rig, figure.character.skeleton.bindModelFromJoint, placement.worldFromModel,
+                                bodies);
+        for (physics::BodyState& body : bodies)
+            body.linearVelocity = placement.linearVelocity;
+        world.addDoll(figure.profile, bodies);
+    }
+    for (const scene::Pin& pin : scenario.pins) {
+        const int body = physics::bodyOf(figure.profile, pin.role);
+        world.getBodies(pin.doll, bodies);
+        world.setDrag(pin.doll, {pin.doll, body, vec3(0), bodies[body].worldFromBody.translation, 5000.0F});
+    }
+}
+
+void step(Run& run, bool measure) {
+    double measuring = 0;
+    const double before = cpuMs();
+    if (measure) {
+        const double substep = static_cast<double>(kDt) / run.world->substepsPerStep();
+        run.world->step(kDt, [&] {
+            const double start = cpuMs();
+            run.meter->sample(run.seconds += substep);
+            measuring += cpuMs() - start;
+        });
+    } else {
+        run.world->step(kDt);
+    }
+    run.ms.push_back(cpuMs() - before - measuring);
+    std::vector<physics::ContactPoint> contacts;
+    if (measure) run.world->getContacts(contacts);
+    run.contacts += contacts.size();
+}
+
+double mean(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double value : values)
+        sum += value;
+    return values.empty() ? 0 : sum / static_cast<double>(values.size());
+}
+
+void print(const Run& run, const Run& first, const std::string& scene, int seed, const Arguments& arguments) {
+    const physics::Quality quality = run.meter->result();
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < run.ms.size(); ++i)
+        ratios.push_back(first.ms[i] / run.ms[i]);
+    std::sort(ratios.begin(), ratios.end());
+    int asleep = 0;
+    for (int doll = 0; doll < run.world->dollCount(); ++doll)
+        asleep += run.world->isAsleep(doll) ? 1 : 0;
+    fmt::print("{},{},{},{},{:.4f},{:.2f},{:.2f},{:.2f},{:.2f},{:.3f},{:.2f},{:.2f},{:.1f},{:.1f},{:.2f},{:.2f},{:.2f},{},{},{}\n",
+               run.solver, scene, arguments.count, seed, mean(run.ms), mean(first.ms) / mean(run.ms),
+               ratios[ratios.size() / 2], quality.jointSeparationM.max * 1e3F, quality.jointSeparationM.p99 * 1e3F,
+               quality.jointSeparationM.mean * 1e3F, quality.limitViolationDeg.max, quality.limitViolationDeg.p99,
+               quality.floorPenetrationM * 1e3F, quality.selfPenetrationM * 1e3F,
+               100.0F * quality.energyGrowthJ / std::max(quality.initialEnergyJ, 1e-3F),
+               quality.settleSeconds.value_or(-1.0F), quality.residualSpeedMps * 1e3F, quality.nonFinite, asleep,
+               run.contacts / std::max<std::size_t>(run.ms.size(), 1));
+    std::fflush(stdout);
+}
+
+void runScene(const Figure& figure, const std::string& scene, int seed, const Arguments& arguments) {
+    auto scenario = scene::makeScenario(scene, arguments.count, static_cast<std::uint64_t>(seed),
+                                        scene::figureBounds(figure.profile, figure.rig),
+                                        figure.profile.standardFromModel);
+    if (!scenario) {
+        fmt::print(stderr, "{}\n", scenario.error().text());
+        return;
+    }
+    std::vector<Run> runs;
+    for (const std::string& solver : arguments.solvers) {
+        Run run;
+        run.solver = solver;
+        run.world = makeWorld(solver, arguments);
+        fill(*run.world, figure, scenario.value());
+        run.meter = std::make_unique<physics::QualityMeter>(*run.world, scenario.value().statics, vec3(0, -9.81F, 0));
+        runs.push_back(std::move(run));
+    }
+    for (int i = 0; i < arguments.steps; ++i) {
+        for (Run& run : runs)
+            step(run, arguments.measure);
+    }
+    for (const Run& run : runs)
+        print(run, runs.front(), scene, seed, arguments);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Arguments arguments;
+    CLI::App app("Quality and cost of the crowd solver; the ratio is the first solver's time over each one's");
+    app.add_option("--scene", arguments.scenes)->delimiter(',');
+    app.add_option("--solver", arguments.solvers, "stock, bullet, crowd")->delimiter(',');
+    app.add_option("--set", arguments.settings, "name=value of CrowdTuning")->delimiter(',');
+    app.add_option("--count", arguments.count);
+    app.add_option("--seed", arguments.firstSeed);
+    app.add_option("--seeds", arguments.seeds);
+    app.add_option("--steps", arguments.steps);
+    app.add_option("--threads", arguments.threads);
+    app.add_flag("--sleeping", arguments.sleeping);
+    app.add_flag("!--no-measure", arguments.measure);
+    CLI11_PARSE(app, argc, argv);
+
+    Figure figure;
+    figure.character = test::makeBiped();
+    figure.profile = test::makeDoll();
+    auto rig = physics::bindRig(figure.profile, figure.character.skeleton);
+    if (!rig) return 1;
+    figure.rig = std::move(rig).value();
+    fmt::print(
+        "solver,scene,count,seed,ms,meanRatio,medianRatio,sepMaxMm,sepP99Mm,sepMeanMm,limitMaxDeg,limitP99Deg,floorMm,"
+        "selfMm,energyPercent,settleS,residualMmps,nonFinite,asleep,contacts\n");
+    for (const std::string& scene : arguments.scenes) {
+        for (int seed = arguments.firstSeed; seed < arguments.firstSeed + arguments.seeds; ++seed)
+            runScene(figure, scene, seed, arguments);
+    }
+    return 0;
+}
