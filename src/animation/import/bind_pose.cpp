@@ -92,12 +92,8 @@ dmat4 chooseFrame(const Box& box, const dmat4& meshNode, const dmat4& joints) {
 
 class BindSolver {
   public:
-    BindSolver(const NodeTree& tree, std::span<const MeshInstance> meshes, bool nodesArePosed)
-        : tree_(tree),
-          meshes_(meshes),
-          nodesArePosed_(nodesArePosed),
-          settled_(meshes.size(), false),
-          bind_(tree.nodeOfJoint.size()) {}
+    BindSolver(const NodeTree& tree, std::span<const MeshInstance> meshes)
+        : tree_(tree), meshes_(meshes), settled_(meshes.size(), false), bind_(tree.nodeOfJoint.size()) {}
 
     // The heaviest mesh first; from there through shared joints; then the next heaviest that is left.
     std::vector<dmat4> solve() {
@@ -165,7 +161,7 @@ class BindSolver {
             if (isInvertible(frame)) votes.push_back({carried(joint.joint, frame), joint.weight});
         }
         const dmat4& meshNode = tree_.nodes[mesh.node].sceneFromNode;
-        if (votes.empty() || !nodesArePosed_) return isInvertible(meshNode) ? meshNode : dmat4(1.0);
+        if (votes.empty() || !tree_.nodesArePosed) return isInvertible(meshNode) ? meshNode : dmat4(1.0);
         return chooseFrame(box, meshNode, medoid(box, votes));
     }
 
@@ -238,15 +234,14 @@ class BindSolver {
 
     const NodeTree& tree_;
     std::span<const MeshInstance> meshes_;
-    bool nodesArePosed_;
     std::vector<bool> settled_;
     std::vector<std::optional<dmat4>> bind_;
 };
 
 }  // namespace
 
-std::vector<dmat4> solveBindPose(const NodeTree& tree, std::span<const MeshInstance> meshes, bool nodesArePosed) {
-    return BindSolver(tree, meshes, nodesArePosed).solve();
+std::vector<dmat4> solveBindPose(const NodeTree& tree, std::span<const MeshInstance> meshes) {
+    return BindSolver(tree, meshes).solve();
 }
 
 }  // namespace lutka::animation::rig_import

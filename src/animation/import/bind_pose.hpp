@@ -15,9 +15,8 @@ namespace lutka::animation::rig_import {
 /// direction and place where the joints agree with it, else the most central of the joints' products; the size is
 /// always the joints'.
 /// Meshes that share joints share the choice. Joints without a skin keep the place relative to their nearest skinned
-/// ancestor (else descendant) that they have in the nodes' pose. With `nodesArePosed` false (a format whose hierarchy
-/// Assimp loses) the joints' nodes have no say.
-[[nodiscard]] std::vector<dmat4> solveBindPose(const NodeTree& tree, std::span<const MeshInstance> meshes,
-                                               bool nodesArePosed);
+/// ancestor (else descendant) that they have in the nodes' pose. Where `tree.nodesArePosed` is false
+/// the joints' nodes have no say.
+[[nodiscard]] std::vector<dmat4> solveBindPose(const NodeTree& tree, std::span<const MeshInstance> meshes);
 
 }  // namespace lutka::animation::rig_import

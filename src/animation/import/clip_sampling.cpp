@@ -26,14 +26,15 @@ constexpr double kVisibleScale = 0.01;
 struct KeyTimes {
     double first = std::numeric_limits<double>::max();  // ticks
     double last = std::numeric_limits<double>::lowest();
+    double smallestGap = std::numeric_limits<double>::max();
 
     // A clip's time is the file's, from 0; but one cut from the middle of a long timeline starts at its first key.
     [[nodiscard]] double start() const { return first < 0.0 || first > last - first ? first : 0.0; }
-    double smallestGap = std::numeric_limits<double>::max();
 };
 
 template <class Key>
 void addTimes(const Key* keys, unsigned count, KeyTimes& times) {
+    if (count < 2) return;  // a constant, often put at 0 by the importer: no part of the time line
     for (unsigned i = 0; i < count; ++i) {
         if (!std::isfinite(keys[i].mTime)) continue;
         times.first = std::min(times.first, keys[i].mTime);
@@ -51,6 +52,8 @@ KeyTimes keyTimes(const aiAnimation& animation) {
         addTimes(channel.mRotationKeys, channel.mNumRotationKeys, times);
         addTimes(channel.mScalingKeys, channel.mNumScalingKeys, times);
     }
+    // Constants only: one pose.
+    if (times.last < times.first && animation.mNumChannels > 0) times.first = times.last = 0.0;
     return times;
 }
 
@@ -58,7 +61,7 @@ KeyTimes keyTimes(const aiAnimation& animation) {
 double rateFor(double keysPerSecond) {
     if (!std::isfinite(keysPerSecond) || keysPerSecond <= 0.0) return kLeastRate;
     const double whole = std::round(keysPerSecond);
-    if (whole > 0.0 && std::abs(whole - keysPerSecond) < 0.01 * whole) keysPerSecond = whole;
+    if (whole > 0.0 && std::abs(whole - keysPerSecond) < 5e-4 * whole) keysPerSecond = whole;
     if (keysPerSecond > kMostRate) return 60.0;
     return keysPerSecond * std::max(1.0, std::ceil(kLeastRate / keysPerSecond - 0.01));
 }

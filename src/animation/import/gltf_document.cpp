@@ -160,7 +160,8 @@ std::map<std::size_t, int> jointsOfGltfNodes(const json& document, const NodeTre
         const bool named = name != nullptr && name->is_string() && !name->get_ref<const std::string&>().empty();
         if (named && name->get_ref<const std::string&>() != node->mName.C_Str()) return;
         if (!joints.emplace(index.get<std::size_t>(), jointOf[node]).second) return;
-        if (const json* children = member(*source, "children")) pending.push_back({children, node});
+        const json* children = member(*source, "children");
+        if (children != nullptr && children->is_array()) pending.push_back({children, node});
     };
     const aiNode* root = tree.nodes.front().source;
     // One root node is the scene's; several hang under one that Assimp adds.

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <exception>
 #include <memory>
 
 #include "animation/import/bind_pose.hpp"
 #include "animation/import/clip_sampling.hpp"
+#include "animation/import/flat_hierarchy.hpp"
 #include "animation/import/material_conversion.hpp"
 #include "animation/import/mesh_conversion.hpp"
 #include "animation/import/node_tree.hpp"
@@ -97,7 +99,7 @@ void buildMotion(const SceneFile& file, const NodeTree& tree, std::span<const dm
         matters[joint] = character.skeleton.skinWeight[joint] > 0.0F;
     character.skeleton.bindModelFromJoint = poser.bindModelFromJoint();
     character.skeleton.nodeParentFromJoint.resize(count);
-    if (!nodesArePosed(tree)) {
+    if (!tree.nodesArePosed) {
         modelToLocal(character.skeleton, poser.bindModelFromJoint(), character.skeleton.nodeParentFromJoint);
         character.warnings.push_back("the file's joint hierarchy and clips can't be read; the bind pose can");
         return;
@@ -107,15 +109,14 @@ void buildMotion(const SceneFile& file, const NodeTree& tree, std::span<const dm
         sampleAnimations(*file.scene, tree, poser, character.skeleton, {matters.get(), count}, character.warnings);
 }
 
-}  // namespace
-
-Result<Character> importCharacter(const std::filesystem::path& file, const ImportOptions& options) {
+Result<Character> readCharacter(const std::filesystem::path& file, const ImportOptions& options) {
     Result<SceneFile> opened = readScene(file);
     if (!opened) return opened.error();
     const SceneFile& source = opened.value();
     Result<NodeTree> read = readNodeTree(*source.scene, file.string());
     if (!read) return read.error();
-    const NodeTree& tree = read.value();
+    NodeTree& tree = read.value();
+    restoreFlatHierarchy(*source.scene, tree);
 
     Character character;
     character.name = file.stem().string();
@@ -126,7 +127,7 @@ Result<Character> importCharacter(const std::filesystem::path& file, const Impor
     character.skeleton.skinWeight.assign(tree.nodeOfJoint.size(), 0.0F);
 
     const std::vector<MeshInstance> instances = bindMeshes(*source.scene, tree, character.warnings);
-    const std::vector<dmat4> bind = solveBindPose(tree, instances, nodesArePosed(tree));
+    const std::vector<dmat4> bind = solveBindPose(tree, instances);
     character.meshes = convertMeshes(tree, instances, bind, character.skeleton.skinWeight, character.warnings);
     const UnitsAndAxes units =
         settleUnits(conventionOf(source, file), pointsOfFigure(character, bind), options, character.warnings);
@@ -136,6 +137,17 @@ Result<Character> importCharacter(const std::filesystem::path& file, const Impor
     convertMaterials(*source.scene, file, options.loadTextures, character);
     if (source.gltf) character.vrmHumanoid = vrmHumanoid(*source.gltf, tree, character.warnings);
     return character;
+}
+
+}  // namespace
+
+Result<Character> importCharacter(const std::filesystem::path& file, const ImportOptions& options) {
+    // Assimp's exceptions stop at readScene; what is left is memory running out over a monstrous file.
+    try {
+        return readCharacter(file, options);
+    } catch (const std::exception& e) {
+        return Error{ErrorCode::input, std::string("can't be imported: ") + e.what(), file.string(), ""};
+    }
 }
 
 }  // namespace lutka::animation

@@ -91,10 +91,6 @@ Result<NodeTree> readNodeTree(const aiScene& scene, const std::string& location)
     return tree;
 }
 
-bool nodesArePosed(const NodeTree& tree) {
-    return tree.named("<MDL_bones>").empty();
-}
-
 void evaluatePose(const NodeTree& tree, std::span<const dmat4> parentFromNode, std::span<dmat4> sceneFromNode) {
     LUTKA_ASSERT(parentFromNode.size() == tree.nodes.size() && sceneFromNode.size() == tree.nodes.size());
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {

@@ -35,6 +35,7 @@ struct NodeTree {
     std::vector<std::string> jointNames;
     std::vector<int> jointParents;
     std::unordered_multimap<std::string, int> nodesByName;
+    bool nodesArePosed = true;  ///< False when Assimp lost the hierarchy: then only the skins' matrices mean anything.
 
     [[nodiscard]] int jointCount() const { return static_cast<int>(nodeOfJoint.size()); }
     [[nodiscard]] const dmat4& sceneFromJoint(int joint) const { return nodes[nodeOfJoint[joint]].sceneFromNode; }
@@ -45,10 +46,6 @@ struct NodeTree {
 
 /// Fails when there are more joints than a vertex can name (65,535) or the tree is deeper than 4,096.
 [[nodiscard]] Result<NodeTree> readNodeTree(const aiScene& scene, const std::string& location);
-
-/// Whether the nodes' pose means anything. Assimp 5.2.5 hangs all joints of a Half-Life 1 model below one node, with
-/// transforms that are relative to parents which it drops: there only the skin's matrices can be used.
-[[nodiscard]] bool nodesArePosed(const NodeTree& tree);
 
 /// Scene-space frames of all nodes in a pose; both spans hold one element a node.
 void evaluatePose(const NodeTree& tree, std::span<const dmat4> parentFromNode, std::span<dmat4> sceneFromNode);

@@ -314,3 +314,29 @@ TEST_CASE("scale in a clip is dropped with its figure") {
     REQUIRE(character.clips.size() == 1);
     CHECK(warns(character, "'swell' scales joints by up to 50 %"));
 }
+
+TEST_CASE("a clip keeps the file's time, but does not wait for a far first key") {
+    struct Case {
+        float first;
+        float seconds;
+        float turnedAt;
+    };
+    for (const Case& each : {Case{0.5F, 1.5F, 1.0F}, Case{100.0F, 1.0F, 0.5F}}) {
+        INFO(each.first);
+        GltfFile file = makePostRig();
+        file.json["nodes"][2].erase("matrix");
+        file.json["nodes"][2]["translation"] = {0, 0.6, 0};
+        const std::vector<float> times = {each.first, each.first + 0.5F, each.first + 1.0F};
+        const std::vector<float> places = {0, 0.6F, 0, 0, 0.6F, 0.2F, 0, 0.6F, 0};
+        file.json["animations"] = {
+            {{"name", "nod"},
+             {"samplers", {{{"input", file.addFloats(times, "SCALAR")}, {"output", file.addFloats(places, "VEC3")}}}},
+             {"channels", {{{"sampler", 0}, {"target", {{"node", 2}, {"path", "translation"}}}}}}}};
+        const Character character = importedRig(file);
+        REQUIRE(character.clips.size() == 1);
+        CHECK(character.clips[0].seconds() == Approx(each.seconds).margin(1e-3));
+        std::vector<RigidTransform> pose(character.skeleton.parents.size());
+        sampleClip(character.clips[0], each.turnedAt, pose);
+        CHECK(pose[joint(character, "middle")].translation.z == Approx(0.2F).margin(1e-4));
+    }
+}
