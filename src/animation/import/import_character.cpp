@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <exception>
 #include <memory>
 
@@ -110,6 +111,10 @@ void buildMotion(const SceneFile& file, const NodeTree& tree, std::span<const dm
 }
 
 Result<Character> readCharacter(const std::filesystem::path& file, const ImportOptions& options) {
+    if (options.metresPerFileUnit &&
+        !(std::isfinite(*options.metresPerFileUnit) && *options.metresPerFileUnit > 0.0F)) {
+        return Error{ErrorCode::usage, "the scale must be a number above zero", "", ""};
+    }
     Result<SceneFile> opened = readScene(file);
     if (!opened) return opened.error();
     const SceneFile& source = opened.value();

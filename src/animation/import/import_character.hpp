@@ -12,8 +12,8 @@ namespace lutka::animation {
 enum class UpAxis { positiveX, negativeX, positiveY, negativeY, positiveZ, negativeZ };
 
 struct ImportOptions {
-    /// Metres a file unit; unset: from the file's metadata, or from the figure's height where that is missing or
-    /// absurd.
+    /// Metres a file unit, > 0 (else ErrorCode::usage); unset: from the file's metadata, or from the figure's height
+    /// where that is missing or absurd.
     std::optional<float> metresPerFileUnit;
     std::optional<UpAxis> up;  ///< Unset: from the file's metadata, or from the figure where that is missing.
     bool loadTextures = true;  ///< False skips decoding pictures (mapping and physics don't need them).

@@ -255,6 +255,12 @@ TEST_CASE("the options override units and up axis") {
     const Character larger = imported(folder / "rig.gltf", options);
     CHECK(heightOf(larger) == Approx(3.6F));
     CHECK(larger.units.unitSource == "--scale");
+    for (const float wrong : {0.0F, -1.0F, std::numeric_limits<float>::quiet_NaN()}) {
+        options.metresPerFileUnit = wrong;
+        const Result<Character> result = importCharacter(folder / "rig.gltf", options);
+        REQUIRE_FALSE(result.ok());
+        CHECK(result.error().code == ErrorCode::usage);
+    }
     const std::array<UpAxis, 6> all = {UpAxis::positiveX, UpAxis::negativeX, UpAxis::positiveY,
                                        UpAxis::negativeY, UpAxis::positiveZ, UpAxis::negativeZ};
     const std::array<vec3, 6> axes = {vec3(1, 0, 0),  vec3(-1, 0, 0), vec3(0, 1, 0),
