@@ -3,6 +3,9 @@
 
 LUTKA_ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 
+# The executable finds the assets by its own place; where /proc is not mounted (a bare chroot) it needs to be told.
+export LUTKA_ASSETS=${LUTKA_ASSETS:-$LUTKA_ROOT/assets}
+
 # What the build needs, in DESIGN's order: tools, physics, import, window and GL, maths, UI, data, logs, threads.
 LUTKA_BUILD_PACKAGES=(
   g++ cmake ninja-build ccache pkg-config python3-glad
