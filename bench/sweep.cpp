@@ -167,14 +167,12 @@ int main(int argc, char** argv) {
     if (arguments.model.empty()) {
         asset = bench::handMadeDoll();
     } else {
-#if 0
         auto loaded = scene::loadRagdoll(arguments.model);
         if (!loaded) {
             std::fprintf(stderr, "%s\n", loaded.error().text().c_str());
             return static_cast<int>(loaded.error().code);
         }
         asset = std::move(loaded).value();
-#endif
     }
     runAll(*asset, arguments);
     return 0;

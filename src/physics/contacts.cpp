@@ -64,9 +64,9 @@ void roundOnBox(const CollisionGeometry& round, const CollisionGeometry& box, fl
     if (round.halfLength <= 0.0F) return;
     pointOnBox(core.end, round, box, margin, 1, out);
     // An edge or corner of the box may press between the ends.
-    constexpr float kNearAnEnd = 0.1F;
+    const float nearAnEnd = kSamePlace / (2.0F * round.halfLength);
     const float deepest = deepestOnSegment(core, box.halfExtents);
-    if (deepest > kNearAnEnd && deepest < 1.0F - kNearAnEnd) pointOnBox(core.at(deepest), round, box, margin, 2, out);
+    if (deepest > nearAnEnd && deepest < 1.0F - nearAnEnd) pointOnBox(core.at(deepest), round, box, margin, 2, out);
 }
 
 void roundPoints(const CollisionGeometry& a, const CollisionGeometry& b, const vec3& onA, const vec3& onB, float margin,
