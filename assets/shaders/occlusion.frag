@@ -10,7 +10,7 @@ out float fragment;
 
 const int kTaps = 8;
 const float kTurns = 5.0;
-const float kRadius = 0.35;  // metres
+const float kRadius = 0.4;  // metres
 
 // From the nearer neighbour on each side: derivatives across an edge would tilt it.
 vec3 normalAt(vec3 center, vec2 uv) {
@@ -44,5 +44,5 @@ void main() {
         float window = max(kRadius * kRadius - squared, 0.0) / (kRadius * kRadius);
         sum += window * window * facing * inversesqrt(squared + 1e-4);
     }
-    fragment = max(0.0, 1.0 - 2.6 * sum / float(kTaps));
+    fragment = max(0.0, 1.0 - 3.8 * sum / float(kTaps));
 }

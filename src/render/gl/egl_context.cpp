@@ -105,6 +105,11 @@ void EglContext::makeCurrent() {
     eglMakeCurrent(display_, surface_, surface_, context_);
 }
 
+void EglContext::releaseCurrent() {
+    const EGLDisplay display = eglGetCurrentDisplay();
+    if (display != EGL_NO_DISPLAY) eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+}
+
 EglContext::Loader EglContext::loader() const {
     return eglGetProcAddress;
 }

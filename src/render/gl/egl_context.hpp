@@ -21,6 +21,8 @@ class EglContext {
     ~EglContext();
 
     void makeCurrent();
+    /// Lets go of whichever EGL context is current on this thread: EGL and a window system's own GL do not mix.
+    static void releaseCurrent();
     [[nodiscard]] Loader loader() const;
 
   private:

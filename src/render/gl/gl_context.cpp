@@ -79,6 +79,7 @@ Result<GlContext> GlContext::createWindow(const WindowOptions& options) {
     glfwWindowHint(GLFW_SAMPLES, 0);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    EglContext::releaseCurrent();  // GLFW makes the window's context current to look at it
     GLFWwindow* window =
         glfwCreateWindow(options.size.width, options.size.height, options.title.c_str(), nullptr, nullptr);
     if (window == nullptr) {
@@ -97,8 +98,10 @@ Result<GlContext> GlContext::createWindow(const WindowOptions& options) {
 
 void GlContext::makeCurrent() {
     if (state_->window) {
+        EglContext::releaseCurrent();
         glfwMakeContextCurrent(state_->window.get());
     } else {
+        glfwMakeContextCurrent(nullptr);  // does nothing as long as there never was a window
         state_->egl->makeCurrent();
     }
 }

@@ -12,7 +12,6 @@
 namespace lutka::render {
 
 struct Renderer::State {
-    GlContext& context;
     CharacterStore characters;
     std::vector<std::string> warnings;
     SceneRenderer scene;
@@ -34,6 +33,7 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
 Result<Renderer> Renderer::create(GlContext& context, const RendererOptions& options) {
+    context.makeCurrent();
     Result<SceneRenderer> scene = SceneRenderer::create(options.shadowMapSize);
     if (!scene) return scene.error();
     Result<DebugRenderer> debug = DebugRenderer::create();
@@ -41,8 +41,7 @@ Result<Renderer> Renderer::create(GlContext& context, const RendererOptions& opt
     constexpr std::array<const char*, 2> kCaptured = {"skinnedPosition", "skinnedNormal"};
     Result<ShaderProgram> feedback = ShaderProgram::load("skin_feedback.vert", "", {}, kCaptured);
     if (!feedback) return feedback.error();
-    return Renderer(std::unique_ptr<State>(new State{context,
-                                                     {},
+    return Renderer(std::unique_ptr<State>(new State{{},
                                                      {},
                                                      std::move(scene).value(),
                                                      std::move(debug).value(),

@@ -26,8 +26,9 @@ struct RendererOptions {
 /// All calls need the context current, on the thread that made it.
 class Renderer {
   public:
-    /// Compiles the shaders of assets/shaders. `context` must outlive the renderer. Fails with ErrorCode::input for a
-    /// missing shader, ErrorCode::internal naming file and line for one that does not compile.
+    /// Makes `context` current and compiles the shaders of assets/shaders. The context (which may be moved) must
+    /// outlive the renderer. Fails with ErrorCode::input for a missing shader, ErrorCode::internal naming file and line
+    /// for one that does not compile.
     [[nodiscard]] static Result<Renderer> create(GlContext& context, const RendererOptions& options = {});
 
     Renderer(Renderer&&) noexcept;

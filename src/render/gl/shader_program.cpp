@@ -12,7 +12,11 @@
 namespace lutka::render {
 namespace {
 
-// The text handed to the compiler. #line directives carry the index of the file, as GLSL knows no file names.
+// Line numbers that the compiler sees hold the file too, as GLSL knows no file names and Mesa drops the file's number
+// from some of its messages: line n of file f is f * kLinesAFile + n.
+constexpr std::size_t kLinesAFile = 100000;
+
+// The text handed to the compiler.
 struct Source {
     std::string text;
     std::vector<std::string> files;
@@ -26,9 +30,9 @@ Result<void> append(Source& source, const std::string& name) {
     if (!bytes) return bytes.error();
     const std::size_t index = source.files.size();
     source.files.push_back(name);
-    source.text += fmt::format("#line 1 {}\n", index);
+    source.text += fmt::format("#line {}\n", index * kLinesAFile + 1);
     std::istringstream lines(std::string(bytes.value().begin(), bytes.value().end()));
-    int number = 1;
+    std::size_t number = 1;
     for (std::string line; std::getline(lines, line); ++number) {
         constexpr std::string_view kInclude = "#include \"";
         if (line.rfind(kInclude, 0) != 0) {
@@ -38,19 +42,26 @@ Result<void> append(Source& source, const std::string& name) {
         const std::size_t end = line.find('"', kInclude.size());
         const Result<void> included = append(source, line.substr(kInclude.size(), end - kInclude.size()));
         if (!included) return included;
-        source.text += fmt::format("#line {} {}\n", number + 1, index);
+        source.text += fmt::format("#line {}\n", index * kLinesAFile + number + 1);
     }
     return {};
 }
 
-// "1:23(4): error …" or "1(23) : error …" with the file's name for its index.
+// "0:200023(4): error …" (Mesa) or "0(200023) : error …" (NVIDIA) with the file's name and line in its place.
 Error compileError(const std::string& log, const Source& source) {
-    std::smatch match;
-    Error error{ErrorCode::internal, "the shader does not compile: " + log, source.files.front(), ""};
-    if (std::regex_search(log, match, std::regex(R"((\d+)[:(](\d+))"))) {
-        const std::size_t file = std::stoul(match[1].str());
-        if (file < source.files.size()) error.location = fmt::format("{}:{}", source.files[file], match[2].str());
+    Error error{ErrorCode::internal, "", source.files.front(), ""};
+    const std::regex place(R"(\d+[:(](\d+)(\(\d+\)|\)))");
+    std::string words;
+    auto from = log.cbegin();
+    for (std::smatch match; std::regex_search(from, log.cend(), match, place); from = match.suffix().first) {
+        const std::size_t number = std::stoul(match[1].str());
+        const std::size_t file = std::min(number / kLinesAFile, source.files.size() - 1);
+        const std::string name = fmt::format("{}:{}", source.files[file], number % kLinesAFile);
+        if (words.empty()) error.location = name;
+        words.append(from, match[0].first).append(name);
     }
+    words.append(from, log.cend());
+    error.message = "the shader does not compile: " + words;
     return error;
 }
 

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <vector>
+
+#include "animation/pose.hpp"
+#include "core/random.hpp"
+#include "render/gl/renderer.hpp"
+#include "support/catch.hpp"
+
+namespace lutka::test {
+
+/// A headless context with a renderer; null, with a printed word, where none can be had.
+struct GlFixture {
+    render::GlContext context;
+    render::Renderer renderer;
+
+    static std::unique_ptr<GlFixture> create(const render::RendererOptions& options = {}) {
+        Result<render::GlContext> context = render::GlContext::createHeadless();
+        if (!context) {
+            std::printf("skipped: %s\n", context.error().text().c_str());
+            return nullptr;
+        }
+        Result<render::Renderer> renderer = render::Renderer::create(context.value(), options);
+        if (!renderer) FAIL(renderer.error().text());
+        return std::unique_ptr<GlFixture>(new GlFixture{std::move(context).value(), std::move(renderer).value()});
+    }
+
+    [[nodiscard]] render::CharacterHandle upload(const animation::Character& character) {
+        const Result<render::CharacterHandle> handle = renderer.uploadCharacter(character);
+        if (!handle) FAIL(handle.error().text());
+        return handle.value();
+    }
+
+    [[nodiscard]] render::Image picture(const render::FrameDescription& frame, render::Extent size) {
+        renderer.draw(frame, size);
+        return renderer.readPixels();
+    }
+};
+
+/// The palette of a pose.
+[[nodiscard]] inline std::vector<animation::SkinMatrix> paletteOf(const animation::Skeleton& skeleton,
+                                                                  const std::vector<RigidTransform>& modelFromJoint) {
+    std::vector<animation::SkinMatrix> palette(modelFromJoint.size());
+    animation::skinMatrices(skeleton.bindModelFromJoint, modelFromJoint, palette);
+    return palette;
+}
+
+[[nodiscard]] inline std::vector<animation::SkinMatrix> bindPalette(const animation::Skeleton& skeleton) {
+    return paletteOf(skeleton, skeleton.bindModelFromJoint);
+}
+
+/// Every joint of the node pose turned about a random axis by up to `angle` radians.
+[[nodiscard]] inline std::vector<animation::SkinMatrix> randomPalette(const animation::Skeleton& skeleton,
+                                                                      Random& random, float angle) {
+    std::vector<RigidTransform> pose = skeleton.nodeParentFromJoint;
+    for (RigidTransform& joint : pose) {
+        const vec3 axis(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.1F, 1));
+        joint.rotation = joint.rotation * glm::angleAxis(random.uniform(-angle, angle), glm::normalize(axis));
+    }
+    animation::localToModel(skeleton, pose, pose);
+    return paletteOf(skeleton, pose);
+}
+
+}  // namespace lutka::test

@@ -1,0 +1,82 @@
+// Pictures against baselines in tests/golden, made with Mesa's llvmpipe and looked at before they were committed.
+
+#include <filesystem>
+
+#include "animation/import/import_character.hpp"
+#include "gl_fixture.hpp"
+#include "golden.hpp"
+#include "support/rigs.hpp"
+
+using namespace lutka;
+using namespace lutka::test;
+using namespace lutka::render;
+
+namespace {
+
+constexpr Extent kSize{480, 360};
+
+animation::Character mannequin() {
+    Result<animation::Character> loaded =
+        animation::importCharacter(std::filesystem::path(LUTKA_ASSETS_DIR) / "models" / "mannequin.glb");
+    if (!loaded) FAIL(loaded.error().text());
+    return std::move(loaded).value();
+}
+
+CharacterItem itemOf(CharacterHandle handle, const std::vector<animation::SkinMatrix>& palette) {
+    CharacterItem item;
+    item.character = handle;
+    item.palette = palette;
+    return item;
+}
+
+}  // namespace
+
+TEST_CASE("picture: the mannequin on the floor with its shadow") {
+    const auto gl = GlFixture::create();
+    if (!gl) return;
+    const animation::Character figure = mannequin();
+    const auto palette = bindPalette(figure.skeleton);
+    FrameDescription frame;
+    frame.characters.push_back(itemOf(gl->upload(figure), palette));
+    frameSphere(frame.camera, {0, 0.85F, 0}, 0.95F, kSize.aspect());
+    checkGolden(gl->picture(frame, kSize), "render_mannequin");
+}
+
+TEST_CASE("picture: props, debug capsules, axes and limits over a figure") {
+    const auto gl = GlFixture::create();
+    if (!gl) return;
+    const animation::Character biped = makeBiped();
+    const auto palette = bindPalette(biped.skeleton);
+    FrameDescription frame;
+    frame.characters.push_back(itemOf(gl->upload(biped), palette));
+    PropItem box;
+    box.worldFromShape = {glm::angleAxis(0.5F, vec3(0, 1, 0)), {-0.8F, 0.2F, -0.4F}};
+    box.halfExtents = vec3(0.2F);
+    box.checkerSize = 0.1F;
+    PropItem ball;
+    ball.kind = PropItem::Kind::sphere;
+    ball.radius = 0.18F;
+    ball.worldFromShape.translation = {0.7F, 0.18F, 0.3F};
+    ball.color = colors::red;
+    ball.roughness = 0.3F;
+    PropItem glass = ball;
+    glass.kind = PropItem::Kind::capsule;
+    glass.halfLength = 0.15F;
+    glass.worldFromShape.translation = {0.75F, 0.33F, -0.5F};
+    glass.color = withAlpha(colors::blue, 0.5F);
+    frame.props = {box, ball, glass};
+    const RigidTransform chest{quat(1, 0, 0, 0), {0, 1.32F, 0}};
+    const RigidTransform thigh{quat(1, 0, 0, 0), {0.1F, 0.7F, 0}};
+    addCapsule(frame.solids, chest, 0.18F, 0.08F, withAlpha(colors::cyan, 0.4F));
+    addCapsule(frame.lines, chest, 0.18F, 0.08F, colors::cyan);
+    addCapsule(frame.solids, thigh, 0.1F, 0.12F, withAlpha(colors::orange, 0.4F));
+    addCapsule(frame.lines, thigh, 0.1F, 0.12F, colors::orange);
+    const RigidTransform shoulder{quat(1, 0, 0, 0), {0.18F, 1.42F, 0}};
+    addSwingCone(frame.lines, shoulder, 0.7F, 0.9F, 0.35F, colors::yellow);
+    addAxes(frame.lines, {quat(1, 0, 0, 0), {-0.46F, 1.42F, 0}}, 0.15F);
+    addArc(frame.lines, {quat(1, 0, 0, 0), {-0.1F, 0.5F, 0}}, radians(-90), radians(40), 0.2F, colors::green);
+    addSector(frame.solids, {quat(1, 0, 0, 0), {-0.1F, 0.5F, 0}}, radians(-90), radians(40), 0.2F,
+              withAlpha(colors::green, 0.3F));
+    frameSphere(frame.camera, {0, 0.85F, 0}, 0.95F, kSize.aspect());
+    checkGolden(gl->picture(frame, kSize), "render_debug_layers");
+}
