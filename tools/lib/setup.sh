@@ -6,10 +6,11 @@ LUTKA_ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 # The executable finds the assets by its own place; where /proc is not mounted (a bare chroot) it needs to be told.
 export LUTKA_ASSETS=${LUTKA_ASSETS:-$LUTKA_ROOT/assets}
 
-# What the build needs, in DESIGN's order: tools, physics, import, window and GL, maths, UI, data, logs, threads.
+# What the build needs: tools; physics; import (zlib and minizip are what assimp asks its users to link), window and GL;
+# maths, UI; data; logs, threads, tests.
 LUTKA_BUILD_PACKAGES=(
   g++ cmake ninja-build ccache pkg-config python3-glad
-  libbullet-dev libassimp-dev libglfw3-dev libgl-dev libegl-dev libgl1-mesa-dri libegl1
+  libbullet-dev libassimp-dev zlib1g-dev libminizip-dev libglfw3-dev libgl-dev libegl-dev libgl1-mesa-dri libegl1
   libglm-dev libimgui-dev nlohmann-json3-dev libcli11-dev libtinygltf-dev libstb-dev
   libspdlog-dev libfmt-dev libtbb-dev catch2
 )
