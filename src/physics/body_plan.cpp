@@ -82,10 +82,11 @@ bool isTrunk(Role role) {
     return role == Role::spine || role == Role::chest || role == Role::upperChest;
 }
 
-void addBodies(BodyPlan& plan, const Character& character, const HumanoidMap& map, const FitOptions& options) {
+// Roles come parents first in the enumeration; so do the bodies.
+void addBodies(BodyPlan& plan, const Character& character, const HumanoidMap& map, std::span<const Role> roles) {
     for (int index = 0; index < animation::kRoleCount; ++index) {
         const Role role = animation::roleAt(index);
-        if (!wantsBody(role, map, options)) continue;
+        if (std::find(roles.begin(), roles.end(), role) == roles.end() || map.jointOf(role) == kNoJoint) continue;
         PlannedBody body;
         body.role = role;
         body.joint = map.jointOf(role);
@@ -147,17 +148,21 @@ void assignJoints(BodyPlan& plan, const Character& character, const HumanoidMap&
     }
 }
 
-// Crown minus sole: from the head's skin and the lowest of the legs', else from the joints (the head joint of a man
-// lies at 0.89 of his height, the ankle at 0.05: hence the factor).
+bool isLeg(Role role) {
+    const Role left = sideOf(role) == animation::Side::right ? mirrored(role) : role;
+    return left == Role::leftUpperLeg || left == Role::leftLowerLeg || left == Role::leftFoot;
+}
+
+// Crown minus sole: from the skin of the head (or of the trunk, where there is none) and of the legs, else from the
+// joints (the head joint of a man lies at 0.89 of his height, the ankle at 0.05: hence the factor).
 float figureHeight(const BodyPlan& plan, float jointSpanM) {
     std::vector<SkinPoint> low;
     std::vector<SkinPoint> high;
     for (const PlannedBody& body : plan.bodies) {
-        if (body.role == Role::head) high = body.skin;
-        if (body.role == Role::leftFoot || body.role == Role::rightFoot || body.role == Role::leftLowerLeg ||
-            body.role == Role::rightLowerLeg) {
-            low.insert(low.end(), body.skin.begin(), body.skin.end());
+        if (body.role == Role::head || (plan.bodyOf(Role::head) < 0 && sideOf(body.role) == animation::Side::center)) {
+            high.insert(high.end(), body.skin.begin(), body.skin.end());
         }
+        if (isLeg(body.role)) low.insert(low.end(), body.skin.begin(), body.skin.end());
     }
     constexpr float kJointsOfHeight = 0.84F;
     const float fromJoints = jointSpanM / kJointsOfHeight;
@@ -269,9 +274,17 @@ int bodyCarrying(const BodyPlan& plan, Role role) {
 }
 
 BodyPlan planBodies(const Character& character, const HumanoidMap& map, const FitOptions& options) {
+    std::vector<Role> roles;
+    for (int index = 0; index < animation::kRoleCount; ++index) {
+        if (wantsBody(animation::roleAt(index), map, options)) roles.push_back(animation::roleAt(index));
+    }
+    return planBodies(character, map, roles);
+}
+
+BodyPlan planBodies(const Character& character, const HumanoidMap& map, std::span<const Role> roles) {
     LUTKA_ASSERT(map.jointOf(Role::hips) != kNoJoint);
     BodyPlan plan;
-    addBodies(plan, character, map, options);
+    addBodies(plan, character, map, roles);
     plan.heightM = jointSpan(plan);
     findEnds(plan, character, map);
     assignJoints(plan, character, map);

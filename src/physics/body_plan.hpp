@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "animation/character.hpp"
@@ -38,6 +39,9 @@ struct BodyPlan {
     /// Whether every joint of a left body lies within kSymmetryTolerance · height of its right counterpart's mirror
     /// image. Left and right shapes are then made equal.
     bool symmetric = false;
+    /// Where the trunk's skin was split by height because the rig leaves a trunk body next to none: the upper bounds of
+    /// the trunk bodies from the hips on, but for the topmost; empty where the rig's own weights decide.
+    std::vector<float> trunkBounds;
 
     [[nodiscard]] int bodyOf(Role role) const;
     [[nodiscard]] vec3 mirror(const vec3& point) const { return {2.0F * middleX - point.x, point.y, point.z}; }
@@ -56,6 +60,10 @@ inline constexpr float kSymmetryTolerance = 0.02F;
 /// whose segment is nearest.
 [[nodiscard]] BodyPlan planBodies(const animation::Character& character, const animation::HumanoidMap& map,
                                   const FitOptions& options);
+
+/// The same for a given set of roles, of which those without a joint are left out.
+[[nodiscard]] BodyPlan planBodies(const animation::Character& character, const animation::HumanoidMap& map,
+                                  std::span<const Role> roles);
 
 /// The body that carries a role's part: its own, else that of the nearest role above; 0 when there is none.
 [[nodiscard]] int bodyCarrying(const BodyPlan& plan, Role role);

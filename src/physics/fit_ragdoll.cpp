@@ -7,6 +7,7 @@
 #include "physics/fit_shapes.hpp"
 #include "physics/limits.hpp"
 #include "physics/masses.hpp"
+#include "physics/rebind.hpp"
 #include "physics/separate_shapes.hpp"
 
 namespace lutka::physics {
@@ -26,22 +27,6 @@ Result<void> checkInput(const animation::Character& character, const animation::
     return {};
 }
 
-void addBodies(RagdollProfile& profile, const animation::Character& character, const BodyPlan& plan,
-               const std::vector<PlacedShape>& shapes) {
-    const RigidTransform modelFromStandard{glm::conjugate(profile.standardFromModel), vec3(0)};
-    for (std::size_t i = 0; i < plan.bodies.size(); ++i) {
-        const PlannedBody& planned = plan.bodies[i];
-        BodyProfile& body = profile.bodies.emplace_back();
-        body.role = planned.role;
-        body.joint = character.skeleton.names[planned.joint];
-        body.jointPath = jointPath(character.skeleton, planned.joint);
-        body.shape = shapes[i].shape;
-        const RigidTransform modelFromBody = modelFromStandard * shapes[i].standardFromBody;
-        body.jointFromBody = inverse(character.skeleton.bindModelFromJoint[planned.joint]) * modelFromBody;
-        body.jointFromBody.rotation = glm::normalize(body.jointFromBody.rotation);
-    }
-}
-
 }  // namespace
 
 Result<RagdollProfile> fitRagdoll(const animation::Character& character, const animation::HumanoidMap& map,
@@ -56,7 +41,8 @@ Result<RagdollProfile> fitRagdoll(const animation::Character& character, const a
     profile.heightM = plan.heightM;
     profile.totalMassKg = options.totalMassKg;
     profile.standardFromModel = map.standardFromModel;
-    addBodies(profile, character, plan, shapes);
+    profile.bodies.resize(plan.bodies.size());
+    placeBodies(profile, character, plan, shapes);
     assignMasses(profile.bodies, options);
     profile.constraints = makeConstraints(plan, anatomy, shapes, profile.notes);
     setJointFriction(profile);

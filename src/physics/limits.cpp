@@ -17,19 +17,14 @@ constexpr float kWidest = 175.0F;
 
 // The frames of a hinge share their z in the bind pose, whatever lies out of its plane; they agree when the child is
 // turned from its bind angle to the neutral one.
-void setHingeFrames(const BodyPlan& plan, const Anatomy& anatomy, int child, const RangeOfMotion& range,
-                    quat& parentFrame, quat& childFrame) {
-    const vec3 z = anatomy.flexionAxis[child];
-    const vec3 x = plan.bodies[child].direction();
-    childFrame = rotationFromXY(x, glm::cross(z, x));
-    const vec3 upper = plan.bodies[plan.bodies[child].parent].direction();
-    const vec3 inPlane = upper - glm::dot(upper, z) * z;
-    const float flexion = std::atan2(glm::dot(glm::cross(inPlane, x), z), glm::dot(inPlane, x));
-    parentFrame = glm::angleAxis(range.neutralFlexion - flexion, z) * childFrame;
-}
-
-bool isHingeable(const Anatomy& anatomy, int child) {
-    return glm::length(anatomy.flexionAxis[child]) > 0.5F;
+JointFrames hingeFrames(const BodyPlan& plan, const vec3& axis, int child, float neutralFlexion) {
+    const PlannedBody& body = plan.bodies[child];
+    const vec3 x = body.direction();
+    const vec3 upper = plan.bodies[body.parent].direction();
+    const vec3 inPlane = upper - glm::dot(upper, axis) * axis;
+    const float flexion = std::atan2(glm::dot(glm::cross(inPlane, x), axis), glm::dot(inPlane, x));
+    const quat frame = rotationFromXY(x, glm::cross(axis, x));
+    return {glm::angleAxis(neutralFlexion - flexion, axis) * frame, frame, body.start};
 }
 
 std::string widenHinge(HingeLimits& limits, float angle, Role child) {
@@ -64,6 +59,26 @@ std::string widenCone(ConeTwistLimits& limits, const SwingTwist& pose, Role chil
 
 }  // namespace
 
+JointFrames jointFrames(const BodyPlan& plan, const Anatomy& anatomy, int child) {
+    const PlannedBody& body = plan.bodies[child];
+    const RangeOfMotion range = rangeOfMotion(plan, body.role);
+    const vec3& axis = anatomy.flexionAxis[child];
+    if (range.kind == ConstraintProfile::Kind::hinge && glm::length(axis) > 0.5F) {
+        return hingeFrames(plan, axis, child, range.neutralFlexion);
+    }
+    const quat frame = standingFrame(body.role);
+    return {anatomy.standardFromAnatomy[body.parent] * range.neutral * frame,
+            anatomy.standardFromAnatomy[child] * frame, body.start};
+}
+
+void setFrames(ConstraintProfile& constraint, const JointFrames& frames, const RigidTransform& standardFromParent,
+               const RigidTransform& standardFromChild) {
+    constraint.parentFromFrame = inverse(standardFromParent) * RigidTransform{frames.parent, frames.anchor};
+    constraint.childFromFrame = inverse(standardFromChild) * RigidTransform{frames.child, frames.anchor};
+    constraint.parentFromFrame.rotation = glm::normalize(constraint.parentFromFrame.rotation);
+    constraint.childFromFrame.rotation = glm::normalize(constraint.childFromFrame.rotation);
+}
+
 std::vector<ConstraintProfile> makeConstraints(const BodyPlan& plan, const Anatomy& anatomy,
                                                const std::vector<PlacedShape>& shapes,
                                                std::vector<std::string>& notes) {
@@ -77,18 +92,9 @@ std::vector<ConstraintProfile> makeConstraints(const BodyPlan& plan, const Anato
         constraint.child = child;
         constraint.hinge = range.hinge;
         constraint.cone = range.cone;
-        const quat frame = standingFrame(body.role);
-        quat childFrame = anatomy.standardFromAnatomy[child] * frame;
-        quat parentFrame = anatomy.standardFromAnatomy[body.parent] * range.neutral * frame;
-        if (range.kind == ConstraintProfile::Kind::hinge && isHingeable(anatomy, child)) {
-            setHingeFrames(plan, anatomy, child, range, parentFrame, childFrame);
-        }
         const RigidTransform& parentBody = shapes[body.parent].standardFromBody;
         const RigidTransform& childBody = shapes[child].standardFromBody;
-        constraint.parentFromFrame = inverse(parentBody) * RigidTransform{parentFrame, body.start};
-        constraint.childFromFrame = inverse(childBody) * RigidTransform{childFrame, body.start};
-        constraint.parentFromFrame.rotation = glm::normalize(constraint.parentFromFrame.rotation);
-        constraint.childFromFrame.rotation = glm::normalize(constraint.childFromFrame.rotation);
+        setFrames(constraint, jointFrames(plan, anatomy, child), parentBody, childBody);
         std::string note = widenToHold(constraint, parentBody, childBody, body.role);
         if (!note.empty()) notes.push_back(std::move(note));
     }

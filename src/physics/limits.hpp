@@ -15,6 +15,19 @@ struct PlacedShape {
     RigidTransform standardFromBody;
 };
 
+/// Where the constraint between a body and its parent sits in the bind pose, in the standard stance's axes. The two
+/// orientations differ by how far the bind pose is from the middle of the range.
+struct JointFrames {
+    quat parent{1, 0, 0, 0};
+    quat child{1, 0, 0, 0};
+    vec3 anchor{0, 0, 0};  ///< The child's joint.
+};
+[[nodiscard]] JointFrames jointFrames(const BodyPlan& plan, const Anatomy& anatomy, int child);
+
+/// Puts the frames into the constraint, relative to its two bodies.
+void setFrames(ConstraintProfile& constraint, const JointFrames& frames, const RigidTransform& standardFromParent,
+               const RigidTransform& standardFromChild);
+
 /// The constraints of a plan, constraints[i].child == i + 1: anchors at the child's joint, frames that agree in the
 /// middle of the anatomical range, limits from rangeOfMotion(). A limit that the bind pose breaks is widened to hold it
 /// with two degrees to spare, and `notes` gains a sentence with the figures. frictionNm stays 0 (see setJointFriction).

@@ -1,6 +1,7 @@
 #include "physics/masses.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include "core/assert.hpp"
@@ -61,6 +62,18 @@ std::vector<double> sharesOf(std::span<const BodyProfile> bodies, const FitOptio
     return shares;
 }
 
+// The arm or leg that a role belongs to, from the trunk outwards; empty for the trunk's roles.
+std::vector<Role> limbOf(Role role) {
+    const bool right = sideOf(role) == animation::Side::right;
+    std::vector<Role> arm{Role::leftUpperArm, Role::leftLowerArm, Role::leftHand};
+    std::vector<Role> leg{Role::leftUpperLeg, Role::leftLowerLeg, Role::leftFoot, Role::leftToes};
+    for (std::vector<Role>& limb : {std::ref(arm), std::ref(leg)}) {
+        if (right) std::transform(limb.begin(), limb.end(), limb.begin(), animation::mirrored);
+        if (std::find(limb.begin(), limb.end(), role) != limb.end()) return limb;
+    }
+    return {};
+}
+
 }  // namespace
 
 float segmentMassShare(MassTable table, Role role) {
@@ -114,6 +127,14 @@ Role carrierOf(Role role, std::span<const BodyProfile> bodies) {
     if (role == Role::neck && !hasBody(role, bodies) && hasBody(Role::head, bodies)) return Role::head;
     // One body for the whole upper trunk may be the chest's or, above it, the upper chest's.
     if (role == Role::chest && !hasBody(role, bodies) && hasBody(Role::upperChest, bodies)) return Role::upperChest;
+    // An arm that is a hand alone carries all of the arm.
+    const std::vector<Role> limb = limbOf(role);
+    const auto own = std::find(limb.begin(), limb.end(), role);
+    const auto carries = [&](Role other) { return hasBody(other, bodies); };
+    if (std::none_of(limb.begin(), own, carries)) {
+        const auto below = std::find_if(own, limb.end(), carries);
+        if (below != limb.end()) return *below;
+    }
     for (std::optional<Role> at = role; at; at = animation::parentRole(*at)) {
         if (hasBody(*at, bodies)) return *at;
     }

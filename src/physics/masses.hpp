@@ -17,11 +17,12 @@ namespace lutka::physics {
 [[nodiscard]] float segmentMassShare(MassTable table, Role role);
 
 /// Writes masses (their sum is options.totalMassKg to 1e-6 of it) and the inertia of each shape into the bodies. The
-/// segment of a role without a body is carried by the nearest body above it.
+/// segment of a role without a body is carried by another (carrierOf).
 /// `balanced` takes the square root of the table's shares, which halves every ratio on the logarithmic scale.
 void assignMasses(std::span<BodyProfile> bodies, const FitOptions& options);
 
-/// The role itself when it has a body, else the nearest role above it that has one; hips when none has.
+/// The role itself when it has a body, else the nearest body above it in its limb, else the nearest below it there,
+/// else the nearest above the limb; hips when there is none.
 [[nodiscard]] Role carrierOf(Role role, std::span<const BodyProfile> bodies);
 
 }  // namespace lutka::physics

@@ -76,7 +76,32 @@ float heightOfPair(const BodyPlan& plan, Role left, float otherwise) {
     return a >= 0 && b >= 0 ? 0.5F * (plan.bodies[a].start.y + plan.bodies[b].start.y) : otherwise;
 }
 
+// From the hips up.
+std::vector<int> trunkBodies(const BodyPlan& plan) {
+    std::vector<int> trunk;
+    for (std::size_t body = 0; body < plan.bodies.size(); ++body) {
+        if (isTrunkBody(plan.bodies[body])) trunk.push_back(static_cast<int>(body));
+    }
+    return trunk;
+}
+
+int trunkBodyAt(const BodyPlan& plan, const std::vector<int>& trunk, float height) {
+    const auto above = std::upper_bound(plan.trunkBounds.begin(), plan.trunkBounds.end(), height);
+    return trunk[static_cast<std::size_t>(above - plan.trunkBounds.begin())];
+}
+
 }  // namespace
+
+std::vector<int> ownersOfVertices(const BodyPlan& plan, const SkinnedMesh& mesh, const mat3& standardFromModel) {
+    std::vector<int> owners = bodiesOfVertices(mesh, plan.bodyOfJoint);
+    if (plan.trunkBounds.empty()) return owners;
+    const std::vector<int> trunk = trunkBodies(plan);
+    for (std::size_t vertex = 0; vertex < owners.size(); ++vertex) {
+        if (!isTrunkBody(plan.bodies[owners[vertex]])) continue;
+        owners[vertex] = trunkBodyAt(plan, trunk, (standardFromModel * mesh.positions[vertex]).y);
+    }
+    return owners;
+}
 
 std::vector<int> bodiesOfVertices(const SkinnedMesh& mesh, const std::vector<int>& bodyOfJoint) {
     std::vector<int> owners(mesh.positions.size());
@@ -104,13 +129,11 @@ void gatherSkin(BodyPlan& plan, const animation::Character& character, const qua
 void balanceTrunk(BodyPlan& plan) {
     constexpr float kFewest = 0.1F;
     constexpr float kPelvis = 0.22F;
-    std::vector<int> trunk;
+    const std::vector<int> trunk = trunkBodies(plan);
     std::vector<SkinPoint> skin;
     float least = 1e9F;
     float total = 0.0F;
-    for (std::size_t body = 0; body < plan.bodies.size(); ++body) {
-        if (!isTrunkBody(plan.bodies[body])) continue;
-        trunk.push_back(static_cast<int>(body));
+    for (const int body : trunk) {
         const std::vector<SkinPoint>& own = plan.bodies[body].skin;
         skin.insert(skin.end(), own.begin(), own.end());
         least = std::min(least, areaOf(plan.bodies[body]));
@@ -120,15 +143,15 @@ void balanceTrunk(BodyPlan& plan) {
     const float low = heightOfPair(plan, Role::leftUpperLeg, plan.bodies[0].start.y);
     const float high = heightOfPair(plan, Role::leftUpperArm, plan.bodies[trunk.back()].end.y);
     if (high <= low) return;
+    const auto parts = static_cast<float>(trunk.size() - 1);
+    for (std::size_t i = 0; i + 1 < trunk.size(); ++i) {
+        const float along = kPelvis + (1.0F - kPelvis) * static_cast<float>(i) / parts;
+        plan.trunkBounds.push_back(low + along * (high - low));
+    }
     for (const int body : trunk)
         plan.bodies[body].skin.clear();
-    const float parts = static_cast<float>(trunk.size() - 1);
-    for (const SkinPoint& point : skin) {
-        const float along = (point.position.y - low) / (high - low);
-        const float part = 1.0F + std::floor((along - kPelvis) / (1.0F - kPelvis) * parts);
-        const auto index = along < kPelvis ? std::size_t{0} : static_cast<std::size_t>(std::min(part, parts));
-        plan.bodies[trunk[index]].skin.push_back(point);
-    }
+    for (const SkinPoint& point : skin)
+        plan.bodies[trunkBodyAt(plan, trunk, point.position.y)].skin.push_back(point);
 }
 
 }  // namespace lutka::physics

@@ -10,6 +10,10 @@ namespace lutka::physics {
 [[nodiscard]] std::vector<int> bodiesOfVertices(const animation::SkinnedMesh& mesh,
                                                 const std::vector<int>& bodyOfJoint);
 
+/// The same with the trunk's vertices as balanceTrunk() split them.
+[[nodiscard]] std::vector<int> ownersOfVertices(const BodyPlan& plan, const animation::SkinnedMesh& mesh,
+                                                const mat3& standardFromModel);
+
 /// Fills the skin of the plan's bodies: the vertices, and for coarse meshes (below 5000 vertices in all) points on the
 /// triangles instead, so that a box of eight vertices has a surface.
 void gatherSkin(BodyPlan& plan, const animation::Character& character, const quat& standardFromModel);
