@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kCombinationsTried = 14;
 constexpr float kSnapCosine = 0.9990F;  // 2.5 degrees
+constexpr float kAgreement = 10.0F;     // log-odds of a plane that mirrors all joints against one that mirrors none
 constexpr float kUnknownMargin = 6.0F;  // no other reading at all
 
 struct Combination {
@@ -23,8 +24,10 @@ struct Combination {
 // Terms that bind legs and arms: how they stand to each other.
 float bindingTerms(const FramedRig& framed, const LimbCandidate& legs, const LimbCandidate& arms) {
     const float rise = arms.root.y - legs.root.y;
-    float score = rise > 0.05F * legs.length ? near(std::log(rise / legs.length), std::log(0.75F), 0.5F) : -8.0F;
-    score += near(std::log(arms.length / legs.length), std::log(0.75F), 0.4F);
+    const float height = std::max(legs.root.y - framed.floor, 0.3F * legs.length);  // of the hips above the ground
+    const float slack = legs.jointCount() == 1 || arms.jointCount() == 1 ? 2.0F : 1.0F;
+    float score = rise > 0.05F * height ? near(std::log(rise / height), std::log(0.65F), 0.5F * slack) : -8.0F;
+    score += near(std::log(arms.length / height), std::log(0.62F), 0.4F * slack);
     score += atLeast((arms.tip.y - framed.floor) / legs.length, 0.45F, 0.15F, 8.0F);
     const float tilt = std::atan2(std::abs(arms.root.z - legs.root.z), std::max(rise, 1e-6F));
     score += atMost(tilt, radians(12.0F), radians(14.0F), 10.0F);
@@ -84,36 +87,33 @@ void findMargins(Figure& figure, const std::vector<LimbCandidate>& legs, const s
     if (figure.trunk.head != kNoJoint) figure.margins.head = without({.head = figure.trunk.head});
 }
 
+// The better of two readings: one that is not refused, then the likelier.
+bool better(const Figure& a, const Figure& b) {
+    return a.refusal.empty() != b.refusal.empty() ? a.refusal.empty() : a.score > b.score;
+}
+
 // The best reading in one stance.
 Figure readInStance(const RigFeatures& rig, const Stance& stance, float prior) {
-    Figure figure;
-    figure.framed = frameRig(rig, stance);
-    const FramedRig& framed = figure.framed;
+    Figure best;
+    best.refusal = "no joints stand as legs, trunk and arms of a figure";
+    const FramedRig framed = frameRig(rig, stance);
     const std::vector<LimbCandidate> legs = findLimbs(framed, LimbKind::leg);
     const std::vector<LimbCandidate> arms = findLimbs(framed, LimbKind::arm);
-    if (framed.pairs.size() < 2 || legs.empty() || arms.empty()) {
-        figure.refusal = "no two pairs of limbs mirror each other";
-        return figure;
-    }
     for (const Combination& combination : combine(framed, legs, arms)) {
-        const LimbCandidate& leg = legs[combination.legs];
-        const LimbCandidate& arm = arms[combination.arms];
-        const TrunkCandidate trunk = findTrunk(framed, leg, arm);
-        const float score = prior + combination.score + trunk.score;
-        if (score <= figure.score) continue;
-        figure.score = score;
-        figure.legs = leg;
-        figure.arms = arm;
-        figure.trunk = trunk;
+        Figure figure;
+        figure.legs = legs[combination.legs];
+        figure.arms = arms[combination.arms];
+        figure.trunk = findTrunk(framed, figure.legs, figure.arms);
+        if (figure.trunk.hips == kNoJoint) continue;
+        figure.score = prior + combination.score + figure.trunk.score;
+        figure.refusal = refusalOf(figure, framed);
+        if (better(figure, best)) best = std::move(figure);
     }
-    if (figure.trunk.hips == kNoJoint) {
-        figure.refusal = "no joints stand as legs, trunk and arms of a figure";
-        return figure;
-    }
-    findMargins(figure, legs, arms);
-    figure.facing = findFacing(framed, figure.legs, figure.arms, figure.trunk);
-    figure.refusal = refusalOf(figure);
-    return figure;
+    best.framed = framed;
+    if (best.trunk.hips == kNoJoint) return best;
+    findMargins(best, legs, arms);
+    best.facing = findFacing(framed, best.legs, best.arms, best.trunk);
+    return best;
 }
 
 // The plane's normal and the up axis made perpendicular, snapped to the model's axes where they nearly are those.
@@ -135,10 +135,6 @@ struct UpAxis {
     float prior;  // log-odds against +Y, which import takes care of
 };
 
-bool better(const Figure& a, const Figure& b) {
-    return a.refusal.empty() != b.refusal.empty() ? a.refusal.empty() : a.score > b.score;
-}
-
 }  // namespace
 
 Figure findFigure(const RigFeatures& rig) {
@@ -153,7 +149,8 @@ Figure findFigure(const RigFeatures& rig) {
         if (up.prior < 0.0F && best.refusal.empty()) break;
         for (const MirrorPlane& plane : planes) {
             if (std::abs(glm::dot(plane.normal, up.axis)) > kMostLean) continue;
-            Figure figure = readInStance(rig, makeStance(plane, up.axis), up.prior);
+            const float prior = up.prior + kAgreement * (plane.agreement - planes.front().agreement);
+            Figure figure = readInStance(rig, makeStance(plane, up.axis), prior);
             if (better(figure, best)) best = std::move(figure);
         }
     }

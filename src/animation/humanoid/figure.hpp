@@ -20,16 +20,22 @@ struct Margins {
 /// The best reading of a rig as a human figure, or why there is none.
 struct Figure {
     std::string refusal;  ///< Empty when the figure stands.
-    float score = -1e9F;  ///< Sum of all terms; kLeastFigureScore and more is a humanoid.
+    float score = -1e9F;  ///< Sum of all terms: what readings are compared by.
     FramedRig framed;
     LimbCandidate legs;
     LimbCandidate arms;
     TrunkCandidate trunk;
     Facing facing;
     Margins margins;
+
+    /// Sum of the terms of shape, structure and skin alone: what readings are accepted by.
+    [[nodiscard]] float shapeScore() const {
+        return score - legs.names - arms.names - trunk.names - legs.missing - arms.missing - trunk.missing;
+    }
 };
 
-inline constexpr float kLeastFigureScore = -8.0F;
+inline constexpr float kLeastShapeScore = -1.0F;  ///< Of Figure::shapeScore().
+inline constexpr float kLeastWholeScore = -7.0F;  ///< As kLeastShapeScore, but with what missing joints cost.
 
 /// Reads the rig in every stance that it may have and keeps the best.
 [[nodiscard]] Figure findFigure(const RigFeatures& rig);

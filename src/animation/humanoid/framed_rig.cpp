@@ -91,6 +91,7 @@ class PairFinder {
         }
         pair.ownWeight = rig_.ownWeight[a] + rig_.ownWeight[b];
         pair.subtreeWeight = rig_.subtreeWeight[a] + rig_.subtreeWeight[b];
+        pair.shadow = rig_.shadow[a] && rig_.shadow[b];
         pair.helper = rig_.names[a].helper || rig_.names[b].helper;
         framed_.pairOf[a] = framed_.pairOf[b] = static_cast<int>(framed_.pairs.size());
         framed_.pairs.push_back(pair);
@@ -175,7 +176,7 @@ void readSkin(FramedRig& framed) {
     }
     framed.subtreeSkin = framed.ownSkin;
     for (int joint = rig.count() - 1; joint >= 0; --joint) {
-        const bool counts = !rig.skinned || rig.subtreeWeight[joint] > 0.0F;
+        const bool counts = rig.carriesSkin(joint);
         if (counts) framed.subtreeJoints[joint].add(framed.positions[joint]);
         if (counts && heights.empty()) heights.push_back(framed.positions[joint].y);
         if (rig.parents[joint] == kNoJoint) continue;
@@ -185,7 +186,7 @@ void readSkin(FramedRig& framed) {
     if (rig.vertices.empty()) {
         heights.clear();
         for (int joint = 0; joint < rig.count(); ++joint) {
-            if (!rig.skinned || rig.subtreeWeight[joint] > 0.0F) heights.push_back(framed.positions[joint].y);
+            if (rig.carriesSkin(joint)) heights.push_back(framed.positions[joint].y);
         }
     }
     std::sort(heights.begin(), heights.end());

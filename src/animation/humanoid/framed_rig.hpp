@@ -26,6 +26,7 @@ struct JointPair {
     PartScores names;           ///< Mean of both names' evidence.
     float ownWeight;            ///< Sum of both, share of the skin.
     float subtreeWeight;
+    bool shadow;  ///< Both coincide with joints they belong to (RigFeatures::shadow).
     bool helper;  ///< By its name.
 };
 

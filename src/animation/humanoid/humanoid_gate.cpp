@@ -12,7 +12,8 @@ namespace {
 constexpr float kMostTilt = radians(46.0F);     // of the trunk from upright; hunched figures reach 30 degrees
 constexpr float kMostLegTilt = radians(50.0F);  // of the legs from straight down
 constexpr float kLeastHandHeight = 0.16F;       // above the feet, as a share of the way up to the arms' roots
-constexpr float kLeastRise = 0.10F;             // of the arms' roots above the legs', as a share of the legs' length
+constexpr float kNamesHelp = 0.6F;
+constexpr float kLeastRise = 0.10F;  // of the arms' roots above the legs', as a share of the legs' length
 
 float angleTo(const vec3& direction, const vec3& axis) {
     const float length = glm::length(direction);
@@ -20,34 +21,34 @@ float angleTo(const vec3& direction, const vec3& axis) {
 }
 
 // Share of the placed limb joints whose names are those of animals' limbs.
-float creatureShare(const Figure& figure, const LimbCandidate& limb) {
+float creatureShare(const FramedRig& framed, const LimbCandidate& limb) {
     int named = 0;
     int placed = 0;
     for (const int pair : limb.pairs) {
         if (pair == kNoPair) continue;
         ++placed;
-        if (figure.framed.rig->names[figure.framed.pairs[pair].joints[0]].creature) ++named;
+        if (framed.rig->names[framed.pairs[pair].joints[0]].creature) ++named;
     }
     return placed > 0 ? static_cast<float>(named) / static_cast<float>(placed) : 0.0F;
 }
 
 // Mean of the angles from the hips up to the arms' roots and to the head.
-float tiltOfTrunk(const Figure& figure) {
+float tiltOfTrunk(const Figure& figure, const FramedRig& framed) {
     const vec3 up(0, 1, 0);
     vec3 from = figure.legs.root;
     vec3 shoulders = figure.arms.root;
     from.x = shoulders.x = 0.0F;
     const float toShoulders = angleTo(shoulders - from, up);
     if (figure.trunk.head == kNoJoint) return toShoulders;
-    vec3 head = figure.framed.positions[figure.trunk.head];
+    vec3 head = framed.positions[figure.trunk.head];
     head.x = 0.0F;
     return 0.5F * (toShoulders + angleTo(head - from, up));
 }
 
 }  // namespace
 
-std::string refusalOf(const Figure& figure) {
-    const float tilt = tiltOfTrunk(figure);
+std::string refusalOf(const Figure& figure, const FramedRig& framed) {
+    const float tilt = tiltOfTrunk(figure, framed);
     if (tilt > kMostTilt) {
         return fmt::format("the trunk lies at {:.0f} degrees from upright: an animal, not a standing figure",
                            degrees(tilt));
@@ -55,13 +56,16 @@ std::string refusalOf(const Figure& figure) {
     if (angleTo(figure.legs.tip - figure.legs.root, vec3(0, -1, 0)) > kMostLegTilt) return "the legs do not go down";
     const float rise = figure.arms.root.y - figure.legs.root.y;
     if (rise < kLeastRise * figure.legs.length) return "the arms start no higher than the legs";
-    const float feet = std::min(figure.legs.tip.y, figure.framed.floor + 0.15F * figure.legs.length);
+    const float feet = std::min(figure.legs.tip.y, framed.floor + 0.15F * figure.legs.length);
     const float hands = (figure.arms.tip.y - feet) / (figure.arms.root.y - feet);
     if (hands < kLeastHandHeight) return "the hands stand on the ground: a four-legged animal";
-    if (creatureShare(figure, figure.arms) > 0.6F) return "what would be the arms are named as wings or front legs";
-    if (creatureShare(figure, figure.legs) > 0.6F) return "what would be the legs are named as an animal's";
-    if (figure.score < kLeastFigureScore) {
-        return fmt::format("the limbs have not the proportions of a human figure (score {:.1f})", figure.score);
+    if (creatureShare(framed, figure.arms) > 0.6F) return "what would be the arms are named as wings or front legs";
+    if (creatureShare(framed, figure.legs) > 0.6F) return "what would be the legs are named as an animal's";
+    // Names alone never make a humanoid, but they carry one that is put together oddly.
+    const float names = figure.legs.names + figure.arms.names + figure.trunk.names;
+    const float help = std::clamp(kNamesHelp * names, -10.0F, 10.0F);
+    if (figure.shapeScore() + help < kLeastShapeScore || figure.score - names + help < kLeastWholeScore) {
+        return fmt::format("the limbs have not the proportions of a human figure (score {:.1f})", figure.shapeScore());
     }
     return {};
 }

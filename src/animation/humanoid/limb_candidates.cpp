@@ -14,8 +14,13 @@ constexpr float kMissingEnd = -2.5F;
 constexpr float kMissingMiddle = -2.5F;
 constexpr float kNoOwnSkin = -1.2F;
 constexpr float kNoSkinBelow = -2.5F;
-constexpr float kDetached = -2.0F;         // the next joint is not below this one in the tree
-constexpr float kSkippedJoint = -0.35F;    // a skinned joint between two placed ones: twist, or a second segment
+constexpr float kDetachedFromMore = -6.0F;  // … though the limb has joints to go on with
+constexpr float kDetached = -1.5F;          // the next joint is not below this one in the tree
+constexpr float kShadow = -3.0F;
+constexpr float kMainBranch = 0.7F;
+constexpr float kInMiddle = -3.5F;         // thighs and upper arms never start in the mirror plane
+constexpr float kSecondSegment = -4.0F;    // named like the joint above it: "upper_arm.L.001"
+constexpr float kSkippedJoint = -0.4F;     // a skinned joint between two placed ones: twist, or a second segment
 constexpr float kShortestSegment = 0.02F;  // of the spread
 constexpr std::size_t kPerRoot = 3;
 constexpr std::size_t kMost = 48;
@@ -32,6 +37,7 @@ class LimbFinder {
         const int count = static_cast<int>(framed.pairs.size());
         for (int pair = 0; pair < count; ++pair)
             place_.push_back(skinTerm(pair));
+        findEnds();
     }
 
     std::vector<LimbCandidate> find() {
@@ -47,22 +53,72 @@ class LimbFinder {
     [[nodiscard]] const JointPair& at(int pair) const { return framed_.pairs[pair]; }
 
     [[nodiscard]] float skinTerm(int pair) const {
-        if (!framed_.rig->skinned) return 0.0F;
-        return (at(pair).ownWeight > 0.0F ? 0.0F : kNoOwnSkin) + (at(pair).subtreeWeight > 0.0F ? 0.0F : kNoSkinBelow);
+        const float shadow = at(pair).shadow ? kShadow : 0.0F;
+        if (!framed_.rig->skinned) return shadow;
+        return shadow + (at(pair).ownWeight > 0.0F ? 0.0F : kNoOwnSkin) +
+               (at(pair).subtreeWeight > 0.0F ? 0.0F : kNoSkinBelow);
     }
-    [[nodiscard]] float placing(int pair, int slot) const { return place_[pair] + at(pair).names[parts_[slot]]; }
+    [[nodiscard]] float placing(int pair, int slot) const { return place_[pair] + nameTerm(pair, slot); }
 
-    // Skinned joints that lie between two placed ones and are passed over.
-    [[nodiscard]] float skipped(int upper, int lower) const {
+    [[nodiscard]] float nameTerm(int pair, int slot) const {
+        const RigFeatures& rig = *framed_.rig;
+        const int joint = at(pair).joints[0];
+        const int parent = rig.parents[joint];
+        const NameEvidence& name = rig.names[joint];
+        const bool second = parent != kNoJoint && name.meaningful && !name.bareLimb &&
+                            name.words == rig.names[parent].words && name.side == rig.names[parent].side;
+        return at(pair).names[parts_[slot]] + (second ? kSecondSegment : 0.0F);
+    }
+
+    // A limb of one joint may start anywhere along it: proportions bind it less.
+    [[nodiscard]] static float slackOf(const LimbCandidate& limb) { return limb.pairs[1] == kNoPair ? 3.0F : 1.0F; }
+
+    void findEnds() {
+        endsThere_.assign(framed_.pairs.size(), true);
+        for (const JointPair& pair : framed_.pairs) {
+            if (framed_.rig->skinned && pair.ownWeight <= 0.0F) continue;
+            const int parent = framed_.rig->parents[pair.joints[0]];
+            for (int joint = parent; joint != kNoJoint; joint = framed_.rig->parents[joint]) {
+                if (framed_.pairOf[joint] >= 0) endsThere_[framed_.pairOf[joint]] = false;
+            }
+        }
+    }
+
+    // Skinned joints that lie between two placed ones and are passed over: twist joints and second segments lie on the
+    // straight line between them, an elbow or a knee does not.
+    [[nodiscard]] float skipped(int upper, int lower, bool straight = true) const {
         float total = 0.0F;
         const RigFeatures& rig = *framed_.rig;
+        const vec3& start = framed_.positions[at(upper).joints[0]];
+        const vec3 along = framed_.positions[at(lower).joints[0]] - start;
+        const float square = glm::dot(along, along) + 1e-9F;
         for (int joint = rig.parents[at(lower).joints[0]]; joint != kNoJoint; joint = rig.parents[joint]) {
             if (joint == at(upper).joints[0]) break;
             const int pair = framed_.pairOf[joint];
-            if (pair < 0 || at(pair).helper) continue;
-            if (!rig.skinned || at(pair).ownWeight > 0.0F) total += kSkippedJoint;
+            if (pair < 0 || at(pair).helper || (rig.skinned && at(pair).ownWeight <= 0.0F)) continue;
+            const vec3 away = framed_.positions[joint] - start;
+            const vec3 off = away - glm::dot(away, along) / square * along;
+            total += kSkippedJoint;
+            if (straight) total += near(glm::length(off) / std::sqrt(square), 0.0F, 0.06F, 2.0F);
         }
         return total;
+    }
+
+    // A limb goes on where most of the skin does: hands before thumbs, shins before pockets.
+    [[nodiscard]] float mainBranchTerm(int upper, int lower) const {
+        const RigFeatures& rig = *framed_.rig;
+        if (!rig.skinned) return 0.0F;
+        float total = 0.0F;
+        for (int side = 0; side < 2; ++side) {
+            int branch = at(lower).joints[side];
+            while (rig.parents[branch] != at(upper).joints[side])
+                branch = rig.parents[branch];
+            float widest = rig.subtreeWeight[branch];
+            for (const int sibling : rig.children[at(upper).joints[side]])
+                widest = std::max(widest, rig.subtreeWeight[sibling]);
+            total += 0.5F * std::log((rig.subtreeWeight[branch] + 1e-4F) / (widest + 1e-4F));
+        }
+        return kMainBranch * std::max(total, -4.0F);
     }
 
     // Whether `lower` may follow `upper` though it hangs elsewhere: rigs with feet under a control root, flat trees.
@@ -80,8 +136,9 @@ class LimbFinder {
     // 0 below it in the tree, a loss where detached, kImpossible otherwise.
     static constexpr float kImpossible = -100.0F;
     [[nodiscard]] float linkTerm(int upper, int lower) const {
-        if (framed_.isAbove(upper, lower)) return skipped(upper, lower);
-        return mayContinueDetached(upper, lower) ? kDetached : kImpossible;
+        if (framed_.isAbove(upper, lower)) return skipped(upper, lower) + mainBranchTerm(upper, lower);
+        if (!mayContinueDetached(upper, lower)) return kImpossible;
+        return endsThere_[upper] ? kDetached : kDetachedFromMore;
     }
 
     void findFrom(int root) {
@@ -93,19 +150,22 @@ class LimbFinder {
         candidate.first = root;
         candidate.root = at(root).position;
         candidate.pairs = {root, kNoPair, kNoPair, kNoPair};
-        consider(candidate, kMissingEnd + kMissingMiddle);
+        candidate.missing = kMissingEnd + kMissingMiddle;
+        consider(candidate, 0.0F);
         for (int middle = 0; middle < count; ++middle) {
             const float link = linkTerm(root, middle);
             if (link <= kImpossible || framed_.segment(root, middle) < shortest) continue;
             if (!rightWay(root, middle)) continue;
             candidate.pairs = {root, middle, kNoPair, kNoPair};
-            consider(candidate, link + kMissingEnd);
+            candidate.missing = kMissingEnd;
+            consider(candidate, link);
             for (int end = 0; end < count; ++end) {
                 const float nextLink = end == root ? kImpossible : linkTerm(middle, end);
                 if (nextLink <= kImpossible || framed_.segment(middle, end) < shortest) continue;
                 const float ratio = framed_.segment(root, middle) / framed_.segment(middle, end);
                 if (ratio < 0.2F || ratio > 5.0F || !rightWay(middle, end)) continue;
                 candidate.pairs = {root, middle, end, kNoPair};
+                candidate.missing = 0.0F;
                 consider(candidate, link + nextLink);
             }
         }
@@ -121,15 +181,19 @@ class LimbFinder {
     }
 
     void consider(LimbCandidate candidate, float links) {
-        candidate.score = links;
+        candidate.score = links + candidate.missing;
+        candidate.names = 0.0F;
         if (kind_ == LimbKind::leg) {
             scoreLeg(candidate);
         } else {
             scoreArm(candidate);
         }
+        candidate.score += leftOver(candidate);
         nameByWords(candidate);
         for (int slot = 0; slot < 3; ++slot) {
-            if (candidate.pairs[slot] != kNoPair) candidate.score += placing(candidate.pairs[slot], slot) + 1.0F;
+            if (candidate.pairs[slot] == kNoPair) continue;
+            candidate.score += placing(candidate.pairs[slot], slot) + 1.0F;
+            candidate.names += nameTerm(candidate.pairs[slot], slot);
         }
         best_.push_back(candidate);
         if (best_.size() > 64) {
@@ -137,6 +201,14 @@ class LimbFinder {
                              [](const LimbCandidate& a, const LimbCandidate& b) { return a.score > b.score; });
             best_.resize(kPerRoot);
         }
+    }
+
+    // A limb that is read as shorter than its chain of skinned joints.
+    [[nodiscard]] float leftOver(const LimbCandidate& limb) const {
+        if (limb.pairs[2] != kNoPair) return 0.0F;
+        const int last = limb.pairs[1] != kNoPair ? limb.pairs[1] : limb.pairs[0];
+        if (endsThere_[last]) return 0.0F;
+        return limb.pairs[1] != kNoPair ? -1.0F : -4.0F;
     }
 
     // Limbs of one or two joints: the last one may be the hand or foot, if its name says so.
@@ -194,17 +266,18 @@ class LimbFinder {
             return;
         }
         leg.score += angleTerm(leg.tip - leg.root, vec3(0, -1, 0), 0.97F, 0.12F);
-        leg.score += near(leg.root.x / length, 0.2F, 0.2F, 2.0F);
-        if (leg.root.x < 0.03F * length) leg.score -= 1.5F;
-        const float heightOfTip = (leg.tip.y - framed_.floor) / length;
-        leg.score += near(heightOfTip, foot != kNoPair ? 0.12F : 0.0F, 0.15F, 5.0F);
+        leg.score += near(leg.root.x / length, 0.2F, 0.2F * slackOf(leg), 2.0F);
+        if (leg.root.x < 0.03F * length) leg.score += kInMiddle;
+        const float height = std::max(leg.root.y - framed_.floor, 0.3F * length);
+        const float heightOfTip = (leg.tip.y - framed_.floor) / height;
+        leg.score += near(heightOfTip, foot != kNoPair ? 0.1F : 0.0F, 0.18F, 5.0F);
         if (lower != kNoPair) {
             leg.score += angleTerm(at(lower).position - leg.root, vec3(0, -1, 0), 0.7F, 0.25F);
         }
         if (foot != kNoPair) {
             leg.score += near(std::log(framed_.segment(upper, lower) / framed_.segment(lower, foot)), 0.05F, 0.3F);
-            leg.score += angleTerm(at(foot).position - at(lower).position, vec3(0, -1, 0), 0.7F, 0.25F);
-            addToes(leg);
+            leg.score += angleTerm(at(foot).position - at(lower).position, vec3(0, -1, 0), 0.88F, 0.08F);
+            addToes(leg, height);
         } else if (lower != kNoPair) {
             leg.score +=
                 near(std::log(framed_.segment(upper, lower) / (length - framed_.segment(upper, lower) + 1e-6F)), 0.0F,
@@ -213,22 +286,23 @@ class LimbFinder {
         leg.score += unusedAbove(upper, kNoPair, length);
     }
 
-    void addToes(LimbCandidate& leg) const {
+    void addToes(LimbCandidate& leg, float height) const {
         const int foot = leg.pairs[2];
         float best = 0.0F;
         for (int pair = 0; pair < static_cast<int>(framed_.pairs.size()); ++pair) {
             if (!framed_.isAbove(foot, pair)) continue;
             const vec3 away = at(pair).position - at(foot).position;
-            const float distance = framed_.segment(foot, pair) / leg.length;
+            const float distance = framed_.segment(foot, pair) / height;
             if (distance < 0.03F || away.y > 0.04F * leg.length) continue;
             const float sideways = std::abs(away.x) / (glm::length(away) + 1e-6F);
-            const float score = 0.8F + placing(pair, 3) + near(distance, 0.22F, 0.12F, 4.0F) +
-                                atMost(sideways, 0.3F, 0.25F, 3.0F) + skipped(foot, pair);
+            const float score = 1.6F + placing(pair, 3) + near(distance, 0.18F, 0.2F, 3.0F) +
+                                atMost(sideways, 0.3F, 0.25F, 3.0F) + skipped(foot, pair, false);
             if (score <= best) continue;
             best = score;
             leg.pairs[3] = pair;
         }
         leg.score += best;
+        if (leg.pairs[3] != kNoPair) leg.names += nameTerm(leg.pairs[3], 3);
     }
 
     void scoreArm(LimbCandidate& arm) const {
@@ -241,11 +315,12 @@ class LimbFinder {
         }
         const vec3 along = (arm.tip - arm.root) / (glm::distance(arm.tip, arm.root) + 1e-6F);
         arm.score += atLeast(along.x, 0.0F, 0.15F) + atMost(along.y, 0.3F, 0.3F, 3.0F);
-        if (arm.root.x < 0.03F * length) arm.score -= 1.5F;
+        if (arm.root.x < 0.03F * length) arm.score += kInMiddle;
         if (hand != kNoPair) {
             const vec3 first = at(lower).position - arm.root;
             const vec3 second = at(hand).position - at(lower).position;
-            arm.score += near(std::log(framed_.segment(upper, lower) / framed_.segment(lower, hand)), 0.08F, 0.28F);
+            arm.score +=
+                near(std::log(framed_.segment(upper, lower) / framed_.segment(lower, hand)), 0.08F, 0.28F, 3.0F);
             arm.score += angleTerm(first, second, 0.75F, 0.3F);
             arm.score += beyondTerm(hand, length, 0.3F, 0.22F);
         } else if (lower != kNoPair) {
@@ -274,21 +349,32 @@ class LimbFinder {
 
     void addClavicle(LimbCandidate& arm) const {
         const int upper = arm.pairs[0];
-        const float base = near(arm.root.x / arm.length, 0.33F, 0.14F, 3.0F);
+        const float base = near(arm.root.x / arm.length, 0.33F, 0.14F * slackOf(arm), 3.0F);
         float best = unusedAbove(upper, kNoPair, arm.length);
         for (int pair = 0; pair < static_cast<int>(framed_.pairs.size()); ++pair) {
-            if (!framed_.isAbove(pair, upper)) continue;
+            const bool beside = areSiblings(pair, upper);
+            if (!framed_.isAbove(pair, upper) && !beside) continue;
             const vec3 position = at(pair).position;
             const float length = framed_.segment(pair, upper) / arm.length;
             if (length < 0.04F) continue;
             const float score = 1.0F + placing(pair, 3) + near(length, 0.28F, 0.13F, 4.0F) +
-                                near(position.x / arm.length, 0.08F, 0.12F, 3.0F) + skipped(pair, upper) +
-                                unusedAbove(pair, kNoPair, arm.length);
+                                near(position.x / arm.length, 0.08F, 0.12F, 3.0F) + skipped(pair, upper, false) +
+                                unusedAbove(pair, kNoPair, arm.length) + (beside ? kDetached : 0.0F);
             if (score <= best) continue;
             best = score;
             arm.pairs[3] = pair;
         }
         arm.score += base + best;
+        if (arm.pairs[3] != kNoPair) arm.names += nameTerm(arm.pairs[3], 3);
+    }
+
+    // A clavicle may hang beside the upper arm instead of above it.
+    [[nodiscard]] bool areSiblings(int pair, int upper) const {
+        const RigFeatures& rig = *framed_.rig;
+        const auto& a = at(pair).joints;
+        const auto& b = at(upper).joints;
+        return pair != upper && rig.children[a[0]].empty() && rig.children[a[1]].empty() &&
+               rig.parents[a[0]] == rig.parents[b[0]] && rig.parents[a[1]] == rig.parents[b[1]];
     }
 
     // Skinned pairs above the first one that the reading leaves over.
@@ -306,6 +392,7 @@ class LimbFinder {
     LimbKind kind_;
     std::array<Part, 4> parts_;
     std::vector<float> place_;
+    std::vector<bool> endsThere_;  // per pair: no skinned pair below it
     std::vector<LimbCandidate> best_;
     std::vector<LimbCandidate> found_;
 };

@@ -17,10 +17,12 @@ struct LimbCandidate {
     /// Indices into FramedRig::pairs. Legs: upper leg, lower leg, foot, toes; arms: upper arm, lower arm, hand,
     /// clavicle. kNoPair where the limb lacks the part.
     std::array<int, 4> pairs{kNoPair, kNoPair, kNoPair, kNoPair};
-    float score = 0.0F;   ///< Sum of log-likelihood-like terms; above 0 speaks for the reading.
-    float length = 0.0F;  ///< From the root joint over the middle one to the foot or hand (or the end of the skin).
-    vec3 root{0};         ///< Position of the first pair, in the stance.
-    vec3 tip{0};          ///< Foot or hand, or the end of what there is.
+    float missing = 0.0F;  ///< The part of the score that joints which are not there cost.
+    float names = 0.0F;    ///< The part of the score that comes from names.
+    float score = 0.0F;    ///< Sum of log-likelihood-like terms; above 0 speaks for the reading.
+    float length = 0.0F;   ///< From the root joint over the middle one to the foot or hand (or the end of the skin).
+    vec3 root{0};          ///< Position of the first pair, in the stance.
+    vec3 tip{0};           ///< Foot or hand, or the end of what there is.
 
     int first = kNoPair;  ///< The pair that the limb starts at (without clavicle), whatever part it is.
 

@@ -22,10 +22,6 @@ struct Vote {
     float weight;
 };
 
-bool carriesSkin(const RigFeatures& rig, int joint) {
-    return !rig.skinned || rig.subtreeWeight[joint] > 0.0F;
-}
-
 bool namesMirror(const NameEvidence& a, const NameEvidence& b) {
     return a.side != Side::center && b.side != Side::center && a.side != b.side && a.words == b.words;
 }
@@ -70,7 +66,7 @@ std::vector<Vote> gatherVotes(const RigFeatures& rig, float spread) {
             const bool named = namesMirror(rig.names[a], rig.names[b]);
             if (!named && !hangAlike(rig, a, b, spread)) continue;
             const vec3 normal = across / length;
-            const float skin = carriesSkin(rig, a) && carriesSkin(rig, b) ? 1.0F : 0.2F;
+            const float skin = rig.carriesSkin(a) && rig.carriesSkin(b) ? 1.0F : 0.2F;
             const vec3 middle = 0.5F * (rig.positions[a] + rig.positions[b]);
             votes.push_back({normal, glm::dot(normal, middle), (named ? 2.0F : 1.0F) * skin * length});
         }
@@ -90,7 +86,7 @@ float agreementOf(const RigFeatures& rig, const Vote& plane, float spread) {
     float found = 0.0F;
     float possible = 0.0F;
     for (int joint = 0; joint < rig.count(); ++joint) {
-        const float weight = carriesSkin(rig, joint) ? 1.0F : 0.15F;
+        const float weight = rig.carriesSkin(joint) ? 1.0F : 0.15F;
         const float distance = glm::dot(rig.positions[joint], plane.normal) - plane.offset;
         const vec3 image = rig.positions[joint] - 2.0F * distance * plane.normal;
         float nearest = tolerance * 4.0F;
@@ -105,24 +101,6 @@ float agreementOf(const RigFeatures& rig, const Vote& plane, float spread) {
 }
 
 }  // namespace
-
-float spreadOf(const RigFeatures& rig) {
-    vec3 mean(0);
-    float count = 0.0F;
-    for (int joint = 0; joint < rig.count(); ++joint) {
-        if (!carriesSkin(rig, joint)) continue;
-        mean += rig.positions[joint];
-        count += 1.0F;
-    }
-    if (count == 0.0F) return 0.0F;
-    mean /= count;
-    float square = 0.0F;
-    for (int joint = 0; joint < rig.count(); ++joint) {
-        const vec3 away = rig.positions[joint] - mean;
-        if (carriesSkin(rig, joint)) square += glm::dot(away, away);
-    }
-    return 2.0F * std::sqrt(square / count);
-}
 
 std::vector<MirrorPlane> findMirrorPlanes(const RigFeatures& rig) {
     const float spread = spreadOf(rig);

@@ -18,7 +18,4 @@ struct MirrorPlane {
 /// pairs.
 [[nodiscard]] std::vector<MirrorPlane> findMirrorPlanes(const RigFeatures& rig);
 
-/// Root mean square distance of the joints (those with skin, if any have) from their mean, times two.
-[[nodiscard]] float spreadOf(const RigFeatures& rig);
-
 }  // namespace lutka::animation

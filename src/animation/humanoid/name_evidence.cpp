@@ -11,6 +11,7 @@ namespace lutka::animation {
 namespace {
 
 constexpr float kClear = 4.5F;       // the word has one meaning in all conventions
+constexpr float kBareLimb = 2.3F;    // "arm", "leg": mostly the upper arm, the thigh or the shin
 constexpr float kOther = -2.5F;      // the name speaks of another part
 constexpr float kNoRole = -4.0F;     // fingers, face, props, controls
 constexpr float kTwistLoss = -4.5F;  // a twist joint is still nearest to its own part
@@ -30,7 +31,8 @@ class Concepts {
   public:
     explicit Concepts(const std::vector<std::string>& words) {
         for (const std::string& word : words) {
-            if (const auto meaning = conceptOf(word)) bits_.set(static_cast<std::size_t>(*meaning));
+            const auto meaning = conceptOf(word);
+            if (meaning && *meaning != Concept::noise) bits_.set(static_cast<std::size_t>(*meaning));
         }
     }
     [[nodiscard]] bool has(Concept meaning) const { return bits_.test(static_cast<std::size_t>(meaning)); }
@@ -58,7 +60,7 @@ bool scoreArm(const Concepts& c, PartScores& scores) {
     } else if (c.has(Concept::upperArm) || (c.has(Concept::arm) && c.has(Concept::upper))) {
         set(scores, {{Part::upperArm, kClear}});
     } else if (c.has(Concept::wrist)) {
-        set(scores, {{Part::hand, 3.5F}, {Part::lowerArm, -0.5F}});
+        set(scores, {{Part::hand, kClear}, {Part::lowerArm, -0.5F}});
     } else if (c.has(Concept::hand)) {
         set(scores, {{Part::hand, kClear}});
     } else if (c.has(Concept::clavicle)) {
@@ -66,7 +68,7 @@ bool scoreArm(const Concepts& c, PartScores& scores) {
     } else if (c.has(Concept::shoulder)) {
         set(scores, {{Part::clavicle, 2.2F}, {Part::upperArm, 2.0F}});
     } else if (c.has(Concept::arm)) {
-        set(scores, {{Part::upperArm, 2.4F}, {Part::clavicle, 0.8F}, {Part::lowerArm, 0.8F}, {Part::hand, -1.0F}});
+        set(scores, {{Part::upperArm, kBareLimb}, {Part::clavicle, 0.8F}, {Part::lowerArm, 0.8F}, {Part::hand, -1.0F}});
     } else {
         return false;
     }
@@ -93,7 +95,7 @@ bool scoreLeg(const Concepts& c, bool sided, PartScores& scores) {
         // A sided pelvis lies between the hips and the thigh; a sided hip usually is the thigh.
         set(scores, {{Part::upperLeg, c.has(Concept::hip) ? 2.5F : -1.0F}});
     } else if (c.has(Concept::leg)) {
-        set(scores, {{Part::lowerLeg, 2.0F}, {Part::upperLeg, 2.0F}, {Part::foot, -1.5F}});
+        set(scores, {{Part::lowerLeg, 2.0F}, {Part::upperLeg, kBareLimb}, {Part::foot, -1.5F}});
     } else {
         return false;
     }
@@ -120,7 +122,12 @@ void scoreTrunk(const Concepts& c, bool sided, PartScores& scores) {
     } else if (c.has(Concept::abdomen)) {
         set(scores, {{Part::trunk, 3.0F}, {Part::chest, -0.5F}, {Part::hips, -0.5F}});
     } else if (c.has(Concept::spine)) {
-        set(scores, {{Part::trunk, 3.0F}, {Part::chest, up ? 3.0F : 2.5F}, {Part::hips, 0.0F}});
+        // One convention numbers the spine on up to the head.
+        set(scores, {{Part::trunk, 3.0F},
+                     {Part::chest, up ? 3.0F : 2.5F},
+                     {Part::hips, 0.0F},
+                     {Part::neck, -0.5F},
+                     {Part::head, -0.5F}});
     } else if (c.has(Concept::body)) {
         set(scores, {{Part::hips, 1.0F}, {Part::trunk, 0.5F}, {Part::chest, 0.5F}});
     } else if (c.has(Concept::root)) {
@@ -159,6 +166,7 @@ NameEvidence nameEvidence(std::string_view name) {
         (hasWord(tokens.words, "fore") || hasWord(tokens.words, "back")) && concepts.has(Concept::leg);
     evidence.creature = fourLegged || concepts.has(Concept::creature);
     evidence.tail = hasWord(tokens.words, "tail") || hasWord(tokens.words, "tails");
+    evidence.bareLimb = evidence.parts[Part::upperArm] == kBareLimb || evidence.parts[Part::upperLeg] == kBareLimb;
     evidence.face = concepts.has(Concept::face);
     evidence.thumb = hasWord(tokens.words, "thumb") || hasWord(tokens.words, "thumbs");
     evidence.helper = concepts.hasAny({Concept::twist, Concept::control, Concept::end, Concept::prop});

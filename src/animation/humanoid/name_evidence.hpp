@@ -17,6 +17,7 @@ struct NameEvidence {
     Side side = Side::center;
     bool meaningful = false;  ///< Some word of the name is in the lexicon.
     bool helper = false;      ///< Twist, control, tip, prop: sits at a body part without being it.
+    bool bareLimb = false;    ///< Only "arm" or "leg", without a word for which part of it.
     bool face = false;        ///< Eye, jaw, nose …: in front of the head.
     bool thumb = false;
     bool tail = false;

@@ -1,6 +1,8 @@
 #include "animation/humanoid/rig_features.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 
 namespace lutka::animation {
 namespace {
@@ -44,13 +46,27 @@ void readWeights(const Skeleton& skeleton, RigFeatures& rig) {
         rig.ownWeight[joint] *= scale;
         rig.subtreeWeight[joint] *= scale;
     }
+    rig.directWeight = rig.ownWeight;
     // Rigid parts and collision volumes hang on their joint as leaves and carry its weight.
     for (int joint = 0; joint < count; ++joint) {
         if (rig.ownWeight[joint] > 0.0F) continue;
         for (const int child : rig.children[joint]) {
-            if (rig.children[child].empty()) rig.ownWeight[joint] += rig.ownWeight[child];
+            if (rig.children[child].empty()) rig.ownWeight[joint] += rig.directWeight[child];
         }
     }
+}
+
+// Where all parts are rigid, which joints carry one proves nothing: limbs may hang from joints that carry none.
+void readRigidParts(const Character& character, RigFeatures& rig) {
+    rig.rigidPart.assign(rig.positions.size(), false);
+    bool onlyRigid = !character.meshes.empty();
+    for (const SkinnedMesh& mesh : character.meshes) {
+        onlyRigid = onlyRigid && mesh.rigid;
+        if (mesh.rigid && !mesh.joints.empty() && mesh.joints[0][0] < rig.positions.size()) {
+            rig.rigidPart[mesh.joints[0][0]] = true;
+        }
+    }
+    if (onlyRigid) rig.skinned = false;
 }
 
 void readVertices(const Character& character, RigFeatures& rig) {
@@ -67,7 +83,58 @@ void readVertices(const Character& character, RigFeatures& rig) {
     }
 }
 
+void findShadows(RigFeatures& rig) {
+    constexpr float kCoincident = 0.004F;  // of the spread
+    const float tolerance = kCoincident * spreadOf(rig);
+    rig.shadow.assign(rig.positions.size(), false);
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        for (int other = 0; other < rig.count() && !rig.shadow[joint]; ++other) {
+            if (other == joint || glm::distance(rig.positions[joint], rig.positions[other]) > tolerance) continue;
+            const bool otherSkinned = rig.ownWeight[other] > 0.0F && !rig.rigidPart[other];
+            const bool partOfOther = rig.rigidPart[joint] && !rig.rigidPart[other];
+            const bool leafOfMore = rig.children[joint].empty() && !rig.children[other].empty();
+            rig.shadow[joint] = (otherSkinned && rig.ownWeight[joint] <= 0.0F) ||
+                                (leafOfMore && (otherSkinned || partOfOther || !rig.skinned));
+        }
+    }
+}
+
+// "Arm 1, Arm 2, Arm 3": where one chain calls three joints or more by the same word for a limb, the word tells the
+// limb and no part of it.
+void flattenNumberedLimbs(RigFeatures& rig) {
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        const NameEvidence& name = rig.names[joint];
+        if (!name.bareLimb) continue;
+        const auto alike = std::count_if(rig.names.begin(), rig.names.end(), [&](const NameEvidence& other) {
+            return other.side == name.side && other.words == name.words;
+        });
+        if (alike < 3) continue;
+        const bool arm = name.parts[Part::upperArm] > 0.0F;
+        for (const Part part : arm ? std::array{Part::clavicle, Part::upperArm, Part::lowerArm, Part::hand}
+                                   : std::array{Part::upperLeg, Part::lowerLeg, Part::foot, Part::toes})
+            rig.names[joint].parts[part] = 1.5F;
+    }
+}
+
 }  // namespace
+
+float spreadOf(const RigFeatures& rig) {
+    vec3 mean(0);
+    float count = 0.0F;
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        if (!rig.carriesSkin(joint)) continue;
+        mean += rig.positions[joint];
+        count += 1.0F;
+    }
+    if (count == 0.0F) return 0.0F;
+    mean /= count;
+    float square = 0.0F;
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        const vec3 away = rig.positions[joint] - mean;
+        if (rig.carriesSkin(joint)) square += glm::dot(away, away);
+    }
+    return 2.0F * std::sqrt(square / count);
+}
 
 int RigFeatures::commonAncestor(int a, int b) const {
     while (a != kNoJoint && !isAncestorOrSelf(a, b))
@@ -85,9 +152,12 @@ RigFeatures readRig(const Character& character, bool useNames) {
         rig.positions.push_back(frame.translation);
     walkTree(rig);
     readWeights(skeleton, rig);
+    readRigidParts(character, rig);
     readVertices(character, rig);
     rig.names.resize(rig.positions.size());
     if (useNames) std::transform(skeleton.names.begin(), skeleton.names.end(), rig.names.begin(), nameEvidence);
+    flattenNumberedLimbs(rig);
+    findShadows(rig);
     return rig;
 }
 

@@ -20,20 +20,30 @@ struct RigFeatures {
     std::vector<int> enter;  ///< Order of a depth-first walk; a subtree is [enter, leave).
     std::vector<int> leave;
     std::vector<int> depth;
-    std::vector<float> ownWeight;  ///< Share of the whole skin, [0, 1]; that of leaf children where it has none itself.
+    std::vector<float> directWeight;   ///< Share of the whole skin that the joint itself moves, [0, 1].
+    std::vector<float> ownWeight;      ///< As directWeight, but that of leaf children where it is 0.
     std::vector<float> subtreeWeight;  ///< Share of the whole skin, [0, 1].
-    bool skinned = false;              ///< False: no weights at all, so that they prove nothing.
-    std::vector<NameEvidence> names;   ///< Empty words everywhere when names are not to be used.
-    std::vector<Vertex> vertices;      ///< At most some ten thousand, evenly thinned.
+    /// Control or part that coincides with the joint it belongs to: without skin at the place of a joint that has some,
+    /// or a leaf (a rigid part's node, a twist joint) at the place of a joint that has children.
+    std::vector<bool> shadow;
+    std::vector<bool> rigidPart;      ///< Carries a mesh that has no skin: the node of a part.
+    bool skinned = false;             ///< False: no weights at all or only rigid parts, so that they prove nothing.
+    std::vector<NameEvidence> names;  ///< Empty words everywhere when names are not to be used.
+    std::vector<Vertex> vertices;     ///< At most some ten thousand, evenly thinned.
 
     [[nodiscard]] int count() const { return static_cast<int>(positions.size()); }
     [[nodiscard]] int subtreeSize(int joint) const { return leave[joint] - enter[joint]; }
     [[nodiscard]] bool isAncestorOrSelf(int ancestor, int joint) const {
         return enter[ancestor] <= enter[joint] && enter[joint] < leave[ancestor];
     }
+    /// Whether the joint or one below it moves skin; true of all where there is no skin.
+    [[nodiscard]] bool carriesSkin(int joint) const { return !skinned || subtreeWeight[joint] > 0.0F; }
     /// kNoJoint when they have no common root.
     [[nodiscard]] int commonAncestor(int a, int b) const;
 };
+
+/// Root mean square distance of the joints (those with skin, if any have) from their mean, times two.
+[[nodiscard]] float spreadOf(const RigFeatures& rig);
 
 [[nodiscard]] RigFeatures readRig(const Character& character, bool useNames);
 

@@ -29,7 +29,7 @@ class RoleAssembler {
 
     HumanoidMap assemble() {
         map_.humanoid = true;
-        map_.confidence = std::min(probability((figure_.score - kLeastFigureScore) / 5.0F), kCertain);
+        map_.confidence = std::min(probability((figure_.shapeScore() - kLeastShapeScore + 4.0F) / 4.0F), kCertain);
         bindTrunk();
         constexpr std::array<Role, 4> kLegs{Role::leftUpperLeg, Role::leftLowerLeg, Role::leftFoot, Role::leftToes};
         constexpr std::array<Role, 4> kArms{Role::leftUpperArm, Role::leftLowerArm, Role::leftHand, Role::leftShoulder};

@@ -9,10 +9,14 @@ namespace lutka::animation {
 namespace {
 
 constexpr float kNoOwnSkin = -1.0F;
-constexpr float kNoSkinBelow = -3.0F;
-constexpr float kOneJointTrunk = -3.0F;  // hips and chest in one
+constexpr float kUnskinnedHips = -2.2F;  // besides: controls of the whole body stand where the hips do
+constexpr float kNoSkinBelow = -5.0F;
+constexpr float kShadow = -3.0F;
+constexpr float kOneJointTrunk = -1.5F;   // hips and chest in one
+constexpr float kUnskinnedTrunk = -4.0F;  // … that moves no skin
 constexpr float kHeadless = -3.0F;
 constexpr std::size_t kHeadsTried = 6;
+constexpr std::size_t kHipsTried = 4;
 constexpr float kFarAway = 1e8F;
 
 class TrunkFinder {
@@ -22,7 +26,8 @@ class TrunkFinder {
           rig_(*framed.rig),
           legs_(legs),
           arms_(arms),
-          length_(std::max(arms.root.y - legs.root.y, 0.05F * framed.spread)) {
+          length_(std::max(arms.root.y - legs.root.y, 0.05F * framed.spread)),
+          slack_(legs.jointCount() + arms.jointCount() < 4 ? 2.0F : 1.0F) {
         const auto& leg = framed.pairs[legs.first].joints;
         const auto& arm = framed.pairs[arms.first].joints;
         legParent_ = rig_.commonAncestor(leg[0], leg[1]);
@@ -36,19 +41,23 @@ class TrunkFinder {
 
     TrunkCandidate find(const TrunkBan& ban) {
         TrunkCandidate best;
-        const auto [hips, hipsScore] = bestHips(ban.hips);
-        if (hips == kNoJoint) return best;
-        const auto heads = likelyHeads(ban.head);
-        for (const auto& [head, headScore] : heads) {
-            for (const int chest : central_) {
-                if (chest == ban.chest) continue;
-                TrunkCandidate candidate{hips, chest, kNoJoint, head, 0.0F};
-                candidate.score = hipsScore + headScore + chestScore(candidate);
-                if (candidate.score <= best.score) continue;
-                candidate.neck = lowestNeck(candidate);
-                best = candidate;
+        const std::vector<Scored> heads = likelyHeads(ban.head);
+        for (const auto& [hips, hipsScore] : likelyHips(ban.hips)) {
+            for (const auto& [head, headScore] : heads) {
+                for (const int chest : central_) {
+                    if (chest == ban.chest) continue;
+                    TrunkCandidate candidate;
+                    candidate.hips = hips;
+                    candidate.chest = chest;
+                    candidate.head = head;
+                    candidate.score = hipsScore + headScore + chestScore(candidate);
+                    if (candidate.score > best.score) best = candidate;
+                }
             }
         }
+        if (best.hips == kNoJoint) return best;
+        best.neck = lowestNeck(best);
+        account(best);
         return best;
     }
 
@@ -64,7 +73,7 @@ class TrunkFinder {
             if (isCentral(joint) && between && !name.helper && !otherPart) joints.push_back(joint);
         }
         // Unskinned joints only where the spine has no others.
-        const auto skinned = [&](int joint) { return rig_.ownWeight[joint] > 0.0F; };
+        const auto skinned = [&](int joint) { return ownSkin(joint) > 0.0F; };
         if (std::any_of(joints.begin(), joints.end(), skinned)) {
             joints.erase(std::remove_if(joints.begin(), joints.end(), [&](int joint) { return !skinned(joint); }),
                          joints.end());
@@ -74,10 +83,25 @@ class TrunkFinder {
     }
 
   private:
+    // What of the score comes from names and from joints that are not there.
+    void account(TrunkCandidate& trunk) const {
+        trunk.names = name(trunk.hips, Part::hips) + name(trunk.chest, Part::chest);
+        if (trunk.head != kNoJoint) trunk.names += name(trunk.head, Part::head);
+        if (trunk.neck != kNoJoint) trunk.names += name(trunk.neck, Part::neck);
+        trunk.missing =
+            (trunk.head == kNoJoint ? kHeadless : 0.0F) + (trunk.chest == trunk.hips ? kOneJointTrunk : 0.0F);
+    }
+
     struct Scored {
         int joint;
         float score;
     };
+
+    static void keepBest(std::vector<Scored>& candidates, std::size_t count) {
+        std::stable_sort(candidates.begin(), candidates.end(),
+                         [](const Scored& a, const Scored& b) { return a.score > b.score; });
+        if (candidates.size() > count) candidates.resize(count);
+    }
 
     [[nodiscard]] const vec3& position(int joint) const { return framed_.positions[joint]; }
     [[nodiscard]] float name(int joint, Part part) const { return rig_.names[joint].parts[part]; }
@@ -88,32 +112,44 @@ class TrunkFinder {
         return std::abs(position(joint).x) < 0.12F * length_ && pair < 0;
     }
 
+    // Share of the skin that a joint moves itself, or by leaves in the middle (rigid parts, collision volumes).
+    [[nodiscard]] float ownSkin(int joint) const {
+        float own = rig_.directWeight[joint];
+        for (const int child : rig_.children[joint]) {
+            if (rig_.children[child].empty() && framed_.pairOf[child] < 0) own += rig_.directWeight[child];
+        }
+        return own;
+    }
+
     [[nodiscard]] float skinTerm(int joint) const {
-        if (!rig_.skinned) return 0.0F;
-        return (rig_.ownWeight[joint] > 0.0F ? 0.0F : kNoOwnSkin) +
+        const float shadow = rig_.shadow[joint] ? kShadow : 0.0F;
+        if (!rig_.skinned) return shadow;
+        return shadow + (ownSkin(joint) > 0.0F ? 0.0F : kNoOwnSkin) +
                (rig_.subtreeWeight[joint] > 0.0F ? 0.0F : kNoSkinBelow);
     }
     [[nodiscard]] float centralTerm(int joint) const { return near(position(joint).x / length_, 0.0F, 0.05F, 3.0F); }
 
-    [[nodiscard]] Scored bestHips(int banned) const {
-        Scored best{kNoJoint, -kFarAway};
+    [[nodiscard]] std::vector<Scored> likelyHips(int banned) const {
+        std::vector<Scored> hips;
         for (const int joint : central_) {
             if (joint == banned) continue;
             const float height = (position(joint).y - legs_.root.y) / length_;
             float score = name(joint, Part::hips) + skinTerm(joint) + centralTerm(joint) +
-                          near(height, 0.05F, 0.15F, 6.0F) +
+                          near(height, 0.05F, 0.15F * slack_, 6.0F) +
                           near((position(joint).z - legs_.root.z) / length_, 0.0F, 0.25F, 4.0F);
-            if (trunkRoot_ != kNoJoint && rig_.isAncestorOrSelf(joint, trunkRoot_)) score += 1.0F;
-            if (joint == trunkRoot_) score += 0.5F;
+            if (trunkRoot_ != kNoJoint && rig_.isAncestorOrSelf(joint, trunkRoot_)) score += 1.5F;
+            if (joint == trunkRoot_) score += 0.6F;
+            if (rig_.skinned && ownSkin(joint) <= 0.0F) score += kUnskinnedHips;
             // The joint above would be the hips if it moves skin at the same height.
             const int parent = rig_.parents[joint];
-            if (parent != kNoJoint && isCentral(parent) && rig_.ownWeight[parent] > 0.0F &&
+            if (parent != kNoJoint && isCentral(parent) && (ownSkin(parent) > 0.0F || !rig_.skinned) &&
                 std::abs(position(parent).y - legs_.root.y) < 0.25F * length_) {
                 score -= 0.7F;
             }
-            if (score > best.score) best = {joint, score};
+            hips.push_back({joint, score});
         }
-        return best;
+        keepBest(hips, kHipsTried);
+        return hips;
     }
 
     [[nodiscard]] std::vector<Scored> likelyHeads(int banned) const {
@@ -129,15 +165,23 @@ class TrunkFinder {
             float score = name(joint, Part::head) + skinTerm(joint) + centralTerm(joint) +
                           near((position(joint).y - arms_.root.y) / length_, 0.32F, 0.2F, 5.0F) +
                           near((position(joint).z - arms_.root.z) / length_, 0.0F, 0.3F, 3.0F);
-            if (skinAbove > 0.0F) score += 2.0F * std::min(rig_.subtreeWeight[joint] / skinAbove, 1.0F);
+            if (skinAbove > 0.0F) score += 2.0F * std::min(retainedSkin(joint) / (0.4F * skinAbove), 1.0F);
             if (rig_.isAncestorOrSelf(joint, armRoot())) score -= 6.0F;
             heads.push_back({joint, score});
         }
-        std::stable_sort(heads.begin(), heads.end(),
-                         [](const Scored& a, const Scored& b) { return a.score > b.score; });
-        if (heads.size() > kHeadsTried) heads.resize(kHeadsTried);
+        keepBest(heads, kHeadsTried);
         heads.push_back({kNoJoint, kHeadless});
         return heads;
+    }
+
+    // Skin at and below a joint, without what goes on upwards along the middle: much for a head, little for a neck.
+    [[nodiscard]] float retainedSkin(int joint) const {
+        float onward = 0.0F;
+        for (const int child : rig_.children[joint]) {
+            const bool part = rig_.rigidPart[child] && rig_.children[child].empty() && !rig_.rigidPart[joint];
+            if (isCentral(child)) onward = std::max(onward, (part ? 0.3F : 1.0F) * rig_.subtreeWeight[child]);
+        }
+        return rig_.subtreeWeight[joint] - onward;
     }
 
     [[nodiscard]] int armRoot() const { return framed_.pairs[arms_.first].joints[0]; }
@@ -151,25 +195,29 @@ class TrunkFinder {
         float score = skinTerm(chest) + centralTerm(chest) + near((place.z - arms_.root.z) / length_, 0.0F, 0.3F, 4.0F);
         score +=
             chest == trunk.hips ? kOneJointTrunk + std::max(name(chest, Part::chest), 0.0F) : name(chest, Part::chest);
+        if (chest == trunk.hips && rig_.skinned && ownSkin(chest) <= 0.0F) score += kUnskinnedTrunk;
         if (chest == armParent_ && chest != trunk.hips) {
-            score += 2.5F;
+            score += ownSkin(chest) > 0.0F || !rig_.skinned ? 2.5F : 1.5F;
         } else if (!rig_.isAncestorOrSelf(chest, armRoot())) {
             score -= 0.5F;
         }
         if (chest != trunk.hips) {
             const float below = (arms_.root.y - place.y) / length_;
-            score += near(below, 0.2F, 0.2F, 5.0F) + atMost(-below, 0.08F, 0.05F, 3.0F);
-            if (rig_.isAncestorOrSelf(trunk.hips, chest)) score += 0.5F;
+            score += near(below, 0.2F, 0.2F * slack_, 5.0F) + atMost(-below, 0.08F, 0.05F * slack_ * slack_, 3.0F);
         }
+        if (rig_.isAncestorOrSelf(trunk.hips, chest)) score += 1.5F;
+        // Hips without skin below a trunk that is no higher are a control of that trunk.
+        const bool low = place.y - legs_.root.y < 0.3F * length_;
+        if (low && chest != trunk.hips && rig_.skinned && ownSkin(trunk.hips) <= 0.0F) score += 1.5F * kUnskinnedTrunk;
         if (trunk.head == kNoJoint) return score;
-        score += near((position(trunk.head).y - place.y) / length_, 0.5F, 0.22F, 4.0F);
+        score += near((position(trunk.head).y - place.y) / length_, 0.6F, 0.25F, 4.0F);
         return score + neckScore(trunk);
     }
 
     // How many joints lie between chest and head, and what they are called.
     [[nodiscard]] float neckScore(const TrunkCandidate& trunk) const {
         const std::vector<int> necks = necksOf(trunk);
-        constexpr float kByCount[] = {-0.4F, 0.0F, -0.4F, -1.0F};
+        constexpr float kByCount[] = {-0.9F, 0.0F, -0.2F, -0.5F};
         float score = kByCount[std::min<std::size_t>(necks.size(), 3)];
         if (!necks.empty()) score += name(lowestNeck(trunk), Part::neck);
         return score;
@@ -191,7 +239,7 @@ class TrunkFinder {
         int best = kNoJoint;
         float bestScore = -kFarAway;
         for (const int joint : necksOf(trunk)) {
-            const float score = name(joint, Part::neck) + (rig_.ownWeight[joint] > 0.0F || !rig_.skinned ? 0.5F : 0.0F);
+            const float score = name(joint, Part::neck) + (ownSkin(joint) > 0.0F || !rig_.skinned ? 0.5F : 0.0F);
             if (score < bestScore) continue;
             bestScore = score;
             best = joint;
@@ -204,6 +252,7 @@ class TrunkFinder {
     const LimbCandidate& legs_;
     const LimbCandidate& arms_;
     float length_;  // from the thighs up to the upper arms
+    float slack_;   // limbs of one joint need not start at the shoulder and the hip
     int legParent_ = kNoJoint;
     int armParent_ = kNoJoint;
     int trunkRoot_ = kNoJoint;

@@ -13,6 +13,8 @@ struct TrunkCandidate {
     int chest = kNoJoint;  ///< The topmost joint of the trunk; the hips themselves when the trunk is one joint.
     int neck = kNoJoint;   ///< The lowest neck; kNoJoint when there is none.
     int head = kNoJoint;   ///< kNoJoint when the rig has none.
+    float names = 0.0F;    ///< The part of the score that comes from names.
+    float missing = 0.0F;  ///< The part of the score that joints which are not there cost.
     float score = -1e9F;
 };
 
