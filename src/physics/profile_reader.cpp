@@ -20,9 +20,9 @@ constexpr float kSmallest = 1e-9F;
 
 quat readQuaternion(const JsonCursor& at) {
     const std::vector<float> v = at.numbers(4, -1.01F, 1.01F);
-    const quat q(v[0], v[1], v[2], v[3]);
+    const quat q(v[3], v[0], v[1], v[2]);
     if (at.readable() && std::abs(glm::dot(q, q) - 1.0F) > 1e-4F)
-        at.report("expected a quaternion [w, x, y, z] of length 1");
+        at.report("expected a quaternion [x, y, z, w] of length 1");
     return q;
 }
 

@@ -25,7 +25,7 @@ Json vector(const vec3& v) {
 }
 
 Json quaternion(const quat& q) {
-    return Json::array({number(q.w), number(q.x), number(q.y), number(q.z)});
+    return Json::array({number(q.x), number(q.y), number(q.z), number(q.w)});
 }
 
 Json frame(const RigidTransform& t) {

@@ -104,7 +104,7 @@ TEST_CASE("vectors stand on one line and numbers in their shortest form") {
     profile.heightM = 0.1F;
     const std::string text = profileToJson(profile);
     CHECK(text.find("\"heightM\": 0.1,") != std::string::npos);
-    CHECK(text.find("\"standardFromModel\": [1.0, 0.0, 0.0, 0.0],") != std::string::npos);
+    CHECK(text.find("\"standardFromModel\": [0.0, 0.0, 0.0, 1.0],") != std::string::npos);
 }
 
 TEST_CASE("the committed schema describes what is written") {
@@ -132,7 +132,7 @@ TEST_CASE("every planted fault is listed in one go with its place") {
     wrong["bodies"][4]["jointPath"] = wrong["bodies"][5]["jointPath"];
     wrong["bodies"][6]["role"] = "tail";
     wrong["bodies"][7]["inertia"] = {1, 2};
-    wrong["bodies"][8]["jointFromBody"]["rotation"] = {1, 1, 0, 0};
+    wrong["bodies"][8]["jointFromBody"]["rotation"] = {0, 0, 1, 1};
     wrong["bodies"][9]["massKg"] = 0;
     wrong["constraints"][0]["hinge"] = {{"lower", 0}, {"upper", 1}};
     wrong["constraints"][1]["parent"] = "rightFoot";
