@@ -57,6 +57,7 @@ void drawStatics(const Scenario& scenario, render::FrameDescription& frame) {
         item.halfExtents = shape.kind == StaticShape::Kind::plane ? vec3(20.0F) : shape.halfExtents;
         item.color = kGeometryColor;
         item.checkerSize = 0.5F;
+        item.checkerInWorld = true;
     }
 }
 

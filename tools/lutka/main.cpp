@@ -21,6 +21,7 @@ int runCommandLine(int argc, char** argv) {
     lutka::cli::addInspect(app);
     lutka::cli::addMap(app);
     lutka::cli::addBuild(app);
+    lutka::cli::addCheck(app);
     lutka::cli::addSimulate(app);
     lutka::cli::addRender(app);
     lutka::cli::addEdit(app);

@@ -1,0 +1,114 @@
+#include "scene/checkup.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/simulation.hpp"
+
+namespace lutka::scene {
+namespace {
+
+using physics::Finding;
+using physics::Quality;
+using physics::Severity;
+
+constexpr int kDrops = 3;
+constexpr int kSteps = 360;             // 6 s: what a drop may take to come to rest
+constexpr float kNeverSettled = 99.0F;  // seconds, stands for "never" in a bound
+constexpr float kStaticShare = 0.8F;
+
+float energySharePercent(const Quality& q) {
+    return q.initialEnergyJ > 0.0F ? 100.0F * q.energyGrowthJ / q.initialEnergyJ : 0.0F;
+}
+
+struct Measure {
+    const char* name;
+    const char* unit;
+    float bound;
+    float (*of)(const Quality&);
+    const char* mend;
+};
+
+// The bounds of a sound doll (docs/physics.md): what the default fit keeps on every model that it is tested on.
+constexpr Measure kMeasures[] = {
+    {"joint separation", "mm", 10.0F, [](const Quality& q) { return q.jointSeparationM.max * 1e3F; },
+     "draw the masses of linked bodies together (--masses balanced)"},
+    {"limit violation, p99", "deg", 5.0F, [](const Quality& q) { return q.limitViolationDeg.p99; },
+     "widen limits that the body's own weight presses on"},
+    {"penetration of the ground", "mm", 10.0F, [](const Quality& q) { return q.floorPenetrationM * 1e3F; },
+     "make thin bodies thicker"},
+    {"energy growth", "% of the energy", 3.0F, &energySharePercent,
+     "look for overlapping bodies and limits that exclude the bind pose"},
+    {"settle time", "s", 6.0F, [](const Quality& q) { return q.settleSeconds.value_or(kNeverSettled); },
+     "more friction in the joints settles a doll sooner"},
+    {"residual speed", "m/s", 0.01F, [](const Quality& q) { return q.residualSpeedMps; },
+     "look for bodies that press on each other at rest: filter the pair or shrink them"},
+};
+
+std::vector<Quality> dropThrice(const RagdollAsset& asset) {
+    std::vector<Quality> drops;
+    const FigureBounds figure = figureBounds(asset.profile, asset.rig);
+    for (std::uint64_t seed = 0; seed < kDrops; ++seed) {
+        auto scenario = makeScenario("drop", 1, seed, figure, asset.profile.standardFromModel);
+        if (!scenario) return drops;
+        auto simulation = Simulation::create(asset, std::move(scenario).value(), {});
+        if (!simulation) return drops;
+        for (int step = 0; step < kSteps; ++step)
+            simulation.value()->step();
+        drops.push_back(simulation.value()->quality());
+    }
+    return drops;
+}
+
+void judgeDrops(Checkup& checkup) {
+    int kept = 0;
+    for (const Measure& measure : kMeasures) {
+        float worst = 0;
+        for (const Quality& drop : checkup.drops)
+            worst = std::max(worst, measure.of(drop));
+        checkup.bounds.push_back({measure.name, measure.unit, worst, measure.bound});
+        if (worst <= measure.bound) {
+            ++kept;
+            continue;
+        }
+        Finding finding;
+        finding.severity = Severity::warning;
+        finding.code = "measured";
+        finding.place = measure.name;
+        finding.measure = worst >= kNeverSettled
+                              ? fmt::format("a drop never came to rest; {} {} are allowed", measure.bound, measure.unit)
+                              : fmt::format("{:.2f} {} in the worst of {} drops; {} are allowed", worst, measure.unit,
+                                            checkup.drops.size(), measure.bound);
+        finding.mend = measure.mend;
+        checkup.diagnosis.findings.push_back(finding);
+    }
+    const bool finite = std::all_of(checkup.drops.begin(), checkup.drops.end(),
+                                    [](const Quality& drop) { return drop.nonFinite == 0; });
+    if (!finite) {
+        checkup.diagnosis.findings.insert(checkup.diagnosis.findings.begin(),
+                                          {Severity::error,
+                                           "measured",
+                                           "simulation",
+                                           "body states that are not finite",
+                                           "mend the other findings first, then report the model",
+                                           false,
+                                           {}});
+    }
+    const float share = finite ? static_cast<float>(kept) / static_cast<float>(std::size(kMeasures)) : 0.0F;
+    checkup.score = kStaticShare * checkup.diagnosis.score + (1.0F - kStaticShare) * 100.0F * share;
+}
+
+}  // namespace
+
+Checkup examine(const RagdollAsset& asset) {
+    Checkup checkup;
+    checkup.diagnosis = physics::diagnose(asset.profile, asset.character, asset.map);
+    checkup.score = kStaticShare * checkup.diagnosis.score;
+    if (checkup.diagnosis.hasErrors()) return checkup;
+    checkup.drops = dropThrice(asset);
+    judgeDrops(checkup);
+    return checkup;
+}
+
+}  // namespace lutka::scene

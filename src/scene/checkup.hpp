@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "physics/doctor.hpp"
+#include "physics/quality.hpp"
+#include "scene/ragdoll_asset.hpp"
+
+namespace lutka::scene {
+
+/// What a bound of the measured section says, and where a drop stood to it.
+struct MeasuredBound {
+    std::string name;  ///< "joint separation" …
+    std::string unit;  ///< "mm", "deg", "% of the energy", "s", "m/s"
+    float worst = 0;   ///< Of all drops, in that unit.
+    float bound = 0;   ///< Above it there is a finding.
+};
+
+/// The doctor's whole word on a ragdoll: the profile at rest, and how it falls.
+struct Checkup {
+    physics::Diagnosis diagnosis;         ///< The static findings, then those of the drops.
+    std::vector<physics::Quality> drops;  ///< One a drop, seeds 0, 1 and 2.
+    std::vector<MeasuredBound> bounds;
+    float score = 0;  ///< [0, 100]: four fifths the diagnosis', one fifth the drops'.
+};
+
+/// Diagnoses the profile and lets it fall three times for four seconds in the scene `drop`. When the static findings
+/// hold errors there are no drops: a profile that isn't sound isn't simulated.
+[[nodiscard]] Checkup examine(const RagdollAsset& asset);
+
+[[nodiscard]] std::string checkupJson(const RagdollAsset& asset, const Checkup& checkup);
+[[nodiscard]] std::string checkupText(const RagdollAsset& asset, const Checkup& checkup);
+
+}  // namespace lutka::scene

@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include "scene/checkup.hpp"
+#include "scene/quality_json.hpp"
+
+namespace lutka::scene {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json findingJson(const physics::Finding& finding) {
+    Json roles = Json::array();
+    for (const physics::Role role : finding.roles)
+        roles.push_back(animation::roleName(role));
+    return {{"severity", physics::severityName(finding.severity)},
+            {"code", finding.code},
+            {"place", finding.place},
+            {"roles", std::move(roles)},
+            {"measure", finding.measure},
+            {"mend", finding.mend},
+            {"mendable", finding.mendable}};
+}
+
+Json fitJson(const physics::FitMeasures& fit) {
+    Json json;
+    json["vertices"] = fit.vertices;
+    json["skinNear"] = fit.skinNear;
+    json["volumeCovered"] = fit.volumeCovered ? Json(*fit.volumeCovered) : Json(nullptr);
+    json["overlapM"] = fit.overlapM;
+    return json;
+}
+
+}  // namespace
+
+std::string checkupJson(const RagdollAsset& asset, const Checkup& checkup) {
+    Json json;
+    json["model"] = asset.character.file.string();
+    json["score"] = checkup.score;
+    json["errors"] = checkup.diagnosis.hasErrors();
+    json["findings"] = Json::array();
+    for (const auto& finding : checkup.diagnosis.findings)
+        json["findings"].push_back(findingJson(finding));
+    json["fit"] = fitJson(checkup.diagnosis.fit);
+    json["parts"] = Json::array();
+    for (const auto& part : checkup.diagnosis.parts) {
+        json["parts"].push_back({{"name", part.name}, {"points", part.points}, {"of", part.of}});
+    }
+    json["measured"] = Json::array();
+    for (const MeasuredBound& bound : checkup.bounds) {
+        json["measured"].push_back(
+            {{"name", bound.name}, {"unit", bound.unit}, {"worst", bound.worst}, {"bound", bound.bound}});
+    }
+    json["drops"] = Json::array();
+    for (const physics::Quality& drop : checkup.drops)
+        json["drops"].push_back(qualityJson(drop));
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string checkupText(const RagdollAsset& asset, const Checkup& checkup) {
+    std::string text = fmt::format("{}: {:.0f} of 100\n", asset.character.name, checkup.score);
+    const physics::FitMeasures& fit = checkup.diagnosis.fit;
+    if (fit.vertices > 0) {
+        text += fmt::format("  fit        {:.0f} % of {} skin vertices within 2 % of the height of their body",
+                            fit.skinNear * 100, fit.vertices);
+        if (fit.volumeCovered) text += fmt::format(", {:.0f} % of the volume covered", *fit.volumeCovered * 100);
+        text += fmt::format(", overlap {:.1f} mm\n", fit.overlapM * 1e3F);
+    }
+    for (const auto& part : checkup.diagnosis.parts) {
+        text += fmt::format("  score      {:<28} {:5.1f} of {:.0f}\n", part.name, part.points, part.of);
+    }
+    for (const MeasuredBound& bound : checkup.bounds) {
+        text += fmt::format("  measured   {:<28} {:8.2f} {} ({} allowed)\n", bound.name, bound.worst, bound.unit,
+                            bound.bound);
+    }
+    if (checkup.drops.empty()) text += "  measured   nothing: there are errors\n";
+    for (const auto& finding : checkup.diagnosis.findings) {
+        text += fmt::format("  {:<10} {} at {}: {}", physics::severityName(finding.severity), finding.code,
+                            finding.place, finding.measure);
+        if (!finding.mend.empty())
+            text += fmt::format(" -> {}{}", finding.mend, finding.mendable ? " (--fix does it)" : "");
+        text += "\n";
+    }
+    return text;
+}
+
+}  // namespace lutka::scene

@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "commands.hpp"
+#include "options.hpp"
+#include "physics/doctor.hpp"
+#include "physics/profile_io.hpp"
+#include "scene/checkup.hpp"
+
+namespace lutka::cli {
+namespace {
+
+struct Options {
+    RagdollOptions ragdoll;
+    std::filesystem::path fixTo;
+    bool json = false;
+};
+
+// Mends what can be mended, writes the profile, and looks again.
+void mend(const Options& options, scene::RagdollAsset& asset, scene::Checkup& checkup) {
+    auto mended = orLeave(physics::applyMends(asset.profile, asset.character, asset.map, checkup.diagnosis.findings));
+    orLeave(physics::saveProfile(options.fixTo, mended));
+    asset.rig = orLeave(physics::bindRig(mended, asset.character.skeleton));
+    asset.profile = std::move(mended);
+    checkup = scene::examine(asset);
+}
+
+void run(const Options& options) {
+    const auto asset = orLeave(scene::loadRagdoll(options.ragdoll.model.model, options.ragdoll.load()));
+    scene::Checkup checkup = scene::examine(*asset);
+    if (!options.fixTo.empty()) mend(options, *asset, checkup);
+    fmt::print("{}", options.json ? scene::checkupJson(*asset, checkup) : scene::checkupText(*asset, checkup));
+    if (checkup.diagnosis.hasErrors()) throw Exit{static_cast<int>(ErrorCode::findings)};
+}
+
+}  // namespace
+
+void addCheck(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command =
+        app.add_subcommand("check", "Examine a ragdoll: findings with measures and mends, three drops, one score");
+    options->ragdoll.addTo(*command);
+    command->add_option("--fix", options->fixTo,
+                        "write the profile with what can be mended to this file, and judge that");
+    command->add_flag("--json", options->json, "print the findings as JSON on stdout");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace lutka::cli
