@@ -1,7 +1,8 @@
 // Per-instance data, six texels each (InstanceTexels in src/render/gl/frame_uniforms.hpp):
 //   0..2  rows of worldFromModel
 //   3..5  characters: tint and opacity; highlight; first palette joint and highlighted joint
-//         props:      colour; radius, half length, roughness, checker size; half extents
+//         props:      colour; radius, half length, roughness, checker size; half extents and
+//                     1 when the checker lies in the world
 uniform samplerBuffer instances;
 uniform int firstInstance;
 

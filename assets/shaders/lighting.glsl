@@ -84,7 +84,10 @@ float sunVisibility(vec3 position, vec3 normal) {
         direction = kGoldenTurn * direction;
         lit += textureLod(shadowMap, vec3(at.xy + offset, reference), 0.0);
     }
-    return taps > 0 ? lit / float(taps) : 1.0;
+    // Towards the map's border it fades, so that no edge shows where the map ends inside the picture.
+    vec2 fromMiddle = abs(at.xy * 2.0 - 1.0);
+    float fade = smoothstep(0.9, 1.0, max(fromMiddle.x, fromMiddle.y));
+    return taps > 0 ? mix(lit / float(taps), 1.0, fade) : 1.0;
 }
 
 // Share of the sky that nearby geometry leaves open at this pixel.

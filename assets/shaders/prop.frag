@@ -3,7 +3,7 @@
 
 in vec3 worldPosition;
 in vec3 worldNormal;
-in vec3 localPosition;
+in vec3 checkerPosition;
 flat in vec4 propColor;
 flat in vec4 propMeasures;  // z: roughness, w: size of a checker's square
 
@@ -25,7 +25,7 @@ void main() {
     if (!gl_FrontFacing) surface.geometric = -surface.geometric;
     surface.normal = surface.geometric;
     surface.albedo = propColor.rgb;
-    if (propMeasures.w > 0.0) surface.albedo *= mix(0.62, 1.0, checker(localPosition));
+    if (propMeasures.w > 0.0) surface.albedo *= mix(0.62, 1.0, checker(checkerPosition));
     surface.metallic = 0.0;
     surface.roughness = propMeasures.z;
     surface.occlusion = 1.0;

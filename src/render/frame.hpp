@@ -48,6 +48,8 @@ struct PropItem {
     Color color{178, 182, 188, 255};     ///< Alpha below 255 draws it translucent.
     float roughness = 0.8F;              ///< [0, 1]
     float checkerSize = 0.0F;            ///< Metres; above 0 every other square is a little darker.
+    bool checkerInWorld = false;         ///< The squares lie in world space (turned with the shape): faces of static
+                                         ///< shapes that share a plane then match. Else they move with the shape.
     bool castsShadow = true;
 };
 

@@ -9,7 +9,7 @@ namespace lutka::render {
 namespace {
 
 constexpr float kStep = 1.25F;          // of the radius
-constexpr float kMostDistances = 3.0F;  // radius at most so many times the camera's distance
+constexpr float kMostDistances = 1.5F;  // radius at most so many times the camera's distance
 constexpr float kLeast = 0.05F;         // metres
 
 }  // namespace

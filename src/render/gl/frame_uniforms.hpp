@@ -45,9 +45,10 @@ static_assert(sizeof(FrameUniforms) == 4 * 64 + 16 * 16 + kMaxLocalLights * 48);
 /// One instance of a character or prop as assets/shaders/instance.glsl reads it.
 struct InstanceTexels {
     vec4 worldRows[3];
-    vec4 color{1};          ///< Characters: tint and opacity. Props: linear colour.
-    vec4 measures{0};       ///< Characters: highlight, linear. Props: radius, half length, roughness, checker size.
-    vec4 extentOrJoint{0};  ///< Characters: first palette joint, highlighted joint. Props: half extents.
+    vec4 color{1};     ///< Characters: tint and opacity. Props: linear colour.
+    vec4 measures{0};  ///< Characters: highlight, linear. Props: radius, half length, roughness, checker size.
+    vec4 extentOrJoint{
+        0};  ///< Characters: first palette joint, highlighted joint. Props: half extents, checkerInWorld.
 };
 static_assert(sizeof(InstanceTexels) == 6 * 16);
 

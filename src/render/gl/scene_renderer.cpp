@@ -285,6 +285,8 @@ void SceneRenderer::drawFloor(FrameStats& stats) {
 void SceneRenderer::drawTranslucent(const CharacterStore& characters, FrameStats& stats) {
     glEnable(GL_BLEND);
     glDepthMask(GL_FALSE);
+    // Front faces only: through clear walls one would see each twice.
+    glEnable(GL_CULL_FACE);
     prop_.use();
     drawProps(list_.translucent().props, stats);
     int before = stats.drawCalls;

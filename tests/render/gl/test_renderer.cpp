@@ -170,6 +170,50 @@ TEST_CASE("ambient occlusion darkens the corner between a box and the floor") {
           6);
 }
 
+TEST_CASE("a point light lights what is near it, and a spot only what is in its cone") {
+    const auto gl = GlFixture::create();
+    if (!gl) return;
+    FrameDescription frame;
+    frame.sun.intensity = 0.0F;
+    frame.sky.intensity = 0.05F;
+    frame.ambientOcclusion = false;
+    frame.floor.gridSpacing = 0.0F;
+    frame.camera.pitch = radians(50);
+    frameSphere(frame.camera, vec3(0), 2.0F, kSize.aspect());
+    const vec3 below(0);
+    const vec3 aside(1.2F, 0, 0);
+    LocalLight light;
+    light.position = vec3(0, 1, 0);
+    light.range = 3.0F;
+    light.intensity = 1.0F;
+    const Image dark = gl->picture(frame, kSize);
+    frame.localLights = {light};
+    const Image point = gl->picture(frame, kSize);
+    light.outerAngle = radians(30);
+    light.innerAngle = radians(20);
+    frame.localLights = {light};
+    const Image spot = gl->picture(frame, kSize);
+    const auto at = [&](const Image& image, const vec3& place) {
+        return brightness(pixelAt(image, frame.camera, place));
+    };
+    CHECK(at(point, below) > at(dark, below) + 150);
+    CHECK(at(point, aside) > at(dark, aside) + 60);
+    CHECK(at(point, below) > at(point, aside) + 60);
+    CHECK(std::abs(at(spot, below) - at(point, below)) <= 6);
+    CHECK(std::abs(at(spot, aside) - at(dark, aside)) <= 3);
+}
+
+TEST_CASE("from below the floor lets one see through") {
+    const auto gl = GlFixture::create();
+    if (!gl) return;
+    Scene scene(*gl);
+    scene.frame.camera.pitch = radians(-40);
+    scene.frame.characters[0].tint = vec3(1.0F, 0.02F, 0.02F);
+    const Image image = gl->picture(scene.frame, kSize);
+    const Color body = pixelAt(image, scene.frame.camera, {0.1F, 0.5F, 0.05F});
+    CHECK(body.r > body.g + 30);
+}
+
 TEST_CASE("debug lines and solids are drawn, hidden ones faintly, each in a fixed number of draw calls") {
     const auto gl = GlFixture::create();
     if (!gl) return;
