@@ -93,7 +93,7 @@ bool better(const Figure& a, const Figure& b) {
 }
 
 // The best reading in one stance.
-Figure readInStance(const RigFeatures& rig, const Stance& stance, float prior) {
+Figure readInStance(const RigFeatures& rig, const Stance& stance, float upPrior, float agreement) {
     Figure best;
     best.refusal = "no joints stand as legs, trunk and arms of a figure";
     const FramedRig framed = frameRig(rig, stance);
@@ -105,7 +105,8 @@ Figure readInStance(const RigFeatures& rig, const Stance& stance, float prior) {
         figure.arms = arms[combination.arms];
         figure.trunk = findTrunk(framed, figure.legs, figure.arms);
         if (figure.trunk.hips == kNoJoint) continue;
-        figure.score = prior + combination.score + figure.trunk.score;
+        figure.prior = upPrior;
+        figure.score = upPrior + agreement + combination.score + figure.trunk.score;
         figure.refusal = refusalOf(figure, framed);
         if (better(figure, best)) best = std::move(figure);
     }
@@ -149,8 +150,8 @@ Figure findFigure(const RigFeatures& rig) {
         if (up.prior < 0.0F && best.refusal.empty()) break;
         for (const MirrorPlane& plane : planes) {
             if (std::abs(glm::dot(plane.normal, up.axis)) > kMostLean) continue;
-            const float prior = up.prior + kAgreement * (plane.agreement - planes.front().agreement);
-            Figure figure = readInStance(rig, makeStance(plane, up.axis), prior);
+            const float agreement = kAgreement * (plane.agreement - planes.front().agreement);
+            Figure figure = readInStance(rig, makeStance(plane, up.axis), up.prior, agreement);
             if (better(figure, best)) best = std::move(figure);
         }
     }

@@ -20,6 +20,7 @@ struct Margins {
 /// The best reading of a rig as a human figure, or why there is none.
 struct Figure {
     std::string refusal;  ///< Empty when the figure stands.
+    float prior = 0.0F;   ///< The part of the score that speaks for the up axis, before anything is read.
     float score = -1e9F;  ///< Sum of all terms: what readings are compared by.
     FramedRig framed;
     LimbCandidate legs;
@@ -30,7 +31,7 @@ struct Figure {
 
     /// Sum of the terms of shape, structure and skin alone: what readings are accepted by.
     [[nodiscard]] float shapeScore() const {
-        return score - legs.names - arms.names - trunk.names - legs.missing - arms.missing - trunk.missing;
+        return score - prior - legs.names - arms.names - trunk.names - legs.missing - arms.missing - trunk.missing;
     }
 };
 

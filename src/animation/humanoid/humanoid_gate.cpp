@@ -64,7 +64,8 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     // Names alone never make a humanoid, but they carry one that is put together oddly.
     const float names = figure.legs.names + figure.arms.names + figure.trunk.names;
     const float help = std::clamp(kNamesHelp * names, -10.0F, 10.0F);
-    if (figure.shapeScore() + help < kLeastShapeScore || figure.score - names + help < kLeastWholeScore) {
+    if (figure.shapeScore() + help < kLeastShapeScore ||
+        figure.score - figure.prior - names + help < kLeastWholeScore) {
         return fmt::format("the limbs have not the proportions of a human figure (score {:.1f})", figure.shapeScore());
     }
     return {};

@@ -26,17 +26,25 @@ bool namesMirror(const NameEvidence& a, const NameEvidence& b) {
     return a.side != Side::center && b.side != Side::center && a.side != b.side && a.words == b.words;
 }
 
-// Whether two joints hang alike from their nearest common ancestor.
-bool hangAlike(const RigFeatures& rig, int a, int b, float spread) {
-    if (rig.depth[a] != rig.depth[b]) return false;
-    int up = a;
-    int other = b;
-    for (int climb = 0; up != other; ++climb) {
-        if (climb >= kMaxClimb || up == kNoJoint) return false;
-        up = rig.parents[up];
-        other = rig.parents[other];
+// Levels from two joints up to their common ancestor; kMaxClimb + 1 when it is farther, or they lie at unequal depths.
+int climbOf(const RigFeatures& rig, int a, int b) {
+    if (rig.depth[a] != rig.depth[b]) return kMaxClimb + 1;
+    int climb = 0;
+    for (; a != b; ++climb) {
+        if (climb >= kMaxClimb) return kMaxClimb + 1;
+        a = rig.parents[a];
+        b = rig.parents[b];
+        if (a == kNoJoint || b == kNoJoint) return kMaxClimb + 1;
     }
-    if (up == kNoJoint) return false;
+    return climb;
+}
+
+// Whether two joints hang alike from their common ancestor, `climb` levels up.
+bool hangAlike(const RigFeatures& rig, int a, int b, int climb, float spread) {
+    if (climb > kMaxClimb) return false;
+    int up = a;
+    for (int level = 0; level < climb; ++level)
+        up = rig.parents[up];
     const float lengthA = glm::distance(rig.positions[a], rig.positions[up]);
     const float lengthB = glm::distance(rig.positions[b], rig.positions[up]);
     const float sizes = static_cast<float>(rig.subtreeSize(a)) / static_cast<float>(rig.subtreeSize(b));
@@ -64,11 +72,14 @@ std::vector<Vote> gatherVotes(const RigFeatures& rig, float spread) {
             const float length = glm::length(across);
             if (length < 0.02F * spread) continue;
             const bool named = namesMirror(rig.names[a], rig.names[b]);
-            if (!named && !hangAlike(rig, a, b, spread)) continue;
+            const int climb = climbOf(rig, a, b);
+            if (!named && !hangAlike(rig, a, b, climb, spread)) continue;
+            // Near the trunk a posed figure is still symmetric.
             const vec3 normal = across / length;
             const float skin = rig.carriesSkin(a) && rig.carriesSkin(b) ? 1.0F : 0.2F;
             const vec3 middle = 0.5F * (rig.positions[a] + rig.positions[b]);
-            votes.push_back({normal, glm::dot(normal, middle), (named ? 2.0F : 1.0F) * skin * length});
+            votes.push_back(
+                {normal, glm::dot(normal, middle), (named ? 2.0F : 1.0F) * skin * length / static_cast<float>(climb)});
         }
     }
     std::sort(votes.begin(), votes.end(), [](const Vote& a, const Vote& b) { return a.weight > b.weight; });

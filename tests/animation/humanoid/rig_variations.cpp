@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "animation/humanoid/roles.hpp"
+
 #include "core/random.hpp"
 
 namespace lutka::test {
@@ -46,6 +48,13 @@ animation::Character scaled(animation::Character character, float factor) {
 
 animation::Character mirrorImage(animation::Character character) {
     changePositions(character, [](const vec3& p) { return vec3(-p.x, p.y, p.z); });
+    // A block that the file speaks truth in would have been written the other way round.
+    std::map<std::string, int> exchanged;
+    for (const auto& [name, joint] : character.vrmHumanoid) {
+        const auto role = animation::roleFromName(name);
+        exchanged[role ? std::string(roleName(animation::mirrored(*role))) : name] = joint;
+    }
+    character.vrmHumanoid = std::move(exchanged);
     for (RigidTransform& frame : character.skeleton.bindModelFromJoint) {
         const quat q = frame.rotation;
         frame.rotation = quat(q.w, q.x, -q.y, -q.z);

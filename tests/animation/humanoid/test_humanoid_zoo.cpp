@@ -127,4 +127,26 @@ TEST_CASE("mirror images of test models exchange left and right", "[zoo]") {
         "mirrored, joint_N", [](const Character& c) { return mirrorImage(withoutNames(c)); }, true));
 }
 
+TEST_CASE("joints and weights alone are enough in whatever pose the nodes have", "[zoo]") {
+    if (!zooIsThere()) return;
+    std::printf("\njoints of bones.txt\n");
+    Score named;
+    Score unnamed;
+    for (const Model& model : zoo()) {
+        const Character character = readBones(model.truth);
+        if (character.skeleton.jointCount() == 0 || !model.truth.humanoid) continue;
+        for (const bool names : {true, false}) {
+            const auto map = animation::mapHumanoid(names ? character : withoutNames(character));
+            const Score score = scoreMap(model.truth, map, character.skeleton.names);
+            std::printf("  %-30s %s  required %2d/%2d  optional %d/%d  %s\n", model.truth.model.c_str(),
+                        names ? "named  " : "unnamed", score.right, score.of, score.optionalRight, score.optionalOf,
+                        score.faults.c_str());
+            (names ? named : unnamed) += score;
+        }
+    }
+    std::printf("  all: named %d/%d, unnamed %d/%d\n", named.right, named.of, unnamed.right, unnamed.of);
+    CHECK(named.right >= 0.95 * named.of);
+    CHECK(unnamed.right >= 0.8 * unnamed.of);
+}
+
 }  // namespace lutka::test

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace lutka::test {
 namespace {
@@ -48,6 +49,32 @@ std::vector<Truth> readTruths(const std::filesystem::path& folder) {
     }
     std::sort(truths.begin(), truths.end(), [](const Truth& a, const Truth& b) { return a.model < b.model; });
     return truths;
+}
+
+animation::Character readBones(const Truth& truth) {
+    animation::Character character;
+    animation::Skeleton& skeleton = character.skeleton;
+    std::ifstream stream(truth.file.parent_path() / "bones.txt");
+    std::string line;
+    std::vector<int> ancestors;
+    while (std::getline(stream, line)) {
+        const auto place = line.find(" p=(");
+        if (line.empty() || line.front() == '#' || place == std::string::npos) continue;
+        const auto depth = line.find_first_not_of(' ');
+        std::string name = line.substr(depth, place - depth);
+        if (const auto mark = name.rfind(" [nb]"); mark != std::string::npos) name.resize(mark);
+        RigidTransform frame;
+        std::istringstream(line.substr(place + 4)) >> frame.translation.x >> frame.translation.y >> frame.translation.z;
+        const auto vertices = line.find(" nv=");
+        ancestors.resize(std::min(depth, ancestors.size()));
+        skeleton.names.push_back(name);
+        skeleton.parents.push_back(ancestors.empty() ? animation::kNoJoint : ancestors.back());
+        skeleton.bindModelFromJoint.push_back(frame);
+        skeleton.nodeParentFromJoint.emplace_back();
+        skeleton.skinWeight.push_back(vertices == std::string::npos ? 0.0F : std::stof(line.substr(vertices + 4)));
+        ancestors.push_back(skeleton.jointCount() - 1);
+    }
+    return character;
 }
 
 Score& Score::operator+=(const Score& other) {

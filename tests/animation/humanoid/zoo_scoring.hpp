@@ -21,6 +21,10 @@ struct Truth {
     std::vector<std::string> chest;
 };
 
+/// The joints of a model as its folder's bones.txt lists them, in the pose that its nodes have, with the number of
+/// vertices of each; no joints where there is no list.
+[[nodiscard]] animation::Character readBones(const Truth& truth);
+
 [[nodiscard]] std::vector<Truth> readTruths(const std::filesystem::path& folder);
 
 struct Score {
