@@ -39,6 +39,7 @@ struct Workspace {
     struct Press {
         vec2 position{0, 0};
         std::optional<Pick> pick;
+        vec3 bodyPoint{0, 0, 0};  ///< pick->position in the body's frame, when it is a body: that goes on falling.
     };
     std::optional<Press> press;
     MouseButton cameraButton = MouseButton::middle;  ///< What drags the camera.

@@ -40,7 +40,11 @@ class SelectHandler final : public StateHandler {
             workspace_.press.reset();
             return std::nullopt;
         }
-        workspace_.press = Workspace::Press{workspace_.mouse, workspace_.pickUnderMouse()};
+        workspace_.press = Workspace::Press{workspace_.mouse, workspace_.pickUnderMouse(), vec3(0)};
+        if (const auto& pick = workspace_.press->pick; pick && pick->item.kind == Item::Kind::body) {
+            const auto bodies = workspace_.player->bodiesOf(pick->item.doll);
+            workspace_.press->bodyPoint = inverse(bodies[pick->item.index].worldFromBody) * pick->position;
+        }
         return select(workspace_.press->pick, event.modifiers.shift);
     }
 

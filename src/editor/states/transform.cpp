@@ -170,24 +170,18 @@ class GrabHandler final : public TransformHandler {
   protected:
     void begin() override {
         depth_ = 0;
-        start_ = byDrag_ && workspace_.press->pick ? workspace_.press->pick->position : pivot_;
-        grabbedAt_ = mousePoint().value_or(start_);
+        // Dragged, the point under the mouse follows it; by a key what counts is how far the mouse has gone since.
+        const bool dragged = byDrag_ && workspace_.press->pick;
+        start_ = dragged ? workspace_.press->pick->position : pivot_;
+        if (onBody()) startPull(dragged);
+        grabbedAt_ = dragged ? start_ : mousePoint().value_or(start_);
         target_ = start_;
-        if (!onBody()) return;
-        const auto bodies = workspace_.player->bodiesOf(item_->doll);
-        Pull pull;
-        pull.doll = item_->doll;
-        pull.role = workspace_.document->profile().bodies[item_->index].role;
-        pull.bodyPoint = inverse(bodies[item_->index].worldFromBody) * start_;
-        pull.target = start_;
-        workspace_.pulls.mouse = pull;
     }
 
     void change() override {
         if (const auto number = number_.value()) {
             target_ = start_ + axisVector(lock_.kind == AxisLock::Kind::axis ? lock_.axis : 0) * *number;
         } else if (const auto point = mousePoint()) {
-            // By a key the grab begins beside the thing: what counts is how far the mouse has gone since.
             target_ = lock_.kind == AxisLock::Kind::axis ? *point : start_ + (*point - grabbedAt_);
         }
         if (onBody()) {
@@ -227,6 +221,17 @@ class GrabHandler final : public TransformHandler {
     }
 
   private:
+    void startPull(bool dragged) {
+        const RigidTransform worldFromBody = workspace_.player->bodiesOf(item_->doll)[item_->index].worldFromBody;
+        Pull pull;
+        pull.doll = item_->doll;
+        pull.role = workspace_.document->profile().bodies[item_->index].role;
+        pull.bodyPoint = dragged ? workspace_.press->bodyPoint : vec3(0);
+        start_ = worldFromBody * pull.bodyPoint;
+        pull.target = start_;
+        workspace_.pulls.mouse = pull;
+    }
+
     [[nodiscard]] std::optional<vec3> mousePoint() const {
         return dragTarget(workspace_.mouseRay(), start_, render::forwardOf(workspace_.camera), lock_, depth_);
     }
