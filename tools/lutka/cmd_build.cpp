@@ -1,9 +1,13 @@
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
+#include <map>
 #include <memory>
+#include <vector>
 
 #include "commands.hpp"
 #include "options.hpp"
+#include "physics/limits_from_clips.hpp"
 #include "physics/profile_io.hpp"
 
 namespace lutka::cli {
@@ -12,8 +16,33 @@ namespace {
 struct Options {
     RagdollOptions ragdoll;
     std::filesystem::path out;
+    std::string limitsFromClips;  // empty: limits are the anatomy's
     bool json = false;
 };
+
+const std::map<std::string, physics::ClipLimits> kClipLimits = {{"widen", physics::ClipLimits::widen},
+                                                                {"fit", physics::ClipLimits::fit}};
+
+std::string hingeText(const physics::HingeLimits& hinge) {
+    return fmt::format("{:.0f}..{:.0f}", degrees(hinge.lower), degrees(hinge.upper));
+}
+
+std::string coneText(const physics::ConeTwistLimits& cone) {
+    return fmt::format("{:.0f} x {:.0f}, twist {:.0f}", degrees(cone.swingY), degrees(cone.swingZ),
+                       degrees(cone.twist));
+}
+
+// Before, what the clips do, and after: in degrees.
+void printChanges(const std::vector<physics::ClipLimitChange>& changes) {
+    fmt::print("{:<15} {:<22} {:<22} {:<22}\n", "LIMITS (deg)", "ANATOMY", "CLIPS", "TAKEN");
+    for (const physics::ClipLimitChange& change : changes) {
+        const bool hinge = change.kind == physics::ConstraintProfile::Kind::hinge;
+        fmt::print("{:<15} {:<22} {:<22} {:<22}\n", animation::roleName(change.role),
+                   hinge ? hingeText(change.hingeBefore) : coneText(change.coneBefore),
+                   hinge ? hingeText(change.hingeUsed) : coneText(change.coneUsed),
+                   hinge ? hingeText(change.hingeAfter) : coneText(change.coneAfter));
+    }
+}
 
 std::string shapeText(const physics::BodyShape& shape) {
     switch (shape.kind) {
@@ -30,10 +59,9 @@ std::string shapeText(const physics::BodyShape& shape) {
 
 std::string limitText(const physics::ConstraintProfile& c) {
     if (c.kind == physics::ConstraintProfile::Kind::hinge) {
-        return fmt::format("hinge {:.0f}..{:.0f} deg", degrees(c.hinge.lower), degrees(c.hinge.upper));
+        return fmt::format("hinge {} deg", hingeText(c.hinge));
     }
-    return fmt::format("cone {:.0f} x {:.0f}, twist {:.0f} deg", degrees(c.cone.swingY), degrees(c.cone.swingZ),
-                       degrees(c.cone.twist));
+    return fmt::format("cone {} deg", coneText(c.cone));
 }
 
 void printTable(const physics::RagdollProfile& profile) {
@@ -52,11 +80,19 @@ void run(const Options& options) {
     const auto asset = orLeave(scene::loadRagdoll(options.ragdoll.model.model, options.ragdoll.load()));
     printWarnings(asset->character);
     printWarnings(asset->map);
+    std::vector<physics::ClipLimitChange> changes;
+    if (!options.limitsFromClips.empty()) {
+        changes = physics::applyClipLimits(asset->profile, asset->rig, asset->character,
+                                           kClipLimits.at(options.limitsFromClips));
+        if (changes.empty())
+            spdlog::warn("{}: has no clips; the limits are the anatomy's", asset->character.file.string());
+    }
     if (!options.out.empty()) orLeave(physics::saveProfile(options.out, asset->profile));
     if (options.json) {
         fmt::print("{}", physics::profileToJson(asset->profile));
     } else {
         printTable(asset->profile);
+        if (!changes.empty()) printChanges(changes);
     }
 }
 
@@ -67,6 +103,10 @@ void addBuild(CLI::App& app) {
     CLI::App* command = app.add_subcommand("build", "Make the whole ragdoll profile: map, fit, masses, limits, filter");
     options->ragdoll.addTo(*command);
     command->add_option("-o,--output", options->out, "write the profile (*.ragdoll.json)");
+    command
+        ->add_option("--limits-from-clips", options->limitsFromClips,
+                     "widen: make room for what the model's own animations do; fit: allow just that")
+        ->check(CLI::IsMember(&kClipLimits));
     command->add_flag("--json", options->json, "print the profile as JSON on stdout");
     command->callback([options] { run(*options); });
 }
