@@ -42,6 +42,7 @@ int openErrorFile() {
 
 int spawn(const std::vector<std::string>& arguments, int input, int errors, pid_t& pid) {
     std::vector<char*> argv;
+    argv.reserve(arguments.size() + 1);
     for (const std::string& argument : arguments)
         argv.push_back(const_cast<char*>(argument.c_str()));  // posix_spawn leaves them alone
     argv.push_back(nullptr);

@@ -140,8 +140,8 @@ void addSkeleton(LineBatch& lines, std::span<const vec3> positions, std::span<co
     LUTKA_ASSERT(positions.size() == parents.size());
     for (std::size_t joint = 0; joint < positions.size(); ++joint) {
         if (parents[joint] < 0) continue;
-        const vec3 from = positions[parents[joint]];
-        const vec3 to = positions[joint];
+        const vec3& from = positions[parents[joint]];
+        const vec3& to = positions[joint];
         const float length = glm::length(to - from);
         if (!(length > 1e-4F)) continue;
         const vec3 along = (to - from) / length;

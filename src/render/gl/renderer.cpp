@@ -12,6 +12,12 @@
 namespace lutka::render {
 
 struct Renderer::State {
+    State(SceneRenderer sceneRenderer, DebugRenderer debugRenderer, ShaderProgram feedbackProgram, int samples)
+        : scene(std::move(sceneRenderer)),
+          debug(std::move(debugRenderer)),
+          feedback(std::move(feedbackProgram)),
+          picture(samples) {}
+
     CharacterStore characters;
     std::vector<std::string> warnings;
     SceneRenderer scene;
@@ -41,14 +47,8 @@ Result<Renderer> Renderer::create(GlContext& context, const RendererOptions& opt
     constexpr std::array<const char*, 2> kCaptured = {"skinnedPosition", "skinnedNormal"};
     Result<ShaderProgram> feedback = ShaderProgram::load("skin_feedback.vert", "", {}, kCaptured);
     if (!feedback) return feedback.error();
-    return Renderer(std::unique_ptr<State>(new State{{},
-                                                     {},
-                                                     std::move(scene).value(),
-                                                     std::move(debug).value(),
-                                                     std::move(feedback).value(),
-                                                     {},
-                                                     PictureTarget(options.samples),
-                                                     {}}));
+    return Renderer(std::make_unique<State>(std::move(scene).value(), std::move(debug).value(),
+                                            std::move(feedback).value(), options.samples));
 }
 
 Result<CharacterHandle> Renderer::uploadCharacter(const animation::Character& character) {

@@ -40,7 +40,7 @@ Result<void> append(Source& source, const std::string& name) {
             continue;
         }
         const std::size_t end = line.find('"', kInclude.size());
-        const Result<void> included = append(source, line.substr(kInclude.size(), end - kInclude.size()));
+        Result<void> included = append(source, line.substr(kInclude.size(), end - kInclude.size()));
         if (!included) return included;
         source.text += fmt::format("#line {}\n", index * kLinesAFile + number + 1);
     }
@@ -65,8 +65,10 @@ Error compileError(const std::string& log, const Source& source) {
     return error;
 }
 
+// GL fills the buffer up to a null character.
 std::string trimmed(std::string log) {
-    while (!log.empty() && (log.back() == '\0' || log.back() == '\n'))
+    log.resize(std::min(log.find('\0'), log.size()));
+    while (!log.empty() && log.back() == '\n')
         log.pop_back();
     return log;
 }
@@ -88,7 +90,7 @@ Result<GLuint> compile(GLenum stage, std::string_view file, std::span<const std:
     std::string log(4096, '\0');
     glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
     glDeleteShader(shader);
-    return compileError(trimmed(log.c_str()), source);
+    return compileError(trimmed(log), source);
 }
 
 }  // namespace
@@ -116,7 +118,7 @@ Result<ShaderProgram> ShaderProgram::load(std::string_view vertexFile, std::stri
     if (done != GL_TRUE) {
         std::string log(4096, '\0');
         glGetProgramInfoLog(name, static_cast<GLsizei>(log.size()), nullptr, log.data());
-        return Error{ErrorCode::internal, "the shaders do not link: " + trimmed(log.c_str()),
+        return Error{ErrorCode::internal, "the shaders do not link: " + trimmed(log),
                      fmt::format("{} + {}", vertexFile, fragmentFile), ""};
     }
     program.bindFixedUnits();
