@@ -54,7 +54,7 @@ inline CommandResult lutkaCommand(const std::string& arguments) {
     return runCommand("'" LUTKA_BINARY "' " + arguments);
 }
 
-inline std::string quoted(const std::filesystem::path& file) {
+inline std::string shellQuoted(const std::filesystem::path& file) {
     return "'" + file.string() + "'";
 }
 
