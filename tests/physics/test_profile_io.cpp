@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/random.hpp"
 #include "physics/fit_ragdoll.hpp"
 #include "physics/json_schema.hpp"
 #include "support/catch.hpp"
@@ -182,4 +183,32 @@ TEST_CASE("a key that stands twice and masses that do not add up are problems") 
     json heavy = bipedJson();
     heavy["totalMassKg"] = 80;
     CHECK(problemsOf(heavy).find("/totalMassKg: expected the sum of the bodies' masses") != std::string::npos);
+}
+
+TEST_CASE("damaged documents are refused or read, but never crash the reader") {
+    const std::string whole = profileToJson(bipedProfile());
+    Random random(11);
+    int refused = 0;
+    constexpr int kTrials = 1500;
+    for (int trial = 0; trial < kTrials; ++trial) {
+        std::string damaged = whole;
+        for (int change = 0; change < 3; ++change) {
+            const std::size_t at = random.next() % damaged.size();
+            switch (random.next() % 3) {
+                case 0:
+                    damaged[at] = static_cast<char>(random.next() % 128);
+                    break;
+                case 1:
+                    damaged.erase(at, 1 + random.next() % 40);
+                    break;
+                default:
+                    damaged.insert(at, whole.substr(random.next() % whole.size(), random.next() % 40));
+                    break;
+            }
+        }
+        const auto read = profileFromJson(damaged, "damaged");
+        refused += read ? 0 : 1;
+        if (read) CHECK(validate(read.value()).empty());
+    }
+    CHECK(refused > kTrials / 2);
 }
