@@ -8,8 +8,8 @@ namespace lutka::scene {
 namespace {
 
 Error notHumanoid(const animation::Character& character, const animation::HumanoidMap& map) {
-    const std::string reason = map.warnings.empty() ? "no humanoid was found" : map.warnings.front();
-    return {ErrorCode::input, fmt::format("is not a humanoid: {}", reason), character.file.string(),
+    const std::string reason = map.warnings.empty() ? "not a humanoid" : map.warnings.front();
+    return {ErrorCode::input, reason, character.file.string(),
             "`lutka inspect` shows the joint tree; a humanoid has a trunk, two arms and two legs"};
 }
 

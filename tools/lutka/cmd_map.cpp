@@ -84,8 +84,7 @@ void run(const Options& options) {
     if (!options.out.empty() && map.humanoid) orLeave(writeFileAtomically(options.out, dump(json)));
     if (options.json) fmt::print("{}", dump(json));
     if (!map.humanoid) {
-        leave({ErrorCode::input,
-               fmt::format("is not a humanoid: {}", map.warnings.empty() ? "no reason known" : map.warnings.front()),
+        leave({ErrorCode::input, map.warnings.empty() ? "not a humanoid" : map.warnings.front(),
                options.model.model.string(), ""});
     }
     if (!options.json) {
