@@ -42,7 +42,8 @@ void apply(CrowdTuning& tuning, const std::string& setting) {
     const float value = at == std::string::npos ? 0.0F : std::stof(setting.substr(at + 1));
     const std::map<std::string, float*> reals{
         {"jointErp", &tuning.jointErp},         {"limitErp", &tuning.limitErp},
-        {"contactErp", &tuning.contactErp},
+        {"contactErp", &tuning.contactErp},     {"stiffness", &tuning.stiffness},
+        {"grip", &tuning.grip},
         {"pushSpeed", &tuning.pushSpeed},       {"limitSpeed", &tuning.limitSpeed},
         {"slop", &tuning.slop},                 {"margin", &tuning.margin},
         {"rollingLever", &tuning.rollingLever}, {"linearDamping", &tuning.linearDamping},

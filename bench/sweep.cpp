@@ -39,7 +39,9 @@ std::vector<Knob> knobs() {
             LUTKA_KNOB("--mend-sweeps", mendSweeps),   LUTKA_KNOB("--joint-erp", jointErp),
             LUTKA_KNOB("--limit-erp", limitErp),       LUTKA_KNOB("--contact-erp", contactErp),
             LUTKA_KNOB("--margin", contactMargin),     LUTKA_KNOB("--gyration", leastGyration),
-            LUTKA_KNOB("--warm-start", warmStart),     LUTKA_KNOB("--angular-damping", angularDamping)};
+            LUTKA_KNOB("--warm-start", warmStart),     LUTKA_KNOB("--angular-damping", angularDamping),
+            LUTKA_KNOB("--rest-damping", restDamping), LUTKA_KNOB("--rest-speed", restSpeed),
+            LUTKA_KNOB("--rest-turn", restTurn),       LUTKA_KNOB("--rolling", rollingArm)};
 #undef LUTKA_KNOB
 }
 

@@ -20,6 +20,7 @@ struct BulletTuning {
     float contactSlop = 0.0005F;  ///< Metres of penetration that are left alone, so that resting contacts stay.
     float contactMargin = 0.04F;  ///< Metres: how far apart shapes have contact points already (they only bound speed).
     float maxPushSpeed = 1.0F;    ///< m/s: bound on the speed at which overlapping shapes part.
+    float rollingArm = 0.01F;  ///< Metres: resistance to rolling, as the arm of the normal force. More: rolls less far.
     float leastGyration =
         0.05F;              ///< Metres, of a figure 1.75 m tall: no body has a smaller radius of gyration about any
                             ///< axis; thin hands and feet are given more inertia. More: tighter, more sluggish.
@@ -27,6 +28,9 @@ struct BulletTuning {
 
     float linearDamping = 0.02F;  ///< Part of the speed lost in a second, [0, 1]: air.
     float angularDamping = 0.3F;  ///< The same for turning.
+    float restDamping = 4.0F;     ///< 1/s: further damping of what touches something and is slower than
+    float restSpeed = 0.06F;      ///< m/s and
+    float restTurn = 0.4F;        ///< rad/s. More: sooner asleep, stiffer last movements.
     float sleepSpeed = 0.03F;     ///< m/s, and
     float sleepTurn = 0.04F;      ///< rad/s: slower for `sleepSeconds`, all bodies that touch fall asleep.
     float sleepSeconds = 1.0F;

@@ -184,6 +184,8 @@ void SubstepSolver::takePoint(btManifoldPoint& point, int a, int b, float second
     const vec3 tangent = anyPerpendicular(normal);
     along(contact.tangents[0], tangent);
     along(contact.tangents[1], glm::cross(normal, tangent));
+    const mat3 inverseInertia = bodies_[a].inverseInertia + bodies_[b].inverseInertia;
+    contact.rollingInertia = 1.0F / (inverseInertia[0][0] + inverseInertia[1][1] + inverseInertia[2][2]);
     const float distance = point.getDistance();
     if (distance > 0.0F) {
         // Not there yet: only the speed that would arrive within the substep is bounded.
@@ -261,7 +263,22 @@ float SubstepSolver::solveContact(Contact& contact, bool mending) {
         apply(contact.tangents[i], contact.a, contact.b, wanted[i] - contact.tangents[i].impulse);
         contact.tangents[i].impulse = wanted[i];
     }
+    solveRolling(contact);
     return residual;
+}
+
+// Flesh gives way where it rests: the pressure's centre moves ahead of what rolls, by up to `rollingArm`.
+void SubstepSolver::solveRolling(Contact& contact) {
+    Body& a = bodies_[contact.a];
+    Body& b = bodies_[contact.b];
+    vec3 wanted = contact.rolling - (a.turn - b.turn) * contact.rollingInertia;
+    const float length = glm::length(wanted);
+    const float bound = tuning_.rollingArm * contact.normal.impulse;
+    if (length > bound) wanted *= length > 0.0F ? bound / length : 0.0F;
+    const vec3 change = wanted - contact.rolling;
+    a.turn += a.inverseInertia * change;
+    b.turn -= b.inverseInertia * change;
+    contact.rolling = wanted;
 }
 
 // Old impulses in a new geometry can be far from the answer, and too few sweeps don't take back what they added: a doll
@@ -363,6 +380,19 @@ void SubstepSolver::iterate(bool mending) {
     }
 }
 
+// What lies nearly still is brought to rest: capsules would roll on for long, which skin and cloth never do.
+void SubstepSolver::calm(float seconds) {
+    const float keep = std::max(1.0F - tuning_.restDamping * seconds, 0.0F);
+    for (std::size_t i = 1; i < bodies_.size(); ++i) {
+        Body& body = bodies_[i];
+        const bool slow = glm::dot(body.velocity, body.velocity) < tuning_.restSpeed * tuning_.restSpeed &&
+                          glm::dot(body.turn, body.turn) < tuning_.restTurn * tuning_.restTurn;
+        if (!slow || islands_[body.island].contacts == 0) continue;
+        body.velocity *= keep;
+        body.turn *= keep;
+    }
+}
+
 void SubstepSolver::bounce() {
     for (Contact& contact : contacts_) {
         if (contact.bounceTarget <= 0.0F || contact.normal.impulse <= 0.0F) continue;
@@ -415,6 +445,7 @@ void SubstepSolver::solve(std::span<btRigidBody* const> bodies, std::span<btType
     takeConstraints(constraints, seconds);
     takeContacts(dispatcher, seconds);
     sortByIsland();
+    calm(seconds);
     warmStart();
     iterate(false);
     bounce();

@@ -73,7 +73,9 @@ class SubstepSolver {
         Row normal;
         Row tangents[2];
         float friction = 0;
-        float bounceTarget = 0;  // speed of parting that restitution asks for
+        vec3 rolling{0, 0, 0};     // impulse that resists rolling, N m s
+        float rollingInertia = 0;  // kg m², no more than about any axis
+        float bounceTarget = 0;    // speed of parting that restitution asks for
     };
 
     // What warm starting sums up.
@@ -99,11 +101,13 @@ class SubstepSolver {
     void finishRow(Row& row, int a, int b) const;
     void warmStart();
     void sortByIsland();
+    void calm(float seconds);
     void iterate(bool mending);
     // These return the speed by which rows were wrong, m/s (angular rows: of a point at an arm's length).
     float sweep(const Island& island, bool mending, bool forth);
     float solveJoint(Joint& joint, bool mending);
     float solveContact(Contact& contact, bool mending);
+    void solveRolling(Contact& contact);
     float solveRow(Row& row, int a, int b, bool mending);
     void bounce();
     void store(float seconds);
