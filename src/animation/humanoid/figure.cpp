@@ -13,6 +13,8 @@ namespace {
 constexpr std::size_t kCombinationsTried = 14;
 constexpr float kSnapCosine = 0.9990F;  // 2.5 degrees
 constexpr float kAgreement = 10.0F;     // log-odds of a plane that mirrors all joints against one that mirrors none
+constexpr float kRefusedLoss = 4.0F;
+constexpr float kMoreLimbs = -3.0F;
 constexpr float kUnknownMargin = 6.0F;  // no other reading at all
 
 struct Combination {
@@ -65,6 +67,31 @@ std::vector<Combination> combine(const FramedRig& framed, const std::vector<Limb
     return combinations;
 }
 
+// A second pair of arms or legs, as long and as heavy as the first: spiders, centaurs. What hangs from the head (ears,
+// plaits) does not count.
+float moreLimbs(const FramedRig& framed, const Figure& figure) {
+    const RigFeatures& rig = *framed.rig;
+    const int arm = figure.arms.first;
+    const float leastSkin =
+        0.5F * std::min(framed.pairs[arm].subtreeWeight, framed.pairs[figure.legs.first].subtreeWeight);
+    const auto related = [&](int a, int b) { return a == b || framed.isAbove(a, b) || framed.isAbove(b, a); };
+    float total = 0.0F;
+    for (int pair = 0; pair < static_cast<int>(framed.pairs.size()); ++pair) {
+        const JointPair& limb = framed.pairs[pair];
+        const int parent = rig.parents[limb.joints[0]];
+        const bool inner = parent != kNoJoint && framed.pairOf[parent] >= 0;
+        if (inner || limb.shadow || related(pair, arm) || related(pair, figure.legs.first)) continue;
+        if (figure.arms.uses(pair) || figure.legs.uses(pair) || limb.subtreeWeight < leastSkin) continue;
+        if (figure.trunk.head != kNoJoint && rig.isAncestorOrSelf(figure.trunk.head, limb.joints[0])) continue;
+        float reach = 0.0F;
+        for (int other = 0; other < static_cast<int>(framed.pairs.size()); ++other) {
+            if (framed.isAbove(pair, other)) reach = std::max(reach, framed.segment(pair, other));
+        }
+        if (reach > 0.5F * figure.arms.length) total += kMoreLimbs;
+    }
+    return std::max(total, 3.0F * kMoreLimbs);
+}
+
 float limbMargin(const std::vector<LimbCandidate>& all, const LimbCandidate& best, std::size_t slot) {
     float margin = kUnknownMargin;
     for (const LimbCandidate& other : all) {
@@ -87,9 +114,12 @@ void findMargins(Figure& figure, const std::vector<LimbCandidate>& legs, const s
     if (figure.trunk.head != kNoJoint) figure.margins.head = without({.head = figure.trunk.head});
 }
 
-// The better of two readings: one that is not refused, then the likelier.
+// The better of two readings: one that is not refused, unless a refused one is likelier by far (a raptor reads as a
+// standing figure once its thighs are left out); then the likelier.
 bool better(const Figure& a, const Figure& b) {
-    return a.refusal.empty() != b.refusal.empty() ? a.refusal.empty() : a.score > b.score;
+    const float refusedA = a.refusal.empty() ? 0.0F : kRefusedLoss;
+    const float refusedB = b.refusal.empty() ? 0.0F : kRefusedLoss;
+    return a.score - refusedA > b.score - refusedB;
 }
 
 // The best reading in one stance.
@@ -107,6 +137,8 @@ Figure readInStance(const RigFeatures& rig, const Stance& stance, float upPrior,
         if (figure.trunk.hips == kNoJoint) continue;
         figure.prior = upPrior;
         figure.score = upPrior + agreement + combination.score + figure.trunk.score;
+        figure.score += moreLimbs(framed, figure);
+        figure.score += atMost(trunkTilt(figure, framed), radians(20.0F), radians(10.0F));
         figure.refusal = refusalOf(figure, framed);
         if (better(figure, best)) best = std::move(figure);
     }

@@ -31,7 +31,10 @@ struct Figure {
 
     /// Sum of the terms of shape, structure and skin alone: what readings are accepted by.
     [[nodiscard]] float shapeScore() const {
-        return score - prior - legs.names - arms.names - trunk.names - legs.missing - arms.missing - trunk.missing;
+        // Blocky figures may well have no head and one joint for the trunk; those with whole limbs have both.
+        const bool blocky = legs.jointCount() + arms.jointCount() <= 4;
+        return score - prior - legs.names - arms.names - trunk.names - legs.missing - arms.missing -
+               (blocky ? trunk.missing : 0.0F);
     }
 };
 

@@ -9,11 +9,10 @@
 namespace lutka::animation {
 namespace {
 
-constexpr float kMostTilt = radians(46.0F);     // of the trunk from upright; hunched figures reach 30 degrees
+constexpr float kMostTilt = radians(40.0F);     // of the trunk from upright; hunched figures reach 30 degrees
 constexpr float kMostLegTilt = radians(50.0F);  // of the legs from straight down
 constexpr float kLeastHandHeight = 0.16F;       // above the feet, as a share of the way up to the arms' roots
-constexpr float kNamesHelp = 0.6F;
-constexpr float kLeastRise = 0.10F;  // of the arms' roots above the legs', as a share of the legs' length
+constexpr float kLeastRise = 0.10F;             // of the arms' roots above the legs', as a share of the legs' length
 
 float angleTo(const vec3& direction, const vec3& axis) {
     const float length = glm::length(direction);
@@ -32,8 +31,9 @@ float creatureShare(const FramedRig& framed, const LimbCandidate& limb) {
     return placed > 0 ? static_cast<float>(named) / static_cast<float>(placed) : 0.0F;
 }
 
-// Mean of the angles from the hips up to the arms' roots and to the head.
-float tiltOfTrunk(const Figure& figure, const FramedRig& framed) {
+}  // namespace
+
+float trunkTilt(const Figure& figure, const FramedRig& framed) {
     const vec3 up(0, 1, 0);
     vec3 from = figure.legs.root;
     vec3 shoulders = figure.arms.root;
@@ -45,10 +45,8 @@ float tiltOfTrunk(const Figure& figure, const FramedRig& framed) {
     return 0.5F * (toShoulders + angleTo(head - from, up));
 }
 
-}  // namespace
-
 std::string refusalOf(const Figure& figure, const FramedRig& framed) {
-    const float tilt = tiltOfTrunk(figure, framed);
+    const float tilt = trunkTilt(figure, framed);
     if (tilt > kMostTilt) {
         return fmt::format("the trunk lies at {:.0f} degrees from upright: an animal, not a standing figure",
                            degrees(tilt));
@@ -63,9 +61,10 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     if (creatureShare(framed, figure.legs) > 0.6F) return "what would be the legs are named as an animal's";
     // Names alone never make a humanoid, but they carry one that is put together oddly.
     const float names = figure.legs.names + figure.arms.names + figure.trunk.names;
-    const float help = std::clamp(kNamesHelp * names, -10.0F, 10.0F);
-    if (figure.shapeScore() + help < kLeastShapeScore ||
-        figure.score - figure.prior - names + help < kLeastWholeScore) {
+    const float helpShape = std::clamp(0.2F * names, -6.0F, 4.0F);
+    const float helpWhole = std::clamp(0.6F * names, -10.0F, 10.0F);
+    if (figure.shapeScore() + helpShape < kLeastShapeScore ||
+        figure.score - figure.prior - names + helpWhole < kLeastWholeScore) {
         return fmt::format("the limbs have not the proportions of a human figure (score {:.1f})", figure.shapeScore());
     }
     return {};

@@ -154,11 +154,15 @@ class TrunkFinder {
 
     [[nodiscard]] std::vector<Scored> likelyHeads(int banned) const {
         float skinAbove = 0.0F;
+        bool anyAbove = false;  // a figure with joints where its head would be is not headless
         std::vector<int> joints;
         for (const int joint : central_) {
             if (position(joint).y < arms_.root.y - 0.15F * length_ || joint == banned) continue;
             joints.push_back(joint);
-            if (!rig_.isAncestorOrSelf(joint, armRoot())) skinAbove = std::max(skinAbove, rig_.subtreeWeight[joint]);
+            if (rig_.isAncestorOrSelf(joint, armRoot())) continue;
+            skinAbove = std::max(skinAbove, rig_.subtreeWeight[joint]);
+            const bool above = position(joint).y > arms_.root.y + 0.25F * length_;
+            anyAbove = anyAbove || (above && rig_.carriesSkin(joint));
         }
         std::vector<Scored> heads;
         for (const int joint : joints) {
@@ -170,7 +174,7 @@ class TrunkFinder {
             heads.push_back({joint, score});
         }
         keepBest(heads, kHeadsTried);
-        heads.push_back({kNoJoint, kHeadless});
+        heads.push_back({kNoJoint, anyAbove ? 2.0F * kHeadless : kHeadless});
         return heads;
     }
 

@@ -1,0 +1,206 @@
+#include <cmath>
+#include <functional>
+#include <glm/gtc/quaternion.hpp>
+#include <string>
+#include <vector>
+
+#include "animation/humanoid/map_humanoid.hpp"
+#include "rig_variations.hpp"
+#include "support/catch.hpp"
+#include "support/rigs.hpp"
+
+// Rigs that are no humanoids, some with the joint names of one: none may be accepted, with or without their names.
+namespace lutka::test {
+namespace {
+
+class RigBuilder {
+  public:
+    int add(const std::string& name, int parent, const vec3& position) {
+        joints_.push_back({name, parent, position});
+        return static_cast<int>(joints_.size()) - 1;
+    }
+
+    // A chain from `start` by steps; the index of its first joint.
+    int chain(const std::string& stem, int parent, vec3 start, const std::vector<vec3>& steps) {
+        const int first = add(stem + "1", parent, start);
+        int last = first;
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+            start += steps[i];
+            last = add(stem + std::to_string(i + 2), last, start);
+        }
+        return first;
+    }
+
+    // The same chain on both sides.
+    void chains(const std::string& stem, int parent, const vec3& start, const std::vector<vec3>& steps) {
+        for (const float side : {1.0F, -1.0F}) {
+            std::vector<vec3> mirrored = steps;
+            for (vec3& step : mirrored)
+                step.x *= side;
+            chain((side > 0 ? "Left" : "Right") + stem, parent, vec3(side * start.x, start.y, start.z), mirrored);
+        }
+    }
+
+    [[nodiscard]] animation::Character character() const {
+        animation::Character made;
+        made.skeleton = makeSkeleton(joints_);
+        std::fill(made.skeleton.skinWeight.begin(), made.skeleton.skinWeight.end(), 50.0F);
+        return made;
+    }
+
+  private:
+    std::vector<JointSpec> joints_;
+};
+
+animation::Character quadruped(const char* foreleg, const char* hindleg) {
+    RigBuilder rig;
+    const int hips = rig.add("Hips", -1, {0, 0.9F, -0.5F});
+    const int spine = rig.add("Spine", hips, {0, 0.95F, -0.2F});
+    const int chest = rig.add("Chest", spine, {0, 0.95F, 0.3F});
+    const int neck = rig.add("Neck", chest, {0, 1.1F, 0.5F});
+    rig.add("Head", neck, {0, 1.35F, 0.7F});
+    rig.chain("Tail", hips, {0, 0.9F, -0.6F}, {{0, -0.1F, -0.2F}, {0, -0.15F, -0.15F}});
+    rig.chains(foreleg, chest, {0.13F, 0.85F, 0.35F}, {{0, -0.35F, -0.02F}, {0, -0.35F, 0.02F}, {0, -0.1F, 0.06F}});
+    rig.chains(hindleg, hips, {0.13F, 0.85F, -0.5F}, {{0, -0.35F, 0.05F}, {0, -0.3F, -0.1F}, {0, -0.15F, 0.08F}});
+    return rig.character();
+}
+
+animation::Character raptor() {
+    RigBuilder rig;
+    const int hips = rig.add("pelvis", -1, {0, 1.0F, 0});
+    const int spine = rig.add("spine_01", hips, {0, 1.05F, 0.25F});
+    const int chest = rig.add("spine_02", spine, {0, 1.12F, 0.5F});
+    const int neck = rig.add("neck_01", chest, {0, 1.3F, 0.7F});
+    rig.add("head", neck, {0, 1.5F, 0.85F});
+    rig.chain("tail", hips, {0, 1.0F, -0.2F}, {{0, 0, -0.3F}, {0, 0, -0.3F}, {0, 0, -0.3F}, {0, 0, -0.3F}});
+    rig.chains("arm", chest, {0.1F, 1.02F, 0.52F}, {{0.02F, -0.15F, -0.02F}, {0, -0.08F, 0.12F}, {0, -0.03F, 0.06F}});
+    rig.chains("leg", hips, {0.14F, 0.95F, 0.02F}, {{0, -0.35F, 0.12F}, {0, -0.35F, -0.25F}, {0, -0.2F, 0.12F}});
+    return rig.character();
+}
+
+animation::Character spider() {
+    RigBuilder rig;
+    const int body = rig.add("body", -1, {0, 0.3F, 0});
+    rig.add("head", body, {0, 0.32F, 0.25F});
+    rig.add("abdomen", body, {0, 0.34F, -0.3F});
+    for (int i = 0; i < 4; ++i) {
+        const float z = 0.15F - 0.1F * static_cast<float>(i);
+        rig.chains("leg" + std::to_string(i) + "_", body, {0.1F, 0.3F, z},
+                   {{0.2F, 0.2F, z}, {0.25F, -0.2F, z}, {0.15F, -0.3F, z}});
+    }
+    return rig.character();
+}
+
+animation::Character bird() {
+    RigBuilder rig;
+    const int body = rig.add("Body", -1, {0, 0.3F, 0});
+    const int chest = rig.add("Chest", body, {0, 0.34F, 0.12F});
+    const int neck = rig.add("Neck", chest, {0, 0.42F, 0.2F});
+    rig.add("Head", neck, {0, 0.5F, 0.25F});
+    rig.chain("Tail", body, {0, 0.3F, -0.1F}, {{0, 0, -0.1F}});
+    rig.chains("Wing", chest, {0.07F, 0.36F, 0.08F}, {{0.2F, 0, 0}, {0.2F, 0, -0.02F}, {0.15F, 0, -0.03F}});
+    rig.chains("Leg", body, {0.05F, 0.26F, 0}, {{0, -0.1F, 0.04F}, {0, -0.12F, -0.03F}, {0, -0.02F, 0.05F}});
+    return rig.character();
+}
+
+animation::Character handAlone() {
+    RigBuilder rig;
+    const int wrist = rig.add("wrist", -1, {0, 0, 0});
+    const char* fingers[] = {"thumb", "index", "middle", "ring", "pinky"};
+    for (int i = 0; i < 5; ++i) {
+        const float x = 0.02F * static_cast<float>(i - 2);
+        rig.chain(fingers[i], wrist, {x, 0.05F, 0}, {{x * 0.5F, 0.05F, 0}, {0, 0.03F, 0}, {0, 0.02F, 0}});
+    }
+    return rig.character();
+}
+
+animation::Character armAlone() {
+    RigBuilder rig;
+    const int root = rig.add("clavicle_l", -1, {0, 0, 0});
+    const int upper = rig.add("upperarm_l", root, {0.15F, 0, 0});
+    const int lower = rig.add("lowerarm_l", upper, {0.43F, 0, 0});
+    const int hand = rig.add("hand_l", lower, {0.7F, 0, 0});
+    for (int i = 0; i < 4; ++i) {
+        rig.chain("finger" + std::to_string(i), hand, {0.79F, 0, 0.02F * static_cast<float>(i) - 0.03F},
+                  {{0.03F, 0, 0}, {0.02F, 0, 0}});
+    }
+    return rig.character();
+}
+
+animation::Character car() {
+    RigBuilder rig;
+    const int body = rig.add("body", -1, {0, 0.6F, 0});
+    rig.add("steering", body, {0, 0.9F, 0.3F});
+    rig.chains("FrontWheel", body, {0.8F, 0.3F, 1.3F}, {{0.1F, 0, 0}});
+    rig.chains("RearWheel", body, {0.8F, 0.3F, -1.3F}, {{0.1F, 0, 0}});
+    rig.chains("Door", body, {0.85F, 0.7F, 0.4F}, {{0, 0, -0.9F}});
+    return rig.character();
+}
+
+animation::Character fish() {
+    RigBuilder rig;
+    const int first =
+        rig.chain("spine", -1, {0, 0, 0.6F}, {{0, 0, -0.3F}, {0, 0, -0.3F}, {0, 0, -0.3F}, {0, 0, -0.2F}});
+    rig.chains("fin", first, {0.1F, -0.05F, 0.45F}, {{0.15F, -0.05F, -0.1F}});
+    rig.chains("rearfin", first + 2, {0.08F, -0.05F, 0.0F}, {{0.1F, -0.05F, -0.1F}});
+    return rig.character();
+}
+
+animation::Character tree() {
+    RigBuilder rig;
+    const int trunk = rig.chain("trunk", -1, {0, 0, 0}, {{0, 1, 0}, {0, 1, 0}, {0, 1, 0}});
+    for (int i = 0; i < 3; ++i) {
+        rig.chains("branch" + std::to_string(i) + "_", trunk + i + 1, {0.1F, 1.0F + static_cast<float>(i), 0},
+                   {{0.5F, 0.3F, 0.1F}, {0.4F, 0.3F, 0.0F}});
+    }
+    return rig.character();
+}
+
+const std::vector<std::pair<const char*, std::function<animation::Character()>>>& strangers() {
+    static const std::vector<std::pair<const char*, std::function<animation::Character()>>> all = {
+        {"quadruped with human names", [] { return quadruped("Arm", "Leg"); }},
+        {"quadruped with an animal's names", [] { return quadruped("FrontLeg", "BackLeg"); }},
+        {"raptor", raptor},
+        {"spider", spider},
+        {"bird", bird},
+        {"hand", handAlone},
+        {"arm", armAlone},
+        {"car", car},
+        {"fish", fish},
+        {"tree", tree},
+    };
+    return all;
+}
+
+}  // namespace
+
+TEST_CASE("animals, limbs and things are refused with a reason", "[refusal]") {
+    for (const auto& [name, make] : strangers()) {
+        const animation::Character character = make();
+        const animation::Character zUp = rotated(character, glm::angleAxis(radians(90.0F), vec3(1, 0, 0)));
+        for (const auto& variant : {character, withoutNames(character), zUp, withoutNames(zUp)}) {
+            const animation::HumanoidMap map = animation::mapHumanoid(variant);
+            INFO(name << ", first joint " << variant.skeleton.names.front());
+            CHECK_FALSE(map.humanoid);
+            REQUIRE_FALSE(map.warnings.empty());
+            CHECK(map.warnings.front().find("not a humanoid: ") == 0);
+        }
+    }
+}
+
+TEST_CASE("no joints, few joints and a chain are refused", "[refusal]") {
+    CHECK_FALSE(animation::mapHumanoid({}).humanoid);
+    RigBuilder rig;
+    rig.chain("joint", -1, {0, 0, 0}, {{0, 1, 0}, {0, 1, 0}, {0, 1, 0}, {0, 1, 0}, {0, 1, 0}, {0, 1, 0}});
+    CHECK_FALSE(animation::mapHumanoid(rig.character()).humanoid);
+}
+
+TEST_CASE("joints that all lie in one point are refused", "[refusal]") {
+    animation::Character biped = makeBiped();
+    for (RigidTransform& frame : biped.skeleton.bindModelFromJoint)
+        frame.translation = vec3(0);
+    biped.meshes.clear();
+    CHECK_FALSE(animation::mapHumanoid(biped).humanoid);
+}
+
+}  // namespace lutka::test
