@@ -9,6 +9,9 @@ layout(location = 3) in vec2 uv;
 layout(location = 4) in uvec4 joints;
 layout(location = 5) in vec4 weights;
 
+// The depth pass and the colour pass of a translucent figure must agree to the last bit.
+invariant gl_Position;
+
 out vec3 worldPosition;
 out vec3 worldNormal;
 out vec4 worldTangent;

@@ -9,6 +9,9 @@ layout(location = 5) in vec4 weights;
 
 uniform mat4 depthFromWorld;
 
+// The depth pass and the colour pass of a translucent figure must agree to the last bit.
+invariant gl_Position;
+
 out vec2 textureUv;
 
 void main() {

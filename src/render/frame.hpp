@@ -107,6 +107,7 @@ struct FrameStats {
     int shadowDrawCalls = 0;      ///< Those of the shadow pass.
     int instances = 0;            ///< Characters drawn.
     int culledInstances = 0;      ///< Characters outside the picture (they still cast their shadows).
+    int droppedInstances = 0;     ///< Characters left out because the driver's texture buffers hold no more joints.
     long long triangles = 0;      ///< Submitted, all passes.
     long long uploadedBytes = 0;  ///< Palettes, instances, batches.
     double cpuMs = 0.0;           ///< Time spent in draw(), without waiting for the GPU.

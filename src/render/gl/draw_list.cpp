@@ -24,6 +24,7 @@ void DrawList::begin(const FrameDescription& frame) {
     casters_ = {};
     forward_ = forwardOf(frame.camera);
     culled_ = 0;
+    dropped_ = 0;
 }
 
 void DrawList::addCharacter(const CharacterItem& item, const BoundingSphere& bounds, const mat4& clipFromWorld) {

@@ -24,11 +24,18 @@ class DrawList {
         std::vector<Batch> props;
     };
 
-    /// Sorts, culls and packs. `jointBounds` gives, for a character's index, what jointBounds() gave for it.
+    /// Sorts, culls and packs; characters whose joints no longer fit into `mostJoints` are dropped. `jointBounds`
+    /// gives, for a character's index, what jointBounds() gave for it.
     template <class JointBounds>
-    void build(const FrameDescription& frame, const mat4& clipFromWorld, const JointBounds& jointBounds) {
+    void build(const FrameDescription& frame, const mat4& clipFromWorld, std::size_t mostJoints,
+               const JointBounds& jointBounds) {
         begin(frame);
         for (const CharacterItem& item : frame.characters) {
+            if (palettes_.size() + item.palette.size() > mostJoints) {
+                firstPaletteJoint_.push_back(0);
+                ++dropped_;
+                continue;
+            }
             addCharacter(item, posedBounds(jointBounds(item.character.index), item.palette, item.worldFromModel),
                          clipFromWorld);
         }
@@ -44,6 +51,7 @@ class DrawList {
     [[nodiscard]] std::span<const InstanceTexels> instances() const { return instances_; }
     [[nodiscard]] const BoundingSphere& casters() const { return casters_; }
     [[nodiscard]] int culled() const { return culled_; }
+    [[nodiscard]] int dropped() const { return dropped_; }
 
   private:
     /// An item that a pass wants, before sorting.
@@ -79,6 +87,7 @@ class DrawList {
     BoundingSphere casters_;
     vec3 forward_{0, 0, -1};
     int culled_ = 0;
+    int dropped_ = 0;
 };
 
 }  // namespace lutka::render

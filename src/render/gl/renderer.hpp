@@ -44,8 +44,10 @@ class Renderer {
     /// What was odd about uploaded materials (a texture index without a texture …), a sentence each.
     [[nodiscard]] std::span<const std::string> warnings() const;
 
-    /// Draws a frame of that size into the offscreen target. Items with an invalid handle or a palette of the wrong
-    /// size are a caller's bug.
+    /// Draws a frame of that size into the offscreen target. All palettes of a frame go into one texture buffer, which
+    /// holds at least 21,845 joints on any driver (tens of millions on most); characters beyond are left out and
+    /// counted in stats().droppedInstances. Items with an invalid handle or a palette of the wrong size are a caller's
+    /// bug.
     void draw(const FrameDescription& frame, Extent size);
 
     /// The last frame, read back; waits for the GPU.

@@ -63,6 +63,13 @@ void setBaseState() {
         glBindSampler(unit, 0);
 }
 
+std::size_t mostJointsOfTextureBuffer() {
+    constexpr GLint kTexelsAJoint = 3;
+    GLint texels = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
+    return static_cast<std::size_t>(texels / kTexelsAJoint);
+}
+
 GlTexture makeWhite() {
     GlTexture texture = GlTexture::create();
     bindTexture(TextureUnit::baseColor, texture.name());
@@ -77,6 +84,7 @@ GlTexture makeWhite() {
 
 SceneRenderer::SceneRenderer(int shadowMapSize)
     : shadowMapSize_(std::clamp(shadowMapSize, 256, 8192)),
+      mostJoints_(mostJointsOfTextureBuffer()),
       noVertices_(GlVertexArray::create()),
       white_(makeWhite()),
       shadowMap_(DepthTarget::Use::shadow),
@@ -171,7 +179,7 @@ void SceneRenderer::draw(const FrameDescription& frame, const CharacterStore& ch
 void SceneRenderer::upload(const FrameDescription& frame, const CharacterStore& characters, Extent size,
                            FrameStats& stats) {
     const mat4 clip = clipFromWorld(frame.camera, size.aspect());
-    list_.build(frame, clip, [&](int index) {
+    list_.build(frame, clip, mostJoints_, [&](int index) {
         LUTKA_ASSERT(index >= 0 && index < static_cast<int>(characters.size()) && characters[index]);
         return std::span<const BoundingSphere>(characters[index]->jointBounds);
     });
@@ -187,7 +195,8 @@ void SceneRenderer::upload(const FrameDescription& frame, const CharacterStore& 
     instances_.bind(static_cast<int>(TextureUnit::instances));
     stats.uploadedBytes +=
         static_cast<long long>(sizeof(FrameUniforms) + list_.palettes().size_bytes() + list_.instances().size_bytes());
-    stats.instances = static_cast<int>(frame.characters.size()) - list_.culled();
+    stats.instances = static_cast<int>(frame.characters.size()) - list_.culled() - list_.dropped();
+    stats.droppedInstances = list_.dropped();
     stats.culledInstances = list_.culled();
 }
 
@@ -249,7 +258,7 @@ void SceneRenderer::drawPicture(const FrameDescription& frame, const CharacterSt
     stats.characterDrawCalls += stats.drawCalls - before;
     glDisable(GL_CULL_FACE);
     prop_.use();
-    drawProps(list_.opaque().props, stats);
+    drawProps(prop_, list_.opaque().props, stats);
     const bool fromBelow = frame.floor.visible && eyeOf(frame.camera).y < frame.floor.height;
     if (fromBelow) drawBackground(stats);
     if (frame.floor.visible) {
@@ -288,7 +297,7 @@ void SceneRenderer::drawTranslucent(const CharacterStore& characters, FrameStats
     // Front faces only: through clear walls one would see each twice.
     glEnable(GL_CULL_FACE);
     prop_.use();
-    drawProps(list_.translucent().props, stats);
+    drawProps(prop_, list_.translucent().props, stats);
     int before = stats.drawCalls;
     drawCharacters(list_.opaque().characters, characters, Meshes::blended, stats);
     stats.characterDrawCalls += stats.drawCalls - before;
@@ -296,9 +305,7 @@ void SceneRenderer::drawTranslucent(const CharacterStore& characters, FrameStats
         // Their depth first, so that only the nearest surface of a figure is blended.
         glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
         glDepthMask(GL_TRUE);
-        DrawList::Pass figures;
-        figures.characters = list_.translucent().characters;
-        drawDepth(figures, characters, uniforms_.clipFromWorld, true, stats);
+        drawCharacterDepth(list_.translucent().characters, characters, uniforms_.clipFromWorld, true, stats);
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
         glDepthMask(GL_FALSE);
         before = stats.drawCalls;
@@ -310,42 +317,47 @@ void SceneRenderer::drawTranslucent(const CharacterStore& characters, FrameStats
 
 void SceneRenderer::drawDepth(const DrawList::Pass& pass, const CharacterStore& characters, const mat4& depthFromWorld,
                               bool all, FrameStats& stats) {
-    for (const ShaderProgram* program : {&characterDepth_, &characterDepthMasked_, &propDepth_}) {
+    drawCharacterDepth(pass.characters, characters, depthFromWorld, all, stats);
+    propDepth_.use();
+    propDepth_.set("depthFromWorld", depthFromWorld);
+    drawProps(propDepth_, pass.props, stats);
+}
+
+void SceneRenderer::drawCharacterDepth(std::span<const DrawList::Batch> batches, const CharacterStore& characters,
+                                       const mat4& depthFromWorld, bool all, FrameStats& stats) {
+    for (const ShaderProgram* program : {&characterDepth_, &characterDepthMasked_}) {
         program->use();
         program->set("depthFromWorld", depthFromWorld);
     }
     glDisable(GL_CULL_FACE);
-    for (const DrawList::Batch& batch : pass.characters) {
+    for (const DrawList::Batch& batch : batches) {
         const GpuCharacter& character = *characters[batch.what];
         for (const GpuCharacter::Mesh& mesh : character.meshes) {
             const Material& material = character.materials[mesh.material];
-            if (!all && material.alphaMode == Material::AlphaMode::blend) continue;
-            // A blended mesh casts the shadow of what is more than half opaque.
+            const bool blended = material.alphaMode == Material::AlphaMode::blend;
+            if (blended && !all) continue;
             const bool masked = material.alphaMode != Material::AlphaMode::opaque;
             const ShaderProgram& program = masked ? characterDepthMasked_ : characterDepth_;
             program.use();
             if (masked) {
                 setMaterial(program, character, material);
-                if (material.baseColorTexture == Material::kNoTexture) {
-                    bindTexture(TextureUnit::baseColor, white_.name());
-                }
-                if (material.alphaMode == Material::AlphaMode::blend) program.set("alphaCutoff", 0.5F);
+                const bool untextured = material.baseColorTexture == Material::kNoTexture;
+                if (untextured) bindTexture(TextureUnit::baseColor, white_.name());
+                // A blended mesh casts the shadow of what is more than half opaque.
+                if (blended) program.set("alphaCutoff", 0.5F);
             }
-            program.set("firstInstance", batch.firstInstance);
-            glBindVertexArray(mesh.vertexArray.name());
-            glDrawElementsInstanced(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr, batch.count);
-            ++stats.drawCalls;
-            stats.triangles += static_cast<long long>(mesh.indexCount) / 3 * batch.count;
+            drawMesh(program, mesh, batch, stats);
         }
     }
-    propDepth_.use();
-    for (const DrawList::Batch& batch : pass.props) {
-        propDepth_.set("firstInstance", batch.firstInstance);
-        propMeshes_.draw(static_cast<PropItem::Kind>(batch.what), batch.count);
-        ++stats.drawCalls;
-        stats.triangles +=
-            static_cast<long long>(propMeshes_.triangleCount(static_cast<PropItem::Kind>(batch.what))) * batch.count;
-    }
+}
+
+void SceneRenderer::drawMesh(const ShaderProgram& program, const GpuCharacter::Mesh& mesh, const DrawList::Batch& batch,
+                             FrameStats& stats) {
+    program.set("firstInstance", batch.firstInstance);
+    glBindVertexArray(mesh.vertexArray.name());
+    glDrawElementsInstanced(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr, batch.count);
+    ++stats.drawCalls;
+    stats.triangles += static_cast<long long>(mesh.indexCount) / 3 * batch.count;
 }
 
 void SceneRenderer::drawCharacters(std::span<const DrawList::Batch> batches, const CharacterStore& characters,
@@ -359,25 +371,22 @@ void SceneRenderer::drawCharacters(std::span<const DrawList::Batch> batches, con
             const ShaderProgram& program = characterPrograms_.at(keyOf(material));
             program.use();
             setMaterial(program, character, material);
-            program.set("firstInstance", batch.firstInstance);
             program.set("blended", which == Meshes::opaque ? 0.0F : 1.0F);
             if (material.doubleSided) {
                 glDisable(GL_CULL_FACE);
             } else {
                 glEnable(GL_CULL_FACE);
             }
-            glBindVertexArray(mesh.vertexArray.name());
-            glDrawElementsInstanced(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr, batch.count);
-            ++stats.drawCalls;
-            stats.triangles += static_cast<long long>(mesh.indexCount) / 3 * batch.count;
+            drawMesh(program, mesh, batch, stats);
         }
     }
 }
 
-void SceneRenderer::drawProps(std::span<const DrawList::Batch> batches, FrameStats& stats) {
+void SceneRenderer::drawProps(const ShaderProgram& program, std::span<const DrawList::Batch> batches,
+                              FrameStats& stats) {
     for (const DrawList::Batch& batch : batches) {
         const auto kind = static_cast<PropItem::Kind>(batch.what);
-        prop_.set("firstInstance", batch.firstInstance);
+        program.set("firstInstance", batch.firstInstance);
         propMeshes_.draw(kind, batch.count);
         ++stats.drawCalls;
         stats.triangles += static_cast<long long>(propMeshes_.triangleCount(kind)) * batch.count;

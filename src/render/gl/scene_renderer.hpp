@@ -56,13 +56,19 @@ class SceneRenderer {
     /// The depth of opaque meshes (of all meshes: `all`), seen from `depthFromWorld`.
     void drawDepth(const DrawList::Pass& pass, const CharacterStore& characters, const mat4& depthFromWorld, bool all,
                    FrameStats& stats);
+    void drawCharacterDepth(std::span<const DrawList::Batch> batches, const CharacterStore& characters,
+                            const mat4& depthFromWorld, bool all, FrameStats& stats);
     enum class Meshes { opaque, blended, all };
     void drawCharacters(std::span<const DrawList::Batch> batches, const CharacterStore& characters, Meshes which,
                         FrameStats& stats);
-    void drawProps(std::span<const DrawList::Batch> batches, FrameStats& stats);
+    static void drawMesh(const ShaderProgram& program, const GpuCharacter::Mesh& mesh, const DrawList::Batch& batch,
+                         FrameStats& stats);
+    /// With `program` in use.
+    void drawProps(const ShaderProgram& program, std::span<const DrawList::Batch> batches, FrameStats& stats);
     void drawScreen(FrameStats& stats);
 
     int shadowMapSize_;
+    std::size_t mostJoints_;  ///< That a texture buffer holds.
     std::map<MaterialKey, ShaderProgram> characterPrograms_;
     ShaderProgram characterDepth_;
     ShaderProgram characterDepthMasked_;
