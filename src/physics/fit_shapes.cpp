@@ -277,6 +277,7 @@ std::vector<PlacedShape> fitShapes(const BodyPlan& plan, const Anatomy& anatomy)
         }
     }
     std::vector<PlacedShape> shapes;
+    shapes.reserve(capsules.size());
     for (const Capsule& capsule : capsules)
         shapes.push_back(placeCapsule(capsule));
     separateShapes(plan, shapes);

@@ -13,6 +13,7 @@ using Json = nlohmann::ordered_json;
 // The double whose shortest decimal is the float's shortest decimal: 0.1F becomes 0.1, not 0.10000000149011612, and
 // reads back as the same float.
 Json number(float value) {
+    if (value == 0.0F) return 0.0;  // no sign
     char text[32];
     const auto end = std::to_chars(text, text + sizeof text, value).ptr;
     double wide = 0.0;

@@ -185,6 +185,21 @@ TEST_CASE("a key that stands twice and masses that do not add up are problems") 
     CHECK(problemsOf(heavy).find("/totalMassKg: expected the sum of the bodies' masses") != std::string::npos);
 }
 
+TEST_CASE("a file of version 1 is read by every later version") {
+    const auto read = loadProfile(std::string(LUTKA_TESTS_DIR) + "/golden/profiles/biped_v1.ragdoll.json");
+    REQUIRE(read);
+    const RagdollProfile& profile = read.value();
+    CHECK(profile.bodies.size() == 16);
+    CHECK(profile.totalMassKg == 75.0F);
+    CHECK(profile.bodies[3].shape.kind == BodyShape::Kind::sphere);
+    CHECK(profile.bodies[6].shape.halfExtents == vec3(0.04F, 0.08F, 0.015F));
+    CHECK(profile.bodies[1].massKg == 12.2475F);
+    CHECK(profile.constraints[bodyOf(profile, Role::rightLowerLeg) - 1].kind == ConstraintProfile::Kind::hinge);
+    CHECK(profile.constraints[bodyOf(profile, Role::rightLowerLeg) - 1].hinge.upper == Approx(1.2217305));
+    CHECK(profile.filteredPairs == std::vector<std::pair<int, int>>{{1, 3}});
+    CHECK(profile.notes == std::vector<std::string>{"written by hand for the tests"});
+}
+
 TEST_CASE("damaged documents are refused or read, but never crash the reader") {
     const std::string whole = profileToJson(bipedProfile());
     Random random(11);
