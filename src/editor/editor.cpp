@@ -12,6 +12,14 @@ namespace {
 
 constexpr float kThrowSpeed = 9.0F;  // m/s
 
+// The scene's own view, a little farther off: bars lie over the picture's edges.
+render::Camera startCamera(const scene::Simulation& simulation, render::Extent window) {
+    constexpr float room = 1.15F;
+    render::Camera camera = scene::cameraFor(simulation.scenario(), window.aspect());
+    render::dolly(camera, room);
+    return camera;
+}
+
 bool isProfile(const std::filesystem::path& file) {
     return file.extension() == ".json";
 }
@@ -36,7 +44,7 @@ Result<std::unique_ptr<Editor>> Editor::create(std::unique_ptr<EditorDocument> d
     editor->player().setPlaying(options.playing);
     editor->view.layers.capsules = true;
     editor->view.layers.limits = true;
-    editor->workspace_.camera = scene::cameraFor(editor->player().simulation().scenario(), options.window.aspect());
+    editor->workspace_.camera = startCamera(editor->player().simulation(), options.window);
     editor->machine_ = std::make_unique<StateMachine>(makeHandlers(editor->workspace_));
     for (const std::string& warning : editor->document().character().warnings)
         editor->workspace_.log.push_back(warning);
@@ -275,7 +283,7 @@ void Editor::adopt(std::unique_ptr<EditorDocument> document) {
     player->setSpeed(workspace_.player->speed());
     workspace_.player = std::move(player);  // before the document that the old one borrows
     workspace_.document = std::move(document);
-    workspace_.camera = scene::cameraFor(workspace_.player->simulation().scenario(), workspace_.window.aspect());
+    workspace_.camera = startCamera(workspace_.player->simulation(), workspace_.window);
     ++characterRevision_;
     workspace_.say(Toast::Kind::info, "Opened " + this->document().character().file.filename().string());
     for (const std::string& warning : this->document().character().warnings)

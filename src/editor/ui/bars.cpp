@@ -206,7 +206,9 @@ void drawRightPanel(const PanelContext& context) {
                                                          {"Log", drawLogTab}};
         for (const auto& [name, draw] : tabs) {
             if (!ImGui::BeginTabItem(name)) continue;
+            ImGui::PushStyleColor(ImGuiCol_ChildBg, 0U);
             ImGui::BeginChild("##tab");
+            ImGui::PopStyleColor();
             draw(context);
             ImGui::EndChild();
             ImGui::EndTabItem();

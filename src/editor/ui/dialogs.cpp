@@ -155,7 +155,17 @@ void helpRow(const std::string& keys, std::string_view what) {
     ImGui::TableNextColumn();
     ImGui::TextColored(accentColor(), "%s", keys.c_str());
     ImGui::TableNextColumn();
+    ImGui::PushTextWrapPos(0.0F);
     ImGui::TextUnformatted(what.data(), what.data() + what.size());
+    ImGui::PopTextWrapPos();
+}
+
+// Keys take what they need, the explanation the rest.
+bool beginHelpTable(const PanelContext& context, const char* id, float keyWidth) {
+    if (!ImGui::BeginTable(id, 2)) return false;
+    ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, context.px(keyWidth));
+    ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
+    return true;
 }
 
 }  // namespace
@@ -168,18 +178,18 @@ void drawDialogs(const PanelContext& context) {
 void drawHelp(const PanelContext& context) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     placeInMiddle();
-    ImGui::SetNextWindowSize({std::min(context.px(780), size.x - 20), 0});
+    ImGui::SetNextWindowSize({std::min(context.px(900), size.x - 20), 0});
     bool open = true;
-    if (ImGui::Begin("Keys", &open, kDialog & ~ImGuiWindowFlags_AlwaysAutoResize)) {
+    if (ImGui::Begin("Keys", &open, (kDialog & ~ImGuiWindowFlags_AlwaysAutoResize) | ImGuiWindowFlags_NoCollapse)) {
         if (ImGui::BeginTable("##help", 2, ImGuiTableFlags_SizingStretchSame)) {
             ImGui::TableNextColumn();
-            if (ImGui::BeginTable("##actions", 2, ImGuiTableFlags_SizingFixedFit)) {
+            if (beginHelpTable(context, "##actions", 100)) {
                 for (const Binding& binding : keyBindings())
                     helpRow(shortcutText(binding), actionName(binding.action));
                 ImGui::EndTable();
             }
             ImGui::TableNextColumn();
-            if (ImGui::BeginTable("##mouse", 2, ImGuiTableFlags_SizingFixedFit)) {
+            if (beginHelpTable(context, "##mouse", 160)) {
                 for (const HelpLine& line : mouseHelp())
                     helpRow(std::string(line.keys), line.what);
                 ImGui::EndTable();

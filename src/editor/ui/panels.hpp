@@ -18,7 +18,7 @@ struct PanelContext {
     [[nodiscard]] float px(float length) const { return length * scale; }
 };
 
-inline constexpr float kLeftPanelWidth = 300.0F;   ///< At scale 1.
+inline constexpr float kLeftPanelWidth = 310.0F;   ///< At scale 1.
 inline constexpr float kRightPanelWidth = 330.0F;  ///< At scale 1.
 
 void drawMenuBar(const PanelContext& context);

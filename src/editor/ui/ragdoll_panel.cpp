@@ -29,27 +29,61 @@ bool sliderCm(const PanelContext& context, const char* label, float& metres, flo
     return true;
 }
 
-bool sliderDegrees(const PanelContext& context, const char* label, float& angle, float least, float most) {
+struct DegreeRange {
+    float least;
+    float most;
+    float zero = 0.0F;  // the angle, in radians, that is shown as 0
+};
+
+bool sliderDegrees(const PanelContext& context, const char* label, float& angle, const DegreeRange& range,
+                   const char* what) {
     labelled(label, labelWidth(context));
-    float deg = degrees(angle);
+    const float zero = degrees(range.zero);
+    float shown = degrees(angle) - zero;
     const std::string id = fmt::format("##{}", label);
-    if (!ImGui::SliderFloat(id.c_str(), &deg, least, most, "%.0f°")) return false;
-    angle = radians(std::clamp(deg, least, most));
+    const bool moved = ImGui::SliderFloat(id.c_str(), &shown, range.least - zero, range.most - zero, "%.0f°");
+    tooltip(what);
+    if (!moved) return false;
+    angle = radians(std::clamp(shown + zero, range.least, range.most));
     return true;
 }
 
-void was(const PanelContext& context, bool changed, const std::string& before) {
-    if (!changed) return;
-    ImGui::Dummy({labelWidth(context) - ImGui::GetStyle().ItemSpacing.x, 0});
-    ImGui::SameLine();
-    ImGui::TextColored(mutedColor(), "was %s", before.c_str());
+// Flexion where the bind pose has the hinge: people tell limits from there, not from the middle of the range.
+float bindAngle(const PanelContext& context, const ConstraintProfile& constraint) {
+    const auto& bind = context.editor.document().asset().rig.bindModelFromBody;
+    return physics::measureConstraint(constraint, bind[constraint.parent], bind[constraint.child]).hingeAngle;
+}
+
+// What the user changed, as it was: below all sliders, so that none moves away under the mouse.
+void drawBefore(const PanelContext& context, int body) {
+    const DocumentState& state = context.editor.document().state();
+    const PartEdits& edits = state.edits[animation::indexOf(state.profile.bodies[body].role)];
+    if (!edits.any()) return;
+    const physics::BodyProfile& fitted = state.base.bodies[body];
+    caption("AS FITTED");
+    if (edits.shape) {
+        mutedText(fmt::format("radius {:.1f} cm, length {:.1f} cm", fitted.shape.radius * 100.0F,
+                              (fitted.shape.halfLength + fitted.shape.radius) * 200.0F));
+    }
+    if (edits.massKg) mutedText(fmt::format("mass {:.2f} kg", fitted.massKg));
+    if (body == 0) return;
+    const ConstraintProfile& constraint = state.base.constraints[body - 1];
+    const float zero = bindAngle(context, constraint);
+    if (edits.hinge) {
+        mutedText(fmt::format("limits {:.0f}° to {:.0f}°", degrees(constraint.hinge.lower - zero),
+                              degrees(constraint.hinge.upper - zero)));
+    }
+    if (edits.cone) {
+        mutedText(fmt::format("flexion ±{:.0f}°, sideways ±{:.0f}°, twist ±{:.0f}°", degrees(constraint.cone.swingZ),
+                              degrees(constraint.cone.swingY), degrees(constraint.cone.twist)));
+    }
+    if (edits.frictionNm) mutedText(fmt::format("friction {:.2f} N m", constraint.frictionNm));
 }
 
 void drawShape(const PanelContext& context, int body) {
     Editor& editor = context.editor;
     const DocumentState& state = editor.document().state();
     physics::BodyShape shape = state.profile.bodies[body].shape;
-    const physics::BodyShape& fitted = state.base.bodies[body].shape;
     const float most = state.profile.heightM * 0.25F;
     constexpr float least = 0.005F;
     bool changed = false;
@@ -74,8 +108,6 @@ void drawShape(const PanelContext& context, int body) {
         changed |= sliderCm(context, "Half height", shape.halfExtents.y, least, most);
         changed |= sliderCm(context, "Half depth", shape.halfExtents.z, least, most);
     }
-    was(context, state.edits[animation::indexOf(state.profile.bodies[body].role)].shape.has_value(),
-        fmt::format("r {:.1f}, l {:.1f} cm", fitted.radius * 100.0F, (fitted.halfLength + fitted.radius) * 200.0F));
     if (changed) {
         editor.edit(
             [&](EditorDocument& document) { return document.setShape(body, shape, fmt::format("shape {}", body)); });
@@ -92,12 +124,11 @@ void drawMass(const PanelContext& context, int body) {
             return document.setMass(body, std::max(mass, 0.05F), fmt::format("mass {}", body));
         });
     }
-    was(context, state.edits[animation::indexOf(state.profile.bodies[body].role)].massKg.has_value(),
-        fmt::format("{:.2f} kg", state.base.bodies[body].massKg));
 }
 
 // The present angle as a mark between the limits.
-void angleBar(const PanelContext& context, const char* label, float angle, float lower, float upper) {
+void angleBar(const PanelContext& context, const char* label, float angle, float lower, float upper,
+              float zero = 0.0F) {
     labelled(label, labelWidth(context));
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x;
@@ -109,9 +140,9 @@ void angleBar(const PanelContext& context, const char* label, float angle, float
     list->AddRectFilled({at.x, middle - 3}, {at.x + width, middle + 3}, ImGui::GetColorU32(ImGuiCol_FrameBg), 3.0F);
     const float along = std::clamp((angle - lower) / std::max(upper - lower, 1e-4F), 0.0F, 1.0F);
     list->AddCircleFilled({at.x + along * width, middle}, height * 0.24F, ImGui::GetColorU32(color));
-    const std::string text = fmt::format("{:.0f}°", degrees(angle));
     ImGui::Dummy({width, height});
-    tooltip(fmt::format("now {} between {:.0f}° and {:.0f}°", text, degrees(lower), degrees(upper)));
+    tooltip(fmt::format("now {:.0f}°, between {:.0f}° and {:.0f}°", degrees(angle - zero), degrees(lower - zero),
+                        degrees(upper - zero)));
 }
 
 void drawHinge(const PanelContext& context, int constraint, const physics::ConstraintState& now) {
@@ -119,12 +150,12 @@ void drawHinge(const PanelContext& context, int constraint, const physics::Const
     const DocumentState& state = editor.document().state();
     const ConstraintProfile& profile = state.profile.constraints[constraint];
     physics::HingeLimits limits = profile.hinge;
-    bool changed = sliderDegrees(context, "Lower", limits.lower, -175.0F, 0.0F);
-    changed |= sliderDegrees(context, "Upper", limits.upper, 0.0F, 175.0F);
-    const physics::HingeLimits& fitted = state.base.constraints[constraint].hinge;
-    was(context, state.edits[animation::indexOf(state.profile.bodies[profile.child].role)].hinge.has_value(),
-        fmt::format("{:.0f}° to {:.0f}°", degrees(fitted.lower), degrees(fitted.upper)));
-    angleBar(context, "Now", now.hingeAngle, profile.hinge.lower, profile.hinge.upper);
+    const float zero = bindAngle(context, profile);
+    bool changed = sliderDegrees(context, "Extends to", limits.lower, {-175.0F, 0.0F, zero},
+                                 "How far the limb straightens, from the bind pose; below 0 it bends backwards");
+    changed |= sliderDegrees(context, "Flexes to", limits.upper, {0.0F, 175.0F, zero},
+                             "How far the limb bends, from the bind pose");
+    angleBar(context, "Now", now.hingeAngle, profile.hinge.lower, profile.hinge.upper, zero);
     if (changed) {
         editor.edit([&](EditorDocument& document) {
             return document.setHinge(constraint, limits, fmt::format("hinge {}", constraint));
@@ -137,15 +168,15 @@ void drawCone(const PanelContext& context, int constraint, const physics::Constr
     const DocumentState& state = editor.document().state();
     const ConstraintProfile& profile = state.profile.constraints[constraint];
     physics::ConeTwistLimits limits = profile.cone;
-    bool changed = sliderDegrees(context, "Swing Y", limits.swingY, 1.0F, 175.0F);
-    changed |= sliderDegrees(context, "Swing Z", limits.swingZ, 1.0F, 175.0F);
-    changed |= sliderDegrees(context, "Twist", limits.twist, 1.0F, 175.0F);
-    const physics::ConeTwistLimits& fitted = state.base.constraints[constraint].cone;
-    was(context, state.edits[animation::indexOf(state.profile.bodies[profile.child].role)].cone.has_value(),
-        fmt::format("{:.0f}° x {:.0f}°, twist {:.0f}°", degrees(fitted.swingY), degrees(fitted.swingZ),
-                    degrees(fitted.twist)));
-    angleBar(context, "Y now", now.swing.y, -profile.cone.swingY, profile.cone.swingY);
-    angleBar(context, "Z now", now.swing.z, -profile.cone.swingZ, profile.cone.swingZ);
+    const DegreeRange range{1.0F, 175.0F};
+    bool changed = sliderDegrees(context, "Flexion ±", limits.swingZ, range,
+                                 "Forward and back from the middle of the range (swing about the frame's z)");
+    changed |= sliderDegrees(context, "Sideways ±", limits.swingY, range,
+                             "To the sides from the middle of the range (swing about the frame's y)");
+    changed |= sliderDegrees(context, "Twist ±", limits.twist, range,
+                             "About the limb's own axis from the middle of the range");
+    angleBar(context, "Flexion now", now.swing.z, -profile.cone.swingZ, profile.cone.swingZ);
+    angleBar(context, "Side now", now.swing.y, -profile.cone.swingY, profile.cone.swingY);
     angleBar(context, "Twist now", now.twist, -profile.cone.twist, profile.cone.twist);
     if (changed) {
         editor.edit([&](EditorDocument& document) {
@@ -213,6 +244,7 @@ void drawBody(const PanelContext& context, const Item& item) {
     } else {
         mutedText("The root of the ragdoll: it hangs on nothing.");
     }
+    drawBefore(context, item.index);
 }
 
 void drawObject(const PanelContext& context, const Item& item) {
@@ -257,9 +289,10 @@ void drawTable(const PanelContext& context) {
     mutedText(fmt::format("{:.2f} m, {:.1f} kg, {} bodies. Click one to edit it.", profile.heightM, profile.totalMassKg,
                           profile.bodies.size()));
     if (!ImGui::BeginTable("##bodies", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
-    ImGui::TableSetupColumn("body", 0, 3.0F);
-    ImGui::TableSetupColumn("mass", 0, 1.6F);
-    ImGui::TableSetupColumn("limits", 0, 3.0F);
+    ImGui::TableSetupColumn("Body", 0, 2.7F);
+    ImGui::TableSetupColumn("Mass", 0, 1.6F);
+    ImGui::TableSetupColumn("Flex, side, twist", 0, 3.3F);
+    ImGui::TableHeadersRow();
     for (int i = 0; i < static_cast<int>(profile.bodies.size()); ++i) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();

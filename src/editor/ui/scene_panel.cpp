@@ -61,7 +61,7 @@ void drawPhysics(const PanelContext& context) {
     Editor& editor = context.editor;
     SceneSettings scene = editor.document().state().scene;
     labelled("Gravity", labelWidth(context));
-    if (ImGui::SliderFloat("##gravity", &scene.world.gravity.y, -25.0F, 5.0F, "%.2f m/s²")) {
+    if (ImGui::DragFloat("##gravity", &scene.world.gravity.y, 0.05F, -100.0F, 100.0F, "%.2f m/s²")) {
         change(editor, scene, "Gravity", "gravity", false);
     }
     labelled("Solver", labelWidth(context));

@@ -80,7 +80,10 @@ void drawJoint(const PanelContext& context, const std::vector<std::vector<int>>&
     }
     if (role) {
         ImGui::SameLine();
-        ImGui::TextColored(accentColor(), "%s", std::string(animation::roleName(*role)).c_str());
+        const std::string name(animation::roleName(*role));
+        // A joint that is called like its role needs no second word.
+        ImGui::TextColored(accentColor(), "%s", name == skeleton.names[joint] ? "●" : name.c_str());
+        tooltip("The mapper's role: " + name);
     }
     if (open) {
         if (!filtering) {
@@ -108,7 +111,8 @@ void jointCombo(const PanelContext& context, Role role, int joint, bool fixed) {
     const std::string shown = joint >= 0 ? skeleton.names[joint] : "(none)";
     ImGui::SetNextItemWidth(-1.0F);
     if (fixed) ImGui::PushStyleColor(ImGuiCol_Text, accentColor());
-    const bool open = ImGui::BeginCombo("##combo", shown.c_str(), ImGuiComboFlags_HeightLarge);
+    const bool open =
+        ImGui::BeginCombo("##combo", shown.c_str(), ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton);
     if (fixed) ImGui::PopStyleColor();
     if (!open) return;
     static std::string filter;  // only one combo is open at a time
@@ -169,6 +173,8 @@ void drawSkeletonTab(const PanelContext& context) {
     ImGui::InputTextWithHint("##search", "search joints", &context.state.jointFilter);
     const animation::Skeleton& skeleton = context.editor.document().character().skeleton;
     ImGui::BeginChild("##tree", {0, 0}, true, ImGuiWindowFlags_HorizontalScrollbar);
+    ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, context.px(11));
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(context.px(6), context.px(3)));
     const auto children = animation::childrenOf(skeleton);
     for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
         if (!context.state.jointFilter.empty()) {
@@ -177,6 +183,7 @@ void drawSkeletonTab(const PanelContext& context) {
             drawJoint(context, children, joint);
         }
     }
+    ImGui::PopStyleVar(2);
     ImGui::EndChild();
 }
 
@@ -200,7 +207,11 @@ void drawMappingTab(const PanelContext& context) {
     tooltip("Forgets what you fixed and maps from scratch");
     mutedText(fmt::format("Confidence {:.0f} of 100. Choose a joint to fix a role (shown in orange).",
                           map.confidence * 100.0F));
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, 0U);
     ImGui::BeginChild("##roles");
+    ImGui::PopStyleColor();
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(context.px(3), context.px(1)));
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(context.px(6), context.px(2.5F)));
     if (ImGui::BeginTable("##roleTable", 3, ImGuiTableFlags_SizingFixedFit)) {
         ImGui::TableSetupColumn("role", ImGuiTableColumnFlags_WidthFixed, context.px(104));
         ImGui::TableSetupColumn("joint", ImGuiTableColumnFlags_WidthStretch);
@@ -209,6 +220,7 @@ void drawMappingTab(const PanelContext& context) {
             roleRow(context, animation::roleAt(role));
         ImGui::EndTable();
     }
+    ImGui::PopStyleVar(2);
     for (const std::string& warning : map.warnings)
         mutedText(warning);
     ImGui::EndChild();

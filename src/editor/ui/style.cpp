@@ -33,7 +33,7 @@ void setColors(ImVec4* colors) {
     colors[ImGuiCol_ScrollbarGrabHovered] = rgb(88, 93, 104);
     colors[ImGuiCol_ScrollbarGrabActive] = rgb(104, 110, 122);
     colors[ImGuiCol_CheckMark] = accent;
-    colors[ImGuiCol_SliderGrab] = rgb(214, 132, 50);
+    colors[ImGuiCol_SliderGrab] = rgb(214, 132, 50, 0.85F);
     colors[ImGuiCol_SliderGrabActive] = accent;
     colors[ImGuiCol_Button] = rgb(56, 60, 68);
     colors[ImGuiCol_ButtonHovered] = rgb(70, 75, 85);
@@ -87,7 +87,7 @@ void applyStyle(float scale) {
     style.TabRounding = 3.0F;
     style.ScrollbarRounding = 6.0F;
     style.ScrollbarSize = 11.0F;
-    style.GrabMinSize = 11.0F;
+    style.GrabMinSize = 8.0F;
     style.WindowPadding = {10.0F, 9.0F};
     style.FramePadding = {7.0F, 4.0F};
     style.ItemSpacing = {7.0F, 5.0F};

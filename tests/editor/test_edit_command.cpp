@@ -1,0 +1,226 @@
+/// Runs the shipped program: scripts on the EGL context, and the real window on a virtual screen.
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "editor/input_script.hpp"
+#include "physics/profile_io.hpp"
+#include "render/image.hpp"
+#include "support/catch.hpp"
+
+using namespace lutka;
+using namespace lutka::editor;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder of its own, with a copy of the mannequin, so that what is saved lands there.
+class Scratch {
+  public:
+    explicit Scratch(const std::string& name) : folder_(fs::temp_directory_path() / ("lutka_edit_" + name)) {
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+        fs::copy_file(LUTKA_ASSETS_DIR "/models/mannequin.glb", model());
+    }
+    ~Scratch() { fs::remove_all(folder_); }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+
+    [[nodiscard]] fs::path model() const { return folder_ / "mannequin.glb"; }
+    [[nodiscard]] fs::path operator/(const char* name) const { return folder_ / name; }
+
+  private:
+    fs::path folder_;
+};
+
+std::string textOf(const fs::path& file) {
+    std::stringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+}
+
+struct Outcome {
+    int code = -1;
+    std::string output;
+};
+
+Outcome run(const Scratch& scratch, const std::string& command) {
+    const fs::path log = scratch / "log.txt";
+    const int status = std::system((command + " >" + log.string() + " 2>&1").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(log)};
+}
+
+Outcome edit(const Scratch& scratch, const std::string& arguments) {
+    return run(scratch, std::string(LUTKA_BINARY) + " edit " + scratch.model().string() + " " + arguments);
+}
+
+bool skipped(const Outcome& outcome) {
+    if (outcome.code != static_cast<int>(ErrorCode::noDisplay)) return false;
+    WARN("skipped: there is no GL context: " + outcome.output);
+    return true;
+}
+
+// Places in a 1280 × 720 window follow from the fonts that the layout was made with.
+bool layoutIsKnown() {
+    const bool known = fs::exists("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf");
+    if (!known) WARN("skipped: the package fonts-dejavu-core is not there");
+    return known;
+}
+
+/// Writes a script step by step; each call takes its frames.
+class Script {
+  public:
+    Script& move(float x, float y) { return add(mouseMoved({x, y})); }
+    Script& press() { return add(mouseButton(MouseButton::left, true)); }
+    Script& release() { return add(mouseButton(MouseButton::left, false)); }
+    Script& key(Key key, Modifiers modifiers = {}) { return add(keyPressed(key, modifiers)).add(keyReleased(key)); }
+    Script& click(float x, float y) { return move(x, y).press().release(); }
+    Script& drag(float x, float y, float toX, float toY) {
+        move(x, y).press();
+        constexpr int steps = 6;
+        for (int i = 1; i <= steps; ++i) {
+            const float share = static_cast<float>(i) / steps;
+            move(x + (toX - x) * share, y + (toY - y) * share);
+        }
+        return *this;
+    }
+    Script& add(const InputEvent& event) {
+        script_.entries.push_back({frame_++, event});
+        return *this;
+    }
+    Script& wait(int frames) {
+        frame_ += frames;
+        return *this;
+    }
+    [[nodiscard]] int frame() const { return frame_; }
+    void save(const fs::path& file) const { REQUIRE(saveScript(file, script_).ok()); }
+
+  private:
+    InputScript script_;
+    int frame_ = 1;
+};
+
+constexpr Modifiers kControl{false, true, false};
+
+}  // namespace
+
+TEST_CASE("a script sets a limit by its slider, changes another value, undoes that, and saves") {
+    if (!layoutIsKnown()) return;
+    const Scratch scratch("limit");
+    Script script;
+    script.key(Key::space).click(663, 355);       // the left lower leg
+    script.drag(1140, 333, 1090, 333).release();  // its "Flexes to"
+    script.drag(1060, 389, 1160, 389).release();  // its friction
+    script.key(Key::z, kControl).key(Key::s, kControl).wait(2);
+    script.save(scratch / "script.jsonl");
+    const Outcome outcome = edit(scratch, "--headless --input " + (scratch / "script.jsonl").string());
+    if (skipped(outcome)) return;
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    const auto saved = physics::loadProfile(scratch / "mannequin.ragdoll.json");
+    REQUIRE(saved.ok());
+    const Outcome built = run(scratch, std::string(LUTKA_BINARY) + " build " + scratch.model().string() + " -o " +
+                                           (scratch / "fitted.json").string());
+    REQUIRE(built.code == 0);
+    const auto fitted = physics::loadProfile(scratch / "fitted.json");
+    REQUIRE(fitted.ok());
+    const int knee = physics::bodyOf(saved.value(), animation::Role::leftLowerLeg) - 1;
+    const auto& now = saved.value().constraints[knee];
+    const auto& was = fitted.value().constraints[knee];
+    CHECK(now.hinge.upper < was.hinge.upper - radians(15.0F));
+    CHECK(now.hinge.lower == Approx(was.hinge.lower));
+    CHECK(now.frictionNm == Approx(was.frictionNm));
+    const int other = physics::bodyOf(saved.value(), animation::Role::rightLowerLeg) - 1;
+    CHECK(saved.value().constraints[other].hinge.upper == Approx(fitted.value().constraints[other].hinge.upper));
+}
+
+TEST_CASE("a script gives a role to another joint by the mapping's list and saves it") {
+    if (!layoutIsKnown()) return;
+    const Scratch scratch("map");
+    Script script;
+    script.key(Key::space).click(122, 43);  // the tab Mapping
+    script.click(190, 155);                 // the spine's joint
+    for (const char letter : std::string("chest"))
+        script.add(textTyped(static_cast<std::uint32_t>(letter)));
+    script.wait(2);
+    const int list = script.frame();
+    script.click(190, 226).wait(2);  // "chest", the second line of what is left
+    script.key(Key::s, kControl).wait(2);
+    script.save(scratch / "script.jsonl");
+    const Outcome outcome =
+        edit(scratch, "--headless --input " + (scratch / "script.jsonl").string() + " --screenshot-at " +
+                          std::to_string(list) + ":" + (fs::temp_directory_path() / "lutka_list.png").string());
+    if (skipped(outcome)) return;
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    const auto saved = physics::loadProfile(scratch / "mannequin.ragdoll.json");
+    REQUIRE(saved.ok());
+    const int spine = physics::bodyOf(saved.value(), animation::Role::spine);
+    REQUIRE(spine >= 0);
+    CHECK(saved.value().bodies[spine].joint == "chest");
+}
+
+TEST_CASE("the same script gives the same picture twice and a drag shows in it") {
+    if (!layoutIsKnown()) return;
+    const Scratch scratch("drag");
+    Script script;
+    script.wait(12).drag(640, 420, 640, 250).wait(20);
+    script.save(scratch / "drag.jsonl");
+    const std::string last = std::to_string(script.frame());
+    const auto picture = [&](const char* file, const std::string& input) {
+        return edit(scratch, "--headless --size 1280x720 " + input + " --screenshot-at " + last + ":" +
+                                 (scratch / file).string());
+    };
+    const std::string input = "--input " + (scratch / "drag.jsonl").string();
+    const Outcome first = picture("a.png", input);
+    if (skipped(first)) return;
+    INFO(first.output);
+    REQUIRE(first.code == 0);
+    REQUIRE(picture("b.png", input).code == 0);
+    REQUIRE(picture("free.png", "").code == 0);
+    const auto a = render::loadPng(scratch / "a.png");
+    const auto b = render::loadPng(scratch / "b.png");
+    const auto free = render::loadPng(scratch / "free.png");
+    REQUIRE(a.ok());
+    REQUIRE(b.ok());
+    REQUIRE(free.ok());
+    CHECK(a.value().width == 1280);
+    // The frame rate in the status bar is the machine's own.
+    CHECK(render::compareImages(a.value(), b.value(), 2).differingShare < 0.001);
+    CHECK(render::compareImages(a.value(), free.value(), 16).differingShare > 0.01);
+}
+
+TEST_CASE("a broken model at the start and a broken script end with code 3, bad words with 2, no display with 6") {
+    const Scratch scratch("errors");
+    std::ofstream(scratch / "broken.jsonl") << "nothing\n";
+    const Outcome broken = edit(scratch, "--headless --input " + (scratch / "broken.jsonl").string());
+    CHECK(broken.code == 3);
+    CHECK_THAT(broken.output, Catch::Contains("broken.jsonl:1"));
+    CHECK(edit(scratch, "--headless").code == 2);
+    CHECK(edit(scratch, "--headless --screenshot-at soon:x.png").code == 2);
+    CHECK(edit(scratch, "--headless --size 12").code == 2);
+    std::ofstream(scratch / "no_model.glb") << "nothing";
+    const Outcome model = run(
+        scratch, std::string(LUTKA_BINARY) + " edit " + (scratch / "no_model.glb").string() + " --headless --frames 1");
+    CHECK((model.code == 3 || model.code == 6));
+    const Outcome noDisplay = run(scratch, "env -u DISPLAY -u WAYLAND_DISPLAY " + std::string(LUTKA_BINARY) + " edit");
+    CHECK(noDisplay.code == 6);
+}
+
+TEST_CASE("a real window takes a real pointer and keyboard, records them, and closes") {
+    const Scratch scratch("window");
+    const Outcome outcome = run(scratch, std::string("bash ") + LUTKA_TESTS_DIR "/editor/window_smoke.sh " +
+                                             LUTKA_BINARY + " " + (scratch / "replay.png").string());
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    if (outcome.output.find("skipped:") != std::string::npos) {
+        WARN(outcome.output);
+        return;
+    }
+    CHECK_THAT(outcome.output, Catch::Contains("done"));
+}
