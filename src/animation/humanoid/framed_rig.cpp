@@ -189,10 +189,10 @@ void readSkin(FramedRig& framed) {
             if (rig.carriesSkin(joint)) heights.push_back(framed.positions[joint].y);
         }
     }
-    std::sort(heights.begin(), heights.end());
     if (heights.empty()) return;
-    framed.floor = heights[heights.size() / 100];
-    framed.top = heights[heights.size() - 1 - heights.size() / 100];
+    const auto hundredth = static_cast<std::ptrdiff_t>(heights.size() / 100);
+    std::nth_element(heights.begin(), heights.begin() + hundredth, heights.end());
+    framed.floor = heights[static_cast<std::size_t>(hundredth)];
 }
 
 }  // namespace

@@ -52,10 +52,8 @@ struct FramedRig {
     std::vector<JointPair> pairs;
     std::vector<int> pairOf;  ///< Per joint: index of its pair, or -1 for a central or lonely joint.
     float floor = 0.0F;       ///< Lowest y of the figure, without the lowest hundredth of its vertices.
-    float top = 0.0F;
     float spread = 0.0F;
 
-    [[nodiscard]] float height() const { return top - floor; }
     /// Whether both joints of pair `upper` are above those of pair `lower` in the tree.
     [[nodiscard]] bool isAbove(int upper, int lower) const;
     [[nodiscard]] float segment(int pairA, int pairB) const;  ///< Mean distance of the two sides.

@@ -37,7 +37,9 @@ class LimbFinder {
         const int count = static_cast<int>(framed.pairs.size());
         for (int pair = 0; pair < count; ++pair)
             place_.push_back(skinTerm(pair));
+        findRelations();
         findEnds();
+        findLinks();
     }
 
     std::vector<LimbCandidate> find() {
@@ -72,6 +74,31 @@ class LimbFinder {
 
     // A limb of one joint may start anywhere along it: proportions bind it less.
     [[nodiscard]] static float slackOf(const LimbCandidate& limb) { return limb.pairs[1] == kNoPair ? 3.0F : 1.0F; }
+
+    void findRelations() {
+        const int count = static_cast<int>(framed_.pairs.size());
+        above_.resize(framed_.pairs.size());
+        below_.resize(framed_.pairs.size());
+        for (int upper = 0; upper < count; ++upper) {
+            for (int lower = 0; lower < count; ++lower) {
+                if (!framed_.isAbove(upper, lower)) continue;
+                below_[upper].push_back(lower);
+                above_[lower].push_back(upper);
+            }
+        }
+        reach_.assign(framed_.pairs.size(), -1.0F);
+    }
+
+    void findLinks() {
+        const int count = static_cast<int>(framed_.pairs.size());
+        for (int upper = 0; upper < count; ++upper) {
+            for (int lower = 0; lower < count; ++lower)
+                links_.push_back(linkTerm(upper, lower));
+        }
+    }
+    [[nodiscard]] float link(int upper, int lower) const {
+        return links_[static_cast<std::size_t>(upper) * framed_.pairs.size() + static_cast<std::size_t>(lower)];
+    }
 
     void findEnds() {
         endsThere_.assign(framed_.pairs.size(), true);
@@ -153,20 +180,20 @@ class LimbFinder {
         candidate.missing = kMissingEnd + kMissingMiddle;
         consider(candidate, 0.0F);
         for (int middle = 0; middle < count; ++middle) {
-            const float link = linkTerm(root, middle);
-            if (link <= kImpossible || framed_.segment(root, middle) < shortest) continue;
+            const float first = link(root, middle);
+            if (first <= kImpossible || framed_.segment(root, middle) < shortest) continue;
             if (!rightWay(root, middle)) continue;
             candidate.pairs = {root, middle, kNoPair, kNoPair};
             candidate.missing = kMissingEnd;
-            consider(candidate, link);
+            consider(candidate, first);
             for (int end = 0; end < count; ++end) {
-                const float nextLink = end == root ? kImpossible : linkTerm(middle, end);
-                if (nextLink <= kImpossible || framed_.segment(middle, end) < shortest) continue;
+                const float second = end == root ? kImpossible : link(middle, end);
+                if (second <= kImpossible || framed_.segment(middle, end) < shortest) continue;
                 const float ratio = framed_.segment(root, middle) / framed_.segment(middle, end);
                 if (ratio < 0.2F || ratio > 5.0F || !rightWay(middle, end)) continue;
                 candidate.pairs = {root, middle, end, kNoPair};
                 candidate.missing = 0.0F;
-                consider(candidate, link + nextLink);
+                consider(candidate, first + second);
             }
         }
         std::stable_sort(best_.begin(), best_.end(),
@@ -283,14 +310,13 @@ class LimbFinder {
                 near(std::log(framed_.segment(upper, lower) / (length - framed_.segment(upper, lower) + 1e-6F)), 0.0F,
                      0.45F, 4.0F);
         }
-        leg.score += unusedAbove(upper, kNoPair, length);
+        leg.score += unusedAbove(upper, length);
     }
 
     void addToes(LimbCandidate& leg, float height) const {
         const int foot = leg.pairs[2];
         float best = 0.0F;
-        for (int pair = 0; pair < static_cast<int>(framed_.pairs.size()); ++pair) {
-            if (!framed_.isAbove(foot, pair)) continue;
+        for (const int pair : below_[foot]) {
             const vec3 away = at(pair).position - at(foot).position;
             const float distance = framed_.segment(foot, pair) / height;
             if (distance < 0.03F || away.y > 0.04F * leg.length) continue;
@@ -322,7 +348,7 @@ class LimbFinder {
             arm.score +=
                 near(std::log(framed_.segment(upper, lower) / framed_.segment(lower, hand)), 0.08F, 0.28F, 3.0F);
             arm.score += angleTerm(first, second, 0.75F, 0.3F);
-            arm.score += beyondTerm(hand, length, 0.3F, 0.22F);
+            arm.score += beyondTerm(hand, length);
         } else if (lower != kNoPair) {
             const float first = framed_.segment(upper, lower);
             arm.score += near(std::log(first / (length - first + 1e-6F)), -0.1F, 0.45F, 4.0F);
@@ -330,27 +356,34 @@ class LimbFinder {
         addClavicle(arm);
     }
 
-    // How far joints go on beyond the hand, as a share of the arm: fingers, not another segment.
-    [[nodiscard]] float beyondTerm(int hand, float length, float mean, float deviation) const {
-        float reach = 0.0F;
-        for (int side = 0; side < 2; ++side) {
-            const RigFeatures& rig = *framed_.rig;
-            const int joint = at(hand).joints[side];
+    // How far skinned joints go on below a pair, mean of both sides.
+    [[nodiscard]] float reachBeyond(int pair) const {
+        float& reach = reach_[pair];
+        if (reach >= 0.0F) return reach;
+        reach = 0.0F;
+        const RigFeatures& rig = *framed_.rig;
+        for (const int joint : at(pair).joints) {
             float farthestJoint = 0.0F;
             for (int other = 0; other < rig.count(); ++other) {
                 if (!rig.isAncestorOrSelf(joint, other) || (rig.skinned && rig.ownWeight[other] <= 0.0F)) continue;
                 farthestJoint =
                     std::max(farthestJoint, glm::distance(framed_.positions[joint], framed_.positions[other]));
             }
-            reach += 0.5F * farthestJoint / length;
+            reach += 0.5F * farthestJoint;
         }
-        return reach > 0.0F ? near(reach, mean, deviation, 4.0F) : -0.3F;
+        return reach;
+    }
+
+    // Beyond the hand there are fingers, not another segment.
+    [[nodiscard]] float beyondTerm(int hand, float length) const {
+        const float reach = reachBeyond(hand) / length;
+        return reach > 0.0F ? near(reach, 0.3F, 0.22F, 4.0F) : -0.3F;
     }
 
     void addClavicle(LimbCandidate& arm) const {
         const int upper = arm.pairs[0];
         const float base = near(arm.root.x / arm.length, 0.33F, 0.14F * slackOf(arm), 3.0F);
-        float best = unusedAbove(upper, kNoPair, arm.length);
+        float best = unusedAbove(upper, arm.length);
         for (int pair = 0; pair < static_cast<int>(framed_.pairs.size()); ++pair) {
             const bool beside = areSiblings(pair, upper);
             if (!framed_.isAbove(pair, upper) && !beside) continue;
@@ -359,7 +392,7 @@ class LimbFinder {
             if (length < 0.04F) continue;
             const float score = 1.0F + placing(pair, 3) + near(length, 0.28F, 0.13F, 4.0F) +
                                 near(position.x / arm.length, 0.08F, 0.12F, 3.0F) + skipped(pair, upper, false) +
-                                unusedAbove(pair, kNoPair, arm.length) + (beside ? kDetached : 0.0F);
+                                unusedAbove(pair, arm.length) + (beside ? kDetached : 0.0F);
             if (score <= best) continue;
             best = score;
             arm.pairs[3] = pair;
@@ -378,12 +411,11 @@ class LimbFinder {
     }
 
     // Skinned pairs above the first one that the reading leaves over.
-    [[nodiscard]] float unusedAbove(int first, int except, float length) const {
+    [[nodiscard]] float unusedAbove(int first, float length) const {
         float total = 0.0F;
-        for (int pair = 0; pair < static_cast<int>(framed_.pairs.size()); ++pair) {
-            if (pair == except || !framed_.isAbove(pair, first) || at(pair).helper) continue;
+        for (const int pair : above_[first]) {
             const bool counts = !framed_.rig->skinned || at(pair).ownWeight > 0.0F;
-            if (counts && at(pair).position.x > 0.03F * length) total -= 0.8F;
+            if (counts && !at(pair).helper && at(pair).position.x > 0.03F * length) total -= 0.8F;
         }
         return total;
     }
@@ -392,7 +424,11 @@ class LimbFinder {
     LimbKind kind_;
     std::array<Part, 4> parts_;
     std::vector<float> place_;
-    std::vector<bool> endsThere_;  // per pair: no skinned pair below it
+    std::vector<std::vector<int>> above_;  // per pair: the pairs above it in the tree
+    std::vector<std::vector<int>> below_;
+    std::vector<float> links_;          // linkTerm() of every two pairs
+    mutable std::vector<float> reach_;  // reachBeyond() of every pair once asked for, -1 before
+    std::vector<bool> endsThere_;       // per pair: no skinned pair below it
     std::vector<LimbCandidate> best_;
     std::vector<LimbCandidate> found_;
 };

@@ -90,8 +90,11 @@ std::optional<quat> stanceOfBindings(const FixedJoints& joints, const Skeleton& 
 }
 
 void addWarnings(const Figure& figure, HumanoidMap& map) {
-    if (!figure.framed.rig->skinned)
-        map.warnings.emplace_back("the skeleton has no skin: shapes come from the joints alone");
+    if (!figure.framed.rig->skinned) {
+        map.warnings.emplace_back(figure.framed.rig->vertices.empty()
+                                      ? "the skeleton has no skin: shapes come from the joints alone"
+                                      : "the figure has no skin, only rigid parts");
+    }
     if (figure.facing.namesDisagree()) {
         map.warnings.push_back(fmt::format(
             "left and right in the names disagree with the geometry, which is followed ({})", figure.facing.reason));

@@ -21,6 +21,7 @@ struct RoleBinding {
 struct HumanoidMap {
     bool humanoid = false;    ///< False: refused; `warnings` says why and the rest is empty.
     float confidence = 0.0F;  ///< [0, 1], of the whole assignment.
+    /// Each joint has one role at most, but for blocky figures whose trunk is one joint: it is hips and spine in one.
     std::array<std::optional<RoleBinding>, kRoleCount> roles;
     std::vector<Role> missing;  ///< Required roles without a joint.
     std::vector<std::string> warnings;

@@ -42,10 +42,10 @@ class TrunkFinder {
     TrunkCandidate find(const TrunkBan& ban) {
         TrunkCandidate best;
         const std::vector<Scored> heads = likelyHeads(ban.head);
+        const std::vector<int> chests = possibleChests(ban.chest);
         for (const auto& [hips, hipsScore] : likelyHips(ban.hips)) {
             for (const auto& [head, headScore] : heads) {
-                for (const int chest : central_) {
-                    if (chest == ban.chest) continue;
+                for (const int chest : chests) {
                     TrunkCandidate candidate;
                     candidate.hips = hips;
                     candidate.chest = chest;
@@ -186,6 +186,16 @@ class TrunkFinder {
             if (isCentral(child)) onward = std::max(onward, (part ? 0.3F : 1.0F) * rig_.subtreeWeight[child]);
         }
         return rig_.subtreeWeight[joint] - onward;
+    }
+
+    // Central joints from the thighs up to somewhat above the arms: no face, no tail.
+    [[nodiscard]] std::vector<int> possibleChests(int banned) const {
+        std::vector<int> chests;
+        for (const int joint : central_) {
+            const float height = (position(joint).y - legs_.root.y) / length_;
+            if (joint != banned && height > -0.6F && height < 1.4F) chests.push_back(joint);
+        }
+        return chests;
     }
 
     [[nodiscard]] int armRoot() const { return framed_.pairs[arms_.first].joints[0]; }
