@@ -9,10 +9,10 @@ namespace lutka::physics {
 /// What SolverKind::bullet is set to; docs/physics.md says how the defaults were found. `stock` ignores it.
 struct BulletTuning {
     int substeps = 8;     ///< Of one frame, >= 1. More: tighter joints and contacts, proportional cost.
-    int sweeps = 40;      ///< At most, over all rows of an island in a substep, >= 1. More: tighter in hard impacts.
+    int sweeps = 80;      ///< At most, over all rows of an island in a substep, >= 1. More: tighter in hard impacts.
     int leastSweeps = 2;  ///< At least, >= 1.
     float tolerance = 0.02F;  ///< m/s: sweeping ends when no row was wrong by more. More: faster, looser.
-    int mendSweeps = 12;      ///< At most, of the pass that mends positions, >= 1.
+    int mendSweeps = 24;      ///< At most, of the pass that mends positions, >= 1.
 
     float jointErp = 0.5F;        ///< Part of a joint's gap mended in a substep, (0, 1]. More: tighter.
     float limitErp = 0.3F;        ///< The same for angles past their limit.

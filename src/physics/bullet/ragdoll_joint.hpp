@@ -15,7 +15,7 @@ struct JointTuning {
     float limitErp = 0.1F;      ///< The same for angles past a limit.
     float maxMendSpeed = 3.0F;  ///< m/s: bound on the speed that mending a gap may give.
     float maxMendTurn = 6.0F;   ///< rad/s: the same for angles.
-    float limitMargin = 0.1F;   ///< Radians before a limit from where its row is active (it only bounds the speed).
+    float limitMargin = 0.25F;  ///< Radians before a limit from where its row is active (it only bounds the speed).
 };
 
 /// A hinge or cone-twist of a profile as rows for Bullet's solvers (docs/physics.md): three rows close the anchors, a

@@ -1,1 +1,367 @@
+#include "physics/bullet/bullet_world.hpp"
+
+#include <glm/geometric.hpp>
+
+#include "core/random.hpp"
+#include "physics/quality.hpp"
 #include "support/catch.hpp"
+#include "support/dolls.hpp"
+#include "support/rigs.hpp"
+
+using namespace lutka;
+using physics::BodyState;
+using physics::Quality;
+using physics::QualityMeter;
+using physics::RagdollProfile;
+using physics::SolverKind;
+using physics::StaticShape;
+using physics::World;
+using physics::WorldSettings;
+
+namespace {
+
+constexpr float kDt = 1.0F / 60.0F;
+const vec3 kGravity(0, -9.81F, 0);
+
+const RagdollProfile& doll() {
+    static const RagdollProfile profile = test::makeDoll();
+    return profile;
+}
+
+std::vector<BodyState> standing(const RigidTransform& worldFromModel, const vec3& velocity = vec3(0)) {
+    static const animation::Skeleton skeleton = test::makeBiped().skeleton;
+    const auto rig = physics::bindRig(doll(), skeleton);
+    REQUIRE(rig.ok());
+    std::vector<BodyState> bodies(doll().bodies.size());
+    bodiesFromPose(rig.value(), skeleton.bindModelFromJoint, worldFromModel, bodies);
+    for (BodyState& body : bodies)
+        body.linearVelocity = velocity;
+    return bodies;
+}
+
+std::vector<BodyState> standingAt(const vec3& position, const vec3& velocity = vec3(0)) {
+    return standing({quat(1, 0, 0, 0), position}, velocity);
+}
+
+std::unique_ptr<World> makeWorld(SolverKind solver, const vec3& gravity = kGravity, bool sleeping = true) {
+    WorldSettings settings;
+    settings.solver = solver;
+    settings.gravity = gravity;
+    settings.sleeping = sleeping;
+    return createBulletWorld(settings);
+}
+
+StaticShape box(const vec3& centre, const vec3& halfExtents) {
+    StaticShape shape;
+    shape.kind = StaticShape::Kind::box;
+    shape.worldFromShape.translation = centre;
+    shape.halfExtents = halfExtents;
+    return shape;
+}
+
+std::vector<BodyState> bodiesOf(const World& world, int index = 0) {
+    std::vector<BodyState> bodies(world.profileOf(index).bodies.size());
+    world.getBodies(index, bodies);
+    return bodies;
+}
+
+float fastestOf(const World& world) {
+    float fastest = 0;
+    for (int i = 0; i < world.dollCount(); ++i) {
+        for (const BodyState& body : bodiesOf(world, i))
+            fastest = std::max(fastest, glm::length(body.linearVelocity));
+    }
+    return fastest;
+}
+
+// Runs a world with its meter; the statics must be in the world already.
+Quality run(World& world, const std::vector<StaticShape>& statics, float seconds) {
+    QualityMeter meter(world, statics, kGravity);
+    double time = 0;
+    const double substep = static_cast<double>(kDt) / world.substepsPerStep();
+    for (int i = 0; i < static_cast<int>(seconds / kDt); ++i) {
+        world.step(kDt, [&] {
+            time += substep;
+            meter.sample(time);
+        });
+    }
+    return meter.result();
+}
+
+void requireSound(const Quality& quality) {
+    CHECK(quality.nonFinite == 0);
+    CHECK(quality.jointSeparationM.max < 0.010F);
+    CHECK(quality.jointSeparationM.p99 < 0.002F);
+    CHECK(quality.limitViolationDeg.p99 < 5.0F);
+    CHECK(quality.floorPenetrationM < 0.010F);
+    CHECK(quality.energyGrowthJ < 0.01F * quality.initialEnergyJ);
+}
+
+std::uint64_t hashOf(const World& world) {
+    std::uint64_t hash = kHashStart;
+    for (const BodyState& body : bodiesOf(world))
+        hash = hashBytes(&body, sizeof body, hash);
+    return hash;
+}
+
+// Two bodies in free space; the child turns with `turn` (rad/s) about the joint, from a start that is turned already.
+struct Swung {
+    float largestViolation = 0;
+    float largestHinge = -10;
+    float smallestHinge = 10;
+    float largestSwing = 0;
+};
+// The parent is so heavy that it stays where it is.
+Swung swing(SolverKind solver, RagdollProfile pair, const quat& start, const vec3& turn) {
+    pair.bodies[0].massKg *= 1000.0F;
+    pair.bodies[0].inertia *= 1000.0F;
+    const auto world = makeWorld(solver, vec3(0), false);
+    const physics::ConstraintProfile& c = pair.constraints[0];
+    std::vector<BodyState> bodies(2);
+    bodies[0].worldFromBody = inverse(c.parentFromFrame);
+    bodies[1].worldFromBody = RigidTransform{start, vec3(0)} * inverse(c.childFromFrame);
+    bodies[1].angularVelocity = turn;
+    bodies[1].linearVelocity = glm::cross(turn, bodies[1].worldFromBody.translation);
+    world->addDoll(pair, bodies);
+    Swung swung;
+    for (int i = 0; i < 60; ++i) {
+        world->step(kDt, [&] {
+            const std::vector<BodyState> now = bodiesOf(*world);
+            const physics::ConstraintState state = measureConstraint(c, now[0].worldFromBody, now[1].worldFromBody);
+            swung.largestViolation = std::max(swung.largestViolation, state.violation);
+            swung.largestHinge = std::max(swung.largestHinge, state.hingeAngle);
+            swung.smallestHinge = std::min(swung.smallestHinge, state.hingeAngle);
+            swung.largestSwing = std::max(swung.largestSwing, glm::length(state.swing));
+        });
+    }
+    return swung;
+}
+
+}  // namespace
+
+TEST_CASE("a hinge stops at its own limits, positive about frame z, in both worlds", "[bullet]") {
+    const RagdollProfile pair = test::makePair(physics::HingeLimits{radians(-10.0F), radians(60.0F)});
+    for (const SolverKind solver : {SolverKind::stock, SolverKind::bullet}) {
+        const float slack = solver == SolverKind::stock ? 10.0F : 1.0F;  // degrees
+        const Swung up = swing(solver, pair, {1, 0, 0, 0}, {0, 0, 9});
+        CHECK(degrees(up.largestHinge) == Approx(60.0F).margin(slack));
+        const Swung down = swing(solver, pair, {1, 0, 0, 0}, {0, 0, -9});
+        CHECK(degrees(down.smallestHinge) == Approx(-10.0F).margin(slack));
+    }
+}
+
+TEST_CASE("a twisted child swings to the ellipse of the parent's frame and no further", "[bullet]") {
+    const RagdollProfile pair = test::makePair(physics::ConeTwistLimits{radians(80), radians(20), radians(45)});
+    struct Case {
+        float twistDeg;
+        vec3 turn;
+        float stopDeg;
+    };
+    const Case cases[] = {{0, {0, 14, 0}, 80},   {0, {0, 0, 14}, 20},    {45, {0, 14, 0}, 80},
+                          {45, {0, 0, -14}, 20}, {-45, {0, -14, 0}, 80}, {-45, {0, 0, 14}, 20}};
+    for (const Case& c : cases) {
+        INFO("twist " << c.twistDeg << ", turn " << c.turn.y << " " << c.turn.z);
+        const quat start = glm::angleAxis(radians(c.twistDeg), vec3(1, 0, 0));
+        const Swung swung = swing(SolverKind::bullet, pair, start, c.turn);
+        CHECK(degrees(swung.largestViolation) < 1.5F);
+        CHECK(degrees(swung.largestSwing) == Approx(c.stopDeg).margin(4.0F));
+    }
+}
+
+TEST_CASE("a fast spin stops at the twist's limit", "[bullet]") {
+    const RagdollProfile pair = test::makePair(physics::ConeTwistLimits{radians(60), radians(60), radians(30)});
+    for (const float speed : {3.0F, 30.0F, -100.0F}) {
+        const Swung swung = swing(SolverKind::bullet, pair, {1, 0, 0, 0}, {speed, 0, 0});
+        CHECK(degrees(swung.largestViolation) < 2.0F);
+    }
+}
+
+TEST_CASE("a doll that falls is sound all the way and falls asleep", "[bullet]") {
+    for (const float lean : {0.0F, 0.3F, 1.5F}) {
+        const auto world = makeWorld(SolverKind::bullet);
+        const std::vector<StaticShape> statics{StaticShape{}};
+        world->addStatic(statics[0]);
+        world->addDoll(doll(), standing({glm::angleAxis(lean, vec3(0.6F, 0, 0.8F)), {0, 1, 0}}));
+        const Quality quality = run(*world, statics, 7.0F);
+        requireSound(quality);
+        REQUIRE(quality.settleSeconds);
+        CHECK(*quality.settleSeconds < 6.0F);
+        CHECK(world->isAsleep(0));
+    }
+}
+
+TEST_CASE("the same calls give the same bits", "[bullet]") {
+    for (const SolverKind solver : {SolverKind::stock, SolverKind::bullet}) {
+        std::uint64_t hashes[2];
+        for (std::uint64_t& hash : hashes) {
+            const auto world = makeWorld(solver);
+            world->addStatic({});
+            world->addDoll(doll(), standingAt({0, 0.5F, 0}));
+            world->addDoll(doll(), standingAt({0.2F, 2.5F, 0.1F}));
+            for (int i = 0; i < 120; ++i)
+                world->step(kDt);
+            hash = hashOf(*world);
+        }
+        CHECK(hashes[0] == hashes[1]);
+    }
+}
+
+TEST_CASE("a thin wall stops a doll at eight metres a second", "[bullet]") {
+    const auto world = makeWorld(SolverKind::bullet);
+    const std::vector<StaticShape> statics{StaticShape{}, box({0, 1.5F, 2.0F}, {3, 1.5F, 0.025F})};
+    for (const StaticShape& shape : statics)
+        world->addStatic(shape);
+    world->addDoll(doll(), standing({glm::angleAxis(1.2F, vec3(1, 0, 0)), {0, 1.2F, -0.3F}}, {0, 0, 8}));
+    requireSound(run(*world, statics, 4.0F));
+    for (const BodyState& body : bodiesOf(*world))
+        CHECK(body.worldFromBody.translation.z < 2.0F);
+}
+
+TEST_CASE("a doll that starts inside the floor is pushed out calmly", "[bullet]") {
+    const auto world = makeWorld(SolverKind::bullet);
+    world->addStatic({});
+    world->addDoll(doll(), standingAt({0, -0.5F, 0}));
+    float fastest = 0;  // upwards: what is not held falls as usual
+    for (int i = 0; i < 300; ++i) {
+        world->step(kDt);
+        for (const BodyState& body : bodiesOf(*world))
+            fastest = std::max(fastest, body.linearVelocity.y);
+    }
+    CHECK(fastest < 1.5F);
+    for (const BodyState& body : bodiesOf(*world))
+        CHECK(body.worldFromBody.translation.y > 0.0F);
+}
+
+TEST_CASE("a doll that starts inside another parts from it calmly", "[bullet]") {
+    const auto world = makeWorld(SolverKind::bullet, vec3(0));
+    world->addDoll(doll(), standingAt({0, 0, 0}));
+    world->addDoll(doll(), standingAt({0.05F, 0.02F, 0.03F}));
+    float fastest = 0;
+    for (int i = 0; i < 120; ++i) {
+        world->step(kDt);
+        fastest = std::max(fastest, fastestOf(*world));
+    }
+    CHECK(fastest < 2.0F);
+    const vec3 apart =
+        bodiesOf(*world, 0)[0].worldFromBody.translation - bodiesOf(*world, 1)[0].worldFromBody.translation;
+    CHECK(glm::length(apart) > 0.1F);
+}
+
+TEST_CASE("dragging by the hand at any speed keeps the doll together", "[bullet]") {
+    for (const float speed : {2.0F, 20.0F, 400.0F}) {
+        const auto world = makeWorld(SolverKind::bullet);
+        const std::vector<StaticShape> statics{StaticShape{}};
+        world->addStatic(statics[0]);
+        world->addDoll(doll(), standingAt({0, 0, 0}));
+        const int hand = bodyOf(doll(), animation::Role::leftHand);
+        QualityMeter meter(*world, statics, kGravity);
+        double time = 0;
+        for (int i = 0; i < 240; ++i) {
+            const float angle = speed * kDt * static_cast<float>(i);
+            world->setDrag(7, {0, hand, vec3(0), vec3(std::sin(angle), 1.5F + 0.5F * std::cos(angle), 0)});
+            world->step(kDt, [&] { meter.sample(time += static_cast<double>(kDt) / world->substepsPerStep()); });
+        }
+        const Quality quality = meter.result();
+        CHECK(quality.nonFinite == 0);
+        CHECK(quality.jointSeparationM.max < 0.050F);
+        CHECK(quality.jointSeparationM.p99 < 0.010F);
+        CHECK(quality.limitViolationDeg.p99 < 25.0F);
+        CHECK(world->dragWork() > 10.0);
+        world->removeDrag(7);
+        world->removeDrag(8);
+        const double work = world->dragWork();
+        world->step(kDt);
+        CHECK(world->dragWork() == work);
+    }
+}
+
+TEST_CASE("linked and filtered bodies don't touch, other dolls do", "[bullet]") {
+    for (const SolverKind solver : {SolverKind::stock, SolverKind::bullet}) {
+        const auto world = makeWorld(solver, vec3(0));
+        world->addDoll(doll(), standingAt({0, 0, 0}));
+        std::vector<physics::ContactPoint> contacts;
+        world->step(kDt);
+        world->getContacts(contacts);
+        CHECK(contacts.empty());
+        world->addDoll(doll(), standingAt({0, 0.3F, 0}));
+        world->step(kDt);
+        world->getContacts(contacts);
+        CHECK_FALSE(contacts.empty());
+    }
+}
+
+TEST_CASE("a ray finds the body that it meets first", "[bullet]") {
+    for (const SolverKind solver : {SolverKind::stock, SolverKind::bullet}) {
+        const auto world = makeWorld(solver, vec3(0));
+        world->addStatic({});
+        world->addDoll(doll(), standingAt({5, 0, 0}));
+        world->addDoll(doll(), standingAt({0, 0, 0}));
+        const auto chest = world->rayTest({0, 1.33F, 5}, {0, 1.33F, -5});
+        REQUIRE(chest);
+        CHECK(chest->doll == 1);
+        CHECK(doll().bodies[chest->body].role == animation::Role::chest);
+        CHECK(chest->position.z == Approx(0.13F).margin(0.01));
+        CHECK(chest->normal.z == Approx(1.0F).margin(0.01));
+        CHECK(chest->fraction == Approx((5 - 0.13F) / 10).margin(0.001));
+        const auto floor = world->rayTest({9, 3, 9}, {9, -3, 9});
+        REQUIRE(floor);
+        CHECK(floor->doll == -1);
+        CHECK_FALSE(world->rayTest({9, 3, 9}, {9, 2, 9}));
+    }
+}
+
+TEST_CASE("an impulse changes the momentum by itself and wakes the doll", "[bullet]") {
+    const auto world = makeWorld(SolverKind::bullet);
+    world->addStatic({});
+    world->addDoll(doll(), standingAt({0, 0.2F, 0}));
+    for (int i = 0; i < 600 && !world->isAsleep(0); ++i)
+        world->step(kDt);
+    REQUIRE(world->isAsleep(0));
+    const std::uint64_t asleep = hashOf(*world);
+    world->step(kDt);
+    CHECK(hashOf(*world) == asleep);
+    const vec3 impulse(30, 60, 0);
+    world->applyImpulse(0, 0, impulse, bodiesOf(*world)[0].worldFromBody.translation);
+    CHECK_FALSE(world->isAsleep(0));
+    vec3 momentum(0);
+    const std::vector<BodyState> bodies = bodiesOf(*world);
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        momentum += bodies[i].linearVelocity * doll().bodies[i].massKg;
+    CHECK(glm::distance(momentum, impulse) < 0.01F);
+}
+
+TEST_CASE("a doll that is placed anew starts as if it had always been there", "[bullet]") {
+    std::uint64_t hashes[2];
+    for (int moved = 0; moved < 2; ++moved) {
+        const auto world = makeWorld(SolverKind::bullet);
+        world->addStatic({});
+        world->addDoll(doll(), standingAt({0, moved == 1 ? 0.0F : 1.0F, 0}));
+        if (moved == 1) {
+            for (int i = 0; i < 90; ++i)
+                world->step(kDt);
+            world->setBodies(0, standingAt({0, 1, 0}));
+        }
+        for (int i = 0; i < 20; ++i)
+            world->step(kDt);
+        hashes[moved] = hashOf(*world);
+    }
+    CHECK(hashes[0] == hashes[1]);
+}
+
+TEST_CASE("a prop pushes a doll and keeps what it was made as", "[bullet]") {
+    const auto world = makeWorld(SolverKind::bullet, vec3(0));
+    world->addDoll(doll(), standingAt({0, 0, 0}));
+    physics::DynamicProp ball;
+    ball.shape.kind = physics::BodyShape::Kind::sphere;
+    ball.shape.radius = 0.12F;
+    ball.massKg = 4.0F;
+    ball.state.worldFromBody.translation = {0, 1.33F, 1.0F};
+    ball.state.linearVelocity = {0, 0, -6};
+    CHECK(world->addProp(ball) == 0);
+    for (int i = 0; i < 30; ++i)
+        world->step(kDt);
+    CHECK(world->propCount() == 1);
+    CHECK(world->propOf(0).massKg == 4.0F);
+    CHECK(world->propState(0).linearVelocity.z > -3.0F);
+    CHECK(bodiesOf(*world)[bodyOf(doll(), animation::Role::chest)].linearVelocity.z < -0.1F);
+}
