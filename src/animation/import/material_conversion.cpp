@@ -79,6 +79,11 @@ int textureOf(const aiMaterial& source, std::initializer_list<aiTextureType> kin
     return Material::kNoTexture;
 }
 
+bool names(const aiMaterial& source, aiTextureType kind) {
+    aiString path;
+    return source.GetTexture(kind, 0, &path) == aiReturn_SUCCESS && path.length > 0;
+}
+
 void readTextures(const aiMaterial& source, bool pbr, TextureLoader& loader, Material& material) {
     material.baseColorTexture = textureOf(source, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}, loader);
     material.normalTexture = textureOf(source, {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA}, loader);
@@ -86,6 +91,11 @@ void readTextures(const aiMaterial& source, bool pbr, TextureLoader& loader, Mat
     if (!pbr) {
         // In the Phong world a texture replaces the colour instead of tinting it.
         if (material.baseColorTexture != Material::kNoTexture) material.baseColor = {1, 1, 1, material.baseColor.a};
+        // A texture that is not there leaves the colour that it would have replaced, often black: neutral is visible.
+        else if (names(source, aiTextureType_DIFFUSE)) {
+            const vec4 neutral = Material{}.baseColor;
+            material.baseColor = {neutral.r, neutral.g, neutral.b, material.baseColor.a};
+        }
         return;
     }
     material.metallicRoughnessTexture = textureOf(source, {aiTextureType_UNKNOWN}, loader);

@@ -199,6 +199,18 @@ TEST_CASE("a picture is found by its base name beside an OBJ written on Windows"
     CHECK(character.meshes[0].uvs[0].y == Approx(1.0F));
 }
 
+TEST_CASE("a black material whose picture is missing is made neutral, so that the figure can be seen") {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "post.mtl") << "newmtl skin\nKd 0 0 0\nmap_Kd gone.png\n";
+    std::ofstream(folder / "post.obj") << "mtllib post.mtl\nusemtl skin\nv 0 0 0\nv 1 0 0\nv 0 1.7 0\nvt 0 0\nvt 1 0\n"
+                                          "vt 0 1\nf 1/1 2/2 3/3\n";
+    const Character character = imported(folder / "post.obj");
+    const Material& material = character.materials[character.meshes[0].material];
+    CHECK(material.baseColorTexture == Material::kNoTexture);
+    CHECK(material.baseColor.r == Approx(Material{}.baseColor.r));
+    CHECK(character.warnings.size() == 1);
+}
+
 TEST_CASE("an absurd height is brought to a person's, with a warning") {
     struct Case {
         float scale;
