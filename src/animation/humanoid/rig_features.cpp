@@ -90,10 +90,10 @@ void findShadows(RigFeatures& rig) {
     for (int joint = 0; joint < rig.count(); ++joint) {
         for (int other = 0; other < rig.count() && !rig.shadow[joint]; ++other) {
             if (other == joint || glm::distance(rig.positions[joint], rig.positions[other]) > tolerance) continue;
-            const bool otherSkinned = rig.ownWeight[other] > 0.0F && !rig.rigidPart[other];
+            const bool otherSkinned = rig.directWeight[other] > 0.0F && !rig.rigidPart[other];
             const bool partOfOther = rig.rigidPart[joint] && !rig.rigidPart[other];
             const bool leafOfMore = rig.children[joint].empty() && !rig.children[other].empty();
-            rig.shadow[joint] = (otherSkinned && rig.ownWeight[joint] <= 0.0F) ||
+            rig.shadow[joint] = (otherSkinned && rig.directWeight[joint] <= 0.0F) ||
                                 (leafOfMore && (otherSkinned || partOfOther || !rig.skinned));
         }
     }

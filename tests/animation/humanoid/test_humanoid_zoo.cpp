@@ -150,7 +150,10 @@ TEST_CASE("joints and weights alone are enough in whatever pose the nodes have",
     Score unnamed;
     for (const Model& model : zoo()) {
         const Character character = readBones(model.truth);
-        if (character.skeleton.jointCount() == 0 || !model.truth.humanoid) continue;
+        // Block men need their skin: without it a limb of one joint has no length.
+        const auto& elbow = model.truth.roles[indexOf(animation::Role::leftLowerArm)];
+        const bool blocky = elbow && elbow->front().empty();
+        if (character.skeleton.jointCount() == 0 || !model.truth.humanoid || blocky) continue;
         for (const bool names : {true, false}) {
             const auto map = animation::mapHumanoid(names ? character : withoutNames(character));
             const Score score = scoreMap(model.truth, map, character.skeleton.names);
@@ -162,7 +165,7 @@ TEST_CASE("joints and weights alone are enough in whatever pose the nodes have",
     }
     std::printf("  all: named %d/%d, unnamed %d/%d\n", named.right, named.of, unnamed.right, unnamed.of);
     CHECK(named.right >= 0.95 * named.of);
-    CHECK(unnamed.right >= 0.8 * unnamed.of);
+    CHECK(unnamed.right >= 0.9 * unnamed.of);
 }
 
 }  // namespace lutka::test
