@@ -18,10 +18,11 @@ constexpr float kDetachedFromMore = -6.0F;  // … though the limb has joints to
 constexpr float kDetached = -1.5F;          // the next joint is not below this one in the tree
 constexpr float kShadow = -3.0F;
 constexpr float kMainBranch = 0.7F;
-constexpr float kInMiddle = -3.5F;         // thighs and upper arms never start in the mirror plane
-constexpr float kSecondSegment = -4.0F;    // named like the joint above it: "upper_arm.L.001"
-constexpr float kSkippedJoint = -0.4F;     // a skinned joint between two placed ones: twist, or a second segment
-constexpr float kShortestSegment = 0.02F;  // of the spread
+constexpr float kInMiddle = -3.5F;               // thighs and upper arms never start in the mirror plane
+constexpr float kSecondSegment = -4.0F;          // named like the joint above it: "upper_arm.L.001"
+constexpr float kSkippedJoint = -0.4F;           // a skinned joint between two placed ones: twist, or a second segment
+constexpr float kShortestSegment = 0.02F;        // of the spread
+constexpr std::size_t kMostPairsDetached = 200;  // any pair may follow any other: time grows with the cube
 constexpr std::size_t kPerRoot = 3;
 constexpr std::size_t kMost = 48;
 
@@ -150,6 +151,7 @@ class LimbFinder {
 
     // Whether `lower` may follow `upper` though it hangs elsewhere: rigs with feet under a control root, flat trees.
     [[nodiscard]] bool mayContinueDetached(int upper, int lower) const {
+        if (framed_.pairs.size() > kMostPairsDetached) return false;
         if (framed_.isAbove(lower, upper) || upper == lower) return false;
         const RigFeatures& rig = *framed_.rig;
         if (rig.skinned && at(lower).ownWeight <= 0.0F) return false;
