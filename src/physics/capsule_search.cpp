@@ -49,7 +49,7 @@ float CapsuleSearch::cost(const Capsule& capsule) const {
     return cost(CapsuleTrial{0.5F * (start + end), 0.5F * glm::distance(start, end), capsule.radius});
 }
 
-Capsule CapsuleSearch::run(CapsuleTrial start, const std::function<void(CapsuleTrial&)>& settle) const {
+Capsule CapsuleSearch::run(const CapsuleTrial& start, const std::function<void(CapsuleTrial&)>& settle) const {
     constexpr int kRounds = 6;
     constexpr int kSweepsPerRound = 4;
     const auto settled = [&](CapsuleTrial trial) {

@@ -25,7 +25,7 @@ class CapsuleSearch {
                   float largestRadius, float cutoff);
 
     /// From `start`; `settle` clamps every trial to what the segment allows.
-    [[nodiscard]] Capsule run(CapsuleTrial start, const std::function<void(CapsuleTrial&)>& settle) const;
+    [[nodiscard]] Capsule run(const CapsuleTrial& start, const std::function<void(CapsuleTrial&)>& settle) const;
 
     /// Area-weighted mean distance of the points from the surface, each cut off; metres.
     [[nodiscard]] float cost(const Capsule& capsule) const;

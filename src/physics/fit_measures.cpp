@@ -112,6 +112,7 @@ bool isCovered(std::span<const PlacedShape> shapes, const std::vector<RigidTrans
 
 std::vector<RigidTransform> inverses(std::span<const PlacedShape> shapes) {
     std::vector<RigidTransform> result;
+    result.reserve(shapes.size());
     for (const PlacedShape& shape : shapes)
         result.push_back(inverse(shape.standardFromBody));
     return result;

@@ -47,6 +47,7 @@ Result<RagdollProfile> fitRagdoll(const animation::Character& character, const a
     profile.constraints = makeConstraints(plan, anatomy, shapes, profile.notes);
     setJointFriction(profile);
     std::vector<RigidTransform> placed;
+    placed.reserve(shapes.size());
     for (const PlacedShape& shape : shapes)
         placed.push_back(shape.standardFromBody);
     profile.filteredPairs = pairsToFilter(profile, placed);

@@ -50,6 +50,7 @@ std::vector<double> sharesOf(std::span<const BodyProfile> bodies, const FitOptio
     if (options.massPreset == MassPreset::uniform) return std::vector<double>(bodies.size(), 1.0);
     if (options.massPreset == MassPreset::volume) {
         std::vector<double> shares;
+        shares.reserve(bodies.size());
         for (const BodyProfile& body : bodies)
             shares.push_back(shapeVolume(body.shape));
         return shares;

@@ -57,6 +57,7 @@ void rebuildConstraints(RagdollProfile& profile, const BodyPlan& plan, const Ana
 
 void addFilteredPairs(RagdollProfile& profile, std::span<const PlacedShape> shapes) {
     std::vector<RigidTransform> placed;
+    placed.reserve(shapes.size());
     for (const PlacedShape& shape : shapes)
         placed.push_back(shape.standardFromBody);
     for (const auto& pair : pairsToFilter(profile, placed)) {
@@ -93,6 +94,7 @@ RagdollProfile inPlanOrder(const RagdollProfile& profile, const BodyPlan& plan) 
 
 std::vector<Role> rolesOf(const RagdollProfile& profile) {
     std::vector<Role> roles;
+    roles.reserve(profile.bodies.size());
     for (const BodyProfile& body : profile.bodies)
         roles.push_back(body.role);
     return roles;
@@ -117,6 +119,7 @@ void placeBodies(RagdollProfile& profile, const animation::Character& character,
 std::vector<PlacedShape> shapesInBindPose(const RagdollProfile& profile, const animation::Skeleton& skeleton) {
     const RigidTransform standardFromModel{profile.standardFromModel, vec3(0)};
     std::vector<PlacedShape> shapes;
+    shapes.reserve(profile.bodies.size());
     for (const BodyProfile& body : profile.bodies) {
         int joint = findJoint(skeleton, body.jointPath);
         if (joint == animation::kNoJoint) joint = findJoint(skeleton, body.joint);

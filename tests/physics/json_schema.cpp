@@ -8,13 +8,20 @@ namespace {
 
 using nlohmann::json;
 
+std::string join(const std::string& a, const char* between, const std::string& b) {
+    std::string out = a;
+    out += between;
+    out += b;
+    return out;
+}
+
 class Checker {
   public:
     explicit Checker(const json& root) : root_(root) {}
 
     void check(const json& schema, const json& value, const std::string& place, std::vector<std::string>& problems) {
         for (const auto& [keyword, rule] : schema.items()) {
-            if (!holds(keyword, rule, schema, value, place, problems)) problems.push_back(place + ": " + keyword);
+            if (!holds(keyword, rule, schema, value, place, problems)) problems.push_back(join(place, ": ", keyword));
         }
     }
 
@@ -40,7 +47,7 @@ class Checker {
         if (keyword == "properties") return checkMembers(rule, schema, value, place, problems);
         if (keyword == "items") {
             for (std::size_t i = 0; i < value.size(); ++i)
-                check(rule, value[i], place + '/' + std::to_string(i), problems);
+                check(rule, value[i], join(place, "/", std::to_string(i)), problems);
             return true;
         }
         if (keyword == "$ref") {
@@ -55,9 +62,9 @@ class Checker {
                       std::vector<std::string>& problems) {
         for (const auto& [key, member] : value.items()) {
             if (rule.contains(key)) {
-                check(rule[key], member, place + '/' + key, problems);
+                check(rule[key], member, join(place, "/", key), problems);
             } else if (schema.value("additionalProperties", true) == false) {
-                problems.push_back(place + '/' + key + ": unknown");
+                problems.push_back(join(place, "/", key) += ": unknown");
             }
         }
         return true;
