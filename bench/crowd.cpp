@@ -42,7 +42,8 @@ void apply(CrowdTuning& tuning, const std::string& setting) {
     const float value = at == std::string::npos ? 0.0F : std::stof(setting.substr(at + 1));
     const std::map<std::string, float*> reals{
         {"jointErp", &tuning.jointErp},         {"limitErp", &tuning.limitErp},
-        {"contactErp", &tuning.contactErp},     {"stiffness", &tuning.stiffness},
+        {"contactErp", &tuning.contactErp},     {"jointStiffness", &tuning.jointStiffness},
+        {"contactTolerance", &tuning.contactTolerance},{"limitTolerance", &tuning.limitTolerance},{"firstTouch", &tuning.firstTouch}, {"limitStiffness", &tuning.limitStiffness},  {"contactStiffness", &tuning.contactStiffness},
         {"grip", &tuning.grip},
         {"pushSpeed", &tuning.pushSpeed},       {"limitSpeed", &tuning.limitSpeed},
         {"slop", &tuning.slop},                 {"margin", &tuning.margin},
@@ -51,8 +52,8 @@ void apply(CrowdTuning& tuning, const std::string& setting) {
         {"sleepSpeed", &tuning.sleepSpeed},     {"angularDamping", &tuning.angularDamping},
         {"leastGyration", &tuning.leastGyration}};
     const std::map<std::string, int*> whole{{"substeps", &tuning.substeps},
-                                            {"iterations", &tuning.iterations},
-                                            {"relaxations", &tuning.relaxations}};
+                                            {"passes", &tuning.passes},
+                                            {"relaxPasses", &tuning.relaxPasses}};
     if (const auto real = reals.find(name); real != reals.end())
         *real->second = value;
     else if (const auto number = whole.find(name); number != whole.end())

@@ -27,10 +27,10 @@ struct BulletTuning {
     bool warmStart = true;  ///< Starts each substep from the impulses of the one before.
 
     float linearDamping = 0.02F;  ///< Part of the speed lost in a second, [0, 1]: air.
-    float angularDamping = 0.3F;  ///< The same for turning.
+    float angularDamping = 0.4F;  ///< The same for turning.
     float restDamping = 4.0F;     ///< 1/s: further damping of what touches something and is slower than
-    float restSpeed = 0.06F;      ///< m/s and
-    float restTurn = 0.4F;        ///< rad/s. More: sooner asleep, stiffer last movements.
+    float restSpeed = 0.1F;       ///< m/s and
+    float restTurn = 0.8F;        ///< rad/s. More: sooner asleep, stiffer last movements.
     float sleepSpeed = 0.03F;     ///< m/s, and
     float sleepTurn = 0.04F;      ///< rad/s: slower for `sleepSeconds`, all bodies that touch fall asleep.
     float sleepSeconds = 1.0F;
