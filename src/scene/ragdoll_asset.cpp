@@ -1,8 +1,9 @@
 #include "scene/ragdoll_asset.hpp"
 
-#include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "physics/profile_io.hpp"
+#include "physics/rebind.hpp"
 
 namespace lutka::scene {
 namespace {
@@ -13,9 +14,36 @@ Error notHumanoid(const animation::Character& character, const animation::Humano
             "`lutka inspect` shows the joint tree; a humanoid has a trunk, two arms and two legs"};
 }
 
-Result<physics::RagdollProfile> profileFor(const RagdollAsset& asset, const LoadOptions& options) {
-    if (options.profile) return physics::loadProfile(*options.profile);
-    return physics::fitRagdoll(asset.character, asset.map, options.fit);
+// Whether the two anchors of every constraint meet in the rig's bind pose: a rig of the same joint names but other
+// proportions is another rig.
+bool anchorsMeet(const physics::RagdollProfile& profile, const physics::Rig& rig) {
+    constexpr float kShareOfHeight = 0.01F;
+    for (const physics::ConstraintProfile& constraint : profile.constraints) {
+        const vec3 onParent = rig.bindModelFromBody[constraint.parent] * constraint.parentFromFrame.translation;
+        const vec3 onChild = rig.bindModelFromBody[constraint.child] * constraint.childFromFrame.translation;
+        if (glm::distance(onParent, onChild) > kShareOfHeight * profile.heightM) return false;
+    }
+    return true;
+}
+
+Result<void> readProfile(RagdollAsset& asset, const LoadOptions& options) {
+    auto read = physics::loadProfile(*options.profile);
+    if (!read) return read.error();
+    auto rig = physics::bindRig(read.value(), asset.character.skeleton);
+    if (!rig || !anchorsMeet(read.value(), rig.value())) {
+        read = physics::rebindProfile(read.value(), asset.character, asset.map, options.keepShapes);
+        if (!read) return read.error();
+        asset.rebound = true;
+    }
+    asset.profile = std::move(read).value();
+    return {};
+}
+
+Result<void> fitProfile(RagdollAsset& asset, const LoadOptions& options) {
+    auto fitted = physics::fitRagdoll(asset.character, asset.map, options.fit);
+    if (!fitted) return fitted.error();
+    asset.profile = std::move(fitted).value();
+    return {};
 }
 
 }  // namespace
@@ -31,9 +59,8 @@ Result<std::unique_ptr<RagdollAsset>> makeRagdoll(animation::Character character
     asset->character = std::move(character);
     asset->map = animation::mapHumanoid(asset->character, options.map);
     if (!asset->map.humanoid) return notHumanoid(asset->character, asset->map);
-    auto profile = profileFor(*asset, options);
+    const Result<void> profile = options.profile ? readProfile(*asset, options) : fitProfile(*asset, options);
     if (!profile) return profile.error();
-    asset->profile = std::move(profile).value();
     auto rig = physics::bindRig(asset->profile, asset->character.skeleton);
     if (!rig) return rig.error();
     asset->rig = std::move(rig).value();

@@ -20,6 +20,7 @@ struct RagdollAsset {
     animation::HumanoidMap map;
     physics::RagdollProfile profile;
     physics::Rig rig;
+    bool rebound = false;  ///< The profile was made for another rig and was bound to this one by role.
 };
 
 struct LoadOptions {
@@ -27,10 +28,12 @@ struct LoadOptions {
     animation::MapOptions map;
     physics::FitOptions fit;
     std::optional<std::filesystem::path> profile;  ///< Set: this file's profile instead of a fitted one.
+    bool keepShapes = false;  ///< A profile of another rig keeps its shapes; otherwise they are fitted to this one.
 };
 
-/// import → map → fit (or read the profile and bind it). Fails with ErrorCode::input: the file can't be read, isn't a
-/// humanoid (the reason is the mapper's), or the profile doesn't fit the rig.
+/// import → map → fit (or read the profile and bind it: by joints when it was made for this rig, else by role). Fails
+/// with ErrorCode::input: the file can't be read, isn't a humanoid (the reason is the mapper's), or the profile doesn't
+/// fit the rig.
 [[nodiscard]] Result<std::unique_ptr<RagdollAsset>> loadRagdoll(const std::filesystem::path& model,
                                                                 const LoadOptions& options = {});
 

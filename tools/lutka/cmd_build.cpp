@@ -78,8 +78,7 @@ void printTable(const physics::RagdollProfile& profile) {
 
 void run(const Options& options) {
     const auto asset = orLeave(scene::loadRagdoll(options.ragdoll.model.model, options.ragdoll.load()));
-    printWarnings(asset->character);
-    printWarnings(asset->map);
+    printWarnings(*asset);
     std::vector<physics::ClipLimitChange> changes;
     if (!options.limitsFromClips.empty()) {
         changes = physics::applyClipLimits(asset->profile, asset->rig, asset->character,

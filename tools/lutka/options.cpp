@@ -82,6 +82,8 @@ animation::ImportOptions ModelOptions::import() const {
 void RagdollOptions::addTo(CLI::App& app, bool modelRequired) {
     model.addTo(app, modelRequired);
     app.add_option("--profile", profile, "ragdoll profile (*.ragdoll.json) instead of a fitted one");
+    app.add_flag("--keep-shapes", keepShapes,
+                 "with the profile of another rig: keep its shapes instead of fitting them anew");
     app.add_option("--mass", massKg, "total mass in kilograms")->check(CLI::PositiveNumber)->capture_default_str();
     app.add_option("--mass-table", massTable, "shares of the segments")
         ->check(CLI::IsMember(&kMassTables))
@@ -96,6 +98,7 @@ scene::LoadOptions RagdollOptions::load() const {
     scene::LoadOptions options;
     options.import = model.import();
     options.profile = profile;
+    options.keepShapes = keepShapes;
     options.fit.totalMassKg = massKg;
     options.fit.massTable = kMassTables.at(massTable);
     options.fit.massPreset = kMassPresets.at(massPreset);
@@ -178,6 +181,13 @@ void printWarnings(const animation::Character& character) {
 void printWarnings(const animation::HumanoidMap& map) {
     for (const std::string& warning : map.warnings)
         spdlog::warn("{}", warning);
+}
+
+void printWarnings(const scene::RagdollAsset& asset) {
+    printWarnings(asset.character);
+    printWarnings(asset.map);
+    if (asset.rebound)
+        spdlog::warn("{}: the profile was made for another rig and is bound by role", asset.character.file.string());
 }
 
 }  // namespace lutka::cli

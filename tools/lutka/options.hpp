@@ -46,6 +46,7 @@ struct ModelOptions {
 struct RagdollOptions {
     ModelOptions model;
     std::optional<std::filesystem::path> profile;
+    bool keepShapes = false;
     float massKg = 75.0F;
     std::string massTable = "de-leva-male";
     std::string massPreset = "anatomical";
@@ -100,5 +101,7 @@ class Progress {
 /// Prints the character's and the map's warnings to stderr, one a line.
 void printWarnings(const animation::Character& character);
 void printWarnings(const animation::HumanoidMap& map);
+/// Both, and a word when a profile of another rig was bound by role.
+void printWarnings(const scene::RagdollAsset& asset);
 
 }  // namespace lutka::cli

@@ -68,8 +68,7 @@ Run prepare(const SimulateOptions& options) {
         checkWritable(file);
     Run run;
     run.asset = orLeave(scene::loadRagdoll(options.ragdoll.model.model, options.ragdoll.load()));
-    printWarnings(run.asset->character);
-    printWarnings(run.asset->map);
+    printWarnings(*run.asset);
     if (!options.replayFrom.empty()) run.replay = orLeave(scene::loadRecording(options.replayFrom));
     const scene::FigureBounds figure = scene::figureBounds(run.asset->profile, run.asset->rig);
     auto scenario = orLeave(

@@ -1,0 +1,64 @@
+#include "scene/ragdoll_asset.hpp"
+
+#include <glm/geometric.hpp>
+
+#include "physics/profile_io.hpp"
+#include "support/catch.hpp"
+#include "support/command.hpp"
+#include "support/ragdolls.hpp"
+
+using namespace lutka;
+using namespace lutka::scene;
+
+namespace {
+
+// The biped with every joint renamed and all of it larger by `scale`.
+animation::Character otherBiped(float scale, const std::string& prefix) {
+    animation::Character other = test::makeBiped();
+    for (std::string& name : other.skeleton.names)
+        name = prefix + name;
+    for (auto* frames : {&other.skeleton.bindModelFromJoint, &other.skeleton.nodeParentFromJoint}) {
+        for (RigidTransform& frame : *frames)
+            frame.translation *= scale;
+    }
+    for (vec3& position : other.meshes[0].positions)
+        position *= scale;
+    return other;
+}
+
+LoadOptions withProfile(const std::string& file) {
+    LoadOptions options;
+    options.profile = file;
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE("a profile read for its own rig is taken as it is") {
+    const test::ScratchFolder folder;
+    auto asset = test::bipedRagdoll();
+    asset->profile.bodies[3].shape.radius *= 1.1F;  // edited by hand
+    REQUIRE(physics::saveProfile(folder / "own.ragdoll.json", asset->profile));
+    const auto again = makeRagdoll(test::makeBiped(), withProfile(folder / "own.ragdoll.json"));
+    REQUIRE(again);
+    CHECK_FALSE(again.value()->rebound);
+    CHECK(again.value()->profile.bodies[3].shape.radius == asset->profile.bodies[3].shape.radius);
+}
+
+TEST_CASE("a profile made for another rig is bound by role, with shapes of this one") {
+    const test::ScratchFolder folder;
+    const auto asset = test::bipedRagdoll();
+    REQUIRE(physics::saveProfile(folder / "biped.ragdoll.json", asset->profile));
+    for (const std::string prefix : {"", "rig_"}) {  // the same names with other proportions are another rig too
+        INFO(prefix);
+        const auto other = makeRagdoll(otherBiped(1.2F, prefix), withProfile(folder / "biped.ragdoll.json"));
+        REQUIRE(other);
+        CHECK(other.value()->rebound);
+        const physics::RagdollProfile& profile = other.value()->profile;
+        REQUIRE(profile.bodies.size() == asset->profile.bodies.size());
+        for (std::size_t i = 0; i < profile.bodies.size(); ++i) {
+            CHECK(profile.bodies[i].massKg == Approx(asset->profile.bodies[i].massKg));
+            CHECK(profile.bodies[i].shape.radius == Approx(1.2F * asset->profile.bodies[i].shape.radius).epsilon(0.1));
+        }
+    }
+}
