@@ -36,9 +36,10 @@ constexpr std::array kBindings = {
 
 constexpr std::array kMouseHelp = {
     HelpLine{"Left click", "select; with Shift add or take away"},
-    HelpLine{"Left drag on a body", "pull it"},
+    HelpLine{"Left drag on a body", "pull it; in a paused scene: pose it"},
     HelpLine{"Left drag beside", "orbit"},
     HelpLine{"Right or middle drag", "orbit; with Shift pan"},
+    HelpLine{"W A S D Q E", "while orbiting: fly, with Shift faster"},
     HelpLine{"Wheel", "zoom; while pulling: depth"},
     HelpLine{"G  R  S", "grab, rotate, scale the selection"},
     HelpLine{"X  Y  Z", "during these: along that axis; with Shift across it"},

@@ -62,7 +62,6 @@ class Application {
     std::string title_;
 };
 
-// Positions of text fields and the clipboard go through GLFW; headless, Dear ImGui keeps its own clipboard.
 float monitorScale(GLFWwindow* window) {
     float x = 1.0F;
     float y = 1.0F;
@@ -75,9 +74,13 @@ Result<void> Application::start() {
     auto renderer = render::Renderer::create(context_);
     if (!renderer) return renderer.error();
     renderer_.emplace(std::move(renderer).value());
-    if (context_.window() != nullptr) window_ = std::make_unique<WindowInput>(context_.window());
     const float scale = options_.uiScale > 0.0F ? options_.uiScale : monitorScale(context_.window());
     host_ = std::make_unique<ImguiHost>(scale);
+    if (context_.window() != nullptr) {
+        window_ = std::make_unique<WindowInput>(context_.window());
+        host_->useClipboard([window = context_.window()] { return glfwGetClipboardString(window); },
+                            [window = context_.window()](const char* text) { glfwSetClipboardString(window, text); });
+    }
     ui_ = std::make_unique<EditorUi>(*host_);
     EditorOptions editor = options_.editor;
     editor.window = windowSize_;

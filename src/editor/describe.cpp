@@ -47,6 +47,9 @@ void Editor::drawOverlay(render::FrameDescription& frame) {
         const bool selected = workspace_.selection.contains({Item::Kind::object, 0, static_cast<int>(i)});
         if (objects[i].kind == SceneObject::Kind::light) {
             drawLight(objects[i], selected, frame);
+        } else if (selected && objects[i].kind == SceneObject::Kind::ball) {
+            render::addSphere(frame.lines, objects[i].worldFromObject.translation, objects[i].radius * 1.02F,
+                              kSelectionLine);
         } else if (selected) {
             render::addBox(frame.lines, objects[i].worldFromObject, halfSizeOf(objects[i]), kSelectionLine);
         }

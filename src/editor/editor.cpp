@@ -197,6 +197,7 @@ void Editor::perform(Action action) {
 
 void Editor::update(double seconds) {
     workspace_.overlay.clear();
+    workspace_.frameSeconds = static_cast<float>(seconds);
     machine_->update();
     workspace_.follow();
     workspace_.pulls.applyTo(workspace_.player->simulation().world());

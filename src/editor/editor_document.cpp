@@ -226,6 +226,25 @@ Result<void> EditorDocument::useProfile(const std::filesystem::path& file) {
     return done;
 }
 
+const physics::Diagnosis& EditorDocument::diagnosis() const {
+    if (diagnosedRevision_ != revision_) {
+        diagnosis_ = physics::diagnose(state_.profile, character(), state_.map);
+        diagnosedRevision_ = revision_;
+    }
+    return diagnosis_;
+}
+
+Result<void> EditorDocument::mend(std::span<const physics::Finding> findings) {
+    auto mended = physics::applyMends(state_.profile, character(), state_.map, findings);
+    if (!mended) return mended.error();
+    return apply(findings.size() == 1 ? "Mend " + findings.front().code : "Mend all", "",
+                 [&](DocumentState& next) -> Result<void> {
+                     next.base = std::move(mended).value();  // the edits are in it
+                     next.edits = {};
+                     return {};
+                 });
+}
+
 Result<void> EditorDocument::setScene(const SceneSettings& scene, const std::string& label, const std::string& group) {
     // A trial set-up tells whether the scenario exists and takes the count.
     const auto bounds = scene::figureBounds(asset_->profile, asset_->rig);

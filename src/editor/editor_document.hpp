@@ -3,11 +3,13 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "core/result.hpp"
 #include "editor/document_state.hpp"
 #include "editor/undo_stack.hpp"
+#include "physics/doctor.hpp"
 #include "scene/ragdoll_asset.hpp"
 
 namespace lutka::editor {
@@ -61,6 +63,11 @@ class EditorDocument {
     /// doesn't fit the skeleton.
     [[nodiscard]] Result<void> useProfile(const std::filesystem::path& file);
 
+    /// What the ragdoll doctor says of the present profile; kept until that changes.
+    [[nodiscard]] const physics::Diagnosis& diagnosis() const;
+    /// Mends these findings (those that are mendable). Fails as physics::applyMends() does.
+    [[nodiscard]] Result<void> mend(std::span<const physics::Finding> findings);
+
     /// The scene to begin with; not an edit.
     void startScene(const SceneSettings& scene) { state_.scene = scene; }
     /// Scenario, count, gravity, objects … Fails with ErrorCode::usage for what no scene can have.
@@ -97,6 +104,8 @@ class EditorDocument {
     UndoStack<DocumentState> undo_;
     std::uint64_t revision_ = 1;
     std::filesystem::path profileFile_;
+    mutable physics::Diagnosis diagnosis_;
+    mutable std::uint64_t diagnosedRevision_ = 0;
     std::string savedProfile_;  ///< As JSON.
     bool unsaved_ = false;
 };

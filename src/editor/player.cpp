@@ -9,7 +9,8 @@ namespace {
 
 constexpr float kBallRadius = 0.09F;  // metres; with the mass, a medicine ball
 constexpr float kBallMassKg = 5.0F;
-constexpr std::size_t kMaxThrown = 24;  // each makes every step slower
+constexpr float kPosingDamping = 0.75F;  // of the velocity that a step leaves while posing
+constexpr std::size_t kMaxThrown = 24;   // each makes every step slower
 
 physics::StaticShape staticOf(const SceneObject& object) {
     physics::StaticShape shape;
@@ -146,7 +147,13 @@ void Player::keepProps(const Motion& motion, scene::Scenario& scenario) const {
 }
 
 Result<void> Player::rebuild(Keep keep) {
-    if (keep == Keep::nothing) thrown_.clear();
+    if (keep == Keep::nothing) {
+        thrown_.clear();
+        posing_ = false;
+        secondsBefore_ = 0.0;
+    } else if (simulation_ != nullptr) {
+        secondsBefore_ = seconds();
+    }
     std::optional<Motion> motion;
     if (keep == Keep::motion && simulation_ != nullptr) motion = capture();
     simulation_.reset();  // it borrows the asset that changes now
@@ -158,6 +165,10 @@ Result<void> Player::rebuild(Keep keep) {
     built_ = document_.state().scene.objects;
     scene::SimulationOptions options;
     options.world = document_.state().scene.world;
+    if (posing_) {
+        options.world.gravity = vec3(0);
+        options.world.sleeping = false;
+    }
     options.pose = document_.state().scene.pose;
     auto simulation = scene::Simulation::create(document_.asset(), std::move(scenario).value(), options);
     if (!simulation) return simulation.error();
@@ -168,14 +179,37 @@ Result<void> Player::rebuild(Keep keep) {
     return {};
 }
 
+void Player::dampDolls(float share) {
+    for (int doll = 0; doll < simulation_->dollCount(); ++doll) {
+        auto bodies = bodiesOf(doll);
+        for (physics::BodyState& body : bodies) {
+            body.linearVelocity *= share;
+            body.angularVelocity *= share;
+        }
+        simulation_->world().setBodies(doll, bodies);
+    }
+}
+
+Result<void> Player::setPosing(bool posing) {
+    if (posing == posing_) return {};
+    if (posing_) dampDolls(0.0F);
+    secondsBefore_ = seconds();
+    posing_ = posing;
+    const double standing = secondsBefore_;
+    auto rebuilt = rebuild(Keep::motion);
+    secondsBefore_ = standing;
+    return rebuilt;
+}
+
 void Player::advance(double seconds) {
-    if (!playing_) return;
+    if (!playing_ && !posing_) return;
     const double dt = static_cast<double>(simulation_->options().dt);
-    accumulated_ += std::min(seconds, kMaxFrameSeconds) * speed_;
+    accumulated_ += std::min(seconds, kMaxFrameSeconds) * (posing_ ? 1.0 : speed_);
     // A frame of 1/60 s is a step of 1/60 s, whatever the rounding of its length.
     constexpr double rounding = 1e-9;
     while (accumulated_ >= dt - rounding) {
         simulation_->step();
+        if (posing_) dampDolls(kPosingDamping);
         accumulated_ -= dt;
     }
     accumulated_ = std::max(accumulated_, 0.0);

@@ -38,6 +38,11 @@ class Player {
 
     [[nodiscard]] bool playing() const { return playing_; }
     void setPlaying(bool playing) { playing_ = playing; }
+    /// Simulated time since the scene's start, edits in between included.
+    [[nodiscard]] double seconds() const { return posing_ ? secondsBefore_ : secondsBefore_ + simulation_->seconds(); }
+    /// Posing: the dolls move without gravity and heavily damped, so that pulls pose them through their constraints
+    /// while the scene's time stands still. They rest where they are when it ends.
+    [[nodiscard]] Result<void> setPosing(bool posing);
     /// Simulated seconds a second, (0, 1].
     [[nodiscard]] double speed() const { return speed_; }
     void setSpeed(double speed) { speed_ = speed; }
@@ -62,6 +67,7 @@ class Player {
   private:
     struct Motion;
     [[nodiscard]] Motion capture() const;
+    void dampDolls(float share);
     void restore(const Motion& motion);
     void keepProps(const Motion& motion, scene::Scenario& scenario) const;
     void placeByJoints(std::span<const physics::BodyProfile> oldBodies, std::span<const physics::BodyState> oldStates,
@@ -77,6 +83,8 @@ class Player {
     std::uint64_t revision_ = 0;
     bool playing_ = true;
     double speed_ = 1.0;
+    bool posing_ = false;
+    double secondsBefore_ = 0.0;  ///< Of the simulations before the present one.
     double accumulated_ = 0.0;
     float alpha_ = 1.0F;
 };

@@ -36,6 +36,11 @@ void Workspace::follow() {
     });
 }
 
+void Workspace::pose(bool on) {
+    report(player->setPosing(on));
+    pulls.applyTo(player->simulation().world());
+}
+
 bool Workspace::report(const Result<void>& result) {
     if (result) return false;
     say(Toast::Kind::error, result.error().text());

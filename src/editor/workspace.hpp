@@ -46,6 +46,7 @@ struct Workspace {
 
     SceneObject::Kind addKind = SceneObject::Kind::box;
     std::optional<SceneObject> ghost;  ///< What State::add would place.
+    float frameSeconds = 0.0F;         ///< Wall time of the present frame.
     std::string hint;                  ///< What the present state is doing, for the status bar.
     render::LineBatch overlay;         ///< Lines of the present state, made anew each frame.
     std::vector<Toast> toasts;
@@ -58,6 +59,8 @@ struct Workspace {
     [[nodiscard]] std::string nameOf(const Item& item) const;
     /// Makes the simulation follow the document, when that has changed.
     void follow();
+    /// Begins or ends posing in a paused scene; pulls stay.
+    void pose(bool on);
     /// Tells the user about a failure; nothing for success. Whether it was one.
     bool report(const Result<void>& result);
     void say(Toast::Kind kind, std::string text);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include "physics/profile_io.hpp"
@@ -177,6 +178,24 @@ TEST_CASE("what is saved is what is loaded and the mark of unsaved changes goes"
     CHECK(kneeLimits(*document).upper == 0.6F);
     std::filesystem::remove(file);
     CHECK_FALSE(document->useProfile(file).ok());
+}
+
+TEST_CASE("the doctor finds a limit that excludes the bind pose and mending it is one undoable edit") {
+    const auto document = makeDocument();
+    const int knee = constraintOf(*document, Role::leftLowerLeg);
+    const auto has = [&](const char* code) {
+        const auto& findings = document->diagnosis().findings;
+        return std::any_of(findings.begin(), findings.end(),
+                           [&](const physics::Finding& finding) { return finding.code == code; });
+    };
+    REQUIRE_FALSE(has("bind-outside-limits"));
+    REQUIRE(document->setHinge(knee, {-0.05F, 0.6F}).ok());
+    REQUIRE(has("bind-outside-limits"));
+    REQUIRE(document->mend(document->diagnosis().findings).ok());
+    CHECK_FALSE(has("bind-outside-limits"));
+    document->undo();
+    CHECK(has("bind-outside-limits"));
+    CHECK(kneeLimits(*document).lower == -0.05F);
 }
 
 TEST_CASE("a scene that does not exist is refused") {

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "editor/states/states.hpp"
 
 namespace lutka::editor {
@@ -11,8 +13,9 @@ class CameraHandler final : public StateHandler {
   public:
     CameraHandler(Workspace& workspace, bool pans) : workspace_(workspace), pans_(pans) {}
 
-    void enter() override { workspace_.hint = pans_ ? "Panning" : "Orbiting"; }
+    void enter() override { workspace_.hint = pans_ ? "Panning" : "Orbiting   W A S D Q E fly, with Shift faster"; }
     void exit() override {
+        flying_ = {};
         workspace_.hint.clear();
         workspace_.press.reset();
     }
@@ -36,14 +39,36 @@ class CameraHandler final : public StateHandler {
         return std::nullopt;
     }
 
+    // Flying: target and eye move together, at a pace that suits the distance.
+    void update() override {
+        render::Camera& camera = workspace_.camera;
+        vec3 direction(0);
+        const vec3 ways[] = {render::forwardOf(camera), -render::rightOf(camera), -render::forwardOf(camera),
+                             render::rightOf(camera),   vec3(0, -1, 0),           vec3(0, 1, 0)};
+        for (std::size_t i = 0; i < kFlyKeys.size(); ++i) {
+            if (flying_[i]) direction += ways[i];
+        }
+        constexpr float slowest = 1.0F;  // m/s
+        constexpr float faster = 4.0F;
+        const float pace = std::max(slowest, camera.distance * 0.5F) * (fast_ ? faster : 1.0F);
+        camera.target += direction * pace * workspace_.frameSeconds;
+    }
+
     std::optional<Trigger> key(const InputEvent& event) override {
+        fast_ = event.modifiers.shift;
+        const auto* const fly = std::find(kFlyKeys.begin(), kFlyKeys.end(), event.key);
+        if (fly != kFlyKeys.end()) flying_[static_cast<std::size_t>(fly - kFlyKeys.begin())] = event.pressed;
         if (!event.pressed || event.key != Key::escape) return std::nullopt;
         return workspace_.ended();
     }
 
   private:
+    static constexpr std::array kFlyKeys = {Key::w, Key::a, Key::s, Key::d, Key::q, Key::e};
+
     Workspace& workspace_;
     bool pans_;
+    bool fast_ = false;
+    std::array<bool, kFlyKeys.size()> flying_{};
 };
 
 }  // namespace

@@ -19,7 +19,8 @@ class SelectHandler final : public StateHandler {
 
     void update() override {
         const auto active = workspace_.selection.active();
-        workspace_.hint = active ? workspace_.nameOf(*active) + "   G grab  R rotate  S scale  F focus  P pin"
+        const char* last = active && active->kind == Item::Kind::body ? "P pin" : "X delete";
+        workspace_.hint = active ? workspace_.nameOf(*active) + "   G grab  R rotate  S scale  F focus  " + last
                                  : "Click selects, drag pulls, right drag orbits, wheel zooms, ? shows all keys";
     }
 

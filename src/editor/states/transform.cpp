@@ -195,6 +195,7 @@ class GrabHandler final : public TransformHandler {
 
     void hold() override {
         if (!onBody() || !workspace_.pulls.mouse) return;
+        workspace_.pose(!workspace_.player->playing());
         const auto bodies = workspace_.player->bodiesOf(item_->doll);
         const vec3 held = bodies[item_->index].worldFromBody * workspace_.pulls.mouse->bodyPoint;
         workspace_.overlay.add(held, target_, kPullColor);
@@ -202,7 +203,11 @@ class GrabHandler final : public TransformHandler {
     }
 
     void finish(bool confirmed) override {
-        if (!onBody()) keepOrCancelEdits(confirmed);
+        if (onBody()) {
+            workspace_.pose(false);
+        } else {
+            keepOrCancelEdits(confirmed);
+        }
     }
 
     std::optional<Trigger> otherKey(Key key) override {
@@ -215,7 +220,7 @@ class GrabHandler final : public TransformHandler {
 
     [[nodiscard]] std::string describe() const override {
         const vec3 d = target_ - start_;
-        const char* paused = onBody() && !workspace_.player->playing() ? "  (paused: Space lets it act)" : "";
+        const char* paused = onBody() && !workspace_.player->playing() ? "  posing" : "";
         return fmt::format("Grab {:+.2f} {:+.2f} {:+.2f} m{}{}{}", d.x, d.y, d.z, paused, suffix(),
                            onBody() ? "  P: pin  wheel: depth" : "");
     }

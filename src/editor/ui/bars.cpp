@@ -72,11 +72,24 @@ void viewMenu(const PanelContext& context) {
     if (!ImGui::BeginMenu("View")) return;
     item(context, Action::toggleDebug, true, context.editor.view.debug);
     item(context, Action::togglePanels, true, context.editor.view.panels);
+    if (ImGui::BeginMenu("Layers")) {
+        for (const LayerInfo& layer : debugLayerInfos()) {
+            bool& on = context.editor.view.layers.*layer.member;
+            if (!ImGui::MenuItem(layer.name, nullptr, on)) continue;
+            on = !on;
+            context.editor.view.debug = true;
+        }
+        ImGui::EndMenu();
+    }
     ImGui::Separator();
     item(context, Action::focus);
     item(context, Action::viewFront);
     item(context, Action::viewRight);
     item(context, Action::viewTop);
+    if (ImGui::MenuItem("Light theme", nullptr, context.state.lightTheme)) {
+        context.state.lightTheme = !context.state.lightTheme;
+        applyStyle(context.scale, context.state.lightTheme);
+    }
     bool& flat = context.editor.workspace().camera.orthographic;
     if (ImGui::MenuItem("Parallel projection", nullptr, flat)) flat = !flat;
     ImGui::EndMenu();
@@ -126,8 +139,8 @@ void drawStatusBar(const PanelContext& context) {
     chip(std::string(stateName(context.editor.state())), ImGui::GetColorU32(accentColor()));
     ImGui::SameLine();
     ImGui::TextUnformatted(context.editor.workspace().hint.c_str());
-    const scene::Simulation& simulation = context.editor.player().simulation();
-    const std::string right = fmt::format("{:.2f} s   {:.0f} fps", simulation.seconds(), context.history.fps());
+    const std::string right =
+        fmt::format("{:.2f} s   {:.0f} fps", context.editor.player().seconds(), context.history.fps());
     ImGui::SameLine(size.x - ImGui::CalcTextSize(right.c_str()).x - context.px(14));
     ImGui::TextColored(mutedColor(), "%s", right.c_str());
     ImGui::End();
@@ -197,13 +210,12 @@ void drawRightPanel(const PanelContext& context) {
     ImGui::SetNextWindowSize({width, size.y - top - statusHeight()});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
     ImGui::Begin("##right", nullptr, kFixed | ImGuiWindowFlags_NoTitleBar);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(context.px(6), context.px(4)));
     if (ImGui::BeginTabBar("##rightTabs")) {
         using Draw = void (*)(const PanelContext&);
-        constexpr std::pair<const char*, Draw> tabs[] = {{"Ragdoll", drawRagdollTab},
-                                                         {"Scene", drawSceneTab},
-                                                         {"View", drawViewTab},
-                                                         {"Stats", drawStatsTab},
-                                                         {"Log", drawLogTab}};
+        constexpr std::pair<const char*, Draw> tabs[] = {{"Ragdoll", drawRagdollTab}, {"Scene", drawSceneTab},
+                                                         {"View", drawViewTab},       {"Doctor", drawDoctorTab},
+                                                         {"Stats", drawStatsTab},     {"Log", drawLogTab}};
         for (const auto& [name, draw] : tabs) {
             if (!ImGui::BeginTabItem(name)) continue;
             ImGui::PushStyleColor(ImGuiCol_ChildBg, 0U);
@@ -215,6 +227,7 @@ void drawRightPanel(const PanelContext& context) {
         }
         ImGui::EndTabBar();
     }
+    ImGui::PopStyleVar();
     ImGui::End();
     ImGui::PopStyleVar();
 }

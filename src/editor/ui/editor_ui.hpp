@@ -17,6 +17,7 @@ struct UiState {
     int scrollToJoint = -1;  ///< Joint that the tree shall bring into view.
     std::string path;        ///< Text of the open file dialog.
     float exportSeconds = 4.0F;
+    bool lightTheme = false;
     std::vector<std::filesystem::path> recent;
     std::optional<Item> shownItem;  ///< What panels showed last, to notice a new selection.
 };

@@ -56,6 +56,15 @@ ImguiHost::~ImguiHost() {
     ImGui::DestroyContext();
 }
 
+void ImguiHost::useClipboard(std::function<const char*()> read, std::function<void(const char*)> write) {
+    readClipboard_ = std::move(read);
+    writeClipboard_ = std::move(write);
+    ImGuiIO& io = ImGui::GetIO();
+    io.ClipboardUserData = this;
+    io.GetClipboardTextFn = [](void* self) { return static_cast<ImguiHost*>(self)->readClipboard_(); };
+    io.SetClipboardTextFn = [](void* self, const char* text) { static_cast<ImguiHost*>(self)->writeClipboard_(text); };
+}
+
 void ImguiHost::setModifiers(const InputEvent& event) {
     ImGuiIO& io = ImGui::GetIO();
     // On a modifier's own key the event tells of the moment before it.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -28,6 +29,9 @@ class ImguiHost {
     ImguiHost(const ImguiHost&) = delete;
     ImguiHost& operator=(const ImguiHost&) = delete;
 
+    /// The window system's clipboard; without one Dear ImGui keeps its own.
+    void useClipboard(std::function<const char*()> read, std::function<void(const char*)> write);
+
     void feed(const InputEvent& event);
     /// Begins a frame of `seconds`, with a window of that size in window coordinates and in pixels.
     void beginFrame(render::Extent window, render::Extent framebuffer, double seconds);
@@ -44,6 +48,8 @@ class ImguiHost {
 
     UiFonts fonts_;
     float scale_;
+    std::function<const char*()> readClipboard_;
+    std::function<void(const char*)> writeClipboard_;
     std::array<bool, kMouseButtonCount> down_{};
     std::array<bool, kMouseButtonCount> clicked_{};  // pressed since the last frame, perhaps released again
     bool begun_ = false;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "editor/editor.hpp"
 #include "editor/frame_history.hpp"
 #include "editor/ui/editor_ui.hpp"
@@ -19,7 +21,15 @@ struct PanelContext {
 };
 
 inline constexpr float kLeftPanelWidth = 310.0F;   ///< At scale 1.
-inline constexpr float kRightPanelWidth = 330.0F;  ///< At scale 1.
+inline constexpr float kRightPanelWidth = 344.0F;  ///< At scale 1.
+
+/// A debug layer as menus and the View tab offer it.
+struct LayerInfo {
+    const char* name;
+    bool scene::DebugLayers::*member;
+    const char* what;
+};
+[[nodiscard]] std::span<const LayerInfo> debugLayerInfos();
 
 void drawMenuBar(const PanelContext& context);
 void drawStatusBar(const PanelContext& context);
@@ -41,6 +51,7 @@ void drawRagdollTab(const PanelContext& context);
 void drawSceneTab(const PanelContext& context);
 void drawViewTab(const PanelContext& context);
 void drawStatsTab(const PanelContext& context);
+void drawDoctorTab(const PanelContext& context);
 void drawLogTab(const PanelContext& context);
 
 }  // namespace lutka::editor

@@ -100,11 +100,6 @@ void drawFit(const PanelContext& context) {
     if (changed) editor.edit([&](EditorDocument& document) { return document.setFit(fit); });
 }
 
-void layer(const char* name, bool& on, const char* what) {
-    ImGui::Checkbox(name, &on);
-    tooltip(what);
-}
-
 float percentile(std::vector<float> values, float share) {
     if (values.empty()) return 0.0F;
     std::sort(values.begin(), values.end());
@@ -139,7 +134,23 @@ void drawQuality(const scene::Simulation& simulation) {
     row("Not finite", fmt::format("{}", quality.nonFinite));
 }
 
+using scene::DebugLayers;
+constexpr LayerInfo kLayers[] = {
+    {"Capsules", &DebugLayers::capsules, "Wireframes of the bodies, coloured by sleep"},
+    {"Solid capsules", &DebugLayers::solidCapsules, "The same as translucent solids"},
+    {"Joints", &DebugLayers::joints, "The skeleton, and the axes of mapped joints in red, green, blue: x, y, z"},
+    {"Limits", &DebugLayers::limits, "Arcs of hinges and cones, yellow within 5° of the limit, red past it"},
+    {"Contacts", &DebugLayers::contacts, "Contact points and normals of the last substep"},
+    {"Velocities", &DebugLayers::velocities, "Velocity of each body's centre, a tenth of a second long"},
+    {"Centres of mass", &DebugLayers::centresOfMass, "With boxes of the bodies' inertia"},
+    {"Bounding boxes", &DebugLayers::aabbs, "World boxes around the bodies"},
+};
+
 }  // namespace
+
+std::span<const LayerInfo> debugLayerInfos() {
+    return kLayers;
+}
 
 void drawSceneTab(const PanelContext& context) {
     caption("SCENE");
@@ -156,14 +167,10 @@ void drawViewTab(const PanelContext& context) {
     ImGui::Checkbox("Debug draw (F3)", &view.debug);
     ImGui::BeginDisabled(!view.debug);
     ImGui::Indent();
-    layer("Capsules", layers.capsules, "Wireframes of the bodies, coloured by sleep");
-    layer("Solid capsules", layers.solidCapsules, "The same as translucent solids");
-    layer("Joints", layers.joints, "The skeleton, and the axes of mapped joints in red, green, blue: x, y, z");
-    layer("Limits", layers.limits, "Arcs of hinges and cones, yellow within 5° of the limit, red past it");
-    layer("Contacts", layers.contacts, "Contact points and normals of the last substep");
-    layer("Velocities", layers.velocities, "Velocity of each body's centre, a tenth of a second long");
-    layer("Centres of mass", layers.centresOfMass, "With boxes of the bodies' inertia");
-    layer("Bounding boxes", layers.aabbs, "World boxes around the bodies");
+    for (const LayerInfo& layer : debugLayerInfos()) {
+        ImGui::Checkbox(layer.name, &(layers.*layer.member));
+        tooltip(layer.what);
+    }
     ImGui::Unindent();
     ImGui::EndDisabled();
     caption("PICTURE");

@@ -2,6 +2,8 @@
 
 #include <imgui.h>
 
+#include <utility>
+
 namespace lutka::editor {
 namespace {
 
@@ -10,73 +12,100 @@ ImVec4 rgb(int r, int g, int b, float alpha = 1.0F) {
     return {static_cast<float>(r) / 255.0F, static_cast<float>(g) / 255.0F, static_cast<float>(b) / 255.0F, alpha};
 }
 
-void setColors(ImVec4* colors) {
-    const ImVec4 panel = rgb(34, 36, 41);
-    const ImVec4 field = rgb(48, 51, 58);
-    const ImVec4 fieldHovered = rgb(60, 64, 73);
-    const ImVec4 fieldActive = rgb(72, 77, 88);
-    const ImVec4 accent = accentColor();
-    const ImVec4 accentSoft = rgb(255, 150, 46, 0.28F);
-    colors[ImGuiCol_Text] = rgb(224, 226, 230);
-    colors[ImGuiCol_TextDisabled] = mutedColor();
-    colors[ImGuiCol_WindowBg] = panel;
-    colors[ImGuiCol_ChildBg] = rgb(28, 30, 34);
-    colors[ImGuiCol_PopupBg] = rgb(40, 43, 49, 0.98F);
-    colors[ImGuiCol_Border] = rgb(58, 62, 70);
-    colors[ImGuiCol_FrameBg] = field;
-    colors[ImGuiCol_FrameBgHovered] = fieldHovered;
-    colors[ImGuiCol_FrameBgActive] = fieldActive;
-    colors[ImGuiCol_TitleBg] = colors[ImGuiCol_TitleBgActive] = rgb(42, 45, 52);
-    colors[ImGuiCol_MenuBarBg] = rgb(28, 30, 34);
-    colors[ImGuiCol_ScrollbarBg] = rgb(0, 0, 0, 0.0F);
-    colors[ImGuiCol_ScrollbarGrab] = rgb(70, 74, 84);
-    colors[ImGuiCol_ScrollbarGrabHovered] = rgb(88, 93, 104);
-    colors[ImGuiCol_ScrollbarGrabActive] = rgb(104, 110, 122);
-    colors[ImGuiCol_CheckMark] = accent;
-    colors[ImGuiCol_SliderGrab] = rgb(214, 132, 50, 0.85F);
-    colors[ImGuiCol_SliderGrabActive] = accent;
-    colors[ImGuiCol_Button] = rgb(56, 60, 68);
-    colors[ImGuiCol_ButtonHovered] = rgb(70, 75, 85);
-    colors[ImGuiCol_ButtonActive] = rgb(84, 90, 102);
-    colors[ImGuiCol_Header] = accentSoft;
-    colors[ImGuiCol_HeaderHovered] = rgb(64, 68, 78);
-    colors[ImGuiCol_HeaderActive] = rgb(76, 81, 92);
-    colors[ImGuiCol_Separator] = rgb(54, 58, 66);
-    colors[ImGuiCol_Tab] = rgb(34, 36, 41);
-    colors[ImGuiCol_TabHovered] = rgb(64, 68, 78);
-    colors[ImGuiCol_TabActive] = rgb(58, 62, 71);
-    colors[ImGuiCol_TabUnfocused] = colors[ImGuiCol_Tab];
-    colors[ImGuiCol_TabUnfocusedActive] = colors[ImGuiCol_TabActive];
-    colors[ImGuiCol_PlotLines] = rgb(140, 196, 240);
-    colors[ImGuiCol_PlotHistogram] = accent;
-    colors[ImGuiCol_TableHeaderBg] = rgb(42, 45, 52);
-    colors[ImGuiCol_TableBorderLight] = rgb(46, 49, 56);
-    colors[ImGuiCol_TableRowBgAlt] = rgb(255, 255, 255, 0.025F);
-    colors[ImGuiCol_TextSelectedBg] = accentSoft;
-    colors[ImGuiCol_DragDropTarget] = accent;
-    colors[ImGuiCol_NavHighlight] = accent;
-    colors[ImGuiCol_ModalWindowDimBg] = rgb(12, 13, 15, 0.55F);
+// What a theme sets; everything else follows.
+struct Palette {
+    ImVec4 panel, inset, bar, popup, border, text, muted;
+    ImVec4 field, button, hovered, active;
+    ImVec4 plot, accentSoft, accent;
+};
+
+Palette darkPalette() {
+    return {rgb(34, 36, 41),    rgb(28, 30, 34),    rgb(28, 30, 34),          rgb(40, 43, 49, 0.98F), rgb(58, 62, 70),
+            rgb(224, 226, 230), rgb(150, 154, 163), rgb(48, 51, 58),          rgb(56, 60, 68),        rgb(68, 73, 83),
+            rgb(82, 88, 100),   rgb(140, 196, 240), rgb(255, 150, 46, 0.28F), rgb(255, 150, 46)};
+}
+
+Palette lightPalette() {
+    return {rgb(240, 241, 243),       rgb(250, 250, 251), rgb(228, 230, 233), rgb(252, 252, 253, 0.98F),
+            rgb(196, 200, 206),       rgb(32, 34, 38),    rgb(100, 105, 114), rgb(222, 225, 229),
+            rgb(212, 216, 221),       rgb(200, 205, 212), rgb(186, 192, 201), rgb(38, 110, 180),
+            rgb(255, 150, 46, 0.38F), rgb(198, 94, 0)};
+}
+
+// Which palette the present style has.
+bool isLight() {
+    return ImGui::GetStyle().Colors[ImGuiCol_Text].x < 0.5F;
+}
+
+void setColors(ImVec4* colors, const Palette& p) {
+    const ImVec4& accent = p.accent;
+    const ImVec4 none = rgb(0, 0, 0, 0.0F);
+    const std::pair<ImGuiCol_, ImVec4> all[] = {
+        {ImGuiCol_Text, p.text},
+        {ImGuiCol_TextDisabled, p.muted},
+        {ImGuiCol_WindowBg, p.panel},
+        {ImGuiCol_ChildBg, p.inset},
+        {ImGuiCol_PopupBg, p.popup},
+        {ImGuiCol_Border, p.border},
+        {ImGuiCol_FrameBg, p.field},
+        {ImGuiCol_FrameBgHovered, p.hovered},
+        {ImGuiCol_FrameBgActive, p.active},
+        {ImGuiCol_TitleBg, p.bar},
+        {ImGuiCol_TitleBgActive, p.bar},
+        {ImGuiCol_MenuBarBg, p.bar},
+        {ImGuiCol_ScrollbarBg, none},
+        {ImGuiCol_ScrollbarGrab, p.hovered},
+        {ImGuiCol_ScrollbarGrabHovered, p.active},
+        {ImGuiCol_ScrollbarGrabActive, p.muted},
+        {ImGuiCol_CheckMark, accent},
+        {ImGuiCol_SliderGrab, rgb(214, 132, 50, 0.85F)},
+        {ImGuiCol_SliderGrabActive, accent},
+        {ImGuiCol_Button, p.button},
+        {ImGuiCol_ButtonHovered, p.hovered},
+        {ImGuiCol_ButtonActive, p.active},
+        {ImGuiCol_Header, p.accentSoft},
+        {ImGuiCol_HeaderHovered, p.hovered},
+        {ImGuiCol_HeaderActive, p.active},
+        {ImGuiCol_Separator, p.border},
+        {ImGuiCol_Tab, p.panel},
+        {ImGuiCol_TabHovered, p.hovered},
+        {ImGuiCol_TabActive, p.button},
+        {ImGuiCol_TabUnfocused, p.panel},
+        {ImGuiCol_TabUnfocusedActive, p.button},
+        {ImGuiCol_PlotLines, p.plot},
+        {ImGuiCol_PlotHistogram, accent},
+        {ImGuiCol_TableHeaderBg, p.bar},
+        {ImGuiCol_TableBorderLight, p.border},
+        {ImGuiCol_TableRowBgAlt, rgb(128, 128, 128, 0.06F)},
+        {ImGuiCol_TextSelectedBg, p.accentSoft},
+        {ImGuiCol_DragDropTarget, accent},
+        {ImGuiCol_NavHighlight, accent},
+        {ImGuiCol_ModalWindowDimBg, rgb(12, 13, 15, 0.5F)},
+    };
+    for (const auto& [index, color] : all)
+        colors[index] = color;
 }
 
 }  // namespace
 
+// On light panels the signal colours are darker, to stay readable.
 ImVec4 accentColor() {
-    return rgb(255, 150, 46);
+    return ImGui::GetStyle().Colors[ImGuiCol_CheckMark];
 }
 ImVec4 mutedColor() {
-    return rgb(150, 154, 163);
+    return ImGui::GetStyle().Colors[ImGuiCol_TextDisabled];
 }
 ImVec4 goodColor() {
-    return rgb(126, 200, 120);
+    return isLight() ? rgb(40, 124, 40) : rgb(126, 200, 120);
 }
 ImVec4 warningColor() {
-    return rgb(240, 196, 84);
+    return isLight() ? rgb(150, 104, 0) : rgb(240, 196, 84);
 }
 ImVec4 errorColor() {
-    return rgb(240, 110, 98);
+    return isLight() ? rgb(190, 40, 30) : rgb(240, 110, 98);
 }
 
-void applyStyle(float scale) {
+void applyStyle(float scale, bool light) {
     ImGuiStyle& style = ImGui::GetStyle();
     style = ImGuiStyle();
     style.WindowRounding = 4.0F;
@@ -98,7 +127,7 @@ void applyStyle(float scale) {
     style.PopupBorderSize = 1.0F;
     style.FrameBorderSize = 0.0F;
     style.WindowTitleAlign = {0.0F, 0.5F};
-    setColors(style.Colors);
+    setColors(style.Colors, light ? lightPalette() : darkPalette());
     style.ScaleAllSizes(scale);
 }
 

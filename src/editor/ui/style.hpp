@@ -4,8 +4,8 @@ struct ImVec4;
 
 namespace lutka::editor {
 
-/// Sets Dear ImGui's colours and sizes: a calm dark theme with one accent.
-void applyStyle(float scale);
+/// Sets Dear ImGui's colours and sizes: a calm theme, dark or light, with one accent.
+void applyStyle(float scale, bool light = false);
 
 /// The accent, the same orange as the selection in the view.
 [[nodiscard]] ImVec4 accentColor();
