@@ -11,7 +11,7 @@ namespace lutka::physics {
 
 /// How firmly a joint is held; the same for all joints of a world.
 struct JointTuning {
-    float erp = 0.1F;           ///< Part of a position error mended in a substep, (0, 1]. More: tighter, more energy.
+    float erp = 0.1F;           ///< Part of a position error mended in a substep, (0, 1]. More: tighter.
     float limitErp = 0.1F;      ///< The same for angles past a limit.
     float maxMendSpeed = 3.0F;  ///< m/s: bound on the speed that mending a gap may give.
     float maxMendTurn = 6.0F;   ///< rad/s: the same for angles.

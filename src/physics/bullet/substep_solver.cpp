@@ -73,25 +73,26 @@ void SubstepSolver::takeConstraints(std::span<btTypedConstraint* const> constrai
     }
 }
 
-void SubstepSolver::takeConstraint(btTypedConstraint& constraint, float seconds) {
+// Bullet's own protocol: the constraint writes its rows through pointers into solver rows.
+int SubstepSolver::askRows(btTypedConstraint& constraint, float seconds) {
     btTypedConstraint::btConstraintInfo1 size{};
     constraint.buildJacobian();
     constraint.getInfo1(&size);
-    if (size.m_numConstraintRows == 0) return;
+    if (size.m_numConstraintRows == 0) return 0;
     scratch_.resizeNoInitialize(size.m_numConstraintRows);
     for (int i = 0; i < size.m_numConstraintRows; ++i) {
-        scratch_[i] = btSolverConstraint{};
-        scratch_[i].m_contactNormal1.setZero();
-        scratch_[i].m_contactNormal2.setZero();
-        scratch_[i].m_relpos1CrossNormal.setZero();
-        scratch_[i].m_relpos2CrossNormal.setZero();
-        scratch_[i].m_rhs = scratch_[i].m_cfm = 0.0F;
-        scratch_[i].m_lowerLimit = -SIMD_INFINITY;
-        scratch_[i].m_upperLimit = SIMD_INFINITY;
+        btSolverConstraint& row = scratch_[i];
+        row.m_contactNormal1.setZero();
+        row.m_contactNormal2.setZero();
+        row.m_relpos1CrossNormal.setZero();
+        row.m_relpos2CrossNormal.setZero();
+        row.m_rhs = row.m_cfm = 0.0F;
+        row.m_lowerLimit = -SIMD_INFINITY;
+        row.m_upperLimit = SIMD_INFINITY;
     }
     btTypedConstraint::btConstraintInfo2 info{};
     info.fps = 1.0F / seconds;
-    info.erp = 0.2F;
+    info.erp = 0.2F;  // Bullet's default, for constraints that are not ours
     info.m_J1linearAxis = scratch_[0].m_contactNormal1;
     info.m_J1angularAxis = scratch_[0].m_relpos1CrossNormal;
     info.m_J2linearAxis = scratch_[0].m_contactNormal2;
@@ -104,12 +105,16 @@ void SubstepSolver::takeConstraint(btTypedConstraint& constraint, float seconds)
     info.m_numIterations = tuning_.sweeps;
     info.m_damping = 1.0F;
     constraint.getInfo2(&info);
+    return size.m_numConstraintRows;
+}
 
+void SubstepSolver::takeConstraint(btTypedConstraint& constraint, float seconds) {
     Joint joint;
+    joint.count = askRows(constraint, seconds);
+    if (joint.count == 0) return;
     joint.a = indexOf(constraint.getRigidBodyA());
     joint.b = indexOf(constraint.getRigidBodyB());
     joint.first = static_cast<int>(rows_.size());
-    joint.count = size.m_numConstraintRows;
     joint.constraint = &constraint;
     joint.warm = dynamic_cast<WarmStarted*>(&constraint);
     joint.block = joint.warm != nullptr && joint.warm->startsWithPoint();
@@ -122,7 +127,7 @@ void SubstepSolver::takeConstraint(btTypedConstraint& constraint, float seconds)
         row.angularB = fromBullet(given.m_relpos2CrossNormal);
         row.mendTarget = given.m_rhs;
         if (joint.warm != nullptr) row.duty = joint.warm->dutyOf(i);
-        row.relaxTarget = row.duty == RowDuty::mends ? 0.0F : given.m_rhs;
+        row.keepTarget = row.duty == RowDuty::mends ? 0.0F : given.m_rhs;
         row.low = given.m_lowerLimit;
         row.high = given.m_upperLimit;
         if (joint.warm != nullptr && tuning_.warmStart)
@@ -130,20 +135,22 @@ void SubstepSolver::takeConstraint(btTypedConstraint& constraint, float seconds)
         finishRow(row, joint.a, joint.b);
         rows_.push_back(row);
     }
-    if (joint.block) {
-        mat3 block(0);
-        for (int i = 0; i < 3; ++i) {
-            const Row& p = rows_[joint.first + i];
-            for (int k = 0; k < 3; ++k) {
-                const Row& q = rows_[joint.first + k];
-                block[k][i] = bodies_[joint.a].inverseMass * glm::dot(p.linearA, q.linearA) +
-                              bodies_[joint.b].inverseMass * glm::dot(p.linearB, q.linearB) +
-                              glm::dot(p.angularA, q.turnA) + glm::dot(p.angularB, q.turnB);
-            }
-        }
-        joint.inverseBlock = glm::inverse(block);
-    }
+    if (joint.block) joint.inverseBlock = inverseBlockOf(joint);
     joints_.push_back(joint);
+}
+
+mat3 SubstepSolver::inverseBlockOf(const Joint& joint) const {
+    mat3 block(0);
+    for (int i = 0; i < 3; ++i) {
+        const Row& p = rows_[joint.first + i];
+        for (int k = 0; k < 3; ++k) {
+            const Row& q = rows_[joint.first + k];
+            block[k][i] = bodies_[joint.a].inverseMass * glm::dot(p.linearA, q.linearA) +
+                          bodies_[joint.b].inverseMass * glm::dot(p.linearB, q.linearB) +
+                          glm::dot(p.angularA, q.turnA) + glm::dot(p.angularB, q.turnB);
+        }
+    }
+    return glm::inverse(block);
 }
 
 void SubstepSolver::takeContacts(btDispatcher& dispatcher, float seconds) {
@@ -189,7 +196,7 @@ void SubstepSolver::takePoint(btManifoldPoint& point, int a, int b, float second
     const float distance = point.getDistance();
     if (distance > 0.0F) {
         // Not there yet: only the speed that would arrive within the substep is bounded.
-        contact.normal.mendTarget = contact.normal.relaxTarget = -distance / seconds;
+        contact.normal.mendTarget = contact.normal.keepTarget = -distance / seconds;
     } else {
         contact.normal.mendTarget = std::min(
             -tuning_.contactErp * std::min(distance + tuning_.contactSlop, 0.0F) / seconds, tuning_.maxPushSpeed);
@@ -220,7 +227,7 @@ void SubstepSolver::apply(const Row& row, int a, int b, float impulse) {
 
 float SubstepSolver::solveRow(Row& row, int a, int b, bool mending) {
     if (mending && row.duty == RowDuty::yields) return 0.0F;
-    const float target = mending ? row.mendTarget : row.relaxTarget;
+    const float target = mending ? row.mendTarget : row.keepTarget;
     const float wanted = row.impulse + (target - speedAlong(row, a, b)) * row.inverseEffectiveMass;
     const float impulse = std::clamp(wanted, row.low, row.high);
     const float change = impulse - row.impulse;
@@ -238,7 +245,7 @@ float SubstepSolver::solveJoint(Joint& joint, bool mending) {
     if (!joint.block) return residual;
     vec3 missing;
     for (int i = 0; i < 3; ++i)
-        missing[i] = (mending ? rows[i].mendTarget : rows[i].relaxTarget) - speedAlong(rows[i], joint.a, joint.b);
+        missing[i] = (mending ? rows[i].mendTarget : rows[i].keepTarget) - speedAlong(rows[i], joint.a, joint.b);
     const vec3 impulse = joint.inverseBlock * missing;
     for (int i = 0; i < 3; ++i) {
         apply(rows[i], joint.a, joint.b, impulse[i]);
@@ -293,7 +300,7 @@ void SubstepSolver::warmStart() {
         pushes_[a].angular += row.angularA * row.impulse;
         pushes_[b].linear += row.linearB * row.impulse;
         pushes_[b].angular += row.angularB * row.impulse;
-        islands_[bodies_[a != kFixed ? a : b].island].gain += row.relaxTarget * row.impulse;
+        islands_[bodies_[a != kFixed ? a : b].island].gain += row.keepTarget * row.impulse;
     };
     forEachRow(gather);
     for (std::size_t i = 1; i < bodies_.size(); ++i) {

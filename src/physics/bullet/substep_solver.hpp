@@ -13,15 +13,15 @@ namespace lutka::physics {
 
 /// Solves all joints and contacts of a substep by sequential impulses, warm-started, in two passes:
 ///
-///     velocities + forces ──warm start──▶ mend pass (rows ask for the speed that mends their position error)
-///                                             │ the velocities that move the bodies in this substep
+///     velocities + forces ──warm start──▶ keep pass (no row asks for more than to stop)
+///                                             │──▶ the velocities that the bodies keep
 ///                                             ▼
-///                                         relax pass (the same rows without that speed)
-///                                             │ the velocities that the bodies keep
+///                                         mend pass (rows ask for the speed that mends their position error)
+///                                             │──▶ the velocities that move the bodies in this substep
 ///
-/// so that mending a gap, a penetration or a limit never feeds energy into the motion. Joints of ours are solved as
-/// blocks of three rows; contacts have a friction cone; any other Bullet constraint is taken row by row as its getInfo2
-/// gives it. After Macklin et al. 2019, "Small Steps in Physics Simulation", and Catto 2024, "Solver2D" (soft step).
+/// Mending a gap, a penetration or a limit never feeds energy into the motion, and neither does warm starting (see
+/// warmStart()). Joints of ours are solved as blocks of three rows; contacts have a friction cone; any other Bullet
+/// constraint is taken row by row as its getInfo2 gives it. docs/physics.md tells the whole.
 class SubstepSolver {
   public:
     explicit SubstepSolver(const BulletTuning& tuning) : tuning_(tuning) {}
@@ -49,7 +49,7 @@ class SubstepSolver {
         vec3 turnA, turnB;                          // inverse inertia times the angular parts
         float inverseEffectiveMass = 0;             // 1 / (J M⁻¹ Jᵀ)
         float mendTarget = 0;
-        float relaxTarget = 0;
+        float keepTarget = 0;
         float low = 0;
         float high = 0;
         float impulse = 0;
@@ -96,6 +96,9 @@ class SubstepSolver {
     void takeBodies(std::span<btRigidBody* const> bodies, float seconds);
     void takeConstraints(std::span<btTypedConstraint* const> constraints, float seconds);
     void takeConstraint(btTypedConstraint& constraint, float seconds);
+    // The number of rows that the constraint wrote into scratch_.
+    int askRows(btTypedConstraint& constraint, float seconds);
+    [[nodiscard]] mat3 inverseBlockOf(const Joint& joint) const;
     void takeContacts(btDispatcher& dispatcher, float seconds);
     void takePoint(btManifoldPoint& point, int a, int b, float seconds);
     void finishRow(Row& row, int a, int b) const;
