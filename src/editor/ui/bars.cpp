@@ -213,9 +213,9 @@ void drawRightPanel(const PanelContext& context) {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(context.px(6), context.px(4)));
     if (ImGui::BeginTabBar("##rightTabs")) {
         using Draw = void (*)(const PanelContext&);
-        constexpr std::pair<const char*, Draw> tabs[] = {{"Ragdoll", drawRagdollTab}, {"Scene", drawSceneTab},
-                                                         {"View", drawViewTab},       {"Doctor", drawDoctorTab},
-                                                         {"Stats", drawStatsTab},     {"Log", drawLogTab}};
+        constexpr std::pair<const char*, Draw> tabs[] = {{"Body", drawRagdollTab}, {"Scene", drawSceneTab},
+                                                         {"View", drawViewTab},    {"Doctor", drawDoctorTab},
+                                                         {"Stats", drawStatsTab},  {"Log", drawLogTab}};
         for (const auto& [name, draw] : tabs) {
             if (!ImGui::BeginTabItem(name)) continue;
             ImGui::PushStyleColor(ImGuiCol_ChildBg, 0U);

@@ -305,10 +305,12 @@ void drawTable(const PanelContext& context) {
         ImGui::TableNextColumn();
         if (i == 0) continue;
         const ConstraintProfile& c = profile.constraints[i - 1];
-        const std::string limits = c.kind == ConstraintProfile::Kind::hinge
-                                       ? fmt::format("{:.0f}°..{:.0f}°", degrees(c.hinge.lower), degrees(c.hinge.upper))
-                                       : fmt::format("{:.0f}x{:.0f} t{:.0f}°", degrees(c.cone.swingY),
-                                                     degrees(c.cone.swingZ), degrees(c.cone.twist));
+        const float zero = bindAngle(context, c);
+        const std::string limits =
+            c.kind == ConstraintProfile::Kind::hinge
+                ? fmt::format("{:.0f}° to {:.0f}°", degrees(c.hinge.lower - zero), degrees(c.hinge.upper - zero))
+                : fmt::format("±{:.0f}  ±{:.0f}  ±{:.0f}°", degrees(c.cone.swingZ), degrees(c.cone.swingY),
+                              degrees(c.cone.twist));
         ImGui::TextColored(mutedColor(), "%s", limits.c_str());
     }
     ImGui::EndTable();

@@ -47,7 +47,23 @@ void assignMenu(const PanelContext& context, int joint) {
     if (chosen) context.editor.edit([&](EditorDocument& document) { return document.assignRole(*chosen, joint); });
 }
 
-void drawJoint(const PanelContext& context, const std::vector<std::vector<int>>& children, int joint) {
+// What all rows of the tree share.
+struct Tree {
+    std::vector<std::vector<int>> children;
+    std::vector<bool> leads;  // to a joint with a role, or has one itself: shown unfolded
+};
+
+Tree makeTree(const EditorDocument& document) {
+    const animation::Skeleton& skeleton = document.character().skeleton;
+    Tree tree{animation::childrenOf(skeleton), std::vector<bool>(skeleton.parents.size())};
+    for (const auto& binding : document.state().map.roles) {
+        for (int joint = binding ? binding->joint : animation::kNoJoint; joint >= 0; joint = skeleton.parents[joint])
+            tree.leads[joint] = true;
+    }
+    return tree;
+}
+
+void drawJoint(const PanelContext& context, const Tree& tree, int joint) {
     Editor& editor = context.editor;
     const animation::Skeleton& skeleton = editor.document().character().skeleton;
     const auto active = editor.workspace().selection.active();
@@ -59,10 +75,14 @@ void drawJoint(const PanelContext& context, const std::vector<std::vector<int>>&
 
     ImGuiTreeNodeFlags flags =
         ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_SpanAvailWidth | ImGuiTreeNodeFlags_DefaultOpen;
-    if (children[joint].empty() || filtering) flags |= ImGuiTreeNodeFlags_Leaf;
+    if (tree.children[joint].empty() || filtering) flags |= ImGuiTreeNodeFlags_Leaf;
     if (selected) flags |= ImGuiTreeNodeFlags_Selected;
     // Twigs of hair and fingers stay folded in the beginning.
-    if (!role && skeleton.parents[joint] >= 0) flags &= ~ImGuiTreeNodeFlags_DefaultOpen;
+    if (!tree.leads[joint]) flags &= ~ImGuiTreeNodeFlags_DefaultOpen;
+    const int wanted = context.state.scrollToJoint;
+    if (wanted >= 0 && wanted != joint && animation::isAncestorOrSelf(skeleton, joint, wanted)) {
+        ImGui::SetNextItemOpen(true);
+    }
     ImGui::PushID(joint);
     if (!role) ImGui::PushStyleColor(ImGuiCol_Text, mutedColor());
     const bool open = ImGui::TreeNodeEx("##joint", flags, "%s", skeleton.names[joint].c_str());
@@ -87,8 +107,8 @@ void drawJoint(const PanelContext& context, const std::vector<std::vector<int>>&
     }
     if (open) {
         if (!filtering) {
-            for (const int child : children[joint])
-                drawJoint(context, children, child);
+            for (const int child : tree.children[joint])
+                drawJoint(context, tree, child);
         }
         ImGui::TreePop();
     }
@@ -175,12 +195,12 @@ void drawSkeletonTab(const PanelContext& context) {
     ImGui::BeginChild("##tree", {0, 0}, true, ImGuiWindowFlags_HorizontalScrollbar);
     ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, context.px(11));
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(context.px(6), context.px(3)));
-    const auto children = animation::childrenOf(skeleton);
+    const Tree tree = makeTree(context.editor.document());
     for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
         if (!context.state.jointFilter.empty()) {
-            if (containsText(skeleton.names[joint], context.state.jointFilter)) drawJoint(context, children, joint);
+            if (containsText(skeleton.names[joint], context.state.jointFilter)) drawJoint(context, tree, joint);
         } else if (skeleton.parents[joint] == animation::kNoJoint) {
-            drawJoint(context, children, joint);
+            drawJoint(context, tree, joint);
         }
     }
     ImGui::PopStyleVar(2);
