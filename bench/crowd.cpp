@@ -40,20 +40,29 @@ void apply(CrowdTuning& tuning, const std::string& setting) {
     const std::size_t at = setting.find('=');
     const std::string name = setting.substr(0, at);
     const float value = at == std::string::npos ? 0.0F : std::stof(setting.substr(at + 1));
-    const std::map<std::string, float*> reals{
-        {"jointErp", &tuning.jointErp},         {"limitErp", &tuning.limitErp},
-        {"contactErp", &tuning.contactErp},     {"jointStiffness", &tuning.jointStiffness},
-        {"contactTolerance", &tuning.contactTolerance},{"limitTolerance", &tuning.limitTolerance},{"firstTouch", &tuning.firstTouch}, {"limitStiffness", &tuning.limitStiffness},  {"contactStiffness", &tuning.contactStiffness},
-        {"grip", &tuning.grip},
-        {"pushSpeed", &tuning.pushSpeed},       {"limitSpeed", &tuning.limitSpeed},
-        {"slop", &tuning.slop},                 {"margin", &tuning.margin},
-        {"rollingLever", &tuning.rollingLever}, {"linearDamping", &tuning.linearDamping},
-        {"calmSpeed", &tuning.calmSpeed},       {"calmDamping", &tuning.calmDamping},
-        {"sleepSpeed", &tuning.sleepSpeed},     {"angularDamping", &tuning.angularDamping},
-        {"leastGyration", &tuning.leastGyration}};
-    const std::map<std::string, int*> whole{{"substeps", &tuning.substeps},
-                                            {"passes", &tuning.passes},
-                                            {"relaxPasses", &tuning.relaxPasses}};
+    const std::map<std::string, float*> reals{{"jointErp", &tuning.jointErp},
+                                              {"limitErp", &tuning.limitErp},
+                                              {"contactErp", &tuning.contactErp},
+                                              {"jointStiffness", &tuning.jointStiffness},
+                                              {"contactTolerance", &tuning.contactTolerance},
+                                              {"limitTolerance", &tuning.limitTolerance},
+                                              {"firstTouch", &tuning.firstTouch},
+                                              {"limitStiffness", &tuning.limitStiffness},
+                                              {"contactStiffness", &tuning.contactStiffness},
+                                              {"grip", &tuning.grip},
+                                              {"pushSpeed", &tuning.pushSpeed},
+                                              {"limitSpeed", &tuning.limitSpeed},
+                                              {"slop", &tuning.slop},
+                                              {"margin", &tuning.margin},
+                                              {"rollingLever", &tuning.rollingLever},
+                                              {"linearDamping", &tuning.linearDamping},
+                                              {"calmSpeed", &tuning.calmSpeed},
+                                              {"calmDamping", &tuning.calmDamping},
+                                              {"sleepSpeed", &tuning.sleepSpeed},
+                                              {"angularDamping", &tuning.angularDamping},
+                                              {"leastGyration", &tuning.leastGyration}};
+    const std::map<std::string, int*> whole{
+        {"substeps", &tuning.substeps}, {"passes", &tuning.passes}, {"relaxPasses", &tuning.relaxPasses}};
     if (const auto real = reals.find(name); real != reals.end())
         *real->second = value;
     else if (const auto number = whole.find(name); number != whole.end())
@@ -153,21 +162,23 @@ void print(const Run& run, const Run& first, const std::string& scene, int seed,
     int asleep = 0;
     for (int doll = 0; doll < run.world->dollCount(); ++doll)
         asleep += run.world->isAsleep(doll) ? 1 : 0;
-    fmt::print("{},{},{},{},{:.4f},{:.2f},{:.2f},{:.2f},{:.2f},{:.3f},{:.2f},{:.2f},{:.1f},{:.1f},{:.2f},{:.2f},{:.2f},{},{},{}\n",
-               run.solver, scene, arguments.count, seed, mean(run.ms), mean(first.ms) / mean(run.ms),
-               ratios[ratios.size() / 2], quality.jointSeparationM.max * 1e3F, quality.jointSeparationM.p99 * 1e3F,
-               quality.jointSeparationM.mean * 1e3F, quality.limitViolationDeg.max, quality.limitViolationDeg.p99,
-               quality.floorPenetrationM * 1e3F, quality.selfPenetrationM * 1e3F,
-               100.0F * quality.energyGrowthJ / std::max(quality.initialEnergyJ, 1e-3F),
-               quality.settleSeconds.value_or(-1.0F), quality.residualSpeedMps * 1e3F, quality.nonFinite, asleep,
-               run.contacts / std::max<std::size_t>(run.ms.size(), 1));
+    fmt::print(
+        "{},{},{},{},{:.4f},{:.2f},{:.2f},{:.2f},{:.2f},{:.3f},{:.2f},{:.2f},{:.1f},{:.1f},{:.2f},{:.2f},{:.2f},{},{},{"
+        "}\n",
+        run.solver, scene, arguments.count, seed, mean(run.ms), mean(first.ms) / mean(run.ms),
+        ratios[ratios.size() / 2], quality.jointSeparationM.max * 1e3F, quality.jointSeparationM.p99 * 1e3F,
+        quality.jointSeparationM.mean * 1e3F, quality.limitViolationDeg.max, quality.limitViolationDeg.p99,
+        quality.floorPenetrationM * 1e3F, quality.selfPenetrationM * 1e3F,
+        100.0F * quality.energyGrowthJ / std::max(quality.initialEnergyJ, 1e-3F), quality.settleSeconds.value_or(-1.0F),
+        quality.residualSpeedMps * 1e3F, quality.nonFinite, asleep,
+        run.contacts / std::max<std::size_t>(run.ms.size(), 1));
     std::fflush(stdout);
 }
 
 void runScene(const Figure& figure, const std::string& scene, int seed, const Arguments& arguments) {
-    auto scenario = scene::makeScenario(scene, arguments.count, static_cast<std::uint64_t>(seed),
-                                        scene::figureBounds(figure.profile, figure.rig),
-                                        figure.profile.standardFromModel);
+    auto scenario =
+        scene::makeScenario(scene, arguments.count, static_cast<std::uint64_t>(seed),
+                            scene::figureBounds(figure.profile, figure.rig), figure.profile.standardFromModel);
     if (!scenario) {
         fmt::print(stderr, "{}\n", scenario.error().text());
         return;

@@ -1,0 +1,100 @@
+#include "physics/crowd/batch.hpp"
+
+namespace lutka::physics::crowd {
+namespace {
+
+// Copies one lane of every Wide in `from`, which is made of nothing else.
+template <class Lanes>
+void copyWides(const Lanes& from, int fromLane, Lanes& to, int toLane) {
+    static_assert(sizeof(Lanes) % sizeof(Wide) == 0);
+    const auto* source = reinterpret_cast<const Wide*>(&from);
+    auto* target = reinterpret_cast<Wide*>(&to);
+    for (std::size_t i = 0; i < sizeof(Lanes) / sizeof(Wide); ++i)
+        target[i].lane[toLane] = source[i].lane[fromLane];
+}
+
+void clear(Wide& wide, int lane) {
+    wide.lane[lane] = 0.0F;
+}
+
+}  // namespace
+
+Batch::Batch(const Topology& topology)
+    : bodies(topology.bodies.size() + 1), joints(topology.joints.size()), tree(topology.bodies.size()) {}
+
+BatchView Batch::view(const Topology& topology) {
+    return {topology.bodyCount(),
+            static_cast<int>(joints.size()),
+            static_cast<int>(contacts.size()),
+            topology.bodies.data(),
+            topology.joints.data(),
+            bodies.data(),
+            joints.data(),
+            tree.data(),
+            contacts.data(),
+            &brake};
+}
+
+vec3 readVector(const Wide3& v, int lane) {
+    return {v.x.lane[lane], v.y.lane[lane], v.z.lane[lane]};
+}
+
+void writeVector(Wide3& to, int lane, const vec3& v) {
+    to.x.lane[lane] = v.x;
+    to.y.lane[lane] = v.y;
+    to.z.lane[lane] = v.z;
+}
+
+void writeLane(Batch& batch, int lane, std::span<const BodyState> bodies) {
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        BodyLanes& to = batch.bodies[b];
+        const quat& q = bodies[b].worldFromBody.rotation;
+        writeVector(to.position, lane, bodies[b].worldFromBody.translation);
+        writeVector(to.velocity, lane, bodies[b].linearVelocity);
+        writeVector(to.angular, lane, bodies[b].angularVelocity);
+        to.rotation.x.lane[lane] = q.x;
+        to.rotation.y.lane[lane] = q.y;
+        to.rotation.z.lane[lane] = q.z;
+        to.rotation.w.lane[lane] = q.w;
+    }
+}
+
+BodyState readBody(const BodyLanes& body, int lane) {
+    const Wide4& q = body.rotation;
+    return {{quat(q.w.lane[lane], q.x.lane[lane], q.y.lane[lane], q.z.lane[lane]), readVector(body.position, lane)},
+            readVector(body.velocity, lane),
+            readVector(body.angular, lane)};
+}
+
+void readLane(const Batch& batch, int lane, std::span<BodyState> bodies) {
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        bodies[b] = readBody(batch.bodies[b], lane);
+}
+
+void clearImpulses(Batch& batch, int lane) {
+    for (JointLanes& joint : batch.joints) {
+        writeVector(joint.frictionImpulse, lane, vec3(0));
+        for (int i = 0; i < 2; ++i) {
+            clear(joint.hingeImpulse[i], lane);
+            clear(joint.limit[i].impulse, lane);
+            clear(joint.side[i], lane);
+        }
+    }
+}
+
+void copyLane(const Batch& from, int fromLane, Batch& to, int toLane) {
+    for (std::size_t b = 0; b + 1 < from.bodies.size(); ++b)
+        copyWides(from.bodies[b], fromLane, to.bodies[b], toLane);
+    for (std::size_t j = 0; j < from.joints.size(); ++j) {
+        const JointLanes& source = from.joints[j];
+        JointLanes& target = to.joints[j];
+        copyWides(source.frictionImpulse, fromLane, target.frictionImpulse, toLane);
+        for (int i = 0; i < 2; ++i) {
+            copyWides(source.hingeImpulse[i], fromLane, target.hingeImpulse[i], toLane);
+            copyWides(source.limit[i].impulse, fromLane, target.limit[i].impulse, toLane);
+            copyWides(source.side[i], fromLane, target.side[i], toLane);
+        }
+    }
+}
+
+}  // namespace lutka::physics::crowd

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "physics/crowd/topology.hpp"
+#include "physics/rig.hpp"
+
+namespace lutka::physics::crowd {
+
+/// Up to kLanes awake dolls of one topology, one a lane. Lanes [0, used) hold dolls; the rest repeat lane 0, so that
+/// the kernels find sound numbers everywhere.
+struct Batch {
+    explicit Batch(const Topology& topology);
+
+    std::vector<BodyLanes> bodies;  ///< One a body, and one of zeros that empty lanes of pair contacts point to.
+    std::vector<JointLanes> joints;
+    std::vector<TreeLanes> tree;               ///< One a body.
+    std::vector<StaticContactLanes> contacts;  ///< Of this step.
+    Wide brake{};                              ///< See BatchView.
+    int doll[kLanes]{};                        ///< Which doll is in which lane.
+    int used = 0;
+    int job = 0;  ///< Which job of this step solves it.
+
+    [[nodiscard]] BatchView view(const Topology& topology);
+    /// First member of a body's lane: what pair contacts point to.
+    [[nodiscard]] float* bodyLane(int body, int lane) { return &bodies[body].velocity.x.lane[lane]; }
+    [[nodiscard]] float* emptyLane(int lane) { return &bodies.back().velocity.x.lane[lane]; }
+};
+
+/// A body's state in and out of a lane. The rotation's columns and the inertia follow at the next refresh.
+void writeLane(Batch& batch, int lane, std::span<const BodyState> bodies);
+void readLane(const Batch& batch, int lane, std::span<BodyState> bodies);
+[[nodiscard]] BodyState readBody(const BodyLanes& body, int lane);
+[[nodiscard]] vec3 readVector(const Wide3& v, int lane);
+void writeVector(Wide3& to, int lane, const vec3& v);
+
+/// Forgets what the joints of a lane carry from step to step.
+void clearImpulses(Batch& batch, int lane);
+/// Bodies and joints of one lane into another, of the same topology.
+void copyLane(const Batch& from, int fromLane, Batch& to, int toLane);
+
+}  // namespace lutka::physics::crowd

@@ -1,0 +1,140 @@
+#pragma once
+
+/// Kernels that touch bodies only: frames, bounds, integration. See kernels.inc.hpp for how they are compiled.
+
+#include "physics/crowd/lane_math.hpp"
+
+namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
+
+LUTKA_LANES Axes axesOf(const BodyLanes& body) {
+    return {load(body.axisX), load(body.axisY), load(body.axisZ)};
+}
+
+// The sum of value[i] times the outer product of axis i with itself.
+LUTKA_LANES Symmetric onAxes(const Axes& axes, const float (&value)[3]) {
+    const V3 x = axes.x * all(value[0]);
+    const V3 y = axes.y * all(value[1]);
+    const V3 z = axes.z * all(value[2]);
+    return {x.x * axes.x.x + y.x * axes.y.x + z.x * axes.z.x, x.y * axes.x.y + y.y * axes.y.y + z.y * axes.z.y,
+            x.z * axes.x.z + y.z * axes.y.z + z.z * axes.z.z, x.x * axes.x.y + y.x * axes.y.y + z.x * axes.z.y,
+            x.x * axes.x.z + y.x * axes.y.z + z.x * axes.z.z, x.y * axes.x.z + y.y * axes.y.z + z.y * axes.z.z};
+}
+
+LUTKA_LANES void setFrame(BodyLanes& body, const BodyConstants& constants, const Axes& axes) {
+    store(body.axisX, axes.x);
+    store(body.axisY, axes.y);
+    store(body.axisZ, axes.z);
+    store(body.inverseInertia, onAxes(axes, constants.inverseInertia));
+}
+
+static void refresh(const BatchView& batch) {
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        BodyLanes& body = batch.bodies[b];
+        setFrame(body, batch.bodyConstants[b], axesOf(load(body.rotation)));
+    }
+}
+
+static void findBounds(const BatchView& batch, float dt, float margin) {
+    const V3 rootVelocity = load(batch.bodies[0].velocity);
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        BodyLanes& body = batch.bodies[b];
+        const BodyConstants& constants = batch.bodyConstants[b];
+        const Axes axes = axesOf(body);
+        const V3 turn = load(body.angular);
+        const F swept = squareRoot(dot(turn, turn)) * all(constants.reach * dt) + all(constants.radius + margin);
+        const V3 moved = magnitude(load(body.velocity) - rootVelocity) * all(dt);
+        const V3 core = magnitude(axes.x) * all(constants.extent[0]) + magnitude(axes.y) * all(constants.extent[1]) +
+                        magnitude(axes.z) * all(constants.extent[2]);
+        const V3 half = core + moved + V3{swept, swept, swept};
+        const V3 position = load(body.position);
+        store(body.low, position - half);
+        store(body.high, position + half);
+    }
+}
+
+static void findSelfPairs(const BatchView& batch, const SelfPair* pairs, int count, unsigned char* masks) {
+    for (int i = 0; i < count; ++i) {
+        const BodyLanes& a = batch.bodies[pairs[i].a];
+        const BodyLanes& b = batch.bodies[pairs[i].b];
+        const Mask apart = (load(a.low.x) > load(b.high.x)) | (load(b.low.x) > load(a.high.x)) |
+                           (load(a.low.y) > load(b.high.y)) | (load(b.low.y) > load(a.high.y)) |
+                           (load(a.low.z) > load(b.high.z)) | (load(b.low.z) > load(a.high.z));
+        masks[i] = static_cast<unsigned char>(~bits(apart) & 0xFFU);
+    }
+}
+
+LUTKA_LANES void applyForces(const BatchView& batch, const SubstepParams& params) {
+    const V3 gain = all(params.gravity) * all(params.dt);
+    const F brake = load(*batch.brake);
+    const F linear = brake * all(params.linearDamping);
+    const F angular = brake * all(params.angularDamping);
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        BodyLanes& body = batch.bodies[b];
+        const V3 velocity = (load(body.velocity) + gain) * linear;
+        const V3 turn = load(body.angular) * angular;
+        store(body.velocity, velocity);
+        store(body.angular, turn);
+        store(body.steadyVelocity, velocity);
+        store(body.steadyAngular, turn);
+    }
+}
+
+static void joinBounds(const BatchView& batch, Wide3& low, Wide3& high) {
+    V3 least3 = load(batch.bodies[0].low);
+    V3 most3 = load(batch.bodies[0].high);
+    for (int b = 1; b < batch.bodyCount; ++b) {
+        const V3 bodyLow = load(batch.bodies[b].low);
+        const V3 bodyHigh = load(batch.bodies[b].high);
+        least3 = {least(least3.x, bodyLow.x), least(least3.y, bodyLow.y), least(least3.z, bodyLow.z)};
+        most3 = {most(most3.x, bodyHigh.x), most(most3.y, bodyHigh.y), most(most3.z, bodyHigh.z)};
+    }
+    store(low, least3);
+    store(high, most3);
+}
+
+static void findMotion(const BatchView& batch, Wide& speed2, Wide& turn2) {
+    F fastest = all(0.0F);
+    F quickest = all(0.0F);
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        const V3 velocity = load(batch.bodies[b].velocity);
+        const V3 angular = load(batch.bodies[b].angular);
+        fastest = most(fastest, dot(velocity, velocity));
+        quickest = most(quickest, dot(angular, angular));
+    }
+    store(speed2, fastest);
+    store(turn2, quickest);
+}
+
+// One body's substep: the orientation turns by the mean rate of the free motion over the substep (the angular momentum
+// stays, the rate does not), then the rate follows from the momentum. Keeping the rate instead would lose momentum,
+// and turning by the rate at the start would gain energy on slender bodies.
+LUTKA_LANES void advanceBody(BodyLanes& body, const BodyConstants& constants, F dt) {
+    store(body.position, load(body.position) + load(body.velocity) * dt);
+    const Axes axes = axesOf(body);
+    const V3 inertia = all(constants.inertia);
+    const V3 inverseInertia = all(constants.inverseInertia);
+    const V3 rate = transposed(axes, load(body.angular));
+    const V3 momentum{rate.x * inertia.x, rate.y * inertia.y, rate.z * inertia.z};
+    const V3 torque = cross(momentum, rate);
+    const F half = all(0.5F) * dt;
+    const V3 mean{rate.x + half * torque.x * inverseInertia.x, rate.y + half * torque.y * inverseInertia.y,
+                  rate.z + half * torque.z * inverseInertia.z};
+    const Q q = load(body.rotation);
+    const Q turn{mean.x * half, mean.y * half, mean.z * half, all(1.0F)};
+    Q next = q * turn;
+    const F scale = all(1.0F) / squareRoot(next.x * next.x + next.y * next.y + next.z * next.z + next.w * next.w);
+    next = {next.x * scale, next.y * scale, next.z * scale, next.w * scale};
+    store(body.rotation, next);
+    const Axes turned = axesOf(next);
+    setFrame(body, constants, turned);
+    const V3 inBody = transposed(turned, axes * momentum);
+    store(body.angular,
+          turned * V3{inBody.x * inverseInertia.x, inBody.y * inverseInertia.y, inBody.z * inverseInertia.z});
+}
+
+static void advance(const BatchView& batch, const SubstepParams& params) {
+    for (int b = 0; b < batch.bodyCount; ++b)
+        advanceBody(batch.bodies[b], batch.bodyConstants[b], all(params.dt));
+}
+
+}  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS

@@ -1,0 +1,146 @@
+#pragma once
+
+/// Kernels of the contacts between two bodies: eight contacts of any dolls at a time, gathered and scattered. Friction
+/// comes before the normal row, so that overlap has the last word; both tangents are solved at once and share one
+/// circular bound.
+
+#include "physics/crowd/tree_kernels.hpp"
+
+namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
+
+using Lanes = float* const (&)[kLanes];
+
+LUTKA_LANES F gather(Lanes body, int offset) {
+    return F{body[0][offset], body[1][offset], body[2][offset], body[3][offset],
+             body[4][offset], body[5][offset], body[6][offset], body[7][offset]};
+}
+LUTKA_LANES V3 gather3(Lanes body, int offset) {
+    return {gather(body, offset), gather(body, offset + kLanes), gather(body, offset + 2 * kLanes)};
+}
+LUTKA_LANES void scatter(Lanes body, int offset, const F& value) {
+    for (int lane = 0; lane < kLanes; ++lane)
+        body[lane][offset] = value[lane];
+}
+LUTKA_LANES void scatter3(Lanes body, int offset, const V3& value) {
+    scatter(body, offset, value.x);
+    scatter(body, offset + kLanes, value.y);
+    scatter(body, offset + 2 * kLanes, value.z);
+}
+LUTKA_LANES Symmetric gatherInertia(Lanes body) {
+    return {gather(body, kInertiaOffset),
+            gather(body, kInertiaOffset + kLanes),
+            gather(body, kInertiaOffset + 2 * kLanes),
+            gather(body, kInertiaOffset + 3 * kLanes),
+            gather(body, kInertiaOffset + 4 * kLanes),
+            gather(body, kInertiaOffset + 5 * kLanes)};
+}
+LUTKA_LANES V3 gatherCore(Lanes body, const V3& local) {
+    return gather3(body, kAxisOffset) * local.x + gather3(body, kAxisOffset + 3 * kLanes) * local.y +
+           gather3(body, kAxisOffset + 6 * kLanes) * local.z;
+}
+
+struct PairVelocities {
+    V3 velocityA, angularA, velocityB, angularB;
+};
+LUTKA_LANES PairVelocities velocitiesOf(const PairContactLanes& pair) {
+    return {gather3(pair.bodyA, kVelocityOffset), gather3(pair.bodyA, kAngularOffset),
+            gather3(pair.bodyB, kVelocityOffset), gather3(pair.bodyB, kAngularOffset)};
+}
+LUTKA_LANES void storeVelocities(const PairContactLanes& pair, const PairVelocities& v) {
+    scatter3(pair.bodyA, kVelocityOffset, v.velocityA);
+    scatter3(pair.bodyA, kAngularOffset, v.angularA);
+    scatter3(pair.bodyB, kVelocityOffset, v.velocityB);
+    scatter3(pair.bodyB, kAngularOffset, v.angularB);
+}
+// An impulse of size `size` along direction `index` (0: normal, 1 and 2: tangents), on A.
+LUTKA_LANES void applyPair(const PairContactLanes& pair, PairVelocities& v, int index, const V3& direction, F size) {
+    v.velocityA = v.velocityA + direction * (size * load(pair.inverseMassA));
+    v.velocityB = v.velocityB - direction * (size * load(pair.inverseMassB));
+    v.angularA = v.angularA + load(pair.turnA[index]) * size;
+    v.angularB = v.angularB - load(pair.turnB[index]) * size;
+}
+LUTKA_LANES V3 slidingOf(const PairContactLanes& pair, const PairVelocities& v) {
+    return v.velocityA + cross(v.angularA, load(pair.armA)) - (v.velocityB + cross(v.angularB, load(pair.armB)));
+}
+
+// Once a step: arms, directions and masses, which a step's few degrees of turning change little.
+LUTKA_LANES void preparePair(PairContactLanes& pair, const V3& coreA, const V3& coreB) {
+    const V3 normal = load(pair.normal);
+    V3 direction[3];
+    direction[0] = normal;
+    tangentsOf(normal, direction[1], direction[2]);
+    store(pair.tangent[0], direction[1]);
+    store(pair.tangent[1], direction[2]);
+    const V3 kept = load(pair.frictionImpulse);
+    store(pair.tangentImpulse[0], dot(kept, direction[1]));
+    store(pair.tangentImpulse[1], dot(kept, direction[2]));
+    const V3 middle = normal * (load(pair.radius) * all(0.5F));
+    const V3 armA = coreA - middle;
+    const V3 armB = coreB + middle;
+    store(pair.armA, armA);
+    store(pair.armB, armB);
+    const Symmetric inertiaA = gatherInertia(pair.bodyA);
+    const Symmetric inertiaB = gatherInertia(pair.bodyB);
+    const F inverseMasses = load(pair.inverseMassA) + load(pair.inverseMassB);
+    for (int i = 0; i < 3; ++i) {
+        const V3 leverA = cross(armA, direction[i]);
+        const V3 leverB = cross(armB, direction[i]);
+        const V3 turnA = inertiaA * leverA;
+        const V3 turnB = inertiaB * leverB;
+        store(pair.turnA[i], turnA);
+        store(pair.turnB[i], turnB);
+        const F k = inverseMasses + dot(leverA, turnA) + dot(leverB, turnB);
+        const F mass = load(pair.active) > all(0.0F) ? all(1.0F) / most(k, all(1e-12F)) : all(0.0F);
+        store(i == 0 ? pair.normalMass : pair.tangentMass[i - 1], mass);
+    }
+}
+
+static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& params) {
+    for (int i = 0; i < count; ++i) {
+        PairContactLanes& pair = pairs[i];
+        const V3 coreA = gatherCore(pair.bodyA, load(pair.localA));
+        const V3 coreB = gatherCore(pair.bodyB, load(pair.localB));
+        const V3 normal = load(pair.normal);
+        const V3 apart =
+            (gather3(pair.bodyA, kPositionOffset) - gather3(pair.bodyB, kPositionOffset)) + (coreA - coreB);
+        store(pair.separation, dot(normal, apart) - load(pair.radius));
+        if (params.warmStart != 0) preparePair(pair, coreA, coreB);
+        PairVelocities v = velocitiesOf(pair);
+        applyPair(pair, v, 0, normal, load(pair.normalImpulse));
+        applyPair(pair, v, 1, load(pair.tangent[0]), load(pair.tangentImpulse[0]));
+        applyPair(pair, v, 2, load(pair.tangent[1]), load(pair.tangentImpulse[1]));
+        storeVelocities(pair, v);
+    }
+}
+
+static void solvePairs(PairContactLanes* pairs, int count, const SubstepParams& params, int useBias) {
+    for (int i = 0; i < count; ++i) {
+        PairContactLanes& pair = pairs[i];
+        PairVelocities v = velocitiesOf(pair);
+        const V3 t1 = load(pair.tangent[0]);
+        const V3 t2 = load(pair.tangent[1]);
+        const V3 sliding = slidingOf(pair, v);
+        const F carried = load(pair.normalImpulse);
+        const F before1 = load(pair.tangentImpulse[0]);
+        const F before2 = load(pair.tangentImpulse[1]);
+        const Tangents after =
+            insideCircle(before1 - load(pair.tangentMass[0]) * dot(t1, sliding),
+                         before2 - load(pair.tangentMass[1]) * dot(t2, sliding), load(pair.friction) * carried);
+        store(pair.tangentImpulse[0], after.first);
+        store(pair.tangentImpulse[1], after.second);
+        applyPair(pair, v, 1, t1, after.first - before1);
+        applyPair(pair, v, 2, t2, after.second - before2);
+
+        const V3 normal = load(pair.normal);
+        const ContactBias bias = contactBias(load(pair.separation), params.pairContact, params, useBias);
+        const F approach = dot(normal, slidingOf(pair, v));
+        const F change =
+            -load(pair.normalMass) * bias.massScale * (approach + bias.speed) - bias.impulseScale * carried;
+        const F total = most(carried + change, all(0.0F));
+        store(pair.normalImpulse, total);
+        applyPair(pair, v, 0, normal, total - carried);
+        storeVelocities(pair, v);
+    }
+}
+
+}  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS

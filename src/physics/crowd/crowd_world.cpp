@@ -1,0 +1,195 @@
+#include "physics/crowd/crowd_world.hpp"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/assert.hpp"
+#include "physics/crowd/detect.hpp"
+#include "physics/crowd/jobs.hpp"
+#include "physics/crowd/sleep.hpp"
+#include "physics/crowd/solve.hpp"
+#include "physics/crowd/state.hpp"
+
+namespace lutka::physics {
+namespace crowd {
+namespace {
+
+class CrowdWorld final : public World {
+  public:
+    CrowdWorld(const WorldSettings& settings, const CrowdTuning& tuning) : state_(settings, tuning) {}
+
+    void addStatic(const StaticShape& shape) override;
+    int addProp(const DynamicProp& prop) override;
+    int addDoll(const RagdollProfile& profile, std::span<const BodyState> bodies) override;
+
+    void step(float dt, const std::function<void()>& afterSubstep) override;
+    [[nodiscard]] int substepsPerStep() const override { return state_.tuning.substeps; }
+
+    [[nodiscard]] int dollCount() const override { return static_cast<int>(state_.ragdolls.size()); }
+    [[nodiscard]] const RagdollProfile& profileOf(int doll) const override { return *dollOf(doll).profile; }
+    void getBodies(int doll, std::span<BodyState> bodies) const override;
+    void setBodies(int doll, std::span<const BodyState> bodies) override;
+    [[nodiscard]] bool isAsleep(int doll) const override { return dollOf(doll).asleep(); }
+    [[nodiscard]] int propCount() const override { return static_cast<int>(state_.props.size()); }
+    [[nodiscard]] const DynamicProp& propOf(int prop) const override { return state_.propSettings[prop]; }
+    [[nodiscard]] BodyState propState(int prop) const override {
+        return bodyState(state_, state_.dolls[state_.props[prop]], 0);
+    }
+
+    void applyImpulse(int doll, int body, const vec3& impulse, const vec3& worldPoint) override;
+    [[nodiscard]] std::optional<RayHit> rayTest(const vec3& from, const vec3& to) const override;
+    void setDrag(int id, const Drag& drag) override;
+    void removeDrag(int id) override;
+    [[nodiscard]] double dragWork() const override { return state_.dragWork; }
+    void getContacts(std::vector<ContactPoint>& contacts) const override;
+
+  private:
+    [[nodiscard]] const Doll& dollOf(int doll) const { return state_.dolls[state_.ragdolls[doll]]; }
+    void wakeDoll(int doll) {
+        if (dollOf(doll).asleep()) wakeIsland(state_, state_.ragdolls[doll]);
+    }
+    void wakeAll();
+    void rayAgainstDoll(int index, const vec3& from, const vec3& to, std::optional<RayHit>& nearest) const;
+
+    CrowdState state_;
+};
+
+void CrowdWorld::wakeAll() {
+    for (std::size_t i = 0; i < state_.dolls.size(); ++i)
+        if (state_.dolls[i].asleep()) wake(state_, static_cast<int>(i));
+}
+
+void CrowdWorld::addStatic(const StaticShape& shape) {
+    state_.statics.emplace_back(shape);
+    wakeAll();
+}
+
+int CrowdWorld::addProp(const DynamicProp& prop) {
+    const int index = crowd::addDoll(state_, makeTopology(prop), nullptr, std::span(&prop.state, 1));
+    state_.props.push_back(index);
+    state_.propSettings.push_back(prop);
+    return static_cast<int>(state_.props.size()) - 1;
+}
+
+int CrowdWorld::addDoll(const RagdollProfile& profile, std::span<const BodyState> bodies) {
+    LUTKA_ASSERT(bodies.size() == profile.bodies.size());
+    const int index = crowd::addDoll(state_, makeTopology(profile, state_.tuning.leastGyration), &profile, bodies);
+    state_.ragdolls.push_back(index);
+    return static_cast<int>(state_.ragdolls.size()) - 1;
+}
+
+void CrowdWorld::step(float dt, const std::function<void()>& afterSubstep) {
+    for (const DragRecord& record : state_.drags)
+        wakeDoll(record.drag.doll);
+    gatherActive(state_);
+    findBounds(state_, dt);
+    sweepDolls(state_, dt);
+    wakeTouched(state_, dt);
+    findContacts(state_, dt);
+    makeJobs(state_);
+    solveJobs(state_, dt, afterSubstep);
+    keepImpulses(state_);
+    settle(state_, dt);
+}
+
+void CrowdWorld::getBodies(int doll, std::span<BodyState> bodies) const {
+    const Doll& from = dollOf(doll);
+    if (from.asleep())
+        std::copy(from.frozen.begin(), from.frozen.end(), bodies.begin());
+    else
+        readLane(state_.batchOf(from), from.lane, bodies);
+}
+
+void CrowdWorld::setBodies(int doll, std::span<const BodyState> bodies) {
+    wakeDoll(doll);
+    Doll& to = state_.dolls[state_.ragdolls[doll]];
+    Batch& batch = state_.batchOf(to);
+    writeLane(batch, to.lane, bodies);
+    clearImpulses(batch, to.lane);
+    state_.kernels->refresh(batch.view(state_.groupOf(to).topology));
+    batch.brake.lane[to.lane] = 1.0F;
+    to.statics.clear();
+    to.restSeconds = 0.0F;
+}
+
+void CrowdWorld::applyImpulse(int doll, int body, const vec3& impulse, const vec3& worldPoint) {
+    wakeDoll(doll);
+    Doll& to = state_.dolls[state_.ragdolls[doll]];
+    to.restSeconds = 0.0F;
+    BodyLanes& lanes = state_.batchOf(to).bodies[body];
+    const BodyConstants& constants = state_.groupOf(to).topology.bodies[body];
+    const vec3 inverseInertia(constants.inverseInertia[0], constants.inverseInertia[1], constants.inverseInertia[2]);
+    const BodyState before = readBody(lanes, to.lane);
+    const quat& rotation = before.worldFromBody.rotation;
+    const vec3 torque = glm::cross(worldPoint - before.worldFromBody.translation, impulse);
+    const vec3 turned = rotation * ((glm::conjugate(rotation) * torque) * inverseInertia);
+    writeVector(lanes.velocity, to.lane, before.linearVelocity + impulse * constants.inverseMass);
+    writeVector(lanes.angular, to.lane, before.angularVelocity + turned);
+}
+
+void CrowdWorld::rayAgainstDoll(int index, const vec3& from, const vec3& to, std::optional<RayHit>& nearest) const {
+    const Doll& doll = state_.dolls[index];
+    const auto at = std::find(state_.ragdolls.begin(), state_.ragdolls.end(), index);
+    const bool isDoll = doll.profile != nullptr;
+    for (int body = 0; body < state_.groupOf(doll).topology.bodyCount(); ++body) {
+        const RayTouch touch = rayAgainst(placedShape(state_, doll, body), from, to);
+        if (touch.fraction > 1.0F || (nearest && touch.fraction >= nearest->fraction)) continue;
+        nearest = RayHit{isDoll ? static_cast<int>(at - state_.ragdolls.begin()) : -1, isDoll ? body : -1,
+                         from + touch.fraction * (to - from), touch.normal, touch.fraction};
+    }
+}
+
+std::optional<RayHit> CrowdWorld::rayTest(const vec3& from, const vec3& to) const {
+    std::optional<RayHit> nearest;
+    for (const PlacedStatic& geometry : state_.statics) {
+        const RayTouch touch = rayAgainst(geometry, from, to);
+        if (touch.fraction > 1.0F || (nearest && touch.fraction >= nearest->fraction)) continue;
+        nearest = RayHit{-1, -1, from + touch.fraction * (to - from), touch.normal, touch.fraction};
+    }
+    for (std::size_t i = 0; i < state_.dolls.size(); ++i)
+        rayAgainstDoll(static_cast<int>(i), from, to, nearest);
+    return nearest;
+}
+
+void CrowdWorld::setDrag(int id, const Drag& drag) {
+    auto at = std::lower_bound(state_.drags.begin(), state_.drags.end(), id,
+                               [](const DragRecord& record, int wanted) { return record.id < wanted; });
+    const bool known = at != state_.drags.end() && at->id == id;
+    if (!known) at = state_.drags.insert(at, {id, drag, {}, {}, {}, {}});
+    if (at->drag.doll != drag.doll || at->drag.body != drag.body) at->impulse = vec3(0);
+    at->drag = drag;
+    wakeDoll(drag.doll);
+}
+
+void CrowdWorld::removeDrag(int id) {
+    std::erase_if(state_.drags, [&](const DragRecord& record) { return record.id == id; });
+}
+
+void CrowdWorld::getContacts(std::vector<ContactPoint>& contacts) const {
+    for (const Doll& doll : state_.dolls) {
+        for (const CarriedStatic& touch : doll.statics) {
+            const RigidTransform worldFromBody = bodyState(state_, doll, touch.body).worldFromBody;
+            const vec3 core = worldFromBody * touch.local;
+            const float distance = glm::dot(touch.normal, core) - touch.offset - touch.radius;
+            contacts.push_back({core - touch.normal * (touch.radius + distance), touch.normal, distance});
+        }
+    }
+    for (const PairTouch& touch : state_.touches) {
+        if (touch.carried.normal <= 0.0F) continue;
+        const Doll& b = state_.dolls[touch.dollB];
+        const vec3 core = bodyState(state_, b, touch.bodyB).worldFromBody * touch.touch.localB;
+        const BodyShape& shape = state_.groupOf(b).topology.shapes[touch.bodyB];
+        const float radius = shape.kind == BodyShape::Kind::box ? 0.0F : shape.radius;
+        contacts.push_back({core + touch.touch.normal * radius, touch.touch.normal, touch.touch.separation});
+    }
+}
+
+}  // namespace
+}  // namespace crowd
+
+std::unique_ptr<World> createCrowdWorld(const WorldSettings& settings, const crowd::CrowdTuning& tuning) {
+    return std::make_unique<crowd::CrowdWorld>(settings, tuning);
+}
+
+}  // namespace lutka::physics

@@ -1,0 +1,143 @@
+#include "physics/crowd/jobs.hpp"
+
+#include <bit>
+
+#include "physics/crowd/union_find.hpp"
+
+namespace lutka::physics::crowd {
+namespace {
+
+// The window of blocks that are open at a time; one bit each.
+constexpr int kWindow = 64;
+
+void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTouch& touch) {
+    constexpr float kFriction = 0.25F;  // of skin on skin: Bullet's default of a body, squared
+    const Doll& a = state.dolls[touch.dollA];
+    const Doll& b = state.dolls[touch.dollB];
+    pair.bodyA[lane] = state.batchOf(a).bodyLane(touch.bodyA, a.lane);
+    pair.bodyB[lane] = state.batchOf(b).bodyLane(touch.bodyB, b.lane);
+    writeVector(pair.localA, lane, touch.touch.localA);
+    writeVector(pair.localB, lane, touch.touch.localB);
+    pair.radius.lane[lane] = touch.touch.radius;
+    writeVector(pair.normal, lane, touch.touch.normal);
+    pair.inverseMassA.lane[lane] = state.groupOf(a).topology.bodies[touch.bodyA].inverseMass;
+    pair.inverseMassB.lane[lane] = state.groupOf(b).topology.bodies[touch.bodyB].inverseMass;
+    pair.friction.lane[lane] = kFriction;
+    pair.normalImpulse.lane[lane] = touch.carried.normal;
+    writeVector(pair.frictionImpulse, lane, touch.carried.friction);
+    pair.active.lane[lane] = 1.0F;
+}
+
+// A block of empty lanes: they point to bodies of zeros and push nothing.
+void emptyBlock(PairContactLanes& pair, Batch& batch) {
+    pair = {};
+    for (int lane = 0; lane < kLanes; ++lane) {
+        pair.bodyA[lane] = pair.bodyB[lane] = batch.emptyLane(lane);
+        pair.normal.y.lane[lane] = 1.0F;
+    }
+}
+
+// Gives each contact the first open block that has room and neither of its bodies: a greedy colouring whose colours
+// hold at most eight edges. When no block of the window will do, a new window is opened.
+class Packer {
+  public:
+    Packer(CrowdState& state, std::vector<std::uint64_t>& usedBy) : state_(state), usedBy_(usedBy) {}
+
+    void pack(Job& job) {
+        job.pairs.clear();
+        job.touchOfLane.clear();
+        openWindow(job);
+        for (const int index : job.touches)
+            place(job, index);
+        for (const int index : job.touches)  // leave the table clean for the next job
+            clear(state_.touches[index]);
+    }
+
+  private:
+    std::uint64_t& used(int doll, int body) { return usedBy_[state_.dolls[doll].firstBody + body]; }
+    void clear(const PairTouch& touch) { used(touch.dollA, touch.bodyA) = used(touch.dollB, touch.bodyB) = 0; }
+
+    void openWindow(Job& job) {
+        first_ = job.pairs.size();
+        full_ = 0;
+    }
+
+    void place(Job& job, int index) {
+        const PairTouch& touch = state_.touches[index];
+        std::uint64_t& usedA = used(touch.dollA, touch.bodyA);
+        std::uint64_t& usedB = used(touch.dollB, touch.bodyB);
+        std::uint64_t taken = usedA | usedB | full_;
+        if (~taken == 0) {
+            for (const int other : job.touches)
+                clear(state_.touches[other]);
+            openWindow(job);
+            taken = 0;
+        }
+        const int bit = std::countr_one(taken);
+        const std::size_t block = first_ + static_cast<std::size_t>(bit);
+        while (job.pairs.size() <= block) {
+            job.pairs.emplace_back();
+            emptyBlock(job.pairs.back(), *job.batches.front());
+            job.touchOfLane.emplace_back().fill(-1);
+            filled_[job.pairs.size() - 1 - first_] = 0;
+        }
+        const int lane = filled_[bit]++;
+        fillLane(state_, job.pairs[block], lane, touch);
+        job.touchOfLane[block][lane] = index;
+        const std::uint64_t mask = std::uint64_t{1} << static_cast<unsigned>(bit);
+        usedA |= mask;
+        usedB |= mask;
+        if (filled_[bit] == kLanes) full_ |= mask;
+    }
+
+    CrowdState& state_;
+    std::vector<std::uint64_t>& usedBy_;  // one a body of the world: the blocks of the window that have it
+    std::size_t first_ = 0;
+    std::uint64_t full_ = 0;
+    std::array<int, kWindow> filled_{};
+};
+
+void assignBatches(CrowdState& state) {
+    for (std::size_t i = 0; i < state.active.size(); ++i)
+        state.active[i]->job = static_cast<int>(i);
+    UnionFind sets(state.active.size());
+    for (const PairTouch& touch : state.touches)
+        sets.join(state.batchOf(state.dolls[touch.dollA]).job, state.batchOf(state.dolls[touch.dollB]).job);
+    std::vector<int> jobOf(state.active.size(), -1);
+    state.jobCount = 0;
+    for (std::size_t i = 0; i < state.active.size(); ++i) {
+        const int root = sets.find(static_cast<int>(i));
+        if (jobOf[root] < 0) {
+            jobOf[root] = static_cast<int>(state.jobCount++);
+            if (state.jobs.size() < state.jobCount) state.jobs.emplace_back();
+            Job& fresh = state.jobs[jobOf[root]];
+            fresh.batches.clear();
+            fresh.topologies.clear();
+            fresh.touches.clear();
+            fresh.drags.clear();
+        }
+        Job& job = state.jobs[jobOf[root]];
+        job.batches.push_back(state.active[i]);
+        job.topologies.push_back(&state.activeGroup[i]->topology);
+    }
+    for (std::size_t i = 0; i < state.active.size(); ++i)
+        state.active[i]->job = jobOf[sets.find(static_cast<int>(i))];
+}
+
+}  // namespace
+
+void makeJobs(CrowdState& state) {
+    assignBatches(state);
+    for (std::size_t i = 0; i < state.touches.size(); ++i)
+        state.jobs[state.batchOf(state.dolls[state.touches[i].dollA]).job].touches.push_back(static_cast<int>(i));
+    for (DragRecord& record : state.drags) {
+        const Doll& doll = state.dolls[state.ragdolls[record.drag.doll]];
+        state.jobs[state.batchOf(doll).job].drags.push_back(&record);
+    }
+    std::vector<std::uint64_t> usedBy(static_cast<std::size_t>(state.bodyTotal), 0);
+    Packer packer(state, usedBy);
+    for (std::size_t i = 0; i < state.jobCount; ++i)
+        packer.pack(state.jobs[i]);
+}
+
+}  // namespace lutka::physics::crowd

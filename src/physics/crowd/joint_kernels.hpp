@@ -1,0 +1,141 @@
+#pragma once
+
+/// Preparation of the constraints for a substep: arms, errors, axes and limits. tree_kernels.hpp solves them.
+
+#include "physics/crowd/body_kernels.hpp"
+
+namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
+
+// `near`: rows farther from their limit than this are left out of the substep.
+LUTKA_LANES void prepareLimit(JointLanes& joint, int index, const Symmetric& k, const V3& axis, F room, F side, F near,
+                              F stiffness, F firstTouch) {
+    LimitRow& row = joint.limit[index];
+    const F zero = all(0.0F);
+    const F along = dot(axis, k * axis);
+    store(row.axis, axis);
+    store(row.room, room);
+    const Mask kept = (side == load(joint.side[index])) & (room < near);
+    const F impulse = kept ? most(load(row.impulse), zero) : zero;
+    store(row.impulse, impulse);
+    const F scale = ((room > zero) & (impulse <= zero)) ? firstTouch : stiffness;
+    store(row.weight, along > all(1e-9F) ? scale / along : zero);
+    store(joint.side[index], side);
+    joint.limitActive[index] = bits((room < near) | (impulse > zero)) != 0 ? 1 : 0;
+}
+
+// What the rows of a joint are prepared from.
+struct JointSetting {
+    Symmetric k;  ///< Sum of both inverse inertias.
+    Axes frame;   ///< The parent's frame in the world.
+    Q relative;   ///< The child's frame in the parent's.
+    F near;
+    F stiffness;  ///< See SubstepParams.
+    F limitStiffness;
+    F firstTouch;
+    F grip;
+};
+
+LUTKA_LANES void prepareHinge(JointLanes& joint, const JointConstants& constants, const JointSetting& setting) {
+    const F two = all(2.0F);
+    const Axes& frame = setting.frame;
+    const Q& relative = setting.relative;
+    store(joint.hingeAxis, frame.z);
+    store(joint.across[0], frame.x);
+    store(joint.across[1], frame.y);
+    // The child's z in the parent's frame; its cross product with z is the rotation that is too much.
+    store(joint.acrossError[0], -two * (relative.y * relative.z - relative.w * relative.x));
+    store(joint.acrossError[1], two * (relative.x * relative.z + relative.w * relative.y));
+    const F least2 = least(dot(frame.x, setting.k * frame.x), dot(frame.y, setting.k * frame.y));
+    store(joint.acrossWeight, setting.stiffness / least2);
+    store(joint.frictionWeight, setting.grip / dot(frame.z, setting.k * frame.z));
+
+    const F flip = relative.w < all(0.0F) ? all(-1.0F) : all(1.0F);
+    const F angle = two * angleOf(relative.z * flip, relative.w * flip);
+    const F past = angle - all(0.5F * (constants.limit[0] + constants.limit[1]));
+    const F side = past < all(0.0F) ? all(-1.0F) : all(1.0F);
+    const F room = all(0.5F * (constants.limit[1] - constants.limit[0])) - magnitude(past);
+    prepareLimit(joint, 0, setting.k, frame.z * -side, room, side, setting.near, setting.limitStiffness,
+                 setting.firstTouch);
+}
+
+// Swing: with the swing's rotation vector s = angle · u (in the frame's y, z plane) and d = u × x the direction that
+// frame x leans to, its rate along a direction n of that plane is
+//     n · ds/dt = w · [ (n·u) u + (n·d) (angle · cot(angle) · d - angle · x) ]
+// for the relative angular velocity w, in the parent's frame. n is the outward normal of the ellipse.
+// Twist: its rate is w · (x + x') / (1 + x·x') with x' the child's x.
+LUTKA_LANES void prepareCone(JointLanes& joint, const JointConstants& constants, const JointSetting& setting) {
+    const Axes& frame = setting.frame;
+    const Q& given = setting.relative;
+    const F zero = all(0.0F), one = all(1.0F), two = all(2.0F), tiny = all(1e-12F);
+    const F flip = given.w < zero ? -one : one;
+    const Q q{given.x * flip, given.y * flip, given.z * flip, given.w * flip};
+    const F cosHalf = squareRoot(q.w * q.w + q.x * q.x);
+    const F shrink = one / most(cosHalf, all(1e-6F));
+    const F twistW = q.w * shrink;
+    const F twistX = q.x * shrink;
+    const F swingY = q.y * twistW - q.z * twistX;
+    const F swingZ = q.z * twistW + q.y * twistX;
+    const F sinHalf = squareRoot(swingY * swingY + swingZ * swingZ);
+    const F angle = two * angleOf(sinHalf, cosHalf);
+    const F unit = one / most(sinHalf, tiny);
+    const F uy = swingY * unit;
+    const F uz = swingZ * unit;
+
+    const F gy = uy * all(1.0F / (constants.limit[0] * constants.limit[0]));
+    const F gz = uz * all(1.0F / (constants.limit[1] * constants.limit[1]));
+    const F rate = squareRoot(most(uy * gy + uz * gz, tiny));  // of rho along u
+    const F slope = squareRoot(most(gy * gy + gz * gz, tiny));
+    const F ny = gy / slope;
+    const F nz = gz / slope;
+    const F steep = slope / rate;  // length of the gradient of rho
+    const F along = ny * uy + nz * uz;
+    const F sideways = ny * uz - nz * uy;
+    const F sine = two * sinHalf * cosHalf;
+    const F cosine = one - two * sinHalf * sinHalf;
+    const F bent = sine > all(1e-4F) ? angle * cosine / sine : one;
+    const V3 inFrame{-sideways * angle, along * uy + sideways * bent * uz, along * uz - sideways * bent * uy};
+    prepareLimit(joint, 0, setting.k, frame * -inFrame, (one - angle * rate) / steep, one, setting.near,
+                 setting.limitStiffness, setting.firstTouch);
+
+    const F twist = two * angleOf(twistX, twistW);
+    const F side = twist < zero ? -one : one;
+    const V3 childX{one - two * (q.y * q.y + q.z * q.z), two * (q.x * q.y + q.w * q.z), two * (q.x * q.z - q.w * q.y)};
+    const F spread = -side / most(one + childX.x, all(0.05F));
+    const V3 twistAxis{(one + childX.x) * spread, childX.y * spread, childX.z * spread};
+    prepareLimit(joint, 1, setting.k, frame * twistAxis, all(constants.limit[2]) - magnitude(twist), side, setting.near,
+                 setting.limitStiffness, setting.firstTouch);
+    // One weight for all directions: that of the one that turns most easily.
+    store(joint.frictionWeight, setting.grip / most(most(setting.k.xx, setting.k.yy), setting.k.zz));
+}
+
+LUTKA_LANES void beginJoint(JointLanes& joint, const JointConstants& constants, const BodyLanes& parent,
+                            const BodyLanes& child, const SubstepParams& params) {
+    const V3 parentArm = axesOf(parent) * all(constants.parentAnchor);
+    const V3 childArm = axesOf(child) * all(constants.childAnchor);
+    store(joint.parentArm, parentArm);
+    store(joint.childArm, childArm);
+    store(joint.error, (load(child.position) - load(parent.position)) + (childArm - parentArm));
+    const Q parentFrame = load(parent.rotation) * all(constants.parentFrame);
+    const V3 turning = load(child.angular) - load(parent.angular);
+    const JointSetting setting{load(parent.inverseInertia) + load(child.inverseInertia),
+                               axesOf(parentFrame),
+                               conjugate(parentFrame) * (load(child.rotation) * all(constants.childFrame)),
+                               all(0.1F) + squareRoot(dot(turning, turning)) * all(2.0F * params.dt),
+                               all(params.jointStiffness),
+                               all(params.limitStiffness),
+                               all(params.firstTouch),
+                               all(params.grip)};
+    if (constants.isHinge != 0)
+        prepareHinge(joint, constants, setting);
+    else
+        prepareCone(joint, constants, setting);
+}
+
+static void beginJoints(const BatchView& batch, const SubstepParams& params) {
+    for (int j = 0; j < batch.jointCount; ++j) {
+        const JointConstants& constants = batch.jointConstants[j];
+        beginJoint(batch.joints[j], constants, batch.bodies[constants.parent], batch.bodies[constants.child], params);
+    }
+}
+
+}  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS

@@ -1,0 +1,19 @@
+#pragma once
+
+/// What a translation unit that defines LUTKA_CROWD_KERNELS includes to get that instruction set's kernels.
+
+#include "physics/crowd/contact_kernels.hpp"
+
+namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
+
+static void begin(const BatchView& batch, const SubstepParams& params) {
+    applyForces(batch, params);
+    beginJoints(batch, params);
+    for (int i = 0; i < batch.contactCount; ++i)
+        beginStatic(batch.contacts[i], batch, params);
+}
+
+static constexpr Kernels kTable{&refresh, &findBounds, &findSelfPairs, &joinBounds, &findMotion,
+                                &begin,   &solve,      &advance,       &beginPairs, &solvePairs};
+
+}  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS

@@ -1,0 +1,198 @@
+#include "physics/crowd/narrowphase.hpp"
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "physics/shape_distance.hpp"
+
+namespace lutka::physics::crowd {
+namespace {
+
+using Kind = BodyShape::Kind;
+
+vec3 corner(const vec3& halfExtents, int index) {
+    return halfExtents *
+           vec3((index & 1) != 0 ? 1.0F : -1.0F, (index & 2) != 0 ? 1.0F : -1.0F, (index & 4) != 0 ? 1.0F : -1.0F);
+}
+
+// Half the length of the core along body y: a sphere is a capsule of no length.
+float coreHalf(const BodyShape& shape) {
+    return shape.kind == Kind::capsule ? shape.halfLength : 0.0F;
+}
+
+Segment coreOf(const PlacedShape& body) {
+    const vec3 half = body.axes[1] * coreHalf(*body.shape);
+    return {body.position - half, body.position + half};
+}
+
+// The corners of a box and the ends of a capsule: what a convex static face can meet.
+struct CorePoints {
+    std::array<vec3, 8> local;
+    int count = 0;
+    float radius = 0.0F;
+};
+CorePoints corePoints(const BodyShape& shape) {
+    CorePoints points;
+    if (shape.kind == Kind::box) {
+        points.count = 8;
+        for (int i = 0; i < 8; ++i)
+            points.local[i] = corner(shape.halfExtents, i);
+        return points;
+    }
+    points.radius = shape.radius;
+    points.count = coreHalf(shape) > 0.0F ? 2 : 1;
+    points.local[0] = {0, -coreHalf(shape), 0};
+    points.local[1] = {0, coreHalf(shape), 0};
+    return points;
+}
+
+void touchPlane(const PlacedShape& body, const PlacedStatic& plane, float range, Touches<StaticTouch>& out) {
+    const vec3 normal = plane.axes[1];
+    const float offset = glm::dot(normal, plane.shape.worldFromShape.translation);
+    const float height = glm::dot(normal, body.position) - offset;
+    const CorePoints points = corePoints(*body.shape);
+    for (int i = 0; i < points.count; ++i) {
+        const float separation = height + glm::dot(normal, body.axes * points.local[i]) - points.radius;
+        if (separation < range) out.add({points.local[i], points.radius, normal, offset, separation, i});
+    }
+}
+
+// One point of the core against a static box, whose nearest feature becomes a half space.
+SurfaceDistance touchPoint(const vec3& local, const vec3& inBox, float radius, const PlacedStatic& box, int feature,
+                           float range, Touches<StaticTouch>& out) {
+    const SurfaceDistance surface = distanceToBox(inBox, box.shape.halfExtents);
+    const float separation = surface.distance - radius;
+    if (separation < range) {
+        const vec3 normal = box.axes * surface.normal;
+        const float along =
+            glm::dot(surface.normal, inBox) - surface.distance + glm::dot(normal, box.shape.worldFromShape.translation);
+        out.add({local, radius, normal, along, separation, feature});
+    }
+    return surface;
+}
+
+// Whether two normals are those of one and the same face, so that nothing between the points can be nearer.
+bool sameFace(const vec3& a, const vec3& b) {
+    return glm::dot(a, b) > 0.9999F && std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}) > 0.9999F;
+}
+
+void touchStaticBox(const PlacedShape& body, const PlacedStatic& box, float range, Touches<StaticTouch>& out) {
+    const vec3 centre = (body.position - box.shape.worldFromShape.translation) * box.axes;
+    const mat3 boxFromBody = glm::transpose(box.axes) * body.axes;
+    const CorePoints points = corePoints(*body.shape);
+    SurfaceDistance ends[8];
+    for (int i = 0; i < points.count; ++i) {
+        ends[i] =
+            touchPoint(points.local[i], centre + boxFromBody * points.local[i], points.radius, box, i, range, out);
+    }
+    if (points.count != 2 || sameFace(ends[0].normal, ends[1].normal)) return;
+    const Segment core{centre + boxFromBody * points.local[0], centre + boxFromBody * points.local[1]};
+    const float t = deepestOnSegment(core, box.shape.halfExtents);
+    if (t < 0.02F || t > 0.98F) return;
+    const vec3 local = points.local[0] + t * (points.local[1] - points.local[0]);
+    touchPoint(local, core.at(t), points.radius, box, 2, range, out);
+}
+
+void touchCores(const PlacedShape& a, const PlacedShape& b, float range, Touches<BodyTouch>& out) {
+    const Segment coreA = coreOf(a);
+    const Segment coreB = coreOf(b);
+    const SegmentPair at = closestBetweenSegments(coreA, coreB);
+    const vec3 between = coreA.at(at.s) - coreB.at(at.t);
+    const float radius = a.shape->radius + b.shape->radius;
+    const float distance2 = glm::dot(between, between);
+    if (distance2 > (radius + range) * (radius + range)) return;
+    const float distance = std::sqrt(distance2);
+    vec3 normal(0, 1, 0);
+    if (distance > 1e-6F) {
+        normal = between / distance;
+    } else {  // the cores cross: apart along what is across both, or anything
+        const vec3 across = glm::cross(a.axes[1], b.axes[1]);
+        const float length = glm::length(across);
+        if (length > 1e-3F) normal = across / length;
+    }
+    out.add({{0, (2 * at.s - 1) * coreHalf(*a.shape), 0},
+             {0, (2 * at.t - 1) * coreHalf(*b.shape), 0},
+             radius,
+             normal,
+             distance - radius});
+}
+
+// A capsule or sphere A against a box B.
+void touchCoreAndBox(const PlacedShape& a, const PlacedShape& box, float range, bool swapped, Touches<BodyTouch>& out) {
+    const vec3 centre = (a.position - box.position) * box.axes;
+    const vec3 half = glm::transpose(box.axes) * a.axes[1] * coreHalf(*a.shape);
+    const Segment core{centre - half, centre + half};
+    const auto addAt = [&](float t) {
+        const vec3 point = core.at(t);
+        const SurfaceDistance surface = distanceToBox(point, box.shape->halfExtents);
+        const float separation = surface.distance - a.shape->radius;
+        if (separation >= range) return;
+        const vec3 onCore(0, (2 * t - 1) * coreHalf(*a.shape), 0);
+        const vec3 onBox = point - surface.normal * surface.distance;
+        const vec3 normal = box.axes * surface.normal;
+        if (swapped)
+            out.add({onBox, onCore, a.shape->radius, -normal, separation});
+        else
+            out.add({onCore, onBox, a.shape->radius, normal, separation});
+    };
+    addAt(0.0F);
+    if (coreHalf(*a.shape) <= 0.0F) return;
+    addAt(1.0F);
+    const float t = deepestOnSegment(core, box.shape->halfExtents);
+    if (t > 0.02F && t < 0.98F) addAt(t);
+}
+
+// The corners of A in B.
+void touchCorners(const PlacedShape& a, const PlacedShape& b, float range, bool swapped, Touches<BodyTouch>& out) {
+    for (int i = 0; i < 8; ++i) {
+        const vec3 local = corner(a.shape->halfExtents, i);
+        const vec3 inB = (a.position + a.axes * local - b.position) * b.axes;
+        const SurfaceDistance surface = distanceToBox(inB, b.shape->halfExtents);
+        if (surface.distance >= range) continue;
+        const vec3 onB = inB - surface.normal * surface.distance;
+        const vec3 normal = b.axes * surface.normal;
+        if (swapped)
+            out.add({onB, local, 0.0F, -normal, surface.distance});
+        else
+            out.add({local, onB, 0.0F, normal, surface.distance});
+    }
+}
+
+}  // namespace
+
+PlacedStatic::PlacedStatic(const StaticShape& geometry)
+    : shape(geometry), axes(glm::mat3_cast(geometry.worldFromShape.rotation)) {
+    const vec3 half = glm::abs(axes[0]) * shape.halfExtents.x + glm::abs(axes[1]) * shape.halfExtents.y +
+                      glm::abs(axes[2]) * shape.halfExtents.z;
+    low = shape.worldFromShape.translation - half;
+    high = shape.worldFromShape.translation + half;
+}
+
+Touches<StaticTouch> touchStatic(const PlacedShape& body, const PlacedStatic& geometry, float range) {
+    Touches<StaticTouch> touches;
+    if (geometry.shape.kind == StaticShape::Kind::plane)
+        touchPlane(body, geometry, range, touches);
+    else
+        touchStaticBox(body, geometry, range, touches);
+    return touches;
+}
+
+Touches<BodyTouch> touchBodies(const PlacedShape& a, const PlacedShape& b, float range) {
+    Touches<BodyTouch> touches;
+    const bool boxA = a.shape->kind == Kind::box;
+    const bool boxB = b.shape->kind == Kind::box;
+    if (!boxA && !boxB) {
+        touchCores(a, b, range, touches);
+    } else if (boxA && boxB) {
+        touchCorners(a, b, range, false, touches);
+        touchCorners(b, a, range, true, touches);
+    } else if (boxB) {
+        touchCoreAndBox(a, b, range, false, touches);
+    } else {
+        touchCoreAndBox(b, a, range, true, touches);
+    }
+    return touches;
+}
+
+}  // namespace lutka::physics::crowd

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+
+#include "physics/profile.hpp"
+#include "physics/world.hpp"
+
+namespace lutka::physics::crowd {
+
+/// A body's shape where it is.
+struct PlacedShape {
+    const BodyShape* shape = nullptr;
+    vec3 position{0, 0, 0};
+    mat3 axes{1};  ///< Columns: the body's axes in the world.
+};
+
+/// Where a shape's core (a point of it, in body space) with `radius` around it meets the half space n · p <= offset.
+struct StaticTouch {
+    vec3 local{0, 0, 0};
+    float radius = 0.0F;
+    vec3 normal{0, 1, 0};
+    float offset = 0.0F;
+    float separation = 0.0F;
+    int feature = 0;  ///< Which point of the shape, for matching it with the step before.
+};
+
+/// Where the cores of two bodies meet; the surfaces are `separation` apart along `normal` (from B to A).
+struct BodyTouch {
+    vec3 localA{0, 0, 0};
+    vec3 localB{0, 0, 0};
+    float radius = 0.0F;  ///< Of both together.
+    vec3 normal{0, 1, 0};
+    float separation = 0.0F;
+};
+
+/// Contacts found; the first `count` are meant.
+template <class Touch>
+struct Touches {
+    static constexpr int kCapacity = 4;
+    std::array<Touch, kCapacity> points;
+    int count = 0;
+
+    /// Keeps the deepest kCapacity.
+    void add(const Touch& touch) {
+        if (count < kCapacity) {
+            points[count++] = touch;
+            return;
+        }
+        int shallowest = 0;
+        for (int i = 1; i < kCapacity; ++i)
+            if (points[i].separation > points[shallowest].separation) shallowest = i;
+        if (touch.separation < points[shallowest].separation) points[shallowest] = touch;
+    }
+};
+
+/// Static geometry with what the tests need of it worked out.
+struct PlacedStatic {
+    explicit PlacedStatic(const StaticShape& geometry);
+
+    StaticShape shape;
+    mat3 axes{1};
+    vec3 low{0, 0, 0};  ///< World bounds; a plane has none.
+    vec3 high{0, 0, 0};
+};
+
+/// Points of the body nearer than `range` to the geometry: both ends of a capsule, and the place in between where it
+/// crosses an edge; the corners of a box.
+[[nodiscard]] Touches<StaticTouch> touchStatic(const PlacedShape& body, const PlacedStatic& geometry, float range);
+
+/// Points of two bodies nearer than `range`. Two boxes are told apart by their corners only; see docs/crowd.md.
+[[nodiscard]] Touches<BodyTouch> touchBodies(const PlacedShape& a, const PlacedShape& b, float range);
+
+/// Fraction of the segment from `from` to `to` where it enters the shape and the normal there; fraction > 1: it misses.
+/// A start inside the shape is a miss.
+struct RayTouch {
+    float fraction = 2.0F;
+    vec3 normal{0, 1, 0};
+};
+[[nodiscard]] RayTouch rayAgainst(const PlacedShape& body, const vec3& from, const vec3& to);
+[[nodiscard]] RayTouch rayAgainst(const PlacedStatic& geometry, const vec3& from, const vec3& to);
+
+}  // namespace lutka::physics::crowd

@@ -1,0 +1,61 @@
+#include "physics/crowd/sleep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/crowd/union_find.hpp"
+
+namespace lutka::physics::crowd {
+namespace {
+
+// Rest times and brakes of one batch's dolls.
+void measureRest(CrowdState& state, Batch& batch, const Topology& topology, float dt) {
+    const CrowdTuning& tuning = state.tuning;
+    Wide speed2;
+    Wide turn2;
+    state.kernels->findMotion(batch.view(topology), speed2, turn2);
+    const float substep = dt / static_cast<float>(tuning.substeps);
+    for (int lane = 0; lane < batch.used; ++lane) {
+        Doll& doll = state.dolls[batch.doll[lane]];
+        const bool still = speed2.lane[lane] < tuning.sleepSpeed * tuning.sleepSpeed &&
+                           turn2.lane[lane] < tuning.sleepTurn * tuning.sleepTurn;
+        doll.restSeconds = still ? doll.restSeconds + dt : 0.0F;
+        // The brake fades in below the calm speed, so that nothing changes abruptly.
+        const float speed = std::sqrt(std::max(speed2.lane[lane], turn2.lane[lane] * 0.04F));
+        const float share = doll.touching ? std::clamp(1.0F - speed / tuning.calmSpeed, 0.0F, 1.0F) : 0.0F;
+        batch.brake.lane[lane] = std::exp(-tuning.calmDamping * share * substep);
+    }
+}
+
+}  // namespace
+
+void settle(CrowdState& state, float dt) {
+    for (const PairTouch& touch : state.touches) {
+        if (touch.carried.normal <= 0.0F || touch.dollA == touch.dollB) continue;
+        state.dolls[touch.dollA].touching = state.dolls[touch.dollB].touching = true;
+    }
+    for (std::size_t i = 0; i < state.active.size(); ++i)
+        measureRest(state, *state.active[i], state.activeGroup[i]->topology, dt);
+    if (!state.settings.sleeping) return;
+
+    UnionFind islands(state.dolls.size());
+    for (const PairTouch& touch : state.touches) {
+        if (touch.carried.normal > 0.0F) islands.join(touch.dollA, touch.dollB);
+    }
+    std::vector<char> restless(state.dolls.size(), 0);
+    for (const DragRecord& record : state.drags)
+        restless[islands.find(state.ragdolls[record.drag.doll])] = 1;
+    for (int i = 0; i < static_cast<int>(state.dolls.size()); ++i) {
+        const Doll& doll = state.dolls[i];
+        if (!doll.asleep() && doll.restSeconds < state.tuning.sleepSeconds) restless[islands.find(i)] = 1;
+    }
+    for (int i = 0; i < static_cast<int>(state.dolls.size()); ++i) {
+        const int island = islands.find(i);
+        if (state.dolls[i].asleep() || restless[island] != 0) continue;
+        putToSleep(state, i);
+        state.dolls[i].island = state.nextIsland + island;
+    }
+    state.nextIsland += static_cast<std::int64_t>(state.dolls.size());
+}
+
+}  // namespace lutka::physics::crowd

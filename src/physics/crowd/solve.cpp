@@ -1,0 +1,186 @@
+#include "physics/crowd/solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "physics/crowd/drag.hpp"
+
+namespace lutka::physics::crowd {
+namespace {
+
+// Jobs with this many batches are split over the threads phase by phase; below it the hand-over costs more.
+constexpr std::size_t kSplitJob = 16;
+
+// Rigid rows that mend a share of their error a substep.
+Softness mending(float share, float dt) {
+    return {share / dt, 1.0F, 0.0F};
+}
+
+SubstepParams paramsOf(const CrowdState& state, float dt) {
+    const CrowdTuning& tuning = state.tuning;
+    SubstepParams params{};
+    params.dt = dt;
+    params.inverseDt = 1.0F / dt;
+    for (int i = 0; i < 3; ++i)
+        params.gravity[i] = state.settings.gravity[i];
+    params.linearDamping = std::exp(-tuning.linearDamping * dt);
+    params.angularDamping = std::exp(-tuning.angularDamping * dt);
+    params.joint = mending(tuning.jointErp, dt);
+    params.limit = mending(tuning.limitErp, dt);
+    params.pairContact = mending(tuning.contactErp, dt);
+    params.staticContact = mending(tuning.contactErp, dt);
+    params.pushSpeed = tuning.pushSpeed;
+    params.limitSpeed = tuning.limitSpeed;
+    params.slop = tuning.slop;
+    params.jointStiffness = tuning.jointStiffness;
+    params.limitStiffness = tuning.limitStiffness;
+    params.contactStiffness = tuning.contactStiffness;
+    params.firstTouch = tuning.firstTouch;
+    params.passes = tuning.passes;
+    params.relaxPasses = tuning.relaxPasses;
+    params.contactTolerance = tuning.contactTolerance;
+    params.limitTolerance = tuning.limitTolerance;
+    params.grip = tuning.grip;
+    params.rollingLever = tuning.rollingLever;
+    return params;
+}
+
+// One job's substep. `forBatches` runs a piece of work for every batch of the job, on one thread or several.
+class JobSubstep {
+  public:
+    JobSubstep(CrowdState& state, Job& job, const SubstepParams& params) : state_(state), job_(job), params_(params) {}
+
+    void run() {
+        const Kernels& kernels = *state_.kernels;
+        forBatches([&](const BatchView& view) { kernels.begin(view, params_); });
+        kernels.beginPairs(job_.pairs.data(), static_cast<int>(job_.pairs.size()), params_);
+        for (DragRecord* drag : job_.drags)
+            job_.dragWork += beginDrag(state_, *drag, params_.dt);
+        dolls(1, 1);
+        // What touches other bodies works on single bodies; a pass over the dolls must follow before anything moves.
+        const bool coupled = !job_.pairs.empty() || !job_.drags.empty();
+        if (coupled) {
+            couplings(1);
+            dolls(1, 0);
+        }
+        forBatches([&](const BatchView& view) { kernels.advance(view, params_); });
+        if (coupled) couplings(0);
+        dolls(0, 0);
+    }
+
+  private:
+    void couplings(int useBias) {
+        for (DragRecord* drag : job_.drags)
+            job_.dragWork += solveDrag(state_, *drag, params_.dt);
+        state_.kernels->solvePairs(job_.pairs.data(), static_cast<int>(job_.pairs.size()), params_, useBias);
+    }
+
+    void dolls(int useBias, int first) {
+        forBatches([&](const BatchView& view) { state_.kernels->solve(view, params_, useBias, first); });
+    }
+
+    template <class Work>
+    void forBatches(const Work& work) {
+        const auto range = [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                work(job_.batches[i]->view(*job_.topologies[i]));
+        };
+        if (job_.batches.size() >= kSplitJob)
+            state_.pool.parallelFor(job_.batches.size(), 4, range);
+        else
+            range(0, job_.batches.size());
+    }
+
+    CrowdState& state_;
+    Job& job_;
+    const SubstepParams& params_;
+};
+
+// Runs the work for all jobs: small ones side by side, then the large ones, each of which uses all threads itself.
+template <class Work>
+void forJobs(CrowdState& state, const Work& work) {
+    state.pool.parallelFor(state.jobCount, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (state.jobs[i].batches.size() < kSplitJob) work(state.jobs[i]);
+    });
+    for (std::size_t i = 0; i < state.jobCount; ++i)
+        if (state.jobs[i].batches.size() >= kSplitJob) work(state.jobs[i]);
+}
+
+void keepStatics(CrowdState& state, Batch& batch) {
+    for (int lane = 0; lane < batch.used; ++lane) {
+        Doll& doll = state.dolls[batch.doll[lane]];
+        doll.statics.clear();
+        doll.touching = false;
+    }
+    for (const StaticContactLanes& contact : batch.contacts) {
+        for (int lane = 0; lane < batch.used; ++lane) {
+            const float normal = contact.normalImpulse.lane[lane];
+            if (contact.key[lane] == 0 || normal <= 0.0F) continue;
+            Doll& doll = state.dolls[batch.doll[lane]];
+            doll.touching = true;
+            const vec3 friction = readVector(contact.tangent[0], lane) * contact.tangentImpulse[0].lane[lane] +
+                                  readVector(contact.tangent[1], lane) * contact.tangentImpulse[1].lane[lane];
+            doll.statics.push_back({{contact.key[lane], normal, friction},
+                                    readVector(contact.rollImpulse, lane),
+                                    contact.body,
+                                    readVector(contact.localPoint, lane),
+                                    contact.radius.lane[lane],
+                                    readVector(contact.normal, lane),
+                                    contact.offset.lane[lane]});
+        }
+    }
+}
+
+void keepPairs(CrowdState& state, const Job& job) {
+    for (std::size_t block = 0; block < job.pairs.size(); ++block) {
+        const PairContactLanes& pair = job.pairs[block];
+        for (int lane = 0; lane < kLanes; ++lane) {
+            const int index = job.touchOfLane[block][lane];
+            if (index < 0) continue;
+            PairTouch& touch = state.touches[index];
+            touch.carried.normal = pair.normalImpulse.lane[lane];
+            touch.carried.friction = readVector(pair.tangent[0], lane) * pair.tangentImpulse[0].lane[lane] +
+                                     readVector(pair.tangent[1], lane) * pair.tangentImpulse[1].lane[lane];
+            touch.touch.separation = pair.separation.lane[lane];
+        }
+    }
+}
+
+}  // namespace
+
+void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSubstep) {
+    const int substeps = state.tuning.substeps;
+    SubstepParams first = paramsOf(state, dt / static_cast<float>(substeps));
+    SubstepParams others = first;
+    first.warmStart = 1;
+    for (std::size_t i = 0; i < state.jobCount; ++i)
+        state.jobs[i].dragWork = 0.0;
+    const auto substep = [&](Job& job, int index) { JobSubstep(state, job, index == 0 ? first : others).run(); };
+    if (afterSubstep) {
+        for (int i = 0; i < substeps; ++i) {
+            forJobs(state, [&](Job& job) { substep(job, i); });
+            afterSubstep();
+        }
+    } else {
+        forJobs(state, [&](Job& job) {
+            for (int i = 0; i < substeps; ++i)
+                substep(job, i);
+        });
+    }
+    for (std::size_t i = 0; i < state.jobCount; ++i)
+        state.dragWork += state.jobs[i].dragWork;
+}
+
+void keepImpulses(CrowdState& state) {
+    state.pool.parallelFor(state.active.size(), 4, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            keepStatics(state, *state.active[i]);
+    });
+    for (std::size_t i = 0; i < state.jobCount; ++i)
+        keepPairs(state, state.jobs[i]);
+    state.carried.assign(state.touches);
+}
+
+}  // namespace lutka::physics::crowd

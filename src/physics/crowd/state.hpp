@@ -1,0 +1,153 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "core/task_pool.hpp"
+#include "physics/crowd/batch.hpp"
+#include "physics/crowd/kernels.hpp"
+#include "physics/crowd/narrowphase.hpp"
+#include "physics/crowd/tuning.hpp"
+
+namespace lutka::physics::crowd {
+
+/// What a contact carries from one step to the next: impulses of one substep.
+struct CarriedContact {
+    std::uint64_t key = 0;
+    float normal = 0.0F;     ///< N s
+    vec3 friction{0, 0, 0};  ///< N s, world axes.
+};
+
+/// The same of a contact with static geometry, and what a report of it needs.
+struct CarriedStatic {
+    CarriedContact contact;
+    vec3 roll{0, 0, 0};  ///< N m s
+    int body = 0;
+    vec3 local{0, 0, 0};  ///< Point of the core, body space.
+    float radius = 0.0F;
+    vec3 normal{0, 1, 0};
+    float offset = 0.0F;  ///< The solid is normal · p <= offset.
+};
+
+/// A doll or a prop. Awake ones live in a lane of their group; sleeping ones here.
+struct Doll {
+    const RagdollProfile* profile = nullptr;  ///< Null for a prop.
+    int group = 0;
+    int batch = -1;  ///< Of the group; -1 while asleep.
+    int lane = 0;
+    int firstBody = 0;              ///< Number of its first body among all bodies of the world.
+    std::vector<BodyState> frozen;  ///< The bodies while asleep.
+    float restSeconds = 0.0F;       ///< For how long it has been below the sleeping speeds.
+    std::int64_t island = -1;       ///< Dolls that fell asleep together share a number; they wake together.
+    bool touching = false;          ///< Whether anything held it in the last step.
+    vec3 low{0, 0, 0};              ///< Bounds for the step as seen from the root: see Kernels::findBounds.
+    vec3 high{0, 0, 0};
+    vec3 rootVelocity{0, 0, 0};
+    std::vector<CarriedStatic> statics;
+
+    [[nodiscard]] bool asleep() const { return batch < 0; }
+};
+
+/// All dolls of one topology: awake ones fill the batches in order.
+struct Group {
+    Topology topology;
+    std::vector<Batch> batches;
+    int awake = 0;
+
+    [[nodiscard]] int batchesInUse() const { return (awake + kLanes - 1) / kLanes; }
+};
+
+/// A contact of this step between two bodies.
+struct PairTouch {
+    int dollA = 0, bodyA = 0;
+    int dollB = 0, bodyB = 0;
+    BodyTouch touch;
+    CarriedContact carried;
+};
+
+/// The contacts between bodies of the last step, by key.
+class CarriedPairs {
+  public:
+    void assign(const std::vector<PairTouch>& touches);
+    /// Null when there was no such contact.
+    [[nodiscard]] const CarriedContact* find(std::uint64_t key) const;
+
+  private:
+    std::vector<CarriedContact> slots_;  // open addressing, a power of two; key 0 is empty
+};
+
+/// A pull on a body and what it carries.
+struct DragRecord {
+    int id = 0;
+    Drag drag;
+    vec3 impulse{0, 0, 0};  ///< N s of a substep.
+    vec3 arm{0, 0, 0};
+    mat3 mass{0};
+    vec3 error{0, 0, 0};
+};
+
+/// Batches that touch each other, solved as one; jobs share nothing and can run at the same time.
+struct Job {
+    std::vector<Batch*> batches;
+    std::vector<const Topology*> topologies;  ///< One a batch.
+    std::vector<int> touches;                 ///< Into CrowdState::touches.
+    std::vector<PairContactLanes> pairs;
+    std::vector<std::array<int, kLanes>> touchOfLane;  ///< One a pair block; -1 where a lane is empty.
+    std::vector<DragRecord*> drags;
+    double dragWork = 0.0;
+};
+
+/// Everything in a crowd world. The steps of the simulation are free functions over it, each in its own file.
+struct CrowdState {
+    CrowdState(const WorldSettings& given, const CrowdTuning& tuned);
+
+    WorldSettings settings;
+    CrowdTuning tuning;
+    const Kernels* kernels;
+    TaskPool pool;
+
+    std::vector<PlacedStatic> statics;
+    std::vector<std::unique_ptr<Group>> groups;
+    std::vector<Doll> dolls;
+    std::vector<int> ragdolls;              ///< World's doll index to `dolls`.
+    std::vector<int> props;                 ///< World's prop index to `dolls`.
+    std::vector<DynamicProp> propSettings;  ///< One a prop, as it was added.
+    std::vector<DragRecord> drags;          ///< By id.
+    double dragWork = 0.0;
+    int bodyTotal = 0;
+    std::int64_t nextIsland = 0;
+
+    std::vector<Batch*> active;                       ///< Batches in use in this step.
+    std::vector<Group*> activeGroup;                  ///< One an active batch.
+    std::vector<std::vector<PairTouch>> selfTouches;  ///< One an active batch.
+    std::vector<int> sweep;                           ///< Dolls by the low end of their bounds along x.
+    std::vector<std::pair<int, int>> dollPairs;
+    std::vector<PairTouch> touches;  ///< Of this step; after it with its impulses.
+    CarriedPairs carried;
+    std::vector<Job> jobs;
+    std::size_t jobCount = 0;
+
+    [[nodiscard]] Group& groupOf(const Doll& doll) { return *groups[doll.group]; }
+    [[nodiscard]] const Group& groupOf(const Doll& doll) const { return *groups[doll.group]; }
+    [[nodiscard]] Batch& batchOf(const Doll& doll) { return groupOf(doll).batches[doll.batch]; }
+    [[nodiscard]] const Batch& batchOf(const Doll& doll) const { return groupOf(doll).batches[doll.batch]; }
+};
+
+/// Adds a doll or prop, awake. Returns its index in CrowdState::dolls.
+int addDoll(CrowdState& state, Topology topology, const RagdollProfile* profile, std::span<const BodyState> bodies);
+
+[[nodiscard]] BodyState bodyState(const CrowdState& state, const Doll& doll, int body);
+[[nodiscard]] PlacedShape placedShape(const CrowdState& state, const Doll& doll, int body);
+
+/// Gives a sleeping doll a lane. `wakeIsland` wakes those that fell asleep with it as well.
+void wake(CrowdState& state, int doll);
+void wakeIsland(CrowdState& state, int doll);
+/// Takes a doll out of its lane and puts it to rest.
+void putToSleep(CrowdState& state, int doll);
+
+/// Lists the batches in use and makes the lanes without a doll repeat lane 0.
+void gatherActive(CrowdState& state);
+
+}  // namespace lutka::physics::crowd

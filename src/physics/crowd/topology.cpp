@@ -1,0 +1,103 @@
+#include "physics/crowd/topology.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "physics/shape.hpp"
+
+namespace lutka::physics::crowd {
+namespace {
+
+void copy(float (&to)[3], const vec3& v) {
+    to[0] = v.x;
+    to[1] = v.y;
+    to[2] = v.z;
+}
+void copy(float (&to)[4], const quat& q) {
+    to[0] = q.x;
+    to[1] = q.y;
+    to[2] = q.z;
+    to[3] = q.w;
+}
+
+BodyConstants constantsOf(const BodyShape& shape, float massKg, const vec3& inertia) {
+    BodyConstants constants{};
+    constants.inverseMass = 1.0F / massKg;
+    copy(constants.inertia, inertia);
+    copy(constants.inverseInertia, 1.0F / inertia);
+    vec3 extent(0);
+    if (shape.kind == BodyShape::Kind::capsule) extent.y = shape.halfLength;
+    if (shape.kind == BodyShape::Kind::box) extent = shape.halfExtents;
+    copy(constants.extent, extent);
+    constants.radius = shape.kind == BodyShape::Kind::box ? 0.0F : shape.radius;
+    constants.reach = glm::length(extent);
+    return constants;
+}
+
+JointConstants constantsOf(const ConstraintProfile& constraint) {
+    JointConstants constants{};
+    constants.parent = constraint.parent;
+    constants.child = constraint.child;
+    constants.isHinge = constraint.kind == ConstraintProfile::Kind::hinge ? 1 : 0;
+    copy(constants.parentAnchor, constraint.parentFromFrame.translation);
+    copy(constants.childAnchor, constraint.childFromFrame.translation);
+    copy(constants.parentFrame, constraint.parentFromFrame.rotation);
+    copy(constants.childFrame, constraint.childFromFrame.rotation);
+    const ConeTwistLimits& cone = constraint.cone;
+    copy(constants.limit, constants.isHinge != 0 ? vec3(constraint.hinge.lower, constraint.hinge.upper, 0)
+                                                 : vec3(cone.swingY, cone.swingZ, cone.twist));
+    constants.frictionNm = constraint.frictionNm;
+    return constants;
+}
+
+bool mayCollide(const RagdollProfile& profile, int a, int b) {
+    const bool linked =
+        std::any_of(profile.constraints.begin(), profile.constraints.end(), [&](const ConstraintProfile& c) {
+            return std::min(c.parent, c.child) == a && std::max(c.parent, c.child) == b;
+        });
+    const auto& filtered = profile.filteredPairs;
+    return !linked && std::find(filtered.begin(), filtered.end(), std::pair(a, b)) == filtered.end();
+}
+
+template <class T>
+bool sameBytes(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+}  // namespace
+
+Topology makeTopology(const RagdollProfile& profile, float leastGyration) {
+    Topology topology;
+    const float gyration = leastGyration * profile.heightM / 1.75F;
+    for (const BodyProfile& body : profile.bodies) {
+        const vec3 inertia = glm::max(body.inertia, vec3(body.massKg * gyration * gyration));
+        topology.bodies.push_back(constantsOf(body.shape, body.massKg, inertia));
+        topology.shapes.push_back(body.shape);
+    }
+    for (const ConstraintProfile& constraint : profile.constraints)
+        topology.joints.push_back(constantsOf(constraint));
+    for (int a = 0; a < topology.bodyCount(); ++a) {
+        for (int b = a + 1; b < topology.bodyCount(); ++b) {
+            if (mayCollide(profile, a, b)) topology.selfPairs.push_back({a, b});
+        }
+    }
+    return topology;
+}
+
+Topology makeTopology(const DynamicProp& prop) {
+    Topology topology;
+    topology.bodies.push_back(constantsOf(prop.shape, prop.massKg, shapeInertia(prop.shape, prop.massKg)));
+    topology.shapes.push_back(prop.shape);
+    return topology;
+}
+
+bool sameTopology(const Topology& a, const Topology& b) {
+    // The shapes follow from the constants but for their kind.
+    return sameBytes(a.bodies, b.bodies) && sameBytes(a.joints, b.joints) && sameBytes(a.selfPairs, b.selfPairs) &&
+           std::equal(a.shapes.begin(), a.shapes.end(), b.shapes.begin(), b.shapes.end(),
+                      [](const BodyShape& x, const BodyShape& y) { return x.kind == y.kind; });
+}
+
+}  // namespace lutka::physics::crowd

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+
+#include "physics/crowd/kernels.hpp"
+
+namespace lutka::physics::crowd {
+
+/// What decides quality and cost. The defaults are the outcome of the sweep described in docs/crowd.md.
+struct CrowdTuning {
+    int substeps = 8;               ///< A step; >= 1. More: stiffer joints, shallower contacts, cost in proportion.
+    int passes = 8;                 ///< At most, with bias in a substep, >= 1: until the guess of what holds is right.
+    int relaxPasses = 1;            ///< The same without bias; they take out the speed that mending errors put in.
+    float contactTolerance = 0.1F;  ///< m/s by which the guess of which contacts hold may be wrong.
+    float limitTolerance = 1.0F;    ///< rad/s, the same of limits.
+
+    float jointErp = 0.3F;          ///< Part of a joint's gap mended in a substep, (0, 1].
+    float limitErp = 0.3F;          ///< The same for limits.
+    float contactErp = 0.3F;        ///< The same for overlap.
+    float jointStiffness = 300.0F;  ///< Weight of rows that hold over the local effective mass. More: quicker, rougher.
+    float limitStiffness = 30.0F;
+    float contactStiffness = 40.0F;
+    float firstTouch = 40.0F;
+    float grip = 1.0F;            ///< The same of friction. More: quicker to grip, chatters.
+    float pushSpeed = 2.0F;       ///< m/s, largest speed that overlap is pushed apart with.
+    float limitSpeed = 6.0F;      ///< rad/s, the same for limits.
+    float slop = 0.0005F;         ///< Metres of overlap left alone, so that resting contacts stay.
+    float margin = 0.05F;         ///< Metres beyond the predicted motion within which contacts are made.
+    float rollingLever = 0.004F;  ///< Metres, rolling resistance: flesh is no ideal cylinder.
+    float leastGyration = 0.05F;  ///< Metres, of a figure 1.75 m tall: no body has a smaller radius of gyration about
+                                  ///< any axis; thin hands and feet are given more inertia. More: tighter, stiffer.
+    float linearDamping = 0.0F;   ///< 1/s; speed decays by exp(-d t).
+    float angularDamping = 0.1F;  ///< 1/s; likewise.
+
+    float sleepSpeed = 0.02F;   ///< m/s, of every body's centre.
+    float sleepTurn = 0.045F;   ///< rad/s, of every body.
+    float sleepSeconds = 1.0F;  ///< For how long a doll must be below both.
+    float calmSpeed = 0.15F;    ///< m/s and rad/s: below it a lying doll is braked.
+    float calmDamping = 4.0F;   ///< 1/s, the brake.
+
+    std::optional<InstructionSet> instructionSet;  ///< Unset: the widest that the processor has.
+};
+
+}  // namespace lutka::physics::crowd

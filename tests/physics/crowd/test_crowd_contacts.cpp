@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "crowd_scene.hpp"
+#include "physics/bullet/bullet_world.hpp"
+#include "support/catch.hpp"
+#include "support/dolls.hpp"
+
+using namespace lutka;
+using namespace lutka::test;
+using physics::BodyState;
+using physics::createCrowdWorld;
+using physics::WorldSettings;
+
+namespace {
+
+float highestBody(const physics::World& world, int doll) {
+    float high = -1e9F;
+    for (const BodyState& body : bodiesOf(world, doll))
+        high = std::max(high, body.worldFromBody.translation.y);
+    return high;
+}
+
+}  // namespace
+
+TEST_CASE("a dropped doll stays within the bounds of a single doll") {
+    const physics::RagdollProfile profile = makeDoll();
+    const std::vector<physics::StaticShape> statics{floorPlane()};
+    for (const float turn : {0.0F, 0.4F, 1.2F, 2.2F}) {
+        CAPTURE(turn);
+        const auto world = createCrowdWorld(WorldSettings{});
+        world->addStatic(statics[0]);
+        world->addDoll(profile, placedDoll(profile, {0, 1, 0}, glm::angleAxis(turn, vec3(0.6F, 0, 0.8F))));
+        const physics::Quality quality = stepAndMeasure(*world, statics, 8.0F);
+        CHECK(quality.jointSeparationM.max < 0.010F);
+        CHECK(quality.jointSeparationM.p99 < 0.002F);
+        CHECK(quality.limitViolationDeg.p99 < 3.0F);
+        CHECK(quality.floorPenetrationM < 0.015F);
+        CHECK(quality.energyGrowthJ < 0.03F * quality.initialEnergyJ);
+        CHECK(quality.nonFinite == 0);
+        CHECK(quality.residualSpeedMps < 0.01F);
+    }
+}
+
+TEST_CASE("a doll thrown at 8 m/s does not pass a wall of 5 cm") {
+    const physics::RagdollProfile profile = makeDoll();
+    for (const float turn : {0.0F, 0.7F, 1.57F, 2.5F}) {
+        CAPTURE(turn);
+        const auto world = createCrowdWorld(WorldSettings{});
+        world->addStatic(floorPlane());
+        world->addStatic(staticBox({0, 2, 2}, {4, 2, 0.025F}));
+        const quat rotation = glm::angleAxis(turn, vec3(1, 0, 0));
+        world->addDoll(profile, placedDoll(profile, {0, 0.6F, 0}, rotation, {0, 0, 8}));
+        for (int i = 0; i < 120; ++i)
+            world->step(kStep);
+        for (const BodyState& body : bodiesOf(*world, 0))
+            CHECK(body.worldFromBody.translation.z < 2.0F);
+    }
+}
+
+TEST_CASE("a doll spawned inside another is pushed out calmly") {
+    const physics::RagdollProfile profile = makeDoll();
+    const auto world = createCrowdWorld(WorldSettings{});
+    world->addStatic(floorPlane());
+    world->addDoll(profile, placedDoll(profile, {0, 0.05F, 0}));
+    world->addDoll(profile, placedDoll(profile, {0.03F, 0.05F, 0.02F}, glm::angleAxis(0.3F, vec3(0, 1, 0))));
+    float fastest = 0.0F;
+    for (int i = 0; i < 480; ++i) {
+        world->step(kStep);
+        for (int doll = 0; doll < 2; ++doll)
+            fastest = std::max(fastest, glm::length(totalsOf(*world, doll).momentum / totalsOf(*world, doll).massKg));
+    }
+    // A fall from standing height reaches 4 m/s; an explosion would throw the dolls.
+    CHECK(fastest < 6.0F);
+    CHECK(highestBody(*world, 0) < 0.8F);
+    CHECK(highestBody(*world, 1) < 0.8F);
+}
+
+TEST_CASE("a pile of thirty dolls stays within its bounds") {
+    const physics::RagdollProfile profile = makeDoll();
+    WorldSettings settings;
+    settings.sleeping = false;
+    const auto world = createCrowdWorld(settings);
+    std::vector<physics::StaticShape> statics;
+    fillPit(*world, profile, 30, statics);
+    const physics::Quality quality = stepAndMeasure(*world, statics, 6.0F);
+    CHECK(quality.jointSeparationM.max < 0.040F);
+    CHECK(quality.jointSeparationM.p99 < 0.003F);
+    CHECK(quality.limitViolationDeg.p99 < 5.0F);
+    CHECK(quality.floorPenetrationM < 0.040F);
+    CHECK(quality.nonFinite == 0);
+}
+
+TEST_CASE("dolls of the crowd come to rest where those of the Bullet world do") {
+    const physics::RagdollProfile profile = makeDoll();
+    const std::vector<physics::StaticShape> statics{floorPlane()};
+    float heights[2] = {};
+    float separation[2] = {};
+    for (int solver = 0; solver < 2; ++solver) {
+        const auto world =
+            solver == 0 ? createCrowdWorld(WorldSettings{}) : physics::createBulletWorld(WorldSettings{});
+        world->addStatic(statics[0]);
+        for (int i = 0; i < 4; ++i) {
+            const quat turn = glm::angleAxis(0.5F + 0.7F * static_cast<float>(i), vec3(0.6F, 0, 0.8F));
+            world->addDoll(profile, placedDoll(profile, {4.0F * static_cast<float>(i), 0.8F, 0}, turn));
+        }
+        const physics::Quality quality = stepAndMeasure(*world, statics, 6.0F);
+        for (int i = 0; i < 4; ++i)
+            heights[solver] += totalsOf(*world, i).centre.y / 4.0F;
+        separation[solver] = quality.jointSeparationM.p99;
+    }
+    // How each falls is chance; how high a lying doll's centre is, is not.
+    CHECK(heights[0] == Approx(heights[1]).margin(0.06));
+    CHECK(separation[0] < separation[1] + 1e-3F);
+}
+
+TEST_CASE("balls bounce off dolls and come to rest on the floor") {
+    const physics::RagdollProfile profile = makeDoll();
+    const auto world = createCrowdWorld(WorldSettings{});
+    world->addStatic(floorPlane());
+    world->addDoll(profile, placedDoll(profile, {0, 0.02F, 0}));
+    physics::DynamicProp ball;
+    ball.shape.kind = physics::BodyShape::Kind::sphere;
+    ball.shape.radius = 0.12F;
+    ball.massKg = 4.0F;
+    ball.state.worldFromBody.translation = {0, 1.3F, 1.5F};
+    ball.state.linearVelocity = {0, 1, -6};
+    CHECK(world->addProp(ball) == 0);
+    physics::DynamicProp crate;
+    crate.shape.kind = physics::BodyShape::Kind::box;
+    crate.shape.halfExtents = {0.2F, 0.15F, 0.3F};
+    crate.massKg = 5.0F;
+    crate.state.worldFromBody.translation = {3, 1, 0};
+    CHECK(world->addProp(crate) == 1);
+    float pushed = 0.0F;
+    for (int i = 0; i < 300; ++i) {
+        world->step(kStep);
+        pushed = std::min(pushed, totalsOf(*world, 0).momentum.z);
+    }
+    CHECK(pushed < -5.0F);
+    CHECK(world->propState(0).worldFromBody.translation.y == Approx(0.12F).margin(0.01));
+    CHECK(world->propState(1).worldFromBody.translation.y == Approx(0.15F).margin(0.01));
+}

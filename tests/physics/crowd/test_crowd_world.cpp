@@ -1,0 +1,199 @@
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "crowd_scene.hpp"
+#include "support/catch.hpp"
+#include "support/dolls.hpp"
+
+using namespace lutka;
+using namespace lutka::test;
+using physics::BodyState;
+using physics::createCrowdWorld;
+using physics::WorldSettings;
+
+namespace {
+
+std::uint64_t pitHash(int threads, std::optional<physics::crowd::InstructionSet> set, bool watched) {
+    const physics::RagdollProfile profile = makeDoll();
+    WorldSettings settings;
+    settings.threads = threads;
+    physics::crowd::CrowdTuning tuning;
+    tuning.instructionSet = set;
+    const auto world = createCrowdWorld(settings, tuning);
+    std::vector<physics::StaticShape> statics;
+    fillPit(*world, profile, 30, statics);
+    int substeps = 0;
+    for (int i = 0; i < 100; ++i) {
+        if (watched)
+            world->step(kStep, [&] { ++substeps; });
+        else
+            world->step(kStep);
+    }
+    if (watched) CHECK(substeps == 100 * world->substepsPerStep());
+    return stateHash(*world);
+}
+
+}  // namespace
+
+TEST_CASE("the same bits come out at every thread count and instruction set") {
+    using physics::crowd::InstructionSet;
+    const std::uint64_t hash = pitHash(1, std::nullopt, false);
+    for (int threads = 1; threads <= 5; ++threads) {
+        CAPTURE(threads);
+        CHECK(pitHash(threads, std::nullopt, false) == hash);
+    }
+    CHECK(pitHash(2, std::nullopt, true) == hash);
+    for (const InstructionSet set : {InstructionSet::baseline, InstructionSet::avx2}) {
+        CAPTURE(static_cast<int>(set));
+        if (physics::crowd::hasInstructionSet(set)) CHECK(pitHash(1, set, false) == hash);
+    }
+}
+
+TEST_CASE("a fallen doll sleeps without moving and an impulse wakes it") {
+    const physics::RagdollProfile profile = makeDoll();
+    const auto world = createCrowdWorld(WorldSettings{});
+    world->addStatic(floorPlane());
+    world->addDoll(profile, placedDoll(profile, {0, 0.5F, 0}, glm::angleAxis(1.0F, vec3(1, 0, 0))));
+    int steps = 0;
+    for (; steps < 600 && !world->isAsleep(0); ++steps)
+        world->step(kStep);
+    REQUIRE(world->isAsleep(0));
+    const std::uint64_t asleep = stateHash(*world);
+    for (int i = 0; i < 30; ++i)
+        world->step(kStep);
+    CHECK(stateHash(*world) == asleep);
+    world->applyImpulse(0, 0, {0, 60, 0}, bodiesOf(*world, 0)[0].worldFromBody.translation);
+    CHECK_FALSE(world->isAsleep(0));
+    for (int i = 0; i < 10; ++i)
+        world->step(kStep);
+    CHECK(stateHash(*world) != asleep);
+}
+
+TEST_CASE("a sleeping doll wakes when another falls on it and one far away sleeps on") {
+    const physics::RagdollProfile profile = makeDoll();
+    const auto world = createCrowdWorld(WorldSettings{});
+    world->addStatic(floorPlane());
+    const quat lying = glm::angleAxis(1.4F, vec3(1, 0, 0));
+    world->addDoll(profile, placedDoll(profile, {0, -0.5F, 0}, lying));
+    world->addDoll(profile, placedDoll(profile, {6, -0.5F, 0}, lying));
+    for (int i = 0; i < 600 && !(world->isAsleep(0) && world->isAsleep(1)); ++i)
+        world->step(kStep);
+    REQUIRE(world->isAsleep(0));
+    REQUIRE(world->isAsleep(1));
+    world->addDoll(profile, placedDoll(profile, {0, 1.2F, 0}));
+    CHECK(world->isAsleep(0));
+    bool woken = false;
+    for (int i = 0; i < 90; ++i) {
+        world->step(kStep);
+        woken = woken || !world->isAsleep(0);
+    }
+    CHECK(woken);
+    CHECK(world->isAsleep(1));
+}
+
+TEST_CASE("a doll dragged by the hand at 50 m/s holds together") {
+    const physics::RagdollProfile profile = makeDoll();
+    const auto world = createCrowdWorld(WorldSettings{});
+    world->addStatic(floorPlane());
+    world->addDoll(profile, placedDoll(profile, {0, 0.3F, 0}));
+    const int hand = physics::bodyOf(profile, physics::Role::leftHand);
+    float separation = 0.0F;
+    for (int i = 0; i < 600; ++i) {
+        // Round and round on a circle of 2 m.
+        const float angle = 25.0F * kStep * static_cast<float>(i);
+        world->setDrag(3, {0, hand, vec3(0), vec3(2 * std::cos(angle), 1.5F, 2 * std::sin(angle)), 1500.0F});
+        world->step(kStep, [&] {
+            const std::vector<BodyState> bodies = bodiesOf(*world, 0);
+            for (const physics::ConstraintProfile& constraint : profile.constraints) {
+                const auto state = physics::measureConstraint(constraint, bodies[constraint.parent].worldFromBody,
+                                                              bodies[constraint.child].worldFromBody);
+                separation = std::max(separation, state.separationM);
+            }
+        });
+    }
+    CHECK(separation < 0.05F);
+    for (const BodyState& body : bodiesOf(*world, 0))
+        CHECK(isFinite(body.worldFromBody));
+    CHECK(std::isfinite(world->dragWork()));
+}
+
+TEST_CASE("the work of a drag is the energy that a lifted rod gains") {
+    const physics::RagdollProfile profile = makeRod(0.2F, 0.05F, 2.0F);
+    const auto world = createCrowdWorld(WorldSettings{});
+    world->addDoll(profile, std::vector<BodyState>(1));
+    for (int i = 0; i < 240; ++i) {
+        world->setDrag(1, {0, 0, vec3(0), vec3(0, 0.5F * kStep * static_cast<float>(std::min(i, 180)), 0), 500.0F});
+        world->step(kStep);
+    }
+    const BodyState body = bodiesOf(*world, 0)[0];
+    const float gained = 2.0F * 9.81F * body.worldFromBody.translation.y +
+                         0.5F * 2.0F * glm::dot(body.linearVelocity, body.linearVelocity);
+    CHECK(world->dragWork() == Approx(gained).epsilon(0.03));
+    CHECK(body.worldFromBody.translation.y == Approx(1.5F).margin(0.02));
+}
+
+TEST_CASE("rays meet bodies and floors where they are") {
+    const physics::RagdollProfile profile = makeRod(0.5F, 0.1F, 2.0F);
+    const auto world = createCrowdWorld(WorldSettings{});
+    world->addStatic(floorPlane());
+    std::vector<BodyState> bodies(1);
+    bodies[0].worldFromBody.translation = {0, 2, 0};
+    world->addDoll(profile, bodies);
+    const auto side = world->rayTest({-2, 2, 0}, {2, 2, 0});
+    REQUIRE(side);
+    CHECK(side->doll == 0);
+    CHECK(side->body == 0);
+    CHECK(side->position.x == Approx(-0.1F).margin(1e-4));
+    CHECK(side->normal.x == Approx(-1.0F).margin(1e-4));
+    const auto cap = world->rayTest({0, 5, 0}, {0, 0, 0});
+    REQUIRE(cap);
+    CHECK(cap->position.y == Approx(2.6F).margin(1e-4));
+    const auto floor = world->rayTest({1, 3, 0}, {1, -1, 0});
+    REQUIRE(floor);
+    CHECK(floor->doll == -1);
+    CHECK(floor->fraction == Approx(0.75F));
+    CHECK_FALSE(world->rayTest({1, 3, 0}, {1, 1, 0}));
+}
+
+TEST_CASE("a lying rod reports a contact at each end") {
+    const physics::RagdollProfile profile = makeRod(0.3F, 0.1F, 2.0F);
+    const auto world = createCrowdWorld(WorldSettings{});
+    world->addStatic(floorPlane());
+    std::vector<BodyState> bodies(1);
+    bodies[0].worldFromBody.rotation = glm::angleAxis(kPi / 2, vec3(1, 0, 0));
+    bodies[0].worldFromBody.translation = {0, 0.12F, 0};
+    world->addDoll(profile, bodies);
+    for (int i = 0; i < 60; ++i)
+        world->step(kStep);
+    std::vector<physics::ContactPoint> contacts;
+    world->getContacts(contacts);
+    REQUIRE(contacts.size() == 2);
+    for (const physics::ContactPoint& contact : contacts) {
+        CHECK(contact.normal.y == Approx(1.0F));
+        CHECK(contact.position.y == Approx(0.0F).margin(2e-3));
+        CHECK(std::abs(contact.position.z) == Approx(0.3F).margin(0.01));
+        CHECK(std::abs(contact.distance) < 3e-3F);
+    }
+}
+
+TEST_CASE("dolls of two profiles share a world and placing one anew wakes it") {
+    const physics::RagdollProfile doll = makeDoll();
+    const physics::RagdollProfile rod = makeRod(0.3F, 0.1F, 2.0F);
+    const auto world = createCrowdWorld(WorldSettings{});
+    world->addStatic(floorPlane());
+    std::vector<BodyState> bodies(1);
+    bodies[0].worldFromBody.translation = {3, 0.6F, 0};
+    CHECK(world->addDoll(doll, placedDoll(doll, {0, 0.2F, 0})) == 0);
+    CHECK(world->addDoll(rod, bodies) == 1);
+    CHECK(world->addDoll(doll, placedDoll(doll, {-3, 0.2F, 0})) == 2);
+    CHECK(&world->profileOf(1) == &rod);
+    for (int i = 0; i < 480; ++i)
+        world->step(kStep);
+    CHECK(world->isAsleep(1));
+    bodies[0].worldFromBody.translation = {3, 2, 0};
+    world->setBodies(1, bodies);
+    CHECK_FALSE(world->isAsleep(1));
+    CHECK(bodiesOf(*world, 1)[0].worldFromBody.translation.y == Approx(2.0F));
+    world->step(kStep);
+    CHECK(bodiesOf(*world, 1)[0].worldFromBody.translation.y < 2.0F);
+}
