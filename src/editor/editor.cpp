@@ -123,53 +123,10 @@ void Editor::handleKey(const InputEvent& event, const UiCapture& capture) {
 }
 
 void Editor::perform(Action action) {
-    Player& player = *workspace_.player;
+    if (performOnDocument(action) || performOnSimulation(action)) return;
     switch (action) {
-        case Action::openModel:
-            dialog = Dialog::openModel;
-            break;
-        case Action::saveProfile:
-            workspace_.report(save(document().profileFile()));
-            break;
-        case Action::saveProfileAs:
-            dialog = Dialog::saveAs;
-            break;
-        case Action::exportBaked:
-            dialog = Dialog::exportBaked;
-            break;
-        case Action::quit:
-            afterUnsaved([this] { quitting_ = true; });
-            break;
-        case Action::undo:
-        case Action::redo:
-            endTransform();
-            action == Action::undo ? document().undo() : document().redo();
-            workspace_.follow();
-            machine_->fire(workspace_.ended());
-            break;
         case Action::selectNone:
             select(std::nullopt);
-            break;
-        case Action::pin:
-            togglePin();
-            break;
-        case Action::unpinAll:
-            workspace_.pulls.pins.clear();
-            break;
-        case Action::togglePlay:
-            player.setPlaying(!player.playing());
-            break;
-        case Action::stepOnce:
-            workspace_.pulls.applyTo(player.simulation().world());
-            player.stepOnce();
-            break;
-        case Action::reset:
-            endTransform();
-            workspace_.pulls.pins.clear();
-            workspace_.report(player.reset());
-            break;
-        case Action::throwBall:
-            throwBall();
             break;
         case Action::focus:
             focus();
@@ -192,6 +149,67 @@ void Editor::perform(Action action) {
         case Action::toggleHelp:
             view.help = !view.help;
             break;
+        default:
+            LUTKA_ASSERT(false);  // the two above have done it
+            break;
+    }
+}
+
+bool Editor::performOnDocument(Action action) {
+    switch (action) {
+        case Action::openModel:
+            dialog = Dialog::openModel;
+            return true;
+        case Action::saveProfile:
+            workspace_.report(save(document().profileFile()));
+            return true;
+        case Action::saveProfileAs:
+            dialog = Dialog::saveAs;
+            return true;
+        case Action::exportBaked:
+            dialog = Dialog::exportBaked;
+            return true;
+        case Action::quit:
+            afterUnsaved([this] { quitting_ = true; });
+            return true;
+        case Action::undo:
+        case Action::redo:
+            endTransform();
+            action == Action::undo ? document().undo() : document().redo();
+            workspace_.follow();
+            machine_->fire(workspace_.ended());
+            return true;
+        default:
+            return false;
+    }
+}
+
+bool Editor::performOnSimulation(Action action) {
+    Player& player = *workspace_.player;
+    switch (action) {
+        case Action::pin:
+            togglePin();
+            return true;
+        case Action::unpinAll:
+            workspace_.pulls.pins.clear();
+            return true;
+        case Action::togglePlay:
+            player.setPlaying(!player.playing());
+            return true;
+        case Action::stepOnce:
+            workspace_.pulls.applyTo(player.simulation().world());
+            player.stepOnce();
+            return true;
+        case Action::reset:
+            endTransform();
+            workspace_.pulls.pins.clear();
+            workspace_.report(player.reset());
+            return true;
+        case Action::throwBall:
+            throwBall();
+            return true;
+        default:
+            return false;
     }
 }
 

@@ -99,6 +99,8 @@ class Editor {
     void adopt(std::unique_ptr<EditorDocument> document);
     void handleMouseButton(const InputEvent& event, const UiCapture& capture);
     void handleKey(const InputEvent& event, const UiCapture& capture);
+    bool performOnDocument(Action action);
+    bool performOnSimulation(Action action);
     [[nodiscard]] bool busy() const;
     void endTransform();
     void afterUnsaved(std::function<void()> then);

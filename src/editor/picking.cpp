@@ -20,6 +20,26 @@ vec3 boxNormal(const SceneObject& object, const vec3& world) {
     return object.worldFromObject.rotation * normal;
 }
 
+struct Solid {
+    physics::RayHit hit;
+    float distance = 0.0F;
+};
+
+// The first doll on the way, or the first thing at all when geometry stops the ray.
+std::optional<Solid> firstSolid(const render::Ray& ray, const physics::World& world, bool throughGeometry) {
+    constexpr int mostLayers = 16;
+    constexpr float beyond = 0.01F;  // metres past a surface, where the next cast starts
+    float start = 0.0F;
+    for (int layer = 0; layer < mostLayers && start < kReach; ++layer) {
+        const auto hit = world.rayTest(ray.origin + ray.direction * start, ray.origin + ray.direction * kReach);
+        if (!hit) return std::nullopt;
+        const float distance = start + hit->fraction * (kReach - start);
+        if (hit->doll >= 0 || !throughGeometry) return Solid{*hit, distance};
+        start = distance + beyond;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<float> rayBox(const render::Ray& ray, const RigidTransform& worldFromBox, const vec3& halfExtents) {
@@ -42,15 +62,15 @@ std::optional<float> rayBox(const render::Ray& ray, const RigidTransform& worldF
     return enter;
 }
 
-std::optional<Pick> pick(const render::Ray& ray, const physics::World& world, std::span<const SceneObject> objects) {
+std::optional<Pick> pick(const render::Ray& ray, const physics::World& world, std::span<const SceneObject> objects,
+                         bool throughGeometry) {
     std::optional<Pick> nearest;
     float distance = std::numeric_limits<float>::max();
     bool marker = false;
-    if (const auto hit = world.rayTest(ray.origin, ray.origin + ray.direction * kReach)) {
-        distance = hit->fraction * kReach;
-        if (hit->doll >= 0) {
-            nearest = Pick{{Item::Kind::body, hit->doll, hit->body}, hit->position, hit->normal};
-        }
+    if (const auto solid = firstSolid(ray, world, throughGeometry)) {
+        const physics::RayHit& hit = solid->hit;
+        distance = solid->distance;
+        if (hit.doll >= 0) nearest = Pick{{Item::Kind::body, hit.doll, hit.body}, hit.position, hit.normal};
     }
     // What the world hit may be the very object: its slab is met at the same distance, and must win.
     constexpr float tie = 0.01F;

@@ -24,9 +24,9 @@ struct Pick {
 
 /// The nearest thing under the ray: bodies by the world's ray test, objects by the slab test. Markers (lights) are in
 /// the layer before everything solid, since they are drawn over it: layers go before distance. Geometry of the scenario
-/// hides what is behind it and is not picked itself.
+/// is not picked itself; it hides what is behind it, unless the ray goes `throughGeometry` (see-through walls).
 [[nodiscard]] std::optional<Pick> pick(const render::Ray& ray, const physics::World& world,
-                                       std::span<const SceneObject> objects);
+                                       std::span<const SceneObject> objects, bool throughGeometry = false);
 
 /// Where the ray meets the horizontal plane at `height`, or the nearest solid surface before it; nothing when the ray
 /// points away from both, or the place is beyond 100 m.

@@ -5,7 +5,9 @@
 namespace lutka::editor {
 
 std::optional<Pick> Workspace::pickUnderMouse() const {
-    return pick(mouseRay(), player->simulation().world(), player->presentObjects());
+    // The pit's walls are drawn see-through, so that they do not hide what fell into it.
+    const bool seeThrough = player->simulation().scenario().name == "pile";
+    return pick(mouseRay(), player->simulation().world(), player->presentObjects(), seeThrough);
 }
 
 vec3 Workspace::positionOf(const Item& item) const {

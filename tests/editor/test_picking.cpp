@@ -63,6 +63,23 @@ TEST_CASE("the nearest of bodies and objects is picked, and markers before both"
     CHECK_FALSE(pick({{5, 3, 0}, {0, -1, 0}}, world, {}).has_value());  // the floor is not picked
 }
 
+TEST_CASE("walls hide what is behind them unless they are see-through") {
+    const auto editor = test::makeEditor();
+    SceneSettings scene = editor->document().state().scene;
+    SceneObject wall = boxAt(test::placeOf(*editor, animation::Role::hips) + vec3(0, 0, 1));
+    wall.halfExtents = vec3(1.0F, 1.0F, 0.1F);
+    scene.objects = {wall};
+    REQUIRE(editor->edit([&](EditorDocument& document) { return document.setScene(scene, "Wall"); }));
+    const vec3 hips = test::placeOf(*editor, animation::Role::hips);
+    const render::Ray ray{hips + vec3(0, 0, 4), {0, 0, -1}};
+    const physics::World& world = editor->player().simulation().world();
+    CHECK_FALSE(pick(ray, world, {}).has_value());
+    const auto behind = pick(ray, world, {}, true);
+    REQUIRE(behind.has_value());
+    CHECK(behind->item.kind == Item::Kind::body);
+    CHECK(behind->position.z == Approx(hips.z).margin(0.25));
+}
+
 TEST_CASE("a free drag keeps the depth, an axis lock the other two coordinates, a plane lock the third") {
     const vec3 start(0.3F, 1.0F, -0.2F);
     const vec3 eye(0, 1, 4);

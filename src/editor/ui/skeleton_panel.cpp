@@ -63,6 +63,14 @@ Tree makeTree(const EditorDocument& document) {
     return tree;
 }
 
+void roleTag(Role role, const std::string& joint) {
+    const std::string name(animation::roleName(role));
+    ImGui::SameLine();
+    // A joint that is called like its role needs no second word.
+    ImGui::TextColored(accentColor(), "%s", name == joint ? "●" : name.c_str());
+    tooltip("The joint's role: " + name);
+}
+
 void drawJoint(const PanelContext& context, const Tree& tree, int joint) {
     Editor& editor = context.editor;
     const animation::Skeleton& skeleton = editor.document().character().skeleton;
@@ -98,13 +106,7 @@ void drawJoint(const PanelContext& context, const Tree& tree, int joint) {
         assignMenu(context, joint);
         ImGui::EndPopup();
     }
-    if (role) {
-        ImGui::SameLine();
-        const std::string name(animation::roleName(*role));
-        // A joint that is called like its role needs no second word.
-        ImGui::TextColored(accentColor(), "%s", name == skeleton.names[joint] ? "●" : name.c_str());
-        tooltip("The mapper's role: " + name);
-    }
+    if (role) roleTag(*role, skeleton.names[joint]);
     if (open) {
         if (!filtering) {
             for (const int child : tree.children[joint])

@@ -27,7 +27,7 @@ void labelled(const char* label, float labelWidth) {
 }
 
 void tooltip(const std::string& text) {
-    if (!ImGui::IsItemHovered()) return;
+    if (!ImGui::IsItemHovered() || ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24.0F);
     ImGui::TextUnformatted(text.c_str());

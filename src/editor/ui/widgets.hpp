@@ -10,7 +10,7 @@ void caption(const char* text);
 void mutedText(const std::string& text);
 /// A label at the left and the next widget at the right, filling the rest of the line.
 void labelled(const char* label, float labelWidth);
-/// Shows `text` when the last widget is hovered.
+/// Shows `text` when the last widget is hovered, and not while something is dragged.
 void tooltip(const std::string& text);
 /// A small coloured word in a rounded box.
 void chip(const std::string& text, unsigned int color);
