@@ -241,7 +241,7 @@ const std::vector<std::pair<int, int>>& QualityMeter::State::pairsOf(const Ragdo
     return colliding;
 }
 
-QualityMeter::QualityMeter(const World& world, std::span<const StaticShape> statics, vec3 gravity)
+QualityMeter::QualityMeter(const World& world, std::span<const StaticShape> statics, const vec3& gravity)
     : state_(std::make_unique<State>(world, statics, gravity)) {}
 
 QualityMeter::~QualityMeter() = default;

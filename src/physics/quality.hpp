@@ -47,7 +47,7 @@ struct ConstraintState {
 class QualityMeter {
   public:
     /// `statics` and `world` must outlive the meter. `gravity` in m/s².
-    QualityMeter(const World& world, std::span<const StaticShape> statics, vec3 gravity);
+    QualityMeter(const World& world, std::span<const StaticShape> statics, const vec3& gravity);
     ~QualityMeter();
 
     /// Call after every substep with the time since release.

@@ -33,7 +33,7 @@ class BufferBuilder {
     int addBounded(std::span<const T> values, int type, int target) {
         const int index = add(values, TINYGLTF_COMPONENT_TYPE_FLOAT, type, target);
         const auto* floats = reinterpret_cast<const float*>(values.data());
-        constexpr std::size_t kComponents = sizeof(T) / sizeof(float);
+        constexpr std::size_t kComponents = sizeof(T) / sizeof(float);  // NOLINT(bugprone-sizeof-expression)
         std::vector<double> low(kComponents, 0.0);
         std::vector<double> high(kComponents, 0.0);
         for (std::size_t i = 0; i < values.size() * kComponents; ++i) {

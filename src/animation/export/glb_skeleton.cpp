@@ -16,9 +16,10 @@ std::vector<double> components(const vec3& v) {
 // glTF demands the last row of an inverse bind matrix to be exactly (0, 0, 0, 1), which a rigid transform gives.
 std::array<float, 16> columns(const mat4& m) {
     std::array<float, 16> out{};
+    std::size_t at = 0;
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row)
-            out[static_cast<std::size_t>(4 * column + row)] = m[column][row];
+            out[at++] = m[column][row];
     }
     return out;
 }

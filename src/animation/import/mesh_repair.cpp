@@ -38,6 +38,8 @@ std::uint64_t fold(const std::vector<T>& values, std::uint32_t v, std::uint64_t 
 
 template <class T>
 bool same(const std::vector<T>& values, std::uint32_t a, std::uint32_t b) {
+    // Bits, as the hash above: -0 and 0 may stay two vertices.
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
     return values.empty() || std::memcmp(&values[a], &values[b], sizeof(T)) == 0;
 }
 

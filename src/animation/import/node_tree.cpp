@@ -18,7 +18,7 @@ bool isPivotHelper(const aiNode& node) {
 
 // A transform that is not finite would spoil everything below it.
 dmat4 usableTransform(const aiNode& node) {
-    const dmat4 matrix = fromAssimp(node.mTransformation);
+    dmat4 matrix = fromAssimp(node.mTransformation);
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row) {
             if (!std::isfinite(matrix[column][row])) return dmat4(1.0);
