@@ -62,11 +62,19 @@ class Application {
     std::string title_;
 };
 
-float monitorScale(GLFWwindow* window) {
+// What the monitor wants, less what the window system does already by giving a window more pixels than its size.
+float monitorScale(const render::GlContext& context) {
+    GLFWwindow* window = context.window();
+    if (window == nullptr) return 1.0F;
     float x = 1.0F;
     float y = 1.0F;
-    if (window != nullptr) glfwGetWindowContentScale(window, &x, &y);
-    return std::clamp(std::max(x, y), 0.75F, 4.0F);
+    glfwGetWindowContentScale(window, &x, &y);
+    int width = 0;
+    int height = 0;
+    glfwGetWindowSize(window, &width, &height);
+    const float done =
+        width > 0 ? static_cast<float>(context.framebufferSize().width) / static_cast<float>(width) : 1.0F;
+    return std::clamp(std::max(x, y) / std::max(done, 1.0F), 0.75F, 4.0F);
 }
 
 Result<void> Application::start() {
@@ -74,7 +82,7 @@ Result<void> Application::start() {
     auto renderer = render::Renderer::create(context_);
     if (!renderer) return renderer.error();
     renderer_.emplace(std::move(renderer).value());
-    const float scale = options_.uiScale > 0.0F ? options_.uiScale : monitorScale(context_.window());
+    const float scale = options_.uiScale > 0.0F ? options_.uiScale : monitorScale(context_);
     host_ = std::make_unique<ImguiHost>(scale);
     if (context_.window() != nullptr) {
         window_ = std::make_unique<WindowInput>(context_.window());

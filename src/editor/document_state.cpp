@@ -8,7 +8,6 @@ namespace lutka::editor {
 namespace {
 
 using animation::HumanoidMap;
-using animation::Role;
 using Fixed = std::array<std::optional<int>, animation::kRoleCount>;
 
 constexpr float kLightHalfSize = 0.12F;  // of the marker that is drawn and picked

@@ -9,6 +9,7 @@
 
 #include "editor/input_script.hpp"
 #include "physics/profile_io.hpp"
+#include "render/gl/golden.hpp"
 #include "render/image.hpp"
 #include "support/catch.hpp"
 
@@ -105,6 +106,15 @@ class Script {
     int frame_ = 1;
 };
 
+render::Image cropped(const render::Image& image, int x, int y, int width, int height) {
+    render::Image part({width, height}, {});
+    for (int row = 0; row < height; ++row) {
+        for (int column = 0; column < width; ++column)
+            part.set(column, row, image.at(x + column, y + row));
+    }
+    return part;
+}
+
 constexpr Modifiers kControl{false, true, false};
 
 }  // namespace
@@ -163,6 +173,42 @@ TEST_CASE("a script gives a role to another joint by the mapping's list and save
     const int spine = physics::bodyOf(saved.value(), animation::Role::spine);
     REQUIRE(spine >= 0);
     CHECK(saved.value().bodies[spine].joint == "chest");
+}
+
+TEST_CASE("the panels look as they did when they were looked at") {
+    if (!layoutIsKnown()) return;
+    const Scratch scratch("panels");
+    Script script;
+    std::string screenshots;
+    const auto picture = [&](const char* name) {
+        script.wait(3);
+        screenshots += " --screenshot-at " + std::to_string(script.frame()) + ":" + (scratch / name).string();
+        script.wait(1);
+    };
+    script.key(Key::space).click(663, 355);
+    script.move(640, 620);  // away from everything that lights up
+    picture("body.png");
+    script.click(122, 43).click(1024, 43).move(640, 620);
+    picture("mapping.png");
+    script.add(textTyped('?'));
+    picture("help.png");
+    script.save(scratch / "script.jsonl");
+    const Outcome outcome = edit(scratch, "--headless --input " + (scratch / "script.jsonl").string() + screenshots);
+    if (skipped(outcome)) return;
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    // The panels alone: what the view shows has pictures of its own, and the status bar tells the machine's frame rate.
+    constexpr int top = 24;
+    constexpr int height = 660;
+    const auto body = render::loadPng(scratch / "body.png");
+    const auto mapping = render::loadPng(scratch / "mapping.png");
+    const auto help = render::loadPng(scratch / "help.png");
+    REQUIRE((body.ok() && mapping.ok() && help.ok()));
+    test::checkGolden(cropped(body.value(), 0, top, 310, height), "editor_skeleton");
+    test::checkGolden(cropped(body.value(), 937, top, 343, height), "editor_body");
+    test::checkGolden(cropped(mapping.value(), 0, top, 310, height), "editor_mapping");
+    test::checkGolden(cropped(mapping.value(), 937, top, 343, height), "editor_scene");
+    test::checkGolden(cropped(help.value(), 200, 100, 880, 440), "editor_help");
 }
 
 TEST_CASE("the same script gives the same picture twice and a drag shows in it") {
