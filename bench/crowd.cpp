@@ -44,6 +44,8 @@ void apply(CrowdTuning& tuning, const std::string& setting) {
                                               {"limitErp", &tuning.limitErp},
                                               {"contactErp", &tuning.contactErp},
                                               {"jointStiffness", &tuning.jointStiffness},
+                                              {"relaxGap", &tuning.relaxGap},
+                                              {"relaxAngle", &tuning.relaxAngle},
                                               {"contactTolerance", &tuning.contactTolerance},
                                               {"limitTolerance", &tuning.limitTolerance},
                                               {"firstTouch", &tuning.firstTouch},
@@ -69,6 +71,8 @@ void apply(CrowdTuning& tuning, const std::string& setting) {
         *number->second = static_cast<int>(value);
     else if (name == "baseline")
         tuning.instructionSet = physics::crowd::InstructionSet::baseline;
+    else if (name == "avx2")
+        tuning.instructionSet = physics::crowd::InstructionSet::avx2;
     else
         fmt::print(stderr, "there is no setting '{}'\n", name);
 }

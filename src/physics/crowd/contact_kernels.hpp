@@ -113,7 +113,8 @@ static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& 
     }
 }
 
-static void solvePairs(PairContactLanes* pairs, int count, const SubstepParams& params, int useBias) {
+static int solvePairs(PairContactLanes* pairs, int count, const SubstepParams& params, int useBias) {
+    Mask pressed = all(0.0F) > all(0.0F);
     for (int i = 0; i < count; ++i) {
         PairContactLanes& pair = pairs[i];
         PairVelocities v = velocitiesOf(pair);
@@ -137,10 +138,12 @@ static void solvePairs(PairContactLanes* pairs, int count, const SubstepParams& 
         const F change =
             -load(pair.normalMass) * bias.massScale * (approach + bias.speed) - bias.impulseScale * carried;
         const F total = most(carried + change, all(0.0F));
+        pressed |= (total > all(0.0F)) | (carried > all(0.0F));
         store(pair.normalImpulse, total);
         applyPair(pair, v, 0, normal, total - carried);
         storeVelocities(pair, v);
     }
+    return bits(pressed) != 0 ? 1 : 0;
 }
 
 }  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS

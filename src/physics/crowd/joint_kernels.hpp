@@ -3,6 +3,7 @@
 /// Preparation of the constraints for a substep: arms, errors, axes and limits. tree_kernels.hpp solves them.
 
 #include "physics/crowd/body_kernels.hpp"
+#include "physics/crowd/spatial.hpp"
 
 namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
 

@@ -8,6 +8,7 @@ namespace lutka::physics::crowd {
 enum class InstructionSet {
     baseline,  ///< What every processor of the platform has (x86-64: SSE2, two registers a Wide).
     avx2,      ///< One register a Wide.
+    avx512,    ///< The same with twice as many registers.
 };
 
 /// The widest that this processor and this build have.
@@ -20,5 +21,6 @@ enum class InstructionSet {
 // Each defined by its own translation unit.
 extern const Kernels kBaselineKernels;
 extern const Kernels kAvx2Kernels;
+extern const Kernels kAvx512Kernels;
 
 }  // namespace lutka::physics::crowd

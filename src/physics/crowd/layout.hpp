@@ -91,6 +91,7 @@ struct JointLanes {
     Wide acrossWeight;
     Wide frictionWeight;
     Wide frictionGain;
+    Wide3 rowTorque;     ///< On the child, of the rows above.
     int limitActive[2];  ///< Whether any lane is near limit[i].
 };
 
@@ -107,6 +108,7 @@ struct TreeLanes {
     WideSymmetric turning;  ///< Angular momentum from angular velocity.
     Wide3 impulse, torque;  ///< Right-hand side.
 
+    WideSymmetric own;         ///< The body's own angular inertia, world axes.
     WideSymmetric compliance;  ///< Inverse of the angular block with the joint's rows.
     WideMatrix fromAngular;    ///< Child's angular change from the parent's.
     WideMatrix fromLinear;     ///< Child's angular change from that of the anchor, negated and transposed.
@@ -137,6 +139,10 @@ struct StaticContactLanes {
     Wide normalGain;  ///< The weights where the rows hold, else 0.
     Wide tangentGain;
     Wide rollGain;
+    Wide normalPush;  ///< This pass's impulses.
+    Wide tangentPush[2];
+    Wide3 rollPush;
+    int engaged;  ///< Whether it presses, or just did, in some lane.
 };
 
 /// Eight contacts between two bodies each, of any dolls; no body comes twice, so that they are solved at once.
@@ -190,6 +196,8 @@ struct SubstepParams {
     float grip;              ///< The same of friction.
     float limitTolerance;    ///< rad/s, and
     float contactTolerance;  ///< m/s: a guess of which rows hold that is wrong by more is mended in another pass.
+    float relaxGap;          ///< Metres, and
+    float relaxAngle;        ///< rad: errors below which the relaxing pass is left out.
     int passes;              ///< At most, with bias and
     int relaxPasses;         ///< without.
     int warmStart;           ///< The first substep of a step makes the carried friction impulses its own.
@@ -237,7 +245,8 @@ struct Kernels {
     /// Positions, orientations and what follows from them.
     void (*advance)(const BatchView& batch, const SubstepParams& params);
     void (*beginPairs)(PairContactLanes* pairs, int count, const SubstepParams& params);
-    void (*solvePairs)(PairContactLanes* pairs, int count, const SubstepParams& params, int useBias);
+    /// Returns whether any contact presses, or did before.
+    int (*solvePairs)(PairContactLanes* pairs, int count, const SubstepParams& params, int useBias);
 };
 
 }  // namespace lutka::physics::crowd

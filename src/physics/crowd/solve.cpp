@@ -38,6 +38,8 @@ SubstepParams paramsOf(const CrowdState& state, float dt) {
     params.contactStiffness = tuning.contactStiffness;
     params.firstTouch = tuning.firstTouch;
     params.passes = tuning.passes;
+    params.relaxGap = tuning.relaxGap;
+    params.relaxAngle = tuning.relaxAngle;
     params.relaxPasses = tuning.relaxPasses;
     params.contactTolerance = tuning.contactTolerance;
     params.limitTolerance = tuning.limitTolerance;
@@ -60,20 +62,21 @@ class JobSubstep {
         dolls(1, 1);
         // What touches other bodies works on single bodies; a pass over the dolls must follow before anything moves.
         const bool coupled = !job_.pairs.empty() || !job_.drags.empty();
-        if (coupled) {
-            couplings(1);
-            dolls(1, 0);
-        }
+        const bool pressed = coupled && couplings(1);
+        if (pressed) dolls(1, 0);
         forBatches([&](const BatchView& view) { kernels.advance(view, params_); });
-        if (coupled) couplings(0);
+        if (pressed) couplings(0);
         dolls(0, 0);
     }
 
   private:
-    void couplings(int useBias) {
+    // Returns whether anything was pushed.
+    bool couplings(int useBias) {
         for (DragRecord* drag : job_.drags)
             job_.dragWork += solveDrag(state_, *drag, params_.dt);
-        state_.kernels->solvePairs(job_.pairs.data(), static_cast<int>(job_.pairs.size()), params_, useBias);
+        const int pressed =
+            state_.kernels->solvePairs(job_.pairs.data(), static_cast<int>(job_.pairs.size()), params_, useBias);
+        return pressed != 0 || !job_.drags.empty();
     }
 
     void dolls(int useBias, int first) {

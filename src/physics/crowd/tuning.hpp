@@ -11,6 +11,8 @@ struct CrowdTuning {
     int substeps = 8;               ///< A step; >= 1. More: stiffer joints, shallower contacts, cost in proportion.
     int passes = 8;                 ///< At most, with bias in a substep, >= 1: until the guess of what holds is right.
     int relaxPasses = 1;            ///< The same without bias; they take out the speed that mending errors put in.
+    float relaxGap = 0.0002F;       ///< Metres, and
+    float relaxAngle = 0.002F;      ///< rad: errors below which the relaxing pass is left out.
     float contactTolerance = 0.1F;  ///< m/s by which the guess of which contacts hold may be wrong.
     float limitTolerance = 1.0F;    ///< rad/s, the same of limits.
 

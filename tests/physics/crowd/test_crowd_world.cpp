@@ -43,7 +43,7 @@ TEST_CASE("the same bits come out at every thread count and instruction set") {
         CHECK(pitHash(threads, std::nullopt, false) == hash);
     }
     CHECK(pitHash(2, std::nullopt, true) == hash);
-    for (const InstructionSet set : {InstructionSet::baseline, InstructionSet::avx2}) {
+    for (const InstructionSet set : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512}) {
         CAPTURE(static_cast<int>(set));
         if (physics::crowd::hasInstructionSet(set)) CHECK(pitHash(1, set, false) == hash);
     }
