@@ -139,11 +139,12 @@ int main(int argc, char** argv) {
                          });
                      },
                      {}});
-    cases.push_back({"copy of the palettes",
-                     "joint",
-                     jointCount,
-                     [&] { std::memcpy(copies.data(), palettes.data(), palettes.size() * sizeof palettes[0]); },
-                     {}});
+    cases.push_back(
+        {"copy of the palettes",
+         "joint",
+         jointCount,
+         [&] { std::memcpy(static_cast<void*>(copies.data()), palettes.data(), palettes.size() * sizeof palettes[0]); },
+         {}});
     cases.push_back({"skinVertices",
                      "vertex",
                      static_cast<double>(vertices),
@@ -158,12 +159,14 @@ int main(int argc, char** argv) {
                          }
                      },
                      {}});
-    cases.push_back(
-        {"copy of the vertices",
-         "vertex",
-         static_cast<double>(vertices),
-         [&] { std::memcpy(vertexCopies.data(), positions.data(), positions.size() * sizeof positions[0]); },
-         {}});
+    cases.push_back({"copy of the vertices",
+                     "vertex",
+                     static_cast<double>(vertices),
+                     [&] {
+                         std::memcpy(static_cast<void*>(vertexCopies.data()), positions.data(),
+                                     positions.size() * sizeof positions[0]);
+                     },
+                     {}});
     constexpr int rounds = 15;
     for (int round = 0; round < rounds; ++round) {
         for (Case& one : cases)
