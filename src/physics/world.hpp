@@ -29,10 +29,11 @@ struct DynamicProp {
     BodyState state;
 };
 
-enum class SolverKind { stock, bullet };
+enum class SolverKind { stock, bullet, crowd };
 
 /// The name on the command line and in reports.
 [[nodiscard]] constexpr std::string_view solverName(SolverKind solver) {
+    if (solver == SolverKind::crowd) return "crowd";
     return solver == SolverKind::stock ? "stock" : "bullet";
 }
 

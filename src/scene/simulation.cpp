@@ -7,6 +7,7 @@
 #include "core/assert.hpp"
 #include "core/random.hpp"
 #include "physics/bullet/bullet_world.hpp"
+#include "physics/crowd/crowd_world.hpp"
 #include "scene/start_pose.hpp"
 
 namespace lutka::scene {
@@ -71,7 +72,8 @@ Simulation::Simulation(const RagdollAsset& asset, Scenario scenario, const Simul
 void Simulation::build() {
     const physics::RagdollProfile& profile = asset_.profile;
     meter_.reset();
-    world_ = physics::createBulletWorld(options_.world);
+    world_ = options_.world.solver == physics::SolverKind::crowd ? physics::createCrowdWorld(options_.world)
+                                                                 : physics::createBulletWorld(options_.world);
     for (const physics::StaticShape& shape : scenario_.statics)
         world_->addStatic(shape);
     for (const physics::DynamicProp& prop : scenario_.props)

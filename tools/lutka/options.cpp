@@ -24,7 +24,8 @@ const std::map<std::string, physics::MassPreset> kMassPresets = {{"anatomical", 
                                                                  {"volume", physics::MassPreset::volume}};
 
 const std::map<std::string, physics::SolverKind> kSolvers = {{"stock", physics::SolverKind::stock},
-                                                             {"bullet", physics::SolverKind::bullet}};
+                                                             {"bullet", physics::SolverKind::bullet},
+                                                             {"crowd", physics::SolverKind::crowd}};
 
 void addExtraBodies(const std::string& list, physics::FitOptions& fit) {
     for (const std::string& word : CLI::detail::split(list, ',')) {
@@ -145,7 +146,8 @@ scene::SimulationOptions SimulateOptions::simulation() const {
 }
 
 void addSolverOption(CLI::App& app, std::string& solver) {
-    app.add_option("--solver", solver, "stock: plain Bullet; bullet: Bullet tuned for ragdolls")
+    app.add_option("--solver", solver,
+                   "stock: plain Bullet; bullet: Bullet tuned for ragdolls; crowd: dolls in SIMD lanes")
         ->check(CLI::IsMember(&kSolvers))
         ->capture_default_str();
 }
