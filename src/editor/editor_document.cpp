@@ -274,8 +274,9 @@ void EditorDocument::redo() {
 
 std::filesystem::path EditorDocument::profileFile() const {
     if (!profileFile_.empty()) return profileFile_;
-    std::filesystem::path file = character().file;
-    return file.replace_extension(".ragdoll.json");
+    const std::filesystem::path& model = character().file;
+    std::filesystem::path file = model.parent_path() / (model.empty() ? character().name : model.stem().string());
+    return file += ".ragdoll.json";
 }
 
 Result<void> EditorDocument::save(const std::filesystem::path& file) {

@@ -3,6 +3,7 @@
 
 #include "physics/profile_io.hpp"
 #include "sessions.hpp"
+#include "support/command.hpp"
 
 using namespace lutka;
 using namespace lutka::editor;
@@ -164,7 +165,8 @@ TEST_CASE("a part that is reset is as fitted again") {
 
 TEST_CASE("what is saved is what is loaded and the mark of unsaved changes goes") {
     const auto document = makeDocument();
-    const auto file = std::filesystem::temp_directory_path() / "lutka_test_document.ragdoll.json";
+    const test::ScratchFolder folder;
+    const std::filesystem::path file = folder / "biped.ragdoll.json";
     REQUIRE(document->setHinge(constraintOf(*document, Role::leftLowerLeg), {-0.5F, 0.6F}).ok());
     REQUIRE(document->save(file).ok());
     CHECK_FALSE(document->unsaved());

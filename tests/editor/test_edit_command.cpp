@@ -1,17 +1,15 @@
 /// Runs the shipped program: scripts on the EGL context, and the real window on a virtual screen.
 
-#include <sys/wait.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "editor/input_script.hpp"
 #include "physics/profile_io.hpp"
 #include "render/gl/golden.hpp"
 #include "render/image.hpp"
 #include "support/catch.hpp"
+#include "support/command.hpp"
 
 using namespace lutka;
 using namespace lutka::editor;
@@ -20,30 +18,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder of its own, with a copy of the mannequin, so that what is saved lands there.
+// A copy of the mannequin in a folder of its own, so that what is saved lands there.
 class Scratch {
   public:
-    explicit Scratch(const std::string& name) : folder_(fs::temp_directory_path() / ("lutka_edit_" + name)) {
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-        fs::copy_file(LUTKA_ASSETS_DIR "/models/mannequin.glb", model());
-    }
-    ~Scratch() { fs::remove_all(folder_); }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
+    Scratch() { fs::copy_file(LUTKA_ASSETS_DIR "/models/mannequin.glb", model()); }
 
-    [[nodiscard]] fs::path model() const { return folder_ / "mannequin.glb"; }
-    [[nodiscard]] fs::path operator/(const char* name) const { return folder_ / name; }
+    [[nodiscard]] fs::path model() const { return folder_.path / "mannequin.glb"; }
+    [[nodiscard]] fs::path operator/(const char* name) const { return folder_.path / name; }
 
   private:
-    fs::path folder_;
+    test::ScratchFolder folder_;
 };
-
-std::string textOf(const fs::path& file) {
-    std::stringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-}
 
 struct Outcome {
     int code = -1;
@@ -53,7 +38,7 @@ struct Outcome {
 Outcome run(const Scratch& scratch, const std::string& command) {
     const fs::path log = scratch / "log.txt";
     const int status = std::system((command + " >" + log.string() + " 2>&1").c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(log)};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, test::fileText(log)};
 }
 
 Outcome edit(const Scratch& scratch, const std::string& arguments) {
@@ -121,7 +106,7 @@ constexpr Modifiers kControl{false, true, false};
 
 TEST_CASE("a script sets a limit by its slider, changes another value, undoes that, and saves") {
     if (!layoutIsKnown()) return;
-    const Scratch scratch("limit");
+    const Scratch scratch;
     Script script;
     script.key(Key::space).click(663, 355);       // the left lower leg
     script.drag(1140, 333, 1090, 333).release();  // its "Flexes to"
@@ -151,7 +136,7 @@ TEST_CASE("a script sets a limit by its slider, changes another value, undoes th
 
 TEST_CASE("a script gives a role to another joint by the mapping's list and saves it") {
     if (!layoutIsKnown()) return;
-    const Scratch scratch("map");
+    const Scratch scratch;
     Script script;
     script.key(Key::space).click(122, 43);  // the tab Mapping
     script.click(190, 155);                 // the spine's joint
@@ -164,7 +149,7 @@ TEST_CASE("a script gives a role to another joint by the mapping's list and save
     script.save(scratch / "script.jsonl");
     const Outcome outcome =
         edit(scratch, "--headless --input " + (scratch / "script.jsonl").string() + " --screenshot-at " +
-                          std::to_string(list) + ":" + (fs::temp_directory_path() / "lutka_list.png").string());
+                          std::to_string(list) + ":" + (scratch / "list.png").string());
     if (skipped(outcome)) return;
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
@@ -177,7 +162,7 @@ TEST_CASE("a script gives a role to another joint by the mapping's list and save
 
 TEST_CASE("the panels look as they did when they were looked at") {
     if (!layoutIsKnown()) return;
-    const Scratch scratch("panels");
+    const Scratch scratch;
     Script script;
     std::string screenshots;
     const auto picture = [&](const char* name) {
@@ -213,7 +198,7 @@ TEST_CASE("the panels look as they did when they were looked at") {
 
 TEST_CASE("the same script gives the same picture twice and a drag shows in it") {
     if (!layoutIsKnown()) return;
-    const Scratch scratch("drag");
+    const Scratch scratch;
     Script script;
     script.wait(12).drag(640, 420, 640, 250).wait(20);
     script.save(scratch / "drag.jsonl");
@@ -242,7 +227,7 @@ TEST_CASE("the same script gives the same picture twice and a drag shows in it")
 }
 
 TEST_CASE("a broken model at the start and a broken script end with code 3, bad words with 2, no display with 6") {
-    const Scratch scratch("errors");
+    const Scratch scratch;
     std::ofstream(scratch / "broken.jsonl") << "nothing\n";
     const Outcome broken = edit(scratch, "--headless --input " + (scratch / "broken.jsonl").string());
     CHECK(broken.code == 3);
@@ -259,7 +244,7 @@ TEST_CASE("a broken model at the start and a broken script end with code 3, bad 
 }
 
 TEST_CASE("a real window takes a real pointer and keyboard, records them, and closes") {
-    const Scratch scratch("window");
+    const Scratch scratch;
     const Outcome outcome = run(scratch, std::string("bash ") + LUTKA_TESTS_DIR "/editor/window_smoke.sh " +
                                              LUTKA_BINARY + " " + (scratch / "replay.png").string());
     INFO(outcome.output);

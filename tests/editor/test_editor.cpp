@@ -4,6 +4,7 @@
 
 #include "core/random.hpp"
 #include "sessions.hpp"
+#include "support/command.hpp"
 
 using namespace lutka;
 using namespace lutka::editor;
@@ -32,10 +33,6 @@ InputEvent leftDown() {
 }
 InputEvent leftUp() {
     return mouseButton(MouseButton::left, false);
-}
-
-std::filesystem::path temporary(const char* name) {
-    return std::filesystem::temp_directory_path() / name;
 }
 
 }  // namespace
@@ -330,7 +327,8 @@ TEST_CASE("a ball that is thrown meets the doll and is gone after a reset") {
 
 TEST_CASE("a file that is no model is told and the old scene goes on") {
     const auto editor = makeEditor();
-    const auto file = temporary("lutka_test_broken.glb");
+    const test::ScratchFolder folder;
+    const std::filesystem::path file = folder / "broken.glb";
     std::ofstream(file) << "no model";
     pass(*editor, 10);
     send(*editor, filesDropped({file.string()}));
@@ -339,7 +337,6 @@ TEST_CASE("a file that is no model is told and the old scene goes on") {
     REQUIRE_FALSE(editor->workspace().toasts.empty());
     CHECK(editor->workspace().toasts.back().kind == Toast::Kind::error);
     CHECK(editor->characterRevision() == 0);
-    std::filesystem::remove(file);
 }
 
 TEST_CASE("a model that is dropped replaces the scene and nothing of the old one stays selected") {
@@ -379,10 +376,10 @@ TEST_CASE("an editor without changes quits at once") {
 
 TEST_CASE("the baked fall is written as a glb") {
     const auto editor = makeEditor();
-    const auto file = temporary("lutka_test_baked.glb");
+    const test::ScratchFolder folder;
+    const std::filesystem::path file = folder / "baked.glb";
     REQUIRE(editor->exportBaked(file, 0.5F).ok());
     CHECK(std::filesystem::file_size(file) > 1000);
-    std::filesystem::remove(file);
 }
 
 TEST_CASE("any sequence of events keeps the editor whole and the same one gives the same state") {
@@ -390,6 +387,8 @@ TEST_CASE("any sequence of events keeps the editor whole and the same one gives 
         EditorOptions options;
         options.scene.count = 2;
         const auto editor = makeEditor(options);
+        const test::ScratchFolder folder;  // for when it happens to press Ctrl+S
+        REQUIRE(editor->save(folder / "saved.ragdoll.json").ok());
         Random random(seed);
         const auto pick = [&](int count) {
             return static_cast<int>(random.next() % static_cast<std::uint64_t>(count));
@@ -416,7 +415,6 @@ TEST_CASE("any sequence of events keeps the editor whole and the same one gives 
             REQUIRE((editor->state() != State::idle || editor->workspace().selection.empty()));
             REQUIRE((editor->state() != State::selected || !editor->workspace().selection.empty()));
         }
-        std::filesystem::remove(editor->document().profileFile());
         return editor->player().simulation().stateHash();
     };
     for (const std::uint64_t seed : {1ULL, 2ULL, 3ULL})

@@ -64,7 +64,7 @@ editor::ApplicationOptions applicationOptions(const Options& options) {
     edit.scene.count = options.count;
     edit.scene.seed = options.seed;
     edit.scene.world.threads = options.threads;
-    edit.scene.world.solver = options.solver == "stock" ? physics::SolverKind::stock : physics::SolverKind::bullet;
+    edit.scene.world.solver = solverFromName(options.solver);
     edit.window = parseSize(options.size);
     edit.playing = !options.paused;
     application.headless = options.headless;
@@ -101,9 +101,7 @@ void addEdit(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--seed", options->seed, "varies the start; 0 stands upright")->capture_default_str();
     command->add_option("--threads", options->threads, "threads to step with")->check(CLI::Range(1, 256));
-    command->add_option("--solver", options->solver, "stock or bullet")
-        ->check(CLI::IsMember({"stock", "bullet"}))
-        ->capture_default_str();
+    addSolverOption(*command, options->solver);
     command->add_flag("--paused", options->paused, "begin paused");
     command->add_flag("--headless", options->headless, "no window: draw on an EGL context");
     command->add_option("--input", options->input, "replay window events from a file (*.jsonl)");

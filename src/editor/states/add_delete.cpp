@@ -132,10 +132,4 @@ std::unique_ptr<StateHandler> makeDeleteHandler(Workspace& workspace) {
     return std::make_unique<DeleteHandler>(workspace);
 }
 
-StateMachine::Handlers makeHandlers(Workspace& workspace) {
-    return {makeSelectHandler(workspace),       makeSelectHandler(workspace), makeGrabHandler(workspace),
-            makeRotateHandler(workspace),       makeScaleHandler(workspace),  makeCameraMoveHandler(workspace),
-            makeCameraRotateHandler(workspace), makeAddHandler(workspace),    makeDeleteHandler(workspace)};
-}
-
 }  // namespace lutka::editor
