@@ -65,9 +65,9 @@ void drawPhysics(const PanelContext& context) {
         change(editor, scene, "Gravity", "gravity", false);
     }
     labelled("Solver", labelWidth(context));
-    int solver = scene.world.solver == physics::SolverKind::stock ? 0 : 1;
-    if (ImGui::Combo("##solver", &solver, "Stock Bullet\0Tuned for ragdolls\0")) {
-        scene.world.solver = solver == 0 ? physics::SolverKind::stock : physics::SolverKind::bullet;
+    int solver = static_cast<int>(scene.world.solver);
+    if (ImGui::Combo("##solver", &solver, "Stock Bullet\0Tuned for ragdolls\0Crowd\0")) {
+        scene.world.solver = static_cast<physics::SolverKind>(solver);
         change(editor, scene, "Solver", "", false);
     }
     labelled("Threads", labelWidth(context));
