@@ -17,18 +17,18 @@ struct CrowdTuning {
     float limitTolerance = 1.0F;    ///< rad/s, the same of limits.
 
     float jointErp = 0.3F;          ///< Part of a joint's gap mended in a substep, (0, 1].
-    float limitErp = 0.3F;          ///< The same for limits.
+    float limitErp = 0.1F;          ///< The same for limits.
     float contactErp = 0.3F;        ///< The same for overlap.
     float jointStiffness = 300.0F;  ///< Weight of rows that hold over the local effective mass. More: quicker, rougher.
-    float limitStiffness = 30.0F;
-    float contactStiffness = 40.0F;
-    float firstTouch = 40.0F;
-    float grip = 1.0F;            ///< The same of friction. More: quicker to grip, chatters.
-    float pushSpeed = 2.0F;       ///< m/s, largest speed that overlap is pushed apart with.
-    float limitSpeed = 6.0F;      ///< rad/s, the same for limits.
-    float slop = 0.0005F;         ///< Metres of overlap left alone, so that resting contacts stay.
-    float margin = 0.05F;         ///< Metres beyond the predicted motion within which contacts are made.
-    float rollingLever = 0.004F;  ///< Metres, rolling resistance: flesh is no ideal cylinder.
+    float limitStiffness = 30.0F;   ///< The same of limits, and
+    float contactStiffness = 100.0F;  ///< static contacts.
+    float firstTouch = 40.0F;         ///< Of both while they are still ahead: a wrong guess there pulls.
+    float grip = 1.0F;                ///< The same of friction. More: quicker to grip, chatters.
+    float pushSpeed = 2.0F;           ///< m/s, largest speed that overlap is pushed apart with.
+    float limitSpeed = 6.0F;          ///< rad/s, the same for limits.
+    float slop = 0.0005F;             ///< Metres of overlap left alone, so that resting contacts stay.
+    float margin = 0.05F;             ///< Metres beyond the predicted motion within which contacts are made.
+    float rollingLever = 0.004F;      ///< Metres, rolling resistance: flesh is no ideal cylinder.
     float leastGyration = 0.05F;  ///< Metres, of a figure 1.75 m tall: no body has a smaller radius of gyration about
                                   ///< any axis; thin hands and feet are given more inertia. More: tighter, stiffer.
     float linearDamping = 0.0F;   ///< 1/s; speed decays by exp(-d t).

@@ -35,7 +35,7 @@ TEST_CASE("a dropped doll stays within the bounds of a single doll") {
         CHECK(quality.jointSeparationM.max < 0.010F);
         CHECK(quality.jointSeparationM.p99 < 0.002F);
         CHECK(quality.limitViolationDeg.p99 < 3.0F);
-        CHECK(quality.floorPenetrationM < 0.015F);
+        CHECK(quality.floorPenetrationM < 0.010F);
         CHECK(quality.energyGrowthJ < 0.03F * quality.initialEnergyJ);
         CHECK(quality.nonFinite == 0);
         CHECK(quality.residualSpeedMps < 0.01F);
