@@ -83,6 +83,11 @@ void CrowdWorld::step(float dt, const std::function<void()>& afterSubstep) {
     for (const DragRecord& record : state_.drags)
         wakeDoll(record.drag.doll);
     gatherActive(state_);
+    if (state_.active.empty()) {  // all asleep: nothing can change
+        for (int i = 0; afterSubstep && i < substepsPerStep(); ++i)
+            afterSubstep();
+        return;
+    }
     findBounds(state_, dt);
     sweepDolls(state_, dt);
     wakeTouched(state_, dt);

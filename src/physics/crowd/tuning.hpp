@@ -38,7 +38,7 @@ struct CrowdTuning {
     float sleepTurn = 0.045F;   ///< rad/s, of every body.
     float sleepSeconds = 1.0F;  ///< For how long a doll must be below both.
     float calmSpeed = 0.15F;    ///< m/s and rad/s: below it a lying doll is braked.
-    float calmDamping = 4.0F;   ///< 1/s, the brake.
+    float calmDamping = 15.0F;   ///< 1/s, the brake.
 
     std::optional<InstructionSet> instructionSet;  ///< Unset: the widest that the processor has.
 };
