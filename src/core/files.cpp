@@ -71,8 +71,14 @@ Result<std::vector<unsigned char>> readFile(const fs::path& file, std::size_t ma
     return bytes;
 }
 
-Result<void> writeFileAtomically(const fs::path& file, const std::function<Result<void>(const fs::path&)>& write) {
+Result<void> writeFileAtomically(const fs::path& named, const std::function<Result<void>(const fs::path&)>& write) {
     std::error_code failed;
+    // What a link names is replaced, not the link; a device or pipe has no second version to rename over it.
+    const fs::path file = fs::is_symlink(named, failed) ? fs::weakly_canonical(named, failed) : named;
+    if (fs::exists(file, failed) && !fs::is_regular_file(file, failed) && !fs::is_directory(file, failed)) {
+        return Error{ErrorCode::output, "is no ordinary file, and this output can't be streamed", named.string(),
+                     "give the name of a file"};
+    }
     if (file.has_parent_path()) fs::create_directories(file.parent_path(), failed);
     if (failed) return outputError(file, "its folder can't be made", failed.value());
     if (fs::is_directory(file, failed)) return outputError(file, "can't be written", EISDIR);
@@ -92,6 +98,10 @@ Result<void> writeFileAtomically(const fs::path& file, const std::function<Resul
 }
 
 Result<void> writeFileAtomically(const fs::path& file, std::string_view bytes) {
+    std::error_code failed;
+    const bool stream =
+        fs::exists(file, failed) && !fs::is_regular_file(file, failed) && !fs::is_directory(file, failed);
+    if (stream) return writeBytes(file, bytes);  // /dev/stdout, a pipe
     return writeFileAtomically(file, [&](const fs::path& temporary) { return writeBytes(temporary, bytes); });
 }
 

@@ -17,11 +17,11 @@ namespace lutka {
 
 /// Writes the file whole or not at all: `bytes` go to a temporary file in the same folder, which is flushed and renamed
 /// over `file`; on failure (ErrorCode::output) the temporary file is removed and an old `file` is left as it was.
-/// Missing parent folders are made.
+/// Missing parent folders are made. A link's target is written, not the link; a device or pipe is written straight.
 [[nodiscard]] Result<void> writeFileAtomically(const std::filesystem::path& file, std::string_view bytes);
 
 /// The same for a writer that needs a path (an encoder, a third-party library): `write` gets a temporary path beside
-/// `file` with the same extension, and the result is renamed when it succeeds.
+/// `file` with the same extension, and the result is renamed when it succeeds. Devices and pipes are refused.
 [[nodiscard]] Result<void> writeFileAtomically(const std::filesystem::path& file,
                                                const std::function<Result<void>(const std::filesystem::path&)>& write);
 

@@ -8,6 +8,7 @@
 #include "physics/fit_shapes.hpp"
 #include "physics/separate_shapes.hpp"
 #include "physics/shape.hpp"
+#include "physics/trunk_roles.hpp"
 
 namespace lutka::physics {
 namespace {
@@ -21,8 +22,9 @@ Result<void> checkRoles(const RagdollProfile& profile, const animation::Characte
         }
     }
     if (lacking.empty()) return {};
-    return Error{ErrorCode::input, "the profile has bodies for roles that the rig lacks: " + lacking, character.name,
-                 "bind these roles by hand, or build a profile for this rig"};
+    return Error{ErrorCode::input, "the profile has bodies for roles that the rig lacks: " + lacking,
+                 character.file.string(),
+                 "build a profile for this rig (`lutka build`), or one with fewer bodies for both"};
 }
 
 // Where the old shapes sit on the new rig: in the same place relative to the constraint frames, which mean the same on
@@ -129,12 +131,14 @@ std::vector<PlacedShape> shapesInBindPose(const RagdollProfile& profile, const a
     return shapes;
 }
 
-Result<RagdollProfile> rebindProfile(const RagdollProfile& profile, const animation::Character& character,
+Result<RagdollProfile> rebindProfile(const RagdollProfile& given, const animation::Character& character,
                                      const animation::HumanoidMap& map, bool keepShapes) {
+    const RagdollProfile profile = adaptTrunk(given, map);
     if (const Result<void> checked = checkRoles(profile, character, map); !checked) return checked.error();
     const BodyPlan plan = planBodies(character, map, rolesOf(profile));
     if (plan.bodies.size() != profile.bodies.size()) {
-        return Error{ErrorCode::input, "two roles of the profile are on one joint of the rig", character.name, {}};
+        return Error{ErrorCode::input, "two roles of the profile are on one joint of the rig", character.file.string(),
+                     "build a profile for this rig (`lutka build`)"};
     }
     const Anatomy anatomy = findAnatomy(plan);
     RagdollProfile bound = inPlanOrder(profile, plan);

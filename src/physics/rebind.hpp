@@ -14,7 +14,8 @@ namespace lutka::physics {
 /// Kept: which roles have bodies, masses, kinds and spans of the limits, friction, filtered pairs. Made anew from the
 /// rig's own anatomy: joints, constraint frames, and shapes with their inertia; with `keepShapes` the shapes keep their
 /// size and their place relative to the constraint frames. A limit that the new bind pose breaks is widened (see
-/// RagdollProfile::notes), and pairs that overlap in it are filtered.
+/// RagdollProfile::notes), and pairs that overlap in it are filtered. Trunk roles stand in for one another, see
+/// adaptTrunk().
 /// Fails with ErrorCode::input, naming every role that the new rig lacks.
 [[nodiscard]] Result<RagdollProfile> rebindProfile(const RagdollProfile& profile, const animation::Character& character,
                                                    const animation::HumanoidMap& map, bool keepShapes = false);

@@ -1,5 +1,6 @@
 #include "scene/ragdoll_asset.hpp"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "physics/profile_io.hpp"
@@ -26,10 +27,25 @@ bool anchorsMeet(const physics::RagdollProfile& profile, const physics::Rig& rig
     return true;
 }
 
+bool sharesMostJoints(const physics::RagdollProfile& profile, const animation::Skeleton& skeleton) {
+    const auto there =
+        std::count_if(profile.bodies.begin(), profile.bodies.end(), [&](const physics::BodyProfile& body) {
+            return animation::findJoint(skeleton, body.jointPath) != animation::kNoJoint ||
+                   animation::findJoint(skeleton, body.joint) != animation::kNoJoint;
+        });
+    return 2 * there > static_cast<std::ptrdiff_t>(profile.bodies.size());
+}
+
 Result<void> readProfile(RagdollAsset& asset, const LoadOptions& options) {
     auto read = physics::loadProfile(*options.profile);
     if (!read) return read.error();
     auto rig = physics::bindRig(read.value(), asset.character.skeleton);
+    // A few joints that are not there are typos to be mended, not another rig.
+    if (!rig && sharesMostJoints(read.value(), asset.character.skeleton)) {
+        Error error = rig.error();
+        error.location = options.profile->string();
+        return error;
+    }
     if (!rig || !anchorsMeet(read.value(), rig.value())) {
         read = physics::rebindProfile(read.value(), asset.character, asset.map, options.keepShapes);
         if (!read) return read.error();

@@ -1,3 +1,5 @@
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -86,4 +88,29 @@ TEST_CASE("a missing asset names where it was looked for and the mend") {
     REQUIRE_FALSE(found);
     CHECK(found.error().code == ErrorCode::input);
     CHECK(found.error().mend.find("LUTKA_ASSETS") != std::string::npos);
+}
+
+TEST_CASE("a link stays a link and its target is written") {
+    const TemporaryFolder folder;
+    REQUIRE(writeFileAtomically(folder.path / "target", "old"));
+    fs::create_symlink(folder.path / "target", folder.path / "link");
+    REQUIRE(writeFileAtomically(folder.path / "link", "new"));
+    CHECK(fs::is_symlink(folder.path / "link"));
+    CHECK(contents(folder.path / "target") == "new");
+}
+
+TEST_CASE("a pipe is written straight by bytes and refused where a second version is needed") {
+    const TemporaryFolder folder;
+    const fs::path pipe = folder.path / "pipe";
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    const auto refused = writeFileAtomically(pipe, [](const fs::path&) -> Result<void> { return {}; });
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().code == ErrorCode::output);
+    const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    REQUIRE(writeFileAtomically(pipe, "streamed"));
+    char read[16] = {};
+    CHECK(::read(reader, read, sizeof read) == 8);
+    CHECK(std::string(read) == "streamed");
+    ::close(reader);
+    CHECK(fs::is_fifo(pipe));
 }

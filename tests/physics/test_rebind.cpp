@@ -125,3 +125,37 @@ TEST_CASE("re-binding names every role that the rig lacks") {
     CHECK(bound.error().code == ErrorCode::input);
     CHECK(bound.error().message.find("head, leftHand") != std::string::npos);
 }
+
+TEST_CASE("a trunk of fewer joints takes the profile's trunk bodies together, their masses with them") {
+    const animation::Character biped = test::makeBiped();
+    const animation::HumanoidMap whole = test::mapOfBiped(biped);
+    const auto profile = fitRagdoll(biped, whole);
+    REQUIRE(profile);
+    animation::HumanoidMap shorter = whole;
+    shorter.roles[animation::indexOf(Role::chest)].reset();
+    const auto bound = rebindProfile(profile.value(), biped, shorter);
+    REQUIRE(bound);
+    CHECK(bound.value().bodies.size() == profile.value().bodies.size() - 1);
+    CHECK(bodyOf(bound.value(), Role::chest) == -1);
+    CHECK(bodyOf(bound.value(), Role::spine) > 0);
+    float mass = 0;
+    for (const BodyProfile& body : bound.value().bodies)
+        mass += body.massKg;
+    CHECK(mass == Approx(profile.value().totalMassKg));
+    CHECK(validate(bound.value()).empty());
+}
+
+TEST_CASE("the topmost trunk body goes to the topmost trunk role of the other rig") {
+    const animation::Character biped = test::makeBiped();
+    animation::HumanoidMap tall = test::mapOfBiped(biped);
+    auto& roles = tall.roles;
+    std::swap(roles[animation::indexOf(Role::chest)], roles[animation::indexOf(Role::upperChest)]);
+    const auto profile = fitRagdoll(biped, tall);
+    REQUIRE(profile);
+    REQUIRE(bodyOf(profile.value(), Role::upperChest) > 0);
+    const auto bound = rebindProfile(profile.value(), biped, test::mapOfBiped(biped));
+    REQUIRE(bound);
+    CHECK(bodyOf(bound.value(), Role::chest) > 0);
+    CHECK(bound.value().bodies.size() == profile.value().bodies.size());
+    CHECK(validate(bound.value()).empty());
+}
