@@ -27,7 +27,8 @@ float pairRange(const CrowdState& state, const Doll& a, int bodyA, const Doll& b
     const BodyState moveB = bodyState(state, b, bodyB);
     const float turning = glm::length(moveA.angularVelocity) * state.groupOf(a).topology.bodies[bodyA].reach +
                           glm::length(moveB.angularVelocity) * state.groupOf(b).topology.bodies[bodyB].reach;
-    return state.tuning.margin + kForesight * dt * (glm::length(moveA.linearVelocity - moveB.linearVelocity) + turning);
+    return state.tuning.pairMargin +
+           kForesight * dt * (glm::length(moveA.linearVelocity - moveB.linearVelocity) + turning);
 }
 
 std::uint64_t pairKey(const Doll& a, int bodyA, const Doll& b, int bodyB, int index) {
@@ -53,7 +54,7 @@ void collide(const CrowdState& state, int dollA, int bodyA, int dollB, int bodyB
 
 void boundsOfBatch(CrowdState& state, Batch& batch, const Topology& topology, float dt) {
     const BatchView view = batch.view(topology);
-    state.kernels->findBounds(view, dt, state.tuning.margin);
+    state.kernels->findBounds(view, dt, state.tuning.pairMargin);
     Wide3 low;
     Wide3 high;
     state.kernels->joinBounds(view, low, high);
@@ -69,8 +70,8 @@ void boundsOfBatch(CrowdState& state, Batch& batch, const Topology& topology, fl
 struct Bounds {
     vec3 low, high;
 };
-Bounds worldBounds(const Doll& doll, float dt) {
-    const vec3 moved = doll.asleep() ? vec3(0) : glm::abs(doll.rootVelocity) * (kForesight * dt);
+Bounds worldBounds(const Doll& doll, float dt, float farther = 0.0F) {
+    const vec3 moved = farther + (doll.asleep() ? vec3(0) : glm::abs(doll.rootVelocity) * (kForesight * dt));
     return {doll.low - moved, doll.high + moved};
 }
 
@@ -112,7 +113,7 @@ class StaticContacts {
     void find() {
         batch_.contacts.clear();
         for (int lane = 0; lane < batch_.used; ++lane) {
-            const Bounds bounds = worldBounds(state_.dolls[batch_.doll[lane]], dt_);
+            const Bounds bounds = worldBounds(state_.dolls[batch_.doll[lane]], dt_, farther_);
             for (int i = 0; i < static_cast<int>(state_.statics.size()); ++i) {
                 if (nearStatic(state_.statics[i], bounds.low, bounds.high)) near_[lane].push_back(i);
             }
@@ -129,15 +130,15 @@ class StaticContacts {
         if (near_[lane].empty()) return;
         const Doll& doll = state_.dolls[batch_.doll[lane]];
         const BodyLanes& lanes = batch_.bodies[body];
-        const vec3 moved = glm::abs(doll.rootVelocity) * (kForesight * dt_);
+        const vec3 moved = glm::abs(doll.rootVelocity) * (kForesight * dt_) + farther_;
         const vec3 low = readVector(lanes.low, lane) - moved;
         const vec3 high = readVector(lanes.high, lane) + moved;
         std::size_t slot = firstSlot_;
         for (const int index : near_[lane]) {
             const PlacedStatic& geometry = state_.statics[index];
             if (!nearStatic(geometry, low, high)) continue;
-            const float range =
-                state_.tuning.margin + kForesight * dt_ * speedBound(readBody(lanes, lane), topology_.bodies[body]);
+            const float range = state_.tuning.staticMargin +
+                                kForesight * dt_ * speedBound(readBody(lanes, lane), topology_.bodies[body]);
             const Touches<StaticTouch> found = touchStatic(placedShape(state_, doll, body), geometry, range);
             for (int i = 0; i < found.count; ++i)
                 put(slot++, body, lane, index, found.points[i]);
@@ -167,6 +168,7 @@ class StaticContacts {
     Batch& batch_;
     const Topology& topology_;
     float dt_;
+    float farther_ = state_.tuning.staticMargin - state_.tuning.pairMargin;  // than the bodies' own bounds reach
     std::size_t firstSlot_ = 0;
     std::vector<int> near_[kLanes];
 };

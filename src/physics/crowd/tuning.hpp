@@ -27,9 +27,9 @@ struct CrowdTuning {
     float pushSpeed = 2.0F;           ///< m/s, largest speed that overlap is pushed apart with.
     float limitSpeed = 6.0F;          ///< rad/s, the same for limits.
     float slop = 0.0005F;             ///< Metres of overlap left alone, so that resting contacts stay.
-    float staticMargin = 0.05F;  ///< Metres beyond the predicted motion within which contacts are made, with statics
-    float pairMargin = 0.015F;   ///< and between bodies. Static ones are cheap while nothing presses.
-    float rollingLever = 0.004F;      ///< Metres, rolling resistance: flesh is no ideal cylinder.
+    float staticMargin = 0.05F;   ///< Metres beyond the predicted motion within which contacts are made, with statics
+    float pairMargin = 0.015F;    ///< and between bodies. Static ones are cheap while nothing presses.
+    float rollingLever = 0.004F;  ///< Metres, rolling resistance: flesh is no ideal cylinder.
     float leastGyration = 0.05F;  ///< Metres, of a figure 1.75 m tall: no body has a smaller radius of gyration about
                                   ///< any axis; thin hands and feet are given more inertia. More: tighter, stiffer.
     float linearDamping = 0.0F;   ///< 1/s; speed decays by exp(-d t).
@@ -39,7 +39,7 @@ struct CrowdTuning {
     float sleepTurn = 0.045F;   ///< rad/s, of every body.
     float sleepSeconds = 1.0F;  ///< For how long a doll must be below both.
     float calmSpeed = 0.15F;    ///< m/s and rad/s: below it a lying doll is braked.
-    float calmDamping = 15.0F;   ///< 1/s, the brake.
+    float calmDamping = 15.0F;  ///< 1/s, the brake.
 
     std::optional<InstructionSet> instructionSet;  ///< Unset: the widest that the processor has.
 };
