@@ -29,10 +29,16 @@ std::optional<Format> formatOf(const fs::path& file) {
     return std::nullopt;
 }
 
+// Without the protocol a colon in a name would be taken for one.
+std::string ffmpegName(const fs::path& file) {
+    return "file:" + file.string();
+}
+
 // Beside the target, so that the last rename stays on one file system.
 fs::path temporaryBeside(const fs::path& file, const std::string& extension) {
     fs::path temporary = file;
-    temporary.replace_filename(fmt::format(".{}.{}{}", file.stem().string(), ::getpid(), extension));
+    // Not the file's own stem: ffmpeg reads a % in it as a pattern.
+    temporary.replace_filename(fmt::format(".lutka.{}{}", ::getpid(), extension));
     return temporary;
 }
 
@@ -93,7 +99,7 @@ struct FrameWriter::State {
             temporary = temporaryBeside(file, ".mkv");
             append({"-c:v", "ffv1", "-pix_fmt", "bgr0"});
         }
-        arguments.push_back(temporary.string());
+        arguments.push_back(ffmpegName(temporary));
         Result<ChildProcess> started = ChildProcess::start(arguments);
         if (!started) return started.error();
         encoder.emplace(std::move(started).value());
@@ -120,11 +126,11 @@ struct FrameWriter::State {
     Result<void> makeGif() {
         const fs::path palette = temporaryBeside(file, ".png");
         const fs::path gif = temporaryBeside(file, ".gif");
-        Result<void> result = runToEnd({"-i", temporary.string(), "-vf", "palettegen=stats_mode=diff", "-update", "1",
-                                        "-frames:v", "1", palette.string()});
+        Result<void> result = runToEnd({"-i", ffmpegName(temporary), "-vf", "palettegen=stats_mode=diff", "-update",
+                                        "1", "-frames:v", "1", ffmpegName(palette)});
         if (result) {
-            result = runToEnd({"-i", temporary.string(), "-i", palette.string(), "-lavfi",
-                               "paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle", gif.string()});
+            result = runToEnd({"-i", ffmpegName(temporary), "-i", ffmpegName(palette), "-lavfi",
+                               "paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle", ffmpegName(gif)});
         }
         std::error_code ignored;
         fs::remove(palette, ignored);

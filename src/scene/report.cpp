@@ -30,6 +30,12 @@ std::string reportJson(const Simulation& simulation) {
     json["model"] = simulation.asset().character.file.string();
     json["scene"] = simulation.scenario().name;
     json["solver"] = physics::solverName(options.world.solver);
+    json["seed"] = simulation.scenario().seed;
+    if (options.fromClip) {
+        json["fromClip"] = {{"clip", options.fromClip->clip}, {"seconds", options.fromClip->seconds}};
+    } else {
+        json["pose"] = options.pose == StartPose::bind ? "bind" : "node";
+    }
     json["count"] = simulation.dollCount();
     json["seconds"] = simulation.seconds();
     json["dt"] = options.dt;

@@ -301,6 +301,7 @@ Result<Scenario> makeScenario(std::string_view name, int count, std::uint64_t se
     Context context{count, Random(seed), seed == 0, figure, standardFromModel};
     Scenario scenario;
     scenario.name = name;
+    scenario.seed = seed;
     entry->build(context, scenario);
     return scenario;
 }

@@ -28,6 +28,7 @@ struct Pin {
 /// A deterministic set-up shared by tests, benchmarks, CLI and editor: the same name, count and seed give the same one.
 struct Scenario {
     std::string name;
+    std::uint64_t seed = 0;
     std::vector<physics::StaticShape> statics;
     std::vector<physics::DynamicProp> props;
     std::vector<Placement> dolls;

@@ -234,3 +234,69 @@ TEST_CASE("build shows the limits that the clips ask for beside the anatomy's") 
     CHECK(contains(result.out, "ANATOMY"));
     CHECK(contains(result.out, "CLIPS"));
 }
+
+TEST_CASE("a recording brings its own scene and number of dolls, and one of other bodies is refused") {
+    const ScratchFolder folder;
+    const std::string recording = folder / "three";
+    REQUIRE(
+        lutkaCommand("simulate " + kMannequin + " --seconds 0.2 --scene stairs --count 3 --record " + recording).code ==
+        0);
+    CHECK(lutkaCommand("simulate " + kMannequin + " --replay " + recording).code == 0);
+    CHECK(lutkaCommand("simulate " + kMannequin + " --scene drop --count 1 --replay " + recording).code == 0);
+    const CommandResult other = lutkaCommand("simulate " + kMannequin + " --bodies toes --replay " + recording);
+    CHECK(other.code == 3);
+    CHECK(contains(other.err, "16 bodies"));
+}
+
+TEST_CASE("an output never destroys an input or another output") {
+    const ScratchFolder folder;
+    const std::string model = folder / "own.glb";
+    fs::copy_file(LUTKA_ASSETS_DIR "/models/mannequin.glb", model);
+    const std::string before = fileText(model);
+    CHECK(lutkaCommand("simulate " + model + " --seconds 0.1 --out " + model).code == 2);
+    CHECK(fileText(model) == before);
+    const std::string same = folder / "same.json";
+    CHECK(lutkaCommand("simulate " + model + " --seconds 0.1 --report " + same + " --record " + same).code == 2);
+    CHECK(lutkaCommand("simulate " + model + " --seconds 0.1 --out " + (folder / "fall.fbx")).code == 2);
+    CHECK(lutkaCommand("render " + model + " --seconds 0.1 -o " + (folder / "fall.jpg")).code == 2);
+    CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()) == 1);
+}
+
+TEST_CASE("numbers that are not finite or out of range are wrong usage") {
+    for (const char* options : {"--seconds nan", "--mass inf", "--mass -1", "--scale 0", "--seed -1", "--seed 1e3",
+                                "--seed 99999999999999999999999", "--masses heavy"}) {
+        INFO(options);
+        CHECK(lutkaCommand("simulate " + kMannequin + " --seconds 0.1 " + options).code == 2);
+    }
+}
+
+TEST_CASE("a stdout that can't be written ends with 5") {
+    if (!fs::exists("/dev/full")) return;
+    const CommandResult result =
+        runCommand("sh -c \"'" LUTKA_BINARY "' map --json " LUTKA_ASSETS_DIR "/models/mannequin.glb >/dev/full\"");
+    CHECK(result.code == 5);
+}
+
+TEST_CASE("a damaged FBX that trips an assertion of the importer ends with 3") {
+    if (!zooIsThere()) return;
+    const ScratchFolder folder;
+    std::string bytes = fileText(zooFile("rocketbox_male/Male_Adult_17.fbx"));
+    REQUIRE(bytes.size() > 401604);
+    bytes[401604] = '\x3B';
+    std::ofstream(folder / "damaged.fbx", std::ios::binary) << bytes;
+    const CommandResult result = lutkaCommand("map " + (folder / "damaged.fbx"));
+    CHECK(result.code == 3);
+    CHECK(contains(result.err, "damaged"));
+}
+
+TEST_CASE("an interrupted video leaves nothing behind") {
+    const ScratchFolder folder;
+    const CommandResult result = runCommand("timeout --signal=INT 3 '" LUTKA_BINARY "' render " + kMannequin +
+                                            " --seconds 600 --size 160x120 -o " + (folder / "long.mp4"));
+    if (result.code == 6 || contains(result.err, "ffmpeg")) {
+        WARN("skipped: no GL context or no ffmpeg");
+        return;
+    }
+    CHECK(result.code == 124);  // timeout's own word for having sent the signal
+    CHECK(fs::is_empty(folder.path));
+}

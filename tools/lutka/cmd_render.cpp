@@ -131,6 +131,11 @@ void renderFrames(const Options& options, Run& run, Painter& painter) {
 
 void run(Options& options) {
     options.simulate.ragdoll.model.textures = true;
+    if (!render::FrameWriter::isVideo(options.out) && options.out.extension() != ".png") {
+        leave({ErrorCode::usage, fmt::format("'{}' is neither .png, .mp4 nor .gif", options.out.string()), "--output",
+               "the extension chooses the format"});
+    }
+    checkOutputs(options.simulate, options.out);
     const bool sequence = options.frames || render::FrameWriter::isVideo(options.out);
     Run run = prepare(options.simulate);
     Painter painter(options, run);
@@ -146,7 +151,8 @@ void run(Options& options) {
                    options.simulate.json ? scene::reportJson(*run.simulation) : scene::reportText(*run.simulation));
     }
     if (options.simulate.json) return;
-    for (const auto& file : {options.out, options.simulate.bakedOut, options.simulate.report}) {
+    for (const auto& file : {options.out, options.simulate.bakedOut, options.simulate.meshOut, options.simulate.report,
+                             options.simulate.recordTo}) {
         if (!file.empty()) fmt::print("  wrote {}\n", file.string());
     }
 }
@@ -160,16 +166,17 @@ void addRender(CLI::App& app) {
     command->add_option("-o,--output", options->out, "FILE.png (the last moment), FILE.mp4 or FILE.gif")->required();
     command->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
     command->add_option("--fps", options->framesPerSecond, "frames a second of a video")
-        ->check(CLI::Range(1.0, 240.0))
+        ->check(finiteIn(1, 240))
         ->capture_default_str();
     command->add_flag("--frames", options->frames, "with a .png: the whole fall as FILE_0000.png, FILE_0001.png …");
     command->add_option("--debug", options->debug,
                         "layers over the picture: capsules,solids,joints,limits,contacts,velocities,com,aabbs");
-    command->add_option("--opacity", options->opacity, "of the skin, 0 to 1")->check(CLI::Range(0.0, 1.0));
+    command->add_option("--opacity", options->opacity, "of the skin, 0 to 1")->check(finiteIn(0, 1));
     command->add_flag("--follow", options->follow, "keep the first doll in the middle of the picture");
-    command->add_option("--yaw", options->yawDeg, "camera's heading in degrees; 0 looks at the front");
-    command->add_option("--pitch", options->pitchDeg, "camera's height in degrees")->check(CLI::Range(-89.0, 89.0));
-    command->add_option("--distance", options->distance, "camera's distance in metres")->check(CLI::PositiveNumber);
+    command->add_option("--yaw", options->yawDeg, "camera's heading in degrees; 0 looks at the front")
+        ->check(finiteIn(-3600, 3600));
+    command->add_option("--pitch", options->pitchDeg, "camera's height in degrees")->check(finiteIn(-89, 89));
+    command->add_option("--distance", options->distance, "camera's distance in metres")->check(finiteIn(0.01, 1000));
     command->callback([options] { run(*options); });
 }
 

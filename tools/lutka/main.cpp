@@ -3,8 +3,11 @@
 #include <spdlog/spdlog.h>
 
 #include <exception>
+#include <new>
+#include <system_error>
 
 #include "commands.hpp"
+#include "interrupt.hpp"
 #include "options.hpp"
 
 namespace {
@@ -43,10 +46,15 @@ int main(int argc, char** argv) {
     // Facts go to stdout, everything else to stderr, so that `--json` can be piped.
     spdlog::set_default_logger(spdlog::stderr_color_mt("lutka"));
     spdlog::set_pattern("lutka: %^%l%$: %v");
+    lutka::cli::installInterruptHandler();
     try {
         return runCommandLine(argc, argv);
     } catch (const lutka::cli::Exit& exit) {
         return exit.code;
+    } catch (const std::system_error& refused) {
+        // What fmt throws when stdout can't be written (a full disk, a closed pipe).
+        spdlog::error("the output can't be written: {}", refused.what());
+        return static_cast<int>(lutka::ErrorCode::output);
     } catch (const std::bad_alloc&) {
         spdlog::critical("out of memory");
     } catch (const std::exception& unexpected) {

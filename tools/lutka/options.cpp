@@ -28,7 +28,8 @@ const std::map<std::string, physics::SolverKind> kSolvers = {{"stock", physics::
                                                              {"crowd", physics::SolverKind::crowd}};
 
 void addExtraBodies(const std::string& list, physics::FitOptions& fit) {
-    for (const std::string& word : CLI::detail::split(list, ',')) {
+    for (const std::string& piece : CLI::detail::split(list, ',')) {
+        const std::string word = CLI::detail::trim_copy(piece);
         if (word == "shoulders") {
             fit.shoulderBodies = true;
         } else if (word == "neck") {
@@ -67,7 +68,7 @@ void leave(const Error& error) {
 void ModelOptions::addTo(CLI::App& app, bool required) {
     app.add_option("MODEL", model, "rigged character in any format that Assimp reads")->required(required);
     app.add_option("--scale", scale, "metres a file unit, instead of what the file or the figure's height says")
-        ->check(CLI::PositiveNumber);
+        ->check(finiteIn(1e-6, 1e6));
     app.add_option("--up", up, "the file's up axis: x, y, z, -x, -y or -z")
         ->check(CLI::IsMember(&kUpAxes, CLI::ignore_case));
 }
@@ -82,17 +83,25 @@ animation::ImportOptions ModelOptions::import() const {
 
 void RagdollOptions::addTo(CLI::App& app, bool modelRequired) {
     model.addTo(app, modelRequired);
-    app.add_option("--profile", profile, "ragdoll profile (*.ragdoll.json) instead of a fitted one");
+    auto* profileOption =
+        app.add_option("--profile", profile, "ragdoll profile (*.ragdoll.json) instead of a fitted one");
     app.add_flag("--keep-shapes", keepShapes,
-                 "with the profile of another rig: keep its shapes instead of fitting them anew");
-    app.add_option("--mass", massKg, "total mass in kilograms")->check(CLI::PositiveNumber)->capture_default_str();
+                 "with the profile of another rig: keep its shapes instead of fitting them anew")
+        ->needs(profileOption);
+    app.add_option("--mass", massKg, "total mass in kilograms")
+        ->check(finiteIn(0.1, 1e5))
+        ->excludes(profileOption)
+        ->capture_default_str();
     app.add_option("--mass-table", massTable, "shares of the segments")
         ->check(CLI::IsMember(&kMassTables))
+        ->excludes(profileOption)
         ->capture_default_str();
     app.add_option("--masses", massPreset, "how the total is split")
         ->check(CLI::IsMember(&kMassPresets))
+        ->excludes(profileOption)
         ->capture_default_str();
-    app.add_option("--bodies", bodies, "bodies beside the 16: shoulders,neck,toes,trunk (comma separated)");
+    app.add_option("--bodies", bodies, "bodies beside the 16: shoulders,neck,toes,trunk (comma separated)")
+        ->excludes(profileOption);
 }
 
 scene::LoadOptions RagdollOptions::load() const {
@@ -115,10 +124,17 @@ void SimulateOptions::addTo(CLI::App& app) {
     }
     app.add_option("--scene", scene, "one of " + scenes)->capture_default_str();
     app.add_option("--count", count, "number of dolls")->check(CLI::Range(1, 10000))->capture_default_str();
-    app.add_option("--seconds", seconds, "length of the run; default: what the scene needs")
-        ->check(CLI::Range(0.0, 3600.0));
+    app.add_option("--seconds", seconds, "length of the run; default: what the scene needs")->check(finiteIn(0, 3600));
     app.add_option("--threads", threads, "threads to step with")->check(CLI::Range(1, 256))->capture_default_str();
-    app.add_option("--seed", seed, "varies the start; 0 stands upright")->capture_default_str();
+    app.add_option("--seed", seed, "varies the start; 0 stands upright")
+        ->check(CLI::Validator(
+            [](const std::string& text) {
+                const bool digits =
+                    !text.empty() && text.size() < 20 && text.find_first_not_of("0123456789") == std::string::npos;
+                return digits ? std::string() : fmt::format("'{}' is no whole number from 0 up", text);
+            },
+            "UINT"))
+        ->capture_default_str();
     addSolverOption(app, solver);
     app.add_option("--pose", pose, "the pose to start in: the bind pose or the file's node pose")
         ->check(CLI::IsMember({"bind", "node"}))
@@ -154,6 +170,16 @@ void addSolverOption(CLI::App& app, std::string& solver) {
 
 physics::SolverKind solverFromName(const std::string& name) {
     return kSolvers.at(name);
+}
+
+CLI::Validator finiteIn(double low, double high) {
+    const std::string range = fmt::format("number in [{}, {}]", low, high);
+    return {[low, high, range](std::string& text) -> std::string {
+                double value = 0;
+                const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+                return number && value >= low && value <= high ? "" : fmt::format("'{}' is no {}", text, range);
+            },
+            range};
 }
 
 Progress::Progress(std::string what, int total)

@@ -82,6 +82,9 @@ struct SimulateOptions {
 void addSolverOption(CLI::App& app, std::string& solver);
 [[nodiscard]] physics::SolverKind solverFromName(const std::string& name);
 
+/// A finite number in [low, high]; CLI11's own range lets NaN through.
+[[nodiscard]] CLI::Validator finiteIn(double low, double high);
+
 /// A bar on stderr while it is a terminal; silent otherwise.
 class Progress {
   public:

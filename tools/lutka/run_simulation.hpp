@@ -19,7 +19,11 @@ struct Run {
     std::optional<scene::Recording> replay;  ///< Set: shown instead of simulating.
 };
 
-/// Loads the model and sets the scene up; leaves on errors.
+/// Leaves when an output has the wrong extension, can't be written, or would destroy an input or another output.
+/// `picture` is one more output, of `render`.
+void checkOutputs(const SimulateOptions& options, const std::filesystem::path& picture = {});
+
+/// Checks the outputs, loads the model and sets the scene up; leaves on errors.
 [[nodiscard]] Run prepare(const SimulateOptions& options);
 
 /// Steps (or replays) to the end, calls `afterStep` after every step, and writes what the options ask for: baked clip,

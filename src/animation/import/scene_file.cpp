@@ -6,8 +6,18 @@
 
 #include <assimp/DefaultIOSystem.h>
 #include <exception>
+#include <stdexcept>
 #include <string>
 #include <system_error>
+
+// Debian builds Assimp with its assertions on; on some damaged files they abort the whole process. They are called through
+// the dynamic linker, so this definition takes the place of Assimp's own and throws, which read() catches.
+namespace Assimp {
+void aiAssertViolation(const char* expression, const char* file, int line);
+void aiAssertViolation(const char* expression, const char* file, int line) {
+    throw std::runtime_error(fmt::format("the file is damaged: {} does not hold ({}:{})", expression, file, line));
+}
+}  // namespace Assimp
 
 namespace lutka::animation::rig_import {
 namespace {

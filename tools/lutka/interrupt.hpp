@@ -1,0 +1,12 @@
+#pragma once
+
+namespace lutka::cli {
+
+/// From now on Ctrl+C, a hang-up or a polite kill asks the program to stop instead of ending it on the spot, so that
+/// temporary files are removed; a second signal ends it at once.
+void installInterruptHandler();
+
+/// Leaves with the shell's code for the signal (128 + its number) when one came.
+void leaveIfInterrupted();
+
+}  // namespace lutka::cli
