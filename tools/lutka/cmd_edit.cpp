@@ -40,19 +40,6 @@ editor::ApplicationOptions::Screenshot parseScreenshot(const std::string& text) 
     leave({ErrorCode::usage, fmt::format("\"{}\" is not FRAME:FILE.png", text), "--screenshot-at", ""});
 }
 
-render::Extent parseSize(const std::string& text) {
-    int width = 0;
-    int height = 0;
-    char rest = 0;
-    constexpr int least = 160;
-    constexpr int most = 16384;
-    const bool whole = std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) == 2;
-    if (!whole || std::min(width, height) < least || std::max(width, height) > most) {
-        leave({ErrorCode::usage, fmt::format("\"{}\" is not WxH, each in [{}, {}]", text, least, most), "--size", ""});
-    }
-    return {width, height};
-}
-
 editor::ApplicationOptions applicationOptions(const Options& options) {
     editor::ApplicationOptions application;
     editor::EditorOptions& edit = application.editor;
@@ -72,6 +59,11 @@ editor::ApplicationOptions applicationOptions(const Options& options) {
     application.recordInput = options.recordInput;
     for (const std::string& one : options.screenshots)
         application.screenshots.push_back(parseScreenshot(one));
+    for (const auto& shot : application.screenshots) {
+        if (!options.frames || shot.frame < *options.frames) continue;
+        leave({ErrorCode::usage, fmt::format("frame {} comes after the last of {}", shot.frame, *options.frames),
+               "--screenshot-at", "frames count from 0: ask for an earlier one or give more --frames"});
+    }
     application.frames = options.frames;
     application.uiScale = options.uiScale;
     application.vsync = !options.noVsync;

@@ -35,18 +35,6 @@ struct Options {
 // The part of the way to the figure that a following camera goes in a frame: calm, yet never far behind.
 constexpr float kFollowShare = 0.15F;
 
-render::Extent parseSize(const std::string& text) {
-    int width = 0;
-    int height = 0;
-    int used = 0;
-    const bool read = std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) == 2;
-    if (!read || used != static_cast<int>(text.size()) || width < 16 || height < 16 || width > 8192 || height > 8192) {
-        leave({ErrorCode::usage, fmt::format("'{}' is not a size", text), "--size",
-               "give WIDTHxHEIGHT with both from 16 to 8192"});
-    }
-    return {width, height};
-}
-
 /// Everything that draws: made once, used a frame at a time.
 class Painter {
   public:

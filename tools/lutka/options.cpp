@@ -172,6 +172,20 @@ physics::SolverKind solverFromName(const std::string& name) {
     return kSolvers.at(name);
 }
 
+render::Extent parseSize(const std::string& text) {
+    constexpr int kLeast = 16;
+    constexpr int kMost = 16384;
+    int width = 0;
+    int height = 0;
+    char rest = 0;
+    const bool whole = std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) == 2;
+    if (!whole || std::min(width, height) < kLeast || std::max(width, height) > kMost) {
+        leave({ErrorCode::usage, fmt::format("'{}' is not a size", text), "--size",
+               fmt::format("give WIDTHxHEIGHT with both from {} to {}", kLeast, kMost)});
+    }
+    return {width, height};
+}
+
 CLI::Validator finiteIn(double low, double high) {
     const std::string range = fmt::format("number in [{}, {}]", low, high);
     return {[low, high, range](std::string& text) -> std::string {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/result.hpp"
+#include "render/extent.hpp"
 #include "scene/ragdoll_asset.hpp"
 #include "scene/simulation.hpp"
 
@@ -81,6 +82,9 @@ struct SimulateOptions {
 /// --solver, by the names of physics::solverName.
 void addSolverOption(CLI::App& app, std::string& solver);
 [[nodiscard]] physics::SolverKind solverFromName(const std::string& name);
+
+/// WIDTHxHEIGHT in pixels, each in [16, 16384]; leaves with wrong usage otherwise.
+[[nodiscard]] render::Extent parseSize(const std::string& text);
 
 /// A finite number in [low, high]; CLI11's own range lets NaN through.
 [[nodiscard]] CLI::Validator finiteIn(double low, double high);

@@ -10,8 +10,8 @@
 #include <string>
 #include <system_error>
 
-// Debian builds Assimp with its assertions on; on some damaged files they abort the whole process. They are called through
-// the dynamic linker, so this definition takes the place of Assimp's own and throws, which read() catches.
+// Debian builds Assimp with its assertions on; on some damaged files they abort the whole process. They are called
+// through the dynamic linker, so this definition takes the place of Assimp's own and throws, which read() catches.
 namespace Assimp {
 void aiAssertViolation(const char* expression, const char* file, int line);
 void aiAssertViolation(const char* expression, const char* file, int line) {
@@ -88,6 +88,7 @@ Result<SceneFile> readScene(const fs::path& file) {
     std::error_code ignored;
     if (!fs::exists(file, ignored)) return unreadable(file, "there is no such file");
     if (fs::is_directory(file, ignored)) return unreadable(file, "is a folder, not a model");
+    if (fs::file_size(file, ignored) == 0) return unreadable(file, "is empty");
     SceneFile out;
     Result<std::optional<GltfDocument>> gltf = readGltfDocument(file);
     if (!gltf) return gltf.error();
