@@ -1,6 +1,6 @@
 #pragma once
 
-/// Kernels that touch bodies only: frames, bounds, integration. See kernels.inc.hpp for how they are compiled.
+/// Kernels that touch bodies only: frames, bounds, integration. kernels.hpp says what they are compiled for.
 
 #include "physics/crowd/lane_math.hpp"
 

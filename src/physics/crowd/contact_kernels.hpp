@@ -133,10 +133,9 @@ static int solvePairs(PairContactLanes* pairs, int count, const SubstepParams& p
         applyPair(pair, v, 2, t2, after.second - before2);
 
         const V3 normal = load(pair.normal);
-        const ContactBias bias = contactBias(load(pair.separation), params.pairContact, params, useBias);
+        const F bias = contactBias(load(pair.separation), params, useBias);
         const F approach = dot(normal, slidingOf(pair, v));
-        const F change =
-            -load(pair.normalMass) * bias.massScale * (approach + bias.speed) - bias.impulseScale * carried;
+        const F change = -load(pair.normalMass) * (approach + bias);
         const F total = most(carried + change, all(0.0F));
         pressed |= (total > all(0.0F)) | (carried > all(0.0F));
         store(pair.normalImpulse, total);

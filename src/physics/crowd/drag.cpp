@@ -46,7 +46,7 @@ mat3 crossMatrix(const vec3& v) {
 
 }  // namespace
 
-double beginDrag(CrowdState& state, DragRecord& record, float /*dt*/) {
+double beginDrag(CrowdState& state, DragRecord& record) {
     const DraggedBody body = draggedBody(state, record);
     const mat3 axes(readVector(body.lanes.axisX, body.lane), readVector(body.lanes.axisY, body.lane),
                     readVector(body.lanes.axisZ, body.lane));

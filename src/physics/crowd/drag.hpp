@@ -4,9 +4,9 @@
 
 namespace lutka::physics::crowd {
 
-/// This substep's arm, mass and error of a drag; applies what it carries from the substep before. All three return the
+/// This substep's arm, mass and error of a drag; applies what it carries from the substep before. Both return the
 /// work done on the body, joules.
-double beginDrag(CrowdState& state, DragRecord& record, float dt);
+double beginDrag(CrowdState& state, DragRecord& record);
 /// One pass: a damped spring whose force is bounded.
 double solveDrag(CrowdState& state, DragRecord& record, float dt);
 

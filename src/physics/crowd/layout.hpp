@@ -167,24 +167,16 @@ struct PairContactLanes {
     Wide tangentMass[2];
 };
 
-/// A soft constraint's factors (Catto, "Soft Constraints", GDC 2011; "Solver2D", 2024).
-struct Softness {
-    float biasRate;
-    float massScale;
-    float impulseScale;
-};
-
 /// What a substep needs.
 struct SubstepParams {
     float dt;
     float inverseDt;
     float gravity[3];
-    float linearDamping;   ///< Factor a substep.
-    float angularDamping;  ///< Likewise.
-    Softness joint;
-    Softness limit;
-    Softness staticContact;
-    Softness pairContact;
+    float linearDamping;     ///< Factor a substep.
+    float angularDamping;    ///< Likewise.
+    float jointRate;         ///< 1/s: the speed over the error that it is mended with.
+    float limitRate;         ///< Likewise.
+    float contactRate;       ///< Likewise.
     float pushSpeed;         ///< m/s, largest speed that overlap is pushed apart with.
     float limitSpeed;        ///< rad/s, the same of limits.
     float slop;              ///< Metres of overlap that are left alone.

@@ -24,7 +24,7 @@ LUTKA_LANES F holding(const Mask& holds, F weight, Wide& gain, Pass& pass) {
 LUTKA_LANES F limitBias(const LimitRow& row, const SubstepParams& params, int useBias) {
     const F room = load(row.room);
     const F zero = all(0.0F);
-    const F mend = useBias != 0 ? most(room * all(params.limit.biasRate), all(-params.limitSpeed)) : zero;
+    const F mend = useBias != 0 ? most(room * all(params.limitRate), all(-params.limitSpeed)) : zero;
     return room > zero ? room * all(params.inverseDt) : mend;  // may turn as far as the limit
 }
 
@@ -83,7 +83,7 @@ LUTKA_LANES void decideJoint(JointLanes& joint, const JointConstants& constants,
     const F frictionLimit = all(constants.frictionNm * params.dt);
     if (constants.isHinge != 0) {
         const F weight = load(joint.acrossWeight);
-        const F rate = all(pass.useBias != 0 ? params.joint.biasRate : 0.0F);
+        const F rate = all(pass.useBias != 0 ? params.jointRate : 0.0F);
         for (int i = 0; i < 2; ++i) {
             const V3 axis = load(joint.across[i]);
             const F carried = load(joint.hingeImpulse[i]) * (all(1.0F) - pass.applied);
@@ -124,7 +124,7 @@ LUTKA_LANES Mask updateRows(JointLanes& joint, const JointConstants& constants, 
     const F friction = load(joint.frictionGain);
     if (constants.isHinge != 0) {
         const F weight = load(joint.acrossWeight);
-        const F rate = all(useBias != 0 ? params.joint.biasRate : 0.0F);
+        const F rate = all(useBias != 0 ? params.jointRate : 0.0F);
         for (int i = 0; i < 2; ++i) {
             const F off = dot(load(joint.across[i]), relative) + rate * load(joint.acrossError[i]);
             store(joint.hingeImpulse[i], load(joint.hingeImpulse[i]) - weight * off);
@@ -143,7 +143,7 @@ LUTKA_LANES Mask updateRows(JointLanes& joint, const JointConstants& constants, 
 }
 
 LUTKA_LANES F staticBias(const StaticContactLanes& contact, const SubstepParams& params, int useBias) {
-    return contactBias(load(contact.separation), params.staticContact, params, useBias).speed;
+    return contactBias(load(contact.separation), params, useBias);
 }
 
 LUTKA_LANES void decideSliding(StaticContactLanes& contact, const V3& sliding, F limit, Pass& pass) {

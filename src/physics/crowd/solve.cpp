@@ -12,11 +12,6 @@ namespace {
 // Jobs with this many batches are split over the threads phase by phase; below it the hand-over costs more.
 constexpr std::size_t kSplitJob = 16;
 
-// Rigid rows that mend a share of their error a substep.
-Softness mending(float share, float dt) {
-    return {share / dt, 1.0F, 0.0F};
-}
-
 SubstepParams paramsOf(const CrowdState& state, float dt) {
     const CrowdTuning& tuning = state.tuning;
     SubstepParams params{};
@@ -26,10 +21,9 @@ SubstepParams paramsOf(const CrowdState& state, float dt) {
         params.gravity[i] = state.settings.gravity[i];
     params.linearDamping = std::exp(-tuning.linearDamping * dt);
     params.angularDamping = std::exp(-tuning.angularDamping * dt);
-    params.joint = mending(tuning.jointErp, dt);
-    params.limit = mending(tuning.limitErp, dt);
-    params.pairContact = mending(tuning.contactErp, dt);
-    params.staticContact = mending(tuning.contactErp, dt);
+    params.jointRate = tuning.jointErp / dt;
+    params.limitRate = tuning.limitErp / dt;
+    params.contactRate = tuning.contactErp / dt;
     params.pushSpeed = tuning.pushSpeed;
     params.limitSpeed = tuning.limitSpeed;
     params.slop = tuning.slop;
@@ -58,7 +52,7 @@ class JobSubstep {
         forBatches([&](const BatchView& view) { kernels.begin(view, params_); });
         kernels.beginPairs(job_.pairs.data(), static_cast<int>(job_.pairs.size()), params_);
         for (DragRecord* drag : job_.drags)
-            job_.dragWork += beginDrag(state_, *drag, params_.dt);
+            job_.dragWork += beginDrag(state_, *drag);
         dolls(1, 1);
         // What touches other bodies works on single bodies; a pass over the dolls must follow before anything moves.
         const bool coupled = !job_.pairs.empty() || !job_.drags.empty();

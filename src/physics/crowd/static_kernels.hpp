@@ -7,19 +7,13 @@
 
 namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
 
-// A row's target speed and softness from its separation.
-struct ContactBias {
-    F speed, massScale, impulseScale;
-};
-LUTKA_LANES ContactBias contactBias(F separation, const Softness& soft, const SubstepParams& params, int useBias) {
+// The speed that a contact's row asks to be added to the normal speed: room to close, or overlap to mend.
+LUTKA_LANES F contactBias(F separation, const SubstepParams& params, int useBias) {
     const F zero = all(0.0F);
-    const F one = all(1.0F);
-    const Mask apart = separation > zero;
     const F closing = separation * all(params.inverseDt);  // may come as near as touching
-    if (useBias == 0) return {apart ? closing : zero, one, zero};
     const F overlap = least(separation + all(params.slop), zero);
-    const F push = most(overlap * all(soft.biasRate), all(-params.pushSpeed));
-    return {apart ? closing : push, apart ? one : all(soft.massScale), apart ? zero : all(soft.impulseScale)};
+    const F push = useBias != 0 ? most(overlap * all(params.contactRate), all(-params.pushSpeed)) : zero;
+    return separation > zero ? closing : push;
 }
 
 struct Tangents {

@@ -88,7 +88,7 @@ LUTKA_LANES void carryUp(const BatchView& batch, int index, const SubstepParams&
     const V3 childArm = load(joint.childArm);
     V3 r = (load(parent.velocity) + cross(load(parent.angular), parentArm)) -
            (load(child.velocity) + cross(load(child.angular), childArm));
-    if (useBias != 0) r = r - load(joint.error) * all(params.joint.biasRate);
+    if (useBias != 0) r = r - load(joint.error) * all(params.jointRate);
     const Spatial s = loadSpatial(tree);
     const V3 atCentre = load(tree.impulse);
     const V3 resisting = load(tree.torque) - cross(childArm, atCentre) - transposed(s.mixed, r);
