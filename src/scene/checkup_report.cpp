@@ -21,15 +21,6 @@ Json findingJson(const physics::Finding& finding) {
             {"mendable", finding.mendable}};
 }
 
-Json fitJson(const physics::FitMeasures& fit) {
-    Json json;
-    json["vertices"] = fit.vertices;
-    json["skinNear"] = fit.skinNear;
-    json["volumeCovered"] = fit.volumeCovered ? Json(*fit.volumeCovered) : Json(nullptr);
-    json["overlapM"] = fit.overlapM;
-    return json;
-}
-
 }  // namespace
 
 std::string checkupJson(const RagdollAsset& asset, const Checkup& checkup) {

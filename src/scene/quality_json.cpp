@@ -18,4 +18,14 @@ nlohmann::ordered_json qualityJson(const physics::Quality& q) {
     return json;
 }
 
+nlohmann::ordered_json fitJson(const physics::FitMeasures& fit) {
+    nlohmann::ordered_json json;
+    json["vertices"] = fit.vertices;
+    json["skinNear"] = fit.skinNear;
+    json["volumeCovered"] =
+        fit.volumeCovered ? nlohmann::ordered_json(*fit.volumeCovered) : nlohmann::ordered_json(nullptr);
+    json["overlapM"] = fit.overlapM;
+    return json;
+}
+
 }  // namespace lutka::scene

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "physics/doctor.hpp"
 #include "scene/quality_json.hpp"
 
 namespace lutka::scene {
@@ -44,6 +45,7 @@ std::string reportJson(const Simulation& simulation) {
     json["steps"] = simulation.steps();
     json["stateHash"] = fmt::format("{:016x}", simulation.stateHash());
     json["wallMsPerStep"] = {{"mean", times.mean}, {"p50", times.p50}, {"p99", times.p99}};
+    json["fit"] = fitJson(physics::diagnose(profile, simulation.asset().character, simulation.asset().map).fit);
     json["quality"] = qualityJson(simulation.quality());
     json["bodies"] = profile.bodies.size() * dolls;
     json["constraints"] = profile.constraints.size() * dolls;

@@ -31,7 +31,7 @@ TEST_CASE("the report is one JSON document with every key of the contract") {
         simulation.value()->step();
     const auto json = nlohmann::json::parse(reportJson(*simulation.value()));
     for (const char* key : {"model", "scene", "count", "seconds", "dt", "substeps", "threads", "steps", "stateHash",
-                            "wallMsPerStep", "quality", "bodies", "constraints"}) {
+                            "wallMsPerStep", "quality", "fit", "seed", "bodies", "constraints"}) {
         INFO(key);
         CHECK(json.contains(key));
     }
