@@ -1,5 +1,7 @@
 #include "physics/profile.hpp"
 
+#include <glm/common.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -120,6 +122,12 @@ void checkWhole(Problems& problems, const RagdollProfile& profile) {
 }
 
 }  // namespace
+
+vec3 conditionedInertia(const RagdollProfile& profile, const BodyProfile& body, float leastGyration) {
+    constexpr float kReferenceHeight = 1.75F;
+    const float gyration = leastGyration * profile.heightM / kReferenceHeight;
+    return glm::max(body.inertia, vec3(body.massKg * gyration * gyration));
+}
 
 int bodyOf(const RagdollProfile& profile, Role role) {
     for (std::size_t body = 0; body < profile.bodies.size(); ++body) {

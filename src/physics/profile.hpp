@@ -84,6 +84,11 @@ struct RagdollProfile {
 /// Index of the body with that role; -1 when there is none.
 [[nodiscard]] int bodyOf(const RagdollProfile& profile, Role role);
 
+/// The body's inertia, no principal moment of it below that of a radius of gyration of `leastGyration` metres on a
+/// figure of 1.75 m (smaller and larger figures in proportion): what solvers condition thin bodies with. 0 changes
+/// nothing.
+[[nodiscard]] vec3 conditionedInertia(const RagdollProfile& profile, const BodyProfile& body, float leastGyration);
+
 /// All that is wrong with a profile (indices, signs, ranges, non-finite numbers, cycles); empty when valid.
 [[nodiscard]] std::vector<std::string> validate(const RagdollProfile& profile);
 

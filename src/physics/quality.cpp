@@ -23,8 +23,13 @@ constexpr float kSettledSpeed = 0.01F;        // m/s
 class Histogram {
   public:
     void add(float value) {
-        sum_ += static_cast<double>(value);
         ++count_;
+        if (!(value < kHighest)) {  // so far off, or not a number, that its place no longer matters
+            ++counts_[kBins - 1];
+            sum_ += static_cast<double>(kHighest);
+            return;
+        }
+        sum_ += static_cast<double>(value);
         if (value <= kLowest) {
             ++counts_[0];
             return;
@@ -48,6 +53,7 @@ class Histogram {
 
   private:
     static constexpr float kLowest = 1e-7F;
+    static constexpr float kHighest = 1e4F;
     static constexpr float kStep = 0.01F;  // of the logarithm
     static constexpr int kBins = 2600;     // up to about 2 · 10⁴
     std::array<std::int64_t, kBins> counts_{};
@@ -196,30 +202,33 @@ double QualityMeter::State::sampleWorld(bool figures) {
     double energy = 0;
     double squares = 0;
     int moving = 0;
-    int broken = 0;
+    std::int64_t broken = 0;
     touching = false;
     settled = true;
     for (int doll = 0; doll < world.dollCount(); ++doll) {
         const RagdollProfile& profile = world.profileOf(doll);
         bodies.resize(profile.bodies.size());
         world.getBodies(doll, bodies);
-        const int brokenBefore = broken;
+        const std::int64_t brokenBefore = broken;
         float fastest = 0;
         for (std::size_t i = 0; i < bodies.size(); ++i) {
             broken += isFinite(bodies[i]) ? 0 : 1;
-            energy += energyOf(bodies[i], profile.bodies[i].massKg, profile.bodies[i].inertia);
+            energy += energyOf(bodies[i], profile.bodies[i].massKg, world.inertiaOf(doll, static_cast<int>(i)));
             const float speed = glm::length(bodies[i].linearVelocity);
             squares += static_cast<double>(speed * speed);
             fastest = std::max(fastest, speed);
         }
         moving += static_cast<int>(bodies.size());
-        settled = settled && (world.isAsleep(doll) || fastest < kSettledSpeed);
+        const bool whole = broken == brokenBefore;
+        settled = settled && whole && (world.isAsleep(doll) || fastest < kSettledSpeed);
         // The other figures of a broken doll mean nothing.
-        if (figures && broken == brokenBefore) sampleDoll(doll);
+        if (figures && whole) sampleDoll(doll);
     }
     for (int prop = 0; prop < world.propCount(); ++prop) {
         const DynamicProp& settings = world.propOf(prop);
-        energy += energyOf(world.propState(prop), settings.massKg, shapeInertia(settings.shape, settings.massKg));
+        const BodyState state = world.propState(prop);
+        broken += isFinite(state) ? 0 : 1;
+        energy += energyOf(state, settings.massKg, shapeInertia(settings.shape, settings.massKg));
     }
     quality.nonFinite += broken;
     quality.residualSpeedMps = moving > 0 ? static_cast<float>(std::sqrt(squares / moving)) : 0.0F;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -24,7 +25,7 @@ struct Quality {
     std::optional<float>
         settleSeconds;           ///< From the first contact until all dolls are asleep or below 1 cm/s; unset: never.
     float residualSpeedMps = 0;  ///< Root mean square of the bodies' speeds at the end.
-    int nonFinite = 0;           ///< Body states that were not finite.
+    std::int64_t nonFinite = 0;  ///< Body states that were not finite.
 };
 
 /// Where a constraint stands: the two anchors' distance and how far past its limits it is (0 inside).

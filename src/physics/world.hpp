@@ -88,6 +88,8 @@ class World {
 
     [[nodiscard]] virtual int dollCount() const = 0;
     [[nodiscard]] virtual const RagdollProfile& profileOf(int doll) const = 0;
+    /// Principal moments that the solver gives a body, kg m²; not below the profile's (docs/physics.md, conditioning).
+    [[nodiscard]] virtual vec3 inertiaOf(int doll, int body) const = 0;
     virtual void getBodies(int doll, std::span<BodyState> bodies) const = 0;
     /// Places a doll anew (reset, scrubbing); wakes it.
     virtual void setBodies(int doll, std::span<const BodyState> bodies) = 0;

@@ -58,7 +58,7 @@ class Simulation {
     [[nodiscard]] const Scenario& scenario() const { return scenario_; }
     [[nodiscard]] const SimulationOptions& options() const { return options_; }
     [[nodiscard]] const RagdollAsset& asset() const { return asset_; }
-    /// Wall time of every step so far, milliseconds, the measuring included.
+    /// Wall time of every step so far, milliseconds, without the measuring.
     [[nodiscard]] std::span<const float> stepMs() const { return stepMs_; }
 
     /// The bodies of a doll `alpha` of the way from the state before the last step to the present one.

@@ -48,6 +48,7 @@ class PuppetWorld final : public physics::World {
     [[nodiscard]] int substepsPerStep() const override { return 1; }
     [[nodiscard]] int dollCount() const override { return 1; }
     [[nodiscard]] const RagdollProfile& profileOf(int /*doll*/) const override { return profile_; }
+    [[nodiscard]] vec3 inertiaOf(int doll, int body) const override { return profileOf(doll).bodies[body].inertia; }
     void getBodies(int /*doll*/, std::span<BodyState> out) const override {
         std::copy(bodies.begin(), bodies.end(), out.begin());
     }

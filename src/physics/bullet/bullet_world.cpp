@@ -30,6 +30,10 @@ class BulletWorld final : public World {
 
     [[nodiscard]] int dollCount() const override { return static_cast<int>(dolls_.size()); }
     [[nodiscard]] const RagdollProfile& profileOf(int doll) const override { return dolls_[doll]->profile(); }
+    [[nodiscard]] vec3 inertiaOf(int doll, int body) const override {
+        const RagdollProfile& profile = profileOf(doll);
+        return conditionedInertia(profile, profile.bodies[body], isStock() ? 0.0F : tuning_.leastGyration);
+    }
     void getBodies(int doll, std::span<BodyState> bodies) const override;
     void setBodies(int doll, std::span<const BodyState> bodies) override { dolls_[doll]->setBodies(bodies); }
     [[nodiscard]] bool isAsleep(int doll) const override { return dolls_[doll]->isAsleep(); }

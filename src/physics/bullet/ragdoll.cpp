@@ -77,8 +77,7 @@ void Ragdoll::addBodies(int index, std::span<const BodyState> states, const Bull
                         bool sleeping) {
     for (std::size_t i = 0; i < states.size(); ++i) {
         const BodyProfile& body = profile_.bodies[i];
-        const float gyration = stock ? 0.0F : tuning.leastGyration * profile_.heightM / 1.75F;
-        const vec3 inertia = glm::max(body.inertia, vec3(body.massKg * gyration * gyration));
+        const vec3 inertia = conditionedInertia(profile_, body, stock ? 0.0F : tuning.leastGyration);
         bodies_.push_back(makeBody(body.shape, body.massKg, inertia, states[i]));
         btRigidBody& made = *bodies_.back().body;
         made.setUserIndex(index);

@@ -70,7 +70,7 @@ void RagdollJoint::prepareHinge(const mat3& parentAxes, const mat3& childAxes) {
     const vec3 wrong = glm::cross(parentAxes[2], childAxes[2]);
     addRow({alignX, parentAxes[0], glm::dot(wrong, parentAxes[0]), AngularRow::Kind::align});
     addRow({alignY, parentAxes[1], glm::dot(wrong, parentAxes[1]), AngularRow::Kind::align});
-    const vec3 axis = parentAxes[2];
+    const vec3& axis = parentAxes[2];
     if (profile_.frictionNm > 0.0F) addRow({frictionZ, axis, 0, AngularRow::Kind::friction});
     const float angle = std::atan2(glm::dot(childAxes[0], parentAxes[1]), glm::dot(childAxes[0], parentAxes[0]));
     const float aboveLower = angle - profile_.hinge.lower;

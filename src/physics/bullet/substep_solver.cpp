@@ -114,6 +114,9 @@ void SubstepSolver::takeConstraint(btTypedConstraint& constraint, float seconds)
     if (joint.count == 0) return;
     joint.a = indexOf(constraint.getRigidBodyA());
     joint.b = indexOf(constraint.getRigidBodyB());
+    // A drag's other body is Bullet's fixed one, which always counts as active: on a sleeping doll nothing is left to
+    // move, and there is no island to take it into.
+    if (joint.a == kFixed && joint.b == kFixed) return;
     joint.first = static_cast<int>(rows_.size());
     joint.constraint = &constraint;
     joint.warm = dynamic_cast<WarmStarted*>(&constraint);

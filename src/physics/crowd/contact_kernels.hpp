@@ -114,7 +114,7 @@ static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& 
 }
 
 static int solvePairs(PairContactLanes* pairs, int count, const SubstepParams& params, int useBias) {
-    Mask pressed = all(0.0F) > all(0.0F);
+    Mask pressed = noLanes();
     for (int i = 0; i < count; ++i) {
         PairContactLanes& pair = pairs[i];
         PairVelocities v = velocitiesOf(pair);

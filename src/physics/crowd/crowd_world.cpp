@@ -28,6 +28,10 @@ class CrowdWorld final : public World {
 
     [[nodiscard]] int dollCount() const override { return static_cast<int>(state_.ragdolls.size()); }
     [[nodiscard]] const RagdollProfile& profileOf(int doll) const override { return *dollOf(doll).profile; }
+    [[nodiscard]] vec3 inertiaOf(int doll, int body) const override {
+        const RagdollProfile& profile = profileOf(doll);
+        return conditionedInertia(profile, profile.bodies[body], state_.tuning.leastGyration);
+    }
     void getBodies(int doll, std::span<BodyState> bodies) const override;
     void setBodies(int doll, std::span<const BodyState> bodies) override;
     [[nodiscard]] bool isAsleep(int doll) const override { return dollOf(doll).asleep(); }

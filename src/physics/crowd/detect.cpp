@@ -32,8 +32,8 @@ float pairRange(const CrowdState& state, const Doll& a, int bodyA, const Doll& b
 }
 
 std::uint64_t pairKey(const Doll& a, int bodyA, const Doll& b, int bodyB, int index) {
-    const auto first = static_cast<std::uint64_t>(a.firstBody + bodyA + 1);
-    const auto second = static_cast<std::uint64_t>(b.firstBody + bodyB + 1);
+    const auto first = static_cast<std::uint64_t>(a.firstBody) + static_cast<std::uint64_t>(bodyA) + 1;
+    const auto second = static_cast<std::uint64_t>(b.firstBody) + static_cast<std::uint64_t>(bodyB) + 1;
     return first << 34U | second << 4U | static_cast<std::uint64_t>(index);
 }
 

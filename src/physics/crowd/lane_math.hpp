@@ -26,6 +26,10 @@ LUTKA_LANES void store(Wide& wide, const F& value) {
 LUTKA_LANES F all(float value) {
     return F{value, value, value, value, value, value, value, value};
 }
+// A mask with no lane set.
+LUTKA_LANES Mask noLanes() {
+    return all(0.0F) > all(1.0F);
+}
 LUTKA_LANES F least(const F& a, const F& b) {
     return a < b ? a : b;
 }

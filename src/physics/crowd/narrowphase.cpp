@@ -61,7 +61,7 @@ void touchPlane(const PlacedShape& body, const PlacedStatic& plane, float range,
 // One point of the core against a static box, whose nearest feature becomes a half space.
 SurfaceDistance touchPoint(const vec3& local, const vec3& inBox, float radius, const PlacedStatic& box, int feature,
                            float range, Touches<StaticTouch>& out) {
-    const SurfaceDistance surface = distanceToBox(inBox, box.shape.halfExtents);
+    SurfaceDistance surface = distanceToBox(inBox, box.shape.halfExtents);
     const float separation = surface.distance - radius;
     if (separation < range) {
         const vec3 normal = box.axes * surface.normal;

@@ -120,7 +120,7 @@ LUTKA_LANES Symmetric angularWeight(const JointLanes& joint, const JointConstant
 // After the sweep: what the rows that held have gained. Returns the lanes whose guess was wrong.
 LUTKA_LANES Mask updateRows(JointLanes& joint, const JointConstants& constants, const V3& relative,
                             const SubstepParams& params, int useBias) {
-    Mask wrong = all(0.0F) > all(0.0F);
+    Mask wrong = noLanes();
     const F friction = load(joint.frictionGain);
     if (constants.isHinge != 0) {
         const F weight = load(joint.acrossWeight);

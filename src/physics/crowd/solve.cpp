@@ -154,10 +154,18 @@ void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSu
     first.warmStart = 1;
     for (std::size_t i = 0; i < state.jobCount; ++i)
         state.jobs[i].dragWork = 0.0;
+    // In the order of the jobs, so that the sum is the same at every thread count.
+    const auto takeDragWork = [&] {
+        for (std::size_t i = 0; i < state.jobCount; ++i) {
+            state.dragWork += state.jobs[i].dragWork;
+            state.jobs[i].dragWork = 0.0;
+        }
+    };
     const auto substep = [&](Job& job, int index) { JobSubstep(state, job, index == 0 ? first : others).run(); };
     if (afterSubstep) {
         for (int i = 0; i < substeps; ++i) {
             forJobs(state, [&](Job& job) { substep(job, i); });
+            takeDragWork();
             afterSubstep();
         }
     } else {
@@ -166,8 +174,7 @@ void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSu
                 substep(job, i);
         });
     }
-    for (std::size_t i = 0; i < state.jobCount; ++i)
-        state.dragWork += state.jobs[i].dragWork;
+    takeDragWork();
 }
 
 void keepImpulses(CrowdState& state) {

@@ -70,9 +70,8 @@ bool sameBytes(const std::vector<T>& a, const std::vector<T>& b) {
 
 Topology makeTopology(const RagdollProfile& profile, float leastGyration) {
     Topology topology;
-    const float gyration = leastGyration * profile.heightM / 1.75F;
     for (const BodyProfile& body : profile.bodies) {
-        const vec3 inertia = glm::max(body.inertia, vec3(body.massKg * gyration * gyration));
+        const vec3 inertia = conditionedInertia(profile, body, leastGyration);
         topology.bodies.push_back(constantsOf(body.shape, body.massKg, inertia));
         topology.shapes.push_back(body.shape);
     }

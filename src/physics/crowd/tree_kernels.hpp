@@ -157,7 +157,7 @@ LUTKA_LANES bool decide(const BatchView& batch, const SubstepParams& params, Pas
 
 // Adds the impulses of the rows that held and returns whether the guess was wrong in some lane.
 LUTKA_LANES bool update(const BatchView& batch, const SubstepParams& params, int useBias) {
-    Mask wrong = all(0.0F) > all(0.0F);
+    Mask wrong = noLanes();
     for (int j = 0; j < batch.jointCount; ++j) {
         const JointConstants& constants = batch.jointConstants[j];
         const V3 relative = load(batch.bodies[constants.child].angular) - load(batch.bodies[constants.parent].angular);
@@ -198,7 +198,7 @@ static bool sweep(const BatchView& batch, const SubstepParams& params, Pass pass
 
 // Whether some row mended an error, whose speed the relaxing pass must take out.
 static bool mends(const BatchView& batch, const SubstepParams& params) {
-    Mask off = all(0.0F) > all(0.0F);
+    Mask off = noLanes();
     for (int j = 0; j < batch.jointCount; ++j) {
         const JointLanes& joint = batch.joints[j];
         const V3 error = load(joint.error);
@@ -217,7 +217,7 @@ static bool mends(const BatchView& batch, const SubstepParams& params) {
 static void solve(const BatchView& batch, const SubstepParams& params, int useBias, int first) {
     if (useBias == 0 && !mends(batch, params)) return;
     const int passes = useBias != 0 ? params.passes : params.relaxPasses;
-    const Mask none = all(0.0F) > all(0.0F);
+    const Mask none = noLanes();
     for (int i = 0; i < passes; ++i) {
         const bool start = first != 0 && i == 0;
         if (!sweep(batch, params, {useBias, all(start ? 0.0F : 1.0F), none}, start)) return;

@@ -365,3 +365,17 @@ TEST_CASE("a prop pushes a doll and keeps what it was made as", "[bullet]") {
     CHECK(world->propState(0).linearVelocity.z > -3.0F);
     CHECK(bodiesOf(*world)[bodyOf(doll(), animation::Role::chest)].linearVelocity.z < -0.1F);
 }
+
+TEST_CASE("a doll that falls asleep while it is held stays asleep and whole") {
+    const auto world = makeWorld(SolverKind::bullet, vec3(0));
+    const auto start = standingAt({0, 1, 0});
+    world->addDoll(doll(), start);
+    const int hand = physics::bodyOf(doll(), physics::Role::leftHand);
+    world->setDrag(1, {0, hand, vec3(0), start[hand].worldFromBody.translation, 500.0F});
+    for (int i = 0; i < 600; ++i)
+        world->step(kDt);
+    CHECK(world->isAsleep(0));
+    const auto bodies = bodiesOf(*world);
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        CHECK(glm::distance(bodies[i].worldFromBody.translation, start[i].worldFromBody.translation) < 1e-3F);
+}
