@@ -39,6 +39,19 @@ std::optional<Error> checkTwice(const animation::Character& character, const Fix
     return std::nullopt;
 }
 
+bool sameShape(const physics::BodyShape& a, const physics::BodyShape& b) {
+    if (a.kind != b.kind) return false;
+    switch (a.kind) {
+        case physics::BodyShape::Kind::box:
+            return a.halfExtents == b.halfExtents;
+        case physics::BodyShape::Kind::sphere:
+            return a.radius == b.radius;
+        case physics::BodyShape::Kind::capsule:
+            break;
+    }
+    return a.radius == b.radius && a.halfLength == b.halfLength;
+}
+
 }  // namespace
 
 std::string_view objectKindName(SceneObject::Kind kind) {
@@ -63,6 +76,45 @@ vec3 halfSizeOf(const SceneObject& object) {
             break;
     }
     return vec3(kLightHalfSize);
+}
+
+std::array<PartEdits, animation::kRoleCount> editsBetween(const physics::RagdollProfile& fitted,
+                                                          const physics::RagdollProfile& given) {
+    std::array<PartEdits, animation::kRoleCount> edits{};
+    for (std::size_t i = 0; i < given.bodies.size(); ++i) {
+        const physics::BodyProfile& body = given.bodies[i];
+        const int same = physics::bodyOf(fitted, body.role);
+        if (same < 0) continue;
+        PartEdits& part = edits[animation::indexOf(body.role)];
+        const physics::BodyProfile& plain = fitted.bodies[same];
+        if (!sameShape(plain.shape, body.shape)) part.shape = body.shape;
+        if (plain.massKg != body.massKg) part.massKg = body.massKg;
+        if (i == 0 || same == 0) continue;  // the root has no constraint of its own
+        const physics::ConstraintProfile& joint = given.constraints[i - 1];
+        const physics::ConstraintProfile& plainJoint = fitted.constraints[same - 1];
+        const auto& hinge = joint.hinge;
+        const auto& cone = joint.cone;
+        if (hinge.lower != plainJoint.hinge.lower || hinge.upper != plainJoint.hinge.upper) part.hinge = hinge;
+        if (cone.swingY != plainJoint.cone.swingY || cone.swingZ != plainJoint.cone.swingZ ||
+            cone.twist != plainJoint.cone.twist) {
+            part.cone = cone;
+        }
+        if (joint.frictionNm != plainJoint.frictionNm) part.frictionNm = joint.frictionNm;
+    }
+    return edits;
+}
+
+void fillUnset(std::array<PartEdits, animation::kRoleCount>& edits,
+               const std::array<PartEdits, animation::kRoleCount>& others) {
+    for (int role = 0; role < animation::kRoleCount; ++role) {
+        PartEdits& part = edits[role];
+        const PartEdits& other = others[role];
+        if (!part.shape) part.shape = other.shape;
+        if (!part.massKg) part.massKg = other.massKg;
+        if (!part.hinge) part.hinge = other.hinge;
+        if (!part.cone) part.cone = other.cone;
+        if (!part.frictionNm) part.frictionNm = other.frictionNm;
+    }
 }
 
 physics::RagdollProfile applyEdits(const physics::RagdollProfile& base,

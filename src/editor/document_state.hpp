@@ -67,7 +67,17 @@ struct DocumentState {
     animation::HumanoidMap map;
     physics::RagdollProfile base;     ///< As fitted, or as read from a file.
     physics::RagdollProfile profile;  ///< `base` with `edits`.
+    /// What `base` changes of a plain fit (a profile that was opened, mends): taken into `edits` when a new fit takes
+    /// its place, so that nobody's work is lost by mapping another joint.
+    std::array<PartEdits, animation::kRoleCount> baseEdits{};
 };
+
+/// The values of `given` that differ from `fitted`'s, by role; roles that only one of them has are left out.
+[[nodiscard]] std::array<PartEdits, animation::kRoleCount> editsBetween(const physics::RagdollProfile& fitted,
+                                                                        const physics::RagdollProfile& given);
+/// `edits` with what is unset in them taken from `others`.
+void fillUnset(std::array<PartEdits, animation::kRoleCount>& edits,
+               const std::array<PartEdits, animation::kRoleCount>& others);
 
 /// `base` with the edits on it: the total mass is the new sum, inertias follow shape and mass.
 [[nodiscard]] physics::RagdollProfile applyEdits(const physics::RagdollProfile& base,

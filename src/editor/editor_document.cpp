@@ -55,7 +55,10 @@ Result<std::unique_ptr<EditorDocument>> EditorDocument::open(const std::filesyst
     if (!asset) return asset.error();
     auto document = std::make_unique<EditorDocument>(std::move(asset).value());
     document->state_.fit = options.fit;
-    if (options.profile) document->profileFile_ = *options.profile;
+    if (options.profile) {
+        document->profileFile_ = *options.profile;
+        document->state_.baseEdits = document->editsOfBase(document->state_);
+    }
     return document;
 }
 
@@ -92,7 +95,14 @@ Result<void> EditorDocument::apply(const std::string& label, const std::string& 
     return {};
 }
 
+std::array<PartEdits, animation::kRoleCount> EditorDocument::editsOfBase(const DocumentState& state) const {
+    const auto fitted = physics::fitRagdoll(asset_->character, state.map, state.fit);
+    return fitted ? editsBetween(fitted.value(), state.base) : std::array<PartEdits, animation::kRoleCount>{};
+}
+
 Result<void> EditorDocument::remap(DocumentState& state) const {
+    fillUnset(state.edits, state.baseEdits);
+    state.baseEdits = {};
     auto map = mapWithFixed(asset_->character, state.fixed);
     if (!map) return map.error();
     state.map = std::move(map).value();
@@ -220,9 +230,13 @@ Result<void> EditorDocument::useProfile(const std::filesystem::path& file) {
     auto done = apply("Open profile " + file.filename().string(), "", [&](DocumentState& next) -> Result<void> {
         next.base = std::move(profile).value();
         next.edits = {};
+        next.baseEdits = editsOfBase(next);
         return {};
     });
-    if (done) profileFile_ = file;
+    if (!done) return done;
+    profileFile_ = file;
+    savedProfile_ = physics::profileToJson(state_.profile);
+    unsaved_ = false;
     return done;
 }
 
@@ -241,6 +255,7 @@ Result<void> EditorDocument::mend(std::span<const physics::Finding> findings) {
                  [&](DocumentState& next) -> Result<void> {
                      next.base = std::move(mended).value();  // the edits are in it
                      next.edits = {};
+                     next.baseEdits = editsOfBase(next);
                      return {};
                  });
 }

@@ -96,6 +96,7 @@ class EditorDocument {
     Result<void> apply(const std::string& label, const std::string& group, const Change& change);
     Result<void> editPart(int body, const std::string& what, const std::string& group,
                           const std::function<void(PartEdits&)>& change);
+    [[nodiscard]] std::array<PartEdits, animation::kRoleCount> editsOfBase(const DocumentState& state) const;
     [[nodiscard]] Result<void> remap(DocumentState& state) const;
     void adopt(DocumentState state);
 

@@ -222,3 +222,20 @@ TEST_CASE("the undo stack forgets its oldest entries and not its newest") {
     CHECK(stack.undo(999) == most + 49);
     CHECK(stack.redo(7) == 999);
 }
+
+TEST_CASE("what an opened profile holds outlives a change of the mapping, and it opens as saved") {
+    const auto document = makeDocument();
+    const test::ScratchFolder folder;
+    const std::filesystem::path file = folder / "biped.ragdoll.json";
+    REQUIRE(document->setHinge(constraintOf(*document, Role::leftLowerLeg), {-0.5F, 0.6F}).ok());
+    REQUIRE(document->save(file).ok());
+    const auto again = makeDocument();
+    REQUIRE(again->useProfile(file).ok());
+    CHECK_FALSE(again->unsaved());
+    const int chest = animation::findJoint(again->character().skeleton, "chest");
+    REQUIRE(again->assignRole(Role::spine, chest).ok());
+    CHECK(kneeLimits(*again).lower == -0.5F);
+    CHECK(kneeLimits(*again).upper == 0.6F);
+    again->undo();
+    CHECK(kneeLimits(*again).upper == 0.6F);
+}
