@@ -2,34 +2,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <fstream>
-#include <sstream>
 
 #include "core/files.hpp"
 #include "support/catch.hpp"
+#include "support/command.hpp"
 
 using namespace lutka;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct TemporaryFolder {
-    TemporaryFolder() : path(fs::temp_directory_path() / ("lutka_files_" + std::to_string(::getpid()))) {
-        fs::create_directories(path);
-    }
-    ~TemporaryFolder() { fs::remove_all(path); }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    fs::path path;
-};
-
-std::string contents(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream out;
-    out << in.rdbuf();
-    return out.str();
-}
 
 std::ptrdiff_t filesIn(const fs::path& folder) {
     return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
@@ -38,17 +20,17 @@ std::ptrdiff_t filesIn(const fs::path& folder) {
 }  // namespace
 
 TEST_CASE("a file is written whole, with its missing folders") {
-    const TemporaryFolder folder;
+    const test::ScratchFolder folder;
     const fs::path file = folder.path / "a" / "b.txt";
     REQUIRE(writeFileAtomically(file, "hello"));
-    CHECK(contents(file) == "hello");
+    CHECK(test::fileText(file) == "hello");
     REQUIRE(writeFileAtomically(file, "again"));
-    CHECK(contents(file) == "again");
+    CHECK(test::fileText(file) == "again");
     CHECK(filesIn(file.parent_path()) == 1);
 }
 
 TEST_CASE("a writer that fails leaves the old file and nothing beside it") {
-    const TemporaryFolder folder;
+    const test::ScratchFolder folder;
     const fs::path file = folder.path / "kept.txt";
     REQUIRE(writeFileAtomically(file, "old"));
     const auto result = writeFileAtomically(file, [](const fs::path& temporary) -> Result<void> {
@@ -57,7 +39,7 @@ TEST_CASE("a writer that fails leaves the old file and nothing beside it") {
     });
     REQUIRE_FALSE(result);
     CHECK(result.error().location == file.string());
-    CHECK(contents(file) == "old");
+    CHECK(test::fileText(file) == "old");
     CHECK(filesIn(folder.path) == 1);
 }
 
@@ -70,7 +52,7 @@ TEST_CASE("a full disk is an output error that names the file") {
 }
 
 TEST_CASE("reading a missing file, a folder or a file above the cap is an input error") {
-    const TemporaryFolder folder;
+    const test::ScratchFolder folder;
     const auto missing = readFile(folder.path / "nothing");
     REQUIRE_FALSE(missing);
     CHECK(missing.error().code == ErrorCode::input);
@@ -91,16 +73,16 @@ TEST_CASE("a missing asset names where it was looked for and the mend") {
 }
 
 TEST_CASE("a link stays a link and its target is written") {
-    const TemporaryFolder folder;
+    const test::ScratchFolder folder;
     REQUIRE(writeFileAtomically(folder.path / "target", "old"));
     fs::create_symlink(folder.path / "target", folder.path / "link");
     REQUIRE(writeFileAtomically(folder.path / "link", "new"));
     CHECK(fs::is_symlink(folder.path / "link"));
-    CHECK(contents(folder.path / "target") == "new");
+    CHECK(test::fileText(folder.path / "target") == "new");
 }
 
 TEST_CASE("a pipe is written straight by bytes and refused where a second version is needed") {
-    const TemporaryFolder folder;
+    const test::ScratchFolder folder;
     const fs::path pipe = folder.path / "pipe";
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
     const auto refused = writeFileAtomically(pipe, [](const fs::path&) -> Result<void> { return {}; });

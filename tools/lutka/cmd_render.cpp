@@ -123,9 +123,8 @@ void run(Options& options) {
         leave({ErrorCode::usage, fmt::format("'{}' is neither .png, .mp4 nor .gif", options.out.string()), "--output",
                "the extension chooses the format"});
     }
-    checkOutputs(options.simulate, options.out);
     const bool sequence = options.frames || render::FrameWriter::isVideo(options.out);
-    Run run = prepare(options.simulate);
+    Run run = prepare(options.simulate, options.out);
     Painter painter(options, run);
     if (sequence) {
         renderFrames(options, run, painter);

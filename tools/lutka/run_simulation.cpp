@@ -91,8 +91,6 @@ void advance(Run& run, int step) {
     run.simulation->show(std::span(run.replay->frames).subspan(size * (static_cast<std::size_t>(step) + 1), size));
 }
 
-}  // namespace
-
 void checkOutputs(const SimulateOptions& options, const std::filesystem::path& picture) {
     checkExtension("--out", options.bakedOut, ".glb");
     checkExtension("--mesh-out", options.meshOut, ".obj");
@@ -111,8 +109,10 @@ void checkOutputs(const SimulateOptions& options, const std::filesystem::path& p
     }
 }
 
-Run prepare(const SimulateOptions& options) {
-    checkOutputs(options);
+}  // namespace
+
+Run prepare(const SimulateOptions& options, const std::filesystem::path& picture) {
+    checkOutputs(options, picture);
     Run run;
     run.asset = orLeave(scene::loadRagdoll(options.ragdoll.model.model, options.ragdoll.load()));
     printWarnings(*run.asset);

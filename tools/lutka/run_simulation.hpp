@@ -19,12 +19,9 @@ struct Run {
     std::optional<scene::Recording> replay;  ///< Set: shown instead of simulating.
 };
 
-/// Leaves when an output has the wrong extension, can't be written, or would destroy an input or another output.
-/// `picture` is one more output, of `render`.
-void checkOutputs(const SimulateOptions& options, const std::filesystem::path& picture = {});
-
-/// Checks the outputs, loads the model and sets the scene up; leaves on errors.
-[[nodiscard]] Run prepare(const SimulateOptions& options);
+/// Loads the model and sets the scene up. Leaves on errors, first of all when an output has the wrong extension, can't
+/// be written, or would destroy an input or another output. `picture` is one more output, of `render`.
+[[nodiscard]] Run prepare(const SimulateOptions& options, const std::filesystem::path& picture = {});
 
 /// Steps (or replays) to the end, calls `afterStep` after every step, and writes what the options ask for: baked clip,
 /// mesh, report and recording. Leaves on errors.
