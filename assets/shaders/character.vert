@@ -27,7 +27,7 @@ float highlightShare(int joint) {
 
 void main() {
     vec4 palette = instanceTexel(5);
-    Rows rows = blendedRows(int(palette.x), joints, weights);
+    Rows rows = blendedRows(int(palette.x), palette.z > 0.5, joints, weights);
     worldPosition = toWorld(vec4(applyRows(rows, vec4(position, 1.0)), 1.0));
     worldNormal = toWorld(vec4(applyRows(rows, vec4(normal, 0.0)), 0.0));
     worldTangent = vec4(toWorld(vec4(applyRows(rows, vec4(tangent.xyz, 0.0)), 0.0)), tangent.w);

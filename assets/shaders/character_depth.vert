@@ -15,7 +15,8 @@ invariant gl_Position;
 out vec2 textureUv;
 
 void main() {
-    Rows rows = blendedRows(int(instanceTexel(5).x), joints, weights);
+    vec4 palette = instanceTexel(5);
+    Rows rows = blendedRows(int(palette.x), palette.z > 0.5, joints, weights);
     textureUv = uv;
     gl_Position = depthFromWorld * vec4(toWorld(vec4(applyRows(rows, vec4(position, 1.0)), 1.0)), 1.0);
 }

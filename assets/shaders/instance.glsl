@@ -1,6 +1,7 @@
 // Per-instance data, six texels each (InstanceTexels in src/render/gl/frame_uniforms.hpp):
 //   0..2  rows of worldFromModel
-//   3..5  characters: tint and opacity; highlight; first palette joint and highlighted joint
+//   3..5  characters: tint and opacity; highlight; first palette joint, highlighted joint, 1 for
+//                     dual quaternions
 //         props:      colour; radius, half length, roughness, checker size; half extents and
 //                     1 when the checker lies in the world
 uniform samplerBuffer instances;

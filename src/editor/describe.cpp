@@ -26,6 +26,8 @@ void Editor::describe(render::CharacterHandle character, render::FrameDescriptio
     frame.clear();
     frame.camera = workspace_.camera;
     const std::size_t first = frame.characters.size();
+    drawer_.skinning =
+        view.dualQuaternions ? animation::SkinningMethod::dualQuaternion : animation::SkinningMethod::linear;
     drawer_.draw(player().simulation(), character, view.debug ? view.layers : scene::DebugLayers{}, player().alpha(),
                  view.skinOpacity, frame);
     highlight(first, frame);

@@ -32,6 +32,7 @@ struct ViewSettings {
     scene::DebugLayers layers;
     bool debug = false;  ///< F3: whether `layers` are drawn.
     float skinOpacity = 1.0F;
+    bool dualQuaternions = false;  ///< Skinning that keeps the volume of twisted limbs.
     bool panels = true;
     bool help = false;
 };

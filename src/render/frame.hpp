@@ -6,10 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "animation/dual_quaternion_skinning.hpp"
 #include "animation/skinning.hpp"
 #include "core/rigid_transform.hpp"
 #include "render/camera.hpp"
 #include "render/color.hpp"
+#include "render/frame_stats.hpp"
 #include "render/light.hpp"
 #include "render/line_batch.hpp"
 #include "render/solid_batch.hpp"
@@ -35,6 +37,8 @@ struct CharacterItem {
     Color highlight{247, 147, 40, 0};  ///< Selection: mixed in by its alpha, with a rim of the same colour.
     int highlightJoint = -1;           ///< The joint whose skin is highlighted; -1: the whole figure.
     bool castsShadow = true;
+    /// How its joints' motions are blended; both kinds of one mesh are still one draw call.
+    animation::SkinningMethod skinning = animation::SkinningMethod::linear;
 };
 
 /// A simple shape of the scene: static geometry, balls, targets.
@@ -98,19 +102,6 @@ struct FrameDescription {
         lines.clear();
         solids.clear();
     }
-};
-
-/// What drawing a frame cost.
-struct FrameStats {
-    int drawCalls = 0;            ///< All passes together.
-    int characterDrawCalls = 0;   ///< Of those, skinned ones of the colour pass.
-    int shadowDrawCalls = 0;      ///< Those of the shadow pass.
-    int instances = 0;            ///< Characters drawn.
-    int culledInstances = 0;      ///< Characters outside the picture (they still cast their shadows).
-    int droppedInstances = 0;     ///< Characters left out because the driver's texture buffers hold no more joints.
-    long long triangles = 0;      ///< Submitted, all passes.
-    long long uploadedBytes = 0;  ///< Palettes, instances, batches.
-    double cpuMs = 0.0;           ///< Time spent in draw(), without waiting for the GPU.
 };
 
 }  // namespace lutka::render

@@ -141,6 +141,7 @@ void SimulationDrawer::draw(Simulation& simulation, render::CharacterHandle char
             item.palette = palette;
             item.worldFromModel = simulation.worldFromModel(doll);
             item.opacity = opacity;
+            item.skinning = skinning;
         }
         if (anyDollLayer(layers)) {
             states_.resize(asset.profile.bodies.size());

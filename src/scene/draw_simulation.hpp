@@ -35,6 +35,9 @@ class SimulationDrawer {
     /// World positions of a doll's joints as last drawn, jointCount() long.
     [[nodiscard]] std::span<const RigidTransform> modelFromJoint(int doll) const;
 
+    /// Of every doll's skin.
+    animation::SkinningMethod skinning = animation::SkinningMethod::linear;
+
   private:
     std::vector<RigidTransform> poses_;
     std::vector<animation::SkinMatrix> palettes_;

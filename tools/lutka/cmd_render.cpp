@@ -23,6 +23,7 @@ struct Options {
     std::filesystem::path out;
     std::string size = "960x540";
     std::string debug;
+    std::string skinning = "linear";
     double framesPerSecond = 30.0;
     float opacity = 1.0F;
     std::optional<float> yawDeg;
@@ -45,6 +46,8 @@ class Painter {
           context_(orLeave(render::GlContext::createHeadless())),
           renderer_(orLeave(render::Renderer::create(context_))),
           character_(orLeave(renderer_.uploadCharacter(run.asset->character))) {
+        drawer_.skinning =
+            options.skinning == "dual" ? animation::SkinningMethod::dualQuaternion : animation::SkinningMethod::linear;
         frame_.camera = scene::cameraFor(run.simulation->scenario(), size_.aspect());
         if (options.yawDeg) frame_.camera.yaw = radians(*options.yawDeg);
         if (options.pitchDeg) frame_.camera.pitch = radians(*options.pitchDeg);
@@ -159,6 +162,10 @@ void addRender(CLI::App& app) {
     command->add_option("--debug", options->debug,
                         "layers over the picture: capsules,solids,joints,limits,contacts,velocities,com,aabbs");
     command->add_option("--opacity", options->opacity, "of the skin, 0 to 1")->check(finiteIn(0, 1));
+    command
+        ->add_option("--skinning", options->skinning, "linear, or dual: quaternions that keep a twisted limb's volume")
+        ->check(CLI::IsMember({"linear", "dual"}))
+        ->capture_default_str();
     command->add_flag("--follow", options->follow, "keep the first doll in the middle of the picture");
     command->add_option("--yaw", options->yawDeg, "camera's heading in degrees; 0 looks at the front")
         ->check(finiteIn(-3600, 3600));

@@ -176,6 +176,8 @@ void drawViewTab(const PanelContext& context) {
     caption("PICTURE");
     labelled("Skin", labelWidth(context));
     ImGui::SliderFloat("##skin", &view.skinOpacity, 0.0F, 1.0F, "opacity %.2f");
+    ImGui::Checkbox("Dual quaternion skin", &view.dualQuaternions);
+    tooltip("Keeps the volume of twisted limbs; bends bulge a little");
     labelled("Lens", labelWidth(context));
     render::Camera& camera = context.editor.workspace().camera;
     float lens = degrees(camera.fieldOfView);

@@ -41,9 +41,10 @@ DebugRenderer::DebugRenderer()
     glBindVertexArray(0);
 }
 
-Result<DebugRenderer> DebugRenderer::create() {
+Result<DebugRenderer> DebugRenderer::create(int samples) {
     DebugRenderer renderer;
-    Result<ShaderProgram> lines = ShaderProgram::load("line.vert", "line.frag");
+    const std::vector<std::string> defines(samples > 1 ? 1 : 0, "MULTISAMPLED");
+    Result<ShaderProgram> lines = ShaderProgram::load("line.vert", "line.frag", defines);
     if (!lines) return lines.error();
     Result<ShaderProgram> solids = ShaderProgram::load("solid.vert", "solid.frag");
     if (!solids) return solids.error();
@@ -52,11 +53,13 @@ Result<DebugRenderer> DebugRenderer::create() {
     return renderer;
 }
 
-void DebugRenderer::draw(const FrameDescription& frame, FrameStats& stats) {
+void DebugRenderer::draw(const FrameDescription& frame, const PictureTarget& picture, FrameStats& stats) {
+    const int before = stats.drawCalls;
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
     if (!frame.solids.empty()) drawSolids(frame, stats);
-    if (!frame.lines.empty()) drawLines(frame, stats);
+    if (!frame.lines.empty()) drawLines(frame, picture, stats);
+    stats.debugDrawCalls = stats.drawCalls - before;
     glDepthFunc(GL_LEQUAL);
     glDepthMask(GL_TRUE);
 }
@@ -64,6 +67,7 @@ void DebugRenderer::draw(const FrameDescription& frame, FrameStats& stats) {
 void DebugRenderer::drawSolids(const FrameDescription& frame, FrameStats& stats) {
     const std::span<const SolidVertex> vertices(frame.solids.vertices);
     solidBuffer_.upload(vertices);
+    ++stats.debugUploads;
     stats.uploadedBytes += static_cast<long long>(vertices.size_bytes());
     glEnable(GL_CULL_FACE);
     glBindVertexArray(solidArray_.name());
@@ -90,32 +94,26 @@ void DebugRenderer::drawSolids(const FrameDescription& frame, FrameStats& stats)
     drawOnce(1.0F);
 }
 
-void DebugRenderer::drawLines(const FrameDescription& frame, FrameStats& stats) {
+void DebugRenderer::drawLines(const FrameDescription& frame, const PictureTarget& picture, FrameStats& stats) {
     const std::span<const LineVertex> vertices(frame.lines.vertices);
     lineBuffer_.upload(vertices);
+    ++stats.debugUploads;
     stats.uploadedBytes += static_cast<long long>(vertices.size_bytes());
     glDisable(GL_CULL_FACE);
-    glDepthMask(GL_FALSE);
+    glDisable(GL_DEPTH_TEST);
+    picture.bindWithoutDepth();
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(TextureUnit::depthMap));
+    glBindTexture(picture.samples() > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, picture.depthTexture());
     glBindVertexArray(lineArray_.name());
     lineProgram_.use();
     lineProgram_.set("lineWidth", frame.lineWidth);
-    const auto drawOnce = [&](float opacity) {
-        lineProgram_.set("opacity", opacity);
-        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(vertices.size() / 2));
-        ++stats.drawCalls;
-        stats.triangles += static_cast<long long>(vertices.size());
-    };
-    if (frame.hiddenLineOpacity >= 1.0F) {
-        glDepthFunc(GL_ALWAYS);
-        drawOnce(1.0F);
-        return;
-    }
-    if (frame.hiddenLineOpacity > 0.0F) {
-        glDepthFunc(GL_GREATER);
-        drawOnce(frame.hiddenLineOpacity);
-    }
-    glDepthFunc(GL_LEQUAL);
-    drawOnce(1.0F);
+    lineProgram_.set("hiddenOpacity", frame.hiddenLineOpacity);
+    lineProgram_.set("samples", picture.samples());
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(vertices.size() / 2));
+    ++stats.drawCalls;
+    stats.triangles += static_cast<long long>(vertices.size());
+    glEnable(GL_DEPTH_TEST);
+    picture.bindForDrawing();
 }
 
 }  // namespace lutka::render

@@ -31,7 +31,7 @@ void DrawList::addCharacter(const CharacterItem& item, const BoundingSphere& bou
     const Entry entry{item.character.index, static_cast<int>(firstPaletteJoint_.size()),
                       glm::dot(bounds.center, forward_)};
     firstPaletteJoint_.push_back(static_cast<int>(palettes_.size()));
-    palettes_.insert(palettes_.end(), item.palette.begin(), item.palette.end());
+    appendPalette(item, palettes_);
     const bool translucent = item.opacity < 1.0F;
     if (item.castsShadow && !bounds.empty()) {
         casters_ = enclosing(casters_, bounds);

@@ -70,12 +70,25 @@ FrameUniforms makeFrameUniforms(const FrameDescription& frame, Extent size, cons
     return u;
 }
 
+void appendPalette(const CharacterItem& item, std::vector<animation::SkinMatrix>& palettes) {
+    if (item.skinning == animation::SkinningMethod::linear) {
+        palettes.insert(palettes.end(), item.palette.begin(), item.palette.end());
+        return;
+    }
+    for (const animation::SkinMatrix& matrix : item.palette) {
+        const animation::DualQuaternion joint = animation::dualQuaternion(matrix);
+        palettes.push_back({{joint.real, joint.dual, vec4(0)}});
+    }
+}
+
 InstanceTexels makeInstance(const CharacterItem& item, int firstPaletteJoint) {
     InstanceTexels texels;
     setRows(texels, item.worldFromModel);
     texels.color = vec4(item.tint, item.opacity);
     texels.measures = toLinear(item.highlight);
-    texels.extentOrJoint = vec4(static_cast<float>(firstPaletteJoint), static_cast<float>(item.highlightJoint), 0, 0);
+    const bool dual = item.skinning == animation::SkinningMethod::dualQuaternion;
+    texels.extentOrJoint =
+        vec4(static_cast<float>(firstPaletteJoint), static_cast<float>(item.highlightJoint), dual ? 1.0F : 0.0F, 0);
     return texels;
 }
 

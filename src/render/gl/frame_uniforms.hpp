@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "core/math.hpp"
 #include "render/extent.hpp"
@@ -47,14 +48,18 @@ struct InstanceTexels {
     vec4 worldRows[3];
     vec4 color{1};     ///< Characters: tint and opacity. Props: linear colour.
     vec4 measures{0};  ///< Characters: highlight, linear. Props: radius, half length, roughness, checker size.
-    vec4 extentOrJoint{
-        0};  ///< Characters: first palette joint, highlighted joint. Props: half extents, checkerInWorld.
+    /// Characters: first palette joint, highlighted joint, 1 for dual quaternions. Props: half extents, checkerInWorld.
+    vec4 extentOrJoint{0};
 };
 static_assert(sizeof(InstanceTexels) == 6 * 16);
 
 /// All that a frame's description fixes once for all shaders.
 [[nodiscard]] FrameUniforms makeFrameUniforms(const FrameDescription& frame, Extent size, const ShadowFit& shadow,
                                               int shadowMapSize);
+
+/// Appends a character's palette as assets/shaders/skinning.glsl reads it by the item's skinning: three texels a joint,
+/// the matrix's rows, or the dual quaternion's two halves and one without meaning.
+void appendPalette(const CharacterItem& item, std::vector<animation::SkinMatrix>& palettes);
 
 /// Fills a TexelStream's element.
 [[nodiscard]] InstanceTexels makeInstance(const CharacterItem& item, int firstPaletteJoint);

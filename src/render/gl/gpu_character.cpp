@@ -139,6 +139,7 @@ class TextureUploader {
         if (known == Material::kNoTexture) {
             known = static_cast<int>(gpu_.textures.size());
             gpu_.textures.push_back(upload(character_.textures[texture], srgb));
+            gpu_.textureBytes += static_cast<long long>(character_.textures[texture].rgba.size()) * 4 / 3;
         }
         return known;
     }
@@ -174,6 +175,10 @@ Result<GpuCharacter> makeGpuCharacter(const Character& character, std::vector<st
         gpu.materials.push_back(std::move(material));
     }
     gpu.jointBounds = jointBounds(character);
+    for (const GpuCharacter::Mesh& mesh : gpu.meshes) {
+        gpu.meshBytes += static_cast<long long>(mesh.vertexCount) * static_cast<long long>(sizeof(Vertex)) +
+                         static_cast<long long>(mesh.indexCount) * static_cast<long long>(sizeof(std::uint32_t));
+    }
     return gpu;
 }
 

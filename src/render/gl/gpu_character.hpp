@@ -25,6 +25,8 @@ struct GpuCharacter {
     std::vector<animation::Material> materials;  ///< Texture members index `textures`.
     std::vector<GlTexture> textures;
     std::vector<BoundingSphere> jointBounds;  ///< One a joint.
+    long long meshBytes = 0;
+    long long textureBytes = 0;  ///< With mipmaps.
 };
 
 /// Checks and uploads. What is odd about a material goes to `warnings`. Fails with ErrorCode::input when arrays do not

@@ -108,6 +108,13 @@ void PropMeshes::draw(PropItem::Kind kind, int instances) const {
     glDrawArraysInstanced(GL_TRIANGLES, 0, mesh.vertexCount, instances);
 }
 
+long long PropMeshes::bytes() const {
+    long long sum = 0;
+    for (const Mesh& mesh : meshes_)
+        sum += static_cast<long long>(mesh.vertexCount) * static_cast<long long>(sizeof(Vertex));
+    return sum;
+}
+
 int PropMeshes::triangleCount(PropItem::Kind kind) const {
     return meshes_[static_cast<int>(kind)].vertexCount / 3;
 }

@@ -17,6 +17,7 @@ class PropMeshes {
     /// Draws instances of a kind with the program in use.
     void draw(PropItem::Kind kind, int instances) const;
     [[nodiscard]] int triangleCount(PropItem::Kind kind) const;
+    [[nodiscard]] long long bytes() const;
 
   private:
     struct Mesh {

@@ -14,6 +14,10 @@ void setSampling(GLint filter, GLint wrap) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
 }
 
+long long areaOf(Extent size) {
+    return static_cast<long long>(size.width) * size.height;
+}
+
 void checkComplete() {
     LUTKA_ASSERT(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
 }
@@ -29,8 +33,9 @@ void bindForSetup(GLuint texture) {
 PictureTarget::PictureTarget(int samples)
     : samples_(samples),
       multisampled_(GlFramebuffer::create()),
+      withoutDepth_(GlFramebuffer::create()),
       color_(GlRenderbuffer::create()),
-      depth_(GlRenderbuffer::create()),
+      depth_(GlTexture::create()),
       resolved_(GlFramebuffer::create()),
       texture_(GlTexture::create()) {
     GLint most = 1;
@@ -44,11 +49,23 @@ void PictureTarget::resize(Extent size) {
     const GLsizei samples = samples_ > 1 ? samples_ : 0;
     glBindRenderbuffer(GL_RENDERBUFFER, color_.name());
     glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_SRGB8_ALPHA8, size.width, size.height);
-    glBindRenderbuffer(GL_RENDERBUFFER, depth_.name());
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, size.width, size.height);
+    const GLenum depthTarget = samples > 0 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(depthTarget, depth_.name());
+    if (samples > 0) {
+        glTexImage2DMultisample(depthTarget, samples, GL_DEPTH_COMPONENT24, size.width, size.height, GL_TRUE);
+    } else {
+        glTexImage2D(depthTarget, 0, GL_DEPTH_COMPONENT24, size.width, size.height, 0, GL_DEPTH_COMPONENT,
+                     GL_UNSIGNED_INT, nullptr);
+        setSampling(GL_NEAREST, GL_CLAMP_TO_EDGE);
+    }
+    for (const GlFramebuffer* framebuffer : {&multisampled_, &withoutDepth_}) {
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer->name());
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color_.name());
+        checkComplete();
+    }
     glBindFramebuffer(GL_FRAMEBUFFER, multisampled_.name());
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color_.name());
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.name());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depthTarget, depth_.name(), 0);
     checkComplete();
 
     bindForSetup(texture_.name());
@@ -64,11 +81,30 @@ void PictureTarget::bindForDrawing() const {
     glViewport(0, 0, size_.width, size_.height);
 }
 
+void PictureTarget::bindWithoutDepth() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, withoutDepth_.name());
+}
+
+// Colour and depth take four bytes each; drivers store 24 bits of depth in 32.
+long long PictureTarget::bytes() const {
+    constexpr long long kColorAndDepth = 8;
+    constexpr long long kResolved = 4;
+    return areaOf(size_) * (kColorAndDepth * samples_ + kResolved);
+}
+
 void PictureTarget::resolve() const {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, multisampled_.name());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.name());
     glBlitFramebuffer(0, 0, size_.width, size_.height, 0, 0, size_.width, size_.height, GL_COLOR_BUFFER_BIT,
                       GL_NEAREST);
+}
+
+long long DepthTarget::bytes() const {
+    return areaOf(size_) * 4;
+}
+
+long long ChannelTarget::bytes() const {
+    return areaOf(size_);
 }
 
 DepthTarget::DepthTarget(Use use) : use_(use), framebuffer_(GlFramebuffer::create()), texture_(GlTexture::create()) {}

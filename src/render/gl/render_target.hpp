@@ -14,7 +14,15 @@ class PictureTarget {
     /// Makes the buffers anew when the size has changed.
     void resize(Extent size);
     void bindForDrawing() const;
+    /// The same colours without a depth buffer, so that shaders may read depthTexture() while they draw.
+    void bindWithoutDepth() const;
     void resolve() const;
+
+    /// Bytes of the buffers, samples counted.
+    [[nodiscard]] long long bytes() const;
+    [[nodiscard]] int samples() const { return samples_; }
+    /// GL_TEXTURE_2D_MULTISAMPLE, or GL_TEXTURE_2D with one sample.
+    [[nodiscard]] GLuint depthTexture() const { return depth_.name(); }
 
     [[nodiscard]] Extent size() const { return size_; }
     [[nodiscard]] GLuint resolvedFramebuffer() const { return resolved_.name(); }
@@ -24,8 +32,9 @@ class PictureTarget {
     int samples_;
     Extent size_{0, 0};
     GlFramebuffer multisampled_;
+    GlFramebuffer withoutDepth_;
     GlRenderbuffer color_;
-    GlRenderbuffer depth_;
+    GlTexture depth_;
     GlFramebuffer resolved_;
     GlTexture texture_;
 };
@@ -41,6 +50,7 @@ class DepthTarget {
 
     [[nodiscard]] Extent size() const { return size_; }
     [[nodiscard]] GLuint texture() const { return texture_.name(); }
+    [[nodiscard]] long long bytes() const;
 
   private:
     Use use_;
@@ -58,6 +68,7 @@ class ChannelTarget {
     void bindForDrawing() const;
 
     [[nodiscard]] GLuint texture() const { return texture_.name(); }
+    [[nodiscard]] long long bytes() const;
 
   private:
     Extent size_{0, 0};

@@ -6,17 +6,18 @@
 
 #include "core/assert.hpp"
 #include "render/gl/debug_renderer.hpp"
+#include "render/gl/pass_timer.hpp"
 #include "render/gl/render_target.hpp"
 #include "render/gl/scene_renderer.hpp"
 
 namespace lutka::render {
 
 struct Renderer::State {
-    State(SceneRenderer sceneRenderer, DebugRenderer debugRenderer, ShaderProgram feedbackProgram, int samples)
+    State(PictureTarget target, SceneRenderer sceneRenderer, DebugRenderer debugRenderer, ShaderProgram feedbackProgram)
         : scene(std::move(sceneRenderer)),
           debug(std::move(debugRenderer)),
           feedback(std::move(feedbackProgram)),
-          picture(samples) {}
+          picture(std::move(target)) {}
 
     CharacterStore characters;
     std::vector<std::string> warnings;
@@ -25,7 +26,21 @@ struct Renderer::State {
     ShaderProgram feedback;
     TexelStream feedbackPalette;
     PictureTarget picture;
+    PassTimer timer;
     FrameStats stats;
+
+    [[nodiscard]] GpuMemory memory() const {
+        GpuMemory sum;
+        for (const auto& character : characters) {
+            if (!character) continue;
+            sum.meshes += character->meshBytes;
+            sum.textures += character->textureBytes;
+        }
+        scene.addMemory(sum);
+        sum.targets += picture.bytes();
+        sum.streams += debug.bytes() + feedbackPalette.bytes();
+        return sum;
+    }
 
     [[nodiscard]] const GpuCharacter& at(CharacterHandle handle) const {
         LUTKA_ASSERT(handle.valid() && handle.index < static_cast<int>(characters.size()) && characters[handle.index]);
@@ -42,13 +57,14 @@ Result<Renderer> Renderer::create(GlContext& context, const RendererOptions& opt
     context.makeCurrent();
     Result<SceneRenderer> scene = SceneRenderer::create(options.shadowMapSize);
     if (!scene) return scene.error();
-    Result<DebugRenderer> debug = DebugRenderer::create();
+    PictureTarget picture(options.samples);
+    Result<DebugRenderer> debug = DebugRenderer::create(picture.samples());
     if (!debug) return debug.error();
-    constexpr std::array<const char*, 2> kCaptured = {"skinnedPosition", "skinnedNormal"};
+    constexpr std::array<const char*, 3> kCaptured = {"skinnedPosition", "skinnedNormal", "skinnedTangent"};
     Result<ShaderProgram> feedback = ShaderProgram::load("skin_feedback.vert", "", {}, kCaptured);
     if (!feedback) return feedback.error();
-    return Renderer(std::make_unique<State>(std::move(scene).value(), std::move(debug).value(),
-                                            std::move(feedback).value(), options.samples));
+    return Renderer(std::make_unique<State>(std::move(picture), std::move(scene).value(), std::move(debug).value(),
+                                            std::move(feedback).value()));
 }
 
 Result<CharacterHandle> Renderer::uploadCharacter(const animation::Character& character) {
@@ -75,9 +91,16 @@ void Renderer::draw(const FrameDescription& frame, Extent size) {
     State& state = *state_;
     state.stats = {};
     state.picture.resize(size);
-    state.scene.draw(frame, state.characters, state.picture, state.stats);
-    state.debug.draw(frame, state.stats);
+    state.timer.beginFrame(state.stats);
+    state.scene.draw(frame, state.characters, state.picture, state.timer, state.stats);
+    if (!frame.lines.empty() || !frame.solids.empty()) {
+        state.timer.begin(RenderPass::debug, state.stats);
+        state.debug.draw(frame, state.picture, state.stats);
+    }
+    state.timer.begin(RenderPass::resolve, state.stats);
     state.picture.resolve();
+    state.timer.endFrame(state.stats);
+    state.stats.memory = state.memory();
     const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
     state.stats.cpuMs = spent.count();
 }
@@ -132,30 +155,32 @@ const FrameStats& Renderer::stats() const {
     return state_->stats;
 }
 
-void Renderer::skinOnGpu(CharacterHandle character, int mesh, std::span<const animation::SkinMatrix> palette,
-                         std::span<vec3> positions, std::span<vec3> normals) {
-    const GpuCharacter::Mesh& gpu = state_->at(character).meshes[mesh];
-    LUTKA_ASSERT(positions.size() == static_cast<std::size_t>(gpu.vertexCount) && normals.size() == positions.size());
-    state_->feedbackPalette.upload(palette);
+void Renderer::skinOnGpu(const CharacterItem& item, int mesh, const SkinnedVertices& out) {
+    const GpuCharacter::Mesh& gpu = state_->at(item.character).meshes[mesh];
+    const std::array<std::span<vec3>, 3> spans = {out.positions, out.normals, out.tangents};
+    std::vector<animation::SkinMatrix> palette;
+    appendPalette(item, palette);
+    state_->feedbackPalette.upload(std::span<const animation::SkinMatrix>(palette));
     state_->feedbackPalette.bind(static_cast<int>(TextureUnit::palettes));
-    const std::array<GlBuffer, 2> captured = {GlBuffer::create(), GlBuffer::create()};
+    const std::array<GlBuffer, 3> captured = {GlBuffer::create(), GlBuffer::create(), GlBuffer::create()};
     for (GLuint i = 0; i < captured.size(); ++i) {
+        LUTKA_ASSERT(spans[i].size() == static_cast<std::size_t>(gpu.vertexCount));
         glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, i, captured[i].name());
-        glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, static_cast<GLsizeiptr>(positions.size_bytes()), nullptr,
+        glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, static_cast<GLsizeiptr>(spans[i].size_bytes()), nullptr,
                      GL_STREAM_READ);
     }
     state_->feedback.use();
+    state_->feedback.set("dual", item.skinning == animation::SkinningMethod::dualQuaternion ? 1 : 0);
     glEnable(GL_RASTERIZER_DISCARD);
     glBindVertexArray(gpu.vertexArray.name());
     glBeginTransformFeedback(GL_POINTS);
     glDrawArrays(GL_POINTS, 0, gpu.vertexCount);
     glEndTransformFeedback();
     glDisable(GL_RASTERIZER_DISCARD);
-    const std::array<std::span<vec3>, 2> out = {positions, normals};
     for (GLuint i = 0; i < captured.size(); ++i) {
         glBindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, captured[i].name());
-        glGetBufferSubData(GL_TRANSFORM_FEEDBACK_BUFFER, 0, static_cast<GLsizeiptr>(out[i].size_bytes()),
-                           out[i].data());
+        glGetBufferSubData(GL_TRANSFORM_FEEDBACK_BUFFER, 0, static_cast<GLsizeiptr>(spans[i].size_bytes()),
+                           spans[i].data());
         glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, i, 0);
     }
 }

@@ -19,6 +19,13 @@ struct RendererOptions {
     int shadowMapSize = 2048;  ///< Texels a side, [256, 8192]. More: finer shadow edges.
 };
 
+/// Where Renderer::skinOnGpu() writes, model space: one element a vertex each.
+struct SkinnedVertices {
+    std::span<vec3> positions;
+    std::span<vec3> normals;   ///< Unit length.
+    std::span<vec3> tangents;  ///< Any length; zero where the mesh has none.
+};
+
 /// Draws FrameDescriptions with OpenGL 3.3: skinned characters (GPU skinning, instanced by mesh), props, floor, shadow,
 /// debug geometry. The picture is made in an offscreen multisampled framebuffer, from where it is read (headless),
 /// shown in a window, or used as a texture.
@@ -69,9 +76,9 @@ class Renderer {
     [[nodiscard]] const FrameStats& stats() const;
 
     /// Runs the skinning of the vertex shader on one mesh and reads the result back by transform feedback: the proof
-    /// that it equals skinVertices(). `positions` and `normals` hold one element a vertex of meshes[mesh].
-    void skinOnGpu(CharacterHandle character, int mesh, std::span<const animation::SkinMatrix> palette,
-                   std::span<vec3> positions, std::span<vec3> normals);
+    /// that it equals skinVertices(). Of `item`, the character, the palette and the skinning count. `out` holds one
+    /// element a vertex of meshes[mesh].
+    void skinOnGpu(const CharacterItem& item, int mesh, const SkinnedVertices& out);
 
   private:
     struct State;

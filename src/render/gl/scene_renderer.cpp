@@ -163,17 +163,35 @@ Result<void> SceneRenderer::prepare(const GpuCharacter& character) {
     return {};
 }
 
+void SceneRenderer::addMemory(GpuMemory& memory) const {
+    memory.meshes += propMeshes_.bytes();
+    memory.targets += shadowMap_.bytes() + smallDepth_.bytes() + noisyOcclusion_.bytes() + smoothOcclusion_.bytes();
+    memory.streams += uniformBuffer_.bytes() + palettes_.bytes() + instances_.bytes();
+}
+
 void SceneRenderer::draw(const FrameDescription& frame, const CharacterStore& characters, const PictureTarget& picture,
-                         FrameStats& stats) {
+                         PassTimer& timer, FrameStats& stats) {
+    timer.begin(RenderPass::prepare, stats);
     setBaseState();
     upload(frame, characters, picture.size(), stats);
-    if (frame.sun.castsShadow) drawShadowMap(characters, stats);
+    if (frame.sun.castsShadow) {
+        timer.begin(RenderPass::shadow, stats);
+        drawShadowMap(characters, stats);
+    }
     bindTexture(TextureUnit::shadowMap, shadowMap_.texture());
     bindTexture(TextureUnit::shadowDepth, shadowMap_.texture());
     glBindSampler(static_cast<GLuint>(TextureUnit::shadowDepth), uncompared_.name());
-    if (frame.ambientOcclusion) drawOcclusion(frame, characters, picture.size(), stats);
+    if (frame.ambientOcclusion) {
+        timer.begin(RenderPass::occlusion, stats);
+        drawOcclusion(frame, characters, picture.size(), stats);
+    }
     bindTexture(TextureUnit::occlusionMap, frame.ambientOcclusion ? smoothOcclusion_.texture() : white_.name());
-    drawPicture(frame, characters, picture, stats);
+    timer.begin(RenderPass::opaque, stats);
+    picture.bindForDrawing();
+    glClear(GL_DEPTH_BUFFER_BIT);
+    drawOpaque(frame, characters, stats);
+    timer.begin(RenderPass::translucent, stats);
+    drawTranslucent(characters, stats);
 }
 
 void SceneRenderer::upload(const FrameDescription& frame, const CharacterStore& characters, Extent size,
@@ -249,10 +267,7 @@ void SceneRenderer::drawOcclusion(const FrameDescription& frame, const Character
     glEnable(GL_DEPTH_TEST);
 }
 
-void SceneRenderer::drawPicture(const FrameDescription& frame, const CharacterStore& characters,
-                                const PictureTarget& picture, FrameStats& stats) {
-    picture.bindForDrawing();
-    glClear(GL_DEPTH_BUFFER_BIT);
+void SceneRenderer::drawOpaque(const FrameDescription& frame, const CharacterStore& characters, FrameStats& stats) {
     const int before = stats.drawCalls;
     drawCharacters(list_.opaque().characters, characters, Meshes::opaque, stats);
     stats.characterDrawCalls += stats.drawCalls - before;
@@ -273,7 +288,6 @@ void SceneRenderer::drawPicture(const FrameDescription& frame, const CharacterSt
         glDisable(GL_BLEND);
     }
     if (!fromBelow) drawBackground(stats);
-    drawTranslucent(characters, stats);
 }
 
 // At the far plane, so that it only fills what nothing else has covered.

@@ -9,6 +9,7 @@
 #include "render/frame.hpp"
 #include "render/gl/draw_list.hpp"
 #include "render/gl/gpu_character.hpp"
+#include "render/gl/pass_timer.hpp"
 #include "render/gl/prop_meshes.hpp"
 #include "render/gl/render_target.hpp"
 #include "render/gl/shader_program.hpp"
@@ -34,7 +35,10 @@ class SceneRenderer {
 
     /// Draws into `picture` and leaves it bound, with the block `Frame` filled.
     void draw(const FrameDescription& frame, const CharacterStore& characters, const PictureTarget& picture,
-              FrameStats& stats);
+              PassTimer& timer, FrameStats& stats);
+
+    /// Adds what it holds on the GPU, but for the characters.
+    void addMemory(GpuMemory& memory) const;
 
   private:
     explicit SceneRenderer(int shadowMapSize);
@@ -47,8 +51,7 @@ class SceneRenderer {
     void upload(const FrameDescription& frame, const CharacterStore& characters, Extent size, FrameStats& stats);
     void drawShadowMap(const CharacterStore& characters, FrameStats& stats);
     void drawOcclusion(const FrameDescription& frame, const CharacterStore& characters, Extent size, FrameStats& stats);
-    void drawPicture(const FrameDescription& frame, const CharacterStore& characters, const PictureTarget& picture,
-                     FrameStats& stats);
+    void drawOpaque(const FrameDescription& frame, const CharacterStore& characters, FrameStats& stats);
     void drawBackground(FrameStats& stats);
     void drawFloor(FrameStats& stats);
     void drawTranslucent(const CharacterStore& characters, FrameStats& stats);

@@ -127,7 +127,7 @@ Result<ShaderProgram> ShaderProgram::load(std::string_view vertexFile, std::stri
 
 void ShaderProgram::bindFixedUnits() const {
     use();
-    const std::array<std::pair<const char*, TextureUnit>, 12> units = {{
+    const std::array<std::pair<const char*, TextureUnit>, 13> units = {{
         {"baseColorTexture", TextureUnit::baseColor},
         {"metallicRoughnessTexture", TextureUnit::metallicRoughness},
         {"normalTexture", TextureUnit::normal},
@@ -139,6 +139,7 @@ void ShaderProgram::bindFixedUnits() const {
         {"shadowDepth", TextureUnit::shadowDepth},
         {"occlusionMap", TextureUnit::occlusionMap},
         {"depthMap", TextureUnit::depthMap},
+        {"pictureDepth", TextureUnit::depthMap},
         {"noisyMap", TextureUnit::noisyMap},
     }};
     for (const auto& [uniform, unit] : units)

@@ -23,6 +23,7 @@ class StreamBuffer {
     }
 
     [[nodiscard]] GLuint name() const { return buffer_.name(); }
+    [[nodiscard]] long long bytes() const { return capacity_; }
 
   private:
     GlBuffer buffer_;
@@ -46,6 +47,7 @@ class TexelStream {
         glBindTexture(GL_TEXTURE_BUFFER, texture_.name());
         glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer_.name());
     }
+    [[nodiscard]] long long bytes() const { return buffer_.bytes(); }
 
   private:
     StreamBuffer buffer_;

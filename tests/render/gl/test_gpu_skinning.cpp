@@ -12,11 +12,43 @@ using namespace lutka::test;
 
 namespace {
 
+using animation::SkinningMethod;
+
 /// The largest differences between GPU and CPU over all meshes.
 struct SkinningError {
     float position = 0.0F;  ///< Metres.
     float normal = 0.0F;    ///< Length of the difference of unit vectors.
+    float tangent = 0.0F;   ///< The same.
 };
+
+/// What comes out of skinning a mesh.
+struct Skinned {
+    std::vector<vec3> positions;
+    std::vector<vec3> normals;
+    std::vector<vec3> tangents;
+
+    explicit Skinned(std::size_t vertices) : positions(vertices), normals(vertices), tangents(vertices) {}
+    [[nodiscard]] render::SkinnedVertices views() { return {positions, normals, tangents}; }
+};
+
+// Written so that a NaN counts too.
+void widen(float& worst, float difference) {
+    if (!(difference <= worst)) worst = difference;
+}
+
+// The CPU's result; tangents are turned as normals are.
+Skinned skinOnCpu(SkinningMethod method, const animation::SkinnedMesh& mesh,
+                  const std::vector<animation::SkinMatrix>& palette) {
+    Skinned out(mesh.positions.size());
+    animation::skinVertices(method, mesh, palette, out.positions, out.normals);
+    if (mesh.tangents.empty()) return out;
+    animation::SkinnedMesh along = mesh;
+    std::transform(mesh.tangents.begin(), mesh.tangents.end(), along.normals.begin(),
+                   [](const vec4& tangent) { return vec3(tangent); });
+    std::vector<vec3> ignored(out.positions.size());
+    animation::skinVertices(method, along, palette, ignored, out.tangents);
+    return out;
+}
 
 float heightOf(const animation::Character& character) {
     float lowest = 1e9F;
@@ -30,24 +62,21 @@ float heightOf(const animation::Character& character) {
     return highest - lowest;
 }
 
-SkinningError compareSkinning(GlFixture& gl, render::CharacterHandle handle, const animation::Character& character,
+SkinningError compareSkinning(GlFixture& gl, const render::CharacterItem& item, const animation::Character& character,
                               const std::vector<animation::SkinMatrix>& palette) {
     SkinningError error;
     for (std::size_t m = 0; m < character.meshes.size(); ++m) {
         const animation::SkinnedMesh& mesh = character.meshes[m];
-        const std::size_t count = mesh.positions.size();
-        std::vector<vec3> cpuPositions(count);
-        std::vector<vec3> cpuNormals(count);
-        std::vector<vec3> gpuPositions(count);
-        std::vector<vec3> gpuNormals(count);
-        animation::skinVertices(mesh, palette, cpuPositions, cpuNormals);
-        gl.renderer.skinOnGpu(handle, static_cast<int>(m), palette, gpuPositions, gpuNormals);
-        for (std::size_t i = 0; i < count; ++i) {
-            // Written so that a NaN fails too.
-            const float apart = glm::length(gpuPositions[i] - cpuPositions[i]);
-            if (!(apart <= error.position)) error.position = apart;
-            const float turned = glm::length(gpuNormals[i] - cpuNormals[i]);
-            if (isFinite(cpuNormals[i]) && !(turned <= error.normal)) error.normal = turned;
+        const Skinned cpu = skinOnCpu(item.skinning, mesh, palette);
+        Skinned gpu(mesh.positions.size());
+        gl.renderer.skinOnGpu(item, static_cast<int>(m), gpu.views());
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            widen(error.position, glm::length(gpu.positions[i] - cpu.positions[i]));
+            if (isFinite(cpu.normals[i])) widen(error.normal, glm::length(gpu.normals[i] - cpu.normals[i]));
+            // Where two joints nearly cancel a direction, its length says nothing.
+            const bool there =
+                !mesh.tangents.empty() && isFinite(cpu.tangents[i]) && glm::length(gpu.tangents[i]) > 0.05F;
+            if (there) widen(error.tangent, glm::length(glm::normalize(gpu.tangents[i]) - cpu.tangents[i]));
         }
     }
     return error;
@@ -55,17 +84,24 @@ SkinningError compareSkinning(GlFixture& gl, render::CharacterHandle handle, con
 
 void checkSkinning(GlFixture& gl, const animation::Character& character) {
     INFO(character.name);
-    const render::CharacterHandle handle = gl.upload(character);
+    render::CharacterItem item;
+    item.character = gl.upload(character);
     const float height = heightOf(character);
     Random random(21);
     for (const float angle : {0.0F, 0.4F, 1.5F}) {
         const auto palette = randomPalette(character.skeleton, random, angle);
-        const SkinningError error = compareSkinning(gl, handle, character, palette);
-        CHECK(error.position < 1e-4F * height);
-        // Where two joints nearly cancel, rounding turns the blended normal a little.
-        CHECK(error.normal < 2e-2F);
+        item.palette = palette;
+        for (const SkinningMethod method : {SkinningMethod::linear, SkinningMethod::dualQuaternion}) {
+            item.skinning = method;
+            const SkinningError error = compareSkinning(gl, item, character, palette);
+            INFO((method == SkinningMethod::linear ? "linear, up to " : "dual quaternions, up to ") << angle);
+            CHECK(error.position < 1e-4F * height);
+            // Where two joints nearly cancel, rounding turns the blended normal a little.
+            CHECK(error.normal < 2e-2F);
+            CHECK(error.tangent < 2e-2F);
+        }
     }
-    gl.renderer.removeCharacter(handle);
+    gl.renderer.removeCharacter(item.character);
 }
 
 }  // namespace
@@ -80,20 +116,16 @@ TEST_CASE("the comparison of GPU and CPU skinning sees a joint that is off by a 
     const auto gl = GlFixture::create();
     if (!gl) return;
     const animation::Character biped = makeBiped();
-    const render::CharacterHandle handle = gl->upload(biped);
+    render::CharacterItem item;
+    item.character = gl->upload(biped);
     const auto palette = bindPalette(biped.skeleton);
     auto other = palette;
     other[7].rows[1].w += 0.001F;
-    const animation::SkinnedMesh& mesh = biped.meshes[0];
-    std::vector<vec3> cpu(mesh.positions.size());
-    std::vector<vec3> gpu(mesh.positions.size());
-    std::vector<vec3> normals(mesh.positions.size());
-    animation::skinVertices(mesh, palette, cpu, {});
-    gl->renderer.skinOnGpu(handle, 0, other, gpu, normals);
-    float worst = 0.0F;
-    for (std::size_t i = 0; i < cpu.size(); ++i)
-        worst = std::max(worst, glm::length(gpu[i] - cpu[i]));
-    CHECK(worst == Approx(0.001F).margin(1e-5));
+    item.palette = other;
+    for (const SkinningMethod method : {SkinningMethod::linear, SkinningMethod::dualQuaternion}) {
+        item.skinning = method;
+        CHECK(compareSkinning(*gl, item, biped, palette).position == Approx(0.001F).margin(1e-5));
+    }
 }
 
 TEST_CASE("the GPU skins vertices with four weights as the CPU does") {
@@ -114,10 +146,16 @@ TEST_CASE("the GPU skins vertices with four weights as the CPU does") {
         for (std::size_t slot = 0; slot < weights.size(); ++slot)
             biped.meshes[0].weights[i][slot] = weights[slot] / sum;
     }
-    const render::CharacterHandle handle = gl->upload(biped);
-    const SkinningError error = compareSkinning(*gl, handle, biped, randomPalette(biped.skeleton, random, 0.6F));
-    CHECK(error.position < 1e-5F);
-    CHECK(error.normal < 1e-3F);
+    render::CharacterItem item;
+    item.character = gl->upload(biped);
+    const auto palette = randomPalette(biped.skeleton, random, 0.6F);
+    item.palette = palette;
+    for (const SkinningMethod method : {SkinningMethod::linear, SkinningMethod::dualQuaternion}) {
+        item.skinning = method;
+        const SkinningError error = compareSkinning(*gl, item, biped, palette);
+        CHECK(error.position < 1e-5F);
+        CHECK(error.normal < 1e-3F);
+    }
 }
 
 TEST_CASE("the GPU skins our own mannequin as the CPU does") {

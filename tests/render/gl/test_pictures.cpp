@@ -14,6 +14,7 @@ using namespace lutka::render;
 namespace {
 
 constexpr Extent kSize{480, 360};
+constexpr Extent kSmall{320, 240};
 
 animation::Character mannequin() {
     Result<animation::Character> loaded =
@@ -79,4 +80,39 @@ TEST_CASE("picture: props, debug capsules, axes and limits over a figure") {
               withAlpha(colors::green, 0.3F));
     frameSphere(frame.camera, {0, 0.85F, 0}, 0.95F, kSize.aspect());
     checkGolden(gl->picture(frame, kSize), "render_debug_layers");
+}
+
+TEST_CASE("picture: a forearm twisted by 160 degrees is wrung by linear blending and whole with dual quaternions") {
+    const auto gl = GlFixture::create();
+    if (!gl) return;
+    const animation::Character figure = mannequin();
+    std::vector<RigidTransform> pose = figure.skeleton.bindModelFromJoint;
+    const int hand = animation::findJoint(figure.skeleton, "leftHand");
+    const int elbow = animation::findJoint(figure.skeleton, "leftLowerArm");
+    REQUIRE((hand >= 0 && elbow >= 0));
+    const vec3 wrist = pose[hand].translation;
+    const vec3 along = glm::normalize(wrist - pose[elbow].translation);
+    // The hand and its fingers turn about the forearm.
+    const quat twist = glm::angleAxis(radians(160), along);
+    const RigidTransform turned{twist, wrist - twist * wrist};
+    for (int joint = 0; joint < figure.skeleton.jointCount(); ++joint) {
+        int at = joint;
+        while (at >= 0 && at != hand)
+            at = figure.skeleton.parents[at];
+        if (at == hand) pose[joint] = turned * pose[joint];
+    }
+    const auto palette = paletteOf(figure.skeleton, pose);
+    FrameDescription frame;
+    CharacterItem linear = itemOf(gl->upload(figure), palette);
+    CharacterItem dual = linear;
+    linear.worldFromModel.translation.y = 0.13F;
+    dual.worldFromModel.translation.y = -0.13F;
+    dual.skinning = animation::SkinningMethod::dualQuaternion;
+    frame.characters = {linear, dual};
+    frame.floor.visible = false;
+    frame.camera.yaw = 0.0F;
+    frame.camera.pitch = 0.0F;
+    frameSphere(frame.camera, wrist - 0.04F * along, 0.3F, kSmall.aspect());
+    checkGolden(gl->picture(frame, kSmall), "render_forearm");
+    CHECK(gl->renderer.stats().characterDrawCalls == static_cast<int>(figure.meshes.size()));
 }

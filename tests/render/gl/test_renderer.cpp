@@ -228,13 +228,15 @@ TEST_CASE("debug lines and solids are drawn, hidden ones faintly, each in a fixe
     const Color onChest = pixelAt(solid, scene.frame.camera, {0, 1.3F, 0.25F});
     CHECK(onChest.b > onChest.r + 20);
     CHECK(gl->renderer.stats().drawCalls == bareCalls + 3);
+    CHECK(gl->renderer.stats().debugDrawCalls == 3);
 
     scene.frame.solids.clear();
     for (int i = 0; i < 200; ++i)
         addCapsule(scene.frame.lines, chest, 0.25F, 0.1F, colors::orange);
     const Image wire = gl->picture(scene.frame, kSize);
     CHECK(differingShare(bare, wire) > 0.005);
-    CHECK(gl->renderer.stats().drawCalls == bareCalls + 2);
+    CHECK(gl->renderer.stats().drawCalls == bareCalls + 1);
+    CHECK(gl->renderer.stats().debugUploads == 1);
 
     // Inside the body: seen only when hidden lines are shown.
     scene.frame.lines.clear();
