@@ -31,6 +31,8 @@ class Application {
 
   private:
     [[nodiscard]] bool scripted() const { return options_.input.has_value(); }
+    /// Frames of one length and steps that nobody times, so that the same input gives the same simulation.
+    [[nodiscard]] bool fixedFrames() const { return scripted() || options_.headless || !options_.recordInput.empty(); }
     [[nodiscard]] int frameLimit() const;
     void collectEvents();
     Result<void> followCharacter();
@@ -92,6 +94,7 @@ Result<void> Application::start() {
     ui_ = std::make_unique<EditorUi>(*host_);
     EditorOptions editor = options_.editor;
     editor.window = windowSize_;
+    if (!fixedFrames()) editor.clock = scene::steadyClock();
     auto made = Editor::create(editor);
     if (!made) return made.error();
     editor_ = std::move(made).value();
@@ -200,7 +203,7 @@ double Application::nextFrameSeconds() {
     const double seconds = std::chrono::duration<double>(now - lastFrame_).count();
     lastFrame_ = now;
     history_.add(static_cast<float>(seconds * 1000.0));
-    return scripted() || options_.headless || !options_.recordInput.empty() ? kFixedFrame : seconds;
+    return fixedFrames() ? kFixedFrame : seconds;
 }
 
 Result<void> Application::run() {

@@ -36,8 +36,9 @@ Result<std::unique_ptr<Editor>> Editor::create(std::unique_ptr<EditorDocument> d
     std::unique_ptr<Editor> editor(new Editor);
     editor->workspace_.window = options.window;
     editor->load_ = options.load;
+    editor->clock_ = options.clock;
     document->startScene(options.scene);
-    auto player = std::make_unique<Player>(*document);
+    auto player = std::make_unique<Player>(*document, options.clock);
     if (auto built = player->rebuild(Player::Keep::nothing); !built) return built.error();
     editor->workspace_.document = std::move(document);
     editor->workspace_.player = std::move(player);
@@ -294,7 +295,7 @@ void Editor::openNow(const std::filesystem::path& file) {
 
 void Editor::adopt(std::unique_ptr<EditorDocument> document) {
     document->startScene(workspace_.document->state().scene);
-    auto player = std::make_unique<Player>(*document);
+    auto player = std::make_unique<Player>(*document, clock_);
     if (workspace_.report(player->rebuild(Player::Keep::nothing))) return;
     select(std::nullopt);
     workspace_.pulls.pins.clear();

@@ -19,6 +19,7 @@ struct EditorOptions {
     SceneSettings scene;
     render::Extent window{1280, 720};
     bool playing = true;
+    scene::FrameLoop::Clock clock;  ///< Times the steps; none: as scene::FrameLoop says, for scripts and tests.
 };
 
 /// What the user interface has taken for itself.
@@ -117,6 +118,7 @@ class Editor {
     std::unique_ptr<StateMachine> machine_;
     scene::SimulationDrawer drawer_;
     scene::LoadOptions load_;
+    scene::FrameLoop::Clock clock_;
     std::array<bool, kMouseButtonCount> held_{};  // pressed in the view and not released yet
     std::function<void()> afterAnswer_;
     bool quitting_ = false;

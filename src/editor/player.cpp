@@ -174,8 +174,7 @@ Result<void> Player::rebuild(Keep keep) {
     if (!simulation) return simulation.error();
     simulation_ = std::move(simulation).value();
     if (motion) restore(*motion);
-    accumulated_ = 0.0;
-    alpha_ = 1.0F;
+    loop_.restart();
     return {};
 }
 
@@ -203,23 +202,16 @@ Result<void> Player::setPosing(bool posing) {
 
 void Player::advance(double seconds) {
     if (!playing_ && !posing_) return;
-    const double dt = static_cast<double>(simulation_->options().dt);
-    accumulated_ += std::min(seconds, kMaxFrameSeconds) * (posing_ ? 1.0 : speed_);
-    // A frame of 1/60 s is a step of 1/60 s, whatever the rounding of its length.
-    constexpr double rounding = 1e-9;
-    while (accumulated_ >= dt - rounding) {
+    loop_.setSpeed(posing_ ? 1.0 : speed_);
+    loop_.advance(seconds, [&] {
         simulation_->step();
         if (posing_) dampDolls(kPosingDamping);
-        accumulated_ -= dt;
-    }
-    accumulated_ = std::max(accumulated_, 0.0);
-    alpha_ = static_cast<float>(std::clamp(accumulated_ / dt, 0.0, 1.0));
+    });
 }
 
 void Player::stepOnce() {
     playing_ = false;
-    accumulated_ = 0.0;
-    alpha_ = 1.0F;
+    loop_.restart();
     simulation_->step();
 }
 
@@ -231,7 +223,7 @@ RigidTransform Player::worldFromObject(int object) const {
     const SceneObject& one = document_.state().scene.objects[object];
     if (one.kind != SceneObject::Kind::ball || stale()) return one.worldFromObject;
     const auto before = std::span(built_).first(static_cast<std::size_t>(object));
-    return simulation_->worldFromProp(firstBall_ + static_cast<int>(ballsOf(before).size()), alpha_);
+    return simulation_->worldFromProp(firstBall_ + static_cast<int>(ballsOf(before).size()), alpha());
 }
 
 std::vector<SceneObject> Player::presentObjects() const {

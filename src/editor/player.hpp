@@ -6,6 +6,7 @@
 
 #include "core/result.hpp"
 #include "editor/editor_document.hpp"
+#include "scene/frame_loop.hpp"
 #include "scene/simulation.hpp"
 
 namespace lutka::editor {
@@ -18,10 +19,10 @@ class Player {
         nothing,  ///< From the scene's start.
         motion,   ///< Every doll goes on at its present pose, without a jump.
     };
-    static constexpr double kMaxFrameSeconds = 0.1;  ///< A longer frame slows the time down instead of piling up steps.
 
-    /// The document must outlive the player.
-    explicit Player(EditorDocument& document) : document_(document) {}
+    /// The document must outlive the player. `clock` as in scene::FrameLoop.
+    explicit Player(EditorDocument& document, scene::FrameLoop::Clock clock = {})
+        : document_(document), loop_({}, std::move(clock)) {}
 
     /// Makes the simulation anew from the document's state. When that fails the old one is gone: the document refuses
     /// what cannot be simulated, so this is ErrorCode::internal.
@@ -51,7 +52,9 @@ class Player {
     [[nodiscard]] scene::Simulation& simulation() { return *simulation_; }
     [[nodiscard]] const scene::Simulation& simulation() const { return *simulation_; }
     /// Where between the last two states the picture is, [0, 1].
-    [[nodiscard]] float alpha() const { return alpha_; }
+    [[nodiscard]] float alpha() const { return loop_.alpha(); }
+    /// How well the steps keep up with the clock.
+    [[nodiscard]] const scene::FrameLoop& loop() const { return loop_; }
 
     /// Where an object of the document is now: balls roll, everything else stands where the document has it.
     [[nodiscard]] RigidTransform worldFromObject(int object) const;
@@ -85,8 +88,7 @@ class Player {
     double speed_ = 1.0;
     bool posing_ = false;
     double secondsBefore_ = 0.0;  ///< Of the simulations before the present one.
-    double accumulated_ = 0.0;
-    float alpha_ = 1.0F;
+    scene::FrameLoop loop_;
 };
 
 }  // namespace lutka::editor

@@ -139,10 +139,12 @@ void drawStatusBar(const PanelContext& context) {
     chip(std::string(stateName(context.editor.state())), ImGui::GetColorU32(accentColor()));
     ImGui::SameLine();
     ImGui::TextUnformatted(context.editor.workspace().hint.c_str());
-    const std::string right =
-        fmt::format("{:.2f} s   {:.0f} fps", context.editor.player().seconds(), context.history.fps());
+    const Player& player = context.editor.player();
+    const bool late = player.playing() && !player.loop().keepsUp();
+    const std::string slow = late ? fmt::format("slowed to {:.0f} %   ", 100.0 * player.loop().share()) : "";
+    const std::string right = fmt::format("{}{:.2f} s   {:.0f} fps", slow, player.seconds(), context.history.fps());
     ImGui::SameLine(size.x - ImGui::CalcTextSize(right.c_str()).x - context.px(14));
-    ImGui::TextColored(mutedColor(), "%s", right.c_str());
+    ImGui::TextColored(late ? warningColor() : mutedColor(), "%s", right.c_str());
     ImGui::End();
     ImGui::PopStyleColor();
     ImGui::PopStyleVar(3);
