@@ -19,6 +19,10 @@ constexpr std::array kBindings = {
     Binding{Key::z, kControl, Action::undo},
     Binding{Key::z, kControlShift, Action::redo},
     Binding{Key::y, kControl, Action::redo},
+    Binding{Key::c, kControl, Action::copyPart},
+    Binding{Key::v, kControl, Action::pastePart},
+    Binding{Key::m, kControl, Action::mirrorParts},
+    Binding{Key::l, kPlain, Action::swingLimits},
     Binding{Key::p, kPlain, Action::pin},
     Binding{Key::p, kShift, Action::unpinAll},
     Binding{Key::space, kPlain, Action::togglePlay},
@@ -30,6 +34,7 @@ constexpr std::array kBindings = {
     Binding{Key::digit3, kPlain, Action::viewRight},
     Binding{Key::digit7, kPlain, Action::viewTop},
     Binding{Key::f3, kPlain, Action::toggleDebug},
+    Binding{Key::h, kPlain, Action::toggleHandles},
     Binding{Key::tab, kPlain, Action::togglePanels},
     Binding{Key::f1, kPlain, Action::toggleHelp},
 };
@@ -37,6 +42,7 @@ constexpr std::array kBindings = {
 constexpr std::array kMouseHelp = {
     HelpLine{"Left click", "select; with Shift add or take away"},
     HelpLine{"Left drag on a body", "pull it; in a paused scene: pose it"},
+    HelpLine{"Left drag on a handle", "change a limit or the shape; Shift: one end or both"},
     HelpLine{"Left drag beside", "orbit"},
     HelpLine{"Right or middle drag", "orbit; with Shift pan"},
     HelpLine{"W A S D Q E", "while orbiting: fly, with Shift faster"},
@@ -84,6 +90,14 @@ std::string_view actionName(Action action) {
             return "Redo";
         case Action::selectNone:
             return "Select none";
+        case Action::copyPart:
+            return "Copy the body's values";
+        case Action::pastePart:
+            return "Paste values to the selected bodies";
+        case Action::mirrorParts:
+            return "Mirror the selected bodies";
+        case Action::swingLimits:
+            return "Swing the joint through its limits";
         case Action::pin:
             return "Pin or unpin the selected body";
         case Action::unpinAll:
@@ -106,6 +120,8 @@ std::string_view actionName(Action action) {
             return "View from above";
         case Action::toggleDebug:
             return "Debug draw";
+        case Action::toggleHandles:
+            return "Handles of limits and shape";
         case Action::togglePanels:
             return "Show or hide the panels";
         case Action::toggleHelp:

@@ -19,6 +19,10 @@ enum class Action {
     undo,
     redo,
     selectNone,
+    copyPart,
+    pastePart,
+    mirrorParts,
+    swingLimits,
     pin,
     unpinAll,
     togglePlay,
@@ -30,6 +34,7 @@ enum class Action {
     viewRight,
     viewTop,
     toggleDebug,
+    toggleHandles,
     togglePanels,
     toggleHelp,
 };

@@ -35,6 +35,7 @@ class Application {
     [[nodiscard]] bool fixedFrames() const { return scripted() || options_.headless || !options_.recordInput.empty(); }
     [[nodiscard]] int frameLimit() const;
     void collectEvents();
+    Result<void> record();
     Result<void> followCharacter();
     Result<void> oneFrame(double seconds);
     Result<void> takeScreenshots();
@@ -49,7 +50,7 @@ class Application {
     std::unique_ptr<EditorUi> ui_;
     std::unique_ptr<Editor> editor_;
     std::optional<ScriptPlayer> script_;
-    InputScript recorded_;
+    std::optional<ScriptWriter> recorder_;
     UserSettings settings_;
 
     render::CharacterHandle character_;
@@ -99,7 +100,11 @@ Result<void> Application::start() {
     if (!made) return made.error();
     editor_ = std::move(made).value();
     if (options_.input) script_.emplace(*options_.input);
-    recorded_.size = windowSize_;
+    if (!options_.recordInput.empty()) {
+        auto recorder = ScriptWriter::create(options_.recordInput, windowSize_);
+        if (!recorder) return recorder.error();
+        recorder_.emplace(std::move(recorder).value());
+    }
     if (options_.settings) settings_ = loadUserSettings(userSettingsFile());
     return followCharacter();
 }
@@ -132,9 +137,16 @@ void Application::collectEvents() {
             windowSize_ = event.size;
             if (window_ && scripted()) glfwSetWindowSize(context_.window(), event.size.width, event.size.height);
         }
-        if (!options_.recordInput.empty()) recorded_.entries.push_back({frameIndex_, event});
     }
     pixels_ = window_ ? context_.framebufferSize() : windowSize_;
+}
+
+Result<void> Application::record() {
+    if (!recorder_) return {};
+    std::vector<InputScript::Entry> entries;
+    for (const InputEvent& event : events_)
+        entries.push_back({frameIndex_, event});
+    return recorder_->add(entries);
 }
 
 Result<void> Application::followCharacter() {
@@ -153,6 +165,7 @@ Result<void> Application::followCharacter() {
 
 Result<void> Application::oneFrame(double seconds) {
     collectEvents();
+    if (auto recorded = record(); !recorded) return recorded;
     if (pixels_.width <= 0 || pixels_.height <= 0) {  // minimised
         glfwWaitEventsTimeout(0.05);
         return {};
@@ -213,7 +226,6 @@ Result<void> Application::run() {
         if (auto drawn = oneFrame(nextFrameSeconds()); !drawn) return drawn;
         ++frameIndex_;
     }
-    if (!options_.recordInput.empty()) return saveScript(options_.recordInput, recorded_);
     return {};
 }
 

@@ -43,6 +43,14 @@ void Editor::highlight(std::size_t firstCharacter, render::FrameDescription& fra
     }
 }
 
+void Editor::drawActivePart(render::FrameDescription& frame) const {
+    if (!workspace_.showHandles) return;
+    const auto scene = workspace_.handleScene();
+    if (!scene) return;
+    const std::vector<Handle> handles = handlesOf(*scene, workspace_.camera);
+    drawHandles(*scene, handles, workspace_.hotHandle, workspace_.camera, frame.lines);
+}
+
 void Editor::drawOverlay(render::FrameDescription& frame) {
     const std::vector<SceneObject> objects = player().presentObjects();
     for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -68,6 +76,7 @@ void Editor::drawOverlay(render::FrameDescription& frame) {
             render::addBox(frame.lines, frameOfBody, shape.halfExtents, kSelectionLine);
         }
     }
+    drawActivePart(frame);
     for (const Pull& pin : workspace_.pulls.pins) {
         render::addSphere(frame.lines, pin.target, 0.025F, kPin);
         render::addCross(frame.lines, pin.target, 0.1F, kPin);

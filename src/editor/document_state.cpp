@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "physics/shape.hpp"
-
 namespace lutka::editor {
 namespace {
 
@@ -11,18 +9,6 @@ using animation::HumanoidMap;
 using Fixed = std::array<std::optional<int>, animation::kRoleCount>;
 
 constexpr float kLightHalfSize = 0.12F;  // of the marker that is drawn and picked
-
-void applyTo(physics::BodyProfile& body, const PartEdits& edits) {
-    if (edits.shape) body.shape = *edits.shape;
-    if (edits.massKg) body.massKg = *edits.massKg;
-    if (edits.shape || edits.massKg) body.inertia = physics::shapeInertia(body.shape, body.massKg);
-}
-
-void applyTo(physics::ConstraintProfile& constraint, const PartEdits& edits) {
-    if (edits.hinge) constraint.hinge = *edits.hinge;
-    if (edits.cone) constraint.cone = *edits.cone;
-    if (edits.frictionNm) constraint.frictionNm = *edits.frictionNm;
-}
 
 // Two roles on one joint can only come from the user's own choices.
 std::optional<Error> checkTwice(const animation::Character& character, const Fixed& fixed) {
@@ -37,19 +23,6 @@ std::optional<Error> checkTwice(const animation::Character& character, const Fix
         }
     }
     return std::nullopt;
-}
-
-bool sameShape(const physics::BodyShape& a, const physics::BodyShape& b) {
-    if (a.kind != b.kind) return false;
-    switch (a.kind) {
-        case physics::BodyShape::Kind::box:
-            return a.halfExtents == b.halfExtents;
-        case physics::BodyShape::Kind::sphere:
-            return a.radius == b.radius;
-        case physics::BodyShape::Kind::capsule:
-            break;
-    }
-    return a.radius == b.radius && a.halfLength == b.halfLength;
 }
 
 }  // namespace
@@ -76,65 +49,6 @@ vec3 halfSizeOf(const SceneObject& object) {
             break;
     }
     return vec3(kLightHalfSize);
-}
-
-std::array<PartEdits, animation::kRoleCount> editsBetween(const physics::RagdollProfile& fitted,
-                                                          const physics::RagdollProfile& given) {
-    std::array<PartEdits, animation::kRoleCount> edits{};
-    for (std::size_t i = 0; i < given.bodies.size(); ++i) {
-        const physics::BodyProfile& body = given.bodies[i];
-        const int same = physics::bodyOf(fitted, body.role);
-        if (same < 0) continue;
-        PartEdits& part = edits[animation::indexOf(body.role)];
-        const physics::BodyProfile& plain = fitted.bodies[same];
-        if (!sameShape(plain.shape, body.shape)) part.shape = body.shape;
-        if (plain.massKg != body.massKg) part.massKg = body.massKg;
-        if (i == 0 || same == 0) continue;  // the root has no constraint of its own
-        const physics::ConstraintProfile& joint = given.constraints[i - 1];
-        const physics::ConstraintProfile& plainJoint = fitted.constraints[same - 1];
-        const auto& hinge = joint.hinge;
-        const auto& cone = joint.cone;
-        if (hinge.lower != plainJoint.hinge.lower || hinge.upper != plainJoint.hinge.upper) part.hinge = hinge;
-        if (cone.swingY != plainJoint.cone.swingY || cone.swingZ != plainJoint.cone.swingZ ||
-            cone.twist != plainJoint.cone.twist) {
-            part.cone = cone;
-        }
-        if (joint.frictionNm != plainJoint.frictionNm) part.frictionNm = joint.frictionNm;
-    }
-    return edits;
-}
-
-void fillUnset(std::array<PartEdits, animation::kRoleCount>& edits,
-               const std::array<PartEdits, animation::kRoleCount>& others) {
-    for (int role = 0; role < animation::kRoleCount; ++role) {
-        PartEdits& part = edits[role];
-        const PartEdits& other = others[role];
-        if (!part.shape) part.shape = other.shape;
-        if (!part.massKg) part.massKg = other.massKg;
-        if (!part.hinge) part.hinge = other.hinge;
-        if (!part.cone) part.cone = other.cone;
-        if (!part.frictionNm) part.frictionNm = other.frictionNm;
-    }
-}
-
-physics::RagdollProfile applyEdits(const physics::RagdollProfile& base,
-                                   const std::array<PartEdits, animation::kRoleCount>& edits) {
-    physics::RagdollProfile profile = base;
-    bool massChanged = false;
-    for (physics::BodyProfile& body : profile.bodies) {
-        const PartEdits& part = edits[animation::indexOf(body.role)];
-        massChanged = massChanged || part.massKg.has_value();
-        applyTo(body, part);
-    }
-    for (physics::ConstraintProfile& constraint : profile.constraints) {
-        applyTo(constraint, edits[animation::indexOf(profile.bodies[constraint.child].role)]);
-    }
-    if (massChanged) {
-        profile.totalMassKg = 0;
-        for (const physics::BodyProfile& body : profile.bodies)
-            profile.totalMassKg += body.massKg;
-    }
-    return profile;
 }
 
 Result<HumanoidMap> mapWithFixed(const animation::Character& character, const Fixed& fixed) {

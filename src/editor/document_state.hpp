@@ -2,11 +2,13 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "animation/humanoid/map_humanoid.hpp"
+#include "editor/part_edits.hpp"
 #include "physics/fit_ragdoll.hpp"
 #include "physics/profile.hpp"
 #include "physics/world.hpp"
@@ -44,24 +46,15 @@ struct SceneSettings {
     std::vector<SceneObject> objects;
 };
 
-/// What the user changed of one body and of the constraint that hangs it on its parent, whatever a new fit says.
-struct PartEdits {
-    std::optional<physics::BodyShape> shape;
-    std::optional<float> massKg;
-    std::optional<physics::HingeLimits> hinge;
-    std::optional<physics::ConeTwistLimits> cone;
-    std::optional<float> frictionNm;
-
-    [[nodiscard]] bool any() const { return shape || massKg || hinge || cone || frictionNm; }
-};
-
 /// Everything that editing changes; undo keeps whole ones.
 struct DocumentState {
     /// Bindings that the user chose. kNoJoint: the role shall have no joint.
     std::array<std::optional<int>, animation::kRoleCount> fixed{};
     physics::FitOptions fit;
-    std::array<PartEdits, animation::kRoleCount> edits{};  ///< By the body's role.
+    AllPartEdits edits{};
+    std::vector<PairEdit> pairs;  ///< Of the collision filter.
     SceneSettings scene;
+    std::filesystem::path openedProfile;  ///< The profile's file that `base` was read from; empty: fitted.
 
     // What follows from the above.
     animation::HumanoidMap map;
@@ -69,19 +62,9 @@ struct DocumentState {
     physics::RagdollProfile profile;  ///< `base` with `edits`.
     /// What `base` changes of a plain fit (a profile that was opened, mends): taken into `edits` when a new fit takes
     /// its place, so that nobody's work is lost by mapping another joint.
-    std::array<PartEdits, animation::kRoleCount> baseEdits{};
+    AllPartEdits baseEdits{};
+    std::vector<PairEdit> basePairs;  ///< Likewise.
 };
-
-/// The values of `given` that differ from `fitted`'s, by role; roles that only one of them has are left out.
-[[nodiscard]] std::array<PartEdits, animation::kRoleCount> editsBetween(const physics::RagdollProfile& fitted,
-                                                                        const physics::RagdollProfile& given);
-/// `edits` with what is unset in them taken from `others`.
-void fillUnset(std::array<PartEdits, animation::kRoleCount>& edits,
-               const std::array<PartEdits, animation::kRoleCount>& others);
-
-/// `base` with the edits on it: the total mass is the new sum, inertias follow shape and mass.
-[[nodiscard]] physics::RagdollProfile applyEdits(const physics::RagdollProfile& base,
-                                                 const std::array<PartEdits, animation::kRoleCount>& edits);
 
 /// The map with what the user fixed. Fails with ErrorCode::input, in the mapper's words, when that is no humanoid.
 [[nodiscard]] Result<animation::HumanoidMap> mapWithFixed(

@@ -4,25 +4,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "animation/export/write_glb.hpp"
-#include "scene/bake.hpp"
-
 namespace lutka::editor {
 namespace {
 
 constexpr float kThrowSpeed = 9.0F;  // m/s
-
-// The scene's own view, a little farther off: bars lie over the picture's edges.
-render::Camera startCamera(const scene::Simulation& simulation, render::Extent window) {
-    constexpr float room = 1.15F;
-    render::Camera camera = scene::cameraFor(simulation.scenario(), window.aspect());
-    render::dolly(camera, room);
-    return camera;
-}
-
-bool isProfile(const std::filesystem::path& file) {
-    return file.extension() == ".json";
-}
 
 }  // namespace
 
@@ -47,8 +32,7 @@ Result<std::unique_ptr<Editor>> Editor::create(std::unique_ptr<EditorDocument> d
     editor->view.layers.limits = true;
     editor->workspace_.camera = startCamera(editor->player().simulation(), options.window);
     editor->machine_ = std::make_unique<StateMachine>(makeHandlers(editor->workspace_));
-    for (const std::string& warning : editor->document().character().warnings)
-        editor->workspace_.log.push_back(warning);
+    editor->greet(!options.load.profile.has_value());
     return editor;
 }
 
@@ -104,6 +88,7 @@ void Editor::handleMouseButton(const InputEvent& event, const UiCapture& capture
     if (event.pressed && (capture.mouse || asking())) return;
     if (!event.pressed && !held) return;  // it went down on a panel
     held = event.pressed;
+    if (event.pressed) endSwing();
     machine_->mouseButton(event);
 }
 
@@ -111,6 +96,10 @@ void Editor::handleKey(const InputEvent& event, const UiCapture& capture) {
     if (capture.keyboard || asking()) return;
     if (view.help && event.pressed && event.key == Key::escape) {
         view.help = false;
+        return;
+    }
+    if (swing_ && event.pressed && event.key == Key::escape) {
+        endSwing();
         return;
     }
     const auto action = actionFor(event);
@@ -124,7 +113,9 @@ void Editor::handleKey(const InputEvent& event, const UiCapture& capture) {
 }
 
 void Editor::perform(Action action) {
-    if (performOnDocument(action) || performOnSimulation(action)) return;
+    const bool looksOnly = action >= Action::focus;
+    if (!looksOnly) endSwing();
+    if (performOnDocument(action) || performOnParts(action) || performOnSimulation(action)) return;
     switch (action) {
         case Action::selectNone:
             select(std::nullopt);
@@ -147,6 +138,10 @@ void Editor::perform(Action action) {
         case Action::togglePanels:
             view.panels = !view.panels;
             break;
+        case Action::toggleHandles:
+            workspace_.showHandles = !workspace_.showHandles;
+            workspace_.hotHandle.reset();
+            break;
         case Action::toggleHelp:
             view.help = !view.help;
             break;
@@ -162,7 +157,7 @@ bool Editor::performOnDocument(Action action) {
             dialog = Dialog::openModel;
             return true;
         case Action::saveProfile:
-            workspace_.report(save(document().profileFile()));
+            requestSave(document().profileFile());
             return true;
         case Action::saveProfileAs:
             dialog = Dialog::saveAs;
@@ -175,10 +170,33 @@ bool Editor::performOnDocument(Action action) {
             return true;
         case Action::undo:
         case Action::redo:
-            endTransform();
-            action == Action::undo ? document().undo() : document().redo();
-            workspace_.follow();
-            machine_->fire(workspace_.ended());
+            travel(action == Action::undo ? -1 : 1);
+            return true;
+        default:
+            return false;
+    }
+}
+
+bool Editor::performOnParts(Action action) {
+    const std::vector<int> bodies = workspace_.selectedBodies();
+    switch (action) {
+        case Action::copyPart:
+            if (bodies.empty()) return true;
+            workspace_.clipboard = document().copyPart(bodies.back());
+            workspace_.say(
+                Toast::Kind::info,
+                fmt::format("Copied {}", animation::roleName(document().profile().bodies[bodies.back()].role)));
+            return true;
+        case Action::pastePart:
+            if (workspace_.clipboard && !bodies.empty()) {
+                edit([&](EditorDocument& one) { return one.pasteParts(bodies, *workspace_.clipboard); });
+            }
+            return true;
+        case Action::mirrorParts:
+            if (!bodies.empty()) edit([&](EditorDocument& one) { return one.mirrorParts(bodies); });
+            return true;
+        case Action::swingLimits:
+            swingLimits();
             return true;
         default:
             return false;
@@ -220,18 +238,68 @@ void Editor::update(double seconds) {
     machine_->update();
     workspace_.follow();
     workspace_.pulls.applyTo(workspace_.player->simulation().world());
-    workspace_.player->advance(seconds);
+    if (swing_) {
+        swing_->advance(static_cast<float>(seconds));
+        player().preview(swingDoll_, swing_->worldFromBody());
+        workspace_.hint = "Within its limits: " + swing_->text() + "   Esc: stop";
+        if (swing_->done()) endSwing();
+    } else {
+        player().advance(seconds);
+    }
     for (Toast& toast : workspace_.toasts)
         toast.secondsLeft -= static_cast<float>(seconds);
     std::erase_if(workspace_.toasts, [](const Toast& toast) { return toast.secondsLeft <= 0.0F; });
 }
 
+void Editor::swingLimits() {
+    endTransform();
+    endSwing();
+    const auto active = workspace_.selection.active();
+    if (!active || active->kind != Item::Kind::body || active->index == 0) return;
+    std::vector<RigidTransform> bodies;
+    for (const physics::BodyState& body : player().bodiesOf(active->doll))
+        bodies.push_back(body.worldFromBody);
+    swing_.emplace(document().profile(), active->index, std::move(bodies));
+    swingDoll_ = active->doll;
+}
+
+void Editor::endSwing() {
+    if (!swing_) return;
+    swing_.reset();
+    player().endPreview();
+}
+
+void Editor::beginPickJoint(animation::Role role) {
+    endTransform();
+    endSwing();
+    workspace_.pickRole = role;
+    machine_->fire(Trigger::pickJointAsked);
+}
+
+void Editor::endPickJoint(bool take) {
+    if (state() != State::pickJoint) return;
+    if (take) machine_->mouseButton(mouseButton(MouseButton::left, false));
+    endTransform();
+}
+
 bool Editor::edit(const std::function<Result<void>(EditorDocument&)>& change) {
     endTransform();
+    endSwing();
     const bool failed = workspace_.report(change(document()));
     workspace_.follow();
     machine_->fire(workspace_.ended());
     return !failed;
+}
+
+void Editor::travel(int changes) {
+    endTransform();
+    endSwing();
+    for (; changes < 0; ++changes)
+        document().undo();
+    for (; changes > 0; --changes)
+        document().redo();
+    workspace_.follow();
+    machine_->fire(workspace_.ended());
 }
 
 void Editor::endTransform() {
@@ -240,6 +308,7 @@ void Editor::endTransform() {
 
 void Editor::select(std::optional<Item> item, bool add) {
     endTransform();
+    endSwing();
     if (!item) {
         workspace_.selection.clear();
     } else if (add) {
@@ -254,86 +323,6 @@ void Editor::beginAdd(SceneObject::Kind kind) {
     endTransform();
     workspace_.addKind = kind;
     machine_->fire(Trigger::addKey);
-}
-
-void Editor::afterUnsaved(std::function<void()> then) {
-    if (!document().unsaved()) {
-        then();
-        return;
-    }
-    endTransform();
-    afterAnswer_ = std::move(then);
-}
-
-void Editor::answer(Answer answer) {
-    const auto then = std::exchange(afterAnswer_, nullptr);
-    if (then == nullptr || answer == Answer::cancel) return;
-    if (answer == Answer::save && workspace_.report(save(document().profileFile()))) return;
-    then();
-}
-
-void Editor::open(const std::filesystem::path& file) {
-    if (isProfile(file)) {
-        if (edit([&](EditorDocument& document) { return document.useProfile(file); })) {
-            workspace_.say(Toast::Kind::info, "Opened the profile " + file.filename().string());
-        }
-        return;
-    }
-    afterUnsaved([this, file] { openNow(file); });
-}
-
-void Editor::openNow(const std::filesystem::path& file) {
-    scene::LoadOptions load = load_;
-    load.profile.reset();  // it belongs to the first model
-    auto opened = EditorDocument::open(file, load);
-    if (!opened) {
-        workspace_.say(Toast::Kind::error, opened.error().text());
-        return;
-    }
-    adopt(std::move(opened).value());
-}
-
-void Editor::adopt(std::unique_ptr<EditorDocument> document) {
-    document->startScene(workspace_.document->state().scene);
-    auto player = std::make_unique<Player>(*document, clock_);
-    if (workspace_.report(player->rebuild(Player::Keep::nothing))) return;
-    select(std::nullopt);
-    workspace_.pulls.pins.clear();
-    player->setPlaying(workspace_.player->playing());
-    player->setSpeed(workspace_.player->speed());
-    workspace_.player = std::move(player);  // before the document that the old one borrows
-    workspace_.document = std::move(document);
-    workspace_.camera = startCamera(workspace_.player->simulation(), workspace_.window);
-    ++characterRevision_;
-    workspace_.say(Toast::Kind::info, "Opened " + this->document().character().file.filename().string());
-    for (const std::string& warning : this->document().character().warnings)
-        workspace_.log.push_back(warning);
-}
-
-Result<void> Editor::save(const std::filesystem::path& file) {
-    auto saved = document().save(file);
-    if (saved) workspace_.say(Toast::Kind::info, "Saved " + file.string());
-    return saved;
-}
-
-Result<void> Editor::exportBaked(const std::filesystem::path& file, float seconds) {
-    endTransform();
-    const bool wasPlaying = player().playing();
-    // The document's asset lends itself to one simulation at a time: the export takes the scene from its start.
-    if (auto reset = player().reset(); !reset) return reset;
-    scene::Simulation& simulation = player().simulation();
-    const float rate = 1.0F / simulation.options().dt;
-    scene::ClipBaker baker(0, rate, "lutka_" + document().state().scene.scenario);
-    baker.sample(simulation);
-    for (int step = 0; step < static_cast<int>(std::lround(seconds * rate)); ++step) {
-        simulation.step();
-        baker.sample(simulation);
-    }
-    auto written =
-        animation::writeGlb(file, document().character(), std::span(&baker.clip(), 1), simulation.worldFromModel(0));
-    player().setPlaying(wasPlaying);
-    if (written) workspace_.say(Toast::Kind::info, fmt::format("Exported {:.1f} s to {}", seconds, file.string()));
-    return written;
 }
 
 void Editor::togglePin() {

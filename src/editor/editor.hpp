@@ -7,6 +7,7 @@
 #include <string>
 
 #include "editor/actions.hpp"
+#include "editor/limit_swing.hpp"
 #include "editor/workspace.hpp"
 #include "render/frame.hpp"
 #include "scene/draw_simulation.hpp"
@@ -63,9 +64,20 @@ class Editor {
     /// An edit of the document on behalf of a panel: ends what is under way in the view, tells failures, and lets the
     /// simulation follow. Whether it succeeded.
     bool edit(const std::function<Result<void>(EditorDocument&)>& change);
+    /// Undoes (below 0) or redoes so many changes at once.
+    void travel(int changes);
     /// Selects from a panel; nothing empties the selection.
     void select(std::optional<Item> item, bool add = false);
     void beginAdd(SceneObject::Kind kind);
+    /// Asks for the joint of a role by a click in the view.
+    void beginPickJoint(animation::Role role);
+    /// Ends that: takes the joint under the mouse, or none.
+    void endPickJoint(bool take);
+    /// Swings the joint of the active body through its limits while the simulation stands still; anything that the
+    /// user does ends it, with the doll where it was.
+    void swingLimits();
+    void endSwing();
+    [[nodiscard]] const LimitSwing* swing() const { return swing_ ? &*swing_ : nullptr; }
 
     /// Opens a model (*.ragdoll.json: a profile for the present one); the old scene stays when that fails. Asks first
     /// when there are unsaved changes.
@@ -76,8 +88,24 @@ class Editor {
 
     /// What waits for the answer about unsaved changes.
     enum class Answer { save, discard, cancel };
-    [[nodiscard]] bool asking() const { return afterAnswer_ != nullptr; }
+    [[nodiscard]] bool asking() const { return afterAnswer_ != nullptr || replacing_.has_value(); }
+    [[nodiscard]] bool askingUnsaved() const { return afterAnswer_ != nullptr; }
     void answer(Answer answer);
+
+    /// Saves there, unless that would replace a file that the document neither opened nor wrote: then it asks first
+    /// (replacedFile(), answerReplace()), and calls `afterwards` when it was saved after all. Whether it was saved now.
+    bool requestSave(const std::filesystem::path& file, std::function<void()> afterwards = {});
+    /// The same for exportBaked().
+    void requestExport(const std::filesystem::path& file, float seconds);
+    /// The file that the user is asked about; empty when there is no such question.
+    [[nodiscard]] std::filesystem::path replacedFile() const {
+        return replacing_ ? replacing_->file : std::filesystem::path();
+    }
+    void answerReplace(bool replace);
+
+    /// A profile that lies beside the model and was not asked for; empty when there is none or the user has answered.
+    [[nodiscard]] const std::filesystem::path& offeredProfile() const { return offeredProfile_; }
+    void answerOffer(bool take);
 
     /// A dialog that the UI should show; the UI clears it.
     enum class Dialog { none, openModel, saveAs, exportBaked };
@@ -107,11 +135,15 @@ class Editor {
     void endTransform();
     void afterUnsaved(std::function<void()> then);
     void openNow(const std::filesystem::path& file);
+    void greet(bool offerProfile);
+    [[nodiscard]] static render::Camera startCamera(const scene::Simulation& simulation, render::Extent window);
     void togglePin();
     void throwBall();
     void focus();
     void axisView(float yaw, float pitch);
     void drawOverlay(render::FrameDescription& frame);
+    void drawActivePart(render::FrameDescription& frame) const;
+    bool performOnParts(Action action);
     void highlight(std::size_t firstCharacter, render::FrameDescription& frame) const;
 
     Workspace workspace_;
@@ -120,7 +152,17 @@ class Editor {
     scene::LoadOptions load_;
     scene::FrameLoop::Clock clock_;
     std::array<bool, kMouseButtonCount> held_{};  // pressed in the view and not released yet
+    std::optional<LimitSwing> swing_;
+    int swingDoll_ = 0;
     std::function<void()> afterAnswer_;
+    struct Replacing {
+        std::filesystem::path file;
+        std::function<bool()> write;
+        std::function<void()> afterwards;
+    };
+    std::vector<std::filesystem::path> exported_;
+    std::optional<Replacing> replacing_;
+    std::filesystem::path offeredProfile_;
     bool quitting_ = false;
     int characterRevision_ = 0;
 };

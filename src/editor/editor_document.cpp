@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "physics/profile_io.hpp"
@@ -56,8 +57,9 @@ Result<std::unique_ptr<EditorDocument>> EditorDocument::open(const std::filesyst
     auto document = std::make_unique<EditorDocument>(std::move(asset).value());
     document->state_.fit = options.fit;
     if (options.profile) {
-        document->profileFile_ = *options.profile;
-        document->state_.baseEdits = document->editsOfBase(document->state_);
+        document->state_.openedProfile = *options.profile;
+        document->remember(*options.profile);
+        document->rememberBase(document->state_);
     }
     return document;
 }
@@ -66,7 +68,13 @@ EditorDocument::EditorDocument(std::unique_ptr<scene::RagdollAsset> asset) : ass
     state_.map = asset_->map;
     state_.base = asset_->profile;
     state_.profile = asset_->profile;
-    savedProfile_ = physics::profileToJson(state_.profile);
+    saved_[{}] = {{}, physics::profileToJson(state_.profile)};
+}
+
+void EditorDocument::remember(const std::filesystem::path& file) {
+    saved_[state_.openedProfile] = {file, physics::profileToJson(state_.profile)};
+    ownFiles_.push_back(file);
+    unsaved_ = false;
 }
 
 void EditorDocument::commitAsset() {
@@ -80,14 +88,14 @@ void EditorDocument::commitAsset() {
 void EditorDocument::adopt(DocumentState state) {
     state_ = std::move(state);
     ++revision_;
-    unsaved_ = physics::profileToJson(state_.profile) != savedProfile_;
+    unsaved_ = physics::profileToJson(state_.profile) != saved_[state_.openedProfile].profile;
 }
 
 // Works on a copy, so that a change that fails half-way leaves nothing behind.
 Result<void> EditorDocument::apply(const std::string& label, const std::string& group, const Change& change) {
     DocumentState next = state_;
     if (auto done = change(next); !done) return done;
-    next.profile = applyEdits(next.base, next.edits);
+    next.profile = applyEdits(next.base, next.edits, next.pairs);
     if (const auto problems = physics::validate(next.profile); !problems.empty()) return outOfRange(problems);
     if (const auto rig = physics::bindRig(next.profile, asset_->character.skeleton); !rig) return rig.error();
     undo_.changed(state_, label, group);
@@ -95,14 +103,21 @@ Result<void> EditorDocument::apply(const std::string& label, const std::string& 
     return {};
 }
 
-std::array<PartEdits, animation::kRoleCount> EditorDocument::editsOfBase(const DocumentState& state) const {
+// What the base changes of a plain fit.
+void EditorDocument::rememberBase(DocumentState& state) const {
+    state.baseEdits = {};
+    state.basePairs.clear();
     const auto fitted = physics::fitRagdoll(asset_->character, state.map, state.fit);
-    return fitted ? editsBetween(fitted.value(), state.base) : std::array<PartEdits, animation::kRoleCount>{};
+    if (!fitted) return;
+    state.baseEdits = editsBetween(fitted.value(), state.base);
+    state.basePairs = pairEditsBetween(fitted.value(), state.base);
 }
 
 Result<void> EditorDocument::remap(DocumentState& state) const {
     fillUnset(state.edits, state.baseEdits);
+    fillUnset(state.pairs, state.basePairs);
     state.baseEdits = {};
+    state.basePairs.clear();
     auto map = mapWithFixed(asset_->character, state.fixed);
     if (!map) return map.error();
     state.map = std::move(map).value();
@@ -194,29 +209,6 @@ Result<void> EditorDocument::setFriction(int constraint, float frictionNm, const
                     [&](PartEdits& edits) { edits.frictionNm = frictionNm; });
 }
 
-Result<void> EditorDocument::resetPart(int body) {
-    return editPart(body, "Reset", "", [](PartEdits& edits) { edits = {}; });
-}
-
-Result<void> EditorDocument::mirrorPart(int body) {
-    const int other = physics::bodyOf(profile(), animation::mirrored(profile().bodies[body].role));
-    if (other < 0 || other == body) {
-        return Error{ErrorCode::usage, partName(profile(), body) + " has no other side", "", ""};
-    }
-    return editPart(other, "Mirror", "", [&](PartEdits& edits) {
-        edits.shape = profile().bodies[body].shape;
-        edits.massKg = profile().bodies[body].massKg;
-        if (body == 0 || other == 0) return;
-        const ConstraintProfile& from = profile().constraints[body - 1];
-        if (from.kind == ConstraintProfile::Kind::hinge) {
-            edits.hinge = from.hinge;
-        } else {
-            edits.cone = from.cone;
-        }
-        edits.frictionNm = from.frictionNm;
-    });
-}
-
 Result<void> EditorDocument::setFit(const physics::FitOptions& fit) {
     return apply("Fit", "", [&](DocumentState& next) {
         next.fit = fit;
@@ -230,13 +222,13 @@ Result<void> EditorDocument::useProfile(const std::filesystem::path& file) {
     auto done = apply("Open profile " + file.filename().string(), "", [&](DocumentState& next) -> Result<void> {
         next.base = std::move(profile).value();
         next.edits = {};
-        next.baseEdits = editsOfBase(next);
+        next.pairs.clear();
+        next.openedProfile = file;
+        rememberBase(next);
         return {};
     });
     if (!done) return done;
-    profileFile_ = file;
-    savedProfile_ = physics::profileToJson(state_.profile);
-    unsaved_ = false;
+    remember(file);
     return done;
 }
 
@@ -255,7 +247,8 @@ Result<void> EditorDocument::mend(std::span<const physics::Finding> findings) {
                  [&](DocumentState& next) -> Result<void> {
                      next.base = std::move(mended).value();  // the edits are in it
                      next.edits = {};
-                     next.baseEdits = editsOfBase(next);
+                     next.pairs.clear();
+                     rememberBase(next);
                      return {};
                  });
 }
@@ -288,17 +281,24 @@ void EditorDocument::redo() {
 }
 
 std::filesystem::path EditorDocument::profileFile() const {
-    if (!profileFile_.empty()) return profileFile_;
+    const auto saved = saved_.find(state_.openedProfile);
+    if (saved != saved_.end() && !saved->second.file.empty()) return saved->second.file;
     const std::filesystem::path& model = character().file;
     std::filesystem::path file = model.parent_path() / (model.empty() ? character().name : model.stem().string());
     return file += ".ragdoll.json";
 }
 
+bool EditorDocument::wouldReplace(const std::filesystem::path& file) const {
+    std::error_code failed;
+    if (!std::filesystem::exists(file, failed)) return false;
+    return std::none_of(ownFiles_.begin(), ownFiles_.end(), [&](const std::filesystem::path& own) {
+        return std::filesystem::equivalent(own, file, failed);
+    });
+}
+
 Result<void> EditorDocument::save(const std::filesystem::path& file) {
     if (auto saved = physics::saveProfile(file, state_.profile); !saved) return saved;
-    profileFile_ = file;
-    savedProfile_ = physics::profileToJson(state_.profile);
-    unsaved_ = false;
+    remember(file);
     return {};
 }
 

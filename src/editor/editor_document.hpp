@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -10,6 +11,7 @@
 #include "editor/document_state.hpp"
 #include "editor/undo_stack.hpp"
 #include "physics/doctor.hpp"
+#include "physics/joint_range.hpp"
 #include "scene/ragdoll_asset.hpp"
 
 namespace lutka::editor {
@@ -45,8 +47,47 @@ class EditorDocument {
     /// Maps anew; keeps what the user fixed unless `forgetFixed`.
     [[nodiscard]] Result<void> mapAgain(bool forgetFixed);
 
-    // Bodies and constraints; indices into profile(). `group`: see UndoStack. Fail with ErrorCode::usage, naming all
-    // that validate() finds, when the value is out of range.
+    /// A body with the constraint it hangs by, as changeParts() offers them.
+    struct Part {
+        physics::BodyProfile& body;
+        physics::ConstraintProfile* constraint;  ///< Nothing for the root.
+        physics::BindFrames bind;                ///< Of the constraint's two bodies; for physics::setJointRange() & co.
+    };
+    /// The same change to several bodies, as one entry of undo: shapes and their places, masses, kinds, limits, axes,
+    /// friction. A value that comes out as the fit has it is no edit. `what` names the change; `group` as in UndoStack.
+    /// Fails with what `change` fails with, and with ErrorCode::usage as below.
+    [[nodiscard]] Result<void> changeParts(std::span<const int> bodies, const std::string& what,
+                                           const std::string& group, const std::function<Result<void>(Part&)>& change);
+
+    /// What copying takes of a part; limits as they are told from the bind pose, so that they mean the same elsewhere.
+    struct PartValues {
+        animation::Side side = animation::Side::center;
+        physics::BodyShape shape;
+        float massKg = 1.0F;
+        struct Joint {
+            physics::ConstraintProfile::Kind kind = physics::ConstraintProfile::Kind::coneTwist;
+            physics::JointRange range;
+            float frictionNm = 0.0F;
+        };
+        std::optional<Joint> joint;  ///< Unless it was the root.
+    };
+    [[nodiscard]] PartValues copyPart(int body) const;
+    /// Gives the values to all these bodies; side and twist are turned round for the other side of the body.
+    [[nodiscard]] Result<void> pasteParts(std::span<const int> bodies, const PartValues& values);
+    /// Gives the bodies on the other side the shapes, places, masses, kinds, limits and axes of these. Fails with
+    /// ErrorCode::usage when one of them has no other side.
+    [[nodiscard]] Result<void> mirrorParts(std::span<const int> bodies);
+    /// Forgets the user's edits of these bodies and their constraints.
+    [[nodiscard]] Result<void> resetParts(std::span<const int> bodies);
+    /// Whether two bodies collide (in the ragdoll that has them both). Linked bodies never do: ErrorCode::usage.
+    [[nodiscard]] Result<void> setCollision(int bodyA, int bodyB, bool collide);
+    [[nodiscard]] bool collides(int bodyA, int bodyB) const;
+    [[nodiscard]] bool linked(int bodyA, int bodyB) const;
+    /// The bodies of a constraint in the bind pose of the present profile, in model space.
+    [[nodiscard]] physics::BindFrames bindOf(int constraint) const;
+
+    // Single bodies and constraints; indices into profile(). `group`: see UndoStack. Fail with ErrorCode::usage, naming
+    // all that validate() finds, when the value is out of range.
     [[nodiscard]] Result<void> setShape(int body, const physics::BodyShape& shape, const std::string& group = "");
     [[nodiscard]] Result<void> setMass(int body, float massKg, const std::string& group = "");
     [[nodiscard]] Result<void> setHinge(int constraint, const physics::HingeLimits& limits,
@@ -54,10 +95,8 @@ class EditorDocument {
     [[nodiscard]] Result<void> setCone(int constraint, const physics::ConeTwistLimits& limits,
                                        const std::string& group = "");
     [[nodiscard]] Result<void> setFriction(int constraint, float frictionNm, const std::string& group = "");
-    /// Forgets the user's edits of one body and its constraint.
-    [[nodiscard]] Result<void> resetPart(int body);
-    /// Gives the body and constraint of the other side the values of this one.
-    [[nodiscard]] Result<void> mirrorPart(int body);
+    [[nodiscard]] Result<void> resetPart(int body) { return resetParts(std::span(&body, 1)); }
+    [[nodiscard]] Result<void> mirrorPart(int body) { return mirrorParts(std::span(&body, 1)); }
     [[nodiscard]] Result<void> setFit(const physics::FitOptions& fit);
     /// Takes a profile from a file in place of the present one. Fails with ErrorCode::input when it can't be read or
     /// doesn't fit the skeleton.
@@ -82,13 +121,18 @@ class EditorDocument {
     [[nodiscard]] bool canRedo() const { return undo_.canRedo(); }
     [[nodiscard]] std::string undoLabel() const { return undo_.undoLabel(); }
     [[nodiscard]] std::string redoLabel() const { return undo_.redoLabel(); }
+    [[nodiscard]] std::vector<std::string> undoLabels() const { return undo_.undoLabels(); }
+    [[nodiscard]] std::vector<std::string> redoLabels() const { return undo_.redoLabels(); }
     void undo();
     void redo();
 
     /// Whether the profile differs from what was loaded, fitted at opening, or saved last.
     [[nodiscard]] bool unsaved() const { return unsaved_; }
-    /// Where save() writes: the profile that was loaded or saved last; beside the model else.
+    /// Where save() writes: the profile that was loaded or saved last; beside the model else. Undoing the opening of a
+    /// profile takes its file back with it.
     [[nodiscard]] std::filesystem::path profileFile() const;
+    /// Whether saving there would replace a file that this document neither opened nor wrote.
+    [[nodiscard]] bool wouldReplace(const std::filesystem::path& file) const;
     [[nodiscard]] Result<void> save(const std::filesystem::path& file);
 
   private:
@@ -96,18 +140,27 @@ class EditorDocument {
     Result<void> apply(const std::string& label, const std::string& group, const Change& change);
     Result<void> editPart(int body, const std::string& what, const std::string& group,
                           const std::function<void(PartEdits&)>& change);
-    [[nodiscard]] std::array<PartEdits, animation::kRoleCount> editsOfBase(const DocumentState& state) const;
+    [[nodiscard]] std::string partNames(std::span<const int> bodies) const;
+    [[nodiscard]] std::vector<RigidTransform> bindModelFromBody(const physics::RagdollProfile& profile) const;
+    void mirrorPlace(physics::RagdollProfile& profile, std::span<const RigidTransform> bind, int from, int to) const;
+    void rememberBase(DocumentState& state) const;
     [[nodiscard]] Result<void> remap(DocumentState& state) const;
     void adopt(DocumentState state);
+    void remember(const std::filesystem::path& file);
 
     std::unique_ptr<scene::RagdollAsset> asset_;
     DocumentState state_;
     UndoStack<DocumentState> undo_;
     std::uint64_t revision_ = 1;
-    std::filesystem::path profileFile_;
     mutable physics::Diagnosis diagnosis_;
     mutable std::uint64_t diagnosedRevision_ = 0;
-    std::string savedProfile_;  ///< As JSON.
+    /// What was loaded or saved last, for each profile that the document was based on (empty: the fit).
+    struct Saved {
+        std::filesystem::path file;  ///< Empty: beside the model.
+        std::string profile;         ///< As JSON.
+    };
+    std::map<std::filesystem::path, Saved> saved_;
+    std::vector<std::filesystem::path> ownFiles_;  ///< Opened or saved.
     bool unsaved_ = false;
 };
 

@@ -190,16 +190,22 @@ void readHeader(const Json& json, InputScript& script) {
     if (json.contains("size")) script.size = readSize(json.at("size"));
 }
 
+std::string headerLine(render::Extent size) {
+    const Json header = {
+        {"format", "lutka.input"}, {"version", InputScript::kVersion}, {"size", {size.width, size.height}}};
+    return header.dump() + '\n';
+}
+
+std::string entryLine(const InputScript::Entry& entry) {
+    return toJson(entry).dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
 }  // namespace
 
 std::string scriptToText(const InputScript& script) {
-    const Json header = {{"format", "lutka.input"},
-                         {"version", InputScript::kVersion},
-                         {"size", {script.size.width, script.size.height}}};
-    std::string text = header.dump() + '\n';
-    for (const InputScript::Entry& entry : script.entries) {
-        text += toJson(entry).dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
-    }
+    std::string text = headerLine(script.size);
+    for (const InputScript::Entry& entry : script.entries)
+        text += entryLine(entry);
     return text;
 }
 
@@ -245,6 +251,26 @@ Result<InputScript> loadScript(const std::filesystem::path& file) {
     if (!bytes) return bytes.error();
     const auto& data = bytes.value();
     return scriptFromText({reinterpret_cast<const char*>(data.data()), data.size()}, file.string());
+}
+
+Result<ScriptWriter> ScriptWriter::create(const std::filesystem::path& file, render::Extent size) {
+    ScriptWriter writer(file, std::ofstream(file, std::ios::binary | std::ios::trunc));
+    if (auto written = writer.write(headerLine(size)); !written) return written.error();
+    return writer;
+}
+
+Result<void> ScriptWriter::add(std::span<const InputScript::Entry> entries) {
+    if (entries.empty()) return {};
+    std::string text;
+    for (const InputScript::Entry& entry : entries)
+        text += entryLine(entry);
+    return write(text);
+}
+
+Result<void> ScriptWriter::write(const std::string& text) {
+    stream_ << text << std::flush;
+    if (stream_.good()) return {};
+    return Error{ErrorCode::output, "cannot be written", file_.string(), "choose another place for the recording"};
 }
 
 std::span<const InputScript::Entry> ScriptPlayer::take(int frame) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,6 +39,23 @@ struct InputScript {
 
 [[nodiscard]] Result<void> saveScript(const std::filesystem::path& file, const InputScript& script);
 [[nodiscard]] Result<InputScript> loadScript(const std::filesystem::path& file);
+
+/// Writes a script event by event, so that what the user did is on disk even when the program does not end well.
+class ScriptWriter {
+  public:
+    /// Writes the header. Fails with ErrorCode::output when the file can't be written.
+    [[nodiscard]] static Result<ScriptWriter> create(const std::filesystem::path& file, render::Extent size);
+    /// Appends the events of a frame. Fails with ErrorCode::output.
+    [[nodiscard]] Result<void> add(std::span<const InputScript::Entry> entries);
+
+  private:
+    ScriptWriter(std::filesystem::path file, std::ofstream stream)
+        : file_(std::move(file)), stream_(std::move(stream)) {}
+    [[nodiscard]] Result<void> write(const std::string& text);
+
+    std::filesystem::path file_;
+    std::ofstream stream_;
+};
 
 /// Hands out a script's events frame by frame.
 class ScriptPlayer {

@@ -244,6 +244,21 @@ void Player::placeBodies(int doll, std::span<const physics::BodyState> bodies) {
     simulation_->refresh();
 }
 
+void Player::preview(int doll, std::span<const RigidTransform> worldFromBody) {
+    std::vector<RigidTransform> frame;
+    for (int other = 0; other < simulation_->dollCount(); ++other) {
+        if (other == doll) {
+            frame.insert(frame.end(), worldFromBody.begin(), worldFromBody.end());
+            continue;
+        }
+        for (const physics::BodyState& body : bodiesOf(other))
+            frame.push_back(body.worldFromBody);
+    }
+    for (int prop = 0; prop < simulation_->world().propCount(); ++prop)
+        frame.push_back(simulation_->world().propState(prop).worldFromBody);
+    simulation_->preview(frame);
+}
+
 Result<void> Player::throwBall(const vec3& from, const vec3& velocity) {
     physics::DynamicProp ball;
     ball.shape.kind = physics::BodyShape::Kind::sphere;

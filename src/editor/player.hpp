@@ -64,6 +64,9 @@ class Player {
     /// The bodies of a doll, and back: they stay where they are put until the next step.
     [[nodiscard]] std::vector<physics::BodyState> bodiesOf(int doll) const;
     void placeBodies(int doll, std::span<const physics::BodyState> bodies);
+    /// Shows a doll's bodies elsewhere than they are, until endPreview(); the world does not know.
+    void preview(int doll, std::span<const RigidTransform> worldFromBody);
+    void endPreview() { simulation_->refresh(); }
     /// Throws a ball into the running scene; it is not part of the document.
     [[nodiscard]] Result<void> throwBall(const vec3& from, const vec3& velocity);
 

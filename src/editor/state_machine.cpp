@@ -20,25 +20,30 @@ constexpr std::array<Row, kStateCount> makeTable() {
     constexpr State orb = State::cameraRotate;
     constexpr State add = State::add;
     constexpr State del = State::remove;
+    constexpr State hand = State::handle;
+    constexpr State pick = State::pickJoint;
     // clang-format off
     return {{
-        //        picked nothing dragSel dragBg  G     R     S     orbit pan   add   delete ended… …nothing
-        /*idle*/ {sel,   idle,   idle,   orb,    idle, idle, idle, orb,  move, add,  idle,  sel,   idle},
-        /*sel */ {sel,   idle,   grab,   orb,    grab, rot,  scal, orb,  move, add,  del,   sel,   idle},
-        /*grab*/ {sel,   idle,   grab,   grab,   grab, rot,  scal, grab, grab, grab, grab,  sel,   idle},
-        /*rot */ {sel,   idle,   rot,    rot,    grab, rot,  scal, rot,  rot,  rot,  rot,   sel,   idle},
-        /*scal*/ {sel,   idle,   scal,   scal,   grab, rot,  scal, scal, scal, scal, scal,  sel,   idle},
-        /*move*/ {sel,   idle,   move,   move,   move, move, move, move, move, move, move,  sel,   idle},
-        /*orb */ {sel,   idle,   orb,    orb,    orb,  orb,  orb,  orb,  orb,  orb,  orb,   sel,   idle},
-        /*add */ {sel,   idle,   add,    add,    add,  add,  add,  add,  add,  add,  add,   sel,   idle},
-        /*del */ {sel,   idle,   del,    del,    del,  del,  del,  del,  del,  del,  del,   sel,   idle},
+        //        picked nothing dragSel dragBg  G     R     S     orbit pan   add   delete handle pickJoint ended… …nothing
+        /*idle*/ {sel,   idle,   idle,   orb,    idle, idle, idle, orb,  move, add,  idle,  idle,  pick,     sel,   idle},
+        /*sel */ {sel,   idle,   grab,   orb,    grab, rot,  scal, orb,  move, add,  del,   hand,  pick,     sel,   idle},
+        /*grab*/ {sel,   idle,   grab,   grab,   grab, rot,  scal, grab, grab, grab, grab,  grab,  grab,     sel,   idle},
+        /*rot */ {sel,   idle,   rot,    rot,    grab, rot,  scal, rot,  rot,  rot,  rot,   rot,   rot,      sel,   idle},
+        /*scal*/ {sel,   idle,   scal,   scal,   grab, rot,  scal, scal, scal, scal, scal,  scal,  scal,     sel,   idle},
+        /*move*/ {sel,   idle,   move,   move,   move, move, move, move, move, move, move,  move,  move,     sel,   idle},
+        /*orb */ {sel,   idle,   orb,    orb,    orb,  orb,  orb,  orb,  orb,  orb,  orb,   orb,   orb,      sel,   idle},
+        /*add */ {sel,   idle,   add,    add,    add,  add,  add,  add,  add,  add,  add,   add,   add,      sel,   idle},
+        /*del */ {sel,   idle,   del,    del,    del,  del,  del,  del,  del,  del,  del,   del,   del,      sel,   idle},
+        /*hand*/ {sel,   idle,   hand,   hand,   hand, hand, hand, hand, hand, hand, hand,  hand,  hand,     sel,   idle},
+        /*pick*/ {sel,   idle,   pick,   pick,   pick, pick, pick, pick, pick, pick, pick,  pick,  pick,     sel,   idle},
     }};
     // clang-format on
 }
 constexpr std::array<Row, kStateCount> kTable = makeTable();
 
-constexpr std::array<std::string_view, kStateCount> kStateNames = {
-    "Default", "Selected", "Grab", "Rotate", "Scale", "CameraMove", "CameraRotate", "Add", "Delete"};
+constexpr std::array<std::string_view, kStateCount> kStateNames = {"Default", "Selected",   "Grab",         "Rotate",
+                                                                   "Scale",   "CameraMove", "CameraRotate", "Add",
+                                                                   "Delete",  "Handle",     "PickJoint"};
 constexpr std::array<std::string_view, kTriggerCount> kTriggerNames = {
     "picked",
     "picked nothing",
@@ -51,6 +56,8 @@ constexpr std::array<std::string_view, kTriggerCount> kTriggerNames = {
     "shift + right or middle press",
     "Shift+A",
     "X or Delete",
+    "left press on a handle",
+    "a role asks for its joint",
     "ended, something selected",
     "ended, nothing selected",
 };

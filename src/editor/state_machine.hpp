@@ -23,8 +23,10 @@ enum class State {
     cameraRotate,  ///< Orbits.
     add,           ///< Places a new object where the mouse points.
     remove,        ///< "Delete": asks whether to delete the selected object.
+    handle,        ///< Drags an end of the active body's limits or shape.
+    pickJoint,     ///< Asks for the joint of a role, by a click.
 };
-inline constexpr int kStateCount = 9;
+inline constexpr int kStateCount = 11;
 
 /// What can make a state give way to another. Handlers turn raw input into these.
 enum class Trigger {
@@ -39,10 +41,12 @@ enum class Trigger {
     panPressed,          ///< The same with shift.
     addKey,              ///< Shift+A
     deleteKey,           ///< X or Delete, on what can be deleted.
+    handlePressed,       ///< The left button went down on a handle of the active body.
+    pickJointAsked,      ///< A panel asks for the joint of a role.
     endedWithSelection,  ///< The state's work is done or cancelled, and something is selected …
     endedWithNothing,    ///< … or nothing is.
 };
-inline constexpr int kTriggerCount = 13;
+inline constexpr int kTriggerCount = 15;
 
 [[nodiscard]] constexpr State stateAt(int index) {
     return static_cast<State>(index);

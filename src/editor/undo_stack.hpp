@@ -41,6 +41,10 @@ class UndoStack {
     [[nodiscard]] std::string redoLabel() const { return redo_.empty() ? "" : redo_.back().label; }
     [[nodiscard]] std::size_t undoCount() const { return undo_.size(); }
 
+    /// Labels of all that can be undone, the latest first, and of all that can be redone, the next first.
+    [[nodiscard]] std::vector<std::string> undoLabels() const { return labels(undo_); }
+    [[nodiscard]] std::vector<std::string> redoLabels() const { return labels(redo_); }
+
     /// The state before the last change, in exchange for the present one. canUndo() must hold.
     [[nodiscard]] Snapshot undo(Snapshot present) { return swap(undo_, redo_, std::move(present)); }
     /// The state that the last undo left. canRedo() must hold.
@@ -57,6 +61,13 @@ class UndoStack {
         Snapshot snapshot;
         std::string label;
     };
+
+    static std::vector<std::string> labels(const std::vector<Entry>& entries) {
+        std::vector<std::string> all;
+        for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry)
+            all.push_back(entry->label);
+        return all;
+    }
 
     Snapshot swap(std::vector<Entry>& from, std::vector<Entry>& to, Snapshot present) {
         openGroup_.clear();

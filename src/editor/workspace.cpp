@@ -10,6 +10,53 @@ std::optional<Pick> Workspace::pickUnderMouse() const {
     return pick(mouseRay(), player->simulation().world(), player->presentObjects(), seeThrough);
 }
 
+std::optional<HandleScene> Workspace::handleScene() const {
+    const auto active = selection.active();
+    if (!active || active->kind != Item::Kind::body || player->stale()) return std::nullopt;
+    const auto bodies = player->simulation().worldFromBody(active->doll, player->alpha());
+    HandleScene scene{document->profile(), active->index, bodies[active->index], {}, {}};
+    if (const physics::ConstraintProfile* constraint = scene.constraint()) {
+        const auto& bind = document->asset().rig.bindModelFromBody;
+        scene.worldFromParent = bodies[constraint->parent];
+        scene.bind = {bind[constraint->parent], bind[constraint->child]};
+    }
+    return scene;
+}
+
+std::optional<Handle> Workspace::handleUnderMouse() const {
+    if (!showHandles) return std::nullopt;
+    const auto scene = handleScene();
+    if (!scene) return std::nullopt;
+    return handleUnder(handlesOf(*scene, camera), camera, mouse, window);
+}
+
+std::vector<vec3> Workspace::worldOfJoints(int doll) const {
+    scene::Simulation& simulation = player->simulation();
+    std::vector<RigidTransform> pose(simulation.asset().character.skeleton.parents.size());
+    simulation.pose(doll, player->alpha(), pose);
+    std::vector<vec3> places;
+    places.reserve(pose.size());
+    for (const RigidTransform& joint : pose)
+        places.push_back(simulation.worldFromModel(doll) * joint.translation);
+    return places;
+}
+
+std::vector<int> Workspace::selectedBodies() const {
+    std::vector<int> bodies;
+    for (const Item& item : selection.items()) {
+        if (item.kind != Item::Kind::body) continue;
+        std::erase(bodies, item.index);
+        bodies.push_back(item.index);
+    }
+    return bodies;
+}
+
+bool Workspace::edit(const std::function<Result<void>(EditorDocument&)>& change) {
+    const bool failed = report(change(*document));
+    follow();
+    return !failed;
+}
+
 vec3 Workspace::positionOf(const Item& item) const {
     if (item.kind == Item::Kind::object) return player->worldFromObject(item.index).translation;
     return player->bodiesOf(item.doll)[static_cast<std::size_t>(item.index)].worldFromBody.translation;
@@ -52,7 +99,7 @@ bool Workspace::report(const Result<void>& result) {
 void Workspace::say(Toast::Kind kind, std::string text) {
     constexpr std::size_t maxToasts = 4;
     constexpr std::size_t maxLog = 500;
-    log.push_back(text);
+    log.push_back({kind, text});
     if (log.size() > maxLog) log.erase(log.begin());
     const bool shown = std::any_of(toasts.begin(), toasts.end(), [&](Toast& toast) { return toast.text == text; });
     if (shown) return;

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "editor/editor_document.hpp"
+#include "editor/handles.hpp"
 #include "editor/input_event.hpp"
 #include "editor/picking.hpp"
 #include "editor/player.hpp"
@@ -23,6 +25,12 @@ struct Toast {
     Kind kind = Kind::info;
     std::string text;
     float secondsLeft = 4.0F;
+};
+
+/// A line of the log.
+struct LogLine {
+    Toast::Kind kind = Toast::Kind::info;
+    std::string text;
 };
 
 /// What the states work on. Owned by the Editor; handlers borrow it.
@@ -44,16 +52,31 @@ struct Workspace {
     std::optional<Press> press;
     MouseButton cameraButton = MouseButton::middle;  ///< What drags the camera.
 
+    bool showHandles = true;                  ///< Of the active body's limits and shape.
+    std::optional<Handle::Kind> hotHandle;    ///< Hovered or held.
+    std::optional<animation::Role> pickRole;  ///< What State::pickJoint asks for …
+    int hotJoint = animation::kNoJoint;       ///< … and the joint under the mouse then.
+    std::optional<EditorDocument::PartValues> clipboard;
+
     SceneObject::Kind addKind = SceneObject::Kind::box;
     std::optional<SceneObject> ghost;  ///< What State::add would place.
     float frameSeconds = 0.0F;         ///< Wall time of the present frame.
     std::string hint;                  ///< What the present state is doing, for the status bar.
     render::LineBatch overlay;         ///< Lines of the present state, made anew each frame.
     std::vector<Toast> toasts;
-    std::vector<std::string> log;
+    std::vector<LogLine> log;
 
     [[nodiscard]] render::Ray mouseRay() const { return render::worldRay(camera, mouse, window); }
     [[nodiscard]] std::optional<Pick> pickUnderMouse() const;
+    /// The active body as its handles see it, at the pose that is shown; nothing when no body is active.
+    [[nodiscard]] std::optional<HandleScene> handleScene() const;
+    [[nodiscard]] std::optional<Handle> handleUnderMouse() const;
+    /// Where a doll's joints are shown, world; jointCount() long.
+    [[nodiscard]] std::vector<vec3> worldOfJoints(int doll) const;
+    /// The bodies of the profile that are selected in any doll, each once, the active one last.
+    [[nodiscard]] std::vector<int> selectedBodies() const;
+    /// The document's edit on behalf of a state, told when it fails; the simulation follows. Whether it succeeded.
+    bool edit(const std::function<Result<void>(EditorDocument&)>& change);
     /// Where an item's origin is now, world; a body's is its centre of mass.
     [[nodiscard]] vec3 positionOf(const Item& item) const;
     [[nodiscard]] std::string nameOf(const Item& item) const;

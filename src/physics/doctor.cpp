@@ -42,6 +42,23 @@ class Examination {
         }
     }
 
+    // Every joint but the root's should hang below the joint that its body hangs on: else the file's hierarchy does not
+    // move the limb as the ragdoll does (feet driven by inverse kinematics), or the role is on a wrong joint.
+    void checkHierarchy(Diagnosis& diagnosis, const animation::Skeleton& skeleton) const {
+        for (const ConstraintProfile& c : profile_.constraints) {
+            const int parent = map_.jointOf(profile_.bodies[c.parent].role);
+            const int child = map_.jointOf(profile_.bodies[c.child].role);
+            if (parent == animation::kNoJoint || child == animation::kNoJoint ||
+                animation::isAncestorOrSelf(skeleton, parent, child)) {
+                continue;
+            }
+            diagnosis.findings.push_back(
+                {Severity::warning, "joint-not-below", link(c),
+                 fmt::format("the joint \"{}\" is not below \"{}\"", skeleton.names[child], skeleton.names[parent]),
+                 "map a joint below it, unless the rig drives this limb by an IK root", false, childRole(c)});
+        }
+    }
+
     void checkMasses(Diagnosis& diagnosis) {
         for (const ConstraintProfile& c : profile_.constraints) {
             const float parent = profile_.bodies[c.parent].massKg;
@@ -315,6 +332,7 @@ Diagnosis diagnose(const RagdollProfile& profile, const animation::Character& ch
         return diagnosis;
     }
     examination.checkMap(diagnosis);
+    examination.checkHierarchy(diagnosis, character.skeleton);
     examination.checkMasses(diagnosis);
     examination.checkLimits(diagnosis);
     examination.checkOverlaps(diagnosis);

@@ -43,13 +43,18 @@ Result<RagdollProfile> fitRagdoll(const animation::Character& character, const a
     profile.standardFromModel = map.standardFromModel;
     profile.bodies.resize(plan.bodies.size());
     placeBodies(profile, character, plan, shapes);
-    assignMasses(profile.bodies, options);
+    FitOptions massOptions = options;
+    if (infoOf(options.preset).massByVolume && options.massPreset == MassPreset::anatomical) {
+        massOptions.massPreset = MassPreset::volume;
+    }
+    assignMasses(profile.bodies, massOptions);
     profile.constraints = makeConstraints(plan, anatomy, shapes, profile.notes);
     setJointFriction(profile);
     std::vector<RigidTransform> placed;
     placed.reserve(shapes.size());
     for (const PlacedShape& shape : shapes)
         placed.push_back(shape.standardFromBody);
+    applyPreset(profile, options.preset, placed);
     profile.filteredPairs = pairsToFilter(profile, placed);
     if (const std::vector<std::string> problems = validate(profile); !problems.empty()) {
         return Error{ErrorCode::input, "no valid ragdoll comes out: " + problems.front(), character.name, {}};

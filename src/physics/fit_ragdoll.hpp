@@ -3,6 +3,7 @@
 #include "animation/character.hpp"
 #include "animation/humanoid/map_humanoid.hpp"
 #include "core/result.hpp"
+#include "physics/preset.hpp"
 #include "physics/profile.hpp"
 
 namespace lutka::physics {
@@ -15,7 +16,8 @@ struct FitOptions {
     float totalMassKg = 75.0F;  ///< > 0.
     MassTable massTable = MassTable::deLevaMale;
     MassPreset massPreset = MassPreset::anatomical;
-    bool shoulderBodies = false;  ///< Bodies for the clavicles.
+    RagdollPreset preset = RagdollPreset::anatomical;  ///< See applyPreset().
+    bool shoulderBodies = false;                       ///< Bodies for the clavicles.
     bool neckBody = false;
     bool toeBodies = false;
     bool allTrunkBodies = false;  ///< A body for every mapped trunk role instead of hips, spine and the topmost.

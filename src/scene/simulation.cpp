@@ -153,6 +153,12 @@ void Simulation::show(std::span<const RigidTransform> frame) {
     stepMs_.push_back(0.0F);
 }
 
+void Simulation::preview(std::span<const RigidTransform> frame) {
+    LUTKA_ASSERT(frame.size() == present_.size());
+    std::copy(frame.begin(), frame.end(), present_.begin());
+    previous_ = present_;
+}
+
 std::span<const RigidTransform> Simulation::worldFromBody(int doll, float alpha) {
     const std::size_t bodies = asset_.profile.bodies.size();
     const std::size_t first = static_cast<std::size_t>(doll) * bodies;

@@ -45,6 +45,8 @@ class Simulation {
     /// Shows a recorded frame (bodies of every doll, then the props; world space) as the next step's state, without
     /// physics: world() stays where it was.
     void show(std::span<const RigidTransform> frame);
+    /// Shows a frame (as for show()) in place of the present state until refresh() or the next step; nothing moves.
+    void preview(std::span<const RigidTransform> frame);
     /// Back to the start: the same bits again.
     void reset();
     /// Call after placing bodies in world() by hand: what is shown is where they are now, not on the way there.

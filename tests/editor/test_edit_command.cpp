@@ -109,8 +109,8 @@ TEST_CASE("a script sets a limit by its slider, changes another value, undoes th
     const Scratch scratch;
     Script script;
     script.key(Key::space).click(663, 355);       // the left lower leg
-    script.drag(1140, 333, 1090, 333).release();  // its "Flexes to"
-    script.drag(1060, 389, 1160, 389).release();  // its friction
+    script.drag(1178, 352, 1130, 352).release();  // its flexion
+    script.drag(1052, 436, 1160, 436).release();  // its friction
     script.key(Key::z, kControl).key(Key::s, kControl).wait(2);
     script.save(scratch / "script.jsonl");
     const Outcome outcome = edit(scratch, "--headless --input " + (scratch / "script.jsonl").string());

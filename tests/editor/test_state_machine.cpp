@@ -57,6 +57,8 @@ struct Machine {
             {State::cameraRotate, {Trigger::orbitPressed}},
             {State::add, {Trigger::addKey}},
             {State::remove, {Trigger::picked, Trigger::deleteKey}},
+            {State::handle, {Trigger::picked, Trigger::handlePressed}},
+            {State::pickJoint, {Trigger::pickJointAsked}},
         };
         for (const Trigger trigger : ways[static_cast<int>(state)].second)
             machine.fire(trigger);
@@ -77,6 +79,8 @@ State expected(State from, Trigger trigger) {
     if (resting && trigger == addKey) return add;
     if (from == selected && trigger == dragSelection) return grab;
     if (from == selected && trigger == deleteKey) return remove;
+    if (from == selected && trigger == handlePressed) return handle;
+    if (resting && trigger == pickJointAsked) return pickJoint;
     if (from == selected || transforming) {
         if (trigger == grabKey) return grab;
         if (trigger == rotateKey) return rotate;

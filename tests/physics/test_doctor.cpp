@@ -132,6 +132,20 @@ TEST_CASE("the doctor tells of roles without joints, narrow limits and degenerat
     CHECK(find(chain, "chain-degenerate")->place == "leftHand on leftLowerArm");
 }
 
+TEST_CASE("the doctor tells of a role whose joint is not below its parent's") {
+    Patient p;
+    REQUIRE(find(p.look(), "joint-not-below") == nullptr);
+    const int left = p.map.jointOf(Role::leftHand);
+    p.map.roles[animation::indexOf(Role::leftHand)]->joint = p.map.jointOf(Role::rightHand);
+    p.map.roles[animation::indexOf(Role::rightHand)]->joint = left;
+    const Diagnosis diagnosis = p.look();
+    const Finding* finding = find(diagnosis, "joint-not-below");
+    REQUIRE(finding != nullptr);
+    CHECK(finding->place == "leftHand on leftLowerArm");
+    CHECK(finding->roles == std::vector{Role::leftHand});
+    CHECK_THAT(finding->measure, Catch::Contains("leftLowerArm"));
+}
+
 TEST_CASE("an invalid profile and one of another rig are told apart from a sick one") {
     Patient invalid;
     invalid.profile.bodies[3].massKg = -1;

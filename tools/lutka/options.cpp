@@ -27,6 +27,20 @@ const std::map<std::string, physics::SolverKind> kSolvers = {{"stock", physics::
                                                              {"bullet", physics::SolverKind::bullet},
                                                              {"crowd", physics::SolverKind::crowd}};
 
+physics::RagdollPreset presetFromName(const std::string& name) {
+    for (const physics::PresetInfo& info : physics::presetInfos()) {
+        if (info.name == name) return info.preset;
+    }
+    return physics::RagdollPreset::anatomical;  // the option lets no other word through
+}
+
+std::vector<std::string> presetNames() {
+    std::vector<std::string> names;
+    for (const physics::PresetInfo& info : physics::presetInfos())
+        names.emplace_back(info.name);
+    return names;
+}
+
 void addExtraBodies(const std::string& list, physics::FitOptions& fit) {
     for (const std::string& piece : CLI::detail::split(list, ',')) {
         const std::string word = CLI::detail::trim_copy(piece);
@@ -100,6 +114,10 @@ void RagdollOptions::addTo(CLI::App& app, bool modelRequired) {
         ->check(CLI::IsMember(&kMassPresets))
         ->excludes(profileOption)
         ->capture_default_str();
+    app.add_option("--preset", preset, "character of the joints: their limits, friction and masses")
+        ->check(CLI::IsMember(presetNames()))
+        ->excludes(profileOption)
+        ->capture_default_str();
     app.add_option("--bodies", bodies, "bodies beside the 16: shoulders,neck,toes,trunk (comma separated)")
         ->excludes(profileOption);
 }
@@ -112,6 +130,7 @@ scene::LoadOptions RagdollOptions::load() const {
     options.fit.totalMassKg = massKg;
     options.fit.massTable = kMassTables.at(massTable);
     options.fit.massPreset = kMassPresets.at(massPreset);
+    options.fit.preset = presetFromName(preset);
     addExtraBodies(bodies, options.fit);
     return options;
 }

@@ -51,6 +51,7 @@ struct RagdollOptions {
     float massKg = 75.0F;
     std::string massTable = "de-leva-male";
     std::string massPreset = "anatomical";
+    std::string preset = "anatomical";
     std::string bodies;  ///< Extra bodies, comma separated: shoulders,neck,toes,trunk.
 
     void addTo(CLI::App& app, bool modelRequired = true);

@@ -3,9 +3,10 @@
 namespace lutka::editor {
 
 StateMachine::Handlers makeHandlers(Workspace& workspace) {
-    return {makeSelectHandler(workspace),       makeSelectHandler(workspace), makeGrabHandler(workspace),
-            makeRotateHandler(workspace),       makeScaleHandler(workspace),  makeCameraMoveHandler(workspace),
-            makeCameraRotateHandler(workspace), makeAddHandler(workspace),    makeDeleteHandler(workspace)};
+    return {makeSelectHandler(workspace),       makeSelectHandler(workspace),   makeGrabHandler(workspace),
+            makeRotateHandler(workspace),       makeScaleHandler(workspace),    makeCameraMoveHandler(workspace),
+            makeCameraRotateHandler(workspace), makeAddHandler(workspace),      makeDeleteHandler(workspace),
+            makeHandleHandler(workspace),       makePickJointHandler(workspace)};
 }
 
 }  // namespace lutka::editor

@@ -15,16 +15,25 @@ class SelectHandler final : public StateHandler {
   public:
     explicit SelectHandler(Workspace& workspace) : workspace_(workspace) {}
 
-    void exit() override { workspace_.hint.clear(); }
+    void exit() override {
+        workspace_.hint.clear();
+        workspace_.hotHandle.reset();
+    }
 
     void update() override {
         const auto active = workspace_.selection.active();
         const char* last = active && active->kind == Item::Kind::body ? "P pin" : "X delete";
+        if (workspace_.hotHandle && active && active->kind == Item::Kind::body) {
+            const physics::Role role = workspace_.document->profile().bodies[active->index].role;
+            workspace_.hint = "Drag: " + handleName(*workspace_.hotHandle, role);
+            return;
+        }
         workspace_.hint = active ? workspace_.nameOf(*active) + "   G grab  R rotate  S scale  F focus  " + last
                                  : "Click selects, drag pulls, right drag orbits, wheel zooms, ? shows all keys";
     }
 
     std::optional<Trigger> mouseMove(const vec2& position, const vec2& /*movement*/) override {
+        hover();
         if (!workspace_.press || glm::distance(position, workspace_.press->position) < kDragPixels) return std::nullopt;
         if (workspace_.press->pick) return Trigger::dragSelection;
         workspace_.cameraButton = MouseButton::left;
@@ -41,6 +50,7 @@ class SelectHandler final : public StateHandler {
             workspace_.press.reset();
             return std::nullopt;
         }
+        if (!event.modifiers.shift && workspace_.handleUnderMouse()) return Trigger::handlePressed;
         workspace_.press = Workspace::Press{workspace_.mouse, workspace_.pickUnderMouse(), vec3(0)};
         if (const auto& pick = workspace_.press->pick; pick && pick->item.kind == Item::Kind::body) {
             const auto bodies = workspace_.player->bodiesOf(pick->item.doll);
@@ -78,6 +88,11 @@ class SelectHandler final : public StateHandler {
     }
 
   private:
+    void hover() {
+        const auto handle = workspace_.press ? std::nullopt : workspace_.handleUnderMouse();
+        workspace_.hotHandle = handle ? std::optional(handle->kind) : std::nullopt;
+    }
+
     std::optional<Trigger> select(const std::optional<Pick>& pick, bool add) {
         if (pick && add) {
             workspace_.selection.toggle(pick->item);

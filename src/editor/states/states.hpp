@@ -13,5 +13,7 @@ namespace lutka::editor {
 [[nodiscard]] std::unique_ptr<StateHandler> makeCameraRotateHandler(Workspace& workspace);
 [[nodiscard]] std::unique_ptr<StateHandler> makeAddHandler(Workspace& workspace);
 [[nodiscard]] std::unique_ptr<StateHandler> makeDeleteHandler(Workspace& workspace);
+[[nodiscard]] std::unique_ptr<StateHandler> makeHandleHandler(Workspace& workspace);
+[[nodiscard]] std::unique_ptr<StateHandler> makePickJointHandler(Workspace& workspace);
 
 }  // namespace lutka::editor

@@ -43,6 +43,28 @@ void fileMenu(const PanelContext& context) {
     ImGui::EndMenu();
 }
 
+// Every change, the next to redo on top, then the present, then what can be undone; a click goes there.
+void historyMenu(const PanelContext& context) {
+    const EditorDocument& document = context.editor.document();
+    if (!ImGui::BeginMenu("History", document.canUndo() || document.canRedo())) return;
+    const std::vector<std::string> redo = document.redoLabels();
+    const std::vector<std::string> undo = document.undoLabels();
+    int wanted = 0;
+    for (int i = static_cast<int>(redo.size()) - 1; i >= 0; --i) {
+        ImGui::PushID(i + 1);
+        if (ImGui::MenuItem(redo[i].c_str())) wanted = i + 1;
+        ImGui::PopID();
+    }
+    ImGui::TextColored(accentColor(), "now");
+    for (int i = 0; i < static_cast<int>(undo.size()); ++i) {
+        ImGui::PushID(-i - 1);
+        if (ImGui::MenuItem(undo[i].c_str())) wanted = -i - 1;
+        ImGui::PopID();
+    }
+    ImGui::EndMenu();
+    if (wanted != 0) context.editor.travel(wanted);
+}
+
 void editMenu(const PanelContext& context) {
     if (!ImGui::BeginMenu("Edit")) return;
     const EditorDocument& document = context.editor.document();
@@ -54,6 +76,7 @@ void editMenu(const PanelContext& context) {
     if (ImGui::MenuItem(redo.c_str(), shortcutText(Action::redo).c_str(), false, document.canRedo())) {
         context.editor.perform(Action::redo);
     }
+    historyMenu(context);
     ImGui::Separator();
     if (ImGui::BeginMenu("Add")) {
         for (const auto kind : {SceneObject::Kind::box, SceneObject::Kind::ball, SceneObject::Kind::light}) {
@@ -63,6 +86,14 @@ void editMenu(const PanelContext& context) {
     }
     const bool selected = !context.editor.workspace().selection.empty();
     if (ImGui::MenuItem("Select none", "Esc", false, selected)) context.editor.perform(Action::selectNone);
+    ImGui::Separator();
+    const bool anyBody = !context.editor.workspace().selectedBodies().empty();
+    item(context, Action::copyPart, anyBody);
+    item(context, Action::pastePart, anyBody && context.editor.workspace().clipboard.has_value());
+    item(context, Action::mirrorParts, anyBody);
+    item(context, Action::swingLimits, anyBody);
+    if (ImGui::MenuItem("Collisions between bodies …")) context.state.showCollisions = true;
+    ImGui::Separator();
     item(context, Action::pin, selected);
     item(context, Action::unpinAll, !context.editor.workspace().pulls.pins.empty());
     ImGui::EndMenu();
@@ -71,6 +102,7 @@ void editMenu(const PanelContext& context) {
 void viewMenu(const PanelContext& context) {
     if (!ImGui::BeginMenu("View")) return;
     item(context, Action::toggleDebug, true, context.editor.view.debug);
+    item(context, Action::toggleHandles, true, context.editor.workspace().showHandles);
     item(context, Action::togglePanels, true, context.editor.view.panels);
     if (ImGui::BeginMenu("Layers")) {
         for (const LayerInfo& layer : debugLayerInfos()) {
@@ -104,7 +136,26 @@ void simulateMenu(const PanelContext& context) {
     ImGui::EndMenu();
 }
 
+// At most that share of the window.
+float panelWidth(const PanelContext& context, float full, float share) {
+    return std::min(context.px(full), ImGui::GetIO().DisplaySize.x * share);
+}
+
 }  // namespace
+
+float leftPanelWidth(const PanelContext& context) {
+    return panelWidth(context, 310.0F, 0.29F);
+}
+
+float rightPanelWidth(const PanelContext& context) {
+    return panelWidth(context, 344.0F, 0.33F);
+}
+
+ViewSpan viewSpan(const PanelContext& context) {
+    const float width = ImGui::GetIO().DisplaySize.x;
+    if (!context.editor.view.panels) return {0.0F, width};
+    return {leftPanelWidth(context), width - rightPanelWidth(context)};
+}
 
 void drawMenuBar(const PanelContext& context) {
     if (!ImGui::BeginMainMenuBar()) return;
@@ -152,15 +203,14 @@ void drawStatusBar(const PanelContext& context) {
 
 void drawTransport(const PanelContext& context) {
     Editor& editor = context.editor;
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const float left = editor.view.panels ? context.px(kLeftPanelWidth) : 0.0F;
-    const float right = editor.view.panels ? context.px(kRightPanelWidth) : 0.0F;
-    const float middle = left + (size.x - left - right) * 0.5F;
+    const auto [left, right] = viewSpan(context);
+    const float middle = (left + right) * 0.5F;
+    const bool narrow = right - left < context.px(320);
     ImGui::SetNextWindowPos({middle, ImGui::GetFrameHeight() + context.px(8)}, ImGuiCond_Always, {0.5F, 0.0F});
     ImGui::SetNextWindowBgAlpha(0.88F);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(context.px(6), context.px(5)));
     ImGui::Begin("##transport", nullptr, kFixed | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_AlwaysAutoResize);
-    const ImVec2 button(context.px(62), 0);
+    const ImVec2 button(context.px(narrow ? 50 : 62), 0);
     if (ImGui::Button(editor.player().playing() ? "Pause" : "Play", button)) editor.perform(Action::togglePlay);
     tooltip("Space");
     ImGui::SameLine();
@@ -169,9 +219,9 @@ void drawTransport(const PanelContext& context) {
     ImGui::SameLine();
     if (ImGui::Button("Reset", button)) editor.perform(Action::reset);
     tooltip("Ctrl+R: back to the scene's start");
-    ImGui::SameLine();
+    if (!narrow) ImGui::SameLine();
     auto speed = static_cast<float>(editor.player().speed());
-    ImGui::SetNextItemWidth(context.px(96));
+    ImGui::SetNextItemWidth(narrow ? -1.0F : context.px(96));
     if (ImGui::SliderFloat("##speed", &speed, 0.05F, 1.0F, "speed %.2f")) editor.player().setSpeed(speed);
     tooltip("Slow motion: simulated seconds a second");
     ImGui::End();
@@ -182,7 +232,7 @@ void drawLeftPanel(const PanelContext& context) {
     const float top = ImGui::GetFrameHeight();
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0, top});
-    ImGui::SetNextWindowSize({context.px(kLeftPanelWidth), size.y - top - statusHeight()});
+    ImGui::SetNextWindowSize({leftPanelWidth(context), size.y - top - statusHeight()});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
     ImGui::Begin("##left", nullptr, kFixed | ImGuiWindowFlags_NoTitleBar);
     if (ImGui::BeginTabBar("##leftTabs")) {
@@ -207,7 +257,7 @@ void drawLeftPanel(const PanelContext& context) {
 void drawRightPanel(const PanelContext& context) {
     const float top = ImGui::GetFrameHeight();
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const float width = context.px(kRightPanelWidth);
+    const float width = rightPanelWidth(context);
     ImGui::SetNextWindowPos({size.x - width, top});
     ImGui::SetNextWindowSize({width, size.y - top - statusHeight()});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);

@@ -17,118 +17,10 @@ void placeInMiddle() {
     ImGui::SetNextWindowPos({size.x * 0.5F, size.y * 0.45F}, ImGuiCond_Always, {0.5F, 0.5F});
 }
 
-std::filesystem::path suggestedPath(const PanelContext& context, Editor::Dialog dialog) {
-    const EditorDocument& document = context.editor.document();
-    switch (dialog) {
-        case Editor::Dialog::saveAs:
-            return document.profileFile();
-        case Editor::Dialog::exportBaked:
-            return std::filesystem::path(document.character().name + "_fall.glb");
-        case Editor::Dialog::openModel:
-        case Editor::Dialog::none:
-            break;
-    }
-    return document.character().file;
-}
-
-const char* titleOf(Editor::Dialog dialog) {
-    switch (dialog) {
-        case Editor::Dialog::openModel:
-            return "Open a model or a profile";
-        case Editor::Dialog::saveAs:
-            return "Save the profile as";
-        case Editor::Dialog::exportBaked:
-            return "Export the fall as a baked glb";
-        case Editor::Dialog::none:
-            break;
-    }
-    return "";
-}
-
-// Folders and files that could be meant, under the field; a click takes one.
-void listFolder(const PanelContext& context) {
-    constexpr std::size_t most = 200;
-    namespace fs = std::filesystem;
-    const fs::path typed(context.state.path);
-    std::error_code failed;
-    const fs::path folder = fs::is_directory(typed, failed) ? typed : typed.parent_path();
-    std::vector<fs::directory_entry> entries;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, failed)) {
-        if (entry.path().filename().string().front() != '.' && entries.size() < most) entries.push_back(entry);
-    }
-    std::sort(entries.begin(), entries.end(), [&](const auto& a, const auto& b) {
-        std::error_code ignored;
-        const bool aFolder = a.is_directory(ignored);
-        const bool bFolder = b.is_directory(ignored);
-        return aFolder != bFolder ? aFolder : a.path() < b.path();
-    });
-    ImGui::BeginChild("##folder", {0, context.px(220)}, true);
-    if (ImGui::Selectable("../")) context.state.path = (folder / "..").lexically_normal().string();
-    for (const fs::directory_entry& entry : entries) {
-        std::error_code ignored;
-        const bool isFolder = entry.is_directory(ignored);
-        const std::string name = entry.path().filename().string() + (isFolder ? "/" : "");
-        if (ImGui::Selectable(name.c_str(), entry.path() == typed)) {
-            context.state.path = entry.path().string() + (isFolder ? "/" : "");
-        }
-    }
-    ImGui::EndChild();
-}
-
-void finishFileDialog(const PanelContext& context, Editor::Dialog dialog) {
-    Editor& editor = context.editor;
-    const std::filesystem::path file(context.state.path);
-    switch (dialog) {
-        case Editor::Dialog::openModel:
-            editor.open(file);
-            break;
-        case Editor::Dialog::saveAs:
-            editor.workspace().report(editor.save(file));
-            break;
-        case Editor::Dialog::exportBaked:
-            editor.workspace().report(editor.exportBaked(file, context.state.exportSeconds));
-            break;
-        case Editor::Dialog::none:
-            break;
-    }
-}
-
-void drawFileDialog(const PanelContext& context) {
-    Editor& editor = context.editor;
-    if (editor.dialog == Editor::Dialog::none) return;
-    const char* title = titleOf(editor.dialog);
-    if (!ImGui::IsPopupOpen(title)) {
-        context.state.path = suggestedPath(context, editor.dialog).string();
-        ImGui::OpenPopup(title);
-    }
-    placeInMiddle();
-    if (!ImGui::BeginPopupModal(title, nullptr, kDialog)) return;
-    ImGui::SetNextItemWidth(context.px(520));
-    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-    bool done = ImGui::InputText("##path", &context.state.path, ImGuiInputTextFlags_EnterReturnsTrue);
-    if (editor.dialog == Editor::Dialog::openModel) listFolder(context);
-    if (editor.dialog == Editor::Dialog::exportBaked) {
-        ImGui::SetNextItemWidth(context.px(200));
-        ImGui::SliderFloat("seconds", &context.state.exportSeconds, 0.5F, 20.0F, "%.1f");
-        mutedText("The first doll's motion from the start of the scene, as an animation of its skin.");
-    }
-    ImGui::Spacing();
-    const ImVec2 button(context.px(110), 0);
-    done = ImGui::Button(editor.dialog == Editor::Dialog::openModel ? "Open" : "Save", button) || done;
-    ImGui::SameLine();
-    const bool cancelled = ImGui::Button("Cancel", button) || ImGui::IsKeyPressed(static_cast<int>(Key::escape), false);
-    if (done || cancelled) {
-        const Editor::Dialog dialog = std::exchange(editor.dialog, Editor::Dialog::none);
-        ImGui::CloseCurrentPopup();
-        if (done && !cancelled) finishFileDialog(context, dialog);
-    }
-    ImGui::EndPopup();
-}
-
 void drawQuestion(const PanelContext& context) {
     constexpr const char* title = "Unsaved changes";
     Editor& editor = context.editor;
-    if (editor.asking() && !ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
+    if (editor.askingUnsaved() && !ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
     placeInMiddle();
     if (!ImGui::BeginPopupModal(title, nullptr, kDialog)) return;
     ImGui::Text("The ragdoll of %s has changes that are not saved.", editor.document().character().name.c_str());
@@ -150,7 +42,36 @@ void drawQuestion(const PanelContext& context) {
     ImGui::EndPopup();
 }
 
-void helpRow(const std::string& keys, std::string_view what) {
+void drawReplaceQuestion(const PanelContext& context) {
+    constexpr const char* title = "Replace the file?";
+    Editor& editor = context.editor;
+    const std::filesystem::path file = editor.replacedFile();
+    if (!file.empty() && !ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
+    placeInMiddle();
+    if (!ImGui::BeginPopupModal(title, nullptr, kDialog)) return;
+    ImGui::Text("%s is there already.", file.filename().string().c_str());
+    mutedText("In " + file.parent_path().string() + ". It was neither opened nor saved in this session.");
+    ImGui::Spacing();
+    const ImVec2 button(context.px(110), 0);
+    std::optional<bool> replace;
+    if (ImGui::Button("Replace", button)) replace = true;
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel", button) || ImGui::IsKeyPressed(static_cast<int>(Key::escape), false)) replace = false;
+    ImGui::SameLine();
+    if (ImGui::Button("Save as ...", button)) {
+        replace = false;
+        editor.dialog = Editor::Dialog::saveAs;
+    }
+    if (replace) {
+        ImGui::CloseCurrentPopup();
+        editor.answerReplace(*replace);
+    }
+    ImGui::EndPopup();
+}
+
+// How many lines it showed.
+int helpRow(const std::string& filter, const std::string& keys, std::string_view what) {
+    if (!containsText(what, filter) && !containsText(keys, filter)) return 0;
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::TextColored(accentColor(), "%s", keys.c_str());
@@ -158,6 +79,7 @@ void helpRow(const std::string& keys, std::string_view what) {
     ImGui::PushTextWrapPos(0.0F);
     ImGui::TextUnformatted(what.data(), what.data() + what.size());
     ImGui::PopTextWrapPos();
+    return 1;
 }
 
 // Keys take what they need, the explanation the rest.
@@ -173,29 +95,59 @@ bool beginHelpTable(const PanelContext& context, const char* id, float keyWidth)
 void drawDialogs(const PanelContext& context) {
     drawFileDialog(context);
     drawQuestion(context);
+    drawReplaceQuestion(context);
+}
+
+void drawOffer(const PanelContext& context) {
+    Editor& editor = context.editor;
+    const std::filesystem::path file = editor.offeredProfile();
+    if (file.empty()) return;
+    const auto [left, right] = viewSpan(context);
+    const float top = ImGui::GetFrameHeight() + context.px(56);
+    ImGui::SetNextWindowPos({(left + right) * 0.5F, top}, ImGuiCond_Always, {0.5F, 0.0F});
+    ImGui::SetNextWindowBgAlpha(0.94F);
+    ImGui::PushStyleColor(ImGuiCol_Border, accentColor());
+    ImGui::Begin("##offer", nullptr, kDialog | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::PushTextWrapPos((right - left) * 0.9F);
+    ImGui::Text("A profile lies beside the model: %s", file.filename().string().c_str());
+    ImGui::PopTextWrapPos();
+    std::optional<bool> take;
+    if (ImGui::Button("Open it")) take = true;
+    ImGui::SameLine();
+    if (ImGui::Button("Keep the new fit")) take = false;
+    ImGui::End();
+    ImGui::PopStyleColor();
+    if (take) editor.answerOffer(*take);
 }
 
 void drawHelp(const PanelContext& context) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     placeInMiddle();
-    ImGui::SetNextWindowSize({std::min(context.px(900), size.x - 20), 0});
+    const float width = std::min(context.px(900), size.x - 20);
+    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, size.y * 0.86F});
     bool open = true;
-    if (ImGui::Begin("Keys", &open, (kDialog & ~ImGuiWindowFlags_AlwaysAutoResize) | ImGuiWindowFlags_NoCollapse)) {
-        if (ImGui::BeginTable("##help", 2, ImGuiTableFlags_SizingStretchSame)) {
+    std::string& filter = context.state.helpFilter;
+    if (ImGui::Begin("Keys", &open, kDialog | ImGuiWindowFlags_NoCollapse)) {
+        ImGui::SetNextItemWidth(-1.0F);
+        if (ImGui::IsWindowAppearing()) filter.clear();
+        ImGui::InputTextWithHint("##search", "search: undo, camera, limits …", &filter);
+        int found = 0;
+        if (ImGui::BeginTable("##help", width > context.px(640) ? 2 : 1, ImGuiTableFlags_SizingStretchSame)) {
             ImGui::TableNextColumn();
             if (beginHelpTable(context, "##actions", 100)) {
                 for (const Binding& binding : keyBindings())
-                    helpRow(shortcutText(binding), actionName(binding.action));
+                    found += helpRow(filter, shortcutText(binding), actionName(binding.action));
                 ImGui::EndTable();
             }
             ImGui::TableNextColumn();
             if (beginHelpTable(context, "##mouse", 160)) {
                 for (const HelpLine& line : mouseHelp())
-                    helpRow(std::string(line.keys), line.what);
+                    found += helpRow(filter, std::string(line.keys), line.what);
                 ImGui::EndTable();
             }
             ImGui::EndTable();
         }
+        if (found == 0) mutedText("Nothing is called that. Try another word, or empty the field to see all.");
     }
     ImGui::End();
     context.editor.view.help = open;
@@ -204,9 +156,8 @@ void drawHelp(const PanelContext& context) {
 void drawToasts(const PanelContext& context) {
     Editor& editor = context.editor;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const float left = editor.view.panels ? context.px(kLeftPanelWidth) : 0.0F;
-    const float right = editor.view.panels ? context.px(kRightPanelWidth) : 0.0F;
-    const float middle = left + (size.x - left - right) * 0.5F;
+    const auto [left, right] = viewSpan(context);
+    const float middle = (left + right) * 0.5F;
     float bottom = size.y - ImGui::GetFrameHeight() - context.px(16);
     std::optional<std::size_t> closed;
     const std::vector<Toast>& toasts = editor.workspace().toasts;
@@ -220,7 +171,7 @@ void drawToasts(const PanelContext& context) {
         ImGui::PushStyleColor(ImGuiCol_Border, color);
         ImGui::Begin(fmt::format("##toast{}", i).c_str(), nullptr,
                      kDialog | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoFocusOnAppearing);
-        ImGui::PushTextWrapPos(std::min(context.px(460), (size.x - left - right) * 0.9F));
+        ImGui::PushTextWrapPos(std::min(context.px(460), (right - left) * 0.9F));
         ImGui::TextUnformatted(toast.text.c_str());
         ImGui::PopTextWrapPos();
         if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) closed = i;

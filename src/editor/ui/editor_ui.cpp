@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include "editor/ui/panels.hpp"
+#include "editor/ui/role_drag.hpp"
 
 namespace lutka::editor {
 
@@ -15,11 +16,14 @@ void EditorUi::build(Editor& editor, const FrameHistory& history) {
         drawRightPanel(context);
     }
     drawTransport(context);
+    dragRoleOverView(context);
+    if (state.showCollisions) drawCollisions(context);
+    drawOffer(context);
     drawToasts(context);
     drawDialogs(context);
     if (editor.view.help) drawHelp(context);
     if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && editor.state() != State::grab &&
-        editor.state() != State::rotate && editor.state() != State::scale) {
+        editor.state() != State::rotate && editor.state() != State::scale && editor.state() != State::handle) {
         editor.document().endGroup();
     }
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "editor/editor.hpp"
+#include "editor/file_list.hpp"
 #include "editor/frame_history.hpp"
 #include "editor/ui/imgui_host.hpp"
 
@@ -15,9 +16,21 @@ namespace lutka::editor {
 struct UiState {
     std::string jointFilter;
     int scrollToJoint = -1;  ///< Joint that the tree shall bring into view.
-    std::string path;        ///< Text of the open file dialog.
+    std::string helpFilter;
+    std::string logFilter;
+    bool logWarningsOnly = false;
+    // Of the open file dialog.
+    Editor::Dialog fileDialog = Editor::Dialog::none;
+    std::string path;  ///< Its text.
+    FileFilter fileFilter = FileFilter::models;
+    int fileIndex = -1;            ///< The line that the arrows chose.
+    std::filesystem::path chosen;  ///< What it stands for; taken by Enter.
+    bool scrollToFile = false;
+    std::string newFolder;
     float exportSeconds = 4.0F;
     bool lightTheme = false;
+    bool showCollisions = false;
+    bool draggingOverView = false;  ///< A role is dragged, and not over a panel.
     std::vector<std::filesystem::path> recent;
     std::optional<Item> shownItem;  ///< What panels showed last, to notice a new selection.
 };

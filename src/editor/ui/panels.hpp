@@ -20,8 +20,15 @@ struct PanelContext {
     [[nodiscard]] float px(float length) const { return length * scale; }
 };
 
-inline constexpr float kLeftPanelWidth = 310.0F;   ///< At scale 1.
-inline constexpr float kRightPanelWidth = 344.0F;  ///< At scale 1.
+/// Widths of the side panels in window units: their full width, less in a narrow window.
+[[nodiscard]] float leftPanelWidth(const PanelContext& context);
+[[nodiscard]] float rightPanelWidth(const PanelContext& context);
+/// Where the view lies between the panels: its left and right edge, window units.
+struct ViewSpan {
+    float left;
+    float right;
+};
+[[nodiscard]] ViewSpan viewSpan(const PanelContext& context);
 
 /// A debug layer as menus and the View tab offer it.
 struct LayerInfo {
@@ -37,9 +44,14 @@ void drawTransport(const PanelContext& context);
 void drawLeftPanel(const PanelContext& context);
 void drawRightPanel(const PanelContext& context);
 void drawToasts(const PanelContext& context);
+/// A profile beside the model is offered.
+void drawOffer(const PanelContext& context);
 /// Open, save as, export; the question about unsaved changes; the confirmation of Delete.
 void drawDialogs(const PanelContext& context);
+void drawFileDialog(const PanelContext& context);
 void drawHelp(const PanelContext& context);
+/// The collision filter as a matrix, in a window of its own.
+void drawCollisions(const PanelContext& context);
 
 /// Tabs of the left panel.
 void drawSkeletonTab(const PanelContext& context);

@@ -82,6 +82,18 @@ void drawFit(const PanelContext& context) {
     Editor& editor = context.editor;
     physics::FitOptions fit = editor.document().state().fit;
     bool changed = false;
+    labelled("Preset", labelWidth(context));
+    if (ImGui::BeginCombo("##ragdollPreset", std::string(physics::infoOf(fit.preset).name).c_str())) {
+        for (const physics::PresetInfo& info : physics::presetInfos()) {
+            if (ImGui::Selectable(std::string(info.name).c_str(), info.preset == fit.preset)) {
+                fit.preset = info.preset;
+                changed = true;
+            }
+            tooltip(std::string(info.summary));
+        }
+        ImGui::EndCombo();
+    }
+    tooltip(std::string(physics::infoOf(fit.preset).summary));
     labelled("Total mass", labelWidth(context));
     ImGui::InputFloat("##total", &fit.totalMassKg, 0.0F, 0.0F, "%.1f kg");
     changed |= ImGui::IsItemDeactivatedAfterEdit() && fit.totalMassKg > 0.0F;
@@ -206,15 +218,6 @@ void drawStatsTab(const PanelContext& context) {
     row("Dolls", fmt::format("{}, {} bodies each", simulation.dollCount(), simulation.asset().profile.bodies.size()));
     drawQuality(simulation);
     ImGui::EndTable();
-}
-
-void drawLogTab(const PanelContext& context) {
-    const std::vector<std::string>& log = context.editor.workspace().log;
-    if (log.empty()) mutedText("Nothing has happened yet.");
-    ImGui::PushTextWrapPos(0.0F);
-    for (const std::string& line : log)
-        ImGui::TextUnformatted(line.c_str());
-    ImGui::PopTextWrapPos();
 }
 
 }  // namespace lutka::editor

@@ -1,13 +1,13 @@
-/// The left panel's tabs: the joint tree, the mapping of roles, the scene's objects.
+/// The left panel's tabs: the joint tree and the scene's objects.
 
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "editor/ui/panels.hpp"
+#include "editor/ui/role_drag.hpp"
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"
 
@@ -15,13 +15,6 @@ namespace lutka::editor {
 namespace {
 
 using animation::Role;
-
-// ASCII letters without their case; others as they are.
-bool containsText(std::string_view text, std::string_view part) {
-    const auto lower = [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); };
-    return std::search(text.begin(), text.end(), part.begin(), part.end(),
-                       [&](char a, char b) { return lower(a) == lower(b); }) != text.end();
-}
 
 std::optional<Role> roleOfJoint(const animation::HumanoidMap& map, int joint) {
     for (int role = 0; role < animation::kRoleCount; ++role) {
@@ -68,7 +61,8 @@ void roleTag(Role role, const std::string& joint) {
     ImGui::SameLine();
     // A joint that is called like its role needs no second word.
     ImGui::TextColored(accentColor(), "%s", name == joint ? "●" : name.c_str());
-    tooltip("The joint's role: " + name);
+    tooltip("The joint's role: " + name + ". Drag it onto another joint to move it there.");
+    dragRole(role);
 }
 
 void drawJoint(const PanelContext& context, const Tree& tree, int joint) {
@@ -102,6 +96,9 @@ void drawJoint(const PanelContext& context, const Tree& tree, int joint) {
     if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen() && body >= 0) {
         editor.select(Item{Item::Kind::body, active ? active->doll : 0, body}, ImGui::GetIO().KeyShift);
     }
+    if (const auto dropped = droppedRole()) {
+        editor.edit([&](EditorDocument& document) { return document.assignRole(*dropped, joint); });
+    }
     if (ImGui::BeginPopupContextItem("##assign")) {
         assignMenu(context, joint);
         ImGui::EndPopup();
@@ -126,65 +123,15 @@ void followSelection(const PanelContext& context) {
     }
 }
 
-// A joint's name in a combo of hundreds: filtered by typing.
-void jointCombo(const PanelContext& context, Role role, int joint, bool fixed) {
-    Editor& editor = context.editor;
-    const animation::Skeleton& skeleton = editor.document().character().skeleton;
-    const std::string shown = joint >= 0 ? skeleton.names[joint] : "(none)";
-    ImGui::SetNextItemWidth(-1.0F);
-    if (fixed) ImGui::PushStyleColor(ImGuiCol_Text, accentColor());
-    const bool open =
-        ImGui::BeginCombo("##combo", shown.c_str(), ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton);
-    if (fixed) ImGui::PopStyleColor();
-    if (!open) return;
-    static std::string filter;  // only one combo is open at a time
-    if (ImGui::IsWindowAppearing()) {
-        filter.clear();
-        ImGui::SetKeyboardFocusHere();
+// Roles that a ragdoll needs and no joint has, to be dragged to one.
+void drawMissingRoles(const PanelContext& context) {
+    const animation::HumanoidMap& map = context.editor.document().state().map;
+    if (map.missing.empty()) return;
+    ImGui::TextColored(warningColor(), "Without a joint (drag to one):");
+    for (const Role role : map.missing) {
+        ImGui::SmallButton(std::string(animation::roleName(role)).c_str());
+        dragRole(role);
     }
-    ImGui::SetNextItemWidth(-1.0F);
-    ImGui::InputTextWithHint("##filter", "type to search", &filter);
-    if (ImGui::Selectable("(none)", joint < 0)) {
-        editor.edit([&](EditorDocument& document) { return document.unmapRole(role); });
-    }
-    for (int i = 0; i < skeleton.jointCount(); ++i) {
-        if (!containsText(skeleton.names[i], filter)) continue;
-        ImGui::PushID(i);
-        if (ImGui::Selectable(skeleton.names[i].c_str(), i == joint)) {
-            editor.edit([&](EditorDocument& document) { return document.assignRole(role, i); });
-        }
-        ImGui::PopID();
-    }
-    ImGui::EndCombo();
-}
-
-void roleRow(const PanelContext& context, Role role) {
-    const DocumentState& state = context.editor.document().state();
-    const auto& binding = state.map[role];
-    const auto& fixed = state.fixed[animation::indexOf(role)];
-    ImGui::PushID(animation::indexOf(role));
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::AlignTextToFramePadding();
-    const bool lacking = !binding && animation::isRequired(role);
-    ImGui::TextColored(
-        lacking ? errorColor() : ImGui::GetStyleColorVec4(binding ? ImGuiCol_Text : ImGuiCol_TextDisabled), "%s",
-        std::string(animation::roleName(role)).c_str());
-    ImGui::TableNextColumn();
-    jointCombo(context, role, binding ? binding->joint : animation::kNoJoint, fixed.has_value());
-    if (binding) {
-        tooltip(fmt::format("{}{}", binding->reason, fixed ? "\nFixed by you." : ""));
-    }
-    ImGui::TableNextColumn();
-    ImGui::AlignTextToFramePadding();
-    if (binding) {
-        const ImVec4 color = binding->confidence > 0.8F   ? goodColor()
-                             : binding->confidence > 0.5F ? warningColor()
-                                                          : errorColor();
-        ImGui::TextColored(color, "%.0f", static_cast<double>(binding->confidence * 100.0F));
-        tooltip("How sure the mapper is, of 100: " + binding->reason);
-    }
-    ImGui::PopID();
 }
 
 }  // namespace
@@ -194,6 +141,7 @@ void drawSkeletonTab(const PanelContext& context) {
     ImGui::SetNextItemWidth(-1.0F);
     ImGui::InputTextWithHint("##search", "search joints", &context.state.jointFilter);
     const animation::Skeleton& skeleton = context.editor.document().character().skeleton;
+    drawMissingRoles(context);
     ImGui::BeginChild("##tree", {0, 0}, true, ImGuiWindowFlags_HorizontalScrollbar);
     ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, context.px(11));
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(context.px(6), context.px(3)));
@@ -206,45 +154,6 @@ void drawSkeletonTab(const PanelContext& context) {
         }
     }
     ImGui::PopStyleVar(2);
-    ImGui::EndChild();
-}
-
-void drawMappingTab(const PanelContext& context) {
-    Editor& editor = context.editor;
-    const animation::HumanoidMap& map = editor.document().state().map;
-    if (ImGui::Button("Map again")) editor.edit([](EditorDocument& document) { return document.mapAgain(false); });
-    tooltip("Assigns all roles anew around those that you fixed");
-    ImGui::SameLine();
-    if (ImGui::Button("L → R")) {
-        editor.edit([](EditorDocument& document) { return document.mirrorRoles(animation::Side::left); });
-    }
-    tooltip("Mirrors the left side's joints to the right");
-    ImGui::SameLine();
-    if (ImGui::Button("R → L")) {
-        editor.edit([](EditorDocument& document) { return document.mirrorRoles(animation::Side::right); });
-    }
-    tooltip("Mirrors the right side's joints to the left");
-    ImGui::SameLine();
-    if (ImGui::Button("Forget")) editor.edit([](EditorDocument& document) { return document.mapAgain(true); });
-    tooltip("Forgets what you fixed and maps from scratch");
-    mutedText(fmt::format("Confidence {:.0f} of 100. Choose a joint to fix a role (shown in orange).",
-                          map.confidence * 100.0F));
-    ImGui::PushStyleColor(ImGuiCol_ChildBg, 0U);
-    ImGui::BeginChild("##roles");
-    ImGui::PopStyleColor();
-    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(context.px(3), context.px(1)));
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(context.px(6), context.px(2.5F)));
-    if (ImGui::BeginTable("##roleTable", 3, ImGuiTableFlags_SizingFixedFit)) {
-        ImGui::TableSetupColumn("role", ImGuiTableColumnFlags_WidthFixed, context.px(104));
-        ImGui::TableSetupColumn("joint", ImGuiTableColumnFlags_WidthStretch);
-        ImGui::TableSetupColumn("sure", ImGuiTableColumnFlags_WidthFixed, context.px(26));
-        for (int role = 0; role < animation::kRoleCount; ++role)
-            roleRow(context, animation::roleAt(role));
-        ImGui::EndTable();
-    }
-    ImGui::PopStyleVar(2);
-    for (const std::string& warning : map.warnings)
-        mutedText(warning);
     ImGui::EndChild();
 }
 

@@ -2,6 +2,9 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "editor/ui/style.hpp"
 
 namespace lutka::editor {
@@ -33,6 +36,13 @@ void tooltip(const std::string& text) {
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
+}
+
+// ASCII letters without their case; others as they are.
+bool containsText(std::string_view text, std::string_view part) {
+    const auto lower = [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); };
+    return std::search(text.begin(), text.end(), part.begin(), part.end(),
+                       [&](char a, char b) { return lower(a) == lower(b); }) != text.end();
 }
 
 void chip(const std::string& text, unsigned int color) {

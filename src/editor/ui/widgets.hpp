@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace lutka::editor {
 
@@ -12,6 +13,8 @@ void mutedText(const std::string& text);
 void labelled(const char* label, float labelWidth);
 /// Shows `text` when the last widget is hovered, and not while something is dragged.
 void tooltip(const std::string& text);
+/// Whether a text holds another, whatever the case of its ASCII letters.
+[[nodiscard]] bool containsText(std::string_view text, std::string_view part);
 /// A small coloured word in a rounded box.
 void chip(const std::string& text, unsigned int color);
 

@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+
+#include "editor/joint_pick.hpp"
+#include "editor/states/states.hpp"
+
+namespace lutka::editor {
+namespace {
+
+constexpr render::Color kJoint{120, 200, 255, 255};
+constexpr render::Color kHot{255, 90, 30, 255};
+
+/// PickJoint: every joint is shown, and a click gives the one under the mouse to the role that asked.
+class PickJointHandler final : public StateHandler {
+  public:
+    explicit PickJointHandler(Workspace& workspace) : workspace_(workspace) {}
+
+    void exit() override {
+        workspace_.pickRole.reset();
+        workspace_.hotJoint = animation::kNoJoint;
+        workspace_.hint.clear();
+        workspace_.press.reset();
+    }
+
+    void update() override {
+        if (!workspace_.pickRole) return;
+        const std::vector<vec3> places = workspace_.worldOfJoints(0);
+        const animation::Skeleton& skeleton = workspace_.document->character().skeleton;
+        workspace_.hotJoint = jointUnder(skeleton, places, workspace_.camera, workspace_.mouse, workspace_.window);
+        render::addSkeleton(workspace_.overlay, places, skeleton.parents, kJoint);
+        const float size = workspace_.camera.distance * 0.008F;
+        for (int joint = 0; joint < skeleton.jointCount(); ++joint)
+            render::addCross(workspace_.overlay, places[joint], joint == workspace_.hotJoint ? size * 2 : size, kJoint);
+        const std::string_view role = animation::roleName(*workspace_.pickRole);
+        if (workspace_.hotJoint == animation::kNoJoint) {
+            workspace_.hint = fmt::format("Click the joint of {}   Esc: cancel", role);
+            return;
+        }
+        render::addSphere(workspace_.overlay, places[workspace_.hotJoint], size, kHot);
+        workspace_.hint =
+            fmt::format("{}: click takes \"{}\"   Esc: cancel", role, skeleton.names[workspace_.hotJoint]);
+    }
+
+    std::optional<Trigger> mouseButton(const InputEvent& event) override {
+        if (event.button == MouseButton::right && event.pressed) return workspace_.ended();
+        if (event.button != MouseButton::left || event.pressed || !workspace_.pickRole) return std::nullopt;
+        const std::vector<vec3> places = workspace_.worldOfJoints(0);
+        const int joint = jointUnder(workspace_.document->character().skeleton, places, workspace_.camera,
+                                     workspace_.mouse, workspace_.window);
+        if (joint == animation::kNoJoint) return std::nullopt;  // beside: the user may try again
+        workspace_.edit([&](EditorDocument& document) { return document.assignRole(*workspace_.pickRole, joint); });
+        return workspace_.ended();
+    }
+
+    std::optional<Trigger> wheel(float notches) override {
+        constexpr float perNotch = 0.89F;
+        render::dolly(workspace_.camera, std::pow(perNotch, notches));
+        return std::nullopt;
+    }
+
+    std::optional<Trigger> key(const InputEvent& event) override {
+        return event.pressed && event.key == Key::escape ? std::optional(workspace_.ended()) : std::nullopt;
+    }
+
+  private:
+    Workspace& workspace_;
+};
+
+}  // namespace
+
+std::unique_ptr<StateHandler> makePickJointHandler(Workspace& workspace) {
+    return std::make_unique<PickJointHandler>(workspace);
+}
+
+}  // namespace lutka::editor

@@ -1,0 +1,258 @@
+/// Open, save as and export: a path, the folder it lies in, and what can be chosen there by mouse or keyboard.
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+
+#include "editor/file_list.hpp"
+#include "editor/ui/panels.hpp"
+#include "editor/ui/style.hpp"
+#include "editor/ui/widgets.hpp"
+
+namespace lutka::editor {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr ImGuiWindowFlags kDialog = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
+                                     ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize;
+
+bool opens(Editor::Dialog dialog) {
+    return dialog == Editor::Dialog::openModel;
+}
+
+fs::path suggestedPath(const PanelContext& context, Editor::Dialog dialog) {
+    const EditorDocument& document = context.editor.document();
+    std::error_code failed;
+    switch (dialog) {
+        case Editor::Dialog::saveAs:
+            return fs::absolute(document.profileFile(), failed);
+        case Editor::Dialog::exportBaked:
+            return fs::absolute(document.profileFile().parent_path() / (document.character().name + "_fall.glb"),
+                                failed);
+        case Editor::Dialog::openModel:
+        case Editor::Dialog::none:
+            break;
+    }
+    return fs::absolute(document.character().file, failed).parent_path() / "";
+}
+
+const char* titleOf(Editor::Dialog dialog) {
+    switch (dialog) {
+        case Editor::Dialog::openModel:
+            return "Open a model, a profile or a scene";
+        case Editor::Dialog::saveAs:
+            return "Save the profile as";
+        case Editor::Dialog::exportBaked:
+            return "Export the fall as a baked glb";
+        case Editor::Dialog::none:
+            break;
+    }
+    return "";
+}
+
+FileFilter filterOf(Editor::Dialog dialog) {
+    if (dialog == Editor::Dialog::saveAs) return FileFilter::profiles;
+    return dialog == Editor::Dialog::exportBaked ? FileFilter::baked : FileFilter::models;
+}
+
+// The folder that is shown: the typed one, or that of the typed file.
+fs::path folderOf(const std::string& typed) {
+    std::error_code failed;
+    const fs::path path(typed);
+    if (fs::is_directory(path, failed)) return path;
+    return path.parent_path().empty() ? fs::path(".") : path.parent_path();
+}
+
+void goTo(UiState& state, const fs::path& folder) {
+    std::error_code failed;
+    const fs::path file = fs::is_directory(fs::path(state.path), failed) ? fs::path() : fs::path(state.path).filename();
+    state.path = (folder.lexically_normal() / (opens(state.fileDialog) ? fs::path() : file)).string();
+    state.fileIndex = -1;
+}
+
+// The folders above, each a button.
+void drawCrumbs(const PanelContext& context, const fs::path& folder) {
+    std::vector<fs::path> crumbs;
+    for (fs::path at = folder.lexically_normal(); !at.empty(); at = at.parent_path()) {
+        if (!at.filename().empty() || at == at.root_path()) crumbs.push_back(at);
+        if (at == at.parent_path()) break;
+    }
+    std::reverse(crumbs.begin(), crumbs.end());
+    constexpr std::size_t most = 5;
+    const std::size_t first = crumbs.size() > most ? crumbs.size() - most : 0;
+    for (std::size_t i = first; i < crumbs.size(); ++i) {
+        if (i > first) ImGui::SameLine(0.0F, context.px(3));
+        const std::string name = crumbs[i].filename().empty() ? "/" : crumbs[i].filename().string();
+        ImGui::PushID(static_cast<int>(i));
+        if (ImGui::SmallButton(name.c_str())) goTo(context.state, crumbs[i]);
+        tooltip(readablePath(crumbs[i]));
+        ImGui::PopID();
+    }
+}
+
+// The arrows choose, without taking the keyboard from the field.
+void moveByKeys(UiState& state, const std::vector<FileEntry>& entries, const fs::path& folder) {
+    const int count = static_cast<int>(entries.size());
+    int wanted = state.fileIndex;
+    if (ImGui::IsKeyPressed(static_cast<int>(Key::down))) ++wanted;
+    if (ImGui::IsKeyPressed(static_cast<int>(Key::up))) --wanted;
+    if (ImGui::IsKeyPressed(static_cast<int>(Key::pageDown))) wanted += 10;
+    if (ImGui::IsKeyPressed(static_cast<int>(Key::pageUp))) wanted -= 10;
+    wanted = std::clamp(wanted, -1, count - 1);
+    if (wanted == state.fileIndex || wanted < 0) return;
+    state.fileIndex = wanted;
+    state.chosen = folder / entries[wanted].name;
+    state.scrollToFile = true;
+}
+
+// Whether a file was chosen for good (double click).
+bool drawList(const PanelContext& context, const fs::path& folder) {
+    UiState& state = context.state;
+    const std::vector<FileEntry> entries = listFolder(folder, state.fileFilter);
+    moveByKeys(state, entries, folder);
+    bool done = false;
+    ImGui::BeginChild("##folder", {context.px(520), context.px(240)}, true);
+    if (entries.empty()) mutedText("Nothing of that kind is here. Choose another folder, or show all files below.");
+    for (int i = 0; i < static_cast<int>(entries.size()); ++i) {
+        const FileEntry& entry = entries[i];
+        const std::string name = entry.name + (entry.folder ? "/" : "");
+        if (ImGui::Selectable(name.c_str(), i == state.fileIndex, ImGuiSelectableFlags_AllowDoubleClick)) {
+            state.chosen.clear();
+            if (entry.folder) {
+                goTo(state, folder / entry.name);
+            } else {
+                state.path = (folder / entry.name).string();
+                state.fileIndex = i;
+                done = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+            }
+        }
+        if (i == state.fileIndex && state.scrollToFile) ImGui::SetScrollHereY();
+    }
+    state.scrollToFile = false;
+    ImGui::EndChild();
+    return done;
+}
+
+void drawNewFolder(const PanelContext& context, const fs::path& folder) {
+    UiState& state = context.state;
+    if (ImGui::Button("New folder")) ImGui::OpenPopup("##newFolder");
+    if (!ImGui::BeginPopup("##newFolder")) return;
+    if (ImGui::IsWindowAppearing()) {
+        state.newFolder.clear();
+        ImGui::SetKeyboardFocusHere();
+    }
+    const bool named =
+        ImGui::InputTextWithHint("##name", "its name", &state.newFolder, ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::SameLine();
+    if ((ImGui::Button("Make") || named) && !state.newFolder.empty()) {
+        std::error_code failed;
+        fs::create_directories(folder / state.newFolder, failed);
+        if (failed) {
+            context.editor.workspace().say(Toast::Kind::error,
+                                           (folder / state.newFolder).string() + ": " + failed.message());
+        } else {
+            goTo(state, folder / state.newFolder);
+        }
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+}
+
+void finish(const PanelContext& context, Editor::Dialog dialog) {
+    Editor& editor = context.editor;
+    fs::path file(context.state.path);
+    if (!file.has_extension() && dialog == Editor::Dialog::saveAs) file += ".ragdoll.json";
+    if (!file.has_extension() && dialog == Editor::Dialog::exportBaked) file += ".glb";
+    switch (dialog) {
+        case Editor::Dialog::openModel:
+            editor.open(file);
+            break;
+        case Editor::Dialog::saveAs:
+            editor.requestSave(file);
+            break;
+        case Editor::Dialog::exportBaked:
+            editor.requestExport(file, context.state.exportSeconds);
+            break;
+        case Editor::Dialog::none:
+            break;
+    }
+}
+
+void begin(const PanelContext& context) {
+    UiState& state = context.state;
+    state.fileDialog = context.editor.dialog;
+    state.path = suggestedPath(context, state.fileDialog).string();
+    state.fileFilter = filterOf(state.fileDialog);
+    state.fileIndex = -1;
+    state.chosen.clear();
+}
+
+// What Enter does: a folder is entered, a file is the answer.
+bool enter(UiState& state) {
+    if (!state.chosen.empty()) state.path = state.chosen.string();
+    state.chosen.clear();
+    std::error_code failed;
+    if (!fs::is_directory(fs::path(state.path), failed)) return true;
+    goTo(state, state.path);
+    return false;
+}
+
+void drawFilter(UiState& state) {
+    constexpr FileFilter filters[] = {FileFilter::models, FileFilter::profiles, FileFilter::baked, FileFilter::all};
+    if (!ImGui::BeginCombo("##filter", filterName(state.fileFilter))) return;
+    for (const FileFilter filter : filters) {
+        if (ImGui::Selectable(filterName(filter), filter == state.fileFilter)) {
+            state.fileFilter = filter;
+            state.fileIndex = -1;
+        }
+    }
+    ImGui::EndCombo();
+}
+
+}  // namespace
+
+void drawFileDialog(const PanelContext& context) {
+    Editor& editor = context.editor;
+    UiState& state = context.state;
+    if (editor.dialog == Editor::Dialog::none) return;
+    const char* title = titleOf(editor.dialog);
+    if (!ImGui::IsPopupOpen(title)) {
+        begin(context);
+        ImGui::OpenPopup(title);
+    }
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x * 0.5F, size.y * 0.45F}, ImGuiCond_Always, {0.5F, 0.5F});
+    if (!ImGui::BeginPopupModal(title, nullptr, kDialog)) return;
+    const fs::path folder = folderOf(state.path);
+    drawCrumbs(context, folder);
+    ImGui::SetNextItemWidth(context.px(520));
+    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    bool done = ImGui::InputText("##path", &state.path, ImGuiInputTextFlags_EnterReturnsTrue) && enter(state);
+    done = drawList(context, folder) || done;
+    ImGui::SetNextItemWidth(context.px(220));
+    drawFilter(state);
+    if (!opens(editor.dialog)) {
+        ImGui::SameLine();
+        drawNewFolder(context, folder);
+    }
+    if (editor.dialog == Editor::Dialog::exportBaked) {
+        ImGui::SetNextItemWidth(context.px(220));
+        ImGui::SliderFloat("seconds", &state.exportSeconds, 0.5F, 20.0F, "%.1f");
+        mutedText("The first doll's motion from the start of the scene, as an animation of its skin.");
+    }
+    ImGui::Spacing();
+    const ImVec2 button(context.px(110), 0);
+    if (ImGui::Button(opens(editor.dialog) ? "Open" : "Save", button)) done = enter(state);
+    ImGui::SameLine();
+    const bool cancelled = ImGui::Button("Cancel", button) || ImGui::IsKeyPressed(static_cast<int>(Key::escape), false);
+    if (done || cancelled) {
+        const Editor::Dialog dialog = std::exchange(editor.dialog, Editor::Dialog::none);
+        ImGui::CloseCurrentPopup();
+        if (done && !cancelled) finish(context, dialog);
+    }
+    ImGui::EndPopup();
+}
+
+}  // namespace lutka::editor

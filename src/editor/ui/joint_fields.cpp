@@ -1,0 +1,205 @@
+/// The Body tab's joint: kind, limits in anatomical words, present angles, friction, and the swing that shows them.
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "editor/ui/part_fields.hpp"
+#include "editor/ui/style.hpp"
+#include "editor/ui/widgets.hpp"
+#include "physics/quality.hpp"
+
+namespace lutka::editor {
+namespace {
+
+using physics::AngleSpan;
+using physics::ConstraintProfile;
+using physics::JointRange;
+
+constexpr float kNearLimit = radians(5.0F);
+constexpr float kMostDeg = 175.0F;
+constexpr const char* kKinds[] = {"Hinge", "Cone and twist"};
+
+std::string capital(std::string_view word) {
+    std::string text(word);
+    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    return text;
+}
+
+void kindField(const PartFields& fields) {
+    const ConstraintProfile::Kind now = fields.constraint().kind;
+    const ConstraintProfile::Kind was = fields.fittedConstraint().kind;
+    const auto set = [&](ConstraintProfile::Kind kind) {
+        fields.change("Kind", [&](EditorDocument::Part& part) -> Result<void> {
+            if (part.constraint == nullptr) return {};
+            physics::changeKind(*part.constraint, kind, part.bind);
+            return {};
+        });
+    };
+    int kind = static_cast<int>(now);
+    fieldRow(fields, "Kind");
+    if (ImGui::Combo("##constraintKind", &kind, kKinds, 2)) set(static_cast<ConstraintProfile::Kind>(kind));
+    tooltip(
+        "A hinge bends about one axis; a cone and twist joint swings in two directions and turns. The flexion stays.");
+    if (wasText(fields, "constraintKind", now != was, kKinds[static_cast<int>(was)])) set(was);
+}
+
+/// One of the three turns of a joint.
+struct Turn {
+    AngleSpan JointRange::*span;
+    const physics::MotionWords& words;
+    bool flips;  // on the other side of the body
+};
+
+void setEnd(const PartFields& fields, const Turn& turn, bool high,
+            const std::function<float(EditorDocument::Part&)>& value, std::string_view word) {
+    fields.change(capital(word), [&](EditorDocument::Part& part) -> Result<void> {
+        if (part.constraint == nullptr) return {};
+        constexpr float least = radians(2.0F);  // between the ends
+        const bool flipped = turn.flips && fields.across(part);
+        JointRange range = physics::jointRange(*part.constraint, part.bind);
+        AngleSpan& span = range.*turn.span;
+        const float angle = value(part);
+        if (high != flipped) {
+            span.high = std::max(flipped ? -angle : angle, span.low + least);
+        } else {
+            span.low = std::min(flipped ? -angle : angle, span.high - least);
+        }
+        physics::setJointRange(*part.constraint, range, part.bind);
+        return {};
+    });
+}
+
+// A limit as the angle in its own direction: extension 10° is -10° of flexion.
+void endField(const PartFields& fields, const Turn& turn, bool high, const JointRange& now, const JointRange& was) {
+    const std::string_view word = high ? turn.words.high : turn.words.low;
+    const auto read = [&](const JointRange& range) {
+        const AngleSpan& span = range.*turn.span;
+        return degrees(high ? span.high : -span.low);
+    };
+    float shown = read(now);
+    const std::string label = capital(word);
+    fieldRow(fields, label.c_str());
+    const std::string id = fmt::format("##{}", word);
+    if (ImGui::SliderFloat(id.c_str(), &shown, -kMostDeg, kMostDeg, "%.0f°")) {
+        const float angle = radians(std::clamp(shown, -kMostDeg, kMostDeg)) * (high ? 1.0F : -1.0F);
+        setEnd(
+            fields, turn, high, [angle](EditorDocument::Part&) { return angle; }, word);
+    }
+    tooltip(fmt::format("How far the joint allows {}, from the bind pose", word));
+    const bool changed = std::abs(read(now) - read(was)) > 0.1F;
+    if (wasText(fields, label.c_str(), changed, fmt::format("{:.0f}°", read(was)))) {
+        const AngleSpan& span = was.*turn.span;
+        const float angle = high ? span.high : span.low;
+        setEnd(
+            fields, turn, high, [angle](EditorDocument::Part&) { return angle; }, word);
+    }
+}
+
+/// Where a joint is in one of its turns, radians from the bind pose.
+struct Present {
+    float angle, low, high;
+};
+
+// The present angle as a mark between the limits.
+void presentBar(const PartFields& fields, std::string_view name, const Present& present) {
+    const std::string label = fmt::format("{} now", name);
+    fieldRow(fields, label.c_str());
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::CalcItemWidth();
+    const float height = ImGui::GetFrameHeight() * 0.72F;
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const float middle = at.y + height * 0.6F;
+    const float past = std::max(present.low - present.angle, present.angle - present.high);
+    const ImVec4 color = past > 0.0F ? errorColor() : past > -kNearLimit ? warningColor() : goodColor();
+    list->AddRectFilled({at.x, middle - 3}, {at.x + width, middle + 3}, ImGui::GetColorU32(ImGuiCol_FrameBg), 3.0F);
+    const float span = std::max(present.high - present.low, 1e-4F);
+    const float along = std::clamp((present.angle - present.low) / span, 0.0F, 1.0F);
+    list->AddCircleFilled({at.x + along * width, middle}, height * 0.33F, ImGui::GetColorU32(color));
+    ImGui::Dummy({width, height});
+    tooltip(fmt::format("now {:.0f}°, between {:.0f}° and {:.0f}° from the bind pose", degrees(present.angle),
+                        degrees(present.low), degrees(present.high)));
+    ImGui::SameLine();
+    ImGui::TextColored(mutedColor(), "%.0f°", static_cast<double>(degrees(present.angle)));
+}
+
+void limitFields(const PartFields& fields, const physics::ConstraintState& state) {
+    const ConstraintProfile& constraint = fields.constraint();
+    const JointRange now = physics::jointRange(constraint, fields.bind());
+    const bool sameKind = constraint.kind == fields.fittedConstraint().kind;
+    const JointRange was = sameKind ? physics::jointRange(fields.fittedConstraint(), fields.fittedBind()) : now;
+    const physics::JointWords words = physics::jointWords(fields.profile().role);
+    const Turn flexion{&JointRange::flexion, words.flexion, false};
+    const Turn side{&JointRange::side, words.side, true};
+    const Turn twist{&JointRange::twist, words.twist, true};
+    const bool hinge = constraint.kind == ConstraintProfile::Kind::hinge;
+    // What the constraint calls 0 is the middle of the range.
+    const auto present = [](float angle, float limit, const AngleSpan& span) {
+        return Present{angle + limit + span.low, span.low, span.high};
+    };
+    endField(fields, flexion, true, now, was);
+    endField(fields, flexion, false, now, was);
+    if (hinge) {
+        presentBar(fields, words.flexion.name, present(state.hingeAngle, -constraint.hinge.lower, now.flexion));
+        return;
+    }
+    presentBar(fields, words.flexion.name, present(state.swing.z, constraint.cone.swingZ, now.flexion));
+    endField(fields, side, true, now, was);
+    endField(fields, side, false, now, was);
+    presentBar(fields, words.side.name, present(state.swing.y, constraint.cone.swingY, now.side));
+    endField(fields, twist, true, now, was);
+    endField(fields, twist, false, now, was);
+    presentBar(fields, words.twist.name, present(state.twist, constraint.cone.twist, now.twist));
+}
+
+void frictionField(const PartFields& fields) {
+    float friction = fields.constraint().frictionNm;
+    const float was = fields.fittedConstraint().frictionNm;
+    fieldRow(fields, "Friction");
+    if (ImGui::SliderFloat("##friction", &friction, 0.0F, 20.0F, "%.2f N m")) {
+        fields.change("Friction", [&](EditorDocument::Part& part) -> Result<void> {
+            if (part.constraint != nullptr) part.constraint->frictionNm = std::max(friction, 0.0F);
+            return {};
+        });
+    }
+    tooltip("The largest torque of dry friction in the joint. More: stiffer, calmer");
+    if (wasText(fields, "friction", fields.constraint().frictionNm != was, fmt::format("{:.2f}", was))) {
+        fields.change("Friction", [&](EditorDocument::Part& part) -> Result<void> {
+            if (const auto* fitted = fields.fittedConstraintOf(part)) part.constraint->frictionNm = fitted->frictionNm;
+            return {};
+        });
+    }
+}
+
+}  // namespace
+
+void drawJointFields(const PartFields& fields) {
+    Editor& editor = fields.context.editor;
+    const ConstraintProfile& constraint = fields.constraint();
+    const auto bodies = editor.player().simulation().worldFromBody(fields.doll);
+    const auto state = physics::measureConstraint(constraint, bodies[constraint.parent], bodies[constraint.child]);
+    const auto& parent = editor.document().profile().bodies[constraint.parent];
+    caption(fmt::format("JOINT TO {}", animation::roleName(parent.role)).c_str());
+    kindField(fields);
+    limitFields(fields, state);
+    frictionField(fields);
+    const bool swinging = editor.swing() != nullptr;
+    if (ImGui::Button(swinging ? "Stop" : "Swing through the limits")) {
+        if (swinging) {
+            editor.endSwing();
+        } else {
+            editor.perform(Action::swingLimits);
+        }
+    }
+    tooltip("L: shows what the limits allow while the simulation stands still; the doll ends where it was");
+    ImGui::SameLine();
+    const ImVec4 color = state.separationM > 0.01F ? warningColor() : mutedColor();
+    if (swinging) {
+        ImGui::TextColored(accentColor(), "%s", editor.swing()->text().c_str());
+    } else {
+        ImGui::TextColored(color, "apart %.1f mm", static_cast<double>(state.separationM * 1000.0F));
+    }
+}
+
+}  // namespace lutka::editor

@@ -1,0 +1,127 @@
+/// The tab Mapping: the joint of each role, how sure the mapper is and why.
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "editor/ui/panels.hpp"
+#include "editor/ui/role_drag.hpp"
+#include "editor/ui/style.hpp"
+#include "editor/ui/widgets.hpp"
+
+namespace lutka::editor {
+namespace {
+
+using animation::Role;
+
+// A joint's name in a combo of hundreds: filtered by typing.
+void jointCombo(const PanelContext& context, Role role, int joint, bool fixed) {
+    Editor& editor = context.editor;
+    const animation::Skeleton& skeleton = editor.document().character().skeleton;
+    const std::string shown = joint >= 0 ? skeleton.names[joint] : "(none)";
+    ImGui::SetNextItemWidth(-context.px(28));
+    if (fixed) ImGui::PushStyleColor(ImGuiCol_Text, accentColor());
+    const bool open =
+        ImGui::BeginCombo("##combo", shown.c_str(), ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton);
+    if (fixed) ImGui::PopStyleColor();
+    if (!open) return;
+    static std::string filter;  // only one combo is open at a time
+    if (ImGui::IsWindowAppearing()) {
+        filter.clear();
+        ImGui::SetKeyboardFocusHere();
+    }
+    ImGui::SetNextItemWidth(-1.0F);
+    ImGui::InputTextWithHint("##filter", "type to search", &filter);
+    if (ImGui::Selectable("(none)", joint < 0)) {
+        editor.edit([&](EditorDocument& document) { return document.unmapRole(role); });
+    }
+    for (int i = 0; i < skeleton.jointCount(); ++i) {
+        if (!containsText(skeleton.names[i], filter)) continue;
+        ImGui::PushID(i);
+        if (ImGui::Selectable(skeleton.names[i].c_str(), i == joint)) {
+            editor.edit([&](EditorDocument& document) { return document.assignRole(role, i); });
+        }
+        ImGui::PopID();
+    }
+    ImGui::EndCombo();
+}
+
+void roleRow(const PanelContext& context, Role role) {
+    const DocumentState& state = context.editor.document().state();
+    const auto& binding = state.map[role];
+    const auto& fixed = state.fixed[animation::indexOf(role)];
+    ImGui::PushID(animation::indexOf(role));
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
+    const bool lacking = !binding && animation::isRequired(role);
+    ImGui::TextColored(
+        lacking ? errorColor() : ImGui::GetStyleColorVec4(binding ? ImGuiCol_Text : ImGuiCol_TextDisabled), "%s",
+        std::string(animation::roleName(role)).c_str());
+    tooltip("Drag it onto a joint, in the tree or in the view");
+    dragRole(role);
+    ImGui::TableNextColumn();
+    jointCombo(context, role, binding ? binding->joint : animation::kNoJoint, fixed.has_value());
+    if (binding) {
+        tooltip(fmt::format("{}{}", binding->reason, fixed ? "\nFixed by you." : ""));
+    }
+    ImGui::SameLine(0.0F, context.px(3));
+    const bool asking = context.editor.workspace().pickRole == role;
+    if (asking) ImGui::PushStyleColor(ImGuiCol_Text, accentColor());
+    if (ImGui::SmallButton("◎")) context.editor.beginPickJoint(role);
+    if (asking) ImGui::PopStyleColor();
+    tooltip("Pick its joint in the view");
+    ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
+    if (binding) {
+        const ImVec4 color = binding->confidence > 0.8F   ? goodColor()
+                             : binding->confidence > 0.5F ? warningColor()
+                                                          : errorColor();
+        ImGui::TextColored(color, "%.0f", static_cast<double>(binding->confidence * 100.0F));
+        tooltip("How sure the mapper is, of 100: " + binding->reason);
+    }
+    ImGui::PopID();
+}
+
+}  // namespace
+
+void drawMappingTab(const PanelContext& context) {
+    Editor& editor = context.editor;
+    const animation::HumanoidMap& map = editor.document().state().map;
+    if (ImGui::Button("Map again")) editor.edit([](EditorDocument& document) { return document.mapAgain(false); });
+    tooltip("Assigns all roles anew around those that you fixed");
+    ImGui::SameLine();
+    if (ImGui::Button("L → R")) {
+        editor.edit([](EditorDocument& document) { return document.mirrorRoles(animation::Side::left); });
+    }
+    tooltip("Mirrors the left side's joints to the right");
+    ImGui::SameLine();
+    if (ImGui::Button("R → L")) {
+        editor.edit([](EditorDocument& document) { return document.mirrorRoles(animation::Side::right); });
+    }
+    tooltip("Mirrors the right side's joints to the left");
+    ImGui::SameLine();
+    if (ImGui::Button("Forget")) editor.edit([](EditorDocument& document) { return document.mapAgain(true); });
+    tooltip("Forgets what you fixed and maps from scratch");
+    mutedText(fmt::format("Confidence {:.0f} of 100. Choose a joint to fix a role (shown in orange).",
+                          map.confidence * 100.0F));
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, 0U);
+    ImGui::BeginChild("##roles");
+    ImGui::PopStyleColor();
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(context.px(3), context.px(1)));
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(context.px(6), context.px(2.5F)));
+    if (ImGui::BeginTable("##roleTable", 3, ImGuiTableFlags_SizingFixedFit)) {
+        ImGui::TableSetupColumn("role", ImGuiTableColumnFlags_WidthFixed, context.px(104));
+        ImGui::TableSetupColumn("joint", ImGuiTableColumnFlags_WidthStretch);
+        ImGui::TableSetupColumn("sure", ImGuiTableColumnFlags_WidthFixed, context.px(26));
+        for (int role = 0; role < animation::kRoleCount; ++role)
+            roleRow(context, animation::roleAt(role));
+        ImGui::EndTable();
+    }
+    ImGui::PopStyleVar(2);
+    for (const std::string& warning : map.warnings)
+        mutedText(warning);
+    ImGui::EndChild();
+}
+
+}  // namespace lutka::editor
