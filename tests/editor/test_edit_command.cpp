@@ -109,7 +109,7 @@ TEST_CASE("a script sets a limit by its slider, changes another value, undoes th
     const Scratch scratch;
     Script script;
     script.key(Key::space).click(663, 355);       // the left lower leg
-    script.drag(1178, 352, 1130, 352).release();  // its flexion
+    script.drag(1178, 352, 1160, 352).release();  // its flexion
     script.drag(1052, 436, 1160, 436).release();  // its friction
     script.key(Key::z, kControl).key(Key::s, kControl).wait(2);
     script.save(scratch / "script.jsonl");
