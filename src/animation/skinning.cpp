@@ -1,26 +1,39 @@
 #include "animation/skinning.hpp"
 
-#include <glm/geometric.hpp>
-
+#include "animation/wide/kernels.hpp"
 #include "core/assert.hpp"
 
 namespace lutka::animation {
 namespace {
 
-SkinMatrix blend(const SkinnedMesh& mesh, std::size_t vertex, std::span<const SkinMatrix> palette) {
-    SkinMatrix sum{{vec4(0), vec4(0), vec4(0)}};
-    for (int slot = 0; slot < kMaxInfluences; ++slot) {
-        const float weight = mesh.weights[vertex][slot];
-        if (weight == 0.0F) break;  // strongest first: the rest is zero too
-        const SkinMatrix& matrix = palette[mesh.joints[vertex][slot]];
-        for (int row = 0; row < 3; ++row)
-            sum.rows[row] += weight * matrix.rows[row];
-    }
-    return sum;
-}
+// The kernels read arrays of these as floats.
+static_assert(sizeof(vec3) == 3 * sizeof(float) && sizeof(vec4) == 4 * sizeof(float));
+static_assert(sizeof(SkinMatrix) == wide::kMatrixFloats * sizeof(float));
+static_assert(kMaxInfluences == 4);
 
-vec3 apply(const SkinMatrix& matrix, const vec4& v) {
-    return {glm::dot(matrix.rows[0], v), glm::dot(matrix.rows[1], v), glm::dot(matrix.rows[2], v)};
+wide::SkinJob jobOf(const SkinnedMesh& mesh, std::span<const SkinMatrix> palette, std::span<vec3> positions,
+                    std::span<vec3> normals, std::span<vec4> tangents) {
+    LUTKA_ASSERT(positions.size() == mesh.positions.size());
+    LUTKA_ASSERT(normals.empty() || normals.size() == mesh.normals.size());
+    LUTKA_ASSERT(tangents.empty() || tangents.size() == mesh.tangents.size());
+    wide::SkinJob job{};
+    if (positions.empty()) return job;
+    job.positions = &mesh.positions[0].x;
+    job.joints = mesh.joints[0].data();
+    job.weights = mesh.weights[0].data();
+    job.palette = &palette[0].rows[0].x;
+    job.jointCount = static_cast<int>(palette.size());
+    job.outPositions = &positions[0].x;
+    if (!normals.empty()) {
+        job.normals = &mesh.normals[0].x;
+        job.outNormals = &normals[0].x;
+    }
+    if (!tangents.empty()) {
+        job.tangents = &mesh.tangents[0].x;
+        job.outTangents = &tangents[0].x;
+    }
+    job.vertexCount = static_cast<long>(positions.size());
+    return job;
 }
 
 }  // namespace
@@ -38,14 +51,18 @@ void skinMatrices(std::span<const RigidTransform> bindModelFromJoint, std::span<
 }
 
 void skinVertices(const SkinnedMesh& mesh, std::span<const SkinMatrix> palette, std::span<vec3> positions,
-                  std::span<vec3> normals) {
-    LUTKA_ASSERT(positions.size() == mesh.positions.size());
-    LUTKA_ASSERT(normals.empty() || normals.size() == mesh.normals.size());
-    for (std::size_t vertex = 0; vertex < positions.size(); ++vertex) {
-        const SkinMatrix matrix = blend(mesh, vertex, palette);
-        positions[vertex] = apply(matrix, vec4(mesh.positions[vertex], 1.0F));
-        if (!normals.empty()) normals[vertex] = glm::normalize(apply(matrix, vec4(mesh.normals[vertex], 0.0F)));
-    }
+                  std::span<vec3> normals, std::span<vec4> tangents) {
+    skinVertices(bestInstructionSet(), mesh, palette, positions, normals, tangents);
+}
+
+void skinVertices(InstructionSet set, const SkinnedMesh& mesh, std::span<const SkinMatrix> palette,
+                  std::span<vec3> positions, std::span<vec3> normals, std::span<vec4> tangents) {
+    wide::kernelsOf(set).skin(jobOf(mesh, palette, positions, normals, tangents));
+}
+
+void skinVerticesByScalars(InstructionSet set, const SkinnedMesh& mesh, std::span<const SkinMatrix> palette,
+                           std::span<vec3> positions, std::span<vec3> normals, std::span<vec4> tangents) {
+    wide::kernelsOf(set).skinByScalars(jobOf(mesh, palette, positions, normals, tangents));
 }
 
 }  // namespace lutka::animation

@@ -1,19 +1,14 @@
 #pragma once
 
+#include "core/instruction_set.hpp"
 #include "physics/crowd/layout.hpp"
 
 namespace lutka::physics::crowd {
 
-/// What the kernels are compiled for. All give the same bits; a lane is a doll in each of them.
-enum class InstructionSet {
-    baseline,  ///< What every processor of the platform has (x86-64: SSE2, two registers a Wide).
-    avx2,      ///< One register a Wide.
-    avx512,    ///< The same with twice as many registers.
-};
-
-/// The widest that this processor and this build have.
-[[nodiscard]] InstructionSet bestInstructionSet();
-[[nodiscard]] bool hasInstructionSet(InstructionSet set);
+// A lane is a doll in each of the sets.
+using lutka::bestInstructionSet;
+using lutka::hasInstructionSet;
+using lutka::InstructionSet;
 
 /// Kernels of a set that is there.
 [[nodiscard]] const Kernels& kernelsOf(InstructionSet set);

@@ -97,6 +97,61 @@ float nodePoseError(const Character& character, const std::filesystem::path& fil
     return worst;
 }
 
+// How far linear blending in double precision is from what skinVertices() gives: metres, and for directions radians.
+// Directions that the blend nearly cancels have none and are left out.
+struct SkinError {
+    double position = 0;
+    double direction = 0;
+};
+SkinError skinError(const SkinnedMesh& mesh, std::span<const SkinMatrix> palette) {
+    const std::size_t count = mesh.positions.size();
+    std::vector<vec3> positions(count);
+    std::vector<vec3> normals(count);
+    std::vector<vec4> tangents(mesh.tangents.size());
+    skinVertices(mesh, palette, positions, normals, tangents);
+    const auto blend = [&](std::size_t vertex, const vec4& v) {
+        glm::dvec3 sum(0);
+        for (std::size_t slot = 0; slot < 4; ++slot) {
+            const glm::dvec4 wide(v);
+            const auto& rows = palette[mesh.joints[vertex][slot]].rows;
+            sum += static_cast<double>(mesh.weights[vertex][slot]) * glm::dvec3(glm::dot(glm::dvec4(rows[0]), wide),
+                                                                                glm::dot(glm::dvec4(rows[1]), wide),
+                                                                                glm::dot(glm::dvec4(rows[2]), wide));
+        }
+        return sum;
+    };
+    SkinError worst;
+    const auto compareDirection = [&](const glm::dvec3& expected, const vec3& got) {
+        if (glm::length(expected) < 0.05) return;
+        worst.direction = std::max(worst.direction, glm::distance(glm::normalize(expected), glm::dvec3(got)));
+    };
+    for (std::size_t v = 0; v < count; ++v) {
+        worst.position =
+            std::max(worst.position, glm::distance(blend(v, vec4(mesh.positions[v], 1.0F)), glm::dvec3(positions[v])));
+        compareDirection(blend(v, vec4(mesh.normals[v], 0.0F)), normals[v]);
+        if (tangents.empty()) continue;
+        compareDirection(blend(v, vec4(vec3(mesh.tangents[v]), 0.0F)), vec3(tangents[v]));
+        CHECK(tangents[v].w == mesh.tangents[v].w);
+    }
+    return worst;
+}
+
+// Whether every instruction set gives the bits of the plain loop.
+bool sameBitsOnAllSets(const SkinnedMesh& mesh, std::span<const SkinMatrix> palette) {
+    const std::size_t count = mesh.positions.size();
+    std::vector<vec3> positions[2] = {std::vector<vec3>(count), std::vector<vec3>(count)};
+    std::vector<vec3> normals[2] = {std::vector<vec3>(count), std::vector<vec3>(count)};
+    std::vector<vec4> tangents[2] = {std::vector<vec4>(mesh.tangents.size()), std::vector<vec4>(mesh.tangents.size())};
+    skinVerticesByScalars(InstructionSet::baseline, mesh, palette, positions[0], normals[0], tangents[0]);
+    bool same = true;
+    for (const InstructionSet set : {InstructionSet::baseline, InstructionSet::avx2}) {
+        if (!hasInstructionSet(set)) continue;
+        skinVertices(set, mesh, palette, positions[1], normals[1], tangents[1]);
+        same = same && positions[0] == positions[1] && normals[0] == normals[1] && tangents[0] == tangents[1];
+    }
+    return same;
+}
+
 }  // namespace
 
 TEST_CASE("every model of the zoo loads, or is refused for its known damage") {
@@ -126,6 +181,31 @@ TEST_CASE("the node pose of every zoo model shows what the file shows") {
         const float error = nodePoseError(character, model.file) / heightOf(character);
         std::printf("%-32s node pose against the formula: %.2e of the height\n", model.folder.c_str(), error);
         if (!warns(character, "nodes' pose scales joints")) CHECK(error < 1e-3F);
+    }
+}
+
+TEST_CASE("wide skinning of every zoo model is the plain loop's, and both are the sum of the joints' motions") {
+    if (!zooIsThere()) return;
+    ImportOptions options;
+    options.loadTextures = false;
+    for (const Model& model : models()) {
+        INFO(model.folder);
+        const Result<Character> character = importCharacter(model.file, options);
+        if (!character.ok()) continue;
+        const Skeleton& skeleton = character.value().skeleton;
+        std::vector<RigidTransform> pose = skeleton.nodeParentFromJoint;
+        for (std::size_t joint = 0; joint < pose.size(); ++joint)
+            pose[joint].rotation =
+                pose[joint].rotation * glm::angleAxis(0.1F * static_cast<float>(joint % 7), vec3(0.6F, 0, 0.8F));
+        localToModel(skeleton, pose, pose);
+        std::vector<SkinMatrix> palette(pose.size());
+        skinMatrices(skeleton.bindModelFromJoint, pose, palette);
+        for (const SkinnedMesh& mesh : character.value().meshes) {
+            const SkinError error = skinError(mesh, palette);
+            CHECK(error.position < 1e-5);
+            CHECK(error.direction < 1e-4);
+            CHECK(sameBitsOnAllSets(mesh, palette));
+        }
     }
 }
 

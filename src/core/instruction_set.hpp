@@ -1,0 +1,16 @@
+#pragma once
+
+namespace lutka {
+
+/// What wide kernels are compiled for, each choosing at run time what the processor has. All sets give the same bits.
+enum class InstructionSet {
+    baseline,  ///< What every processor of the platform has (x86-64: SSE2, four floats a register).
+    avx2,      ///< Eight floats a register.
+    avx512,    ///< Its 32 registers; kernels keep eight floats in each.
+};
+
+/// The widest that this processor and this build have.
+[[nodiscard]] InstructionSet bestInstructionSet();
+[[nodiscard]] bool hasInstructionSet(InstructionSet set);
+
+}  // namespace lutka
