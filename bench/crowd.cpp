@@ -44,8 +44,11 @@ void apply(CrowdTuning& tuning, const std::string& setting) {
                                               {"limitErp", &tuning.limitErp},
                                               {"contactErp", &tuning.contactErp},
                                               {"jointStiffness", &tuning.jointStiffness},
-                                              {"relaxGap", &tuning.relaxGap},
-                                              {"relaxAngle", &tuning.relaxAngle},
+                                              {"mendGap", &tuning.mendGap},
+                                              {"mendAngle", &tuning.mendAngle},
+                                              {"aimGap", &tuning.aimGap},
+                                              {"letGo", &tuning.letGo},
+                                              {"nearSpeed", &tuning.nearSpeed},
                                               {"contactTolerance", &tuning.contactTolerance},
                                               {"limitTolerance", &tuning.limitTolerance},
                                               {"firstTouch", &tuning.firstTouch},
@@ -64,8 +67,10 @@ void apply(CrowdTuning& tuning, const std::string& setting) {
                                               {"sleepSpeed", &tuning.sleepSpeed},
                                               {"angularDamping", &tuning.angularDamping},
                                               {"leastGyration", &tuning.leastGyration}};
-    const std::map<std::string, int*> whole{
-        {"substeps", &tuning.substeps}, {"passes", &tuning.passes}, {"relaxPasses", &tuning.relaxPasses}};
+    const std::map<std::string, int*> whole{{"substeps", &tuning.substeps},
+                                            {"passes", &tuning.passes},
+                                            {"patience", &tuning.patience},
+                                            {"mendEvery", &tuning.mendEvery}};
     if (const auto real = reals.find(name); real != reals.end())
         *real->second = value;
     else if (const auto number = whole.find(name); number != whole.end())

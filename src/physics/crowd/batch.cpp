@@ -22,7 +22,10 @@ void clear(Wide& wide, int lane) {
 }  // namespace
 
 Batch::Batch(const Topology& topology)
-    : bodies(topology.bodies.size() + 1), joints(topology.joints.size()), tree(topology.bodies.size()) {}
+    : bodies(topology.bodies.size() + 1),
+      joints(topology.joints.size()),
+      tree(topology.bodies.size()),
+      firstContact(topology.bodies.size() + 1, 0) {}
 
 BatchView Batch::view(const Topology& topology) {
     return {topology.bodyCount(),
@@ -30,6 +33,7 @@ BatchView Batch::view(const Topology& topology) {
             static_cast<int>(contacts.size()),
             topology.bodies.data(),
             topology.joints.data(),
+            firstContact.data(),
             bodies.data(),
             joints.data(),
             tree.data(),
@@ -76,8 +80,8 @@ void readLane(const Batch& batch, int lane, std::span<BodyState> bodies) {
 void clearImpulses(Batch& batch, int lane) {
     for (JointLanes& joint : batch.joints) {
         writeVector(joint.frictionImpulse, lane, vec3(0));
+        writeVector(joint.hinge.impulse, lane, vec3(0));
         for (int i = 0; i < 2; ++i) {
-            clear(joint.hingeImpulse[i], lane);
             clear(joint.limit[i].impulse, lane);
             clear(joint.side[i], lane);
         }
@@ -91,8 +95,8 @@ void copyLane(const Batch& from, int fromLane, Batch& to, int toLane) {
         const JointLanes& source = from.joints[j];
         JointLanes& target = to.joints[j];
         copyWides(source.frictionImpulse, fromLane, target.frictionImpulse, toLane);
+        copyWides(source.hinge.impulse, fromLane, target.hinge.impulse, toLane);
         for (int i = 0; i < 2; ++i) {
-            copyWides(source.hingeImpulse[i], fromLane, target.hingeImpulse[i], toLane);
             copyWides(source.limit[i].impulse, fromLane, target.limit[i].impulse, toLane);
             copyWides(source.side[i], fromLane, target.side[i], toLane);
         }

@@ -16,7 +16,8 @@ struct Batch {
     std::vector<BodyLanes> bodies;  ///< One a body, and one of zeros that empty lanes of pair contacts point to.
     std::vector<JointLanes> joints;
     std::vector<TreeLanes> tree;               ///< One a body.
-    std::vector<StaticContactLanes> contacts;  ///< Of this step.
+    std::vector<StaticContactLanes> contacts;  ///< Of this step, body by body.
+    std::vector<int> firstContact;             ///< See BatchView.
     Wide brake{};                              ///< See BatchView.
     int doll[kLanes]{};                        ///< Which doll is in which lane.
     int used = 0;

@@ -63,6 +63,26 @@ static void findSelfPairs(const BatchView& batch, const SelfPair* pairs, int cou
     }
 }
 
+// What half a substep of free motion (`half` seconds) adds to the turning rate: the angular momentum stays, the rate
+// does not.
+LUTKA_LANES V3 spinOf(const BodyLanes& body, const BodyConstants& constants, const V3& angular, F half) {
+    const Axes axes = axesOf(body);
+    const V3 inertia = all(constants.inertia);
+    const V3 inverseInertia = all(constants.inverseInertia);
+    const V3 rate = transposed(axes, angular);
+    const V3 torque = cross(V3{rate.x * inertia.x, rate.y * inertia.y, rate.z * inertia.z}, rate);
+    return axes * V3{half * torque.x * inverseInertia.x, half * torque.y * inverseInertia.y,
+                     half * torque.z * inverseInertia.z};
+}
+
+// An arm of the body as it will be half way through the substep, shortened so that the rate times it and the substep's
+// length is the chord along which its end moves.
+LUTKA_LANES V3 halfWay(const BodyLanes& body, const V3& arm, F half) {
+    const V3 turn = (load(body.aim) + load(body.spin)) * half;
+    const F scale = all(1.0F) / (all(1.0F) + dot(turn, turn));
+    return (arm + cross(turn, arm)) * scale;
+}
+
 LUTKA_LANES void applyForces(const BatchView& batch, const SubstepParams& params) {
     const V3 gain = all(params.gravity) * all(params.dt);
     const F brake = load(*batch.brake);
@@ -76,6 +96,9 @@ LUTKA_LANES void applyForces(const BatchView& batch, const SubstepParams& params
         store(body.angular, turn);
         store(body.steadyVelocity, velocity);
         store(body.steadyAngular, turn);
+        store(body.inertia, onAxes(axesOf(body), batch.bodyConstants[b].inertia));
+        store(body.aim, turn);
+        store(body.spin, spinOf(body, batch.bodyConstants[b], turn, all(0.5F * params.dt)));
     }
 }
 
@@ -107,18 +130,21 @@ static void findMotion(const BatchView& batch, Wide& speed2, Wide& turn2) {
 
 // One body's substep: the orientation turns by the mean rate of the free motion over the substep (the angular momentum
 // stays, the rate does not), then the rate follows from the momentum. Keeping the rate instead would lose momentum,
-// and turning by the rate at the start would gain energy on slender bodies.
+// and turning by the rate at the start would gain energy on slender bodies. What was added to mend errors moves the
+// body and is forgotten.
 LUTKA_LANES void advanceBody(BodyLanes& body, const BodyConstants& constants, F dt) {
     store(body.position, load(body.position) + load(body.velocity) * dt);
     const Axes axes = axesOf(body);
     const V3 inertia = all(constants.inertia);
     const V3 inverseInertia = all(constants.inverseInertia);
+    const V3 steady = transposed(axes, load(body.steadyAngular));
     const V3 rate = transposed(axes, load(body.angular));
-    const V3 momentum{rate.x * inertia.x, rate.y * inertia.y, rate.z * inertia.z};
-    const V3 torque = cross(momentum, rate);
+    const V3 momentum{steady.x * inertia.x, steady.y * inertia.y, steady.z * inertia.z};
+    const V3 torque = cross(momentum, steady);
     const F half = all(0.5F) * dt;
     const V3 mean{rate.x + half * torque.x * inverseInertia.x, rate.y + half * torque.y * inverseInertia.y,
                   rate.z + half * torque.z * inverseInertia.z};
+    store(body.velocity, load(body.steadyVelocity));
     const Q q = load(body.rotation);
     const Q turn{mean.x * half, mean.y * half, mean.z * half, all(1.0F)};
     Q next = q * turn;

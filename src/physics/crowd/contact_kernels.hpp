@@ -105,15 +105,26 @@ static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& 
             (gather3(pair.bodyA, kPositionOffset) - gather3(pair.bodyB, kPositionOffset)) + (coreA - coreB);
         store(pair.separation, dot(normal, apart) - load(pair.radius));
         if (params.warmStart != 0) preparePair(pair, coreA, coreB);
+        store(pair.carriedNormal, load(pair.normalImpulse));
+        store(pair.carriedTangent[0], load(pair.tangentImpulse[0]));
+        store(pair.carriedTangent[1], load(pair.tangentImpulse[1]));
+    }
+}
+
+static void carryPairs(PairContactLanes* pairs, int count) {
+    for (int i = 0; i < count; ++i) {
+        const PairContactLanes& pair = pairs[i];
+        const F pressed = load(pair.carriedNormal);
+        if (bits(pressed > all(0.0F)) == 0) continue;
         PairVelocities v = velocitiesOf(pair);
-        applyPair(pair, v, 0, normal, load(pair.normalImpulse));
-        applyPair(pair, v, 1, load(pair.tangent[0]), load(pair.tangentImpulse[0]));
-        applyPair(pair, v, 2, load(pair.tangent[1]), load(pair.tangentImpulse[1]));
+        applyPair(pair, v, 0, load(pair.normal), pressed);
+        applyPair(pair, v, 1, load(pair.tangent[0]), load(pair.carriedTangent[0]));
+        applyPair(pair, v, 2, load(pair.tangent[1]), load(pair.carriedTangent[1]));
         storeVelocities(pair, v);
     }
 }
 
-static int solvePairs(PairContactLanes* pairs, int count, const SubstepParams& params, int useBias) {
+static int solvePairs(PairContactLanes* pairs, int count, const SubstepParams& params) {
     Mask pressed = noLanes();
     for (int i = 0; i < count; ++i) {
         PairContactLanes& pair = pairs[i];
@@ -133,9 +144,12 @@ static int solvePairs(PairContactLanes* pairs, int count, const SubstepParams& p
         applyPair(pair, v, 2, t2, after.second - before2);
 
         const V3 normal = load(pair.normal);
-        const F bias = contactBias(load(pair.separation), params, useBias);
+        const F bias = contactBias(load(pair.separation), params, 0);
         const F approach = dot(normal, slidingOf(pair, v));
-        const F change = -load(pair.normalMass) * (approach + bias);
+        const F off = approach + bias;
+        // A single body's mass is less than what a doll sets against a push: what pressed too much is taken back
+        // faster.
+        const F change = -load(pair.normalMass) * (off > all(0.0F) ? off * all(params.letGo) : off);
         const F total = most(carried + change, all(0.0F));
         pressed |= (total > all(0.0F)) | (carried > all(0.0F));
         store(pair.normalImpulse, total);
@@ -143,6 +157,24 @@ static int solvePairs(PairContactLanes* pairs, int count, const SubstepParams& p
         storeVelocities(pair, v);
     }
     return bits(pressed) != 0 ? 1 : 0;
+}
+
+static int mendPairs(PairContactLanes* pairs, int count, const SubstepParams& params) {
+    Mask any = noLanes();
+    for (int i = 0; i < count; ++i) {
+        PairContactLanes& pair = pairs[i];
+        const F zero = all(0.0F);
+        const Mask overlaps = (load(pair.separation) < all(-params.slop - params.mendGap)) & (load(pair.active) > zero);
+        if (bits(overlaps) == 0) continue;
+        any |= overlaps;
+        PairVelocities v = velocitiesOf(pair);
+        const V3 normal = load(pair.normal);
+        const F off = dot(normal, slidingOf(pair, v)) + contactBias(load(pair.separation), params, 1);
+        const F push = most(load(pair.normalMass) * -off, zero);
+        applyPair(pair, v, 0, normal, overlaps ? push : zero);
+        storeVelocities(pair, v);
+    }
+    return bits(any) != 0 ? 1 : 0;
 }
 
 }  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS

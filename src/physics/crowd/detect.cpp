@@ -120,9 +120,11 @@ class StaticContacts {
         }
         for (int body = 0; body < topology_.bodyCount(); ++body) {
             firstSlot_ = batch_.contacts.size();
+            batch_.firstContact[body] = static_cast<int>(firstSlot_);
             for (int lane = 0; lane < batch_.used; ++lane)
                 findOf(body, lane);
         }
+        batch_.firstContact[topology_.bodyCount()] = static_cast<int>(batch_.contacts.size());
     }
 
   private:

@@ -8,20 +8,23 @@
 namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
 
 // `near`: rows farther from their limit than this are left out of the substep.
-LUTKA_LANES void prepareLimit(JointLanes& joint, int index, const Symmetric& k, const V3& axis, F room, F side, F near,
-                              F stiffness, F firstTouch) {
+LUTKA_LANES Mask prepareLimit(JointLanes& joint, int index, const Symmetric& k, const V3& axis, F room, F side, F near,
+                              const SubstepParams& params) {
     LimitRow& row = joint.limit[index];
     const F zero = all(0.0F);
     const F along = dot(axis, k * axis);
     store(row.axis, axis);
-    store(row.room, room);
+    const F mend = most(room * all(params.limitRate), all(-params.limitSpeed));
+    store(row.bias, room > zero ? room * all(params.inverseDt) : mend);  // may turn as far as the limit
     const Mask kept = (side == load(joint.side[index])) & (room < near);
     const F impulse = kept ? most(load(row.impulse), zero) : zero;
     store(row.impulse, impulse);
-    const F scale = ((room > zero) & (impulse <= zero)) ? firstTouch : stiffness;
+    store(row.gain, zero);
+    const F scale = ((room > zero) & (impulse <= zero)) ? all(params.firstTouch) : all(params.limitStiffness);
     store(row.weight, along > all(1e-9F) ? scale / along : zero);
     store(joint.side[index], side);
     joint.limitActive[index] = bits((room < near) | (impulse > zero)) != 0 ? 1 : 0;
+    return room < all(-params.mendAngle);
 }
 
 // What the rows of a joint are prepared from.
@@ -30,33 +33,31 @@ struct JointSetting {
     Axes frame;   ///< The parent's frame in the world.
     Q relative;   ///< The child's frame in the parent's.
     F near;
-    F stiffness;  ///< See SubstepParams.
-    F limitStiffness;
-    F firstTouch;
-    F grip;
 };
 
-LUTKA_LANES void prepareHinge(JointLanes& joint, const JointConstants& constants, const JointSetting& setting) {
+LUTKA_LANES Mask prepareHinge(JointLanes& joint, const JointConstants& constants, const JointSetting& setting,
+                              const SubstepParams& params) {
     const F two = all(2.0F);
     const Axes& frame = setting.frame;
     const Q& relative = setting.relative;
-    store(joint.hingeAxis, frame.z);
-    store(joint.across[0], frame.x);
-    store(joint.across[1], frame.y);
+    HingeRows& rows = joint.hinge;
+    store(rows.axis, frame.z);
     // The child's z in the parent's frame; its cross product with z is the rotation that is too much.
-    store(joint.acrossError[0], -two * (relative.y * relative.z - relative.w * relative.x));
-    store(joint.acrossError[1], two * (relative.x * relative.z + relative.w * relative.y));
+    const F rate = all(params.jointRate);
+    const F errorX = -two * (relative.y * relative.z - relative.w * relative.x);
+    const F errorY = two * (relative.x * relative.z + relative.w * relative.y);
+    store(rows.bias, frame.x * (errorX * rate) + frame.y * (errorY * rate));
     const F least2 = least(dot(frame.x, setting.k * frame.x), dot(frame.y, setting.k * frame.y));
-    store(joint.acrossWeight, setting.stiffness / least2);
-    store(joint.frictionWeight, setting.grip / dot(frame.z, setting.k * frame.z));
+    store(rows.weight, all(params.jointStiffness) / least2);
+    store(rows.impulse, across(load(rows.impulse), frame.z));
+    store(joint.frictionWeight, all(params.grip) / dot(frame.z, setting.k * frame.z));
 
     const F flip = relative.w < all(0.0F) ? all(-1.0F) : all(1.0F);
     const F angle = two * angleOf(relative.z * flip, relative.w * flip);
     const F past = angle - all(0.5F * (constants.limit[0] + constants.limit[1]));
     const F side = past < all(0.0F) ? all(-1.0F) : all(1.0F);
     const F room = all(0.5F * (constants.limit[1] - constants.limit[0])) - magnitude(past);
-    prepareLimit(joint, 0, setting.k, frame.z * -side, room, side, setting.near, setting.limitStiffness,
-                 setting.firstTouch);
+    return prepareLimit(joint, 0, setting.k, frame.z * -side, room, side, setting.near, params);
 }
 
 // Swing: with the swing's rotation vector s = angle · u (in the frame's y, z plane) and d = u × x the direction that
@@ -64,7 +65,8 @@ LUTKA_LANES void prepareHinge(JointLanes& joint, const JointConstants& constants
 //     n · ds/dt = w · [ (n·u) u + (n·d) (angle · cot(angle) · d - angle · x) ]
 // for the relative angular velocity w, in the parent's frame. n is the outward normal of the ellipse.
 // Twist: its rate is w · (x + x') / (1 + x·x') with x' the child's x.
-LUTKA_LANES void prepareCone(JointLanes& joint, const JointConstants& constants, const JointSetting& setting) {
+LUTKA_LANES Mask prepareCone(JointLanes& joint, const JointConstants& constants, const JointSetting& setting,
+                             const SubstepParams& params) {
     const Axes& frame = setting.frame;
     const Q& given = setting.relative;
     const F zero = all(0.0F), one = all(1.0F), two = all(2.0F), tiny = all(1e-12F);
@@ -95,41 +97,46 @@ LUTKA_LANES void prepareCone(JointLanes& joint, const JointConstants& constants,
     const F cosine = one - two * sinHalf * sinHalf;
     const F bent = sine > all(1e-4F) ? angle * cosine / sine : one;
     const V3 inFrame{-sideways * angle, along * uy + sideways * bent * uz, along * uz - sideways * bent * uy};
-    prepareLimit(joint, 0, setting.k, frame * -inFrame, (one - angle * rate) / steep, one, setting.near,
-                 setting.limitStiffness, setting.firstTouch);
+    const Mask swungOut =
+        prepareLimit(joint, 0, setting.k, frame * -inFrame, (one - angle * rate) / steep, one, setting.near, params);
 
     const F twist = two * angleOf(twistX, twistW);
     const F side = twist < zero ? -one : one;
     const V3 childX{one - two * (q.y * q.y + q.z * q.z), two * (q.x * q.y + q.w * q.z), two * (q.x * q.z - q.w * q.y)};
     const F spread = -side / most(one + childX.x, all(0.05F));
     const V3 twistAxis{(one + childX.x) * spread, childX.y * spread, childX.z * spread};
-    prepareLimit(joint, 1, setting.k, frame * twistAxis, all(constants.limit[2]) - magnitude(twist), side, setting.near,
-                 setting.limitStiffness, setting.firstTouch);
+    const F room = all(constants.limit[2]) - magnitude(twist);
     // One weight for all directions: that of the one that turns most easily.
-    store(joint.frictionWeight, setting.grip / most(most(setting.k.xx, setting.k.yy), setting.k.zz));
+    store(joint.frictionWeight, all(params.grip) / most(most(setting.k.xx, setting.k.yy), setting.k.zz));
+    return swungOut | prepareLimit(joint, 1, setting.k, frame * twistAxis, room, side, setting.near, params);
+}
+
+// The anchors' arms half way through the substep, as the bodies' aims foresee them. Returns the anchors' distance.
+LUTKA_LANES V3 aimJoint(JointLanes& joint, const JointConstants& constants, const BodyLanes& parent,
+                        const BodyLanes& child, const SubstepParams& params) {
+    const V3 parentArm = axesOf(parent) * all(constants.parentAnchor);
+    const V3 childArm = axesOf(child) * all(constants.childAnchor);
+    const V3 error = (load(child.position) - load(parent.position)) + (childArm - parentArm);
+    const V3 parentMiddle = halfWay(parent, parentArm, all(0.5F * params.dt));
+    const V3 childMiddle = halfWay(child, childArm, all(0.5F * params.dt));
+    store(joint.parentArm, parentMiddle);
+    store(joint.childArm, childMiddle);
+    store(joint.drift, cross(load(child.spin), childMiddle) - cross(load(parent.spin), parentMiddle));
+    store(joint.bias, error * all(params.jointRate));
+    return error;
 }
 
 LUTKA_LANES void beginJoint(JointLanes& joint, const JointConstants& constants, const BodyLanes& parent,
                             const BodyLanes& child, const SubstepParams& params) {
-    const V3 parentArm = axesOf(parent) * all(constants.parentAnchor);
-    const V3 childArm = axesOf(child) * all(constants.childAnchor);
-    store(joint.parentArm, parentArm);
-    store(joint.childArm, childArm);
-    store(joint.error, (load(child.position) - load(parent.position)) + (childArm - parentArm));
+    const V3 error = aimJoint(joint, constants, parent, child, params);
     const Q parentFrame = load(parent.rotation) * all(constants.parentFrame);
     const V3 turning = load(child.angular) - load(parent.angular);
-    const JointSetting setting{load(parent.inverseInertia) + load(child.inverseInertia),
-                               axesOf(parentFrame),
+    const JointSetting setting{load(parent.inverseInertia) + load(child.inverseInertia), axesOf(parentFrame),
                                conjugate(parentFrame) * (load(child.rotation) * all(constants.childFrame)),
-                               all(0.1F) + squareRoot(dot(turning, turning)) * all(2.0F * params.dt),
-                               all(params.jointStiffness),
-                               all(params.limitStiffness),
-                               all(params.firstTouch),
-                               all(params.grip)};
-    if (constants.isHinge != 0)
-        prepareHinge(joint, constants, setting);
-    else
-        prepareCone(joint, constants, setting);
+                               all(0.1F) + squareRoot(dot(turning, turning)) * all(2.0F * params.dt)};
+    const Mask off = constants.isHinge != 0 ? prepareHinge(joint, constants, setting, params)
+                                            : prepareCone(joint, constants, setting, params);
+    joint.mends = bits(off | (dot(error, error) > all(params.mendGap * params.mendGap))) != 0 ? 1 : 0;
 }
 
 static void beginJoints(const BatchView& batch, const SubstepParams& params) {

@@ -13,7 +13,7 @@ static void begin(const BatchView& batch, const SubstepParams& params) {
         beginStatic(batch.contacts[i], batch, params);
 }
 
-static constexpr Kernels kTable{&refresh, &findBounds, &findSelfPairs, &joinBounds, &findMotion,
-                                &begin,   &solve,      &advance,       &beginPairs, &solvePairs};
+static constexpr Kernels kTable{&refresh, &findBounds, &findSelfPairs, &joinBounds, &findMotion, &begin,     &solve,
+                                &mend,    &advance,    &beginPairs,    &solvePairs, &mendPairs,  &carryPairs};
 
 }  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS

@@ -97,6 +97,10 @@ LUTKA_LANES F dot(const V3& a, const V3& b) {
 LUTKA_LANES V3 cross(const V3& a, const V3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+// The part of `a` across a unit vector.
+LUTKA_LANES V3 across(const V3& a, const V3& n) {
+    return a - n * dot(a, n);
+}
 LUTKA_LANES V3 magnitude(const V3& a) {
     return {magnitude(a.x), magnitude(a.y), magnitude(a.z)};
 }

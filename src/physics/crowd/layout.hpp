@@ -25,24 +25,28 @@ struct WideSymmetric {
     Wide xx, yy, zz, xy, xz, yz;
 };
 
-/// The state of one body in all lanes. World space, SI units. Pair contacts find the members of one lane by the
-/// offsets below, so that the order of members is part of the layout.
+/// The state of one body in all lanes. World space, SI units. What a sweep of the tree needs comes first, so that it
+/// stays in the nearest cache. Pair contacts find the members of one lane by the offsets below: the order of members is
+/// part of the layout.
 struct BodyLanes {
     Wide3 velocity;
-    Wide3 angular;                 ///< World axes.
-    Wide3 position;                ///< Of the centre of mass.
-    Wide3 axisX, axisY, axisZ;     ///< The columns of the rotation, kept in step with `rotation`.
-    WideSymmetric inverseInertia;  ///< World axes.
-    Wide4 rotation;
+    Wide3 angular;                        ///< World axes.
     Wide3 steadyVelocity, steadyAngular;  ///< With which all joints hold: see tree_kernels.hpp.
+    WideSymmetric inertia;                ///< World axes, as it was at the substep's start.
+    WideSymmetric inverseInertia;         ///< World axes.
+    Wide3 aim;                            ///< The turning rate that the joints' arms were foreseen with.
+    Wide3 position;                       ///< Of the centre of mass.
+    Wide3 axisX, axisY, axisZ;            ///< The columns of the rotation, kept in step with `rotation`.
+    Wide4 rotation;
+    Wide3 spin;       ///< What half a substep of free motion adds to the turning rate.
     Wide3 low, high;  ///< Bounds for the coming step as seen from the doll's root: see `findBounds`.
 };
 /// In floats, from the first member to the lane's own.
 inline constexpr int kVelocityOffset = 0;
 inline constexpr int kAngularOffset = 3 * kLanes;
-inline constexpr int kPositionOffset = 6 * kLanes;
-inline constexpr int kAxisOffset = 9 * kLanes;
 inline constexpr int kInertiaOffset = 18 * kLanes;
+inline constexpr int kPositionOffset = 27 * kLanes;
+inline constexpr int kAxisOffset = 30 * kLanes;
 
 /// What is constant of a body, from the profile.
 struct BodyConstants {
@@ -52,6 +56,7 @@ struct BodyConstants {
     float extent[3];  ///< Half extents of the core along the body's axes: a capsule's segment, a box.
     float radius;     ///< Around the core.
     float reach;      ///< Greatest distance of the core from the centre.
+    float armReach;   ///< Greatest distance of a joint's anchor from the centre.
 };
 
 /// What is constant of a constraint, from the profile. Quaternions are x, y, z, w.
@@ -59,6 +64,8 @@ struct JointConstants {
     int parent;
     int child;
     int isHinge;
+    int childGathers;  ///< Whether the child has children itself.
+    int opens;         ///< Whether it is the last joint of its parent, whose sum it begins.
     float parentAnchor[3];
     float childAnchor[3];
     float parentFrame[4];
@@ -67,32 +74,36 @@ struct JointConstants {
     float frictionNm;
 };
 
-/// A one-sided angular row: the relative angular velocity along `axis` may not make `room` negative.
+/// A one-sided angular row: the relative angular velocity along `axis` may not fall below -`bias`.
 struct LimitRow {
     Wide3 axis;    ///< Turns the child back into the range.
     Wide weight;   ///< N m s per rad/s; see tree_kernels.hpp.
-    Wide room;     ///< Radians to the limit, negative past it.
+    Wide bias;     ///< rad/s: with which the stop is just reached, or what mends an overrun, negative.
     Wide impulse;  ///< N m s, >= 0; kept between substeps.
     Wide gain;     ///< `weight` where the row holds, else 0.
 };
 
+/// The rows that keep a hinge's axes parallel, as one vector across the axis.
+struct HingeRows {
+    Wide3 axis;
+    Wide3 bias;     ///< rad/s, mends the axes' error.
+    Wide3 impulse;  ///< N m s, on the child.
+    Wide weight;
+};
+
 /// A constraint in all lanes: impulses that are kept (warm starting) and what a substep prepares.
 struct JointLanes {
-    Wide3 frictionImpulse;  ///< N m s; a hinge uses x, about its axis.
-    Wide hingeImpulse[2];   ///< N m s, about the two axes across the hinge's.
-    LimitRow limit[2];      ///< Hinge: [0]. Cone-twist: swing, twist.
-    Wide side[2];           ///< Which end of the range limit[i] stands for (+1, -1); a change drops the impulse.
-
-    Wide3 parentArm, childArm;  ///< From centre of mass to anchor.
-    Wide3 error;                ///< Child's anchor minus parent's.
-    Wide3 hingeAxis;
-    Wide3 across[2];
-    Wide acrossError[2];
-    Wide acrossWeight;
+    Wide3 parentArm, childArm;  ///< From centre of mass to anchor, as they will be half way through the substep.
+    Wide3 drift;                ///< m/s: what `spin` moves the anchors apart with.
+    Wide3 bias;                 ///< m/s: mends the anchors' distance.
+    Wide3 frictionImpulse;      ///< N m s; a hinge uses x, about its axis.
     Wide frictionWeight;
     Wide frictionGain;
-    Wide3 rowTorque;     ///< On the child, of the rows above.
+    LimitRow limit[2];  ///< Hinge: [0]. Cone-twist: swing, twist.
+    HingeRows hinge;
+    Wide side[2];        ///< Which end of the range limit[i] stands for (+1, -1); a change drops the impulse.
     int limitActive[2];  ///< Whether any lane is near limit[i].
+    int mends;           ///< Whether any lane's anchors or limits are so far off that mending them adds speed.
 };
 
 /// A general 3 × 3 matrix by rows.
@@ -100,49 +111,54 @@ struct WideMatrix {
     Wide3 row[3];
 };
 
-/// What the tree solver holds of a body: its inertia with everything below it (about the centre of mass while it is
-/// gathered, about the anchor of its joint once eliminated), and the factors that bring the parent's motion down.
-struct TreeLanes {
+/// What the children of a body add to its inertia (about its centre of mass) and to its right-hand side.
+struct GatheredLanes {
     WideSymmetric linear;   ///< Momentum from velocity.
     WideMatrix mixed;       ///< Momentum from angular velocity.
     WideSymmetric turning;  ///< Angular momentum from angular velocity.
     Wide3 impulse, torque;  ///< Right-hand side.
-
-    WideSymmetric own;         ///< The body's own angular inertia, world axes.
-    WideSymmetric compliance;  ///< Inverse of the angular block with the joint's rows.
-    WideMatrix fromAngular;    ///< Child's angular change from the parent's.
-    WideMatrix fromLinear;     ///< Child's angular change from that of the anchor, negated and transposed.
-    Wide3 anchorChange;        ///< Change of the anchor's relative velocity.
-    Wide3 freeTurn;            ///< Child's angular change while the parent stays.
 };
 
-/// A point of a body (a sphere around a point of its core) against a half space, one a lane.
+/// What is left of a body once it has been eliminated: the factors that bring the parent's motion down.
+struct EliminatedLanes {
+    WideMatrix fromAngular;  ///< Child's angular change from the parent's.
+    WideMatrix fromLinear;   ///< Child's angular change from that of the anchor, negated and transposed.
+    Wide3 anchorChange;      ///< Change of the anchor's relative velocity.
+    Wide3 freeTurn;          ///< Child's angular change while the parent stays.
+};
+
+/// What the tree solver holds of a body: first the one, then the other.
+struct TreeLanes {
+    union {
+        GatheredLanes gathered;
+        EliminatedLanes eliminated;
+    };
+    Wide3 velocityChange, angularChange;  ///< Of this sweep, for the children.
+};
+
+/// A point of a body (a sphere around a point of its core) against a half space, one a lane. What a sweep needs first.
 struct StaticContactLanes {
-    int body;
-    Wide3 localPoint;
-    Wide radius;
     Wide3 normal;  ///< Out of the solid.
-    Wide offset;   ///< The solid is normal · p <= offset; very low where the lane has no contact.
+    Wide3 arm;     ///< As it will be half way through the substep.
+    Wide bias;     ///< m/s: with which the surface is just reached, or what mends an overlap, negative.
     Wide friction;
     Wide normalImpulse;
-    Wide3 frictionImpulse;  ///< World axes, kept between steps; the two below within one.
-    Wide tangentImpulse[2];
+    Wide3 frictionImpulse;  ///< World axes.
     Wide3 rollImpulse;
-    unsigned long long key[kLanes];  ///< What each lane's contact is matched by in the next step; 0: none.
-
-    Wide3 arm;
-    Wide3 tangent[2];
-    Wide separation;
     Wide normalWeight;  ///< N s per m/s; see tree_kernels.hpp.
     Wide tangentWeight;
     Wide rollWeight;
     Wide normalGain;  ///< The weights where the rows hold, else 0.
     Wide tangentGain;
     Wide rollGain;
-    Wide normalPush;  ///< This pass's impulses.
-    Wide tangentPush[2];
-    Wide3 rollPush;
+    int body;
+    int near;     ///< Whether it can be met in this substep, in some lane.
     int engaged;  ///< Whether it presses, or just did, in some lane.
+
+    Wide3 localPoint;
+    Wide radius;
+    Wide offset;                     ///< The solid is normal · p <= offset; very low where the lane has no contact.
+    unsigned long long key[kLanes];  ///< What each lane's contact is matched by in the next step; 0: none.
 };
 
 /// Eight contacts between two bodies each, of any dolls; no body comes twice, so that they are solved at once.
@@ -157,6 +173,8 @@ struct PairContactLanes {
     Wide normalImpulse;
     Wide3 frictionImpulse;  ///< World axes, what is carried from the step before.
     Wide tangentImpulse[2];
+    Wide carriedNormal;  ///< What the substep before left of the impulses.
+    Wide carriedTangent[2];
     Wide active;  ///< 1, or 0 where the lane is empty.
 
     Wide3 armA, armB;
@@ -188,10 +206,13 @@ struct SubstepParams {
     float grip;              ///< The same of friction.
     float limitTolerance;    ///< rad/s, and
     float contactTolerance;  ///< m/s: a guess of which rows hold that is wrong by more is mended in another pass.
-    float relaxGap;          ///< Metres, and
-    float relaxAngle;        ///< rad: errors below which the relaxing pass is left out.
-    int passes;              ///< At most, with bias and
-    int relaxPasses;         ///< without.
+    float mendGap;           ///< Metres, and
+    float mendAngle;         ///< rad: errors below which nothing is mended.
+    float aimGap;            ///< Metres by which an anchor may go astray because the body turns at another rate.
+    float letGo;             ///< By how much faster a contact between bodies takes back what it pressed too much.
+    float nearSpeed;         ///< m/s that a contact's approach may grow by within a substep.
+    int patience;            ///< Passes before rows that will not come to rest are only added any more.
+    int passes;              ///< At most, until the guess of what holds is right.
     int warmStart;           ///< The first substep of a step makes the carried friction impulses its own.
 };
 
@@ -202,6 +223,7 @@ struct BatchView {
     int contactCount;
     const BodyConstants* bodyConstants;
     const JointConstants* jointConstants;
+    const int* firstContact;  ///< One a body and one more: where its contacts begin; they lie body by body.
     BodyLanes* bodies;
     JointLanes* joints;
     TreeLanes* tree;
@@ -230,15 +252,21 @@ struct Kernels {
     void (*findMotion)(const BatchView& batch, Wide& speed2, Wide& turn2);
     /// Gravity and damping, this substep's Jacobians and masses, then last substep's impulses.
     void (*begin)(const BatchView& batch, const SubstepParams& params);
-    /// `first`: the substep's first pass, which also brings in last substep's impulses. Solves all joints of each doll
-    /// at once with the limits, friction and static contacts that hold; `useBias` 0: the relaxing pass, which takes out
-    /// the speed that mending errors put in.
-    void (*solve)(const BatchView& batch, const SubstepParams& params, int useBias, int first);
-    /// Positions, orientations and what follows from them.
+    /// Solves all joints of each doll at once with the limits, friction and static contacts that hold. `first`: brings
+    /// in last substep's impulses.
+    void (*solve)(const BatchView& batch, const SubstepParams& params, int first);
+    /// Adds to the velocities, not to the steady ones, what mends errors of position; does nothing where there are none
+    /// unless `pushed`, which says that something else has added to the velocities in the same way.
+    void (*mend)(const BatchView& batch, const SubstepParams& params, int pushed);
+    /// Positions and orientations with the velocities, which are the steady ones again afterwards.
     void (*advance)(const BatchView& batch, const SubstepParams& params);
     void (*beginPairs)(PairContactLanes* pairs, int count, const SubstepParams& params);
-    /// Returns whether any contact presses, or did before.
-    int (*solvePairs)(PairContactLanes* pairs, int count, const SubstepParams& params, int useBias);
+    /// One sweep; returns whether any contact presses, or did before.
+    int (*solvePairs)(PairContactLanes* pairs, int count, const SubstepParams& params);
+    /// Adds to the velocities what mends overlaps; returns whether there was any.
+    int (*mendPairs)(PairContactLanes* pairs, int count, const SubstepParams& params);
+    /// Pushes the bodies with what the substep before left of the impulses.
+    void (*carryPairs)(PairContactLanes* pairs, int count);
 };
 
 }  // namespace lutka::physics::crowd

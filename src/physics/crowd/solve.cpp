@@ -32,9 +32,12 @@ SubstepParams paramsOf(const CrowdState& state, float dt) {
     params.contactStiffness = tuning.contactStiffness;
     params.firstTouch = tuning.firstTouch;
     params.passes = tuning.passes;
-    params.relaxGap = tuning.relaxGap;
-    params.relaxAngle = tuning.relaxAngle;
-    params.relaxPasses = tuning.relaxPasses;
+    params.mendGap = tuning.mendGap;
+    params.mendAngle = tuning.mendAngle;
+    params.aimGap = tuning.aimGap;
+    params.letGo = tuning.letGo;
+    params.nearSpeed = tuning.nearSpeed;
+    params.patience = tuning.patience;
     params.contactTolerance = tuning.contactTolerance;
     params.limitTolerance = tuning.limitTolerance;
     params.grip = tuning.grip;
@@ -45,38 +48,33 @@ SubstepParams paramsOf(const CrowdState& state, float dt) {
 // One job's substep. `forBatches` runs a piece of work for every batch of the job, on one thread or several.
 class JobSubstep {
   public:
-    JobSubstep(CrowdState& state, Job& job, const SubstepParams& params) : state_(state), job_(job), params_(params) {}
+    JobSubstep(CrowdState& state, Job& job, const SubstepParams& params, bool mends)
+        : state_(state), job_(job), params_(params), mends_(mends) {}
 
     void run() {
         const Kernels& kernels = *state_.kernels;
         forBatches([&](const BatchView& view) { kernels.begin(view, params_); });
         kernels.beginPairs(job_.pairs.data(), static_cast<int>(job_.pairs.size()), params_);
+        // What touches other bodies works on single bodies; a pass over the dolls must follow before anything moves.
+        const int pairs = static_cast<int>(job_.pairs.size());
+        kernels.solvePairs(job_.pairs.data(), pairs, params_);
+        kernels.carryPairs(job_.pairs.data(), pairs);
         for (DragRecord* drag : job_.drags)
             job_.dragWork += beginDrag(state_, *drag);
-        dolls(1, 1);
-        // What touches other bodies works on single bodies; a pass over the dolls must follow before anything moves.
-        const bool coupled = !job_.pairs.empty() || !job_.drags.empty();
-        const bool pressed = coupled && couplings(1);
-        if (pressed) dolls(1, 0);
+        forBatches([&](const BatchView& view) { kernels.solve(view, params_, 1); });
+        if (!job_.drags.empty()) {
+            for (DragRecord* drag : job_.drags)
+                job_.dragWork += solveDrag(state_, *drag, params_.dt);
+            forBatches([&](const BatchView& view) { kernels.solve(view, params_, 0); });
+        }
+        if (mends_) {
+            const int pushed = kernels.mendPairs(job_.pairs.data(), pairs, params_);
+            forBatches([&](const BatchView& view) { kernels.mend(view, params_, pushed); });
+        }
         forBatches([&](const BatchView& view) { kernels.advance(view, params_); });
-        if (pressed) couplings(0);
-        dolls(0, 0);
     }
 
   private:
-    // Returns whether anything was pushed.
-    bool couplings(int useBias) {
-        for (DragRecord* drag : job_.drags)
-            job_.dragWork += solveDrag(state_, *drag, params_.dt);
-        const int pressed =
-            state_.kernels->solvePairs(job_.pairs.data(), static_cast<int>(job_.pairs.size()), params_, useBias);
-        return pressed != 0 || !job_.drags.empty();
-    }
-
-    void dolls(int useBias, int first) {
-        forBatches([&](const BatchView& view) { state_.kernels->solve(view, params_, useBias, first); });
-    }
-
     template <class Work>
     void forBatches(const Work& work) {
         const auto range = [&](std::size_t begin, std::size_t end) {
@@ -92,6 +90,7 @@ class JobSubstep {
     CrowdState& state_;
     Job& job_;
     const SubstepParams& params_;
+    bool mends_;
 };
 
 // Runs the work for all jobs: small ones side by side, then the large ones, each of which uses all threads itself.
@@ -117,9 +116,7 @@ void keepStatics(CrowdState& state, Batch& batch) {
             if (contact.key[lane] == 0 || normal <= 0.0F) continue;
             Doll& doll = state.dolls[batch.doll[lane]];
             doll.touching = true;
-            const vec3 friction = readVector(contact.tangent[0], lane) * contact.tangentImpulse[0].lane[lane] +
-                                  readVector(contact.tangent[1], lane) * contact.tangentImpulse[1].lane[lane];
-            doll.statics.push_back({{contact.key[lane], normal, friction},
+            doll.statics.push_back({{contact.key[lane], normal, readVector(contact.frictionImpulse, lane)},
                                     readVector(contact.rollImpulse, lane),
                                     contact.body,
                                     readVector(contact.localPoint, lane),
@@ -161,7 +158,10 @@ void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSu
             state.jobs[i].dragWork = 0.0;
         }
     };
-    const auto substep = [&](Job& job, int index) { JobSubstep(state, job, index == 0 ? first : others).run(); };
+    const auto substep = [&](Job& job, int index) {
+        const bool mends = (substeps - 1 - index) % state.tuning.mendEvery == 0;
+        JobSubstep(state, job, index == 0 ? first : others, mends).run();
+    };
     if (afterSubstep) {
         for (int i = 0; i < substeps; ++i) {
             forJobs(state, [&](Job& job) { substep(job, i); });

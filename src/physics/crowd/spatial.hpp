@@ -13,8 +13,9 @@ LUTKA_LANES Matrix load(const WideMatrix& m) {
     return {{load(m.row[0]), load(m.row[1]), load(m.row[2])}};
 }
 LUTKA_LANES void store(WideMatrix& to, const Matrix& m) {
-    for (int i = 0; i < 3; ++i)
-        store(to.row[i], m.row[i]);
+    store(to.row[0], m.row[0]);
+    store(to.row[1], m.row[1]);
+    store(to.row[2], m.row[2]);
 }
 LUTKA_LANES V3 operator*(const Matrix& m, const V3& v) {
     return {dot(m.row[0], v), dot(m.row[1], v), dot(m.row[2], v)};
@@ -67,13 +68,16 @@ struct Spatial {
     Matrix mixed;
     Symmetric turning;
 };
-LUTKA_LANES Spatial loadSpatial(const TreeLanes& tree) {
-    return {load(tree.linear), load(tree.mixed), load(tree.turning)};
+LUTKA_LANES Spatial operator+(const Spatial& a, const Spatial& b) {
+    return {a.linear + b.linear, a.mixed + b.mixed, a.turning + b.turning};
 }
-LUTKA_LANES void storeSpatial(TreeLanes& tree, const Spatial& s) {
-    store(tree.linear, s.linear);
-    store(tree.mixed, s.mixed);
-    store(tree.turning, s.turning);
+LUTKA_LANES Spatial load(const GatheredLanes& g) {
+    return {load(g.linear), load(g.mixed), load(g.turning)};
+}
+LUTKA_LANES void store(GatheredLanes& to, const Spatial& s) {
+    store(to.linear, s.linear);
+    store(to.mixed, s.mixed);
+    store(to.turning, s.turning);
 }
 // The turning block under a shift of the point, which needs the mixed block before and after: B - [r] C' + Cᵀ [r] for
 // C' = C + H [r]. Both terms by their columns.
@@ -96,15 +100,31 @@ LUTKA_LANES Spatial movedTo(const Spatial& s, const V3& r) {
     const Matrix mixed = s.mixed + timesCross(rowsOf(s.linear), r);
     return {s.linear, mixed, shiftTurning(s.turning, s.mixed, mixed, r)};
 }
-// weight · J Jᵀ of a direction at an arm.
-LUTKA_LANES void addDirection(Spatial& s, const V3& arm, const V3& direction, F weight) {
-    const V3 lever = cross(arm, direction);
-    const V3 scaled = lever * weight;
-    addSquare(s.linear, direction, weight);
-    addSquare(s.turning, lever, weight);
-    s.mixed.row[0] = s.mixed.row[0] + scaled * direction.x;
-    s.mixed.row[1] = s.mixed.row[1] + scaled * direction.y;
-    s.mixed.row[2] = s.mixed.row[2] + scaled * direction.z;
+// A rigid body seen from a point at `r` from its centre of mass.
+LUTKA_LANES Spatial rigidAt(F mass, const Symmetric& inertia, const V3& r) {
+    const F zero = all(0.0F);
+    const V3 m = r * mass;
+    const F xx = m.x * r.x, yy = m.y * r.y, zz = m.z * r.z;
+    return {{mass, mass, mass, zero, zero, zero},
+            {{V3{zero, -m.z, m.y}, V3{m.z, zero, -m.x}, V3{-m.y, m.x, zero}}},
+            {inertia.xx + (yy + zz), inertia.yy + (xx + zz), inertia.zz + (xx + yy), inertia.xy - m.x * r.y,
+             inertia.xz - m.x * r.z, inertia.yz - m.y * r.z}};
+}
+// J K Jᵀ of the weights K of a point's velocity, at an arm.
+LUTKA_LANES void addPoint(Spatial& s, const V3& arm, const Symmetric& k) {
+    const Matrix rows = rowsOf(k);
+    const Matrix mixed{{cross(arm, rows.row[0]), cross(arm, rows.row[1]), cross(arm, rows.row[2])}};
+    s.linear = s.linear + k;
+    s.mixed = s.mixed + mixed;
+    const V3 first = cross(arm, V3{mixed.row[0].x, mixed.row[1].x, mixed.row[2].x});
+    const V3 c1{mixed.row[0].y, mixed.row[1].y, mixed.row[2].y};
+    const V3 c2{mixed.row[0].z, mixed.row[1].z, mixed.row[2].z};
+    s.turning.xx += first.x;
+    s.turning.xy += first.y;
+    s.turning.xz += first.z;
+    s.turning.yy += arm.z * c1.x - arm.x * c1.z;
+    s.turning.yz += arm.x * c1.y - arm.y * c1.x;
+    s.turning.zz += arm.x * c2.y - arm.y * c2.x;
 }
 
 }  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS

@@ -26,40 +26,50 @@ LUTKA_LANES Tangents insideCircle(F first, F second, F limit) {
     return {first * scale, second * scale};
 }
 
-LUTKA_LANES F massAlong(F inverseMass, const Symmetric& inertia, const V3& arm, const V3& direction) {
-    const V3 lever = cross(arm, direction);
-    return all(1.0F) / (inverseMass + dot(lever, inertia * lever));
+// What a push of one along a unit vector at an arm changes the speed of that point by: along the normal, and the mean
+// of two directions across it.
+struct Compliance {
+    F along, across;
+};
+LUTKA_LANES Compliance complianceAt(F inverseMass, const Symmetric& inertia, const V3& arm, const V3& normal) {
+    // arm × (inertia · (direction × arm)) is a symmetric matrix times the direction; its trace is the sum over three.
+    const V3 lever = cross(arm, normal);
+    const F along = dot(lever, inertia * lever);
+    const V3 square{arm.x * arm.x, arm.y * arm.y, arm.z * arm.z};
+    const F trace = inertia.xx * (square.y + square.z) + inertia.yy * (square.x + square.z) +
+                    inertia.zz * (square.x + square.y) -
+                    all(2.0F) * (inertia.xy * arm.x * arm.y + inertia.xz * arm.x * arm.z + inertia.yz * arm.y * arm.z);
+    return {inverseMass + along, inverseMass + most(trace - along, all(0.0F)) * all(0.5F)};
 }
 
 LUTKA_LANES void beginStatic(StaticContactLanes& contact, const BatchView& batch, const SubstepParams& params) {
     const BodyLanes& body = batch.bodies[contact.body];
-    const F inverseMass = all(batch.bodyConstants[contact.body].inverseMass);
-    const Symmetric inertia = load(body.inverseInertia);
+    const F zero = all(0.0F);
     const V3 normal = load(contact.normal);
     const F radius = load(contact.radius);
     const V3 core = axesOf(body) * load(contact.localPoint);
-    const V3 arm = core - normal * radius;
+    const F separation = dot(normal, load(body.position) + core) - load(contact.offset) - radius;
+    const F impulse = most(load(contact.normalImpulse), zero);
+    const F bias = contactBias(separation, params, 1);
+    // What is too far off to be met in this substep is left out.
+    const V3 angular = load(body.angular);
+    const F approach = dot(normal, load(body.velocity) + cross(angular, core));
+    contact.near = bits((impulse > zero) | (approach + bias < all(params.nearSpeed))) != 0 ? 1 : 0;
+    contact.engaged = 0;
+    store(contact.normalGain, zero);
+    if (contact.near == 0) return;
+    const V3 arm = halfWay(body, core, all(0.5F * params.dt)) - normal * radius;
     store(contact.arm, arm);
-    store(contact.separation, dot(normal, load(body.position) + core) - load(contact.offset) - radius);
-    if (params.warmStart != 0) {
-        V3 t1, t2;
-        tangentsOf(normal, t1, t2);
-        store(contact.tangent[0], t1);
-        store(contact.tangent[1], t2);
-        const V3 kept = load(contact.frictionImpulse);
-        store(contact.tangentImpulse[0], dot(kept, t1));
-        store(contact.tangentImpulse[1], dot(kept, t2));
-    }
-    const V3 t1 = load(contact.tangent[0]);
-    const V3 t2 = load(contact.tangent[1]);
-    const F carried = most(load(contact.normalImpulse), all(0.0F));
-    const Mask coming = (load(contact.separation) > all(0.0F)) & (carried <= all(0.0F));
-    const F stiffness = coming ? all(params.firstTouch) : all(params.contactStiffness);
-    store(contact.normalWeight, massAlong(inverseMass, inertia, arm, normal) * stiffness);
-    const F grip = least(massAlong(inverseMass, inertia, arm, t1), massAlong(inverseMass, inertia, arm, t2));
-    store(contact.tangentWeight, grip * all(params.grip));
+    store(contact.bias, bias);
+    store(contact.normalImpulse, impulse);
+    store(contact.frictionImpulse, across(load(contact.frictionImpulse), normal));
+    const Symmetric inertia = load(body.inverseInertia);
+    const Compliance compliance =
+        complianceAt(all(batch.bodyConstants[contact.body].inverseMass), inertia, arm, normal);
+    const Mask coming = (separation > zero) & (impulse <= zero);
+    store(contact.normalWeight, (coming ? all(params.firstTouch) : all(params.contactStiffness)) / compliance.along);
+    store(contact.tangentWeight, all(params.grip) / compliance.across);
     store(contact.rollWeight, all(params.grip) / most(most(inertia.xx, inertia.yy), inertia.zz));
-    store(contact.normalImpulse, carried);
 }
 
 }  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS

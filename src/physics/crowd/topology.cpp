@@ -77,6 +77,19 @@ Topology makeTopology(const RagdollProfile& profile, float leastGyration) {
     }
     for (const ConstraintProfile& constraint : profile.constraints)
         topology.joints.push_back(constantsOf(constraint));
+    for (std::size_t j = 0; j < topology.joints.size(); ++j) {
+        JointConstants& joint = topology.joints[j];
+        joint.opens = 1;
+        const auto lengthOf = [](const float(&v)[3]) { return glm::length(vec3(v[0], v[1], v[2])); };
+        float& parentReach = topology.bodies[joint.parent].armReach;
+        float& childReach = topology.bodies[joint.child].armReach;
+        parentReach = std::max(parentReach, lengthOf(joint.parentAnchor));
+        childReach = std::max(childReach, lengthOf(joint.childAnchor));
+        for (std::size_t k = 0; k < topology.joints.size(); ++k) {
+            if (k > j && topology.joints[k].parent == joint.parent) joint.opens = 0;
+            if (topology.joints[k].parent == joint.child) joint.childGathers = 1;
+        }
+    }
     for (int a = 0; a < topology.bodyCount(); ++a) {
         for (int b = a + 1; b < topology.bodyCount(); ++b) {
             if (mayCollide(profile, a, b)) topology.selfPairs.push_back({a, b});

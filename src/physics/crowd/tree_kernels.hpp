@@ -17,95 +17,98 @@
 ///     E = (B + D)⁻¹        turn of the child = E (t + g - Cᵀ r) - E Cᵀ x + E D y
 ///     what the parent feels:   [H - C E Cᵀ   C E D;  D E Cᵀ   B E D],   (f - H r - C e,  t - Cᵀ r - B e)
 /// with e = E (t + g - Cᵀ r).
-
 ///
-/// The matrices are kept from one pass to the next while the same rows hold.
+/// What a pass costs is memory more than arithmetic: all that is done with a body on the way up, and all on the way
+/// down, is done while its numbers are at hand.
 
 #include "physics/crowd/row_kernels.hpp"
 
 namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
 
-LUTKA_LANES void resetInertia(const BatchView& batch, int index) {
+// A body's inertia about its centre with that of everything below it, what was done to it since the last sweep
+// (`fresh`), and the contacts that hold it.
+LUTKA_LANES Loaded loadBody(const BatchView& batch, int index, bool gathers, const SubstepParams& params,
+                            const Pass& pass, bool fresh) {
+    const BodyLanes& body = batch.bodies[index];
     const F zero = all(0.0F);
     const V3 none{zero, zero, zero};
     const F mass = all(1.0F / batch.bodyConstants[index].inverseMass);
-    TreeLanes& tree = batch.tree[index];
-    storeSpatial(tree, {{mass, mass, mass, zero, zero, zero}, {{none, none, none}}, load(tree.own)});
-}
-
-// Each body's own inertia and, as impulses, what was done to it since the last sweep.
-LUTKA_LANES void startBody(const BatchView& batch, int index, bool first) {
-    BodyLanes& body = batch.bodies[index];
-    TreeLanes& tree = batch.tree[index];
-    const BodyConstants& constants = batch.bodyConstants[index];
-    const F mass = all(1.0F / constants.inverseMass);
-    if (first) {
-        store(tree.own, onAxes(axesOf(body), constants.inertia));
-        resetInertia(batch, index);
+    const Symmetric inertia = load(body.inertia);
+    Loaded loaded{{{mass, mass, mass, zero, zero, zero}, {{none, none, none}}, inertia}, none, none};
+    if (fresh) {
+        loaded.impulse = (load(body.velocity) - load(body.steadyVelocity)) * mass;
+        loaded.torque = inertia * (load(body.angular) - load(body.steadyAngular));
     }
-    const V3 steadyVelocity = load(body.steadyVelocity);
-    const V3 steadyAngular = load(body.steadyAngular);
-    store(tree.impulse, (load(body.velocity) - steadyVelocity) * mass);
-    store(tree.torque, load(tree.own) * (load(body.angular) - steadyAngular));
-    store(body.velocity, steadyVelocity);
-    store(body.angular, steadyAngular);
+    if (gathers) {
+        const GatheredLanes& below = batch.tree[index].gathered;
+        loaded.inertia = loaded.inertia + load(below);
+        loaded.impulse = loaded.impulse + load(below.impulse);
+        loaded.torque = loaded.torque + load(below.torque);
+    }
+    for (int i = batch.firstContact[index]; i < batch.firstContact[index + 1]; ++i) {
+        if (batch.contacts[i].near != 0) askStatic(body, batch.contacts[i], params, pass, loaded);
+    }
+    return loaded;
 }
 
-// Takes a child out of the equations: its matrices go over to the parent's.
-LUTKA_LANES void eliminate(const BatchView& batch, int index) {
-    const JointLanes& joint = batch.joints[index];
+// Adds to what the parent gathers, or begins it.
+LUTKA_LANES void gather(GatheredLanes& above, bool opens, const Loaded& loaded) {
+    if (opens) {
+        store(above, loaded.inertia);
+        store(above.impulse, loaded.impulse);
+        store(above.torque, loaded.torque);
+        return;
+    }
+    store(above, load(above) + loaded.inertia);
+    store(above.impulse, load(above.impulse) + loaded.impulse);
+    store(above.torque, load(above.torque) + loaded.torque);
+}
+
+// The way up: takes a joint's child out of the equations.
+LUTKA_LANES void eliminate(const BatchView& batch, int index, const SubstepParams& params, const Pass& pass,
+                           bool fresh) {
+    JointLanes& joint = batch.joints[index];
     const JointConstants& constants = batch.jointConstants[index];
-    TreeLanes& tree = batch.tree[constants.child];
-    TreeLanes& above = batch.tree[constants.parent];
-    const Spatial s = movedTo(loadSpatial(tree), load(joint.childArm));
-    const Symmetric weight = angularWeight(joint, constants);
-    const Symmetric e = inverse(s.turning + weight);
-    const Matrix ce = s.mixed * e;         // C E
-    const Matrix ed = product(e, weight);  // E D
-    storeSpatial(tree, s);
-    store(tree.compliance, e);
-    store(tree.fromAngular, ed);
-    store(tree.fromLinear, ce);
+    const BodyLanes& parent = batch.bodies[constants.parent];
+    const BodyLanes& child = batch.bodies[constants.child];
+    const Loaded loaded = loadBody(batch, constants.child, constants.childGathers != 0, params, pass, fresh);
+    const V3 parentAngular = load(parent.steadyAngular);
+    const V3 childAngular = load(child.steadyAngular);
+    const Asked asked = askJoint(joint, constants, childAngular - parentAngular, params, pass);
+    const V3 parentArm = load(joint.parentArm);
+    const V3 childArm = load(joint.childArm);
+    V3 r = (load(parent.steadyVelocity) + cross(parentAngular, parentArm)) -
+           (load(child.steadyVelocity) + cross(childAngular, childArm));
+    r = r - load(joint.drift);
+    if (pass.mending) r = r - load(joint.bias);
+
+    const Spatial s = movedTo(loaded.inertia, childArm);
+    const Symmetric e = inverse(s.turning + asked.weight);
+    const V3 resisting = loaded.torque - cross(childArm, loaded.impulse) - transposed(s.mixed, r);
+    const V3 turn = e * (resisting + asked.torque);
+    const V3 impulse = loaded.impulse - s.linear * r - s.mixed * turn;
+    const V3 torque = resisting - s.turning * turn;
+    const Matrix ce = s.mixed * e;               // C E
+    const Matrix ed = product(e, asked.weight);  // E D
     // B E D, symmetric, by rows: row i of B times E D.
     const Matrix b = rowsOf(s.turning);
     const V3 row0 = transposed(ed, b.row[0]), row1 = transposed(ed, b.row[1]), row2 = transposed(ed, b.row[2]);
     const Spatial left{
-        s.linear - symmetricProduct(ce, s.mixed), ce * weight, {row0.x, row1.y, row2.z, row0.y, row0.z, row1.z}};
-    const Spatial moved = movedTo(left, -load(joint.parentArm));
-    const Spatial sum = loadSpatial(above);
-    storeSpatial(above, {sum.linear + moved.linear, sum.mixed + moved.mixed, sum.turning + moved.turning});
-}
-
-// The right-hand side of the same elimination.
-LUTKA_LANES void carryUp(const BatchView& batch, int index, const SubstepParams& params, int useBias) {
-    const JointLanes& joint = batch.joints[index];
-    const JointConstants& constants = batch.jointConstants[index];
-    const BodyLanes& parent = batch.bodies[constants.parent];
-    const BodyLanes& child = batch.bodies[constants.child];
-    TreeLanes& tree = batch.tree[constants.child];
-    TreeLanes& above = batch.tree[constants.parent];
-    const V3 parentArm = load(joint.parentArm);
-    const V3 childArm = load(joint.childArm);
-    V3 r = (load(parent.velocity) + cross(load(parent.angular), parentArm)) -
-           (load(child.velocity) + cross(load(child.angular), childArm));
-    if (useBias != 0) r = r - load(joint.error) * all(params.jointRate);
-    const Spatial s = loadSpatial(tree);
-    const V3 atCentre = load(tree.impulse);
-    const V3 resisting = load(tree.torque) - cross(childArm, atCentre) - transposed(s.mixed, r);
-    const V3 turn = load(tree.compliance) * (resisting + load(joint.rowTorque));
-    store(tree.anchorChange, r);
-    store(tree.freeTurn, turn);
-    const V3 impulse = atCentre - s.linear * r - s.mixed * turn;
-    const V3 torque = resisting - s.turning * turn;
-    store(above.impulse, load(above.impulse) + impulse);
-    store(above.torque, load(above.torque) + (torque + cross(parentArm, impulse)));
+        s.linear - symmetricProduct(ce, s.mixed), ce * asked.weight, {row0.x, row1.y, row2.z, row0.y, row0.z, row1.z}};
+    EliminatedLanes& eliminated = batch.tree[constants.child].eliminated;
+    store(eliminated.fromAngular, ed);
+    store(eliminated.fromLinear, ce);
+    store(eliminated.anchorChange, r);
+    store(eliminated.freeTurn, turn);
+    gather(batch.tree[constants.parent].gathered, constants.opens != 0,
+           {movedTo(left, -parentArm), impulse, torque + cross(parentArm, impulse)});
 }
 
 struct Motion {
     V3 velocity, angular;
 };
-LUTKA_LANES Motion solveRoot(const TreeLanes& tree) {
-    const Spatial s = loadSpatial(tree);
+LUTKA_LANES Motion solveRoot(const Loaded& loaded) {
+    const Spatial& s = loaded.inertia;
     const Symmetric linear = inverse(s.linear);
     // Rows of Cᵀ H⁻¹ are images of the columns of C.
     const Matrix columns{{V3{s.mixed.row[0].x, s.mixed.row[1].x, s.mixed.row[2].x},
@@ -113,114 +116,105 @@ LUTKA_LANES Motion solveRoot(const TreeLanes& tree) {
                           V3{s.mixed.row[0].z, s.mixed.row[1].z, s.mixed.row[2].z}}};
     const Matrix ch = columns * linear;
     const Symmetric turning = inverse(s.turning - symmetricProduct(ch, columns));
-    const V3 impulse = load(tree.impulse);
-    const V3 angular = turning * (load(tree.torque) - ch * impulse);
-    return {linear * (impulse - s.mixed * angular), angular};
+    const V3 angular = turning * (loaded.torque - ch * loaded.impulse);
+    return {linear * (loaded.impulse - s.mixed * angular), angular};
 }
 
-LUTKA_LANES void addMotion(BodyLanes& body, const Motion& change) {
-    const V3 velocity = load(body.velocity) + change.velocity;
-    const V3 angular = load(body.angular) + change.angular;
+// A body's new velocities; its change is kept for its children. Returns the lanes in which a contact was guessed wrong.
+LUTKA_LANES Mask moveBody(const BatchView& batch, int index, const Motion& change, const SubstepParams& params,
+                          Pass& pass) {
+    BodyLanes& body = batch.bodies[index];
+    TreeLanes& tree = batch.tree[index];
+    const V3 velocity = load(body.steadyVelocity) + change.velocity;
+    const V3 angular = load(body.steadyAngular) + change.angular;
+    store(tree.velocityChange, change.velocity);
+    store(tree.angularChange, change.angular);
     store(body.velocity, velocity);
     store(body.angular, angular);
+    if (pass.mending) return noLanes();
     store(body.steadyVelocity, velocity);
     store(body.steadyAngular, angular);
-}
-
-// The way back: a body's change is kept where its right-hand side was, for its children.
-LUTKA_LANES void substitute(const BatchView& batch, int index) {
-    const JointLanes& joint = batch.joints[index];
-    const JointConstants& constants = batch.jointConstants[index];
-    TreeLanes& tree = batch.tree[constants.child];
-    const TreeLanes& above = batch.tree[constants.parent];
-    const V3 parentTurn = load(above.torque);
-    const V3 anchor = load(above.impulse) + cross(parentTurn, load(joint.parentArm));
-    const V3 turn =
-        load(tree.freeTurn) - transposed(load(tree.fromLinear), anchor) + load(tree.fromAngular) * parentTurn;
-    const V3 velocity = anchor + load(tree.anchorChange) - cross(turn, load(joint.childArm));
-    store(tree.impulse, velocity);
-    store(tree.torque, turn);
-    addMotion(batch.bodies[constants.child], {velocity, turn});
-}
-
-// Guesses which rows hold; returns whether the guess is another than in the pass before.
-LUTKA_LANES bool decide(const BatchView& batch, const SubstepParams& params, Pass& pass) {
-    for (int j = 0; j < batch.jointCount; ++j) {
-        const JointConstants& constants = batch.jointConstants[j];
-        const V3 relative = load(batch.bodies[constants.child].angular) - load(batch.bodies[constants.parent].angular);
-        decideJoint(batch.joints[j], constants, relative, params, pass);
-    }
-    for (int i = 0; i < batch.contactCount; ++i)
-        decideStatic(batch, batch.contacts[i], params, pass);
-    return bits(pass.changed) != 0;
-}
-
-// Adds the impulses of the rows that held and returns whether the guess was wrong in some lane.
-LUTKA_LANES bool update(const BatchView& batch, const SubstepParams& params, int useBias) {
+    const V3 off = angular - load(body.aim);
+    const F gap = all(params.aimGap / (0.5F * params.dt * params.dt * batch.bodyConstants[index].armReach + 1e-12F));
+    pass.astray |= dot(off, off) * dot(angular, angular) > gap * gap;
     Mask wrong = noLanes();
-    for (int j = 0; j < batch.jointCount; ++j) {
-        const JointConstants& constants = batch.jointConstants[j];
-        const V3 relative = load(batch.bodies[constants.child].angular) - load(batch.bodies[constants.parent].angular);
-        wrong |= updateRows(batch.joints[j], constants, relative, params, useBias);
+    for (int i = batch.firstContact[index]; i < batch.firstContact[index + 1]; ++i) {
+        if (batch.contacts[i].near != 0) wrong |= updateStatic(body, batch.contacts[i], params, pass);
     }
-    for (int i = 0; i < batch.contactCount; ++i)
-        wrong |= updateStatic(batch, batch.contacts[i], params, useBias);
-    return bits(wrong) != 0;
+    return wrong;
 }
 
-// One Newton pass; returns whether its guess was wrong.
-static bool sweep(const BatchView& batch, const SubstepParams& params, Pass pass, bool first) {
-    // Before the guess, the velocities with which all joints hold; what was done to single bodies becomes impulses.
-    for (int b = 0; b < batch.bodyCount; ++b)
-        startBody(batch, b, first);
-    const bool changed = decide(batch, params, pass);
-    if (changed && !first) {
-        for (int b = 0; b < batch.bodyCount; ++b)
-            resetInertia(batch, b);
-    }
-    for (int i = 0; i < batch.contactCount; ++i) {
-        if (batch.contacts[i].engaged == 0) continue;
-        if (changed || first) addStaticWeight(batch, batch.contacts[i]);
-        addStaticPush(batch, batch.contacts[i]);
-    }
-    for (int j = batch.jointCount - 1; (changed || first) && j >= 0; --j)
-        eliminate(batch, j);
+// The way down.
+LUTKA_LANES Mask substitute(const BatchView& batch, int index, const SubstepParams& params, Pass& pass) {
+    JointLanes& joint = batch.joints[index];
+    const JointConstants& constants = batch.jointConstants[index];
+    const TreeLanes& above = batch.tree[constants.parent];
+    const EliminatedLanes& eliminated = batch.tree[constants.child].eliminated;
+    const V3 parentTurn = load(above.angularChange);
+    const V3 anchor = load(above.velocityChange) + cross(parentTurn, load(joint.parentArm));
+    const V3 turn = load(eliminated.freeTurn) - transposed(load(eliminated.fromLinear), anchor) +
+                    load(eliminated.fromAngular) * parentTurn;
+    const V3 velocity = anchor + load(eliminated.anchorChange) - cross(turn, load(joint.childArm));
+    const Mask wrong = moveBody(batch, constants.child, {velocity, turn}, params, pass);
+    const V3 relative =
+        load(batch.bodies[constants.child].steadyAngular) - load(batch.bodies[constants.parent].steadyAngular);
+    return wrong | updateJoint(joint, constants, relative, params, pass);
+}
+
+// One Newton pass; returns the lanes whose guess was wrong.
+static Mask sweep(const BatchView& batch, const SubstepParams& params, Pass& pass, bool fresh) {
     for (int j = batch.jointCount - 1; j >= 0; --j)
-        carryUp(batch, j, params, pass.useBias);
-    const Motion root = solveRoot(batch.tree[0]);
-    store(batch.tree[0].impulse, root.velocity);
-    store(batch.tree[0].torque, root.angular);
-    addMotion(batch.bodies[0], root);
+        eliminate(batch, j, params, pass, fresh);
+    const Loaded root = loadBody(batch, 0, batch.jointCount > 0, params, pass, fresh);
+    Mask wrong = moveBody(batch, 0, solveRoot(root), params, pass);
     for (int j = 0; j < batch.jointCount; ++j)
-        substitute(batch, j);
-    return update(batch, params, pass.useBias);
+        wrong |= substitute(batch, j, params, pass);
+    return wrong;
 }
 
-// Whether some row mended an error, whose speed the relaxing pass must take out.
-static bool mends(const BatchView& batch, const SubstepParams& params) {
-    Mask off = noLanes();
+// Whether anything is so far off that it is to be mended.
+static bool needsMending(const BatchView& batch, const SubstepParams& params) {
     for (int j = 0; j < batch.jointCount; ++j) {
-        const JointLanes& joint = batch.joints[j];
-        const V3 error = load(joint.error);
-        off |= dot(error, error) > all(params.relaxGap * params.relaxGap);
-        for (int i = 0; i < 2; ++i) {
-            if (joint.limitActive[i] != 0) off |= load(joint.limit[i].room) < all(-params.relaxAngle);
-        }
+        if (batch.joints[j].mends != 0) return true;
     }
+    Mask off = noLanes();
     for (int i = 0; i < batch.contactCount; ++i) {
         const StaticContactLanes& contact = batch.contacts[i];
-        if (contact.engaged != 0) off |= load(contact.separation) < all(-params.slop - params.relaxGap);
+        if (contact.engaged != 0) off |= load(contact.bias) < all(-params.mendGap * params.contactRate);
     }
     return bits(off) != 0;
 }
 
-static void solve(const BatchView& batch, const SubstepParams& params, int useBias, int first) {
-    if (useBias == 0 && !mends(batch, params)) return;
-    const int passes = useBias != 0 ? params.passes : params.relaxPasses;
-    const Mask none = noLanes();
-    for (int i = 0; i < passes; ++i) {
-        const bool start = first != 0 && i == 0;
-        if (!sweep(batch, params, {useBias, all(start ? 0.0F : 1.0F), none}, start)) return;
+static void mend(const BatchView& batch, const SubstepParams& params, int pushed) {
+    if (pushed == 0 && !needsMending(batch, params)) return;
+    Pass pass{true, all(1.0F), noLanes(), noLanes()};
+    sweep(batch, params, pass, true);
+}
+
+// Foresees all arms anew.
+static void aim(const BatchView& batch, const SubstepParams& params) {
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        BodyLanes& body = batch.bodies[b];
+        const V3 angular = load(body.angular);
+        store(body.aim, angular);
+        store(body.spin, spinOf(body, batch.bodyConstants[b], angular, all(0.5F * params.dt)));
+    }
+    for (int j = 0; j < batch.jointCount; ++j) {
+        const JointConstants& constants = batch.jointConstants[j];
+        aimJoint(batch.joints[j], constants, batch.bodies[constants.parent], batch.bodies[constants.child], params);
+    }
+}
+
+static void solve(const BatchView& batch, const SubstepParams& params, int first) {
+    Pass pass{false, all(first != 0 ? 0.0F : 1.0F), noLanes(), noLanes()};
+    for (int i = 0; i < params.passes; ++i) {
+        pass.astray = noLanes();
+        const Mask wrong = sweep(batch, params, pass, i == 0);
+        const bool astray = bits(pass.astray) != 0;
+        if (bits(wrong) == 0 && !astray) return;
+        if (astray) aim(batch, params);
+        pass.applied = all(1.0F);
+        if (i + 1 >= params.patience) pass.late |= wrong;
     }
 }
 

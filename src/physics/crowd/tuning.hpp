@@ -8,11 +8,15 @@ namespace lutka::physics::crowd {
 
 /// What decides quality and cost. The defaults are the outcome of the sweep described in docs/crowd.md.
 struct CrowdTuning {
-    int substeps = 8;               ///< A step; >= 1. More: stiffer joints, shallower contacts, cost in proportion.
-    int passes = 8;                 ///< At most, with bias in a substep, >= 1: until the guess of what holds is right.
-    int relaxPasses = 1;            ///< The same without bias; they take out the speed that mending errors put in.
-    float relaxGap = 0.0002F;       ///< Metres, and
-    float relaxAngle = 0.002F;      ///< rad: errors below which the relaxing pass is left out.
+    int substeps = 6;         ///< A step; >= 1. More: stiffer joints, shallower contacts, cost in proportion.
+    int passes = 8;           ///< At most, with bias in a substep, >= 1: until the guess of what holds is right.
+    int mendEvery = 1;        ///< Errors of position are mended in every so many substeps, the last among them.
+    int patience = 3;         ///< Passes after which rows that will not come to rest are only added any more.
+    float aimGap = 0.0003F;   ///< Metres by which an anchor may miss in a substep before its arm is foreseen anew.
+    float letGo = 2.0F;       ///< By how much faster a contact between bodies takes back what it pressed too much.
+    float nearSpeed = 8.0F;   ///< m/s that an approach may grow by within a substep: contacts farther off are left out.
+    float mendGap = 0.0002F;  ///< Metres, and
+    float mendAngle = 0.002F;       ///< rad: errors below which nothing is mended.
     float contactTolerance = 0.1F;  ///< m/s by which the guess of which contacts hold may be wrong.
     float limitTolerance = 1.0F;    ///< rad/s, the same of limits.
 
