@@ -48,7 +48,7 @@ SurfaceDistance distanceToBox(const vec3& point, const vec3& halfExtents) {
     return {beyond[axis], normal};
 }
 
-float deepestOnSegment(const Segment& segment, const vec3& halfExtents) {
+float deepestOnSegment(const Segment& segment, const vec3& halfExtents, int halvings) {
     const vec3 along = segment.end - segment.start;
     const auto rises = [&](float t) {
         return glm::dot(distanceToBox(segment.at(t), halfExtents).normal, along) > 0.0F;
@@ -57,7 +57,7 @@ float deepestOnSegment(const Segment& segment, const vec3& halfExtents) {
     if (!rises(1.0F)) return 1.0F;
     float low = 0.0F;
     float high = 1.0F;
-    for (int halving = 0; halving < 16; ++halving) {
+    for (int halving = 0; halving < halvings; ++halving) {
         const float middle = 0.5F * (low + high);
         (rises(middle) ? high : low) = middle;
     }

@@ -30,8 +30,8 @@ struct SurfaceDistance {
 [[nodiscard]] SurfaceDistance distanceToBox(const vec3& point, const vec3& halfExtents);
 
 /// The fraction along the segment, in [0, 1], where its signed distance from the box is least. The distance is a convex
-/// function along a line, so that halving the interval by the sign of its slope finds it (to 2^-16 of the length).
-[[nodiscard]] float deepestOnSegment(const Segment& segment, const vec3& halfExtents);
+/// function along a line, so that halving the interval by the sign of its slope finds it, to 2^-halvings of the length.
+[[nodiscard]] float deepestOnSegment(const Segment& segment, const vec3& halfExtents, int halvings = 16);
 
 /// Signed distance of two boxes along the best of the 15 axes of the separating-axis test: negative, the depth of the
 /// overlap; positive, a lower bound of the gap (Gottschalk, Lin and Manocha 1996).

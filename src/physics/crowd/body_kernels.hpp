@@ -63,6 +63,44 @@ static void findSelfPairs(const BatchView& batch, const SelfPair* pairs, int cou
     }
 }
 
+LUTKA_LANES unsigned meeting(const BoxLanes& boxes, const V3& low, const V3& high) {
+    return bits((load(boxes.low.x) <= high.x) & (low.x <= load(boxes.high.x)) & (load(boxes.low.y) <= high.y) &
+                (low.y <= load(boxes.high.y)) & (load(boxes.low.z) <= high.z) & (low.z <= load(boxes.high.z)));
+}
+
+static int findBodyPairs(const BoxLanes* a, int groupsA, const BoxLanes* b, int groupsB, const float (&apart)[3],
+                         const float (&low)[3], const float (&high)[3], BodyPair* out) {
+    int count = 0;
+    const V3 lowest = all(low) - all(apart);
+    const V3 highest = all(high) + all(apart);
+    for (int i = 0; i < groupsA; ++i) {
+        for (unsigned near = meeting(a[i], lowest, highest); near != 0; near &= near - 1) {
+            const int lane = __builtin_ctz(near);
+            const BoxLanes& group = a[i];
+            const V3 from{all(group.low.x.lane[lane] - apart[0]), all(group.low.y.lane[lane] - apart[1]),
+                          all(group.low.z.lane[lane] - apart[2])};
+            const V3 to{all(group.high.x.lane[lane] + apart[0]), all(group.high.y.lane[lane] + apart[1]),
+                        all(group.high.z.lane[lane] + apart[2])};
+            for (int j = 0; j < groupsB; ++j) {
+                for (unsigned met = meeting(b[j], from, to); met != 0; met &= met - 1)
+                    out[count++] = {i * kLanes + lane, j * kLanes + __builtin_ctz(met)};
+            }
+        }
+    }
+    return count;
+}
+
+static unsigned findNearPlane(const BatchView& batch, int index, const float (&point)[3], float radius,
+                              const float (&normal)[3], float offset, float margin, float seconds) {
+    const BodyLanes& body = batch.bodies[index];
+    const V3 core = load(body.position) + axesOf(body) * all(point);
+    const V3 velocity = load(body.velocity);
+    const V3 angular = load(body.angular);
+    const F speed =
+        squareRoot(dot(velocity, velocity)) + squareRoot(dot(angular, angular)) * all(batch.bodyConstants[index].reach);
+    return bits(dot(all(normal), core) - all(offset + radius) < all(margin) + speed * all(seconds));
+}
+
 // What half a substep of free motion (`half` seconds) adds to the turning rate: the angular momentum stays, the rate
 // does not.
 LUTKA_LANES V3 spinOf(const BodyLanes& body, const BodyConstants& constants, const V3& angular, F half) {

@@ -21,14 +21,20 @@ float speedBound(const BodyState& body, const BodyConstants& constants) {
     return glm::length(body.linearVelocity) + glm::length(body.angularVelocity) * constants.reach;
 }
 
+StepBody stepBody(const CrowdState& state, const Doll& doll, int body) {
+    const BodyConstants& constants = state.groupOf(doll).topology.bodies[body];
+    const BodyState moving = bodyState(state, doll, body);
+    StepBody step;
+    step.placed = placedShape(state, doll, body);
+    step.velocity = moving.linearVelocity;
+    step.swing = glm::length(moving.angularVelocity) * constants.reach;
+    step.size = constants.reach + constants.radius;
+    return step;
+}
+
 // How near two bodies must be for a contact.
-float pairRange(const CrowdState& state, const Doll& a, int bodyA, const Doll& b, int bodyB, float dt) {
-    const BodyState moveA = bodyState(state, a, bodyA);
-    const BodyState moveB = bodyState(state, b, bodyB);
-    const float turning = glm::length(moveA.angularVelocity) * state.groupOf(a).topology.bodies[bodyA].reach +
-                          glm::length(moveB.angularVelocity) * state.groupOf(b).topology.bodies[bodyB].reach;
-    return state.tuning.pairMargin +
-           kForesight * dt * (glm::length(moveA.linearVelocity - moveB.linearVelocity) + turning);
+float pairRange(const CrowdState& state, const StepBody& a, const StepBody& b, float dt) {
+    return state.tuning.pairMargin + kForesight * dt * (glm::length(a.velocity - b.velocity) + a.swing + b.swing);
 }
 
 std::uint64_t pairKey(const Doll& a, int bodyA, const Doll& b, int bodyB, int index) {
@@ -37,15 +43,21 @@ std::uint64_t pairKey(const Doll& a, int bodyA, const Doll& b, int bodyB, int in
     return first << 34U | second << 4U | static_cast<std::uint64_t>(index);
 }
 
-void collide(const CrowdState& state, int dollA, int bodyA, int dollB, int bodyB, float dt,
-             std::vector<PairTouch>& out) {
-    const Doll& a = state.dolls[dollA];
-    const Doll& b = state.dolls[dollB];
-    const Touches<BodyTouch> found = touchBodies(placedShape(state, a, bodyA), placedShape(state, b, bodyB),
-                                                 pairRange(state, a, bodyA, b, bodyB, dt));
+// A body of a doll.
+struct Which {
+    int doll;
+    int body;
+};
+void collide(const CrowdState& state, const Which& a, const StepBody& stepA, const Which& b, const StepBody& stepB,
+             float dt, std::vector<PairTouch>& out) {
+    const float range = pairRange(state, stepA, stepB, dt);
+    const vec3 apart = stepA.placed.position - stepB.placed.position;
+    const float reach = stepA.size + stepB.size + range;
+    if (glm::dot(apart, apart) > reach * reach) return;
+    const Touches<BodyTouch> found = touchBodies(stepA.placed, stepB.placed, range);
     for (int i = 0; i < found.count; ++i) {
-        PairTouch touch{dollA, bodyA, dollB, bodyB, found.points[i], {}};
-        const std::uint64_t key = pairKey(a, bodyA, b, bodyB, i);
+        PairTouch touch{a.doll, a.body, b.doll, b.body, found.points[i], {}};
+        const std::uint64_t key = pairKey(state.dolls[a.doll], a.body, state.dolls[b.doll], b.body, i);
         if (const CarriedContact* carried = state.carried.find(key)) touch.carried = *carried;
         touch.carried.key = key;
         out.push_back(touch);
@@ -96,9 +108,15 @@ void setContact(StaticContactLanes& contact, int lane, const StaticTouch& touch,
     contact.key[lane] = carried.contact.key;
 }
 
-CarriedStatic carriedStatic(const Doll& doll, std::uint64_t key) {
-    for (const CarriedStatic& carried : doll.statics)
-        if (carried.contact.key == key) return carried;
+// `cursor`: where the last search ended; contacts are looked for in nearly the order that they were kept in.
+CarriedStatic carriedStatic(const Doll& doll, std::uint64_t key, std::size_t& cursor) {
+    const std::size_t count = doll.statics.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t at = cursor + i < count ? cursor + i : cursor + i - count;
+        if (doll.statics[at].contact.key != key) continue;
+        cursor = at + 1 < count ? at + 1 : 0;
+        return doll.statics[at];
+    }
     CarriedStatic fresh;
     fresh.contact.key = key;
     return fresh;
@@ -115,12 +133,18 @@ class StaticContacts {
         for (int lane = 0; lane < batch_.used; ++lane) {
             const Bounds bounds = worldBounds(state_.dolls[batch_.doll[lane]], dt_, farther_);
             for (int i = 0; i < static_cast<int>(state_.statics.size()); ++i) {
-                if (nearStatic(state_.statics[i], bounds.low, bounds.high)) near_[lane].push_back(i);
+                if (!nearStatic(state_.statics[i], bounds.low, bounds.high)) continue;
+                const bool isPlane = state_.statics[i].shape.kind == StaticShape::Kind::plane;
+                std::vector<int>& near = isPlane ? planes_ : near_[lane];
+                if (!isPlane || std::find(near.begin(), near.end(), i) == near.end()) near.push_back(i);
             }
         }
         for (int body = 0; body < topology_.bodyCount(); ++body) {
             firstSlot_ = batch_.contacts.size();
             batch_.firstContact[body] = static_cast<int>(firstSlot_);
+            for (const int plane : planes_)
+                findOnPlane(body, plane);
+            firstSlot_ = batch_.contacts.size();
             for (int lane = 0; lane < batch_.used; ++lane)
                 findOf(body, lane);
         }
@@ -128,6 +152,27 @@ class StaticContacts {
     }
 
   private:
+    // Planes are the same for all lanes.
+    void findOnPlane(int body, int index) {
+        const PlacedStatic& plane = state_.statics[index];
+        const vec3 normal = plane.axes[1];
+        const float normalLanes[3] = {normal.x, normal.y, normal.z};
+        const float offset = glm::dot(normal, plane.shape.worldFromShape.translation);
+        const CorePoints points = corePoints(topology_.shapes[body]);
+        const BatchView view = batch_.view(topology_);
+        for (int i = 0; i < points.count; ++i) {
+            const float point[3] = {points.local[i].x, points.local[i].y, points.local[i].z};
+            const unsigned lanes = state_.kernels->findNearPlane(view, body, point, points.radius, normalLanes, offset,
+                                                                 state_.tuning.staticMargin, kForesight * dt_);
+            if (lanes == 0) continue;
+            const std::size_t slot = batch_.contacts.size();
+            for (int lane = 0; lane < batch_.used; ++lane) {
+                if ((lanes >> static_cast<unsigned>(lane) & 1U) != 0)
+                    put(slot, body, lane, index, {points.local[i], points.radius, normal, offset, 0.0F, i});
+            }
+        }
+    }
+
     void findOf(int body, int lane) {
         if (near_[lane].empty()) return;
         const Doll& doll = state_.dolls[batch_.doll[lane]];
@@ -150,13 +195,16 @@ class StaticContacts {
     void put(std::size_t slot, int body, int lane, int geometry, const StaticTouch& touch) {
         if (slot == batch_.contacts.size()) {
             batch_.contacts.emplace_back();
-            batch_.contacts.back().body = body;
-            for (int i = 0; i < kLanes; ++i)
-                setContact(batch_.contacts.back(), i, {{}, 0, {0, 1, 0}, -kFarM, 0, 0}, 0.0F, {});
+            StaticContactLanes& fresh = batch_.contacts.back();  // of zeros
+            fresh.body = body;
+            for (int i = 0; i < kLanes; ++i) {
+                fresh.normal.y.lane[i] = 1.0F;
+                fresh.offset.lane[i] = -kFarM;
+            }
         }
         const std::uint64_t key = (static_cast<std::uint64_t>(geometry + 1) << 20U) |
                                   static_cast<std::uint64_t>(body) << 4U | static_cast<std::uint64_t>(touch.feature);
-        const CarriedStatic carried = carriedStatic(state_.dolls[batch_.doll[lane]], key);
+        const CarriedStatic carried = carriedStatic(state_.dolls[batch_.doll[lane]], key, cursor_[lane]);
         const float friction = state_.statics[geometry].shape.friction * kBodyFriction;
         setContact(batch_.contacts[slot], lane, touch, friction, carried);
         if (lane != 0) return;
@@ -172,7 +220,9 @@ class StaticContacts {
     float dt_;
     float farther_ = state_.tuning.staticMargin - state_.tuning.pairMargin;  // than the bodies' own bounds reach
     std::size_t firstSlot_ = 0;
-    std::vector<int> near_[kLanes];
+    std::vector<int> planes_;        // that some lane is near
+    std::vector<int> near_[kLanes];  // the other geometry
+    std::size_t cursor_[kLanes]{};   // see carriedStatic
 };
 
 void findSelfContacts(CrowdState& state, const Batch& batch, const BatchView& view, const Topology& topology, float dt,
@@ -184,41 +234,36 @@ void findSelfContacts(CrowdState& state, const Batch& batch, const BatchView& vi
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         for (int lane = 0; masks[i] != 0 && lane < batch.used; ++lane) {
             if ((masks[i] >> static_cast<unsigned>(lane) & 1U) == 0) continue;
-            collide(state, batch.doll[lane], pairs[i].a, batch.doll[lane], pairs[i].b, dt, out);
+            const int index = batch.doll[lane];
+            const Doll& doll = state.dolls[index];
+            if (state.isNear[index] != 0) {
+                const StepBody* steps = &state.stepBodies[doll.firstBody];
+                collide(state, {index, pairs[i].a}, steps[pairs[i].a], {index, pairs[i].b}, steps[pairs[i].b], dt, out);
+            } else {
+                collide(state, {index, pairs[i].a}, stepBody(state, doll, pairs[i].a), {index, pairs[i].b},
+                        stepBody(state, doll, pairs[i].b), dt, out);
+            }
         }
-    }
-}
-
-// The bodies of `doll` whose boxes meet other's bounds, `apart` being how far the two roots move against each other.
-struct BodyBox {
-    int body;
-    vec3 low, high;
-};
-void bodiesNear(const CrowdState& state, const Doll& doll, const Doll& other, const vec3& apart,
-                std::vector<BodyBox>& out) {
-    out.clear();
-    for (int body = 0; body < state.groupOf(doll).topology.bodyCount(); ++body) {
-        const BodyLanes& lanes = state.batchOf(doll).bodies[body];
-        const vec3 low = readVector(lanes.low, doll.lane);
-        const vec3 high = readVector(lanes.high, doll.lane);
-        if (meet(low, high, other.low - apart, other.high + apart)) out.push_back({body, low, high});
     }
 }
 
 void collideDolls(const CrowdState& state, int indexA, int indexB, float dt, std::vector<PairTouch>& out) {
     const Doll& a = state.dolls[indexA];
     const Doll& b = state.dolls[indexB];
-    const vec3 apart = glm::abs(a.rootVelocity - b.rootVelocity) * (kForesight * dt);
-    thread_local std::vector<BodyBox> nearA;
-    thread_local std::vector<BodyBox> nearB;
-    bodiesNear(state, a, b, apart, nearA);
-    if (nearA.empty()) return;
-    bodiesNear(state, b, a, apart, nearB);
-    for (const BodyBox& x : nearA) {
-        for (const BodyBox& y : nearB) {
-            if (meet(x.low - apart, x.high + apart, y.low, y.high))
-                collide(state, indexA, x.body, indexB, y.body, dt, out);
-        }
+    // How far the two roots move against each other.
+    const vec3 moved = glm::abs(a.rootVelocity - b.rootVelocity) * (kForesight * dt);
+    const float apart[3] = {moved.x, moved.y, moved.z};
+    const float low[3] = {b.low.x, b.low.y, b.low.z};
+    const float high[3] = {b.high.x, b.high.y, b.high.z};
+    thread_local std::vector<BodyPair> near;
+    near.resize(static_cast<std::size_t>(a.boxes) * static_cast<std::size_t>(b.boxes) * kLanes * kLanes);
+    const int count = state.kernels->findBodyPairs(&state.stepBoxes[a.firstBox], a.boxes, &state.stepBoxes[b.firstBox],
+                                                   b.boxes, apart, low, high, near.data());
+    const StepBody* bodiesA = &state.stepBodies[a.firstBody];
+    const StepBody* bodiesB = &state.stepBodies[b.firstBody];
+    for (int i = 0; i < count; ++i) {
+        const BodyPair pair = near[i];
+        collide(state, {indexA, pair.a}, bodiesA[pair.a], {indexB, pair.b}, bodiesB[pair.b], dt, out);
     }
 }
 
@@ -228,13 +273,13 @@ bool pushes(const CrowdState& state, const Doll& mover, const Doll& sleeper, flo
     constexpr float kOverlap = 0.01F;    // metres
     for (int i = 0; i < state.groupOf(mover).topology.bodyCount(); ++i) {
         const BodyState move = bodyState(state, mover, i);
-        const PlacedShape placed = placedShape(state, mover, i);
+        const StepBody step = stepBody(state, mover, i);
         for (int j = 0; j < state.groupOf(sleeper).topology.bodyCount(); ++j) {
-            const float range = pairRange(state, mover, i, sleeper, j, dt);
-            const Touches<BodyTouch> found = touchBodies(placed, placedShape(state, sleeper, j), range);
+            const StepBody other = stepBody(state, sleeper, j);
+            const Touches<BodyTouch> found = touchBodies(step.placed, other.placed, pairRange(state, step, other, dt));
             for (int k = 0; k < found.count; ++k) {
                 const BodyTouch& touch = found.points[k];
-                const vec3 arm = placed.axes * touch.localA;
+                const vec3 arm = step.placed.axes * touch.localA;
                 const float closing =
                     -glm::dot(touch.normal, move.linearVelocity + glm::cross(move.angularVelocity, arm));
                 if (touch.separation < -kOverlap) return true;
@@ -299,8 +344,61 @@ void wakeTouched(CrowdState& state, float dt) {
     }
 }
 
+namespace {
+
+void placeDoll(CrowdState& state, const Doll& doll) {
+    constexpr float kEmpty = 1e30F;
+    const Batch& batch = state.batchOf(doll);
+    const int bodies = state.groupOf(doll).topology.bodyCount();
+    for (int body = 0; body < doll.boxes * kLanes; ++body) {
+        BoxLanes& boxes = state.stepBoxes[doll.firstBox + body / kLanes];
+        const bool isBody = body < bodies;
+        writeVector(boxes.low, body % kLanes, isBody ? readVector(batch.bodies[body].low, doll.lane) : vec3(kEmpty));
+        writeVector(boxes.high, body % kLanes, isBody ? readVector(batch.bodies[body].high, doll.lane) : vec3(-kEmpty));
+        if (isBody) state.stepBodies[doll.firstBody + body] = stepBody(state, doll, body);
+    }
+}
+
+// Looks up the bodies of all dolls that are near others, once.
+void placeNearDolls(CrowdState& state) {
+    state.isNear.assign(state.dolls.size(), 0);
+    for (const auto& [a, b] : state.dollPairs)
+        state.isNear[a] = state.isNear[b] = 1;
+    state.stepBodies.resize(static_cast<std::size_t>(state.bodyTotal));
+    state.stepBoxes.resize(static_cast<std::size_t>(state.boxTotal));
+    state.pool.parallelFor(state.dolls.size(), 32, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Doll& doll = state.dolls[i];
+            if (state.isNear[i] == 0 || doll.asleep()) continue;
+            placeDoll(state, doll);
+        }
+    });
+}
+
+// The contacts between dolls, piece by piece, so that their order does not depend on the threads.
+void collideAllDolls(CrowdState& state, float dt) {
+    constexpr std::size_t kPiece = 64;  // pairs of dolls
+    const std::size_t pieces = (state.dollPairs.size() + kPiece - 1) / kPiece;
+    if (state.dollTouches.size() < pieces) state.dollTouches.resize(pieces);
+    state.pool.parallelFor(pieces, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t piece = begin; piece < end; ++piece) {
+            std::vector<PairTouch>& out = state.dollTouches[piece];
+            out.clear();
+            for (std::size_t i = piece * kPiece; i < std::min((piece + 1) * kPiece, state.dollPairs.size()); ++i) {
+                const auto& [a, b] = state.dollPairs[i];
+                if (!state.dolls[a].asleep() && !state.dolls[b].asleep()) collideDolls(state, a, b, dt, out);
+            }
+        }
+    });
+    for (std::size_t piece = 0; piece < pieces; ++piece)
+        state.touches.insert(state.touches.end(), state.dollTouches[piece].begin(), state.dollTouches[piece].end());
+}
+
+}  // namespace
+
 void findContacts(CrowdState& state, float dt) {
     if (state.selfTouches.size() < state.active.size()) state.selfTouches.resize(state.active.size());
+    placeNearDolls(state);
     state.pool.parallelFor(state.active.size(), 2, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             Batch& batch = *state.active[i];
@@ -312,9 +410,7 @@ void findContacts(CrowdState& state, float dt) {
     state.touches.clear();
     for (std::size_t i = 0; i < state.active.size(); ++i)
         state.touches.insert(state.touches.end(), state.selfTouches[i].begin(), state.selfTouches[i].end());
-    for (const auto& [a, b] : state.dollPairs) {
-        if (!state.dolls[a].asleep() && !state.dolls[b].asleep()) collideDolls(state, a, b, dt, state.touches);
-    }
+    collideAllDolls(state, dt);
 }
 
 }  // namespace lutka::physics::crowd

@@ -13,7 +13,8 @@ static void begin(const BatchView& batch, const SubstepParams& params) {
         beginStatic(batch.contacts[i], batch, params);
 }
 
-static constexpr Kernels kTable{&refresh, &findBounds, &findSelfPairs, &joinBounds, &findMotion, &begin,     &solve,
-                                &mend,    &advance,    &beginPairs,    &solvePairs, &mendPairs,  &carryPairs};
+static constexpr Kernels kTable{&refresh,    &findBounds, &findSelfPairs, &findBodyPairs, &findNearPlane,
+                                &joinBounds, &findMotion, &begin,         &solve,         &mend,
+                                &advance,    &beginPairs, &solvePairs,    &mendPairs,     &carryPairs};
 
 }  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS

@@ -237,6 +237,17 @@ struct SelfPair {
     int b;
 };
 
+/// The boxes around eight bodies of one doll, one a lane. Lanes without a body hold an empty box (low above high).
+struct BoxLanes {
+    Wide3 low, high;
+};
+
+/// Two bodies whose boxes meet, by their number in each doll.
+struct BodyPair {
+    int a;
+    int b;
+};
+
 /// The kernels of one instruction set. All sets do the same operations in the same order, without contraction or
 /// approximate instructions, so that they give the same bits.
 struct Kernels {
@@ -246,6 +257,14 @@ struct Kernels {
     void (*findBounds)(const BatchView& batch, float dt, float margin);
     /// Writes a bit mask of lanes whose bounds meet for every pair.
     void (*findSelfPairs)(const BatchView& batch, const SelfPair* pairs, int count, unsigned char* masks);
+    /// The bodies of two dolls whose boxes meet once those of `a` are grown by `apart`; `groups` counts BoxLanes, `low`
+    /// and `high` bound the whole of `b`. Returns how many there are; `out` has room for every pair.
+    int (*findBodyPairs)(const BoxLanes* a, int groupsA, const BoxLanes* b, int groupsB, const float (&apart)[3],
+                         const float (&low)[3], const float (&high)[3], BodyPair* out);
+    /// A bit mask of the lanes in which a point of a body, with a radius around it, is nearer to a plane (normal · p =
+    /// offset) than `margin` and the way that the body's motion can take it in `seconds`.
+    unsigned (*findNearPlane)(const BatchView& batch, int body, const float (&point)[3], float radius,
+                              const float (&normal)[3], float offset, float margin, float seconds);
     /// Bounds of each doll: those of its bodies.
     void (*joinBounds)(const BatchView& batch, Wide3& low, Wide3& high);
     /// Squares of the largest speed and turning rate among a doll's bodies.

@@ -26,27 +26,6 @@ Segment coreOf(const PlacedShape& body) {
     return {body.position - half, body.position + half};
 }
 
-// The corners of a box and the ends of a capsule: what a convex static face can meet.
-struct CorePoints {
-    std::array<vec3, 8> local;
-    int count = 0;
-    float radius = 0.0F;
-};
-CorePoints corePoints(const BodyShape& shape) {
-    CorePoints points;
-    if (shape.kind == Kind::box) {
-        points.count = 8;
-        for (int i = 0; i < 8; ++i)
-            points.local[i] = corner(shape.halfExtents, i);
-        return points;
-    }
-    points.radius = shape.radius;
-    points.count = coreHalf(shape) > 0.0F ? 2 : 1;
-    points.local[0] = {0, -coreHalf(shape), 0};
-    points.local[1] = {0, coreHalf(shape), 0};
-    return points;
-}
-
 void touchPlane(const PlacedShape& body, const PlacedStatic& plane, float range, Touches<StaticTouch>& out) {
     const vec3 normal = plane.axes[1];
     const float offset = glm::dot(normal, plane.shape.worldFromShape.translation);
@@ -72,6 +51,15 @@ SurfaceDistance touchPoint(const vec3& local, const vec3& inBox, float radius, c
     return surface;
 }
 
+// To a hundredth of a limb, of which the distance there differs by far less.
+constexpr int kHalvings = 7;
+
+// Whether some point of a segment can be nearer than `range`, from the distances of its ends: along it the distance
+// changes by no more than the way.
+bool mayComeNear(float first, float last, const Segment& segment, float range) {
+    return 0.5F * (first + last - glm::length(segment.end - segment.start)) < range;
+}
+
 // Whether two normals are those of one and the same face, so that nothing between the points can be nearer.
 bool sameFace(const vec3& a, const vec3& b) {
     return glm::dot(a, b) > 0.9999F && std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}) > 0.9999F;
@@ -88,7 +76,8 @@ void touchStaticBox(const PlacedShape& body, const PlacedStatic& box, float rang
     }
     if (points.count != 2 || sameFace(ends[0].normal, ends[1].normal)) return;
     const Segment core{centre + boxFromBody * points.local[0], centre + boxFromBody * points.local[1]};
-    const float t = deepestOnSegment(core, box.shape.halfExtents);
+    if (!mayComeNear(ends[0].distance, ends[1].distance, core, points.radius + range)) return;
+    const float t = deepestOnSegment(core, box.shape.halfExtents, kHalvings);
     if (t < 0.02F || t > 0.98F) return;
     const vec3 local = points.local[0] + t * (points.local[1] - points.local[0]);
     touchPoint(local, core.at(t), points.radius, box, 2, range, out);
@@ -125,9 +114,9 @@ void touchCoreAndBox(const PlacedShape& a, const PlacedShape& box, float range, 
     const Segment core{centre - half, centre + half};
     const auto addAt = [&](float t) {
         const vec3 point = core.at(t);
-        const SurfaceDistance surface = distanceToBox(point, box.shape->halfExtents);
+        SurfaceDistance surface = distanceToBox(point, box.shape->halfExtents);
         const float separation = surface.distance - a.shape->radius;
-        if (separation >= range) return;
+        if (separation >= range) return surface;
         const vec3 onCore(0, (2 * t - 1) * coreHalf(*a.shape), 0);
         const vec3 onBox = point - surface.normal * surface.distance;
         const vec3 normal = box.axes * surface.normal;
@@ -135,11 +124,15 @@ void touchCoreAndBox(const PlacedShape& a, const PlacedShape& box, float range, 
             out.add({onBox, onCore, a.shape->radius, -normal, separation});
         else
             out.add({onCore, onBox, a.shape->radius, normal, separation});
+        return surface;
     };
-    addAt(0.0F);
+    const SurfaceDistance first = addAt(0.0F);
     if (coreHalf(*a.shape) <= 0.0F) return;
-    addAt(1.0F);
-    const float t = deepestOnSegment(core, box.shape->halfExtents);
+    const SurfaceDistance last = addAt(1.0F);
+    if (sameFace(first.normal, last.normal) ||
+        !mayComeNear(first.distance, last.distance, core, a.shape->radius + range))
+        return;
+    const float t = deepestOnSegment(core, box.shape->halfExtents, kHalvings);
     if (t > 0.02F && t < 0.98F) addAt(t);
 }
 
@@ -160,6 +153,21 @@ void touchCorners(const PlacedShape& a, const PlacedShape& b, float range, bool 
 }
 
 }  // namespace
+
+CorePoints corePoints(const BodyShape& shape) {
+    CorePoints points;
+    if (shape.kind == Kind::box) {
+        points.count = 8;
+        for (int i = 0; i < 8; ++i)
+            points.local[i] = corner(shape.halfExtents, i);
+        return points;
+    }
+    points.radius = shape.radius;
+    points.count = coreHalf(shape) > 0.0F ? 2 : 1;
+    points.local[0] = {0, -coreHalf(shape), 0};
+    points.local[1] = {0, coreHalf(shape), 0};
+    return points;
+}
 
 PlacedStatic::PlacedStatic(const StaticShape& geometry)
     : shape(geometry), axes(glm::mat3_cast(geometry.worldFromShape.rotation)) {

@@ -14,6 +14,14 @@ struct PlacedShape {
     mat3 axes{1};  ///< Columns: the body's axes in the world.
 };
 
+/// The corners of a box and the ends of a capsule, in body space: what a convex static face can meet.
+struct CorePoints {
+    std::array<vec3, 8> local;
+    int count = 0;
+    float radius = 0.0F;
+};
+[[nodiscard]] CorePoints corePoints(const BodyShape& shape);
+
 /// Where a shape's core (a point of it, in body space) with `radius` around it meets the half space n · p <= offset.
 struct StaticTouch {
     vec3 local{0, 0, 0};

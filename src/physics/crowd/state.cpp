@@ -58,7 +58,10 @@ int addDoll(CrowdState& state, Topology topology, const RagdollProfile* profile,
     doll.group = groupFor(state, topology);
     doll.firstBody = state.bodyTotal;
     doll.frozen.assign(bodies.begin(), bodies.end());
+    doll.firstBox = state.boxTotal;
+    doll.boxes = (static_cast<int>(bodies.size()) + kLanes - 1) / kLanes;
     state.bodyTotal += static_cast<int>(bodies.size());
+    state.boxTotal += doll.boxes;
     state.dolls.push_back(std::move(doll));
     const int index = static_cast<int>(state.dolls.size()) - 1;
     state.sweep.push_back(index);

@@ -38,6 +38,8 @@ struct Doll {
     int batch = -1;  ///< Of the group; -1 while asleep.
     int lane = 0;
     int firstBody = 0;              ///< Number of its first body among all bodies of the world.
+    int firstBox = 0;               ///< Into CrowdState::stepBoxes.
+    int boxes = 0;                  ///< How many it has there.
     std::vector<BodyState> frozen;  ///< The bodies while asleep.
     float restSeconds = 0.0F;       ///< For how long it has been below the sleeping speeds.
     std::int64_t island = -1;       ///< Dolls that fell asleep together share a number; they wake together.
@@ -99,6 +101,14 @@ struct Job {
     double dragWork = 0.0;
 };
 
+/// A body as detection sees it in one step.
+struct StepBody {
+    PlacedShape placed;
+    vec3 velocity{0, 0, 0};
+    float swing = 0.0F;  ///< m/s by which turning can move a point of it.
+    float size = 0.0F;   ///< Metres, of a sphere around it.
+};
+
 /// Everything in a crowd world. The steps of the simulation are free functions over it, each in its own file.
 struct CrowdState {
     CrowdState(const WorldSettings& given, const CrowdTuning& tuned);
@@ -117,11 +127,16 @@ struct CrowdState {
     std::vector<DragRecord> drags;          ///< By id.
     double dragWork = 0.0;
     int bodyTotal = 0;
+    int boxTotal = 0;  ///< BoxLanes.
     std::int64_t nextIsland = 0;
 
     std::vector<Batch*> active;                       ///< Batches in use in this step.
     std::vector<Group*> activeGroup;                  ///< One an active batch.
     std::vector<std::vector<PairTouch>> selfTouches;  ///< One an active batch.
+    std::vector<StepBody> stepBodies;                 ///< One a body of the world; those of dolls near others are set.
+    std::vector<BoxLanes> stepBoxes;                  ///< From Doll::firstBox on, of the same dolls.
+    std::vector<char> isNear;                         ///< One a doll: whether its bounds meet another's.
+    std::vector<std::vector<PairTouch>> dollTouches;  ///< One a piece of `dollPairs`.
     std::vector<int> sweep;                           ///< Dolls by the low end of their bounds along x.
     std::vector<std::pair<int, int>> dollPairs;
     std::vector<PairTouch> touches;  ///< Of this step; after it with its impulses.
