@@ -6,18 +6,55 @@
 
 namespace lutka::animation {
 
+ClipFrames::ClipFrames(std::size_t size, Source source) : shared_(std::make_shared<Shared>()) {
+    shared_->size = size;
+    shared_->source = std::move(source);
+}
+
+const std::vector<RigidTransform>& ClipFrames::get() const {
+    static const std::vector<RigidTransform> none;
+    if (!shared_) return none;
+    Shared& shared = *shared_;
+    std::call_once(shared.once, [&shared] {
+        if (!shared.source) return;
+        shared.frames = shared.source();
+        shared.source = nullptr;  // and what it holds of the file
+        LUTKA_ASSERT(shared.frames.size() == shared.size);
+    });
+    return shared.frames;
+}
+
+std::vector<RigidTransform>& ClipFrames::change() {
+    auto own = std::make_shared<Shared>();
+    // Others may hold the shared poses, or come to them at this very moment.
+    own->frames = shared_.use_count() == 1 ? std::move(const_cast<std::vector<RigidTransform>&>(get())) : get();
+    own->size = own->frames.size();
+    shared_ = std::move(own);
+    return shared_->frames;
+}
+
+void ClipFrames::push_back(const RigidTransform& frame) {
+    append(std::span(&frame, 1));
+}
+
+void ClipFrames::append(std::span<const RigidTransform> frames) {
+    if (!shared_ || shared_.use_count() > 1 || shared_->source) static_cast<void>(change());
+    shared_->frames.insert(shared_->frames.end(), frames.begin(), frames.end());
+    shared_->size = shared_->frames.size();
+}
+
 void sampleClip(const Clip& clip, float seconds, std::span<RigidTransform> parentFromJoint) {
     const std::size_t joints = parentFromJoint.size();
     LUTKA_ASSERT(clip.frameCount >= 1);
     LUTKA_ASSERT(clip.parentFromJoint.size() == joints * static_cast<std::size_t>(clip.frameCount));
+    const std::vector<RigidTransform>& frames = clip.parentFromJoint.get();
     const float last = static_cast<float>(clip.frameCount - 1);
     const float at = std::clamp(seconds * clip.framesPerSecond, 0.0F, last);
     const auto before = static_cast<std::size_t>(at);
     const std::size_t after = std::min<std::size_t>(before + 1, static_cast<std::size_t>(clip.frameCount) - 1);
     const float alpha = at - static_cast<float>(before);
     for (std::size_t joint = 0; joint < joints; ++joint) {
-        parentFromJoint[joint] = interpolate(clip.parentFromJoint[before * joints + joint],
-                                             clip.parentFromJoint[after * joints + joint], alpha);
+        parentFromJoint[joint] = interpolate(frames[before * joints + joint], frames[after * joints + joint], alpha);
     }
 }
 

@@ -15,7 +15,7 @@ void ClipBaker::sample(Simulation& simulation) {
     local_.resize(skeleton.parents.size());
     simulation.pose(doll_, 1.0F, model_);
     animation::modelToLocal(skeleton, model_, local_);
-    clip_.parentFromJoint.insert(clip_.parentFromJoint.end(), local_.begin(), local_.end());
+    clip_.parentFromJoint.append(local_);
     ++clip_.frameCount;
 }
 

@@ -27,7 +27,7 @@ Doll dollThatTurns(const std::string& joint, const vec3& axis, float angle) {
     for (int frame = 0; frame < clip.frameCount; ++frame) {
         std::vector<RigidTransform> pose = doll.character.skeleton.nodeParentFromJoint;
         pose[turned].rotation = glm::angleAxis(angle * static_cast<float>(frame) / 10.0F, axis) * pose[turned].rotation;
-        clip.parentFromJoint.insert(clip.parentFromJoint.end(), pose.begin(), pose.end());
+        clip.parentFromJoint.append(pose);
     }
     doll.character.clips.push_back(clip);
     auto profile = fitRagdoll(doll.character, test::mapOfBiped(doll.character));

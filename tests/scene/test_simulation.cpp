@@ -29,7 +29,7 @@ void addTurningClip(animation::Character& character, float speed) {
         const float t = static_cast<float>(frame) / clip.framesPerSecond;
         std::vector<RigidTransform> pose = character.skeleton.nodeParentFromJoint;
         pose[0] = RigidTransform{glm::angleAxis(speed * t, vec3(0, 1, 0)), {2.0F * t, 0, 0}} * pose[0];
-        clip.parentFromJoint.insert(clip.parentFromJoint.end(), pose.begin(), pose.end());
+        clip.parentFromJoint.append(pose);
     }
     character.clips.push_back(clip);
 }

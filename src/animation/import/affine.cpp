@@ -25,6 +25,22 @@ double solidity(const dmat3& m) {
     return lengths > 0.0 ? std::abs(glm::determinant(m)) / lengths : 0.0;
 }
 
+// Of a frame that is nearly a scaled rotation, which nearly all are: the square of the scale. 0 for all others, also
+// for what is not finite or so small or large that it is looked at more closely.
+double squareOfScale(const dmat4& m) {
+    const dvec3 x(m[0]);
+    const dvec3 y(m[1]);
+    const dvec3 z(m[2]);
+    const double xx = glm::dot(x, x);
+    const double yy = glm::dot(y, y);
+    const double zz = glm::dot(z, z);
+    const double mean = (xx + yy + zz) / 3.0;
+    const double unequal = std::abs(xx - mean) + std::abs(yy - mean) + std::abs(zz - mean);
+    const double skew = std::abs(glm::dot(x, y)) + std::abs(glm::dot(x, z)) + std::abs(glm::dot(y, z));
+    const bool plain = mean > 1e-20 && mean < 1e20 && unequal < 0.3 * mean && skew < 0.1 * mean;
+    return plain && std::isfinite(m[3].x + m[3].y + m[3].z) ? mean : 0.0;
+}
+
 // A rotation from what is left of a flat frame: the longest column is kept, the next made perpendicular to it.
 dmat3 rotationFromFlat(const dmat3& m) {
     std::array<int, 3> order = {0, 1, 2};
@@ -61,16 +77,22 @@ bool isInvertible(const dmat4& matrix) {
 
 dmat3 nearestRotation(const dmat4& matrix) {
     dmat3 m(matrix);
-    if (!isFinite(matrix)) return dmat3(1.0);
-    if (!isInvertible(matrix)) return rotationFromFlat(m);
-    m /= meanScale(matrix);
+    if (const double square = squareOfScale(matrix); square > 0.0) {
+        m /= std::sqrt(square);
+    } else {
+        if (!isFinite(matrix)) return dmat3(1.0);
+        if (!isInvertible(matrix)) return rotationFromFlat(m);
+        m /= meanScale(matrix);
+    }
     for (int i = 0; i < 60; ++i) {
         const dmat3 next = 0.5 * (m + glm::inverse(glm::transpose(m)));
         double change = 0.0;
-        for (int column = 0; column < 3; ++column)
-            change = std::max(change, glm::length(next[column] - m[column]));
+        for (int column = 0; column < 3; ++column) {
+            const dvec3 step = next[column] - m[column];
+            change = std::max(change, glm::dot(step, step));
+        }
         m = next;
-        if (change < 1e-13) break;
+        if (change < 1e-26) break;
     }
     return glm::determinant(m) < 0.0 ? -m : m;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <exception>
 #include <memory>
+#include <utility>
 
 #include "animation/import/bind_pose.hpp"
 #include "animation/import/clip_sampling.hpp"
@@ -75,13 +76,13 @@ void settleMeshes(const UnitsAndAxes& units, std::vector<SkinnedMesh>& meshes) {
     }
 }
 
-void poseNodes(const NodeTree& tree, const RigidPoser& poser, std::span<const bool> matters, Character& character) {
+void poseNodes(const ClipFile& file, Character& character) {
     std::vector<dmat4> sceneFromNode;
-    sceneFromNode.reserve(tree.nodes.size());
-    for (const NodeTree::Node& node : tree.nodes)
+    sceneFromNode.reserve(file.tree.nodes.size());
+    for (const NodeTree::Node& node : file.tree.nodes)
         sceneFromNode.push_back(node.sceneFromNode);
-    std::vector<RigidTransform> modelFromJoint(tree.nodeOfJoint.size());
-    const double worst = poser.pose(sceneFromNode, 1.0, matters, modelFromJoint);
+    std::vector<RigidTransform> modelFromJoint(file.tree.nodeOfJoint.size());
+    const double worst = file.poser.pose(sceneFromNode, 1.0, file.matters(), modelFromJoint);
     modelToLocal(character.skeleton, modelFromJoint, character.skeleton.nodeParentFromJoint);
     if (worst > kVisibleScale) {
         character.warnings.push_back(
@@ -91,23 +92,19 @@ void poseNodes(const NodeTree& tree, const RigidPoser& poser, std::span<const bo
 }
 
 // Skeleton and clips from the solved bind pose and the settled units.
-void buildMotion(const SceneFile& file, const NodeTree& tree, std::span<const dmat4> bind, const UnitsAndAxes& units,
-                 Character& character) {
-    const std::size_t count = tree.nodeOfJoint.size();
-    const RigidPoser poser(tree, bind, units.modelFromScene());
-    const auto matters = std::make_unique<bool[]>(count);
-    for (std::size_t joint = 0; joint < count; ++joint)
-        matters[joint] = character.skeleton.skinWeight[joint] > 0.0F;
-    character.skeleton.bindModelFromJoint = poser.bindModelFromJoint();
-    character.skeleton.nodeParentFromJoint.resize(count);
+std::shared_ptr<ClipFile> buildMotion(const SceneFile& source, const NodeTree& tree, std::span<const dmat4> bind,
+                                      const UnitsAndAxes& units, Character& character) {
+    const auto file = std::make_shared<ClipFile>(tree, bind, units.modelFromScene(), character.skeleton);
+    character.skeleton.bindModelFromJoint = file->poser.bindModelFromJoint();
+    character.skeleton.nodeParentFromJoint.resize(tree.nodeOfJoint.size());
     if (!tree.nodesArePosed) {
-        modelToLocal(character.skeleton, poser.bindModelFromJoint(), character.skeleton.nodeParentFromJoint);
+        modelToLocal(character.skeleton, file->poser.bindModelFromJoint(), character.skeleton.nodeParentFromJoint);
         character.warnings.push_back("the file's joint hierarchy and clips can't be read; the bind pose can");
-        return;
+        return file;
     }
-    poseNodes(tree, poser, {matters.get(), count}, character);
-    character.clips =
-        sampleAnimations(*file.scene, tree, poser, character.skeleton, {matters.get(), count}, character.warnings);
+    poseNodes(*file, character);
+    character.clips = sampleAnimations(*source.scene, file, character.warnings);
+    return file;
 }
 
 Result<Character> readCharacter(const std::filesystem::path& file, const ImportOptions& options) {
@@ -117,7 +114,7 @@ Result<Character> readCharacter(const std::filesystem::path& file, const ImportO
     }
     Result<SceneFile> opened = readScene(file);
     if (!opened) return opened.error();
-    const SceneFile& source = opened.value();
+    SceneFile& source = opened.value();
     Result<NodeTree> read = readNodeTree(*source.scene, file.string());
     if (!read) return read.error();
     NodeTree& tree = read.value();
@@ -138,9 +135,10 @@ Result<Character> readCharacter(const std::filesystem::path& file, const ImportO
         settleUnits(conventionOf(source, file), pointsOfFigure(character, bind), options, character.warnings);
     character.units = units.info;
     settleMeshes(units, character.meshes);
-    buildMotion(source, tree, bind, units, character);
+    const std::shared_ptr<ClipFile> clipFile = buildMotion(source, tree, bind, units, character);
     convertMaterials(*source.scene, file, options.loadTextures, character);
     if (source.gltf) character.vrmHumanoid = vrmHumanoid(*source.gltf, tree, character.warnings);
+    clipFile->keep(std::move(source.importer));
     return character;
 }
 

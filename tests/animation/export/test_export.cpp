@@ -127,12 +127,12 @@ Character movingBiped() {
     for (int frame = 0; frame < bend.frameCount; ++frame) {
         std::vector<RigidTransform> pose = rest;
         pose[elbow].rotation = glm::angleAxis(0.05F * static_cast<float>(frame), vec3(0, 1, 0));
-        bend.parentFromJoint.insert(bend.parentFromJoint.end(), pose.begin(), pose.end());
+        bend.parentFromJoint.append(pose);
     }
     for (int frame = 0; frame < lift.frameCount; ++frame) {
         std::vector<RigidTransform> pose = rest;
         pose[0].translation.y += 0.3F * std::sin(0.1F * static_cast<float>(frame));
-        lift.parentFromJoint.insert(lift.parentFromJoint.end(), pose.begin(), pose.end());
+        lift.parentFromJoint.append(pose);
     }
     biped.clips = {bend, lift};
     return biped;
