@@ -132,8 +132,8 @@ Group mergeGroup(const RagdollProfile& full, const Rig& rig, std::vector<int> me
     for (int i = 0; i < 3; ++i)
         group.body.inertia[i] = glm::dot(turned[i] * turned[i], vec3(inertia[0][0], inertia[1][1], inertia[2][2]));
     group.body.massKg = mass;
-    group.body.jointFromBody = full.bodies[lead].jointFromBody * inverse(rig.bindModelFromBody[lead]) *
-                               group.bindModelFromLod;
+    group.body.jointFromBody =
+        full.bodies[lead].jointFromBody * inverse(rig.bindModelFromBody[lead]) * group.bindModelFromLod;
     mergeShape(full, rig, group);
     return group;
 }
@@ -235,9 +235,8 @@ void fullToLod(const LodProfile& lod, const RagdollProfile& full, std::span<cons
         const BodyState& body = bodies[i];
         const vec3 arm = body.worldFromBody.translation - centres[lod.bodyOf[i]];
         // Angular momentum, until all members are in.
-        group.angularVelocity +=
-            turnedBy(body.worldFromBody.rotation, full.bodies[i].inertia, body.angularVelocity) +
-            full.bodies[i].massKg * glm::cross(arm, body.linearVelocity - group.linearVelocity);
+        group.angularVelocity += turnedBy(body.worldFromBody.rotation, full.bodies[i].inertia, body.angularVelocity) +
+                                 full.bodies[i].massKg * glm::cross(arm, body.linearVelocity - group.linearVelocity);
         lodFromMember[i] = glm::conjugate(group.worldFromBody.rotation) * body.worldFromBody.rotation;
     }
     for (std::size_t group = 0; group < lodBodies.size(); ++group) {

@@ -32,8 +32,18 @@ void rotateAway(mat3& covariance, mat3& axes, int p, int q) {
 
 }  // namespace
 
-PrincipalAxes principalAxes(std::span<const SkinPoint> points) {
+mat3 diagonalise(mat3& matrix) {
     constexpr int kSweeps = 12;
+    mat3 axes(1.0F);
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+        rotateAway(matrix, axes, 0, 1);
+        rotateAway(matrix, axes, 0, 2);
+        rotateAway(matrix, axes, 1, 2);
+    }
+    return axes;
+}
+
+PrincipalAxes principalAxes(std::span<const SkinPoint> points) {
     const bool weighted = std::any_of(points.begin(), points.end(), [](const SkinPoint& p) { return p.area > 0.0F; });
     PrincipalAxes result;
     result.centroid = centroidOf(points, weighted);
@@ -46,12 +56,7 @@ PrincipalAxes principalAxes(std::span<const SkinPoint> points) {
         total += weight;
     }
     covariance /= total;
-    mat3 axes(1.0F);
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
-        rotateAway(covariance, axes, 0, 1);
-        rotateAway(covariance, axes, 0, 2);
-        rotateAway(covariance, axes, 1, 2);
-    }
+    const mat3 axes = diagonalise(covariance);
     std::array<int, 3> order{0, 1, 2};
     std::sort(order.begin(), order.end(), [&](int a, int b) { return covariance[a][a] > covariance[b][b]; });
     for (int i = 0; i < 3; ++i) {

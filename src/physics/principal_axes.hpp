@@ -14,7 +14,11 @@ struct PrincipalAxes {
     std::array<float, 3> spread{0, 0, 0};                                   ///< Standard deviation along each, metres.
 };
 
-/// By Jacobi's rotations on the covariance matrix. At least one point.
+/// Makes a symmetric matrix diagonal by Jacobi's rotations. Returns the axes in its columns: what came in is
+/// axes · matrix · transpose(axes) of what comes out.
+[[nodiscard]] mat3 diagonalise(mat3& matrix);
+
+/// By diagonalise() on the covariance matrix. At least one point.
 [[nodiscard]] PrincipalAxes principalAxes(std::span<const SkinPoint> points);
 
 }  // namespace lutka::physics
