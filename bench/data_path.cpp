@@ -102,7 +102,7 @@ struct Crowd {
     }
     [[nodiscard]] double jointCount() const { return static_cast<double>(joints) * kInstances; }
     [[nodiscard]] physics::DollPoser::Source source(float alpha) const {
-        return {worldFromBody, worldFromBody, alpha, worldFromModel};
+        return {worldFromBody, worldFromBody, alpha, worldFromModel, {}, {}};
     }
 };
 

@@ -69,10 +69,12 @@ void DollPoser::useInstructionSet(InstructionSet set) {
 void DollPoser::run(const Source& source, std::span<const int> dolls, std::span<animation::SkinMatrix> palettes,
                     std::span<RigidTransform> modelFromJoint) {
     const std::size_t count = source.worldFromModel.size();
-    LUTKA_ASSERT(source.present.size() >= count * bindBodyTurns_.size());
-    LUTKA_ASSERT(source.alpha >= 1.0F || source.previous.size() >= count * bindBodyTurns_.size());
-    LUTKA_ASSERT(palettes.empty() || palettes.size() == count * joints_.size());
-    LUTKA_ASSERT(modelFromJoint.empty() || modelFromJoint.size() == count * joints_.size());
+    LUTKA_ASSERT(source.firstBody.size() == (source.firstBody.empty() ? 0 : count));
+    LUTKA_ASSERT(source.firstJoint.size() == (source.firstJoint.empty() ? 0 : count));
+    LUTKA_ASSERT(!source.firstBody.empty() || source.present.size() >= count * bindBodyTurns_.size());
+    LUTKA_ASSERT(source.alpha >= 1.0F || source.previous.size() >= source.present.size());
+    LUTKA_ASSERT(palettes.empty() || !source.firstJoint.empty() || palettes.size() == count * joints_.size());
+    LUTKA_ASSERT(modelFromJoint.empty() || palettes.empty() || modelFromJoint.size() == palettes.size());
     if (count == 0 || dolls.empty()) return;
     wide::FollowJob job{};
     job.joints = joints_.data();
@@ -83,6 +85,8 @@ void DollPoser::run(const Source& source, std::span<const int> dolls, std::span<
     job.present = &source.present[0].rotation.x;
     job.alpha = source.alpha;
     job.worldFromModel = &source.worldFromModel[0].rotation.x;
+    job.firstBody = source.firstBody.empty() ? nullptr : source.firstBody.data();
+    job.firstJoint = source.firstJoint.empty() ? nullptr : source.firstJoint.data();
     job.palettes = palettes.empty() ? nullptr : &palettes[0].rows[0].x;
     job.poses = modelFromJoint.empty() ? nullptr : &modelFromJoint[0].rotation.x;
     wide::forGroups(pool_, scratch_, dolls, kernels_->lanes, [&](const int* members, float* scratch) {

@@ -21,13 +21,16 @@ class DollPoser {
         std::span<const RigidTransform> present;   ///< Dolls × bodies.
         float alpha = 1.0F;                        ///< Way from previous to present, [0, 1]; interpolate() between.
         std::span<const RigidTransform> worldFromModel;  ///< One a doll.
+        std::span<const long> firstBody = {};   ///< One a doll: where its bodies begin; empty: doll after doll. For
+                                                ///< crowds of several rigs, each of which has a poser of its own.
+        std::span<const long> firstJoint = {};  ///< Likewise where its results go.
     };
 
     /// `pool` must outlive the poser. Allocates what run() needs.
     DollPoser(const Rig& rig, const animation::Skeleton& skeleton, const TaskPool& pool);
 
     /// For each of `dolls` (no repeats) jointCount() matrices into `palettes` and as many model-space frames into
-    /// `modelFromJoint`, doll after doll; either may be empty. Other dolls' results stay as they were: leave those out
+    /// `modelFromJoint`; either may be empty. Other dolls' results stay as they were: leave those out
     /// that sleep. Followers keep their bind pose. Allocates nothing with one thread.
     void run(const Source& source, std::span<const int> dolls, std::span<animation::SkinMatrix> palettes,
              std::span<RigidTransform> modelFromJoint = {});

@@ -45,7 +45,7 @@ struct Dolls {
     }
 
     [[nodiscard]] std::size_t joints() const { return skeleton.parents.size(); }
-    [[nodiscard]] DollPoser::Source at(float alpha) const { return {previous, present, alpha, worldFromModel}; }
+    [[nodiscard]] DollPoser::Source at(float alpha) const { return {previous, present, alpha, worldFromModel, {}, {}}; }
 
   private:
     static quat anyTurn(Random& random, float angle) {

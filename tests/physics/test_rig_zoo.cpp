@@ -49,7 +49,7 @@ float worstOfManyAtOnce(const physics::Rig& rig, const animation::Skeleton& skel
     const std::vector<RigidTransform> worldFromModel(dolls);
     std::vector<animation::SkinMatrix> palettes(dolls * joints);
     physics::DollPoser(rig, skeleton, pool)
-        .run({{}, worldFromBody, 1.0F, worldFromModel}, std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7}, palettes);
+        .run({{}, worldFromBody, 1.0F, worldFromModel, {}, {}}, std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7}, palettes);
     float worst = 0;
     std::vector<RigidTransform> pose(joints);
     std::vector<animation::SkinMatrix> palette(joints);

@@ -21,7 +21,6 @@ struct SkinJob {
     const std::uint16_t* joints;  ///< Four a vertex.
     const float* weights;         ///< Four a vertex, strongest first.
     const float* palette;         ///< Twelve a joint.
-    int jointCount;
     float* outPositions;
     float* outNormals;
     float* outTangents;
@@ -50,13 +49,15 @@ struct FollowJob {
     int jointCount;
     const float* bindBodyTurns;  ///< Conjugate bind rotation of each body, four floats each.
     int bodyCount;
-    const float* previous;        ///< Dolls × bodies, rigid, in the world; unread when alpha is 1.
+    const float* previous;        ///< Rigid, a body, in the world; unread when alpha is 1.
     const float* present;         ///< Likewise.
     float alpha;                  ///< From previous to present.
     const float* worldFromModel;  ///< A rigid transform a doll.
     const int* dolls;             ///< One a lane.
-    float* palettes;              ///< Dolls × joints matrices, or null.
-    float* poses;                 ///< Dolls × joints rigid transforms in model space, or null.
+    const long* firstBody;        ///< One a doll: where its bodies begin; null: doll after doll of `bodyCount`.
+    const long* firstJoint;       ///< Likewise of its joints, in matrices and frames.
+    float* palettes;              ///< A matrix a joint, or null.
+    float* poses;                 ///< A rigid transform in model space a joint, or null.
     float* scratch;               ///< kMostLanes × kRigidFloats × (joints + 2 bodies) floats, aligned to 32 bytes.
 };
 

@@ -95,7 +95,9 @@ LUTKA_LANES void gatherBodies(const FollowJob& job, float* bodies, float* turns)
     long doll[kMostLanes];
     long placed[kMostLanes];
     for (int lane = 0; lane < kLanes; ++lane) {
-        doll[lane] = static_cast<long>(job.dolls[lane]) * job.bodyCount * kRigidFloats;
+        const long first = job.firstBody != nullptr ? job.firstBody[job.dolls[lane]]
+                                                    : static_cast<long>(job.dolls[lane]) * job.bodyCount;
+        doll[lane] = first * kRigidFloats;
         placed[lane] = static_cast<long>(job.dolls[lane]) * kRigidFloats;
     }
     const Rigid modelFromWorld = inverse(gatherRigid(job.worldFromModel, placed));
@@ -126,8 +128,10 @@ static void follow(const FollowJob& job) {
     long matrices[kMostLanes];
     long frames[kMostLanes];
     for (int lane = 0; lane < kLanes; ++lane) {
-        matrices[lane] = static_cast<long>(job.dolls[lane]) * job.jointCount * kMatrixFloats;
-        frames[lane] = static_cast<long>(job.dolls[lane]) * job.jointCount * kRigidFloats;
+        const long first = job.firstJoint != nullptr ? job.firstJoint[job.dolls[lane]]
+                                                     : static_cast<long>(job.dolls[lane]) * job.jointCount;
+        matrices[lane] = first * kMatrixFloats;
+        frames[lane] = first * kRigidFloats;
     }
     for (int i = 0; i < job.jointCount; ++i) {
         const FollowJoint& joint = job.joints[i];

@@ -55,46 +55,34 @@ LUTKA_LANES int influencesOf(const float* weights) {
     return any[1] != 0 ? 2 : 1;
 }
 
-// Where each influence's matrix begins, in pairs of floats, so that an address needs no multiplication.
-struct Offsets {
-    alignas(64) std::uint16_t of[kLanes * kInfluences];
-};
-static constexpr int kPairs = kMatrixFloats / 2;
-static constexpr int kMostJoints = 65535 / kPairs;  // beyond, the plain loop has to do
-
-LUTKA_LANES void findOffsets(const std::uint16_t* joints, Offsets& offsets) {
-    for (int i = 0; i < kLanes * kInfluences; ++i)
-        offsets.of[i] = static_cast<std::uint16_t>(joints[i] * kPairs);
-}
-
 #if LUTKA_LANE_COUNT == 8 && defined(__AVX__)
 
 // Adds one influence of a vertex to its first two rows, which fill a register.
 template <int Slot>
-LUTKA_LANES void blendUpper(const SkinJob& job, const float* weights, const Offsets& offsets, int lane, F& rows) {
+LUTKA_LANES void blendUpper(const SkinJob& job, const float* weights, const std::uint16_t* joints, int lane, F& rows) {
     using Unaligned = float __attribute__((vector_size(32), may_alias, aligned(4)));
-    const float* from = job.palette + offsets.of[lane * kInfluences + Slot] * 2L;
+    const float* from = job.palette + static_cast<long>(joints[lane * kInfluences + Slot]) * kMatrixFloats;
     const F part = all(weights[lane * kInfluences + Slot]) * *reinterpret_cast<const Unaligned*>(from);
     rows = Slot == 0 ? part : rows + part;
 }
 // Adds one influence of the vertices `lane` and `lane + 4` to their third rows, which share a register.
 template <int Slot>
-LUTKA_LANES void blendThird(const SkinJob& job, const F& weights, const Offsets& offsets, int lane, F& rows) {
-    const float* low = job.palette + offsets.of[lane * kInfluences + Slot] * 2L + 8;
-    const float* high = job.palette + offsets.of[(lane + 4) * kInfluences + Slot] * 2L + 8;
+LUTKA_LANES void blendThird(const SkinJob& job, const F& weights, const std::uint16_t* joints, int lane, F& rows) {
+    const float* low = job.palette + static_cast<long>(joints[lane * kInfluences + Slot]) * kMatrixFloats + 8;
+    const float* high = job.palette + static_cast<long>(joints[(lane + 4) * kInfluences + Slot]) * kMatrixFloats + 8;
     const F part = shuffled<Slot, Slot, Slot, Slot>(weights, weights) * halves(low, high);
     rows = Slot == 0 ? part : rows + part;
 }
 
 // Transposes the first two rows of four vertices into lanes [row 0 of the four | row 1 of the four].
 template <int Count>
-LUTKA_LANES void blendUpperOfFour(const SkinJob& job, const float* weights, const Offsets& offsets, int lane,
+LUTKA_LANES void blendUpperOfFour(const SkinJob& job, const float* weights, const std::uint16_t* joints, int lane,
                                   F (&out)[4]) {
     for (int i = 0; i < 4; ++i) {
-        blendUpper<0>(job, weights, offsets, lane + i, out[i]);
-        if constexpr (Count > 1) blendUpper<1>(job, weights, offsets, lane + i, out[i]);
-        if constexpr (Count > 2) blendUpper<2>(job, weights, offsets, lane + i, out[i]);
-        if constexpr (Count > 3) blendUpper<3>(job, weights, offsets, lane + i, out[i]);
+        blendUpper<0>(job, weights, joints, lane + i, out[i]);
+        if constexpr (Count > 1) blendUpper<1>(job, weights, joints, lane + i, out[i]);
+        if constexpr (Count > 2) blendUpper<2>(job, weights, joints, lane + i, out[i]);
+        if constexpr (Count > 3) blendUpper<3>(job, weights, joints, lane + i, out[i]);
     }
     transpose4(out[0], out[1], out[2], out[3]);
 }
@@ -108,22 +96,22 @@ LUTKA_LANES F highHalves(const F& a, const F& b) {
 
 // The blended matrices of kLanes vertices, m[row][column].
 template <int Count>
-LUTKA_LANES void blend(const SkinJob& job, long first, const Offsets& offsets, F (&m)[3][4]) {
+LUTKA_LANES void blend(const SkinJob& job, long first, const std::uint16_t* joints, F (&m)[3][4]) {
     const float* weights = job.weights + first * kInfluences;
     F low[4];
     F high[4];
-    blendUpperOfFour<Count>(job, weights, offsets, 0, low);
-    blendUpperOfFour<Count>(job, weights, offsets, 4, high);
+    blendUpperOfFour<Count>(job, weights, joints, 0, low);
+    blendUpperOfFour<Count>(job, weights, joints, 4, high);
     for (int column = 0; column < 4; ++column) {
         m[0][column] = lowHalves(low[column], high[column]);
         m[1][column] = highHalves(low[column], high[column]);
     }
     for (int i = 0; i < 4; ++i) {
         const F both = halves(weights + static_cast<long>(i) * 4, weights + static_cast<long>(i) * 4 + 16);
-        blendThird<0>(job, both, offsets, i, m[2][i]);
-        if constexpr (Count > 1) blendThird<1>(job, both, offsets, i, m[2][i]);
-        if constexpr (Count > 2) blendThird<2>(job, both, offsets, i, m[2][i]);
-        if constexpr (Count > 3) blendThird<3>(job, both, offsets, i, m[2][i]);
+        blendThird<0>(job, both, joints, i, m[2][i]);
+        if constexpr (Count > 1) blendThird<1>(job, both, joints, i, m[2][i]);
+        if constexpr (Count > 2) blendThird<2>(job, both, joints, i, m[2][i]);
+        if constexpr (Count > 3) blendThird<3>(job, both, joints, i, m[2][i]);
     }
     transpose4(m[2][0], m[2][1], m[2][2], m[2][3]);
 }
@@ -133,15 +121,16 @@ LUTKA_LANES void blend(const SkinJob& job, long first, const Offsets& offsets, F
 // The blended matrices of kLanes vertices, m[row][column]: each influence of vertex i (and i + 4) is added to its rows,
 // and the rows of four vertices become columns.
 template <int Count>
-LUTKA_LANES void blend(const SkinJob& job, long first, const Offsets& offsets, F (&m)[3][4]) {
+LUTKA_LANES void blend(const SkinJob& job, long first, const std::uint16_t* joints, F (&m)[3][4]) {
     for (int i = 0; i < 4; ++i) {
         const float* own = job.weights + (first + i) * kInfluences;
         const F weights = halves(own, kLanes == 8 ? own + 16 : own);
         const F weight[4] = {shuffled<0, 0, 0, 0>(weights, weights), shuffled<1, 1, 1, 1>(weights, weights),
                              shuffled<2, 2, 2, 2>(weights, weights), shuffled<3, 3, 3, 3>(weights, weights)};
         for (int slot = 0; slot < Count; ++slot) {
-            const float* low = job.palette + offsets.of[i * kInfluences + slot] * 2L;
-            const float* high = job.palette + offsets.of[(i + 4) % kLanes * kInfluences + slot] * 2L;
+            const float* low = job.palette + static_cast<long>(joints[i * kInfluences + slot]) * kMatrixFloats;
+            const float* high =
+                job.palette + static_cast<long>(joints[(i + 4) % kLanes * kInfluences + slot]) * kMatrixFloats;
             for (int row = 0; row < 3; ++row) {
                 const F part = weight[slot] * halves(low + row * 4L, high + row * 4L);
                 m[row][i] = slot == 0 ? part : m[row][i] + part;
@@ -162,10 +151,8 @@ LUTKA_LANES V3 turned(const F (&m)[3][4], const V3& v) {
 
 template <int Count>
 LUTKA_LANES void skinLanes(const SkinJob& job, long first) {
-    Offsets offsets;
-    findOffsets(job.joints + first * kInfluences, offsets);
     F m[3][4];
-    blend<Count>(job, first, offsets, m);
+    blend<Count>(job, first, job.joints + first * kInfluences, m);
     const V3 p = loadVectors(job.positions + first * 3);
     storeVectors(job.outPositions + first * 3, {(m[0][0] * p.x + m[0][1] * p.y) + (m[0][2] * p.z + m[0][3]),
                                                 (m[1][0] * p.x + m[1][1] * p.y) + (m[1][2] * p.z + m[1][3]),
@@ -181,9 +168,9 @@ LUTKA_LANES void skinLanes(const SkinJob& job, long first) {
     }
 }
 
-static void skin(const SkinJob& job) {
+[[maybe_unused]] static void skin(const SkinJob& job) {
     long vertex = 0;
-    for (; job.jointCount <= kMostJoints && vertex + kLanes <= job.vertexCount; vertex += kLanes) {
+    for (; vertex + kLanes <= job.vertexCount; vertex += kLanes) {
         switch (influencesOf(job.weights + vertex * kInfluences)) {
             case 1:
                 skinLanes<1>(job, vertex);
