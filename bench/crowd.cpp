@@ -98,6 +98,7 @@ struct Figure {
 // One world with the scene's contents, and what is known of its run.
 struct Run {
     std::string solver;
+    int stepsPerFrame = 1;
     std::unique_ptr<physics::World> world;
     std::unique_ptr<physics::QualityMeter> meter;
     double seconds = 0;
@@ -109,7 +110,7 @@ std::unique_ptr<physics::World> makeWorld(const std::string& solver, const Argum
     physics::WorldSettings settings;
     settings.sleeping = arguments.sleeping;
     settings.threads = arguments.threads;
-    settings.solver = solver == "stock" ? physics::SolverKind::stock : physics::SolverKind::bullet;
+    settings.solver = solver.starts_with("stock") ? physics::SolverKind::stock : physics::SolverKind::bullet;
     if (solver != "crowd") return physics::createBulletWorld(settings);
     CrowdTuning tuning;
     for (const std::string& setting : arguments.settings)
@@ -140,15 +141,18 @@ void fill(physics::World& world, const Figure& figure, const scene::Scenario& sc
 void step(Run& run, bool measure) {
     double measuring = 0;
     const double before = cpuMs();
-    if (measure) {
-        const double substep = static_cast<double>(kDt) / run.world->substepsPerStep();
-        run.world->step(kDt, [&] {
+    const float dt = kDt / static_cast<float>(run.stepsPerFrame);
+    const double substep = static_cast<double>(dt) / run.world->substepsPerStep();
+    for (int i = 0; i < run.stepsPerFrame; ++i) {
+        if (!measure) {
+            run.world->step(dt);
+            continue;
+        }
+        run.world->step(dt, [&] {
             const double start = cpuMs();
             run.meter->sample(run.seconds += substep);
             measuring += cpuMs() - start;
         });
-    } else {
-        run.world->step(kDt);
     }
     run.ms.push_back(cpuMs() - before - measuring);
     std::vector<physics::ContactPoint> contacts;
@@ -197,6 +201,8 @@ void runScene(const Figure& figure, const std::string& scene, int seed, const Ar
     for (const std::string& solver : arguments.solvers) {
         Run run;
         run.solver = solver;
+        if (solver.starts_with("stock") && solver.size() > 5)
+            run.stepsPerFrame = std::max(std::stoi(solver.substr(5)), 1);
         run.world = makeWorld(solver, arguments);
         fill(*run.world, figure, scenario.value());
         run.meter = std::make_unique<physics::QualityMeter>(*run.world, scenario.value().statics, vec3(0, -9.81F, 0));
@@ -216,7 +222,8 @@ int main(int argc, char** argv) {
     Arguments arguments;
     CLI::App app("Quality and cost of the crowd solver; the ratio is the first solver's time over each one's");
     app.add_option("--scene", arguments.scenes)->delimiter(',');
-    app.add_option("--solver", arguments.solvers, "stock, bullet, crowd")->delimiter(',');
+    app.add_option("--solver", arguments.solvers, "stock, bullet, crowd; stock8: stock with 8 steps a frame, and so on")
+        ->delimiter(',');
     app.add_option("--set", arguments.settings, "name=value of CrowdTuning")->delimiter(',');
     app.add_option("--count", arguments.count);
     app.add_option("--seed", arguments.firstSeed);

@@ -18,8 +18,9 @@ struct Batch {
     std::vector<TreeLanes> tree;               ///< One a body.
     std::vector<StaticContactLanes> contacts;  ///< Of this step, body by body.
     std::vector<int> firstContact;             ///< See BatchView.
-    Wide brake{};                              ///< See BatchView.
-    int doll[kLanes]{};                        ///< Which doll is in which lane.
+    bool nearShapes = false;  ///< Whether some of its dolls are near static geometry other than planes.
+    Wide brake{};             ///< See BatchView.
+    int doll[kLanes]{};       ///< Which doll is in which lane.
     int used = 0;
     int job = 0;  ///< Which job of this step solves it.
 

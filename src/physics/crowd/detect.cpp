@@ -130,12 +130,14 @@ class StaticContacts {
 
     void find() {
         batch_.contacts.clear();
+        batch_.nearShapes = false;
         for (int lane = 0; lane < batch_.used; ++lane) {
             const Bounds bounds = worldBounds(state_.dolls[batch_.doll[lane]], dt_, farther_);
             for (int i = 0; i < static_cast<int>(state_.statics.size()); ++i) {
                 if (!nearStatic(state_.statics[i], bounds.low, bounds.high)) continue;
                 const bool isPlane = state_.statics[i].shape.kind == StaticShape::Kind::plane;
                 std::vector<int>& near = isPlane ? planes_ : near_[lane];
+                batch_.nearShapes = batch_.nearShapes || !isPlane;
                 if (!isPlane || std::find(near.begin(), near.end(), i) == near.end()) near.push_back(i);
             }
         }
@@ -344,6 +346,10 @@ void wakeTouched(CrowdState& state, float dt) {
     }
 }
 
+void findStatics(CrowdState& state, Batch& batch, const Topology& topology, float dt) {
+    StaticContacts(state, batch, topology, dt).find();
+}
+
 namespace {
 
 void placeDoll(CrowdState& state, const Doll& doll) {
@@ -403,7 +409,7 @@ void findContacts(CrowdState& state, float dt) {
         for (std::size_t i = begin; i < end; ++i) {
             Batch& batch = *state.active[i];
             const Topology& topology = state.activeGroup[i]->topology;
-            StaticContacts(state, batch, topology, dt).find();
+            findStatics(state, batch, topology, dt);
             findSelfContacts(state, batch, batch.view(topology), topology, dt, state.selfTouches[i]);
         }
     });

@@ -157,6 +157,7 @@ struct StaticContactLanes {
 
     Wide3 localPoint;
     Wide radius;
+    Wide normalMass;                 ///< kg, of the body alone.
     Wide offset;                     ///< The solid is normal · p <= offset; very low where the lane has no contact.
     unsigned long long key[kLanes];  ///< What each lane's contact is matched by in the next step; 0: none.
 };

@@ -34,8 +34,10 @@ void settle(CrowdState& state, float dt) {
         if (touch.carried.normal <= 0.0F || touch.dollA == touch.dollB) continue;
         state.dolls[touch.dollA].touching = state.dolls[touch.dollB].touching = true;
     }
-    for (std::size_t i = 0; i < state.active.size(); ++i)
-        measureRest(state, *state.active[i], state.activeGroup[i]->topology, dt);
+    state.pool.parallelFor(state.active.size(), 8, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            measureRest(state, *state.active[i], state.activeGroup[i]->topology, dt);
+    });
     if (!state.settings.sleeping) return;
 
     UnionFind islands(state.dolls.size());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "physics/crowd/detect.hpp"
 #include "physics/crowd/drag.hpp"
 
 namespace lutka::physics::crowd {
@@ -11,6 +12,9 @@ namespace {
 
 // Jobs with this many batches are split over the threads phase by phase; below it the hand-over costs more.
 constexpr std::size_t kSplitJob = 16;
+// Substeps after which contacts with static geometry other than planes are found anew: a body may have slid over an
+// edge.
+constexpr int kRefresh = 3;
 
 SubstepParams paramsOf(const CrowdState& state, float dt) {
     const CrowdTuning& tuning = state.tuning;
@@ -43,6 +47,39 @@ SubstepParams paramsOf(const CrowdState& state, float dt) {
     params.grip = tuning.grip;
     params.rollingLever = tuning.rollingLever;
     return params;
+}
+
+void keepStatics(CrowdState& state, Batch& batch) {
+    for (int lane = 0; lane < batch.used; ++lane) {
+        Doll& doll = state.dolls[batch.doll[lane]];
+        doll.statics.clear();
+        doll.touching = false;
+    }
+    for (const StaticContactLanes& contact : batch.contacts) {
+        for (int lane = 0; lane < batch.used; ++lane) {
+            const float normal = contact.normalImpulse.lane[lane];
+            if (contact.key[lane] == 0 || normal <= 0.0F) continue;
+            Doll& doll = state.dolls[batch.doll[lane]];
+            doll.touching = true;
+            doll.statics.push_back({{contact.key[lane], normal, readVector(contact.frictionImpulse, lane)},
+                                    readVector(contact.rollImpulse, lane),
+                                    contact.body,
+                                    readVector(contact.localPoint, lane),
+                                    contact.radius.lane[lane],
+                                    readVector(contact.normal, lane),
+                                    contact.offset.lane[lane]});
+        }
+    }
+}
+
+// The faces and edges that bodies are near now.
+void refreshStatics(CrowdState& state, Job& job, float seconds) {
+    for (std::size_t i = 0; i < job.batches.size(); ++i) {
+        Batch& batch = *job.batches[i];
+        if (!batch.nearShapes) continue;
+        keepStatics(state, batch);
+        findStatics(state, batch, *job.topologies[i], seconds);
+    }
 }
 
 // One job's substep. `forBatches` runs a piece of work for every batch of the job, on one thread or several.
@@ -104,29 +141,6 @@ void forJobs(CrowdState& state, const Work& work) {
         if (state.jobs[i].batches.size() >= kSplitJob) work(state.jobs[i]);
 }
 
-void keepStatics(CrowdState& state, Batch& batch) {
-    for (int lane = 0; lane < batch.used; ++lane) {
-        Doll& doll = state.dolls[batch.doll[lane]];
-        doll.statics.clear();
-        doll.touching = false;
-    }
-    for (const StaticContactLanes& contact : batch.contacts) {
-        for (int lane = 0; lane < batch.used; ++lane) {
-            const float normal = contact.normalImpulse.lane[lane];
-            if (contact.key[lane] == 0 || normal <= 0.0F) continue;
-            Doll& doll = state.dolls[batch.doll[lane]];
-            doll.touching = true;
-            doll.statics.push_back({{contact.key[lane], normal, readVector(contact.frictionImpulse, lane)},
-                                    readVector(contact.rollImpulse, lane),
-                                    contact.body,
-                                    readVector(contact.localPoint, lane),
-                                    contact.radius.lane[lane],
-                                    readVector(contact.normal, lane),
-                                    contact.offset.lane[lane]});
-        }
-    }
-}
-
 void keepPairs(CrowdState& state, const Job& job) {
     for (std::size_t block = 0; block < job.pairs.size(); ++block) {
         const PairContactLanes& pair = job.pairs[block];
@@ -159,6 +173,8 @@ void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSu
         }
     };
     const auto substep = [&](Job& job, int index) {
+        if (index > 0 && index % kRefresh == 0)
+            refreshStatics(state, job, dt * static_cast<float>(substeps - index) / static_cast<float>(substeps));
         const bool mends = (substeps - 1 - index) % state.tuning.mendEvery == 0;
         JobSubstep(state, job, index == 0 ? first : others, mends).run();
     };

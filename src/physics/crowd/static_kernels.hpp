@@ -42,6 +42,17 @@ LUTKA_LANES Compliance complianceAt(F inverseMass, const Symmetric& inertia, con
     return {inverseMass + along, inverseMass + most(trace - along, all(0.0F)) * all(0.5F)};
 }
 
+// Once a step, or when a contact comes near: the masses change little within one.
+LUTKA_LANES void weighContact(StaticContactLanes& contact, const BatchView& batch, const V3& arm,
+                              const SubstepParams& params) {
+    const Symmetric inertia = load(batch.bodies[contact.body].inverseInertia);
+    const Compliance compliance =
+        complianceAt(all(batch.bodyConstants[contact.body].inverseMass), inertia, arm, load(contact.normal));
+    store(contact.normalMass, all(1.0F) / compliance.along);
+    store(contact.tangentWeight, all(params.grip) / compliance.across);
+    store(contact.rollWeight, all(params.grip) / most(most(inertia.xx, inertia.yy), inertia.zz));
+}
+
 LUTKA_LANES void beginStatic(StaticContactLanes& contact, const BatchView& batch, const SubstepParams& params) {
     const BodyLanes& body = batch.bodies[contact.body];
     const F zero = all(0.0F);
@@ -54,6 +65,7 @@ LUTKA_LANES void beginStatic(StaticContactLanes& contact, const BatchView& batch
     // What is too far off to be met in this substep is left out.
     const V3 angular = load(body.angular);
     const F approach = dot(normal, load(body.velocity) + cross(angular, core));
+    const bool wasNear = contact.near != 0;
     contact.near = bits((impulse > zero) | (approach + bias < all(params.nearSpeed))) != 0 ? 1 : 0;
     contact.engaged = 0;
     store(contact.normalGain, zero);
@@ -63,13 +75,10 @@ LUTKA_LANES void beginStatic(StaticContactLanes& contact, const BatchView& batch
     store(contact.bias, bias);
     store(contact.normalImpulse, impulse);
     store(contact.frictionImpulse, across(load(contact.frictionImpulse), normal));
-    const Symmetric inertia = load(body.inverseInertia);
-    const Compliance compliance =
-        complianceAt(all(batch.bodyConstants[contact.body].inverseMass), inertia, arm, normal);
+    if (params.warmStart != 0 || !wasNear) weighContact(contact, batch, arm, params);
     const Mask coming = (separation > zero) & (impulse <= zero);
-    store(contact.normalWeight, (coming ? all(params.firstTouch) : all(params.contactStiffness)) / compliance.along);
-    store(contact.tangentWeight, all(params.grip) / compliance.across);
-    store(contact.rollWeight, all(params.grip) / most(most(inertia.xx, inertia.yy), inertia.zz));
+    store(contact.normalWeight,
+          load(contact.normalMass) * (coming ? all(params.firstTouch) : all(params.contactStiffness)));
 }
 
 }  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS

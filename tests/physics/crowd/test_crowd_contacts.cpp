@@ -141,3 +141,36 @@ TEST_CASE("balls bounce off dolls and come to rest on the floor") {
     CHECK(world->propState(0).worldFromBody.translation.y == Approx(0.12F).margin(0.01));
     CHECK(world->propState(1).worldFromBody.translation.y == Approx(0.15F).margin(0.01));
 }
+
+TEST_CASE("the joints of a doll that whirls through the air stay within a millimetre") {
+    const physics::RagdollProfile profile = makeDoll();
+    const auto world = createCrowdWorld(WorldSettings{});
+    const vec3 middle(0, 6, 0);
+    std::vector<BodyState> bodies = placedDoll(profile, {0, 5, 0});
+    const vec3 spin(20, 9, -14);
+    for (BodyState& body : bodies) {
+        body.angularVelocity = spin;
+        body.linearVelocity = glm::cross(spin, body.worldFromBody.translation - middle);
+    }
+    world->addDoll(profile, bodies);
+    const physics::Quality quality = stepAndMeasure(*world, {}, 0.8F);
+    CHECK(quality.jointSeparationM.max < 0.001F);
+    CHECK(quality.energyGrowthJ < 0.01F * quality.initialEnergyJ);
+}
+
+TEST_CASE("dolls that fall in any posture stay whole and out of the floor") {
+    const physics::RagdollProfile profile = makeDoll();
+    const auto world = createCrowdWorld(WorldSettings{});
+    const std::vector<physics::StaticShape> statics{floorPlane()};
+    world->addStatic(statics[0]);
+    for (int i = 0; i < 24; ++i) {
+        const auto turn = static_cast<float>(i);
+        const quat rotation = glm::angleAxis(0.9F * turn, glm::normalize(vec3(std::sin(turn), 0.4F, std::cos(turn))));
+        world->addDoll(profile, placedDoll(profile, {3.0F * turn, 0.9F, 0}, rotation));
+    }
+    const physics::Quality quality = stepAndMeasure(*world, statics, 2.5F);
+    CHECK(quality.jointSeparationM.max < 0.003F);
+    CHECK(quality.floorPenetrationM < 0.008F);
+    CHECK(quality.energyGrowthJ < 0.01F * quality.initialEnergyJ);
+    CHECK(quality.nonFinite == 0);
+}
