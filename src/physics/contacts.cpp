@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "physics/mesh_contacts.hpp"
+
 namespace lutka::physics {
 namespace {
 
@@ -36,9 +38,10 @@ void boxOnPlane(const CollisionGeometry& box, const CollisionGeometry& plane, fl
         const float height = glm::dot(point - plane.worldFromShape.translation, normal);
         corners[corner] = {corner, point - height * normal, normal, height};
     }
-    std::partial_sort(corners.begin(), corners.begin() + ContactList::kMax, corners.end(),
+    constexpr int kCorners = 4;  // of a face
+    std::partial_sort(corners.begin(), corners.begin() + kCorners, corners.end(),
                       [](const SurfaceContact& p, const SurfaceContact& q) { return p.distance < q.distance; });
-    for (int i = 0; i < ContactList::kMax && corners[i].distance < margin; ++i)
+    for (int i = 0; i < kCorners && corners[i].distance < margin; ++i)
         out.add(corners[i]);
 }
 
@@ -113,6 +116,48 @@ void roundOnRound(const CollisionGeometry& a, const CollisionGeometry& b, float 
     roundPoints(a, b, coreA.at(closest.s), coreB.at(closest.t), margin, 2, out);
 }
 
+void takeFromMesh(const MeshContactList& touches, const RigidTransform& worldFromMesh, float radius, ContactList& out) {
+    for (int i = 0; i < touches.count; ++i) {
+        const MeshContact& touch = touches.contacts[i];
+        out.add({touch.feature, worldFromMesh * (touch.core - touch.gap * touch.normal),
+                 worldFromMesh.rotation * touch.normal, touch.gap - radius});
+    }
+}
+
+void roundOnMesh(const CollisionGeometry& round, const CollisionGeometry& mesh, float margin, ContactList& out) {
+    const RigidTransform meshFromWorld = inverse(mesh.worldFromShape);
+    const Segment world = coreOf(round);
+    MeshContactList touches;
+    touchMesh(*mesh.mesh, Segment{meshFromWorld * world.start, meshFromWorld * world.end}, round.radius + margin,
+              touches);
+    takeFromMesh(touches, mesh.worldFromShape, round.radius, out);
+}
+
+void boxOnMesh(const CollisionGeometry& box, const CollisionGeometry& mesh, float margin, ContactList& out) {
+    const RigidTransform meshFromBox = inverse(mesh.worldFromShape) * box.worldFromShape;
+    MeshContactList touches;
+    for (int corner = 0; corner < 8; ++corner) {
+        const vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
+        touchMesh(*mesh.mesh, meshFromBox * (sign * box.halfExtents), corner, margin, touches);
+    }
+    takeFromMesh(touches, mesh.worldFromShape, 0.0F, out);
+    // Peaks of the mesh in a face of the box.
+    const RigidTransform boxFromMesh = inverse(meshFromBox);
+    const vec3 reach(glm::length(box.halfExtents) + margin);
+    mesh.mesh->forEachIn(meshFromBox.translation - reach, meshFromBox.translation + reach, [&](int triangle) {
+        for (const int vertex : mesh.mesh->triangles()[triangle]) {
+            if (mesh.mesh->ownerOf(vertex) != triangle) continue;
+            const vec3 peak = mesh.mesh->vertices()[vertex];
+            const SurfaceDistance surface = distanceToBox(boxFromMesh * peak, box.halfExtents);
+            const vec3 normal = meshFromBox.rotation * -surface.normal;  // from the mesh towards the box
+            if (surface.distance >= margin || !mesh.mesh->vertexSupports(vertex, normal)) continue;
+            constexpr int kFirstPeak = 1 << 19;  // beyond touchMesh()'s numbers
+            out.add({kFirstPeak + vertex, mesh.worldFromShape * peak, mesh.worldFromShape.rotation * normal,
+                     surface.distance});
+        }
+    });
+}
+
 void flip(ContactList& list) {
     for (int i = 0; i < list.count; ++i) {
         SurfaceContact& contact = list.contacts[i];
@@ -135,11 +180,53 @@ ContactList findContacts(const CollisionGeometry& a, const CollisionGeometry& b,
         roundOnRound(a, b, margin, out);
     else if (a.kind == Kind::round && b.kind == Kind::box)
         roundOnBox(a, b, margin, out);
-    else if (a.kind == Kind::round)
+    else if (a.kind == Kind::round && b.kind == Kind::plane)
         roundOnPlane(a, b, margin, out);
+    else if (a.kind == Kind::round)
+        roundOnMesh(a, b, margin, out);
     else if (a.kind == Kind::box && b.kind == Kind::plane)
         boxOnPlane(a, b, margin, out);
+    else if (a.kind == Kind::box && b.kind == Kind::mesh)
+        boxOnMesh(a, b, margin, out);
     return out;
+}
+
+CollisionGeometry geometryOf(const BodyShape& shape, const RigidTransform& worldFromBody) {
+    CollisionGeometry geometry;
+    geometry.worldFromShape = worldFromBody;
+    if (shape.kind == BodyShape::Kind::box) {
+        geometry.kind = Kind::box;
+        geometry.halfExtents = shape.halfExtents;
+        return geometry;
+    }
+    geometry.radius = shape.radius;
+    geometry.halfLength = shape.kind == BodyShape::Kind::capsule ? shape.halfLength : 0.0F;
+    return geometry;
+}
+
+CollisionGeometry geometryOf(const StaticShape& shape) {
+    CollisionGeometry geometry;
+    geometry.worldFromShape = shape.worldFromShape;
+    geometry.halfExtents = shape.halfExtents;
+    geometry.mesh = shape.mesh.get();
+    switch (shape.kind) {
+        case StaticShape::Kind::plane:
+            geometry.kind = Kind::plane;
+            break;
+        case StaticShape::Kind::box:
+            geometry.kind = Kind::box;
+            break;
+        case StaticShape::Kind::mesh:
+            geometry.kind = Kind::mesh;
+            break;
+        case StaticShape::Kind::capsule:
+            geometry.halfLength = shape.halfLength;
+            [[fallthrough]];
+        case StaticShape::Kind::sphere:
+            geometry.radius = shape.radius;
+            break;
+    }
+    return geometry;
 }
 
 }  // namespace lutka::physics

@@ -4,18 +4,24 @@
 
 #include "core/rigid_transform.hpp"
 #include "physics/shape_distance.hpp"
+#include "physics/world.hpp"
 
 namespace lutka::physics {
 
-/// What collides: a capsule or sphere (`round`: a segment along y with a radius), a box, or a half-space below y = 0.
+/// What collides: a capsule or sphere (`round`: a segment along y with a radius), a box, a half-space below y = 0, or a
+/// triangle mesh.
 struct CollisionGeometry {
-    enum class Kind { round, box, plane };
+    enum class Kind { round, box, plane, mesh };
     Kind kind = Kind::round;
     float radius = 0.0F;        ///< Metres; round.
     float halfLength = 0.0F;    ///< Metres; round, 0 for a sphere.
     vec3 halfExtents{0, 0, 0};  ///< Metres; box.
     RigidTransform worldFromShape;
+    const TriangleMesh* mesh = nullptr;  ///< Not null for a mesh.
 };
+
+[[nodiscard]] CollisionGeometry geometryOf(const BodyShape& shape, const RigidTransform& worldFromBody);
+[[nodiscard]] CollisionGeometry geometryOf(const StaticShape& shape);
 
 /// Where two shapes touch or soon will.
 struct SurfaceContact {
@@ -25,9 +31,9 @@ struct SurfaceContact {
     float distance = 0.0F;   ///< Metres between the surfaces; negative: depth of the overlap.
 };
 
-/// At most four contacts of one pair.
+/// At most eight contacts of one pair; only meshes have more than four.
 struct ContactList {
-    static constexpr int kMax = 4;
+    static constexpr int kMax = 8;
     std::array<SurfaceContact, kMax> contacts;
     int count = 0;
 
@@ -37,7 +43,8 @@ struct ContactList {
 };
 
 /// The contacts of A with B that are nearer than `margin` metres, in closed form: a lying capsule has one at each end,
-/// a box on a plane one at each corner (the four lowest). Two boxes, and two planes, are not handled: no contacts.
+/// a box on a plane one at each corner (the four lowest), a round shape on a mesh as touchMesh() says, a box on a mesh
+/// at its own corners and at the mesh's vertices. Two boxes, planes or meshes are not handled: no contacts.
 [[nodiscard]] ContactList findContacts(const CollisionGeometry& a, const CollisionGeometry& b, float margin);
 
 }  // namespace lutka::physics

@@ -20,7 +20,7 @@ struct Quality {
     } limitViolationDeg;
     float floorPenetrationM = 0;  ///< Largest, into any static shape, by analytic distance.
     float selfPenetrationM = 0;   ///< Largest between bodies of one doll that may collide.
-    float energyGrowthJ = 0;      ///< Largest rise over the running minimum, less the work of drags.
+    float energyGrowthJ = 0;      ///< Largest rise over the running minimum, less the work of drags, motors and forces.
     float initialEnergyJ = 0;     ///< At release, for the growth's share.
     std::optional<float>
         settleSeconds;           ///< From the first contact until all dolls are asleep or below 1 cm/s; unset: never.

@@ -42,6 +42,28 @@ bool isFloor(const StaticShape& shape) {
     return shape.kind == StaticShape::Kind::plane && (shape.worldFromShape.rotation * vec3(0, 1, 0)).y > 0.999F;
 }
 
+render::PropItem::Kind itemKindOf(StaticShape::Kind kind) {
+    switch (kind) {
+        case StaticShape::Kind::plane:
+            return render::PropItem::Kind::plane;
+        case StaticShape::Kind::sphere:
+            return render::PropItem::Kind::sphere;
+        case StaticShape::Kind::capsule:
+            return render::PropItem::Kind::capsule;
+        case StaticShape::Kind::box:
+        case StaticShape::Kind::mesh:
+            break;
+    }
+    return render::PropItem::Kind::box;
+}
+
+void drawMesh(const StaticShape& shape, render::LineBatch& lines) {
+    const auto vertices = shape.mesh->vertices();
+    for (const physics::TriangleMesh::Edge& edge : shape.mesh->edges())
+        lines.add(shape.worldFromShape * vertices[edge.start], shape.worldFromShape * vertices[edge.end],
+                  kGeometryColor);
+}
+
 void drawStatics(const Scenario& scenario, render::FrameDescription& frame) {
     frame.floor.visible = false;
     for (const StaticShape& shape : scenario.statics) {
@@ -50,9 +72,14 @@ void drawStatics(const Scenario& scenario, render::FrameDescription& frame) {
             frame.floor.height = shape.worldFromShape.translation.y;
             continue;
         }
+        if (shape.kind == StaticShape::Kind::mesh) {
+            drawMesh(shape, frame.lines);
+            continue;
+        }
         render::PropItem& item = frame.props.emplace_back();
-        item.kind =
-            shape.kind == StaticShape::Kind::plane ? render::PropItem::Kind::plane : render::PropItem::Kind::box;
+        item.kind = itemKindOf(shape.kind);
+        item.radius = shape.radius;
+        item.halfLength = shape.halfLength;
         item.worldFromShape = shape.worldFromShape;
         item.halfExtents = shape.kind == StaticShape::Kind::plane ? vec3(20.0F) : shape.halfExtents;
         item.color = kGeometryColor;

@@ -41,7 +41,18 @@ class PuppetWorld final : public physics::World {
   public:
     explicit PuppetWorld(const RagdollProfile& profile) : profile_(profile), bodies(profile.bodies.size()) {}
 
-    void addStatic(const StaticShape& /*shape*/) override {}
+    int addStatic(const StaticShape& /*shape*/) override { return 0; }
+    void removeStatic(int /*index*/) override {}
+    void removeProp(int /*prop*/) override {}
+    void removeDoll(int /*doll*/) override {}
+    void wake(int /*doll*/) override {}
+    [[nodiscard]] physics::DollState dollState(int /*doll*/) const override { return {}; }
+    void setDollState(int /*doll*/, const physics::DollState& /*state*/) override {}
+    void applyForce(int /*doll*/, int /*body*/, const vec3& /*force*/, const vec3& /*worldPoint*/) override {}
+    void setMotor(int /*doll*/, int /*constraint*/, const std::optional<physics::JointMotor>& /*motor*/) override {}
+    [[nodiscard]] double motorWork() const override { return 0; }
+    [[nodiscard]] std::vector<std::pair<int, physics::Drag>> dragsOf(int /*doll*/) const override { return {}; }
+    [[nodiscard]] std::span<const physics::ContactReport> contactReports() const override { return {}; }
     int addProp(const physics::DynamicProp& /*prop*/) override { return 0; }
     int addDoll(const RagdollProfile& /*profile*/, std::span<const BodyState> /*bodies*/) override { return 0; }
     void step(float /*dt*/, const std::function<void()>& /*afterSubstep*/) override {}
@@ -58,9 +69,13 @@ class PuppetWorld final : public physics::World {
     [[nodiscard]] const physics::DynamicProp& propOf(int /*prop*/) const override { return noProp_; }
     [[nodiscard]] BodyState propState(int /*prop*/) const override { return {}; }
     void applyImpulse(int /*doll*/, int /*body*/, const vec3& /*impulse*/, const vec3& /*worldPoint*/) override {}
-    [[nodiscard]] std::optional<physics::RayHit> rayTest(const vec3& /*from*/, const vec3& /*to*/) const override {
+    [[nodiscard]] std::optional<physics::RayHit> rayTest(const vec3& /*from*/, const vec3& /*to*/,
+                                                         std::uint32_t /*layers*/) const override {
         return {};
     }
+    void setDollFilter(int /*doll*/, const physics::CollisionFilter& /*filter*/) override {}
+    [[nodiscard]] physics::CollisionFilter dollFilter(int /*doll*/) const override { return {}; }
+    void setPropFilter(int /*prop*/, const physics::CollisionFilter& /*filter*/) override {}
     void setDrag(int /*id*/, const physics::Drag& /*drag*/) override {}
     void removeDrag(int /*id*/) override {}
     [[nodiscard]] double dragWork() const override { return work; }

@@ -29,6 +29,10 @@ CollisionGeometry geometryOf(const btCollisionObjectWrapper& wrapper) {
             geometry.kind = CollisionGeometry::Kind::box;
             geometry.halfExtents = fromBullet(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin());
             break;
+        case TRIANGLE_MESH_SHAPE_PROXYTYPE:
+            geometry.kind = CollisionGeometry::Kind::mesh;
+            geometry.mesh = static_cast<const TriangleMesh*>(shape.getUserPointer());
+            break;
         default: {
             const auto& plane = static_cast<const btStaticPlaneShape&>(shape);
             geometry.kind = CollisionGeometry::Kind::plane;
@@ -55,30 +59,48 @@ class AnalyticCollision final : public btCollisionAlgorithm {
         return 1.0F;
     }
     void getAllContactManifolds(btManifoldArray& manifolds) override {
-        if (manifold_ != nullptr) manifolds.push_back(manifold_);
+        for (btPersistentManifold* manifold : manifolds_)
+            if (manifold != nullptr) manifolds.push_back(manifold);
     }
 
   private:
-    void release() {
-        if (manifold_ != nullptr) m_dispatcher->releaseManifold(manifold_);
-        manifold_ = nullptr;
-    }
+    // Bullet's manifolds hold four points.
+    static constexpr int kPoints = MANIFOLD_CACHE_SIZE;
+    static constexpr int kManifolds = ContactList::kMax / kPoints;
+
+    void release() { keep(0, nullptr, nullptr); }
+    // Has manifolds for `count` points and gives back what is not needed.
+    void keep(int count, const btCollisionObject* a, const btCollisionObject* b);
     void fill(const ContactList& list, const btTransform& worldFromA, const btTransform& worldFromB);
 
     float margin_;
-    btPersistentManifold* manifold_ = nullptr;  // the dispatcher's
+    std::array<btPersistentManifold*, kManifolds> manifolds_{};  // the dispatcher's
 };
+
+void AnalyticCollision::keep(int count, const btCollisionObject* a, const btCollisionObject* b) {
+    for (int i = 0; i < kManifolds; ++i) {
+        btPersistentManifold*& manifold = manifolds_[i];
+        if (i * kPoints >= count) {
+            if (manifold != nullptr) m_dispatcher->releaseManifold(manifold);
+            manifold = nullptr;
+        } else if (manifold == nullptr) {
+            manifold = m_dispatcher->getNewManifold(a, b);
+        }
+    }
+}
 
 // New points in the place of the old ones; a point of the same feature goes on with the old one's impulses.
 void AnalyticCollision::fill(const ContactList& list, const btTransform& worldFromA, const btTransform& worldFromB) {
     std::array<btManifoldPoint, ContactList::kMax> old;
-    const int oldCount = manifold_->getNumContacts();
-    for (int i = 0; i < oldCount; ++i)
-        old[i] = manifold_->getContactPoint(i);
-    const btScalar friction = btManifoldResult::calculateCombinedFriction(manifold_->getBody0(), manifold_->getBody1());
-    const btScalar restitution =
-        btManifoldResult::calculateCombinedRestitution(manifold_->getBody0(), manifold_->getBody1());
-    manifold_->setNumContacts(list.count);
+    int oldCount = 0;
+    for (btPersistentManifold* manifold : manifolds_) {
+        for (int i = 0; manifold != nullptr && i < manifold->getNumContacts(); ++i)
+            old[oldCount++] = manifold->getContactPoint(i);
+    }
+    const btCollisionObject& a = *manifolds_[0]->getBody0();
+    const btCollisionObject& b = *manifolds_[0]->getBody1();
+    const btScalar friction = btManifoldResult::calculateCombinedFriction(&a, &b);
+    const btScalar restitution = btManifoldResult::calculateCombinedRestitution(&a, &b);
     for (int i = 0; i < list.count; ++i) {
         const SurfaceContact& contact = list.contacts[i];
         const btVector3 onB = toBullet(contact.position);
@@ -98,22 +120,18 @@ void AnalyticCollision::fill(const ContactList& list, const btTransform& worldFr
             point.m_appliedImpulseLateral2 = old[k].m_appliedImpulseLateral2;
             point.m_lifeTime = old[k].m_lifeTime + 1;
         }
-        manifold_->getContactPoint(i) = point;
+        btPersistentManifold& manifold = *manifolds_[i / kPoints];
+        manifold.setNumContacts(i % kPoints + 1);
+        manifold.getContactPoint(i % kPoints) = point;
     }
 }
 
 void AnalyticCollision::processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
                                          const btDispatcherInfo& /*info*/, btManifoldResult* result) {
     const ContactList list = findContacts(geometryOf(*a), geometryOf(*b), margin_);
-    if (list.count == 0) {
-        release();
-        result->setPersistentManifold(nullptr);
-        return;
-    }
-    if (manifold_ == nullptr)
-        manifold_ = m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject());
-    fill(list, a->getWorldTransform(), b->getWorldTransform());
-    result->setPersistentManifold(manifold_);
+    keep(list.count, a->getCollisionObject(), b->getCollisionObject());
+    if (list.count > 0) fill(list, a->getWorldTransform(), b->getWorldTransform());
+    result->setPersistentManifold(manifolds_[0]);
 }
 
 }  // namespace
@@ -126,6 +144,11 @@ btCollisionAlgorithm* AnalyticCollisionFactory::CreateCollisionAlgorithm(btColli
 }
 
 void AnalyticCollisionFactory::registerWith(btCollisionDispatcher& dispatcher) {
+    // Boxes on meshes are left to Bullet, which sees edges against edges.
+    for (const int round : {CAPSULE_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE}) {
+        dispatcher.registerCollisionCreateFunc(round, TRIANGLE_MESH_SHAPE_PROXYTYPE, this);
+        dispatcher.registerCollisionCreateFunc(TRIANGLE_MESH_SHAPE_PROXYTYPE, round, this);
+    }
     const std::array<int, 4> types{CAPSULE_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE,
                                    STATIC_PLANE_PROXYTYPE};
     for (const int a : types) {

@@ -5,7 +5,8 @@
 
 namespace lutka::physics {
 
-/// Makes AnalyticCollision for pairs of capsules, spheres, boxes (not two of them) and planes: contacts in closed form,
+/// Makes AnalyticCollision for pairs of capsules, spheres, boxes (not two of them) and planes, and for capsules and
+/// spheres on meshes (whose shape's user pointer is the TriangleMesh): contacts in closed form,
 /// one at each end of a lying capsule, and a manifold only while there are any. Must outlive the dispatcher.
 class AnalyticCollisionFactory final : public btCollisionAlgorithmCreateFunc {
   public:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <limits>
 
 #include "core/assert.hpp"
 #include "physics/bullet/convert.hpp"
@@ -47,10 +48,17 @@ void setState(btRigidBody& body, const BodyState& state) {
     body.activate(true);
 }
 
+void setFilter(btDiscreteDynamicsWorld& world, btRigidBody& body, const CollisionFilter& filter) {
+    btBroadphaseProxy& proxy = *body.getBroadphaseHandle();
+    proxy.m_collisionFilterGroup = static_cast<int>(filter.layers);
+    proxy.m_collisionFilterMask = static_cast<int>(filter.mask);
+    world.refreshBroadphaseProxy(&body);  // pairs are made anew under the new filter
+}
+
 Ragdoll::Ragdoll(btDiscreteDynamicsWorld& world, int index, const RagdollProfile& profile,
                  std::span<const BodyState> bodies, const BulletTuning& tuning, const JointTuning& jointTuning,
                  bool stockJoints, bool sleeping)
-    : world_(world), profile_(profile) {
+    : world_(world), profile_(profile), motors_(profile.constraints.size()), stock_(stockJoints) {
     LUTKA_ASSERT(bodies.size() == profile.bodies.size());
     const std::size_t count = profile.bodies.size();
     collides_.assign(count * count, 1);
@@ -67,6 +75,8 @@ Ragdoll::Ragdoll(btDiscreteDynamicsWorld& world, int index, const RagdollProfile
 }
 
 Ragdoll::~Ragdoll() {
+    for (const auto& motor : motors_)
+        if (motor != nullptr && !stock_) world_.removeConstraint(motor.get());
     for (const auto& constraint : constraints_)
         world_.removeConstraint(constraint.get());
     for (const BodyInWorld& made : bodies_)
@@ -88,7 +98,7 @@ void Ragdoll::addBodies(int index, std::span<const BodyState> states, const Bull
     }
     // Only now, for the pair filter asks for all of them.
     for (const BodyInWorld& made : bodies_)
-        world_.addRigidBody(made.body.get());
+        world_.addRigidBody(made.body.get(), static_cast<int>(filter_.layers), static_cast<int>(filter_.mask));
 }
 
 void Ragdoll::addStockConstraints() {
@@ -130,7 +140,7 @@ bool Ragdoll::isAsleep() const {
 void Ragdoll::setBodies(std::span<const BodyState> bodies) {
     LUTKA_ASSERT(bodies.size() == bodies_.size());
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-        setState(*bodies_[i].body, bodies[i]);
+        physics::setState(*bodies_[i].body, bodies[i]);
         world_.updateSingleAabb(bodies_[i].body.get());
         // Contacts of the old place would push in the new one.
         world_.getBroadphase()->getOverlappingPairCache()->cleanProxyFromPairs(bodies_[i].body->getBroadphaseHandle(),
@@ -138,6 +148,61 @@ void Ragdoll::setBodies(std::span<const BodyState> bodies) {
     }
     for (RagdollJoint* joint : joints_)
         joint->forgetImpulses();
+    for (const auto& motor : motors_)
+        if (motor != nullptr) motor->forgetImpulses();
+}
+
+void Ragdoll::setIndex(int index) {
+    for (const BodyInWorld& made : bodies_)
+        made.body->setUserIndex(index);
+}
+
+DollState Ragdoll::state() const {
+    DollState state;
+    state.filter = filter_;
+    state.asleep = isAsleep();
+    state.restSeconds = std::numeric_limits<float>::max();
+    for (const BodyInWorld& made : bodies_) {
+        state.bodies.push_back(stateOf(*made.body));
+        state.restSeconds = std::min(state.restSeconds, made.body->getDeactivationTime());
+    }
+    for (const auto& motor : motors_)
+        state.motors.push_back(motor != nullptr ? std::optional(motor->motor()) : std::nullopt);
+    return state;
+}
+
+void Ragdoll::setState(const DollState& state, bool maySleep) {
+    LUTKA_ASSERT(state.motors.size() == motors_.size());
+    setBodies(state.bodies);
+    if (!(state.filter == filter_)) setFilter(state.filter);
+    for (std::size_t i = 0; i < motors_.size(); ++i)
+        setMotor(static_cast<int>(i), state.motors[i]);
+    if (!maySleep) return;
+    for (const BodyInWorld& made : bodies_) {
+        made.body->setDeactivationTime(state.restSeconds);
+        if (state.asleep) made.body->forceActivationState(ISLAND_SLEEPING);
+    }
+}
+
+void Ragdoll::setMotor(int constraint, const std::optional<JointMotor>& motor) {
+    std::unique_ptr<MotorConstraint>& slot = motors_[constraint];
+    if (!motor) {
+        if (slot != nullptr && !stock_) world_.removeConstraint(slot.get());
+        slot.reset();
+        return;
+    }
+    if (slot == nullptr) {
+        const ConstraintProfile& c = profile_.constraints[constraint];
+        slot = std::make_unique<MotorConstraint>(c, body(c.parent), body(c.child));
+        if (!stock_) world_.addConstraint(slot.get(), true);
+    }
+    slot->set(*motor);
+}
+
+void Ragdoll::setFilter(const CollisionFilter& filter) {
+    filter_ = filter;
+    for (const BodyInWorld& made : bodies_)
+        physics::setFilter(world_, *made.body, filter);
 }
 
 void Ragdoll::wake() {

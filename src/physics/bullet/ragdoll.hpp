@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "physics/bullet/bullet_world.hpp"
+#include "physics/bullet/motor_constraint.hpp"
 #include "physics/bullet/ragdoll_joint.hpp"
 #include "physics/world.hpp"
 
@@ -27,6 +28,9 @@ struct BodyInWorld {
 [[nodiscard]] BodyState stateOf(const btRigidBody& body);
 /// Places a body, without a trace of where it was before.
 void setState(btRigidBody& body, const BodyState& state);
+
+/// Changes what a body in the world collides with, from the next step on.
+void setFilter(btDiscreteDynamicsWorld& world, btRigidBody& body, const CollisionFilter& filter);
 
 /// One doll's bodies and constraints in a Bullet world, which must outlive it.
 class Ragdoll {
@@ -48,6 +52,18 @@ class Ragdoll {
 
     void setBodies(std::span<const BodyState> bodies);
     void wake();
+    void setFilter(const CollisionFilter& filter);
+    [[nodiscard]] const CollisionFilter& filter() const { return filter_; }
+    /// Its number among the dolls of the world, which may change when others are removed.
+    void setIndex(int index);
+
+    [[nodiscard]] DollState state() const;
+    /// `maySleep`: whether a sleeping state is taken over as such.
+    void setState(const DollState& state, bool maySleep);
+
+    void setMotor(int constraint, const std::optional<JointMotor>& motor);
+    /// One a constraint, null where there is none.
+    [[nodiscard]] std::span<const std::unique_ptr<MotorConstraint>> motors() const { return motors_; }
 
   private:
     void addBodies(int index, std::span<const BodyState> states, const BulletTuning& tuning, bool stock, bool sleeping);
@@ -59,7 +75,10 @@ class Ragdoll {
     std::vector<BodyInWorld> bodies_;
     std::vector<std::unique_ptr<btTypedConstraint>> constraints_;
     std::vector<RagdollJoint*> joints_;  // the constraints that are ours
+    std::vector<std::unique_ptr<MotorConstraint>> motors_;
+    bool stock_;  // motors act as torques and are not in the world
     std::vector<std::uint8_t> collides_;
+    CollisionFilter filter_;
 };
 
 }  // namespace lutka::physics

@@ -61,7 +61,7 @@ void SubstepSolver::finishRow(Row& row, int a, int b) const {
     row.turnB = bodies_[b].inverseInertia * row.angularB;
     const float mass = bodies_[a].inverseMass * glm::dot(row.linearA, row.linearA) + glm::dot(row.angularA, row.turnA) +
                        bodies_[b].inverseMass * glm::dot(row.linearB, row.linearB) + glm::dot(row.angularB, row.turnB);
-    row.inverseEffectiveMass = mass > 1e-12F ? 1.0F / mass : 0.0F;
+    row.inverseEffectiveMass = mass > 1e-12F ? 1.0F / (mass + row.softness) : 0.0F;
 }
 
 void SubstepSolver::takeConstraints(std::span<btTypedConstraint* const> constraints, float seconds) {
@@ -129,7 +129,10 @@ void SubstepSolver::takeConstraint(btTypedConstraint& constraint, float seconds)
         row.linearB = fromBullet(given.m_contactNormal2);
         row.angularB = fromBullet(given.m_relpos2CrossNormal);
         row.mendTarget = given.m_rhs;
-        if (joint.warm != nullptr) row.duty = joint.warm->dutyOf(i);
+        if (joint.warm != nullptr) {
+            row.duty = joint.warm->dutyOf(i);
+            row.softness = joint.warm->softnessOf(i);
+        }
         row.keepTarget = row.duty == RowDuty::mends ? 0.0F : given.m_rhs;
         row.low = given.m_lowerLimit;
         row.high = given.m_upperLimit;
@@ -231,7 +234,8 @@ void SubstepSolver::apply(const Row& row, int a, int b, float impulse) {
 float SubstepSolver::solveRow(Row& row, int a, int b, bool mending) {
     if (mending && row.duty == RowDuty::yields) return 0.0F;
     const float target = mending ? row.mendTarget : row.keepTarget;
-    const float wanted = row.impulse + (target - speedAlong(row, a, b)) * row.inverseEffectiveMass;
+    const float wanted =
+        row.impulse + (target - speedAlong(row, a, b) - row.softness * row.impulse) * row.inverseEffectiveMass;
     const float impulse = std::clamp(wanted, row.low, row.high);
     const float change = impulse - row.impulse;
     apply(row, a, b, change);
@@ -303,7 +307,9 @@ void SubstepSolver::warmStart() {
         pushes_[a].angular += row.angularA * row.impulse;
         pushes_[b].linear += row.linearB * row.impulse;
         pushes_[b].angular += row.angularB * row.impulse;
-        islands_[bodies_[a != kFixed ? a : b].island].gain += row.keepTarget * row.impulse;
+        Island& island = islands_[bodies_[a != kFixed ? a : b].island];
+        island.gain += row.keepTarget * row.impulse;
+        island.square += row.softness * row.impulse * row.impulse;
     };
     forEachRow(gather);
     for (std::size_t i = 1; i < bodies_.size(); ++i) {

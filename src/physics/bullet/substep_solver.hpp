@@ -47,7 +47,8 @@ class SubstepSolver {
     struct Row {
         vec3 linearA, angularA, linearB, angularB;  // J
         vec3 turnA, turnB;                          // inverse inertia times the angular parts
-        float inverseEffectiveMass = 0;             // 1 / (J M⁻¹ Jᵀ)
+        float softness = 0;                         // J v + softness · impulse = target
+        float inverseEffectiveMass = 0;             // 1 / (J M⁻¹ Jᵀ + softness)
         float mendTarget = 0;
         float keepTarget = 0;
         float low = 0;

@@ -19,6 +19,8 @@ class WarmStarted {
     /// Whether the first three rows close a point and are solved as one block.
     [[nodiscard]] virtual bool startsWithPoint() const = 0;
     [[nodiscard]] virtual RowDuty dutyOf(int row) const = 0;
+    /// How much speed the row gives way per impulse, in its units; 0: it is rigid.
+    [[nodiscard]] virtual float softnessOf(int /*row*/) const { return 0.0F; }
     /// The impulse of a present row in the step before; 0 for a row that is new.
     [[nodiscard]] virtual float storedImpulse(int row) const = 0;
     virtual void storeImpulse(int row, float impulse) = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -7,6 +8,16 @@
 #include "physics/rig.hpp"
 
 namespace lutka::physics::crowd {
+
+/// What a static contact has pushed with so far in a step, for reports.
+struct StaticPush {
+    std::uint64_t key = 0;
+    int lane = 0;
+    int body = 0;
+    vec3 position{0, 0, 0};
+    vec3 normal{0, 1, 0};
+    float impulse = 0.0F;  ///< N s
+};
 
 /// Up to kLanes awake dolls of one topology, one a lane. Lanes [0, used) hold dolls; the rest repeat lane 0, so that
 /// the kernels find sound numbers everywhere.
@@ -18,9 +29,11 @@ struct Batch {
     std::vector<TreeLanes> tree;               ///< One a body.
     std::vector<StaticContactLanes> contacts;  ///< Of this step, body by body.
     std::vector<int> firstContact;             ///< See BatchView.
-    bool nearShapes = false;  ///< Whether some of its dolls are near static geometry other than planes.
-    Wide brake{};             ///< See BatchView.
-    int doll[kLanes]{};       ///< Which doll is in which lane.
+    std::vector<Wide> impulseSums;             ///< One a contact, of the substeps since they were found; for reports.
+    std::vector<StaticPush> pushes;  ///< Of contacts that were found anew since, and at last of all; for reports.
+    bool nearShapes = false;         ///< Whether some of its dolls are near static geometry other than planes.
+    Wide brake{};                    ///< See BatchView.
+    int doll[kLanes]{};              ///< Which doll is in which lane.
     int used = 0;
     int job = 0;  ///< Which job of this step solves it.
 

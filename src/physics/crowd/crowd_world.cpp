@@ -5,8 +5,10 @@
 #include <glm/geometric.hpp>
 
 #include "core/assert.hpp"
+#include "physics/crowd/coupling.hpp"
 #include "physics/crowd/detect.hpp"
 #include "physics/crowd/jobs.hpp"
+#include "physics/crowd/reports.hpp"
 #include "physics/crowd/sleep.hpp"
 #include "physics/crowd/solve.hpp"
 #include "physics/crowd/state.hpp"
@@ -19,7 +21,10 @@ class CrowdWorld final : public World {
   public:
     CrowdWorld(const WorldSettings& settings, const CrowdTuning& tuning) : state_(settings, tuning) {}
 
-    void addStatic(const StaticShape& shape) override;
+    int addStatic(const StaticShape& shape) override;
+    void removeStatic(int index) override;
+    void removeProp(int prop) override;
+    void removeDoll(int doll) override;
     int addProp(const DynamicProp& prop) override;
     int addDoll(const RagdollProfile& profile, std::span<const BodyState> bodies) override;
 
@@ -35,6 +40,9 @@ class CrowdWorld final : public World {
     void getBodies(int doll, std::span<BodyState> bodies) const override;
     void setBodies(int doll, std::span<const BodyState> bodies) override;
     [[nodiscard]] bool isAsleep(int doll) const override { return dollOf(doll).asleep(); }
+    void wake(int doll) override { wakeDoll(doll); }
+    [[nodiscard]] DollState dollState(int doll) const override;
+    void setDollState(int doll, const DollState& state) override;
     [[nodiscard]] int propCount() const override { return static_cast<int>(state_.props.size()); }
     [[nodiscard]] const DynamicProp& propOf(int prop) const override { return state_.propSettings[prop]; }
     [[nodiscard]] BodyState propState(int prop) const override {
@@ -42,16 +50,28 @@ class CrowdWorld final : public World {
     }
 
     void applyImpulse(int doll, int body, const vec3& impulse, const vec3& worldPoint) override;
-    [[nodiscard]] std::optional<RayHit> rayTest(const vec3& from, const vec3& to) const override;
+    void applyForce(int doll, int body, const vec3& force, const vec3& worldPoint) override;
+    void setMotor(int doll, int constraint, const std::optional<JointMotor>& motor) override {
+        wakeDoll(doll);
+        crowd::setMotor(state_, state_.ragdolls[doll], constraint, motor);
+    }
+    [[nodiscard]] double motorWork() const override { return state_.motorWork; }
+    [[nodiscard]] std::optional<RayHit> rayTest(const vec3& from, const vec3& to, std::uint32_t layers) const override;
+    void setDollFilter(int doll, const CollisionFilter& filter) override;
+    [[nodiscard]] CollisionFilter dollFilter(int doll) const override { return dollOf(doll).filter; }
+    void setPropFilter(int prop, const CollisionFilter& filter) override;
     void setDrag(int id, const Drag& drag) override;
     void removeDrag(int id) override;
     [[nodiscard]] double dragWork() const override { return state_.dragWork; }
+    [[nodiscard]] std::vector<std::pair<int, Drag>> dragsOf(int doll) const override;
     void getContacts(std::vector<ContactPoint>& contacts) const override;
+    [[nodiscard]] std::span<const ContactReport> contactReports() const override { return state_.reports; }
 
   private:
     [[nodiscard]] const Doll& dollOf(int doll) const { return state_.dolls[state_.ragdolls[doll]]; }
     void wakeDoll(int doll) {
         if (dollOf(doll).asleep()) wakeIsland(state_, state_.ragdolls[doll]);
+        state_.dolls[state_.ragdolls[doll]].restSeconds = 0.0F;
     }
     void wakeAll();
     void rayAgainstDoll(int index, const vec3& from, const vec3& to, std::optional<RayHit>& nearest) const;
@@ -61,16 +81,52 @@ class CrowdWorld final : public World {
 
 void CrowdWorld::wakeAll() {
     for (std::size_t i = 0; i < state_.dolls.size(); ++i)
-        if (state_.dolls[i].asleep()) wake(state_, static_cast<int>(i));
+        if (state_.dolls[i].asleep() && !state_.dolls[i].removed) crowd::wake(state_, static_cast<int>(i));
 }
 
-void CrowdWorld::addStatic(const StaticShape& shape) {
+int CrowdWorld::addStatic(const StaticShape& shape) {
     state_.statics.emplace_back(shape);
     wakeAll();
+    return static_cast<int>(state_.statics.size()) - 1;
+}
+
+void CrowdWorld::removeStatic(int index) {
+    for (std::size_t i = 0; i < state_.dolls.size(); ++i) {
+        const auto& statics = state_.dolls[i].statics;
+        const bool held = std::any_of(statics.begin(), statics.end(), [&](const CarriedStatic& touch) {
+            return geometryOfKey(touch.contact.key) == index;
+        });
+        if (held && state_.dolls[i].asleep()) wakeIsland(state_, static_cast<int>(i));
+    }
+    state_.statics.erase(state_.statics.begin() + index);
+    for (Doll& doll : state_.dolls) {
+        std::erase_if(doll.statics,
+                      [&](const CarriedStatic& touch) { return geometryOfKey(touch.contact.key) == index; });
+        for (CarriedStatic& touch : doll.statics)
+            if (geometryOfKey(touch.contact.key) > index) touch.contact.key -= staticKey(0, 0, 0);
+    }
+    state_.reports.clear();
+}
+
+void CrowdWorld::removeProp(int prop) {
+    crowd::removeDoll(state_, state_.props[prop]);
+    state_.props.erase(state_.props.begin() + prop);
+    state_.propSettings.erase(state_.propSettings.begin() + prop);
+    state_.reports.clear();
+}
+
+void CrowdWorld::removeDoll(int doll) {
+    std::erase_if(state_.drags, [&](const DragRecord& record) { return record.drag.doll == doll; });
+    crowd::removeDoll(state_, state_.ragdolls[doll]);
+    state_.ragdolls.erase(state_.ragdolls.begin() + doll);
+    for (DragRecord& record : state_.drags)
+        if (record.drag.doll > doll) --record.drag.doll;
+    state_.reports.clear();
 }
 
 int CrowdWorld::addProp(const DynamicProp& prop) {
     const int index = crowd::addDoll(state_, makeTopology(prop), nullptr, std::span(&prop.state, 1));
+    state_.dolls[index].filter = prop.filter;
     state_.props.push_back(index);
     state_.propSettings.push_back(prop);
     return static_cast<int>(state_.props.size()) - 1;
@@ -87,6 +143,7 @@ void CrowdWorld::step(float dt, const std::function<void()>& afterSubstep) {
     for (const DragRecord& record : state_.drags)
         wakeDoll(record.drag.doll);
     gatherActive(state_);
+    state_.reports.clear();
     if (state_.active.empty()) {  // all asleep: nothing can change
         for (int i = 0; afterSubstep && i < substepsPerStep(); ++i)
             afterSubstep();
@@ -97,8 +154,11 @@ void CrowdWorld::step(float dt, const std::function<void()>& afterSubstep) {
     wakeTouched(state_, dt);
     findContacts(state_, dt);
     makeJobs(state_);
+    beginReports(state_);
     solveJobs(state_, dt, afterSubstep);
+    makeReports(state_);
     keepImpulses(state_);
+    state_.forces.clear();
     settle(state_, dt);
 }
 
@@ -137,6 +197,48 @@ void CrowdWorld::applyImpulse(int doll, int body, const vec3& impulse, const vec
     writeVector(lanes.angular, to.lane, before.angularVelocity + turned);
 }
 
+void CrowdWorld::applyForce(int doll, int body, const vec3& force, const vec3& worldPoint) {
+    wakeDoll(doll);
+    const int index = state_.ragdolls[doll];
+    const RigidTransform worldFromBody = bodyState(state_, state_.dolls[index], body).worldFromBody;
+    state_.forces.push_back({index, body, force, inverse(worldFromBody) * worldPoint});
+}
+
+DollState CrowdWorld::dollState(int doll) const {
+    const Doll& from = dollOf(doll);
+    DollState state;
+    state.bodies.resize(from.profile->bodies.size());
+    getBodies(doll, state.bodies);
+    state.filter = from.filter;
+    for (std::size_t i = 0; i < from.profile->constraints.size(); ++i) {
+        const MotorRecord* motor = findMotor(state_, state_.ragdolls[doll], static_cast<int>(i));
+        state.motors.push_back(motor != nullptr ? std::optional(motor->motor) : std::nullopt);
+    }
+    state.restSeconds = from.restSeconds;
+    state.asleep = from.asleep();
+    return state;
+}
+
+void CrowdWorld::setDollState(int doll, const DollState& state) {
+    setBodies(doll, state.bodies);
+    const int index = state_.ragdolls[doll];
+    Doll& to = state_.dolls[index];
+    to.filter = state.filter;
+    for (std::size_t i = 0; i < state.motors.size(); ++i)
+        crowd::setMotor(state_, index, static_cast<int>(i), state.motors[i]);
+    to.restSeconds = state.restSeconds;
+    if (!state.asleep || !state_.settings.sleeping) return;
+    putToSleep(state_, index);
+    to.island = state_.nextIsland++;
+}
+
+std::vector<std::pair<int, Drag>> CrowdWorld::dragsOf(int doll) const {
+    std::vector<std::pair<int, Drag>> found;
+    for (const DragRecord& record : state_.drags)
+        if (record.drag.doll == doll) found.emplace_back(record.id, record.drag);
+    return found;
+}
+
 void CrowdWorld::rayAgainstDoll(int index, const vec3& from, const vec3& to, std::optional<RayHit>& nearest) const {
     const Doll& doll = state_.dolls[index];
     const auto at = std::find(state_.ragdolls.begin(), state_.ragdolls.end(), index);
@@ -149,16 +251,29 @@ void CrowdWorld::rayAgainstDoll(int index, const vec3& from, const vec3& to, std
     }
 }
 
-std::optional<RayHit> CrowdWorld::rayTest(const vec3& from, const vec3& to) const {
+std::optional<RayHit> CrowdWorld::rayTest(const vec3& from, const vec3& to, std::uint32_t layers) const {
     std::optional<RayHit> nearest;
     for (const PlacedStatic& geometry : state_.statics) {
+        if ((geometry.shape.filter.layers & layers) == 0) continue;
         const RayTouch touch = rayAgainst(geometry, from, to);
         if (touch.fraction > 1.0F || (nearest && touch.fraction >= nearest->fraction)) continue;
         nearest = RayHit{-1, -1, from + touch.fraction * (to - from), touch.normal, touch.fraction};
     }
     for (std::size_t i = 0; i < state_.dolls.size(); ++i)
-        rayAgainstDoll(static_cast<int>(i), from, to, nearest);
+        if (!state_.dolls[i].removed && (state_.dolls[i].filter.layers & layers) != 0)
+            rayAgainstDoll(static_cast<int>(i), from, to, nearest);
     return nearest;
+}
+
+void CrowdWorld::setDollFilter(int doll, const CollisionFilter& filter) {
+    wakeDoll(doll);
+    state_.dolls[state_.ragdolls[doll]].filter = filter;
+}
+
+void CrowdWorld::setPropFilter(int prop, const CollisionFilter& filter) {
+    state_.propSettings[prop].filter = filter;
+    if (state_.dolls[state_.props[prop]].asleep()) wakeIsland(state_, state_.props[prop]);
+    state_.dolls[state_.props[prop]].filter = filter;
 }
 
 void CrowdWorld::setDrag(int id, const Drag& drag) {

@@ -88,7 +88,7 @@ Bounds worldBounds(const Doll& doll, float dt, float farther = 0.0F) {
 }
 
 bool nearStatic(const PlacedStatic& geometry, const vec3& low, const vec3& high) {
-    if (geometry.shape.kind == StaticShape::Kind::box) return meet(low, high, geometry.low, geometry.high);
+    if (geometry.shape.kind != StaticShape::Kind::plane) return meet(low, high, geometry.low, geometry.high);
     const vec3 normal = geometry.axes[1];
     const vec3 lowest(normal.x > 0 ? low.x : high.x, normal.y > 0 ? low.y : high.y, normal.z > 0 ? low.z : high.z);
     return glm::dot(normal, lowest - geometry.shape.worldFromShape.translation) <= 0.0F;
@@ -132,8 +132,10 @@ class StaticContacts {
         batch_.contacts.clear();
         batch_.nearShapes = false;
         for (int lane = 0; lane < batch_.used; ++lane) {
-            const Bounds bounds = worldBounds(state_.dolls[batch_.doll[lane]], dt_, farther_);
+            const Doll& doll = state_.dolls[batch_.doll[lane]];
+            const Bounds bounds = worldBounds(doll, dt_, farther_);
             for (int i = 0; i < static_cast<int>(state_.statics.size()); ++i) {
+                if (!state_.statics[i].shape.filter.collidesWith(doll.filter)) continue;
                 if (!nearStatic(state_.statics[i], bounds.low, bounds.high)) continue;
                 const bool isPlane = state_.statics[i].shape.kind == StaticShape::Kind::plane;
                 std::vector<int>& near = isPlane ? planes_ : near_[lane];
@@ -169,7 +171,8 @@ class StaticContacts {
             if (lanes == 0) continue;
             const std::size_t slot = batch_.contacts.size();
             for (int lane = 0; lane < batch_.used; ++lane) {
-                if ((lanes >> static_cast<unsigned>(lane) & 1U) != 0)
+                if ((lanes >> static_cast<unsigned>(lane) & 1U) != 0 &&
+                    plane.shape.filter.collidesWith(state_.dolls[batch_.doll[lane]].filter))
                     put(slot, body, lane, index, {points.local[i], points.radius, normal, offset, 0.0F, i});
             }
         }
@@ -188,7 +191,7 @@ class StaticContacts {
             if (!nearStatic(geometry, low, high)) continue;
             const float range = state_.tuning.staticMargin +
                                 kForesight * dt_ * speedBound(readBody(lanes, lane), topology_.bodies[body]);
-            const Touches<StaticTouch> found = touchStatic(placedShape(state_, doll, body), geometry, range);
+            const StaticTouches found = touchStatic(placedShape(state_, doll, body), geometry, range);
             for (int i = 0; i < found.count; ++i)
                 put(slot++, body, lane, index, found.points[i]);
         }
@@ -204,8 +207,7 @@ class StaticContacts {
                 fresh.offset.lane[i] = -kFarM;
             }
         }
-        const std::uint64_t key = (static_cast<std::uint64_t>(geometry + 1) << 20U) |
-                                  static_cast<std::uint64_t>(body) << 4U | static_cast<std::uint64_t>(touch.feature);
+        const std::uint64_t key = staticKey(geometry, body, touch.feature);
         const CarriedStatic carried = carriedStatic(state_.dolls[batch_.doll[lane]], key, cursor_[lane]);
         const float friction = state_.statics[geometry].shape.friction * kBodyFriction;
         setContact(batch_.contacts[slot], lane, touch, friction, carried);
@@ -320,6 +322,7 @@ void sweepDolls(CrowdState& state, float dt) {
             const int b = state.sweep[k];
             if (bounds[b].low.x > bounds[a].high.x) break;
             if (state.dolls[a].asleep() && state.dolls[b].asleep()) continue;
+            if (!state.dolls[a].filter.collidesWith(state.dolls[b].filter)) continue;
             if (meet(bounds[a].low, bounds[a].high, bounds[b].low, bounds[b].high))
                 state.dollPairs.push_back(std::minmax(a, b));
         }

@@ -115,6 +115,8 @@ void assignBatches(CrowdState& state) {
             fresh.topologies.clear();
             fresh.touches.clear();
             fresh.drags.clear();
+            fresh.motors.clear();
+            fresh.forces.clear();
         }
         Job& job = state.jobs[jobOf[root]];
         job.batches.push_back(state.active[i]);
@@ -134,6 +136,11 @@ void makeJobs(CrowdState& state) {
         const Doll& doll = state.dolls[state.ragdolls[record.drag.doll]];
         state.jobs[state.batchOf(doll).job].drags.push_back(&record);
     }
+    const auto jobOf = [&](int doll) -> Job& { return state.jobs[state.batchOf(state.dolls[doll]).job]; };
+    for (MotorRecord& record : state.motors)
+        if (!state.dolls[record.doll].asleep()) jobOf(record.doll).motors.push_back(&record);
+    for (const ForceRecord& record : state.forces)
+        jobOf(record.doll).forces.push_back(&record);
     std::vector<std::uint64_t> usedBy(static_cast<std::size_t>(state.bodyTotal), 0);
     Packer packer(state, usedBy);
     for (std::size_t i = 0; i < state.jobCount; ++i)

@@ -1,5 +1,6 @@
 #include "physics/crowd/narrowphase.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -26,7 +27,7 @@ Segment coreOf(const PlacedShape& body) {
     return {body.position - half, body.position + half};
 }
 
-void touchPlane(const PlacedShape& body, const PlacedStatic& plane, float range, Touches<StaticTouch>& out) {
+void touchPlane(const PlacedShape& body, const PlacedStatic& plane, float range, StaticTouches& out) {
     const vec3 normal = plane.axes[1];
     const float offset = glm::dot(normal, plane.shape.worldFromShape.translation);
     const float height = glm::dot(normal, body.position) - offset;
@@ -39,7 +40,7 @@ void touchPlane(const PlacedShape& body, const PlacedStatic& plane, float range,
 
 // One point of the core against a static box, whose nearest feature becomes a half space.
 SurfaceDistance touchPoint(const vec3& local, const vec3& inBox, float radius, const PlacedStatic& box, int feature,
-                           float range, Touches<StaticTouch>& out) {
+                           float range, StaticTouches& out) {
     SurfaceDistance surface = distanceToBox(inBox, box.shape.halfExtents);
     const float separation = surface.distance - radius;
     if (separation < range) {
@@ -65,7 +66,7 @@ bool sameFace(const vec3& a, const vec3& b) {
     return glm::dot(a, b) > 0.9999F && std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}) > 0.9999F;
 }
 
-void touchStaticBox(const PlacedShape& body, const PlacedStatic& box, float range, Touches<StaticTouch>& out) {
+void touchStaticBox(const PlacedShape& body, const PlacedStatic& box, float range, StaticTouches& out) {
     const vec3 centre = (body.position - box.shape.worldFromShape.translation) * box.axes;
     const mat3 boxFromBody = glm::transpose(box.axes) * body.axes;
     const CorePoints points = corePoints(*body.shape);
@@ -81,6 +82,38 @@ void touchStaticBox(const PlacedShape& body, const PlacedStatic& box, float rang
     if (t < 0.02F || t > 0.98F) return;
     const vec3 local = points.local[0] + t * (points.local[1] - points.local[0]);
     touchPoint(local, core.at(t), points.radius, box, 2, range, out);
+}
+
+// The corners of a box on a large sphere or capsule, beside the one point that is nearest.
+void touchCornersOnRound(const PlacedShape& body, const CollisionGeometry& round, float range, StaticTouches& out) {
+    const RigidTransform shapeFromWorld = inverse(round.worldFromShape);
+    for (int i = 0; i < 8; ++i) {
+        const vec3 local = corner(body.shape->halfExtents, i);
+        const vec3 point = shapeFromWorld * (body.position + body.axes * local);
+        const vec3 away = point - vec3(0, std::clamp(point.y, -round.halfLength, round.halfLength), 0);
+        const float gap = glm::length(away);
+        if (gap - round.radius >= range || gap < 1e-6F) continue;
+        const vec3 normal = round.worldFromShape.rotation * (away / gap);
+        const float separation = gap - round.radius;
+        const float offset = glm::dot(normal, body.position + body.axes * local) - separation;
+        out.add({local, 0.0F, normal, offset, separation, 1 + i});
+    }
+}
+
+// Spheres, capsules and meshes: the contact's surface as a half space for the step.
+void touchOther(const PlacedShape& body, const PlacedStatic& geometry, float range, StaticTouches& out) {
+    out.capacity = ContactList::kMax;
+    const RigidTransform worldFromBody{glm::normalize(glm::quat_cast(body.axes)), body.position};
+    const ContactList found = findContacts(geometryOf(*body.shape, worldFromBody), geometry.geometry, range);
+    const float radius = body.shape->kind == Kind::box ? 0.0F : body.shape->radius;
+    for (int i = 0; i < found.count; ++i) {
+        const SurfaceContact& contact = found.contacts[i];
+        const vec3 core = contact.position + (contact.distance + radius) * contact.normal;
+        out.add({(core - body.position) * body.axes, radius, contact.normal, glm::dot(contact.normal, contact.position),
+                 contact.distance, contact.feature});
+    }
+    if (body.shape->kind == Kind::box && geometry.geometry.kind == CollisionGeometry::Kind::round)
+        touchCornersOnRound(body, geometry.geometry, range, out);
 }
 
 void touchCores(const PlacedShape& a, const PlacedShape& b, float range, Touches<BodyTouch>& out) {
@@ -169,20 +202,31 @@ CorePoints corePoints(const BodyShape& shape) {
     return points;
 }
 
-PlacedStatic::PlacedStatic(const StaticShape& geometry)
-    : shape(geometry), axes(glm::mat3_cast(geometry.worldFromShape.rotation)) {
-    const vec3 half = glm::abs(axes[0]) * shape.halfExtents.x + glm::abs(axes[1]) * shape.halfExtents.y +
-                      glm::abs(axes[2]) * shape.halfExtents.z;
-    low = shape.worldFromShape.translation - half;
-    high = shape.worldFromShape.translation + half;
+PlacedStatic::PlacedStatic(const StaticShape& given)
+    : shape(given), geometry(geometryOf(given)), axes(glm::mat3_cast(given.worldFromShape.rotation)) {
+    vec3 centre = shape.worldFromShape.translation;
+    vec3 half(shape.radius);
+    if (shape.kind == StaticShape::Kind::capsule) half += glm::abs(axes[1]) * shape.halfLength;
+    if (shape.kind == StaticShape::Kind::box || shape.kind == StaticShape::Kind::mesh) {
+        vec3 inShape = shape.halfExtents;
+        if (shape.kind == StaticShape::Kind::mesh) {
+            inShape = 0.5F * (shape.mesh->high() - shape.mesh->low());
+            centre = shape.worldFromShape * (0.5F * (shape.mesh->high() + shape.mesh->low()));
+        }
+        half = glm::abs(axes[0]) * inShape.x + glm::abs(axes[1]) * inShape.y + glm::abs(axes[2]) * inShape.z;
+    }
+    low = centre - half;
+    high = centre + half;
 }
 
-Touches<StaticTouch> touchStatic(const PlacedShape& body, const PlacedStatic& geometry, float range) {
-    Touches<StaticTouch> touches;
+StaticTouches touchStatic(const PlacedShape& body, const PlacedStatic& geometry, float range) {
+    StaticTouches touches;
     if (geometry.shape.kind == StaticShape::Kind::plane)
         touchPlane(body, geometry, range, touches);
-    else
+    else if (geometry.shape.kind == StaticShape::Kind::box)
         touchStaticBox(body, geometry, range, touches);
+    else
+        touchOther(body, geometry, range, touches);
     return touches;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "physics/contacts.hpp"
 #include "physics/profile.hpp"
 #include "physics/world.hpp"
 
@@ -42,20 +43,20 @@ struct BodyTouch {
 };
 
 /// Contacts found; the first `count` are meant.
-template <class Touch>
+template <class Touch, int kMost = 4>
 struct Touches {
-    static constexpr int kCapacity = 4;
-    std::array<Touch, kCapacity> points;
+    std::array<Touch, kMost> points;
     int count = 0;
+    int capacity = 4;  ///< At most kMost.
 
-    /// Keeps the deepest kCapacity.
+    /// Keeps the deepest `capacity`.
     void add(const Touch& touch) {
-        if (count < kCapacity) {
+        if (count < capacity) {
             points[count++] = touch;
             return;
         }
         int shallowest = 0;
-        for (int i = 1; i < kCapacity; ++i)
+        for (int i = 1; i < capacity; ++i)
             if (points[i].separation > points[shallowest].separation) shallowest = i;
         if (touch.separation < points[shallowest].separation) points[shallowest] = touch;
     }
@@ -63,17 +64,21 @@ struct Touches {
 
 /// Static geometry with what the tests need of it worked out.
 struct PlacedStatic {
-    explicit PlacedStatic(const StaticShape& geometry);
+    explicit PlacedStatic(const StaticShape& given);
 
     StaticShape shape;
+    CollisionGeometry geometry;
     mat3 axes{1};
     vec3 low{0, 0, 0};  ///< World bounds; a plane has none.
     vec3 high{0, 0, 0};
 };
 
+/// Only meshes have more than four.
+using StaticTouches = Touches<StaticTouch, ContactList::kMax>;
+
 /// Points of the body nearer than `range` to the geometry: both ends of a capsule, and the place in between where it
-/// crosses an edge; the corners of a box.
-[[nodiscard]] Touches<StaticTouch> touchStatic(const PlacedShape& body, const PlacedStatic& geometry, float range);
+/// crosses an edge; the corners of a box. Other geometry: see findContacts().
+[[nodiscard]] StaticTouches touchStatic(const PlacedShape& body, const PlacedStatic& geometry, float range);
 
 /// Points of two bodies nearer than `range`. Two boxes are told apart by their corners only; see docs/crowd.md.
 [[nodiscard]] Touches<BodyTouch> touchBodies(const PlacedShape& a, const PlacedShape& b, float range);

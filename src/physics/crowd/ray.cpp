@@ -67,6 +67,12 @@ RayTouch rayBox(const vec3& half, const vec3& from, const vec3& along) {
     return {enter, normal};
 }
 
+RayTouch rayMesh(const TriangleMesh& mesh, const vec3& from, const vec3& along) {
+    const TriangleMesh::Ray hit = mesh.rayTest(from, from + along);
+    if (hit.triangle < 0) return {};
+    return {hit.fraction, mesh.normals()[hit.triangle]};
+}
+
 }  // namespace
 
 RayTouch rayAgainst(const PlacedShape& body, const vec3& from, const vec3& to) {
@@ -84,12 +90,26 @@ RayTouch rayAgainst(const PlacedShape& body, const vec3& from, const vec3& to) {
 RayTouch rayAgainst(const PlacedStatic& geometry, const vec3& from, const vec3& to) {
     const vec3 start = (from - geometry.shape.worldFromShape.translation) * geometry.axes;
     const vec3 along = (to - from) * geometry.axes;
-    if (geometry.shape.kind == StaticShape::Kind::box) {
-        const RayTouch touch = rayBox(geometry.shape.halfExtents, start, along);
-        return {touch.fraction, geometry.axes * touch.normal};
+    RayTouch touch;
+    switch (geometry.shape.kind) {
+        case StaticShape::Kind::box:
+            touch = rayBox(geometry.shape.halfExtents, start, along);
+            break;
+        case StaticShape::Kind::sphere:
+            touch = raySphere(vec3(0), geometry.shape.radius, start, along);
+            break;
+        case StaticShape::Kind::capsule:
+            touch = rayCapsule(geometry.shape.halfLength, geometry.shape.radius, start, along);
+            break;
+        case StaticShape::Kind::mesh:
+            touch = rayMesh(*geometry.shape.mesh, start, along);
+            break;
+        case StaticShape::Kind::plane:
+            if (start.y >= 0.0F && along.y < 0.0F) touch = {start.y / -along.y, {0, 1, 0}};
+            break;
     }
-    if (start.y < 0.0F || along.y >= 0.0F) return {};
-    return {start.y / -along.y, geometry.axes[1]};
+    touch.normal = geometry.axes * touch.normal;
+    return touch;
 }
 
 }  // namespace lutka::physics::crowd

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "physics/crowd/coupling.hpp"
 #include "physics/crowd/detect.hpp"
 #include "physics/crowd/drag.hpp"
+#include "physics/crowd/reports.hpp"
 
 namespace lutka::physics::crowd {
 namespace {
@@ -78,7 +80,9 @@ void refreshStatics(CrowdState& state, Job& job, float seconds) {
         Batch& batch = *job.batches[i];
         if (!batch.nearShapes) continue;
         keepStatics(state, batch);
+        if (state.settings.contactReports) closeSums(state, batch);
         findStatics(state, batch, *job.topologies[i], seconds);
+        if (state.settings.contactReports) openSums(batch);
     }
 }
 
@@ -90,6 +94,9 @@ class JobSubstep {
 
     void run() {
         const Kernels& kernels = *state_.kernels;
+        // Before the substep begins, so that the first guess of what holds sees them, as it sees gravity.
+        for (const ForceRecord* force : job_.forces)
+            job_.motorWork += applyForce(state_, *force, params_.dt);
         forBatches([&](const BatchView& view) { kernels.begin(view, params_); });
         kernels.beginPairs(job_.pairs.data(), static_cast<int>(job_.pairs.size()), params_);
         // What touches other bodies works on single bodies; a pass over the dolls must follow before anything moves.
@@ -98,10 +105,14 @@ class JobSubstep {
         kernels.carryPairs(job_.pairs.data(), pairs);
         for (DragRecord* drag : job_.drags)
             job_.dragWork += beginDrag(state_, *drag);
+        for (MotorRecord* motor : job_.motors)
+            job_.motorWork += beginMotor(state_, *motor, params_.dt);
         forBatches([&](const BatchView& view) { kernels.solve(view, params_, 1); });
-        if (!job_.drags.empty()) {
+        if (!job_.drags.empty() || !job_.motors.empty()) {
             for (DragRecord* drag : job_.drags)
                 job_.dragWork += solveDrag(state_, *drag, params_.dt);
+            for (MotorRecord* motor : job_.motors)
+                job_.motorWork += solveMotor(state_, *motor);
             forBatches([&](const BatchView& view) { kernels.solve(view, params_, 0); });
         }
         if (mends_) {
@@ -109,6 +120,7 @@ class JobSubstep {
             forBatches([&](const BatchView& view) { kernels.mend(view, params_, pushed); });
         }
         forBatches([&](const BatchView& view) { kernels.advance(view, params_); });
+        if (state_.settings.contactReports) sumImpulses(job_);
     }
 
   private:
@@ -164,12 +176,13 @@ void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSu
     SubstepParams others = first;
     first.warmStart = 1;
     for (std::size_t i = 0; i < state.jobCount; ++i)
-        state.jobs[i].dragWork = 0.0;
+        state.jobs[i].dragWork = state.jobs[i].motorWork = 0.0;
     // In the order of the jobs, so that the sum is the same at every thread count.
     const auto takeDragWork = [&] {
         for (std::size_t i = 0; i < state.jobCount; ++i) {
             state.dragWork += state.jobs[i].dragWork;
-            state.jobs[i].dragWork = 0.0;
+            state.motorWork += state.jobs[i].motorWork;
+            state.jobs[i].dragWork = state.jobs[i].motorWork = 0.0;
         }
     };
     const auto substep = [&](Job& job, int index) {

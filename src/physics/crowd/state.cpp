@@ -1,6 +1,7 @@
 #include "physics/crowd/state.hpp"
 
 #include <algorithm>
+#include <glm/common.hpp>
 
 #include "core/assert.hpp"
 
@@ -56,14 +57,22 @@ int addDoll(CrowdState& state, Topology topology, const RagdollProfile* profile,
     Doll doll;
     doll.profile = profile;
     doll.group = groupFor(state, topology);
-    doll.firstBody = state.bodyTotal;
     doll.frozen.assign(bodies.begin(), bodies.end());
-    doll.firstBox = state.boxTotal;
     doll.boxes = (static_cast<int>(bodies.size()) + kLanes - 1) / kLanes;
-    state.bodyTotal += static_cast<int>(bodies.size());
-    state.boxTotal += doll.boxes;
-    state.dolls.push_back(std::move(doll));
-    const int index = static_cast<int>(state.dolls.size()) - 1;
+    auto place = std::find_if(state.dolls.begin(), state.dolls.end(),
+                              [&](const Doll& other) { return other.removed && other.frozen.size() == bodies.size(); });
+    if (place == state.dolls.end()) {
+        doll.firstBody = state.bodyTotal;
+        doll.firstBox = state.boxTotal;
+        state.bodyTotal += static_cast<int>(bodies.size());
+        state.boxTotal += doll.boxes;
+        place = state.dolls.insert(place, Doll{});
+    } else {
+        doll.firstBody = place->firstBody;
+        doll.firstBox = place->firstBox;
+    }
+    const int index = static_cast<int>(place - state.dolls.begin());
+    *place = std::move(doll);
     state.sweep.push_back(index);
     wake(state, index);
     return index;
@@ -117,14 +126,30 @@ void wakeIsland(CrowdState& state, int index) {
     }
 }
 
-void putToSleep(CrowdState& state, int index) {
+namespace {
+
+// Where a doll lies, as the kernels' bounds of an awake one.
+void boundFrozen(const CrowdState& state, Doll& doll) {
+    doll.low = vec3(1e30F);
+    doll.high = vec3(-1e30F);
+    for (int i = 0; i < state.groupOf(doll).topology.bodyCount(); ++i) {
+        const BodyConstants& body = state.groupOf(doll).topology.bodies[i];
+        const RigidTransform& at = doll.frozen[i].worldFromBody;
+        const mat3 axes = glm::mat3_cast(at.rotation);
+        const vec3 half = glm::abs(axes[0]) * body.extent[0] + glm::abs(axes[1]) * body.extent[1] +
+                          glm::abs(axes[2]) * body.extent[2] + body.radius + state.tuning.pairMargin;
+        doll.low = glm::min(doll.low, at.translation - half);
+        doll.high = glm::max(doll.high, at.translation + half);
+    }
+}
+
+// The last doll of the group takes the lane that becomes free.
+void leaveLane(CrowdState& state, int index) {
     Doll& doll = state.dolls[index];
     LUTKA_ASSERT(!doll.asleep());
     Group& group = state.groupOf(doll);
     Batch& batch = group.batches[doll.batch];
     readLane(batch, doll.lane, doll.frozen);
-    for (BodyState& body : doll.frozen)
-        body.linearVelocity = body.angularVelocity = vec3(0);
     --group.awake;
     Batch& lastBatch = group.batches[group.awake / kLanes];
     const int lastLane = group.awake % kLanes;
@@ -138,6 +163,31 @@ void putToSleep(CrowdState& state, int index) {
         last.lane = doll.lane;
     }
     doll.batch = -1;
+}
+
+}  // namespace
+
+void putToSleep(CrowdState& state, int index) {
+    leaveLane(state, index);
+    Doll& doll = state.dolls[index];
+    for (BodyState& body : doll.frozen)
+        body.linearVelocity = body.angularVelocity = vec3(0);
+    boundFrozen(state, doll);
+}
+
+void removeDoll(CrowdState& state, int index) {
+    if (state.dolls[index].asleep()) wakeIsland(state, index);
+    leaveLane(state, index);
+    const auto touches = [&](const PairTouch& touch) { return touch.dollA == index || touch.dollB == index; };
+    std::erase_if(state.touches, touches);
+    state.carried.assign(state.touches);  // a doll in the same place must not inherit them
+    std::erase(state.sweep, index);
+    std::erase_if(state.motors, [&](const MotorRecord& record) { return record.doll == index; });
+    std::erase_if(state.forces, [&](const ForceRecord& record) { return record.doll == index; });
+    Doll& doll = state.dolls[index];
+    doll.profile = nullptr;
+    doll.removed = true;
+    doll.statics.clear();
 }
 
 void gatherActive(CrowdState& state) {

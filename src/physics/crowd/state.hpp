@@ -47,6 +47,8 @@ struct Doll {
     vec3 low{0, 0, 0};              ///< Bounds for the step as seen from the root: see Kernels::findBounds.
     vec3 high{0, 0, 0};
     vec3 rootVelocity{0, 0, 0};
+    CollisionFilter filter;
+    bool removed = false;  ///< Its place waits for another with as many bodies.
     std::vector<CarriedStatic> statics;
 
     [[nodiscard]] bool asleep() const { return batch < 0; }
@@ -90,6 +92,37 @@ struct DragRecord {
     vec3 error{0, 0, 0};
 };
 
+/// A motor in a joint of a doll that is no prop: what it carries and what a substep prepares.
+struct MotorRecord {
+    int doll = 0;  ///< Into CrowdState::dolls.
+    int constraint = 0;
+    JointMotor motor;
+    int rows = 0;
+    std::array<vec3, 3> axes{};
+    vec3 impulse{0, 0, 0};  ///< N m s of a substep, one a row.
+    vec3 target{0, 0, 0};   ///< rad/s
+    vec3 mass{0, 0, 0};
+    float softness = 0.0F;
+    float bound = 0.0F;
+};
+
+/// A force that acts throughout a step.
+struct ForceRecord {
+    int doll = 0;  ///< Into CrowdState::dolls.
+    int body = 0;
+    vec3 force{0, 0, 0};
+    vec3 point{0, 0, 0};  ///< Body space.
+};
+
+/// The number of a static contact: geometry, body, part of the body. Never 0.
+[[nodiscard]] constexpr std::uint64_t staticKey(int geometry, int body, int feature) {
+    return (static_cast<std::uint64_t>(geometry + 1) << 40U) | static_cast<std::uint64_t>(body) << 25U |
+           static_cast<std::uint64_t>(feature);
+}
+[[nodiscard]] constexpr int geometryOfKey(std::uint64_t key) {
+    return static_cast<int>(key >> 40U) - 1;
+}
+
 /// Batches that touch each other, solved as one; jobs share nothing and can run at the same time.
 struct Job {
     std::vector<Batch*> batches;
@@ -98,7 +131,11 @@ struct Job {
     std::vector<PairContactLanes> pairs;
     std::vector<std::array<int, kLanes>> touchOfLane;  ///< One a pair block; -1 where a lane is empty.
     std::vector<DragRecord*> drags;
+    std::vector<MotorRecord*> motors;
+    std::vector<const ForceRecord*> forces;
     double dragWork = 0.0;
+    double motorWork = 0.0;         ///< And of forces.
+    std::vector<Wide> impulseSums;  ///< One a pair block, of a step's substeps; for reports.
 };
 
 /// A body as detection sees it in one step.
@@ -126,6 +163,10 @@ struct CrowdState {
     std::vector<DynamicProp> propSettings;  ///< One a prop, as it was added.
     std::vector<DragRecord> drags;          ///< By id.
     double dragWork = 0.0;
+    std::vector<MotorRecord> motors;  ///< By doll and constraint.
+    std::vector<ForceRecord> forces;  ///< Of the coming step.
+    double motorWork = 0.0;           ///< And of forces.
+    std::vector<ContactReport> reports;
     int bodyTotal = 0;
     int boxTotal = 0;  ///< BoxLanes.
     std::int64_t nextIsland = 0;
@@ -159,8 +200,11 @@ int addDoll(CrowdState& state, Topology topology, const RagdollProfile* profile,
 /// Gives a sleeping doll a lane. `wakeIsland` wakes those that fell asleep with it as well.
 void wake(CrowdState& state, int doll);
 void wakeIsland(CrowdState& state, int doll);
-/// Takes a doll out of its lane and puts it to rest.
+/// Takes a doll out of its lane and puts it to rest, with bounds of its own.
 void putToSleep(CrowdState& state, int doll);
+
+/// Takes a doll or prop out: wakes what slept with it, forgets its contacts and motors.
+void removeDoll(CrowdState& state, int doll);
 
 /// Lists the batches in use and makes the lanes without a doll repeat lane 0.
 void gatherActive(CrowdState& state);

@@ -1,0 +1,120 @@
+#include "physics/crowd/reports.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+namespace lutka::physics::crowd {
+namespace {
+
+using Side = ContactReport::Side;
+
+void add(const Wide& impulse, Wide& sum) {
+    for (int lane = 0; lane < kLanes; ++lane)
+        sum.lane[lane] += impulse.lane[lane];
+}
+
+// What a doll of the state is for the world, by its place in CrowdState::dolls.
+std::vector<Side> sidesOf(const CrowdState& state) {
+    std::vector<Side> sides(state.dolls.size());
+    for (std::size_t i = 0; i < state.ragdolls.size(); ++i)
+        sides[state.ragdolls[i]] = {Side::Kind::doll, static_cast<int>(i), 0};
+    for (std::size_t i = 0; i < state.props.size(); ++i)
+        sides[state.props[i]] = {Side::Kind::prop, static_cast<int>(i), 0};
+    return sides;
+}
+
+void reportStatics(CrowdState& state, const Batch& batch, const std::vector<Side>& sides) {
+    for (const StaticPush& push : batch.pushes) {
+        ContactReport report;
+        report.a = sides[batch.doll[push.lane]];
+        report.a.body = push.body;
+        report.b = {Side::Kind::fixed, geometryOfKey(push.key), 0};
+        report.position = push.position;
+        report.normal = push.normal;
+        report.impulse = push.impulse;
+        state.reports.push_back(report);
+    }
+}
+
+void reportPairs(CrowdState& state, const Job& job, const std::vector<Side>& sides) {
+    for (std::size_t block = 0; block < job.pairs.size(); ++block) {
+        for (int lane = 0; lane < kLanes; ++lane) {
+            const int index = job.touchOfLane[block][lane];
+            const float impulse = job.impulseSums[block].lane[lane];
+            if (index < 0 || impulse <= 0.0F) continue;
+            const PairTouch& touch = state.touches[index];
+            ContactReport report;
+            report.a = sides[touch.dollA];
+            report.a.body = touch.bodyA;
+            report.b = sides[touch.dollB];
+            report.b.body = touch.bodyB;
+            report.normal = touch.touch.normal;
+            const Doll& b = state.dolls[touch.dollB];
+            const BodyShape& shape = state.groupOf(b).topology.shapes[touch.bodyB];
+            const float radius = shape.kind == BodyShape::Kind::box ? 0.0F : shape.radius;
+            report.position =
+                bodyState(state, b, touch.bodyB).worldFromBody * touch.touch.localB + report.normal * radius;
+            report.impulse = impulse;
+            state.reports.push_back(report);
+        }
+    }
+}
+
+}  // namespace
+
+void beginReports(CrowdState& state) {
+    state.reports.clear();
+    if (!state.settings.contactReports) return;
+    for (Batch* batch : state.active) {
+        batch->pushes.clear();
+        openSums(*batch);
+    }
+    for (std::size_t i = 0; i < state.jobCount; ++i)
+        state.jobs[i].impulseSums.assign(state.jobs[i].pairs.size(), Wide{});
+}
+
+void sumImpulses(Job& job) {
+    for (Batch* batch : job.batches) {
+        for (std::size_t i = 0; i < batch->contacts.size(); ++i)
+            add(batch->contacts[i].normalImpulse, batch->impulseSums[i]);
+    }
+    for (std::size_t i = 0; i < job.pairs.size(); ++i)
+        add(job.pairs[i].normalImpulse, job.impulseSums[i]);
+}
+
+void openSums(Batch& batch) {
+    batch.impulseSums.assign(batch.contacts.size(), Wide{});
+}
+
+void closeSums(const CrowdState& state, Batch& batch) {
+    for (std::size_t i = 0; i < batch.contacts.size(); ++i) {
+        const StaticContactLanes& contact = batch.contacts[i];
+        for (int lane = 0; lane < batch.used; ++lane) {
+            const float impulse = batch.impulseSums[i].lane[lane];
+            if (contact.key[lane] == 0 || impulse <= 0.0F) continue;
+            const std::uint64_t key = contact.key[lane];
+            auto known = std::find_if(batch.pushes.begin(), batch.pushes.end(),
+                                      [&](const StaticPush& push) { return push.key == key && push.lane == lane; });
+            if (known == batch.pushes.end())
+                known = batch.pushes.insert(known, {key, lane, contact.body, {}, {}, 0.0F});
+            known->normal = readVector(contact.normal, lane);
+            const vec3 core = bodyState(state, state.dolls[batch.doll[lane]], contact.body).worldFromBody *
+                              readVector(contact.localPoint, lane);
+            known->position = core - known->normal * (glm::dot(known->normal, core) - contact.offset.lane[lane]);
+            known->impulse += impulse;
+        }
+    }
+}
+
+void makeReports(CrowdState& state) {
+    if (!state.settings.contactReports) return;
+    const std::vector<Side> sides = sidesOf(state);
+    for (Batch* batch : state.active) {
+        closeSums(state, *batch);
+        reportStatics(state, *batch, sides);
+    }
+    for (std::size_t i = 0; i < state.jobCount; ++i)
+        reportPairs(state, state.jobs[i], sides);
+}
+
+}  // namespace lutka::physics::crowd
