@@ -3,51 +3,20 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <array>
+#include <glm/geometric.hpp>
 #include <new>
 
 #include "physics/bullet/convert.hpp"
+#include "physics/bullet/geometry_cache.hpp"
 #include "physics/contacts.hpp"
 
 namespace lutka::physics {
 namespace {
 
-CollisionGeometry geometryOf(const btCollisionObjectWrapper& wrapper) {
-    const btCollisionShape& shape = *wrapper.getCollisionShape();
-    CollisionGeometry geometry;
-    geometry.worldFromShape = fromBullet(wrapper.getWorldTransform());
-    switch (shape.getShapeType()) {
-        case CAPSULE_SHAPE_PROXYTYPE: {
-            const auto& capsule = static_cast<const btCapsuleShape&>(shape);
-            geometry.radius = capsule.getRadius();
-            geometry.halfLength = capsule.getHalfHeight();
-            break;
-        }
-        case SPHERE_SHAPE_PROXYTYPE:
-            geometry.radius = static_cast<const btSphereShape&>(shape).getRadius();
-            break;
-        case BOX_SHAPE_PROXYTYPE:
-            geometry.kind = CollisionGeometry::Kind::box;
-            geometry.halfExtents = fromBullet(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin());
-            break;
-        case TRIANGLE_MESH_SHAPE_PROXYTYPE:
-            geometry.kind = CollisionGeometry::Kind::mesh;
-            geometry.mesh = static_cast<const TriangleMesh*>(shape.getUserPointer());
-            break;
-        default: {
-            const auto& plane = static_cast<const btStaticPlaneShape&>(shape);
-            geometry.kind = CollisionGeometry::Kind::plane;
-            const quat turn = rotationBetween({0, 1, 0}, fromBullet(plane.getPlaneNormal()));
-            geometry.worldFromShape =
-                geometry.worldFromShape * RigidTransform{turn, turn * vec3(0, plane.getPlaneConstant(), 0)};
-        }
-    }
-    return geometry;
-}
-
 class AnalyticCollision final : public btCollisionAlgorithm {
   public:
-    AnalyticCollision(const btCollisionAlgorithmConstructionInfo& info, float margin)
-        : btCollisionAlgorithm(info), margin_(margin) {}
+    AnalyticCollision(const btCollisionAlgorithmConstructionInfo& info, float margin, const GeometryCache& geometries)
+        : btCollisionAlgorithm(info), margin_(margin), geometries_(geometries) {}
     ~AnalyticCollision() override { release(); }
     AnalyticCollision(const AnalyticCollision&) = delete;
     AnalyticCollision& operator=(const AnalyticCollision&) = delete;
@@ -63,17 +32,22 @@ class AnalyticCollision final : public btCollisionAlgorithm {
             if (manifold != nullptr) manifolds.push_back(manifold);
     }
 
+    /// Brings the manifolds up to date with where the two are.
+    void collide(const btCollisionObject& a, const btCollisionObject& b);
+    /// The two are too far apart for any contact.
+    void release() { keep(0, nullptr, nullptr); }
+
   private:
     // Bullet's manifolds hold four points.
     static constexpr int kPoints = MANIFOLD_CACHE_SIZE;
     static constexpr int kManifolds = ContactList::kMax / kPoints;
 
-    void release() { keep(0, nullptr, nullptr); }
     // Has manifolds for `count` points and gives back what is not needed.
     void keep(int count, const btCollisionObject* a, const btCollisionObject* b);
     void fill(const ContactList& list, const btTransform& worldFromA, const btTransform& worldFromB);
 
     float margin_;
+    const GeometryCache& geometries_;
     std::array<btPersistentManifold*, kManifolds> manifolds_{};  // the dispatcher's
 };
 
@@ -128,10 +102,14 @@ void AnalyticCollision::fill(const ContactList& list, const btTransform& worldFr
 
 void AnalyticCollision::processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
                                          const btDispatcherInfo& /*info*/, btManifoldResult* result) {
-    const ContactList list = findContacts(geometryOf(*a), geometryOf(*b), margin_);
-    keep(list.count, a->getCollisionObject(), b->getCollisionObject());
-    if (list.count > 0) fill(list, a->getWorldTransform(), b->getWorldTransform());
+    collide(*a->getCollisionObject(), *b->getCollisionObject());
     result->setPersistentManifold(manifolds_[0]);
+}
+
+void AnalyticCollision::collide(const btCollisionObject& a, const btCollisionObject& b) {
+    const ContactList list = findContacts(geometries_.of(a), geometries_.of(b), margin_);
+    keep(list.count, &a, &b);
+    if (list.count > 0) fill(list, a.getWorldTransform(), b.getWorldTransform());
 }
 
 }  // namespace
@@ -140,7 +118,48 @@ btCollisionAlgorithm* AnalyticCollisionFactory::CreateCollisionAlgorithm(btColli
                                                                          const btCollisionObjectWrapper* /*a*/,
                                                                          const btCollisionObjectWrapper* /*b*/) {
     void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(AnalyticCollision));
-    return new (memory) AnalyticCollision(info, margin_);
+    return new (memory) AnalyticCollision(info, margin_, geometries_);
+}
+
+bool AnalyticCollisionFactory::farApart(const btCollisionObject& a, const btCollisionObject& b) const {
+    const CollisionGeometry& first = geometries_.of(a);
+    const CollisionGeometry& second = geometries_.of(b);
+    using Kind = CollisionGeometry::Kind;
+    if (first.kind == Kind::mesh || second.kind == Kind::mesh) return false;
+    if (first.kind == Kind::plane) return farApart(b, a);
+    const vec3 offset = first.worldFromShape.translation - second.worldFromShape.translation;
+    if (second.kind == Kind::plane) {
+        const vec3 normal = second.worldFromShape.rotation * vec3(0, 1, 0);
+        return glm::dot(offset, normal) > geometries_.reachOf(a) + margin_;
+    }
+    const float reach = geometries_.reachOf(a) + geometries_.reachOf(b) + margin_;
+    return glm::dot(offset, offset) > reach * reach;
+}
+
+void AnalyticCollisionFactory::collide(btBroadphasePair& pair, btCollisionDispatcher& dispatcher) {
+    auto& a = *static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject);
+    auto& b = *static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
+    auto* algorithm = static_cast<AnalyticCollision*>(pair.m_algorithm);
+    if (farApart(a, b)) {
+        if (algorithm != nullptr) algorithm->release();
+        return;
+    }
+    if (algorithm == nullptr) {
+        const btCollisionObjectWrapper wrapperA(nullptr, a.getCollisionShape(), &a, a.getWorldTransform(), -1, -1);
+        const btCollisionObjectWrapper wrapperB(nullptr, b.getCollisionShape(), &b, b.getWorldTransform(), -1, -1);
+        pair.m_algorithm = dispatcher.findAlgorithm(&wrapperA, &wrapperB, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+        algorithm = static_cast<AnalyticCollision*>(pair.m_algorithm);
+    }
+    algorithm->collide(a, b);
+}
+
+bool AnalyticCollisionFactory::handles(const btCollisionObject& a, const btCollisionObject& b) const {
+    if (!geometries_.knows(a) || !geometries_.knows(b)) return false;
+    using Kind = CollisionGeometry::Kind;
+    const Kind first = geometries_.of(a).kind;
+    const Kind second = geometries_.of(b).kind;
+    if (first == second) return first == Kind::round;
+    return first == Kind::round || second == Kind::round || (first != Kind::mesh && second != Kind::mesh);
 }
 
 void AnalyticCollisionFactory::registerWith(btCollisionDispatcher& dispatcher) {

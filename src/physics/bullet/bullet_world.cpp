@@ -306,6 +306,11 @@ struct LayeredRay final : btCollisionWorld::ClosestRayResultCallback {
 };
 
 std::optional<RayHit> BulletWorld::rayTest(const vec3& from, const vec3& to, std::uint32_t layers) const {
+    // The last step's boxes are those of before its motion.
+    if (auto* ours = dynamic_cast<DynamicsWorld*>(parts_.world.get()))
+        ours->refreshAabbs();
+    else
+        parts_.world->updateAabbs();
     LayeredRay callback(from, to, layers);
     parts_.world->rayTest(toBullet(from), toBullet(to), callback);
     if (!callback.hasHit()) return std::nullopt;

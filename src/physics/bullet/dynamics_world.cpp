@@ -29,10 +29,117 @@ std::span<T* const> spanOf(const btAlignedObjectArray<T*>& array) {
 
 }  // namespace
 
+DynamicsWorld::DynamicsWorld(btCollisionDispatcher* dispatcher, btBroadphaseInterface* broadphase,
+                             btConstraintSolver* solver, btCollisionConfiguration* configuration,
+                             const BulletTuning& tuning, GeometryCache& geometries, AnalyticCollisionFactory& analytic)
+    : btDiscreteDynamicsWorld(dispatcher, broadphase, solver, configuration),
+      tuning_(tuning),
+      geometries_(geometries),
+      analytic_(analytic),
+      ownDispatcher_(*dispatcher),
+      solver_(tuning) {}
+
+void DynamicsWorld::listAwake() {
+    awake_.clear();
+    for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
+        btRigidBody* body = m_nonStaticRigidBodies[i];
+        if (body->isActive() && !body->isStaticOrKinematicObject()) awake_.push_back(body);
+    }
+}
+
+int DynamicsWorld::stepSimulation(btScalar seconds, int /*maxSubSteps*/, btScalar /*fixedTimeStep*/) {
+    listAwake();
+    if (awake_.empty()) return 0;  // all asleep: nothing can change
+    for (btRigidBody* body : awake_)
+        body->applyGravity();
+    internalSingleStepSimulation(seconds);
+    for (btRigidBody* body : awake_)
+        body->clearForces();
+    return 1;
+}
+
+void DynamicsWorld::addCollisionObject(btCollisionObject* object, int group, int mask) {
+    geometries_.invalidate();
+    btDiscreteDynamicsWorld::addCollisionObject(object, group, mask);
+}
+
+void DynamicsWorld::internalSingleStepSimulation(btScalar timeStep) {
+    predictUnconstraintMotion(timeStep);
+    getDispatchInfo().m_timeStep = timeStep;
+    getDispatchInfo().m_stepCount = 0;
+    performDiscreteCollisionDetection();
+    calculateSimulationIslands();
+    getSolverInfo().m_timeStep = timeStep;
+    solveConstraints(getSolverInfo());
+    integrateTransforms(timeStep);
+    updateActions(timeStep);
+    updateActivationState(timeStep);
+}
+
+void DynamicsWorld::predictUnconstraintMotion(btScalar timeStep) {
+    for (btRigidBody* body : awake_)
+        body->applyDamping(timeStep);
+}
+
+void DynamicsWorld::refreshAabbs() {
+    listAwake();
+    updateAabbs();
+}
+
+void DynamicsWorld::updateAabbs() {
+    geometries_.refresh(getCollisionObjectArray(), awake_);
+    const btVector3 half = 0.5F * tuning_.contactMargin * btVector3(1, 1, 1);
+    // A box wider than it must be, and longer where the body goes, stays right for some substeps.
+    const btVector3 spare(0.05F, 0.05F, 0.05F);
+    const btScalar ahead = 4.0F * getDispatchInfo().m_timeStep;
+    for (btRigidBody* body : awake_) {
+        btVector3 low;
+        btVector3 high;
+        body->getCollisionShape()->getAabb(body->getWorldTransform(), low, high);
+        low -= half;
+        high += half;
+        const btBroadphaseProxy& proxy = *body->getBroadphaseHandle();
+        const btVector3& wideLow = proxy.m_aabbMin;
+        const btVector3& wideHigh = proxy.m_aabbMax;
+        const bool inside = low.x() >= wideLow.x() && low.y() >= wideLow.y() && low.z() >= wideLow.z() &&
+                            high.x() <= wideHigh.x() && high.y() <= wideHigh.y() && high.z() <= wideHigh.z();
+        if (inside) continue;
+        btVector3 goesLow = ahead * body->getLinearVelocity();
+        btVector3 goesHigh = goesLow;
+        goesLow.setMin(btVector3(0, 0, 0));
+        goesHigh.setMax(btVector3(0, 0, 0));
+        m_broadphasePairCache->setAabb(body->getBroadphaseHandle(), low - spare + goesLow, high + spare + goesHigh,
+                                       m_dispatcher1);
+    }
+}
+
+void DynamicsWorld::performDiscreteCollisionDetection() {
+    updateAabbs();
+    m_broadphasePairCache->calculateOverlappingPairs(m_dispatcher1);
+    btBroadphasePairArray& pairs = m_broadphasePairCache->getOverlappingPairCache()->getOverlappingPairArray();
+    for (int i = 0; i < pairs.size(); ++i) {
+        btBroadphasePair& pair = pairs[i];
+        const auto& a = *static_cast<const btCollisionObject*>(pair.m_pProxy0->m_clientObject);
+        const auto& b = *static_cast<const btCollisionObject*>(pair.m_pProxy1->m_clientObject);
+        if ((!a.isActive() || a.isStaticObject()) && (!b.isActive() || b.isStaticObject())) continue;
+        if (analytic_.handles(a, b))
+            analytic_.collide(pair, ownDispatcher_);
+        else
+            ownDispatcher_.getNearCallback()(pair, ownDispatcher_, getDispatchInfo());
+    }
+}
+
 void DynamicsWorld::solveConstraints(btContactSolverInfo& info) {
     // Islands decide only what sleeps and what wakes; all that is awake is solved in one go.
     m_islandManager->buildIslands(getDispatcher(), this);
-    solver_.solve(spanOf(m_nonStaticRigidBodies), spanOf(m_constraints), *getDispatcher(), info.m_timeStep);
+    for (btRigidBody* body : awake_) {
+        if (body->isActive()) continue;  // just fell asleep
+        body->setLinearVelocity(btVector3(0, 0, 0));
+        body->setAngularVelocity(btVector3(0, 0, 0));
+        body->clearForces();
+    }
+    listAwake();
+    solver_.solve(awake_, spanOf(m_constraints), *getDispatcher(), info.m_timeStep);
 }
 
 void DynamicsWorld::integrateTransforms(btScalar timeStep) {
@@ -40,15 +147,9 @@ void DynamicsWorld::integrateTransforms(btScalar timeStep) {
 }
 
 void DynamicsWorld::updateActivationState(btScalar timeStep) {
-    for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
-        btRigidBody& body = *m_nonStaticRigidBodies[i];
-        const int state = body.getActivationState();
-        if (state == DISABLE_DEACTIVATION || state == DISABLE_SIMULATION) continue;
-        if (state == ISLAND_SLEEPING) {
-            body.setLinearVelocity(btVector3(0, 0, 0));
-            body.setAngularVelocity(btVector3(0, 0, 0));
-            continue;
-        }
+    for (btRigidBody* awake : awake_) {
+        btRigidBody& body = *awake;
+        if (body.getActivationState() == DISABLE_DEACTIVATION) continue;
         const bool slow = body.getLinearVelocity().length2() < tuning_.sleepSpeed * tuning_.sleepSpeed &&
                           body.getAngularVelocity().length2() < tuning_.sleepTurn * tuning_.sleepTurn;
         body.setDeactivationTime(slow ? body.getDeactivationTime() + timeStep : 0.0F);
@@ -65,11 +166,11 @@ BulletParts::BulletParts(const WorldSettings& settings, const BulletTuning& tuni
         world = std::make_unique<btDiscreteDynamicsWorld>(dispatcher.get(), broadphase.get(), solver.get(),
                                                           configuration.get());
     } else {
-        analytic = std::make_unique<AnalyticCollisionFactory>(tuning.contactMargin);
+        analytic = std::make_unique<AnalyticCollisionFactory>(tuning.contactMargin, geometries);
         analytic->registerWith(*dispatcher);
         solver = std::make_unique<btSequentialImpulseConstraintSolver>();
         world = std::make_unique<DynamicsWorld>(dispatcher.get(), broadphase.get(), solver.get(), configuration.get(),
-                                                tuning);
+                                                tuning, geometries, *analytic);
         pairFilter = std::make_unique<PairFilter>();
         broadphase->getOverlappingPairCache()->setOverlapFilterCallback(pairFilter.get());
     }

@@ -3,6 +3,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <memory>
+#include <vector>
 
 #include "physics/bullet/analytic_collision.hpp"
 #include "physics/bullet/bullet_world.hpp"
@@ -12,22 +13,38 @@
 namespace lutka::physics {
 
 /// btDiscreteDynamicsWorld solved by SubstepSolver, with thresholds of its own for falling asleep (Bullet's time is a
-/// global variable).
+/// global variable). A substep does only what its awake bodies need: no prediction of transforms, boxes in the
+/// broadphase that are wide enough to stay for a while, pairs of our shapes collided straight from a cache of geometry.
 class DynamicsWorld final : public btDiscreteDynamicsWorld {
   public:
-    DynamicsWorld(btDispatcher* dispatcher, btBroadphaseInterface* broadphase, btConstraintSolver* solver,
-                  btCollisionConfiguration* configuration, const BulletTuning& tuning)
-        : btDiscreteDynamicsWorld(dispatcher, broadphase, solver, configuration), tuning_(tuning), solver_(tuning) {}
+    DynamicsWorld(btCollisionDispatcher* dispatcher, btBroadphaseInterface* broadphase, btConstraintSolver* solver,
+                  btCollisionConfiguration* configuration, const BulletTuning& tuning, GeometryCache& geometries,
+                  AnalyticCollisionFactory& analytic);
 
+    /// One substep of `seconds`; the other arguments are not looked at.
+    int stepSimulation(btScalar seconds, int maxSubSteps, btScalar fixedTimeStep) override;
+    void addCollisionObject(btCollisionObject* object, int group, int mask) override;
     void solveConstraints(btContactSolverInfo& info) override;
+    /// For rays: after the step, bodies have moved on.
+    void refreshAabbs();
+    void updateAabbs() override;
+    void performDiscreteCollisionDetection() override;
 
   protected:
+    void internalSingleStepSimulation(btScalar timeStep) override;
+    void predictUnconstraintMotion(btScalar timeStep) override;
     void integrateTransforms(btScalar timeStep) override;
     void updateActivationState(btScalar timeStep) override;
 
   private:
+    void listAwake();
+
     BulletTuning tuning_;
+    GeometryCache& geometries_;
+    AnalyticCollisionFactory& analytic_;
+    btCollisionDispatcher& ownDispatcher_;
     SubstepSolver solver_;
+    std::vector<btRigidBody*> awake_;
 };
 
 /// The objects that a Bullet world consists of, torn down in reverse order.
@@ -35,6 +52,7 @@ struct BulletParts {
     BulletParts(const WorldSettings& settings, const BulletTuning& tuning);
 
     std::unique_ptr<btDefaultCollisionConfiguration> configuration;
+    GeometryCache geometries;
     std::unique_ptr<AnalyticCollisionFactory> analytic;  // null in a stock world
     std::unique_ptr<btCollisionDispatcher> dispatcher;
     std::unique_ptr<btBroadphaseInterface> broadphase;

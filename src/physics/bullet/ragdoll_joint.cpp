@@ -39,7 +39,9 @@ void setVector(btScalar* row, const vec3& v) {
 
 RagdollJoint::RagdollJoint(const ConstraintProfile& profile, btRigidBody& parent, btRigidBody& child,
                            const JointTuning& tuning)
-    : btTypedConstraint(D6_CONSTRAINT_TYPE, parent, child), profile_(profile), tuning_(tuning) {}
+    : btTypedConstraint(D6_CONSTRAINT_TYPE, parent, child), profile_(profile), tuning_(tuning) {
+    setUserConstraintType(kUserType);
+}
 
 void RagdollJoint::addRow(const AngularRow& row) {
     LUTKA_ASSERT(rowCount_ + kLinearRows < kMaxRows);
@@ -128,10 +130,29 @@ void RagdollJoint::getInfo1(btConstraintInfo1* info) {
     info->nub = 0;
 }
 
-void RagdollJoint::getInfo2(btConstraintInfo2* info) {
-    const float mend = tuning_.erp * info->fps;
+vec3 RagdollJoint::mendVelocity(float rate) const {
+    const float mend = tuning_.erp * rate;
     const float speed = mend * glm::length(gap_);
-    const vec3 target = gap_ * (speed > tuning_.maxMendSpeed ? mend * tuning_.maxMendSpeed / speed : mend);
+    return gap_ * (speed > tuning_.maxMendSpeed ? mend * tuning_.maxMendSpeed / speed : mend);
+}
+
+RagdollJoint::AngularTarget RagdollJoint::targetOf(const AngularRow& row, float rate) const {
+    switch (row.kind) {
+        case AngularRow::Kind::align:
+            return {std::clamp(-tuning_.erp * rate * row.error, -tuning_.maxMendTurn, tuning_.maxMendTurn),
+                    -SIMD_INFINITY, SIMD_INFINITY};
+        case AngularRow::Kind::friction:
+            return {0.0F, -profile_.frictionNm / rate, profile_.frictionNm / rate};
+        case AngularRow::Kind::limit:
+            break;
+    }
+    // Before the limit the row only bounds the speed towards it.
+    const float mended = std::min(-tuning_.limitErp * rate * row.error, tuning_.maxMendTurn);
+    return {row.error > 0.0F ? -row.error * rate : mended, 0.0F, SIMD_INFINITY};
+}
+
+void RagdollJoint::getInfo2(btConstraintInfo2* info) {
+    const vec3 target = mendVelocity(info->fps);
     for (int i = 0; i < kLinearRows; ++i) {
         vec3 direction(0);
         direction[i] = 1.0F;
@@ -142,27 +163,13 @@ void RagdollJoint::getInfo2(btConstraintInfo2* info) {
         info->m_constraintError[i * info->rowskip] = target[i];
     }
     for (int i = 0; i < rowCount_; ++i) {
-        const AngularRow& row = rows_[i];
+        const AngularTarget wanted = targetOf(rows_[i], info->fps);
         const int at = (kLinearRows + i) * info->rowskip;
-        setVector(info->m_J1angularAxis + at, -row.axis);
-        setVector(info->m_J2angularAxis + at, row.axis);
-        float& error = info->m_constraintError[at];
-        switch (row.kind) {
-            case AngularRow::Kind::align:
-                error = std::clamp(-mend * row.error, -tuning_.maxMendTurn, tuning_.maxMendTurn);
-                break;
-            case AngularRow::Kind::friction:
-                info->m_lowerLimit[at] = -profile_.frictionNm / info->fps;
-                info->m_upperLimit[at] = profile_.frictionNm / info->fps;
-                break;
-            case AngularRow::Kind::limit:
-                // Before the limit the row only bounds the speed towards it.
-                error = row.error > 0.0F ? -row.error * info->fps
-                                         : std::min(-tuning_.limitErp * info->fps * row.error, tuning_.maxMendTurn);
-                info->m_lowerLimit[at] = 0.0F;
-                info->m_upperLimit[at] = SIMD_INFINITY;
-                break;
-        }
+        setVector(info->m_J1angularAxis + at, -rows_[i].axis);
+        setVector(info->m_J2angularAxis + at, rows_[i].axis);
+        info->m_constraintError[at] = wanted.speed;
+        info->m_lowerLimit[at] = wanted.low;
+        info->m_upperLimit[at] = wanted.high;
     }
 }
 

@@ -3,6 +3,8 @@
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 
 #include <array>
+#include <cstddef>
+#include <span>
 
 #include "physics/bullet/warm_started.hpp"
 #include "physics/profile.hpp"
@@ -43,15 +45,35 @@ class RagdollJoint final : public btTypedConstraint, public WarmStarted {
     void finishStoring() override;
     void forgetImpulses();
 
-  private:
-    // One angular row; linear rows need only the anchors.
+    /// One angular row; linear rows need only the anchors.
     struct AngularRow {
         int slot = 0;
-        vec3 axis{0, 0, 0};  // world; the row's speed is axis · (child's - parent's angular velocity)
-        float error = 0;     // radians that remain (one-sided: before the limit) or are wrong (two-sided)
+        vec3 axis{0, 0, 0};  ///< World; the row's speed is axis · (child's - parent's angular velocity).
+        float error = 0;     ///< Radians that remain (one-sided: before the limit) or are wrong (two-sided).
         enum class Kind { align, friction, limit } kind = Kind::align;
     };
+    /// The speed that an angular row asks for, rad/s, and the bounds on its impulse, N m s.
+    struct AngularTarget {
+        float speed = 0;
+        float low = 0;
+        float high = 0;
+    };
+    /// Straight access for SubstepSolver, without Bullet's protocol. prepare() comes first; `rate` is 1 / substep, 1/s.
     void prepare();
+    [[nodiscard]] const vec3& parentArm() const { return parentArm_; }
+    [[nodiscard]] const vec3& childArm() const { return childArm_; }
+    /// The speed of the parent's anchor against the child's that mends the gap, m/s.
+    [[nodiscard]] vec3 mendVelocity(float rate) const;
+    [[nodiscard]] std::span<const AngularRow> angularRows() const { return {rows_.data(), std::size_t(rowCount_)}; }
+    [[nodiscard]] AngularTarget targetOf(const AngularRow& row, float rate) const;
+    /// How many rows at the start of angularRows() are the friction of a cone-twist, about all axes: 0 or 3.
+    [[nodiscard]] int frictionRows() const {
+        return profile_.kind == ConstraintProfile::Kind::coneTwist && profile_.frictionNm > 0.0F ? 3 : 0;
+    }
+    /// What getUserConstraintType() says of joints of this class.
+    static constexpr int kUserType = 0x4C75;
+
+  private:
     void prepareHinge(const mat3& parentAxes, const mat3& childAxes);
     void prepareCone(const mat3& parentAxes, const quat& parentFromChild);
     void addRow(const AngularRow& row);

@@ -1,0 +1,75 @@
+#include "physics/bullet/geometry_cache.hpp"
+
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "physics/bullet/convert.hpp"
+
+namespace lutka::physics {
+namespace {
+
+constexpr float kFar = std::numeric_limits<float>::max();
+
+// The shape's own part of the geometry; false for shapes that findContacts() does not know.
+bool shapeOf(const btCollisionShape& shape, CollisionGeometry& geometry, float& reach) {
+    reach = kFar;
+    switch (shape.getShapeType()) {
+        case CAPSULE_SHAPE_PROXYTYPE: {
+            const auto& capsule = static_cast<const btCapsuleShape&>(shape);
+            geometry.radius = capsule.getRadius();
+            geometry.halfLength = capsule.getHalfHeight();
+            reach = geometry.radius + geometry.halfLength;
+            return true;
+        }
+        case SPHERE_SHAPE_PROXYTYPE:
+            geometry.radius = static_cast<const btSphereShape&>(shape).getRadius();
+            reach = geometry.radius;
+            return true;
+        case BOX_SHAPE_PROXYTYPE:
+            geometry.kind = CollisionGeometry::Kind::box;
+            geometry.halfExtents = fromBullet(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin());
+            reach = glm::length(geometry.halfExtents);
+            return true;
+        case STATIC_PLANE_PROXYTYPE:
+            geometry.kind = CollisionGeometry::Kind::plane;
+            return true;
+        case TRIANGLE_MESH_SHAPE_PROXYTYPE:
+            geometry.kind = CollisionGeometry::Kind::mesh;
+            geometry.mesh = static_cast<const TriangleMesh*>(shape.getUserPointer());
+            return geometry.mesh != nullptr;
+        default:
+            return false;
+    }
+}
+
+}  // namespace
+
+void GeometryCache::place(int index, const btCollisionObject& object) {
+    CollisionGeometry& geometry = geometries_[index];
+    geometry.worldFromShape = fromBullet(object.getWorldTransform());
+    if (geometry.kind != CollisionGeometry::Kind::plane || known_[index] == 0) return;
+    const auto& plane = static_cast<const btStaticPlaneShape&>(*object.getCollisionShape());
+    const quat turn = rotationBetween({0, 1, 0}, fromBullet(plane.getPlaneNormal()));
+    geometry.worldFromShape =
+        geometry.worldFromShape * RigidTransform{turn, turn * vec3(0, plane.getPlaneConstant(), 0)};
+}
+
+void GeometryCache::refresh(const btCollisionObjectArray& objects, std::span<btRigidBody* const> moving) {
+    const auto count = static_cast<std::size_t>(objects.size());
+    if (count == geometries_.size() && !stale_) {
+        for (const btRigidBody* body : moving)
+            place(body->getWorldArrayIndex(), *body);
+        return;
+    }
+    stale_ = false;
+    geometries_.assign(count, {});
+    reaches_.assign(count, kFar);
+    known_.assign(count, 0);
+    for (std::size_t i = 0; i < count; ++i) {
+        const btCollisionObject& object = *objects[static_cast<int>(i)];
+        known_[i] = shapeOf(*object.getCollisionShape(), geometries_[i], reaches_[i]) ? 1 : 0;
+        place(static_cast<int>(i), object);
+    }
+}
+
+}  // namespace lutka::physics

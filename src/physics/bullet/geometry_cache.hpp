@@ -1,0 +1,39 @@
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <span>
+#include <vector>
+
+#include "physics/contacts.hpp"
+
+namespace lutka::physics {
+
+/// The geometry of every collision object of a world where it is now, worked out once a substep instead of once a pair.
+class GeometryCache {
+  public:
+    /// Brings the moving bodies up to date, and all objects when some were added or removed.
+    void refresh(const btCollisionObjectArray& objects, std::span<btRigidBody* const> moving);
+
+    /// Call when an object was added: it may lie where a removed one did.
+    void invalidate() { stale_ = true; }
+
+    /// Of an object that was in the world at the last refresh().
+    [[nodiscard]] const CollisionGeometry& of(const btCollisionObject& object) const {
+        return geometries_[object.getWorldArrayIndex()];
+    }
+    /// Radius of a ball around the object's centre that holds it; FLT_MAX for planes and meshes.
+    [[nodiscard]] float reachOf(const btCollisionObject& object) const { return reaches_[object.getWorldArrayIndex()]; }
+    /// Whether the object is a capsule, sphere, box, plane or mesh, as findContacts() knows them.
+    [[nodiscard]] bool knows(const btCollisionObject& object) const { return known_[object.getWorldArrayIndex()] != 0; }
+
+  private:
+    void place(int index, const btCollisionObject& object);
+
+    std::vector<CollisionGeometry> geometries_;
+    std::vector<float> reaches_;
+    std::vector<char> known_;
+    bool stale_ = true;
+};
+
+}  // namespace lutka::physics

@@ -1,0 +1,216 @@
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include "physics/bullet/simd4.hpp"
+#include "physics/bullet/warm_started.hpp"
+
+/// What SubstepSolver sweeps over: bodies and rows as they lie in memory, and the step of each kind of row.
+namespace lutka::physics {
+
+/// A body's share of the solver. `shape`: nothing of it changes within a substep but the velocities.
+struct SolverBody {
+    F4 velocity{};
+    F4 turn{};
+    M4 inverseInertia;  ///< World.
+    float inverseMass = 0;
+    int island = 0;               ///< Of those that touch or are linked.
+    btRigidBody* body = nullptr;  ///< Null: the body that never moves.
+};
+
+/// The three equations that close a joint's anchors, solved as a block: the impulse acts on B, its opposite on A.
+struct PointRows {
+    F4 armA{}, armB{};
+    M4 inverse;  ///< Of their J M⁻¹ Jᵀ.
+    F4 mendTarget{};
+    F4 impulse{};
+};
+
+/// One equation about an axis: axis · (turn of B - turn of A) + softness · impulse = target, with bounds on its
+/// impulse.
+struct AngularRow {
+    F4 axis{};
+    F4 turnA{}, turnB{};  ///< Inverse inertias times the axis.
+    float inverseEffectiveMass = 0;
+    float softness = 0;
+    float keepTarget = 0;
+    float mendTarget = 0;
+    float low = 0;
+    float high = 0;
+    float impulse = 0;
+    RowDuty duty = RowDuty::keeps;
+};
+
+/// Dry friction of a joint about all axes at once: a motor of no relative turn whose torque has a bound.
+struct TurnFriction {
+    M4 mass;  ///< Inverse of the sum of the inverse inertias.
+    F4 impulse{};
+    float bound = 0;  ///< N m s
+};
+
+/// One equation of any kind: J v + softness · impulse = target.
+struct GeneralRow {
+    F4 linearA{}, angularA{}, linearB{}, angularB{};  ///< J
+    F4 turnA{}, turnB{};                              ///< Inverse inertia times the angular parts.
+    float inverseEffectiveMass = 0;
+    float softness = 0;
+    float keepTarget = 0;
+    float mendTarget = 0;
+    float low = 0;
+    float high = 0;
+    float impulse = 0;
+    RowDuty duty = RowDuty::keeps;
+};
+
+/// One direction of a contact.
+struct ContactRow {
+    F4 direction{};  ///< On A; its opposite on B.
+    F4 angularA{}, angularB{};
+    F4 turnA{}, turnB{};
+    float inverseEffectiveMass = 0;
+    float impulse = 0;
+};
+struct ContactRows {
+    int a = 0;
+    int b = 0;
+    btManifoldPoint* point = nullptr;
+    ContactRow normal;
+    ContactRow tangents[2];
+    float keepTarget = 0;
+    float mendTarget = 0;
+    float friction = 0;
+    F4 rolling{};              ///< Impulse that resists rolling, N m s.
+    float rollingInertia = 0;  ///< kg m², no more than about any axis.
+    float bounceTarget = 0;    ///< Speed of parting that restitution asks for.
+};
+
+/// Turns an angular row's speed into one of a point, metres: about half a limb's length.
+inline constexpr float kResidualArm = 0.1F;
+
+// Each of these changes velocities and impulses and returns the speed by which the row was wrong, m/s.
+
+inline void push(SolverBody& a, SolverBody& b, const PointRows& rows, const F4& impulse) {
+    a.velocity -= impulse * allF4(a.inverseMass);
+    a.turn -= a.inverseInertia * cross(rows.armA, impulse);
+    b.velocity += impulse * allF4(b.inverseMass);
+    b.turn += b.inverseInertia * cross(rows.armB, impulse);
+}
+[[nodiscard]] inline float solve(SolverBody& a, SolverBody& b, PointRows& rows, bool mending) {
+    const F4 relative = b.velocity + cross(b.turn, rows.armB) - a.velocity - cross(a.turn, rows.armA);
+    const F4 missing = mending ? rows.mendTarget - relative : -relative;
+    const F4 impulse = rows.inverse * missing;
+    rows.impulse += impulse;
+    push(a, b, rows, impulse);
+    return std::sqrt(dot(missing, missing));
+}
+
+inline void push(SolverBody& a, SolverBody& b, const AngularRow& row, float impulse) {
+    a.turn -= row.turnA * allF4(impulse);
+    b.turn += row.turnB * allF4(impulse);
+}
+[[nodiscard]] inline float solve(SolverBody& a, SolverBody& b, AngularRow& row, bool mending) {
+    if (mending && row.duty == RowDuty::yields) return 0.0F;
+    const float target = mending ? row.mendTarget : row.keepTarget;
+    const float missing = target - dot(row.axis, b.turn - a.turn) - row.softness * row.impulse;
+    const float wanted = row.impulse + missing * row.inverseEffectiveMass;
+    const float impulse = wanted < row.low ? row.low : (wanted > row.high ? row.high : wanted);
+    const float change = impulse - row.impulse;
+    if (change == 0.0F) return 0.0F;
+    push(a, b, row, change);
+    row.impulse = impulse;
+    return kResidualArm * std::abs(change) / row.inverseEffectiveMass;
+}
+
+[[nodiscard]] inline float solve(SolverBody& a, SolverBody& b, TurnFriction& friction) {
+    const F4 turn = b.turn - a.turn;
+    F4 wanted = friction.impulse - friction.mass * turn;
+    const float square = dot(wanted, wanted);
+    const bool slips = square > friction.bound * friction.bound;
+    if (slips) wanted *= allF4(friction.bound / std::sqrt(square));
+    const F4 change = wanted - friction.impulse;
+    const F4 movedA = a.inverseInertia * change;
+    const F4 movedB = b.inverseInertia * change;
+    a.turn -= movedA;
+    b.turn += movedB;
+    friction.impulse = wanted;
+    const F4 moved = movedA + movedB;
+    return kResidualArm * std::sqrt(dot(moved, moved));
+}
+
+inline void push(SolverBody& a, SolverBody& b, const GeneralRow& row, float impulse) {
+    a.velocity += row.linearA * allF4(a.inverseMass * impulse);
+    a.turn += row.turnA * allF4(impulse);
+    b.velocity += row.linearB * allF4(b.inverseMass * impulse);
+    b.turn += row.turnB * allF4(impulse);
+}
+[[nodiscard]] inline float solve(SolverBody& a, SolverBody& b, GeneralRow& row, bool mending) {
+    if (mending && row.duty == RowDuty::yields) return 0.0F;
+    const float speed =
+        sum(row.linearA * a.velocity + row.angularA * a.turn + row.linearB * b.velocity + row.angularB * b.turn);
+    const float target = mending ? row.mendTarget : row.keepTarget;
+    const float wanted = row.impulse + (target - speed - row.softness * row.impulse) * row.inverseEffectiveMass;
+    const float impulse = wanted < row.low ? row.low : (wanted > row.high ? row.high : wanted);
+    const float change = impulse - row.impulse;
+    if (change == 0.0F) return 0.0F;
+    push(a, b, row, change);
+    row.impulse = impulse;
+    return kResidualArm * std::abs(change) / row.inverseEffectiveMass;
+}
+
+[[nodiscard]] inline float speedOf(const SolverBody& a, const SolverBody& b, const ContactRow& row) {
+    return sum(row.direction * (a.velocity - b.velocity) + row.angularA * a.turn - row.angularB * b.turn);
+}
+inline void push(SolverBody& a, SolverBody& b, const ContactRow& row, float impulse) {
+    a.velocity += row.direction * allF4(a.inverseMass * impulse);
+    a.turn += row.turnA * allF4(impulse);
+    b.velocity -= row.direction * allF4(b.inverseMass * impulse);
+    b.turn -= row.turnB * allF4(impulse);
+}
+
+/// Both tangents at once, so that the bound is a cone and not a pyramid.
+inline void solveFriction(SolverBody& a, SolverBody& b, ContactRows& contact) {
+    float wanted[2];
+    for (int i = 0; i < 2; ++i) {
+        const ContactRow& row = contact.tangents[i];
+        wanted[i] = row.impulse - speedOf(a, b, row) * row.inverseEffectiveMass;
+    }
+    const float square = wanted[0] * wanted[0] + wanted[1] * wanted[1];
+    const float bound = contact.friction * contact.normal.impulse;
+    const float scale = square > bound * bound ? bound / std::sqrt(square) : 1.0F;
+    for (int i = 0; i < 2; ++i) {
+        ContactRow& row = contact.tangents[i];
+        push(a, b, row, scale * wanted[i] - row.impulse);
+        row.impulse = scale * wanted[i];
+    }
+}
+
+/// Flesh gives way where it rests: the pressure's centre moves ahead of what rolls, by up to `arm` metres.
+inline void solveRolling(SolverBody& a, SolverBody& b, ContactRows& contact, float arm) {
+    F4 wanted = contact.rolling - (a.turn - b.turn) * allF4(contact.rollingInertia);
+    const float square = dot(wanted, wanted);
+    const float bound = arm * contact.normal.impulse;
+    if (square > bound * bound) wanted *= allF4(bound / std::sqrt(square));
+    const F4 change = wanted - contact.rolling;
+    a.turn += a.inverseInertia * change;
+    b.turn -= b.inverseInertia * change;
+    contact.rolling = wanted;
+}
+
+[[nodiscard]] inline float solve(SolverBody& a, SolverBody& b, ContactRows& contact, bool mending, float rollingArm) {
+    ContactRow& normal = contact.normal;
+    const float target = mending ? contact.mendTarget : contact.keepTarget;
+    const float wanted = normal.impulse + (target - speedOf(a, b, normal)) * normal.inverseEffectiveMass;
+    const float impulse = wanted > 0.0F ? wanted : 0.0F;
+    const float change = impulse - normal.impulse;
+    // What is not touched yet and stays so: friction has no hold either.
+    if (change == 0.0F && impulse == 0.0F) return 0.0F;
+    push(a, b, normal, change);
+    normal.impulse = impulse;
+    if (!mending) {  // friction yields
+        solveFriction(a, b, contact);
+        solveRolling(a, b, contact, rollingArm);
+    }
+    return normal.inverseEffectiveMass > 0.0F ? std::abs(change) / normal.inverseEffectiveMass : 0.0F;
+}
+
+}  // namespace lutka::physics

@@ -1,0 +1,181 @@
+#include <algorithm>
+#include <cmath>
+
+#include "physics/bullet/substep_solver.hpp"
+
+namespace lutka::physics {
+
+// Old impulses in a new geometry can be far from the answer, and too few sweeps don't take back what they added: a doll
+// that lands hard would be thrown up. So an island takes them only as far as they lessen what the sweeps minimise, the
+// energy of D(s) = s²/2 |M⁻¹p|² + s (p·v - target·impulse): its minimum is at s = (target·impulse - p·v) / |M⁻¹p|².
+// From there every row's step lessens it further, so that no substep adds energy, whatever the number of sweeps.
+void SubstepSolver::warmStart() {
+    if (!tuning_.warmStart) return;
+    pushes_.assign(bodies_.size(), Push{});
+    gatherPushes();
+    for (std::size_t i = 1; i < bodies_.size(); ++i) {
+        const SolverBody& body = bodies_[i];
+        const Push& push = pushes_[i];
+        Island& island = islands_[body.island];
+        island.gain -= dot(push.linear, body.velocity) + dot(push.angular, body.turn);
+        island.square +=
+            body.inverseMass * dot(push.linear, push.linear) + dot(push.angular, body.inverseInertia * push.angular);
+    }
+    for (Island& island : islands_)
+        island.share = island.square > 0.0F ? std::clamp(island.gain / island.square, 0.0F, 1.0F) : 0.0F;
+    applyShares();
+}
+
+void SubstepSolver::gatherPushes() {
+    for (const Joint& joint : joints_) {
+        Push& a = pushes_[joint.a];
+        Push& b = pushes_[joint.b];
+        Island& island = islandOfPair(joint.a, joint.b);
+        if (joint.point >= 0) {
+            const PointRows& rows = points_[joint.point];
+            a.linear -= rows.impulse;
+            a.angular -= cross(rows.armA, rows.impulse);
+            b.linear += rows.impulse;
+            b.angular += cross(rows.armB, rows.impulse);
+        }
+        if (joint.friction >= 0) {
+            a.angular -= frictions_[joint.friction].impulse;
+            b.angular += frictions_[joint.friction].impulse;
+        }
+        for (int i = 0; i < joint.angulars; ++i) {
+            const AngularRow& row = angulars_[joint.firstAngular + i];
+            a.angular -= row.axis * allF4(row.impulse);
+            b.angular += row.axis * allF4(row.impulse);
+            island.gain += row.keepTarget * row.impulse;
+        }
+        for (int i = 0; i < joint.generals; ++i) {
+            const GeneralRow& row = generals_[joint.firstGeneral + i];
+            a.linear += row.linearA * allF4(row.impulse);
+            a.angular += row.angularA * allF4(row.impulse);
+            b.linear += row.linearB * allF4(row.impulse);
+            b.angular += row.angularB * allF4(row.impulse);
+            island.gain += row.keepTarget * row.impulse;
+            island.square += row.softness * row.impulse * row.impulse;
+        }
+    }
+    for (const ContactRows& contact : contacts_) {
+        if (contact.normal.impulse <= 0.0F) continue;
+        Push& a = pushes_[contact.a];
+        Push& b = pushes_[contact.b];
+        const auto add = [&](const ContactRow& row) {
+            a.linear += row.direction * allF4(row.impulse);
+            a.angular += row.angularA * allF4(row.impulse);
+            b.linear -= row.direction * allF4(row.impulse);
+            b.angular -= row.angularB * allF4(row.impulse);
+        };
+        add(contact.normal);
+        add(contact.tangents[0]);
+        add(contact.tangents[1]);
+        islandOfPair(contact.a, contact.b).gain += contact.keepTarget * contact.normal.impulse;
+    }
+}
+
+void SubstepSolver::applyShares() {
+    for (const Joint& joint : joints_) {
+        SolverBody& a = bodies_[joint.a];
+        SolverBody& b = bodies_[joint.b];
+        const float share = islandOfPair(joint.a, joint.b).share;
+        if (joint.point >= 0) {
+            PointRows& rows = points_[joint.point];
+            rows.impulse *= allF4(share);
+            push(a, b, rows, rows.impulse);
+        }
+        if (joint.friction >= 0) {
+            F4& impulse = frictions_[joint.friction].impulse;
+            impulse *= allF4(share);
+            a.turn -= a.inverseInertia * impulse;
+            b.turn += b.inverseInertia * impulse;
+        }
+        for (int i = 0; i < joint.angulars; ++i) {
+            AngularRow& row = angulars_[joint.firstAngular + i];
+            row.impulse *= share;
+            push(a, b, row, row.impulse);
+        }
+        for (int i = 0; i < joint.generals; ++i) {
+            GeneralRow& row = generals_[joint.firstGeneral + i];
+            row.impulse *= share;
+            push(a, b, row, row.impulse);
+        }
+    }
+    for (ContactRows& contact : contacts_) {
+        if (contact.normal.impulse <= 0.0F) continue;
+        const float share = islandOfPair(contact.a, contact.b).share;
+        for (ContactRow* row : {&contact.normal, &contact.tangents[0], &contact.tangents[1]}) {
+            row->impulse *= share;
+            push(bodies_[contact.a], bodies_[contact.b], *row, row->impulse);
+        }
+    }
+}
+
+float SubstepSolver::solveJoint(const Joint& joint, bool mending) {
+    SolverBody& a = bodies_[joint.a];
+    SolverBody& b = bodies_[joint.b];
+    float residual = 0;
+    if (joint.friction >= 0 && !mending) residual = physics::solve(a, b, frictions_[joint.friction]);
+    for (int i = 0; i < joint.angulars; ++i)
+        residual = std::max(residual, physics::solve(a, b, angulars_[joint.firstAngular + i], mending));
+    for (int i = 0; i < joint.generals; ++i)
+        residual = std::max(residual, physics::solve(a, b, generals_[joint.firstGeneral + i], mending));
+    if (joint.point >= 0) residual = std::max(residual, physics::solve(a, b, points_[joint.point], mending));
+    return residual;
+}
+
+// One sweep, forth or back: impulses travel up a limb as fast as down. Returns the largest speed that a row was wrong
+// by, m/s.
+float SubstepSolver::sweep(const Island& island, bool mending, bool forth) {
+    float residual = 0;
+    for (int i = 0; i < island.joints; ++i) {
+        const int at = island.firstJoint + (forth ? i : island.joints - 1 - i);
+        residual = std::max(residual, solveJoint(joints_[jointOrder_[at]], mending));
+    }
+    for (int i = 0; i < island.contacts; ++i) {
+        const int at = island.firstContact + (forth ? i : island.contacts - 1 - i);
+        ContactRows& contact = contacts_[contactOrder_[at]];
+        residual = std::max(
+            residual, physics::solve(bodies_[contact.a], bodies_[contact.b], contact, mending, tuning_.rollingArm));
+    }
+    return residual;
+}
+
+// A doll that lies still is solved in a few sweeps, one that hits the floor needs many.
+void SubstepSolver::iterate(bool mending) {
+    const int most = mending ? tuning_.mendSweeps : tuning_.sweeps;
+    for (const Island& island : islands_) {
+        for (int i = 0; i < most; ++i) {
+            const float residual = sweep(island, mending, i % 2 == 0);
+            if (i + 1 >= tuning_.leastSweeps && residual < tuning_.tolerance) break;
+        }
+    }
+}
+
+// What lies nearly still is brought to rest: capsules would roll on for long, which skin and cloth never do.
+void SubstepSolver::calm(float seconds) {
+    const F4 keep = allF4(std::max(1.0F - tuning_.restDamping * seconds, 0.0F));
+    for (std::size_t i = 1; i < bodies_.size(); ++i) {
+        SolverBody& body = bodies_[i];
+        const bool slow = dot(body.velocity, body.velocity) < tuning_.restSpeed * tuning_.restSpeed &&
+                          dot(body.turn, body.turn) < tuning_.restTurn * tuning_.restTurn;
+        if (!slow || islands_[body.island].contacts == 0) continue;
+        body.velocity *= keep;
+        body.turn *= keep;
+    }
+}
+
+void SubstepSolver::bounce() {
+    for (ContactRows& contact : contacts_) {
+        if (contact.bounceTarget <= 0.0F || contact.normal.impulse <= 0.0F) continue;
+        SolverBody& a = bodies_[contact.a];
+        SolverBody& b = bodies_[contact.b];
+        const float more = std::max(contact.bounceTarget - speedOf(a, b, contact.normal), 0.0F);
+        const float impulse = more * contact.normal.inverseEffectiveMass;
+        push(a, b, contact.normal, impulse);
+        contact.normal.impulse += impulse;
+    }
+}
+
+}  // namespace lutka::physics
