@@ -107,7 +107,8 @@ void AnalyticCollision::processCollision(const btCollisionObjectWrapper* a, cons
 }
 
 void AnalyticCollision::collide(const btCollisionObject& a, const btCollisionObject& b) {
-    const ContactList list = findContacts(geometries_.of(a), geometries_.of(b), margin_);
+    const float margin = margin_ + geometries_.aheadOf(a) + geometries_.aheadOf(b);
+    const ContactList list = findContacts(geometries_.of(a), geometries_.of(b), margin);
     keep(list.count, &a, &b);
     if (list.count > 0) fill(list, a.getWorldTransform(), b.getWorldTransform());
 }
@@ -127,12 +128,13 @@ bool AnalyticCollisionFactory::farApart(const btCollisionObject& a, const btColl
     using Kind = CollisionGeometry::Kind;
     if (first.kind == Kind::mesh || second.kind == Kind::mesh) return false;
     if (first.kind == Kind::plane) return farApart(b, a);
+    const float margin = margin_ + geometries_.aheadOf(a) + geometries_.aheadOf(b);
     const vec3 offset = first.worldFromShape.translation - second.worldFromShape.translation;
     if (second.kind == Kind::plane) {
         const vec3 normal = second.worldFromShape.rotation * vec3(0, 1, 0);
-        return glm::dot(offset, normal) > geometries_.reachOf(a) + margin_;
+        return glm::dot(offset, normal) > geometries_.reachOf(a) + margin;
     }
-    const float reach = geometries_.reachOf(a) + geometries_.reachOf(b) + margin_;
+    const float reach = geometries_.reachOf(a) + geometries_.reachOf(b) + margin;
     return glm::dot(offset, offset) > reach * reach;
 }
 

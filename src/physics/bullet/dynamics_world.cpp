@@ -87,8 +87,7 @@ void DynamicsWorld::refreshAabbs() {
 }
 
 void DynamicsWorld::updateAabbs() {
-    geometries_.refresh(getCollisionObjectArray(), awake_);
-    const btVector3 half = 0.5F * tuning_.contactMargin * btVector3(1, 1, 1);
+    geometries_.refresh(getCollisionObjectArray(), awake_, getDispatchInfo().m_timeStep);
     // A box wider than it must be, and longer where the body goes, stays right for some substeps.
     const btVector3 spare(0.05F, 0.05F, 0.05F);
     const btScalar ahead = 4.0F * getDispatchInfo().m_timeStep;
@@ -96,8 +95,9 @@ void DynamicsWorld::updateAabbs() {
         btVector3 low;
         btVector3 high;
         body->getCollisionShape()->getAabb(body->getWorldTransform(), low, high);
-        low -= half;
-        high += half;
+        const float margin = 0.5F * tuning_.contactMargin + geometries_.aheadOf(*body);
+        low -= btVector3(margin, margin, margin);
+        high += btVector3(margin, margin, margin);
         const btBroadphaseProxy& proxy = *body->getBroadphaseHandle();
         const btVector3& wideLow = proxy.m_aabbMin;
         const btVector3& wideHigh = proxy.m_aabbMax;

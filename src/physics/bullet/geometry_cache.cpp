@@ -1,5 +1,6 @@
 #include "physics/bullet/geometry_cache.hpp"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -8,6 +9,7 @@
 namespace lutka::physics {
 namespace {
 
+constexpr float kForeseen = 0.03F;  // metres of motion in a substep that the usual margin covers
 constexpr float kFar = std::numeric_limits<float>::max();
 
 // The shape's own part of the geometry; false for shapes that findContacts() does not know.
@@ -54,22 +56,31 @@ void GeometryCache::place(int index, const btCollisionObject& object) {
         geometry.worldFromShape * RigidTransform{turn, turn * vec3(0, plane.getPlaneConstant(), 0)};
 }
 
-void GeometryCache::refresh(const btCollisionObjectArray& objects, std::span<btRigidBody* const> moving) {
+void GeometryCache::refresh(const btCollisionObjectArray& objects, std::span<btRigidBody* const> moving,
+                            float seconds) {
     const auto count = static_cast<std::size_t>(objects.size());
     if (count == geometries_.size() && !stale_) {
-        for (const btRigidBody* body : moving)
-            place(body->getWorldArrayIndex(), *body);
+        for (const btRigidBody* body : moving) {
+            const int index = body->getWorldArrayIndex();
+            place(index, *body);
+            const float reach = known_[index] != 0 ? reaches_[index] : 0.0F;
+            const float moved =
+                seconds * (body->getLinearVelocity().length() + reach * body->getAngularVelocity().length());
+            aheads_[index] = std::max(moved - kForeseen, 0.0F);
+        }
         return;
     }
     stale_ = false;
     geometries_.assign(count, {});
     reaches_.assign(count, kFar);
+    aheads_.assign(count, 0.0F);
     known_.assign(count, 0);
     for (std::size_t i = 0; i < count; ++i) {
         const btCollisionObject& object = *objects[static_cast<int>(i)];
         known_[i] = shapeOf(*object.getCollisionShape(), geometries_[i], reaches_[i]) ? 1 : 0;
         place(static_cast<int>(i), object);
     }
+    refresh(objects, moving, seconds);
 }
 
 }  // namespace lutka::physics

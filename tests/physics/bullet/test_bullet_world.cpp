@@ -217,6 +217,17 @@ TEST_CASE("a thin wall stops a doll at eight metres a second", "[bullet]") {
         CHECK(body.worldFromBody.translation.z < 2.0F);
 }
 
+TEST_CASE("a thin wall stops a doll at sixty metres a second", "[bullet]") {
+    const auto world = makeWorld(SolverKind::bullet);
+    world->addStatic({});
+    world->addStatic(box({0, 1.5F, 4.0F}, {3, 1.5F, 0.025F}));
+    world->addDoll(doll(), standing({glm::angleAxis(1.2F, vec3(1, 0, 0)), {0, 1.2F, -0.3F}}, {0, 0, 60}));
+    for (int i = 0; i < 60; ++i)
+        world->step(kDt);
+    for (const BodyState& body : bodiesOf(*world))
+        CHECK(body.worldFromBody.translation.z < 4.0F);
+}
+
 TEST_CASE("a doll that starts inside the floor is pushed out calmly", "[bullet]") {
     const auto world = makeWorld(SolverKind::bullet);
     world->addStatic({});
