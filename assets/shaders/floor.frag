@@ -33,7 +33,7 @@ void main() {
     vec3 toEye = towardsEye(worldPosition);
     if (toEye.y > 0.0) {
         float height = eye.w > 0.5 ? gl_FragCoord.y * viewport.w - 0.5 : -toEye.y;
-        fragment = vec4(mix(backdrop(height, pixelNoise()), color, fade * fade), 1.0);
+        fragment = vec4(mix(backdrop(-toEye, height, pixelNoise()), color, fade * fade), 1.0);
     } else {
         fragment = vec4(color, 0.3 * fade * fade);
     }

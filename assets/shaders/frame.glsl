@@ -29,6 +29,8 @@ layout(std140) uniform Frame {
     vec4 backgroundTop;
     vec4 backgroundHorizon;
     vec4 backgroundBottom;
+    vec4 environment;      // intensity, last level of the reflections, gain of the panorama; w: 1 when it is seen
+    vec4 environmentDiffuse[9];
     ivec4 counts;          // x: local lights
     LocalLight localLights[kMaxLocalLights];
 };

@@ -1,5 +1,13 @@
-// Metallic-roughness shading (glTF 2.0, appendix B) under the sun, the local lights and the procedural sky.
+// Metallic-roughness shading (glTF 2.0, appendix B) under the sun, the local lights and the sky. Compiled in variants, as
+// even a loop that runs zero times costs a software rasteriser its first turn:
+//   LOCAL_LIGHTS  there are some    UNSHADOWED  the sun casts no shadow    UNOCCLUDED  no ambient occlusion
+//   FAST  fewer taps of the shadow    ENVIRONMENT_MAP  a panorama in place of the procedural sky
 #include "noise.glsl"
+#include "tone_map.glsl"
+#ifdef ENVIRONMENT_MAP
+#include "panorama.glsl"
+uniform sampler2D environmentMap;
+#endif
 
 uniform sampler2DShadow shadowMap;
 uniform sampler2D shadowDepth;  // the same map, uncompared
@@ -18,6 +26,19 @@ struct Surface {
     vec3 emissive;
 };
 
+#ifdef ENVIRONMENT_MAP
+vec3 skyRadiance(vec3 direction, float roughness) {
+    return textureLod(environmentMap, panoramaUv(direction), roughness * environment.y).rgb * environment.x;
+}
+
+vec3 skyIrradiance(vec3 n) {
+    vec3 sum = environmentDiffuse[0].rgb + environmentDiffuse[1].rgb * n.y + environmentDiffuse[2].rgb * n.z;
+    sum += environmentDiffuse[3].rgb * n.x + environmentDiffuse[4].rgb * (n.x * n.y);
+    sum += environmentDiffuse[5].rgb * (n.y * n.z) + environmentDiffuse[6].rgb * (3.0 * n.z * n.z - 1.0);
+    sum += environmentDiffuse[7].rgb * (n.x * n.z) + environmentDiffuse[8].rgb * (n.x * n.x - n.y * n.y);
+    return max(sum, 0.0) * environment.x;
+}
+#else
 // Radiance of the sky, blurred by roughness in [0, 1]; a broad glow stands around the sun.
 vec3 skyRadiance(vec3 direction, float roughness) {
     float blur = mix(0.06, 0.9, roughness);
@@ -36,33 +57,43 @@ vec3 skyIrradiance(vec3 normal) {
     return mix(skyGround.rgb, sky, 0.5 + 0.5 * normal.y) + skyHorizon.rgb * (0.16 * sun);
 }
 
+#endif
+
 // Turns by the golden angle: points at the radii sqrt((i + 0.5) / n) spread evenly over a disc (Vogel's spiral).
 const mat2 kGoldenTurn = mat2(-0.73736888, -0.67549029, 0.67549029, -0.73736888);
 
-// Share of the sun that arrives, [0, 1], with a penumbra that widens with the distance from what casts the shadow
-// (percentage-closer soft shadows: Fernando 2005). The point is moved along its normal by about a texel, so that a
-// surface does not shade itself (normal offset: Holbert 2011), more where the light grazes.
+#ifdef UNSHADOWED
+float sunVisibility(vec3 position, vec3 normal) {
+    return 1.0;
+}
+#else
+
+#ifdef FAST
+// For software rasterisers: a narrow filter of four taps, each blended by the sampler.
+float filteredShadow(vec3 at, float slope) {
+    float reach = 0.75 * shadowTexel.y;
+    float reference = at.z - slope * reach;
+    float lit = textureLod(shadowMap, vec3(at.xy + reach * vec2(1.0, 0.3), reference), 0.0);
+    lit += textureLod(shadowMap, vec3(at.xy + reach * vec2(-0.3, 1.0), reference), 0.0);
+    lit += textureLod(shadowMap, vec3(at.xy + reach * vec2(-1.0, -0.3), reference), 0.0);
+    lit += textureLod(shadowMap, vec3(at.xy + reach * vec2(0.3, -1.0), reference), 0.0);
+    return 0.25 * lit;
+}
+#else
+// A penumbra that widens with the distance from what casts the shadow (percentage-closer soft shadows: Fernando 2005).
 //
 // The loops have bounds that depend on the pixel: a software rasteriser runs both sides of an if, but it does leave a
 // loop when no pixel of its group needs it any more.
-float sunVisibility(vec3 position, vec3 normal) {
+float filteredShadow(vec3 at, float slope) {
     const int kBlockerTaps = 8;
     const int kTaps = 12;
-    float cosine = clamp(dot(normal, sunDirection.xyz), 0.0, 1.0);
-    float grazing = sqrt(1.0 - cosine * cosine);
-    vec3 moved = position + normal * (shadowTexel.x * (1.0 + 3.0 * grazing));
-    vec3 at = (shadowFromWorld * vec4(moved, 1.0)).xyz;
-    bool inside = all(greaterThan(at.xy, vec2(0.0))) && all(lessThan(at, vec3(1.0)));
-    int blockerTaps = sunDirection.w > 0.5 && inside && cosine > 0.0 ? kBlockerTaps : 0;
-
     float turn = 6.2831853 * pixelNoise();
     vec2 start = vec2(cos(turn), sin(turn));
     vec2 direction = start;
-    // How much nearer the surface itself comes to the light within the filter, in the map's depth.
-    float slope = sunColor.w * min(grazing / max(cosine, 1e-3), 3.0);
     float search = 0.8 * shadowTexel.w;
     float above = 0.0;
     float blockers = 0.0;
+    int blockerTaps = slope < 0.0 ? 0 : kBlockerTaps;
     for (int tap = 0; tap < blockerTaps; ++tap) {
         float reach = search * sqrt((float(tap) + 0.5) / float(kBlockerTaps));
         float gap = at.z - slope * reach - textureLod(shadowDepth, at.xy + direction * reach, 0.0).r;
@@ -84,14 +115,34 @@ float sunVisibility(vec3 position, vec3 normal) {
         direction = kGoldenTurn * direction;
         lit += textureLod(shadowMap, vec3(at.xy + offset, reference), 0.0);
     }
+    return taps > 0 ? lit / float(taps) : 1.0;
+}
+#endif
+
+// Share of the sun that arrives, [0, 1]. The point is moved along its normal by about a texel, so that a surface does
+// not shade itself (normal offset: Holbert 2011), more where the light grazes.
+float sunVisibility(vec3 position, vec3 normal) {
+    float cosine = clamp(dot(normal, sunDirection.xyz), 0.0, 1.0);
+    float grazing = sqrt(1.0 - cosine * cosine);
+    vec3 moved = position + normal * (shadowTexel.x * (1.0 + 3.0 * grazing));
+    vec3 at = (shadowFromWorld * vec4(moved, 1.0)).xyz;
+    bool inside = all(greaterThan(at.xy, vec2(0.0))) && all(lessThan(at, vec3(1.0)));
+    bool asked = inside && cosine > 0.0;
+    // How much nearer the surface itself comes to the light within the filter, in the map's depth; negative where the
+    // map has no say.
+    float slope = asked ? sunColor.w * min(grazing / max(cosine, 1e-3), 3.0) : -1.0;
     // Towards the map's border it fades, so that no edge shows where the map ends inside the picture.
     vec2 fromMiddle = abs(at.xy * 2.0 - 1.0);
     float fade = smoothstep(0.9, 1.0, max(fromMiddle.x, fromMiddle.y));
-    return taps > 0 ? mix(lit / float(taps), 1.0, fade) : 1.0;
+    return asked ? mix(filteredShadow(at, slope), 1.0, fade) : 1.0;
 }
+#endif
 
 // Share of the sky that nearby geometry leaves open at this pixel.
 float ambientVisibility() {
+#ifdef UNOCCLUDED
+    return 1.0;
+#endif
     return target.w > 0.5 ? texture(occlusionMap, gl_FragCoord.xy * viewport.zw).r : 1.0;
 }
 
@@ -149,12 +200,14 @@ vec3 shade(Surface surface) {
     float lit = sunVisibility(surface.position, surface.geometric);
     vec3 sunLobe = specularLobe(f0, surface.roughness, surface.normal, toEye, sunDirection.xyz);
     color += (diffuse + sunLobe) * sunColor.rgb * (nl * lit);
+#ifdef LOCAL_LIGHTS
     for (int i = 0; i < counts.x; ++i) {
         vec3 toLight;
         vec3 arriving = localLightAt(localLights[i], surface.position, toLight);
         vec3 lobe = specularLobe(f0, surface.roughness, surface.normal, toEye, toLight);
         color += (diffuse + lobe) * arriving * max(dot(surface.normal, toLight), 0.0);
     }
+#endif
     return color + surface.emissive;
 }
 
@@ -163,19 +216,12 @@ vec3 shadeMatteUpward(vec3 position, vec3 albedo) {
     const vec3 up = vec3(0.0, 1.0, 0.0);
     vec3 arriving = skyIrradiance(up) * ambientVisibility();
     arriving += sunColor.rgb * (max(sunDirection.y, 0.0) * sunVisibility(position, up));
+#ifdef LOCAL_LIGHTS
     for (int i = 0; i < counts.x; ++i) {
         vec3 toLight;
         vec3 light = localLightAt(localLights[i], position, toLight);
         arriving += light * max(toLight.y, 0.0);
     }
+#endif
     return albedo * arriving;
-}
-
-// Filmic tone mapping: the ACES reference transform in the fit by Hill (2015), linear sRGB in and out.
-vec3 toneMap(vec3 color) {
-    const mat3 acesFromRgb = mat3(0.59719, 0.07600, 0.02840, 0.35458, 0.90834, 0.13383, 0.04823, 0.01566, 0.83777);
-    const mat3 rgbFromAces = mat3(1.60475, -0.10208, -0.00327, -0.53108, 1.10813, -0.07276, -0.07367, -0.00605, 1.07602);
-    vec3 v = acesFromRgb * (color * forward.w);
-    vec3 fitted = (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
-    return clamp(rgbFromAces * fitted, 0.0, 1.0);
 }

@@ -27,7 +27,7 @@ Rows rowsOfDualQuaternion(vec4 real, vec4 dual) {
 Rows blendedRows(int firstJoint, bool dual, uvec4 joints, vec4 weights) {
     Rows rows = Rows(vec4(0.0), vec4(0.0), vec4(0.0));
     vec4 strongest = texelFetch(palettes, 3 * (firstJoint + int(joints[0])));
-    for (int slot = 0; slot < 4; ++slot) {
+    for (int slot = 0; slot < 4 && weights[slot] > 0.0; ++slot) {  // strongest first: the rest is zero too
         int texel = 3 * (firstJoint + int(joints[slot]));
         vec4 first = texelFetch(palettes, texel);
         float weight = dual && dot(first, strongest) < 0.0 ? -weights[slot] : weights[slot];

@@ -38,6 +38,7 @@ class Application {
     Result<void> record();
     Result<void> followCharacter();
     Result<void> oneFrame(double seconds);
+    [[nodiscard]] bool isSeen() const;
     Result<void> takeScreenshots();
     void updateTitle();
     [[nodiscard]] double nextFrameSeconds();
@@ -82,7 +83,8 @@ float monitorScale(const render::GlContext& context) {
 
 Result<void> Application::start() {
     windowSize_ = options_.input ? options_.input->size : options_.editor.window;
-    auto renderer = render::Renderer::create(context_);
+    const auto quality = options_.headless ? render::RenderQuality::best : options_.quality;
+    auto renderer = render::Renderer::create(context_, render::rendererOptions(quality, context_));
     if (!renderer) return renderer.error();
     renderer_.emplace(std::move(renderer).value());
     const float scale = options_.uiScale > 0.0F ? options_.uiScale : monitorScale(context_);
@@ -181,6 +183,10 @@ Result<void> Application::oneFrame(double seconds) {
     editor_->update(seconds);
     if (auto followed = followCharacter(); !followed) return followed;
     editor_->describe(character_, frame_);
+    if (!isSeen()) {
+        host_->skipDrawing();
+        return {};
+    }
     renderer_->draw(frame_, pixels_);
     history_.stats = renderer_->stats();
     renderer_->bindResolvedTarget();
@@ -192,6 +198,13 @@ Result<void> Application::oneFrame(double seconds) {
         updateTitle();
     }
     return {};
+}
+
+// Without a window only the pictures that are kept are seen, and the one before each: its cost is in their panels.
+bool Application::isSeen() const {
+    return window_ || std::any_of(options_.screenshots.begin(), options_.screenshots.end(), [&](const auto& one) {
+               return one.frame == frameIndex_ || one.frame == frameIndex_ + 1;
+           });
 }
 
 Result<void> Application::takeScreenshots() {

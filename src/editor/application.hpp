@@ -7,6 +7,7 @@
 #include "core/result.hpp"
 #include "editor/editor.hpp"
 #include "editor/input_script.hpp"
+#include "render/gl/renderer_options.hpp"
 
 namespace lutka::editor {
 
@@ -23,6 +24,8 @@ struct ApplicationOptions {
     std::optional<int> frames;  ///< Ends after so many; headless needs this, an input or a screenshot to end.
     float uiScale = 0.0F;       ///< 0: the monitor's.
     bool vsync = true;
+    /// Without a window every picture is `best`: only those that are kept are drawn at all.
+    render::RenderQuality quality = render::RenderQuality::automatic;
     bool settings = true;  ///< Whether recent files are read from and kept in the user's configuration folder.
 };
 

@@ -203,6 +203,12 @@ class World {
     /// WorldSettings::contactReports.
     [[nodiscard]] virtual std::span<const ContactReport> contactReports() const = 0;
 
+    /// Takes a line of debug drawing: two points in world space and its colour, components in [0, 1].
+    using DebugLineSink = std::function<void(const vec3& from, const vec3& to, const vec3& color)>;
+    /// What the engine's own debug drawer shows of this world (shapes, constraints with limits, contacts, boxes), as
+    /// lines; nothing where the engine has none.
+    virtual void drawDebug(const DebugLineSink& /*line*/) {}
+
   protected:
     World() = default;
 };

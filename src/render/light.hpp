@@ -31,7 +31,9 @@ struct Sky {
     vec3 zenith{0.50F, 0.60F, 0.78F};   ///< Linear radiance straight up.
     vec3 horizon{0.86F, 0.88F, 0.90F};  ///< At the horizon.
     vec3 ground{0.34F, 0.32F, 0.30F};   ///< Straight down: what the floor throws back.
-    float intensity = 0.75F;            ///< Multiplies all three.
+    float intensity = 0.75F;            ///< Multiplies all three, and an environment's light.
+    bool environment = false;  ///< The renderer's environment (Renderer::setEnvironment) lights in their place.
+    bool environmentBackground = false;  ///< And is seen behind everything.
 };
 
 }  // namespace lutka::render

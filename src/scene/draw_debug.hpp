@@ -1,9 +1,11 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
+#include "physics/quality.hpp"
 #include "render/frame.hpp"
-#include "scene/draw_simulation.hpp"
+#include "scene/debug_layers.hpp"
 #include "scene/ragdoll_asset.hpp"
 
 namespace lutka::scene {
@@ -18,8 +20,21 @@ struct DollView {
     bool asleep = false;
 };
 
-/// Colours (the legend is in docs/editor.md): bodies green awake, grey-blue asleep; limits cyan, yellow within 5
-/// degrees of the limit, red past it.
-void drawDollDebug(const DollView& doll, const DebugLayers& layers, render::FrameDescription& frame);
+/// Buffers that drawing reuses from doll to doll and from frame to frame.
+struct DebugScratch {
+    std::vector<vec3> positions;
+    std::vector<int> parents;
+    std::vector<bool> inside;  ///< At or below a joint that owns a body.
+};
+
+/// How far inside its limits a constraint's present angle is, radians; negative: past them. Along the swing's own
+/// direction in the elliptic cone.
+[[nodiscard]] float limitMargin(const physics::ConstraintProfile& constraint, const physics::ConstraintState& state);
+/// The same of the swing alone.
+[[nodiscard]] float swingMargin(const physics::ConeTwistLimits& cone, const physics::ConstraintState& state);
+
+/// Adds the layers of a doll; colours as in debugLayerInfos().
+void drawDollDebug(const DollView& doll, const DebugLayers& layers, DebugScratch& scratch,
+                   render::FrameDescription& frame);
 
 }  // namespace lutka::scene

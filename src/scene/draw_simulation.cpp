@@ -1,9 +1,5 @@
 #include "scene/draw_simulation.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -20,22 +16,9 @@ using render::Color;
 constexpr Color kGeometryColor{172, 177, 184, 255};
 constexpr Color kPropColor{206, 120, 70, 255};
 constexpr float kContactNormalLength = 0.08F;
-
-struct LayerName {
-    std::string_view name;
-    bool DebugLayers::*layer;
-};
-
-constexpr std::array<LayerName, 8> kLayerNames{{
-    {"capsules", &DebugLayers::capsules},
-    {"solids", &DebugLayers::solidCapsules},
-    {"joints", &DebugLayers::joints},
-    {"limits", &DebugLayers::limits},
-    {"contacts", &DebugLayers::contacts},
-    {"velocities", &DebugLayers::velocities},
-    {"com", &DebugLayers::centresOfMass},
-    {"aabbs", &DebugLayers::aabbs},
-}};
+constexpr float kSleepTint = 0.6F;
+constexpr float kHiddenLineOpacity = 0.35F;
+constexpr float kInnerLineOpacity = 0.8F;
 
 // A plane that faces up is drawn as the renderer's floor, every other piece of geometry as a prop.
 bool isFloor(const StaticShape& shape) {
@@ -122,78 +105,82 @@ void drawProps(const Simulation& simulation, float alpha, render::FrameDescripti
     }
 }
 
+Color sleepColor(bool asleep) {
+    return asleep ? debugColors::asleep : debugColors::awake;
+}
+
+void drawBulletLayer(Simulation& simulation, render::FrameDescription& frame) {
+    simulation.world().drawDebug([&](const vec3& from, const vec3& to, const vec3& color) {
+        const vec3 bytes = glm::clamp(color, 0.0F, 1.0F) * 255.0F;
+        frame.lines.add(from, to,
+                        {static_cast<std::uint8_t>(bytes.x), static_cast<std::uint8_t>(bytes.y),
+                         static_cast<std::uint8_t>(bytes.z), 255});
+    });
+}
+
 bool anyDollLayer(const DebugLayers& layers) {
-    return layers.capsules || layers.solidCapsules || layers.joints || layers.limits || layers.velocities ||
-           layers.centresOfMass || layers.aabbs;
+    return layers.capsules || layers.solidCapsules || layers.skeleton || layers.joints || layers.limits ||
+           layers.velocities || layers.centresOfMass || layers.aabbs;
 }
 
 }  // namespace
 
-Result<DebugLayers> parseDebugLayers(std::string_view list) {
-    DebugLayers layers;
-    while (!list.empty()) {
-        const std::string_view word = list.substr(0, list.find(','));
-        list.remove_prefix(std::min(word.size() + 1, list.size()));
-        const auto* known = std::find_if(kLayerNames.begin(), kLayerNames.end(),
-                                         [&](const LayerName& layer) { return layer.name == word; });
-        if (known == kLayerNames.end()) {
-            std::string names;
-            for (const LayerName& layer : kLayerNames)
-                names += fmt::format("{}{}", names.empty() ? "" : ", ", layer.name);
-            return Error{ErrorCode::usage, fmt::format("there is no debug layer named '{}'", word), "--debug",
-                         "the layers are " + names};
-        }
-        layers.*(known->layer) = true;
-    }
-    return layers;
-}
-
 void SimulationDrawer::draw(Simulation& simulation, render::CharacterHandle character, const DebugLayers& layers,
                             float alpha, float opacity, render::FrameDescription& frame) {
-    const RagdollAsset& asset = simulation.asset();
-    const animation::Skeleton& skeleton = asset.character.skeleton;
-    joints_ = skeleton.parents.size();
+    joints_ = simulation.asset().character.skeleton.parents.size();
     const auto dolls = static_cast<std::size_t>(simulation.dollCount());
     poses_.resize(joints_ * dolls);
     palettes_.resize(joints_ * dolls);
     for (int doll = 0; doll < simulation.dollCount(); ++doll) {
-        const std::size_t first = joints_ * static_cast<std::size_t>(doll);
-        const std::span pose = std::span(poses_).subspan(first, joints_);
-        const std::span palette = std::span(palettes_).subspan(first, joints_);
-        simulation.pose(doll, alpha, pose);
-        animation::skinMatrices(skeleton.bindModelFromJoint, pose, palette);
+        drawSkin(simulation, doll, alpha);
         if (opacity > 0.0F && character.valid()) {
             render::CharacterItem& item = frame.characters.emplace_back();
             item.character = character;
-            item.palette = palette;
+            item.palette = ofDoll(std::span<const animation::SkinMatrix>(palettes_), doll);
             item.worldFromModel = simulation.worldFromModel(doll);
             item.opacity = opacity;
             item.skinning = skinning;
+            if (layers.sleep) item.highlight = withAlpha(sleepColor(simulation.world().isAsleep(doll)), kSleepTint);
         }
         if (anyDollLayer(layers)) {
-            states_.resize(asset.profile.bodies.size());
+            states_.resize(simulation.asset().profile.bodies.size());
             simulation.world().getBodies(doll, states_);
-            drawDollDebug({asset, simulation.worldFromBody(doll, alpha), states_, pose, simulation.worldFromModel(doll),
-                           simulation.world().isAsleep(doll)},
-                          layers, frame);
+            drawDollDebug({simulation.asset(), simulation.worldFromBody(doll, alpha), states_, modelFromJoint(doll),
+                           simulation.worldFromModel(doll), simulation.world().isAsleep(doll)},
+                          layers, scratch_, frame);
         }
     }
+    // Bones lie inside the skin: there what is hidden is the very thing to see.
+    const bool inside = layers.skeleton || layers.joints;
+    frame.hiddenLineOpacity = inside ? kInnerLineOpacity : kHiddenLineOpacity;
     drawStatics(simulation.scenario(), frame);
     makeWallsOfPileSeeThrough(simulation.scenario(), frame);
     drawProps(simulation, alpha, frame);
-    if (layers.contacts) {
-        contacts_.clear();
-        simulation.world().getContacts(contacts_);
-        for (const physics::ContactPoint& contact : contacts_) {
-            const Color color = contact.distance < 0.0F ? render::colors::red : render::colors::yellow;
-            addCross(frame.lines, contact.position, 0.03F, color);
-            addArrow(frame.lines, contact.position, contact.position + contact.normal * kContactNormalLength, color);
-        }
+    if (layers.contacts) drawContacts(simulation, frame);
+    if (layers.bullet) drawBulletLayer(simulation, frame);
+}
+
+void SimulationDrawer::drawSkin(Simulation& simulation, int doll, float alpha) {
+    const std::span pose = ofDoll(std::span(poses_), doll);
+    simulation.pose(doll, alpha, pose);
+    animation::skinMatrices(simulation.asset().character.skeleton.bindModelFromJoint, pose,
+                            ofDoll(std::span(palettes_), doll));
+}
+
+void SimulationDrawer::drawContacts(Simulation& simulation, render::FrameDescription& frame) {
+    contacts_.clear();
+    simulation.world().getContacts(contacts_);
+    for (const physics::ContactPoint& contact : contacts_) {
+        const Color color = contact.distance < 0.0F ? debugColors::penetrating : debugColors::touching;
+        // Either body may be the second; the side that faces up is the one that is seen.
+        const vec3 normal = contact.normal.y < 0.0F ? -contact.normal : contact.normal;
+        addCross(frame.lines, contact.position, 0.03F, color);
+        addArrow(frame.lines, contact.position, contact.position + normal * kContactNormalLength, color);
     }
 }
 
 std::span<const RigidTransform> SimulationDrawer::modelFromJoint(int doll) const {
-    return std::span(poses_).subspan(joints_ * static_cast<std::size_t>(doll), joints_);
+    return ofDoll(std::span<const RigidTransform>(poses_), doll);
 }
 
 render::Camera cameraFor(const Scenario& scenario, float aspect) {

@@ -1,34 +1,20 @@
 #pragma once
 
-#include <string_view>
 #include <vector>
 
 #include "render/frame.hpp"
+#include "scene/debug_layers.hpp"
+#include "scene/draw_debug.hpp"
 #include "scene/simulation.hpp"
 
 namespace lutka::scene {
-
-/// Which debug layers are drawn over the picture.
-struct DebugLayers {
-    bool capsules = false;       ///< Wireframe of every body over all; coloured by sleep.
-    bool solidCapsules = false;  ///< The same as translucent solids.
-    bool joints = false;         ///< The skeleton and the axes of mapped joints.
-    bool limits = false;         ///< Arcs (hinge) and cones with twist sector, coloured near and past the limit.
-    bool contacts = false;       ///< Contact points and normals of the last substep.
-    bool velocities = false;     ///< Linear velocity of each body's centre, 0.1 s long.
-    bool centresOfMass = false;  ///< Centre and inertia box of each body.
-    bool aabbs = false;          ///< World boxes around the bodies.
-};
-
-/// Parses "capsules,joints,limits,contacts,velocities,com,aabbs,solids". Fails with ErrorCode::usage on another word.
-[[nodiscard]] Result<DebugLayers> parseDebugLayers(std::string_view list);
 
 /// Fills a frame with what a simulation shows. Keeps its buffers from frame to frame; palettes stay valid until the
 /// next call of draw().
 class SimulationDrawer {
   public:
     /// Appends characters, props, static geometry and debug layers to `frame` (which is not cleared), and sets its
-    /// floor. `alpha` as in Simulation::pose; `opacity` of the skins, 0 leaves them out.
+    /// floor and hiddenLineOpacity. `alpha` as in Simulation::pose; `opacity` of the skins, 0 leaves them out.
     void draw(Simulation& simulation, render::CharacterHandle character, const DebugLayers& layers, float alpha,
               float opacity, render::FrameDescription& frame);
 
@@ -39,10 +25,18 @@ class SimulationDrawer {
     animation::SkinningMethod skinning = animation::SkinningMethod::linear;
 
   private:
+    void drawSkin(Simulation& simulation, int doll, float alpha);
+    void drawContacts(Simulation& simulation, render::FrameDescription& frame);
+    template <class T>
+    [[nodiscard]] std::span<T> ofDoll(std::span<T> all, int doll) const {
+        return all.subspan(joints_ * static_cast<std::size_t>(doll), joints_);
+    }
+
     std::vector<RigidTransform> poses_;
     std::vector<animation::SkinMatrix> palettes_;
     std::vector<physics::BodyState> states_;
     std::vector<physics::ContactPoint> contacts_;
+    DebugScratch scratch_;
     std::size_t joints_ = 0;
 };
 

@@ -26,6 +26,7 @@ struct Options {
     std::string size = "1280x720";
     float uiScale = 0.0F;
     bool noVsync = false;
+    std::string quality = "auto";
     bool states = false;
 };
 
@@ -38,6 +39,11 @@ editor::ApplicationOptions::Screenshot parseScreenshot(const std::string& text) 
     } catch (const std::exception&) {  // not a number; told below
     }
     leave({ErrorCode::usage, fmt::format("\"{}\" is not FRAME:FILE.png", text), "--screenshot-at", ""});
+}
+
+render::RenderQuality qualityFromName(const std::string& name) {
+    if (name == "best") return render::RenderQuality::best;
+    return name == "fast" ? render::RenderQuality::fast : render::RenderQuality::automatic;
 }
 
 editor::ApplicationOptions applicationOptions(const Options& options) {
@@ -67,6 +73,7 @@ editor::ApplicationOptions applicationOptions(const Options& options) {
     application.frames = options.frames;
     application.uiScale = options.uiScale;
     application.vsync = !options.noVsync;
+    application.quality = qualityFromName(options.quality);
     // A replay neither depends on what the user did before nor changes it.
     application.settings = !options.headless && options.input.empty();
     return application;
@@ -104,6 +111,10 @@ void addEdit(CLI::App& app) {
     command->add_option("--size", options->size, "window size, WxH")->capture_default_str();
     command->add_option("--ui-scale", options->uiScale, "size of the panels; default: the monitor's")
         ->check(CLI::Range(0.5, 4.0));
+    command
+        ->add_option("--quality", options->quality, "of the picture: best, fast, or auto: fast where a processor draws")
+        ->check(CLI::IsMember({"auto", "best", "fast"}))
+        ->capture_default_str();
     command->add_flag("--no-vsync", options->noVsync, "don't wait for the monitor");
     command->add_flag("--states", options->states, "print the state machine as a Mermaid diagram and end");
     command->callback([options] { run(*options); });

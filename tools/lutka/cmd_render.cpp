@@ -31,6 +31,9 @@ struct Options {
     std::optional<float> distance;
     bool frames = false;
     bool follow = false;
+    bool legend = true;
+    std::filesystem::path sky;
+    bool skyBackground = false;
 };
 
 // The part of the way to the figure that a following camera goes in a frame: calm, yet never far behind.
@@ -48,6 +51,13 @@ class Painter {
           character_(orLeave(renderer_.uploadCharacter(run.asset->character))) {
         drawer_.skinning =
             options.skinning == "dual" ? animation::SkinningMethod::dualQuaternion : animation::SkinningMethod::linear;
+        if (!options.sky.empty()) {
+            const render::Environment sky = orLeave(render::loadHdr(options.sky));
+            renderer_.setEnvironment(&sky);
+            frame_.sky.environment = true;
+            frame_.sky.environmentBackground = options.skyBackground;
+        }
+        legend_ = scene::legendOf(layers_);
         frame_.camera = scene::cameraFor(run.simulation->scenario(), size_.aspect());
         if (options.yawDeg) frame_.camera.yaw = radians(*options.yawDeg);
         if (options.pitchDeg) frame_.camera.pitch = radians(*options.pitchDeg);
@@ -60,6 +70,7 @@ class Painter {
         drawer_.draw(simulation, character_, layers_, alpha, options_.opacity, frame_);
         renderer_.draw(frame_, size_);
         renderer_.readPixels(image_);
+        if (options_.legend) render::drawLegend(image_, legend_);
     }
 
     [[nodiscard]] const render::Image& image() const { return image_; }
@@ -95,6 +106,7 @@ class Painter {
     render::FrameDescription frame_;
     scene::SimulationDrawer drawer_;
     render::Image image_;
+    std::vector<render::LegendEntry> legend_;
 };
 
 void renderPicture(const Options& options, Run& run, Painter& painter) {
@@ -153,6 +165,8 @@ void addRender(CLI::App& app) {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("render", "Draw the fall to a picture or a video, without a display");
     options->simulate.addTo(*command);
+    auto* sky = command->add_option("--sky", options->sky, "light from a panorama (*.hdr) in place of the default sky");
+    command->add_flag("--sky-background", options->skyBackground, "show the panorama behind the scene")->needs(sky);
     command->add_option("-o,--output", options->out, "FILE.png (the last moment), FILE.mp4 or FILE.gif")->required();
     command->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
     command->add_option("--fps", options->framesPerSecond, "frames a second of a video")
@@ -160,7 +174,8 @@ void addRender(CLI::App& app) {
         ->capture_default_str();
     command->add_flag("--frames", options->frames, "with a .png: the whole fall as FILE_0000.png, FILE_0001.png …");
     command->add_option("--debug", options->debug,
-                        "layers over the picture: capsules,solids,joints,limits,contacts,velocities,com,aabbs");
+                        "layers over the picture, joined by commas: " + scene::debugLayerNames());
+    command->add_flag("!--no-legend", options->legend, "leave the colours' meaning out of the picture");
     command->add_option("--opacity", options->opacity, "of the skin, 0 to 1")->check(finiteIn(0, 1));
     command
         ->add_option("--skinning", options->skinning, "linear, or dual: quaternions that keep a twisted limb's volume")

@@ -105,9 +105,9 @@ void viewMenu(const PanelContext& context) {
     item(context, Action::toggleHandles, true, context.editor.workspace().showHandles);
     item(context, Action::togglePanels, true, context.editor.view.panels);
     if (ImGui::BeginMenu("Layers")) {
-        for (const LayerInfo& layer : debugLayerInfos()) {
+        for (const scene::DebugLayerInfo& layer : scene::debugLayerInfos()) {
             bool& on = context.editor.view.layers.*layer.member;
-            if (!ImGui::MenuItem(layer.name, nullptr, on)) continue;
+            if (!ImGui::MenuItem(layer.title.data(), nullptr, on)) continue;
             on = !on;
             context.editor.view.debug = true;
         }

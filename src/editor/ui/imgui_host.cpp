@@ -132,6 +132,11 @@ UiCapture ImguiHost::capture() const {
     return {io.WantCaptureMouse, io.WantCaptureKeyboard};
 }
 
+void ImguiHost::skipDrawing() {
+    ImGui::EndFrame();
+    begun_ = false;
+}
+
 void ImguiHost::draw() {
     ImGui::Render();
     begun_ = false;

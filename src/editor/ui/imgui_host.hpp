@@ -39,6 +39,8 @@ class ImguiHost {
     [[nodiscard]] UiCapture capture() const;
     /// Ends the frame and draws it into the framebuffer that is bound.
     void draw();
+    /// In place of draw(), for a frame that nobody sees.
+    void skipDrawing();
 
     [[nodiscard]] const UiFonts& fonts() const { return fonts_; }
     [[nodiscard]] float scale() const { return scale_; }

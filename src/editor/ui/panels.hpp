@@ -30,14 +30,6 @@ struct ViewSpan {
 };
 [[nodiscard]] ViewSpan viewSpan(const PanelContext& context);
 
-/// A debug layer as menus and the View tab offer it.
-struct LayerInfo {
-    const char* name;
-    bool scene::DebugLayers::*member;
-    const char* what;
-};
-[[nodiscard]] std::span<const LayerInfo> debugLayerInfos();
-
 void drawMenuBar(const PanelContext& context);
 void drawStatusBar(const PanelContext& context);
 void drawTransport(const PanelContext& context);

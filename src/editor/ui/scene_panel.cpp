@@ -146,23 +146,22 @@ void drawQuality(const scene::Simulation& simulation) {
     row("Not finite", fmt::format("{}", quality.nonFinite));
 }
 
-using scene::DebugLayers;
-constexpr LayerInfo kLayers[] = {
-    {"Capsules", &DebugLayers::capsules, "Wireframes of the bodies, coloured by sleep"},
-    {"Solid capsules", &DebugLayers::solidCapsules, "The same as translucent solids"},
-    {"Joints", &DebugLayers::joints, "The skeleton, and the axes of mapped joints in red, green, blue: x, y, z"},
-    {"Limits", &DebugLayers::limits, "Arcs of hinges and cones, yellow within 5° of the limit, red past it"},
-    {"Contacts", &DebugLayers::contacts, "Contact points and normals of the last substep"},
-    {"Velocities", &DebugLayers::velocities, "Velocity of each body's centre, a tenth of a second long"},
-    {"Centres of mass", &DebugLayers::centresOfMass, "With boxes of the bodies' inertia"},
-    {"Bounding boxes", &DebugLayers::aabbs, "World boxes around the bodies"},
-};
+// What a layer's colours mean, a line each.
+void drawLegend(const scene::DebugLayerInfo& layer) {
+    ImGui::Indent();
+    for (const render::LegendEntry& entry : layer.legend) {
+        const ImVec4 color(static_cast<float>(entry.color.r) / 255.0F, static_cast<float>(entry.color.g) / 255.0F,
+                           static_cast<float>(entry.color.b) / 255.0F, 1.0F);
+        const float side = ImGui::GetTextLineHeight();
+        ImGui::ColorButton(entry.text.data(), color, ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop,
+                           {side, side});
+        ImGui::SameLine();
+        mutedText(std::string(entry.text));
+    }
+    ImGui::Unindent();
+}
 
 }  // namespace
-
-std::span<const LayerInfo> debugLayerInfos() {
-    return kLayers;
-}
 
 void drawSceneTab(const PanelContext& context) {
     caption("SCENE");
@@ -179,9 +178,10 @@ void drawViewTab(const PanelContext& context) {
     ImGui::Checkbox("Debug draw (F3)", &view.debug);
     ImGui::BeginDisabled(!view.debug);
     ImGui::Indent();
-    for (const LayerInfo& layer : debugLayerInfos()) {
-        ImGui::Checkbox(layer.name, &(layers.*layer.member));
-        tooltip(layer.what);
+    for (const scene::DebugLayerInfo& layer : scene::debugLayerInfos()) {
+        ImGui::Checkbox(layer.title.data(), &(layers.*layer.member));
+        tooltip(layer.what.data());
+        if (view.debug && layers.*layer.member) drawLegend(layer);
     }
     ImGui::Unindent();
     ImGui::EndDisabled();

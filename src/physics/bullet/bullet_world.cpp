@@ -7,6 +7,7 @@
 #include "core/assert.hpp"
 #include "physics/bullet/contact_gatherer.hpp"
 #include "physics/bullet/convert.hpp"
+#include "physics/bullet/debug_draw.hpp"
 #include "physics/bullet/drag_constraint.hpp"
 #include "physics/bullet/dynamics_world.hpp"
 #include "physics/bullet/ragdoll.hpp"
@@ -66,6 +67,7 @@ class BulletWorld final : public World {
     [[nodiscard]] std::vector<std::pair<int, Drag>> dragsOf(int doll) const override;
     void getContacts(std::vector<ContactPoint>& contacts) const override;
     [[nodiscard]] std::span<const ContactReport> contactReports() const override { return gatherer_.reports(); }
+    void drawDebug(const DebugLineSink& line) override { drawBulletDebug(*parts_.world, line); }
 
   private:
     // A force that acts throughout the coming step.

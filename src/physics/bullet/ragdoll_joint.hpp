@@ -33,6 +33,8 @@ class RagdollJoint final : public btTypedConstraint, public WarmStarted {
     /// Body A is the parent, body B the child. `tuning` must outlive the joint.
     RagdollJoint(const ConstraintProfile& profile, btRigidBody& parent, btRigidBody& child, const JointTuning& tuning);
 
+    [[nodiscard]] const ConstraintProfile& profile() const { return profile_; }
+
     void getInfo1(btConstraintInfo1* info) override;
     void getInfo2(btConstraintInfo2* info) override;
     void setParam(int num, btScalar value, int axis) override;

@@ -23,13 +23,14 @@ void DrawList::begin(const FrameDescription& frame) {
     }
     casters_ = {};
     forward_ = forwardOf(frame.camera);
+    eye_ = eyeOf(frame.camera);
     culled_ = 0;
     dropped_ = 0;
 }
 
 void DrawList::addCharacter(const CharacterItem& item, const BoundingSphere& bounds, const mat4& clipFromWorld) {
     const Entry entry{item.character.index, static_cast<int>(firstPaletteJoint_.size()),
-                      glm::dot(bounds.center, forward_)};
+                      glm::dot(bounds.center - eye_, forward_), bounds.radius};
     firstPaletteJoint_.push_back(static_cast<int>(palettes_.size()));
     appendPalette(item, palettes_);
     const bool translucent = item.opacity < 1.0F;
@@ -48,7 +49,7 @@ void DrawList::addCharacter(const CharacterItem& item, const BoundingSphere& bou
 void DrawList::addProp(const PropItem& item) {
     const BoundingSphere bounds = boundsOf(item);
     const auto index = static_cast<int>(propEntries_.opaque.size() + propEntries_.translucent.size());
-    const Entry entry{static_cast<int>(item.kind), index, glm::dot(bounds.center, forward_)};
+    const Entry entry{static_cast<int>(item.kind), index, glm::dot(bounds.center - eye_, forward_), bounds.radius};
     if (item.castsShadow) {
         casters_ = enclosing(casters_, bounds);
         propEntries_.shadow.push_back(entry);
@@ -66,9 +67,10 @@ void DrawList::makeBatches(std::vector<Entry>& entries, bool sortByDepth, std::v
     });
     for (const Entry& entry : entries) {
         if (batches.empty() || batches.back().what != entry.what) {
-            batches.push_back({entry.what, static_cast<int>(instances_.size()), 0});
+            batches.push_back({entry.what, static_cast<int>(instances_.size()), 0, entry.depth - entry.radius});
         }
         ++batches.back().count;
+        batches.back().nearest = std::min(batches.back().nearest, entry.depth - entry.radius);
         instances_.push_back(instance(entry.item));
     }
 }

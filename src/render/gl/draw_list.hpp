@@ -17,6 +17,7 @@ class DrawList {
         int what = 0;  ///< Index of the character, or PropItem::Kind as a number.
         int firstInstance = 0;
         int count = 0;
+        float nearest = 0.0F;  ///< The least distance of its instances along the view, metres; may be negative.
     };
     /// The batches of one pass.
     struct Pass {
@@ -57,8 +58,9 @@ class DrawList {
     /// An item that a pass wants, before sorting.
     struct Entry {
         int what = 0;
-        int item = 0;        ///< Index into the frame's list.
-        float depth = 0.0F;  ///< Along the view; far ones first where order matters.
+        int item = 0;         ///< Index into the frame's list.
+        float depth = 0.0F;   ///< Of its centre along the view, from the eye; far ones first where order matters.
+        float radius = 0.0F;  ///< Of its bounds.
     };
     struct Entries {
         std::vector<Entry> shadow;
@@ -86,6 +88,7 @@ class DrawList {
     std::vector<InstanceTexels> instances_;
     BoundingSphere casters_;
     vec3 forward_{0, 0, -1};
+    vec3 eye_{0, 0, 0};
     int culled_ = 0;
     int dropped_ = 0;
 };

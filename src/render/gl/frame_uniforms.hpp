@@ -38,10 +38,12 @@ struct FrameUniforms {
     vec4 backgroundTop{0};
     vec4 backgroundHorizon{0};
     vec4 backgroundBottom{0};
+    vec4 environment{0};  ///< Set by the renderer, which has the environment.
+    std::array<vec4, 9> environmentDiffuse{};
     std::array<int, 4> counts{};
     std::array<Light, kMaxLocalLights> localLights{};
 };
-static_assert(sizeof(FrameUniforms) == 4 * 64 + 16 * 16 + kMaxLocalLights * 48);
+static_assert(sizeof(FrameUniforms) == 4 * 64 + 26 * 16 + kMaxLocalLights * 48);
 
 /// One instance of a character or prop as assets/shaders/instance.glsl reads it.
 struct InstanceTexels {

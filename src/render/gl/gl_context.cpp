@@ -5,6 +5,9 @@
 
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 
 #include "render/gl/egl_context.hpp"
@@ -126,6 +129,12 @@ void GlContext::setVsync(bool on) {
 
 const std::string& GlContext::description() const {
     return state_->description;
+}
+
+bool GlContext::isSoftware() const {
+    constexpr std::array<std::string_view, 4> kNames = {"llvmpipe", "softpipe", "SwiftShader", "Software Rasterizer"};
+    return std::any_of(kNames.begin(), kNames.end(),
+                       [&](std::string_view name) { return state_->description.find(name) != std::string::npos; });
 }
 
 }  // namespace lutka::render

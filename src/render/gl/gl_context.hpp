@@ -47,6 +47,8 @@ class GlContext {
 
     /// The driver's own words, for reports: "vendor, renderer, version".
     [[nodiscard]] const std::string& description() const;
+    /// Whether the processor draws (Mesa's llvmpipe and softpipe, SwiftShader), by the driver's name.
+    [[nodiscard]] bool isSoftware() const;
 
   private:
     struct State;

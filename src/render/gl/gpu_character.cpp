@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
+
+#include "render/level_of_detail.hpp"
 
 namespace lutka::render {
 namespace {
@@ -60,12 +63,42 @@ std::vector<Vertex> interleaved(const SkinnedMesh& mesh) {
     return vertices;
 }
 
-GpuCharacter::Mesh upload(const SkinnedMesh& mesh) {
+// Of the figure's height: for a figure of about 170, 100 and 50 pixels.
+constexpr std::array<float, 3> kCells = {1.0F / 90.0F, 1.0F / 50.0F, 1.0F / 25.0F};
+
+float heightOf(const Character& character) {
+    float lowest = std::numeric_limits<float>::max();
+    float highest = std::numeric_limits<float>::lowest();
+    for (const SkinnedMesh& mesh : character.meshes) {
+        for (const vec3& position : mesh.positions) {
+            lowest = std::min(lowest, position.y);
+            highest = std::max(highest, position.y);
+        }
+    }
+    return std::max(highest - lowest, 0.0F);
+}
+
+// All levels' indices one after the other; a level that saves little is left out.
+std::vector<std::uint32_t> indicesOf(const SkinnedMesh& mesh, float height,
+                                     std::vector<GpuCharacter::Detail>& details) {
+    std::vector<std::uint32_t> indices = mesh.indices;
+    details = {{static_cast<GLsizei>(mesh.indices.size()), 0, 0.0F}};
+    for (const float part : kCells) {
+        if (height <= 0.0F) break;
+        const std::vector<std::uint32_t> coarse = clusteredIndices(mesh, part * height);
+        if (static_cast<float>(coarse.size()) > 0.8F * static_cast<float>(details.back().indexCount)) continue;
+        details.push_back({static_cast<GLsizei>(coarse.size()), indices.size() * sizeof(std::uint32_t), part * height});
+        indices.insert(indices.end(), coarse.begin(), coarse.end());
+    }
+    return indices;
+}
+
+GpuCharacter::Mesh upload(const SkinnedMesh& mesh, float height) {
     GpuCharacter::Mesh gpu;
     gpu.vertexArray = GlVertexArray::create();
     gpu.vertices = GlBuffer::create();
     gpu.indices = GlBuffer::create();
-    gpu.indexCount = static_cast<GLsizei>(mesh.indices.size());
+    const std::vector<std::uint32_t> indices = indicesOf(mesh, height, gpu.details);
     gpu.vertexCount = static_cast<GLsizei>(mesh.positions.size());
     gpu.material = mesh.material;
     const std::vector<Vertex> vertices = interleaved(mesh);
@@ -74,8 +107,8 @@ GpuCharacter::Mesh upload(const SkinnedMesh& mesh) {
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),
                  GL_STATIC_DRAW);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gpu.indices.name());
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)),
-                 mesh.indices.data(), GL_STATIC_DRAW);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)),
+                 indices.data(), GL_STATIC_DRAW);
     const auto floats = [](GLuint location, GLint count, std::size_t offset) {
         glEnableVertexAttribArray(location);
         glVertexAttribPointer(location, count, GL_FLOAT, GL_FALSE, sizeof(Vertex), attributeOffset(offset));
@@ -154,7 +187,8 @@ class TextureUploader {
 
 }  // namespace
 
-Result<GpuCharacter> makeGpuCharacter(const Character& character, std::vector<std::string>& warnings) {
+Result<GpuCharacter> makeGpuCharacter(const Character& character, bool levelsOfDetail,
+                                      std::vector<std::string>& warnings) {
     for (const SkinnedMesh& mesh : character.meshes) {
         const std::string defect = defectOf(mesh, character);
         if (!defect.empty()) {
@@ -163,8 +197,9 @@ Result<GpuCharacter> makeGpuCharacter(const Character& character, std::vector<st
         }
     }
     GpuCharacter gpu;
+    const float height = levelsOfDetail ? heightOf(character) : 0.0F;
     for (const SkinnedMesh& mesh : character.meshes)
-        gpu.meshes.push_back(upload(mesh));
+        gpu.meshes.push_back(upload(mesh, height));
     TextureUploader textures(character, gpu, warnings);
     for (Material material : character.materials) {
         material.baseColorTexture = textures(material.baseColorTexture, true, material.name);
@@ -176,8 +211,10 @@ Result<GpuCharacter> makeGpuCharacter(const Character& character, std::vector<st
     }
     gpu.jointBounds = jointBounds(character);
     for (const GpuCharacter::Mesh& mesh : gpu.meshes) {
-        gpu.meshBytes += static_cast<long long>(mesh.vertexCount) * static_cast<long long>(sizeof(Vertex)) +
-                         static_cast<long long>(mesh.indexCount) * static_cast<long long>(sizeof(std::uint32_t));
+        gpu.meshBytes +=
+            static_cast<long long>(mesh.vertexCount) * static_cast<long long>(sizeof(Vertex)) +
+            static_cast<long long>(mesh.details.back().firstByte) +
+            static_cast<long long>(mesh.details.back().indexCount) * static_cast<long long>(sizeof(std::uint32_t));
     }
     return gpu;
 }

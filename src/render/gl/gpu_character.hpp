@@ -12,13 +12,27 @@ namespace lutka::render {
 
 /// A character on the GPU: its meshes as interleaved vertices, its materials and textures.
 struct GpuCharacter {
+    /// A level of detail: a range of the mesh's indices.
+    struct Detail {
+        GLsizei indexCount = 0;
+        std::size_t firstByte = 0;
+        float cell = 0.0F;  ///< Metres that it may be off by, about.
+    };
     struct Mesh {
         GlVertexArray vertexArray;
         GlBuffer vertices;
         GlBuffer indices;
-        GLsizei indexCount = 0;
+        std::vector<Detail> details;  ///< The whole mesh first, then ever coarser ones.
         GLsizei vertexCount = 0;
         int material = 0;
+
+        /// The coarsest that is off by no more than `cell` metres.
+        [[nodiscard]] const Detail& detailFor(float cell) const {
+            std::size_t i = details.size() - 1;
+            while (i > 0 && details[i].cell > cell)
+                --i;
+            return details[i];
+        }
     };
 
     std::vector<Mesh> meshes;
@@ -29,9 +43,9 @@ struct GpuCharacter {
     long long textureBytes = 0;  ///< With mipmaps.
 };
 
-/// Checks and uploads. What is odd about a material goes to `warnings`. Fails with ErrorCode::input when arrays do not
-/// fit together or an index points outside.
-[[nodiscard]] Result<GpuCharacter> makeGpuCharacter(const animation::Character& character,
+/// Checks and uploads, with coarser levels of detail when asked for. What is odd about a material goes to `warnings`.
+/// Fails with ErrorCode::input when arrays do not fit together or an index points outside.
+[[nodiscard]] Result<GpuCharacter> makeGpuCharacter(const animation::Character& character, bool levelsOfDetail,
                                                     std::vector<std::string>& warnings);
 
 }  // namespace lutka::render

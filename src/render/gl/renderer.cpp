@@ -28,6 +28,7 @@ struct Renderer::State {
     PictureTarget picture;
     PassTimer timer;
     FrameStats stats;
+    bool levelsOfDetail = false;
 
     [[nodiscard]] GpuMemory memory() const {
         GpuMemory sum;
@@ -55,7 +56,7 @@ Renderer::~Renderer() = default;
 
 Result<Renderer> Renderer::create(GlContext& context, const RendererOptions& options) {
     context.makeCurrent();
-    Result<SceneRenderer> scene = SceneRenderer::create(options.shadowMapSize);
+    Result<SceneRenderer> scene = SceneRenderer::create(options);
     if (!scene) return scene.error();
     PictureTarget picture(options.samples);
     Result<DebugRenderer> debug = DebugRenderer::create(picture.samples());
@@ -63,12 +64,14 @@ Result<Renderer> Renderer::create(GlContext& context, const RendererOptions& opt
     constexpr std::array<const char*, 3> kCaptured = {"skinnedPosition", "skinnedNormal", "skinnedTangent"};
     Result<ShaderProgram> feedback = ShaderProgram::load("skin_feedback.vert", "", {}, kCaptured);
     if (!feedback) return feedback.error();
-    return Renderer(std::make_unique<State>(std::move(picture), std::move(scene).value(), std::move(debug).value(),
-                                            std::move(feedback).value()));
+    auto state = std::make_unique<State>(std::move(picture), std::move(scene).value(), std::move(debug).value(),
+                                         std::move(feedback).value());
+    state->levelsOfDetail = options.levelsOfDetail;
+    return Renderer(std::move(state));
 }
 
 Result<CharacterHandle> Renderer::uploadCharacter(const animation::Character& character) {
-    Result<GpuCharacter> gpu = makeGpuCharacter(character, state_->warnings);
+    Result<GpuCharacter> gpu = makeGpuCharacter(character, state_->levelsOfDetail, state_->warnings);
     if (!gpu) return gpu.error();
     const Result<void> prepared = state_->scene.prepare(gpu.value());
     if (!prepared) return prepared.error();
@@ -79,6 +82,10 @@ Result<CharacterHandle> Renderer::uploadCharacter(const animation::Character& ch
 void Renderer::removeCharacter(CharacterHandle character) {
     LUTKA_ASSERT(character.valid() && character.index < static_cast<int>(state_->characters.size()));
     state_->characters[character.index].reset();
+}
+
+void Renderer::setEnvironment(const Environment* environment) {
+    state_->scene.setEnvironment(environment);
 }
 
 std::span<const std::string> Renderer::warnings() const {
@@ -100,6 +107,7 @@ void Renderer::draw(const FrameDescription& frame, Extent size) {
     state.timer.begin(RenderPass::resolve, state.stats);
     state.picture.resolve();
     state.timer.endFrame(state.stats);
+    state.scene.giveWarnings(state.warnings);
     state.stats.memory = state.memory();
     const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
     state.stats.cpuMs = spent.count();

@@ -8,16 +8,13 @@
 #include "animation/character.hpp"
 #include "animation/skinning.hpp"
 #include "core/result.hpp"
+#include "render/environment.hpp"
 #include "render/frame.hpp"
 #include "render/gl/gl_context.hpp"
+#include "render/gl/renderer_options.hpp"
 #include "render/image.hpp"
 
 namespace lutka::render {
-
-struct RendererOptions {
-    int samples = 4;           ///< Multisampling of the picture, 1 (off) to what the driver offers.
-    int shadowMapSize = 2048;  ///< Texels a side, [256, 8192]. More: finer shadow edges.
-};
 
 /// Where Renderer::skinOnGpu() writes, model space: one element a vertex each.
 struct SkinnedVertices {
@@ -47,6 +44,10 @@ class Renderer {
     [[nodiscard]] Result<CharacterHandle> uploadCharacter(const animation::Character& character);
     /// Frees it; the handle is then invalid.
     void removeCharacter(CharacterHandle character);
+
+    /// The panorama for frames with Sky::environment; null: none, such frames then have the procedural sky. It may be
+    /// changed or freed afterwards. Takes some tens of milliseconds.
+    void setEnvironment(const Environment* environment);
 
     /// What was odd about uploaded materials (a texture index without a texture …), a sentence each.
     [[nodiscard]] std::span<const std::string> warnings() const;

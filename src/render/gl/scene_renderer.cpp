@@ -10,12 +10,16 @@ namespace {
 
 using animation::Material;
 
-constexpr unsigned kHasBaseColor = 1;
-constexpr unsigned kHasMetallicRoughness = 2;
-constexpr unsigned kHasNormal = 4;
-constexpr unsigned kHasOcclusion = 8;
-constexpr unsigned kHasEmissive = 16;
-constexpr unsigned kIsMasked = 32;
+unsigned featuresOf(const Material& material) {
+    unsigned features = 0;
+    if (material.baseColorTexture != Material::kNoTexture) features |= kBaseTexture;
+    if (material.metallicRoughnessTexture != Material::kNoTexture) features |= kMetallicRoughnessTexture;
+    if (material.normalTexture != Material::kNoTexture) features |= kNormalTexture;
+    if (material.occlusionTexture != Material::kNoTexture) features |= kOcclusionTexture;
+    if (material.emissiveTexture != Material::kNoTexture) features |= kEmissiveTexture;
+    if (material.alphaMode == Material::AlphaMode::mask) features |= kAlphaMask;
+    return features;
+}
 
 void bindTexture(TextureUnit unit, GLuint texture) {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
@@ -59,7 +63,7 @@ void setBaseState() {
     glBlendEquation(GL_FUNC_ADD);
     // The picture stays opaque whatever is blended over it.
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    for (GLuint unit = 0; unit <= static_cast<GLuint>(TextureUnit::noisyMap); ++unit)
+    for (GLuint unit = 0; unit <= static_cast<GLuint>(TextureUnit::panorama); ++unit)
         glBindSampler(unit, 0);
 }
 
@@ -82,9 +86,11 @@ GlTexture makeWhite() {
 
 }  // namespace
 
-SceneRenderer::SceneRenderer(int shadowMapSize)
-    : shadowMapSize_(std::clamp(shadowMapSize, 256, 8192)),
+SceneRenderer::SceneRenderer(const RendererOptions& options)
+    : shadowMapSize_(std::clamp(options.shadowMapSize, 256, 8192)),
       mostJoints_(mostJointsOfTextureBuffer()),
+      occlusionAllowed_(options.ambientOcclusion),
+      always_((options.fastShading ? kFastShading : 0U) | (options.ambientOcclusion ? 0U : kUnoccluded)),
       noVertices_(GlVertexArray::create()),
       white_(makeWhite()),
       shadowMap_(DepthTarget::Use::shadow),
@@ -98,22 +104,19 @@ SceneRenderer::SceneRenderer(int shadowMapSize)
     glSamplerParameteri(uncompared_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-Result<SceneRenderer> SceneRenderer::create(int shadowMapSize) {
-    SceneRenderer renderer(shadowMapSize);
+Result<SceneRenderer> SceneRenderer::create(const RendererOptions& options) {
+    SceneRenderer renderer(options);
     struct Wanted {
         ShaderProgram& program;
         const char* vertexFile;
         const char* fragmentFile;
         std::vector<std::string> defines;
     };
-    const std::array<Wanted, 9> all = {{
+    const std::array<Wanted, 6> all = {{
         {renderer.characterDepth_, "character_depth.vert", "depth.frag", {}},
         {renderer.characterDepthMasked_, "character_depth.vert", "depth.frag", {"ALPHA_MASK"}},
-        {renderer.prop_, "prop.vert", "prop.frag", {}},
         {renderer.propDepth_, "prop_depth.vert", "depth.frag", {}},
-        {renderer.floor_, "floor.vert", "floor.frag", {}},
         {renderer.floorDepth_, "floor.vert", "depth.frag", {}},
-        {renderer.background_, "screen.vert", "background.frag", {}},
         {renderer.occlusion_, "screen.vert", "occlusion.frag", {}},
         {renderer.occlusionBlur_, "screen.vert", "occlusion_blur.frag", {}},
     }};
@@ -122,49 +125,35 @@ Result<SceneRenderer> SceneRenderer::create(int shadowMapSize) {
         if (!loaded) return loaded.error();
         wanted.program = std::move(loaded).value();
     }
-    return renderer;
-}
-
-SceneRenderer::MaterialKey SceneRenderer::keyOf(const Material& material) {
-    MaterialKey key = 0;
-    if (material.baseColorTexture != Material::kNoTexture) key |= kHasBaseColor;
-    if (material.metallicRoughnessTexture != Material::kNoTexture) key |= kHasMetallicRoughness;
-    if (material.normalTexture != Material::kNoTexture) key |= kHasNormal;
-    if (material.occlusionTexture != Material::kNoTexture) key |= kHasOcclusion;
-    if (material.emissiveTexture != Material::kNoTexture) key |= kHasEmissive;
-    if (material.alphaMode == Material::AlphaMode::mask) key |= kIsMasked;
-    return key;
-}
-
-std::vector<std::string> SceneRenderer::definesOf(MaterialKey key) {
-    const std::array<std::pair<MaterialKey, const char*>, 6> names = {{
-        {kHasBaseColor, "BASE_TEXTURE"},
-        {kHasMetallicRoughness, "METALLIC_ROUGHNESS_TEXTURE"},
-        {kHasNormal, "NORMAL_TEXTURE"},
-        {kHasOcclusion, "OCCLUSION_TEXTURE"},
-        {kHasEmissive, "EMISSIVE_TEXTURE"},
-        {kIsMasked, "ALPHA_MASK"},
-    }};
-    std::vector<std::string> defines;
-    for (const auto& [bit, name] : names) {
-        if ((key & bit) != 0) defines.emplace_back(name);
+    for (ProgramVariants* lit : {&renderer.propPrograms_, &renderer.floorPrograms_, &renderer.backgroundPrograms_}) {
+        const Result<void> made = lit->prepare(renderer.always_);
+        if (!made) return made.error();
     }
-    return defines;
+    return renderer;
 }
 
 Result<void> SceneRenderer::prepare(const GpuCharacter& character) {
     for (const Material& material : character.materials) {
-        const MaterialKey key = keyOf(material);
-        if (characterPrograms_.contains(key)) continue;
-        Result<ShaderProgram> loaded = ShaderProgram::load("character.vert", "character.frag", definesOf(key));
-        if (!loaded) return loaded.error();
-        characterPrograms_.emplace(key, std::move(loaded).value());
+        const Result<void> made = characterPrograms_.prepare(featuresOf(material) | always_);
+        if (!made) return made.error();
     }
     return {};
 }
 
+void SceneRenderer::setEnvironment(const Environment* environment) {
+    environment_.reset();
+    if (environment != nullptr) environment_.emplace(*environment);
+}
+
+void SceneRenderer::giveWarnings(std::vector<std::string>& warnings) {
+    for (std::string& warning : warnings_)
+        warnings.push_back(std::move(warning));
+    warnings_.clear();
+}
+
 void SceneRenderer::addMemory(GpuMemory& memory) const {
     memory.meshes += propMeshes_.bytes();
+    if (environment_) memory.textures += environment_->bytes();
     memory.targets += shadowMap_.bytes() + smallDepth_.bytes() + noisyOcclusion_.bytes() + smoothOcclusion_.bytes();
     memory.streams += uniformBuffer_.bytes() + palettes_.bytes() + instances_.bytes();
 }
@@ -173,6 +162,10 @@ void SceneRenderer::draw(const FrameDescription& frame, const CharacterStore& ch
                          PassTimer& timer, FrameStats& stats) {
     timer.begin(RenderPass::prepare, stats);
     setBaseState();
+    const bool environment = frame.sky.environment && environment_;
+    if (environment) environment_->bind();
+    lighting_ = (environment ? kEnvironmentMap : 0U) | (frame.localLights.empty() ? 0U : kLocalLights) |
+                (frame.sun.castsShadow ? 0U : kUnshadowed);
     upload(frame, characters, picture.size(), stats);
     if (frame.sun.castsShadow) {
         timer.begin(RenderPass::shadow, stats);
@@ -181,11 +174,12 @@ void SceneRenderer::draw(const FrameDescription& frame, const CharacterStore& ch
     bindTexture(TextureUnit::shadowMap, shadowMap_.texture());
     bindTexture(TextureUnit::shadowDepth, shadowMap_.texture());
     glBindSampler(static_cast<GLuint>(TextureUnit::shadowDepth), uncompared_.name());
-    if (frame.ambientOcclusion) {
+    const bool occlusion = frame.ambientOcclusion && occlusionAllowed_;
+    if (occlusion) {
         timer.begin(RenderPass::occlusion, stats);
         drawOcclusion(frame, characters, picture.size(), stats);
     }
-    bindTexture(TextureUnit::occlusionMap, frame.ambientOcclusion ? smoothOcclusion_.texture() : white_.name());
+    bindTexture(TextureUnit::occlusionMap, occlusion ? smoothOcclusion_.texture() : white_.name());
     timer.begin(RenderPass::opaque, stats);
     picture.bindForDrawing();
     glClear(GL_DEPTH_BUFFER_BIT);
@@ -197,12 +191,21 @@ void SceneRenderer::draw(const FrameDescription& frame, const CharacterStore& ch
 void SceneRenderer::upload(const FrameDescription& frame, const CharacterStore& characters, Extent size,
                            FrameStats& stats) {
     const mat4 clip = clipFromWorld(frame.camera, size.aspect());
+    orthographic_ = frame.camera.orthographic;
+    metresAPixel_ = 2.0F / (clipFromView(frame.camera, size.aspect())[1][1] * static_cast<float>(size.height));
     list_.build(frame, clip, mostJoints_, [&](int index) {
         LUTKA_ASSERT(index >= 0 && index < static_cast<int>(characters.size()) && characters[index]);
         return std::span<const BoundingSphere>(characters[index]->jointBounds);
     });
     shadowFit_ = fitShadow(list_.casters(), frame.sun.directionToLight, frame.camera, shadowMapSize_);
     uniforms_ = makeFrameUniforms(frame, size, shadowFit_, shadowMapSize_);
+    if (environment_) {
+        uniforms_.environment =
+            vec4(frame.sky.intensity, environment_->lastLevel(), frame.sky.intensity * environment_->panoramaGain(),
+                 frame.sky.environmentBackground ? 1.0F : 0.0F);
+        for (std::size_t i = 0; i < uniforms_.environmentDiffuse.size(); ++i)
+            uniforms_.environmentDiffuse[i] = vec4(environment_->diffuse()[i], 0.0F);
+    }
     shadowMap_.resize({shadowMapSize_, shadowMapSize_});
 
     uniformBuffer_.upload(std::span<const FrameUniforms>(&uniforms_, 1));
@@ -226,7 +229,9 @@ void SceneRenderer::drawShadowMap(const CharacterStore& characters, FrameStats& 
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(1.2F, 2.0F);
     const int before = stats.drawCalls;
+    intoShadowMap_ = true;
     drawDepth(list_.shadow(), characters, shadowFit_.lightFromWorld, true, stats);
+    intoShadowMap_ = false;
     stats.shadowDrawCalls += stats.drawCalls - before;
     glDisable(GL_POLYGON_OFFSET_FILL);
     glDisable(GL_DEPTH_CLAMP);
@@ -272,8 +277,7 @@ void SceneRenderer::drawOpaque(const FrameDescription& frame, const CharacterSto
     drawCharacters(list_.opaque().characters, characters, Meshes::opaque, stats);
     stats.characterDrawCalls += stats.drawCalls - before;
     glDisable(GL_CULL_FACE);
-    prop_.use();
-    drawProps(prop_, list_.opaque().props, stats);
+    drawLitProps(list_.opaque().props, stats);
     const bool fromBelow = frame.floor.visible && eyeOf(frame.camera).y < frame.floor.height;
     if (fromBelow) drawBackground(stats);
     if (frame.floor.visible) {
@@ -281,8 +285,9 @@ void SceneRenderer::drawOpaque(const FrameDescription& frame, const CharacterSto
         // Behind what lies in its plane: contact lines and flat props win.
         glEnable(GL_POLYGON_OFFSET_FILL);
         glPolygonOffset(0.5F, 4.0F);
-        floor_.use();
-        floor_.set("depthFromWorld", uniforms_.clipFromWorld);
+        const ShaderProgram& program = floorPrograms_.at(always_, lighting_, warnings_);
+        program.use();
+        program.set("depthFromWorld", uniforms_.clipFromWorld);
         drawFloor(stats);
         glDisable(GL_POLYGON_OFFSET_FILL);
         glDisable(GL_BLEND);
@@ -292,7 +297,7 @@ void SceneRenderer::drawOpaque(const FrameDescription& frame, const CharacterSto
 
 // At the far plane, so that it only fills what nothing else has covered.
 void SceneRenderer::drawBackground(FrameStats& stats) {
-    background_.use();
+    backgroundPrograms_.at(always_, lighting_ & kEnvironmentMap, warnings_).use();
     glDepthMask(GL_FALSE);
     drawScreen(stats);
     glDepthMask(GL_TRUE);
@@ -310,8 +315,7 @@ void SceneRenderer::drawTranslucent(const CharacterStore& characters, FrameStats
     glDepthMask(GL_FALSE);
     // Front faces only: through clear walls one would see each twice.
     glEnable(GL_CULL_FACE);
-    prop_.use();
-    drawProps(prop_, list_.translucent().props, stats);
+    drawLitProps(list_.translucent().props, stats);
     int before = stats.drawCalls;
     drawCharacters(list_.opaque().characters, characters, Meshes::blended, stats);
     stats.characterDrawCalls += stats.drawCalls - before;
@@ -365,13 +369,24 @@ void SceneRenderer::drawCharacterDepth(std::span<const DrawList::Batch> batches,
     }
 }
 
+// Metres that nobody sees: of the nearest instance in the picture, or under the shadow's filter.
+float SceneRenderer::coarsestCell(const DrawList::Batch& batch) const {
+    constexpr float kPixels = 2.0F;
+    constexpr float kTexels = 2.0F;
+    constexpr float kNearest = 0.05F;  // metres
+    if (intoShadowMap_) return kTexels * shadowFit_.metresPerTexel;
+    return kPixels * metresAPixel_ * (orthographic_ ? 1.0F : std::max(batch.nearest, kNearest));
+}
+
 void SceneRenderer::drawMesh(const ShaderProgram& program, const GpuCharacter::Mesh& mesh, const DrawList::Batch& batch,
-                             FrameStats& stats) {
+                             FrameStats& stats) const {
     program.set("firstInstance", batch.firstInstance);
     glBindVertexArray(mesh.vertexArray.name());
-    glDrawElementsInstanced(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr, batch.count);
+    const GpuCharacter::Detail& detail = mesh.detailFor(coarsestCell(batch));
+    glDrawElementsInstanced(GL_TRIANGLES, detail.indexCount, GL_UNSIGNED_INT, attributeOffset(detail.firstByte),
+                            batch.count);
     ++stats.drawCalls;
-    stats.triangles += static_cast<long long>(mesh.indexCount) / 3 * batch.count;
+    stats.triangles += static_cast<long long>(detail.indexCount) / 3 * batch.count;
 }
 
 void SceneRenderer::drawCharacters(std::span<const DrawList::Batch> batches, const CharacterStore& characters,
@@ -382,7 +397,7 @@ void SceneRenderer::drawCharacters(std::span<const DrawList::Batch> batches, con
             const Material& material = character.materials[mesh.material];
             const bool blended = material.alphaMode == Material::AlphaMode::blend;
             if (which != Meshes::all && blended != (which == Meshes::blended)) continue;
-            const ShaderProgram& program = characterPrograms_.at(keyOf(material));
+            const ShaderProgram& program = characterPrograms_.at(featuresOf(material) | always_, lighting_, warnings_);
             program.use();
             setMaterial(program, character, material);
             program.set("blended", which == Meshes::opaque ? 0.0F : 1.0F);
@@ -394,6 +409,13 @@ void SceneRenderer::drawCharacters(std::span<const DrawList::Batch> batches, con
             drawMesh(program, mesh, batch, stats);
         }
     }
+}
+
+void SceneRenderer::drawLitProps(std::span<const DrawList::Batch> batches, FrameStats& stats) {
+    if (batches.empty()) return;
+    const ShaderProgram& program = propPrograms_.at(always_, lighting_, warnings_);
+    program.use();
+    drawProps(program, batches, stats);
 }
 
 void SceneRenderer::drawProps(const ShaderProgram& program, std::span<const DrawList::Batch> batches,

@@ -1,17 +1,20 @@
 #pragma once
 
-#include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/result.hpp"
 #include "render/frame.hpp"
 #include "render/gl/draw_list.hpp"
+#include "render/gl/environment_map.hpp"
 #include "render/gl/gpu_character.hpp"
 #include "render/gl/pass_timer.hpp"
+#include "render/gl/program_variants.hpp"
 #include "render/gl/prop_meshes.hpp"
 #include "render/gl/render_target.hpp"
+#include "render/gl/renderer_options.hpp"
 #include "render/gl/shader_program.hpp"
 #include "render/gl/stream_buffer.hpp"
 
@@ -28,7 +31,8 @@ using CharacterStore = std::vector<std::unique_ptr<GpuCharacter>>;
 ///         opaque ─▶ floor ─▶ background ─▶ translucent      (the picture)
 class SceneRenderer {
   public:
-    [[nodiscard]] static Result<SceneRenderer> create(int shadowMapSize);
+    /// Fails as ShaderProgram::load().
+    [[nodiscard]] static Result<SceneRenderer> create(const RendererOptions& options);
 
     /// Compiles what the materials of a character need, so that drawing it can't fail.
     [[nodiscard]] Result<void> prepare(const GpuCharacter& character);
@@ -37,16 +41,17 @@ class SceneRenderer {
     void draw(const FrameDescription& frame, const CharacterStore& characters, const PictureTarget& picture,
               PassTimer& timer, FrameStats& stats);
 
+    /// Null: none.
+    void setEnvironment(const Environment* environment);
+
+    /// Moves what went wrong while drawing, a sentence each, to the end of `warnings`.
+    void giveWarnings(std::vector<std::string>& warnings);
+
     /// Adds what it holds on the GPU, but for the characters.
     void addMemory(GpuMemory& memory) const;
 
   private:
-    explicit SceneRenderer(int shadowMapSize);
-
-    /// Which programs a material needs: bits say what it has.
-    using MaterialKey = unsigned;
-    [[nodiscard]] static MaterialKey keyOf(const animation::Material& material);
-    [[nodiscard]] static std::vector<std::string> definesOf(MaterialKey key);
+    explicit SceneRenderer(const RendererOptions& options);
 
     void upload(const FrameDescription& frame, const CharacterStore& characters, Extent size, FrameStats& stats);
     void drawShadowMap(const CharacterStore& characters, FrameStats& stats);
@@ -64,22 +69,29 @@ class SceneRenderer {
     enum class Meshes { opaque, blended, all };
     void drawCharacters(std::span<const DrawList::Batch> batches, const CharacterStore& characters, Meshes which,
                         FrameStats& stats);
-    static void drawMesh(const ShaderProgram& program, const GpuCharacter::Mesh& mesh, const DrawList::Batch& batch,
-                         FrameStats& stats);
+    [[nodiscard]] float coarsestCell(const DrawList::Batch& batch) const;
+    void drawMesh(const ShaderProgram& program, const GpuCharacter::Mesh& mesh, const DrawList::Batch& batch,
+                  FrameStats& stats) const;
+    void drawLitProps(std::span<const DrawList::Batch> batches, FrameStats& stats);
     /// With `program` in use.
     void drawProps(const ShaderProgram& program, std::span<const DrawList::Batch> batches, FrameStats& stats);
     void drawScreen(FrameStats& stats);
 
     int shadowMapSize_;
     std::size_t mostJoints_;  ///< That a texture buffer holds.
-    std::map<MaterialKey, ShaderProgram> characterPrograms_;
+    bool occlusionAllowed_;
+    unsigned always_;        ///< Features of every lit program.
+    unsigned lighting_ = 0;  ///< Features that this frame's light asks for.
+    ProgramVariants characterPrograms_{"character.vert", "character.frag"};
+    ProgramVariants propPrograms_{"prop.vert", "prop.frag"};
+    ProgramVariants floorPrograms_{"floor.vert", "floor.frag"};
+    ProgramVariants backgroundPrograms_{"screen.vert", "background.frag"};
+    std::vector<std::string> warnings_;
+    std::optional<EnvironmentMap> environment_;
     ShaderProgram characterDepth_;
     ShaderProgram characterDepthMasked_;
-    ShaderProgram prop_;
     ShaderProgram propDepth_;
-    ShaderProgram floor_;
     ShaderProgram floorDepth_;
-    ShaderProgram background_;
     ShaderProgram occlusion_;
     ShaderProgram occlusionBlur_;
 
@@ -93,6 +105,9 @@ class SceneRenderer {
     ChannelTarget smoothOcclusion_;
 
     DrawList list_;
+    float metresAPixel_ = 0.0F;  ///< Across the view: everywhere when orthographic, else at a metre from the eye.
+    bool orthographic_ = false;
+    bool intoShadowMap_ = false;
     FrameUniforms uniforms_;
     ShadowFit shadowFit_;
     StreamBuffer uniformBuffer_;

@@ -127,7 +127,7 @@ Result<ShaderProgram> ShaderProgram::load(std::string_view vertexFile, std::stri
 
 void ShaderProgram::bindFixedUnits() const {
     use();
-    const std::array<std::pair<const char*, TextureUnit>, 13> units = {{
+    const std::array<std::pair<const char*, TextureUnit>, 15> units = {{
         {"baseColorTexture", TextureUnit::baseColor},
         {"metallicRoughnessTexture", TextureUnit::metallicRoughness},
         {"normalTexture", TextureUnit::normal},
@@ -141,6 +141,8 @@ void ShaderProgram::bindFixedUnits() const {
         {"depthMap", TextureUnit::depthMap},
         {"pictureDepth", TextureUnit::depthMap},
         {"noisyMap", TextureUnit::noisyMap},
+        {"environmentMap", TextureUnit::environment},
+        {"panorama", TextureUnit::panorama},
     }};
     for (const auto& [uniform, unit] : units)
         set(uniform, static_cast<int>(unit));

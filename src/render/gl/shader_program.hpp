@@ -31,7 +31,9 @@ enum class TextureUnit : int {
     shadowDepth,
     occlusionMap,
     depthMap,
-    noisyMap
+    noisyMap,
+    environment,
+    panorama
 };
 
 /// A linked GL program made from files of assets/shaders. The files have no #version line; they may name others by

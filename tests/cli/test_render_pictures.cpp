@@ -1,0 +1,103 @@
+// Pictures of `lutka render` against baselines in tests/golden, looked at before they were committed. The moments lie
+// in the fall, where no solver has had much to say yet, but for those that need a contact.
+
+#include "render/gl/golden.hpp"
+#include "support/catch.hpp"
+#include "support/command.hpp"
+#include "support/zoo.hpp"
+
+using namespace lutka;
+using namespace lutka::test;
+
+namespace {
+
+const std::string kMannequin = shellQuoted(LUTKA_ASSETS_DIR "/models/mannequin.glb");
+
+// False where there is no OpenGL.
+bool checkPicture(const std::string& arguments, const std::string& name, const GoldenTolerance& tolerance = {}) {
+    INFO(arguments);
+    const ScratchFolder folder;
+    const std::string file = folder / "picture.png";
+    const CommandResult result =
+        lutkaCommand("render " + arguments + " --follow --size 320x240 -o " + shellQuoted(file));
+    if (result.code == 6) {
+        std::printf("skipped: %s\n", result.err.c_str());
+        return false;
+    }
+    INFO(result.err);
+    REQUIRE(result.code == 0);
+    const Result<render::Image> picture = render::loadPng(file);
+    REQUIRE(picture);
+    checkGolden(picture.value(), name, tolerance);
+    return true;
+}
+
+}  // namespace
+
+TEST_CASE("each debug layer looks as it did when it was looked at") {
+    for (const char* layer :
+         {"capsules", "solids", "skeleton", "joints", "limits", "velocities", "com", "aabbs", "sleep", "bullet"}) {
+        if (!checkPicture(kMannequin + " --seconds 0.3 --no-legend --debug " + layer, std::string("layer_") + layer))
+            return;
+    }
+    // On the floor the pose is the solver's: its improvements move it.
+    checkPicture(kMannequin + " --seconds 0.6 --opacity 0.3 --debug contacts,velocities", "layer_contacts",
+                 {10, 0.05, 2.0});
+}
+
+TEST_CASE("three models of the zoo look in their fall as they did when they were looked at") {
+    if (!zooIsThere()) return;
+    for (const char* model :
+         {"cesium_man_glb/CesiumMan.glb", "kaykit_rogue/Rogue_Hooded.glb", "rocketbox_male/Male_Adult_17.fbx"}) {
+        const std::string path = zooFile(model).string();
+        const std::string stem = zooFile(model).stem().string();
+        if (!checkPicture(shellQuoted(path) + " --seed 3 --seconds 0.35", "fall_" + stem, {10, 0.02, 1.0})) return;
+    }
+}
+
+TEST_CASE("a panorama lights the figure and is seen behind it, and a broken one ends with 3") {
+    const ScratchFolder folder;
+    // Orange from the left, blue from the right, dark below.
+    std::string bytes = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 32 +X 64\n";
+    const auto put = [&](int r, int g, int b) {
+        for (const int channel : {r, g, b, 129})
+            bytes.push_back(static_cast<char>(channel));
+    };
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            if (y >= 18) {
+                put(30, 28, 26);
+            } else if (x < 32) {
+                put(240, 130, 40);
+            } else {
+                put(50, 110, 240);
+            }
+        }
+    }
+    const std::string sky = folder / "sky.hdr";
+    std::ofstream(sky, std::ios::binary) << bytes;
+    const std::string still = kMannequin + " --seconds 0.1 --sky " + shellQuoted(sky);
+    if (!checkPicture(still + " --sky-background", "sky_panorama")) return;
+    std::ofstream(sky, std::ios::binary) << bytes.substr(0, 900);
+    const CommandResult broken = lutkaCommand("render " + still + " -o " + shellQuoted(folder / "x.png"));
+    CHECK(broken.code == 3);
+    CHECK(broken.err.find("sky.hdr") != std::string::npos);
+    CHECK(broken.err.find("cut off") != std::string::npos);
+}
+
+TEST_CASE("the legend is in the picture of a debug layer unless it is not wanted") {
+    const ScratchFolder folder;
+    const auto paint = [&](const std::string& more) {
+        const std::string file = folder / "picture.png";
+        const CommandResult result =
+            lutkaCommand("render " + kMannequin + " --seconds 0.1 --size 320x240 -o " + shellQuoted(file) + more);
+        return result.code == 0 ? render::loadPng(file).value() : render::Image({320, 240}, {});
+    };
+    const render::Image with = paint(" --debug aabbs");
+    const render::Image without = paint(" --debug aabbs --no-legend");
+    const render::ImageDifference difference = render::compareImages(with, without, 8);
+    if (difference.maxError == 0 && with.at(0, 0) == render::Color{}) return;  // no OpenGL
+    CHECK(difference.differingShare > 0.01);
+    for (int y = 60; y < 240; ++y)
+        CHECK(with.at(200, y) == without.at(200, y));
+}
