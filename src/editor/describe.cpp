@@ -25,19 +25,19 @@ void drawLight(const SceneObject& object, bool selected, render::FrameDescriptio
 void Editor::describe(render::CharacterHandle character, render::FrameDescription& frame) {
     frame.clear();
     frame.camera = workspace_.camera;
-    const std::size_t first = frame.characters.size();
     drawer_.skinning =
         view.dualQuaternions ? animation::SkinningMethod::dualQuaternion : animation::SkinningMethod::linear;
     drawer_.draw(player().simulation(), character, view.debug ? view.layers : scene::DebugLayers{}, player().alpha(),
                  view.skinOpacity, frame);
-    highlight(first, frame);
+    highlight(frame);
     drawOverlay(frame);
 }
 
-void Editor::highlight(std::size_t firstCharacter, render::FrameDescription& frame) const {
+void Editor::highlight(render::FrameDescription& frame) const {
     for (const Item& item : workspace_.selection.items()) {
-        const std::size_t at = firstCharacter + static_cast<std::size_t>(item.doll);
-        if (item.kind != Item::Kind::body || at >= frame.characters.size()) continue;
+        if (item.kind != Item::Kind::body) continue;
+        const int at = drawer_.characterItem(item.doll);
+        if (at < 0) continue;
         frame.characters[at].highlight = kSelection;
         frame.characters[at].highlightJoint = document().asset().rig.jointOfBody[item.index];
     }

@@ -144,7 +144,7 @@ class Editor {
     void drawOverlay(render::FrameDescription& frame);
     void drawActivePart(render::FrameDescription& frame) const;
     bool performOnParts(Action action);
-    void highlight(std::size_t firstCharacter, render::FrameDescription& frame) const;
+    void highlight(render::FrameDescription& frame) const;
 
     Workspace workspace_;
     std::unique_ptr<StateMachine> machine_;

@@ -56,8 +56,10 @@ void JsonCursor::expectObject(std::initializer_list<const char*> required,
         const auto isKey = [&name = key](const char* known) { return name == known; };
         if (std::none_of(required.begin(), required.end(), isKey) &&
             std::none_of(optional.begin(), optional.end(), isKey)) {
+            std::vector<const char*> known(required);
+            known.insert(known.end(), optional.begin(), optional.end());
             problems_->push_back(pointer_ + '/' + escaped(key) + ": unknown key, expected one of " +
-                                 fmt::format("{}", fmt::join(required, ", ")));
+                                 fmt::format("{}", fmt::join(known, ", ")));
         }
     }
 }
@@ -110,7 +112,13 @@ std::string JsonCursor::text() const {
     return {};
 }
 
-int JsonCursor::oneOf(std::initializer_list<const char*> choices) const {
+std::optional<bool> JsonCursor::truth() const {
+    if (value_ != nullptr && value_->is_boolean()) return value_->get<bool>();
+    wrongType("true or false");
+    return std::nullopt;
+}
+
+int JsonCursor::oneOf(std::span<const char* const> choices) const {
     if (value_ == nullptr || !value_->is_string()) {
         wrongType("a text");
         return -1;

@@ -3,6 +3,7 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,11 @@ class JsonCursor {
     [[nodiscard]] std::optional<long long> wholeNumber() const;
     [[nodiscard]] std::string text() const;
     /// Index of the text among the choices; -1 (reported) when it is none of them.
-    int oneOf(std::initializer_list<const char*> choices) const;
+    int oneOf(std::span<const char* const> choices) const;
+    int oneOf(std::initializer_list<const char*> choices) const {
+        return oneOf(std::span<const char* const>(choices.begin(), choices.size()));
+    }
+    [[nodiscard]] std::optional<bool> truth() const;
 
   private:
     JsonCursor(const nlohmann::json* value, std::string pointer, std::vector<std::string>* problems)

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "core/files.hpp"
 #include "physics/json_cursor.hpp"
+#include "physics/json_text.hpp"
 #include "physics/profile_format.hpp"
 #include "physics/profile_io.hpp"
 
@@ -225,36 +224,16 @@ std::vector<std::string> checkVersion(const json& document) {
     return problems;
 }
 
-// Notes keys that an object has twice, of which a parser silently keeps one.
-class DuplicateKeys {
-  public:
-    bool operator()(int /*depth*/, json::parse_event_t event, json& parsed) {
-        if (event == json::parse_event_t::object_start) open_.emplace_back();
-        if (event == json::parse_event_t::object_end) open_.pop_back();
-        if (event == json::parse_event_t::key && !open_.back().insert(parsed.get<std::string>()).second) {
-            found.push_back("the key \"" + parsed.get<std::string>() + "\" stands twice in one object");
-        }
-        return true;
-    }
-    std::vector<std::string> found;
-
-  private:
-    std::vector<std::set<std::string>> open_;
-};
-
 }  // namespace
 
 Result<RagdollProfile> profileFromJson(std::string_view text, std::string_view source) {
-    json document;
-    DuplicateKeys duplicates;
-    try {
-        document = json::parse(text, std::ref(duplicates));
-    } catch (const json::exception& failure) {
-        return Error{ErrorCode::input, std::string("not JSON: ") + failure.what(), std::string(source), {}};
-    }
+    std::vector<std::string> duplicates;
+    const Result<json> parsed = parseJson(text, source, duplicates);
+    if (!parsed) return parsed.error();
+    const json& document = parsed.value();
     std::vector<std::string> problems = checkVersion(document);
     if (!problems.empty()) return asError(source, problems);
-    problems = duplicates.found;
+    problems = duplicates;
     RagdollProfile profile;
     const JsonCursor root(document, problems);
     readHeader(root, profile);

@@ -62,6 +62,13 @@ struct WorldSettings {
     int threads = 1;
     bool sleeping = true;
     bool contactReports = false;  ///< Whether steps gather what contactReports() tells; costs a little.
+    // Unset: the solver's own value. `stock` keeps Bullet's whatever is set here.
+    std::optional<int> substeps;          ///< Equal parts a step, [1, 64]. More: stiffer joints, cost in proportion.
+    std::optional<int> iterations;        ///< Passes over the constraints a substep at most, [1, 1000]. More: tighter.
+    std::optional<float> linearDamping;   ///< Share of the speed that is lost in a second, [0, 1). More: thicker air.
+    std::optional<float> angularDamping;  ///< The same for turning.
+
+    friend bool operator==(const WorldSettings&, const WorldSettings&) = default;
 };
 
 /// One substep's contact between two bodies, for debug draw and reports.

@@ -10,7 +10,7 @@ ClipBaker::ClipBaker(int doll, float framesPerSecond, std::string name) : doll_(
 }
 
 void ClipBaker::sample(Simulation& simulation) {
-    const animation::Skeleton& skeleton = simulation.asset().character.skeleton;
+    const animation::Skeleton& skeleton = simulation.assetOf(doll_).character.skeleton;
     model_.resize(skeleton.parents.size());
     local_.resize(skeleton.parents.size());
     simulation.pose(doll_, 1.0F, model_);

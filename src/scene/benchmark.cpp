@@ -11,17 +11,21 @@ namespace {
 // Long enough to outweigh the clock, short enough that both worlds see the same weather on a shared machine.
 constexpr int kBlock = 10;
 
-Result<std::unique_ptr<Simulation>> makeSimulation(const RagdollAsset& asset, const BenchCase& what,
-                                                   physics::SolverKind solver, bool measure) {
-    auto scenario = makeScenario(what.scene, what.count, 1, figureBounds(asset.profile, asset.rig),
-                                 asset.profile.standardFromModel);
-    if (!scenario) return scenario.error();
+// What both solvers are given.
+struct Stage {
+    std::vector<const RagdollAsset*> assets;
+    Scenario scenario;
     SimulationOptions options;
+};
+
+Result<std::unique_ptr<Simulation>> makeSimulation(const Stage& stage, const BenchCase& what,
+                                                   physics::SolverKind solver, bool measure) {
+    SimulationOptions options = stage.options;
     options.world.solver = solver;
     options.world.threads = what.threads;
     options.world.sleeping = what.sleeping;
     options.measure = measure;
-    return Simulation::create(asset, std::move(scenario).value(), options);
+    return Simulation::create(stage.assets, stage.scenario, options);
 }
 
 // The last `steps` of a run, in sum.
@@ -37,23 +41,21 @@ float medianOf(std::vector<float> values) {
     return *middle;
 }
 
-Result<physics::Quality> measureQuality(const RagdollAsset& asset, const BenchCase& what, physics::SolverKind solver) {
-    auto simulation = makeSimulation(asset, what, solver, true);
+Result<physics::Quality> measureQuality(const Stage& stage, const BenchCase& what, physics::SolverKind solver) {
+    auto simulation = makeSimulation(stage, what, solver, true);
     if (!simulation) return simulation.error();
     for (int step = 0; step < what.steps; ++step)
         simulation.value()->step();
     return simulation.value()->quality();
 }
 
-}  // namespace
-
-Result<BenchResult> runBenchmark(const RagdollAsset& asset, const BenchCase& what) {
+Result<BenchResult> runBenchmark(const Stage& stage, const BenchCase& what) {
     BenchResult result;
     result.what = what;
-    auto stock = makeSimulation(asset, what, physics::SolverKind::stock, false);
+    auto stock = makeSimulation(stage, what, physics::SolverKind::stock, false);
     if (!stock) return stock.error();
     const std::size_t heapBefore = ::mallinfo2().uordblks + ::mallinfo2().hblkhd;
-    auto ours = makeSimulation(asset, what, what.solver, false);
+    auto ours = makeSimulation(stage, what, what.solver, false);
     if (!ours) return ours.error();
     std::vector<float> ratios;
     for (int done = 0; done < what.steps; done += kBlock) {
@@ -72,13 +74,28 @@ Result<BenchResult> runBenchmark(const RagdollAsset& asset, const BenchCase& wha
     result.contacts = contacts.size();
     const std::size_t heapAfter = ::mallinfo2().uordblks + ::mallinfo2().hblkhd;
     result.memoryBytes = heapAfter > heapBefore ? heapAfter - heapBefore : 0;
-    auto quality = measureQuality(asset, what, what.solver);
+    auto quality = measureQuality(stage, what, what.solver);
     if (!quality) return quality.error();
-    auto stockQuality = measureQuality(asset, what, physics::SolverKind::stock);
+    auto stockQuality = measureQuality(stage, what, physics::SolverKind::stock);
     if (!stockQuality) return stockQuality.error();
     result.quality = quality.value();
     result.stockQuality = stockQuality.value();
     return result;
+}
+
+}  // namespace
+
+Result<BenchResult> runBenchmark(const RagdollAsset& asset, const BenchCase& what) {
+    auto scenario = makeScenario(what.scene, what.count, 1, figureBounds(asset.profile, asset.rig),
+                                 asset.profile.standardFromModel);
+    if (!scenario) return scenario.error();
+    return runBenchmark(Stage{{&asset}, std::move(scenario).value(), {}}, what);
+}
+
+Result<BenchResult> runBenchmark(const EntityScene& scene, const SceneCast& cast, const BenchCase& what) {
+    auto scenario = compileScene(scene, cast.figures(), cast.assetOfRagdoll);
+    if (!scenario) return scenario.error();
+    return runBenchmark(Stage{cast.pointers(), std::move(scenario).value(), simulationOptionsOf(scene)}, what);
 }
 
 }  // namespace lutka::scene

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/report.hpp"
+#include "scene/scene_cast.hpp"
 #include "scene/simulation.hpp"
 
 namespace lutka::scene {
@@ -33,6 +34,8 @@ struct BenchResult {
 
 /// Runs one case. Fails as makeScenario and Simulation::create do.
 [[nodiscard]] Result<BenchResult> runBenchmark(const RagdollAsset& asset, const BenchCase& what);
+/// The same of a scene's own characters; `what.scene` and `what.count` only label it.
+[[nodiscard]] Result<BenchResult> runBenchmark(const EntityScene& scene, const SceneCast& cast, const BenchCase& what);
 
 /// `lutka bench --json`: {"machine", "cases": […]}, and the same as CSV with a header line.
 [[nodiscard]] std::string benchmarkJson(std::span<const BenchResult> results);

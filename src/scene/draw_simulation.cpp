@@ -13,8 +13,8 @@ namespace {
 using physics::StaticShape;
 using render::Color;
 
-constexpr Color kGeometryColor{172, 177, 184, 255};
-constexpr Color kPropColor{206, 120, 70, 255};
+const Look kGeometryLook;
+const Look kPropLook{Color{206, 120, 70, 255}};
 constexpr float kContactNormalLength = 0.08F;
 constexpr float kSleepTint = 0.6F;
 constexpr float kHiddenLineOpacity = 0.35F;
@@ -40,23 +40,30 @@ render::PropItem::Kind itemKindOf(StaticShape::Kind kind) {
     return render::PropItem::Kind::box;
 }
 
-void drawMesh(const StaticShape& shape, render::LineBatch& lines) {
+void drawMesh(const StaticShape& shape, Color color, render::LineBatch& lines) {
     const auto vertices = shape.mesh->vertices();
     for (const physics::TriangleMesh::Edge& edge : shape.mesh->edges())
-        lines.add(shape.worldFromShape * vertices[edge.start], shape.worldFromShape * vertices[edge.end],
-                  kGeometryColor);
+        lines.add(shape.worldFromShape * vertices[edge.start], shape.worldFromShape * vertices[edge.end], color);
+}
+
+Look lookAt(const std::vector<Look>& looks, std::size_t index, const Look& otherwise) {
+    return index < looks.size() ? looks[index] : otherwise;
 }
 
 void drawStatics(const Scenario& scenario, render::FrameDescription& frame) {
     frame.floor.visible = false;
-    for (const StaticShape& shape : scenario.statics) {
+    for (std::size_t i = 0; i < scenario.statics.size(); ++i) {
+        const StaticShape& shape = scenario.statics[i];
+        const Look look = lookAt(scenario.staticLooks, i, kGeometryLook);
+        if (!look.visible) continue;
         if (isFloor(shape)) {
             frame.floor.visible = true;
             frame.floor.height = shape.worldFromShape.translation.y;
+            if (i < scenario.staticLooks.size()) frame.floor.color = look.color;
             continue;
         }
         if (shape.kind == StaticShape::Kind::mesh) {
-            drawMesh(shape, frame.lines);
+            drawMesh(shape, look.color, frame.lines);
             continue;
         }
         render::PropItem& item = frame.props.emplace_back();
@@ -65,25 +72,24 @@ void drawStatics(const Scenario& scenario, render::FrameDescription& frame) {
         item.halfLength = shape.halfLength;
         item.worldFromShape = shape.worldFromShape;
         item.halfExtents = shape.kind == StaticShape::Kind::plane ? vec3(20.0F) : shape.halfExtents;
-        item.color = kGeometryColor;
+        item.color = look.color;
+        item.castsShadow = look.castsShadow;
         item.checkerSize = 0.5F;
         item.checkerInWorld = true;
     }
 }
 
-// The pit's walls would hide what falls into it.
-void makeWallsOfPileSeeThrough(const Scenario& scenario, render::FrameDescription& frame) {
-    if (scenario.name != "pile") return;
-    for (render::PropItem& item : frame.props) {
-        item.color.a = 40;
-        item.castsShadow = false;
-    }
+void drawLights(const Scenario& scenario, render::FrameDescription& frame) {
+    if (scenario.sun) frame.sun = *scenario.sun;
+    frame.localLights.insert(frame.localLights.end(), scenario.lights.begin(), scenario.lights.end());
 }
 
 void drawProps(const Simulation& simulation, float alpha, render::FrameDescription& frame) {
     const auto& props = simulation.scenario().props;
     for (std::size_t i = 0; i < props.size(); ++i) {
         const physics::BodyShape& shape = props[i].shape;
+        const Look look = lookAt(simulation.scenario().propLooks, i, kPropLook);
+        if (!look.visible) continue;
         render::PropItem& item = frame.props.emplace_back();
         switch (shape.kind) {
             case physics::BodyShape::Kind::sphere:
@@ -100,7 +106,8 @@ void drawProps(const Simulation& simulation, float alpha, render::FrameDescripti
         item.halfExtents = shape.halfExtents;
         item.radius = shape.radius;
         item.halfLength = shape.halfLength;
-        item.color = kPropColor;
+        item.color = look.color;
+        item.castsShadow = look.castsShadow;
         item.checkerSize = 0.08F;
     }
 }
@@ -125,27 +132,36 @@ bool anyDollLayer(const DebugLayers& layers) {
 
 }  // namespace
 
-void SimulationDrawer::draw(Simulation& simulation, render::CharacterHandle character, const DebugLayers& layers,
-                            float alpha, float opacity, render::FrameDescription& frame) {
-    joints_ = simulation.asset().character.skeleton.parents.size();
-    const auto dolls = static_cast<std::size_t>(simulation.dollCount());
-    poses_.resize(joints_ * dolls);
-    palettes_.resize(joints_ * dolls);
+void SimulationDrawer::draw(Simulation& simulation, std::span<const render::CharacterHandle> characters,
+                            const DebugLayers& layers, float alpha, float opacity, render::FrameDescription& frame) {
+    firstJoint_.assign(1, 0);
+    itemOfDoll_.assign(static_cast<std::size_t>(simulation.dollCount()), -1);
+    for (int doll = 0; doll < simulation.dollCount(); ++doll)
+        firstJoint_.push_back(firstJoint_.back() + simulation.assetOf(doll).character.skeleton.parents.size());
+    poses_.resize(firstJoint_.back());
+    palettes_.resize(firstJoint_.back());
     for (int doll = 0; doll < simulation.dollCount(); ++doll) {
         drawSkin(simulation, doll, alpha);
-        if (opacity > 0.0F && character.valid()) {
+        const RagdollAsset& asset = simulation.assetOf(doll);
+        const Placement& placement = simulation.scenario().dolls[doll];
+        const render::CharacterHandle character = characters[static_cast<std::size_t>(placement.asset)];
+        if (opacity > 0.0F && character.valid() && placement.look.visible) {
+            const vec4 tint = toLinear(placement.look.color);
+            itemOfDoll_[doll] = static_cast<int>(frame.characters.size());
             render::CharacterItem& item = frame.characters.emplace_back();
             item.character = character;
             item.palette = ofDoll(std::span<const animation::SkinMatrix>(palettes_), doll);
             item.worldFromModel = simulation.worldFromModel(doll);
-            item.opacity = opacity;
+            item.tint = vec3(tint);
+            item.opacity = opacity * tint.a;
+            item.castsShadow = placement.look.castsShadow;
             item.skinning = skinning;
             if (layers.sleep) item.highlight = withAlpha(sleepColor(simulation.world().isAsleep(doll)), kSleepTint);
         }
         if (anyDollLayer(layers)) {
-            states_.resize(simulation.asset().profile.bodies.size());
+            states_.resize(asset.profile.bodies.size());
             simulation.world().getBodies(doll, states_);
-            drawDollDebug({simulation.asset(), simulation.worldFromBody(doll, alpha), states_, modelFromJoint(doll),
+            drawDollDebug({asset, simulation.worldFromBody(doll, alpha), states_, modelFromJoint(doll),
                            simulation.worldFromModel(doll), simulation.world().isAsleep(doll)},
                           layers, scratch_, frame);
         }
@@ -154,7 +170,7 @@ void SimulationDrawer::draw(Simulation& simulation, render::CharacterHandle char
     const bool inside = layers.skeleton || layers.joints;
     frame.hiddenLineOpacity = inside ? kInnerLineOpacity : kHiddenLineOpacity;
     drawStatics(simulation.scenario(), frame);
-    makeWallsOfPileSeeThrough(simulation.scenario(), frame);
+    drawLights(simulation.scenario(), frame);
     drawProps(simulation, alpha, frame);
     if (layers.contacts) drawContacts(simulation, frame);
     if (layers.bullet) drawBulletLayer(simulation, frame);
@@ -163,7 +179,7 @@ void SimulationDrawer::draw(Simulation& simulation, render::CharacterHandle char
 void SimulationDrawer::drawSkin(Simulation& simulation, int doll, float alpha) {
     const std::span pose = ofDoll(std::span(poses_), doll);
     simulation.pose(doll, alpha, pose);
-    animation::skinMatrices(simulation.asset().character.skeleton.bindModelFromJoint, pose,
+    animation::skinMatrices(simulation.assetOf(doll).character.skeleton.bindModelFromJoint, pose,
                             ofDoll(std::span(palettes_), doll));
 }
 
@@ -184,6 +200,7 @@ std::span<const RigidTransform> SimulationDrawer::modelFromJoint(int doll) const
 }
 
 render::Camera cameraFor(const Scenario& scenario, float aspect) {
+    if (scenario.camera) return *scenario.camera;
     render::Camera camera;
     render::frameSphere(camera, scenario.focus, scenario.focusRadius, aspect, 1.0F);
     return camera;

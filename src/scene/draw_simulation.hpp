@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "render/frame.hpp"
@@ -13,13 +14,21 @@ namespace lutka::scene {
 /// next call of draw().
 class SimulationDrawer {
   public:
-    /// Appends characters, props, static geometry and debug layers to `frame` (which is not cleared), and sets its
-    /// floor and hiddenLineOpacity. `alpha` as in Simulation::pose; `opacity` of the skins, 0 leaves them out.
+    /// Appends characters, props, static geometry, lights and debug layers to `frame` (which is not cleared), and sets
+    /// its floor, hiddenLineOpacity and, when the scene has one, its sun. `characters`: the uploaded character of each
+    /// of the simulation's assets. `alpha` as in Simulation::pose; `opacity` of the skins, 0 leaves them out.
+    void draw(Simulation& simulation, std::span<const render::CharacterHandle> characters, const DebugLayers& layers,
+              float alpha, float opacity, render::FrameDescription& frame);
     void draw(Simulation& simulation, render::CharacterHandle character, const DebugLayers& layers, float alpha,
-              float opacity, render::FrameDescription& frame);
+              float opacity, render::FrameDescription& frame) {
+        draw(simulation, std::span(&character, 1), layers, alpha, opacity, frame);
+    }
 
-    /// World positions of a doll's joints as last drawn, jointCount() long.
+    /// World positions of a doll's joints as last drawn, one a joint of its asset.
     [[nodiscard]] std::span<const RigidTransform> modelFromJoint(int doll) const;
+
+    /// Which of the frame's characters a doll was drawn as; -1: not at all.
+    [[nodiscard]] int characterItem(int doll) const { return itemOfDoll_[static_cast<std::size_t>(doll)]; }
 
     /// Of every doll's skin.
     animation::SkinningMethod skinning = animation::SkinningMethod::linear;
@@ -29,18 +38,19 @@ class SimulationDrawer {
     void drawContacts(Simulation& simulation, render::FrameDescription& frame);
     template <class T>
     [[nodiscard]] std::span<T> ofDoll(std::span<T> all, int doll) const {
-        return all.subspan(joints_ * static_cast<std::size_t>(doll), joints_);
+        return all.subspan(firstJoint_[doll], firstJoint_[doll + 1] - firstJoint_[doll]);
     }
 
+    std::vector<int> itemOfDoll_;
     std::vector<RigidTransform> poses_;
     std::vector<animation::SkinMatrix> palettes_;
     std::vector<physics::BodyState> states_;
     std::vector<physics::ContactPoint> contacts_;
     DebugScratch scratch_;
-    std::size_t joints_ = 0;
+    std::vector<std::size_t> firstJoint_;  // of each doll in poses_ and palettes_; then the number of all
 };
 
-/// A camera that shows the scenario's focus.
+/// The scene's own camera; without one a view of the scenario's focus.
 [[nodiscard]] render::Camera cameraFor(const Scenario& scenario, float aspect);
 
 }  // namespace lutka::scene

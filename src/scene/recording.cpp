@@ -32,22 +32,32 @@ Result<Recording> readHeader(const std::filesystem::path& file, std::string_view
     if (!json.is_object() || json.value("format", "") != kFormat) return broken(file, "is not a recording of ours");
     Recording recording;
     try {
-        if (json.at("version").get<int>() != Recording::kVersion) {
-            return broken(file, fmt::format("has version {}; this program reads {}", json.at("version").dump(),
-                                            Recording::kVersion));
+        const int version = json.at("version").get<int>();
+        if (!inRange(version, 1, Recording::kVersion)) {
+            return broken(file,
+                          fmt::format("has version {}; this program reads 1 to {}", version, Recording::kVersion));
         }
         recording.model = json.at("model").get<std::string>();
         recording.scene = json.at("scene").get<std::string>();
         recording.dt = json.at("dt").get<float>();
         recording.dolls = json.at("dolls").get<int>();
-        recording.bodiesPerDoll = json.at("bodiesPerDoll").get<int>();
+        if (version == 1) {
+            recording.bodiesPerDoll = json.at("bodiesPerDoll").get<int>();
+        } else {
+            recording.bodiesOfDoll = json.at("bodiesOfDoll").get<std::vector<int>>();
+            recording.bodiesPerDoll = recording.bodiesOfDoll.empty() ? 0 : recording.bodiesOfDoll.front();
+        }
         recording.props = json.at("props").get<int>();
     } catch (const nlohmann::json::exception& wrong) {
         return broken(file, fmt::format("has a damaged first line: {}", wrong.what()));
     }
     const bool sane = recording.dt > 0.0F && recording.dt < 1.0F && inRange(recording.dolls, 1, kMostDolls) &&
                       inRange(recording.bodiesPerDoll, 1, kMostBodies) && inRange(recording.props, 0, kMostDolls);
-    if (!sane) return broken(file, "has counts or a step that are out of range");
+    const bool mixedSane =
+        recording.bodiesOfDoll.empty() || (static_cast<int>(recording.bodiesOfDoll.size()) == recording.dolls &&
+                                           std::all_of(recording.bodiesOfDoll.begin(), recording.bodiesOfDoll.end(),
+                                                       [](int count) { return inRange(count, 1, kMostBodies); }));
+    if (!sane || !mixedSane) return broken(file, "has counts or a step that are out of range");
     return recording;
 }
 
@@ -59,7 +69,14 @@ Recording beginRecording(const Simulation& simulation) {
     recording.scene = simulation.scenario().name;
     recording.dt = simulation.options().dt;
     recording.dolls = simulation.dollCount();
-    recording.bodiesPerDoll = static_cast<int>(simulation.asset().profile.bodies.size());
+    const auto bodiesOf = [&](int doll) { return static_cast<int>(simulation.assetOf(doll).profile.bodies.size()); };
+    recording.bodiesPerDoll = recording.dolls > 0 ? bodiesOf(0) : 0;
+    bool mixed = false;
+    for (int doll = 0; doll < recording.dolls; ++doll) {
+        recording.bodiesOfDoll.push_back(bodiesOf(doll));
+        mixed = mixed || bodiesOf(doll) != recording.bodiesPerDoll;
+    }
+    if (!mixed) recording.bodiesOfDoll.clear();
     recording.props = simulation.world().propCount();
     return recording;
 }
@@ -76,12 +93,16 @@ void record(Simulation& simulation, Recording& recording) {
 Result<void> saveRecording(const std::filesystem::path& file, const Recording& recording) {
     nlohmann::ordered_json header;
     header["format"] = kFormat;
-    header["version"] = Recording::kVersion;
+    header["version"] = recording.bodiesOfDoll.empty() ? 1 : Recording::kVersion;
     header["model"] = recording.model;
     header["scene"] = recording.scene;
     header["dt"] = recording.dt;
     header["dolls"] = recording.dolls;
-    header["bodiesPerDoll"] = recording.bodiesPerDoll;
+    if (recording.bodiesOfDoll.empty()) {
+        header["bodiesPerDoll"] = recording.bodiesPerDoll;
+    } else {
+        header["bodiesOfDoll"] = recording.bodiesOfDoll;
+    }
     header["props"] = recording.props;
     header["steps"] = recording.steps();
     std::string bytes = header.dump() + "\n";

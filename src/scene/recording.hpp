@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,19 +15,29 @@ namespace lutka::scene {
 /// The file (docs/recording.md): one line of JSON {"format": "lutka.recording", "version": 1, …}, then for each step
 /// seven little-endian 32-bit floats a body and prop: rotation x y z w, translation x y z (metres, world).
 struct Recording {
-    static constexpr int kVersion = 1;
+    static constexpr int kVersion = 2;  ///< 1 knows no mixed crowds and is still written for all others.
 
     std::string model;  ///< The character's name.
     std::string scene;
     float dt = 1.0F / 60.0F;
     int dolls = 0;
-    int bodiesPerDoll = 0;
+    int bodiesPerDoll = 0;          ///< Of each, when they are alike; else of the first.
+    std::vector<int> bodiesOfDoll;  ///< One a doll, for a mixed crowd; empty when all have bodiesPerDoll.
     int props = 0;
-    std::vector<RigidTransform> frames;  ///< steps × (dolls · bodiesPerDoll + props)
+    std::vector<RigidTransform> frames;  ///< steps × (all dolls' bodies + props)
 
     [[nodiscard]] std::size_t frameSize() const {
-        return static_cast<std::size_t>(dolls) * static_cast<std::size_t>(bodiesPerDoll) +
-               static_cast<std::size_t>(props);
+        std::size_t bodies = static_cast<std::size_t>(dolls) * static_cast<std::size_t>(bodiesPerDoll);
+        if (!bodiesOfDoll.empty()) {
+            bodies = 0;
+            for (const int count : bodiesOfDoll)
+                bodies += static_cast<std::size_t>(count);
+        }
+        return bodies + static_cast<std::size_t>(props);
+    }
+    /// A step's frames; `step` in [0, steps()).
+    [[nodiscard]] std::span<const RigidTransform> frame(int step) const {
+        return std::span(frames).subspan(frameSize() * static_cast<std::size_t>(step), frameSize());
     }
     [[nodiscard]] int steps() const { return frameSize() == 0 ? 0 : static_cast<int>(frames.size() / frameSize()); }
 };

@@ -22,11 +22,45 @@ StepTimes summarise(std::span<const float> stepMs) {
     return {sum / static_cast<float>(sorted.size()), at(0.5), at(0.99)};
 }
 
+namespace {
+
+std::size_t constraintCount(const Simulation& simulation) {
+    std::size_t count = 0;
+    for (int doll = 0; doll < simulation.dollCount(); ++doll)
+        count += simulation.assetOf(doll).profile.constraints.size();
+    return count;
+}
+
+// A mixed crowd's characters; "model" and "fit" are the first one's.
+nlohmann::ordered_json charactersJson(const Simulation& simulation) {
+    auto list = nlohmann::ordered_json::array();
+    for (const RagdollAsset* asset : simulation.assets()) {
+        int count = 0;
+        for (int doll = 0; doll < simulation.dollCount(); ++doll)
+            count += &simulation.assetOf(doll) == asset ? 1 : 0;
+        list.push_back({{"model", asset->character.file.string()},
+                        {"count", count},
+                        {"bodies", asset->profile.bodies.size()},
+                        {"constraints", asset->profile.constraints.size()},
+                        {"fit", fitJson(physics::diagnose(asset->profile, asset->character, asset->map).fit)}});
+    }
+    return list;
+}
+
+std::string castText(const Simulation& simulation) {
+    if (simulation.assets().size() == 1) {
+        return fmt::format("{} × {} bodies", simulation.dollCount(), simulation.asset().profile.bodies.size());
+    }
+    return fmt::format("{} dolls of {} characters, {} bodies", simulation.dollCount(), simulation.assets().size(),
+                       simulation.bodyCount());
+}
+
+}  // namespace
+
 std::string reportJson(const Simulation& simulation) {
     const SimulationOptions& options = simulation.options();
     const StepTimes times = summarise(simulation.stepMs());
     const physics::RagdollProfile& profile = simulation.asset().profile;
-    const auto dolls = static_cast<std::size_t>(simulation.dollCount());
     nlohmann::ordered_json json;
     json["model"] = simulation.asset().character.file.string();
     json["scene"] = simulation.scenario().name;
@@ -51,19 +85,18 @@ std::string reportJson(const Simulation& simulation) {
     json["wallMsPerStep"] = {{"mean", times.mean}, {"p50", times.p50}, {"p99", times.p99}};
     json["fit"] = fitJson(physics::diagnose(profile, simulation.asset().character, simulation.asset().map).fit);
     json["quality"] = qualityJson(simulation.quality());
-    json["bodies"] = profile.bodies.size() * dolls;
-    json["constraints"] = profile.constraints.size() * dolls;
+    json["bodies"] = simulation.bodyCount();
+    json["constraints"] = constraintCount(simulation);
+    if (simulation.assets().size() > 1) json["characters"] = charactersJson(simulation);
     return json.dump(2) + "\n";
 }
 
 std::string reportText(const Simulation& simulation) {
     const physics::Quality q = simulation.quality();
     const StepTimes times = summarise(simulation.stepMs());
-    const physics::RagdollProfile& profile = simulation.asset().profile;
     std::string text =
-        fmt::format("{}, scene {}: {} × {} bodies, {:.1f} s in {} steps\n", simulation.asset().character.name,
-                    simulation.scenario().name, simulation.dollCount(), profile.bodies.size(), simulation.seconds(),
-                    simulation.steps());
+        fmt::format("{}, scene {}: {}, {:.1f} s in {} steps\n", simulation.asset().character.name,
+                    simulation.scenario().name, castText(simulation), simulation.seconds(), simulation.steps());
     text += fmt::format("  joint separation   {:7.2f} mm at most, {:.2f} mm p99\n", q.jointSeparationM.max * 1e3F,
                         q.jointSeparationM.p99 * 1e3F);
     text += fmt::format("  past the limits    {:7.2f} deg at most, {:.2f} deg p99\n", q.limitViolationDeg.max,

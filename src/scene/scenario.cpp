@@ -13,50 +13,63 @@
 namespace lutka::scene {
 namespace {
 
-using physics::BodyShape;
-using physics::StaticShape;
-
 constexpr float kSpacing = 2.5F;      // metres between the dolls of a grid: nobody reaches a neighbour
 constexpr float kPitHalf = 3.0F;      // the pit of `pile` is 6 × 6 m inside
 constexpr float kPitSpacing = 1.15F;  // shoulder to shoulder
 constexpr float kLayerHeight = 2.1F;  // above one another in the pit
+
+constexpr render::Color kGeometryColor{172, 177, 184, 255};
+constexpr render::Color kFloorColor{158, 160, 164, 255};
+constexpr render::Color kPropColor{206, 120, 70, 255};
+constexpr vec3 kUp{0, 1, 0};
+const quat kUpright(1, 0, 0, 0);
 
 struct Context {
     int count;
     Random random;
     bool upright;  // seed 0
     FigureBounds figure;
-    quat standardFromModel;
+    EntityScene& scene;
 };
 
-StaticShape plane() {
-    return {};
+Collider& addStatic(Context& context, const char* name, const RigidTransform& world, const Collider& collider) {
+    const EntityId id = addEntity(context.scene, name, world).id;
+    MeshRenderer look;
+    look.color = collider.kind == Collider::Kind::plane ? kFloorColor : kGeometryColor;
+    context.scene.add(id, look);
+    return context.scene.add(id, collider);
 }
 
-StaticShape box(const vec3& centre, const vec3& halfExtents, const quat& rotation = quat(1, 0, 0, 0)) {
-    StaticShape shape;
-    shape.kind = StaticShape::Kind::box;
-    shape.worldFromShape = {rotation, centre};
-    shape.halfExtents = halfExtents;
-    return shape;
+void addFloor(Context& context) {
+    Collider floor;
+    floor.kind = Collider::Kind::plane;
+    addStatic(context, "Floor", {}, floor);
 }
 
-vec3 centreOf(const FigureBounds& figure) {
-    return (figure.low + figure.high) * 0.5F;
+Collider& addBox(Context& context, const char* name, const vec3& centre, const vec3& halfExtents) {
+    Collider box;
+    box.halfExtents = halfExtents;
+    return addStatic(context, name, {kUpright, centre}, box);
 }
 
-// Puts the figure's centre at `centre`, turned by `turn` about that centre.
-Placement placeCentre(const Context& context, const vec3& centre, const quat& turn) {
-    Placement placement;
-    placement.worldFromModel.rotation = glm::normalize(turn * context.standardFromModel);
-    placement.worldFromModel.translation = centre - turn * centreOf(context.figure);
-    return placement;
+float halfHeight(const Context& context) {
+    return (context.figure.high.y - context.figure.low.y) * 0.5F;
 }
 
-// Puts the figure's soles, before it is turned, at `foot`.
-Placement placeFeet(const Context& context, const vec3& foot, const quat& turn) {
-    const float halfHeight = (context.figure.high.y - context.figure.low.y) * 0.5F;
-    return placeCentre(context, foot + vec3(0, halfHeight, 0), turn);
+// A character whose centre is at `centre`, turned by `turn` about that centre.
+Ragdoll& placeCentre(Context& context, const vec3& centre, const quat& turn) {
+    const int number = static_cast<int>(context.scene.all<Ragdoll>().size()) + 1;
+    const std::string name = context.count > 1 ? fmt::format("Character {}", number) : "Character";
+    const quat rotation = glm::normalize(turn);
+    const vec3 feet = centre - rotation * (kUp * halfHeight(context));
+    const EntityId id = addEntity(context.scene, name, {rotation, feet}).id;
+    context.scene.add(id, MeshRenderer{.color = render::colors::white});
+    return context.scene.add(id, Ragdoll{});
+}
+
+// A character whose soles, before it is turned, are at `foot`.
+Ragdoll& placeFeet(Context& context, const vec3& foot, const quat& turn) {
+    return placeCentre(context, foot + kUp * halfHeight(context), turn);
 }
 
 // Seed 0: none. Others: any heading, up to 10 degrees of tilt.
@@ -94,38 +107,45 @@ vec3 gridPlace(int index, int count, float spacing) {
     return {(static_cast<float>(column) - middle) * spacing, 0, (static_cast<float>(row) - middle) * spacing};
 }
 
-void focusOnGrid(Scenario& scenario, int count, float spacing) {
-    scenario.focusRadius = std::max(1.6F, static_cast<float>(gridSide(count)) * spacing * 0.6F);
+void focusOnGrid(Context& context, float spacing) {
+    context.scene.simulation.focusRadius = std::max(1.6F, static_cast<float>(gridSide(context.count)) * spacing * 0.6F);
 }
 
-void drop(Context& context, Scenario& scenario) {
-    scenario.statics.push_back(plane());
+void drop(Context& context) {
+    addFloor(context);
     for (int i = 0; i < context.count; ++i) {
         const vec3 foot = gridPlace(i, context.count, kSpacing) + vec3(0, 1, 0);
-        Placement placement = placeFeet(context, foot, smallTurn(context));
-        placement.angularVelocity = nudge(context, 1.0F);
-        scenario.dolls.push_back(placement);
+        Ragdoll& doll = placeFeet(context, foot, smallTurn(context));
+        doll.angularVelocity = nudge(context, 1.0F);
     }
-    scenario.focus = {0, 1.3F, 0};  // from the floor to the crown at the start
-    focusOnGrid(scenario, context.count, kSpacing);
+    context.scene.simulation.focus = {0, 1.3F, 0};  // from the floor to the crown at the start
+    focusOnGrid(context, kSpacing);
 }
 
-void spread(Context& context, Scenario& scenario) {
-    scenario.statics.push_back(plane());
+void spread(Context& context) {
+    addFloor(context);
     for (int i = 0; i < context.count; ++i) {
         const vec3 centre = gridPlace(i, context.count, kSpacing) + vec3(0, 1.8F, 0);
-        scenario.dolls.push_back(placeCentre(context, centre, anyTurn(context)));
+        placeCentre(context, centre, anyTurn(context));
     }
-    focusOnGrid(scenario, context.count, kSpacing);
+    focusOnGrid(context, kSpacing);
 }
 
-void pile(Context& context, Scenario& scenario) {
+// The pit's walls would hide what falls into it.
+void addPitWall(Context& context, const vec3& centre, const vec3& halfExtents) {
+    const EntityId id = addBox(context, "Wall", centre, halfExtents).entity;
+    MeshRenderer& look = *context.scene.find<MeshRenderer>(id);
+    look.opacity = 40.0F / 255.0F;
+    look.castsShadow = false;
+}
+
+void pile(Context& context) {
     constexpr float wall = 0.5F;
     constexpr float height = 4.0F;
-    scenario.statics.push_back(plane());
+    addFloor(context);
     for (const float side : {-1.0F, 1.0F}) {
-        scenario.statics.push_back(box({side * (kPitHalf + wall), height, 0}, {wall, height, kPitHalf + 2 * wall}));
-        scenario.statics.push_back(box({0, height, side * (kPitHalf + wall)}, {kPitHalf + 2 * wall, height, wall}));
+        addPitWall(context, {side * (kPitHalf + wall), height, 0}, {wall, height, kPitHalf + 2 * wall});
+        addPitWall(context, {0, height, side * (kPitHalf + wall)}, {kPitHalf + 2 * wall, height, wall});
     }
     constexpr int side = 4;
     constexpr int layer = side * side;
@@ -134,113 +154,112 @@ void pile(Context& context, Scenario& scenario) {
         centre += vec3(context.random.uniform(-0.1F, 0.1F), 0, context.random.uniform(-0.1F, 0.1F));
         const int storey = i / layer;
         centre.y = 1.3F + kLayerHeight * static_cast<float>(storey);
-        scenario.dolls.push_back(placeCentre(context, centre, anyTurn(context)));
+        placeCentre(context, centre, anyTurn(context));
     }
-    scenario.focusRadius = 5.0F;
-    scenario.seconds = 8.0F + 0.02F * static_cast<float>(context.count);
+    context.scene.simulation.focusRadius = 5.0F;
+    context.scene.simulation.seconds = 8.0F + 0.02F * static_cast<float>(context.count);
 }
 
-void stairs(Context& context, Scenario& scenario) {
-    constexpr int steps = 12;
-    constexpr float rise = 0.17F;  // ordinary domestic stairs
-    constexpr float run = 0.28F;
-    const float width = 1.2F + kSpacing * static_cast<float>(context.count - 1) * 0.5F;
-    constexpr float top = rise * steps;
-    scenario.statics.push_back(plane());
-    for (int i = 0; i < steps; ++i) {
-        const float height = top - rise * static_cast<float>(i);
-        // Each step reaches back under the ones above, so that no edge is exposed between two of them.
-        const float back = -2.0F;
-        const float front = run * static_cast<float>(i + 1);
-        scenario.statics.push_back(
-            box({0, height * 0.5F, (back + front) * 0.5F}, {width, height * 0.5F, (front - back) * 0.5F}));
-    }
+void stairs(Context& context) {
+    Collider flight;
+    flight.kind = Collider::Kind::stairs;
+    flight.steps = 12;
+    flight.rise = 0.17F;  // ordinary domestic stairs
+    flight.run = 0.28F;
+    flight.length = 2.0F;
+    flight.width = 2.0F * (1.2F + kSpacing * static_cast<float>(context.count - 1) * 0.5F);
+    const float top = flight.rise * static_cast<float>(flight.steps);
+    const float front = flight.run * static_cast<float>(flight.steps);
+    addFloor(context);
+    addStatic(context, "Stairs", {kUpright, {0, 0, front}}, flight);
     for (int i = 0; i < context.count; ++i) {
         const float across = (static_cast<float>(i) - static_cast<float>(context.count - 1) * 0.5F) * 1.6F;
         const float heading = context.upright ? 0.0F : context.random.uniform(-0.5F, 0.5F);
         const quat lean = glm::angleAxis(radians(12), vec3(1, 0, 0)) * glm::angleAxis(heading, vec3(0, 1, 0));
-        Placement placement = placeFeet(context, {across, top + 0.08F, -0.1F}, lean);
-        placement.linearVelocity = vec3(0, 0, 1.6F) + nudge(context, 0.3F);
-        scenario.dolls.push_back(placement);
+        Ragdoll& doll = placeFeet(context, {across, top + 0.08F, -0.1F}, lean);
+        doll.linearVelocity = vec3(0, 0, 1.6F) + nudge(context, 0.3F);
     }
-    scenario.focus = {0, 1.2F, run * steps * 0.5F};
-    scenario.focusRadius = 2.9F;
-    scenario.seconds = 8.0F;
+    context.scene.simulation.focus = {0, 1.2F, front * 0.5F};
+    context.scene.simulation.focusRadius = 2.9F;
+    context.scene.simulation.seconds = 8.0F;
 }
 
-void ramp(Context& context, Scenario& scenario) {
-    constexpr float angle = 0.55F;  // radians: steep enough to slide at friction 0.5
-    constexpr float half = 4.0F;
-    const float width = 1.5F + kSpacing * 0.5F * static_cast<float>(context.count);
-    scenario.statics.push_back(plane());
-    const quat tilt = glm::angleAxis(angle, vec3(1, 0, 0));
-    StaticShape slope = box({0, 0, 0}, {width, 0.25F, half}, tilt);
-    slope.worldFromShape.translation = tilt * vec3(0, -0.25F, 0) + vec3(0, half * std::sin(angle), 0);
+void ramp(Context& context) {
+    Collider slope;
+    slope.kind = Collider::Kind::ramp;
+    slope.angle = 0.55F;  // radians: steep enough to slide at friction 0.5
+    slope.length = 8.0F;
+    slope.width = 2.0F * (1.5F + kSpacing * 0.5F * static_cast<float>(context.count));
     slope.friction = 0.5F;
-    scenario.statics.push_back(slope);
+    const float half = slope.length * 0.5F;
+    addFloor(context);
+    addStatic(context, "Ramp", {kUpright, {0, 0, half * std::cos(slope.angle)}}, slope);
+    const quat tilt = glm::angleAxis(slope.angle, vec3(1, 0, 0));
     for (int i = 0; i < context.count; ++i) {
         const float across = (static_cast<float>(i) - static_cast<float>(context.count - 1) * 0.5F) * 1.6F;
-        const vec3 surface = tilt * vec3(0, 0, -half * 0.6F) + vec3(0, half * std::sin(angle), 0);
-        scenario.dolls.push_back(placeFeet(context, surface + vec3(across, 0.2F, 0), smallTurn(context)));
+        const vec3 surface = tilt * vec3(0, 0, -half * 0.6F) + vec3(0, half * std::sin(slope.angle), 0);
+        placeFeet(context, surface + vec3(across, 0.2F, 0), smallTurn(context));
     }
-    scenario.focus = {0, 1.4F, 0.6F};
-    scenario.focusRadius = 3.6F;
-    scenario.seconds = 8.0F;
+    context.scene.simulation.focus = {0, 1.4F, 0.6F};
+    context.scene.simulation.focusRadius = 3.6F;
+    context.scene.simulation.seconds = 8.0F;
 }
 
-void hang(Context& context, Scenario& scenario) {
-    scenario.statics.push_back(plane());
+void hang(Context& context) {
+    addFloor(context);
     for (int i = 0; i < context.count; ++i) {
         const vec3 foot = gridPlace(i, context.count, kSpacing) + vec3(0, 1.2F, 0);
-        scenario.dolls.push_back(placeFeet(context, foot, smallTurn(context)));
-        scenario.pins.push_back({i, physics::Role::leftHand});
+        placeFeet(context, foot, smallTurn(context)).pins.push_back(physics::Role::leftHand);
     }
-    scenario.focus = {0, 1.7F, 0};
-    focusOnGrid(scenario, context.count, kSpacing);
-    scenario.focusRadius = std::max(scenario.focusRadius, 1.9F);
-    scenario.seconds = 10.0F;
+    SceneSimulation& simulation = context.scene.simulation;
+    simulation.focus = {0, 1.7F, 0};
+    focusOnGrid(context, kSpacing);
+    simulation.focusRadius = std::max(simulation.focusRadius, 1.9F);
+    simulation.seconds = 10.0F;
 }
 
-void throwAtWall(Context& context, Scenario& scenario) {
+void throwAtWall(Context& context) {
     const float width = 2.0F + kSpacing * 0.5F * static_cast<float>(context.count);
-    scenario.statics.push_back(plane());
-    scenario.statics.push_back(box({0, 1.5F, 2.0F}, {width, 1.5F, 0.025F}));
+    addFloor(context);
+    addBox(context, "Wall", {0, 1.5F, 2.0F}, {width, 1.5F, 0.025F});
     for (int i = 0; i < context.count; ++i) {
         const float across = (static_cast<float>(i) - static_cast<float>(context.count - 1) * 0.5F) * kSpacing;
         const quat turn = context.upright ? glm::angleAxis(radians(70), vec3(1, 0, 0)) : anyTurn(context);
-        Placement placement = placeCentre(context, {across, 1.6F, -0.6F}, turn);
-        placement.linearVelocity = {0, 0, 8};
-        scenario.dolls.push_back(placement);
+        placeCentre(context, {across, 1.6F, -0.6F}, turn).linearVelocity = {0, 0, 8};
     }
-    scenario.focus = {0, 1.0F, 0.9F};
-    scenario.focusRadius = 2.4F;
+    context.scene.simulation.focus = {0, 1.0F, 0.9F};
+    context.scene.simulation.focusRadius = 2.4F;
 }
 
-void balls(Context& context, Scenario& scenario) {
-    scenario.statics.push_back(plane());
+void addBall(Context& context, const vec3& centre, const vec3& velocity) {
+    const EntityId id = addEntity(context.scene, "Ball", {kUpright, centre}).id;
+    Collider ball;
+    ball.kind = Collider::Kind::sphere;
+    ball.radius = 0.12F;
+    context.scene.add(id, ball);
+    context.scene.add(id, RigidBody{.massKg = 4.0F, .linearVelocity = velocity});
+    context.scene.add(id, MeshRenderer{.color = kPropColor});
+}
+
+void balls(Context& context) {
+    addFloor(context);
     for (int i = 0; i < context.count; ++i) {
         const vec3 foot = gridPlace(i, context.count, kSpacing) + vec3(0, 0.05F, 0);
-        scenario.dolls.push_back(placeFeet(context, foot, smallTurn(context)));
+        placeFeet(context, foot, smallTurn(context));
         for (int ball = 0; ball < 6; ++ball) {
             const float heading = context.random.uniform(-kPi, kPi);
             const vec3 out(std::cos(heading), 0, std::sin(heading));
             const float distance = 2.0F + 1.2F * static_cast<float>(ball);
-            physics::DynamicProp prop;
-            prop.shape.kind = BodyShape::Kind::sphere;
-            prop.shape.radius = 0.12F;
-            prop.massKg = 4.0F;
-            prop.state.worldFromBody.translation = foot + out * distance + vec3(0, 1.2F, 0);
-            prop.state.linearVelocity = out * -6.0F + vec3(0, 1.5F, 0);
-            scenario.props.push_back(prop);
+            addBall(context, foot + out * distance + vec3(0, 1.2F, 0), out * -6.0F + vec3(0, 1.5F, 0));
         }
     }
-    focusOnGrid(scenario, context.count, kSpacing);
-    scenario.focusRadius = std::max(scenario.focusRadius, 2.2F);
+    focusOnGrid(context, kSpacing);
+    context.scene.simulation.focusRadius = std::max(context.scene.simulation.focusRadius, 2.2F);
 }
 
 struct Entry {
     ScenarioInfo info;
-    void (*build)(Context&, Scenario&);
+    void (*build)(Context&);
 };
 
 constexpr std::array<Entry, 8> kEntries{{
@@ -286,24 +305,36 @@ FigureBounds figureBounds(const physics::RagdollProfile& profile, const physics:
     return bounds;
 }
 
-Result<Scenario> makeScenario(std::string_view name, int count, std::uint64_t seed, const FigureBounds& figure,
-                              const quat& standardFromModel) {
+Figure figureOf(const RagdollAsset& asset) {
+    return {figureBounds(asset.profile, asset.rig), asset.profile.standardFromModel};
+}
+
+Result<EntityScene> makeScene(std::string_view name, int count, std::uint64_t seed, const FigureBounds& figure) {
     const auto* entry =
         std::find_if(kEntries.begin(), kEntries.end(), [&](const Entry& e) { return e.info.name == name; });
     if (entry == kEntries.end()) {
         return Error{ErrorCode::usage, fmt::format("there is no scene named '{}'", name), "--scene",
-                     fmt::format("the scenes are {}", knownNames())};
+                     fmt::format("the scenes are {}; a file is named *.scene.json", knownNames())};
     }
     if (count < 1 || count > 10000) {
         return Error{ErrorCode::usage, fmt::format("{} dolls were asked for", count), "--count",
                      "1 to 10000 can be had"};
     }
-    Context context{count, Random(seed), seed == 0, figure, standardFromModel};
-    Scenario scenario;
-    scenario.name = name;
-    scenario.seed = seed;
-    entry->build(context, scenario);
-    return scenario;
+    EntityScene scene;
+    scene.name = name;
+    scene.simulation.seed = seed;
+    Context context{count, Random(seed), seed == 0, figure, scene};
+    entry->build(context);
+    return scene;
+}
+
+Result<Scenario> makeScenario(std::string_view name, int count, std::uint64_t seed, const FigureBounds& figure,
+                              const quat& standardFromModel) {
+    const auto scene = makeScene(name, count, seed, figure);
+    if (!scene) return scene.error();
+    const Figure one{figure, standardFromModel};
+    const std::vector<int> assetOfRagdoll(scene.value().all<Ragdoll>().size(), 0);
+    return compileScene(scene.value(), std::span(&one, 1), assetOfRagdoll);
 }
 
 }  // namespace lutka::scene

@@ -9,14 +9,29 @@
 
 #include "core/result.hpp"
 #include "physics/world.hpp"
+#include "render/camera.hpp"
+#include "render/light.hpp"
+#include "scene/entity_scene.hpp"
+#include "scene/ragdoll_asset.hpp"
 
 namespace lutka::scene {
+
+/// How something is drawn.
+struct Look {
+    render::Color color{172, 177, 184, 255};  ///< Alpha below 255: translucent.
+    bool visible = true;
+    bool castsShadow = true;
+};
 
 /// Where one doll starts: its model frame and the velocity of the whole body.
 struct Placement {
     RigidTransform worldFromModel;
-    vec3 linearVelocity{0, 0, 0};   ///< m/s
-    vec3 angularVelocity{0, 0, 0};  ///< rad/s about the figure's centre.
+    vec3 linearVelocity{0, 0, 0};      ///< m/s
+    vec3 angularVelocity{0, 0, 0};     ///< rad/s about the figure's centre.
+    int asset = 0;                     ///< Which of the simulation's assets it is.
+    std::optional<StartPose> pose;     ///< Unset: the simulation's.
+    std::optional<ClipStart> clip;     ///< Likewise; wins over `pose`.
+    Look look{render::colors::white};  ///< The colour multiplies the skin.
 };
 
 /// A body of a doll held at a world point from the start (the scene `hang`).
@@ -25,7 +40,8 @@ struct Pin {
     physics::Role role = physics::Role::leftHand;
 };
 
-/// A deterministic set-up shared by tests, benchmarks, CLI and editor: the same name, count and seed give the same one.
+/// A deterministic set-up shared by tests, benchmarks, CLI and editor: what a Simulation runs and pictures show. Made
+/// of an EntityScene; the vectors of looks and entities are as long as what they belong to, or empty.
 struct Scenario {
     std::string name;
     std::uint64_t seed = 0;
@@ -33,9 +49,17 @@ struct Scenario {
     std::vector<physics::DynamicProp> props;
     std::vector<Placement> dolls;
     std::vector<Pin> pins;
-    float seconds = 6.0F;      ///< Long enough for one doll to come to rest.
-    vec3 focus{0, 0.9F, 0};    ///< What a camera should look at.
-    float focusRadius = 1.6F;  ///< And how far around, metres.
+    std::vector<Look> staticLooks;
+    std::vector<Look> propLooks;
+    std::vector<EntityId> staticEntities;  ///< Which entity each comes from.
+    std::vector<EntityId> propEntities;
+    std::vector<EntityId> dollEntities;
+    float seconds = 6.0F;                  ///< Long enough for one doll to come to rest.
+    vec3 focus{0, 0.9F, 0};                ///< What a camera should look at.
+    float focusRadius = 1.6F;              ///< And how far around, metres.
+    std::optional<render::Camera> camera;  ///< The scene's own; wins over the focus.
+    std::optional<render::SunLight> sun;   ///< In place of the default one.
+    std::vector<render::LocalLight> lights;
 };
 
 struct ScenarioInfo {
@@ -54,8 +78,25 @@ struct FigureBounds {
 /// Over the surfaces of all bodies in the bind pose.
 [[nodiscard]] FigureBounds figureBounds(const physics::RagdollProfile& profile, const physics::Rig& rig);
 
-/// `count` dolls of one figure, `count` in [1, 10000]. Seed 0 stands exactly upright; other seeds turn, tilt and nudge
-/// the figures. Fails with ErrorCode::usage for an unknown name (the known ones are listed) or count.
+/// What a scene has to know of a character to place it.
+struct Figure {
+    FigureBounds bounds;
+    quat standardFromModel{1, 0, 0, 0};
+};
+[[nodiscard]] Figure figureOf(const RagdollAsset& asset);
+
+/// The named scene for `count` characters of one figure, `count` in [1, 10000], whose models are left empty. Seed 0
+/// stands exactly upright; other seeds turn, tilt and nudge the figures. Fails with ErrorCode::usage for an unknown
+/// name (the known ones are listed) or count.
+[[nodiscard]] Result<EntityScene> makeScene(std::string_view name, int count, std::uint64_t seed,
+                                            const FigureBounds& figure);
+
+/// What runs of a scene. `figures` are those of the simulation's assets, and `assetOfRagdoll` says which of them each
+/// of scene.all<Ragdoll>() is. Fails with ErrorCode::input, all problems at once, when validate() finds some.
+[[nodiscard]] Result<Scenario> compileScene(const EntityScene& scene, std::span<const Figure> figures,
+                                            std::span<const int> assetOfRagdoll);
+
+/// makeScene() and compileScene() in one, for one figure.
 [[nodiscard]] Result<Scenario> makeScenario(std::string_view name, int count, std::uint64_t seed,
                                             const FigureBounds& figure, const quat& standardFromModel);
 

@@ -56,21 +56,52 @@ constexpr int kFirstPinId = 1000;
 
 }  // namespace
 
+SimulationOptions simulationOptionsOf(const EntityScene& scene) {
+    SimulationOptions options;
+    options.world = scene.simulation.world;
+    options.dt = scene.simulation.dt;
+    return options;
+}
+
 Result<std::unique_ptr<Simulation>> Simulation::create(const RagdollAsset& asset, Scenario scenario,
                                                        const SimulationOptions& options) {
-    auto start = startBodies(asset, options);
-    if (!start) return start.error();
-    std::unique_ptr<Simulation> simulation(new Simulation(asset, std::move(scenario), options));
-    simulation->startInModel_ = std::move(start).value();
+    return create(std::vector<const RagdollAsset*>{&asset}, std::move(scenario), options);
+}
+
+Result<std::unique_ptr<Simulation>> Simulation::create(std::vector<const RagdollAsset*> assets, Scenario scenario,
+                                                       const SimulationOptions& options) {
+    LUTKA_ASSERT(!assets.empty());
+    std::unique_ptr<Simulation> simulation(new Simulation(std::move(assets), std::move(scenario), options));
+    if (auto found = simulation->findStarts(); !found) return found.error();
     simulation->build();
     return simulation;
 }
 
-Simulation::Simulation(const RagdollAsset& asset, Scenario scenario, const SimulationOptions& options)
-    : asset_(asset), scenario_(std::move(scenario)), options_(options) {}
+Simulation::Simulation(std::vector<const RagdollAsset*> assets, Scenario scenario, const SimulationOptions& options)
+    : assets_(std::move(assets)), scenario_(std::move(scenario)), options_(options) {
+    firstBody_.push_back(0);
+    for (int doll = 0; doll < dollCount(); ++doll)
+        firstBody_.push_back(firstBody_.back() + assetOf(doll).profile.bodies.size());
+}
+
+Result<void> Simulation::findStarts() {
+    std::vector<const Placement*> known;
+    for (int doll = 0; doll < dollCount(); ++doll) {
+        const Placement& placement = scenario_.dolls[doll];
+        const auto same = std::find_if(known.begin(), known.end(), [&](const Placement* other) {
+            return other->asset == placement.asset && other->pose == placement.pose && other->clip == placement.clip;
+        });
+        startOfDoll_.push_back(static_cast<std::size_t>(same - known.begin()));
+        if (same != known.end()) continue;
+        auto start = startBodies(assetOf(doll), options_, placement);
+        if (!start) return start.error();
+        starts_.push_back(std::move(start).value());
+        known.push_back(&placement);
+    }
+    return {};
+}
 
 void Simulation::build() {
-    const physics::RagdollProfile& profile = asset_.profile;
     meter_.reset();
     world_ = options_.world.solver == physics::SolverKind::crowd ? physics::createCrowdWorld(options_.world)
                                                                  : physics::createBulletWorld(options_.world);
@@ -78,19 +109,19 @@ void Simulation::build() {
         world_->addStatic(shape);
     for (const physics::DynamicProp& prop : scenario_.props)
         world_->addProp(prop);
-    scratch_.resize(profile.bodies.size());
-    for (const Placement& placement : scenario_.dolls) {
-        place(profile, placement, startInModel_, scratch_);
-        world_->addDoll(profile, scratch_);
+    for (int doll = 0; doll < dollCount(); ++doll) {
+        placeAtStart(doll);
+        world_->addDoll(assetOf(doll).profile, scratch_);
     }
     for (std::size_t i = 0; i < scenario_.pins.size(); ++i) {
         const Pin& pin = scenario_.pins[i];
-        const int body = physics::bodyOf(profile, pin.role);
+        const RagdollAsset& asset = assetOf(pin.doll);
+        const int body = physics::bodyOf(asset.profile, pin.role);
         if (body < 0) continue;  // a figure without hands falls
-        place(profile, scenario_.dolls[pin.doll], startInModel_, scratch_);
+        placeAtStart(pin.doll);
         const RigidTransform& worldFromBody = scratch_[body].worldFromBody;
-        const vec3 joint = worldFromBody * asset_.rig.bodyFromJoint[body].translation;
-        const vec3 tip = tipOf(profile.bodies[body], worldFromBody, joint);
+        const vec3 joint = worldFromBody * asset.rig.bodyFromJoint[body].translation;
+        const vec3 tip = tipOf(asset.profile.bodies[body], worldFromBody, joint);
         world_->setDrag(kFirstPinId + static_cast<int>(i),
                         {pin.doll, body, inverse(worldFromBody) * tip, tip, kPinForceN});
     }
@@ -101,7 +132,13 @@ void Simulation::build() {
     secondsMeasured_ = 0;
     remember();
     previous_ = present_;
-    mixed_.resize(profile.bodies.size());
+}
+
+// The doll's bodies at its start, in scratch_.
+void Simulation::placeAtStart(int doll) {
+    const std::vector<BodyState>& start = starts_[startOfDoll_[doll]];
+    scratch_.resize(start.size());
+    place(assetOf(doll).profile, scenario_.dolls[doll], start, scratch_);
 }
 
 void Simulation::reset() {
@@ -114,16 +151,15 @@ void Simulation::refresh() {
 }
 
 void Simulation::remember() {
-    const std::size_t bodies = asset_.profile.bodies.size();
-    present_.resize(bodies * scenario_.dolls.size() + scenario_.props.size());
+    present_.resize(bodyCount() + scenario_.props.size());
     for (int doll = 0; doll < dollCount(); ++doll) {
+        scratch_.resize(firstBody_[doll + 1] - firstBody_[doll]);
         world_->getBodies(doll, scratch_);
-        for (std::size_t i = 0; i < bodies; ++i)
-            present_[doll * bodies + i] = scratch_[i].worldFromBody;
+        for (std::size_t i = 0; i < scratch_.size(); ++i)
+            present_[firstBody_[doll] + i] = scratch_[i].worldFromBody;
     }
-    for (int prop = 0; prop < world_->propCount(); ++prop) {
-        present_[bodies * scenario_.dolls.size() + prop] = world_->propState(prop).worldFromBody;
-    }
+    for (int prop = 0; prop < world_->propCount(); ++prop)
+        present_[bodyCount() + prop] = world_->propState(prop).worldFromBody;
 }
 
 void Simulation::step() {
@@ -160,22 +196,23 @@ void Simulation::preview(std::span<const RigidTransform> frame) {
 }
 
 std::span<const RigidTransform> Simulation::worldFromBody(int doll, float alpha) {
-    const std::size_t bodies = asset_.profile.bodies.size();
-    const std::size_t first = static_cast<std::size_t>(doll) * bodies;
+    const std::size_t first = firstBody_[doll];
+    const std::size_t bodies = firstBody_[doll + 1] - first;
     if (alpha >= 1.0F) return std::span(present_).subspan(first, bodies);
-    for (std::size_t i = 0; i < bodies; ++i) {
+    mixed_.resize(bodies);
+    for (std::size_t i = 0; i < bodies; ++i)
         mixed_[i] = interpolate(previous_[first + i], present_[first + i], alpha);
-    }
     return mixed_;
 }
 
 RigidTransform Simulation::worldFromProp(int prop, float alpha) const {
-    const std::size_t at = asset_.profile.bodies.size() * scenario_.dolls.size() + static_cast<std::size_t>(prop);
+    const std::size_t at = bodyCount() + static_cast<std::size_t>(prop);
     return interpolate(previous_[at], present_[at], alpha);
 }
 
 void Simulation::pose(int doll, float alpha, std::span<RigidTransform> modelFromJoint) {
-    physics::poseFromBodies(asset_.rig, asset_.character.skeleton, worldFromBody(doll, alpha), worldFromModel(doll),
+    const RagdollAsset& asset = assetOf(doll);
+    physics::poseFromBodies(asset.rig, asset.character.skeleton, worldFromBody(doll, alpha), worldFromModel(doll),
                             modelFromJoint);
 }
 
@@ -186,6 +223,7 @@ physics::Quality Simulation::quality() const {
 std::uint64_t Simulation::stateHash() const {
     std::uint64_t hash = kHashStart;
     for (int doll = 0; doll < dollCount(); ++doll) {
+        scratch_.resize(assetOf(doll).profile.bodies.size());
         world_->getBodies(doll, scratch_);
         for (const BodyState& body : scratch_)
             hash = hashBytes(&body, sizeof body, hash);

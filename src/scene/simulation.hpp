@@ -15,15 +15,6 @@
 
 namespace lutka::scene {
 
-/// The pose that the dolls start in.
-enum class StartPose { bind, node };
-
-/// Starts the fall from a clip's pose with the velocities that the clip has there.
-struct ClipStart {
-    std::string clip;
-    float seconds = 0.0F;  ///< Clamped to the clip's length.
-};
-
 struct SimulationOptions {
     physics::WorldSettings world;
     float dt = 1.0F / 60.0F;  ///< Seconds a step, > 0.
@@ -32,11 +23,19 @@ struct SimulationOptions {
     bool measure = true;                ///< Takes the quality figures after every substep.
 };
 
-/// A scenario at work: the world, its dolls and what is measured of them. Same asset, scenario and options give the
-/// same bits at every step. The asset must outlive it.
+/// How a scene wants to be simulated; what it says nothing of keeps its default.
+[[nodiscard]] SimulationOptions simulationOptionsOf(const EntityScene& scene);
+
+/// A scenario at work: the world, its dolls and what is measured of them. Same assets, scenario and options give the
+/// same bits at every step. The assets must outlive it.
 class Simulation {
   public:
-    /// Fails with ErrorCode::usage when the clip doesn't exist (the known ones are listed).
+    /// `assets`: one or more, that the placements' `asset` count. Fails with ErrorCode::usage when a clip doesn't exist
+    /// (the known ones are listed).
+    [[nodiscard]] static Result<std::unique_ptr<Simulation>> create(std::vector<const RagdollAsset*> assets,
+                                                                    Scenario scenario,
+                                                                    const SimulationOptions& options);
+    /// All dolls of one asset.
     [[nodiscard]] static Result<std::unique_ptr<Simulation>> create(const RagdollAsset& asset, Scenario scenario,
                                                                     const SimulationOptions& options);
 
@@ -59,7 +58,12 @@ class Simulation {
     [[nodiscard]] const physics::World& world() const { return *world_; }
     [[nodiscard]] const Scenario& scenario() const { return scenario_; }
     [[nodiscard]] const SimulationOptions& options() const { return options_; }
-    [[nodiscard]] const RagdollAsset& asset() const { return asset_; }
+    /// The first one, or a doll's.
+    [[nodiscard]] const RagdollAsset& asset() const { return *assets_.front(); }
+    [[nodiscard]] const RagdollAsset& assetOf(int doll) const { return *assets_[scenario_.dolls[doll].asset]; }
+    [[nodiscard]] std::span<const RagdollAsset* const> assets() const { return assets_; }
+    /// Bodies of all dolls together.
+    [[nodiscard]] std::size_t bodyCount() const { return firstBody_.back(); }
     /// Wall time of every step so far, milliseconds, without the measuring.
     [[nodiscard]] std::span<const float> stepMs() const { return stepMs_; }
 
@@ -69,7 +73,7 @@ class Simulation {
     [[nodiscard]] RigidTransform worldFromProp(int prop, float alpha = 1.0F) const;
     /// The frame that the doll's model-space pose is relative to; constant.
     [[nodiscard]] const RigidTransform& worldFromModel(int doll) const { return scenario_.dolls[doll].worldFromModel; }
-    /// The skin's pose in model space; `modelFromJoint` holds jointCount() frames.
+    /// The skin's pose in model space; `modelFromJoint` holds a frame a joint of its asset.
     void pose(int doll, float alpha, std::span<RigidTransform> modelFromJoint);
 
     [[nodiscard]] physics::Quality quality() const;
@@ -77,20 +81,25 @@ class Simulation {
     [[nodiscard]] std::uint64_t stateHash() const;
 
   private:
-    Simulation(const RagdollAsset& asset, Scenario scenario, const SimulationOptions& options);
+    Simulation(std::vector<const RagdollAsset*> assets, Scenario scenario, const SimulationOptions& options);
+    Result<void> findStarts();
     void build();
+    void placeAtStart(int doll);
     void remember();
 
-    const RagdollAsset& asset_;
+    std::vector<const RagdollAsset*> assets_;
     Scenario scenario_;
     SimulationOptions options_;
-    std::vector<physics::BodyState> startInModel_;  // of one doll, its velocities included, in model space
+    // Dolls of one asset that start alike share their bodies, in model space with their velocities.
+    std::vector<std::vector<physics::BodyState>> starts_;
+    std::vector<std::size_t> startOfDoll_;
+    std::vector<std::size_t> firstBody_;  // of each doll in previous_ and present_; then the number of all
     std::unique_ptr<physics::World> world_;
     std::unique_ptr<physics::QualityMeter> meter_;
     std::vector<float> stepMs_;
     double secondsMeasured_ = 0;
 
-    std::vector<RigidTransform> previous_;  // dolls × bodies, then the props
+    std::vector<RigidTransform> previous_;  // the bodies of each doll, then the props
     std::vector<RigidTransform> present_;
     std::vector<RigidTransform> mixed_;  // one doll's bodies between the two
     mutable std::vector<physics::BodyState> scratch_;

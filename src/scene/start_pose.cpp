@@ -36,15 +36,20 @@ Result<const animation::Clip*> findClip(const animation::Character& character, c
 
 }  // namespace
 
-Result<std::vector<BodyState>> startBodies(const RagdollAsset& asset, const SimulationOptions& options) {
-    if (!options.fromClip) {
-        if (options.pose == StartPose::bind) return bodiesOf(asset, asset.character.skeleton.bindModelFromJoint);
+Result<std::vector<BodyState>> startBodies(const RagdollAsset& asset, const SimulationOptions& options,
+                                           const Placement& placement) {
+    const bool own = placement.clip || placement.pose;
+    const std::optional<ClipStart>& start = own ? placement.clip : options.fromClip;
+    if (!start) {
+        if (placement.pose.value_or(options.pose) == StartPose::bind) {
+            return bodiesOf(asset, asset.character.skeleton.bindModelFromJoint);
+        }
         return bodiesOf(asset, animation::nodePose(asset.character.skeleton));
     }
-    const auto clip = findClip(asset.character, options.fromClip->clip);
+    const auto clip = findClip(asset.character, start->clip);
     if (!clip) return clip.error();
     const float length = clip.value()->seconds();
-    const float now = std::clamp(options.fromClip->seconds, 0.0F, length);
+    const float now = std::clamp(start->seconds, 0.0F, length);
     const float before = std::max(now - options.dt, 0.0F);
     const float after = std::min(now + options.dt, length);
     std::vector<BodyState> bodies = bodiesAt(asset, *clip.value(), now);

@@ -300,3 +300,74 @@ TEST_CASE("an interrupted video leaves nothing behind") {
     CHECK(result.code == 124);  // timeout's own word for having sent the signal
     CHECK(fs::is_empty(folder.path));
 }
+
+namespace {
+
+const std::string kPlayground = shellQuoted(LUTKA_ASSETS_DIR "/scenes/playground.scene.json");
+
+}  // namespace
+
+TEST_CASE("a scene file brings its own characters: simulated, recorded, replayed and baked doll by doll") {
+    const ScratchFolder folder;
+    const std::string recording = folder / "run";
+    const CommandResult result =
+        lutkaCommand("simulate " + kPlayground + " --seconds 0.5 --json --each --out " + (folder / "fall.glb") +
+                     " --mesh-out " + (folder / "last.obj") + " --record " + recording);
+    INFO(result.err);
+    REQUIRE(result.code == 0);
+    const Json json = Json::parse(result.out);
+    CHECK(json["scene"] == "playground");
+    CHECK(json["count"] == 3);
+    REQUIRE(json["characters"].size() == 2);
+    CHECK(json["characters"][0]["count"].get<int>() + json["characters"][1]["count"].get<int>() == 3);
+    for (const char* name : {"fall_0001.glb", "fall_0002.glb", "fall_0003.glb", "last_0001.obj", "last_0003.obj"}) {
+        INFO(name);
+        CHECK(fs::exists(folder / name));
+    }
+    CHECK(lutkaCommand("simulate --scene " + kPlayground + " --replay " + recording).code == 0);
+    CHECK(lutkaCommand("simulate " + kMannequin + " --replay " + recording).code == 2);  // a scene of that name is none
+}
+
+TEST_CASE(
+    "a scene file and what belongs to named scenes exclude each other, and a model that nobody needs is refused") {
+    CHECK(lutkaCommand("simulate").code == 2);
+    CHECK(lutkaCommand("simulate " + kPlayground + " --count 2").code == 2);
+    CHECK(lutkaCommand("simulate " + kPlayground + " --seed 2").code == 2);
+    CHECK(lutkaCommand("simulate " + kPlayground + " --scene " + kPlayground).code == 2);
+    const CommandResult both = lutkaCommand("simulate " + kMannequin + " --scene " + kPlayground);
+    CHECK(both.code == 2);
+    CHECK(contains(both.err, "model of its own"));
+    CHECK(lutkaCommand("simulate --scene nowhere.scene.json").code == 3);
+}
+
+TEST_CASE("scene writes a named scene as a file that simulates to the same bits, and lists every fault of one") {
+    const ScratchFolder folder;
+    const std::string file = folder / "stairs.scene.json";
+    REQUIRE(lutkaCommand("scene stairs --count 2 --seed 3 --model " + kMannequin + " -o " + file).code == 0);
+    const auto hash = [](const std::string& arguments) {
+        const CommandResult result = lutkaCommand("simulate --json --seconds 0.5 " + arguments);
+        REQUIRE(result.code == 0);
+        return Json::parse(result.out)["stateHash"];
+    };
+    CHECK(hash(file) == hash(kMannequin + " --scene stairs --count 2 --seed 3"));
+    CHECK(contains(lutkaCommand("scene " + file).out, "Character 2"));
+    std::string text = fileText(file);
+    text.replace(text.find("\"steps\": 12"), 11, "\"steps\": 0");
+    text.replace(text.find("\"friction\": 0.8"), 15, "\"friction\": \"x\"");
+    std::ofstream(file, std::ios::trunc) << text;
+    const CommandResult faulty = lutkaCommand("scene " + file);
+    CHECK(faulty.code == 3);
+    CHECK(contains(faulty.err, "/entities/1/collider/steps"));
+    CHECK(contains(faulty.err, "/entities/0/collider/friction"));
+    CHECK(contains(faulty.err, "docs/scene.md"));
+}
+
+TEST_CASE("bench takes a scene file beside named scenes") {
+    const CommandResult result = lutkaCommand("bench --json --steps 10 --count 1 --scene drop," LUTKA_ASSETS_DIR
+                                              "/scenes/playground.scene.json");
+    REQUIRE(result.code == 0);
+    const Json json = Json::parse(result.out);
+    REQUIRE(json["cases"].size() == 2);
+    CHECK(json["cases"][1]["scene"] == "playground");
+    CHECK(json["cases"][1]["count"] == 3);
+}

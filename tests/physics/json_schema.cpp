@@ -31,6 +31,7 @@ class Checker {
         static const std::set<std::string> kSilent{"$schema", "$id",         "$defs",
                                                    "title",   "description", "additionalProperties"};
         if (kSilent.count(keyword) > 0) return true;
+        if (keyword == "type" && rule == "integer") return value.is_number_integer();
         if (keyword == "type") return std::string(value.type_name()) == rule.get<std::string>();
         if (keyword == "const") return value == rule;
         if (keyword == "enum") return std::find(rule.begin(), rule.end(), value) != rule.end();

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "core/files.hpp"
 #include "options.hpp"
 #include "scene/benchmark.hpp"
+#include "scene/scene_file.hpp"
 
 namespace lutka::cli {
 namespace {
@@ -32,28 +34,65 @@ void printRow(const scene::BenchResult& r) {
     std::fflush(stdout);
 }
 
-void run(Options& options) {
-    if (options.ragdoll.model.model.empty()) {
-        options.ragdoll.model.model = orLeave(findAsset("models/mannequin.glb"));
-    }
-    const auto asset = orLeave(scene::loadRagdoll(options.ragdoll.model.model, options.ragdoll.load()));
-    if (!options.json) {
-        fmt::print("{} beside stock Bullet; median ms a step, {} thread(s), sleeping {}\n", options.solver,
-                   options.threads, options.sleeping ? "on" : "off");
-        fmt::print("{:<8} {:>6} {:>10} {:>10} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "SCENE", "DOLLS", "OURS", "STOCK",
-                   "RATIO", "SEP mm", "(stock)", "PEN mm", "(stock)", "CONTACTS");
-    }
+void printHeader(const Options& options) {
+    fmt::print("{} beside stock Bullet; median ms a step, {} thread(s), sleeping {}\n", options.solver, options.threads,
+               options.sleeping ? "on" : "off");
+    fmt::print("{:<8} {:>6} {:>10} {:>10} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "SCENE", "DOLLS", "OURS", "STOCK",
+               "RATIO", "SEP mm", "(stock)", "PEN mm", "(stock)", "CONTACTS");
+}
+
+/// Runs the cases of the scenes, the named ones with the model, and takes their results.
+class Bench {
+  public:
+    explicit Bench(const Options& options) : options_(options) {}
+
+    void run(const std::string& name) { scene::isSceneFile(name) ? runFile(name) : runNamed(name); }
     std::vector<scene::BenchResult> results;
-    for (const std::string& name : options.scenes) {
-        for (const int count : options.counts) {
-            const scene::BenchCase what{
-                name, count, options.threads, solverFromName(options.solver), options.sleeping, options.steps};
-            results.push_back(orLeave(scene::runBenchmark(*asset, what)));
-            if (!options.json) printRow(results.back());
+
+  private:
+    void runNamed(const std::string& name) {
+        // Loaded when it is needed: a scene file may bring all characters along.
+        if (asset_ == nullptr) {
+            std::filesystem::path model = options_.ragdoll.model.model;
+            if (model.empty()) model = orLeave(findAsset("models/mannequin.glb"));
+            asset_ = orLeave(scene::loadRagdoll(model, options_.ragdoll.load()));
         }
+        for (const int count : options_.counts)
+            add(orLeave(scene::runBenchmark(*asset_, caseOf(name, count))));
     }
-    if (options.json) fmt::print("{}", scene::benchmarkJson(results));
-    if (!options.csv.empty()) orLeave(writeFileAtomically(options.csv, scene::benchmarkCsv(results)));
+
+    void runFile(const std::string& name) {
+        const auto entities = orLeave(scene::loadScene(name));
+        const auto& dolls = entities.all<scene::Ragdoll>();
+        const bool needsModel =
+            std::any_of(dolls.begin(), dolls.end(), [](const auto& doll) { return doll.model.empty(); });
+        std::filesystem::path model;
+        if (needsModel) model = options_.ragdoll.model.model;
+        if (needsModel && model.empty()) model = orLeave(findAsset("models/mannequin.glb"));
+        const auto cast = orLeave(scene::loadCast(entities, model, options_.ragdoll.load()));
+        add(orLeave(scene::runBenchmark(entities, cast, caseOf(entities.name, static_cast<int>(dolls.size())))));
+    }
+
+    [[nodiscard]] scene::BenchCase caseOf(const std::string& name, int count) const {
+        return {name, count, options_.threads, solverFromName(options_.solver), options_.sleeping, options_.steps};
+    }
+
+    void add(scene::BenchResult result) {
+        results.push_back(std::move(result));
+        if (!options_.json) printRow(results.back());
+    }
+
+    const Options& options_;
+    std::unique_ptr<scene::RagdollAsset> asset_;
+};
+
+void run(const Options& options) {
+    if (!options.json) printHeader(options);
+    Bench bench(options);
+    for (const std::string& name : options.scenes)
+        bench.run(name);
+    if (options.json) fmt::print("{}", scene::benchmarkJson(bench.results));
+    if (!options.csv.empty()) orLeave(writeFileAtomically(options.csv, scene::benchmarkCsv(bench.results)));
 }
 
 }  // namespace
@@ -67,7 +106,9 @@ void addBench(CLI::App& app) {
         ->delimiter(',')
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
-    command->add_option("--scene", options->scenes, "scenes, comma separated")->delimiter(',')->capture_default_str();
+    command->add_option("--scene", options->scenes, "scenes or files *.scene.json, comma separated")
+        ->delimiter(',')
+        ->capture_default_str();
     command->add_option("--threads", options->threads, "threads to step with")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();

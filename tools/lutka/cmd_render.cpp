@@ -47,8 +47,7 @@ class Painter {
           size_(parseSize(options.size)),
           layers_(orLeave(scene::parseDebugLayers(options.debug))),
           context_(orLeave(render::GlContext::createHeadless())),
-          renderer_(orLeave(render::Renderer::create(context_))),
-          character_(orLeave(renderer_.uploadCharacter(run.asset->character))) {
+          renderer_(orLeave(render::Renderer::create(context_))) {
         drawer_.skinning =
             options.skinning == "dual" ? animation::SkinningMethod::dualQuaternion : animation::SkinningMethod::linear;
         if (!options.sky.empty()) {
@@ -58,6 +57,8 @@ class Painter {
             frame_.sky.environmentBackground = options.skyBackground;
         }
         legend_ = scene::legendOf(layers_);
+        for (const auto& asset : run.cast.assets)
+            characters_.push_back(orLeave(renderer_.uploadCharacter(asset->character)));
         frame_.camera = scene::cameraFor(run.simulation->scenario(), size_.aspect());
         if (options.yawDeg) frame_.camera.yaw = radians(*options.yawDeg);
         if (options.pitchDeg) frame_.camera.pitch = radians(*options.pitchDeg);
@@ -67,7 +68,7 @@ class Painter {
     void paint(scene::Simulation& simulation, float alpha = 1.0F) {
         frame_.clear();
         if (options_.follow) follow(simulation.worldFromBody(0, alpha));
-        drawer_.draw(simulation, character_, layers_, alpha, options_.opacity, frame_);
+        drawer_.draw(simulation, characters_, layers_, alpha, options_.opacity, frame_);
         renderer_.draw(frame_, size_);
         renderer_.readPixels(image_);
         if (options_.legend) render::drawLegend(image_, legend_);
@@ -102,7 +103,7 @@ class Painter {
     scene::DebugLayers layers_;
     render::GlContext context_;
     render::Renderer renderer_;
-    render::CharacterHandle character_;
+    std::vector<render::CharacterHandle> characters_;
     render::FrameDescription frame_;
     scene::SimulationDrawer drawer_;
     render::Image image_;

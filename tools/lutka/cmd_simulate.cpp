@@ -9,7 +9,7 @@
 namespace lutka::cli {
 namespace {
 
-void run(const SimulateOptions& options) {
+void run(SimulateOptions& options) {
     Run run = prepare(options);
     execute(options, run);
     if (run.replay) {
@@ -19,7 +19,7 @@ void run(const SimulateOptions& options) {
     fmt::print("{}", options.json ? scene::reportJson(*run.simulation) : scene::reportText(*run.simulation));
     if (run.simulation->quality().nonFinite > 0) {
         leave({ErrorCode::internal, "the simulation gave numbers that are not finite",
-               options.ragdoll.model.model.string(), "please report the model and the options"});
+               run.simulation->asset().character.file.string(), "please report the model and the options"});
     }
 }
 

@@ -9,6 +9,7 @@ void addInspect(CLI::App& app);
 void addMap(CLI::App& app);
 void addBuild(CLI::App& app);
 void addCheck(CLI::App& app);
+void addScene(CLI::App& app);
 void addSimulate(CLI::App& app);
 void addRender(CLI::App& app);
 void addEdit(CLI::App& app);

@@ -25,6 +25,7 @@ int runCommandLine(int argc, char** argv) {
     lutka::cli::addMap(app);
     lutka::cli::addBuild(app);
     lutka::cli::addCheck(app);
+    lutka::cli::addScene(app);
     lutka::cli::addSimulate(app);
     lutka::cli::addRender(app);
     lutka::cli::addEdit(app);

@@ -5,6 +5,9 @@
 #include <unistd.h>
 
 #include <map>
+#include <utility>
+
+#include "scene/scene_file.hpp"
 
 namespace lutka::cli {
 namespace {
@@ -135,32 +138,58 @@ scene::LoadOptions RagdollOptions::load() const {
     return options;
 }
 
-void SimulateOptions::addTo(CLI::App& app) {
-    ragdoll.addTo(app);
+void SceneOptions::addTo(CLI::App& app) {
     std::string scenes;
     for (const scene::ScenarioInfo& info : scene::scenarioRegistry()) {
         scenes += fmt::format("{}{}", scenes.empty() ? "" : ", ", info.name);
     }
-    app.add_option("--scene", scene, "one of " + scenes)->capture_default_str();
-    app.add_option("--count", count, "number of dolls")->check(CLI::Range(1, 10000))->capture_default_str();
-    app.add_option("--seconds", seconds, "length of the run; default: what the scene needs")->check(finiteIn(0, 3600));
-    app.add_option("--threads", threads, "threads to step with")->check(CLI::Range(1, 256))->capture_default_str();
-    app.add_option("--seed", seed, "varies the start; 0 stands upright")
+    app.add_option("--scene", scene, "one of " + scenes + ", or a file *.scene.json")->capture_default_str();
+    app.add_option("--count", count, "number of dolls in a named scene; default: 1")->check(CLI::Range(1, 10000));
+    app.add_option("--seed", seed, "varies the start of a named scene; 0, the default, stands upright")
         ->check(CLI::Validator(
             [](const std::string& text) {
                 const bool digits =
-                    !text.empty() && text.size() < 20 && text.find_first_not_of("0123456789") == std::string::npos;
+                    !text.empty() && text.size() < 19 && text.find_first_not_of("0123456789") == std::string::npos;
                 return digits ? std::string() : fmt::format("'{}' is no whole number from 0 up", text);
             },
-            "UINT"))
-        ->capture_default_str();
-    addSolverOption(app, solver);
-    app.add_option("--pose", pose, "the pose to start in: the bind pose or the file's node pose")
-        ->check(CLI::IsMember({"bind", "node"}))
-        ->capture_default_str();
+            "UINT"));
+    app.add_option("--threads", threads, "threads to step with; default: the scene's, or 1")->check(CLI::Range(1, 256));
+    app.add_option("--solver", solver,
+                   "stock: plain Bullet; bullet: Bullet tuned for ragdolls, the default; crowd: dolls in SIMD lanes")
+        ->check(knownSolver());
+}
+
+bool SceneOptions::takeFile(std::filesystem::path& model) {
+    if (scene::isSceneFile(model)) {
+        if (scene::isSceneFile(scene)) {
+            leave({ErrorCode::usage, "two scene files were given", model.string(), "give one of them"});
+        }
+        scene = std::exchange(model, {}).string();
+    }
+    if (!scene::isSceneFile(scene)) return false;
+    if (count || seed) {
+        leave({ErrorCode::usage, "a scene file has its own characters and start", count ? "--count" : "--seed",
+               "leave the option out; it belongs to the named scenes"});
+    }
+    return true;
+}
+
+void SceneOptions::applyTo(physics::WorldSettings& world) const {
+    if (threads) world.threads = *threads;
+    if (solver) world.solver = solverFromName(*solver);
+}
+
+void SimulateOptions::addTo(CLI::App& app) {
+    ragdoll.addTo(app, false);
+    app.get_option("MODEL")->description("rigged character; none when the scene file names its characters");
+    scene.addTo(app);
+    app.add_option("--seconds", seconds, "length of the run; default: what the scene needs")->check(finiteIn(0, 3600));
+    app.add_option("--pose", pose, "the pose to start in: the bind pose, the default, or the file's node pose")
+        ->check(CLI::IsMember({"bind", "node"}));
     app.add_option("--from-clip", fromClip, "start from a clip's pose and velocities: NAME or NAME@SECONDS");
     app.add_option("--out", bakedOut, "write the first doll's fall as an animation of its skin (.glb)");
     app.add_option("--mesh-out", meshOut, "write the first doll's skin of the last frame (.obj)");
+    app.add_flag("--each", each, "--out and --mesh-out of every doll, as NAME_0001.glb, NAME_0002.glb …");
     auto* reportOption = app.add_option("--report", report, "write the figures of the run (.json)");
     auto* recordOption = app.add_option("--record", recordTo, "write the bodies of every step");
     auto* jsonFlag = app.add_flag("--json", json, "print the report as JSON on stdout");
@@ -171,19 +200,22 @@ void SimulateOptions::addTo(CLI::App& app) {
         ->excludes(jsonFlag);
 }
 
-scene::SimulationOptions SimulateOptions::simulation() const {
-    scene::SimulationOptions options;
-    options.world.solver = solverFromName(solver);
-    options.world.threads = threads;
-    options.pose = pose == "node" ? scene::StartPose::node : scene::StartPose::bind;
+scene::SimulationOptions SimulateOptions::simulation(const scene::EntityScene& entities) const {
+    scene::SimulationOptions options = scene::simulationOptionsOf(entities);
+    scene.applyTo(options.world);
+    if (pose == "node") options.pose = scene::StartPose::node;
     if (!fromClip.empty()) options.fromClip = parseClipStart(fromClip);
     return options;
+}
+
+CLI::Validator knownSolver() {
+    return CLI::IsMember(&kSolvers);
 }
 
 void addSolverOption(CLI::App& app, std::string& solver) {
     app.add_option("--solver", solver,
                    "stock: plain Bullet; bullet: Bullet tuned for ragdolls; crowd: dolls in SIMD lanes")
-        ->check(CLI::IsMember(&kSolvers))
+        ->check(knownSolver())
         ->capture_default_str();
 }
 

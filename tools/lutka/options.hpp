@@ -58,30 +58,44 @@ struct RagdollOptions {
     [[nodiscard]] scene::LoadOptions load() const;
 };
 
+/// --scene with what belongs to it. Unset: what the scene says, or the default of a named one.
+struct SceneOptions {
+    std::string scene = "drop";  ///< A name, or a file *.scene.json.
+    std::optional<int> count;
+    std::optional<std::uint64_t> seed;
+    std::optional<int> threads;
+    std::optional<std::string> solver;
+
+    void addTo(CLI::App& app);
+    /// Whether the scene is a file. A file in place of MODEL is the scene: `model` is empty then.
+    bool takeFile(std::filesystem::path& model);
+    /// Sets solver and threads where they were asked for.
+    void applyTo(physics::WorldSettings& world) const;
+};
+
 /// --scene and everything else that simulate and render share.
 struct SimulateOptions {
     RagdollOptions ragdoll;
-    std::string scene = "drop";
-    int count = 1;
+    SceneOptions scene;
     std::optional<float> seconds;
-    int threads = 1;
-    std::uint64_t seed = 0;
-    std::string solver = "bullet";
-    std::string pose = "bind";
+    std::string pose;
     std::string fromClip;
     std::filesystem::path bakedOut;
     std::filesystem::path meshOut;
+    bool each = false;  ///< bakedOut and meshOut of every doll instead of the first.
     std::filesystem::path report;
     std::filesystem::path recordTo;
     std::filesystem::path replayFrom;
     bool json = false;
 
     void addTo(CLI::App& app);
-    [[nodiscard]] scene::SimulationOptions simulation() const;
+    /// How `scene` is simulated: as it says itself, but for what was asked for.
+    [[nodiscard]] scene::SimulationOptions simulation(const scene::EntityScene& scene) const;
 };
 
 /// --solver, by the names of physics::solverName.
 void addSolverOption(CLI::App& app, std::string& solver);
+[[nodiscard]] CLI::Validator knownSolver();
 [[nodiscard]] physics::SolverKind solverFromName(const std::string& name);
 
 /// WIDTHxHEIGHT in pixels, each in [16, 16384]; leaves with wrong usage otherwise.

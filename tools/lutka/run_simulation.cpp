@@ -16,6 +16,7 @@
 #include "scene/bake.hpp"
 #include "scene/recording.hpp"
 #include "scene/report.hpp"
+#include "scene/scene_file.hpp"
 
 namespace lutka::cli {
 namespace {
@@ -24,13 +25,21 @@ namespace {
 constexpr float kLeastHeightM = 0.3F;
 constexpr float kMostHeightM = 5.0F;
 
-void writeLastMesh(const std::filesystem::path& file, Run& run) {
-    const animation::Character& character = run.asset->character;
+void writeLastMesh(const std::filesystem::path& file, Run& run, int doll) {
+    const animation::Character& character = run.simulation->assetOf(doll).character;
     std::vector<RigidTransform> pose(character.skeleton.parents.size());
     std::vector<animation::SkinMatrix> palette(pose.size());
-    run.simulation->pose(0, 1.0F, pose);
+    run.simulation->pose(doll, 1.0F, pose);
     animation::skinMatrices(character.skeleton.bindModelFromJoint, pose, palette);
-    orLeave(animation::writeObj(file, character, palette, run.simulation->worldFromModel(0)));
+    orLeave(animation::writeObj(file, character, palette, run.simulation->worldFromModel(doll)));
+}
+
+// NAME_0001.glb for the first doll when each has a file of its own.
+std::filesystem::path fileOf(const std::filesystem::path& file, const SimulateOptions& options, int doll) {
+    if (!options.each) return file;
+    std::filesystem::path own = file;
+    own.replace_filename(fmt::format("{}_{:04}{}", file.stem().string(), doll + 1, file.extension().string()));
+    return own;
 }
 
 // Writing is the last thing of a long run: what can't be written is better known before it.
@@ -72,14 +81,16 @@ void checkReplay(const SimulateOptions& options, Run& run) {
     if (recording.model != expected.model) {
         spdlog::warn("{}: was recorded with {}", options.replayFrom.string(), recording.model);
     }
-    if (recording.bodiesPerDoll != expected.bodiesPerDoll || recording.frameSize() != expected.frameSize()) {
+    if (recording.bodiesPerDoll != expected.bodiesPerDoll || recording.bodiesOfDoll != expected.bodiesOfDoll ||
+        recording.frameSize() != expected.frameSize()) {
         leave({ErrorCode::input,
-               fmt::format("was made of {} with {} bodies; this model has {}", recording.model, recording.bodiesPerDoll,
-                           expected.bodiesPerDoll),
-               options.replayFrom.string(), "replay it with the model and profile that it was recorded with"});
+               fmt::format("was made of {} with {} bodies and {} moving things in all; here they are {} and {}",
+                           recording.model, recording.bodiesPerDoll, recording.frameSize(), expected.bodiesPerDoll,
+                           expected.frameSize()),
+               options.replayFrom.string(), "replay it with the model, profile and scene that it was recorded with"});
     }
     run.steps = recording.steps() - 1;
-    run.simulation->show(std::span(recording.frames).first(recording.frameSize()));
+    run.simulation->show(recording.frame(0));
 }
 
 void advance(Run& run, int step) {
@@ -87,14 +98,15 @@ void advance(Run& run, int step) {
         run.simulation->step();
         return;
     }
-    const std::size_t size = run.replay->frameSize();
-    run.simulation->show(std::span(run.replay->frames).subspan(size * (static_cast<std::size_t>(step) + 1), size));
+    run.simulation->show(run.replay->frame(step + 1));
 }
 
 void checkOutputs(const SimulateOptions& options, const std::filesystem::path& picture) {
     checkExtension("--out", options.bakedOut, ".glb");
     checkExtension("--mesh-out", options.meshOut, ".obj");
-    std::vector<std::filesystem::path> taken = {options.ragdoll.model.model};
+    std::vector<std::filesystem::path> taken;
+    if (!options.ragdoll.model.model.empty()) taken.push_back(options.ragdoll.model.model);
+    if (scene::isSceneFile(options.scene.scene)) taken.emplace_back(options.scene.scene);
     if (options.ragdoll.profile) taken.push_back(*options.ragdoll.profile);
     if (!options.replayFrom.empty()) taken.push_back(options.replayFrom);
     for (const auto& file : {options.bakedOut, options.meshOut, options.report, options.recordTo, picture}) {
@@ -109,25 +121,53 @@ void checkOutputs(const SimulateOptions& options, const std::filesystem::path& p
     }
 }
 
+void warnOfHeight(const scene::RagdollAsset& asset) {
+    const float height = asset.profile.heightM;
+    if (height >= kLeastHeightM && height <= kMostHeightM) return;
+    spdlog::warn("{}: stands {:.3g} m tall; the physics is tuned for {} to {} m (--scale)",
+                 asset.character.file.string(), height, kLeastHeightM, kMostHeightM);
+}
+
+// The scene with its characters, from its file or by its name.
+scene::EntityScene loadEverything(const SimulateOptions& options, bool fromFile, Run& run) {
+    const std::filesystem::path& model = options.ragdoll.model.model;
+    if (fromFile) {
+        auto entities = orLeave(scene::loadScene(options.scene.scene));
+        if (options.ragdoll.profile && model.empty()) {
+            leave({ErrorCode::usage, "a profile goes with a MODEL, and there is none", "--profile",
+                   "give \"profile\" to the characters of the scene file"});
+        }
+        run.cast = orLeave(scene::loadCast(entities, model, options.ragdoll.load()));
+        return entities;
+    }
+    if (model.empty()) {
+        leave({ErrorCode::usage, "there is no MODEL", "", "give a rigged character, or a scene file with characters"});
+    }
+    run.cast.assets.push_back(orLeave(scene::loadRagdoll(model, options.ragdoll.load())));
+    auto entities =
+        orLeave(scene::makeScene(run.replay ? run.replay->scene : options.scene.scene,
+                                 run.replay ? run.replay->dolls : options.scene.count.value_or(1),
+                                 options.scene.seed.value_or(0), scene::figureOf(*run.cast.assets.front()).bounds));
+    run.cast.assetOfRagdoll.assign(entities.all<scene::Ragdoll>().size(), 0);
+    return entities;
+}
+
 }  // namespace
 
-Run prepare(const SimulateOptions& options, const std::filesystem::path& picture) {
+Run prepare(SimulateOptions& options, const std::filesystem::path& picture) {
+    const bool fromFile = options.scene.takeFile(options.ragdoll.model.model);
     checkOutputs(options, picture);
     Run run;
-    run.asset = orLeave(scene::loadRagdoll(options.ragdoll.model.model, options.ragdoll.load()));
-    printWarnings(*run.asset);
-    if (const float height = run.asset->profile.heightM; height < kLeastHeightM || height > kMostHeightM) {
-        spdlog::warn("{}: stands {:.3g} m tall; the physics is tuned for {} to {} m (--scale)",
-                     run.asset->character.file.string(), height, kLeastHeightM, kMostHeightM);
-    }
     if (!options.replayFrom.empty()) run.replay = orLeave(scene::loadRecording(options.replayFrom));
-    const scene::FigureBounds figure = scene::figureBounds(run.asset->profile, run.asset->rig);
-    auto scenario = orLeave(scene::makeScenario(run.replay ? run.replay->scene : options.scene,
-                                                run.replay ? run.replay->dolls : options.count, options.seed, figure,
-                                                run.asset->profile.standardFromModel));
+    const scene::EntityScene entities = loadEverything(options, fromFile, run);
+    for (const auto& asset : run.cast.assets) {
+        printWarnings(*asset);
+        warnOfHeight(*asset);
+    }
+    auto scenario = orLeave(scene::compileScene(entities, run.cast.figures(), run.cast.assetOfRagdoll));
     const float seconds = options.seconds.value_or(scenario.seconds);
-    const scene::SimulationOptions simulation = options.simulation();
-    run.simulation = orLeave(scene::Simulation::create(*run.asset, std::move(scenario), simulation));
+    const scene::SimulationOptions simulation = options.simulation(entities);
+    run.simulation = orLeave(scene::Simulation::create(run.cast.pointers(), std::move(scenario), simulation));
     run.steps = static_cast<int>(std::lround(seconds / simulation.dt));
     if (run.replay) checkReplay(options, run);
     return run;
@@ -135,26 +175,34 @@ Run prepare(const SimulateOptions& options, const std::filesystem::path& picture
 
 void execute(const SimulateOptions& options, Run& run, const std::function<void(scene::Simulation&)>& afterStep) {
     scene::Simulation& simulation = *run.simulation;
-    scene::ClipBaker baker(0, 1.0F / simulation.options().dt, "lutka_" + options.scene);
+    std::vector<scene::ClipBaker> bakers;
+    const int written = options.each ? simulation.dollCount() : 1;
     scene::Recording recording = scene::beginRecording(simulation);
     const bool bake = !options.bakedOut.empty();
     const bool recordSteps = !options.recordTo.empty();
-    if (bake) baker.sample(simulation);
+    const auto sample = [&] {
+        for (scene::ClipBaker& baker : bakers)
+            baker.sample(simulation);
+    };
+    for (int doll = 0; bake && doll < written; ++doll)
+        bakers.emplace_back(doll, 1.0F / simulation.options().dt, "lutka_" + simulation.scenario().name);
+    sample();
     if (recordSteps) scene::record(simulation, recording);
     Progress progress(run.replay ? "replaying" : "simulating", run.steps);
     for (int step = 0; step < run.steps; ++step) {
         leaveIfInterrupted();
         advance(run, step);
-        if (bake) baker.sample(simulation);
+        sample();
         if (recordSteps) scene::record(simulation, recording);
         if (afterStep) afterStep(simulation);
         progress.at(step + 1);
     }
-    if (bake) {
-        orLeave(animation::writeGlb(options.bakedOut, run.asset->character, std::span(&baker.clip(), 1),
-                                    simulation.worldFromModel(0)));
+    for (int doll = 0; doll < static_cast<int>(bakers.size()); ++doll) {
+        orLeave(animation::writeGlb(fileOf(options.bakedOut, options, doll), simulation.assetOf(doll).character,
+                                    std::span(&bakers[doll].clip(), 1), simulation.worldFromModel(doll)));
     }
-    if (!options.meshOut.empty()) writeLastMesh(options.meshOut, run);
+    for (int doll = 0; !options.meshOut.empty() && doll < written; ++doll)
+        writeLastMesh(fileOf(options.meshOut, options, doll), run, doll);
     if (recordSteps) orLeave(scene::saveRecording(options.recordTo, recording));
     if (!options.report.empty()) orLeave(writeFileAtomically(options.report, scene::reportJson(simulation)));
 }

@@ -5,23 +5,24 @@
 #include <optional>
 
 #include "options.hpp"
-#include "scene/ragdoll_asset.hpp"
 #include "scene/recording.hpp"
+#include "scene/scene_cast.hpp"
 #include "scene/simulation.hpp"
 
 namespace lutka::cli {
 
-/// A loaded asset with its simulation at the start.
+/// The scene's characters with their simulation at the start.
 struct Run {
-    std::unique_ptr<scene::RagdollAsset> asset;
+    scene::SceneCast cast;
     std::unique_ptr<scene::Simulation> simulation;
     int steps = 0;                           ///< What --seconds, the scene or the recording asks for.
     std::optional<scene::Recording> replay;  ///< Set: shown instead of simulating.
 };
 
-/// Loads the model and sets the scene up. Leaves on errors, first of all when an output has the wrong extension, can't
-/// be written, or would destroy an input or another output. `picture` is one more output, of `render`.
-[[nodiscard]] Run prepare(const SimulateOptions& options, const std::filesystem::path& picture = {});
+/// Loads the characters and sets the scene up. Leaves on errors, first of all when an output has the wrong extension,
+/// can't be written, or would destroy an input or another output. `picture` is one more output, of `render`. A scene
+/// file in place of MODEL is taken for --scene.
+[[nodiscard]] Run prepare(SimulateOptions& options, const std::filesystem::path& picture = {});
 
 /// Steps (or replays) to the end, calls `afterStep` after every step, and writes what the options ask for: baked clip,
 /// mesh, report and recording. Leaves on errors.

@@ -373,7 +373,13 @@ void BulletWorld::getContacts(std::vector<ContactPoint>& contacts) const {
 }  // namespace
 
 std::unique_ptr<World> createBulletWorld(const WorldSettings& settings, const BulletTuning& tuning) {
-    return std::make_unique<BulletWorld>(settings, tuning);
+    BulletTuning tuned = tuning;
+    tuned.substeps = settings.substeps.value_or(tuning.substeps);
+    tuned.sweeps = settings.iterations.value_or(tuning.sweeps);
+    tuned.leastSweeps = std::min(tuning.leastSweeps, tuned.sweeps);
+    tuned.linearDamping = settings.linearDamping.value_or(tuning.linearDamping);
+    tuned.angularDamping = settings.angularDamping.value_or(tuning.angularDamping);
+    return std::make_unique<BulletWorld>(settings, tuned);
 }
 
 }  // namespace lutka::physics

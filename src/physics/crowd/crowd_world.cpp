@@ -1,6 +1,7 @@
 #include "physics/crowd/crowd_world.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -313,7 +314,14 @@ void CrowdWorld::getContacts(std::vector<ContactPoint>& contacts) const {
 }  // namespace crowd
 
 std::unique_ptr<World> createCrowdWorld(const WorldSettings& settings, const crowd::CrowdTuning& tuning) {
-    return std::make_unique<crowd::CrowdWorld>(settings, tuning);
+    // A share lost in a second is a rate: speed · (1 - share)^t = speed · exp(-rate t).
+    const auto rate = [](float share) { return -std::log1p(-share); };
+    crowd::CrowdTuning tuned = tuning;
+    tuned.substeps = settings.substeps.value_or(tuning.substeps);
+    tuned.passes = settings.iterations.value_or(tuning.passes);
+    if (settings.linearDamping) tuned.linearDamping = rate(*settings.linearDamping);
+    if (settings.angularDamping) tuned.angularDamping = rate(*settings.angularDamping);
+    return std::make_unique<crowd::CrowdWorld>(settings, tuned);
 }
 
 }  // namespace lutka::physics

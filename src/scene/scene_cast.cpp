@@ -1,0 +1,69 @@
+#include "scene/scene_cast.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <utility>
+
+namespace lutka::scene {
+namespace {
+
+// What makes two dolls share an asset.
+using Key = std::pair<std::filesystem::path, std::filesystem::path>;
+
+}  // namespace
+
+std::vector<const RagdollAsset*> SceneCast::pointers() const {
+    std::vector<const RagdollAsset*> all;
+    for (const auto& asset : assets)
+        all.push_back(asset.get());
+    return all;
+}
+
+std::vector<Figure> SceneCast::figures() const {
+    std::vector<Figure> all;
+    for (const auto& asset : assets)
+        all.push_back(figureOf(*asset));
+    return all;
+}
+
+Result<SceneCast> loadCast(const EntityScene& scene, const std::filesystem::path& model, const LoadOptions& options) {
+    const std::vector<Ragdoll>& ragdolls = scene.all<Ragdoll>();
+    SceneCast cast;
+    cast.assetOfRagdoll.resize(ragdolls.size(), -1);
+    std::map<Key, int> known;
+    bool modelUsed = false;
+    for (const Entity& entity : scene.entities) {
+        const Ragdoll* ragdoll = scene.find<Ragdoll>(entity.id);
+        if (ragdoll == nullptr) continue;
+        const bool named = !ragdoll->model.empty();
+        if (!named && model.empty()) {
+            return Error{ErrorCode::usage, fmt::format("\"{}\" has no model of its own", entity.name), scene.name,
+                         "give MODEL, or \"model\" in the scene file"};
+        }
+        modelUsed = modelUsed || !named;
+        LoadOptions load = options;
+        if (named) load.profile.reset();
+        if (!ragdoll->profile.empty()) load.profile = ragdoll->profile;
+        const Key key{named ? ragdoll->model : model, load.profile.value_or("")};
+        auto at = known.find(key);
+        if (at == known.end()) {
+            auto asset = loadRagdoll(key.first, load);
+            if (!asset) return asset.error();
+            at = known.emplace(key, static_cast<int>(cast.assets.size())).first;
+            cast.assets.push_back(std::move(asset).value());
+        }
+        cast.assetOfRagdoll[static_cast<std::size_t>(ragdoll - ragdolls.data())] = at->second;
+    }
+    if (cast.assets.empty()) {
+        return Error{ErrorCode::usage, "there is no character in the scene", scene.name,
+                     "add an entity with a ragdoll"};
+    }
+    if (!model.empty() && !modelUsed) {
+        return Error{ErrorCode::usage, "every character of the scene has a model of its own", scene.name,
+                     "leave MODEL out, or \"model\" in the scene file"};
+    }
+    return cast;
+}
+
+}  // namespace lutka::scene

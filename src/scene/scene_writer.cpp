@@ -1,0 +1,183 @@
+#include <fmt/format.h>
+
+#include "core/files.hpp"
+#include "physics/json_text.hpp"
+#include "scene/scene_file.hpp"
+#include "scene/scene_format.hpp"
+
+namespace lutka::scene {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using physics::jsonNumber;
+using physics::jsonQuaternion;
+using physics::jsonVector;
+
+template <class Names, class Enum>
+const char* nameOf(const Names& names, Enum value) {
+    return names[static_cast<std::size_t>(value)];
+}
+
+std::string hexOf(const render::Color& color) {
+    return fmt::format("#{:02x}{:02x}{:02x}", color.r, color.g, color.b);
+}
+
+// As a file in `folder` names it; what lies on another drive stays absolute.
+std::string pathFrom(const std::filesystem::path& path, const std::filesystem::path& folder) {
+    namespace fs = std::filesystem;
+    if (path.empty()) return {};
+    std::error_code failed;
+    const fs::path base = fs::weakly_canonical(folder.empty() ? "." : folder, failed);
+    const fs::path target = fs::weakly_canonical(path, failed);
+    const fs::path relative = target.lexically_relative(base);
+    return (relative.empty() ? target : relative).generic_string();
+}
+
+Json json(const Transform& t) {
+    return Json{{"rotation", jsonQuaternion(t.parentFromEntity.rotation)},
+                {"translation", jsonVector(t.parentFromEntity.translation)}};
+}
+
+Json json(const MeshRenderer& m) {
+    return Json{{"color", hexOf(m.color)},
+                {"opacity", jsonNumber(m.opacity)},
+                {"visible", m.visible},
+                {"castsShadow", m.castsShadow}};
+}
+
+Json json(const RigidBody& b) {
+    return Json{{"massKg", jsonNumber(b.massKg)},
+                {"linearVelocity", jsonVector(b.linearVelocity)},
+                {"angularVelocity", jsonVector(b.angularVelocity)}};
+}
+
+// Only what the kind has a use for.
+Json json(const Collider& c) {
+    Json out{{"kind", nameOf(scene_format::kColliderKinds, c.kind)}};
+    switch (c.kind) {
+        case Collider::Kind::plane:
+            break;
+        case Collider::Kind::box:
+            out["halfExtents"] = jsonVector(c.halfExtents);
+            break;
+        case Collider::Kind::sphere:
+            out["radius"] = jsonNumber(c.radius);
+            break;
+        case Collider::Kind::capsule:
+            out["radius"] = jsonNumber(c.radius);
+            out["halfLength"] = jsonNumber(c.halfLength);
+            break;
+        case Collider::Kind::ramp:
+            out["width"] = jsonNumber(c.width);
+            out["length"] = jsonNumber(c.length);
+            out["angle"] = jsonNumber(c.angle);
+            break;
+        case Collider::Kind::stairs:
+            out["width"] = jsonNumber(c.width);
+            out["steps"] = c.steps;
+            out["rise"] = jsonNumber(c.rise);
+            out["run"] = jsonNumber(c.run);
+            out["landing"] = jsonNumber(c.length);
+            break;
+    }
+    out["friction"] = jsonNumber(c.friction);
+    return out;
+}
+
+Json json(const Ragdoll& r, const std::filesystem::path& folder) {
+    Json out = Json::object();
+    if (!r.model.empty()) out["model"] = pathFrom(r.model, folder);
+    if (!r.profile.empty()) out["profile"] = pathFrom(r.profile, folder);
+    if (r.pose) out["pose"] = nameOf(scene_format::kPoses, *r.pose);
+    if (r.clip) out["clip"] = Json{{"name", r.clip->clip}, {"seconds", jsonNumber(r.clip->seconds)}};
+    if (!r.pins.empty()) {
+        out["pins"] = Json::array();
+        for (const animation::Role role : r.pins)
+            out["pins"].push_back(animation::roleName(role));
+    }
+    out["linearVelocity"] = jsonVector(r.linearVelocity);
+    out["angularVelocity"] = jsonVector(r.angularVelocity);
+    return out;
+}
+
+Json json(const Light& l) {
+    Json out{{"kind", nameOf(scene_format::kLightKinds, l.kind)},
+             {"color", jsonVector(l.color)},
+             {"intensity", jsonNumber(l.intensity)}};
+    if (l.kind == Light::Kind::sun) {
+        out["angularRadius"] = jsonNumber(l.angularRadius);
+        out["castsShadow"] = l.castsShadow;
+        return out;
+    }
+    out["range"] = jsonNumber(l.range);
+    if (l.kind == Light::Kind::spot) {
+        out["outerAngle"] = jsonNumber(l.outerAngle);
+        out["innerAngle"] = jsonNumber(l.innerAngle);
+    }
+    return out;
+}
+
+Json json(const Camera& c) {
+    return Json{{"fieldOfView", jsonNumber(c.fieldOfView)},
+                {"distance", jsonNumber(c.distance)},
+                {"orthographic", c.orthographic},
+                {"active", c.active}};
+}
+
+Json json(const SceneSimulation& s) {
+    const physics::WorldSettings& world = s.world;
+    Json out{{"solver", nameOf(scene_format::kSolvers, world.solver)},
+             {"gravity", jsonVector(world.gravity)},
+             {"step", jsonNumber(s.dt)},
+             {"seconds", jsonNumber(s.seconds)},
+             {"threads", world.threads},
+             {"sleeping", world.sleeping},
+             {"seed", s.seed}};
+    if (world.substeps) out["substeps"] = *world.substeps;
+    if (world.iterations) out["iterations"] = *world.iterations;
+    if (world.linearDamping) out["linearDamping"] = jsonNumber(*world.linearDamping);
+    if (world.angularDamping) out["angularDamping"] = jsonNumber(*world.angularDamping);
+    out["focus"] = jsonVector(s.focus);
+    out["focusRadius"] = jsonNumber(s.focusRadius);
+    return out;
+}
+
+Json json(const EntityScene& scene, const Entity& entity, const std::filesystem::path& folder) {
+    Json out{{"id", entity.id}, {"name", entity.name}};
+    if (entity.parent != kNoEntity) out["parent"] = entity.parent;
+    const auto put = [&](const char* key, const auto* component) {
+        if (component != nullptr) out[key] = json(*component);
+    };
+    put("transform", scene.find<Transform>(entity.id));
+    put("meshRenderer", scene.find<MeshRenderer>(entity.id));
+    put("rigidBody", scene.find<RigidBody>(entity.id));
+    put("collider", scene.find<Collider>(entity.id));
+    if (const Ragdoll* ragdoll = scene.find<Ragdoll>(entity.id)) out["ragdoll"] = json(*ragdoll, folder);
+    put("light", scene.find<Light>(entity.id));
+    put("camera", scene.find<Camera>(entity.id));
+    return out;
+}
+
+}  // namespace
+
+bool isSceneFile(const std::filesystem::path& file) {
+    return file.filename().string().ends_with(scene_format::kExtension);
+}
+
+std::string sceneToJson(const EntityScene& scene, const std::filesystem::path& folder) {
+    Json out{{"$schema", scene_format::kSchema},
+             {"format", scene_format::kName},
+             {"version", EntityScene::kVersion},
+             {"name", scene.name},
+             {"simulation", json(scene.simulation)}};
+    out["entities"] = Json::array();
+    for (const Entity& entity : scene.entities)
+        out["entities"].push_back(json(scene, entity, folder));
+    return physics::jsonText(out);
+}
+
+Result<void> saveScene(const std::filesystem::path& file, const EntityScene& scene) {
+    return writeFileAtomically(file, sceneToJson(scene, file.parent_path()));
+}
+
+}  // namespace lutka::scene

@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "options.hpp"
+#include "scene/scene_cast.hpp"
+#include "scene/scene_file.hpp"
+
+namespace lutka::cli {
+namespace {
+
+struct Options {
+    std::string scene;
+    std::filesystem::path model;
+    int count = 1;
+    std::uint64_t seed = 0;
+    std::filesystem::path out;
+    bool json = false;
+};
+
+// A figure of common size, where no model says better.
+constexpr scene::FigureBounds kPerson{{-0.85F, 0.0F, -0.15F}, {0.85F, 1.75F, 0.15F}};
+
+scene::EntityScene sceneOf(const Options& options) {
+    scene::EntityScene scene;
+    if (scene::isSceneFile(options.scene)) {
+        scene = orLeave(scene::loadScene(options.scene));
+    } else {
+        scene::FigureBounds figure = kPerson;
+        if (!options.model.empty()) figure = scene::figureOf(*orLeave(scene::loadRagdoll(options.model))).bounds;
+        scene = orLeave(scene::makeScene(options.scene, options.count, options.seed, figure));
+    }
+    for (scene::Ragdoll& ragdoll : scene.all<scene::Ragdoll>()) {
+        if (ragdoll.model.empty()) ragdoll.model = options.model;
+    }
+    return scene;
+}
+
+template <class T>
+std::string mark(const scene::EntityScene& scene, scene::EntityId id, const char* name) {
+    return scene.find<T>(id) != nullptr ? fmt::format(" {}", name) : "";
+}
+
+void print(const scene::EntityScene& scene) {
+    fmt::print("{}: {} entities, {} characters\n", scene.name, scene.entities.size(),
+               scene.all<scene::Ragdoll>().size());
+    constexpr std::size_t most = 60;
+    for (std::size_t i = 0; i < std::min(scene.entities.size(), most); ++i) {
+        const scene::Entity& entity = scene.entities[i];
+        const vec3 at = scene::worldFromEntity(scene, entity.id).translation;
+        fmt::print("  {:>5}  {:<24} {:>7.2f} {:>7.2f} {:>7.2f} {}{}{}{}{}{}\n", entity.id, entity.name, at.x, at.y,
+                   at.z, mark<scene::Collider>(scene, entity.id, "collider"),
+                   mark<scene::RigidBody>(scene, entity.id, "rigidBody"),
+                   mark<scene::Ragdoll>(scene, entity.id, "ragdoll"), mark<scene::Light>(scene, entity.id, "light"),
+                   mark<scene::Camera>(scene, entity.id, "camera"),
+                   mark<scene::MeshRenderer>(scene, entity.id, "meshRenderer"));
+    }
+    if (scene.entities.size() > most) fmt::print("  and {} more\n", scene.entities.size() - most);
+}
+
+void run(const Options& options) {
+    const scene::EntityScene scene = sceneOf(options);
+    if (options.json) {
+        fmt::print("{}", scene::sceneToJson(scene, options.out.parent_path()));
+    } else {
+        print(scene);
+    }
+    if (options.out.empty()) return;
+    if (!scene::isSceneFile(options.out)) {
+        leave({ErrorCode::usage, fmt::format("'{}' doesn't end in .scene.json", options.out.string()), "--output",
+               "scene files are known by their name"});
+    }
+    orLeave(scene::saveScene(options.out, scene));
+}
+
+}  // namespace
+
+void addScene(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("scene", "Check a scene file, or write a named scene as a file");
+    command->add_option("SCENE", options->scene, "a named scene, or a file *.scene.json")->required();
+    command->add_option("--model", options->model, "model of the characters that have none");
+    command->add_option("--count", options->count, "number of dolls of a named scene")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    command->add_option("--seed", options->seed, "varies the start of a named scene; 0 stands upright")
+        ->capture_default_str();
+    command->add_option("-o,--output", options->out, "write the scene to this file (*.scene.json)");
+    command->add_flag("--json", options->json, "print the scene as a document on stdout");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace lutka::cli
