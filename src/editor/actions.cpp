@@ -9,11 +9,13 @@ constexpr Modifiers kPlain{};
 constexpr Modifiers kShift{true, false, false};
 constexpr Modifiers kControl{false, true, false};
 constexpr Modifiers kControlShift{true, true, false};
+constexpr Modifiers kControlAlt{false, true, true};
 
 constexpr std::array kBindings = {
     Binding{Key::o, kControl, Action::openModel},
     Binding{Key::s, kControl, Action::saveProfile},
     Binding{Key::s, kControlShift, Action::saveProfileAs},
+    Binding{Key::s, kControlAlt, Action::saveScene},
     Binding{Key::e, kControl, Action::exportBaked},
     Binding{Key::q, kControl, Action::quit},
     Binding{Key::z, kControl, Action::undo},
@@ -52,9 +54,9 @@ constexpr std::array kMouseHelp = {
     HelpLine{"0-9 . -", "during these: type the value"},
     HelpLine{"P", "while pulling: pin the body there"},
     HelpLine{"Enter, click / Esc, right", "done / cancel"},
-    HelpLine{"Shift+A", "add a box, ball or light"},
-    HelpLine{"X, Delete", "delete the selected objects"},
-    HelpLine{"Drop a file", "open a model or a profile"},
+    HelpLine{"Shift+A", "add an entity: box, sphere, light …"},
+    HelpLine{"X, Delete", "delete the selected entities"},
+    HelpLine{"Drop a file", "open a model, a profile or a scene"},
     HelpLine{"?", "this sheet"},
 };
 
@@ -80,6 +82,10 @@ std::string_view actionName(Action action) {
             return "Save profile";
         case Action::saveProfileAs:
             return "Save profile as";
+        case Action::saveScene:
+            return "Save scene";
+        case Action::saveSceneAs:
+            return "Save scene as";
         case Action::exportBaked:
             return "Export baked glb";
         case Action::quit:
@@ -108,6 +114,8 @@ std::string_view actionName(Action action) {
             return "Single step";
         case Action::reset:
             return "Reset";
+        case Action::returnToPlay:
+            return "Back to where Play was pressed";
         case Action::throwBall:
             return "Throw a ball where the mouse points";
         case Action::focus:

@@ -54,7 +54,8 @@ class Application {
     std::optional<ScriptWriter> recorder_;
     UserSettings settings_;
 
-    render::CharacterHandle character_;
+    std::vector<const scene::RagdollAsset*> uploaded_;  // whose characters `characters_` are
+    std::vector<render::CharacterHandle> characters_;
     int characterRevision_ = -1;
     render::FrameDescription frame_;
     FrameHistory history_;
@@ -152,12 +153,20 @@ Result<void> Application::record() {
 }
 
 Result<void> Application::followCharacter() {
-    if (characterRevision_ == editor_->characterRevision()) return {};
-    if (character_.valid()) renderer_->removeCharacter(character_);
-    character_ = {};
-    auto uploaded = renderer_->uploadCharacter(editor_->document().character());
-    if (!uploaded) return uploaded.error();
-    character_ = uploaded.value();
+    const std::vector<const scene::RagdollAsset*> wanted = editor_->document().assets();
+    const bool sameModel = characterRevision_ == editor_->characterRevision();
+    if (sameModel && wanted == uploaded_) return {};
+    for (const render::CharacterHandle old : characters_)
+        renderer_->removeCharacter(old);
+    characters_.clear();
+    uploaded_.clear();
+    for (const scene::RagdollAsset* asset : wanted) {
+        auto uploaded = renderer_->uploadCharacter(asset->character);
+        if (!uploaded) return uploaded.error();
+        characters_.push_back(uploaded.value());
+    }
+    uploaded_ = wanted;
+    if (sameModel) return {};
     characterRevision_ = editor_->characterRevision();
     settings_.remember(editor_->document().character().file);
     if (options_.settings) saveUserSettings(userSettingsFile(), settings_);
@@ -182,7 +191,7 @@ Result<void> Application::oneFrame(double seconds) {
     ui_->build(*editor_, history_);
     editor_->update(seconds);
     if (auto followed = followCharacter(); !followed) return followed;
-    editor_->describe(character_, frame_);
+    editor_->describe(characters_, frame_);
     if (!isSeen()) {
         host_->skipDrawing();
         return {};

@@ -1,5 +1,9 @@
 /// What the editor's picture shows: Editor::describe() and its parts.
 
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
 #include "editor/editor.hpp"
 
 namespace lutka::editor {
@@ -8,26 +12,72 @@ namespace {
 constexpr render::Color kSelection{255, 150, 46, 110};
 constexpr render::Color kSelectionLine{255, 150, 46, 255};
 constexpr render::Color kPin{90, 200, 255, 255};
-constexpr float kLightMarker = 0.12F;  // metres
+constexpr render::Color kMarker{214, 218, 224, 255};
+constexpr float kMarkerSize = 0.12F;  // metres
 
-void drawLight(const SceneObject& object, bool selected, render::FrameDescription& frame) {
-    render::LocalLight& light = frame.localLights.emplace_back();
-    light.position = object.worldFromObject.translation;
-    light.color = object.lightColor;
-    light.intensity = object.lightIntensity;
-    const render::Color color = selected ? kSelectionLine : render::fromLinear(vec4(object.lightColor, 1.0F));
-    render::addSphere(frame.lines, light.position, kLightMarker * 0.5F, color);
-    render::addCross(frame.lines, light.position, kLightMarker * 2.0F, color);
+void drawArrowAlong(const RigidTransform& frame, float length, render::Color color, render::LineBatch& lines) {
+    addArrow(lines, frame.translation, frame * vec3(0, 0, -length), color);
+}
+
+void drawLight(const scene::Light& light, const RigidTransform& frame, bool selected, render::LineBatch& lines) {
+    const render::Color color = selected ? kSelectionLine : render::fromLinear(vec4(light.color, 1.0F));
+    render::addSphere(lines, frame.translation, kMarkerSize * 0.5F, color);
+    render::addCross(lines, frame.translation, kMarkerSize * 2.0F, color);
+    if (light.kind != scene::Light::Kind::point) drawArrowAlong(frame, 0.5F, color, lines);
+    if (light.kind != scene::Light::Kind::spot || !selected) return;
+    // The rim of the cone a metre away.
+    constexpr int sides = 24;
+    const float radius = std::min(std::tan(light.outerAngle), 3.0F);
+    const auto rim = [&](int side) {
+        const float angle = 2.0F * kPi * static_cast<float>(side) / static_cast<float>(sides);
+        return frame * vec3(radius * std::cos(angle), radius * std::sin(angle), -1.0F);
+    };
+    for (int side = 0; side < sides; ++side) {
+        lines.add(rim(side), rim(side + 1), color);
+        if (side % 6 == 0) lines.add(frame.translation, rim(side), color);
+    }
+}
+
+// The pyramid that it looks through.
+void drawCamera(const scene::Camera& camera, const RigidTransform& frame, bool selected, render::LineBatch& lines) {
+    const render::Color color = selected ? kSelectionLine : kMarker;
+    constexpr float depth = 0.3F;
+    constexpr float aspect = 1.6F;
+    const float height = depth * std::tan(std::min(camera.fieldOfView, 2.6F) * 0.5F);
+    const auto corner = [&](int index) {
+        const float x = index == 0 || index == 3 ? -1.0F : 1.0F;
+        const float y = index < 2 ? -1.0F : 1.0F;
+        return frame * vec3(x * height * aspect, y * height, -depth);
+    };
+    for (int index = 0; index < 4; ++index) {
+        lines.add(frame.translation, corner(index), color);
+        lines.add(corner(index), corner((index + 1) % 4), color);
+    }
+    lines.add(corner(3), frame * vec3(0, height * 1.5F, -depth), color);
+    lines.add(corner(2), frame * vec3(0, height * 1.5F, -depth), color);
+}
+
+void drawShape(const scene::Collider& collider, const RigidTransform& frame, render::LineBatch& lines) {
+    using Kind = scene::Collider::Kind;
+    if (collider.kind == Kind::sphere) {
+        render::addSphere(lines, frame.translation, collider.radius * 1.02F, kSelectionLine);
+    } else if (collider.kind == Kind::capsule) {
+        render::addCapsule(lines, frame, collider.radius * 1.02F, collider.halfLength, kSelectionLine);
+    } else if (collider.kind == Kind::box) {
+        render::addBox(lines, frame, collider.halfExtents, kSelectionLine);
+    }
+    for (const scene::ColliderBox& box : scene::boxesOf(collider))
+        render::addBox(lines, frame * box.entityFromBox, box.halfExtents, kSelectionLine);
 }
 
 }  // namespace
 
-void Editor::describe(render::CharacterHandle character, render::FrameDescription& frame) {
+void Editor::describe(std::span<const render::CharacterHandle> characters, render::FrameDescription& frame) {
     frame.clear();
     frame.camera = workspace_.camera;
     drawer_.skinning =
         view.dualQuaternions ? animation::SkinningMethod::dualQuaternion : animation::SkinningMethod::linear;
-    drawer_.draw(player().simulation(), character, view.debug ? view.layers : scene::DebugLayers{}, player().alpha(),
+    drawer_.draw(player().simulation(), characters, view.debug ? view.layers : scene::DebugLayers{}, player().alpha(),
                  view.skinOpacity, frame);
     highlight(frame);
     drawOverlay(frame);
@@ -35,11 +85,12 @@ void Editor::describe(render::CharacterHandle character, render::FrameDescriptio
 
 void Editor::highlight(render::FrameDescription& frame) const {
     for (const Item& item : workspace_.selection.items()) {
-        if (item.kind != Item::Kind::body) continue;
-        const int at = drawer_.characterItem(item.doll);
+        const bool body = item.kind == Item::Kind::body;
+        const int doll = body ? item.doll : player().dollOf(static_cast<scene::EntityId>(item.index));
+        const int at = doll >= 0 ? drawer_.characterItem(doll) : -1;
         if (at < 0) continue;
         frame.characters[at].highlight = kSelection;
-        frame.characters[at].highlightJoint = document().asset().rig.jointOfBody[item.index];
+        frame.characters[at].highlightJoint = body ? document().asset().rig.jointOfBody[item.index] : -1;
     }
 }
 
@@ -52,16 +103,23 @@ void Editor::drawActivePart(render::FrameDescription& frame) const {
 }
 
 void Editor::drawOverlay(render::FrameDescription& frame) {
-    const std::vector<SceneObject> objects = player().presentObjects();
-    for (std::size_t i = 0; i < objects.size(); ++i) {
-        const bool selected = workspace_.selection.contains({Item::Kind::object, 0, static_cast<int>(i)});
-        if (objects[i].kind == SceneObject::Kind::light) {
-            drawLight(objects[i], selected, frame);
-        } else if (selected && objects[i].kind == SceneObject::Kind::ball) {
-            render::addSphere(frame.lines, objects[i].worldFromObject.translation, objects[i].radius * 1.02F,
-                              kSelectionLine);
-        } else if (selected) {
-            render::addBox(frame.lines, objects[i].worldFromObject, halfSizeOf(objects[i]), kSelectionLine);
+    const scene::EntityScene& scene = document().scene();
+    const auto selected = [&](scene::EntityId id) {
+        return workspace_.selection.contains({Item::Kind::object, 0, static_cast<int>(id)});
+    };
+    for (const scene::Light& light : scene.all<scene::Light>())
+        drawLight(light, player().worldFromEntity(light.entity), selected(light.entity), frame.lines);
+    for (const scene::Camera& camera : scene.all<scene::Camera>()) {
+        const RigidTransform place = player().worldFromEntity(camera.entity);
+        constexpr float here = 0.1F;  // metres: who looks through a camera does not see it
+        if (glm::distance(place.translation, render::eyeOf(workspace_.camera)) < here) continue;
+        drawCamera(camera, place, selected(camera.entity), frame.lines);
+    }
+    for (const Item& item : workspace_.selection.items()) {
+        if (item.kind != Item::Kind::object) continue;
+        const auto id = static_cast<scene::EntityId>(item.index);
+        if (const auto* collider = scene.find<scene::Collider>(id)) {
+            drawShape(*collider, player().worldFromEntity(id), frame.lines);
         }
     }
     for (const Item& item : workspace_.selection.items()) {

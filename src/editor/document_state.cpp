@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lutka::editor {
 namespace {
 
 using animation::HumanoidMap;
 using Fixed = std::array<std::optional<int>, animation::kRoleCount>;
-
-constexpr float kLightHalfSize = 0.12F;  // of the marker that is drawn and picked
 
 // Two roles on one joint can only come from the user's own choices.
 std::optional<Error> checkTwice(const animation::Character& character, const Fixed& fixed) {
@@ -27,28 +27,42 @@ std::optional<Error> checkTwice(const animation::Character& character, const Fix
 
 }  // namespace
 
-std::string_view objectKindName(SceneObject::Kind kind) {
-    switch (kind) {
-        case SceneObject::Kind::box:
-            return "Box";
-        case SceneObject::Kind::ball:
-            return "Ball";
-        case SceneObject::Kind::light:
-            break;
+Result<void> makeNamedScene(SceneSettings& settings, const scene::FigureBounds& figure) {
+    if (settings.scenario.empty()) return {};
+    auto named = scene::makeScene(settings.scenario, settings.count, settings.seed, figure);
+    if (!named) return named.error();
+    scene::EntityScene& fresh = named.value();
+    scene::EntityScene& old = settings.entities;
+    for (const scene::EntityId id : settings.made) {
+        // What the user hung on it stays, where it is.
+        for (const scene::Entity& entity : std::vector<scene::Entity>(old.entities)) {
+            const bool own = !std::binary_search(settings.made.begin(), settings.made.end(), entity.id);
+            if (entity.parent == id && own) scene::reparentEntity(old, entity.id, scene::kNoEntity);
+        }
     }
-    return "Light";
-}
-
-vec3 halfSizeOf(const SceneObject& object) {
-    switch (object.kind) {
-        case SceneObject::Kind::box:
-            return object.halfExtents;
-        case SceneObject::Kind::ball:
-            return vec3(object.radius);
-        case SceneObject::Kind::light:
-            break;
+    for (const scene::EntityId id : settings.made)
+        scene::removeEntity(old, id);
+    settings.made.clear();
+    const scene::EntityId above = scene::freeId(old) - 1;
+    for (scene::Entity& entity : fresh.entities) {
+        entity.id += above;
+        if (entity.parent != scene::kNoEntity) entity.parent += above;
+        settings.made.push_back(entity.id);
     }
-    return vec3(kLightHalfSize);
+    const auto take = [&](auto& components) {
+        for (auto& component : components) {
+            component.entity += above;
+            old.add(component.entity, component);
+        }
+    };
+    std::apply([&](auto&... all) { (take(all), ...); }, fresh.components);
+    old.entities.insert(old.entities.begin(), fresh.entities.begin(), fresh.entities.end());
+    old.name = fresh.name;
+    fresh.simulation.world = old.simulation.world;
+    fresh.simulation.dt = old.simulation.dt;
+    old.simulation = fresh.simulation;
+    if (old.entities.size() == settings.made.size()) settings.begun = old;
+    return {};
 }
 
 Result<HumanoidMap> mapWithFixed(const animation::Character& character, const Fixed& fixed) {

@@ -16,35 +16,21 @@
 
 namespace lutka::editor {
 
-/// A thing that the user put into the scene beside the dolls.
-struct SceneObject {
-    enum class Kind {
-        box,    ///< Static geometry.
-        ball,   ///< A free rigid body.
-        light,  ///< A point light; it has no body.
-    };
-    Kind kind = Kind::box;
-    RigidTransform worldFromObject{{1, 0, 0, 0}, {0, 0.25F, 0}};
-    vec3 halfExtents{0.25F, 0.25F, 0.25F};  ///< Box, metres, > 0.
-    float radius = 0.15F;                   ///< Ball, metres, > 0.
-    float massKg = 5.0F;                    ///< Ball, > 0.
-    vec3 lightColor{1.0F, 0.9F, 0.75F};     ///< Light, linear.
-    float lightIntensity = 4.0F;            ///< Light: irradiance at one metre.
-};
-
-[[nodiscard]] std::string_view objectKindName(SceneObject::Kind kind);
-/// Half the size of the object's box in its own frame; what the slab test picks.
-[[nodiscard]] vec3 halfSizeOf(const SceneObject& object);
-
 /// What is simulated, where and how.
 struct SceneSettings {
-    std::string scenario = "drop";  ///< A name of scene::scenarioRegistry().
-    int count = 1;                  ///< Dolls, [1, 10000].
-    std::uint64_t seed = 0;
-    physics::WorldSettings world;
-    scene::StartPose pose = scene::StartPose::bind;
-    std::vector<SceneObject> objects;
+    scene::EntityScene entities;
+    std::string scenario = "drop";      ///< The named scene that `made` were made as; empty: the scene is from a file.
+    int count = 1;                      ///< Its dolls, [1, 10000].
+    std::uint64_t seed = 0;             ///< And its seed.
+    std::vector<scene::EntityId> made;  ///< Sorted; what another named scene takes the place of.
+    scene::EntityScene begun;           ///< The scene before the user changed its entities.
+    scene::StartPose pose = scene::StartPose::bind;  ///< Of characters that say nothing themselves.
+    std::optional<scene::ClipStart> clip;            ///< Likewise, where they have it; wins over `pose`.
 };
+
+/// Makes the entities of the named scene anew; those that the user added stay, and so do the world's settings. Fails as
+/// makeScene() does; nothing is done when `scenario` is empty.
+[[nodiscard]] Result<void> makeNamedScene(SceneSettings& settings, const scene::FigureBounds& figure);
 
 /// Everything that editing changes; undo keeps whole ones.
 struct DocumentState {

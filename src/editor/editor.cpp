@@ -4,6 +4,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/files.hpp"
+#include "scene/scene_file.hpp"
+
 namespace lutka::editor {
 namespace {
 
@@ -12,9 +15,33 @@ constexpr float kThrowSpeed = 9.0F;  // m/s
 }  // namespace
 
 Result<std::unique_ptr<Editor>> Editor::create(const EditorOptions& options) {
-    auto document = EditorDocument::open(options.model, options.load);
+    if (options.sceneFile.empty()) {
+        auto document = EditorDocument::open(options.model, options.load);
+        if (!document) return document.error();
+        return create(std::move(document).value(), options);
+    }
+    const auto scene = scene::loadScene(options.sceneFile);
+    if (!scene) return scene.error();
+    EditorOptions all = options;
+    for (const scene::Entity& entity : scene.value().entities) {
+        const auto* ragdoll = scene.value().find<scene::Ragdoll>(entity.id);
+        if (ragdoll == nullptr || ragdoll->model.empty() || !options.model.empty()) continue;
+        all.model = ragdoll->model;
+        if (!ragdoll->profile.empty()) all.load.profile = ragdoll->profile;
+        break;
+    }
+    if (all.model.empty()) {
+        auto own = findAsset("models/mannequin.glb");
+        if (!own) return own.error();
+        all.model = own.value();
+    }
+    all.scene.entities = scene.value();
+    all.scene.scenario.clear();
+    auto document = EditorDocument::open(all.model, all.load);
     if (!document) return document.error();
-    return create(std::move(document).value(), options);
+    auto editor = create(std::move(document).value(), all);
+    if (editor) editor.value()->document().setSceneFile(options.sceneFile);
+    return editor;
 }
 
 Result<std::unique_ptr<Editor>> Editor::create(std::unique_ptr<EditorDocument> document, const EditorOptions& options) {
@@ -22,7 +49,9 @@ Result<std::unique_ptr<Editor>> Editor::create(std::unique_ptr<EditorDocument> d
     editor->workspace_.window = options.window;
     editor->load_ = options.load;
     editor->clock_ = options.clock;
-    document->startScene(options.scene);
+    SceneSettings scene = options.scene;
+    if (options.applyToWorld) options.applyToWorld(scene.entities.simulation.world);
+    if (auto started = document->startScene(scene); !started) return started.error();
     auto player = std::make_unique<Player>(*document, options.clock);
     if (auto built = player->rebuild(Player::Keep::nothing); !built) return built.error();
     editor->workspace_.document = std::move(document);
@@ -157,7 +186,13 @@ bool Editor::performOnDocument(Action action) {
             dialog = Dialog::openModel;
             return true;
         case Action::saveProfile:
-            requestSave(document().profileFile());
+            saveAll();
+            return true;
+        case Action::saveScene:
+            requestSaveScene(document().sceneFile());
+            return true;
+        case Action::saveSceneAs:
+            dialog = Dialog::saveSceneAs;
             return true;
         case Action::saveProfileAs:
             dialog = Dialog::saveAs;
@@ -223,6 +258,11 @@ bool Editor::performOnSimulation(Action action) {
             endTransform();
             workspace_.pulls.pins.clear();
             workspace_.report(player.reset());
+            return true;
+        case Action::returnToPlay:
+            endTransform();
+            player.returnToPlay();
+            workspace_.pulls.applyTo(player.simulation().world());
             return true;
         case Action::throwBall:
             throwBall();
@@ -319,7 +359,7 @@ void Editor::select(std::optional<Item> item, bool add) {
     machine_->fire(workspace_.selection.empty() ? Trigger::pickedNothing : Trigger::picked);
 }
 
-void Editor::beginAdd(SceneObject::Kind kind) {
+void Editor::beginAdd(scene::EntityKind kind) {
     endTransform();
     workspace_.addKind = kind;
     machine_->fire(Trigger::addKey);
@@ -353,6 +393,7 @@ void Editor::focus() {
         render::frameSphere(camera, workspace_.positionOf(*active), bodyRadius, aspect);
         return;
     }
+    if (player().simulation().dollCount() == 0) return;
     const auto bodies = player().bodiesOf(0);
     vec3 low = bodies.front().worldFromBody.translation;
     vec3 high = low;

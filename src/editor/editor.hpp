@@ -18,6 +18,8 @@ struct EditorOptions {
     std::filesystem::path model;
     scene::LoadOptions load;
     SceneSettings scene;
+    std::filesystem::path sceneFile;  ///< *.scene.json in place of `scene`; `model` may be empty then.
+    std::function<void(physics::WorldSettings&)> applyToWorld;  ///< Set: what was asked for beside the scene.
     render::Extent window{1280, 720};
     bool playing = true;
     scene::FrameLoop::Clock clock;  ///< Times the steps; none: as scene::FrameLoop says, for scripts and tests.
@@ -58,8 +60,9 @@ class Editor {
     void perform(Action action);
     /// Once a frame, after its events: `seconds` of wall time.
     void update(double seconds);
-    /// Fills in the frame: camera, dolls, objects, debug layers, highlights. `character` is the uploaded character().
-    void describe(render::CharacterHandle character, render::FrameDescription& frame);
+    /// Fills in the frame: camera, dolls, objects, debug layers, highlights. `characters` are the uploaded ones of
+    /// document().assets().
+    void describe(std::span<const render::CharacterHandle> characters, render::FrameDescription& frame);
 
     /// An edit of the document on behalf of a panel: ends what is under way in the view, tells failures, and lets the
     /// simulation follow. Whether it succeeded.
@@ -68,7 +71,18 @@ class Editor {
     void travel(int changes);
     /// Selects from a panel; nothing empties the selection.
     void select(std::optional<Item> item, bool add = false);
-    void beginAdd(SceneObject::Kind kind);
+    void beginAdd(scene::EntityKind kind);
+    /// edit() of the scene's entities. `group`: see UndoStack.
+    bool editScene(const std::string& label, const std::string& group,
+                   const std::function<void(scene::EntityScene&)>& change);
+    /// Adds so many of the edited character in the air over the middle, each turned another way.
+    void dropCopies(int count);
+    /// The view becomes that of a camera, and back: the camera is placed where the view is.
+    void lookThrough(scene::EntityId camera);
+    void placeCamera(scene::EntityId camera);
+    /// Makes this character, whose model or profile are others, the one that the panels edit. Asks first when there are
+    /// unsaved changes of the ragdoll.
+    void editCharacter(scene::EntityId character);
     /// Asks for the joint of a role by a click in the view.
     void beginPickJoint(animation::Role role);
     /// Ends that: takes the joint under the mouse, or none.
@@ -79,10 +93,14 @@ class Editor {
     void endSwing();
     [[nodiscard]] const LimitSwing* swing() const { return swing_ ? &*swing_ : nullptr; }
 
-    /// Opens a model (*.ragdoll.json: a profile for the present one); the old scene stays when that fails. Asks first
-    /// when there are unsaved changes.
+    /// Opens a model (*.ragdoll.json: a profile for the present one; *.scene.json: a scene); the old scene stays when
+    /// that fails. Asks first when there are unsaved changes.
     void open(const std::filesystem::path& file);
     [[nodiscard]] Result<void> save(const std::filesystem::path& file);
+    /// The same as requestSave() for the scene.
+    bool requestSaveScene(const std::filesystem::path& file, std::function<void()> afterwards = {});
+    /// And for the player's recording.
+    void requestSaveRecording(const std::filesystem::path& file);
     /// The first doll's motion from the scene's start, `seconds` long, as an animation of its skin (*.glb).
     [[nodiscard]] Result<void> exportBaked(const std::filesystem::path& file, float seconds);
 
@@ -108,7 +126,7 @@ class Editor {
     void answerOffer(bool take);
 
     /// A dialog that the UI should show; the UI clears it.
-    enum class Dialog { none, openModel, saveAs, exportBaked };
+    enum class Dialog { none, openModel, saveAs, exportBaked, saveSceneAs, saveRecording, openRecording };
     Dialog dialog = Dialog::none;
 
     [[nodiscard]] EditorDocument& document() { return *workspace_.document; }
@@ -135,6 +153,12 @@ class Editor {
     void endTransform();
     void afterUnsaved(std::function<void()> then);
     void openNow(const std::filesystem::path& file);
+    void openSceneNow(const std::filesystem::path& file);
+    /// The document of the scene's first character; null when it is the present one.
+    [[nodiscard]] Result<std::unique_ptr<EditorDocument>> openForScene(const scene::EntityScene& scene) const;
+    void adoptStarted(std::unique_ptr<EditorDocument> document);
+    void saveAll();
+    [[nodiscard]] bool anythingUnsaved() const { return document().unsaved() || document().sceneUnsaved(); }
     void greet(bool offerProfile);
     [[nodiscard]] static render::Camera startCamera(const scene::Simulation& simulation, render::Extent window);
     void togglePin();

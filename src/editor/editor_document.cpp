@@ -56,8 +56,10 @@ Result<std::unique_ptr<EditorDocument>> EditorDocument::open(const std::filesyst
     if (!asset) return asset.error();
     auto document = std::make_unique<EditorDocument>(std::move(asset).value());
     document->state_.fit = options.fit;
+    document->load_.import = options.import;
     if (options.profile) {
         document->state_.openedProfile = *options.profile;
+        document->openedWith_ = *options.profile;
         document->remember(*options.profile);
         document->rememberBase(document->state_);
     }
@@ -69,6 +71,8 @@ EditorDocument::EditorDocument(std::unique_ptr<scene::RagdollAsset> asset) : ass
     state_.base = asset_->profile;
     state_.profile = asset_->profile;
     saved_[{}] = {{}, physics::profileToJson(state_.profile)};
+    const Result<void> started = startScene({});
+    LUTKA_ASSERT(started.ok());
 }
 
 void EditorDocument::remember(const std::filesystem::path& file) {
@@ -89,6 +93,7 @@ void EditorDocument::adopt(DocumentState state) {
     state_ = std::move(state);
     ++revision_;
     unsaved_ = physics::profileToJson(state_.profile) != saved_[state_.openedProfile].profile;
+    followScene();
 }
 
 // Works on a copy, so that a change that fails half-way leaves nothing behind.
@@ -251,21 +256,6 @@ Result<void> EditorDocument::mend(std::span<const physics::Finding> findings) {
                      rememberBase(next);
                      return {};
                  });
-}
-
-Result<void> EditorDocument::setScene(const SceneSettings& scene, const std::string& label, const std::string& group) {
-    // A trial set-up tells whether the scenario exists and takes the count.
-    const auto bounds = scene::figureBounds(asset_->profile, asset_->rig);
-    const auto trial =
-        scene::makeScenario(scene.scenario, scene.count, scene.seed, bounds, state_.profile.standardFromModel);
-    if (!trial) return trial.error();
-    if (!isFinite(scene.world.gravity) || scene.world.threads < 1) {
-        return Error{ErrorCode::usage, "gravity must be finite and threads at least 1", "", ""};
-    }
-    return apply(label, group, [&](DocumentState& next) -> Result<void> {
-        next.scene = scene;
-        return {};
-    });
 }
 
 void EditorDocument::cancelGroup() {

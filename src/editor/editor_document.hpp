@@ -108,10 +108,34 @@ class EditorDocument {
     [[nodiscard]] Result<void> mend(std::span<const physics::Finding> findings);
 
     /// The scene to begin with; not an edit.
-    void startScene(const SceneSettings& scene) { state_.scene = scene; }
-    /// Scenario, count, gravity, objects … Fails with ErrorCode::usage for what no scene can have.
+    /// Named scenes are made when `scene.entities` is empty. Fails as setScene() does; the scene is then as it was.
+    [[nodiscard]] Result<void> startScene(SceneSettings scene);
+    [[nodiscard]] const scene::EntityScene& scene() const { return state_.scene.entities; }
+    /// Entities, gravity, start pose …; another scenario, count or seed makes the named scene's entities anew. Fails
+    /// with ErrorCode::usage for what no scene can have, and with ErrorCode::input when a character's files can't be
+    /// read.
     [[nodiscard]] Result<void> setScene(const SceneSettings& scene, const std::string& label,
                                         const std::string& group = "");
+
+    /// The characters of the scene: asset() first, then those with other models or profiles.
+    [[nodiscard]] std::vector<const scene::RagdollAsset*> assets() const;
+    /// Which of assets() each of scene().all<Ragdoll>() is.
+    [[nodiscard]] std::vector<int> assetOfRagdoll() const;
+    [[nodiscard]] const scene::RagdollAsset& assetOf(const scene::Ragdoll& ragdoll) const;
+    /// Whether it is the character that this document edits.
+    [[nodiscard]] bool isEdited(const scene::Ragdoll& ragdoll) const;
+    /// A scene from a file, in place of the present one and as one entry of undo, when its first character is the one
+    /// that is edited or none has a model.
+    [[nodiscard]] Result<void> useScene(const std::filesystem::path& file, const scene::EntityScene& scene);
+    /// Whether the scene differs from what it began with, was opened, or was saved last.
+    [[nodiscard]] bool sceneUnsaved() const { return sceneUnsaved_; }
+    /// Where saveScene() writes: the file that was opened or saved last; beside the model else.
+    [[nodiscard]] std::filesystem::path sceneFile() const;
+    [[nodiscard]] bool hasSceneFile() const { return !sceneFile_.empty(); }
+    /// Characters that name no model are written with that of asset(), and its profile when that has a file.
+    [[nodiscard]] Result<void> saveScene(const std::filesystem::path& file);
+    /// The scene counts as saved there (it was just read from it).
+    void setSceneFile(const std::filesystem::path& file);
 
     /// Ends a group of changes (the mouse was released).
     void endGroup() { undo_.endGroup(); }
@@ -146,9 +170,21 @@ class EditorDocument {
     void rememberBase(DocumentState& state) const;
     [[nodiscard]] Result<void> remap(DocumentState& state) const;
     void adopt(DocumentState state);
+    void followScene();
+    [[nodiscard]] Result<void> checkScene(SceneSettings& scene);
+    [[nodiscard]] Result<void> loadOthers(const scene::EntityScene& scene);
     void remember(const std::filesystem::path& file);
 
     std::unique_ptr<scene::RagdollAsset> asset_;
+    // Of the scene's other characters, by model and profile. Kept for undo.
+    using OtherKey = std::pair<std::filesystem::path, std::filesystem::path>;
+    std::map<OtherKey, std::unique_ptr<scene::RagdollAsset>> others_;
+    scene::LoadOptions load_;
+    std::filesystem::path openedWith_;  ///< The profile that open() was given: with another one, or none, the same
+                                        ///< model is another character of the scene.
+    std::filesystem::path sceneFile_;
+    scene::EntityScene savedScene_;
+    bool sceneUnsaved_ = false;
     DocumentState state_;
     UndoStack<DocumentState> undo_;
     std::uint64_t revision_ = 1;

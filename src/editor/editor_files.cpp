@@ -7,6 +7,7 @@
 #include "animation/export/write_glb.hpp"
 #include "editor/editor.hpp"
 #include "scene/bake.hpp"
+#include "scene/scene_file.hpp"
 
 namespace lutka::editor {
 namespace {
@@ -21,12 +22,12 @@ bool isProfile(const std::filesystem::path& file) {
 render::Camera Editor::startCamera(const scene::Simulation& simulation, render::Extent window) {
     constexpr float room = 1.15F;
     render::Camera camera = scene::cameraFor(simulation.scenario(), window.aspect());
-    render::dolly(camera, room);
+    if (!simulation.scenario().camera) render::dolly(camera, room);
     return camera;
 }
 
 void Editor::afterUnsaved(std::function<void()> then) {
-    if (!document().unsaved()) {
+    if (!anythingUnsaved()) {
         then();
         return;
     }
@@ -39,9 +40,12 @@ void Editor::answer(Answer answer) {
     if (then == nullptr || answer == Answer::cancel) return;
     if (answer == Answer::discard) {
         then();
-    } else if (requestSave(document().profileFile(), then)) {
-        then();
+        return;
     }
+    const auto saveScene = [this, then] {
+        if (!document().sceneUnsaved() || requestSaveScene(document().sceneFile(), then)) then();
+    };
+    if (!document().unsaved() || requestSave(document().profileFile(), saveScene)) saveScene();
 }
 
 bool Editor::requestSave(const std::filesystem::path& file, std::function<void()> afterwards) {
@@ -90,6 +94,10 @@ void Editor::answerOffer(bool take) {
 }
 
 void Editor::open(const std::filesystem::path& file) {
+    if (scene::isSceneFile(file)) {
+        afterUnsaved([this, file] { openSceneNow(file); });
+        return;
+    }
     if (isProfile(file)) {
         offeredProfile_.clear();
         if (edit([&](EditorDocument& document) { return document.useProfile(file); })) {
@@ -111,8 +119,20 @@ void Editor::openNow(const std::filesystem::path& file) {
     adopt(std::move(opened).value());
 }
 
+// The new character takes the place of the old one in the scene.
 void Editor::adopt(std::unique_ptr<EditorDocument> document) {
-    document->startScene(workspace_.document->state().scene);
+    SceneSettings settings = workspace_.document->state().scene;
+    for (scene::Ragdoll& ragdoll : settings.entities.all<scene::Ragdoll>()) {
+        if (!workspace_.document->isEdited(ragdoll)) continue;
+        ragdoll.model.clear();
+        ragdoll.profile.clear();
+        ragdoll.clip.reset();  // of the old one
+    }
+    if (workspace_.report(document->startScene(settings))) return;
+    adoptStarted(std::move(document));
+}
+
+void Editor::adoptStarted(std::unique_ptr<EditorDocument> document) {
     auto player = std::make_unique<Player>(*document, clock_);
     if (workspace_.report(player->rebuild(Player::Keep::nothing))) return;
     select(std::nullopt);
@@ -135,12 +155,16 @@ Result<void> Editor::save(const std::filesystem::path& file) {
 
 Result<void> Editor::exportBaked(const std::filesystem::path& file, float seconds) {
     endTransform();
+    if (player().simulation().dollCount() == 0 || !player().isEditedDoll(0)) {
+        return Error{ErrorCode::usage, "the first character of the scene is not the one that is edited", "",
+                     "press \"Edit this character\" on it first"};
+    }
     const bool wasPlaying = player().playing();
     // The document's asset lends itself to one simulation at a time: the export takes the scene from its start.
     if (auto reset = player().reset(); !reset) return reset;
     scene::Simulation& simulation = player().simulation();
     const float rate = 1.0F / simulation.options().dt;
-    scene::ClipBaker baker(0, rate, "lutka_" + document().state().scene.scenario);
+    scene::ClipBaker baker(0, rate, "lutka_" + document().scene().name);
     baker.sample(simulation);
     for (int step = 0; step < static_cast<int>(std::lround(seconds * rate)); ++step) {
         simulation.step();

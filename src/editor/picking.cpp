@@ -9,15 +9,15 @@ namespace {
 
 constexpr float kReach = 100.0F;  // metres
 
-vec3 boxNormal(const SceneObject& object, const vec3& world) {
-    const vec3 local = inverse(object.worldFromObject) * world / halfSizeOf(object);
+vec3 boxNormal(const PickTarget& target, const vec3& world) {
+    const vec3 local = inverse(target.worldFromBox) * world / target.halfExtents;
     const vec3 size = glm::abs(local);
     int axis = 0;
     if (size.y > size[axis]) axis = 1;
     if (size.z > size[axis]) axis = 2;
     vec3 normal(0);
     normal[axis] = local[axis] < 0.0F ? -1.0F : 1.0F;
-    return object.worldFromObject.rotation * normal;
+    return target.worldFromBox.rotation * normal;
 }
 
 struct Solid {
@@ -62,7 +62,7 @@ std::optional<float> rayBox(const render::Ray& ray, const RigidTransform& worldF
     return enter;
 }
 
-std::optional<Pick> pick(const render::Ray& ray, const physics::World& world, std::span<const SceneObject> objects,
+std::optional<Pick> pick(const render::Ray& ray, const physics::World& world, std::span<const PickTarget> targets,
                          bool throughGeometry) {
     std::optional<Pick> nearest;
     float distance = std::numeric_limits<float>::max();
@@ -75,17 +75,15 @@ std::optional<Pick> pick(const render::Ray& ray, const physics::World& world, st
     // What the world hit may be the very object: its slab is met at the same distance, and must win.
     constexpr float tie = 0.01F;
     distance += tie;
-    for (std::size_t i = 0; i < objects.size(); ++i) {
-        const SceneObject& object = objects[i];
-        const auto entered = rayBox(ray, object.worldFromObject, halfSizeOf(object));
+    for (const PickTarget& target : targets) {
+        const auto entered = rayBox(ray, target.worldFromBox, target.halfExtents);
         if (!entered || *entered > kReach) continue;
-        const bool isMarker = object.kind == SceneObject::Kind::light;
-        if (marker && !isMarker) continue;
-        if (marker == isMarker && *entered > distance) continue;
+        if (marker && !target.marker) continue;
+        if (marker == target.marker && *entered > distance) continue;
         const vec3 at = ray.origin + ray.direction * *entered;
-        nearest = Pick{{Item::Kind::object, 0, static_cast<int>(i)}, at, boxNormal(object, at)};
+        nearest = Pick{{Item::Kind::object, 0, target.entity}, at, boxNormal(target, at)};
         distance = *entered;
-        marker = isMarker;
+        marker = target.marker;
     }
     return nearest;
 }

@@ -9,6 +9,14 @@
 
 namespace lutka::editor {
 
+/// A box that a ray may meet: of a shape, or of a marker.
+struct PickTarget {
+    int entity = 0;  ///< What Item::index becomes.
+    RigidTransform worldFromBox;
+    vec3 halfExtents{0, 0, 0};
+    bool marker = false;  ///< Drawn over everything, and so picked before it.
+};
+
 /// What a ray through the picture meets first.
 struct Pick {
     Item item;
@@ -22,11 +30,11 @@ struct Pick {
 [[nodiscard]] std::optional<float> rayBox(const render::Ray& ray, const RigidTransform& worldFromBox,
                                           const vec3& halfExtents);
 
-/// The nearest thing under the ray: bodies by the world's ray test, objects by the slab test. Markers (lights) are in
-/// the layer before everything solid, since they are drawn over it: layers go before distance. Geometry of the scenario
-/// is not picked itself; it hides what is behind it, unless the ray goes `throughGeometry` (see-through walls).
+/// The nearest thing under the ray: bodies by the world's ray test, objects by the slab test. Markers (lights,
+/// cameras) are in the layer before everything solid, since they are drawn over it: layers go before distance. What has
+/// no target hides what is behind it, unless the ray goes `throughGeometry` (see-through walls).
 [[nodiscard]] std::optional<Pick> pick(const render::Ray& ray, const physics::World& world,
-                                       std::span<const SceneObject> objects, bool throughGeometry = false);
+                                       std::span<const PickTarget> targets, bool throughGeometry = false);
 
 /// Where the ray meets the horizontal plane at `height`, or the nearest solid surface before it; nothing when the ray
 /// points away from both, or the place is beyond 100 m.

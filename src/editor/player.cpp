@@ -1,6 +1,7 @@
 #include "editor/player.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "scene/scenario.hpp"
 
@@ -11,30 +12,6 @@ constexpr float kBallRadius = 0.09F;  // metres; with the mass, a medicine ball
 constexpr float kBallMassKg = 5.0F;
 constexpr float kPosingDamping = 0.75F;  // of the velocity that a step leaves while posing
 constexpr std::size_t kMaxThrown = 24;   // each makes every step slower
-
-physics::StaticShape staticOf(const SceneObject& object) {
-    physics::StaticShape shape;
-    shape.kind = physics::StaticShape::Kind::box;
-    shape.worldFromShape = object.worldFromObject;
-    shape.halfExtents = object.halfExtents;
-    return shape;
-}
-
-physics::DynamicProp propOf(const SceneObject& object) {
-    physics::DynamicProp prop;
-    prop.shape.kind = physics::BodyShape::Kind::sphere;
-    prop.shape.radius = object.radius;
-    prop.massKg = object.massKg;
-    prop.state.worldFromBody = object.worldFromObject;
-    return prop;
-}
-
-std::vector<SceneObject> ballsOf(std::span<const SceneObject> objects) {
-    std::vector<SceneObject> balls;
-    std::copy_if(objects.begin(), objects.end(), std::back_inserter(balls),
-                 [](const SceneObject& object) { return object.kind == SceneObject::Kind::ball; });
-    return balls;
-}
 
 // Whether every body is the same part of the same joint, so that its state can go on bit for bit.
 bool sameFrames(std::span<const physics::BodyProfile> a, std::span<const physics::BodyProfile> b) {
@@ -51,23 +28,33 @@ bool sameFrames(std::span<const physics::BodyProfile> a, std::span<const physics
 /// What moves, with the joints and the roles it belongs to, so that it survives a change of the ragdoll.
 struct Player::Motion {
     struct Doll {
+        scene::EntityId entity = scene::kNoEntity;
+        int asset = 0;
         std::vector<physics::BodyState> bodies;
         std::vector<RigidTransform> modelFromJoint;
         RigidTransform worldFromModel;
     };
-    std::vector<physics::BodyProfile> bodies;  // as they were
+    std::vector<std::vector<physics::BodyProfile>> bodies;  // of each asset, as they were
     std::vector<Doll> dolls;
     std::vector<physics::BodyState> props;
-    std::size_t ownProps = 0;  // the scenario's
+    std::vector<scene::EntityId> propEntities;  // of the scene's own, which come first
 };
+
+Player::Player(EditorDocument& document, scene::FrameLoop::Clock clock)
+    : document_(document), loop_({}, std::move(clock)) {}
+
+Player::~Player() = default;
 
 Player::Motion Player::capture() const {
     Motion motion;
     scene::Simulation& simulation = *simulation_;
-    const scene::RagdollAsset& asset = simulation.asset();
-    motion.bodies = asset.profile.bodies;
+    for (const scene::RagdollAsset* asset : simulation.assets())
+        motion.bodies.push_back(asset->profile.bodies);
     for (int doll = 0; doll < simulation.dollCount(); ++doll) {
+        const scene::RagdollAsset& asset = simulation.assetOf(doll);
         Motion::Doll& one = motion.dolls.emplace_back();
+        one.entity = entityOfDoll(doll);
+        one.asset = simulation.scenario().dolls[doll].asset;
         one.bodies.resize(asset.profile.bodies.size());
         one.modelFromJoint.resize(asset.character.skeleton.parents.size());
         one.worldFromModel = simulation.worldFromModel(doll);
@@ -76,29 +63,58 @@ Player::Motion Player::capture() const {
     }
     for (int prop = 0; prop < simulation.world().propCount(); ++prop)
         motion.props.push_back(simulation.world().propState(prop));
-    motion.ownProps = static_cast<std::size_t>(firstBall_);
+    motion.propEntities = simulation.scenario().propEntities;
     return motion;
+}
+
+// Whether an entity starts where and as it did at the last rebuild: then its motion goes on.
+bool Player::startsAsBefore(scene::EntityId id) const {
+    const scene::EntityScene& now = document_.scene();
+    if (scene::findEntity(built_, id) == nullptr) return false;
+    const RigidTransform was = scene::worldFromEntity(built_, id);
+    const RigidTransform is = scene::worldFromEntity(now, id);
+    if (was.translation != is.translation || was.rotation != is.rotation) return false;
+    const auto* oldDoll = built_.find<scene::Ragdoll>(id);
+    const auto* newDoll = now.find<scene::Ragdoll>(id);
+    if ((oldDoll == nullptr) != (newDoll == nullptr)) return false;
+    const auto* oldBody = built_.find<scene::RigidBody>(id);
+    const auto* newBody = now.find<scene::RigidBody>(id);
+    if (oldBody != nullptr && newBody != nullptr &&
+        (oldBody->linearVelocity != newBody->linearVelocity || oldBody->angularVelocity != newBody->angularVelocity)) {
+        return false;
+    }
+    return oldDoll == nullptr || *oldDoll == *newDoll;
 }
 
 void Player::restore(const Motion& motion) {
     scene::Simulation& simulation = *simulation_;
-    const bool same = sameFrames(motion.bodies, simulation.asset().profile.bodies);
-    std::vector<physics::BodyState> bodies(simulation.asset().profile.bodies.size());
-    const int dolls = std::min(simulation.dollCount(), static_cast<int>(motion.dolls.size()));
-    for (int doll = 0; doll < dolls; ++doll) {
-        const Motion::Doll& was = motion.dolls[doll];
-        if (!same) placeByJoints(motion.bodies, was.bodies, was.modelFromJoint, was.worldFromModel, bodies);
-        simulation.world().setBodies(doll, same ? was.bodies : bodies);
+    std::map<scene::EntityId, const Motion::Doll*> before;
+    for (const Motion::Doll& doll : motion.dolls)
+        before[doll.entity] = &doll;
+    std::vector<physics::BodyState> bodies;
+    for (int doll = 0; doll < simulation.dollCount(); ++doll) {
+        const auto was = before.find(entityOfDoll(doll));
+        if (was == before.end() || !startsAsBefore(was->first)) continue;
+        const scene::RagdollAsset& asset = simulation.assetOf(doll);
+        const std::vector<physics::BodyProfile>& oldBodies = motion.bodies[was->second->asset];
+        if (asset.character.skeleton.parents.size() != was->second->modelFromJoint.size()) continue;
+        const bool same = sameFrames(oldBodies, asset.profile.bodies);
+        bodies.resize(asset.profile.bodies.size());
+        if (!same) {
+            placeByJoints(doll, oldBodies, was->second->bodies, was->second->modelFromJoint,
+                          was->second->worldFromModel, bodies);
+        }
+        simulation.world().setBodies(doll, same ? was->second->bodies : bodies);
     }
     simulation.refresh();
 }
 
 // Other bodies than before: the skin stays where it is, and each body goes on with its role's velocity.
-void Player::placeByJoints(std::span<const physics::BodyProfile> oldBodies,
+void Player::placeByJoints(int doll, std::span<const physics::BodyProfile> oldBodies,
                            std::span<const physics::BodyState> oldStates,
                            std::span<const RigidTransform> modelFromJoint, const RigidTransform& worldFromModel,
                            std::span<physics::BodyState> bodies) const {
-    const scene::RagdollAsset& asset = simulation_->asset();
+    const scene::RagdollAsset& asset = simulation_->assetOf(doll);
     physics::bodiesFromPose(asset.rig, modelFromJoint, worldFromModel, bodies);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const auto old = std::find_if(oldBodies.begin(), oldBodies.end(), [&](const physics::BodyProfile& body) {
@@ -112,42 +128,39 @@ void Player::placeByJoints(std::span<const physics::BodyProfile> oldBodies,
 }
 
 Result<scene::Scenario> Player::makeScenario() {
-    const scene::RagdollAsset& asset = document_.asset();
-    const SceneSettings& settings = document_.state().scene;
-    auto scenario = scene::makeScenario(settings.scenario, settings.count, settings.seed,
-                                        scene::figureBounds(asset.profile, asset.rig), asset.profile.standardFromModel);
-    if (!scenario) return scenario.error();
-    firstBall_ = static_cast<int>(scenario.value().props.size());
-    for (const SceneObject& object : settings.objects) {
-        if (object.kind == SceneObject::Kind::box) scenario.value().statics.push_back(staticOf(object));
-        if (object.kind == SceneObject::Kind::ball) scenario.value().props.push_back(propOf(object));
+    std::vector<scene::Figure> figures;
+    for (const scene::RagdollAsset* asset : document_.assets())
+        figures.push_back(scene::figureOf(*asset));
+    auto scenario = scene::compileScene(document_.scene(), figures, document_.assetOfRagdoll());
+    if (!scenario) return scenario;
+    const std::optional<scene::ClipStart>& clip = document_.state().scene.clip;
+    for (scene::Placement& doll : scenario.value().dolls) {
+        if (!doll.pose && !doll.clip && doll.asset == 0) doll.clip = clip;
     }
     auto& props = scenario.value().props;
     props.insert(props.end(), thrown_.begin(), thrown_.end());
     return scenario;
 }
 
-// Props go on where they are. A ball that the user moved since, or that is new, starts where the document has it.
+// Props go on where they are. What the user moved since, or what is new, starts where the document has it.
 void Player::keepProps(const Motion& motion, scene::Scenario& scenario) const {
-    const auto own = static_cast<std::size_t>(firstBall_);
-    if (own == motion.ownProps) {
-        for (std::size_t i = 0; i < own; ++i)
-            scenario.props[i].state = motion.props[i];
+    for (std::size_t i = 0; i < scenario.propEntities.size(); ++i) {
+        const scene::EntityId id = scenario.propEntities[i];
+        const auto was = std::find(motion.propEntities.begin(), motion.propEntities.end(), id);
+        if (was == motion.propEntities.end() || !startsAsBefore(id)) continue;
+        scenario.props[i].state = motion.props[static_cast<std::size_t>(was - motion.propEntities.begin())];
     }
-    const std::vector<SceneObject> before = ballsOf(built_);
-    const std::vector<SceneObject> now = ballsOf(document_.state().scene.objects);
-    for (std::size_t i = 0; i < std::min(before.size(), now.size()); ++i) {
-        const bool moved = before[i].worldFromObject.translation != now[i].worldFromObject.translation;
-        if (!moved) scenario.props[own + i].state = motion.props[motion.ownProps + i];
-    }
-    const std::size_t firstOld = motion.ownProps + before.size();
-    const std::size_t firstNew = own + now.size();
+    const std::size_t firstOld = motion.propEntities.size();
+    const std::size_t firstNew = scenario.propEntities.size();
     for (std::size_t i = 0; firstOld + i < motion.props.size() && firstNew + i < scenario.props.size(); ++i)
         scenario.props[firstNew + i].state = motion.props[firstOld + i];
 }
 
 Result<void> Player::rebuild(Keep keep) {
+    replaying_ = false;
+    recordingOn_ = recordingOn_ && keep == Keep::motion;
     if (keep == Keep::nothing) {
+        atPlay_.reset();
         thrown_.clear();
         posing_ = false;
         secondsBefore_ = 0.0;
@@ -162,18 +175,18 @@ Result<void> Player::rebuild(Keep keep) {
     auto scenario = makeScenario();
     if (!scenario) return scenario.error();
     if (motion) keepProps(*motion, scenario.value());
-    built_ = document_.state().scene.objects;
-    scene::SimulationOptions options;
-    options.world = document_.state().scene.world;
+    scene::SimulationOptions options = scene::simulationOptionsOf(document_.scene());
     if (posing_) {
         options.world.gravity = vec3(0);
         options.world.sleeping = false;
     }
     options.pose = document_.state().scene.pose;
-    auto simulation = scene::Simulation::create(document_.asset(), std::move(scenario).value(), options);
+    auto simulation = scene::Simulation::create(document_.assets(), std::move(scenario).value(), options);
     if (!simulation) return simulation.error();
     simulation_ = std::move(simulation).value();
     if (motion) restore(*motion);
+    built_ = document_.scene();
+    loop_.setStepSeconds(options.dt);
     loop_.restart();
     return {};
 }
@@ -200,41 +213,103 @@ Result<void> Player::setPosing(bool posing) {
     return rebuilt;
 }
 
+void Player::setPlaying(bool playing) {
+    if (playing && !playing_ && !replaying_ && simulation_ != nullptr) atPlay_ = std::make_unique<Motion>(capture());
+    if (playing && replaying_ && replaySeconds_ >= recordedSeconds()) scrubTo(0.0);
+    playing_ = playing;
+}
+
+void Player::returnToPlay() {
+    if (atPlay_ == nullptr) return;
+    endReplay();
+    playing_ = false;
+    // As a rebuild would, but for the time: what was thrown since stays thrown.
+    const std::unique_ptr<Motion> motion = std::move(atPlay_);
+    simulation_.reset();
+    auto scenario = makeScenario();
+    if (!scenario) return;
+    keepProps(*motion, scenario.value());
+    scene::SimulationOptions options = scene::simulationOptionsOf(document_.scene());
+    options.pose = document_.state().scene.pose;
+    auto simulation = scene::Simulation::create(document_.assets(), std::move(scenario).value(), options);
+    if (!simulation) return;
+    simulation_ = std::move(simulation).value();
+    restore(*motion);
+    loop_.restart();
+}
+
 void Player::advance(double seconds) {
+    if (replaying_) return advanceReplay(seconds);
     if (!playing_ && !posing_) return;
     loop_.setSpeed(posing_ ? 1.0 : speed_);
     loop_.advance(seconds, [&] {
         simulation_->step();
         if (posing_) dampDolls(kPosingDamping);
+        keepStep();
     });
 }
 
 void Player::stepOnce() {
     playing_ = false;
+    if (replaying_) return scrubTo(replaySeconds_ + static_cast<double>(recording_.dt));
     loop_.restart();
     simulation_->step();
+    keepStep();
 }
 
 Result<void> Player::reset() {
     return rebuild(Keep::nothing);
 }
 
-RigidTransform Player::worldFromObject(int object) const {
-    const SceneObject& one = document_.state().scene.objects[object];
-    if (one.kind != SceneObject::Kind::ball || stale()) return one.worldFromObject;
-    const auto before = std::span(built_).first(static_cast<std::size_t>(object));
-    return simulation_->worldFromProp(firstBall_ + static_cast<int>(ballsOf(before).size()), alpha());
+int Player::dollOf(scene::EntityId id) const {
+    const auto& dolls = simulation_->scenario().dollEntities;
+    const auto at = std::find(dolls.begin(), dolls.end(), id);
+    return at != dolls.end() ? static_cast<int>(at - dolls.begin()) : -1;
 }
 
-std::vector<SceneObject> Player::presentObjects() const {
-    std::vector<SceneObject> objects = document_.state().scene.objects;
-    for (std::size_t i = 0; i < objects.size(); ++i)
-        objects[i].worldFromObject = worldFromObject(static_cast<int>(i));
-    return objects;
+RigidTransform Player::worldFromEntity(scene::EntityId id) const {
+    const RigidTransform start = scene::worldFromEntity(document_.scene(), id);
+    if (stale()) return start;
+    const auto& props = simulation_->scenario().propEntities;
+    if (const auto prop = std::find(props.begin(), props.end(), id); prop != props.end()) {
+        return simulation_->worldFromProp(static_cast<int>(prop - props.begin()), alpha());
+    }
+    if (const int doll = dollOf(id); doll >= 0) {
+        return {start.rotation, bodiesOf(doll).front().worldFromBody.translation};
+    }
+    return start;
+}
+
+std::vector<PickTarget> Player::pickTargets() const {
+    std::vector<PickTarget> targets;
+    const scene::EntityScene& scene = document_.scene();
+    const auto add = [&](scene::EntityId id, const RigidTransform& world, const vec3& half, bool marker) {
+        targets.push_back({static_cast<int>(id), world, half, marker});
+    };
+    for (const scene::Collider& collider : scene.all<scene::Collider>()) {
+        const auto* mesh = scene.find<scene::MeshRenderer>(collider.entity);
+        // What is see-through must not hide what is behind it.
+        if (mesh == nullptr || !mesh->visible || mesh->opacity < 0.5F) continue;
+        const RigidTransform world = worldFromEntity(collider.entity);
+        const std::vector<scene::ColliderBox> boxes = scene::boxesOf(collider);
+        for (const scene::ColliderBox& box : boxes)
+            add(collider.entity, world * box.entityFromBox, box.halfExtents, false);
+        const auto box = scene::boxOf(scene, collider.entity);
+        if (boxes.empty() && box) add(collider.entity, world, box->half, false);
+    }
+    const auto addMarker = [&](scene::EntityId id) {
+        if (scene.find<scene::Collider>(id) != nullptr) return;
+        if (const auto box = scene::boxOf(scene, id)) add(id, worldFromEntity(id), box->half, true);
+    };
+    for (const scene::Light& light : scene.all<scene::Light>())
+        addMarker(light.entity);
+    for (const scene::Camera& camera : scene.all<scene::Camera>())
+        addMarker(camera.entity);
+    return targets;
 }
 
 std::vector<physics::BodyState> Player::bodiesOf(int doll) const {
-    std::vector<physics::BodyState> bodies(simulation_->asset().profile.bodies.size());
+    std::vector<physics::BodyState> bodies(simulation_->assetOf(doll).profile.bodies.size());
     simulation_->world().getBodies(doll, bodies);
     return bodies;
 }

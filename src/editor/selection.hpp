@@ -11,7 +11,7 @@ struct Item {
     enum class Kind { body, object };
     Kind kind = Kind::body;
     int doll = 0;   ///< Body: which doll.
-    int index = 0;  ///< Body of the profile, or index into SceneSettings::objects.
+    int index = 0;  ///< Body of the profile, or the id of an entity.
 
     friend bool operator==(const Item&, const Item&) = default;
 };

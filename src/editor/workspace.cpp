@@ -2,12 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lutka::editor {
 
 std::optional<Pick> Workspace::pickUnderMouse() const {
-    // The pit's walls are drawn see-through, so that they do not hide what fell into it.
-    const bool seeThrough = player->simulation().scenario().name == "pile";
-    return pick(mouseRay(), player->simulation().world(), player->presentObjects(), seeThrough);
+    // Walls that are drawn see-through do not hide what fell between them.
+    const auto& looks = player->simulation().scenario().staticLooks;
+    constexpr int solid = 128;
+    const bool seeThrough =
+        std::any_of(looks.begin(), looks.end(), [](const scene::Look& look) { return look.color.a < solid; });
+    auto picked = pick(mouseRay(), player->simulation().world(), player->pickTargets(), seeThrough);
+    // The bodies of the other characters are theirs: the character as a whole is what is picked.
+    if (picked && picked->item.kind == Item::Kind::body && !player->isEditedDoll(picked->item.doll)) {
+        picked->item = {Item::Kind::object, 0, static_cast<int>(player->entityOfDoll(picked->item.doll))};
+    }
+    return picked;
 }
 
 std::optional<HandleScene> Workspace::handleScene() const {
@@ -32,7 +42,7 @@ std::optional<Handle> Workspace::handleUnderMouse() const {
 
 std::vector<vec3> Workspace::worldOfJoints(int doll) const {
     scene::Simulation& simulation = player->simulation();
-    std::vector<RigidTransform> pose(simulation.asset().character.skeleton.parents.size());
+    std::vector<RigidTransform> pose(simulation.assetOf(doll).character.skeleton.parents.size());
     simulation.pose(doll, player->alpha(), pose);
     std::vector<vec3> places;
     places.reserve(pose.size());
@@ -58,14 +68,16 @@ bool Workspace::edit(const std::function<Result<void>(EditorDocument&)>& change)
 }
 
 vec3 Workspace::positionOf(const Item& item) const {
-    if (item.kind == Item::Kind::object) return player->worldFromObject(item.index).translation;
+    if (item.kind == Item::Kind::object) {
+        return player->worldFromEntity(static_cast<scene::EntityId>(item.index)).translation;
+    }
     return player->bodiesOf(item.doll)[static_cast<std::size_t>(item.index)].worldFromBody.translation;
 }
 
 std::string Workspace::nameOf(const Item& item) const {
     if (item.kind == Item::Kind::object) {
-        const SceneObject& object = document->state().scene.objects[item.index];
-        return fmt::format("{} {}", objectKindName(object.kind), item.index + 1);
+        const scene::Entity* entity = scene::findEntity(document->scene(), static_cast<scene::EntityId>(item.index));
+        return entity != nullptr ? entity->name : "";
     }
     const physics::BodyProfile& body = document->profile().bodies[item.index];
     const std::string doll = player->simulation().dollCount() > 1 ? fmt::format(" of doll {}", item.doll + 1) : "";
@@ -79,8 +91,10 @@ void Workspace::follow() {
     pulls.applyTo(player->simulation().world());
     const auto& state = document->state();
     selection.keepIf([&](const Item& item) {
-        if (item.kind == Item::Kind::object) return item.index < static_cast<int>(state.scene.objects.size());
-        return item.doll < player->simulation().dollCount() &&
+        if (item.kind == Item::Kind::object) {
+            return scene::findEntity(state.scene.entities, static_cast<scene::EntityId>(item.index)) != nullptr;
+        }
+        return item.doll < player->simulation().dollCount() && player->isEditedDoll(item.doll) &&
                item.index < static_cast<int>(state.profile.bodies.size());
     });
 }

@@ -47,7 +47,8 @@ struct Workspace {
     struct Press {
         vec2 position{0, 0};
         std::optional<Pick> pick;
-        vec3 bodyPoint{0, 0, 0};  ///< pick->position in the body's frame, when it is a body: that goes on falling.
+        bool wasSelected = false;  ///< `pick` was, before it was pressed.
+        vec3 bodyPoint{0, 0, 0};   ///< pick->position in the body's frame, when it is a body: that goes on falling.
     };
     std::optional<Press> press;
     MouseButton cameraButton = MouseButton::middle;  ///< What drags the camera.
@@ -58,11 +59,11 @@ struct Workspace {
     int hotJoint = animation::kNoJoint;       ///< … and the joint under the mouse then.
     std::optional<EditorDocument::PartValues> clipboard;
 
-    SceneObject::Kind addKind = SceneObject::Kind::box;
-    std::optional<SceneObject> ghost;  ///< What State::add would place.
-    float frameSeconds = 0.0F;         ///< Wall time of the present frame.
-    std::string hint;                  ///< What the present state is doing, for the status bar.
-    render::LineBatch overlay;         ///< Lines of the present state, made anew each frame.
+    scene::EntityKind addKind = scene::EntityKind::box;
+    std::optional<RigidTransform> ghost;  ///< Where State::add would place it.
+    float frameSeconds = 0.0F;            ///< Wall time of the present frame.
+    std::string hint;                     ///< What the present state is doing, for the status bar.
+    render::LineBatch overlay;            ///< Lines of the present state, made anew each frame.
     std::vector<Toast> toasts;
     std::vector<LogLine> log;
 

@@ -142,21 +142,6 @@ class Compiler {
         local.innerAngle = light.innerAngle;
     }
 
-    static render::Camera viewOf(const Camera& camera, const RigidTransform& world) {
-        const vec3 back = world.rotation * vec3(0, 0, 1);
-        render::Camera view;
-        view.distance = camera.distance;
-        view.target = world.translation - back * camera.distance;
-        view.pitch = std::asin(std::clamp(back.y, -1.0F, 1.0F));
-        // Straight up or down the heading is that of the picture's upper edge.
-        const vec3 up = world.rotation * vec3(0, 1, 0);
-        constexpr float pole = 0.9999F;
-        view.yaw = std::abs(back.y) < pole ? std::atan2(back.x, back.z) : std::atan2(-up.x * back.y, -up.z * back.y);
-        view.fieldOfView = camera.fieldOfView;
-        view.orthographic = camera.orthographic;
-        return view;
-    }
-
     const EntityScene& scene_;
     std::span<const Figure> figures_;
     std::span<const int> assetOfRagdoll_;
@@ -164,6 +149,21 @@ class Compiler {
 };
 
 }  // namespace
+
+render::Camera viewOf(const Camera& camera, const RigidTransform& world) {
+    const vec3 back = world.rotation * vec3(0, 0, 1);
+    render::Camera view;
+    view.distance = camera.distance;
+    view.target = world.translation - back * camera.distance;
+    view.pitch = std::asin(std::clamp(back.y, -1.0F, 1.0F));
+    // Straight up or down the heading is that of the picture's upper edge.
+    const vec3 up = world.rotation * vec3(0, 1, 0);
+    constexpr float pole = 0.9999F;
+    view.yaw = std::abs(back.y) < pole ? std::atan2(back.x, back.z) : std::atan2(-up.x * back.y, -up.z * back.y);
+    view.fieldOfView = camera.fieldOfView;
+    view.orthographic = camera.orthographic;
+    return view;
+}
 
 Result<Scenario> compileScene(const EntityScene& scene, std::span<const Figure> figures,
                               std::span<const int> assetOfRagdoll) {

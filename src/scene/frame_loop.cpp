@@ -27,6 +27,14 @@ void FrameLoop::setSpeed(double speed) {
     settings_.speed = speed;
 }
 
+void FrameLoop::setStepSeconds(float seconds) {
+    LUTKA_ASSERT(seconds > 0.0F);
+    const double rate = 1.0 / static_cast<double>(seconds);
+    constexpr double rounding = 1e-3;
+    const bool whole = std::abs(rate - std::round(rate)) < rounding;
+    settings_.stepSeconds = whole ? 1.0 / std::round(rate) : static_cast<double>(seconds);
+}
+
 void FrameLoop::restart() {
     owed_ = 0.0;
     alpha_ = 1.0F;

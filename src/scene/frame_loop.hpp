@@ -48,6 +48,8 @@ class FrameLoop {
     [[nodiscard]] const FrameLoopSettings& settings() const { return settings_; }
     [[nodiscard]] double speed() const { return settings_.speed; }
     void setSpeed(double speed);
+    /// Of the simulation's steps from now on. A float's 1/60 counts as 1/60.
+    void setStepSeconds(float seconds);
     /// The simulation was set back or stepped by hand: its present state is shown and no time is owed.
     void restart();
 

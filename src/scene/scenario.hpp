@@ -91,6 +91,9 @@ struct Figure {
 [[nodiscard]] Result<EntityScene> makeScene(std::string_view name, int count, std::uint64_t seed,
                                             const FigureBounds& figure);
 
+/// What a camera that stands at `worldFromCamera` sees.
+[[nodiscard]] render::Camera viewOf(const Camera& camera, const RigidTransform& worldFromCamera);
+
 /// What runs of a scene. `figures` are those of the simulation's assets, and `assetOfRagdoll` says which of them each
 /// of scene.all<Ragdoll>() is. Fails with ErrorCode::input, all problems at once, when validate() finds some.
 [[nodiscard]] Result<Scenario> compileScene(const EntityScene& scene, std::span<const Figure> figures,

@@ -177,6 +177,8 @@ TEST_CASE("the panels look as they did when they were looked at") {
     picture("mapping.png");
     script.add(textTyped('?'));
     picture("help.png");
+    script.key(Key::escape).click(190, 43).click(60, 132).move(640, 620);  // the tab Scene, the floor
+    picture("scene.png");
     script.save(scratch / "script.jsonl");
     const Outcome outcome = edit(scratch, "--headless --input " + (scratch / "script.jsonl").string() + screenshots);
     if (skipped(outcome)) return;
@@ -188,11 +190,13 @@ TEST_CASE("the panels look as they did when they were looked at") {
     const auto body = render::loadPng(scratch / "body.png");
     const auto mapping = render::loadPng(scratch / "mapping.png");
     const auto help = render::loadPng(scratch / "help.png");
-    REQUIRE((body.ok() && mapping.ok() && help.ok()));
+    const auto scene = render::loadPng(scratch / "scene.png");
+    REQUIRE((body.ok() && mapping.ok() && help.ok() && scene.ok()));
     test::checkGolden(cropped(body.value(), 0, top, 310, height), "editor_skeleton");
     test::checkGolden(cropped(body.value(), 937, top, 343, height), "editor_body");
     test::checkGolden(cropped(mapping.value(), 0, top, 310, height), "editor_mapping");
-    test::checkGolden(cropped(mapping.value(), 937, top, 343, height), "editor_scene");
+    test::checkGolden(cropped(mapping.value(), 937, top, 343, height), "editor_physics");
+    test::checkGolden(cropped(scene.value(), 0, top, 310, height), "editor_scene");
     test::checkGolden(cropped(help.value(), 200, 100, 880, 440), "editor_help");
 }
 

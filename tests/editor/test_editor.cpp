@@ -18,6 +18,14 @@ using test::send;
 
 namespace {
 
+scene::EntityId addBox(Editor& editor, const vec3& at) {
+    scene::EntityId id = scene::kNoEntity;
+    REQUIRE(editor.editScene("Add", "", [&](scene::EntityScene& scene) {
+        id = scene::addEntity(scene, scene::EntityKind::box, {{1, 0, 0, 0}, at}).id;
+    }));
+    return id;
+}
+
 EditorOptions paused() {
     EditorOptions options;
     options.playing = false;
@@ -237,14 +245,12 @@ TEST_CASE("middle drag orbits, with shift pans, wheel zooms, and each ends with 
 
 TEST_CASE("G X 1.5 Enter moves a box by 1.5 metres and one undo brings it back") {
     const auto editor = makeEditor(paused());
-    SceneSettings scene = editor->document().state().scene;
-    scene.objects.emplace_back().worldFromObject.translation = vec3(1, 0.25F, 0);
-    REQUIRE(editor->edit([&](EditorDocument& document) { return document.setScene(scene, "Add"); }));
-    editor->select(Item{Item::Kind::object, 0, 0});
+    const scene::EntityId box = addBox(*editor, {1, 0.25F, 0});
+    editor->select(Item{Item::Kind::object, 0, static_cast<int>(box)});
     for (const Key key : {Key::g, Key::x, Key::digit1, Key::period, Key::digit5, Key::enter})
         send(*editor, keyPressed(key));
     CHECK(editor->state() == State::selected);
-    const auto place = [&] { return editor->document().state().scene.objects[0].worldFromObject.translation; };
+    const auto place = [&] { return scene::worldFromEntity(editor->document().scene(), box).translation; };
     CHECK(glm::distance(place(), vec3(2.5F, 0.25F, 0)) < 1e-4F);
     send(*editor, keyPressed(Key::z, {false, true, false}));
     CHECK(glm::distance(place(), vec3(1, 0.25F, 0)) < 1e-6F);
@@ -253,10 +259,10 @@ TEST_CASE("G X 1.5 Enter moves a box by 1.5 metres and one undo brings it back")
     CHECK(glm::distance(place(), vec3(1, 0.25F, 0)) < 1e-6F);
     for (const Key key : {Key::s, Key::digit2, Key::enter})
         send(*editor, keyPressed(key));
-    CHECK(editor->document().state().scene.objects[0].halfExtents.x == Approx(0.5F));
+    CHECK(editor->document().scene().find<scene::Collider>(box)->halfExtents.x == Approx(0.5F));
     for (const Key key : {Key::r, Key::y, Key::digit9, Key::digit0, Key::enter})
         send(*editor, keyPressed(key));
-    const quat turned = editor->document().state().scene.objects[0].worldFromObject.rotation;
+    const quat turned = scene::worldFromEntity(editor->document().scene(), box).rotation;
     CHECK(glm::distance(turned * vec3(1, 0, 0), vec3(0, 0, -1)) < 1e-4F);
 }
 
@@ -291,24 +297,29 @@ TEST_CASE("R turns a whole doll about its hips and Esc turns it back") {
 
 TEST_CASE("Shift+A places a box where the mouse points and Delete asks before it takes it away") {
     const auto editor = makeEditor(paused());
+    const std::size_t before = editor->document().scene().entities.size();
+    const auto added = [&] { return editor->document().scene().entities.size() - before; };
     send(*editor, mouseMoved({300, 650}));
     send(*editor, keyPressed(Key::a, {true, false, false}));
     REQUIRE(editor->state() == State::add);
     send(*editor, leftDown());
     send(*editor, leftUp());
     REQUIRE(editor->state() == State::selected);
-    REQUIRE(editor->document().state().scene.objects.size() == 1);
-    CHECK(editor->document().state().scene.objects[0].worldFromObject.translation.y == Approx(0.25F).margin(1e-3));
+    REQUIRE(added() == 1);
+    CHECK(editor->document()
+              .scene()
+              .find<scene::Transform>(editor->document().scene().entities.back().id)
+              ->parentFromEntity.translation.y == Approx(0.25F).margin(1e-3));
     send(*editor, keyPressed(Key::del));
     CHECK(editor->state() == State::remove);
     send(*editor, keyPressed(Key::escape));
-    CHECK(editor->document().state().scene.objects.size() == 1);
+    CHECK(added() == 1);
     send(*editor, keyPressed(Key::x));
     send(*editor, keyPressed(Key::enter));
-    CHECK(editor->document().state().scene.objects.empty());
+    CHECK(added() == 0);
     CHECK(editor->state() == State::idle);
     editor->perform(Action::undo);
-    CHECK(editor->document().state().scene.objects.size() == 1);
+    CHECK(added() == 1);
 }
 
 TEST_CASE("a ball that is thrown meets the doll and is gone after a reset") {

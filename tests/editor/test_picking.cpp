@@ -9,10 +9,8 @@ using namespace lutka::editor;
 
 namespace {
 
-SceneObject boxAt(const vec3& at) {
-    SceneObject box;
-    box.worldFromObject.translation = at;
-    return box;
+PickTarget boxAt(int entity, const vec3& at) {
+    return {entity, {{1, 0, 0, 0}, at}, vec3(0.25F), false};
 }
 
 }  // namespace
@@ -44,20 +42,20 @@ TEST_CASE("the nearest of bodies and objects is picked, and markers before both"
     CHECK(editor->document().profile().bodies[body->item.index].role == animation::Role::hips);
     CHECK(body->position.z > hips.z);
 
-    const SceneObject before = boxAt(hips + vec3(0, 0, 1));
-    const SceneObject behind = boxAt(hips - vec3(0, 0, 1));
-    const std::vector<SceneObject> boxes = {behind, before};
+    const PickTarget before = boxAt(8, hips + vec3(0, 0, 1));
+    const PickTarget behind = boxAt(7, hips - vec3(0, 0, 1));
+    const std::vector<PickTarget> boxes = {behind, before};
     const auto box = pick(ray, world, boxes);
     REQUIRE(box.has_value());
-    CHECK(box->item == Item{Item::Kind::object, 0, 1});
+    CHECK(box->item == Item{Item::Kind::object, 0, 8});
     CHECK(glm::distance(box->normal, vec3(0, 0, 1)) < 1e-4F);
 
-    SceneObject light = boxAt(hips - vec3(0, 0, 2));
-    light.kind = SceneObject::Kind::light;
-    const std::vector<SceneObject> withLight = {behind, light, before};
+    PickTarget light = boxAt(9, hips - vec3(0, 0, 2));
+    light.marker = true;
+    const std::vector<PickTarget> withLight = {behind, light, before};
     const auto marker = pick(ray, world, withLight);
     REQUIRE(marker.has_value());
-    CHECK(marker->item == Item{Item::Kind::object, 0, 1});
+    CHECK(marker->item == Item{Item::Kind::object, 0, 9});
 
     CHECK_FALSE(pick({hips + vec3(0, 0, 3), {0, 1, 0}}, world, {}).has_value());
     CHECK_FALSE(pick({{5, 3, 0}, {0, -1, 0}}, world, {}).has_value());  // the floor is not picked
@@ -65,11 +63,11 @@ TEST_CASE("the nearest of bodies and objects is picked, and markers before both"
 
 TEST_CASE("walls hide what is behind them unless they are see-through") {
     const auto editor = test::makeEditor();
-    SceneSettings scene = editor->document().state().scene;
-    SceneObject wall = boxAt(test::placeOf(*editor, animation::Role::hips) + vec3(0, 0, 1));
-    wall.halfExtents = vec3(1.0F, 1.0F, 0.1F);
-    scene.objects = {wall};
-    REQUIRE(editor->edit([&](EditorDocument& document) { return document.setScene(scene, "Wall"); }));
+    const vec3 at = test::placeOf(*editor, animation::Role::hips) + vec3(0, 0, 1);
+    REQUIRE(editor->editScene("Wall", "", [&](scene::EntityScene& scene) {
+        const scene::EntityId id = scene::addEntity(scene, scene::EntityKind::box, {{1, 0, 0, 0}, at}).id;
+        scene.find<scene::Collider>(id)->halfExtents = vec3(1.0F, 1.0F, 0.1F);
+    }));
     const vec3 hips = test::placeOf(*editor, animation::Role::hips);
     const render::Ray ray{hips + vec3(0, 0, 4), {0, 0, -1}};
     const physics::World& world = editor->player().simulation().world();

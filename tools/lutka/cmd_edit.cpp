@@ -12,11 +12,7 @@ namespace {
 
 struct Options {
     RagdollOptions ragdoll;
-    std::string scene = "drop";
-    int count = 1;
-    std::uint64_t seed = 0;
-    int threads = 1;
-    std::string solver = "bullet";
+    SceneOptions scene;
     bool paused = false;
     bool headless = false;
     std::filesystem::path input;
@@ -46,18 +42,19 @@ render::RenderQuality qualityFromName(const std::string& name) {
     return name == "fast" ? render::RenderQuality::fast : render::RenderQuality::automatic;
 }
 
-editor::ApplicationOptions applicationOptions(const Options& options) {
+editor::ApplicationOptions applicationOptions(Options& options) {
     editor::ApplicationOptions application;
     editor::EditorOptions& edit = application.editor;
+    const bool fromFile = options.scene.takeFile(options.ragdoll.model.model);
     edit.model = options.ragdoll.model.model;
-    if (edit.model.empty()) edit.model = orLeave(findAsset("models/mannequin.glb"));
+    if (fromFile) edit.sceneFile = options.scene.scene;
+    if (edit.model.empty() && !fromFile) edit.model = orLeave(findAsset("models/mannequin.glb"));
     edit.load = options.ragdoll.load();
     edit.load.import.loadTextures = true;
-    edit.scene.scenario = options.scene;
-    edit.scene.count = options.count;
-    edit.scene.seed = options.seed;
-    edit.scene.world.threads = options.threads;
-    edit.scene.world.solver = solverFromName(options.solver);
+    edit.scene.scenario = options.scene.scene;
+    edit.scene.count = options.scene.count.value_or(1);
+    edit.scene.seed = options.scene.seed.value_or(0);
+    edit.applyToWorld = [given = options.scene](physics::WorldSettings& world) { given.applyTo(world); };
     edit.window = parseSize(options.size);
     edit.playing = !options.paused;
     application.headless = options.headless;
@@ -79,7 +76,7 @@ editor::ApplicationOptions applicationOptions(const Options& options) {
     return application;
 }
 
-void run(const Options& options) {
+void run(Options& options) {
     if (options.states) {
         fmt::print("{}", editor::stateDiagram());
         return;
@@ -93,14 +90,9 @@ void addEdit(CLI::App& app) {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("edit", "Open the editor: watch, drag and edit the ragdoll");
     options->ragdoll.addTo(*command);
-    command->get_option("MODEL")->required(false)->description("model file; default: our own mannequin");
-    command->add_option("--scene", options->scene, "the scene to begin with")->capture_default_str();
-    command->add_option("--count", options->count, "number of dolls")
-        ->check(CLI::Range(1, 10000))
-        ->capture_default_str();
-    command->add_option("--seed", options->seed, "varies the start; 0 stands upright")->capture_default_str();
-    command->add_option("--threads", options->threads, "threads to step with")->check(CLI::Range(1, 256));
-    addSolverOption(*command, options->solver);
+    command->get_option("MODEL")->required(false)->description(
+        "model file, or a scene (*.scene.json); default: our own mannequin");
+    options->scene.addTo(*command);
     command->add_flag("--paused", options->paused, "begin paused");
     command->add_flag("--headless", options->headless, "no window: draw on an EGL context");
     command->add_option("--input", options->input, "replay window events from a file (*.jsonl)");

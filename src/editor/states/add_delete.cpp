@@ -1,12 +1,17 @@
 #include <fmt/format.h>
 
+#include <array>
+
 #include "editor/states/states.hpp"
 
 namespace lutka::editor {
 namespace {
 
 constexpr render::Color kGhost{120, 200, 255, 255};
-constexpr float kLightHeight = 1.8F;  // metres above what the mouse points at
+constexpr float kMarkerHeight = 1.8F;  // metres of a light or camera above what the mouse points at
+constexpr float kDropHeight = 0.5F;    // metres that a new character falls
+
+using scene::EntityKind;
 
 /// Add: a preview follows the mouse until a click places it.
 class AddHandler final : public StateHandler {
@@ -22,11 +27,15 @@ class AddHandler final : public StateHandler {
 
     void update() override {
         follow();
-        workspace_.hint = fmt::format("Add {}: click places it, 1 box, 2 ball, 3 light, Esc cancels",
-                                      objectKindName(workspace_.addKind));
+        workspace_.hint = fmt::format(
+            "Add {}: click places it, Esc cancels   1 box 2 sphere 3 light 4 capsule 5 ramp 6 stairs "
+            "7 character 8 spot 9 camera",
+            scene::entityKindName(workspace_.addKind));
         if (workspace_.ghost) {
-            render::addBox(workspace_.overlay, workspace_.ghost->worldFromObject, halfSizeOf(*workspace_.ghost),
-                           kGhost);
+            const scene::EntityBox box = ghostBox();
+            RigidTransform frame = *workspace_.ghost;
+            frame.translation = frame * box.center;
+            render::addBox(workspace_.overlay, frame, box.half, kGhost);
         }
     }
 
@@ -45,24 +54,53 @@ class AddHandler final : public StateHandler {
         if (!event.pressed) return std::nullopt;
         if (event.key == Key::escape) return workspace_.ended();
         if (event.key == Key::enter) return place();
-        if (event.key == Key::digit1) workspace_.addKind = SceneObject::Kind::box;
-        if (event.key == Key::digit2) workspace_.addKind = SceneObject::Kind::ball;
-        if (event.key == Key::digit3) workspace_.addKind = SceneObject::Kind::light;
+        constexpr std::array kinds = {EntityKind::box,       EntityKind::sphere, EntityKind::point,
+                                      EntityKind::capsule,   EntityKind::ramp,   EntityKind::stairs,
+                                      EntityKind::character, EntityKind::spot,   EntityKind::camera};
+        const int choice = static_cast<int>(event.key) - static_cast<int>(Key::digit1);
+        if (choice >= 0 && choice < static_cast<int>(kinds.size())) workspace_.addKind = kinds[choice];
         return std::nullopt;
     }
 
   private:
+    [[nodiscard]] bool lifted() const {
+        const EntityKind kind = workspace_.addKind;
+        return kind == EntityKind::point || kind == EntityKind::spot || kind == EntityKind::sun ||
+               kind == EntityKind::camera;
+    }
+    // Boxes, spheres and capsules are told by their middle.
+    [[nodiscard]] bool standsOnMiddle() const {
+        const EntityKind kind = workspace_.addKind;
+        return kind == EntityKind::box || kind == EntityKind::sphere || kind == EntityKind::capsule;
+    }
+    // What the preview shows: the new entity's own box, or a character's.
+    [[nodiscard]] scene::EntityBox ghostBox() const {
+        scene::EntityScene alone;
+        const scene::EntityId id = scene::addEntity(alone, workspace_.addKind, {}).id;
+        if (workspace_.addKind == EntityKind::character) {
+            const scene::FigureBounds figure = scene::figureOf(workspace_.document->asset()).bounds;
+            const vec3 half = (figure.high - figure.low) * 0.5F;
+            return {{0, half.y, 0}, half};
+        }
+        constexpr float marker = 0.15F;
+        return scene::boxOf(alone, id).value_or(scene::EntityBox{vec3(0), vec3(marker)});
+    }
+
     void follow() {
         const auto at = surfaceUnder(workspace_.mouseRay(), workspace_.player->simulation().world(), 0.0F);
         if (!at) {
             workspace_.ghost.reset();
             return;
         }
-        SceneObject object;
-        object.kind = workspace_.addKind;
-        const float lift = object.kind == SceneObject::Kind::light ? kLightHeight : halfSizeOf(object).y;
-        object.worldFromObject.translation = *at + vec3(0, lift, 0);
-        workspace_.ghost = object;
+        RigidTransform place;
+        place.translation = *at;
+        if (lifted()) place.translation.y += kMarkerHeight;
+        if (standsOnMiddle()) place.translation.y += ghostBox().half.y;
+        if (workspace_.addKind == EntityKind::character) place.translation.y += kDropHeight;
+        if (workspace_.addKind == EntityKind::spot || workspace_.addKind == EntityKind::sun) {
+            place.rotation = glm::angleAxis(radians(-90.0F), vec3(1, 0, 0));  // shines down
+        }
+        workspace_.ghost = place;
     }
 
     std::optional<Trigger> place() {
@@ -71,13 +109,12 @@ class AddHandler final : public StateHandler {
             workspace_.say(Toast::Kind::info, "There is no ground under the mouse here");
             return std::nullopt;
         }
-        SceneSettings scene = workspace_.document->state().scene;
-        scene.objects.push_back(*workspace_.ghost);
-        const std::string label = fmt::format("Add {}", objectKindName(workspace_.ghost->kind));
-        const int index = static_cast<int>(scene.objects.size()) - 1;
-        if (workspace_.report(workspace_.document->setScene(scene, label))) return workspace_.ended();
+        SceneSettings settings = workspace_.document->state().scene;
+        const scene::EntityId id = scene::addEntity(settings.entities, workspace_.addKind, *workspace_.ghost).id;
+        const std::string label = fmt::format("Add {}", scene::findEntity(settings.entities, id)->name);
+        if (workspace_.report(workspace_.document->setScene(settings, label))) return workspace_.ended();
         workspace_.follow();
-        workspace_.selection.set({Item::Kind::object, 0, index});
+        workspace_.selection.set({Item::Kind::object, 0, static_cast<int>(id)});
         return Trigger::endedWithSelection;
     }
 
@@ -106,14 +143,14 @@ class DeleteHandler final : public StateHandler {
         if (!event.pressed) return std::nullopt;
         if (event.key == Key::escape) return workspace_.ended();
         if (event.key != Key::enter && event.key != Key::x && event.key != Key::del) return std::nullopt;
-        SceneSettings scene = workspace_.document->state().scene;
-        std::vector<SceneObject> kept;
-        for (int i = 0; i < static_cast<int>(scene.objects.size()); ++i) {
-            if (!workspace_.selection.contains({Item::Kind::object, 0, i})) kept.push_back(scene.objects[i]);
+        SceneSettings settings = workspace_.document->state().scene;
+        for (const Item& item : workspace_.selection.items()) {
+            if (item.kind == Item::Kind::object) {
+                scene::removeEntity(settings.entities, static_cast<scene::EntityId>(item.index));
+            }
         }
-        scene.objects = std::move(kept);
         workspace_.selection.clear();
-        workspace_.report(workspace_.document->setScene(scene, "Delete"));
+        workspace_.report(workspace_.document->setScene(settings, "Delete"));
         workspace_.follow();
         return Trigger::endedWithNothing;
     }

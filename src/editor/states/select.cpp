@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <glm/geometric.hpp>
 
 #include "editor/states/states.hpp"
@@ -35,7 +37,7 @@ class SelectHandler final : public StateHandler {
     std::optional<Trigger> mouseMove(const vec2& position, const vec2& /*movement*/) override {
         hover();
         if (!workspace_.press || glm::distance(position, workspace_.press->position) < kDragPixels) return std::nullopt;
-        if (workspace_.press->pick) return Trigger::dragSelection;
+        if (workspace_.press->pick && movable(*workspace_.press)) return Trigger::dragSelection;
         workspace_.cameraButton = MouseButton::left;
         return Trigger::dragBackground;
     }
@@ -51,7 +53,10 @@ class SelectHandler final : public StateHandler {
             return std::nullopt;
         }
         if (!event.modifiers.shift && workspace_.handleUnderMouse()) return Trigger::handlePressed;
-        workspace_.press = Workspace::Press{workspace_.mouse, workspace_.pickUnderMouse(), vec3(0)};
+        workspace_.press = Workspace::Press{workspace_.mouse, workspace_.pickUnderMouse(), false, vec3(0)};
+        if (const auto& pick = workspace_.press->pick) {
+            workspace_.press->wasSelected = workspace_.selection.contains(pick->item);
+        }
         if (const auto& pick = workspace_.press->pick; pick && pick->item.kind == Item::Kind::body) {
             const auto bodies = workspace_.player->bodiesOf(pick->item.doll);
             workspace_.press->bodyPoint = inverse(bodies[pick->item.index].worldFromBody) * pick->position;
@@ -88,6 +93,15 @@ class SelectHandler final : public StateHandler {
     }
 
   private:
+    // The stairs and walls of a named scene fill the picture: a drag on them orbits, unless they were chosen before.
+    [[nodiscard]] bool movable(const Workspace::Press& press) const {
+        if (press.pick->item.kind == Item::Kind::body || press.wasSelected) return true;
+        const std::vector<scene::EntityId>& made = workspace_.document->state().scene.made;
+        const auto id = static_cast<scene::EntityId>(press.pick->item.index);
+        const bool moves = workspace_.document->scene().find<scene::RigidBody>(id) != nullptr;
+        return moves || !std::binary_search(made.begin(), made.end(), id);
+    }
+
     void hover() {
         const auto handle = workspace_.press ? std::nullopt : workspace_.handleUnderMouse();
         workspace_.hotHandle = handle ? std::optional(handle->kind) : std::nullopt;

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+
 #include <glm/geometric.hpp>
 
 #include "editor/axis_lock.hpp"
@@ -32,7 +34,13 @@ class TransformHandler : public StateHandler {
         startMouse_ = byDrag_ ? workspace_.press->position : workspace_.mouse;
         if (!item_) return;
         pivot_ = workspace_.positionOf(*item_);
-        if (item_->kind == Item::Kind::object) object_ = workspace_.player->presentObjects()[item_->index];
+        if (item_->kind == Item::Kind::object) {
+            before_ = workspace_.document->scene();
+            // A character is moved by where it starts, anything else from where it is now.
+            const bool character = before_.find<scene::Ragdoll>(entity()) != nullptr;
+            world_ =
+                character ? scene::worldFromEntity(before_, entity()) : workspace_.player->worldFromEntity(entity());
+        }
         begin();
         change();
     }
@@ -105,12 +113,19 @@ class TransformHandler : public StateHandler {
     }
     [[nodiscard]] bool onBody() const { return item_->kind == Item::Kind::body; }
 
-    void setObject(const SceneObject& object, const char* what) {
-        SceneSettings scene = workspace_.document->state().scene;
-        scene.objects[item_->index] = object;
-        const std::string label = fmt::format("{} {}", what, objectKindName(object.kind));
-        workspace_.report(workspace_.document->setScene(scene, label, kGroup));
+    [[nodiscard]] scene::EntityId entity() const { return static_cast<scene::EntityId>(item_->index); }
+
+    // The scene is as it was when the state began, but for what `change` does to it.
+    void setEntity(const char* what, const std::function<void(scene::EntityScene&)>& change) {
+        SceneSettings settings = workspace_.document->state().scene;
+        settings.entities = before_;
+        change(settings.entities);
+        const std::string label = fmt::format("{} {}", what, workspace_.nameOf(*item_));
+        workspace_.report(workspace_.document->setScene(settings, label, kGroup));
         workspace_.follow();
+    }
+    void placeEntity(const char* what, const RigidTransform& world) {
+        setEntity(what, [&](scene::EntityScene& scene) { scene::placeEntity(scene, entity(), world); });
     }
 
     void keepOrCancelEdits(bool confirmed) {
@@ -127,7 +142,8 @@ class TransformHandler : public StateHandler {
 
     Workspace& workspace_;
     std::optional<Item> item_;
-    SceneObject object_;  // as it was
+    scene::EntityScene before_;  // as it was
+    RigidTransform world_;       // where the entity was
     vec3 pivot_{0, 0, 0};
     vec2 startMouse_{0, 0};
     AxisLock lock_;
@@ -188,9 +204,7 @@ class GrabHandler final : public TransformHandler {
             if (workspace_.pulls.mouse) workspace_.pulls.mouse->target = target_;
             return;
         }
-        SceneObject moved = object_;
-        moved.worldFromObject.translation += target_ - start_;
-        setObject(moved, "Move");
+        placeEntity("Move", {world_.rotation, world_.translation + target_ - start_});
     }
 
     void hold() override {
@@ -272,9 +286,7 @@ class RotateHandler final : public TransformHandler {
             }
         }
         if (onBody()) return;
-        SceneObject turned = object_;
-        turned.worldFromObject.rotation = glm::normalize(rotation() * object_.worldFromObject.rotation);
-        setObject(turned, "Rotate");
+        placeEntity("Rotate", {glm::normalize(rotation() * world_.rotation), world_.translation});
     }
 
     // While it is turned the doll keeps still, whatever gravity wants.
@@ -349,17 +361,7 @@ class ScaleHandler final : public TransformHandler {
             workspace_.follow();
             return;
         }
-        SceneObject scaled = object_;
-        scaled.radius *= factor_;
-        scaled.lightIntensity *= factor_;
-        if (lock_.kind == AxisLock::Kind::free) {
-            scaled.halfExtents *= factor_;
-        } else {
-            for (int axis = 0; axis < 3; ++axis) {
-                if ((axis == lock_.axis) == (lock_.kind == AxisLock::Kind::axis)) scaled.halfExtents[axis] *= factor_;
-            }
-        }
-        setObject(scaled, "Scale");
+        setEntity("Scale", [&](scene::EntityScene& scene) { scale(scene); });
     }
 
     void finish(bool confirmed) override { keepOrCancelEdits(confirmed); }
@@ -367,6 +369,22 @@ class ScaleHandler final : public TransformHandler {
     [[nodiscard]] std::string describe() const override { return fmt::format("Scale x{:.3f}{}", factor_, suffix()); }
 
   private:
+    // A shape by its measures, a light by how strong it is, a camera by how far it sees.
+    void scale(scene::EntityScene& scene) const {
+        if (auto* collider = scene.find<scene::Collider>(entity())) {
+            for (float* length : {&collider->radius, &collider->halfLength, &collider->width, &collider->length,
+                                  &collider->rise, &collider->run}) {
+                *length *= factor_;
+            }
+            for (int axis = 0; axis < 3; ++axis) {
+                const bool along = (axis == lock_.axis) == (lock_.kind == AxisLock::Kind::axis);
+                if (lock_.kind == AxisLock::Kind::free || along) collider->halfExtents[axis] *= factor_;
+            }
+        }
+        if (auto* light = scene.find<scene::Light>(entity())) light->intensity *= factor_;
+        if (auto* camera = scene.find<scene::Camera>(entity())) camera->distance *= factor_;
+    }
+
     [[nodiscard]] float mouseDistance() const {
         const auto centre = render::project(workspace_.camera, pivot_, workspace_.window);
         return centre ? glm::distance(vec2(*centre), workspace_.mouse) : 1.0F;

@@ -37,6 +37,8 @@ void fileMenu(const PanelContext& context) {
     ImGui::Separator();
     item(context, Action::saveProfile);
     item(context, Action::saveProfileAs);
+    item(context, Action::saveScene);
+    item(context, Action::saveSceneAs);
     item(context, Action::exportBaked);
     ImGui::Separator();
     item(context, Action::quit);
@@ -79,8 +81,9 @@ void editMenu(const PanelContext& context) {
     historyMenu(context);
     ImGui::Separator();
     if (ImGui::BeginMenu("Add")) {
-        for (const auto kind : {SceneObject::Kind::box, SceneObject::Kind::ball, SceneObject::Kind::light}) {
-            if (ImGui::MenuItem(std::string(objectKindName(kind)).c_str())) context.editor.beginAdd(kind);
+        for (int kind = 0; kind < scene::kEntityKindCount; ++kind) {
+            const auto one = static_cast<scene::EntityKind>(kind);
+            if (ImGui::MenuItem(std::string(scene::entityKindName(one)).c_str())) context.editor.beginAdd(one);
         }
         ImGui::EndMenu();
     }
@@ -132,6 +135,7 @@ void simulateMenu(const PanelContext& context) {
     item(context, Action::togglePlay, true, context.editor.player().playing());
     item(context, Action::stepOnce);
     item(context, Action::reset);
+    item(context, Action::returnToPlay, context.editor.player().canReturnToPlay());
     item(context, Action::throwBall);
     ImGui::EndMenu();
 }
@@ -168,13 +172,18 @@ void drawMenuBar(const PanelContext& context) {
         ImGui::EndMenu();
     }
     const EditorDocument& document = context.editor.document();
-    const std::string name = document.character().name + (document.unsaved() ? "  ●" : "");
+    const bool unsaved = document.unsaved() || document.sceneUnsaved();
+    const std::string name = document.character().name + (document.unsaved() ? " ●" : "") + "  /  " +
+                             document.scene().name + (document.sceneUnsaved() ? " ●" : "");
     const float width = ImGui::CalcTextSize(name.c_str()).x;
     ImGui::SameLine(ImGui::GetWindowWidth() - width - context.px(14));
-    ImGui::TextColored(document.unsaved() ? accentColor() : mutedColor(), "%s", name.c_str());
-    tooltip(document.unsaved()
-                ? "The ragdoll has unsaved changes (Ctrl+S saves " + document.profileFile().string() + ")"
-                : document.character().file.string());
+    ImGui::TextColored(unsaved ? accentColor() : mutedColor(), "%s", name.c_str());
+    std::string what = document.character().file.string();
+    if (document.unsaved()) what = "The ragdoll has unsaved changes: Ctrl+S saves " + document.profileFile().string();
+    if (document.sceneUnsaved()) {
+        what += "\nThe scene has unsaved changes: Ctrl+Alt+S saves " + document.sceneFile().string();
+    }
+    tooltip(what);
     ImGui::EndMainMenuBar();
 }
 
@@ -244,8 +253,8 @@ void drawLeftPanel(const PanelContext& context) {
             drawMappingTab(context);
             ImGui::EndTabItem();
         }
-        if (ImGui::BeginTabItem("Objects")) {
-            drawObjectsTab(context);
+        if (ImGui::BeginTabItem("Scene")) {
+            drawEntityTab(context);
             ImGui::EndTabItem();
         }
         ImGui::EndTabBar();
@@ -265,7 +274,7 @@ void drawRightPanel(const PanelContext& context) {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(context.px(6), context.px(4)));
     if (ImGui::BeginTabBar("##rightTabs")) {
         using Draw = void (*)(const PanelContext&);
-        constexpr std::pair<const char*, Draw> tabs[] = {{"Body", drawRagdollTab}, {"Scene", drawSceneTab},
+        constexpr std::pair<const char*, Draw> tabs[] = {{"Body", drawRagdollTab}, {"Physics", drawSimulationTab},
                                                          {"View", drawViewTab},    {"Doctor", drawDoctorTab},
                                                          {"Stats", drawStatsTab},  {"Log", drawLogTab}};
         for (const auto& [name, draw] : tabs) {

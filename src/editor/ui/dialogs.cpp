@@ -23,8 +23,15 @@ void drawQuestion(const PanelContext& context) {
     if (editor.askingUnsaved() && !ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
     placeInMiddle();
     if (!ImGui::BeginPopupModal(title, nullptr, kDialog)) return;
-    ImGui::Text("The ragdoll of %s has changes that are not saved.", editor.document().character().name.c_str());
-    mutedText("Save writes " + editor.document().profileFile().string());
+    const EditorDocument& document = editor.document();
+    if (document.unsaved()) {
+        ImGui::Text("The ragdoll of %s has changes that are not saved.", document.character().name.c_str());
+        mutedText("Save writes " + document.profileFile().string());
+    }
+    if (document.sceneUnsaved()) {
+        ImGui::Text("The scene %s has changes that are not saved.", document.scene().name.c_str());
+        mutedText("Save writes " + document.sceneFile().string());
+    }
     ImGui::Spacing();
     const ImVec2 button(context.px(110), 0);
     std::optional<Editor::Answer> answer;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,18 @@ struct UiState {
     bool showCollisions = false;
     bool draggingOverView = false;  ///< A role is dragged, and not over a panel.
     std::vector<std::filesystem::path> recent;
+    // Of the Scene tab.
+    std::set<scene::EntityId> closedEntities;  ///< Whose children are folded away.
+    scene::EntityId renaming = scene::kNoEntity;
+    std::string newName;
+    /// The angles that a rotation is shown as: several mean the same.
+    struct ShownAngles {
+        scene::EntityId entity = scene::kNoEntity;
+        quat rotation{1, 0, 0, 0};
+        vec3 degrees{0, 0, 0};
+    };
+    ShownAngles angles;
+    int copies = 8;                 ///< Of "Drop copies".
     std::optional<Item> shownItem;  ///< What panels showed last, to notice a new selection.
 };
 

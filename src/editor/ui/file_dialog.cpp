@@ -9,6 +9,7 @@
 #include "editor/ui/panels.hpp"
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"
+#include "scene/scene_file.hpp"
 
 namespace lutka::editor {
 namespace {
@@ -19,7 +20,7 @@ constexpr ImGuiWindowFlags kDialog = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWi
                                      ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize;
 
 bool opens(Editor::Dialog dialog) {
-    return dialog == Editor::Dialog::openModel;
+    return dialog == Editor::Dialog::openModel || dialog == Editor::Dialog::openRecording;
 }
 
 fs::path suggestedPath(const PanelContext& context, Editor::Dialog dialog) {
@@ -31,6 +32,11 @@ fs::path suggestedPath(const PanelContext& context, Editor::Dialog dialog) {
         case Editor::Dialog::exportBaked:
             return fs::absolute(document.profileFile().parent_path() / (document.character().name + "_fall.glb"),
                                 failed);
+        case Editor::Dialog::saveSceneAs:
+            return fs::absolute(document.sceneFile(), failed);
+        case Editor::Dialog::saveRecording:
+            return fs::absolute(document.profileFile().parent_path() / (document.scene().name + ".recording"), failed);
+        case Editor::Dialog::openRecording:
         case Editor::Dialog::openModel:
         case Editor::Dialog::none:
             break;
@@ -46,6 +52,12 @@ const char* titleOf(Editor::Dialog dialog) {
             return "Save the profile as";
         case Editor::Dialog::exportBaked:
             return "Export the fall as a baked glb";
+        case Editor::Dialog::saveSceneAs:
+            return "Save the scene as";
+        case Editor::Dialog::saveRecording:
+            return "Save the recording as";
+        case Editor::Dialog::openRecording:
+            return "Open a recording";
         case Editor::Dialog::none:
             break;
     }
@@ -53,7 +65,8 @@ const char* titleOf(Editor::Dialog dialog) {
 }
 
 FileFilter filterOf(Editor::Dialog dialog) {
-    if (dialog == Editor::Dialog::saveAs) return FileFilter::profiles;
+    if (dialog == Editor::Dialog::saveAs || dialog == Editor::Dialog::saveSceneAs) return FileFilter::profiles;
+    if (dialog == Editor::Dialog::saveRecording || dialog == Editor::Dialog::openRecording) return FileFilter::all;
     return dialog == Editor::Dialog::exportBaked ? FileFilter::baked : FileFilter::models;
 }
 
@@ -165,6 +178,7 @@ void finish(const PanelContext& context, Editor::Dialog dialog) {
     fs::path file(context.state.path);
     if (!file.has_extension() && dialog == Editor::Dialog::saveAs) file += ".ragdoll.json";
     if (!file.has_extension() && dialog == Editor::Dialog::exportBaked) file += ".glb";
+    if (!scene::isSceneFile(file) && dialog == Editor::Dialog::saveSceneAs) file += ".scene.json";
     switch (dialog) {
         case Editor::Dialog::openModel:
             editor.open(file);
@@ -174,6 +188,15 @@ void finish(const PanelContext& context, Editor::Dialog dialog) {
             break;
         case Editor::Dialog::exportBaked:
             editor.requestExport(file, context.state.exportSeconds);
+            break;
+        case Editor::Dialog::saveSceneAs:
+            editor.requestSaveScene(file);
+            break;
+        case Editor::Dialog::saveRecording:
+            editor.requestSaveRecording(file);
+            break;
+        case Editor::Dialog::openRecording:
+            editor.workspace().report(editor.player().openRecording(file));
             break;
         case Editor::Dialog::none:
             break;

@@ -48,11 +48,15 @@ void drawCollisions(const PanelContext& context);
 /// Tabs of the left panel.
 void drawSkeletonTab(const PanelContext& context);
 void drawMappingTab(const PanelContext& context);
-void drawObjectsTab(const PanelContext& context);
+void drawEntityTab(const PanelContext& context);
+/// Its lower half: the components of the selected entity.
+void drawInspector(const PanelContext& context);
 
 /// Tabs of the right panel.
 void drawRagdollTab(const PanelContext& context);
-void drawSceneTab(const PanelContext& context);
+void drawSimulationTab(const PanelContext& context);
+/// Its last section.
+void drawFit(const PanelContext& context);
 void drawViewTab(const PanelContext& context);
 void drawStatsTab(const PanelContext& context);
 void drawDoctorTab(const PanelContext& context);

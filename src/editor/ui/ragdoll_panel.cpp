@@ -14,20 +14,7 @@ namespace {
 
 using physics::ConstraintProfile;
 
-float labelWidth(const PanelContext& context) {
-    return context.px(92);
-}
-
 // Centimetres read better than metres on a body's scale.
-bool sliderCm(const PanelContext& context, const char* label, float& metres, float least, float most) {
-    labelled(label, labelWidth(context));
-    float cm = metres * 100.0F;
-    const std::string id = fmt::format("##{}", label);
-    if (!ImGui::SliderFloat(id.c_str(), &cm, least * 100.0F, most * 100.0F, "%.1f cm")) return false;
-    metres = std::max(cm * 0.01F, least);
-    return true;
-}
-
 // Buttons that break the line when the panel is full.
 bool wrappedButton(const char* name, const std::string& what) {
     const float width = ImGui::CalcTextSize(name).x + 2.0F * ImGui::GetStyle().FramePadding.x;
@@ -81,42 +68,6 @@ void drawBody(const PanelContext& context, const Item& item) {
     }
 }
 
-void drawObject(const PanelContext& context, const Item& item) {
-    Editor& editor = context.editor;
-    SceneSettings scene = editor.document().state().scene;
-    SceneObject& object = scene.objects[item.index];
-    ImGui::PushFont(context.fonts.heading);
-    ImGui::TextUnformatted(editor.workspace().nameOf(item).c_str());
-    ImGui::PopFont();
-    labelled("Position", labelWidth(context));
-    bool changed = ImGui::DragFloat3("##position", &object.worldFromObject.translation.x, 0.01F, -50, 50, "%.2f");
-    constexpr float least = 0.01F;
-    switch (object.kind) {
-        case SceneObject::Kind::box:
-            labelled("Half size", labelWidth(context));
-            changed |= ImGui::DragFloat3("##size", &object.halfExtents.x, 0.005F, least, 20.0F, "%.2f");
-            break;
-        case SceneObject::Kind::ball:
-            changed |= sliderCm(context, "Radius", object.radius, least, 1.0F);
-            labelled("Mass", labelWidth(context));
-            changed |=
-                ImGui::SliderFloat("##ballMass", &object.massKg, 0.1F, 200.0F, "%.1f kg", ImGuiSliderFlags_Logarithmic);
-            break;
-        case SceneObject::Kind::light:
-            labelled("Colour", labelWidth(context));
-            changed |= ImGui::ColorEdit3("##color", &object.lightColor.x, ImGuiColorEditFlags_Float);
-            labelled("Intensity", labelWidth(context));
-            changed |= ImGui::SliderFloat("##intensity", &object.lightIntensity, 0.0F, 50.0F, "%.1f");
-            break;
-    }
-    if (changed) {
-        editor.edit([&](EditorDocument& document) {
-            return document.setScene(scene, "Edit " + editor.workspace().nameOf(item),
-                                     fmt::format("object {}", item.index));
-        });
-    }
-}
-
 void drawTable(const PanelContext& context) {
     Editor& editor = context.editor;
     const physics::RagdollProfile& profile = editor.document().profile();
@@ -162,7 +113,8 @@ void drawRagdollTab(const PanelContext& context) {
     } else if (active->kind == Item::Kind::body) {
         drawBody(context, *active);
     } else {
-        drawObject(context, *active);
+        mutedText(context.editor.workspace().nameOf(*active) + ": its components are under Scene, on the left.");
+        drawTable(context);
     }
 }
 

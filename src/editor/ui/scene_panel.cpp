@@ -17,66 +17,7 @@ float labelWidth(const PanelContext& context) {
     return context.px(92);
 }
 
-void change(Editor& editor, const SceneSettings& scene, const char* label, const char* group, bool restart) {
-    const bool done = editor.edit([&](EditorDocument& document) { return document.setScene(scene, label, group); });
-    if (done && restart) editor.perform(Action::reset);
-}
-
-void drawScenario(const PanelContext& context) {
-    Editor& editor = context.editor;
-    SceneSettings scene = editor.document().state().scene;
-    labelled("Scene", labelWidth(context));
-    if (ImGui::BeginCombo("##scenario", scene.scenario.c_str())) {
-        for (const scene::ScenarioInfo& info : scene::scenarioRegistry()) {
-            const std::string name(info.name);
-            if (ImGui::Selectable(name.c_str(), name == scene.scenario)) {
-                scene.scenario = name;
-                change(editor, scene, "Choose the scene", "", true);
-            }
-            tooltip(std::string(info.summary));
-        }
-        ImGui::EndCombo();
-    }
-    labelled("Dolls", labelWidth(context));
-    if (ImGui::SliderInt("##count", &scene.count, 1, 100, "%d", ImGuiSliderFlags_Logarithmic)) {
-        scene.count = std::max(scene.count, 1);
-        change(editor, scene, "Number of dolls", "count", true);
-    }
-    labelled("Seed", labelWidth(context));
-    int seed = static_cast<int>(scene.seed);
-    if (ImGui::InputInt("##seed", &seed)) {
-        scene.seed = static_cast<std::uint64_t>(std::max(seed, 0));
-        change(editor, scene, "Seed", "", true);
-    }
-    tooltip("Varies the start; 0 stands upright");
-    labelled("Start pose", labelWidth(context));
-    int pose = static_cast<int>(scene.pose);
-    if (ImGui::Combo("##pose", &pose, "Bind pose\0File's node pose\0")) {
-        scene.pose = static_cast<scene::StartPose>(pose);
-        change(editor, scene, "Start pose", "", true);
-    }
-}
-
-void drawPhysics(const PanelContext& context) {
-    Editor& editor = context.editor;
-    SceneSettings scene = editor.document().state().scene;
-    labelled("Gravity", labelWidth(context));
-    if (ImGui::DragFloat("##gravity", &scene.world.gravity.y, 0.05F, -100.0F, 100.0F, "%.2f m/s²")) {
-        change(editor, scene, "Gravity", "gravity", false);
-    }
-    labelled("Solver", labelWidth(context));
-    int solver = static_cast<int>(scene.world.solver);
-    if (ImGui::Combo("##solver", &solver, "Stock Bullet\0Tuned for ragdolls\0Crowd\0")) {
-        scene.world.solver = static_cast<physics::SolverKind>(solver);
-        change(editor, scene, "Solver", "", false);
-    }
-    labelled("Threads", labelWidth(context));
-    if (ImGui::SliderInt("##threads", &scene.world.threads, 1, 16)) {
-        scene.world.threads = std::max(scene.world.threads, 1);
-        change(editor, scene, "Threads", "threads", false);
-    }
-    if (ImGui::Checkbox("Bodies at rest sleep", &scene.world.sleeping)) change(editor, scene, "Sleeping", "", false);
-}
+}  // namespace
 
 void drawFit(const PanelContext& context) {
     Editor& editor = context.editor;
@@ -111,6 +52,8 @@ void drawFit(const PanelContext& context) {
     changed |= ImGui::Checkbox("Whole trunk", &fit.allTrunkBodies);
     if (changed) editor.edit([&](EditorDocument& document) { return document.setFit(fit); });
 }
+
+namespace {
 
 float percentile(std::vector<float> values, float share) {
     if (values.empty()) return 0.0F;
@@ -162,15 +105,6 @@ void drawLegend(const scene::DebugLayerInfo& layer) {
 }
 
 }  // namespace
-
-void drawSceneTab(const PanelContext& context) {
-    caption("SCENE");
-    drawScenario(context);
-    caption("SIMULATION");
-    drawPhysics(context);
-    caption("RAGDOLL FIT");
-    drawFit(context);
-}
 
 void drawViewTab(const PanelContext& context) {
     ViewSettings& view = context.editor.view;

@@ -1,4 +1,4 @@
-/// The left panel's tabs: the joint tree and the scene's objects.
+/// The left panel's first tab: the joint tree.
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -155,26 +155,6 @@ void drawSkeletonTab(const PanelContext& context) {
     }
     ImGui::PopStyleVar(2);
     ImGui::EndChild();
-}
-
-void drawObjectsTab(const PanelContext& context) {
-    Editor& editor = context.editor;
-    const std::vector<SceneObject>& objects = editor.document().state().scene.objects;
-    for (const auto kind : {SceneObject::Kind::box, SceneObject::Kind::ball, SceneObject::Kind::light}) {
-        if (kind != SceneObject::Kind::box) ImGui::SameLine();
-        if (ImGui::Button(fmt::format("+ {}", objectKindName(kind)).c_str())) editor.beginAdd(kind);
-    }
-    if (objects.empty()) {
-        mutedText(
-            "Nothing but the dolls and the scene. Add a box, a ball or a light, then click where it shall stand.");
-    }
-    for (int i = 0; i < static_cast<int>(objects.size()); ++i) {
-        const Item item{Item::Kind::object, 0, i};
-        const std::string name = editor.workspace().nameOf(item);
-        if (ImGui::Selectable(name.c_str(), editor.workspace().selection.contains(item))) {
-            editor.select(item, ImGui::GetIO().KeyShift);
-        }
-    }
 }
 
 }  // namespace lutka::editor
