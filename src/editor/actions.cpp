@@ -32,6 +32,7 @@ constexpr std::array kBindings = {
     Binding{Key::r, kControl, Action::reset},
     Binding{Key::b, kPlain, Action::throwBall},
     Binding{Key::f, kPlain, Action::focus},
+    Binding{Key::f, kShift, Action::followDoll},
     Binding{Key::digit1, kPlain, Action::viewFront},
     Binding{Key::digit3, kPlain, Action::viewRight},
     Binding{Key::digit7, kPlain, Action::viewTop},
@@ -120,6 +121,8 @@ std::string_view actionName(Action action) {
             return "Throw a ball where the mouse points";
         case Action::focus:
             return "Focus on the selection";
+        case Action::followDoll:
+            return "Follow the selected doll with the camera";
         case Action::viewFront:
             return "View from the front";
         case Action::viewRight:

@@ -33,6 +33,7 @@ enum class Action {
     throwBall,
     returnToPlay,
     focus,
+    followDoll,
     viewFront,
     viewRight,
     viewTop,

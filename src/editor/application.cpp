@@ -57,6 +57,7 @@ class Application {
     std::vector<const scene::RagdollAsset*> uploaded_;  // whose characters `characters_` are
     std::vector<render::CharacterHandle> characters_;
     int characterRevision_ = -1;
+    bool vsync_ = true;
     render::FrameDescription frame_;
     FrameHistory history_;
     std::vector<InputEvent> events_;
@@ -102,6 +103,8 @@ Result<void> Application::start() {
     auto made = Editor::create(editor);
     if (!made) return made.error();
     editor_ = std::move(made).value();
+    editor_->workspace().uiScale = scale;
+    editor_->view.vsync = vsync_ = options_.vsync;
     if (options_.input) script_.emplace(*options_.input);
     if (!options_.recordInput.empty()) {
         auto recorder = ScriptWriter::create(options_.recordInput, windowSize_);
@@ -189,6 +192,7 @@ Result<void> Application::oneFrame(double seconds) {
     for (const InputEvent& event : events_)
         editor_->handle(event, capture);
     ui_->build(*editor_, history_);
+    if (editor_->view.vsync != vsync_) context_.setVsync(vsync_ = editor_->view.vsync);
     editor_->update(seconds);
     if (auto followed = followCharacter(); !followed) return followed;
     editor_->describe(characters_, frame_);

@@ -152,6 +152,9 @@ void Editor::perform(Action action) {
         case Action::focus:
             focus();
             break;
+        case Action::followDoll:
+            toggleFollow();
+            break;
         case Action::viewFront:
             axisView(0.0F, 0.0F);
             break;
@@ -286,6 +289,7 @@ void Editor::update(double seconds) {
     } else {
         player().advance(seconds);
     }
+    followDoll();
     for (Toast& toast : workspace_.toasts)
         toast.secondsLeft -= static_cast<float>(seconds);
     std::erase_if(workspace_.toasts, [](const Toast& toast) { return toast.secondsLeft <= 0.0F; });
@@ -403,6 +407,29 @@ void Editor::focus() {
     }
     constexpr float around = 0.25F;  // metres of flesh beyond the outermost centres
     render::frameSphere(camera, (low + high) * 0.5F, glm::distance(low, high) * 0.5F + around, aspect);
+}
+
+void Editor::toggleFollow() {
+    if (workspace_.followed) {
+        workspace_.followed.reset();
+        return;
+    }
+    const auto active = workspace_.selection.active();
+    workspace_.followed = active && active->kind == Item::Kind::body ? active->doll : 0;
+    followedAt_ = player().simulation().worldFromBody(*workspace_.followed, player().alpha())[0].translation;
+    workspace_.say(Toast::Kind::info, "The camera follows the doll; Shift+F lets it go");
+}
+
+// Target and eye go along with the hips, so that orbiting and zooming stay the user's.
+void Editor::followDoll() {
+    if (!workspace_.followed) return;
+    if (*workspace_.followed >= player().simulation().dollCount()) {
+        workspace_.followed.reset();
+        return;
+    }
+    const vec3 now = player().simulation().worldFromBody(*workspace_.followed, player().alpha())[0].translation;
+    workspace_.camera.target += now - followedAt_;
+    followedAt_ = now;
 }
 
 void Editor::axisView(float yaw, float pitch) {

@@ -36,6 +36,7 @@ struct ViewSettings {
     scene::DebugLayers layers;
     bool debug = false;  ///< F3: whether `layers` are drawn.
     float skinOpacity = 1.0F;
+    bool vsync = true;             ///< The application's window waits for the monitor.
     bool dualQuaternions = false;  ///< Skinning that keeps the volume of twisted limbs.
     bool panels = true;
     bool help = false;
@@ -136,6 +137,8 @@ class Editor {
     [[nodiscard]] Workspace& workspace() { return workspace_; }
     [[nodiscard]] const Workspace& workspace() const { return workspace_; }
     [[nodiscard]] State state() const { return machine_->state(); }
+    /// Wall time of all poses in the last describe(), milliseconds.
+    [[nodiscard]] double poseMs() const { return drawer_.poseMs(); }
     [[nodiscard]] bool quitting() const { return quitting_; }
     /// Grows when another character was loaded: the renderer's copy is then out of date.
     [[nodiscard]] int characterRevision() const { return characterRevision_; }
@@ -164,6 +167,8 @@ class Editor {
     void togglePin();
     void throwBall();
     void focus();
+    void toggleFollow();
+    void followDoll();
     void axisView(float yaw, float pitch);
     void drawOverlay(render::FrameDescription& frame);
     void drawActivePart(render::FrameDescription& frame) const;
@@ -178,6 +183,7 @@ class Editor {
     std::array<bool, kMouseButtonCount> held_{};  // pressed in the view and not released yet
     std::optional<LimitSwing> swing_;
     int swingDoll_ = 0;
+    vec3 followedAt_{0, 0, 0};  // where the followed doll's hips were when the camera last moved
     std::function<void()> afterAnswer_;
     struct Replacing {
         std::filesystem::path file;

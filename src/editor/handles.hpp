@@ -53,7 +53,7 @@ struct HandleScene {
 
 /// The handle that is seen nearest to the mouse, within `pixels` of it.
 [[nodiscard]] std::optional<Handle> handleUnder(std::span<const Handle> handles, const render::Camera& camera,
-                                                const vec2& mouse, render::Extent window, float pixels = 11.0F);
+                                                const vec2& mouse, render::Extent window, float pixels);
 
 /// Draws the limits and shape guides of the part and its handles; `hot` (hovered or held) stands out.
 void drawHandles(const HandleScene& scene, std::span<const Handle> handles, const std::optional<Handle::Kind>& hot,

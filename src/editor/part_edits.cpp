@@ -9,7 +9,6 @@
 namespace lutka::editor {
 namespace {
 
-using animation::Role;
 using physics::BodyProfile;
 using physics::ConstraintProfile;
 using physics::RagdollProfile;

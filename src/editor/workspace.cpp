@@ -37,7 +37,8 @@ std::optional<Handle> Workspace::handleUnderMouse() const {
     if (!showHandles) return std::nullopt;
     const auto scene = handleScene();
     if (!scene) return std::nullopt;
-    return handleUnder(handlesOf(*scene, camera), camera, mouse, window);
+    constexpr float reach = 11.0F;
+    return handleUnder(handlesOf(*scene, camera), camera, mouse, window, reach * uiScale);
 }
 
 std::vector<vec3> Workspace::worldOfJoints(int doll) const {

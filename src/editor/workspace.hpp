@@ -53,7 +53,9 @@ struct Workspace {
     std::optional<Press> press;
     MouseButton cameraButton = MouseButton::middle;  ///< What drags the camera.
 
-    bool showHandles = true;                  ///< Of the active body's limits and shape.
+    float uiScale = 1.0F;         ///< What a finger's breadth is: reach of handles and joints under the mouse.
+    std::optional<int> followed;  ///< The doll that the camera goes along with.
+    bool showHandles = true;      ///< Of the active body's limits and shape.
     std::optional<Handle::Kind> hotHandle;    ///< Hovered or held.
     std::optional<animation::Role> pickRole;  ///< What State::pickJoint asks for …
     int hotJoint = animation::kNoJoint;       ///< … and the joint under the mouse then.

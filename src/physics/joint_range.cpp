@@ -57,7 +57,7 @@ void setConeRange(ConstraintProfile& constraint, const JointRange& range, const 
 JointWords leftWords(Role role) {
     constexpr MotionWords bend{"Flexion", "extension", "flexion"};
     constexpr MotionWords abduction{"Abduction", "adduction", "abduction"};
-    constexpr MotionWords rotation{"Rotation", "outward rotation", "inward rotation"};
+    constexpr MotionWords rotation{"Rotation", "outward turn", "inward turn"};
     switch (role) {
         case Role::leftShoulder:
             return {{"Elevation", "depression", "elevation"},

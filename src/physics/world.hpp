@@ -11,6 +11,7 @@
 
 #include "physics/profile.hpp"
 #include "physics/rig.hpp"
+#include "physics/step_times.hpp"
 #include "physics/triangle_mesh.hpp"
 
 namespace lutka::physics {
@@ -209,6 +210,9 @@ class World {
     /// What pushed what in the last step, in an order that the same calls repeat; empty without
     /// WorldSettings::contactReports.
     [[nodiscard]] virtual std::span<const ContactReport> contactReports() const = 0;
+
+    /// What the parts of the last step took; zeros before the first one and where a world does not measure.
+    [[nodiscard]] virtual StepTimes stepTimes() const { return {}; }
 
     /// Takes a line of debug drawing: two points in world space and its colour, components in [0, 1].
     using DebugLineSink = std::function<void(const vec3& from, const vec3& to, const vec3& color)>;

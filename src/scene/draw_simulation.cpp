@@ -1,5 +1,6 @@
 #include "scene/draw_simulation.hpp"
 
+#include <chrono>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -140,6 +141,7 @@ void SimulationDrawer::draw(Simulation& simulation, std::span<const render::Char
         firstJoint_.push_back(firstJoint_.back() + simulation.assetOf(doll).character.skeleton.parents.size());
     poses_.resize(firstJoint_.back());
     palettes_.resize(firstJoint_.back());
+    poseMs_ = 0.0;
     for (int doll = 0; doll < simulation.dollCount(); ++doll) {
         drawSkin(simulation, doll, alpha);
         const RagdollAsset& asset = simulation.assetOf(doll);
@@ -177,10 +179,12 @@ void SimulationDrawer::draw(Simulation& simulation, std::span<const render::Char
 }
 
 void SimulationDrawer::drawSkin(Simulation& simulation, int doll, float alpha) {
+    const auto start = std::chrono::steady_clock::now();
     const std::span pose = ofDoll(std::span(poses_), doll);
     simulation.pose(doll, alpha, pose);
     animation::skinMatrices(simulation.assetOf(doll).character.skeleton.bindModelFromJoint, pose,
                             ofDoll(std::span(palettes_), doll));
+    poseMs_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 void SimulationDrawer::drawContacts(Simulation& simulation, render::FrameDescription& frame) {

@@ -26,6 +26,8 @@ class SimulationDrawer {
 
     /// World positions of a doll's joints as last drawn, one a joint of its asset.
     [[nodiscard]] std::span<const RigidTransform> modelFromJoint(int doll) const;
+    /// Wall time of the poses and palettes of the last draw(), milliseconds.
+    [[nodiscard]] double poseMs() const { return poseMs_; }
 
     /// Which of the frame's characters a doll was drawn as; -1: not at all.
     [[nodiscard]] int characterItem(int doll) const { return itemOfDoll_[static_cast<std::size_t>(doll)]; }
@@ -48,6 +50,7 @@ class SimulationDrawer {
     std::vector<physics::ContactPoint> contacts_;
     DebugScratch scratch_;
     std::vector<std::size_t> firstJoint_;  // of each doll in poses_ and palettes_; then the number of all
+    double poseMs_ = 0.0;
 };
 
 /// The scene's own camera; without one a view of the scenario's focus.

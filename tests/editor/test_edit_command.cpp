@@ -8,6 +8,7 @@
 #include "physics/profile_io.hpp"
 #include "render/gl/golden.hpp"
 #include "render/image.hpp"
+#include "sessions.hpp"
 #include "support/catch.hpp"
 #include "support/command.hpp"
 
@@ -83,6 +84,7 @@ class Script {
         frame_ += frames;
         return *this;
     }
+    void setSize(render::Extent size) { script_.size = size; }
     [[nodiscard]] int frame() const { return frame_; }
     void save(const fs::path& file) const { REQUIRE(saveScript(file, script_).ok()); }
 
@@ -102,6 +104,54 @@ render::Image cropped(const render::Image& image, int x, int y, int width, int h
 
 constexpr Modifiers kControl{false, true, false};
 
+/// A script in a small window, done at the same time to an editor without one, which tells where things are seen then.
+struct Rehearsal {
+    explicit Rehearsal(const fs::path& model) {
+        script.setSize({640, 480});
+        EditorOptions options;
+        options.model = model;
+        options.playing = false;
+        options.window = {640, 480};
+        auto made = Editor::create(options);
+        REQUIRE(made.ok());
+        editor = std::move(made).value();
+    }
+    Rehearsal& add(const InputEvent& event) {
+        script.add(event);
+        test::send(*editor, event);
+        return *this;
+    }
+    Rehearsal& move(const vec2& to) { return add(mouseMoved(to)); }
+    Rehearsal& press() { return add(mouseButton(MouseButton::left, true)); }
+    Rehearsal& release() { return add(mouseButton(MouseButton::left, false)); }
+    Rehearsal& key(Key key, Modifiers modifiers = {}) {
+        // Saving is the program's part: both would write the same file.
+        if (key == Key::s && modifiers.control) {
+            script.key(key, modifiers);
+            return wait(2);
+        }
+        return add(keyPressed(key, modifiers)).add(keyReleased(key));
+    }
+    Rehearsal& wait(int frames) {
+        script.wait(frames);
+        test::pass(*editor, frames);
+        return *this;
+    }
+    [[nodiscard]] vec2 handle(Handle::Kind kind) const {
+        const auto scene = editor->workspace().handleScene();
+        REQUIRE(scene.has_value());
+        for (const Handle& one : handlesOf(*scene, editor->workspace().camera)) {
+            if (one.kind != kind) continue;
+            return vec2(*render::project(editor->workspace().camera, one.position, editor->workspace().window));
+        }
+        FAIL("there is no such handle");
+        return {};
+    }
+
+    Script script;
+    std::unique_ptr<Editor> editor;
+};
+
 }  // namespace
 
 TEST_CASE("a script sets a limit by its slider, changes another value, undoes that, and saves") {
@@ -110,7 +160,7 @@ TEST_CASE("a script sets a limit by its slider, changes another value, undoes th
     Script script;
     script.key(Key::space).click(663, 355);       // the left lower leg
     script.drag(1178, 352, 1160, 352).release();  // its flexion
-    script.drag(1052, 436, 1160, 436).release();  // its friction
+    script.drag(1062, 436, 1160, 436).release();  // its friction
     script.key(Key::z, kControl).key(Key::s, kControl).wait(2);
     script.save(scratch / "script.jsonl");
     const Outcome outcome = edit(scratch, "--headless --input " + (scratch / "script.jsonl").string());
@@ -132,6 +182,56 @@ TEST_CASE("a script sets a limit by its slider, changes another value, undoes th
     CHECK(now.frictionNm == Approx(was.frictionNm));
     const int other = physics::bodyOf(saved.value(), animation::Role::rightLowerLeg) - 1;
     CHECK(saved.value().constraints[other].hinge.upper == Approx(fitted.value().constraints[other].hinge.upper));
+}
+
+TEST_CASE("a script drags a limit's handle in the view, pulls a hand, undoes a change and saves") {
+    const Scratch scratch;
+    Rehearsal rehearsal(scratch.model());
+    Editor& editor = *rehearsal.editor;
+    rehearsal.key(Key::tab);  // all of the small window is view
+    rehearsal.move(test::seenAt(editor, animation::Role::leftLowerLeg)).press().release();
+    rehearsal.key(Key::f).key(Key::digit3);
+    const vec2 end = rehearsal.handle(Handle::Kind::flexionHigh);
+    const vec2 other = rehearsal.handle(Handle::Kind::flexionLow);
+    rehearsal.move(end).press();
+    for (int i = 1; i <= 4; ++i)
+        rehearsal.move(end + (other - end) * (static_cast<float>(i) * 0.07F));
+    rehearsal.release();
+    rehearsal.key(Key::s).key(Key::digit2).key(Key::enter).key(Key::z, kControl);  // a larger shape, and not
+    rehearsal.move({600, 440}).key(Key::digit1).key(Key::escape).key(Key::f);
+    rehearsal.script.wait(1);
+    const int before = rehearsal.script.frame();
+    const vec2 hand = test::seenAt(editor, animation::Role::leftHand);
+    rehearsal.move(hand).press();
+    for (int i = 1; i <= 6; ++i)
+        rehearsal.move(hand + vec2(-4, -8) * static_cast<float>(i));
+    rehearsal.wait(8).release().move({600, 440}).key(Key::s, kControl);
+    const int after = rehearsal.script.frame() + 1;
+    rehearsal.script.save(scratch / "script.jsonl");
+    const Outcome outcome =
+        edit(scratch, "--paused --headless --input " + (scratch / "script.jsonl").string() + " --screenshot-at " +
+                          std::to_string(before) + ":" + (scratch / "before.png").string() + " --screenshot-at " +
+                          std::to_string(after) + ":" + (scratch / "after.png").string());
+    if (skipped(outcome)) return;
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    const auto saved = physics::loadProfile(scratch / "mannequin.ragdoll.json");
+    REQUIRE(saved.ok());
+    const bool same = physics::profileToJson(saved.value()) == physics::profileToJson(editor.document().profile());
+    CHECK(same);
+    const auto fitted = scene::loadRagdoll(scratch.model()).value()->profile;
+    const int knee = physics::bodyOf(fitted, animation::Role::leftLowerLeg);
+    const auto& now = saved.value().constraints[knee - 1].hinge;
+    const auto& was = fitted.constraints[knee - 1].hinge;
+    CHECK(now.upper - now.lower < was.upper - was.lower - radians(10.0F));
+    CHECK(saved.value().bodies[knee].shape.radius == fitted.bodies[knee].shape.radius);
+    const auto first = render::loadPng(scratch / "before.png");
+    const auto last = render::loadPng(scratch / "after.png");
+    REQUIRE((first.ok() && last.ok()));
+    const int x = static_cast<int>(hand.x) - 40;
+    const int y = static_cast<int>(hand.y) - 70;
+    const auto part = [&](const render::Image& image) { return cropped(image, x, y, 80, 100); };
+    CHECK(render::compareImages(part(first.value()), part(last.value()), 16).differingShare > 0.02);
 }
 
 TEST_CASE("a script gives a role to another joint by the mapping's list and saves it") {
@@ -179,6 +279,19 @@ TEST_CASE("the panels look as they did when they were looked at") {
     picture("help.png");
     script.key(Key::escape).click(190, 43).click(60, 132).move(640, 620);  // the tab Scene, the floor
     picture("scene.png");
+    script.click(967, 43).click(44, 43);
+    // Both thighs by the tree; the flexion of both by its slider; where that leaves the bind pose the doctor tells.
+    script.click(112, 530).move(120, 602).add(keyPressed(Key::leftShift, {}));
+    script.add(mouseButton(MouseButton::left, true, {true, false, false}));
+    script.add(mouseButton(MouseButton::left, false, {true, false, false})).add(keyReleased(Key::leftShift));
+    script.drag(1160, 372, 1118, 372).release().move(640, 620);
+    picture("thighs.png");
+    script.click(1134, 43).move(640, 620);
+    picture("doctor.png");
+    script.click(1078, 43).move(640, 620);
+    picture("view.png");
+    script.key(Key::escape).click(967, 43).click(990, 91).move(640, 660);
+    picture("collisions.png");
     script.save(scratch / "script.jsonl");
     const Outcome outcome = edit(scratch, "--headless --input " + (scratch / "script.jsonl").string() + screenshots);
     if (skipped(outcome)) return;
@@ -198,6 +311,14 @@ TEST_CASE("the panels look as they did when they were looked at") {
     test::checkGolden(cropped(mapping.value(), 937, top, 343, height), "editor_physics");
     test::checkGolden(cropped(scene.value(), 0, top, 310, height), "editor_scene");
     test::checkGolden(cropped(help.value(), 200, 100, 880, 440), "editor_help");
+    for (const char* name : {"thighs", "doctor", "view"}) {
+        const auto panel = render::loadPng(scratch / (std::string(name) + ".png").c_str());
+        REQUIRE(panel.ok());
+        test::checkGolden(cropped(panel.value(), 937, top, 343, height), std::string("editor_") + name);
+    }
+    const auto collisions = render::loadPng(scratch / "collisions.png");
+    REQUIRE(collisions.ok());
+    test::checkGolden(cropped(collisions.value(), 332, 125, 582, 470), "editor_collisions");
 }
 
 TEST_CASE("the same script gives the same picture twice and a drag shows in it") {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "editor/file_list.hpp"
 #include "editor/input_script.hpp"
 #include "physics/profile_io.hpp"
 #include "sessions.hpp"
@@ -132,4 +133,39 @@ TEST_CASE("a recording is on disk event by event") {
     const auto refused = ScriptWriter::create(folder / "no/such/folder.jsonl", {640, 480});
     REQUIRE_FALSE(refused.ok());
     CHECK(refused.error().code == ErrorCode::output);
+}
+
+TEST_CASE("a folder lists its folders first, then what the filter lets through, by name in any case") {
+    const test::ScratchFolder folder;
+    fs::create_directories(folder / "zebra");
+    fs::create_directories(folder / "Apes");
+    for (const char* name : {"knight.FBX", "b.glb", "A.ragdoll.json", "notes.txt", ".hidden.glb"})
+        std::ofstream(folder / name) << "x";
+    const auto names = [&](FileFilter filter) {
+        std::string all;
+        for (const FileEntry& entry : listFolder(folder.path, filter))
+            all += entry.name + (entry.folder ? "/ " : " ");
+        return all;
+    };
+    CHECK(names(FileFilter::models) == "Apes/ zebra/ A.ragdoll.json b.glb knight.FBX ");
+    CHECK(names(FileFilter::profiles) == "Apes/ zebra/ A.ragdoll.json ");
+    CHECK(names(FileFilter::baked) == "Apes/ zebra/ b.glb ");
+    CHECK(names(FileFilter::all) == "Apes/ zebra/ A.ragdoll.json b.glb knight.FBX notes.txt ");
+    CHECK(listFolder(folder / "no such folder", FileFilter::all).empty());
+}
+
+TEST_CASE("an export over a file that is there asks, and the next one over its own does not") {
+    const auto editor = makeEditor();
+    const test::ScratchFolder folder;
+    const fs::path file = folder / "baked.glb";
+    std::ofstream(file) << "theirs";
+    editor->requestExport(file, 0.2F);
+    REQUIRE(editor->replacedFile() == file);
+    editor->answerReplace(false);
+    CHECK(test::fileText(file) == "theirs");
+    editor->requestExport(file, 0.2F);
+    editor->answerReplace(true);
+    CHECK(test::fileText(file) != "theirs");
+    editor->requestExport(file, 0.2F);
+    CHECK_FALSE(editor->asking());
 }

@@ -283,3 +283,20 @@ TEST_CASE("a file that was neither opened nor saved would be replaced") {
     REQUIRE(document->save(file).ok());
     CHECK_FALSE(document->wouldReplace(file));
 }
+
+TEST_CASE("the history lists all changes and goes to any of them") {
+    const auto editor = test::makeEditor();
+    const int hand = bodyOf(editor->document(), Role::leftHand);
+    const float fitted = editor->document().profile().bodies[hand].massKg;
+    for (const float mass : {1.0F, 2.0F, 3.0F})
+        REQUIRE(editor->edit([&](EditorDocument& document) { return document.setMass(hand, mass); }));
+    REQUIRE(editor->document().undoLabels().size() == 3);
+    CHECK(editor->document().undoLabels().front() == "Mass of leftHand");
+    editor->travel(-2);
+    CHECK(editor->document().profile().bodies[hand].massKg == 1.0F);
+    CHECK(editor->document().redoLabels().size() == 2);
+    editor->travel(2);
+    CHECK(editor->document().profile().bodies[hand].massKg == 3.0F);
+    editor->travel(-3);
+    CHECK(editor->document().profile().bodies[hand].massKg == fitted);
+}

@@ -25,7 +25,7 @@ class PickJointHandler final : public StateHandler {
         if (!workspace_.pickRole) return;
         const std::vector<vec3> places = workspace_.worldOfJoints(0);
         const animation::Skeleton& skeleton = workspace_.document->character().skeleton;
-        workspace_.hotJoint = jointUnder(skeleton, places, workspace_.camera, workspace_.mouse, workspace_.window);
+        workspace_.hotJoint = underMouse(places);
         render::addSkeleton(workspace_.overlay, places, skeleton.parents, kJoint);
         const float size = workspace_.camera.distance * 0.008F;
         for (int joint = 0; joint < skeleton.jointCount(); ++joint)
@@ -44,8 +44,7 @@ class PickJointHandler final : public StateHandler {
         if (event.button == MouseButton::right && event.pressed) return workspace_.ended();
         if (event.button != MouseButton::left || event.pressed || !workspace_.pickRole) return std::nullopt;
         const std::vector<vec3> places = workspace_.worldOfJoints(0);
-        const int joint = jointUnder(workspace_.document->character().skeleton, places, workspace_.camera,
-                                     workspace_.mouse, workspace_.window);
+        const int joint = underMouse(places);
         if (joint == animation::kNoJoint) return std::nullopt;  // beside: the user may try again
         workspace_.edit([&](EditorDocument& document) { return document.assignRole(*workspace_.pickRole, joint); });
         return workspace_.ended();
@@ -62,6 +61,12 @@ class PickJointHandler final : public StateHandler {
     }
 
   private:
+    [[nodiscard]] int underMouse(std::span<const vec3> places) const {
+        constexpr float reach = 28.0F;  // pixels
+        return jointUnder(workspace_.document->character().skeleton, places, workspace_.camera, workspace_.mouse,
+                          workspace_.window, reach * workspace_.uiScale);
+    }
+
     Workspace& workspace_;
 };
 

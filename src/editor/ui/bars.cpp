@@ -118,6 +118,7 @@ void viewMenu(const PanelContext& context) {
     }
     ImGui::Separator();
     item(context, Action::focus);
+    item(context, Action::followDoll, true, context.editor.workspace().followed.has_value());
     item(context, Action::viewFront);
     item(context, Action::viewRight);
     item(context, Action::viewTop);
@@ -271,7 +272,8 @@ void drawRightPanel(const PanelContext& context) {
     ImGui::SetNextWindowSize({width, size.y - top - statusHeight()});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
     ImGui::Begin("##right", nullptr, kFixed | ImGuiWindowFlags_NoTitleBar);
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(context.px(6), context.px(4)));
+    const bool narrow = width < context.px(330);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(context.px(narrow ? 2 : 6), context.px(4)));
     if (ImGui::BeginTabBar("##rightTabs")) {
         using Draw = void (*)(const PanelContext&);
         constexpr std::pair<const char*, Draw> tabs[] = {{"Body", drawRagdollTab}, {"Physics", drawSimulationTab},

@@ -40,8 +40,11 @@ void drawCell(const PanelContext& context, int row, int column) {
     const ImVec2 high(at.x + size - 2, at.y + size - 2);
     if (collide) {
         list->AddRectFilled(low, high, ImGui::GetColorU32(goodColor()), 2.0F);
+    } else if (fixed) {
+        const ImVec2 middle((low.x + high.x) * 0.5F, (low.y + high.y) * 0.5F);
+        list->AddCircleFilled(middle, size * 0.1F, ImGui::GetColorU32(mutedColor()));
     } else {
-        list->AddRectFilled(low, high, ImGui::GetColorU32(fixed ? ImGuiCol_ChildBg : ImGuiCol_FrameBg), 2.0F);
+        list->AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_FrameBg), 2.0F);
     }
     if (hovered && !fixed) list->AddRect(low, high, ImGui::GetColorU32(accentColor()), 2.0F, 0, 2.0F);
     const char* what = row == column ? "the same body"
@@ -66,9 +69,13 @@ void drawCollisions(const PanelContext& context) {
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
                          ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_HorizontalScrollbar)) {
         const int count = static_cast<int>(context.editor.document().profile().bodies.size());
-        ImGui::TextColored(mutedColor(), "Green pairs collide. Click to change.");
+        ImGui::TextColored(mutedColor(),
+                           "Green pairs collide, grey ones pass through each other. A dot: never, they are linked.");
         ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(1, 1));
         if (ImGui::BeginTable("##collisions", count + 1, ImGuiTableFlags_SizingFixedFit)) {
+            ImGui::TableSetupColumn("body", ImGuiTableColumnFlags_WidthFixed, context.px(106));
+            for (int column = 0; column < count; ++column)
+                ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, context.px(27));
             ImGui::TableNextRow();
             for (int column = 0; column < count; ++column) {
                 ImGui::TableSetColumnIndex(column + 1);

@@ -121,7 +121,7 @@ void presentBar(const PartFields& fields, std::string_view name, const Present& 
     tooltip(fmt::format("now {:.0f}°, between {:.0f}° and {:.0f}° from the bind pose", degrees(present.angle),
                         degrees(present.low), degrees(present.high)));
     ImGui::SameLine();
-    ImGui::TextColored(mutedColor(), "%.0f°", static_cast<double>(degrees(present.angle)));
+    ImGui::TextColored(mutedColor(), "%d°", static_cast<int>(std::lround(degrees(present.angle))));
 }
 
 void limitFields(const PartFields& fields, const physics::ConstraintState& state) {

@@ -11,8 +11,8 @@
 namespace lutka::editor {
 namespace {
 
-constexpr float kLabelWidth = 98.0F;
-constexpr float kWasWidth = 66.0F;
+constexpr float kLabelWidth = 108.0F;
+constexpr float kWasWidth = 62.0F;
 constexpr float kLeast = 0.005F;  // metres
 
 const DocumentState& stateOf(const PartFields& fields) {

@@ -1,4 +1,4 @@
-/// The right panel's other tabs: scene and simulation, view, statistics, log.
+/// The right panel's other tabs: scene and simulation, view.
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -8,7 +8,6 @@
 #include "editor/ui/panels.hpp"
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"
-#include "scene/report.hpp"
 
 namespace lutka::editor {
 namespace {
@@ -55,40 +54,6 @@ void drawFit(const PanelContext& context) {
 
 namespace {
 
-float percentile(std::vector<float> values, float share) {
-    if (values.empty()) return 0.0F;
-    std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(share * static_cast<float>(values.size() - 1))];
-}
-
-void plot(const PanelContext& context, const char* id, std::span<const float> values) {
-    const float most = std::max(percentile({values.begin(), values.end()}, 0.99F) * 1.4F, 1.0F);
-    ImGui::PlotLines(id, values.data(), static_cast<int>(values.size()), 0, nullptr, 0.0F, most,
-                     {ImGui::GetContentRegionAvail().x, context.px(54)});
-}
-
-void row(const char* name, const std::string& value) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::TextColored(mutedColor(), "%s", name);
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(value.c_str());
-}
-
-void drawQuality(const scene::Simulation& simulation) {
-    const physics::Quality quality = simulation.quality();
-    row("Joint separation", fmt::format("{:.1f} mm max, {:.1f} p99", quality.jointSeparationM.max * 1e3F,
-                                        quality.jointSeparationM.p99 * 1e3F));
-    row("Past limits",
-        fmt::format("{:.1f}° max, {:.1f}° p99", quality.limitViolationDeg.max, quality.limitViolationDeg.p99));
-    row("Into the floor", fmt::format("{:.1f} mm", quality.floorPenetrationM * 1e3F));
-    row("Into itself", fmt::format("{:.1f} mm", quality.selfPenetrationM * 1e3F));
-    row("Energy growth", fmt::format("{:.2f} J", quality.energyGrowthJ));
-    row("Settled after", quality.settleSeconds ? fmt::format("{:.2f} s", *quality.settleSeconds) : "not yet");
-    row("Speed now", fmt::format("{:.3f} m/s", quality.residualSpeedMps));
-    row("Not finite", fmt::format("{}", quality.nonFinite));
-}
-
 // What a layer's colours mean, a line each.
 void drawLegend(const scene::DebugLayerInfo& layer) {
     ImGui::Indent();
@@ -129,29 +94,6 @@ void drawViewTab(const PanelContext& context) {
     float lens = degrees(camera.fieldOfView);
     if (ImGui::SliderFloat("##lens", &lens, 15.0F, 90.0F, "%.0f°")) camera.fieldOfView = radians(lens);
     ImGui::Checkbox("Parallel projection", &camera.orthographic);
-}
-
-void drawStatsTab(const PanelContext& context) {
-    const scene::Simulation& simulation = context.editor.player().simulation();
-    const auto frames = context.history.frameMs();
-    caption("FRAME TIME");
-    plot(context, "##frames", frames);
-    const std::vector<float> all(frames.begin(), frames.end());
-    mutedText(fmt::format("p50 {:.1f} ms, p99 {:.1f} ms, {:.0f} fps", percentile(all, 0.5F), percentile(all, 0.99F),
-                          context.history.fps()));
-    caption("SIMULATION STEP");
-    const auto steps = simulation.stepMs();
-    plot(context, "##steps", steps.last(std::min(steps.size(), FrameHistory::kLength)));
-    const scene::StepTimes times = scene::summarise(steps);
-    mutedText(fmt::format("mean {:.2f} ms, p50 {:.2f}, p99 {:.2f}", times.mean, times.p50, times.p99));
-    if (!ImGui::BeginTable("##stats", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg)) return;
-    const render::FrameStats& stats = context.history.stats;
-    row("Draw calls", fmt::format("{} ({} skinned)", stats.drawCalls, stats.characterDrawCalls));
-    row("Triangles", fmt::format("{}", stats.triangles));
-    row("Uploaded", fmt::format("{} kB a frame", stats.uploadedBytes / 1024));
-    row("Dolls", fmt::format("{}, {} bodies each", simulation.dollCount(), simulation.asset().profile.bodies.size()));
-    drawQuality(simulation);
-    ImGui::EndTable();
 }
 
 }  // namespace lutka::editor

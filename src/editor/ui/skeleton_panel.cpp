@@ -146,14 +146,18 @@ void drawSkeletonTab(const PanelContext& context) {
     ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, context.px(11));
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(context.px(6), context.px(3)));
     const Tree tree = makeTree(context.editor.document());
+    bool found = context.state.jointFilter.empty();
     for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
         if (!context.state.jointFilter.empty()) {
-            if (containsText(skeleton.names[joint], context.state.jointFilter)) drawJoint(context, tree, joint);
+            if (!containsText(skeleton.names[joint], context.state.jointFilter)) continue;
+            drawJoint(context, tree, joint);
+            found = true;
         } else if (skeleton.parents[joint] == animation::kNoJoint) {
             drawJoint(context, tree, joint);
         }
     }
     ImGui::PopStyleVar(2);
+    if (!found) mutedText("No joint's name has that in it. Empty the field to see all.");
     ImGui::EndChild();
 }
 

@@ -1,6 +1,7 @@
 #include "physics/bullet/bullet_world.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <glm/geometric.hpp>
 #include <map>
 
@@ -65,6 +66,7 @@ class BulletWorld final : public World {
     void removeDrag(int id) override;
     [[nodiscard]] double dragWork() const override { return dragWork_; }
     [[nodiscard]] std::vector<std::pair<int, Drag>> dragsOf(int doll) const override;
+    [[nodiscard]] StepTimes stepTimes() const override { return parts_.world->times(stepMs_); }
     void getContacts(std::vector<ContactPoint>& contacts) const override;
     [[nodiscard]] std::span<const ContactReport> contactReports() const override { return gatherer_.reports(); }
     void drawDebug(const DebugLineSink& line) override { drawBulletDebug(*parts_.world, line); }
@@ -100,6 +102,7 @@ class BulletWorld final : public World {
     double motorWork_ = 0.0;
     std::vector<vec3> speedsBefore_, speedsAfter_;  // of what drags, motors and forces act on
     ContactGatherer gatherer_;
+    double stepMs_ = 0.0;  // of the last step's substeps
 };
 
 BulletWorld::~BulletWorld() {
@@ -238,10 +241,15 @@ void BulletWorld::substep(float dt) {
 
 void BulletWorld::step(float dt, const std::function<void()>& afterSubstep) {
     LUTKA_ASSERT(dt > 0.0F);
+    using Clock = std::chrono::steady_clock;
     const int substeps = substepsPerStep();
     gatherer_.clear();
+    parts_.world->clearTimes();
+    stepMs_ = 0.0;
     for (int i = 0; i < substeps; ++i) {
+        const auto start = Clock::now();
         substep(dt / static_cast<float>(substeps));
+        stepMs_ += std::chrono::duration<double, std::milli>(Clock::now() - start).count();
         if (afterSubstep) afterSubstep();
     }
     forces_.clear();

@@ -2,6 +2,9 @@
 
 #include <BulletCollision/CollisionDispatch/btSimulationIslandManager.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "physics/bullet/convert.hpp"
 #include "physics/bullet/ragdoll.hpp"
 
@@ -29,10 +32,42 @@ std::span<T* const> spanOf(const btAlignedObjectArray<T*>& array) {
 
 }  // namespace
 
+// As btCollisionWorld has it, with a clock.
+void MeasuredWorld::performDiscreteCollisionDetection() {
+    const auto start = Clock::now();
+    updateAabbs();
+    computeOverlappingPairs();
+    const auto paired = Clock::now();
+    getDispatcher()->dispatchAllCollisionPairs(getBroadphase()->getOverlappingPairCache(), getDispatchInfo(),
+                                               getDispatcher());
+    addTimes(paired - start, Clock::now() - paired);
+}
+
+void MeasuredWorld::addTimes(Clock::duration broadphase, Clock::duration narrowphase) {
+    times_.broadphaseMs += std::chrono::duration<double, std::milli>(broadphase).count();
+    times_.narrowphaseMs += std::chrono::duration<double, std::milli>(narrowphase).count();
+}
+
+StepTimes MeasuredWorld::times(double stepMs) const {
+    StepTimes times = times_;
+    times.solverMs = std::max(stepMs - times.broadphaseMs - times.narrowphaseMs, 0.0);
+    times.islands = countIslands();
+    return times;
+}
+
+int MeasuredWorld::countIslands() const {
+    std::vector<int> tags;
+    for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
+        if (m_nonStaticRigidBodies[i]->isActive()) tags.push_back(m_nonStaticRigidBodies[i]->getIslandTag());
+    }
+    std::sort(tags.begin(), tags.end());
+    return static_cast<int>(std::unique(tags.begin(), tags.end()) - tags.begin());
+}
+
 DynamicsWorld::DynamicsWorld(btCollisionDispatcher* dispatcher, btBroadphaseInterface* broadphase,
                              btConstraintSolver* solver, btCollisionConfiguration* configuration,
                              const BulletTuning& tuning, GeometryCache& geometries, AnalyticCollisionFactory& analytic)
-    : btDiscreteDynamicsWorld(dispatcher, broadphase, solver, configuration),
+    : MeasuredWorld(dispatcher, broadphase, solver, configuration),
       tuning_(tuning),
       geometries_(geometries),
       analytic_(analytic),
@@ -114,8 +149,10 @@ void DynamicsWorld::updateAabbs() {
 }
 
 void DynamicsWorld::performDiscreteCollisionDetection() {
+    const auto start = Clock::now();
     updateAabbs();
     m_broadphasePairCache->calculateOverlappingPairs(m_dispatcher1);
+    const auto paired = Clock::now();
     btBroadphasePairArray& pairs = m_broadphasePairCache->getOverlappingPairCache()->getOverlappingPairArray();
     for (int i = 0; i < pairs.size(); ++i) {
         btBroadphasePair& pair = pairs[i];
@@ -127,6 +164,7 @@ void DynamicsWorld::performDiscreteCollisionDetection() {
         else
             ownDispatcher_.getNearCallback()(pair, ownDispatcher_, getDispatchInfo());
     }
+    addTimes(paired - start, Clock::now() - paired);
 }
 
 void DynamicsWorld::solveConstraints(btContactSolverInfo& info) {
@@ -163,8 +201,7 @@ BulletParts::BulletParts(const WorldSettings& settings, const BulletTuning& tuni
       broadphase(std::make_unique<btDbvtBroadphase>()) {
     if (settings.solver == SolverKind::stock) {
         solver = std::make_unique<btSequentialImpulseConstraintSolver>();
-        world = std::make_unique<btDiscreteDynamicsWorld>(dispatcher.get(), broadphase.get(), solver.get(),
-                                                          configuration.get());
+        world = std::make_unique<MeasuredWorld>(dispatcher.get(), broadphase.get(), solver.get(), configuration.get());
     } else {
         analytic = std::make_unique<AnalyticCollisionFactory>(tuning.contactMargin, geometries);
         analytic->registerWith(*dispatcher);

@@ -2,6 +2,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <chrono>
 #include <memory>
 #include <vector>
 
@@ -12,10 +13,30 @@
 
 namespace lutka::physics {
 
+/// btDiscreteDynamicsWorld that takes the time of its parts.
+class MeasuredWorld : public btDiscreteDynamicsWorld {
+  public:
+    using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
+
+    void performDiscreteCollisionDetection() override;
+    /// Of all steps since clearTimes(); the solver's is what is left of `stepMs`.
+    [[nodiscard]] StepTimes times(double stepMs) const;
+    void clearTimes() { times_ = {}; }
+
+  protected:
+    using Clock = std::chrono::steady_clock;
+    void addTimes(Clock::duration broadphase, Clock::duration narrowphase);
+
+  private:
+    [[nodiscard]] int countIslands() const;
+
+    StepTimes times_;
+};
+
 /// btDiscreteDynamicsWorld solved by SubstepSolver, with thresholds of its own for falling asleep (Bullet's time is a
 /// global variable). A substep does only what its awake bodies need: no prediction of transforms, boxes in the
 /// broadphase that are wide enough to stay for a while, pairs of our shapes collided straight from a cache of geometry.
-class DynamicsWorld final : public btDiscreteDynamicsWorld {
+class DynamicsWorld final : public MeasuredWorld {
   public:
     DynamicsWorld(btCollisionDispatcher* dispatcher, btBroadphaseInterface* broadphase, btConstraintSolver* solver,
                   btCollisionConfiguration* configuration, const BulletTuning& tuning, GeometryCache& geometries,
@@ -58,7 +79,7 @@ struct BulletParts {
     std::unique_ptr<btBroadphaseInterface> broadphase;
     std::unique_ptr<btOverlapFilterCallback> pairFilter;  // null in a stock world
     std::unique_ptr<btConstraintSolver> solver;
-    std::unique_ptr<btDiscreteDynamicsWorld> world;
+    std::unique_ptr<MeasuredWorld> world;
 };
 
 }  // namespace lutka::physics

@@ -1,6 +1,7 @@
 #include "physics/crowd/crowd_world.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -17,6 +18,22 @@
 namespace lutka::physics {
 namespace crowd {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds(Clock::duration time) {
+    return std::chrono::duration<double, std::milli>(time).count();
+}
+
+// The same call, with its time added to `total`; none for none.
+std::function<void()> timed(const std::function<void()>& call, Clock::duration& total) {
+    if (!call) return {};
+    return [&call, &total] {
+        const auto start = Clock::now();
+        call();
+        total += Clock::now() - start;
+    };
+}
 
 class CrowdWorld final : public World {
   public:
@@ -65,6 +82,7 @@ class CrowdWorld final : public World {
     void removeDrag(int id) override;
     [[nodiscard]] double dragWork() const override { return state_.dragWork; }
     [[nodiscard]] std::vector<std::pair<int, Drag>> dragsOf(int doll) const override;
+    [[nodiscard]] StepTimes stepTimes() const override { return times_; }
     void getContacts(std::vector<ContactPoint>& contacts) const override;
     [[nodiscard]] std::span<const ContactReport> contactReports() const override { return state_.reports; }
 
@@ -78,6 +96,7 @@ class CrowdWorld final : public World {
     void rayAgainstDoll(int index, const vec3& from, const vec3& to, std::optional<RayHit>& nearest) const;
 
     CrowdState state_;
+    StepTimes times_;
 };
 
 void CrowdWorld::wakeAll() {
@@ -146,21 +165,28 @@ void CrowdWorld::step(float dt, const std::function<void()>& afterSubstep) {
     gatherActive(state_);
     state_.reports.clear();
     if (state_.active.empty()) {  // all asleep: nothing can change
+        times_ = {};
         for (int i = 0; afterSubstep && i < substepsPerStep(); ++i)
             afterSubstep();
         return;
     }
+    const auto start = Clock::now();
     findBounds(state_, dt);
     sweepDolls(state_, dt);
     wakeTouched(state_, dt);
+    const auto paired = Clock::now();
     findContacts(state_, dt);
+    const auto found = Clock::now();
     makeJobs(state_);
     beginReports(state_);
-    solveJobs(state_, dt, afterSubstep);
+    Clock::duration outside{0};
+    solveJobs(state_, dt, timed(afterSubstep, outside));
     makeReports(state_);
     keepImpulses(state_);
     state_.forces.clear();
     settle(state_, dt);
+    times_ = {milliseconds(paired - start), milliseconds(found - paired), milliseconds(Clock::now() - found - outside),
+              static_cast<int>(state_.jobs.size())};
 }
 
 void CrowdWorld::getBodies(int doll, std::span<BodyState> bodies) const {
