@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -21,7 +22,17 @@ constexpr float kTouching = 0.002F;           // metres: nearer than this is con
 constexpr float kNearMesh = 0.3F;             // metres: how far from a mesh a body's distance matters
 constexpr float kSettledSpeed = 0.01F;        // m/s
 
-// Counts values in bins that grow by 1 %, so that a percentile of millions of samples needs no memory.
+constexpr unsigned kShift = 16;  // bits of a float that a bin does not tell apart
+constexpr int binOf(float value) {
+    return static_cast<int>(std::bit_cast<std::uint32_t>(value) >> kShift);
+}
+constexpr float middleOf(int bin) {
+    return std::bit_cast<float>((static_cast<std::uint32_t>(bin) << kShift) + (1U << (kShift - 1)));
+}
+
+// Counts values in bins that grow by less than 1 %, so that a percentile of millions of samples needs no memory. A bin
+// is a float's exponent and the first seven bits of its fraction: a logarithm for each sample cost more than measuring
+// it.
 class Histogram {
   public:
     void add(float value) {
@@ -36,8 +47,7 @@ class Histogram {
             ++counts_[0];
             return;
         }
-        const int bin = 1 + static_cast<int>(std::log(value / kLowest) / kStep);
-        ++counts_[std::min(bin, kBins - 1)];
+        ++counts_[1 + binOf(value) - kFirst];
     }
     // The value that a share of the samples does not exceed, to 1 %; 0 without samples.
     [[nodiscard]] float percentile(double share) const {
@@ -45,7 +55,7 @@ class Histogram {
         for (int bin = 0; bin < kBins; ++bin) {
             below += counts_[bin];
             if (count_ > 0 && static_cast<double>(below) >= share * static_cast<double>(count_))
-                return bin == 0 ? 0.0F : kLowest * std::exp(kStep * (static_cast<float>(bin) - 0.5F));
+                return bin == 0 ? 0.0F : middleOf(bin - 1 + kFirst);
         }
         return 0.0F;
     }
@@ -56,8 +66,8 @@ class Histogram {
   private:
     static constexpr float kLowest = 1e-7F;
     static constexpr float kHighest = 1e4F;
-    static constexpr float kStep = 0.01F;  // of the logarithm
-    static constexpr int kBins = 2600;     // up to about 2 · 10⁴
+    static constexpr int kFirst = binOf(kLowest);
+    static constexpr int kBins = binOf(kHighest) - kFirst + 2;
     std::array<std::int64_t, kBins> counts_{};
     std::int64_t count_ = 0;
     double sum_ = 0;
@@ -311,8 +321,9 @@ double QualityMeter::State::sampleWorld(bool figures) {
         moving += static_cast<int>(bodies.size());
         const bool whole = broken == brokenBefore;
         settled = settled && whole && (world.isAsleep(doll) || fastest < kSettledSpeed);
-        // The other figures of a broken doll mean nothing.
-        if (figures && whole) sampleDoll(doll);
+        // The other figures of a broken doll mean nothing, and those of a sleeping one are in already.
+        const bool asItWas = !counting && world.isAsleep(doll);
+        if (figures && whole && !asItWas) sampleDoll(doll);
     }
     for (int prop = 0; prop < world.propCount(); ++prop) {
         const DynamicProp& settings = world.propOf(prop);
