@@ -57,6 +57,7 @@ Result<std::unique_ptr<Editor>> Editor::create(std::unique_ptr<EditorDocument> d
     editor->workspace_.document = std::move(document);
     editor->workspace_.player = std::move(player);
     editor->player().setPlaying(options.playing);
+    editor->player().setSparing(options.spareSubsteps);
     editor->view.layers.capsules = true;
     editor->view.layers.limits = true;
     editor->workspace_.camera = startCamera(editor->player().simulation(), options.window);

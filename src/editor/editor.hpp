@@ -22,6 +22,7 @@ struct EditorOptions {
     std::function<void(physics::WorldSettings&)> applyToWorld;  ///< Set: what was asked for beside the scene.
     render::Extent window{1280, 720};
     bool playing = true;
+    bool spareSubsteps = false;     ///< While the machine is late: see Player::setSparing().
     scene::FrameLoop::Clock clock;  ///< Times the steps; none: as scene::FrameLoop says, for scripts and tests.
 };
 

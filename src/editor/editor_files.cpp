@@ -139,6 +139,7 @@ void Editor::adoptStarted(std::unique_ptr<EditorDocument> document) {
     workspace_.pulls.pins.clear();
     player->setPlaying(workspace_.player->playing());
     player->setSpeed(workspace_.player->speed());
+    player->setSparing(workspace_.player->sparing());
     workspace_.player = std::move(player);  // before the document that the old one borrows
     workspace_.document = std::move(document);
     workspace_.camera = startCamera(workspace_.player->simulation(), workspace_.window);

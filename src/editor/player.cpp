@@ -184,6 +184,7 @@ Result<void> Player::rebuild(Keep keep) {
     auto simulation = scene::Simulation::create(document_.assets(), std::move(scenario).value(), options);
     if (!simulation) return simulation.error();
     simulation_ = std::move(simulation).value();
+    governor_.emplace(simulation_->world().substepsPerStep());
     if (motion) restore(*motion);
     built_ = document_.scene();
     loop_.setStepSeconds(options.dt);
@@ -247,6 +248,7 @@ void Player::advance(double seconds) {
         if (posing_) dampDolls(kPosingDamping);
         keepStep();
     });
+    if (sparing_) simulation_->world().setSubsteps(governor_->update(loop_.load()));
 }
 
 void Player::stepOnce() {

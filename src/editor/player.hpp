@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "scene/frame_loop.hpp"
 #include "scene/recording.hpp"
 #include "scene/simulation.hpp"
+#include "scene/substep_governor.hpp"
 
 namespace lutka::editor {
 
@@ -58,6 +60,9 @@ class Player {
     /// Valid after the first rebuild() that succeeded.
     [[nodiscard]] scene::Simulation& simulation() { return *simulation_; }
     [[nodiscard]] const scene::Simulation& simulation() const { return *simulation_; }
+    /// Whether substeps are spared while the machine is late (scene::SubstepGovernor); needs the constructor's clock.
+    void setSparing(bool sparing) { sparing_ = sparing; }
+    [[nodiscard]] bool sparing() const { return sparing_; }
     /// Where between the last two states the picture is, [0, 1].
     [[nodiscard]] float alpha() const { return loop_.alpha(); }
     /// How well the steps keep up with the clock.
@@ -135,6 +140,8 @@ class Player {
     bool posing_ = false;
     double secondsBefore_ = 0.0;  ///< Of the simulations before the present one.
     scene::FrameLoop loop_;
+    bool sparing_ = false;
+    std::optional<scene::SubstepGovernor> governor_;  ///< Of the present simulation.
 };
 
 }  // namespace lutka::editor

@@ -154,6 +154,9 @@ class World {
     /// One frame of `dt` seconds in `substepsPerStep()` equal substeps; `afterSubstep`, when set, is called after each.
     virtual void step(float dt, const std::function<void()>& afterSubstep = {}) = 0;
     [[nodiscard]] virtual int substepsPerStep() const = 0;
+    /// From the next step on, >= 1. Fewer than the solver's own: cheaper in proportion, softer joints, deeper contacts.
+    /// The stock world keeps its one.
+    virtual void setSubsteps(int substeps) = 0;
 
     [[nodiscard]] virtual int dollCount() const = 0;
     [[nodiscard]] virtual const RagdollProfile& profileOf(int doll) const = 0;

@@ -158,13 +158,13 @@ void SimulationDrawer::draw(Simulation& simulation, std::span<const render::Char
             item.opacity = opacity * tint.a;
             item.castsShadow = placement.look.castsShadow;
             item.skinning = skinning;
-            if (layers.sleep) item.highlight = withAlpha(sleepColor(simulation.world().isAsleep(doll)), kSleepTint);
+            if (layers.sleep) item.highlight = withAlpha(sleepColor(simulation.isAsleep(doll)), kSleepTint);
         }
         if (anyDollLayer(layers)) {
             states_.resize(asset.profile.bodies.size());
-            simulation.world().getBodies(doll, states_);
+            simulation.getBodies(doll, states_);
             drawDollDebug({asset, simulation.worldFromBody(doll, alpha), states_, modelFromJoint(doll),
-                           simulation.worldFromModel(doll), simulation.world().isAsleep(doll)},
+                           simulation.worldFromModel(doll), simulation.isAsleep(doll)},
                           layers, scratch_, frame);
         }
     }

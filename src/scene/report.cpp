@@ -84,7 +84,16 @@ std::string reportJson(const Simulation& simulation) {
     json["stateHash"] = fmt::format("{:016x}", simulation.stateHash());
     json["wallMsPerStep"] = {{"mean", times.mean}, {"p50", times.p50}, {"p99", times.p99}};
     json["fit"] = fitJson(physics::diagnose(profile, simulation.asset().character, simulation.asset().map).fit);
-    json["quality"] = qualityJson(simulation.quality());
+    // A meter that followed dolls in and out of worlds would measure the moves.
+    json["quality"] = simulation.shedder() == nullptr ? qualityJson(simulation.quality()) : nlohmann::ordered_json();
+    if (const LoadShedder* shedder = simulation.shedder()) {
+        const LoadShedder::Counts counts = shedder->counts();
+        json["shed"] = {{"lod", counts.lod},
+                        {"apart", counts.apart},
+                        {"slow", counts.slow},
+                        {"frozen", counts.frozen},
+                        {"switches", shedder->switches()}};
+    }
     json["bodies"] = simulation.bodyCount();
     json["constraints"] = constraintCount(simulation);
     if (simulation.assets().size() > 1) json["characters"] = charactersJson(simulation);
@@ -97,6 +106,13 @@ std::string reportText(const Simulation& simulation) {
     std::string text =
         fmt::format("{}, scene {}: {}, {:.1f} s in {} steps\n", simulation.asset().character.name,
                     simulation.scenario().name, castText(simulation), simulation.seconds(), simulation.steps());
+    if (const LoadShedder* shedder = simulation.shedder()) {
+        const LoadShedder::Counts counts = shedder->counts();
+        text += fmt::format("  spared at the end: {} merged, {} apart, {} slow, {} frozen; quality is not measured\n",
+                            counts.lod, counts.apart, counts.slow, counts.frozen);
+        return text +
+               fmt::format("  time a step        {:7.2f} ms in the median, {:.2f} ms p99\n", times.p50, times.p99);
+    }
     text += fmt::format("  joint separation   {:7.2f} mm at most, {:.2f} mm p99\n", q.jointSeparationM.max * 1e3F,
                         q.jointSeparationM.p99 * 1e3F);
     text += fmt::format("  past the limits    {:7.2f} deg at most, {:.2f} deg p99\n", q.limitViolationDeg.max,

@@ -78,7 +78,8 @@ Result<std::unique_ptr<Simulation>> Simulation::create(std::vector<const Ragdoll
 }
 
 Simulation::Simulation(std::vector<const RagdollAsset*> assets, Scenario scenario, const SimulationOptions& options)
-    : assets_(std::move(assets)), scenario_(std::move(scenario)), options_(options) {
+    : assets_(std::move(assets)), scenario_(std::move(scenario)), options_(options),
+      eye_(options.eye.value_or(scenario_.focus)) {
     firstBody_.push_back(0);
     for (int doll = 0; doll < dollCount(); ++doll)
         firstBody_.push_back(firstBody_.back() + assetOf(doll).profile.bodies.size());
@@ -103,6 +104,7 @@ Result<void> Simulation::findStarts() {
 
 void Simulation::build() {
     meter_.reset();
+    shedder_.reset();
     world_ = options_.world.solver == physics::SolverKind::crowd ? physics::createCrowdWorld(options_.world)
                                                                  : physics::createBulletWorld(options_.world);
     for (const physics::StaticShape& shape : scenario_.statics)
@@ -125,7 +127,12 @@ void Simulation::build() {
         world_->setDrag(kFirstPinId + static_cast<int>(i),
                         {pin.doll, body, inverse(worldFromBody) * tip, tip, kPinForceN});
     }
-    if (options_.measure) {
+    if (options_.shed.any()) {
+        std::vector<LoadShedder::Kind> kinds;
+        for (int doll = 0; doll < dollCount(); ++doll)
+            kinds.push_back({&assetOf(doll).profile, &assetOf(doll).rig});
+        shedder_ = std::make_unique<LoadShedder>(kinds, *world_, scenario_.statics, options_.world, options_.shed);
+    } else if (options_.measure) {
         meter_ = std::make_unique<physics::QualityMeter>(*world_, scenario_.statics, options_.world.gravity);
     }
     stepMs_.clear();
@@ -153,10 +160,15 @@ void Simulation::refresh() {
 void Simulation::remember() {
     present_.resize(bodyCount() + scenario_.props.size());
     for (int doll = 0; doll < dollCount(); ++doll) {
-        scratch_.resize(firstBody_[doll + 1] - firstBody_[doll]);
+        const auto to = std::span(present_).subspan(firstBody_[doll], firstBody_[doll + 1] - firstBody_[doll]);
+        if (shedder_ != nullptr) {
+            shedder_->getBodies(doll, to);
+            continue;
+        }
+        scratch_.resize(to.size());
         world_->getBodies(doll, scratch_);
-        for (std::size_t i = 0; i < scratch_.size(); ++i)
-            present_[firstBody_[doll] + i] = scratch_[i].worldFromBody;
+        for (std::size_t i = 0; i < to.size(); ++i)
+            to[i] = scratch_[i].worldFromBody;
     }
     for (int prop = 0; prop < world_->propCount(); ++prop)
         present_[bodyCount() + prop] = world_->propState(prop).worldFromBody;
@@ -166,7 +178,9 @@ void Simulation::step() {
     using Clock = std::chrono::steady_clock;
     const auto before = Clock::now();
     Clock::duration measured{0};
-    if (meter_ != nullptr) {
+    if (shedder_ != nullptr) {
+        shedder_->step(options_.dt, eye_);
+    } else if (meter_ != nullptr) {
         const double substep = static_cast<double>(options_.dt) / world_->substepsPerStep();
         world_->step(options_.dt, [&] {
             const auto measuring = Clock::now();
@@ -216,6 +230,17 @@ void Simulation::pose(int doll, float alpha, std::span<RigidTransform> modelFrom
                             modelFromJoint);
 }
 
+void Simulation::getBodies(int doll, std::span<BodyState> bodies) const {
+    if (shedder_ != nullptr)
+        shedder_->getStates(doll, bodies);
+    else
+        world_->getBodies(doll, bodies);
+}
+
+bool Simulation::isAsleep(int doll) const {
+    return shedder_ != nullptr ? shedder_->still(doll) : world_->isAsleep(doll);
+}
+
 physics::Quality Simulation::quality() const {
     return meter_ != nullptr ? meter_->result() : physics::Quality{};
 }
@@ -224,7 +249,7 @@ std::uint64_t Simulation::stateHash() const {
     std::uint64_t hash = kHashStart;
     for (int doll = 0; doll < dollCount(); ++doll) {
         scratch_.resize(assetOf(doll).profile.bodies.size());
-        world_->getBodies(doll, scratch_);
+        getBodies(doll, scratch_);
         for (const BodyState& body : scratch_)
             hash = hashBytes(&body, sizeof body, hash);
     }

@@ -10,6 +10,7 @@
 #include "core/result.hpp"
 #include "physics/quality.hpp"
 #include "physics/world.hpp"
+#include "scene/load_shedding.hpp"
 #include "scene/ragdoll_asset.hpp"
 #include "scene/scenario.hpp"
 
@@ -20,7 +21,9 @@ struct SimulationOptions {
     float dt = 1.0F / 60.0F;  ///< Seconds a step, > 0.
     StartPose pose = StartPose::bind;
     std::optional<ClipStart> fromClip;  ///< Wins over `pose`.
-    bool measure = true;                ///< Takes the quality figures after every substep.
+    bool measure = true;                ///< Takes the quality figures after every substep; not with `shed`.
+    ShedSettings shed;                  ///< What is spared on dolls far from the eye.
+    std::optional<vec3> eye;            ///< Unset: the scenario's focus. See setEye().
 };
 
 /// How a scene wants to be simulated; what it says nothing of keeps its default.
@@ -54,6 +57,7 @@ class Simulation {
     [[nodiscard]] int steps() const { return static_cast<int>(stepMs_.size()); }
     [[nodiscard]] double seconds() const { return static_cast<double>(steps()) * static_cast<double>(options_.dt); }
     [[nodiscard]] int dollCount() const { return static_cast<int>(scenario_.dolls.size()); }
+    /// With SimulationOptions::shed its dolls are those that are neither slow nor frozen, under indices of its own.
     [[nodiscard]] physics::World& world() { return *world_; }
     [[nodiscard]] const physics::World& world() const { return *world_; }
     [[nodiscard]] const Scenario& scenario() const { return scenario_; }
@@ -76,6 +80,14 @@ class Simulation {
     /// The skin's pose in model space; `modelFromJoint` holds a frame a joint of its asset.
     void pose(int doll, float alpha, std::span<RigidTransform> modelFromJoint);
 
+    /// A doll's bodies of the whole profile with velocities, and whether it sleeps, wherever it is simulated.
+    void getBodies(int doll, std::span<physics::BodyState> bodies) const;
+    [[nodiscard]] bool isAsleep(int doll) const;
+    /// Where SimulationOptions::shed measures its distances from.
+    void setEye(const vec3& eye) { eye_ = eye; }
+    /// Null without SimulationOptions::shed.
+    [[nodiscard]] const LoadShedder* shedder() const { return shedder_.get(); }
+
     [[nodiscard]] physics::Quality quality() const;
     /// Of all body positions, orientations and velocities, bit for bit.
     [[nodiscard]] std::uint64_t stateHash() const;
@@ -96,6 +108,8 @@ class Simulation {
     std::vector<std::size_t> firstBody_;  // of each doll in previous_ and present_; then the number of all
     std::unique_ptr<physics::World> world_;
     std::unique_ptr<physics::QualityMeter> meter_;
+    std::unique_ptr<LoadShedder> shedder_;
+    vec3 eye_{0, 0, 0};
     std::vector<float> stepMs_;
     double secondsMeasured_ = 0;
 

@@ -270,6 +270,23 @@ TEST_CASE("numbers that are not finite or out of range are wrong usage") {
     }
 }
 
+TEST_CASE("dolls far from the eye are spared and the report says how many") {
+    const ScratchFolder folder;
+    const CommandResult result =
+        lutkaCommand("simulate " + kMannequin +
+                     " --scene spread --count 6 --seconds 0.2 --solver crowd --shed lod@0,frozen@3"
+                     " --eye 0,1,0 --report " +
+                     (folder / "r.json"));
+    CHECK(result.code == 0);
+    const std::string report = fileText(folder / "r.json");
+    CHECK(contains(report, "\"quality\": null"));
+    CHECK(contains(report, "\"lod\": 6"));
+    CHECK_FALSE(contains(report, "\"frozen\": 0"));
+    CHECK(contains(result.out + result.err, "spared at the end"));
+    CHECK(lutkaCommand("simulate " + kMannequin + " --shed ice@3").code == 2);
+    CHECK(lutkaCommand("simulate " + kMannequin + " --shed lod@3 --eye 1,2").code == 2);
+}
+
 TEST_CASE("a stdout that can't be written ends with 5") {
     if (!fs::exists("/dev/full")) return;
     const CommandResult result =

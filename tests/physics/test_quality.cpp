@@ -57,6 +57,7 @@ class PuppetWorld final : public physics::World {
     int addDoll(const RagdollProfile& /*profile*/, std::span<const BodyState> /*bodies*/) override { return 0; }
     void step(float /*dt*/, const std::function<void()>& /*afterSubstep*/) override {}
     [[nodiscard]] int substepsPerStep() const override { return 1; }
+    void setSubsteps(int /*substeps*/) override {}
     [[nodiscard]] int dollCount() const override { return 1; }
     [[nodiscard]] const RagdollProfile& profileOf(int /*doll*/) const override { return profile_; }
     [[nodiscard]] vec3 inertiaOf(int doll, int body) const override { return profileOf(doll).bodies[body].inertia; }

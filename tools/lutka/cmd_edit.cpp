@@ -23,6 +23,7 @@ struct Options {
     float uiScale = 0.0F;
     bool noVsync = false;
     std::string quality = "auto";
+    bool spareSubsteps = false;
     bool states = false;
 };
 
@@ -71,6 +72,7 @@ editor::ApplicationOptions applicationOptions(Options& options) {
     application.uiScale = options.uiScale;
     application.vsync = !options.noVsync;
     application.quality = qualityFromName(options.quality);
+    application.editor.spareSubsteps = options.spareSubsteps;
     // A replay neither depends on what the user did before nor changes it.
     application.settings = !options.headless && options.input.empty();
     return application;
@@ -108,6 +110,8 @@ void addEdit(CLI::App& app) {
         ->check(CLI::IsMember({"auto", "best", "fast"}))
         ->capture_default_str();
     command->add_flag("--no-vsync", options->noVsync, "don't wait for the monitor");
+    command->add_flag("--spare-substeps", options->spareSubsteps,
+                      "while the machine is late, take fewer substeps before the simulation slows down");
     command->add_flag("--states", options->states, "print the state machine as a Mermaid diagram and end");
     command->callback([options] { run(*options); });
 }

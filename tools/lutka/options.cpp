@@ -187,6 +187,13 @@ void SimulateOptions::addTo(CLI::App& app) {
     app.add_option("--pose", pose, "the pose to start in: the bind pose, the default, or the file's node pose")
         ->check(CLI::IsMember({"bind", "node"}));
     app.add_option("--from-clip", fromClip, "start from a clip's pose and velocities: NAME or NAME@SECONDS");
+    auto* shedOption = app.add_option(
+        "--shed", shed,
+        "spare dolls far from the eye, from so many metres on: lod@10,apart@15,slow@20,frozen@40 or some");
+    app.add_option("--eye", eye, "X,Y,Z in metres, where --shed measures from; default: the middle of the scene")
+        ->delimiter(',')
+        ->expected(3)
+        ->needs(shedOption);
     app.add_option("--out", bakedOut, "write the first doll's fall as an animation of its skin (.glb)");
     app.add_option("--mesh-out", meshOut, "write the first doll's skin of the last frame (.obj)");
     app.add_flag("--each", each, "--out and --mesh-out of every doll, as NAME_0001.glb, NAME_0002.glb …");
@@ -205,6 +212,8 @@ scene::SimulationOptions SimulateOptions::simulation(const scene::EntityScene& e
     scene.applyTo(options.world);
     if (pose == "node") options.pose = scene::StartPose::node;
     if (!fromClip.empty()) options.fromClip = parseClipStart(fromClip);
+    options.shed = orLeave(scene::parseShedSettings(shed));
+    if (!eye.empty()) options.eye = vec3(eye[0], eye[1], eye[2]);
     return options;
 }
 

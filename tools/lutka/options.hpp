@@ -80,6 +80,8 @@ struct SimulateOptions {
     std::optional<float> seconds;
     std::string pose;
     std::string fromClip;
+    std::string shed;
+    std::vector<float> eye;
     std::filesystem::path bakedOut;
     std::filesystem::path meshOut;
     bool each = false;  ///< bakedOut and meshOut of every doll instead of the first.

@@ -35,6 +35,7 @@ class BulletWorld final : public World {
     int addDoll(const RagdollProfile& profile, std::span<const BodyState> bodies) override;
     void step(float dt, const std::function<void()>& afterSubstep) override;
     [[nodiscard]] int substepsPerStep() const override { return isStock() ? 1 : tuning_.substeps; }
+    void setSubsteps(int substeps) override { tuning_.substeps = substeps; }
 
     [[nodiscard]] int dollCount() const override { return static_cast<int>(dolls_.size()); }
     [[nodiscard]] const RagdollProfile& profileOf(int doll) const override { return dolls_[doll]->profile(); }

@@ -48,6 +48,7 @@ class CrowdWorld final : public World {
 
     void step(float dt, const std::function<void()>& afterSubstep) override;
     [[nodiscard]] int substepsPerStep() const override { return state_.tuning.substeps; }
+    void setSubsteps(int substeps) override { state_.tuning.substeps = substeps; }
 
     [[nodiscard]] int dollCount() const override { return static_cast<int>(state_.ragdolls.size()); }
     [[nodiscard]] const RagdollProfile& profileOf(int doll) const override { return *dollOf(doll).profile; }
