@@ -78,7 +78,7 @@ quat longestAlongY(const mat3& axes, const mat3& moments, const vec3& like) {
     for (int i = 1; i < 3; ++i)
         if (moments[i][i] < moments[y][y]) y = i;
     const vec3 up = glm::dot(axes[y], like) < 0.0F ? -axes[y] : axes[y];
-    const vec3 x = axes[(y + 1) % 3];
+    const vec3& x = axes[(y + 1) % 3];
     return glm::normalize(glm::quat_cast(mat3(x, up, glm::cross(x, up))));
 }
 

@@ -34,6 +34,11 @@ float sumOfLast(const Simulation& simulation, int steps) {
     return std::accumulate(times.begin(), times.end(), 0.0F);
 }
 
+std::size_t heapInUse() {
+    const auto info = ::mallinfo2();
+    return info.uordblks + info.hblkhd;
+}
+
 float medianOf(std::vector<float> values) {
     if (values.empty()) return 0.0F;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -54,7 +59,6 @@ Result<BenchResult> runBenchmark(const Stage& stage, const BenchCase& what) {
     result.what = what;
     auto stock = makeSimulation(stage, what, physics::SolverKind::stock, false);
     if (!stock) return stock.error();
-    const std::size_t heapBefore = ::mallinfo2().uordblks + ::mallinfo2().hblkhd;
     auto ours = makeSimulation(stage, what, what.solver, false);
     if (!ours) return ours.error();
     std::vector<float> ratios;
@@ -72,8 +76,11 @@ Result<BenchResult> runBenchmark(const Stage& stage, const BenchCase& what) {
     std::vector<physics::ContactPoint> contacts;
     ours.value()->world().getContacts(contacts);
     result.contacts = contacts.size();
-    const std::size_t heapAfter = ::mallinfo2().uordblks + ::mallinfo2().hblkhd;
-    result.memoryBytes = heapAfter > heapBefore ? heapAfter - heapBefore : 0;
+    // What is given back with it: stock's own heap grows in the same run.
+    const std::size_t held = heapInUse();
+    ours.value().reset();
+    const std::size_t left = heapInUse();
+    result.memoryBytes = held > left ? held - left : 0;
     auto quality = measureQuality(stage, what, what.solver);
     if (!quality) return quality.error();
     auto stockQuality = measureQuality(stage, what, physics::SolverKind::stock);
