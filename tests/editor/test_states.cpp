@@ -113,10 +113,11 @@ std::unique_ptr<Editor> editorIn(State state) {
         send(*editor, keyPressed(Key::a, {true, false, false}));
     }
     if (state == State::remove) {
-        SceneSettings scene = editor->document().state().scene;
-        scene.objects.emplace_back();
-        REQUIRE(editor->edit([&](EditorDocument& document) { return document.setScene(scene, "Add"); }));
-        editor->select(Item{Item::Kind::object, 0, 0});
+        scene::EntityId id = scene::kNoEntity;
+        REQUIRE(editor->editScene("Add", "", [&](scene::EntityScene& scene) {
+            id = scene::addEntity(scene, scene::EntityKind::box, {{1, 0, 0, 0}, {2, 0.25F, 0}}).id;
+        }));
+        editor->select(Item{Item::Kind::object, 0, static_cast<int>(id)});
         send(*editor, keyPressed(Key::del));
     }
     REQUIRE(editor->state() == state);
