@@ -78,7 +78,9 @@ Result<std::unique_ptr<Simulation>> Simulation::create(std::vector<const Ragdoll
 }
 
 Simulation::Simulation(std::vector<const RagdollAsset*> assets, Scenario scenario, const SimulationOptions& options)
-    : assets_(std::move(assets)), scenario_(std::move(scenario)), options_(options),
+    : assets_(std::move(assets)),
+      scenario_(std::move(scenario)),
+      options_(options),
       eye_(options.eye.value_or(scenario_.focus)) {
     firstBody_.push_back(0);
     for (int doll = 0; doll < dollCount(); ++doll)
