@@ -27,7 +27,11 @@ const std::vector<RigidTransform>& ClipFrames::get() const {
 std::vector<RigidTransform>& ClipFrames::change() {
     auto own = std::make_shared<Shared>();
     // Others may hold the shared poses, or come to them at this very moment.
-    own->frames = shared_.use_count() == 1 ? std::move(const_cast<std::vector<RigidTransform>&>(get())) : get();
+    const std::vector<RigidTransform>& present = get();
+    if (shared_.use_count() == 1)
+        own->frames = std::move(shared_->frames);
+    else
+        own->frames = present;
     own->size = own->frames.size();
     shared_ = std::move(own);
     return shared_->frames;

@@ -68,8 +68,14 @@ class Compiler {
                 shape.halfExtents = collider.halfExtents;
                 return addStatic(id, shape);
             case Collider::Kind::sphere:
+                shape.kind = StaticShape::Kind::sphere;
+                shape.radius = collider.radius;
+                return addStatic(id, shape);
             case Collider::Kind::capsule:
-                return;  // validate() refuses them
+                shape.kind = StaticShape::Kind::capsule;
+                shape.radius = collider.radius;
+                shape.halfLength = collider.halfLength;
+                return addStatic(id, shape);
             case Collider::Kind::ramp:
             case Collider::Kind::stairs:
                 break;

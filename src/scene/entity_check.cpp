@@ -155,10 +155,6 @@ class Checker {
 
     void check(const Collider& one) {
         range(one.entity, "collider/friction", one.friction, 0, 100);
-        const bool round = one.kind == Collider::Kind::sphere || one.kind == Collider::Kind::capsule;
-        if (round && scene_.find<RigidBody>(one.entity) == nullptr) {
-            say(pointer(one.entity, "collider/kind"), "expected a rigidBody beside a sphere or capsule, which moves");
-        }
         switch (one.kind) {
             case Collider::Kind::plane:
                 break;

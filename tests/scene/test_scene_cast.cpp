@@ -199,3 +199,25 @@ TEST_CASE("a scene's camera looks along its frame's -Z, and its lights shine the
     CHECK(glm::distance(scenario.value().lights[0].direction, forward) < 1e-5F);
     CHECK(scenario.value().lights[0].outerAngle < kPi);
 }
+
+TEST_CASE("a ball, box or capsule without a rigid body is fixed geometry of its own shape") {
+    EntityScene scene;
+    const RigidTransform place{{1, 0, 0, 0}, {1, 2, 3}};
+    for (const EntityKind kind : {EntityKind::box, EntityKind::sphere, EntityKind::capsule})
+        scene.remove<RigidBody>(addEntity(scene, kind, place).id);
+    CHECK(validate(scene).empty());
+    const auto scenario = compileScene(scene, {}, {});
+    REQUIRE(scenario);
+    CHECK(scenario.value().props.empty());
+    using Kind = physics::StaticShape::Kind;
+    const Kind expected[] = {Kind::box, Kind::sphere, Kind::capsule};
+    REQUIRE(scenario.value().statics.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const physics::StaticShape& shape = scenario.value().statics[i];
+        const Collider& collider = scene.all<Collider>()[i];
+        CHECK(shape.kind == expected[i]);
+        CHECK(shape.worldFromShape.translation == place.translation);
+        if (shape.kind != Kind::box) CHECK(shape.radius == collider.radius);
+        if (shape.kind == Kind::capsule) CHECK(shape.halfLength == collider.halfLength);
+    }
+}

@@ -152,6 +152,7 @@ struct Timing {
 std::vector<int> tellingFrames(const aiAnimation& animation, const Timing& timing) {
     constexpr int kShare = 24;
     std::vector<int> frames;
+    frames.reserve(kShare);
     for (int i = 0; i < kShare; ++i)
         frames.push_back(i * (timing.frames - 1) / (kShare - 1));
     for (unsigned c = 0; c < animation.mNumChannels; ++c) {

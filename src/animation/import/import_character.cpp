@@ -94,7 +94,7 @@ void poseNodes(const ClipFile& file, Character& character) {
 // Skeleton and clips from the solved bind pose and the settled units.
 std::shared_ptr<ClipFile> buildMotion(const SceneFile& source, const NodeTree& tree, std::span<const dmat4> bind,
                                       const UnitsAndAxes& units, Character& character) {
-    const auto file = std::make_shared<ClipFile>(tree, bind, units.modelFromScene(), character.skeleton);
+    auto file = std::make_shared<ClipFile>(tree, bind, units.modelFromScene(), character.skeleton);
     character.skeleton.bindModelFromJoint = file->poser.bindModelFromJoint();
     character.skeleton.nodeParentFromJoint.resize(tree.nodeOfJoint.size());
     if (!tree.nodesArePosed) {
