@@ -13,7 +13,6 @@ namespace {
 
 using animation::Role;
 using animation::Side;
-using physics::ConstraintProfile;
 
 Error outOfRange(const std::vector<std::string>& problems) {
     std::string all;

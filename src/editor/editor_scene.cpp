@@ -26,10 +26,11 @@ void Editor::dropCopies(int count) {
     Random random(settings.entities.entities.size());
     for (int i = 0; i < count; ++i) {
         const int place = i % (side * side);
+        const int row = place / side;
+        const int level = i / (side * side);
         const float middle = (static_cast<float>(std::min(count, side * side)) / static_cast<float>(side) - 1) * 0.5F;
         const vec3 at{(static_cast<float>(place % side) - 1.5F) * spacing * (count > 1 ? 1.0F : 0.0F),
-                      lowest + storey * static_cast<float>(i / (side * side)),
-                      (static_cast<float>(place / side) - middle) * spacing};
+                      lowest + storey * static_cast<float>(level), (static_cast<float>(row) - middle) * spacing};
         const quat turn = glm::angleAxis(random.uniform(-kPi, kPi), vec3(0, 1, 0)) *
                           glm::angleAxis(random.uniform(-0.5F, 0.5F), vec3(1, 0, 0));
         scene::addEntity(settings.entities, scene::EntityKind::character, {turn, at});

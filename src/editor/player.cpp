@@ -270,7 +270,7 @@ int Player::dollOf(scene::EntityId id) const {
 }
 
 RigidTransform Player::worldFromEntity(scene::EntityId id) const {
-    const RigidTransform start = scene::worldFromEntity(document_.scene(), id);
+    RigidTransform start = scene::worldFromEntity(document_.scene(), id);
     if (stale()) return start;
     const auto& props = simulation_->scenario().propEntities;
     if (const auto prop = std::find(props.begin(), props.end(), id); prop != props.end()) {

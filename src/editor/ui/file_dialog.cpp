@@ -73,7 +73,7 @@ FileFilter filterOf(Editor::Dialog dialog) {
 // The folder that is shown: the typed one, or that of the typed file.
 fs::path folderOf(const std::string& typed) {
     std::error_code failed;
-    const fs::path path(typed);
+    fs::path path(typed);
     if (fs::is_directory(path, failed)) return path;
     return path.parent_path().empty() ? fs::path(".") : path.parent_path();
 }

@@ -105,7 +105,14 @@ static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& 
             (gather3(pair.bodyA, kPositionOffset) - gather3(pair.bodyB, kPositionOffset)) + (coreA - coreB);
         store(pair.separation, dot(normal, apart) - load(pair.radius));
         if (params.warmStart != 0) preparePair(pair, coreA, coreB);
-        store(pair.carriedNormal, load(pair.normalImpulse));
+        // What changed the bodies' speeds was a hit and is over; what held them against a load goes on.
+        const F start = dot(normal, slidingOf(pair, velocitiesOf(pair)));
+        const F pressed = load(pair.normalImpulse);
+        const F steady = pressed - load(pair.normalMass) * (start - load(pair.approach));
+        const F held = least(most(steady, all(0.0F)), pressed);
+        store(pair.approach, start);
+        store(pair.normalImpulse, held);
+        store(pair.carriedNormal, held);
         store(pair.carriedTangent[0], load(pair.tangentImpulse[0]));
         store(pair.carriedTangent[1], load(pair.tangentImpulse[1]));
     }

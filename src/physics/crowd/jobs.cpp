@@ -24,6 +24,7 @@ void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTou
     pair.inverseMassB.lane[lane] = state.groupOf(b).topology.bodies[touch.bodyB].inverseMass;
     pair.friction.lane[lane] = kFriction;
     pair.normalImpulse.lane[lane] = touch.carried.normal;
+    pair.approach.lane[lane] = touch.carried.approach;
     writeVector(pair.frictionImpulse, lane, touch.carried.friction);
     pair.active.lane[lane] = 1.0F;
 }

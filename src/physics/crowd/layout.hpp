@@ -174,6 +174,7 @@ struct PairContactLanes {
     Wide normalImpulse;
     Wide3 frictionImpulse;  ///< World axes, what is carried from the step before.
     Wide tangentImpulse[2];
+    Wide approach;       ///< Relative speed along the normal at the start of the last substep.
     Wide carriedNormal;  ///< What the substep before left of the impulses.
     Wide carriedTangent[2];
     Wide active;  ///< 1, or 0 where the lane is empty.

@@ -161,6 +161,7 @@ void keepPairs(CrowdState& state, const Job& job) {
             if (index < 0) continue;
             PairTouch& touch = state.touches[index];
             touch.carried.normal = pair.normalImpulse.lane[lane];
+            touch.carried.approach = pair.approach.lane[lane];
             touch.carried.friction = readVector(pair.tangent[0], lane) * pair.tangentImpulse[0].lane[lane] +
                                      readVector(pair.tangent[1], lane) * pair.tangentImpulse[1].lane[lane];
             touch.touch.separation = pair.separation.lane[lane];

@@ -18,6 +18,7 @@ struct CarriedContact {
     std::uint64_t key = 0;
     float normal = 0.0F;     ///< N s
     vec3 friction{0, 0, 0};  ///< N s, world axes.
+    float approach = 0.0F;   ///< Of a contact between bodies, m/s: see PairContactLanes.
 };
 
 /// The same of a contact with static geometry, and what a report of it needs.

@@ -174,3 +174,22 @@ TEST_CASE("dolls that fall in any posture stay whole and out of the floor") {
     CHECK(quality.energyGrowthJ < 0.01F * quality.initialEnergyJ);
     CHECK(quality.nonFinite == 0);
 }
+
+TEST_CASE("a ball that hits another of its mass goes on with it at half the speed") {
+    WorldSettings settings;
+    settings.gravity = vec3(0);
+    settings.sleeping = false;
+    const auto world = createCrowdWorld(settings);
+    physics::DynamicProp ball;
+    ball.shape.kind = physics::BodyShape::Kind::sphere;
+    ball.shape.radius = 0.1F;
+    ball.massKg = 2.0F;
+    world->addProp(ball);
+    ball.state.worldFromBody.translation = {-0.5F, 0, 0};
+    ball.state.linearVelocity = {4, 0, 0};
+    world->addProp(ball);
+    for (int i = 0; i < 30; ++i)
+        world->step(kStep);
+    CHECK(world->propState(0).linearVelocity.x == Approx(2.0F).margin(0.1F));
+    CHECK(world->propState(1).linearVelocity.x == Approx(2.0F).margin(0.1F));
+}
