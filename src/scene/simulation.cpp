@@ -131,6 +131,7 @@ void Simulation::build() {
     }
     if (options_.shed.any()) {
         std::vector<LoadShedder::Kind> kinds;
+        kinds.reserve(scenario_.dolls.size());
         for (int doll = 0; doll < dollCount(); ++doll)
             kinds.push_back({&assetOf(doll).profile, &assetOf(doll).rig});
         shedder_ = std::make_unique<LoadShedder>(kinds, *world_, scenario_.statics, options_.world, options_.shed);
