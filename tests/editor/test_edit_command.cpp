@@ -260,6 +260,25 @@ TEST_CASE("a script gives a role to another joint by the mapping's list and save
     CHECK(saved.value().bodies[spine].joint == "chest");
 }
 
+TEST_CASE("a role that a script drags from its panel onto a joint in the view takes that joint") {
+    if (!layoutIsKnown()) return;
+    const Scratch scratch;
+    Script script;
+    script.key(Key::space).click(122, 43).wait(2);     // the tab Mapping
+    script.drag(40, 331, 712, 188).wait(2).release();  // leftHand to the left elbow
+    script.move(640, 600).key(Key::s, kControl).wait(2);
+    script.save(scratch / "script.jsonl");
+    const Outcome outcome = edit(scratch, "--headless --input " + (scratch / "script.jsonl").string());
+    if (skipped(outcome)) return;
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    const auto saved = physics::loadProfile(scratch / "mannequin.ragdoll.json");
+    REQUIRE(saved.ok());
+    const int hand = physics::bodyOf(saved.value(), animation::Role::leftHand);
+    REQUIRE(hand >= 0);
+    CHECK(saved.value().bodies[hand].joint == "leftLowerArm");
+}
+
 TEST_CASE("the panels look as they did when they were looked at") {
     if (!layoutIsKnown()) return;
     const Scratch scratch;
