@@ -133,4 +133,23 @@ int JsonCursor::oneOf(std::span<const char* const> choices) const {
     return -1;
 }
 
+std::vector<std::string> checkFormat(const nlohmann::json& document, const char* format, int version) {
+    std::vector<std::string> problems;
+    const JsonCursor at(document, problems);
+    if (!document.is_object()) {
+        at.report("expected an object");
+        return problems;
+    }
+    if (!at.has("format")) at.report(fmt::format("expected a member \"format\": \"{}\"", format));
+    at["format"].oneOf({format});
+    const JsonCursor found = at["version"];
+    const auto number = found.wholeNumber();
+    if (number && *number != version) {
+        found.report(fmt::format(
+            "expected version {}, got {}: {}", version, *number,
+            *number > version ? "the file is from a newer program" : "there has never been such a version"));
+    }
+    return problems;
+}
+
 }  // namespace lutka::physics

@@ -58,4 +58,8 @@ class JsonCursor {
     mutable bool failed_ = false;
 };
 
+/// What is wrong with a document's members "format" and "version", which come first: nothing else means anything
+/// without them. Empty when they are `format` and `version`.
+[[nodiscard]] std::vector<std::string> checkFormat(const nlohmann::json& document, const char* format, int version);
+
 }  // namespace lutka::physics

@@ -204,26 +204,6 @@ Error asError(std::string_view source, const std::vector<std::string>& problems)
     return {ErrorCode::input, std::move(message), std::string(source), "docs/profile.md describes every field"};
 }
 
-// The format's name and version come first: nothing else means anything without them.
-std::vector<std::string> checkVersion(const json& document) {
-    std::vector<std::string> problems;
-    const JsonCursor at(document, problems);
-    if (!document.is_object()) {
-        at.report("expected an object");
-        return problems;
-    }
-    if (!at.has("format")) at.report(fmt::format("expected a member \"format\": \"{}\"", profile_format::kName));
-    at["format"].oneOf({profile_format::kName});
-    const JsonCursor version = at["version"];
-    const auto number = version.wholeNumber();
-    if (number && *number != RagdollProfile::kVersion) {
-        version.report(fmt::format("expected version {}, got {}: {}", RagdollProfile::kVersion, *number,
-                                   *number > RagdollProfile::kVersion ? "the file is from a newer program"
-                                                                      : "there has never been such a version"));
-    }
-    return problems;
-}
-
 }  // namespace
 
 Result<RagdollProfile> profileFromJson(std::string_view text, std::string_view source) {
@@ -231,7 +211,7 @@ Result<RagdollProfile> profileFromJson(std::string_view text, std::string_view s
     const Result<json> parsed = parseJson(text, source, duplicates);
     if (!parsed) return parsed.error();
     const json& document = parsed.value();
-    std::vector<std::string> problems = checkVersion(document);
+    std::vector<std::string> problems = checkFormat(document, profile_format::kName, RagdollProfile::kVersion);
     if (!problems.empty()) return asError(source, problems);
     problems = duplicates;
     RagdollProfile profile;

@@ -283,26 +283,6 @@ void readEntity(const JsonCursor& at, std::size_t index, const std::filesystem::
     if (at.has("camera")) scene.add(id, readCamera(at["camera"]));
 }
 
-// The format's name and version come first: nothing else means anything without them.
-std::vector<std::string> checkVersion(const json& document) {
-    std::vector<std::string> problems;
-    const JsonCursor at(document, problems);
-    if (!document.is_object()) {
-        at.report("expected an object");
-        return problems;
-    }
-    if (!at.has("format")) at.report(fmt::format("expected a member \"format\": \"{}\"", scene_format::kName));
-    at["format"].oneOf({scene_format::kName});
-    const JsonCursor version = at["version"];
-    const auto number = version.wholeNumber();
-    if (number && *number != EntityScene::kVersion) {
-        version.report(fmt::format("expected version {}, got {}: {}", EntityScene::kVersion, *number,
-                                   *number > EntityScene::kVersion ? "the file is from a newer program"
-                                                                   : "there has never been such a version"));
-    }
-    return problems;
-}
-
 Error asError(std::string_view source, const std::vector<std::string>& problems) {
     constexpr std::size_t most = 50;
     std::string message = problems.size() == 1 ? "not a valid scene, 1 problem:"
@@ -320,7 +300,8 @@ Result<EntityScene> sceneFromJson(std::string_view text, std::string_view source
     std::vector<std::string> duplicates;
     const Result<json> parsed = physics::parseJson(text, source, duplicates);
     if (!parsed) return parsed.error();
-    if (problems = checkVersion(parsed.value()); !problems.empty()) return asError(source, problems);
+    if (problems = physics::checkFormat(parsed.value(), scene_format::kName, EntityScene::kVersion); !problems.empty())
+        return asError(source, problems);
     problems = duplicates;
     const JsonCursor root(parsed.value(), problems);
     root.expectObject({"format", "version", "entities"}, {"$schema", "name", "simulation"});
