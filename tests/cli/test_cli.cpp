@@ -1,3 +1,5 @@
+#include <csignal>
+
 #include <nlohmann/json.hpp>
 
 #include "support/catch.hpp"
@@ -315,6 +317,20 @@ TEST_CASE("an interrupted video leaves nothing behind") {
         return;
     }
     CHECK(result.code == 124);  // timeout's own word for having sent the signal
+    CHECK(fs::is_empty(folder.path));
+}
+
+TEST_CASE("an interrupt that comes several times at once is one") {
+    const ScratchFolder folder;
+    // A picture of this size takes longer than the two are apart.
+    const CommandResult result = runCommand(
+        "sh -c \"'" LUTKA_BINARY "' render " + kMannequin + " --seconds 600 --size 1280x720 -o " +
+        (folder / "long.mp4") + " & p=\\$!; sleep 3; kill -TERM \\$p; sleep 0.02; kill -TERM \\$p; wait \\$p\"");
+    if (result.code == 6 || contains(result.err, "ffmpeg")) {
+        WARN("skipped: no GL context or no ffmpeg");
+        return;
+    }
+    CHECK(result.code == 128 + SIGTERM);
     CHECK(fs::is_empty(folder.path));
 }
 

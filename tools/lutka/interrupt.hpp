@@ -3,7 +3,7 @@
 namespace lutka::cli {
 
 /// From now on Ctrl+C, a hang-up or a polite kill asks the program to stop instead of ending it on the spot, so that
-/// temporary files are removed; a second signal ends it at once.
+/// temporary files are removed; a second signal, half a second or more after the first, ends it at once.
 void installInterruptHandler();
 
 /// Leaves with the shell's code for the signal (128 + its number) when one came.
