@@ -22,19 +22,35 @@ float speedBound(const BodyState& body, const BodyConstants& constants) {
 }
 
 StepBody stepBody(const CrowdState& state, const Doll& doll, int body) {
-    const BodyConstants& constants = state.groupOf(doll).topology.bodies[body];
+    const Topology& topology = state.groupOf(doll).topology;
+    const BodyConstants& constants = topology.bodies[body];
     const BodyState moving = bodyState(state, doll, body);
-    StepBody step;
-    step.placed = placedShape(state, doll, body);
-    step.velocity = moving.linearVelocity;
+    const PlacedShape placed = placedShape(state, doll, body);
+    const bool isBox = placed.shape->kind == BodyShape::Kind::box;
+    const vec3 half = placed.axes[1] * constants.extent[1];
+    StepBody step{};
+    for (int i = 0; i < 3; ++i) {
+        step.centre[i] = placed.position[i];
+        step.half[i] = half[i];
+        step.velocity[i] = moving.linearVelocity[i];
+    }
+    step.radius = constants.radius;
+    step.halfLength = isBox ? kBoxCore : constants.extent[1];
     step.swing = glm::length(moving.angularVelocity) * constants.reach;
     step.size = constants.reach + constants.radius;
     return step;
 }
 
-// How near two bodies must be for a contact.
-float pairRange(const CrowdState& state, const StepBody& a, const StepBody& b, float dt) {
-    return state.tuning.pairMargin + kForesight * dt * (glm::length(a.velocity - b.velocity) + a.swing + b.swing);
+vec3 vectorOf(const float (&v)[3]) {
+    return {v[0], v[1], v[2]};
+}
+
+TouchRange touchRange(const CrowdState& state, float dt) {
+    return {state.tuning.pairMargin, kForesight * dt};
+}
+float distanceIn(const TouchRange& range, const StepBody& a, const StepBody& b) {
+    return range.margin +
+           range.seconds * (glm::length(vectorOf(a.velocity) - vectorOf(b.velocity)) + a.swing + b.swing);
 }
 
 std::uint64_t pairKey(const Doll& a, int bodyA, const Doll& b, int bodyB, int index) {
@@ -48,21 +64,77 @@ struct Which {
     int doll;
     int body;
 };
-void collide(const CrowdState& state, const Which& a, const StepBody& stepA, const Which& b, const StepBody& stepB,
-             float dt, std::vector<PairTouch>& out) {
-    const float range = pairRange(state, stepA, stepB, dt);
-    const vec3 apart = stepA.placed.position - stepB.placed.position;
-    const float reach = stepA.size + stepB.size + range;
-    if (glm::dot(apart, apart) > reach * reach) return;
-    const Touches<BodyTouch> found = touchBodies(stepA.placed, stepB.placed, range);
-    for (int i = 0; i < found.count; ++i) {
-        PairTouch touch{a.doll, a.body, b.doll, b.body, found.points[i], {}};
-        const std::uint64_t key = pairKey(state.dolls[a.doll], a.body, state.dolls[b.doll], b.body, i);
-        if (const CarriedContact* carried = state.carried.find(key)) touch.carried = *carried;
-        touch.carried.key = key;
-        out.push_back(touch);
-    }
+void addTouch(const CrowdState& state, const Which& a, const Which& b, int index, const BodyTouch& at,
+              std::vector<PairTouch>& out) {
+    PairTouch touch{a.doll, a.body, b.doll, b.body, at, {}};
+    const std::uint64_t key = pairKey(state.dolls[a.doll], a.body, state.dolls[b.doll], b.body, index);
+    if (const CarriedContact* carried = state.carried.find(key)) touch.carried = *carried;
+    touch.carried.key = key;
+    out.push_back(touch);
 }
+
+// Two bodies of which one is a box.
+void collideBoxes(const CrowdState& state, const Which& a, const StepBody& stepA, const Which& b, const StepBody& stepB,
+                  const TouchRange& range, std::vector<PairTouch>& out) {
+    const float distance = distanceIn(range, stepA, stepB);
+    const vec3 apart = vectorOf(stepA.centre) - vectorOf(stepB.centre);
+    const float reach = stepA.size + stepB.size + distance;
+    if (glm::dot(apart, apart) > reach * reach) return;
+    const Touches<BodyTouch> found = touchBodies(placedShape(state, state.dolls[a.doll], a.body),
+                                                 placedShape(state, state.dolls[b.doll], b.body), distance);
+    for (int i = 0; i < found.count; ++i)
+        addTouch(state, a, b, i, found.points[i], out);
+}
+
+BodyTouch touchOf(const CoreTouchLanes& found, int lane) {
+    return {{0, found.alongA.lane[lane], 0},
+            {0, found.alongB.lane[lane], 0},
+            found.radius.lane[lane],
+            readVector(found.normal, lane),
+            found.separation.lane[lane]};
+}
+
+// Contacts of pairs of bodies, eight pairs at a time, in the order in which the pairs come.
+class TouchSearch {
+  public:
+    TouchSearch(const CrowdState& state, float dt, std::vector<PairTouch>& out)
+        : state_(state), range_(touchRange(state, dt)), out_(out) {}
+
+    void add(const Which& a, const StepBody& stepA, const Which& b, const StepBody& stepB) {
+        a_[count_] = a;
+        b_[count_] = b;
+        stepA_[count_] = &stepA;
+        stepB_[count_] = &stepB;
+        if (++count_ == kLanes) flush();
+    }
+
+    void flush() {
+        if (count_ == 0) return;
+        for (int lane = count_; lane < kLanes; ++lane) {
+            stepA_[lane] = stepA_[0];
+            stepB_[lane] = stepB_[0];
+        }
+        CoreTouchLanes found;
+        const unsigned near = state_.kernels->touchCores(stepA_, stepB_, range_, found);
+        for (int lane = 0; lane < count_; ++lane) {
+            if (stepA_[lane]->halfLength == kBoxCore || stepB_[lane]->halfLength == kBoxCore)
+                collideBoxes(state_, a_[lane], *stepA_[lane], b_[lane], *stepB_[lane], range_, out_);
+            else if ((near >> static_cast<unsigned>(lane) & 1U) != 0)
+                addTouch(state_, a_[lane], b_[lane], 0, touchOf(found, lane), out_);
+        }
+        count_ = 0;
+    }
+
+  private:
+    const CrowdState& state_;
+    TouchRange range_;
+    std::vector<PairTouch>& out_;
+    int count_ = 0;
+    Which a_[kLanes]{};
+    Which b_[kLanes]{};
+    const StepBody* stepA_[kLanes]{};
+    const StepBody* stepB_[kLanes]{};
+};
 
 void boundsOfBatch(CrowdState& state, Batch& batch, const Topology& topology, float dt) {
     const BatchView view = batch.view(topology);
@@ -232,26 +304,31 @@ class StaticContacts {
 void findSelfContacts(CrowdState& state, const Batch& batch, const BatchView& view, const Topology& topology, float dt,
                       std::vector<PairTouch>& out) {
     out.clear();
+    const TouchRange range = touchRange(state, dt);
     const std::vector<SelfPair>& pairs = topology.selfPairs;
     std::vector<unsigned char> masks(pairs.size());
     state.kernels->findSelfPairs(view, pairs.data(), static_cast<int>(pairs.size()), masks.data());
+    const auto isBox = [&](int body) { return topology.shapes[body].kind == BodyShape::Kind::box; };
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-        for (int lane = 0; masks[i] != 0 && lane < batch.used; ++lane) {
-            if ((masks[i] >> static_cast<unsigned>(lane) & 1U) == 0) continue;
-            const int index = batch.doll[lane];
-            const Doll& doll = state.dolls[index];
-            if (state.isNear[index] != 0) {
-                const StepBody* steps = &state.stepBodies[doll.firstBody];
-                collide(state, {index, pairs[i].a}, steps[pairs[i].a], {index, pairs[i].b}, steps[pairs[i].b], dt, out);
-            } else {
-                collide(state, {index, pairs[i].a}, stepBody(state, doll, pairs[i].a), {index, pairs[i].b},
-                        stepBody(state, doll, pairs[i].b), dt, out);
-            }
+        if (masks[i] == 0) continue;
+        const auto [bodyA, bodyB] = pairs[i];
+        CoreTouchLanes found;
+        const bool boxes = isBox(bodyA) || isBox(bodyB);
+        const unsigned near = masks[i] & (boxes ? ~0U : state.kernels->touchOwnCores(view, pairs[i], range, found));
+        for (int lane = 0; lane < batch.used; ++lane) {
+            if ((near >> static_cast<unsigned>(lane) & 1U) == 0) continue;
+            const Which a{batch.doll[lane], bodyA};
+            const Which b{batch.doll[lane], bodyB};
+            const Doll& doll = state.dolls[a.doll];
+            if (boxes)
+                collideBoxes(state, a, stepBody(state, doll, bodyA), b, stepBody(state, doll, bodyB), range, out);
+            else
+                addTouch(state, a, b, 0, touchOf(found, lane), out);
         }
     }
 }
 
-void collideDolls(const CrowdState& state, int indexA, int indexB, float dt, std::vector<PairTouch>& out) {
+void collideDolls(const CrowdState& state, int indexA, int indexB, float dt, TouchSearch& search) {
     const Doll& a = state.dolls[indexA];
     const Doll& b = state.dolls[indexB];
     // How far the two roots move against each other.
@@ -267,7 +344,7 @@ void collideDolls(const CrowdState& state, int indexA, int indexB, float dt, std
     const StepBody* bodiesB = &state.stepBodies[b.firstBody];
     for (int i = 0; i < count; ++i) {
         const BodyPair pair = near[i];
-        collide(state, {indexA, pair.a}, bodiesA[pair.a], {indexB, pair.b}, bodiesB[pair.b], dt, out);
+        search.add({indexA, pair.a}, bodiesA[pair.a], {indexB, pair.b}, bodiesB[pair.b]);
     }
 }
 
@@ -278,12 +355,14 @@ bool pushes(const CrowdState& state, const Doll& mover, const Doll& sleeper, flo
     for (int i = 0; i < state.groupOf(mover).topology.bodyCount(); ++i) {
         const BodyState move = bodyState(state, mover, i);
         const StepBody step = stepBody(state, mover, i);
+        const PlacedShape placed = placedShape(state, mover, i);
         for (int j = 0; j < state.groupOf(sleeper).topology.bodyCount(); ++j) {
             const StepBody other = stepBody(state, sleeper, j);
-            const Touches<BodyTouch> found = touchBodies(step.placed, other.placed, pairRange(state, step, other, dt));
+            const Touches<BodyTouch> found =
+                touchBodies(placed, placedShape(state, sleeper, j), distanceIn(touchRange(state, dt), step, other));
             for (int k = 0; k < found.count; ++k) {
                 const BodyTouch& touch = found.points[k];
-                const vec3 arm = step.placed.axes * touch.localA;
+                const vec3 arm = placed.axes * touch.localA;
                 const float closing =
                     -glm::dot(touch.normal, move.linearVelocity + glm::cross(move.angularVelocity, arm));
                 if (touch.separation < -kOverlap) return true;
@@ -393,10 +472,12 @@ void collideAllDolls(CrowdState& state, float dt) {
         for (std::size_t piece = begin; piece < end; ++piece) {
             std::vector<PairTouch>& out = state.dollTouches[piece];
             out.clear();
+            TouchSearch search(state, dt, out);
             for (std::size_t i = piece * kPiece; i < std::min((piece + 1) * kPiece, state.dollPairs.size()); ++i) {
                 const auto& [a, b] = state.dollPairs[i];
-                if (!state.dolls[a].asleep() && !state.dolls[b].asleep()) collideDolls(state, a, b, dt, out);
+                if (!state.dolls[a].asleep() && !state.dolls[b].asleep()) collideDolls(state, a, b, dt, search);
             }
+            search.flush();
         }
     });
     for (std::size_t piece = 0; piece < pieces; ++piece)

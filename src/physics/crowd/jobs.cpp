@@ -39,61 +39,79 @@ void emptyBlock(PairContactLanes& pair, Batch& batch) {
 }
 
 // Gives each contact the first open block that has room and neither of its bodies: a greedy colouring whose colours
-// hold at most eight edges. When no block of the window will do, a new window is opened.
+// hold at most eight edges. When no block of the window will do, a new window is opened. Blocks are filled afterwards,
+// one by one: a block is large, and filling 64 in turn would push them all out of the nearest cache.
 class Packer {
   public:
-    Packer(CrowdState& state, std::vector<std::uint64_t>& usedBy) : state_(state), usedBy_(usedBy) {}
+    explicit Packer(CrowdState& state) : state_(state), usedBy_(static_cast<std::size_t>(state.bodyTotal), 0) {}
 
     void pack(Job& job) {
-        job.pairs.clear();
         job.touchOfLane.clear();
         openWindow(job);
-        for (const int index : job.touches)
-            place(job, index);
-        for (const int index : job.touches)  // leave the table clean for the next job
-            clear(state_.touches[index]);
+        for (std::size_t i = 0; i < job.touches.size(); ++i) {
+            if (place(job, job.touches[i])) continue;
+            forget(job, i);
+            openWindow(job);
+            place(job, job.touches[i]);
+        }
+        forget(job, job.touches.size());
+        job.pairs.resize(job.touchOfLane.size());
+        state_.pool.parallelFor(job.pairs.size(), 64, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t block = begin; block < end; ++block)
+                fill(job, block);
+        });
     }
 
   private:
     std::uint64_t& used(int doll, int body) { return usedBy_[state_.dolls[doll].firstBody + body]; }
-    void clear(const PairTouch& touch) { used(touch.dollA, touch.bodyA) = used(touch.dollB, touch.bodyB) = 0; }
 
-    void openWindow(Job& job) {
-        first_ = job.pairs.size();
+    // Leaves the table clean of the window's contacts, of which `end` is the one after the last.
+    void forget(const Job& job, std::size_t end) {
+        for (; placed_ < end; ++placed_) {
+            const PairTouch& touch = state_.touches[job.touches[placed_]];
+            used(touch.dollA, touch.bodyA) = used(touch.dollB, touch.bodyB) = 0;
+        }
+        if (end == job.touches.size()) placed_ = 0;
+    }
+
+    void openWindow(const Job& job) {
+        first_ = job.touchOfLane.size();
         full_ = 0;
     }
 
-    void place(Job& job, int index) {
+    // False: no block of the window will do.
+    bool place(Job& job, int index) {
         const PairTouch& touch = state_.touches[index];
         std::uint64_t& usedA = used(touch.dollA, touch.bodyA);
         std::uint64_t& usedB = used(touch.dollB, touch.bodyB);
-        std::uint64_t taken = usedA | usedB | full_;
-        if (~taken == 0) {
-            for (const int other : job.touches)
-                clear(state_.touches[other]);
-            openWindow(job);
-            taken = 0;
-        }
+        const std::uint64_t taken = usedA | usedB | full_;
+        if (~taken == 0) return false;
         const int bit = std::countr_one(taken);
         const std::size_t block = first_ + static_cast<std::size_t>(bit);
-        while (job.pairs.size() <= block) {
-            job.pairs.emplace_back();
-            emptyBlock(job.pairs.back(), *job.batches.front());
+        if (job.touchOfLane.size() == block) {
             job.touchOfLane.emplace_back().fill(-1);
-            filled_[job.pairs.size() - 1 - first_] = 0;
+            filled_[bit] = 0;
         }
-        const int lane = filled_[bit]++;
-        fillLane(state_, job.pairs[block], lane, touch);
-        job.touchOfLane[block][lane] = index;
+        job.touchOfLane[block][filled_[bit]++] = index;
         const std::uint64_t mask = std::uint64_t{1} << static_cast<unsigned>(bit);
         usedA |= mask;
         usedB |= mask;
         if (filled_[bit] == kLanes) full_ |= mask;
+        return true;
+    }
+
+    void fill(Job& job, std::size_t block) {
+        emptyBlock(job.pairs[block], *job.batches.front());
+        for (int lane = 0; lane < kLanes; ++lane) {
+            const int index = job.touchOfLane[block][lane];
+            if (index >= 0) fillLane(state_, job.pairs[block], lane, state_.touches[index]);
+        }
     }
 
     CrowdState& state_;
-    std::vector<std::uint64_t>& usedBy_;  // one a body of the world: the blocks of the window that have it
-    std::size_t first_ = 0;
+    std::vector<std::uint64_t> usedBy_;  // one a body of the world: the blocks of the window that have it
+    std::size_t placed_ = 0;             // the window's first contact
+    std::size_t first_ = 0;              // the window's first block
     std::uint64_t full_ = 0;
     std::array<int, kWindow> filled_{};
 };
@@ -142,8 +160,7 @@ void makeJobs(CrowdState& state) {
         if (!state.dolls[record.doll].asleep()) jobOf(record.doll).motors.push_back(&record);
     for (const ForceRecord& record : state.forces)
         jobOf(record.doll).forces.push_back(&record);
-    std::vector<std::uint64_t> usedBy(static_cast<std::size_t>(state.bodyTotal), 0);
-    Packer packer(state, usedBy);
+    Packer packer(state);
     for (std::size_t i = 0; i < state.jobCount; ++i)
         packer.pack(state.jobs[i]);
 }

@@ -3,6 +3,7 @@
 /// What a translation unit that defines LUTKA_CROWD_KERNELS includes to get that instruction set's kernels.
 
 #include "physics/crowd/contact_kernels.hpp"
+#include "physics/crowd/touch_kernels.hpp"
 
 namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
 
@@ -13,8 +14,9 @@ static void begin(const BatchView& batch, const SubstepParams& params) {
         beginStatic(batch.contacts[i], batch, params);
 }
 
-static constexpr Kernels kTable{&refresh,    &findBounds, &findSelfPairs, &findBodyPairs, &findNearPlane,
-                                &joinBounds, &findMotion, &begin,         &solve,         &mend,
-                                &advance,    &beginPairs, &solvePairs,    &mendPairs,     &carryPairs};
+static constexpr Kernels kTable{&refresh,       &findBounds,    &findSelfPairs, &findBodyPairs, &touchCores,
+                                &touchOwnCores, &findNearPlane, &joinBounds,    &findMotion,    &begin,
+                                &solve,         &mend,          &advance,       &beginPairs,    &solvePairs,
+                                &mendPairs,     &carryPairs};
 
 }  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS

@@ -250,6 +250,34 @@ struct BodyPair {
     int b;
 };
 
+/// A body as the search for contacts sees it in one step. World space, SI units. Sixteen floats: the kernels read eight
+/// of them at a time and transpose.
+struct alignas(64) StepBody {
+    float centre[3];
+    float radius;   ///< Around the core.
+    float half[3];  ///< From the centre to the end of a capsule's core.
+    float swing;    ///< m/s by which turning can move a point of it.
+    float velocity[3];
+    float halfLength;  ///< Of the core; kBoxCore for a box, whose `half` means nothing.
+    float size;        ///< Radius of a sphere around it.
+    float unused[3];
+};
+inline constexpr float kBoxCore = -1.0F;
+
+/// How near two bodies must be for a contact: `margin` metres and the way that they can make in `seconds`.
+struct TouchRange {
+    float margin;
+    float seconds;
+};
+
+/// Where the cores of eight pairs of bodies are nearest.
+struct CoreTouchLanes {
+    Wide alongA, alongB;  ///< Metres from each body's centre along its core.
+    Wide radius;          ///< Of both together.
+    Wide3 normal;         ///< From B to A.
+    Wide separation;      ///< Of the surfaces, metres.
+};
+
 /// The kernels of one instruction set. All sets do the same operations in the same order, without contraction or
 /// approximate instructions, so that they give the same bits.
 struct Kernels {
@@ -263,6 +291,12 @@ struct Kernels {
     /// and `high` bound the whole of `b`. Returns how many there are; `out` has room for every pair.
     int (*findBodyPairs)(const BoxLanes* a, int groupsA, const BoxLanes* b, int groupsB, const float (&apart)[3],
                          const float (&low)[3], const float (&high)[3], BodyPair* out);
+    /// The nearest points of eight pairs of capsules or spheres. Returns a bit mask of the pairs that are in range.
+    unsigned (*touchCores)(const StepBody* const (&a)[kLanes], const StepBody* const (&b)[kLanes],
+                           const TouchRange& range, CoreTouchLanes& out);
+    /// The same of two bodies of one doll, in all lanes.
+    unsigned (*touchOwnCores)(const BatchView& batch, const SelfPair& pair, const TouchRange& range,
+                              CoreTouchLanes& out);
     /// A bit mask of the lanes in which a point of a body, with a radius around it, is nearer to a plane (normal · p =
     /// offset) than `margin` and the way that the body's motion can take it in `seconds`.
     unsigned (*findNearPlane)(const BatchView& batch, int body, const float (&point)[3], float radius,

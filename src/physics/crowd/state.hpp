@@ -139,14 +139,6 @@ struct Job {
     std::vector<Wide> impulseSums;  ///< One a pair block, of a step's substeps; for reports.
 };
 
-/// A body as detection sees it in one step.
-struct StepBody {
-    PlacedShape placed;
-    vec3 velocity{0, 0, 0};
-    float swing = 0.0F;  ///< m/s by which turning can move a point of it.
-    float size = 0.0F;   ///< Metres, of a sphere around it.
-};
-
 /// Everything in a crowd world. The steps of the simulation are free functions over it, each in its own file.
 struct CrowdState {
     CrowdState(const WorldSettings& given, const CrowdTuning& tuned);

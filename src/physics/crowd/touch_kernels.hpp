@@ -1,0 +1,115 @@
+#pragma once
+
+/// Kernels of the search for contacts between two bodies: eight pairs of capsules or spheres at a time.
+
+#include "physics/crowd/body_kernels.hpp"
+
+namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
+
+// Eight bodies, one a lane: a segment with a radius around it, and how it moves.
+struct Cores {
+    V3 centre, half, velocity;
+    F halfLength, radius, swing;
+};
+
+LUTKA_LANES F clampedUnit(const F& value) {
+    return clampLanes(value, all(0.0F), all(1.0F));
+}
+
+// Ericson, Real-Time Collision Detection, 5.1.9, on all lanes; a sphere is a segment of no length.
+LUTKA_LANES unsigned touch(const Cores& a, const Cores& b, const TouchRange& range, CoreTouchLanes& out) {
+    const F zero = all(0.0F), one = all(1.0F), two = all(2.0F), tiny = all(1e-10F);
+    const V3 da = a.half * two;
+    const V3 db = b.half * two;
+    const V3 r = (a.centre - a.half) - (b.centre - b.half);
+    const F aa = dot(da, da), bb = dot(db, db), ab = dot(da, db);
+    const F aR = dot(da, r), bR = dot(db, r);
+    const F perA = one / most(aa, tiny), perB = one / most(bb, tiny);
+    const F denominator = aa * bb - ab * ab;
+    // Of parallel segments any pair in the overlap will do.
+    const F crossing = (ab * bR - aR * bb) / most(denominator, tiny * tiny);
+    const F first = clampedUnit(denominator > all(1e-6F) * aa * bb ? crossing : -aR * perA);
+    const F free = (ab * first + bR) * perB;
+    const F t = clampedUnit(free);
+    const F s = free < zero ? clampedUnit(-aR * perA) : (free > one ? clampedUnit((ab - aR) * perA) : first);
+
+    const V3 between = r + da * s - db * t;
+    const F distance = squareRoot(dot(between, between));
+    const F radius = a.radius + b.radius;
+    const V3 relative = a.velocity - b.velocity;
+    const F speed = squareRoot(dot(relative, relative)) + (a.swing + b.swing);
+    // Where the cores cross: apart along what is across both, or anything.
+    const V3 crossed = cross(da, db);
+    const F across2 = dot(crossed, crossed);
+    const F perAcross = one / squareRoot(most(across2, tiny * tiny));
+    const Mask skew = across2 > all(1e-6F) * aa * bb;
+    const V3 other{skew ? crossed.x * perAcross : zero, skew ? crossed.y * perAcross : one,
+                   skew ? crossed.z * perAcross : zero};
+    const Mask apart = distance > all(1e-6F);
+    const F scale = one / most(distance, all(1e-6F));
+    store(out.normal, {apart ? between.x * scale : other.x, apart ? between.y * scale : other.y,
+                       apart ? between.z * scale : other.z});
+    store(out.alongA, (two * s - one) * a.halfLength);
+    store(out.alongB, (two * t - one) * b.halfLength);
+    store(out.radius, radius);
+    store(out.separation, distance - radius);
+    return bits(distance - radius < all(range.margin) + speed * all(range.seconds));
+}
+
+// Rows of eight floats into columns.
+LUTKA_LANES void transpose(F (&rows)[kLanes]) {
+    F pairs[kLanes];
+    for (int i = 0; i < kLanes; i += 2) {
+        pairs[i] = __builtin_shufflevector(rows[i], rows[i + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+        pairs[i + 1] = __builtin_shufflevector(rows[i], rows[i + 1], 2, 10, 3, 11, 6, 14, 7, 15);
+    }
+    F fours[kLanes];
+    for (int i = 0; i < kLanes; i += 4) {
+        for (int k = 0; k < 2; ++k) {
+            fours[i + 2 * k] = __builtin_shufflevector(pairs[i + k], pairs[i + k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+            fours[i + 2 * k + 1] = __builtin_shufflevector(pairs[i + k], pairs[i + k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+        }
+    }
+    for (int i = 0; i < 4; ++i) {
+        rows[i] = __builtin_shufflevector(fours[i], fours[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+        rows[i + 4] = __builtin_shufflevector(fours[i], fours[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+    }
+}
+
+LUTKA_LANES Cores coresOf(const StepBody* const (&bodies)[kLanes]) {
+    F place[kLanes];
+    F motion[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) {
+        place[lane] = *reinterpret_cast<const F*>(bodies[lane]->centre);
+        motion[lane] = *reinterpret_cast<const F*>(bodies[lane]->velocity);
+    }
+    transpose(place);
+    transpose(motion);
+    return {{place[0], place[1], place[2]},
+            {place[4], place[5], place[6]},
+            {motion[0], motion[1], motion[2]},
+            motion[3],
+            place[3],
+            place[7]};
+}
+
+static unsigned touchCores(const StepBody* const (&a)[kLanes], const StepBody* const (&b)[kLanes],
+                           const TouchRange& range, CoreTouchLanes& out) {
+    return touch(coresOf(a), coresOf(b), range, out);
+}
+
+LUTKA_LANES Cores coresOf(const BatchView& batch, int index) {
+    const BodyLanes& body = batch.bodies[index];
+    const BodyConstants& constants = batch.bodyConstants[index];
+    const V3 turn = load(body.angular);
+    const F halfLength = all(constants.extent[1]);
+    return {load(body.position), load(body.axisY) * halfLength, load(body.velocity),
+            halfLength,          all(constants.radius),         squareRoot(dot(turn, turn)) * all(constants.reach)};
+}
+
+static unsigned touchOwnCores(const BatchView& batch, const SelfPair& pair, const TouchRange& range,
+                              CoreTouchLanes& out) {
+    return touch(coresOf(batch, pair.a), coresOf(batch, pair.b), range, out);
+}
+
+}  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS
