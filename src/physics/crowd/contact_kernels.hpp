@@ -34,7 +34,8 @@ LUTKA_LANES Symmetric gatherInertia(Lanes body) {
             gather(body, kInertiaOffset + 4 * kLanes),
             gather(body, kInertiaOffset + 5 * kLanes)};
 }
-LUTKA_LANES V3 gatherCore(Lanes body, const V3& local) {
+LUTKA_LANES V3 gatherCore(Lanes body, const V3& local, int onAxisY) {
+    if (onAxisY != 0) return gather3(body, kAxisOffset + 3 * kLanes) * local.y;
     return gather3(body, kAxisOffset) * local.x + gather3(body, kAxisOffset + 3 * kLanes) * local.y +
            gather3(body, kAxisOffset + 6 * kLanes) * local.z;
 }
@@ -98,8 +99,8 @@ LUTKA_LANES void preparePair(PairContactLanes& pair, const V3& coreA, const V3& 
 static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& params) {
     for (int i = 0; i < count; ++i) {
         PairContactLanes& pair = pairs[i];
-        const V3 coreA = gatherCore(pair.bodyA, load(pair.localA));
-        const V3 coreB = gatherCore(pair.bodyB, load(pair.localB));
+        const V3 coreA = gatherCore(pair.bodyA, load(pair.localA), pair.onAxisY);
+        const V3 coreB = gatherCore(pair.bodyB, load(pair.localB), pair.onAxisY);
         const V3 normal = load(pair.normal);
         const V3 apart =
             (gather3(pair.bodyA, kPositionOffset) - gather3(pair.bodyB, kPositionOffset)) + (coreA - coreB);
@@ -113,8 +114,11 @@ static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& 
         store(pair.approach, start);
         store(pair.normalImpulse, held);
         store(pair.carriedNormal, held);
-        store(pair.carriedTangent[0], load(pair.tangentImpulse[0]));
-        store(pair.carriedTangent[1], load(pair.tangentImpulse[1]));
+        for (int k = 0; k < 2; ++k) {  // friction ends with the load
+            const F rubbed = held > all(0.0F) ? load(pair.tangentImpulse[k]) : all(0.0F);
+            store(pair.tangentImpulse[k], rubbed);
+            store(pair.carriedTangent[k], rubbed);
+        }
     }
 }
 
@@ -136,10 +140,13 @@ static int solvePairs(PairContactLanes* pairs, int count, const SubstepParams& p
     for (int i = 0; i < count; ++i) {
         PairContactLanes& pair = pairs[i];
         PairVelocities v = velocitiesOf(pair);
-        const V3 t1 = load(pair.tangent[0]);
-        const V3 t2 = load(pair.tangent[1]);
+        const V3 normal = load(pair.normal);
         const V3 sliding = slidingOf(pair, v);
         const F carried = load(pair.normalImpulse);
+        const F bias = contactBias(load(pair.separation), params, 0);
+        if (bits((carried > all(0.0F)) | (dot(normal, sliding) + bias < all(0.0F))) == 0) continue;
+        const V3 t1 = load(pair.tangent[0]);
+        const V3 t2 = load(pair.tangent[1]);
         const F before1 = load(pair.tangentImpulse[0]);
         const F before2 = load(pair.tangentImpulse[1]);
         const Tangents after =
@@ -150,8 +157,6 @@ static int solvePairs(PairContactLanes* pairs, int count, const SubstepParams& p
         applyPair(pair, v, 1, t1, after.first - before1);
         applyPair(pair, v, 2, t2, after.second - before2);
 
-        const V3 normal = load(pair.normal);
-        const F bias = contactBias(load(pair.separation), params, 0);
         const F approach = dot(normal, slidingOf(pair, v));
         const F off = approach + bias;
         // A single body's mass is less than what a doll sets against a push: what pressed too much is taken back

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numeric>
 
 namespace lutka::physics::crowd {
 namespace {
@@ -383,30 +384,45 @@ void findBounds(CrowdState& state, float dt) {
 }
 
 void sweepDolls(CrowdState& state, float dt) {
-    state.dollPairs.clear();
-    std::vector<Bounds> bounds(state.dolls.size());
-    for (std::size_t i = 0; i < bounds.size(); ++i)
-        bounds[i] = worldBounds(state.dolls[i], dt);
-    // Nearly sorted from the step before.
-    for (std::size_t i = 1; i < state.sweep.size(); ++i) {
-        const int moving = state.sweep[i];
-        std::size_t to = i;
-        for (; to > 0 && bounds[state.sweep[to - 1]].low.x > bounds[moving].low.x; --to)
-            state.sweep[to] = state.sweep[to - 1];
-        state.sweep[to] = moving;
+    struct Swept {
+        Bounds bounds;
+        int doll;
+        bool asleep;
+    };
+    std::vector<Swept> swept(state.sweep.size());
+    for (std::size_t i = 0; i < swept.size(); ++i) {
+        const Doll& doll = state.dolls[state.sweep[i]];
+        swept[i] = {worldBounds(doll, dt), state.sweep[i], doll.asleep()};
     }
-    for (std::size_t i = 0; i < state.sweep.size(); ++i) {
-        const int a = state.sweep[i];
-        for (std::size_t k = i + 1; k < state.sweep.size(); ++k) {
-            const int b = state.sweep[k];
-            if (bounds[b].low.x > bounds[a].high.x) break;
-            if (state.dolls[a].asleep() && state.dolls[b].asleep()) continue;
-            if (!state.dolls[a].filter.collidesWith(state.dolls[b].filter)) continue;
-            if (meet(bounds[a].low, bounds[a].high, bounds[b].low, bounds[b].high))
-                state.dollPairs.push_back(std::minmax(a, b));
+    // Nearly sorted from the step before.
+    for (std::size_t i = 1; i < swept.size(); ++i) {
+        if (swept[i - 1].bounds.low.x <= swept[i].bounds.low.x) continue;
+        const Swept moving = swept[i];
+        std::size_t to = i;
+        for (; to > 0 && swept[to - 1].bounds.low.x > moving.bounds.low.x; --to)
+            swept[to] = swept[to - 1];
+        swept[to] = moving;
+    }
+    std::vector<std::pair<int, int>> found;
+    std::vector<int> firstOf(state.dolls.size() + 1, 0);  // counts, then places: pairs by their first doll
+    for (std::size_t i = 0; i < swept.size(); ++i) {
+        const Swept& a = swept[i];
+        state.sweep[i] = a.doll;
+        for (std::size_t k = i + 1; k < swept.size() && swept[k].bounds.low.x <= a.bounds.high.x; ++k) {
+            const Swept& b = swept[k];
+            if ((a.asleep && b.asleep) || !meet(a.bounds.low, a.bounds.high, b.bounds.low, b.bounds.high)) continue;
+            if (!state.dolls[a.doll].filter.collidesWith(state.dolls[b.doll].filter)) continue;
+            found.push_back(std::minmax(a.doll, b.doll));
+            ++firstOf[static_cast<std::size_t>(found.back().first) + 1];
         }
     }
-    std::sort(state.dollPairs.begin(), state.dollPairs.end());
+    std::partial_sum(firstOf.begin(), firstOf.end(), firstOf.begin());
+    state.dollPairs.resize(found.size());
+    std::vector<int> next(firstOf.begin(), firstOf.end() - 1);
+    for (const std::pair<int, int>& pair : found)
+        state.dollPairs[next[pair.first]++] = pair;
+    for (std::size_t i = 0; i + 1 < firstOf.size(); ++i)
+        std::sort(state.dollPairs.begin() + firstOf[i], state.dollPairs.begin() + firstOf[i + 1]);
 }
 
 void wakeTouched(CrowdState& state, float dt) {

@@ -1,5 +1,6 @@
 #include "physics/crowd/jobs.hpp"
 
+#include <algorithm>
 #include <bit>
 
 #include "physics/crowd/union_find.hpp"
@@ -7,6 +8,8 @@
 namespace lutka::physics::crowd {
 namespace {
 
+// Metres: contacts nearer than this are likely to press.
+constexpr float kNear = 0.005F;
 // The window of blocks that are open at a time; one bit each.
 constexpr int kWindow = 64;
 
@@ -27,11 +30,14 @@ void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTou
     pair.approach.lane[lane] = touch.carried.approach;
     writeVector(pair.frictionImpulse, lane, touch.carried.friction);
     pair.active.lane[lane] = 1.0F;
+    const auto onAxisY = [](const vec3& local) { return local.x == 0.0F && local.z == 0.0F; };
+    if (!onAxisY(touch.touch.localA) || !onAxisY(touch.touch.localB)) pair.onAxisY = 0;
 }
 
 // A block of empty lanes: they point to bodies of zeros and push nothing.
 void emptyBlock(PairContactLanes& pair, Batch& batch) {
     pair = {};
+    pair.onAxisY = 1;
     for (int lane = 0; lane < kLanes; ++lane) {
         pair.bodyA[lane] = pair.bodyB[lane] = batch.emptyLane(lane);
         pair.normal.y.lane[lane] = 1.0F;
@@ -48,6 +54,11 @@ class Packer {
     void pack(Job& job) {
         job.touchOfLane.clear();
         openWindow(job);
+        // What will hardly press shares blocks, which are left early.
+        std::stable_partition(job.touches.begin(), job.touches.end(), [&](int index) {
+            const PairTouch& touch = state_.touches[index];
+            return touch.carried.normal > 0.0F || touch.touch.separation < kNear;
+        });
         for (std::size_t i = 0; i < job.touches.size(); ++i) {
             if (place(job, job.touches[i])) continue;
             forget(job, i);

@@ -178,6 +178,7 @@ struct PairContactLanes {
     Wide carriedNormal;  ///< What the substep before left of the impulses.
     Wide carriedTangent[2];
     Wide active;  ///< 1, or 0 where the lane is empty.
+    int onAxisY;  ///< Whether all touching points lie on the bodies' y, as those of capsules do.
 
     Wide3 armA, armB;
     Wide3 tangent[2];

@@ -30,25 +30,29 @@ CrowdState::CrowdState(const WorldSettings& given, const CrowdTuning& tuned)
       pool(given.threads) {}
 
 void CarriedPairs::assign(const std::vector<PairTouch>& touches) {
+    const auto presses = [](const PairTouch& touch) { return touch.carried.normal > 0.0F; };
+    const auto count = static_cast<std::size_t>(std::count_if(touches.begin(), touches.end(), presses));
     std::size_t size = 16;
-    while (size < 2 * touches.size())
+    while (size < 2 * count)
         size *= 2;
-    slots_.assign(size, {});
+    keys_.assign(size, 0);
+    contacts_.resize(size);
     for (const PairTouch& touch : touches) {
-        if (touch.carried.normal <= 0.0F) continue;
+        if (!presses(touch)) continue;
         std::size_t at = slotOf(touch.carried.key, size);
-        while (slots_[at].key != 0)
+        while (keys_[at] != 0)
             at = (at + 1) & (size - 1);
-        slots_[at] = touch.carried;
+        keys_[at] = touch.carried.key;
+        contacts_[at] = touch.carried;
     }
 }
 
 const CarriedContact* CarriedPairs::find(std::uint64_t key) const {
-    if (slots_.empty()) return nullptr;
-    std::size_t at = slotOf(key, slots_.size());
-    while (slots_[at].key != 0) {
-        if (slots_[at].key == key) return &slots_[at];
-        at = (at + 1) & (slots_.size() - 1);
+    if (keys_.empty()) return nullptr;
+    std::size_t at = slotOf(key, keys_.size());
+    while (keys_[at] != 0) {
+        if (keys_[at] == key) return &contacts_[at];
+        at = (at + 1) & (keys_.size() - 1);
     }
     return nullptr;
 }

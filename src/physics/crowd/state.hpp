@@ -80,7 +80,9 @@ class CarriedPairs {
     [[nodiscard]] const CarriedContact* find(std::uint64_t key) const;
 
   private:
-    std::vector<CarriedContact> slots_;  // open addressing, a power of two; key 0 is empty
+    // Open addressing, a power of two; key 0 is empty. Most contacts are new and look at a key only.
+    std::vector<std::uint64_t> keys_;
+    std::vector<CarriedContact> contacts_;
 };
 
 /// A pull on a body and what it carries.
