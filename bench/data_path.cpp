@@ -19,6 +19,7 @@
 #include "animation/pose_batch.hpp"
 #include "animation/skinning.hpp"
 #include "physics/doll_poser.hpp"
+#include "scene/draw_simulation.hpp"
 #include "scene/ragdoll_asset.hpp"
 
 namespace {
@@ -103,6 +104,38 @@ struct Crowd {
     [[nodiscard]] double jointCount() const { return static_cast<double>(joints) * kInstances; }
     [[nodiscard]] physics::DollPoser::Source source(float alpha) const {
         return {worldFromBody, worldFromBody, alpha, worldFromModel, {}, {}};
+    }
+};
+
+// A simulation's dolls as they are drawn, without a renderer: all in motion or all at rest.
+struct Drawn {
+    std::unique_ptr<scene::Simulation> simulation;
+    std::vector<RigidTransform> frames[2];  // to be shown in turn
+    scene::SimulationDrawer drawer;
+    render::FrameDescription frame;
+    std::size_t next = 0;
+
+    explicit Drawn(const scene::RagdollAsset& asset) {
+        auto scenario = scene::makeScenario("spread", kInstances, 0, scene::figureBounds(asset.profile, asset.rig),
+                                            asset.profile.standardFromModel);
+        scene::SimulationOptions options;
+        options.world.solver = physics::SolverKind::crowd;
+        options.measure = false;
+        simulation = std::move(scene::Simulation::create(asset, std::move(scenario).value(), options)).value();
+        for (std::vector<RigidTransform>& bodies : frames) {
+            for (int doll = 0; doll < kInstances; ++doll) {
+                const auto of = simulation->worldFromBody(doll);
+                bodies.insert(bodies.end(), of.begin(), of.end());
+            }
+        }
+        for (RigidTransform& body : frames[1])
+            body.translation.y += 0.01F;
+    }
+    void draw(bool moving) {
+        if (moving) ++next;
+        simulation->show(frames[next % 2]);
+        frame.clear();
+        drawer.draw(*simulation, render::CharacterHandle{0}, {}, 0.5F, 1.0F, frame);
     }
 };
 
@@ -191,6 +224,24 @@ void addPoseCases(Crowd& crowd, std::vector<Case>& cases) {
     });
 }
 
+void addDrawerCases(Drawn& drawn, std::vector<Case>& cases) {
+    cases.push_back({"SimulationDrawer: dolls in motion", "doll", kInstances, [&drawn] { drawn.draw(true); }, {}});
+    // Twice first: what has just come to rest is posed once more.
+    const auto rest = [&drawn] {
+        for (int time = 0; time < kSkinPasses; ++time)
+            drawn.draw(false);
+    };
+    cases.push_back({"SimulationDrawer: coming to rest",
+                     "doll",
+                     2 * kInstances,
+                     [&drawn] {
+                         drawn.draw(false);
+                         drawn.draw(false);
+                     },
+                     {}});
+    cases.push_back({"SimulationDrawer: dolls at rest", "doll", kInstances * kSkinPasses, rest, {}});
+}
+
 void addSkinCases(Vertices& vertices, std::span<const animation::SkinMatrix> palette, std::vector<Case>& cases) {
     const auto add = [&](const char* name, std::function<void()> run) {
         // Several times over, or the cases before would decide how much of the mesh the cache holds.
@@ -268,10 +319,12 @@ int main(int argc, char** argv) {
     }
     const scene::RagdollAsset& asset = *loaded.value();
     Crowd crowd(asset);
+    Drawn drawn(asset);
     Vertices vertices(asset.character);
     std::vector<Case> cases;
     addFileCases(file, options, asset, cases);
     addPoseCases(crowd, cases);
+    addDrawerCases(drawn, cases);
     if (vertices.count() > 0) addSkinCases(vertices, std::span(crowd.palettes).first(crowd.joints), cases);
     for (int round = 0; round < kRounds; ++round) {
         for (Case& one : cases)

@@ -4,7 +4,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "animation/skinning.hpp"
 #include "render/camera.hpp"
 #include "scene/draw_debug.hpp"
 
@@ -135,15 +134,12 @@ bool anyDollLayer(const DebugLayers& layers) {
 
 void SimulationDrawer::draw(Simulation& simulation, std::span<const render::CharacterHandle> characters,
                             const DebugLayers& layers, float alpha, float opacity, render::FrameDescription& frame) {
-    firstJoint_.assign(1, 0);
     itemOfDoll_.assign(static_cast<std::size_t>(simulation.dollCount()), -1);
-    for (int doll = 0; doll < simulation.dollCount(); ++doll)
-        firstJoint_.push_back(firstJoint_.back() + simulation.assetOf(doll).character.skeleton.parents.size());
-    poses_.resize(firstJoint_.back());
-    palettes_.resize(firstJoint_.back());
-    poseMs_ = 0.0;
+    const auto start = std::chrono::steady_clock::now();
+    const PosedSkins& skins = simulation.poseSkins(alpha);
+    poseMs_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    posedDolls_ = skins.posed();
     for (int doll = 0; doll < simulation.dollCount(); ++doll) {
-        drawSkin(simulation, doll, alpha);
         const RagdollAsset& asset = simulation.assetOf(doll);
         const Placement& placement = simulation.scenario().dolls[doll];
         const render::CharacterHandle character = characters[static_cast<std::size_t>(placement.asset)];
@@ -152,7 +148,7 @@ void SimulationDrawer::draw(Simulation& simulation, std::span<const render::Char
             itemOfDoll_[doll] = static_cast<int>(frame.characters.size());
             render::CharacterItem& item = frame.characters.emplace_back();
             item.character = character;
-            item.palette = ofDoll(std::span<const animation::SkinMatrix>(palettes_), doll);
+            item.palette = skins.palette(doll);
             item.worldFromModel = simulation.worldFromModel(doll);
             item.tint = vec3(tint);
             item.opacity = opacity * tint.a;
@@ -163,7 +159,7 @@ void SimulationDrawer::draw(Simulation& simulation, std::span<const render::Char
         if (anyDollLayer(layers)) {
             states_.resize(asset.profile.bodies.size());
             simulation.getBodies(doll, states_);
-            drawDollDebug({asset, simulation.worldFromBody(doll, alpha), states_, modelFromJoint(doll),
+            drawDollDebug({asset, simulation.worldFromBody(doll, alpha), states_, skins.modelFromJoint(doll),
                            simulation.worldFromModel(doll), simulation.isAsleep(doll)},
                           layers, scratch_, frame);
         }
@@ -178,15 +174,6 @@ void SimulationDrawer::draw(Simulation& simulation, std::span<const render::Char
     if (layers.bullet) drawBulletLayer(simulation, frame);
 }
 
-void SimulationDrawer::drawSkin(Simulation& simulation, int doll, float alpha) {
-    const auto start = std::chrono::steady_clock::now();
-    const std::span pose = ofDoll(std::span(poses_), doll);
-    simulation.pose(doll, alpha, pose);
-    animation::skinMatrices(simulation.assetOf(doll).character.skeleton.bindModelFromJoint, pose,
-                            ofDoll(std::span(palettes_), doll));
-    poseMs_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
 void SimulationDrawer::drawContacts(Simulation& simulation, render::FrameDescription& frame) {
     contacts_.clear();
     simulation.world().getContacts(contacts_);
@@ -197,10 +184,6 @@ void SimulationDrawer::drawContacts(Simulation& simulation, render::FrameDescrip
         addCross(frame.lines, contact.position, 0.03F, color);
         addArrow(frame.lines, contact.position, contact.position + normal * kContactNormalLength, color);
     }
-}
-
-std::span<const RigidTransform> SimulationDrawer::modelFromJoint(int doll) const {
-    return ofDoll(std::span<const RigidTransform>(poses_), doll);
 }
 
 render::Camera cameraFor(const Scenario& scenario, float aspect) {

@@ -10,8 +10,8 @@
 
 namespace lutka::scene {
 
-/// Fills a frame with what a simulation shows. Keeps its buffers from frame to frame; palettes stay valid until the
-/// next call of draw().
+/// Fills a frame with what a simulation shows. Keeps its buffers from frame to frame. The palettes are the simulation's
+/// (Simulation::poseSkins): they stay valid until it is drawn anew or ends.
 class SimulationDrawer {
   public:
     /// Appends characters, props, static geometry, lights and debug layers to `frame` (which is not cleared), and sets
@@ -24,10 +24,10 @@ class SimulationDrawer {
         draw(simulation, std::span(&character, 1), layers, alpha, opacity, frame);
     }
 
-    /// World positions of a doll's joints as last drawn, one a joint of its asset.
-    [[nodiscard]] std::span<const RigidTransform> modelFromJoint(int doll) const;
     /// Wall time of the poses and palettes of the last draw(), milliseconds.
     [[nodiscard]] double poseMs() const { return poseMs_; }
+    /// How many dolls were posed for the last draw(); the others rested where they were drawn before.
+    [[nodiscard]] int posedDolls() const { return posedDolls_; }
 
     /// Which of the frame's characters a doll was drawn as; -1: not at all.
     [[nodiscard]] int characterItem(int doll) const { return itemOfDoll_[static_cast<std::size_t>(doll)]; }
@@ -36,21 +36,14 @@ class SimulationDrawer {
     animation::SkinningMethod skinning = animation::SkinningMethod::linear;
 
   private:
-    void drawSkin(Simulation& simulation, int doll, float alpha);
     void drawContacts(Simulation& simulation, render::FrameDescription& frame);
-    template <class T>
-    [[nodiscard]] std::span<T> ofDoll(std::span<T> all, int doll) const {
-        return all.subspan(firstJoint_[doll], firstJoint_[doll + 1] - firstJoint_[doll]);
-    }
 
     std::vector<int> itemOfDoll_;
-    std::vector<RigidTransform> poses_;
-    std::vector<animation::SkinMatrix> palettes_;
     std::vector<physics::BodyState> states_;
     std::vector<physics::ContactPoint> contacts_;
     DebugScratch scratch_;
-    std::vector<std::size_t> firstJoint_;  // of each doll in poses_ and palettes_; then the number of all
     double poseMs_ = 0.0;
+    int posedDolls_ = 0;
 };
 
 /// The scene's own camera; without one a view of the scenario's focus.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <glm/geometric.hpp>
 
 #include "core/assert.hpp"
@@ -85,6 +86,7 @@ Simulation::Simulation(std::vector<const RagdollAsset*> assets, Scenario scenari
     firstBody_.push_back(0);
     for (int doll = 0; doll < dollCount(); ++doll)
         firstBody_.push_back(firstBody_.back() + assetOf(doll).profile.bodies.size());
+    motions_.resize(scenario_.dolls.size());
 }
 
 Result<void> Simulation::findStarts() {
@@ -141,7 +143,7 @@ void Simulation::build() {
     stepMs_.clear();
     secondsMeasured_ = 0;
     remember();
-    previous_ = present_;
+    noteJump();
 }
 
 // The doll's bodies at its start, in scratch_.
@@ -157,7 +159,7 @@ void Simulation::reset() {
 
 void Simulation::refresh() {
     remember();
-    previous_ = present_;
+    noteJump();
 }
 
 void Simulation::remember() {
@@ -197,19 +199,44 @@ void Simulation::step() {
     stepMs_.push_back(std::chrono::duration<float, std::milli>(Clock::now() - before - measured).count());
     std::swap(previous_, present_);
     remember();
+    noteMotion();
+}
+
+// After a step. By their bits rather than by isAsleep(): frozen dolls and what a recording shows at rest count too,
+// and what is moved by hand does not.
+void Simulation::noteMotion() {
+    for (int doll = 0; doll < dollCount(); ++doll) {
+        const std::size_t first = firstBody_[doll];
+        const std::size_t bytes = (firstBody_[doll + 1] - first) * sizeof(RigidTransform);
+        const bool moves = std::memcmp(&previous_[first], &present_[first], bytes) != 0;
+        PosedSkins::Motion& motion = motions_[doll];
+        // In the step that brings it to rest what it came from changes once more.
+        if (moves || motion.moves) ++motion.revision;
+        motion.moves = moves;
+    }
+}
+
+// After placing: what was before is where all are now.
+void Simulation::noteJump() {
+    previous_ = present_;
+    for (PosedSkins::Motion& motion : motions_) {
+        ++motion.revision;
+        motion.moves = false;
+    }
 }
 
 void Simulation::show(std::span<const RigidTransform> frame) {
     LUTKA_ASSERT(frame.size() == present_.size());
     std::swap(previous_, present_);
     std::copy(frame.begin(), frame.end(), present_.begin());
+    noteMotion();
     stepMs_.push_back(0.0F);
 }
 
 void Simulation::preview(std::span<const RigidTransform> frame) {
     LUTKA_ASSERT(frame.size() == present_.size());
     std::copy(frame.begin(), frame.end(), present_.begin());
-    previous_ = present_;
+    noteJump();
 }
 
 std::span<const RigidTransform> Simulation::worldFromBody(int doll, float alpha) {
@@ -231,6 +258,12 @@ void Simulation::pose(int doll, float alpha, std::span<RigidTransform> modelFrom
     const RagdollAsset& asset = assetOf(doll);
     physics::poseFromBodies(asset.rig, asset.character.skeleton, worldFromBody(doll, alpha), worldFromModel(doll),
                             modelFromJoint);
+}
+
+const PosedSkins& Simulation::poseSkins(float alpha) {
+    if (skins_ == nullptr) skins_ = std::make_unique<PosedSkins>(assets_, scenario_, options_.world.threads);
+    skins_->update({previous_, present_, motions_}, alpha);
+    return *skins_;
 }
 
 void Simulation::getBodies(int doll, std::span<BodyState> bodies) const {

@@ -11,6 +11,7 @@
 #include "physics/quality.hpp"
 #include "physics/world.hpp"
 #include "scene/load_shedding.hpp"
+#include "scene/posed_skins.hpp"
 #include "scene/ragdoll_asset.hpp"
 #include "scene/scenario.hpp"
 
@@ -79,6 +80,9 @@ class Simulation {
     [[nodiscard]] const RigidTransform& worldFromModel(int doll) const { return scenario_.dolls[doll].worldFromModel; }
     /// The skin's pose in model space; `modelFromJoint` holds a frame a joint of its asset.
     void pose(int doll, float alpha, std::span<RigidTransform> modelFromJoint);
+    /// The poses and palettes of all dolls, on as many threads as the world has: for drawing. They differ from pose()
+    /// by rounding; see PosedSkins. What is given lives as long as the simulation and changes with the next call.
+    [[nodiscard]] const PosedSkins& poseSkins(float alpha);
 
     /// A doll's bodies of the whole profile with velocities, and whether it sleeps, wherever it is simulated.
     void getBodies(int doll, std::span<physics::BodyState> bodies) const;
@@ -98,6 +102,8 @@ class Simulation {
     void build();
     void placeAtStart(int doll);
     void remember();
+    void noteMotion();
+    void noteJump();
 
     std::vector<const RagdollAsset*> assets_;
     Scenario scenario_;
@@ -115,7 +121,9 @@ class Simulation {
 
     std::vector<RigidTransform> previous_;  // the bodies of each doll, then the props
     std::vector<RigidTransform> present_;
-    std::vector<RigidTransform> mixed_;  // one doll's bodies between the two
+    std::vector<PosedSkins::Motion> motions_;  // one a doll, of previous_ and present_
+    std::unique_ptr<PosedSkins> skins_;        // once something is drawn
+    std::vector<RigidTransform> mixed_;        // one doll's bodies between the two
     mutable std::vector<physics::BodyState> scratch_;
 };
 
