@@ -5,8 +5,9 @@ namespace lutka {
 bool hasInstructionSet(InstructionSet set) {
     if (set == InstructionSet::baseline) return true;
 #if defined(__x86_64__)
-    if (set == InstructionSet::avx2) return __builtin_cpu_supports("avx2") != 0;
-    return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512vl") != 0 &&
+    const bool avx2 = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
+    if (set == InstructionSet::avx2) return avx2;
+    return avx2 && __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512vl") != 0 &&
            __builtin_cpu_supports("avx512dq") != 0;
 #else
     return false;

@@ -167,32 +167,45 @@ bool nearStatic(const PlacedStatic& geometry, const vec3& low, const vec3& high)
     return glm::dot(normal, lowest - geometry.shape.worldFromShape.translation) <= 0.0F;
 }
 
-// Puts a contact into a lane; the lanes without a doll repeat lane 0.
-void setContact(StaticContactLanes& contact, int lane, const StaticTouch& touch, float friction,
-                const CarriedStatic& carried) {
+void spread(Wide& to, float value) {
+    for (float& lane : to.lane)
+        lane = value;
+}
+void spread(Wide3& to, const vec3& value) {
+    spread(to.x, value.x);
+    spread(to.y, value.y);
+    spread(to.z, value.z);
+}
+
+void setImpulses(StaticContactLanes& contact, int lane, const CarriedStatic& carried) {
+    contact.normalImpulse.lane[lane] = carried.contact.normal;
+    writeVector(contact.frictionImpulse, lane, carried.contact.friction);
+    writeVector(contact.rollImpulse, lane, carried.roll);
+}
+
+// Puts a contact into a lane that has none.
+void setContact(StaticContactLanes& contact, int lane, const StaticTouch& touch, float friction, std::uint64_t key,
+                const CarriedStatic* carried) {
     writeVector(contact.localPoint, lane, touch.local);
     contact.radius.lane[lane] = touch.radius;
     writeVector(contact.normal, lane, touch.normal);
     contact.offset.lane[lane] = touch.offset;
     contact.friction.lane[lane] = friction;
-    contact.normalImpulse.lane[lane] = carried.contact.normal;
-    writeVector(contact.frictionImpulse, lane, carried.contact.friction);
-    writeVector(contact.rollImpulse, lane, carried.roll);
-    contact.key[lane] = carried.contact.key;
+    contact.key[lane] = key;
+    if (carried != nullptr) setImpulses(contact, lane, *carried);
 }
 
-// `cursor`: where the last search ended; contacts are looked for in nearly the order that they were kept in.
-CarriedStatic carriedStatic(const Doll& doll, std::uint64_t key, std::size_t& cursor) {
+// Null when there was no such contact. `cursor`: where the last search ended; contacts are looked for in nearly the
+// order that they were kept in.
+const CarriedStatic* carriedStatic(const Doll& doll, std::uint64_t key, std::size_t& cursor) {
     const std::size_t count = doll.statics.size();
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t at = cursor + i < count ? cursor + i : cursor + i - count;
         if (doll.statics[at].contact.key != key) continue;
         cursor = at + 1 < count ? at + 1 : 0;
-        return doll.statics[at];
+        return &doll.statics[at];
     }
-    CarriedStatic fresh;
-    fresh.contact.key = key;
-    return fresh;
+    return nullptr;
 }
 
 // The static contacts of one batch: body by body, each lane's next contact into the next of the body's slots.
@@ -241,13 +254,27 @@ class StaticContacts {
             const float point[3] = {points.local[i].x, points.local[i].y, points.local[i].z};
             const unsigned lanes = state_.kernels->findNearPlane(view, body, point, points.radius, normalLanes, offset,
                                                                  state_.tuning.staticMargin, kForesight * dt_);
-            if (lanes == 0) continue;
-            const std::size_t slot = batch_.contacts.size();
-            for (int lane = 0; lane < batch_.used; ++lane) {
-                if ((lanes >> static_cast<unsigned>(lane) & 1U) != 0 &&
-                    plane.shape.filter.collidesWith(state_.dolls[batch_.doll[lane]].filter))
-                    put(slot, body, lane, index, {points.local[i], points.radius, normal, offset, 0.0F, i});
-            }
+            if (lanes != 0) putPlane(body, index, lanes, {points.local[i], points.radius, normal, offset, 0.0F, i});
+        }
+    }
+
+    // The same point of a body in all `lanes`.
+    void putPlane(int body, int index, unsigned lanes, const StaticTouch& touch) {
+        StaticContactLanes& contact = emptyContact(body);
+        const StaticShape& plane = state_.statics[index].shape;
+        spread(contact.localPoint, touch.local);
+        spread(contact.normal, touch.normal);
+        spread(contact.radius, touch.radius);
+        spread(contact.friction, plane.friction * kBodyFriction);
+        const std::uint64_t key = staticKey(index, body, touch.feature);
+        for (int lane = 0; lane < kLanes; ++lane) {
+            const int from = lane < batch_.used ? lane : 0;
+            const Doll& doll = state_.dolls[batch_.doll[from]];
+            if ((lanes >> static_cast<unsigned>(from) & 1U) == 0 || !plane.filter.collidesWith(doll.filter)) continue;
+            contact.offset.lane[lane] = touch.offset;
+            contact.key[lane] = key;
+            const CarriedStatic* carried = carriedStatic(doll, key, cursor_[from]);
+            if (carried != nullptr) setImpulses(contact, lane, *carried);
         }
     }
 
@@ -271,22 +298,23 @@ class StaticContacts {
     }
 
     void put(std::size_t slot, int body, int lane, int geometry, const StaticTouch& touch) {
-        if (slot == batch_.contacts.size()) {
-            batch_.contacts.emplace_back();
-            StaticContactLanes& fresh = batch_.contacts.back();  // of zeros
-            fresh.body = body;
-            for (int i = 0; i < kLanes; ++i) {
-                fresh.normal.y.lane[i] = 1.0F;
-                fresh.offset.lane[i] = -kFarM;
-            }
-        }
+        if (slot == batch_.contacts.size()) emptyContact(body);
         const std::uint64_t key = staticKey(geometry, body, touch.feature);
-        const CarriedStatic carried = carriedStatic(state_.dolls[batch_.doll[lane]], key, cursor_[lane]);
+        const CarriedStatic* carried = carriedStatic(state_.dolls[batch_.doll[lane]], key, cursor_[lane]);
         const float friction = state_.statics[geometry].shape.friction * kBodyFriction;
-        setContact(batch_.contacts[slot], lane, touch, friction, carried);
+        setContact(batch_.contacts[slot], lane, touch, friction, key, carried);
         if (lane != 0) return;
         for (int copy = batch_.used; copy < kLanes; ++copy)
-            setContact(batch_.contacts[slot], copy, touch, friction, carried);
+            setContact(batch_.contacts[slot], copy, touch, friction, key, carried);
+    }
+
+    // One that no lane has.
+    StaticContactLanes& emptyContact(int body) {
+        StaticContactLanes& fresh = batch_.contacts.emplace_back();  // of zeros
+        fresh.body = body;
+        spread(fresh.normal, {0, 1, 0});
+        spread(fresh.offset, -kFarM);
+        return fresh;
     }
 
     static constexpr float kFarM = 1e6F;

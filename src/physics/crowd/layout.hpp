@@ -279,8 +279,8 @@ struct CoreTouchLanes {
     Wide separation;      ///< Of the surfaces, metres.
 };
 
-/// The kernels of one instruction set. All sets do the same operations in the same order, without contraction or
-/// approximate instructions, so that they give the same bits.
+/// The kernels of one instruction set. All sets do the same operations in the same order, without
+/// approximate instructions; those that fuse multiply and add give the same bits.
 struct Kernels {
     /// Rotation columns and world inertia from the rotation.
     void (*refresh)(const BatchView& batch);
