@@ -13,8 +13,7 @@
 #include "physics/crowd/crowd_world.hpp"
 #include "physics/quality.hpp"
 #include "scene/scenario.hpp"
-#include "support/dolls.hpp"
-#include "support/rigs.hpp"
+#include "trial.hpp"
 
 namespace {
 
@@ -24,6 +23,7 @@ using physics::crowd::CrowdTuning;
 constexpr float kDt = 1.0F / 60.0F;
 
 struct Arguments {
+    std::string model;
     std::vector<std::string> scenes{"spread", "pile"};
     std::vector<std::string> solvers{"crowd"};
     std::vector<std::string> settings;  // name=value of the crowd's tuning
@@ -89,12 +89,6 @@ double cpuMs() {
     return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
 }
 
-struct Figure {
-    physics::RagdollProfile profile;
-    animation::Character character;
-    physics::Rig rig;
-};
-
 // One world with the scene's contents, and what is known of its run.
 struct Run {
     std::string solver;
@@ -118,19 +112,14 @@ std::unique_ptr<physics::World> makeWorld(const std::string& solver, const Argum
     return physics::createCrowdWorld(settings, tuning);
 }
 
-void fill(physics::World& world, const Figure& figure, const scene::Scenario& scenario) {
+void fill(physics::World& world, const scene::RagdollAsset& figure, const scene::Scenario& scenario) {
     for (const physics::StaticShape& shape : scenario.statics)
         world.addStatic(shape);
     for (const physics::DynamicProp& prop : scenario.props)
         world.addProp(prop);
+    for (const scene::Placement& placement : scenario.dolls)
+        world.addDoll(figure.profile, bench::placedBodies(figure, placement));
     std::vector<physics::BodyState> bodies(figure.profile.bodies.size());
-    for (const scene::Placement& placement : scenario.dolls) {
-        physics::bodiesFromPose(figure.rig, figure.character.skeleton.bindModelFromJoint, placement.worldFromModel,
-                                bodies);
-        for (physics::BodyState& body : bodies)
-            body.linearVelocity = placement.linearVelocity;
-        world.addDoll(figure.profile, bodies);
-    }
     for (const scene::Pin& pin : scenario.pins) {
         const int body = physics::bodyOf(figure.profile, pin.role);
         world.getBodies(pin.doll, bodies);
@@ -189,7 +178,7 @@ void print(const Run& run, const Run& first, const std::string& scene, int seed,
     std::fflush(stdout);
 }
 
-void runScene(const Figure& figure, const std::string& scene, int seed, const Arguments& arguments) {
+void runScene(const scene::RagdollAsset& figure, const std::string& scene, int seed, const Arguments& arguments) {
     auto scenario =
         scene::makeScenario(scene, arguments.count, static_cast<std::uint64_t>(seed),
                             scene::figureBounds(figure.profile, figure.rig), figure.profile.standardFromModel);
@@ -221,6 +210,7 @@ void runScene(const Figure& figure, const std::string& scene, int seed, const Ar
 int main(int argc, char** argv) {
     Arguments arguments;
     CLI::App app("Quality and cost of the crowd solver; the ratio is the first solver's time over each one's");
+    app.add_option("--model", arguments.model, "a rigged model instead of the hand-made doll");
     app.add_option("--scene", arguments.scenes)->delimiter(',');
     app.add_option("--solver", arguments.solvers, "stock, bullet, crowd; stock8: stock with 8 steps a frame, and so on")
         ->delimiter(',');
@@ -234,18 +224,23 @@ int main(int argc, char** argv) {
     app.add_flag("!--no-measure", arguments.measure);
     CLI11_PARSE(app, argc, argv);
 
-    Figure figure;
-    figure.character = test::makeBiped();
-    figure.profile = test::makeDoll();
-    auto rig = physics::bindRig(figure.profile, figure.character.skeleton);
-    if (!rig) return 1;
-    figure.rig = std::move(rig).value();
+    std::unique_ptr<scene::RagdollAsset> figure;
+    if (arguments.model.empty()) {
+        figure = bench::handMadeDoll();
+    } else {
+        auto loaded = scene::loadRagdoll(arguments.model);
+        if (!loaded) {
+            fmt::print(stderr, "{}\n", loaded.error().text());
+            return static_cast<int>(loaded.error().code);
+        }
+        figure = std::move(loaded).value();
+    }
     fmt::print(
         "solver,scene,count,seed,ms,meanRatio,medianRatio,sepMaxMm,sepP99Mm,sepMeanMm,limitMaxDeg,limitP99Deg,floorMm,"
         "selfMm,energyPercent,settleS,residualMmps,nonFinite,asleep,contacts\n");
     for (const std::string& scene : arguments.scenes) {
         for (int seed = arguments.firstSeed; seed < arguments.firstSeed + arguments.seeds; ++seed)
-            runScene(figure, scene, seed, arguments);
+            runScene(*figure, scene, seed, arguments);
     }
     return 0;
 }

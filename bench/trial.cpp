@@ -22,7 +22,18 @@ T orExit(Result<T> result) {
     std::exit(static_cast<int>(result.error().code));
 }
 
-std::vector<physics::BodyState> placed(const scene::RagdollAsset& asset, const scene::Placement& placement) {
+}  // namespace
+
+std::unique_ptr<scene::RagdollAsset> handMadeDoll() {
+    auto asset = std::make_unique<scene::RagdollAsset>();
+    asset->character = test::makeBiped();
+    asset->map = test::mapOfBiped(asset->character);
+    asset->profile = test::makeDoll();
+    asset->rig = orExit(physics::bindRig(asset->profile, asset->character.skeleton));
+    return asset;
+}
+
+std::vector<physics::BodyState> placedBodies(const scene::RagdollAsset& asset, const scene::Placement& placement) {
     std::vector<physics::BodyState> bodies(asset.profile.bodies.size());
     physics::bodiesFromPose(asset.rig, asset.character.skeleton.bindModelFromJoint, placement.worldFromModel, bodies);
     vec3 centre(0);
@@ -36,17 +47,6 @@ std::vector<physics::BodyState> placed(const scene::RagdollAsset& asset, const s
     return bodies;
 }
 
-}  // namespace
-
-std::unique_ptr<scene::RagdollAsset> handMadeDoll() {
-    auto asset = std::make_unique<scene::RagdollAsset>();
-    asset->character = test::makeBiped();
-    asset->map = test::mapOfBiped(asset->character);
-    asset->profile = test::makeDoll();
-    asset->rig = orExit(physics::bindRig(asset->profile, asset->character.skeleton));
-    return asset;
-}
-
 Trial::Trial(const scene::RagdollAsset& asset, const TrialSettings& settings)
     : settings_(settings),
       scenario_(
@@ -58,11 +58,11 @@ Trial::Trial(const scene::RagdollAsset& asset, const TrialSettings& settings)
     for (const physics::DynamicProp& prop : scenario_.props)
         world_->addProp(prop);
     for (const scene::Placement& placement : scenario_.dolls)
-        world_->addDoll(asset.profile, placed(asset, placement));
+        world_->addDoll(asset.profile, placedBodies(asset, placement));
     for (const scene::Pin& pin : scenario_.pins) {
         const int body = physics::bodyOf(asset.profile, pin.role);
         if (body < 0) continue;
-        const RigidTransform worldFromBody = placed(asset, scenario_.dolls[pin.doll])[body].worldFromBody;
+        const RigidTransform worldFromBody = placedBodies(asset, scenario_.dolls[pin.doll])[body].worldFromBody;
         world_->setDrag(pin.doll, {pin.doll, body, vec3(0), worldFromBody.translation, 5000.0F});
     }
     if (settings.measure)

@@ -15,6 +15,10 @@ namespace lutka::bench {
 /// The hand-made doll of the tests, bound to its own skeleton.
 [[nodiscard]] std::unique_ptr<scene::RagdollAsset> handMadeDoll();
 
+/// A doll of the asset in its bind pose where a scene puts it, moving as the scene says.
+[[nodiscard]] std::vector<physics::BodyState> placedBodies(const scene::RagdollAsset& asset,
+                                                           const scene::Placement& placement);
+
 /// What to run.
 struct TrialSettings {
     std::string scene = "drop";
