@@ -64,6 +64,9 @@ void apply(CrowdTuning& tuning, const std::string& setting) {
                                               {"linearDamping", &tuning.linearDamping},
                                               {"calmSpeed", &tuning.calmSpeed},
                                               {"calmDamping", &tuning.calmDamping},
+                                              {"stiction", &tuning.stiction},
+                                              {"jointStiction", &tuning.jointStiction},
+                                              {"stictionRate", &tuning.stictionRate},
                                               {"sleepSpeed", &tuning.sleepSpeed},
                                               {"angularDamping", &tuning.angularDamping},
                                               {"leastGyration", &tuning.leastGyration}};

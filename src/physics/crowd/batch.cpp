@@ -38,7 +38,7 @@ BatchView Batch::view(const Topology& topology) {
             joints.data(),
             tree.data(),
             contacts.data(),
-            &brake};
+            &rest};
 }
 
 vec3 readVector(const Wide3& v, int lane) {
@@ -75,6 +75,14 @@ BodyState readBody(const BodyLanes& body, int lane) {
 void readLane(const Batch& batch, int lane, std::span<BodyState> bodies) {
     for (std::size_t b = 0; b < bodies.size(); ++b)
         bodies[b] = readBody(batch.bodies[b], lane);
+}
+
+void awaken(RestLanes& rest, int lane) {
+    rest.brake.lane[lane] = rest.stiction.lane[lane] = 1.0F;
+}
+
+void copyRest(const RestLanes& from, int fromLane, RestLanes& to, int toLane) {
+    copyWides(from, fromLane, to, toLane);
 }
 
 void clearImpulses(Batch& batch, int lane) {

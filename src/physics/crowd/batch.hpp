@@ -32,8 +32,8 @@ struct Batch {
     std::vector<Wide> impulseSums;             ///< One a contact, of the substeps since they were found; for reports.
     std::vector<StaticPush> pushes;  ///< Of contacts that were found anew since, and at last of all; for reports.
     bool nearShapes = false;         ///< Whether some of its dolls are near static geometry other than planes.
-    Wide brake{};                    ///< See BatchView.
-    int doll[kLanes]{};              ///< Which doll is in which lane.
+    RestLanes rest{};
+    int doll[kLanes]{};  ///< Which doll is in which lane.
     int used = 0;
     int job = 0;  ///< Which job of this step solves it.
 
@@ -50,6 +50,9 @@ void readLane(const Batch& batch, int lane, std::span<BodyState> bodies);
 [[nodiscard]] vec3 readVector(const Wide3& v, int lane);
 void writeVector(Wide3& to, int lane, const vec3& v);
 
+/// Lets go of a doll that was coming to rest.
+void awaken(RestLanes& rest, int lane);
+void copyRest(const RestLanes& from, int fromLane, RestLanes& to, int toLane);
 /// Forgets what the joints of a lane carry from step to step.
 void clearImpulses(Batch& batch, int lane);
 /// Bodies and joints of one lane into another, of the same topology.

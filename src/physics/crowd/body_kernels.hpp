@@ -123,7 +123,7 @@ LUTKA_LANES V3 halfWay(const BodyLanes& body, const V3& arm, F half) {
 
 LUTKA_LANES void applyForces(const BatchView& batch, const SubstepParams& params) {
     const V3 gain = all(params.gravity) * all(params.dt);
-    const F brake = load(*batch.brake);
+    const F brake = load(batch.rest->brake);
     const F linear = brake * all(params.linearDamping);
     const F angular = brake * all(params.angularDamping);
     for (int b = 0; b < batch.bodyCount; ++b) {

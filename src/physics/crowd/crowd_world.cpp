@@ -205,7 +205,7 @@ void CrowdWorld::setBodies(int doll, std::span<const BodyState> bodies) {
     writeLane(batch, to.lane, bodies);
     clearImpulses(batch, to.lane);
     state_.kernels->refresh(batch.view(state_.groupOf(to).topology));
-    batch.brake.lane[to.lane] = 1.0F;
+    awaken(batch.rest, to.lane);
     to.statics.clear();
     to.restSeconds = 0.0F;
 }

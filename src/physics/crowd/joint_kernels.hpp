@@ -131,9 +131,13 @@ LUTKA_LANES void beginJoint(JointLanes& joint, const JointConstants& constants, 
     const V3 error = aimJoint(joint, constants, parent, child, params);
     const Q parentFrame = load(parent.rotation) * all(constants.parentFrame);
     const V3 turning = load(child.angular) - load(parent.angular);
+    const F rate = squareRoot(dot(turning, turning));
+    // Static friction is greater than sliding friction (Stribeck): limbs do not swing on for ever.
+    const F still = most(all(1.0F) - rate * all(1.0F / params.stictionRate), all(0.0F));
+    store(joint.frictionLimit, all(constants.frictionNm * params.dt) * (all(1.0F) + all(params.jointStiction) * still));
     const JointSetting setting{load(parent.inverseInertia) + load(child.inverseInertia), axesOf(parentFrame),
                                conjugate(parentFrame) * (load(child.rotation) * all(constants.childFrame)),
-                               all(0.1F) + squareRoot(dot(turning, turning)) * all(2.0F * params.dt)};
+                               all(0.1F) + rate * all(2.0F * params.dt)};
     const Mask off = constants.isHinge != 0 ? prepareHinge(joint, constants, setting, params)
                                             : prepareCone(joint, constants, setting, params);
     joint.mends = bits(off | (dot(error, error) > all(params.mendGap * params.mendGap))) != 0 ? 1 : 0;

@@ -98,6 +98,7 @@ struct JointLanes {
     Wide3 bias;                 ///< m/s: mends the anchors' distance.
     Wide3 frictionImpulse;      ///< N m s; a hinge uses x, about its axis.
     Wide frictionWeight;
+    Wide frictionLimit;  ///< N m s a substep.
     Wide frictionGain;
     LimitRow limit[2];  ///< Hinge: [0]. Cone-twist: swing, twist.
     HingeRows hinge;
@@ -201,6 +202,8 @@ struct SubstepParams {
     float pushSpeed;         ///< m/s, largest speed that overlap is pushed apart with.
     float limitSpeed;        ///< rad/s, the same of limits.
     float slop;              ///< Metres of overlap that are left alone.
+    float jointStiction;     ///< By how much friction of a joint at rest exceeds that of one that turns fast,
+    float stictionRate;      ///< which is faster than so many rad/s.
     float rollingLever;      ///< Metres: rolling resistance over normal force.
     float jointStiffness;    ///< Weight of rows that hold over the local effective mass: hinges.
     float limitStiffness;    ///< Limits.
@@ -219,6 +222,12 @@ struct SubstepParams {
     int warmStart;           ///< The first substep of a step makes the carried friction impulses its own.
 };
 
+/// What brings dolls to rest, one a lane; 1 for those that move.
+struct RestLanes {
+    Wide brake;     ///< Factor on all speeds a substep.
+    Wide stiction;  ///< Factor on all friction: static friction is greater than sliding friction.
+};
+
 /// A batch as the kernels see it.
 struct BatchView {
     int bodyCount;
@@ -231,7 +240,7 @@ struct BatchView {
     JointLanes* joints;
     TreeLanes* tree;
     StaticContactLanes* contacts;
-    const Wide* brake;  ///< Factor on all speeds a substep, one a doll.
+    const RestLanes* rest;
 };
 
 /// A pair of bodies of one doll that may collide, and the lanes in which their bounds meet.

@@ -13,6 +13,7 @@ struct Pass {
     /// Lanes whose guesses will not come to rest: rows are only added any more, and those that hold just stop what
     /// comes.
     Mask late;
+    F stiction;   ///< Factor on all friction.
     Mask astray;  ///< Gathers the lanes in which a body turns at another rate than its arms were foreseen with.
 };
 
@@ -137,12 +138,11 @@ LUTKA_LANES void askHinge(const HingeRows& rows, const V3& relative, const Pass&
 }
 
 // Decides which angular rows of a joint hold, and what they ask for.
-LUTKA_LANES Asked askJoint(JointLanes& joint, const JointConstants& constants, const V3& relative,
-                           const SubstepParams& params, const Pass& pass) {
+LUTKA_LANES Asked askJoint(JointLanes& joint, const JointConstants& constants, const V3& relative, const Pass& pass) {
     const F zero = all(0.0F);
     Asked asked{{zero, zero, zero}, {zero, zero, zero, zero, zero, zero}};
     const bool rubs = constants.frictionNm > 0.0F && !pass.mending;
-    const F frictionLimit = all(constants.frictionNm * params.dt);
+    const F frictionLimit = load(joint.frictionLimit) * pass.stiction;
     if (constants.isHinge != 0) {
         askHinge(joint.hinge, relative, pass, asked);
         if (rubs) askHingeFriction(joint, relative, frictionLimit, pass, asked);
@@ -215,7 +215,7 @@ LUTKA_LANES void askStatic(const BodyLanes& body, StaticContactLanes& contact, c
     store(contact.normalGain, gain);
     V3 push = normal * ((holds ? wanted : zero) - impulse * pass.applied);
 
-    const F pressing = most(impulse, zero);
+    const F pressing = most(impulse, zero) * pass.stiction;
     const F gripWeight = load(contact.tangentWeight);
     const V3 before = load(contact.frictionImpulse);
     const V3 rubbing = before - (sliding - normal * rate) * gripWeight;

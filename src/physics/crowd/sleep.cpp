@@ -23,7 +23,8 @@ void measureRest(CrowdState& state, Batch& batch, const Topology& topology, floa
         // The brake fades in below the calm speed, so that nothing changes abruptly.
         const float speed = std::sqrt(std::max(speed2.lane[lane], turn2.lane[lane] * 0.04F));
         const float share = doll.touching ? std::clamp(1.0F - speed / tuning.calmSpeed, 0.0F, 1.0F) : 0.0F;
-        batch.brake.lane[lane] = std::exp(-tuning.calmDamping * share * substep);
+        batch.rest.brake.lane[lane] = std::exp(-tuning.calmDamping * share * substep);
+        batch.rest.stiction.lane[lane] = 1.0F + (tuning.stiction - 1.0F) * share;
     }
 }
 

@@ -47,6 +47,8 @@ SubstepParams paramsOf(const CrowdState& state, float dt) {
     params.contactTolerance = tuning.contactTolerance;
     params.limitTolerance = tuning.limitTolerance;
     params.grip = tuning.grip;
+    params.jointStiction = tuning.jointStiction;
+    params.stictionRate = tuning.stictionRate;
     params.rollingLever = tuning.rollingLever;
     return params;
 }

@@ -110,7 +110,7 @@ void wake(CrowdState& state, int index) {
     Batch& batch = group.batches[doll.batch];
     batch.doll[doll.lane] = index;
     batch.used = doll.lane + 1;
-    batch.brake.lane[doll.lane] = 1.0F;
+    awaken(batch.rest, doll.lane);
     writeLane(batch, doll.lane, doll.frozen);
     clearImpulses(batch, doll.lane);
     for (int lane = doll.lane + 1; lane < kLanes; ++lane)
@@ -162,7 +162,7 @@ void leaveLane(CrowdState& state, int index) {
     if (&last != &doll) {
         copyLane(lastBatch, lastLane, batch, doll.lane);
         batch.doll[doll.lane] = lastBatch.doll[lastLane];
-        batch.brake.lane[doll.lane] = lastBatch.brake.lane[lastLane];
+        copyRest(lastBatch.rest, lastLane, batch.rest, doll.lane);
         last.batch = doll.batch;
         last.lane = doll.lane;
     }
@@ -202,7 +202,7 @@ void gatherActive(CrowdState& state) {
             Batch& batch = group->batches[i];
             for (int lane = batch.used; lane < kLanes; ++lane) {
                 copyLane(batch, 0, batch, lane);
-                batch.brake.lane[lane] = batch.brake.lane[0];
+                copyRest(batch.rest, 0, batch.rest, lane);
             }
             state.active.push_back(&batch);
             state.activeGroup.push_back(group.get());

@@ -74,7 +74,7 @@ LUTKA_LANES void eliminate(const BatchView& batch, int index, const SubstepParam
     const Loaded loaded = loadBody(batch, constants.child, constants.childGathers != 0, params, pass, fresh);
     const V3 parentAngular = load(parent.steadyAngular);
     const V3 childAngular = load(child.steadyAngular);
-    const Asked asked = askJoint(joint, constants, childAngular - parentAngular, params, pass);
+    const Asked asked = askJoint(joint, constants, childAngular - parentAngular, pass);
     const V3 parentArm = load(joint.parentArm);
     const V3 childArm = load(joint.childArm);
     V3 r = (load(parent.steadyVelocity) + cross(parentAngular, parentArm)) -
@@ -187,7 +187,7 @@ static bool needsMending(const BatchView& batch, const SubstepParams& params) {
 
 static void mend(const BatchView& batch, const SubstepParams& params, int pushed) {
     if (pushed == 0 && !needsMending(batch, params)) return;
-    Pass pass{true, all(1.0F), noLanes(), noLanes()};
+    Pass pass{true, all(1.0F), noLanes(), all(1.0F), noLanes()};
     sweep(batch, params, pass, true);
 }
 
@@ -206,7 +206,7 @@ static void aim(const BatchView& batch, const SubstepParams& params) {
 }
 
 static void solve(const BatchView& batch, const SubstepParams& params, int first) {
-    Pass pass{false, all(first != 0 ? 0.0F : 1.0F), noLanes(), noLanes()};
+    Pass pass{false, all(first != 0 ? 0.0F : 1.0F), noLanes(), load(batch.rest->stiction), noLanes()};
     for (int i = 0; i < params.passes; ++i) {
         pass.astray = noLanes();
         const Mask wrong = sweep(batch, params, pass, i == 0);

@@ -39,11 +39,14 @@ struct CrowdTuning {
     float linearDamping = 0.0F;   ///< 1/s; speed decays by exp(-d t).
     float angularDamping = 0.1F;  ///< 1/s; likewise.
 
-    float sleepSpeed = 0.02F;   ///< m/s, of every body's centre.
-    float sleepTurn = 0.045F;   ///< rad/s, of every body.
-    float sleepSeconds = 1.0F;  ///< For how long a doll must be below both.
-    float calmSpeed = 0.15F;    ///< m/s and rad/s: below it a lying doll is braked.
-    float calmDamping = 15.0F;  ///< 1/s, the brake.
+    float sleepSpeed = 0.02F;    ///< m/s, of every body's centre.
+    float sleepTurn = 0.045F;    ///< rad/s, of every body.
+    float sleepSeconds = 1.0F;   ///< For how long a doll must be below both.
+    float calmSpeed = 0.15F;     ///< m/s and rad/s: below it a lying doll is braked.
+    float calmDamping = 15.0F;   ///< 1/s, the brake.
+    float jointStiction = 3.0F;  ///< Friction of a joint at rest over that of one that turns, less 1;
+    float stictionRate = 4.0F;   ///< fades out up to so many rad/s.
+    float stiction = 1.5F;       ///< Static friction over sliding friction; fades in below the calm speed.
 
     std::optional<InstructionSet> instructionSet;  ///< Unset: the widest that the processor has.
 };
