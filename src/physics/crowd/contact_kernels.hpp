@@ -110,7 +110,8 @@ static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& 
         const F start = dot(normal, slidingOf(pair, velocitiesOf(pair)));
         const F pressed = load(pair.normalImpulse);
         const F steady = pressed - load(pair.normalMass) * (start - load(pair.approach));
-        const F held = least(most(steady, all(0.0F)), pressed);
+        // Bodies that part already bear no load either: pushing on would speed them up.
+        const F held = least(most(steady, all(0.0F)), pressed) * stays(start, kSlipSpeed);
         store(pair.approach, start);
         store(pair.normalImpulse, held);
         store(pair.carriedNormal, held);

@@ -137,7 +137,9 @@ class TouchSearch {
     const StepBody* stepB_[kLanes]{};
 };
 
-void boundsOfBatch(CrowdState& state, Batch& batch, const Topology& topology, float dt) {
+}  // namespace
+
+void findBounds(CrowdState& state, Batch& batch, const Topology& topology, float dt) {
     const BatchView view = batch.view(topology);
     state.kernels->findBounds(view, dt, state.tuning.pairMargin);
     Wide3 low;
@@ -150,6 +152,8 @@ void boundsOfBatch(CrowdState& state, Batch& batch, const Topology& topology, fl
         doll.rootVelocity = readVector(batch.bodies[0].velocity, lane);
     }
 }
+
+namespace {
 
 // A doll's bounds in the world's frame: those seen from the root, and the root's own motion.
 struct Bounds {
@@ -407,7 +411,7 @@ bool pushes(const CrowdState& state, const Doll& mover, const Doll& sleeper, flo
 void findBounds(CrowdState& state, float dt) {
     state.pool.parallelFor(state.active.size(), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-            boundsOfBatch(state, *state.active[i], state.activeGroup[i]->topology, dt);
+            findBounds(state, *state.active[i], state.activeGroup[i]->topology, dt);
     });
 }
 

@@ -6,6 +6,8 @@ namespace lutka::physics::crowd {
 
 /// Bounds of all awake dolls for a step of `dt` s.
 void findBounds(CrowdState& state, float dt);
+/// The same of one batch, from where its dolls are now.
+void findBounds(CrowdState& state, Batch& batch, const Topology& topology, float dt);
 
 /// Pairs of dolls whose bounds meet, at least one of them awake, by index: a sweep along x.
 void sweepDolls(CrowdState& state, float dt);

@@ -44,13 +44,30 @@ LUTKA_LANES Mended mendRow(F rate, F bias, F weight, F gain) {
     return {holds ? weight : zero, over ? rate + bias : zero};
 }
 
+// Speeds above which what is carried from the substep before must not push along with the motion: it would no longer
+// hold a load but speed up what leaves.
+constexpr float kSlipSpeed = 0.05F;   // m/s
+constexpr float kSlipTurn = 0.2F;     // rad/s, friction
+constexpr float kLimitLeaves = 0.5F;  // rad/s
+
+// 1 for what moves by less than `slip`, 0 from twice that on.
+LUTKA_LANES F stays(F speed, float slip) {
+    return clampLanes(all(2.0F) - speed * all(1.0F / slip), all(0.0F), all(1.0F));
+}
+
+// What a one-sided row carries into the substep; later passes correct it as they find it.
+LUTKA_LANES F carriedPush(F impulse, F rate, float slip, const Pass& pass) {
+    const F kept = impulse * stays(rate, slip);
+    return pass.applied > all(0.0F) ? impulse : kept;
+}
+
 LUTKA_LANES void askLimit(LimitRow& row, const V3& relative, const Pass& pass, Asked& asked) {
     const F zero = all(0.0F);
     const V3 axis = load(row.axis);
     const F weight = load(row.weight);
-    const F impulse = load(row.impulse);
     const F bias = load(row.bias);
     const F rate = dot(axis, relative);
+    const F impulse = carriedPush(load(row.impulse), rate, kLimitLeaves, pass);
     if (pass.mending) {
         const Mended mended = mendRow(rate, bias, weight, load(row.gain));
         asked.torque = asked.torque - axis * (mended.gain * mended.off);
@@ -63,6 +80,7 @@ LUTKA_LANES void askLimit(LimitRow& row, const V3& relative, const Pass& pass, A
     const F wanted = impulse - weight * (rate + oneSidedBias(bias, holds, pass));
     const F gain = holds ? weight : zero;
     store(row.gain, gain);
+    store(row.impulse, impulse);
     asked.torque = asked.torque + axis * ((holds ? wanted : zero) - impulse * pass.applied);
     addSquare(asked.weight, axis, gain);
 }
@@ -92,17 +110,27 @@ LUTKA_LANES V3 choose(const Mask& mask, const V3& a, const V3& b) {
     return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
 }
 
+// What friction may carry over into this pass. Something that slides or turns already is not held: the part of the
+// impulse that would drive it on is dropped, or a hit that comes back the other way is sped up by its own friction.
+LUTKA_LANES V3 opposing(const V3& carried, const V3& sliding, float slip) {
+    const F speed2 = dot(sliding, sliding);
+    const F driving = most(dot(carried, sliding), all(0.0F));
+    const F share = all(1.0F) - stays(squareRoot(speed2), slip);
+    return carried - sliding * (driving * share / most(speed2, all(1e-12F)));
+}
+
 // Friction of a cone-twist: holds while the torque that stops all turning is within the bound, else it is the bound
 // against the turning.
 LUTKA_LANES void askConeFriction(JointLanes& joint, const V3& relative, F limit, const Pass& pass, Asked& asked) {
     const F weight = load(joint.frictionWeight);
     const V3 before = load(joint.frictionImpulse);
-    const V3 wanted = before - relative * weight;
+    const V3 kept = opposing(before, relative, kSlipTurn);
+    const V3 wanted = kept - relative * weight;
     const Bounded bound = within(dot(wanted, wanted), limit);
     const V3 target = wanted * bound.share;
     const F gain = bound.holds ? weight : all(0.0F);
     store(joint.frictionGain, gain);
-    store(joint.frictionImpulse, choose(bound.holds, before, target));
+    store(joint.frictionImpulse, choose(bound.holds, kept, target));
     asked.torque = asked.torque + (target - before * pass.applied);
     asked.weight.xx += gain;
     asked.weight.yy += gain;
@@ -112,12 +140,14 @@ LUTKA_LANES void askHingeFriction(JointLanes& joint, const V3& relative, F limit
     const V3 axis = load(joint.hinge.axis);
     const F weight = load(joint.frictionWeight);
     const F before = load(joint.frictionImpulse.x);
-    const F wanted = before - weight * dot(axis, relative);
+    const F rate = dot(axis, relative);
+    const F kept = (before * rate > magnitude(before) * all(kSlipTurn)) ? all(0.0F) : before;
+    const F wanted = kept - weight * rate;
     const F target = clampLanes(wanted, -limit, limit);
     const Mask holds = wanted == target;
     const F gain = holds ? weight : all(0.0F);
     store(joint.frictionGain, gain);
-    store(joint.frictionImpulse.x, holds ? before : target);
+    store(joint.frictionImpulse.x, holds ? kept : target);
     asked.torque = asked.torque + axis * (target - before * pass.applied);
     addSquare(asked.weight, axis, gain);
 }
@@ -191,8 +221,8 @@ LUTKA_LANES void askStatic(const BodyLanes& body, StaticContactLanes& contact, c
     const V3 sliding = load(body.steadyVelocity) + cross(angular, arm);
     const F rate = dot(normal, sliding);
     const F weight = load(contact.normalWeight);
-    const F impulse = load(contact.normalImpulse);
     const F bias = load(contact.bias);
+    const F impulse = load(contact.normalImpulse);
     if (pass.mending) {
         const Mended mended = mendRow(rate, bias, weight, load(contact.normalGain));
         if (bits(mended.gain > zero) == 0) return;
@@ -213,28 +243,32 @@ LUTKA_LANES void askStatic(const BodyLanes& body, StaticContactLanes& contact, c
     const F wanted = impulse - weight * (rate + oneSidedBias(bias, holds, pass));
     const F gain = holds ? weight : zero;
     store(contact.normalGain, gain);
+    store(contact.normalImpulse, impulse);
     V3 push = normal * ((holds ? wanted : zero) - impulse * pass.applied);
 
     const F pressing = most(impulse, zero) * pass.stiction;
     const F gripWeight = load(contact.tangentWeight);
     const V3 before = load(contact.frictionImpulse);
-    const V3 rubbing = before - (sliding - normal * rate) * gripWeight;
+    const V3 slip = sliding - normal * rate;
+    const V3 kept = opposing(before, slip, kSlipSpeed);
+    const V3 rubbing = kept - slip * gripWeight;
     const Bounded grips = within(dot(rubbing, rubbing), load(contact.friction) * pressing);
     const V3 rubbed = rubbing * grips.share;
     const F grip = grips.holds ? gripWeight : zero;
     store(contact.tangentGain, grip);
-    store(contact.frictionImpulse, choose(grips.holds, before, rubbed));
+    store(contact.frictionImpulse, choose(grips.holds, kept, rubbed));
     push = push + (rubbed - before * pass.applied);
 
     // Rolling resistance: a torque against any turning, of at most the normal force times a lever.
     const F rollWeight = load(contact.rollWeight);
     const V3 rolled = load(contact.rollImpulse);
-    const V3 rolling = rolled - angular * rollWeight;
+    const V3 keptRoll = opposing(rolled, angular, kSlipTurn);
+    const V3 rolling = keptRoll - angular * rollWeight;
     const Bounded stops = within(dot(rolling, rolling), pressing * all(params.rollingLever));
     const V3 resisted = rolling * stops.share;
     const F roll = stops.holds ? rollWeight : zero;
     store(contact.rollGain, roll);
-    store(contact.rollImpulse, choose(stops.holds, rolled, resisted));
+    store(contact.rollImpulse, choose(stops.holds, keptRoll, resisted));
 
     loaded.impulse = loaded.impulse + push;
     loaded.torque = loaded.torque + (cross(arm, push) + (resisted - rolled * pass.applied));

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kSplitJob = 16;
 // Substeps after which contacts with static geometry other than planes are found anew: a body may have slid over an
 // edge.
-constexpr int kRefresh = 3;
+constexpr int kRefresh = 2;
 
 SubstepParams paramsOf(const CrowdState& state, float dt) {
     const CrowdTuning& tuning = state.tuning;
@@ -83,6 +83,7 @@ void refreshStatics(CrowdState& state, Job& job, float seconds) {
         if (!batch.nearShapes) continue;
         keepStatics(state, batch);
         if (state.settings.contactReports) closeSums(state, batch);
+        findBounds(state, batch, *job.topologies[i], seconds);
         findStatics(state, batch, *job.topologies[i], seconds);
         if (state.settings.contactReports) openSums(batch);
     }

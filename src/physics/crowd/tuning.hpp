@@ -21,7 +21,7 @@ struct CrowdTuning {
     float limitTolerance = 1.0F;    ///< rad/s, the same of limits.
 
     float jointErp = 0.3F;          ///< Part of a joint's gap mended in a substep, (0, 1].
-    float limitErp = 0.1F;          ///< The same for limits.
+    float limitErp = 0.2F;          ///< The same for limits.
     float contactErp = 0.3F;        ///< The same for overlap.
     float jointStiffness = 300.0F;  ///< Weight of rows that hold over the local effective mass. More: quicker, rougher.
     float limitStiffness = 30.0F;   ///< The same of limits, and
