@@ -289,6 +289,27 @@ TEST_CASE("dolls far from the eye are spared and the report says how many") {
     CHECK(lutkaCommand("simulate " + kMannequin + " --shed lod@3 --eye 1,2").code == 2);
 }
 
+TEST_CASE("the mannequin falls within every bound on the crowd solver") {
+    for (const std::string scene : {"drop", "stairs", "throw"}) {
+        for (int seed = 0; seed < 6; ++seed) {
+            INFO(scene << ", seed " << seed);
+            const CommandResult result = lutkaCommand("simulate " + kMannequin + " --solver crowd --scene " + scene +
+                                                      " --seed " + std::to_string(seed) + " --seconds 8 --json");
+            REQUIRE(result.code == 0);
+            const Json json = Json::parse(result.out);
+            const Json& quality = json["quality"];
+            CHECK(quality["jointSeparationM"]["max"].get<double>() < 0.010);
+            CHECK(quality["jointSeparationM"]["p99"].get<double>() < 0.002);
+            CHECK(quality["limitViolationDeg"]["p99"].get<double>() < 3.0);
+            CHECK(quality["floorPenetrationM"]["max"].get<double>() < 0.010);
+            CHECK(quality["energyGrowthJ"].get<double>() < 0.03 * quality["initialEnergyJ"].get<double>());
+            REQUIRE(quality["settleSeconds"].is_number());
+            CHECK(quality["settleSeconds"].get<double>() < 6.0);
+            CHECK(quality["residualSpeedMps"].get<double>() < 0.01);
+        }
+    }
+}
+
 TEST_CASE("a stdout that can't be written ends with 5") {
     if (!fs::exists("/dev/full")) return;
     const CommandResult result =

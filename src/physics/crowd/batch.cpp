@@ -38,6 +38,8 @@ BatchView Batch::view(const Topology& topology) {
             joints.data(),
             tree.data(),
             contacts.data(),
+            static_cast<int>(drags.size()),
+            drags.data(),
             &rest};
 }
 

@@ -32,6 +32,7 @@ struct Batch {
     std::vector<Wide> impulseSums;             ///< One a contact, of the substeps since they were found; for reports.
     std::vector<StaticPush> pushes;  ///< Of contacts that were found anew since, and at last of all; for reports.
     bool nearShapes = false;         ///< Whether some of its dolls are near static geometry other than planes.
+    std::vector<DragLanes> drags;    ///< Of this step, one a pull.
     RestLanes rest{};
     int doll[kLanes]{};  ///< Which doll is in which lane.
     int used = 0;

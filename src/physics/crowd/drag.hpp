@@ -4,10 +4,12 @@
 
 namespace lutka::physics::crowd {
 
-/// This substep's arm, mass and error of a drag; applies what it carries from the substep before. Both return the
-/// work done on the body, joules.
-double beginDrag(CrowdState& state, DragRecord& record);
-/// One pass: a damped spring whose force is bounded.
-double solveDrag(CrowdState& state, DragRecord& record, float dt);
+/// Puts all pulls into the lanes of their dolls, for a step of substeps of `dt` s.
+void placeDrags(CrowdState& state, float dt);
+
+/// Before and after a substep's velocities are solved: the work that the pull has done on the doll, joules, is returned
+/// by the latter.
+void beginDrag(CrowdState& state, DragRecord& record);
+[[nodiscard]] double endDrag(CrowdState& state, const DragRecord& record);
 
 }  // namespace lutka::physics::crowd

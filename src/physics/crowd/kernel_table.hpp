@@ -12,6 +12,8 @@ static void begin(const BatchView& batch, const SubstepParams& params) {
     beginJoints(batch, params);
     for (int i = 0; i < batch.contactCount; ++i)
         beginStatic(batch.contacts[i], batch, params);
+    for (int i = 0; i < batch.dragCount; ++i)
+        beginDrag(batch.drags[i], batch, params);
 }
 
 static constexpr Kernels kTable{&refresh,       &findBounds,    &findSelfPairs, &findBodyPairs, &touchCores,

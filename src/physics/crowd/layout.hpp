@@ -163,6 +163,20 @@ struct StaticContactLanes {
     unsigned long long key[kLanes];  ///< What each lane's contact is matched by in the next step; 0: none.
 };
 
+/// A pull on a point of a body towards a place, in the lane of one doll: a damped spring whose force is bounded.
+struct DragLanes {
+    Wide3 localPoint;
+    Wide3 target;   ///< World space.
+    Wide weight;    ///< N s per m/s: what spring and damper answer a speed with in a substep; 0: nothing pulls here.
+    Wide pull;      ///< 1/s: speed towards the target over the distance from it.
+    Wide bound;     ///< N s a substep.
+    Wide3 arm;      ///< As it will be half way through the substep.
+    Wide3 bias;     ///< m/s
+    Wide3 impulse;  ///< N s, of this substep.
+    Wide gain;      ///< `weight` while the force is within its bound, else 0.
+    int body;
+};
+
 /// Eight contacts between two bodies each, of any dolls; no body comes twice, so that they are solved at once.
 struct PairContactLanes {
     float* bodyA[kLanes];  ///< First member of the lane in its BodyLanes.
@@ -240,6 +254,8 @@ struct BatchView {
     JointLanes* joints;
     TreeLanes* tree;
     StaticContactLanes* contacts;
+    int dragCount;
+    DragLanes* drags;
     const RestLanes* rest;
 };
 

@@ -100,24 +100,24 @@ class JobSubstep {
         // Before the substep begins, so that the first guess of what holds sees them, as it sees gravity.
         for (const ForceRecord* force : job_.forces)
             job_.motorWork += applyForce(state_, *force, params_.dt);
+        for (DragRecord* drag : job_.drags)
+            beginDrag(state_, *drag);
         forBatches([&](const BatchView& view) { kernels.begin(view, params_); });
         kernels.beginPairs(job_.pairs.data(), static_cast<int>(job_.pairs.size()), params_);
         // What touches other bodies works on single bodies; a pass over the dolls must follow before anything moves.
         const int pairs = static_cast<int>(job_.pairs.size());
         kernels.solvePairs(job_.pairs.data(), pairs, params_);
         kernels.carryPairs(job_.pairs.data(), pairs);
-        for (DragRecord* drag : job_.drags)
-            job_.dragWork += beginDrag(state_, *drag);
         for (MotorRecord* motor : job_.motors)
             job_.motorWork += beginMotor(state_, *motor, params_.dt);
         forBatches([&](const BatchView& view) { kernels.solve(view, params_, 1); });
-        if (!job_.drags.empty() || !job_.motors.empty()) {
-            for (DragRecord* drag : job_.drags)
-                job_.dragWork += solveDrag(state_, *drag, params_.dt);
+        if (!job_.motors.empty()) {
             for (MotorRecord* motor : job_.motors)
                 job_.motorWork += solveMotor(state_, *motor);
             forBatches([&](const BatchView& view) { kernels.solve(view, params_, 0); });
         }
+        for (const DragRecord* drag : job_.drags)
+            job_.dragWork += endDrag(state_, *drag);
         if (mends_) {
             const int pushed = kernels.mendPairs(job_.pairs.data(), pairs, params_);
             forBatches([&](const BatchView& view) { kernels.mend(view, params_, pushed); });
@@ -179,6 +179,7 @@ void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSu
     SubstepParams first = paramsOf(state, dt / static_cast<float>(substeps));
     SubstepParams others = first;
     first.warmStart = 1;
+    placeDrags(state, first.dt);
     for (std::size_t i = 0; i < state.jobCount; ++i)
         state.jobs[i].dragWork = state.jobs[i].motorWork = 0.0;
     // In the order of the jobs, so that the sum is the same at every thread count.

@@ -85,14 +85,12 @@ class CarriedPairs {
     std::vector<CarriedContact> contacts_;
 };
 
-/// A pull on a body and what it carries.
+/// A pull on a body.
 struct DragRecord {
     int id = 0;
     Drag drag;
-    vec3 impulse{0, 0, 0};  ///< N s of a substep.
-    vec3 arm{0, 0, 0};
-    mat3 mass{0};
-    vec3 error{0, 0, 0};
+    std::size_t index = 0;  ///< Of this step, into Batch::drags.
+    vec3 before{0, 0, 0};   ///< m/s, of the point at the substep's start.
 };
 
 /// A motor in a joint of a doll that is no prop: what it carries and what a substep prepares.

@@ -21,7 +21,7 @@
 /// What a pass costs is memory more than arithmetic: all that is done with a body on the way up, and all on the way
 /// down, is done while its numbers are at hand.
 
-#include "physics/crowd/row_kernels.hpp"
+#include "physics/crowd/drag_kernels.hpp"
 
 namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
 
@@ -47,6 +47,9 @@ LUTKA_LANES Loaded loadBody(const BatchView& batch, int index, bool gathers, con
     }
     for (int i = batch.firstContact[index]; i < batch.firstContact[index + 1]; ++i) {
         if (batch.contacts[i].near != 0) askStatic(body, batch.contacts[i], params, pass, loaded);
+    }
+    for (int i = 0; i < batch.dragCount; ++i) {
+        if (batch.drags[i].body == index) askDrag(body, batch.drags[i], pass, loaded);
     }
     return loaded;
 }
@@ -140,6 +143,9 @@ LUTKA_LANES Mask moveBody(const BatchView& batch, int index, const Motion& chang
     Mask wrong = noLanes();
     for (int i = batch.firstContact[index]; i < batch.firstContact[index + 1]; ++i) {
         if (batch.contacts[i].near != 0) wrong |= updateStatic(body, batch.contacts[i], params, pass);
+    }
+    for (int i = 0; i < batch.dragCount; ++i) {
+        if (batch.drags[i].body == index) wrong |= updateDrag(body, batch.drags[i], pass);
     }
     return wrong;
 }
