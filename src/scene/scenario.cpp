@@ -72,13 +72,21 @@ Ragdoll& placeFeet(Context& context, const vec3& foot, const quat& turn) {
     return placeCentre(context, foot + kUp * halfHeight(context), turn);
 }
 
-// Seed 0: none. Others: any heading, up to 10 degrees of tilt.
+constexpr float kLargestTilt = radians(10.0F);
+
+// Seed 0: none. Others: any heading, up to kLargestTilt.
 quat smallTurn(Context& context) {
     if (context.upright) return {1, 0, 0, 0};
     const quat yaw = glm::angleAxis(context.random.uniform(-kPi, kPi), vec3(0, 1, 0));
     const float heading = context.random.uniform(-kPi, kPi);
-    const float tilt = context.random.uniform(0.0F, radians(10.0F));
+    const float tilt = context.random.uniform(0.0F, kLargestTilt);
     return glm::angleAxis(tilt, vec3(std::cos(heading), 0, std::sin(heading))) * yaw;
+}
+
+// How deep the soles come when the figure is tilted about its centre: whoever stands with legs wide apart would start
+// with one of them in the floor.
+float dip(const Context& context, float tilt) {
+    return context.figure.stance * std::sin(tilt) - halfHeight(context) * (1.0F - std::cos(tilt));
 }
 
 quat anyTurn(Context& context) {
@@ -172,11 +180,13 @@ void stairs(Context& context) {
     const float front = flight.run * static_cast<float>(flight.steps);
     addFloor(context);
     addStatic(context, "Stairs", {kUpright, {0, 0, front}}, flight);
+    constexpr float pitch = radians(12);  // already falling forward
+    const float clearance = std::max(0.08F, dip(context, pitch));
     for (int i = 0; i < context.count; ++i) {
         const float across = (static_cast<float>(i) - static_cast<float>(context.count - 1) * 0.5F) * 1.6F;
         const float heading = context.upright ? 0.0F : context.random.uniform(-0.5F, 0.5F);
-        const quat lean = glm::angleAxis(radians(12), vec3(1, 0, 0)) * glm::angleAxis(heading, vec3(0, 1, 0));
-        Ragdoll& doll = placeFeet(context, {across, top + 0.08F, -0.1F}, lean);
+        const quat lean = glm::angleAxis(pitch, vec3(1, 0, 0)) * glm::angleAxis(heading, vec3(0, 1, 0));
+        Ragdoll& doll = placeFeet(context, {across, top + clearance, -0.1F}, lean);
         doll.linearVelocity = vec3(0, 0, 1.6F) + nudge(context, 0.3F);
     }
     context.scene.simulation.focus = {0, 1.2F, front * 0.5F};
@@ -243,8 +253,9 @@ void addBall(Context& context, const vec3& centre, const vec3& velocity) {
 
 void balls(Context& context) {
     addFloor(context);
+    const float clearance = std::max(0.05F, dip(context, kLargestTilt));
     for (int i = 0; i < context.count; ++i) {
-        const vec3 foot = gridPlace(i, context.count, kSpacing) + vec3(0, 0.05F, 0);
+        const vec3 foot = gridPlace(i, context.count, kSpacing) + vec3(0, clearance, 0);
         placeFeet(context, foot, smallTurn(context));
         for (int ball = 0; ball < 6; ++ball) {
             const float heading = context.random.uniform(-kPi, kPi);
@@ -295,12 +306,25 @@ std::span<const ScenarioInfo> scenarioRegistry() {
 
 FigureBounds figureBounds(const physics::RagdollProfile& profile, const physics::Rig& rig) {
     FigureBounds bounds{vec3(1e9F), vec3(-1e9F)};
-    for (std::size_t body = 0; body < profile.bodies.size(); ++body) {
+    const auto boxOf = [&](std::size_t body) {
         const RigidTransform standardFromBody =
             RigidTransform{profile.standardFromModel, vec3(0)} * rig.bindModelFromBody[body];
         const vec3 half = halfAabbOf(profile.bodies[body].shape, standardFromBody.rotation);
-        bounds.low = glm::min(bounds.low, standardFromBody.translation - half);
-        bounds.high = glm::max(bounds.high, standardFromBody.translation + half);
+        return FigureBounds{standardFromBody.translation - half, standardFromBody.translation + half};
+    };
+    for (std::size_t body = 0; body < profile.bodies.size(); ++body) {
+        const FigureBounds box = boxOf(body);
+        bounds.low = glm::min(bounds.low, box.low);
+        bounds.high = glm::max(bounds.high, box.high);
+    }
+    // It stands on what comes within a twentieth of its height to the ground.
+    const float ground = bounds.low.y + 0.05F * (bounds.high.y - bounds.low.y);
+    const vec3 middle = 0.5F * (bounds.low + bounds.high);
+    for (std::size_t body = 0; body < profile.bodies.size(); ++body) {
+        const FigureBounds box = boxOf(body);
+        if (box.low.y > ground) continue;
+        const vec3 reach = glm::max(glm::abs(box.low - middle), glm::abs(box.high - middle));
+        bounds.stance = std::max(bounds.stance, std::hypot(reach.x, reach.z));
     }
     return bounds;
 }

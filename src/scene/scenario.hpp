@@ -74,6 +74,8 @@ struct ScenarioInfo {
 struct FigureBounds {
     vec3 low{0, 0, 0};
     vec3 high{0, 0, 0};
+    float stance = 0.0F;  ///< Metres from the middle, level, that what it stands on reaches: the wider, the deeper a
+                          ///< tilted figure dips.
 };
 /// Over the surfaces of all bodies in the bind pose.
 [[nodiscard]] FigureBounds figureBounds(const physics::RagdollProfile& profile, const physics::Rig& rig);

@@ -54,6 +54,28 @@ TEST_CASE("every scene of the registry has its dolls above the ground and someth
     }
 }
 
+TEST_CASE("a figure that stands with its legs wide apart starts above the ground as well") {
+    const auto asset = test::bipedRagdoll();
+    auto bounds = figureBounds(asset->profile, asset->rig);
+    CHECK(bounds.stance > 0.1F);
+    CHECK(bounds.stance < 0.5F);
+    bounds.stance = 0.75F;
+    const auto clearance = [&](const FigureBounds& figure, std::string_view scene, std::uint64_t seed) {
+        const auto scenario = makeScenario(scene, 1, seed, figure, quat(1, 0, 0, 0));
+        REQUIRE(scenario);
+        // Where a sole as far out as that comes, whichever way it points.
+        const RigidTransform& world = scenario.value().dolls[0].worldFromModel;
+        const vec3 down = glm::conjugate(world.rotation) * vec3(0, -1, 0);
+        const vec3 out = glm::normalize(vec3(down.x, 0, down.z) + vec3(1e-6F, 0, 0));
+        return (world * (vec3(0, figure.low.y, 0) + figure.stance * out)).y;
+    };
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        INFO(seed);
+        CHECK(clearance(bounds, "balls", seed) > 0.0F);
+        CHECK(clearance(bounds, "stairs", seed) > 12 * 0.17F);  // on the topmost step
+    }
+}
+
 TEST_CASE("drop hangs the soles one metre above the floor, upright for seed 0") {
     const auto asset = test::bipedRagdoll();
     const Scenario scenario = make(*asset, "drop");
