@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <glm/geometric.hpp>
 
 #include "trial.hpp"
 
@@ -41,7 +42,8 @@ std::vector<Knob> knobs() {
             LUTKA_KNOB("--margin", contactMargin),     LUTKA_KNOB("--gyration", leastGyration),
             LUTKA_KNOB("--warm-start", warmStart),     LUTKA_KNOB("--angular-damping", angularDamping),
             LUTKA_KNOB("--rest-damping", restDamping), LUTKA_KNOB("--rest-speed", restSpeed),
-            LUTKA_KNOB("--rest-turn", restTurn),       LUTKA_KNOB("--rolling", rollingArm)};
+            LUTKA_KNOB("--rest-turn", restTurn),       LUTKA_KNOB("--rolling", rollingArm),
+            LUTKA_KNOB("--quiet", quietSpeed),         LUTKA_KNOB("--rest-tolerance", restTolerance)};
 #undef LUTKA_KNOB
 }
 
@@ -53,6 +55,48 @@ struct Arguments {
     int seeds = 5;
     int count = 1;
     bool perSeed = false;
+    bool restless = false;
+};
+
+// What keeps a doll from its rest: how its bodies move in the sixth second, the last one before it should have settled.
+class Restlessness {
+  public:
+    void sample(const Trial& trial) {
+        constexpr int kSecond = 60;
+        if (trial.steps() <= 5 * kSecond || trial.steps() > 6 * kSecond) return;
+        std::vector<physics::BodyState> bodies(trial.world().profileOf(0).bodies.size());
+        trial.world().getBodies(0, bodies);
+        if (watched_.empty()) {
+            for (const physics::BodyState& body : bodies)
+                watched_.push_back({body.worldFromBody.translation});
+        }
+        for (std::size_t i = 0; i < bodies.size(); ++i) {
+            Watched& watched = watched_[i];
+            watched.moved = glm::distance(bodies[i].worldFromBody.translation, watched.start);
+            watched.fastest = std::max(watched.fastest, glm::length(bodies[i].linearVelocity));
+            watched.fastestTurn = std::max(watched.fastestTurn, glm::length(bodies[i].angularVelocity));
+            watched.path += glm::length(bodies[i].linearVelocity) / static_cast<float>(kSecond);
+        }
+    }
+    // A way much longer than what was moved is rocking or swinging, an equal one creeping.
+    void print(const Trial& trial, const TrialSettings& settings) const {
+        for (std::size_t i = 0; i < watched_.size(); ++i) {
+            const Watched& watched = watched_[i];
+            fmt::print(stderr, "{} seed {} {}: {:.1f} mm/s and {:.2f} rad/s at most, way {:.1f} mm, moved {:.1f} mm\n",
+                       settings.scene, settings.seed, trial.world().profileOf(0).bodies[i].joint,
+                       1e3F * watched.fastest, watched.fastestTurn, 1e3F * watched.path, 1e3F * watched.moved);
+        }
+    }
+
+  private:
+    struct Watched {
+        vec3 start;
+        float moved = 0;
+        float path = 0;
+        float fastest = 0;
+        float fastestTurn = 0;
+    };
+    std::vector<Watched> watched_;
 };
 
 void printHeader(const Arguments& arguments) {
@@ -115,9 +159,13 @@ void runScenes(const scene::RagdollAsset& asset, const Arguments& arguments, Tri
         for (int seed = 0; seed < arguments.seeds; ++seed) {
             settings.seed = static_cast<std::uint64_t>(seed);
             Trial trial(asset, settings);
-            while (trial.steps() < trial.length())
+            Restlessness restless;
+            while (trial.steps() < trial.length()) {
                 trial.step();
+                restless.sample(trial);
+            }
             results.push_back(trial.result());
+            if (arguments.restless && !results.back().settled) restless.print(trial, settings);
             if (arguments.perSeed) printRow(arguments, settings, {results.back()});
         }
         if (!arguments.perSeed) printRow(arguments, settings, results);
@@ -162,6 +210,7 @@ int main(int argc, char** argv) {
         app.add_option(knob.option, knob.values)->delimiter(',');
     app.add_option("--seeds", arguments.seeds, "how many, from 0")->check(CLI::Range(1, 10000));
     app.add_option("--count", arguments.count, "dolls in a scene")->check(CLI::Range(1, 10000));
+    app.add_flag("--restless", arguments.restless, "tell on stderr how the first doll moved where it did not settle");
     app.add_flag("--per-seed", arguments.perSeed, "a row for every seed");
     CLI11_PARSE(app, argc, argv);
 

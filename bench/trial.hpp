@@ -49,7 +49,7 @@ class Trial {
     /// Steps in the whole trial.
     [[nodiscard]] int length() const { return length_; }
     [[nodiscard]] TrialResult result() const;
-    [[nodiscard]] physics::World& world() { return *world_; }
+    [[nodiscard]] const physics::World& world() const { return *world_; }
 
   private:
     void watchTurning();

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <new>
 
+#include "physics/bullet/contact_impulses.hpp"
 #include "physics/bullet/convert.hpp"
 #include "physics/bullet/geometry_cache.hpp"
 #include "physics/contacts.hpp"
@@ -88,11 +89,7 @@ void AnalyticCollision::fill(const ContactList& list, const btTransform& worldFr
         point.m_combinedRestitution = restitution;
         btPlaneSpace1(normal, point.m_lateralFrictionDir1, point.m_lateralFrictionDir2);
         for (int k = 0; k < oldCount; ++k) {
-            if (old[k].m_index0 != contact.feature) continue;
-            point.m_appliedImpulse = old[k].m_appliedImpulse;
-            point.m_appliedImpulseLateral1 = old[k].m_appliedImpulseLateral1;
-            point.m_appliedImpulseLateral2 = old[k].m_appliedImpulseLateral2;
-            point.m_lifeTime = old[k].m_lifeTime + 1;
+            if (old[k].m_index0 == contact.feature) carryImpulses(old[k], point);
         }
         btPersistentManifold& manifold = *manifolds_[i / kPoints];
         manifold.setNumContacts(i % kPoints + 1);

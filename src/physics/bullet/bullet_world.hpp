@@ -11,8 +11,10 @@ struct BulletTuning {
     int substeps = 8;     ///< Of one frame, >= 1. More: tighter joints and contacts, proportional cost.
     int sweeps = 80;      ///< At most, over all rows of an island in a substep, >= 1. More: tighter in hard impacts.
     int leastSweeps = 2;  ///< At least, >= 1.
-    float tolerance = 0.02F;  ///< m/s: sweeping ends when no row was wrong by more. More: faster, looser.
-    int mendSweeps = 24;      ///< At most, of the pass that mends positions, >= 1.
+    float tolerance = 0.02F;        ///< m/s: sweeping ends when no row was wrong by more. More: faster, looser.
+    float restTolerance = 0.0025F;  ///< m/s: the same for bodies that touch or are linked while their root mean square
+                                    ///< speed is below restSpeed. More: some dolls rock on limits and edges for long.
+    int mendSweeps = 24;            ///< At most, of the pass that mends positions, >= 1.
 
     float jointErp = 0.5F;        ///< Part of a joint's gap mended in a substep, (0, 1]. More: tighter.
     float limitErp = 0.3F;        ///< The same for angles past their limit.
@@ -31,8 +33,11 @@ struct BulletTuning {
     float restDamping = 4.0F;     ///< 1/s: further damping of what touches something and is slower than
     float restSpeed = 0.1F;       ///< m/s and
     float restTurn = 0.8F;        ///< rad/s. More: sooner asleep, stiffer last movements.
-    float sleepSpeed = 0.03F;     ///< m/s, and
-    float sleepTurn = 0.04F;      ///< rad/s: slower for `sleepSeconds`, all bodies that touch fall asleep.
+    float quietSpeed = 0.05F;     ///< m/s: where the root mean square over the mass of all bodies that touch or are
+                               ///< linked is below, each of them is damped so, whatever its own speed. More: feet and
+                               ///< hands that hang from a resting doll stop sooner; much more slows the last falls.
+    float sleepSpeed = 0.03F;  ///< m/s, and
+    float sleepTurn = 0.04F;   ///< rad/s: slower for `sleepSeconds`, all bodies that touch fall asleep.
     float sleepSeconds = 1.0F;
 };
 

@@ -184,15 +184,17 @@ inline void solveFriction(SolverBody& a, SolverBody& b, ContactRows& contact) {
     }
 }
 
+inline void pushRolling(SolverBody& a, SolverBody& b, const F4& impulse) {
+    a.turn += a.inverseInertia * impulse;
+    b.turn -= b.inverseInertia * impulse;
+}
 /// Flesh gives way where it rests: the pressure's centre moves ahead of what rolls, by up to `arm` metres.
 inline void solveRolling(SolverBody& a, SolverBody& b, ContactRows& contact, float arm) {
     F4 wanted = contact.rolling - (a.turn - b.turn) * allF4(contact.rollingInertia);
     const float square = dot(wanted, wanted);
     const float bound = arm * contact.normal.impulse;
     if (square > bound * bound) wanted *= allF4(bound / std::sqrt(square));
-    const F4 change = wanted - contact.rolling;
-    a.turn += a.inverseInertia * change;
-    b.turn -= b.inverseInertia * change;
+    pushRolling(a, b, wanted - contact.rolling);
     contact.rolling = wanted;
 }
 

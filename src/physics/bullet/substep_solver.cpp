@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "physics/bullet/contact_impulses.hpp"
 #include "physics/bullet/convert.hpp"
 
 // Taking bodies, constraints and contacts in, and giving the outcome back; substep_sweeps.cpp does the solving.
@@ -289,6 +290,7 @@ void SubstepSolver::takeContact(btManifoldPoint& point, int a, int b, float seco
         contact.normal.impulse = point.m_appliedImpulse;
         contact.tangents[0].impulse = point.m_appliedImpulseLateral1;
         contact.tangents[1].impulse = point.m_appliedImpulseLateral2;
+        contact.rolling = rollingImpulse(point);
     }
 }
 
@@ -362,6 +364,7 @@ void SubstepSolver::store(float seconds) {
         contact.point->m_appliedImpulse = contact.normal.impulse;
         contact.point->m_appliedImpulseLateral1 = contact.tangents[0].impulse;
         contact.point->m_appliedImpulseLateral2 = contact.tangents[1].impulse;
+        setRollingImpulse(*contact.point, contact.rolling);
     }
     for (std::size_t i = 1; i < bodies_.size(); ++i) {
         bodies_[i].body->setLinearVelocity(toBullet(bodies_[i].velocity));

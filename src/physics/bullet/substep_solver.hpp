@@ -64,6 +64,11 @@ class SubstepSolver {
         float gain = 0;  // see warmStart()
         float square = 0;
         float share = 0;
+        float mass = 0;    // kg, of all bodies
+        float motion = 0;  // twice the energy of their centres, J; both as of calm()
+
+        // By the root mean square over the mass.
+        [[nodiscard]] bool isSlowerThan(float speed) const { return motion < speed * speed * mass; }
     };
 
     void takeBodies(std::span<btRigidBody* const> bodies, float seconds);

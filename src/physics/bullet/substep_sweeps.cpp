@@ -71,6 +71,8 @@ void SubstepSolver::gatherPushes() {
         add(contact.normal);
         add(contact.tangents[0]);
         add(contact.tangents[1]);
+        a.angular += contact.rolling;
+        b.angular -= contact.rolling;
         islandOfPair(contact.a, contact.b).gain += contact.keepTarget * contact.normal.impulse;
     }
 }
@@ -109,6 +111,8 @@ void SubstepSolver::applyShares() {
             row->impulse *= share;
             push(bodies_[contact.a], bodies_[contact.b], *row, row->impulse);
         }
+        contact.rolling *= allF4(share);
+        pushRolling(bodies_[contact.a], bodies_[contact.b], contact.rolling);
     }
 }
 
@@ -142,25 +146,39 @@ float SubstepSolver::sweep(const Island& island, bool mending, bool forth) {
     return residual;
 }
 
-// A doll that lies still is solved in a few sweeps, one that hits the floor needs many.
+// A doll that lies still is solved in a few sweeps, one that hits the floor needs many. Near rest the error that is
+// left must be less than the speeds themselves: limits and edges would otherwise push each other on and on.
 void SubstepSolver::iterate(bool mending) {
     const int most = mending ? tuning_.mendSweeps : tuning_.sweeps;
     for (const Island& island : islands_) {
+        const bool nearRest = island.isSlowerThan(tuning_.restSpeed);
+        const float tolerance = nearRest ? tuning_.restTolerance : tuning_.tolerance;
         for (int i = 0; i < most; ++i) {
             const float residual = sweep(island, mending, i % 2 == 0);
-            if (i + 1 >= tuning_.leastSweeps && residual < tuning_.tolerance) break;
+            if (i + 1 >= tuning_.leastSweeps && residual < tolerance) break;
         }
     }
 }
 
-// What lies nearly still is brought to rest: capsules would roll on for long, which skin and cloth never do.
+// What lies nearly still is brought to rest: capsules would roll on for long, which skin and cloth never do. Where all
+// of an island but a foot or a hand rests, that one is calmed as well: it would swing from its joint for seconds.
 void SubstepSolver::calm(float seconds) {
+    for (std::size_t i = 1; i < bodies_.size(); ++i) {
+        const SolverBody& body = bodies_[i];
+        Island& island = islands_[body.island];
+        const float mass = 1.0F / body.inverseMass;
+        island.mass += mass;
+        island.motion += mass * dot(body.velocity, body.velocity);
+    }
     const F4 keep = allF4(std::max(1.0F - tuning_.restDamping * seconds, 0.0F));
+    const float square = tuning_.restSpeed * tuning_.restSpeed;
     for (std::size_t i = 1; i < bodies_.size(); ++i) {
         SolverBody& body = bodies_[i];
-        const bool slow = dot(body.velocity, body.velocity) < tuning_.restSpeed * tuning_.restSpeed &&
+        const Island& island = islands_[body.island];
+        const bool slow = dot(body.velocity, body.velocity) < square &&
                           dot(body.turn, body.turn) < tuning_.restTurn * tuning_.restTurn;
-        if (!slow || islands_[body.island].contacts == 0) continue;
+        const bool amongResting = island.isSlowerThan(tuning_.quietSpeed);
+        if (!(slow || amongResting) || island.contacts == 0) continue;
         body.velocity *= keep;
         body.turn *= keep;
     }

@@ -190,6 +190,58 @@ TEST_CASE("a doll that falls is sound all the way and falls asleep", "[bullet]")
     }
 }
 
+TEST_CASE("resistance to rolling holds a ball on a slope up to its arm over the radius", "[bullet]") {
+    // The normal force may move by 1 cm ahead of the ball's centre: 2.9 degrees at a radius of 20 cm.
+    for (const float slopeDeg : {2.0F, 4.5F}) {
+        const auto world = makeWorld(SolverKind::bullet, kGravity, false);
+        StaticShape slope;
+        slope.worldFromShape.rotation = glm::angleAxis(radians(slopeDeg), vec3(0, 0, 1));
+        world->addStatic(slope);
+        physics::DynamicProp ball;
+        ball.shape.kind = physics::BodyShape::Kind::sphere;
+        ball.shape.radius = 0.2F;
+        ball.massKg = 5.0F;
+        ball.state.worldFromBody.translation = slope.worldFromShape.rotation * vec3(0, 0.2F, 0);
+        world->addProp(ball);
+        for (int i = 0; i < 240; ++i)
+            world->step(kDt);
+        const float moved =
+            glm::distance(world->propState(0).worldFromBody.translation, ball.state.worldFromBody.translation);
+        INFO(slopeDeg << " degrees: " << moved << " m");
+        CHECK((slopeDeg < 2.9F ? moved < 0.002F : moved > 0.1F));
+    }
+}
+
+TEST_CASE("what hangs from a body at rest soon stops swinging", "[bullet]") {
+    // The heavy parent lies on a table, the child hangs beyond its edge and is pushed along it.
+    RagdollProfile pair = test::makePair(physics::ConeTwistLimits{radians(120), radians(120), radians(60)});
+    pair.bodies[0].massKg *= 100.0F;
+    pair.bodies[0].inertia *= 100.0F;
+    const physics::ConstraintProfile& c = pair.constraints[0];
+    std::vector<BodyState> bodies(2);
+    bodies[0].worldFromBody = inverse(c.parentFromFrame);
+    bodies[1].worldFromBody =
+        RigidTransform{glm::angleAxis(radians(-90), vec3(0, 0, 1)), vec3(0)} * inverse(c.childFromFrame);
+    const float radius = pair.bodies[0].shape.radius;
+    const auto framesToSleep = [&](float quietSpeed) {
+        physics::BulletTuning tuning;
+        tuning.quietSpeed = quietSpeed;
+        const auto world = createBulletWorld({}, tuning);
+        world->addStatic(box({-1.1F, -radius - 0.5F, 0}, {1.0F, 0.5F, 1.0F}));
+        world->addDoll(pair, bodies);
+        world->applyImpulse(0, 1, {0, 0, 0.5F * pair.bodies[1].massKg}, bodiesOf(*world)[1].worldFromBody.translation);
+        int frames = 0;
+        for (; !world->isAsleep(0) && frames < 1200; ++frames)
+            world->step(kDt);
+        return frames;
+    };
+    const int calmed = framesToSleep(physics::BulletTuning{}.quietSpeed);
+    const int free = framesToSleep(0.0F);
+    INFO(calmed << " and " << free << " frames");
+    CHECK(calmed < 300);
+    CHECK(free > calmed + 120);
+}
+
 TEST_CASE("the same calls give the same bits", "[bullet]") {
     for (const SolverKind solver : {SolverKind::stock, SolverKind::bullet}) {
         std::uint64_t hashes[2];
