@@ -67,6 +67,8 @@ void apply(CrowdTuning& tuning, const std::string& setting) {
                                               {"stiction", &tuning.stiction},
                                               {"jointStiction", &tuning.jointStiction},
                                               {"stictionRate", &tuning.stictionRate},
+                                              {"stiffen", &tuning.stiffen},
+                                              {"stiffest", &tuning.stiffest},
                                               {"sleepSpeed", &tuning.sleepSpeed},
                                               {"angularDamping", &tuning.angularDamping},
                                               {"leastGyration", &tuning.leastGyration}};

@@ -222,6 +222,8 @@ struct SubstepParams {
     float jointStiffness;    ///< Weight of rows that hold over the local effective mass: hinges.
     float limitStiffness;    ///< Limits.
     float contactStiffness;  ///< Static contacts.
+    float stiffen;           ///< Factor on the weight of a contact that gives way, a pass,
+    float stiffest;          ///< up to this weight over its mass.
     float firstTouch;        ///< Limits and contacts that are about to be met.
     float grip;              ///< The same of friction.
     float limitTolerance;    ///< rad/s, and

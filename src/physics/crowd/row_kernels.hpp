@@ -93,7 +93,10 @@ LUTKA_LANES Mask updateLimit(LimitRow& row, const V3& relative, const SubstepPar
     store(row.impulse, held ? total : zero);
     // In rad/s: a pull that should not be, or a stop run through.
     const F pull = pass.late ? zero : total * all(params.limitStiffness) / most(gain, all(1e-12F));
-    return (held ? pull : off) < all(-params.limitTolerance);
+    const F tolerance = all(-params.limitTolerance);
+    // A row that holds and still turns has not got the load's whole impulse yet.
+    const Mask yields = held & (magnitude(off) > -tolerance) & ~pass.late;
+    return ((held ? pull : off) < tolerance) | yields;
 }
 
 // What is left of an impulse within a bound: 1 inside it.
@@ -296,9 +299,15 @@ LUTKA_LANES Mask updateStatic(const BodyLanes& body, StaticContactLanes& contact
     store(contact.frictionImpulse,
           load(contact.frictionImpulse) - (sliding - normal * rate) * load(contact.tangentGain));
     store(contact.rollImpulse, load(contact.rollImpulse) - angular * load(contact.rollGain));
+    const F tolerance = all(-params.contactTolerance);
+    // A whole doll may stand on what a body's own mass was to hold: a row that gives way becomes stiffer.
+    const F weight = load(contact.normalWeight);
+    const F stiffest = load(contact.normalMass) * all(params.stiffest);
+    const Mask yields = held & (magnitude(off) > -tolerance) & ~pass.late;
+    store(contact.normalWeight, yields ? least(weight * all(params.stiffen), stiffest) : weight);
     // In m/s: a pull that should not be, or a surface run through.
     const F pull = pass.late ? zero : total * all(params.contactStiffness) / most(gain, all(1e-12F));
-    return (held ? pull : off) < all(-params.contactTolerance);
+    return ((held ? pull : off) < tolerance) | (yields & (weight < stiffest));
 }
 
 }  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS

@@ -36,6 +36,8 @@ SubstepParams paramsOf(const CrowdState& state, float dt) {
     params.jointStiffness = tuning.jointStiffness;
     params.limitStiffness = tuning.limitStiffness;
     params.contactStiffness = tuning.contactStiffness;
+    params.stiffen = tuning.stiffen;
+    params.stiffest = tuning.stiffest;
     params.firstTouch = tuning.firstTouch;
     params.passes = tuning.passes;
     params.mendGap = tuning.mendGap;

@@ -209,6 +209,12 @@ static void aim(const BatchView& batch, const SubstepParams& params) {
         const JointConstants& constants = batch.jointConstants[j];
         aimJoint(batch.joints[j], constants, batch.bodies[constants.parent], batch.bodies[constants.child], params);
     }
+    for (int i = 0; i < batch.contactCount; ++i) {
+        StaticContactLanes& contact = batch.contacts[i];
+        if (contact.near == 0) continue;
+        const BodyLanes& body = batch.bodies[contact.body];
+        store(contact.arm, armOf(contact, body, axesOf(body) * load(contact.localPoint), params));
+    }
 }
 
 static void solve(const BatchView& batch, const SubstepParams& params, int first) {
