@@ -71,8 +71,8 @@ struct ContactRow {
     float impulse = 0;
 };
 struct ContactRows {
-    int a = 0;
-    int b = 0;
+    int a = 0;  ///< Moves.
+    int b = 0;  ///< May be the body that never moves.
     btManifoldPoint* point = nullptr;
     ContactRow normal;
     ContactRow tangents[2];
@@ -87,7 +87,12 @@ struct ContactRows {
 /// Turns an angular row's speed into one of a point, metres: about half a limb's length.
 inline constexpr float kResidualArm = 0.1F;
 
-// Each of these changes velocities and impulses and returns the speed by which the row was wrong, m/s.
+// Each of these changes velocities and impulses and returns the square of the speed by which the row was wrong, m²/s²: the
+// largest of many is the same without their roots.
+
+[[nodiscard]] inline float squareOf(float speed) {
+    return speed * speed;
+}
 
 inline void push(SolverBody& a, SolverBody& b, const PointRows& rows, const F4& impulse) {
     a.velocity -= impulse * allF4(a.inverseMass);
@@ -101,7 +106,7 @@ inline void push(SolverBody& a, SolverBody& b, const PointRows& rows, const F4& 
     const F4 impulse = rows.inverse * missing;
     rows.impulse += impulse;
     push(a, b, rows, impulse);
-    return std::sqrt(dot(missing, missing));
+    return dot(missing, missing);
 }
 
 inline void push(SolverBody& a, SolverBody& b, const AngularRow& row, float impulse) {
@@ -118,7 +123,7 @@ inline void push(SolverBody& a, SolverBody& b, const AngularRow& row, float impu
     if (change == 0.0F) return 0.0F;
     push(a, b, row, change);
     row.impulse = impulse;
-    return kResidualArm * std::abs(change) / row.inverseEffectiveMass;
+    return squareOf(kResidualArm * change / row.inverseEffectiveMass);
 }
 
 [[nodiscard]] inline float solve(SolverBody& a, SolverBody& b, TurnFriction& friction) {
@@ -134,7 +139,7 @@ inline void push(SolverBody& a, SolverBody& b, const AngularRow& row, float impu
     b.turn += movedB;
     friction.impulse = wanted;
     const F4 moved = movedA + movedB;
-    return kResidualArm * std::sqrt(dot(moved, moved));
+    return kResidualArm * kResidualArm * dot(moved, moved);
 }
 
 inline void push(SolverBody& a, SolverBody& b, const GeneralRow& row, float impulse) {
@@ -154,7 +159,7 @@ inline void push(SolverBody& a, SolverBody& b, const GeneralRow& row, float impu
     if (change == 0.0F) return 0.0F;
     push(a, b, row, change);
     row.impulse = impulse;
-    return kResidualArm * std::abs(change) / row.inverseEffectiveMass;
+    return squareOf(kResidualArm * change / row.inverseEffectiveMass);
 }
 
 [[nodiscard]] inline float speedOf(const SolverBody& a, const SolverBody& b, const ContactRow& row) {
@@ -167,52 +172,74 @@ inline void push(SolverBody& a, SolverBody& b, const ContactRow& row, float impu
     b.turn -= row.turnB * allF4(impulse);
 }
 
-/// Both tangents at once, so that the bound is a cone and not a pyramid.
-inline void solveFriction(SolverBody& a, SolverBody& b, ContactRows& contact) {
+/// A contact's other body never moves: only half of the work, and no waiting for what was last written of that body.
+[[nodiscard]] inline float speedOf(const SolverBody& a, const ContactRow& row) {
+    return sum(row.direction * a.velocity + row.angularA * a.turn);
+}
+inline void push(SolverBody& a, const ContactRow& row, float impulse) {
+    a.velocity += row.direction * allF4(a.inverseMass * impulse);
+    a.turn += row.turnA * allF4(impulse);
+}
+inline void pushRolling(SolverBody& a, const F4& impulse) {
+    a.turn += a.inverseInertia * impulse;
+}
+inline void pushRolling(SolverBody& a, SolverBody& b, const F4& impulse) {
+    a.turn += a.inverseInertia * impulse;
+    b.turn -= b.inverseInertia * impulse;
+}
+
+/// Both tangents at once, so that the bound is a cone and not a pyramid. `bodies`: both, or the one that moves.
+template <class... Bodies>
+inline void solveFriction(ContactRows& contact, Bodies&... bodies) {
     float wanted[2];
     for (int i = 0; i < 2; ++i) {
         const ContactRow& row = contact.tangents[i];
-        wanted[i] = row.impulse - speedOf(a, b, row) * row.inverseEffectiveMass;
+        wanted[i] = row.impulse - speedOf(bodies..., row) * row.inverseEffectiveMass;
     }
     const float square = wanted[0] * wanted[0] + wanted[1] * wanted[1];
     const float bound = contact.friction * contact.normal.impulse;
     const float scale = square > bound * bound ? bound / std::sqrt(square) : 1.0F;
     for (int i = 0; i < 2; ++i) {
         ContactRow& row = contact.tangents[i];
-        push(a, b, row, scale * wanted[i] - row.impulse);
+        push(bodies..., row, scale * wanted[i] - row.impulse);
         row.impulse = scale * wanted[i];
     }
 }
 
-inline void pushRolling(SolverBody& a, SolverBody& b, const F4& impulse) {
-    a.turn += a.inverseInertia * impulse;
-    b.turn -= b.inverseInertia * impulse;
+[[nodiscard]] inline F4 turnBetween(const SolverBody& a) {
+    return a.turn;
 }
+[[nodiscard]] inline F4 turnBetween(const SolverBody& a, const SolverBody& b) {
+    return a.turn - b.turn;
+}
+
 /// Flesh gives way where it rests: the pressure's centre moves ahead of what rolls, by up to `arm` metres.
-inline void solveRolling(SolverBody& a, SolverBody& b, ContactRows& contact, float arm) {
-    F4 wanted = contact.rolling - (a.turn - b.turn) * allF4(contact.rollingInertia);
+template <class... Bodies>
+inline void solveRolling(ContactRows& contact, float arm, Bodies&... bodies) {
+    F4 wanted = contact.rolling - turnBetween(bodies...) * allF4(contact.rollingInertia);
     const float square = dot(wanted, wanted);
     const float bound = arm * contact.normal.impulse;
     if (square > bound * bound) wanted *= allF4(bound / std::sqrt(square));
-    pushRolling(a, b, wanted - contact.rolling);
+    pushRolling(bodies..., wanted - contact.rolling);
     contact.rolling = wanted;
 }
 
-[[nodiscard]] inline float solve(SolverBody& a, SolverBody& b, ContactRows& contact, bool mending, float rollingArm) {
+template <class... Bodies>
+[[nodiscard]] inline float solve(ContactRows& contact, bool mending, float rollingArm, Bodies&... bodies) {
     ContactRow& normal = contact.normal;
     const float target = mending ? contact.mendTarget : contact.keepTarget;
-    const float wanted = normal.impulse + (target - speedOf(a, b, normal)) * normal.inverseEffectiveMass;
+    const float wanted = normal.impulse + (target - speedOf(bodies..., normal)) * normal.inverseEffectiveMass;
     const float impulse = wanted > 0.0F ? wanted : 0.0F;
     const float change = impulse - normal.impulse;
     // What is not touched yet and stays so: friction has no hold either.
     if (change == 0.0F && impulse == 0.0F) return 0.0F;
-    push(a, b, normal, change);
+    push(bodies..., normal, change);
     normal.impulse = impulse;
     if (!mending) {  // friction yields
-        solveFriction(a, b, contact);
-        solveRolling(a, b, contact, rollingArm);
+        solveFriction(contact, bodies...);
+        solveRolling(contact, rollingArm, bodies...);
     }
-    return normal.inverseEffectiveMass > 0.0F ? std::abs(change) / normal.inverseEffectiveMass : 0.0F;
+    return normal.inverseEffectiveMass > 0.0F ? squareOf(change / normal.inverseEffectiveMass) : 0.0F;
 }
 
 }  // namespace lutka::physics

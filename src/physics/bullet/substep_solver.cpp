@@ -244,13 +244,16 @@ void SubstepSolver::takeContacts(btDispatcher& dispatcher, float seconds) {
 
 void SubstepSolver::takeContact(btManifoldPoint& point, int a, int b, float seconds) {
     ContactRows& contact = contacts_.emplace_back();
+    // Always the same way round as long as the two touch, so that impulses mean the same in the next substep.
+    const bool swapped = a == kFixed;
+    if (swapped) std::swap(a, b);
     contact.a = a;
     contact.b = b;
     contact.point = &point;
     contact.friction = point.m_combinedFriction;
     const SolverBody& bodyA = bodies_[a];
     const SolverBody& bodyB = bodies_[b];
-    const F4 normal = toF4(point.m_normalWorldOnB);
+    const F4 normal = swapped ? -toF4(point.m_normalWorldOnB) : toF4(point.m_normalWorldOnB);
     const F4 middle = allF4(0.5F) * (toF4(point.getPositionWorldOnA()) + toF4(point.getPositionWorldOnB()));
     const auto arm = [&](const SolverBody& body) {
         return body.body != nullptr ? middle - toF4(body.body->getCenterOfMassPosition()) : F4{};

@@ -71,6 +71,14 @@ class SubstepSolver {
         [[nodiscard]] bool isSlowerThan(float speed) const { return motion < speed * speed * mass; }
     };
 
+    // An island that is being swept; both as solveJoint() returns them.
+    struct Sweeping {
+        const Island* island = nullptr;
+        float tolerance = 0;
+        float residual = 0;
+    };
+    static constexpr std::size_t kTogether = 2;  // islands swept in turn
+
     void takeBodies(std::span<btRigidBody* const> bodies, float seconds);
     void takeConstraints(std::span<btTypedConstraint* const> constraints, float seconds);
     void takeRagdollJoint(RagdollJoint& constraint, float seconds);
@@ -88,9 +96,10 @@ class SubstepSolver {
     void sortByIsland();
     void calm(float seconds);
     void iterate(bool mending);
-    // These return the speed by which rows were wrong, m/s (angular rows: of a point at an arm's length).
-    float sweep(const Island& island, bool mending, bool forth);
+    // The squares of the speed by which rows were wrong, m²/s² (angular rows: of a point at an arm's length).
     float solveJoint(const Joint& joint, bool mending);
+    float solveContact(ContactRows& contact, bool mending);
+    void sweep(std::span<Sweeping> sweepings, bool mending, bool forth);
     void bounce();
     void store(float seconds);
     void storeFeedback(const Joint& joint, float seconds) const;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "physics/bullet/substep_solver.hpp"
@@ -129,33 +130,58 @@ float SubstepSolver::solveJoint(const Joint& joint, bool mending) {
     return residual;
 }
 
-// One sweep, forth or back: impulses travel up a limb as fast as down. Returns the largest speed that a row was wrong
-// by, m/s.
-float SubstepSolver::sweep(const Island& island, bool mending, bool forth) {
-    float residual = 0;
-    for (int i = 0; i < island.joints; ++i) {
-        const int at = island.firstJoint + (forth ? i : island.joints - 1 - i);
-        residual = std::max(residual, solveJoint(joints_[jointOrder_[at]], mending));
-    }
-    for (int i = 0; i < island.contacts; ++i) {
-        const int at = island.firstContact + (forth ? i : island.contacts - 1 - i);
-        ContactRows& contact = contacts_[contactOrder_[at]];
-        residual = std::max(
-            residual, physics::solve(bodies_[contact.a], bodies_[contact.b], contact, mending, tuning_.rollingArm));
-    }
-    return residual;
+float SubstepSolver::solveContact(ContactRows& contact, bool mending) {
+    SolverBody& a = bodies_[contact.a];
+    if (contact.b == 0) return physics::solve(contact, mending, tuning_.rollingArm, a);
+    return physics::solve(contact, mending, tuning_.rollingArm, a, bodies_[contact.b]);
 }
 
-// A doll that lies still is solved in a few sweeps, one that hits the floor needs many. Near rest the error that is
-// left must be less than the speeds themselves: limits and edges would otherwise push each other on and on.
+// One sweep of some islands, forth or back: impulses travel up a limb as fast as down. The joints of a doll wait for one
+// another; those of another island between them don't, and fill the time.
+void SubstepSolver::sweep(std::span<Sweeping> sweepings, bool mending, bool forth) {
+    int joints = 0;
+    int contacts = 0;
+    for (Sweeping& sweeping : sweepings) {
+        sweeping.residual = 0;
+        joints = std::max(joints, sweeping.island->joints);
+        contacts = std::max(contacts, sweeping.island->contacts);
+    }
+    for (int i = 0; i < joints; ++i) {
+        for (Sweeping& sweeping : sweepings) {
+            const Island& island = *sweeping.island;
+            if (i >= island.joints) continue;
+            const int at = island.firstJoint + (forth ? i : island.joints - 1 - i);
+            sweeping.residual = std::max(sweeping.residual, solveJoint(joints_[jointOrder_[at]], mending));
+        }
+    }
+    for (int i = 0; i < contacts; ++i) {
+        for (Sweeping& sweeping : sweepings) {
+            const Island& island = *sweeping.island;
+            if (i >= island.contacts) continue;
+            const int at = island.firstContact + (forth ? i : island.contacts - 1 - i);
+            sweeping.residual = std::max(sweeping.residual, solveContact(contacts_[contactOrder_[at]], mending));
+        }
+    }
+}
+
+// A doll that lies still is solved in a few sweeps, one that hits the floor needs many. Near rest the error that is left
+// must be less than the speeds themselves: limits and edges would otherwise push each other on and on.
 void SubstepSolver::iterate(bool mending) {
     const int most = mending ? tuning_.mendSweeps : tuning_.sweeps;
-    for (const Island& island : islands_) {
-        const bool nearRest = island.isSlowerThan(tuning_.restSpeed);
-        const float tolerance = nearRest ? tuning_.restTolerance : tuning_.tolerance;
-        for (int i = 0; i < most; ++i) {
-            const float residual = sweep(island, mending, i % 2 == 0);
-            if (i + 1 >= tuning_.leastSweeps && residual < tolerance) break;
+    std::array<Sweeping, kTogether> sweepings;
+    for (std::size_t first = 0; first < islands_.size(); first += kTogether) {
+        std::size_t count = std::min(kTogether, islands_.size() - first);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Island& island = islands_[first + i];
+            const float tolerance =
+                island.isSlowerThan(tuning_.restSpeed) ? tuning_.restTolerance : tuning_.tolerance;
+            sweepings[i] = {&island, tolerance * tolerance};
+        }
+        for (int i = 0; i < most && count > 0; ++i) {
+            sweep(std::span(sweepings).first(count), mending, i % 2 == 0);
+            if (i + 1 < tuning_.leastSweeps) continue;
+            const auto done = [](const Sweeping& s) { return s.residual < s.tolerance; };
+            count = std::remove_if(sweepings.begin(), sweepings.begin() + count, done) - sweepings.begin();
         }
     }
 }
