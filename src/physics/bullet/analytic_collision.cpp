@@ -45,7 +45,7 @@ class AnalyticCollision final : public btCollisionAlgorithm {
 
     // Has manifolds for `count` points and gives back what is not needed.
     void keep(int count, const btCollisionObject* a, const btCollisionObject* b);
-    void fill(const ContactList& list, const btTransform& worldFromA, const btTransform& worldFromB);
+    void fill(const ContactList& list);
 
     float margin_;
     const GeometryCache& geometries_;
@@ -64,13 +64,14 @@ void AnalyticCollision::keep(int count, const btCollisionObject* a, const btColl
     }
 }
 
-// New points in the place of the old ones; a point of the same feature goes on with the old one's impulses.
-void AnalyticCollision::fill(const ContactList& list, const btTransform& worldFromA, const btTransform& worldFromB) {
-    std::array<btManifoldPoint, ContactList::kMax> old;
+// New points in the place of the old ones; a point of the same feature goes on with the old one's impulses. Points are
+// written where they lie, and only what is read of them: they are large, and there are many.
+void AnalyticCollision::fill(const ContactList& list) {
+    std::array<ContactImpulses, ContactList::kMax> old;
     int oldCount = 0;
     for (btPersistentManifold* manifold : manifolds_) {
         for (int i = 0; manifold != nullptr && i < manifold->getNumContacts(); ++i)
-            old[oldCount++] = manifold->getContactPoint(i);
+            old[oldCount++] = impulsesOf(manifold->getContactPoint(i));
     }
     const btCollisionObject& a = *manifolds_[0]->getBody0();
     const btCollisionObject& b = *manifolds_[0]->getBody1();
@@ -78,22 +79,23 @@ void AnalyticCollision::fill(const ContactList& list, const btTransform& worldFr
     const btScalar restitution = btManifoldResult::calculateCombinedRestitution(&a, &b);
     for (int i = 0; i < list.count; ++i) {
         const SurfaceContact& contact = list.contacts[i];
-        const btVector3 onB = toBullet(contact.position);
-        const btVector3 normal = toBullet(contact.normal);
-        const btVector3 onA = onB + contact.distance * normal;
-        btManifoldPoint point(worldFromA.invXform(onA), worldFromB.invXform(onB), normal, contact.distance);
-        point.m_positionWorldOnA = onA;
-        point.m_positionWorldOnB = onB;
+        btPersistentManifold& manifold = *manifolds_[i / kPoints];
+        manifold.setNumContacts(i % kPoints + 1);
+        btManifoldPoint& point = manifold.getContactPoint(i % kPoints);
+        point.m_normalWorldOnB = toBullet(contact.normal);
+        point.m_positionWorldOnB = toBullet(contact.position);
+        point.m_positionWorldOnA = point.m_positionWorldOnB + contact.distance * point.m_normalWorldOnB;
+        point.m_distance1 = contact.distance;
         point.m_index0 = contact.feature;
         point.m_combinedFriction = friction;
         point.m_combinedRestitution = restitution;
-        btPlaneSpace1(normal, point.m_lateralFrictionDir1, point.m_lateralFrictionDir2);
+        ContactImpulses impulses;
         for (int k = 0; k < oldCount; ++k) {
-            if (old[k].m_index0 == contact.feature) carryImpulses(old[k], point);
+            if (old[k].feature != contact.feature) continue;
+            impulses = old[k];
+            ++impulses.age;
         }
-        btPersistentManifold& manifold = *manifolds_[i / kPoints];
-        manifold.setNumContacts(i % kPoints + 1);
-        manifold.getContactPoint(i % kPoints) = point;
+        setImpulses(point, impulses);
     }
 }
 
@@ -107,7 +109,7 @@ void AnalyticCollision::collide(const btCollisionObject& a, const btCollisionObj
     const float margin = margin_ + geometries_.aheadOf(a) + geometries_.aheadOf(b);
     const ContactList list = findContacts(geometries_.of(a), geometries_.of(b), margin);
     keep(list.count, &a, &b);
-    if (list.count > 0) fill(list, a.getWorldTransform(), b.getWorldTransform());
+    if (list.count > 0) fill(list);
 }
 
 }  // namespace

@@ -18,13 +18,28 @@ inline void setRollingImpulse(btManifoldPoint& point, const F4& impulse) {
     point.m_frictionCFM = impulse[2];
 }
 
-/// A point goes on with the impulses of the one that it takes the place of.
-inline void carryImpulses(const btManifoldPoint& from, btManifoldPoint& to) {
-    to.m_appliedImpulse = from.m_appliedImpulse;
-    to.m_appliedImpulseLateral1 = from.m_appliedImpulseLateral1;
-    to.m_appliedImpulseLateral2 = from.m_appliedImpulseLateral2;
-    setRollingImpulse(to, rollingImpulse(from));
-    to.m_lifeTime = from.m_lifeTime + 1;
+/// What a point leaves to the one that takes its place.
+struct ContactImpulses {
+    int feature = 0;  ///< btManifoldPoint::m_index0
+    int age = 0;      ///< Substeps.
+    float normal = 0;
+    float tangents[2] = {0, 0};
+    F4 rolling{};
+};
+
+[[nodiscard]] inline ContactImpulses impulsesOf(const btManifoldPoint& point) {
+    return {point.m_index0,
+            point.m_lifeTime,
+            point.m_appliedImpulse,
+            {point.m_appliedImpulseLateral1, point.m_appliedImpulseLateral2},
+            rollingImpulse(point)};
+}
+inline void setImpulses(btManifoldPoint& point, const ContactImpulses& impulses) {
+    point.m_appliedImpulse = impulses.normal;
+    point.m_appliedImpulseLateral1 = impulses.tangents[0];
+    point.m_appliedImpulseLateral2 = impulses.tangents[1];
+    setRollingImpulse(point, impulses.rolling);
+    point.m_lifeTime = impulses.age;
 }
 
 }  // namespace lutka::physics

@@ -75,12 +75,14 @@ struct ContactRows {
     int b = 0;  ///< May be the body that never moves.
     btManifoldPoint* point = nullptr;
     ContactRow normal;
+    F4 armA{}, armB{};         ///< From the bodies' centres.
+    bool hasFriction = false;  ///< Whether the following were worked out: not before the two press.
     ContactRow tangents[2];
+    F4 rolling{};              ///< Impulse that resists rolling, N m s.
+    float rollingInertia = 0;  ///< kg m², no more than about any axis.
     float keepTarget = 0;
     float mendTarget = 0;
     float friction = 0;
-    F4 rolling{};              ///< Impulse that resists rolling, N m s.
-    float rollingInertia = 0;  ///< kg m², no more than about any axis.
     float bounceTarget = 0;    ///< Speed of parting that restitution asks for.
 };
 
@@ -224,6 +226,44 @@ inline void solveRolling(ContactRows& contact, float arm, Bodies&... bodies) {
     contact.rolling = wanted;
 }
 
+/// For an impulse along a row: `mass` is the inverse of the effective one.
+[[nodiscard]] inline float inverseOf(float mass, float softness) {
+    return mass > 1e-12F ? 1.0F / (mass + softness) : 0.0F;
+}
+inline void setRow(ContactRow& row, const F4& direction, const ContactRows& contact, const SolverBody& a,
+                   const SolverBody& b) {
+    row.direction = direction;
+    row.angularA = cross(contact.armA, direction);
+    row.angularB = cross(contact.armB, direction);
+    row.turnA = a.inverseInertia * row.angularA;
+    row.turnB = b.inverseInertia * row.angularB;
+    row.inverseEffectiveMass =
+        inverseOf(a.inverseMass + b.inverseMass + dot(row.angularA, row.turnA) + dot(row.angularB, row.turnB), 0.0F);
+}
+inline void setRow(ContactRow& row, const F4& direction, const ContactRows& contact, const SolverBody& a) {
+    row.direction = direction;
+    row.angularA = cross(contact.armA, direction);
+    row.turnA = a.inverseInertia * row.angularA;
+    row.inverseEffectiveMass = inverseOf(a.inverseMass + dot(row.angularA, row.turnA), 0.0F);
+}
+/// Any unit vector across a unit vector.
+[[nodiscard]] inline F4 anyPerpendicular(const F4& v) {
+    // Across x or, where that is near, across y.
+    const F4 across = std::abs(v[0]) < 0.6F ? F4{0, v[2], -v[1], 0} : F4{-v[2], 0, v[0], 0};
+    return across * allF4(1.0F / std::sqrt(dot(across, across)));
+}
+[[nodiscard]] inline float inverseTrace(const SolverBody& a) {
+    return a.inverseInertia.x[0] + a.inverseInertia.y[1] + a.inverseInertia.z[2];
+}
+template <class... Bodies>
+inline void setFriction(ContactRows& contact, const Bodies&... bodies) {
+    contact.hasFriction = true;
+    const F4 tangent = anyPerpendicular(contact.normal.direction);
+    setRow(contact.tangents[0], tangent, contact, bodies...);
+    setRow(contact.tangents[1], cross(contact.normal.direction, tangent), contact, bodies...);
+    contact.rollingInertia = 1.0F / (inverseTrace(bodies) + ...);
+}
+
 template <class... Bodies>
 [[nodiscard]] inline float solve(ContactRows& contact, bool mending, float rollingArm, Bodies&... bodies) {
     ContactRow& normal = contact.normal;
@@ -236,6 +276,7 @@ template <class... Bodies>
     push(bodies..., normal, change);
     normal.impulse = impulse;
     if (!mending) {  // friction yields
+        if (!contact.hasFriction) setFriction(contact, bodies...);
         solveFriction(contact, bodies...);
         solveRolling(contact, rollingArm, bodies...);
     }

@@ -23,9 +23,27 @@ M4 toM4(const btMatrix3x3& symmetric) {
     return {toF4(symmetric[0]), toF4(symmetric[1]), toF4(symmetric[2])};
 }
 
-// For an impulse on the rows' axis: inverse inertia of both bodies about it.
-float inverseOf(float mass, float softness) {
-    return mass > 1e-12F ? 1.0F / (mass + softness) : 0.0F;
+// Change of the turn in a substep by the torque that keeps a free body's angular momentum: one Newton step of the implicit
+// equation in the body's frame, as Bullet's computeGyroscopicImpulseImplicit_Body() takes it (Catto, GDC 2015).
+F4 gyroscopicChange(const btRigidBody& body, float seconds) {
+    const btMatrix3x3& basis = body.getWorldTransform().getBasis();
+    const M4 bodyFromWorld{toF4(basis[0]), toF4(basis[1]), toF4(basis[2])};
+    const F4 inertia = toF4(body.getLocalInertia());
+    const F4 turn = bodyFromWorld * toF4(body.getAngularVelocity());
+    const F4 momentum = inertia * turn;
+    const F4 step = allF4(seconds);
+    const auto column = [&](const F4& unit) {
+        const F4 own = inertia * unit;
+        return own + step * (cross(turn, own) - cross(momentum, unit));
+    };
+    const F4 x = column(F4{1, 0, 0, 0});
+    const F4 y = column(F4{0, 1, 0, 0});
+    const F4 z = column(F4{0, 0, 1, 0});
+    const F4 wrong = step * cross(turn, momentum);
+    const F4 yz = cross(y, z);
+    const float scale = -1.0F / dot(x, yz);
+    const F4 change{scale * dot(yz, wrong), scale * dot(cross(z, x), wrong), scale * dot(cross(x, y), wrong), 0.0F};
+    return F4{dot(bodyFromWorld.x, change), dot(bodyFromWorld.y, change), dot(bodyFromWorld.z, change), 0.0F};
 }
 
 // Change of an anchor's velocity by an impulse there.
@@ -59,7 +77,7 @@ void SubstepSolver::takeBodies(std::span<btRigidBody* const> bodies, float secon
         taken.turn =
             toF4(body->getAngularVelocity()) + taken.inverseInertia * (toF4(body->getTotalTorque()) * allF4(seconds));
         if ((body->getFlags() & BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY) != 0)
-            taken.turn += toF4(body->computeGyroscopicImpulseImplicit_Body(seconds));
+            taken.turn += gyroscopicChange(*body, seconds);
     }
 }
 
@@ -255,27 +273,10 @@ void SubstepSolver::takeContact(btManifoldPoint& point, int a, int b, float seco
     const SolverBody& bodyB = bodies_[b];
     const F4 normal = swapped ? -toF4(point.m_normalWorldOnB) : toF4(point.m_normalWorldOnB);
     const F4 middle = allF4(0.5F) * (toF4(point.getPositionWorldOnA()) + toF4(point.getPositionWorldOnB()));
-    const auto arm = [&](const SolverBody& body) {
-        return body.body != nullptr ? middle - toF4(body.body->getCenterOfMassPosition()) : F4{};
-    };
-    const F4 armA = arm(bodyA);
-    const F4 armB = arm(bodyB);
-    const float inverseMass = bodyA.inverseMass + bodyB.inverseMass;
-    const auto along = [&](ContactRow& row, const F4& direction) {
-        row.direction = direction;
-        row.angularA = cross(armA, direction);
-        row.angularB = cross(armB, direction);
-        row.turnA = bodyA.inverseInertia * row.angularA;
-        row.turnB = bodyB.inverseInertia * row.angularB;
-        row.inverseEffectiveMass =
-            inverseOf(inverseMass + dot(row.angularA, row.turnA) + dot(row.angularB, row.turnB), 0.0F);
-    };
-    along(contact.normal, normal);
-    const F4 tangent = lutka::physics::toF4(anyPerpendicular(fromF4(normal)));
-    along(contact.tangents[0], tangent);
-    along(contact.tangents[1], cross(normal, tangent));
-    contact.rollingInertia = 1.0F / (bodyA.inverseInertia.x[0] + bodyA.inverseInertia.y[1] + bodyA.inverseInertia.z[2] +
-                                     bodyB.inverseInertia.x[0] + bodyB.inverseInertia.y[1] + bodyB.inverseInertia.z[2]);
+    contact.armA = middle - toF4(bodyA.body->getCenterOfMassPosition());
+    if (b != kFixed) contact.armB = middle - toF4(bodyB.body->getCenterOfMassPosition());
+    const auto both = [&](auto&& take) { b == kFixed ? take(bodyA) : take(bodyA, bodyB); };
+    both([&](auto&... moving) { setRow(contact.normal, normal, contact, moving...); });
     const float distance = point.getDistance();
     if (distance > 0.0F) {
         // Not there yet: only the speed that would arrive within the substep is bounded.
@@ -294,6 +295,7 @@ void SubstepSolver::takeContact(btManifoldPoint& point, int a, int b, float seco
         contact.tangents[0].impulse = point.m_appliedImpulseLateral1;
         contact.tangents[1].impulse = point.m_appliedImpulseLateral2;
         contact.rolling = rollingImpulse(point);
+        both([&](auto&... moving) { setFriction(contact, moving...); });
     }
 }
 
