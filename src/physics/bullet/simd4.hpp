@@ -31,6 +31,12 @@ using F4 = float __attribute__((vector_size(16)));
     return __builtin_shufflevector(c, c, 1, 2, 0, 3);
 }
 
+/// a × b - c × d, by one shuffle less.
+[[nodiscard]] inline F4 crossDifference(const F4& a, const F4& b, const F4& c, const F4& d) {
+    const auto turned = [](const F4& v) { return __builtin_shufflevector(v, v, 1, 2, 0, 3); };
+    return turned((a * turned(b) - turned(a) * b) - (c * turned(d) - turned(c) * d));
+}
+
 /// A 3 × 3 matrix by columns.
 struct M4 {
     F4 x{}, y{}, z{};

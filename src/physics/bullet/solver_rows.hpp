@@ -21,7 +21,8 @@ struct SolverBody {
 /// The three equations that close a joint's anchors, solved as a block: the impulse acts on B, its opposite on A.
 struct PointRows {
     F4 armA{}, armB{};
-    M4 inverse;  ///< Of their J M⁻¹ Jᵀ.
+    M4 turnA, turnB;  ///< Turn of each body by an impulse on it: inverse inertia times (arm ×).
+    M4 inverse;       ///< Of their J M⁻¹ Jᵀ.
     F4 mendTarget{};
     F4 impulse{};
 };
@@ -98,12 +99,12 @@ inline constexpr float kResidualArm = 0.1F;
 
 inline void push(SolverBody& a, SolverBody& b, const PointRows& rows, const F4& impulse) {
     a.velocity -= impulse * allF4(a.inverseMass);
-    a.turn -= a.inverseInertia * cross(rows.armA, impulse);
+    a.turn -= rows.turnA * impulse;
     b.velocity += impulse * allF4(b.inverseMass);
-    b.turn += b.inverseInertia * cross(rows.armB, impulse);
+    b.turn += rows.turnB * impulse;
 }
 [[nodiscard]] inline float solve(SolverBody& a, SolverBody& b, PointRows& rows, bool mending) {
-    const F4 relative = b.velocity + cross(b.turn, rows.armB) - a.velocity - cross(a.turn, rows.armA);
+    const F4 relative = b.velocity - a.velocity + crossDifference(b.turn, rows.armB, a.turn, rows.armA);
     const F4 missing = mending ? rows.mendTarget - relative : -relative;
     const F4 impulse = rows.inverse * missing;
     rows.impulse += impulse;

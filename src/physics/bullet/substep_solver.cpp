@@ -46,9 +46,11 @@ F4 gyroscopicChange(const btRigidBody& body, float seconds) {
     return F4{dot(bodyFromWorld.x, change), dot(bodyFromWorld.y, change), dot(bodyFromWorld.z, change), 0.0F};
 }
 
-// Change of an anchor's velocity by an impulse there.
-F4 yielding(const SolverBody& body, const F4& arm, const F4& impulse) {
-    return impulse * allF4(body.inverseMass) - cross(arm, body.inverseInertia * cross(arm, impulse));
+// Change of a body's turn by an impulse at the end of an arm, by columns.
+M4 turnBy(const SolverBody& body, const F4& arm) {
+    return {body.inverseInertia * F4{0.0F, arm[2], -arm[1], 0.0F},
+            body.inverseInertia * F4{-arm[2], 0.0F, arm[0], 0.0F},
+            body.inverseInertia * F4{arm[1], -arm[0], 0.0F, 0.0F}};
 }
 
 }  // namespace
@@ -147,8 +149,15 @@ void SubstepSolver::takePoint(const RagdollJoint& constraint, const Joint& joint
     rows.armB = toF4(constraint.childArm());
     const SolverBody& a = bodies_[joint.a];
     const SolverBody& b = bodies_[joint.b];
-    const auto column = [&](const F4& unit) { return yielding(a, rows.armA, unit) + yielding(b, rows.armB, unit); };
-    rows.inverse = inverseOfSymmetric({column(F4{1, 0, 0, 0}), column(F4{0, 1, 0, 0}), column(F4{0, 0, 1, 0})});
+    rows.turnA = turnBy(a, rows.armA);
+    rows.turnB = turnBy(b, rows.armB);
+    // Change of the anchors' relative velocity by an impulse between them.
+    const float mass = a.inverseMass + b.inverseMass;
+    rows.inverse = inverseOfSymmetric({
+        F4{mass, 0, 0, 0} + crossDifference(rows.turnA.x, rows.armA, rows.armB, rows.turnB.x),
+        F4{0, mass, 0, 0} + crossDifference(rows.turnA.y, rows.armA, rows.armB, rows.turnB.y),
+        F4{0, 0, mass, 0} + crossDifference(rows.turnA.z, rows.armA, rows.armB, rows.turnB.z),
+    });
     rows.mendTarget = -toF4(constraint.mendVelocity(rate));
     if (!tuning_.warmStart) return;
     for (int i = 0; i < 3; ++i)
