@@ -106,7 +106,6 @@ void DynamicsWorld::internalSingleStepSimulation(btScalar timeStep) {
     calculateSimulationIslands();
     getSolverInfo().m_timeStep = timeStep;
     solveConstraints(getSolverInfo());
-    integrateTransforms(timeStep);
     updateActions(timeStep);
     updateActivationState(timeStep);
 }
@@ -178,10 +177,6 @@ void DynamicsWorld::solveConstraints(btContactSolverInfo& info) {
     }
     listAwake();
     solver_.solve(awake_, spanOf(m_constraints), *getDispatcher(), info.m_timeStep);
-}
-
-void DynamicsWorld::integrateTransforms(btScalar timeStep) {
-    solver_.moveBodies(timeStep);
 }
 
 void DynamicsWorld::updateActivationState(btScalar timeStep) {

@@ -54,7 +54,6 @@ class DynamicsWorld final : public MeasuredWorld {
   protected:
     void internalSingleStepSimulation(btScalar timeStep) override;
     void predictUnconstraintMotion(btScalar timeStep) override;
-    void integrateTransforms(btScalar timeStep) override;
     void updateActivationState(btScalar timeStep) override;
 
   private:

@@ -62,25 +62,41 @@ int SubstepSolver::indexOf(const btCollisionObject& object) const {
     return mine ? index : kFixed;
 }
 
-void SubstepSolver::takeBodies(std::span<btRigidBody* const> bodies, float seconds) {
-    bodies_.assign(1, SolverBody{});
+void SubstepSolver::takeBodies(std::span<btRigidBody* const> bodies) {
+    unsorted_.clear();
     islandOfTag_.clear();
     islands_.clear();
     for (btRigidBody* body : bodies) {
         if (!body->isActive() || body->isStaticOrKinematicObject()) continue;
-        body->setCompanionId(static_cast<int>(bodies_.size()));
-        SolverBody& taken = bodies_.emplace_back();
+        SolverBody& taken = unsorted_.emplace_back();
         taken.body = body;
         taken.island = islandOf(body->getIslandTag());
-        taken.inverseMass = body->getInvMass();
-        taken.inverseInertia = toM4(body->getInvInertiaTensorWorld());
-        taken.velocity =
-            toF4(body->getLinearVelocity()) + toF4(body->getTotalForce()) * allF4(taken.inverseMass * seconds);
-        taken.turn =
-            toF4(body->getAngularVelocity()) + taken.inverseInertia * (toF4(body->getTotalTorque()) * allF4(seconds));
-        if ((body->getFlags() & BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY) != 0)
-            taken.turn += gyroscopicChange(*body, seconds);
+        ++islands_[taken.island].bodies;
     }
+    bodies_.resize(1 + unsorted_.size());
+    bodies_[kFixed] = SolverBody{};
+    int at = kFixed + 1;
+    for (Island& island : islands_) {
+        island.firstBody = at;
+        at += std::exchange(island.bodies, 0);
+    }
+    for (const SolverBody& body : unsorted_) {
+        Island& island = islands_[body.island];
+        const int index = island.firstBody + island.bodies++;
+        body.body->setCompanionId(index);
+        bodies_[index] = body;
+    }
+}
+
+void SubstepSolver::takeBody(SolverBody& taken, float seconds) {
+    const btRigidBody& body = *taken.body;
+    taken.inverseMass = body.getInvMass();
+    taken.inverseInertia = toM4(body.getInvInertiaTensorWorld());
+    taken.velocity = toF4(body.getLinearVelocity()) + toF4(body.getTotalForce()) * allF4(taken.inverseMass * seconds);
+    taken.turn =
+        toF4(body.getAngularVelocity()) + taken.inverseInertia * (toF4(body.getTotalTorque()) * allF4(seconds));
+    if ((body.getFlags() & BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY) != 0)
+        taken.turn += gyroscopicChange(body, seconds);
 }
 
 // Bullet's tags are any numbers; ours count from 0 in the order of the bodies.
@@ -93,27 +109,76 @@ int SubstepSolver::islandOf(int tag) {
     return island;
 }
 
-void SubstepSolver::takeConstraints(std::span<btTypedConstraint* const> constraints, float seconds) {
+void SubstepSolver::takeLinks(std::span<btTypedConstraint* const> constraints) {
+    unsortedLinks_.clear();
+    for (btTypedConstraint* constraint : constraints) {
+        if (!constraint->isEnabled()) continue;
+        const Link link{constraint, indexOf(constraint->getRigidBodyA()), indexOf(constraint->getRigidBodyB())};
+        // A drag's other body is Bullet's fixed one, which always counts as active: on a sleeping doll nothing is left
+        // to move, and there is no island to take it into.
+        if (link.a != kFixed || link.b != kFixed) unsortedLinks_.push_back(link);
+    }
+    sortByIsland(unsortedLinks_, links_, &Island::firstLink, &Island::links);
+}
+
+void SubstepSolver::takeTouches(btDispatcher& dispatcher) {
+    unsortedTouches_.clear();
+    for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+        btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+        if (manifold.getNumContacts() == 0) continue;
+        const Touch touch{&manifold, indexOf(*manifold.getBody0()), indexOf(*manifold.getBody1())};
+        if (touch.a != touch.b) unsortedTouches_.push_back(touch);
+    }
+    sortByIsland(unsortedTouches_, touches_, &Island::firstTouch, &Island::touches);
+}
+
+template <class T>
+void SubstepSolver::sortByIsland(std::vector<T>& all, std::vector<T>& sorted, int Island::*first, int Island::*count) {
+    for (const T& one : all)
+        ++(islandOfPair(one.a, one.b).*count);
+    int at = 0;
+    for (Island& island : islands_) {
+        island.*first = at;
+        at += std::exchange(island.*count, 0);
+    }
+    sorted.resize(all.size());
+    for (const T& one : all) {
+        Island& island = islandOfPair(one.a, one.b);
+        sorted[island.*first + (island.*count)++] = one;
+    }
+}
+
+void SubstepSolver::takeRows(std::span<Island> islands, float seconds) {
     joints_.clear();
     points_.clear();
     frictions_.clear();
     angulars_.clear();
     generals_.clear();
-    for (btTypedConstraint* constraint : constraints) {
-        const bool active = constraint->getRigidBodyA().isActive() || constraint->getRigidBodyB().isActive();
-        if (!constraint->isEnabled() || !active) continue;
-        if (constraint->getUserConstraintType() == RagdollJoint::kUserType)
-            takeRagdollJoint(static_cast<RagdollJoint&>(*constraint), seconds);
-        else
-            takeConstraint(*constraint, seconds);
+    contacts_.clear();
+    for (Island& island : islands) {
+        for (SolverBody& body : bodiesOf(island))
+            takeBody(body, seconds);
+        island.firstJoint = static_cast<int>(joints_.size());
+        for (const Link& link : std::span(links_).subspan(island.firstLink, island.links)) {
+            if (link.what->getUserConstraintType() == RagdollJoint::kUserType)
+                takeRagdollJoint(static_cast<RagdollJoint&>(*link.what), link, seconds);
+            else
+                takeConstraint(link, seconds);
+        }
+        island.joints = static_cast<int>(joints_.size()) - island.firstJoint;
+        island.firstContact = static_cast<int>(contacts_.size());
+        for (const Touch& touch : std::span(touches_).subspan(island.firstTouch, island.touches)) {
+            for (int i = 0; i < touch.what->getNumContacts(); ++i)
+                takeContact(touch.what->getContactPoint(i), touch.a, touch.b, seconds);
+        }
+        island.contacts = static_cast<int>(contacts_.size()) - island.firstContact;
     }
 }
 
-void SubstepSolver::takeRagdollJoint(RagdollJoint& constraint, float seconds) {
+void SubstepSolver::takeRagdollJoint(RagdollJoint& constraint, const Link& link, float seconds) {
     Joint joint;
-    joint.a = indexOf(constraint.getRigidBodyA());
-    joint.b = indexOf(constraint.getRigidBodyB());
-    if (joint.a == kFixed && joint.b == kFixed) return;
+    joint.a = link.a;
+    joint.b = link.b;
     constraint.prepare();
     joint.constraint = &constraint;
     joint.ragdoll = &constraint;
@@ -215,18 +280,15 @@ int SubstepSolver::askRows(btTypedConstraint& constraint, float seconds) {
     return size.m_numConstraintRows;
 }
 
-void SubstepSolver::takeConstraint(btTypedConstraint& constraint, float seconds) {
+void SubstepSolver::takeConstraint(const Link& link, float seconds) {
     Joint joint;
-    joint.generals = askRows(constraint, seconds);
+    joint.generals = askRows(*link.what, seconds);
     if (joint.generals == 0) return;
-    joint.a = indexOf(constraint.getRigidBodyA());
-    joint.b = indexOf(constraint.getRigidBodyB());
-    // A drag's other body is Bullet's fixed one, which always counts as active: on a sleeping doll nothing is left to
-    // move, and there is no island to take it into.
-    if (joint.a == kFixed && joint.b == kFixed) return;
+    joint.a = link.a;
+    joint.b = link.b;
     joint.firstGeneral = static_cast<int>(generals_.size());
-    joint.constraint = &constraint;
-    joint.warm = dynamic_cast<WarmStarted*>(&constraint);
+    joint.constraint = link.what;
+    joint.warm = dynamic_cast<WarmStarted*>(link.what);
     const SolverBody& a = bodies_[joint.a];
     const SolverBody& b = bodies_[joint.b];
     for (int i = 0; i < joint.generals; ++i) {
@@ -254,19 +316,6 @@ void SubstepSolver::takeConstraint(btTypedConstraint& constraint, float seconds)
             row.impulse = std::clamp(joint.warm->storedImpulse(i), row.low, row.high);
     }
     joints_.push_back(joint);
-}
-
-void SubstepSolver::takeContacts(btDispatcher& dispatcher, float seconds) {
-    contacts_.clear();
-    for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
-        btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
-        if (manifold.getNumContacts() == 0) continue;
-        const int a = indexOf(*manifold.getBody0());
-        const int b = indexOf(*manifold.getBody1());
-        if (a == b) continue;
-        for (int k = 0; k < manifold.getNumContacts(); ++k)
-            takeContact(manifold.getContactPoint(k), a, b, seconds);
-    }
 }
 
 void SubstepSolver::takeContact(btManifoldPoint& point, int a, int b, float seconds) {
@@ -308,34 +357,6 @@ void SubstepSolver::takeContact(btManifoldPoint& point, int a, int b, float seco
     }
 }
 
-// Puts joints and contacts in the order of their islands, which are then solved one after the other.
-void SubstepSolver::sortByIsland() {
-    for (Island& island : islands_)
-        island = Island{};
-    for (const Joint& joint : joints_)
-        ++islandOfPair(joint.a, joint.b).joints;
-    for (const ContactRows& contact : contacts_)
-        ++islandOfPair(contact.a, contact.b).contacts;
-    int joints = 0;
-    int contacts = 0;
-    for (Island& island : islands_) {
-        island.firstJoint = joints;
-        island.firstContact = contacts;
-        joints += std::exchange(island.joints, 0);
-        contacts += std::exchange(island.contacts, 0);
-    }
-    jointOrder_.resize(joints_.size());
-    contactOrder_.resize(contacts_.size());
-    for (std::size_t i = 0; i < joints_.size(); ++i) {
-        Island& island = islandOfPair(joints_[i].a, joints_[i].b);
-        jointOrder_[island.firstJoint + island.joints++] = static_cast<int>(i);
-    }
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-        Island& island = islandOfPair(contacts_[i].a, contacts_[i].b);
-        contactOrder_[island.firstContact + island.contacts++] = static_cast<int>(i);
-    }
-}
-
 void SubstepSolver::storeFeedback(const Joint& joint, float seconds) const {
     btJointFeedback* feedback = joint.constraint->getJointFeedback();
     if (feedback == nullptr) return;
@@ -355,7 +376,7 @@ void SubstepSolver::storeFeedback(const Joint& joint, float seconds) const {
     feedback->m_appliedTorqueBodyB = toBullet(onB.angular);
 }
 
-void SubstepSolver::store(float seconds) {
+void SubstepSolver::store(std::span<const Island> islands, float seconds) {
     for (const Joint& joint : joints_) {
         if (joint.ragdoll != nullptr) {
             for (int i = 0; i < 3; ++i)
@@ -380,34 +401,44 @@ void SubstepSolver::store(float seconds) {
         contact.point->m_appliedImpulseLateral2 = contact.tangents[1].impulse;
         setRollingImpulse(*contact.point, contact.rolling);
     }
-    for (std::size_t i = 1; i < bodies_.size(); ++i) {
-        bodies_[i].body->setLinearVelocity(toBullet(bodies_[i].velocity));
-        bodies_[i].body->setAngularVelocity(toBullet(bodies_[i].turn));
+    for (const Island& island : islands) {
+        for (const SolverBody& body : bodiesOf(island)) {
+            body.body->setLinearVelocity(toBullet(body.velocity));
+            body.body->setAngularVelocity(toBullet(body.turn));
+        }
+    }
+}
+
+void SubstepSolver::move(std::span<const Island> islands, float seconds) {
+    for (const Island& island : islands) {
+        for (const SolverBody& body : bodiesOf(island)) {
+            btTransform moved;
+            btTransformUtil::integrateTransform(body.body->getWorldTransform(), toBullet(body.velocity),
+                                                toBullet(body.turn), seconds, moved);
+            body.body->proceedToTransform(moved);
+        }
     }
 }
 
 void SubstepSolver::solve(std::span<btRigidBody* const> bodies, std::span<btTypedConstraint* const> constraints,
                           btDispatcher& dispatcher, float seconds) {
-    takeBodies(bodies, seconds);
-    takeConstraints(constraints, seconds);
-    takeContacts(dispatcher, seconds);
-    sortByIsland();
-    calm(seconds);
-    warmStart();
-    iterate(false);
-    bounce();
-    store(seconds);
-    iterate(true);
+    takeBodies(bodies);
+    takeLinks(constraints);
+    takeTouches(dispatcher);
+    for (std::size_t first = 0; first < islands_.size(); first += kTogether)
+        solve(std::span(islands_).subspan(first, std::min(kTogether, islands_.size() - first)), seconds);
 }
 
-void SubstepSolver::moveBodies(float seconds) {
-    for (std::size_t i = 1; i < bodies_.size(); ++i) {
-        btRigidBody& body = *bodies_[i].body;
-        btTransform moved;
-        btTransformUtil::integrateTransform(body.getWorldTransform(), toBullet(bodies_[i].velocity),
-                                            toBullet(bodies_[i].turn), seconds, moved);
-        body.proceedToTransform(moved);
-    }
+void SubstepSolver::solve(std::span<Island> islands, float seconds) {
+    takeRows(islands, seconds);
+    for (Island& island : islands)
+        calm(island, seconds);
+    if (tuning_.warmStart) warmStart(islands);
+    iterate(islands, false);
+    bounce();
+    store(islands, seconds);
+    iterate(islands, true);
+    move(islands, seconds);
 }
 
 }  // namespace lutka::physics

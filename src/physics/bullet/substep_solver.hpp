@@ -28,13 +28,9 @@ class SubstepSolver {
   public:
     explicit SubstepSolver(const BulletTuning& tuning) : tuning_(tuning) {}
 
-    /// Writes velocities into the active bodies; what moves them in this substep is kept for moveBodies(). Sleeping
-    /// bodies are not touched. `seconds` > 0.
+    /// Writes velocities into the active bodies and moves them. Sleeping bodies are not touched. `seconds` > 0.
     void solve(std::span<btRigidBody* const> bodies, std::span<btTypedConstraint* const> constraints,
                btDispatcher& dispatcher, float seconds);
-
-    /// Moves the active bodies of the last solve().
-    void moveBodies(float seconds);
 
   private:
     // The rows of one constraint.
@@ -57,9 +53,15 @@ class SubstepSolver {
         F4 angular{};
     };
     struct Island {
-        int firstJoint = 0;  // into jointOrder_
+        int firstBody = 0;  // into bodies_
+        int bodies = 0;
+        int firstLink = 0;  // into links_
+        int links = 0;
+        int firstTouch = 0;  // into touches_
+        int touches = 0;
+        int firstJoint = 0;  // into joints_
         int joints = 0;
-        int firstContact = 0;  // into contactOrder_
+        int firstContact = 0;  // into contacts_
         int contacts = 0;
         float gain = 0;  // see warmStart()
         float square = 0;
@@ -70,46 +72,67 @@ class SubstepSolver {
         // By the root mean square over the mass.
         [[nodiscard]] bool isSlowerThan(float speed) const { return motion < speed * speed * mass; }
     };
-
+    // A constraint or manifold and the bodies that it is between.
+    template <class T>
+    struct Between {
+        T* what = nullptr;
+        int a = 0;
+        int b = 0;
+    };
+    using Link = Between<btTypedConstraint>;
+    using Touch = Between<btPersistentManifold>;
     // An island that is being swept; both as solveJoint() returns them.
     struct Sweeping {
         const Island* island = nullptr;
         float tolerance = 0;
         float residual = 0;
     };
-    static constexpr std::size_t kTogether = 2;  // islands swept in turn
+    static constexpr std::size_t kTogether = 2;  // islands solved in turn
 
-    void takeBodies(std::span<btRigidBody* const> bodies, float seconds);
-    void takeConstraints(std::span<btTypedConstraint* const> constraints, float seconds);
-    void takeRagdollJoint(RagdollJoint& constraint, float seconds);
+    void takeBodies(std::span<btRigidBody* const> bodies);
+    void takeBody(SolverBody& taken, float seconds);
+    void takeLinks(std::span<btTypedConstraint* const> constraints);
+    void takeTouches(btDispatcher& dispatcher);
+    // Puts them in the order of their islands, and otherwise leaves their order.
+    template <class T>
+    void sortByIsland(std::vector<T>& all, std::vector<T>& sorted, int Island::*first, int Island::*count);
+    void solve(std::span<Island> islands, float seconds);
+    void takeRows(std::span<Island> islands, float seconds);
+    void takeRagdollJoint(RagdollJoint& constraint, const Link& link, float seconds);
     void takePoint(const RagdollJoint& constraint, const Joint& joint, float rate);
     void takeFriction(const RagdollJoint& constraint, const Joint& joint, float rate);
     void takeAngular(const RagdollJoint& constraint, const Joint& joint, int index, float rate);
-    void takeConstraint(btTypedConstraint& constraint, float seconds);
+    void takeConstraint(const Link& link, float seconds);
     // The number of rows that the constraint wrote into scratch_.
     int askRows(btTypedConstraint& constraint, float seconds);
-    void takeContacts(btDispatcher& dispatcher, float seconds);
     void takeContact(btManifoldPoint& point, int a, int b, float seconds);
-    void warmStart();
+    void warmStart(std::span<Island> islands);
     void gatherPushes();
     void applyShares();
-    void sortByIsland();
-    void calm(float seconds);
-    void iterate(bool mending);
+    void calm(Island& island, float seconds);
+    void iterate(std::span<const Island> islands, bool mending);
     // The squares of the speed by which rows were wrong, m²/s² (angular rows: of a point at an arm's length).
     float solveJoint(const Joint& joint, bool mending);
     float solveContact(ContactRows& contact, bool mending);
     void sweep(std::span<Sweeping> sweepings, bool mending, bool forth);
     void bounce();
-    void store(float seconds);
+    void store(std::span<const Island> islands, float seconds);
+    void move(std::span<const Island> islands, float seconds);
     void storeFeedback(const Joint& joint, float seconds) const;
 
     [[nodiscard]] Island& islandOfPair(int a, int b) { return islands_[bodies_[a != 0 ? a : b].island]; }
+    [[nodiscard]] std::span<SolverBody> bodiesOf(const Island& island) {
+        return std::span(bodies_).subspan(island.firstBody, island.bodies);
+    }
     [[nodiscard]] int islandOf(int tag);
     [[nodiscard]] int indexOf(const btCollisionObject& object) const;
 
     BulletTuning tuning_;
-    std::vector<SolverBody> bodies_;  // [0] never moves
+    std::vector<SolverBody> bodies_;  // [0] never moves; then in the order of their islands, as links_ and touches_
+    std::vector<SolverBody> unsorted_;
+    std::vector<Link> links_, unsortedLinks_;
+    std::vector<Touch> touches_, unsortedTouches_;
+    // Rows of the islands at hand only, in their order: so few that they stay in the processor's nearest caches.
     std::vector<Joint> joints_;
     std::vector<PointRows> points_;
     std::vector<TurnFriction> frictions_;
@@ -118,8 +141,6 @@ class SubstepSolver {
     std::vector<ContactRows> contacts_;
     std::vector<Push> pushes_;     // one a body
     std::vector<Island> islands_;  // by SolverBody::island
-    std::vector<int> jointOrder_;
-    std::vector<int> contactOrder_;
     std::vector<int> islandOfTag_;  // -1: none yet
     btAlignedObjectArray<btSolverConstraint> scratch_;
 };

@@ -10,20 +10,21 @@ namespace lutka::physics {
 // that lands hard would be thrown up. So an island takes them only as far as they lessen what the sweeps minimise, the
 // energy of D(s) = s²/2 |M⁻¹p|² + s (p·v - target·impulse): its minimum is at s = (target·impulse - p·v) / |M⁻¹p|².
 // From there every row's step lessens it further, so that no substep adds energy, whatever the number of sweeps.
-void SubstepSolver::warmStart() {
-    if (!tuning_.warmStart) return;
-    pushes_.assign(bodies_.size(), Push{});
+void SubstepSolver::warmStart(std::span<Island> islands) {
+    pushes_.resize(bodies_.size());
+    for (const Island& island : islands)
+        std::fill_n(pushes_.begin() + island.firstBody, island.bodies, Push{});
     gatherPushes();
-    for (std::size_t i = 1; i < bodies_.size(); ++i) {
-        const SolverBody& body = bodies_[i];
-        const Push& push = pushes_[i];
-        Island& island = islands_[body.island];
-        island.gain -= dot(push.linear, body.velocity) + dot(push.angular, body.turn);
-        island.square +=
-            body.inverseMass * dot(push.linear, push.linear) + dot(push.angular, body.inverseInertia * push.angular);
-    }
-    for (Island& island : islands_)
+    for (Island& island : islands) {
+        for (int i = island.firstBody; i < island.firstBody + island.bodies; ++i) {
+            const SolverBody& body = bodies_[i];
+            const Push& push = pushes_[i];
+            island.gain -= dot(push.linear, body.velocity) + dot(push.angular, body.turn);
+            island.square +=
+                body.inverseMass * dot(push.linear, push.linear) + dot(push.angular, body.inverseInertia * push.angular);
+        }
         island.share = island.square > 0.0F ? std::clamp(island.gain / island.square, 0.0F, 1.0F) : 0.0F;
+    }
     applyShares();
 }
 
@@ -151,7 +152,7 @@ void SubstepSolver::sweep(std::span<Sweeping> sweepings, bool mending, bool fort
             const Island& island = *sweeping.island;
             if (i >= island.joints) continue;
             const int at = island.firstJoint + (forth ? i : island.joints - 1 - i);
-            sweeping.residual = std::max(sweeping.residual, solveJoint(joints_[jointOrder_[at]], mending));
+            sweeping.residual = std::max(sweeping.residual, solveJoint(joints_[at], mending));
         }
     }
     for (int i = 0; i < contacts; ++i) {
@@ -159,52 +160,45 @@ void SubstepSolver::sweep(std::span<Sweeping> sweepings, bool mending, bool fort
             const Island& island = *sweeping.island;
             if (i >= island.contacts) continue;
             const int at = island.firstContact + (forth ? i : island.contacts - 1 - i);
-            sweeping.residual = std::max(sweeping.residual, solveContact(contacts_[contactOrder_[at]], mending));
+            sweeping.residual = std::max(sweeping.residual, solveContact(contacts_[at], mending));
         }
     }
 }
 
 // A doll that lies still is solved in a few sweeps, one that hits the floor needs many. Near rest the error that is left
 // must be less than the speeds themselves: limits and edges would otherwise push each other on and on.
-void SubstepSolver::iterate(bool mending) {
+void SubstepSolver::iterate(std::span<const Island> islands, bool mending) {
     const int most = mending ? tuning_.mendSweeps : tuning_.sweeps;
     std::array<Sweeping, kTogether> sweepings;
-    for (std::size_t first = 0; first < islands_.size(); first += kTogether) {
-        std::size_t count = std::min(kTogether, islands_.size() - first);
-        for (std::size_t i = 0; i < count; ++i) {
-            const Island& island = islands_[first + i];
-            const float tolerance =
-                island.isSlowerThan(tuning_.restSpeed) ? tuning_.restTolerance : tuning_.tolerance;
-            sweepings[i] = {&island, tolerance * tolerance};
-        }
-        for (int i = 0; i < most && count > 0; ++i) {
-            sweep(std::span(sweepings).first(count), mending, i % 2 == 0);
-            if (i + 1 < tuning_.leastSweeps) continue;
-            const auto done = [](const Sweeping& s) { return s.residual < s.tolerance; };
-            count = std::remove_if(sweepings.begin(), sweepings.begin() + count, done) - sweepings.begin();
-        }
+    std::size_t count = islands.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const float tolerance = islands[i].isSlowerThan(tuning_.restSpeed) ? tuning_.restTolerance : tuning_.tolerance;
+        sweepings[i] = {&islands[i], tolerance * tolerance};
+    }
+    for (int i = 0; i < most && count > 0; ++i) {
+        sweep(std::span(sweepings).first(count), mending, i % 2 == 0);
+        if (i + 1 < tuning_.leastSweeps) continue;
+        const auto done = [](const Sweeping& s) { return s.residual < s.tolerance; };
+        const auto end = sweepings.begin() + static_cast<std::ptrdiff_t>(count);
+        count = static_cast<std::size_t>(std::remove_if(sweepings.begin(), end, done) - sweepings.begin());
     }
 }
 
 // What lies nearly still is brought to rest: capsules would roll on for long, which skin and cloth never do. Where all
 // of an island but a foot or a hand rests, that one is calmed as well: it would swing from its joint for seconds.
-void SubstepSolver::calm(float seconds) {
-    for (std::size_t i = 1; i < bodies_.size(); ++i) {
-        const SolverBody& body = bodies_[i];
-        Island& island = islands_[body.island];
+void SubstepSolver::calm(Island& island, float seconds) {
+    for (const SolverBody& body : bodiesOf(island)) {
         const float mass = 1.0F / body.inverseMass;
         island.mass += mass;
         island.motion += mass * dot(body.velocity, body.velocity);
     }
+    if (island.contacts == 0) return;
     const F4 keep = allF4(std::max(1.0F - tuning_.restDamping * seconds, 0.0F));
-    const float square = tuning_.restSpeed * tuning_.restSpeed;
-    for (std::size_t i = 1; i < bodies_.size(); ++i) {
-        SolverBody& body = bodies_[i];
-        const Island& island = islands_[body.island];
-        const bool slow = dot(body.velocity, body.velocity) < square &&
+    const bool amongResting = island.isSlowerThan(tuning_.quietSpeed);
+    for (SolverBody& body : bodiesOf(island)) {
+        const bool slow = dot(body.velocity, body.velocity) < tuning_.restSpeed * tuning_.restSpeed &&
                           dot(body.turn, body.turn) < tuning_.restTurn * tuning_.restTurn;
-        const bool amongResting = island.isSlowerThan(tuning_.quietSpeed);
-        if (!(slow || amongResting) || island.contacts == 0) continue;
+        if (!slow && !amongResting) continue;
         body.velocity *= keep;
         body.turn *= keep;
     }
