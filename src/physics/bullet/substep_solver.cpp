@@ -5,6 +5,7 @@
 
 #include "physics/bullet/contact_impulses.hpp"
 #include "physics/bullet/convert.hpp"
+#include "physics/bullet/fetch_ahead.hpp"
 
 // Taking bodies, constraints and contacts in, and giving the outcome back; substep_sweeps.cpp does the solving.
 namespace lutka::physics {
@@ -156,10 +157,16 @@ void SubstepSolver::takeRows(std::span<Island> islands, float seconds) {
     generals_.clear();
     contacts_.clear();
     for (Island& island : islands) {
-        for (SolverBody& body : bodiesOf(island))
-            takeBody(body, seconds);
+        const std::span bodies = bodiesOf(island);
+        for (std::size_t i = 0; i < bodies.size(); ++i) {
+            if (i + 1 < bodies.size()) fetchAhead(bodies[i + 1].body, sizeof(btRigidBody));
+            takeBody(bodies[i], seconds);
+        }
         island.firstJoint = static_cast<int>(joints_.size());
-        for (const Link& link : std::span(links_).subspan(island.firstLink, island.links)) {
+        const std::span links = std::span(links_).subspan(island.firstLink, island.links);
+        for (std::size_t i = 0; i < links.size(); ++i) {
+            const Link& link = links[i];
+            if (i + 1 < links.size()) fetchAhead(links[i + 1].what, sizeof(RagdollJoint));
             if (link.what->getUserConstraintType() == RagdollJoint::kUserType)
                 takeRagdollJoint(static_cast<RagdollJoint&>(*link.what), link, seconds);
             else
@@ -167,7 +174,10 @@ void SubstepSolver::takeRows(std::span<Island> islands, float seconds) {
         }
         island.joints = static_cast<int>(joints_.size()) - island.firstJoint;
         island.firstContact = static_cast<int>(contacts_.size());
-        for (const Touch& touch : std::span(touches_).subspan(island.firstTouch, island.touches)) {
+        const std::span touches = std::span(touches_).subspan(island.firstTouch, island.touches);
+        for (std::size_t k = 0; k < touches.size(); ++k) {
+            const Touch& touch = touches[k];
+            if (k + 1 < touches.size()) fetchAhead(touches[k + 1].what, 2 * sizeof(btManifoldPoint));
             for (int i = 0; i < touch.what->getNumContacts(); ++i)
                 takeContact(touch.what->getContactPoint(i), touch.a, touch.b, seconds);
         }
