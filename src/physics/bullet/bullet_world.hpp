@@ -11,10 +11,10 @@ struct BulletTuning {
     int substeps = 8;     ///< Of one frame, >= 1. More: tighter joints and contacts, proportional cost.
     int sweeps = 80;      ///< At most, over all rows of an island in a substep, >= 1. More: tighter in hard impacts.
     int leastSweeps = 2;  ///< At least, >= 1.
-    float tolerance = 0.02F;        ///< m/s: sweeping ends when no row was wrong by more. More: faster, looser.
-    float restTolerance = 0.0025F;  ///< m/s: the same for bodies that touch or are linked while their root mean square
-                                    ///< speed is below restSpeed. More: some dolls rock on limits and edges for long.
-    int mendSweeps = 24;            ///< At most, of the pass that mends positions, >= 1.
+    float tolerance = 0.02F;       ///< m/s: sweeping ends when no row was wrong by more. More: faster, looser.
+    float restTolerance = 0.001F;  ///< m/s: the same for bodies that touch or are linked while their root mean square
+                                   ///< speed is below restSpeed. More: some dolls rock on limits and edges for long.
+    int mendSweeps = 24;           ///< At most, of the pass that mends positions, >= 1.
 
     float jointErp = 0.5F;        ///< Part of a joint's gap mended in a substep, (0, 1]. More: tighter.
     float limitErp = 0.3F;        ///< The same for angles past their limit.

@@ -84,14 +84,14 @@ struct ContactRows {
     float keepTarget = 0;
     float mendTarget = 0;
     float friction = 0;
-    float bounceTarget = 0;    ///< Speed of parting that restitution asks for.
+    float bounceTarget = 0;  ///< Speed of parting that restitution asks for.
 };
 
 /// Turns an angular row's speed into one of a point, metres: about half a limb's length.
 inline constexpr float kResidualArm = 0.1F;
 
-// Each of these changes velocities and impulses and returns the square of the speed by which the row was wrong, m²/s²: the
-// largest of many is the same without their roots.
+// Each of these changes velocities and impulses and returns the square of the speed by which the row was wrong, m²/s²:
+// the largest of many is the same without their roots.
 
 [[nodiscard]] inline float squareOf(float speed) {
     return speed * speed;

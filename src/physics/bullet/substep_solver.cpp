@@ -24,8 +24,9 @@ M4 toM4(const btMatrix3x3& symmetric) {
     return {toF4(symmetric[0]), toF4(symmetric[1]), toF4(symmetric[2])};
 }
 
-// Change of the turn in a substep by the torque that keeps a free body's angular momentum: one Newton step of the implicit
-// equation in the body's frame, as Bullet's computeGyroscopicImpulseImplicit_Body() takes it (Catto, GDC 2015).
+// Change of the turn in a substep by the torque that keeps a free body's angular momentum: one Newton step of the
+// implicit equation in the body's frame, as Bullet's computeGyroscopicImpulseImplicit_Body() takes it (Catto, GDC
+// 2015).
 F4 gyroscopicChange(const btRigidBody& body, float seconds) {
     const btMatrix3x3& basis = body.getWorldTransform().getBasis();
     const M4 bodyFromWorld{toF4(basis[0]), toF4(basis[1]), toF4(basis[2])};

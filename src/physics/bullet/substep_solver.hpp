@@ -139,8 +139,8 @@ class SubstepSolver {
     std::vector<AngularRow> angulars_;
     std::vector<GeneralRow> generals_;
     std::vector<ContactRows> contacts_;
-    std::vector<Push> pushes_;     // one a body
-    std::vector<Island> islands_;  // by SolverBody::island
+    std::vector<Push> pushes_;      // one a body
+    std::vector<Island> islands_;   // by SolverBody::island
     std::vector<int> islandOfTag_;  // -1: none yet
     btAlignedObjectArray<btSolverConstraint> scratch_;
 };

@@ -20,8 +20,8 @@ void SubstepSolver::warmStart(std::span<Island> islands) {
             const SolverBody& body = bodies_[i];
             const Push& push = pushes_[i];
             island.gain -= dot(push.linear, body.velocity) + dot(push.angular, body.turn);
-            island.square +=
-                body.inverseMass * dot(push.linear, push.linear) + dot(push.angular, body.inverseInertia * push.angular);
+            island.square += body.inverseMass * dot(push.linear, push.linear) +
+                             dot(push.angular, body.inverseInertia * push.angular);
         }
         island.share = island.square > 0.0F ? std::clamp(island.gain / island.square, 0.0F, 1.0F) : 0.0F;
     }
@@ -137,8 +137,8 @@ float SubstepSolver::solveContact(ContactRows& contact, bool mending) {
     return physics::solve(contact, mending, tuning_.rollingArm, a, bodies_[contact.b]);
 }
 
-// One sweep of some islands, forth or back: impulses travel up a limb as fast as down. The joints of a doll wait for one
-// another; those of another island between them don't, and fill the time.
+// One sweep of some islands, forth or back: impulses travel up a limb as fast as down. The joints of a doll wait for
+// one another; those of another island between them don't, and fill the time.
 void SubstepSolver::sweep(std::span<Sweeping> sweepings, bool mending, bool forth) {
     int joints = 0;
     int contacts = 0;
@@ -165,8 +165,8 @@ void SubstepSolver::sweep(std::span<Sweeping> sweepings, bool mending, bool fort
     }
 }
 
-// A doll that lies still is solved in a few sweeps, one that hits the floor needs many. Near rest the error that is left
-// must be less than the speeds themselves: limits and edges would otherwise push each other on and on.
+// A doll that lies still is solved in a few sweeps, one that hits the floor needs many. Near rest the error that is
+// left must be less than the speeds themselves: limits and edges would otherwise push each other on and on.
 void SubstepSolver::iterate(std::span<const Island> islands, bool mending) {
     const int most = mending ? tuning_.mendSweeps : tuning_.sweeps;
     std::array<Sweeping, kTogether> sweepings;
