@@ -28,6 +28,9 @@ struct SkinnedMesh {
     std::vector<std::uint32_t> indices;                             ///< Three a triangle, counter-clockwise outside.
     int material = 0;                                               ///< Index into Character::materials.
     bool rigid = false;  ///< True for a mesh without a skin that hangs on a node (all weights 1).
+    /// The vertices in the order in which the file has them: importing brings those with the same joints together.
+    /// Empty where they are in that order.
+    std::vector<std::uint32_t> fileOrder;
 };
 
 /// Pixels of a texture, RGBA, 8 bits each, row after row from the top.

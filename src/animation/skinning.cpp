@@ -22,6 +22,7 @@ wide::SkinJob jobOf(const SkinnedMesh& mesh, std::span<const SkinMatrix> palette
     job.joints = mesh.joints[0].data();
     job.weights = mesh.weights[0].data();
     job.palette = &palette[0].rows[0].x;
+    job.jointCount = static_cast<long>(palette.size());
     job.outPositions = &positions[0].x;
     if (!normals.empty()) {
         job.normals = &mesh.normals[0].x;

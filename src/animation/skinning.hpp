@@ -23,7 +23,7 @@ void skinMatrices(std::span<const RigidTransform> bindModelFromJoint, std::span<
 /// length (the same matrix turns them: palettes are rigid), a tangent's w as it was. Allocates nothing.
 ///
 /// Eight vertices at a time where the processor has AVX2, else four; every
-/// set gives the bits of skinVerticesByScalars().
+/// set gives the bits of skinVerticesByScalars(). The outputs share no memory with the mesh.
 void skinVertices(const SkinnedMesh& mesh, std::span<const SkinMatrix> palette, std::span<vec3> positions,
                   std::span<vec3> normals, std::span<vec4> tangents = {});
 /// The same for an instruction set that the processor has.

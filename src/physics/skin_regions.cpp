@@ -37,8 +37,11 @@ void addVertices(BodyPlan& plan, const SkinnedMesh& mesh, const std::vector<int>
         for (std::size_t k = 0; k < 3; ++k)
             areas[mesh.indices[i + k]] += third;
     }
-    for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex)
+    // In the file's order: neighbours follow each other in it, which the search for shapes draws its samples by.
+    for (std::size_t place = 0; place < mesh.positions.size(); ++place) {
+        const std::size_t vertex = mesh.fileOrder.empty() ? place : mesh.fileOrder[place];
         plan.bodies[owners[vertex]].skin.push_back({toStandard * mesh.positions[vertex], areas[vertex]});
+    }
 }
 
 // Two points a corner: near the corner and between it and the middle; they belong to the corner's body.

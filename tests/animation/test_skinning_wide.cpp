@@ -92,6 +92,34 @@ TEST_CASE("wide skinning gives the plain loop's bits on every instruction set an
     }
 }
 
+TEST_CASE("vertices that share joints, that are not whole and of very large palettes get the plain loop's bits too") {
+    Random random(11);
+    std::vector<SkinMatrix> palette = anyPalette(random);
+    SkinnedMesh mesh = anyMesh(700, 0, random);
+    // Stretches of one to 24 vertices with the same joints, in lanes of any register.
+    for (std::size_t v = 1; v < mesh.joints.size(); ++v)
+        if (random.uniform(0, 1) < 0.9F) mesh.joints[v] = mesh.joints[v - 1];
+    for (std::size_t v = 0; v < 200; ++v)
+        mesh.weights[v] = {v < 100 ? 1.0F : 0.7F, 0, 0, 0};
+    SkinnedMesh large = mesh;
+    for (auto& joints : large.joints)
+        joints[0] = static_cast<std::uint16_t>(joints[0] + 20000);
+    std::vector<SkinMatrix> largePalette(20000);
+    largePalette.insert(largePalette.end(), palette.begin(), palette.end());
+    for (const InstructionSet set : {InstructionSet::baseline, InstructionSet::avx2}) {
+        if (!hasInstructionSet(set)) continue;
+        Skin wide(700);
+        Skin plain(700);
+        skinVertices(set, mesh, palette, wide.positions, wide.normals, wide.tangents);
+        skinVerticesByScalars(InstructionSet::baseline, mesh, palette, plain.positions, plain.normals, plain.tangents);
+        CHECK(wide == plain);
+        skinVertices(set, large, largePalette, wide.positions, wide.normals, wide.tangents);
+        skinVerticesByScalars(InstructionSet::baseline, large, largePalette, plain.positions, plain.normals,
+                              plain.tangents);
+        CHECK(wide == plain);
+    }
+}
+
 TEST_CASE("skinning is the weighted sum of what each joint does to the vertex") {
     Random random(5);
     const std::vector<SkinMatrix> palette = anyPalette(random);

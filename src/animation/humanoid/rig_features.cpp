@@ -75,7 +75,8 @@ void readVertices(const Character& character, RigFeatures& rig) {
         total += mesh.positions.size();
     const std::size_t stride = total / kMaxVertices + 1;
     for (const SkinnedMesh& mesh : character.meshes) {
-        for (std::size_t i = 0; i < mesh.positions.size(); i += stride) {
+        for (std::size_t place = 0; place < mesh.positions.size(); place += stride) {
+            const std::size_t i = mesh.fileOrder.empty() ? place : mesh.fileOrder[place];
             if (i < mesh.joints.size() && mesh.joints[i][0] < rig.positions.size()) {
                 rig.vertices.push_back({mesh.positions[i], mesh.joints[i][0]});
             }

@@ -16,6 +16,7 @@
 #include "animation/import/rigid_pose.hpp"
 #include "animation/import/scene_file.hpp"
 #include "animation/import/units.hpp"
+#include "animation/import/vertex_order.hpp"
 #include "animation/pose.hpp"
 
 namespace lutka::animation {
@@ -135,6 +136,8 @@ Result<Character> readCharacter(const std::filesystem::path& file, const ImportO
         settleUnits(conventionOf(source, file), pointsOfFigure(character, bind), options, character.warnings);
     character.units = units.info;
     settleMeshes(units, character.meshes);
+    for (SkinnedMesh& mesh : character.meshes)
+        orderForSkinning(mesh);
     const std::shared_ptr<ClipFile> clipFile = buildMotion(source, tree, bind, units, character);
     convertMaterials(*source.scene, file, options.loadTextures, character);
     if (source.gltf) character.vrmHumanoid = vrmHumanoid(*source.gltf, tree, character.warnings);

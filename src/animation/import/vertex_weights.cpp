@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lutka::animation::rig_import {
 namespace {
@@ -45,8 +46,11 @@ VertexSkin strongest(std::vector<Influence>& influences, WeightRepairs& repairs)
     }
     VertexSkin skin;
     for (std::size_t i = 0; i < kept; ++i) {
+        const auto weight = static_cast<float>(influences[i].weight / sum);
+        // Nobody sees it, and arithmetic on such numbers is slow.
+        if (weight < std::numeric_limits<float>::min()) break;
         skin.joints[i] = static_cast<std::uint16_t>(influences[i].joint);
-        skin.weights[i] = static_cast<float>(influences[i].weight / sum);
+        skin.weights[i] = weight;
     }
     return skin;
 }

@@ -21,7 +21,8 @@ struct SkinJob {
     const std::uint16_t* joints;  ///< Four a vertex.
     const float* weights;         ///< Four a vertex, strongest first.
     const float* palette;         ///< Twelve a joint.
-    float* outPositions;
+    long jointCount;              ///< Matrices in the palette.
+    float* outPositions;          ///< The outputs share no memory with the inputs.
     float* outNormals;
     float* outTangents;
     long vertexCount;

@@ -1,6 +1,7 @@
 #include "animation/import/checks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "animation/pose.hpp"
@@ -66,7 +67,8 @@ void checkMesh(const SkinnedMesh& mesh, const Character& character, std::vector<
         badVertices += isFinite(mesh.positions[v]) && unit ? 0 : 1;
         const auto& w = mesh.weights[v];
         const bool sorted = w[0] >= w[1] && w[1] >= w[2] && w[2] >= w[3] && w[3] >= 0.0F;
-        badWeights += sorted && std::abs(w[0] + w[1] + w[2] + w[3] - 1.0F) < 1e-5F ? 0 : 1;
+        const bool whole = std::all_of(w.begin(), w.end(), [](float x) { return x == 0.0F || std::isnormal(x); });
+        badWeights += sorted && whole && std::abs(w[0] + w[1] + w[2] + w[3] - 1.0F) < 1e-5F ? 0 : 1;
         for (int i = 0; i < kMaxInfluences; ++i) {
             REQUIRE(mesh.joints[v][i] < character.skeleton.jointCount());
             weightOfJoint[mesh.joints[v][i]] += w[i];

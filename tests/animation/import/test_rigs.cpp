@@ -264,8 +264,14 @@ TEST_CASE("weights that do not sum to one are normalised") {
     file.json["nodes"][4]["mesh"] = addPostMesh(file, post);
     const Character character = importedRig(file);
     CHECK(warns(character, "1 of 16 vertices did not sum to 1 (off by up to 0.6)"));
-    CHECK(character.meshes[0].weights[5][0] == Approx(0.625F));
-    CHECK(character.meshes[0].weights[5][1] == Approx(0.375F));
+    int mended = 0;
+    for (const auto& weights : character.meshes[0].weights) {
+        if (weights[1] == 0.0F) continue;
+        ++mended;
+        CHECK(weights[0] == Approx(0.625F));
+        CHECK(weights[1] == Approx(0.375F));
+    }
+    CHECK(mended == 1);
 }
 
 TEST_CASE("a clip is sampled to the known keyframes") {
