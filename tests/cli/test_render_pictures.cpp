@@ -101,3 +101,27 @@ TEST_CASE("the legend is in the picture of a debug layer unless it is not wanted
     for (int y = 60; y < 240; ++y)
         CHECK(with.at(200, y) == without.at(200, y));
 }
+
+TEST_CASE("what is far from the camera that draws is spared unless an eye is given") {
+    const ScratchFolder folder;
+    const auto frozen = [&](const std::string& options) -> int {
+        const CommandResult result = lutkaCommand(
+            "render " + kMannequin + " --scene spread --count 4 --seconds 0.1 --solver crowd --shed frozen@15 " +
+            options + " --size 64x48 -o " + shellQuoted(folder / "p.png") + " --report " +
+            shellQuoted(folder / "r.json"));
+        if (result.code == 6) return -1;
+        INFO(result.err);
+        REQUIRE(result.code == 0);
+        const std::string report = fileText(folder / "r.json");
+        const std::string key = "\"frozen\": ";
+        const std::size_t at = report.find(key);
+        REQUIRE(at != std::string::npos);
+        return std::stoi(report.substr(at + key.size()));
+    };
+    const int near = frozen("--distance 6");
+    if (near < 0) return;
+    CHECK(near == 0);
+    CHECK(frozen("--distance 60") == 4);
+    CHECK(frozen("--distance 60 --eye 0,1,0") == 0);
+    CHECK(frozen("--distance 6 --eye 0,1,90") == 4);
+}

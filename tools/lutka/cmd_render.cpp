@@ -63,11 +63,15 @@ class Painter {
         if (options.yawDeg) frame_.camera.yaw = radians(*options.yawDeg);
         if (options.pitchDeg) frame_.camera.pitch = radians(*options.pitchDeg);
         if (options.distance) frame_.camera.distance = *options.distance;
+        watch(*run.simulation);
     }
 
     void paint(scene::Simulation& simulation, float alpha = 1.0F) {
         frame_.clear();
-        if (options_.follow) follow(simulation.worldFromBody(0, alpha));
+        if (options_.follow) {
+            follow(simulation.worldFromBody(0, alpha));
+            watch(simulation);
+        }
         drawer_.draw(simulation, characters_, layers_, alpha, options_.opacity, frame_);
         renderer_.draw(frame_, size_);
         renderer_.readPixels(image_);
@@ -78,6 +82,10 @@ class Painter {
     [[nodiscard]] render::Extent size() const { return size_; }
 
   private:
+    // What is far from the camera is spared (--shed) unless an eye was asked for.
+    void watch(scene::Simulation& simulation) const {
+        if (options_.simulate.eye.empty()) simulation.setEye(render::eyeOf(frame_.camera));
+    }
     // Keeps the first doll in the middle; its distance stays what the first frame needed.
     void follow(std::span<const RigidTransform> bodies) {
         vec3 low = bodies[0].translation;

@@ -190,7 +190,9 @@ void SimulateOptions::addTo(CLI::App& app) {
     auto* shedOption = app.add_option(
         "--shed", shed,
         "spare dolls far from the eye, from so many metres on: lod@10,apart@15,slow@20,frozen@40 or some");
-    app.add_option("--eye", eye, "X,Y,Z in metres, where --shed measures from; default: the middle of the scene")
+    app.add_option(
+           "--eye", eye,
+           "X,Y,Z in metres, where --shed measures from; default: the camera of a picture, else the scene's middle")
         ->delimiter(',')
         ->expected(3)
         ->needs(shedOption);
