@@ -1,3 +1,4 @@
+#include <chrono>
 #include <glm/geometric.hpp>
 
 #include "support/catch.hpp"
@@ -324,5 +325,34 @@ TEST_CASE("a doll that is woken by hand is awake and falls asleep again") {
         CHECK_FALSE(world->isAsleep(0));
         stepSeconds(*world, 6.0F);
         CHECK(world->isAsleep(0));
+    }
+}
+
+TEST_CASE("the parts of a step's time are parts of it, and finding contacts is one where there are some") {
+    const RagdollProfile profile = makeDoll();
+    for (const SolverKind solver : kAllSolvers) {
+        INFO(physics::solverName(solver));
+        const auto world = worldOf(solver);
+        world->addStatic({});
+        CHECK(world->stepTimes().totalMs() == 0.0);
+        world->addDoll(profile, standingDoll(profile, vec3(0)));
+        for (int step = 0; step < 30; ++step) {
+            const auto before = std::chrono::steady_clock::now();
+            world->step(kFrame);
+            const std::chrono::duration<double, std::milli> whole = std::chrono::steady_clock::now() - before;
+            const physics::StepTimes times = world->stepTimes();
+            CHECK(times.broadphaseMs >= 0.0);
+            CHECK(times.narrowphaseMs >= 0.0);
+            CHECK(times.solverMs >= 0.0);
+            // Both are spans of one clock, the parts within the whole.
+            CHECK(times.totalMs() <= whole.count());
+            std::vector<physics::ContactPoint> contacts;
+            world->getContacts(contacts);
+            if (!contacts.empty()) CHECK(times.narrowphaseMs > 0.0);
+        }
+        std::vector<physics::ContactPoint> contacts;
+        world->getContacts(contacts);
+        CHECK_FALSE(contacts.empty());
+        CHECK(world->stepTimes().islands == 1);
     }
 }
