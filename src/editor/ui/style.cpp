@@ -29,7 +29,7 @@ Palette lightPalette() {
     return {rgb(240, 241, 243),       rgb(250, 250, 251), rgb(228, 230, 233), rgb(252, 252, 253, 0.98F),
             rgb(196, 200, 206),       rgb(32, 34, 38),    rgb(100, 105, 114), rgb(222, 225, 229),
             rgb(212, 216, 221),       rgb(200, 205, 212), rgb(186, 192, 201), rgb(38, 110, 180),
-            rgb(255, 150, 46, 0.38F), rgb(198, 94, 0)};
+            rgb(255, 150, 46, 0.28F), rgb(158, 70, 0)};
 }
 
 // Which palette the present style has.
@@ -125,7 +125,7 @@ void applyStyle(float scale, bool light) {
     style.CellPadding = {5.0F, 3.0F};
     style.WindowBorderSize = 1.0F;
     style.PopupBorderSize = 1.0F;
-    style.FrameBorderSize = 0.0F;
+    style.FrameBorderSize = light ? 1.0F : 0.0F;  // an empty box is nearly as light as the panel
     style.WindowTitleAlign = {0.0F, 0.5F};
     setColors(style.Colors, light ? lightPalette() : darkPalette());
     style.ScaleAllSizes(scale);
