@@ -372,7 +372,13 @@ void Editor::beginAdd(scene::EntityKind kind) {
 
 void Editor::togglePin() {
     const auto active = workspace_.selection.active();
-    if (!active || active->kind != Item::Kind::body) return;
+    if (!active) return;
+    if (active->kind == Item::Kind::object) {
+        // A character of another model is pinned while it is dragged; here all its pins are let go.
+        const int doll = player().dollOf(static_cast<scene::EntityId>(active->index));
+        if (doll >= 0) std::erase_if(workspace_.pulls.pins, [&](const Pull& pin) { return pin.doll == doll; });
+        return;
+    }
     const animation::Role role = document().profile().bodies[active->index].role;
     auto& pins = workspace_.pulls.pins;
     if (const auto pin = workspace_.pulls.findPin(active->doll, role); pin != pins.end()) {

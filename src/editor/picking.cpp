@@ -70,7 +70,10 @@ std::optional<Pick> pick(const render::Ray& ray, const physics::World& world, st
     if (const auto solid = firstSolid(ray, world, throughGeometry)) {
         const physics::RayHit& hit = solid->hit;
         distance = solid->distance;
-        if (hit.doll >= 0) nearest = Pick{{Item::Kind::body, hit.doll, hit.body}, hit.position, hit.normal};
+        if (hit.doll >= 0) {
+            const Item body{Item::Kind::body, hit.doll, hit.body};
+            nearest = Pick{body, hit.position, hit.normal, body};
+        }
     }
     // What the world hit may be the very object: its slab is met at the same distance, and must win.
     constexpr float tie = 0.01F;
@@ -81,7 +84,7 @@ std::optional<Pick> pick(const render::Ray& ray, const physics::World& world, st
         if (marker && !target.marker) continue;
         if (marker == target.marker && *entered > distance) continue;
         const vec3 at = ray.origin + ray.direction * *entered;
-        nearest = Pick{{Item::Kind::object, 0, target.entity}, at, boxNormal(target, at)};
+        nearest = Pick{{Item::Kind::object, 0, target.entity}, at, boxNormal(target, at), {}};
         distance = *entered;
         marker = target.marker;
     }

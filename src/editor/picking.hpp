@@ -22,6 +22,8 @@ struct Pick {
     Item item;
     vec3 position{0, 0, 0};  ///< World, on the surface.
     vec3 normal{0, 1, 0};
+    /// The body that the ray met, which a drag pulls; `item` may be the whole character that it belongs to.
+    std::optional<Item> body;
 };
 
 /// Distance along the ray to where it enters the box around the frame's origin; 0 when it starts inside, nothing when

@@ -13,7 +13,7 @@ std::optional<Pick> Workspace::pickUnderMouse() const {
     const bool seeThrough =
         std::any_of(looks.begin(), looks.end(), [](const scene::Look& look) { return look.color.a < solid; });
     auto picked = pick(mouseRay(), player->simulation().world(), player->pickTargets(), seeThrough);
-    // The bodies of the other characters are theirs: the character as a whole is what is picked.
+    // The panels edit no bodies of the other characters: these are picked as a whole, and pulled by their bodies.
     if (picked && picked->item.kind == Item::Kind::body && !player->isEditedDoll(picked->item.doll)) {
         picked->item = {Item::Kind::object, 0, static_cast<int>(player->entityOfDoll(picked->item.doll))};
     }

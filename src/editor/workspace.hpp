@@ -48,7 +48,7 @@ struct Workspace {
         vec2 position{0, 0};
         std::optional<Pick> pick;
         bool wasSelected = false;  ///< `pick` was, before it was pressed.
-        vec3 bodyPoint{0, 0, 0};   ///< pick->position in the body's frame, when it is a body: that goes on falling.
+        vec3 bodyPoint{0, 0, 0};   ///< pick->position in the frame of pick->body, which goes on falling.
     };
     std::optional<Press> press;
     MouseButton cameraButton = MouseButton::middle;  ///< What drags the camera.

@@ -146,6 +146,59 @@ TEST_CASE("the character that is edited can be changed for another of the scene"
     CHECK_FALSE(editor->asking());
 }
 
+TEST_CASE("a character of another profile is pulled and pinned by its bodies, and stays where the scene has it") {
+    const auto editor = playground();
+    const EntityId heavy = named(*editor, "Heavy on the ramp");
+    const int doll = editor->player().dollOf(heavy);
+    REQUIRE(doll > 0);
+    REQUIRE_FALSE(editor->player().isEditedDoll(doll));
+    const EntityScene before = editor->document().scene();
+    test::pass(*editor, 5);
+    editor->player().setPlaying(false);  // posed without gravity: it is too heavy to be lifted by a hand
+    const auto place = [&] { return editor->player().bodiesOf(doll).front().worldFromBody.translation; };
+    render::Camera& camera = editor->workspace().camera;
+    // From where nothing is in between.
+    const auto seen = [&] {
+        const auto pick = editor->workspace().pickUnderMouse();
+        return pick && pick->body && pick->body->doll == doll;
+    };
+    for (int turn = 0; turn < 12 && !seen(); ++turn) {
+        camera.yaw = radians(30.0F * static_cast<float>(turn));
+        render::frameSphere(camera, place(), 1.0F, editor->workspace().window.aspect());
+        editor->handle(mouseMoved(vec2(*render::project(camera, place(), editor->workspace().window))), {});
+    }
+    REQUIRE(seen());
+    test::send(*editor, mouseButton(MouseButton::left, true));
+    REQUIRE(editor->workspace().press->pick);
+    REQUIRE(editor->workspace().press->pick->body);
+    CHECK(editor->workspace().press->pick->body->doll == doll);
+    CHECK(editor->workspace().selection.active() == Item{Item::Kind::object, 0, static_cast<int>(heavy)});
+    test::send(*editor, mouseMoved(editor->workspace().mouse + vec2(0, -8)));
+    REQUIRE(editor->state() == State::grab);
+    REQUIRE(editor->workspace().pulls.mouse);
+    const Pull held = *editor->workspace().pulls.mouse;
+    CHECK(held.doll == doll);
+    test::send(*editor, mouseMoved(editor->workspace().mouse + vec2(0, -150)));
+    const vec3 target = editor->workspace().pulls.mouse->target;
+    CHECK(target.y > held.target.y + 0.2F);
+    const auto miss = [&] {
+        const auto& profile = editor->player().simulation().assetOf(doll).profile;
+        const auto body = static_cast<std::size_t>(physics::bodyOf(profile, held.role));
+        return glm::distance(editor->player().bodiesOf(doll)[body].worldFromBody * held.bodyPoint, target);
+    };
+    const float far = miss();
+    test::pass(*editor, 60);
+    CHECK(miss() < 0.5F * far);
+
+    test::send(*editor, keyPressed(Key::p));
+    CHECK(editor->state() != State::grab);
+    CHECK(editor->workspace().pulls.pins.size() == 1);
+    test::send(*editor, keyPressed(Key::p));
+    CHECK(editor->workspace().pulls.pins.empty());
+    CHECK(editor->document().scene() == before);
+    CHECK_FALSE(editor->document().sceneUnsaved());
+}
+
 TEST_CASE("unsaved changes of a scene are marked and asked about, and Ctrl+S saves a scene that has a file") {
     const test::ScratchFolder folder;
     const auto editor = playground();

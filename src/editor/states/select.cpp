@@ -57,9 +57,9 @@ class SelectHandler final : public StateHandler {
         if (const auto& pick = workspace_.press->pick) {
             workspace_.press->wasSelected = workspace_.selection.contains(pick->item);
         }
-        if (const auto& pick = workspace_.press->pick; pick && pick->item.kind == Item::Kind::body) {
-            const auto bodies = workspace_.player->bodiesOf(pick->item.doll);
-            workspace_.press->bodyPoint = inverse(bodies[pick->item.index].worldFromBody) * pick->position;
+        if (const auto& pick = workspace_.press->pick; pick && pick->body) {
+            const auto bodies = workspace_.player->bodiesOf(pick->body->doll);
+            workspace_.press->bodyPoint = inverse(bodies[pick->body->index].worldFromBody) * pick->position;
         }
         return select(workspace_.press->pick, event.modifiers.shift);
     }
@@ -95,7 +95,7 @@ class SelectHandler final : public StateHandler {
   private:
     // The stairs and walls of a named scene fill the picture: a drag on them orbits, unless they were chosen before.
     [[nodiscard]] bool movable(const Workspace::Press& press) const {
-        if (press.pick->item.kind == Item::Kind::body || press.wasSelected) return true;
+        if (press.pick->body || press.wasSelected) return true;
         const std::vector<scene::EntityId>& made = workspace_.document->state().scene.made;
         const auto id = static_cast<scene::EntityId>(press.pick->item.index);
         const bool moves = workspace_.document->scene().find<scene::RigidBody>(id) != nullptr;

@@ -1,5 +1,6 @@
 /// Grab, Rotate and Scale. On a body, Grab pulls it through the physics, Rotate turns its whole doll, and Scale resizes
-/// its shape; on an object of the scene all three edit the document, as one entry of undo.
+/// its shape; on an object of the scene all three edit the document, as one entry of undo. A character of another model
+/// is such an object, but a drag on it pulls the body under the mouse.
 
 #include <fmt/format.h>
 
@@ -189,7 +190,9 @@ class GrabHandler final : public TransformHandler {
         // Dragged, the point under the mouse follows it; by a key what counts is how far the mouse has gone since.
         const bool dragged = byDrag_ && workspace_.press->pick;
         start_ = dragged ? workspace_.press->pick->position : pivot_;
-        if (onBody()) startPull(dragged);
+        pulled_ = dragged ? workspace_.press->pick->body : std::nullopt;
+        if (onBody()) pulled_ = item_;
+        if (pulled_) startPull(dragged);
         grabbedAt_ = dragged ? start_ : mousePoint().value_or(start_);
         target_ = start_;
     }
@@ -200,7 +203,7 @@ class GrabHandler final : public TransformHandler {
         } else if (const auto point = mousePoint()) {
             target_ = lock_.kind == AxisLock::Kind::axis ? *point : start_ + (*point - grabbedAt_);
         }
-        if (onBody()) {
+        if (pulled_) {
             if (workspace_.pulls.mouse) workspace_.pulls.mouse->target = target_;
             return;
         }
@@ -208,16 +211,16 @@ class GrabHandler final : public TransformHandler {
     }
 
     void hold() override {
-        if (!onBody() || !workspace_.pulls.mouse) return;
+        if (!pulled_ || !workspace_.pulls.mouse) return;
         workspace_.pose(!workspace_.player->playing());
-        const auto bodies = workspace_.player->bodiesOf(item_->doll);
-        const vec3 held = bodies[item_->index].worldFromBody * workspace_.pulls.mouse->bodyPoint;
+        const auto bodies = workspace_.player->bodiesOf(pulled_->doll);
+        const vec3 held = bodies[pulled_->index].worldFromBody * workspace_.pulls.mouse->bodyPoint;
         workspace_.overlay.add(held, target_, kPullColor);
         render::addCross(workspace_.overlay, target_, 0.06F, kPullColor);
     }
 
     void finish(bool confirmed) override {
-        if (onBody()) {
+        if (pulled_) {
             workspace_.pose(false);
         } else {
             keepOrCancelEdits(confirmed);
@@ -234,17 +237,17 @@ class GrabHandler final : public TransformHandler {
 
     [[nodiscard]] std::string describe() const override {
         const vec3 d = target_ - start_;
-        const char* paused = onBody() && !workspace_.player->playing() ? "  posing" : "";
+        const char* paused = pulled_ && !workspace_.player->playing() ? "  posing" : "";
         return fmt::format("Grab {:+.2f} {:+.2f} {:+.2f} m{}{}{}", d.x, d.y, d.z, paused, suffix(),
-                           onBody() ? "  P: pin  wheel: depth" : "");
+                           pulled_ ? "  P: pin  wheel: depth" : "");
     }
 
   private:
     void startPull(bool dragged) {
-        const RigidTransform worldFromBody = workspace_.player->bodiesOf(item_->doll)[item_->index].worldFromBody;
+        const RigidTransform worldFromBody = workspace_.player->bodiesOf(pulled_->doll)[pulled_->index].worldFromBody;
         Pull pull;
-        pull.doll = item_->doll;
-        pull.role = workspace_.document->profile().bodies[item_->index].role;
+        pull.doll = pulled_->doll;
+        pull.role = workspace_.player->simulation().assetOf(pulled_->doll).profile.bodies[pulled_->index].role;
         pull.bodyPoint = dragged ? workspace_.press->bodyPoint : vec3(0);
         start_ = worldFromBody * pull.bodyPoint;
         pull.target = start_;
@@ -255,6 +258,7 @@ class GrabHandler final : public TransformHandler {
         return dragTarget(workspace_.mouseRay(), start_, render::forwardOf(workspace_.camera), lock_, depth_);
     }
 
+    std::optional<Item> pulled_;  // the body that is held; else the entity is moved
     vec3 start_{0, 0, 0};
     vec3 grabbedAt_{0, 0, 0};
     vec3 target_{0, 0, 0};
