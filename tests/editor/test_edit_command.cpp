@@ -340,6 +340,35 @@ TEST_CASE("the panels look as they did when they were looked at") {
     test::checkGolden(cropped(collisions.value(), 332, 125, 582, 470), "editor_collisions");
 }
 
+TEST_CASE("the log and the file dialog look as they did when they were looked at") {
+    if (!layoutIsKnown()) return;
+    const Scratch scratch;
+    for (const char* folder : {"clips", "Older"})
+        fs::create_directory(scratch / folder);
+    for (const char* file : {"alpha.glb", "beta.fbx", "gamma.ragdoll.json", "notes.txt", ".hidden.glb"})
+        std::ofstream(scratch / file) << ' ';
+    Script script;
+    script.key(Key::space).click(663, 355).key(Key::x).add(filesDropped({"absent.glb"})).click(1247, 43);
+    script.move(640, 640).wait(3);
+    const int log = script.frame();
+    // The caret of the path blinks: the picture of the list leaves it out.
+    script.wait(1).key(Key::o, kControl).move(20, 700).wait(12);
+    const int dialog = script.frame();
+    script.wait(1).save(scratch / "script.jsonl");
+    const Outcome outcome =
+        edit(scratch, "--headless --input " + (scratch / "script.jsonl").string() + " --screenshot-at " +
+                          std::to_string(log) + ":" + (scratch / "log.png").string() + " --screenshot-at " +
+                          std::to_string(dialog) + ":" + (scratch / "dialog.png").string());
+    if (skipped(outcome)) return;
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    const auto logPicture = render::loadPng(scratch / "log.png");
+    const auto dialogPicture = render::loadPng(scratch / "dialog.png");
+    REQUIRE((logPicture.ok() && dialogPicture.ok()));
+    test::checkGolden(cropped(logPicture.value(), 937, 24, 343, 660), "editor_log");
+    test::checkGolden(cropped(dialogPicture.value(), 371, 206, 538, 312), "editor_open");
+}
+
 TEST_CASE("the same script gives the same picture twice and a drag shows in it") {
     if (!layoutIsKnown()) return;
     const Scratch scratch;
