@@ -58,7 +58,7 @@ enum class SolverKind { stock, bullet, crowd };
 }
 
 struct WorldSettings {
-    SolverKind solver = SolverKind::bullet;
+    SolverKind solver = SolverKind::crowd;
     vec3 gravity{0, -9.81F, 0};  ///< m/s²
     int threads = 1;
     bool sleeping = true;

@@ -16,7 +16,7 @@ struct BenchCase {
     std::string scene = "spread";
     int count = 100;
     int threads = 1;
-    physics::SolverKind solver = physics::SolverKind::bullet;
+    physics::SolverKind solver = physics::SolverKind::crowd;
     bool sleeping = false;
     int steps = 300;  ///< Of 1/60 s.
 };

@@ -20,7 +20,7 @@ struct Options {
     std::vector<std::string> scenes{"spread", "pile"};
     int threads = 1;
     int steps = 300;
-    std::string solver = "bullet";
+    std::string solver = "crowd";
     bool sleeping = false;
     std::filesystem::path csv;
     bool json = false;

@@ -308,7 +308,7 @@ void CrowdWorld::setDrag(int id, const Drag& drag) {
     auto at = std::lower_bound(state_.drags.begin(), state_.drags.end(), id,
                                [](const DragRecord& record, int wanted) { return record.id < wanted; });
     const bool known = at != state_.drags.end() && at->id == id;
-    if (!known) at = state_.drags.insert(at, {id, drag, 0, vec3(0)});
+    if (!known) at = state_.drags.insert(at, {id, drag, true, 0, vec3(0)});
     at->drag = drag;
     wakeDoll(drag.doll);
 }

@@ -39,6 +39,7 @@ void placeDrags(CrowdState& state, float dt) {
         lanes.weight.lane[doll.lane] = mass * answer;
         lanes.pull.lane[doll.lane] = dt * omega * omega / answer;
         lanes.bound.lane[doll.lane] = record.drag.maxForceN * dt;
+        lanes.gain.lane[doll.lane] = record.bounded ? 0.0F : lanes.weight.lane[doll.lane];
     }
 }
 
@@ -51,11 +52,12 @@ void beginDrag(CrowdState& state, DragRecord& record) {
                     glm::cross(readVector(body.angular, doll.lane), axes * record.drag.bodyPoint);
 }
 
-double endDrag(CrowdState& state, const DragRecord& record) {
+double endDrag(CrowdState& state, DragRecord& record) {
     const Doll& doll = dollOf(state, record);
     const Batch& batch = state.batchOf(doll);
     const BodyLanes& body = batch.bodies[record.drag.body];
     const DragLanes& lanes = batch.drags[record.index];
+    record.bounded = lanes.gain.lane[doll.lane] == 0.0F;
     const vec3 after = readVector(body.steadyVelocity, doll.lane) +
                        glm::cross(readVector(body.steadyAngular, doll.lane), readVector(lanes.arm, doll.lane));
     return static_cast<double>(glm::dot(readVector(lanes.impulse, doll.lane), 0.5F * (record.before + after)));

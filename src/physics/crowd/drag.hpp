@@ -10,6 +10,6 @@ void placeDrags(CrowdState& state, float dt);
 /// Before and after a substep's velocities are solved: the work that the pull has done on the doll, joules, is returned
 /// by the latter.
 void beginDrag(CrowdState& state, DragRecord& record);
-[[nodiscard]] double endDrag(CrowdState& state, const DragRecord& record);
+[[nodiscard]] double endDrag(CrowdState& state, DragRecord& record);
 
 }  // namespace lutka::physics::crowd

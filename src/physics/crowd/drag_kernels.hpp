@@ -14,7 +14,6 @@ LUTKA_LANES void beginDrag(DragLanes& drag, const BatchView& batch, const Subste
     store(drag.arm, halfWay(body, core, all(0.5F * params.dt)));
     store(drag.bias, (load(body.position) + core - load(drag.target)) * load(drag.pull));
     store(drag.impulse, {zero, zero, zero});
-    store(drag.gain, zero);
 }
 
 // The impulse that the spring asks for at the body's steady velocities.
@@ -26,30 +25,36 @@ LUTKA_LANES V3 pullOf(const BodyLanes& body, const DragLanes& drag) {
 LUTKA_LANES void askDrag(const BodyLanes& body, DragLanes& drag, const Pass& pass, Loaded& loaded) {
     const F zero = all(0.0F);
     const V3 arm = load(drag.arm);
+    const F gain = load(drag.gain);
     if (!pass.mending) {
+        const V3 before = load(drag.impulse);
         const V3 wanted = pullOf(body, drag);
-        const Bounded bound = within(dot(wanted, wanted), load(drag.bound));
-        const Mask holds = bound.holds | (pass.late & (load(drag.gain) > zero));
-        const V3 target = choose(holds, wanted, wanted * bound.share);
-        const V3 push = target - load(drag.impulse) * pass.applied;
-        store(drag.gain, holds ? load(drag.weight) : zero);
+        // Its direction stays for the substep: what the bound itself has moved says nothing about it.
+        const V3 along = choose(pass.applied > zero, before, wanted);
+        const V3 bounded = along * within(dot(along, along), load(drag.bound)).share;
+        const V3 target = choose(gain > zero, wanted, bounded);
+        const V3 push = target - before * pass.applied;
         store(drag.impulse, target);
         loaded.impulse = loaded.impulse + push;
         loaded.torque = loaded.torque + cross(arm, push);
     }
-    const F gain = load(drag.gain);
     addPoint(loaded.inertia, arm, {gain, gain, gain, zero, zero, zero});
 }
 
-// Returns the lanes in which the force was wrongly guessed to be within its bound, or not to be.
+// Guesses for the next pass, and the next substep, whether the force is within its bound; returns the lanes in which it
+// was guessed wrong. A bound that throws a light hand past its target is one of them.
 LUTKA_LANES Mask updateDrag(const BodyLanes& body, DragLanes& drag, const Pass& pass) {
+    const F zero = all(0.0F);
     const V3 wanted = pullOf(body, drag);
-    const Mask held = load(drag.gain) > all(0.0F);
-    store(drag.impulse, choose(held, wanted, load(drag.impulse)));
-    const F size = squareRoot(dot(wanted, wanted));
+    const Mask held = load(drag.gain) > zero;
+    const V3 impulse = choose(held, wanted, load(drag.impulse));
+    store(drag.impulse, impulse);
     const F bound = load(drag.bound);
-    const Mask wrong = held ? size > bound * all(1.05F) : size < bound * all(0.95F);
-    return wrong & ~pass.late;
+    const F size = squareRoot(dot(impulse, impulse));
+    const Mask tooStrong = held & (size > bound * all(1.05F));
+    const Mask tooWeak = ~held & (dot(wanted, impulse) < size * bound * all(0.95F)) & (load(drag.weight) > zero) & ~pass.late;
+    store(drag.gain, tooStrong ? zero : (tooWeak ? load(drag.weight) : load(drag.gain)));
+    return tooStrong | tooWeak;
 }
 
 }  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS

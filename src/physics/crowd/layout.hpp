@@ -173,7 +173,7 @@ struct DragLanes {
     Wide3 arm;      ///< As it will be half way through the substep.
     Wide3 bias;     ///< m/s
     Wide3 impulse;  ///< N s, of this substep.
-    Wide gain;      ///< `weight` while the force is within its bound, else 0.
+    Wide gain;      ///< `weight` while the force is within its bound, else 0; kept between substeps.
     int body;
 };
 

@@ -118,7 +118,7 @@ class JobSubstep {
                 job_.motorWork += solveMotor(state_, *motor);
             forBatches([&](const BatchView& view) { kernels.solve(view, params_, 0); });
         }
-        for (const DragRecord* drag : job_.drags)
+        for (DragRecord* drag : job_.drags)
             job_.dragWork += endDrag(state_, *drag);
         if (mends_) {
             const int pushed = kernels.mendPairs(job_.pairs.data(), pairs, params_);

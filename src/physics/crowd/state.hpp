@@ -89,6 +89,7 @@ class CarriedPairs {
 struct DragRecord {
     int id = 0;
     Drag drag;
+    bool bounded = false;   ///< Whether its force reached the bound at the end of the last step.
     std::size_t index = 0;  ///< Of this step, into Batch::drags.
     vec3 before{0, 0, 0};   ///< m/s, of the point at the substep's start.
 };
