@@ -56,7 +56,8 @@ constexpr std::array<DebugLayerInfo, 11> kLayers{{
     {"com", "Centres of mass", "With boxes of the bodies' inertia", &DebugLayers::centresOfMass, kMassLegend},
     {"aabbs", "Bounding boxes", "World boxes around the bodies", &DebugLayers::aabbs, kBoundsLegend},
     {"sleep", "Sleep", "The skins coloured by sleep", &DebugLayers::sleep, kSleepLegend},
-    {"bullet", "Bullet's own", "What Bullet's debug drawer shows of its world", &DebugLayers::bullet, kBulletLegend},
+    {"bullet", "Bullet's own", "What Bullet's debug drawer shows, with the solvers that are Bullet worlds",
+     &DebugLayers::bullet, kBulletLegend},
 }};
 
 }  // namespace

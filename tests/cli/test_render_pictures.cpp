@@ -37,11 +37,13 @@ bool checkPicture(const std::string& arguments, const std::string& name, const G
 TEST_CASE("each debug layer looks as it did when it was looked at") {
     for (const char* layer :
          {"capsules", "solids", "skeleton", "joints", "limits", "velocities", "com", "aabbs", "sleep", "bullet"}) {
-        if (!checkPicture(kMannequin + " --seconds 0.3 --no-legend --debug " + layer, std::string("layer_") + layer))
+        const std::string solver = std::string(layer) == "bullet" ? " --solver bullet" : "";
+        if (!checkPicture(kMannequin + " --seconds 0.3 --no-legend --debug " + layer + solver,
+                          std::string("layer_") + layer))
             return;
     }
     // On the floor the pose is the solver's: its improvements move it.
-    checkPicture(kMannequin + " --seconds 0.6 --opacity 0.3 --debug contacts,velocities", "layer_contacts",
+    checkPicture(kMannequin + " --seconds 0.9 --opacity 0.3 --debug contacts,velocities", "layer_contacts",
                  {10, 0.05, 2.0});
 }
 

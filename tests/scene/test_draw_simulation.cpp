@@ -101,7 +101,9 @@ TEST_CASE("every layer draws something by itself, in the colours of its legend")
     auto scenario =
         makeScenario("drop", 1, 0, figureBounds(asset->profile, asset->rig), asset->profile.standardFromModel);
     REQUIRE(scenario);
-    const auto simulation = Simulation::create(*asset, std::move(scenario).value(), {});
+    SimulationOptions options;
+    options.world.solver = physics::SolverKind::bullet;  // one layer is its own
+    const auto simulation = Simulation::create(*asset, std::move(scenario).value(), options);
     REQUIRE(simulation);
     for (int i = 0; i < 60; ++i)
         simulation.value()->step();

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <cmath>
 #include <glm/common.hpp>
@@ -56,6 +57,8 @@ class Painter {
             frame_.sky.environment = true;
             frame_.sky.environmentBackground = options.skyBackground;
         }
+        if (layers_.bullet && run.simulation->options().world.solver == physics::SolverKind::crowd)
+            spdlog::warn("--debug bullet draws nothing with the crowd solver; add --solver bullet");
         legend_ = scene::legendOf(layers_);
         for (const auto& asset : run.cast.assets)
             characters_.push_back(orLeave(renderer_.uploadCharacter(asset->character)));

@@ -52,7 +52,8 @@ LUTKA_LANES Mask updateDrag(const BodyLanes& body, DragLanes& drag, const Pass& 
     const F bound = load(drag.bound);
     const F size = squareRoot(dot(impulse, impulse));
     const Mask tooStrong = held & (size > bound * all(1.05F));
-    const Mask tooWeak = ~held & (dot(wanted, impulse) < size * bound * all(0.95F)) & (load(drag.weight) > zero) & ~pass.late;
+    const Mask tooWeak =
+        ~held & (dot(wanted, impulse) < size * bound * all(0.95F)) & (load(drag.weight) > zero) & ~pass.late;
     store(drag.gain, tooStrong ? zero : (tooWeak ? load(drag.weight) : load(drag.gain)));
     return tooStrong | tooWeak;
 }
