@@ -71,6 +71,7 @@ void addTouch(const CrowdState& state, const Which& a, const Which& b, int index
     const std::uint64_t key = pairKey(state.dolls[a.doll], a.body, state.dolls[b.doll], b.body, index);
     if (const CarriedContact* carried = state.carried.find(key)) touch.carried = *carried;
     touch.carried.key = key;
+    makeRoom(out, out.size() + 1);
     out.push_back(touch);
 }
 
@@ -314,6 +315,7 @@ class StaticContacts {
 
     // One that no lane has.
     StaticContactLanes& emptyContact(int body) {
+        makeRoom(batch_.contacts, batch_.contacts.size() + 1);
         StaticContactLanes& fresh = batch_.contacts.emplace_back();  // of zeros
         fresh.body = body;
         spread(fresh.normal, {0, 1, 0});
@@ -511,7 +513,7 @@ void placeNearDolls(CrowdState& state) {
     });
 }
 
-// The contacts between dolls, piece by piece, so that their order does not depend on the threads.
+// The contacts between dolls, piece by piece, so that their order does not depend on the threads; all contacts joined.
 void collideAllDolls(CrowdState& state, float dt) {
     constexpr std::size_t kPiece = 64;  // pairs of dolls
     const std::size_t pieces = (state.dollPairs.size() + kPiece - 1) / kPiece;
@@ -528,8 +530,19 @@ void collideAllDolls(CrowdState& state, float dt) {
             search.flush();
         }
     });
-    for (std::size_t piece = 0; piece < pieces; ++piece)
-        state.touches.insert(state.touches.end(), state.dollTouches[piece].begin(), state.dollTouches[piece].end());
+    std::size_t found = 0;
+    const auto join = [&](const auto& use) {
+        for (std::size_t i = 0; i < state.active.size(); ++i)
+            use(state.selfTouches[i]);
+        for (std::size_t piece = 0; piece < pieces; ++piece)
+            use(state.dollTouches[piece]);
+    };
+    join([&](const std::vector<PairTouch>& touches) { found += touches.size(); });
+    state.touches.clear();
+    makeRoom(state.touches, found);
+    join([&](const std::vector<PairTouch>& touches) {
+        state.touches.insert(state.touches.end(), touches.begin(), touches.end());
+    });
 }
 
 }  // namespace
@@ -545,9 +558,6 @@ void findContacts(CrowdState& state, float dt) {
             findSelfContacts(state, batch, batch.view(topology), topology, dt, state.selfTouches[i]);
         }
     });
-    state.touches.clear();
-    for (std::size_t i = 0; i < state.active.size(); ++i)
-        state.touches.insert(state.touches.end(), state.selfTouches[i].begin(), state.selfTouches[i].end());
     collideAllDolls(state, dt);
 }
 

@@ -66,6 +66,7 @@ class Packer {
             place(job, job.touches[i]);
         }
         forget(job, job.touches.size());
+        makeRoom(job.pairs, job.touchOfLane.size());
         job.pairs.resize(job.touchOfLane.size());
         state_.pool.parallelFor(job.pairs.size(), 64, [&](std::size_t begin, std::size_t end) {
             for (std::size_t block = begin; block < end; ++block)

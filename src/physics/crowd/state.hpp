@@ -55,6 +55,12 @@ struct Doll {
     [[nodiscard]] bool asleep() const { return batch < 0; }
 };
 
+/// Room for `count` and a little more: vectors double by themselves, which is much for what is large.
+template <class T>
+void makeRoom(std::vector<T>& items, std::size_t count) {
+    if (items.capacity() < count) items.reserve(count + count / 8 + 4);
+}
+
 /// All dolls of one topology: awake ones fill the batches in order.
 struct Group {
     Topology topology;
