@@ -7,11 +7,15 @@
 
 namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
 
+LUTKA_LANES void aimDrag(DragLanes& drag, const BodyLanes& body, const SubstepParams& params) {
+    store(drag.arm, halfWay(body, axesOf(body) * load(drag.localPoint), all(0.5F * params.dt)));
+}
+
 LUTKA_LANES void beginDrag(DragLanes& drag, const BatchView& batch, const SubstepParams& params) {
     const BodyLanes& body = batch.bodies[drag.body];
     const F zero = all(0.0F);
     const V3 core = axesOf(body) * load(drag.localPoint);
-    store(drag.arm, halfWay(body, core, all(0.5F * params.dt)));
+    aimDrag(drag, body, params);
     store(drag.bias, (load(body.position) + core - load(drag.target)) * load(drag.pull));
     store(drag.impulse, {zero, zero, zero});
 }

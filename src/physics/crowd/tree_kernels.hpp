@@ -215,6 +215,8 @@ static void aim(const BatchView& batch, const SubstepParams& params) {
         const BodyLanes& body = batch.bodies[contact.body];
         store(contact.arm, armOf(contact, body, axesOf(body) * load(contact.localPoint), params));
     }
+    for (int i = 0; i < batch.dragCount; ++i)
+        aimDrag(batch.drags[i], batch.bodies[batch.drags[i].body], params);
 }
 
 static void solve(const BatchView& batch, const SubstepParams& params, int first) {
