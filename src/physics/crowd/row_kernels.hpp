@@ -36,12 +36,13 @@ LUTKA_LANES F oneSidedBias(F bias, const Mask& held, const Pass& pass) {
 struct Mended {
     F gain, off;
 };
-LUTKA_LANES Mended mendRow(F rate, F bias, F weight, F gain) {
+LUTKA_LANES Mended mendRow(F rate, F bias, F weight, F gain, const Mask& kept) {
     const F zero = all(0.0F);
     const F slow = least(rate + bias, zero);
     const Mask over = bias < zero;
-    const Mask holds = (gain > zero) | (over & (slow < zero));
-    return {holds ? weight : zero, over ? rate + bias : zero};
+    const Mask mends = over & ((gain > zero) | (slow < zero));
+    const Mask holds = mends | (gain > zero) | kept;
+    return {holds ? weight : zero, mends ? rate + bias : zero};
 }
 
 // Speeds above which what is carried from the substep before must not push along with the motion: it would no longer
@@ -69,7 +70,7 @@ LUTKA_LANES void askLimit(LimitRow& row, const V3& relative, const Pass& pass, A
     const F rate = dot(axis, relative);
     const F impulse = carriedPush(load(row.impulse), rate, kLimitLeaves, pass);
     if (pass.mending) {
-        const Mended mended = mendRow(rate, bias, weight, load(row.gain));
+        const Mended mended = mendRow(rate, bias, weight, load(row.gain), noLanes());
         asked.torque = asked.torque - axis * (mended.gain * mended.off);
         addSquare(asked.weight, axis, mended.gain);
         return;
@@ -213,6 +214,8 @@ struct Loaded {
     V3 impulse, torque;
 };
 
+constexpr float kMendReach = 3.0F;  // m/s that mending moves a point with at most
+
 // Decides which rows of a contact hold, and adds them. A contact that presses in no lane, and did not in the pass
 // before, is left out.
 LUTKA_LANES void askStatic(const BodyLanes& body, StaticContactLanes& contact, const SubstepParams& params,
@@ -227,7 +230,10 @@ LUTKA_LANES void askStatic(const BodyLanes& body, StaticContactLanes& contact, c
     const F bias = load(contact.bias);
     const F impulse = load(contact.normalImpulse);
     if (pass.mending) {
-        const Mended mended = mendRow(rate, bias, weight, load(contact.normalGain));
+        // What is near and does not press keeps its speed too, or the mending of a limit pushes it in.
+        const Mask touches = rate + most(bias, zero) < all(kMendReach);
+        const F firm = load(contact.normalMass) * all(params.stiffest);  // there is but this one pass
+        const Mended mended = mendRow(rate, bias, firm, load(contact.normalGain), touches);
         if (bits(mended.gain > zero) == 0) return;
         const V3 push = normal * (-mended.gain * mended.off);
         loaded.impulse = loaded.impulse + push;
