@@ -232,7 +232,7 @@ LUTKA_LANES void askStatic(const BodyLanes& body, StaticContactLanes& contact, c
     if (pass.mending) {
         // What is near and does not press keeps its speed too, or the mending of a limit pushes it in.
         const Mask touches = rate + most(bias, zero) < all(kMendReach);
-        const F firm = load(contact.normalMass) * all(params.stiffest);  // there is but this one pass
+        const F firm = load(contact.normalMass) * all(params.contactStiffness);
         const Mended mended = mendRow(rate, bias, firm, load(contact.normalGain), touches);
         if (bits(mended.gain > zero) == 0) return;
         const V3 push = normal * (-mended.gain * mended.off);

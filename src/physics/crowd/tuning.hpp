@@ -27,7 +27,7 @@ struct CrowdTuning {
     float limitStiffness = 30.0F;   ///< The same of limits, and
     float contactStiffness = 100.0F;  ///< static contacts.
     float stiffen = 4.0F;             ///< Factor on a static contact's weight a pass in which it gives way,
-    float stiffest = 1000.0F;         ///< up to this weight over the body's mass.
+    float stiffest = 300.0F;          ///< up to this weight over the body's mass.
     float firstTouch = 40.0F;         ///< Of both while they are still ahead: a wrong guess there pulls.
     float grip = 1.0F;                ///< The same of friction. More: quicker to grip, chatters.
     float pushSpeed = 2.0F;           ///< m/s, largest speed that overlap is pushed apart with.
