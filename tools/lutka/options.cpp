@@ -155,7 +155,7 @@ void SceneOptions::addTo(CLI::App& app) {
             "UINT"));
     app.add_option("--threads", threads, "threads to step with; default: the scene's, or 1")->check(CLI::Range(1, 256));
     app.add_option("--solver", solver,
-                   "stock: plain Bullet; bullet: Bullet tuned for ragdolls, the default; crowd: dolls in SIMD lanes")
+                   "stock: plain Bullet; bullet: Bullet tuned for ragdolls; crowd: dolls in SIMD lanes, the default")
         ->check(knownSolver());
 }
 
