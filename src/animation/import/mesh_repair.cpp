@@ -7,6 +7,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "animation/import/vertex_order.hpp"
 #include "core/random.hpp"
 
 namespace lutka::animation::rig_import {
@@ -48,16 +49,6 @@ bool sameVertex(const SkinnedMesh& m, std::uint32_t a, std::uint32_t b) {
            same(m.joints, a, b) && same(m.weights, a, b);
 }
 
-template <class T>
-void compact(std::vector<T>& values, const std::vector<std::uint32_t>& kept) {
-    if (values.empty()) return;
-    std::vector<T> out;
-    out.reserve(kept.size());
-    for (const std::uint32_t v : kept)
-        out.push_back(values[v]);
-    values = std::move(out);
-}
-
 // Importers give one vertex a corner; only what is used stays, in the order of first use of the vertex array.
 void mergeVertices(SkinnedMesh& mesh) {
     constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
@@ -83,12 +74,7 @@ void mergeVertices(SkinnedMesh& mesh) {
     }
     for (std::uint32_t& v : mesh.indices)
         v = newIndex[v];
-    compact(mesh.positions, kept);
-    compact(mesh.normals, kept);
-    compact(mesh.tangents, kept);
-    compact(mesh.uvs, kept);
-    compact(mesh.joints, kept);
-    compact(mesh.weights, kept);
+    takeVertices(mesh, kept);
 }
 
 vec3 areaNormal(const SkinnedMesh& mesh, std::size_t triangle) {

@@ -27,13 +27,13 @@ Key keyOf(const SkinnedMesh& mesh, std::size_t vertex) {
 }
 
 template <class T>
-void reorder(std::vector<T>& values, std::span<const std::uint32_t> order) {
+void take(std::vector<T>& values, std::span<const std::uint32_t> from) {
     if (values.empty()) return;
-    std::vector<T> sorted;
-    sorted.reserve(values.size());
-    for (const std::uint32_t from : order)
-        sorted.push_back(values[from]);
-    values = std::move(sorted);
+    std::vector<T> taken;
+    taken.reserve(from.size());
+    for (const std::uint32_t vertex : from)
+        taken.push_back(values[vertex]);
+    values = std::move(taken);
 }
 
 // Metres, or a share of a unit vector: what rounding leaves where a zero was meant. Its square, and products of a few
@@ -50,6 +50,15 @@ void flush(std::vector<Vector>& vectors) {
 
 }  // namespace
 
+void takeVertices(SkinnedMesh& mesh, std::span<const std::uint32_t> from) {
+    take(mesh.positions, from);
+    take(mesh.normals, from);
+    take(mesh.tangents, from);
+    take(mesh.uvs, from);
+    take(mesh.joints, from);
+    take(mesh.weights, from);
+}
+
 void orderForSkinning(SkinnedMesh& mesh) {
     flush(mesh.positions);
     flush(mesh.normals);
@@ -61,12 +70,7 @@ void orderForSkinning(SkinnedMesh& mesh) {
     std::vector<std::uint32_t> order(mesh.positions.size());
     std::iota(order.begin(), order.end(), 0U);
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
-    reorder(mesh.positions, order);
-    reorder(mesh.normals, order);
-    reorder(mesh.tangents, order);
-    reorder(mesh.uvs, order);
-    reorder(mesh.joints, order);
-    reorder(mesh.weights, order);
+    takeVertices(mesh, order);
     std::vector<std::uint32_t> placeOf(order.size());
     for (std::uint32_t place = 0; place < order.size(); ++place)
         placeOf[order[place]] = place;
