@@ -5,22 +5,10 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "physics/crowd/static_contacts.hpp"
+
 namespace lutka::physics::crowd {
 namespace {
-
-// Bullet's default for a body; as there, the friction of a contact is the product of both sides'.
-constexpr float kBodyFriction = 0.5F;
-// Predicted motion counts a little more than whole: limbs speed up within a step.
-constexpr float kForesight = 1.2F;
-
-bool meet(const vec3& lowA, const vec3& highA, const vec3& lowB, const vec3& highB) {
-    return lowA.x <= highB.x && lowB.x <= highA.x && lowA.y <= highB.y && lowB.y <= highA.y && lowA.z <= highB.z &&
-           lowB.z <= highA.z;
-}
-
-float speedBound(const BodyState& body, const BodyConstants& constants) {
-    return glm::length(body.linearVelocity) + glm::length(body.angularVelocity) * constants.reach;
-}
 
 StepBody stepBody(const CrowdState& state, const Doll& doll, int body) {
     const Topology& topology = state.groupOf(doll).topology;
@@ -154,187 +142,17 @@ void findBounds(CrowdState& state, Batch& batch, const Topology& topology, float
     }
 }
 
-namespace {
+bool meet(const vec3& lowA, const vec3& highA, const vec3& lowB, const vec3& highB) {
+    return lowA.x <= highB.x && lowB.x <= highA.x && lowA.y <= highB.y && lowB.y <= highA.y && lowA.z <= highB.z &&
+           lowB.z <= highA.z;
+}
 
-// A doll's bounds in the world's frame: those seen from the root, and the root's own motion.
-struct Bounds {
-    vec3 low, high;
-};
-Bounds worldBounds(const Doll& doll, float dt, float farther = 0.0F) {
+Bounds worldBounds(const Doll& doll, float dt, float farther) {
     const vec3 moved = farther + (doll.asleep() ? vec3(0) : glm::abs(doll.rootVelocity) * (kForesight * dt));
     return {doll.low - moved, doll.high + moved};
 }
 
-bool nearStatic(const PlacedStatic& geometry, const vec3& low, const vec3& high) {
-    if (geometry.shape.kind != StaticShape::Kind::plane) return meet(low, high, geometry.low, geometry.high);
-    const vec3 normal = geometry.axes[1];
-    const vec3 lowest(normal.x > 0 ? low.x : high.x, normal.y > 0 ? low.y : high.y, normal.z > 0 ? low.z : high.z);
-    return glm::dot(normal, lowest - geometry.shape.worldFromShape.translation) <= 0.0F;
-}
-
-void spread(Wide& to, float value) {
-    for (float& lane : to.lane)
-        lane = value;
-}
-void spread(Wide3& to, const vec3& value) {
-    spread(to.x, value.x);
-    spread(to.y, value.y);
-    spread(to.z, value.z);
-}
-
-void setImpulses(StaticContactLanes& contact, int lane, const CarriedStatic& carried) {
-    contact.normalImpulse.lane[lane] = carried.contact.normal;
-    writeVector(contact.frictionImpulse, lane, carried.contact.friction);
-    writeVector(contact.rollImpulse, lane, carried.roll);
-}
-
-// Puts a contact into a lane that has none.
-void setContact(StaticContactLanes& contact, int lane, const StaticTouch& touch, float friction, std::uint64_t key,
-                const CarriedStatic* carried) {
-    writeVector(contact.localPoint, lane, touch.local);
-    contact.radius.lane[lane] = touch.radius;
-    writeVector(contact.normal, lane, touch.normal);
-    contact.offset.lane[lane] = touch.offset;
-    contact.friction.lane[lane] = friction;
-    contact.key[lane] = key;
-    if (carried != nullptr) setImpulses(contact, lane, *carried);
-}
-
-// Null when there was no such contact. `cursor`: where the last search ended; contacts are looked for in nearly the
-// order that they were kept in.
-const CarriedStatic* carriedStatic(const Doll& doll, std::uint64_t key, std::size_t& cursor) {
-    const std::size_t count = doll.statics.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t at = cursor + i < count ? cursor + i : cursor + i - count;
-        if (doll.statics[at].contact.key != key) continue;
-        cursor = at + 1 < count ? at + 1 : 0;
-        return &doll.statics[at];
-    }
-    return nullptr;
-}
-
-// The static contacts of one batch: body by body, each lane's next contact into the next of the body's slots.
-class StaticContacts {
-  public:
-    StaticContacts(CrowdState& state, Batch& batch, const Topology& topology, float dt)
-        : state_(state), batch_(batch), topology_(topology), dt_(dt) {}
-
-    void find() {
-        batch_.contacts.clear();
-        batch_.nearShapes = false;
-        for (int lane = 0; lane < batch_.used; ++lane) {
-            const Doll& doll = state_.dolls[batch_.doll[lane]];
-            const Bounds bounds = worldBounds(doll, dt_, farther_);
-            for (int i = 0; i < static_cast<int>(state_.statics.size()); ++i) {
-                if (!state_.statics[i].shape.filter.collidesWith(doll.filter)) continue;
-                if (!nearStatic(state_.statics[i], bounds.low, bounds.high)) continue;
-                const bool isPlane = state_.statics[i].shape.kind == StaticShape::Kind::plane;
-                std::vector<int>& near = isPlane ? planes_ : near_[lane];
-                batch_.nearShapes = batch_.nearShapes || !isPlane;
-                if (!isPlane || std::find(near.begin(), near.end(), i) == near.end()) near.push_back(i);
-            }
-        }
-        for (int body = 0; body < topology_.bodyCount(); ++body) {
-            firstSlot_ = batch_.contacts.size();
-            batch_.firstContact[body] = static_cast<int>(firstSlot_);
-            for (const int plane : planes_)
-                findOnPlane(body, plane);
-            firstSlot_ = batch_.contacts.size();
-            for (int lane = 0; lane < batch_.used; ++lane)
-                findOf(body, lane);
-        }
-        batch_.firstContact[topology_.bodyCount()] = static_cast<int>(batch_.contacts.size());
-    }
-
-  private:
-    // Planes are the same for all lanes.
-    void findOnPlane(int body, int index) {
-        const PlacedStatic& plane = state_.statics[index];
-        const vec3 normal = plane.axes[1];
-        const float normalLanes[3] = {normal.x, normal.y, normal.z};
-        const float offset = glm::dot(normal, plane.shape.worldFromShape.translation);
-        const CorePoints points = corePoints(topology_.shapes[body]);
-        const BatchView view = batch_.view(topology_);
-        for (int i = 0; i < points.count; ++i) {
-            const float point[3] = {points.local[i].x, points.local[i].y, points.local[i].z};
-            const unsigned lanes = state_.kernels->findNearPlane(view, body, point, points.radius, normalLanes, offset,
-                                                                 state_.tuning.staticMargin, kForesight * dt_);
-            if (lanes != 0) putPlane(body, index, lanes, {points.local[i], points.radius, normal, offset, 0.0F, i});
-        }
-    }
-
-    // The same point of a body in all `lanes`.
-    void putPlane(int body, int index, unsigned lanes, const StaticTouch& touch) {
-        StaticContactLanes& contact = emptyContact(body);
-        const StaticShape& plane = state_.statics[index].shape;
-        spread(contact.localPoint, touch.local);
-        spread(contact.normal, touch.normal);
-        spread(contact.radius, touch.radius);
-        spread(contact.friction, plane.friction * kBodyFriction);
-        const std::uint64_t key = staticKey(index, body, touch.feature);
-        for (int lane = 0; lane < kLanes; ++lane) {
-            const int from = lane < batch_.used ? lane : 0;
-            const Doll& doll = state_.dolls[batch_.doll[from]];
-            if ((lanes >> static_cast<unsigned>(from) & 1U) == 0 || !plane.filter.collidesWith(doll.filter)) continue;
-            contact.offset.lane[lane] = touch.offset;
-            contact.key[lane] = key;
-            const CarriedStatic* carried = carriedStatic(doll, key, cursor_[from]);
-            if (carried != nullptr) setImpulses(contact, lane, *carried);
-        }
-    }
-
-    void findOf(int body, int lane) {
-        if (near_[lane].empty()) return;
-        const Doll& doll = state_.dolls[batch_.doll[lane]];
-        const BodyLanes& lanes = batch_.bodies[body];
-        const vec3 moved = glm::abs(doll.rootVelocity) * (kForesight * dt_) + farther_;
-        const vec3 low = readVector(lanes.low, lane) - moved;
-        const vec3 high = readVector(lanes.high, lane) + moved;
-        std::size_t slot = firstSlot_;
-        for (const int index : near_[lane]) {
-            const PlacedStatic& geometry = state_.statics[index];
-            if (!nearStatic(geometry, low, high)) continue;
-            const float range = state_.tuning.staticMargin +
-                                kForesight * dt_ * speedBound(readBody(lanes, lane), topology_.bodies[body]);
-            const StaticTouches found = touchStatic(placedShape(state_, doll, body), geometry, range);
-            for (int i = 0; i < found.count; ++i)
-                put(slot++, body, lane, index, found.points[i]);
-        }
-    }
-
-    void put(std::size_t slot, int body, int lane, int geometry, const StaticTouch& touch) {
-        if (slot == batch_.contacts.size()) emptyContact(body);
-        const std::uint64_t key = staticKey(geometry, body, touch.feature);
-        const CarriedStatic* carried = carriedStatic(state_.dolls[batch_.doll[lane]], key, cursor_[lane]);
-        const float friction = state_.statics[geometry].shape.friction * kBodyFriction;
-        setContact(batch_.contacts[slot], lane, touch, friction, key, carried);
-        if (lane != 0) return;
-        for (int copy = batch_.used; copy < kLanes; ++copy)
-            setContact(batch_.contacts[slot], copy, touch, friction, key, carried);
-    }
-
-    // One that no lane has.
-    StaticContactLanes& emptyContact(int body) {
-        makeRoom(batch_.contacts, batch_.contacts.size() + 1);
-        StaticContactLanes& fresh = batch_.contacts.emplace_back();  // of zeros
-        fresh.body = body;
-        spread(fresh.normal, {0, 1, 0});
-        spread(fresh.offset, -kFarM);
-        return fresh;
-    }
-
-    static constexpr float kFarM = 1e6F;
-
-    CrowdState& state_;
-    Batch& batch_;
-    const Topology& topology_;
-    float dt_;
-    float farther_ = state_.tuning.staticMargin - state_.tuning.pairMargin;  // than the bodies' own bounds reach
-    std::size_t firstSlot_ = 0;
-    std::vector<int> planes_;        // that some lane is near
-    std::vector<int> near_[kLanes];  // the other geometry
-    std::size_t cursor_[kLanes]{};   // see carriedStatic
-};
+namespace {
 
 void findSelfContacts(CrowdState& state, const Batch& batch, const BatchView& view, const Topology& topology, float dt,
                       std::vector<PairTouch>& out) {
@@ -476,10 +294,6 @@ void wakeTouched(CrowdState& state, float dt) {
         findBounds(state, dt);
         sweepDolls(state, dt);
     }
-}
-
-void findStatics(CrowdState& state, Batch& batch, const Topology& topology, float dt) {
-    StaticContacts(state, batch, topology, dt).find();
 }
 
 namespace {

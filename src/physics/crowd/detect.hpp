@@ -4,6 +4,18 @@
 
 namespace lutka::physics::crowd {
 
+/// Predicted motion counts a little more than whole: limbs speed up within a step.
+inline constexpr float kForesight = 1.2F;
+
+/// A doll's bounds in the world's frame, metres.
+struct Bounds {
+    vec3 low, high;
+};
+/// Those that findBounds() gave it as seen from its root, with the root's own motion in `dt` s and `farther` metres
+/// more.
+[[nodiscard]] Bounds worldBounds(const Doll& doll, float dt, float farther = 0.0F);
+[[nodiscard]] bool meet(const vec3& lowA, const vec3& highA, const vec3& lowB, const vec3& highB);
+
 /// Bounds of all awake dolls for a step of `dt` s.
 void findBounds(CrowdState& state, float dt);
 /// The same of one batch, from where its dolls are now.
@@ -14,9 +26,6 @@ void sweepDolls(CrowdState& state, float dt);
 
 /// Wakes the sleeping dolls that an awake one is about to push, and brings bounds and pairs up to date.
 void wakeTouched(CrowdState& state, float dt);
-
-/// The static contacts of one batch for the next `dt` s, with the impulses that its dolls' contacts were kept with.
-void findStatics(CrowdState& state, Batch& batch, const Topology& topology, float dt);
 
 /// The step's contacts: static ones into the batches, those between bodies into `touches`, all with the impulses that
 /// they had in the last step.

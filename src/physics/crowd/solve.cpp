@@ -8,6 +8,7 @@
 #include "physics/crowd/detect.hpp"
 #include "physics/crowd/drag.hpp"
 #include "physics/crowd/reports.hpp"
+#include "physics/crowd/static_contacts.hpp"
 
 namespace lutka::physics::crowd {
 namespace {

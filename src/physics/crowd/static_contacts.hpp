@@ -1,0 +1,11 @@
+#pragma once
+
+#include "physics/crowd/state.hpp"
+
+namespace lutka::physics::crowd {
+
+/// The static contacts of one batch for the next `dt` s, with the impulses that its dolls' contacts were kept with.
+/// Needs the bounds of its dolls.
+void findStatics(CrowdState& state, Batch& batch, const Topology& topology, float dt);
+
+}  // namespace lutka::physics::crowd
