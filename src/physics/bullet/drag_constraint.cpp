@@ -8,7 +8,7 @@
 namespace lutka::physics {
 
 DragConstraint::DragConstraint(btRigidBody& body, const Drag& drag)
-    : btTypedConstraint(POINT2POINT_CONSTRAINT_TYPE, body), drag_(drag) {
+    : ForceConstraint(POINT2POINT_CONSTRAINT_TYPE, body), drag_(drag) {
     setJointFeedback(&feedback_);
 }
 

@@ -10,7 +10,7 @@
 namespace lutka::physics {
 
 MotorConstraint::MotorConstraint(const ConstraintProfile& profile, btRigidBody& parent, btRigidBody& child)
-    : btTypedConstraint(D6_CONSTRAINT_TYPE, parent, child), profile_(profile) {}
+    : ForceConstraint(D6_CONSTRAINT_TYPE, parent, child), profile_(profile) {}
 
 void MotorConstraint::prepare(float seconds) {
     const MotorError found = motorError(profile_, motor_, fromBullet(m_rbA.getWorldTransform()).rotation,

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
-
 #include <array>
 
-#include "physics/bullet/warm_started.hpp"
+#include "physics/bullet/force_constraint.hpp"
 #include "physics/world.hpp"
 
 namespace lutka::physics {
@@ -12,7 +10,7 @@ namespace lutka::physics {
 /// The spring of a JointMotor as soft rows: with stiffness k, damping d and a substep h, the row
 ///     J v + γ impulse = -k / (d + h k) · error,   γ = 1 / (h (d + h k))
 /// is the spring taken at the end of the substep (implicit Euler; Catto, Soft Constraints, GDC 2011).
-class MotorConstraint final : public btTypedConstraint, public WarmStarted {
+class MotorConstraint final : public ForceConstraint {
   public:
     /// `profile` must outlive the constraint.
     MotorConstraint(const ConstraintProfile& profile, btRigidBody& parent, btRigidBody& child);
@@ -22,15 +20,8 @@ class MotorConstraint final : public btTypedConstraint, public WarmStarted {
 
     void getInfo1(btConstraintInfo1* info) override;
     void getInfo2(btConstraintInfo2* info) override;
-    void setParam(int /*num*/, btScalar /*value*/, int /*axis*/) override {}
-    [[nodiscard]] btScalar getParam(int /*num*/, int /*axis*/) const override { return 0.0F; }
 
-    [[nodiscard]] bool startsWithPoint() const override { return false; }
-    [[nodiscard]] RowDuty dutyOf(int /*row*/) const override { return RowDuty::keeps; }
     [[nodiscard]] float softnessOf(int /*row*/) const override { return softness_; }
-    [[nodiscard]] float storedImpulse(int row) const override { return impulses_[row]; }
-    void storeImpulse(int row, float impulse) override { impulses_[row] = impulse; }
-    void finishStoring() override {}
     void forgetImpulses() { impulses_.fill(0.0F); }
 
     /// For Bullet's own solver: the same spring as a torque on both bodies for the coming step, taken implicitly as if
@@ -52,7 +43,6 @@ class MotorConstraint final : public btTypedConstraint, public WarmStarted {
     vec3 error_{0, 0, 0};         // radians about each axis: how far the child is ahead of the target
     float softness_ = 0;
     float rate_ = 0;  // 1/s
-    std::array<float, 3> impulses_{};
 };
 
 }  // namespace lutka::physics
