@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "gl_fixture.hpp"
+#include "lone_figure.hpp"
 #include "render/gl/golden.hpp"
 #include "render/shadow_fit.hpp"
 #include "support/rigs.hpp"
@@ -16,16 +16,8 @@ namespace {
 constexpr Extent kSize{320, 240};
 
 /// A figure between a box and a ball, in the dark.
-struct DarkRoom {
-    animation::Character biped = makeBiped();
-    std::vector<animation::SkinMatrix> palette = bindPalette(biped.skeleton);
-    FrameDescription frame;
-
-    explicit DarkRoom(GlFixture& gl) {
-        CharacterItem item;
-        item.character = gl.upload(biped);
-        item.palette = palette;
-        frame.characters.push_back(item);
+struct DarkRoom : LoneFigure {
+    explicit DarkRoom(GlFixture& gl) : LoneFigure(gl) {
         PropItem box;
         box.worldFromShape.translation = {-0.8F, 0.25F, -0.3F};
         box.halfExtents = vec3(0.25F);

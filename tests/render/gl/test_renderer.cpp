@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "gl_fixture.hpp"
+#include "lone_figure.hpp"
 #include "support/rigs.hpp"
 
 using namespace lutka;
@@ -14,16 +14,8 @@ namespace {
 constexpr Extent kSize{320, 240};
 
 /// The hand-made figure in front of the camera.
-struct Scene {
-    animation::Character biped = makeBiped();
-    std::vector<animation::SkinMatrix> palette = bindPalette(biped.skeleton);
-    FrameDescription frame;
-
-    explicit Scene(GlFixture& gl) {
-        CharacterItem item;
-        item.character = gl.upload(biped);
-        item.palette = palette;
-        frame.characters.push_back(item);
+struct Scene : LoneFigure {
+    explicit Scene(GlFixture& gl) : LoneFigure(gl) {
         frame.camera.yaw = 0.0F;
         frame.camera.pitch = radians(15);
         frameSphere(frame.camera, {0, 0.9F, 0}, 1.0F, kSize.aspect());
