@@ -11,7 +11,7 @@
 
 #include "physics/bullet/bullet_world.hpp"
 #include "physics/crowd/crowd_world.hpp"
-#include "physics/quality.hpp"
+#include "physics/world/quality.hpp"
 #include "scene/scenario.hpp"
 #include "trial.hpp"
 

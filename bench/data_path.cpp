@@ -18,7 +18,7 @@
 #include "animation/pose.hpp"
 #include "animation/pose_batch.hpp"
 #include "animation/skinning.hpp"
-#include "physics/doll_poser.hpp"
+#include "physics/rig/doll_poser.hpp"
 #include "scene/draw_simulation.hpp"
 #include "scene/ragdoll_asset.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "physics/bullet/bullet_world.hpp"
-#include "physics/quality.hpp"
+#include "physics/world/quality.hpp"
 #include "scene/ragdoll_asset.hpp"
 #include "scene/scenario.hpp"
 

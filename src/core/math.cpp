@@ -3,6 +3,21 @@
 #include <glm/geometric.hpp>
 
 namespace lutka {
+namespace {
+
+// One of Jacobi's rotations: makes the covariance's element (p, q) zero.
+void rotateAway(mat3& covariance, mat3& axes, int p, int q) {
+    if (std::abs(covariance[p][q]) < 1e-20F) return;
+    const float angle = 0.5F * std::atan2(2.0F * covariance[p][q], covariance[q][q] - covariance[p][p]);
+    mat3 turn(1.0F);
+    turn[p][p] = turn[q][q] = std::cos(angle);
+    turn[q][p] = std::sin(angle);
+    turn[p][q] = -std::sin(angle);
+    covariance = glm::transpose(turn) * covariance * turn;
+    axes = axes * turn;
+}
+
+}  // namespace
 
 quat rotationBetween(const vec3& from, const vec3& to) {
     const vec3 a = glm::normalize(from);
@@ -31,6 +46,17 @@ quat rotationFromXY(const vec3& x, const vec3& y) {
     const vec3 unitX = glm::normalize(x);
     const vec3 unitZ = glm::normalize(glm::cross(unitX, y));
     return glm::normalize(glm::quat_cast(mat3(unitX, glm::cross(unitZ, unitX), unitZ)));
+}
+
+mat3 diagonalise(mat3& matrix) {
+    constexpr int kSweeps = 12;
+    mat3 axes(1.0F);
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+        rotateAway(matrix, axes, 0, 1);
+        rotateAway(matrix, axes, 0, 2);
+        rotateAway(matrix, axes, 1, 2);
+    }
+    return axes;
 }
 
 }  // namespace lutka

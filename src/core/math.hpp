@@ -51,4 +51,8 @@ inline constexpr float kPi = std::numbers::pi_v<float>;
 /// Both need a length above zero and must not be parallel.
 [[nodiscard]] quat rotationFromXY(const vec3& x, const vec3& y);
 
+/// Makes a symmetric matrix diagonal by Jacobi's rotations. Returns the axes in its columns: what came in is
+/// axes · matrix · transpose(axes) of what comes out.
+[[nodiscard]] mat3 diagonalise(mat3& matrix);
+
 }  // namespace lutka

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <chrono>
 
-#include "editor/frame_history.hpp"
+#include "editor/input/window_input.hpp"
 #include "editor/ui/editor_ui.hpp"
+#include "editor/ui/frame_history.hpp"
 #include "editor/ui/imgui_host.hpp"
-#include "editor/user_settings.hpp"
-#include "editor/window_input.hpp"
+#include "editor/ui/user_settings.hpp"
 #include "render/gl/renderer.hpp"
 
 namespace lutka::editor {

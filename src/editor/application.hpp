@@ -6,7 +6,7 @@
 
 #include "core/result.hpp"
 #include "editor/editor.hpp"
-#include "editor/input_script.hpp"
+#include "editor/input/input_script.hpp"
 #include "render/gl/renderer_options.hpp"
 
 namespace lutka::editor {

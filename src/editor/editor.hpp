@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "editor/actions.hpp"
-#include "editor/limit_swing.hpp"
-#include "editor/workspace.hpp"
+#include "editor/input/actions.hpp"
+#include "editor/play/limit_swing.hpp"
+#include "editor/states/workspace.hpp"
 #include "render/frame.hpp"
 #include "scene/draw_simulation.hpp"
 

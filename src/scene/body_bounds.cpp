@@ -1,6 +1,6 @@
 #include "scene/body_bounds.hpp"
 
-#include "physics/shape.hpp"
+#include "physics/collision/shape.hpp"
 
 namespace lutka::scene {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "physics/profile.hpp"
+#include "physics/profile/profile.hpp"
 
 namespace lutka::scene {
 

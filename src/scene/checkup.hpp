@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "physics/doctor.hpp"
-#include "physics/quality.hpp"
+#include "physics/doctor/doctor.hpp"
+#include "physics/world/quality.hpp"
 #include "scene/ragdoll_asset.hpp"
 
 namespace lutka::scene {

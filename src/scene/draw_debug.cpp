@@ -4,7 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "physics/quality.hpp"
+#include "physics/profile/constraint_state.hpp"
 #include "scene/body_bounds.hpp"
 
 namespace lutka::scene {

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/quality.hpp"
+#include "physics/profile/constraint_state.hpp"
 #include "render/frame.hpp"
 #include "scene/debug_layers.hpp"
 #include "scene/ragdoll_asset.hpp"

@@ -15,7 +15,7 @@
 
 #include "animation/humanoid/roles.hpp"
 #include "core/rigid_transform.hpp"
-#include "physics/world.hpp"
+#include "physics/world/world.hpp"
 #include "render/color.hpp"
 
 namespace lutka::scene {

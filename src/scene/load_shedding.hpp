@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "physics/lod_profile.hpp"
-#include "physics/world.hpp"
+#include "physics/rig/lod_profile.hpp"
+#include "physics/world/world.hpp"
 
 namespace lutka::scene {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/doll_poser.hpp"
+#include "physics/rig/doll_poser.hpp"
 #include "scene/ragdoll_asset.hpp"
 #include "scene/scenario.hpp"
 

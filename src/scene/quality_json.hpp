@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "physics/fit_measures.hpp"
-#include "physics/quality.hpp"
+#include "physics/fit/fit_measures.hpp"
+#include "physics/world/quality.hpp"
 
 namespace lutka::scene {
 

@@ -8,9 +8,9 @@
 #include "animation/humanoid/map_humanoid.hpp"
 #include "animation/import/import_character.hpp"
 #include "core/result.hpp"
-#include "physics/fit_ragdoll.hpp"
-#include "physics/profile.hpp"
-#include "physics/rig.hpp"
+#include "physics/fit/fit_ragdoll.hpp"
+#include "physics/profile/profile.hpp"
+#include "physics/rig/rig.hpp"
 
 namespace lutka::scene {
 

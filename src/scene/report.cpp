@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "physics/doctor.hpp"
+#include "physics/doctor/doctor.hpp"
 #include "scene/quality_json.hpp"
 
 namespace lutka::scene {

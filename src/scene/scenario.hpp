@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "physics/world.hpp"
+#include "physics/world/world.hpp"
 #include "render/camera.hpp"
 #include "render/light.hpp"
 #include "scene/entity_scene.hpp"

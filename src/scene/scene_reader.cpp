@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "physics/json_cursor.hpp"
-#include "physics/json_text.hpp"
+#include "core/json/json_cursor.hpp"
+#include "core/json/json_text.hpp"
 #include "scene/scene_file.hpp"
 #include "scene/scene_format.hpp"
 
@@ -10,7 +10,6 @@ namespace lutka::scene {
 namespace {
 
 using nlohmann::json;
-using physics::JsonCursor;
 
 constexpr float kAny = 1e9F;  // what a number may be at all; validate() knows each one's range
 
@@ -298,9 +297,9 @@ Error asError(std::string_view source, const std::vector<std::string>& problems)
 Result<EntityScene> sceneFromJson(std::string_view text, std::string_view source, const std::filesystem::path& folder) {
     std::vector<std::string> problems;
     std::vector<std::string> duplicates;
-    const Result<json> parsed = physics::parseJson(text, source, duplicates);
+    const Result<json> parsed = parseJson(text, source, duplicates);
     if (!parsed) return parsed.error();
-    if (problems = physics::checkFormat(parsed.value(), scene_format::kName, EntityScene::kVersion); !problems.empty())
+    if (problems = checkFormat(parsed.value(), scene_format::kName, EntityScene::kVersion); !problems.empty())
         return asError(source, problems);
     problems = duplicates;
     const JsonCursor root(parsed.value(), problems);

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "physics/json_text.hpp"
+#include "core/json/json_text.hpp"
 #include "scene/scene_file.hpp"
 #include "scene/scene_format.hpp"
 
@@ -9,9 +9,6 @@ namespace lutka::scene {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using physics::jsonNumber;
-using physics::jsonQuaternion;
-using physics::jsonVector;
 
 template <class Names, class Enum>
 const char* nameOf(const Names& names, Enum value) {
@@ -173,7 +170,7 @@ std::string sceneToJson(const EntityScene& scene, const std::filesystem::path& f
     out["entities"] = Json::array();
     for (const Entity& entity : scene.entities)
         out["entities"].push_back(json(scene, entity, folder));
-    return physics::jsonText(out);
+    return jsonText(out);
 }
 
 Result<void> saveScene(const std::filesystem::path& file, const EntityScene& scene) {

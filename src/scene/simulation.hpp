@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "physics/quality.hpp"
-#include "physics/world.hpp"
+#include "physics/world/quality.hpp"
+#include "physics/world/world.hpp"
 #include "scene/load_shedding.hpp"
 #include "scene/posed_skins.hpp"
 #include "scene/ragdoll_asset.hpp"

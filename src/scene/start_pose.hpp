@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "physics/world.hpp"
+#include "physics/world/world.hpp"
 #include "scene/ragdoll_asset.hpp"
 #include "scene/simulation.hpp"
 

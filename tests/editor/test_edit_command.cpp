@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "editor/input_script.hpp"
-#include "physics/profile_io.hpp"
+#include "editor/input/input_script.hpp"
+#include "editor/sessions.hpp"
+#include "physics/profile/profile_io.hpp"
 #include "render/gl/golden.hpp"
 #include "render/image.hpp"
-#include "sessions.hpp"
 #include "support/catch.hpp"
 #include "support/command.hpp"
 

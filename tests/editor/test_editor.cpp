@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/random.hpp"
-#include "sessions.hpp"
+#include "editor/sessions.hpp"
 #include "support/command.hpp"
 
 using namespace lutka;

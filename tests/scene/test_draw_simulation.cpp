@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
-#include "physics/quality.hpp"
+#include "physics/profile/constraint_state.hpp"
 #include "support/catch.hpp"
 #include "support/ragdolls.hpp"
 

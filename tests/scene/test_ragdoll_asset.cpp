@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "physics/profile_io.hpp"
+#include "physics/profile/profile_io.hpp"
 #include "support/catch.hpp"
 #include "support/command.hpp"
 #include "support/ragdolls.hpp"

@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "physics/profile_io.hpp"
+#include "physics/profile/profile_io.hpp"
 #include "scene/bake.hpp"
 #include "scene/draw_simulation.hpp"
 #include "scene/recording.hpp"

@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/random.hpp"
-#include "physics/json_schema.hpp"
 #include "scene/scenario.hpp"
 #include "support/catch.hpp"
 #include "support/command.hpp"
+#include "support/json_schema.hpp"
 
 using namespace lutka;
 using namespace lutka::scene;

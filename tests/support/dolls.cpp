@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "physics/shape_distance.hpp"
+#include "physics/collision/shape_distance.hpp"
 #include "support/rigs.hpp"
 
 namespace lutka::test {

@@ -7,8 +7,8 @@
 
 #include "commands.hpp"
 #include "options.hpp"
-#include "physics/limits_from_clips.hpp"
-#include "physics/profile_io.hpp"
+#include "physics/fit/limits_from_clips.hpp"
+#include "physics/profile/profile_io.hpp"
 
 namespace lutka::cli {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "commands.hpp"
 #include "options.hpp"
-#include "physics/doctor.hpp"
-#include "physics/profile_io.hpp"
+#include "physics/doctor/doctor.hpp"
+#include "physics/profile/profile_io.hpp"
 #include "scene/checkup.hpp"
 
 namespace lutka::cli {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "editor/joint_pick.hpp"
 #include "editor/states/states.hpp"
+#include "editor/view/joint_pick.hpp"
 
 namespace lutka::editor {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "editor/workspace.hpp"
+#include "editor/states/workspace.hpp"
 
 /// The handlers of the states; workspace.hpp's makeHandlers() puts them together.
 namespace lutka::editor {

@@ -8,8 +8,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "editor/axis_lock.hpp"
 #include "editor/states/states.hpp"
+#include "editor/view/axis_lock.hpp"
 
 namespace lutka::editor {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "editor/editor.hpp"
-#include "editor/file_list.hpp"
-#include "editor/frame_history.hpp"
+#include "editor/ui/file_list.hpp"
+#include "editor/ui/frame_history.hpp"
 #include "editor/ui/imgui_host.hpp"
 
 namespace lutka::editor {

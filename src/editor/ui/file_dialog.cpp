@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "editor/file_list.hpp"
+#include "editor/ui/file_list.hpp"
 #include "editor/ui/panels.hpp"
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"

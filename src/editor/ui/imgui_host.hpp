@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "editor/editor.hpp"
-#include "editor/input_event.hpp"
+#include "editor/input/input_event.hpp"
 
 struct ImFont;
 

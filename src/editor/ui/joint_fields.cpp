@@ -8,7 +8,7 @@
 #include "editor/ui/part_fields.hpp"
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"
-#include "physics/quality.hpp"
+#include "physics/profile/constraint_state.hpp"
 
 namespace lutka::editor {
 namespace {

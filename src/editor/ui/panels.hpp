@@ -3,8 +3,8 @@
 #include <span>
 
 #include "editor/editor.hpp"
-#include "editor/frame_history.hpp"
 #include "editor/ui/editor_ui.hpp"
+#include "editor/ui/frame_history.hpp"
 
 /// The parts of the UI; each draws itself into the present Dear ImGui frame.
 namespace lutka::editor {

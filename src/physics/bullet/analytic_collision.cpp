@@ -9,7 +9,7 @@
 #include "physics/bullet/contact_impulses.hpp"
 #include "physics/bullet/convert.hpp"
 #include "physics/bullet/geometry_cache.hpp"
-#include "physics/contacts.hpp"
+#include "physics/collision/contacts.hpp"
 
 namespace lutka::physics {
 namespace {

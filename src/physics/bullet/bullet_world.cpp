@@ -13,7 +13,7 @@
 #include "physics/bullet/dynamics_world.hpp"
 #include "physics/bullet/ragdoll.hpp"
 #include "physics/bullet/static_shape.hpp"
-#include "physics/shape.hpp"
+#include "physics/collision/shape.hpp"
 
 namespace lutka::physics {
 namespace {

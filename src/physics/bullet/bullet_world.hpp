@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "physics/world.hpp"
+#include "physics/world/world.hpp"
 
 namespace lutka::physics {
 

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "physics/world.hpp"
+#include "physics/world/world.hpp"
 
 namespace lutka::physics {
 

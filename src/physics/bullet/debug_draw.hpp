@@ -2,7 +2,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
-#include "physics/world.hpp"
+#include "physics/world/world.hpp"
 
 namespace lutka::physics {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "physics/bullet/force_constraint.hpp"
-#include "physics/world.hpp"
+#include "physics/world/world.hpp"
 
 namespace lutka::physics {
 

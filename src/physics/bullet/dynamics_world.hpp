@@ -9,7 +9,7 @@
 #include "physics/bullet/analytic_collision.hpp"
 #include "physics/bullet/bullet_world.hpp"
 #include "physics/bullet/substep_solver.hpp"
-#include "physics/world.hpp"
+#include "physics/world/world.hpp"
 
 namespace lutka::physics {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/contacts.hpp"
+#include "physics/collision/contacts.hpp"
 
 namespace lutka::physics {
 

@@ -5,7 +5,7 @@
 #include <glm/matrix.hpp>
 
 #include "physics/bullet/convert.hpp"
-#include "physics/joint_error.hpp"
+#include "physics/world/joint_error.hpp"
 
 namespace lutka::physics {
 

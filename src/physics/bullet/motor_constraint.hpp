@@ -3,7 +3,7 @@
 #include <array>
 
 #include "physics/bullet/force_constraint.hpp"
-#include "physics/world.hpp"
+#include "physics/world/world.hpp"
 
 namespace lutka::physics {
 

@@ -10,7 +10,7 @@
 #include "physics/bullet/bullet_world.hpp"
 #include "physics/bullet/motor_constraint.hpp"
 #include "physics/bullet/ragdoll_joint.hpp"
-#include "physics/world.hpp"
+#include "physics/world/world.hpp"
 
 namespace lutka::physics {
 

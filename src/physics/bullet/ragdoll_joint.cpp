@@ -5,7 +5,7 @@
 
 #include "core/assert.hpp"
 #include "physics/bullet/convert.hpp"
-#include "physics/swing_twist.hpp"
+#include "physics/profile/swing_twist.hpp"
 
 namespace lutka::physics {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "physics/bullet/warm_started.hpp"
-#include "physics/profile.hpp"
+#include "physics/profile/profile.hpp"
 
 namespace lutka::physics {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "physics/bullet/ragdoll.hpp"
-#include "physics/world.hpp"
+#include "physics/world/world.hpp"
 
 namespace lutka::physics {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "physics/crowd/topology.hpp"
-#include "physics/rig.hpp"
+#include "physics/rig/rig.hpp"
 
 namespace lutka::physics::crowd {
 

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <tuple>
 
-#include "physics/joint_error.hpp"
+#include "physics/world/joint_error.hpp"
 
 namespace lutka::physics::crowd {
 namespace {

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "physics/crowd/tuning.hpp"
-#include "physics/world.hpp"
+#include "physics/world/world.hpp"
 
 namespace lutka::physics {
 

@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "physics/shape_distance.hpp"
+#include "physics/collision/shape_distance.hpp"
 
 namespace lutka::physics::crowd {
 namespace {

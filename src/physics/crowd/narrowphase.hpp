@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "physics/contacts.hpp"
-#include "physics/profile.hpp"
-#include "physics/world.hpp"
+#include "physics/collision/contacts.hpp"
+#include "physics/profile/profile.hpp"
+#include "physics/world/world.hpp"
 
 namespace lutka::physics::crowd {
 

@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "physics/shape.hpp"
+#include "physics/collision/shape.hpp"
 
 namespace lutka::physics::crowd {
 namespace {

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "physics/crowd/layout.hpp"
-#include "physics/profile.hpp"
-#include "physics/world.hpp"
+#include "physics/profile/profile.hpp"
+#include "physics/world/world.hpp"
 
 namespace lutka::physics::crowd {
 

@@ -1,9 +1,11 @@
 #include "physics/bullet/bullet_world.hpp"
+#include "physics/rig/rig.hpp"
 
 #include <glm/geometric.hpp>
 
 #include "core/random.hpp"
-#include "physics/quality.hpp"
+#include "physics/profile/constraint_state.hpp"
+#include "physics/world/quality.hpp"
 #include "support/catch.hpp"
 #include "support/dolls.hpp"
 #include "support/rigs.hpp"

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/random.hpp"
-#include "physics/shape.hpp"
+#include "physics/collision/shape.hpp"
 #include "support/rigs.hpp"
 
 namespace lutka::test {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "physics/crowd/crowd_world.hpp"
-#include "physics/quality.hpp"
-#include "physics/world.hpp"
+#include "physics/world/quality.hpp"
+#include "physics/world/world.hpp"
 
 namespace lutka::test {
 

@@ -2,6 +2,7 @@
 #include <glm/geometric.hpp>
 
 #include "crowd_scene.hpp"
+#include "physics/profile/constraint_state.hpp"
 #include "support/catch.hpp"
 #include "support/dolls.hpp"
 

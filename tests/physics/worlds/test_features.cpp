@@ -1,6 +1,7 @@
 #include <chrono>
 #include <glm/geometric.hpp>
 
+#include "physics/profile/constraint_state.hpp"
 #include "support/catch.hpp"
 #include "support/dolls.hpp"
 #include "world_table.hpp"

@@ -1,4 +1,4 @@
-#include "physics/hand_over.hpp"
+#include "physics/world/hand_over.hpp"
 
 #include <algorithm>
 #include <glm/geometric.hpp>

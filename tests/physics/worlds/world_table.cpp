@@ -3,8 +3,9 @@
 #include <glm/geometric.hpp>
 
 #include "physics/bullet/bullet_world.hpp"
+#include "physics/collision/shape.hpp"
 #include "physics/crowd/crowd_world.hpp"
-#include "physics/shape.hpp"
+#include "physics/rig/rig.hpp"
 #include "support/catch.hpp"
 #include "support/dolls.hpp"
 #include "support/rigs.hpp"

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "physics/quality.hpp"
-#include "physics/world.hpp"
+#include "physics/world/quality.hpp"
+#include "physics/world/world.hpp"
 
 /// What the tests of all three worlds share.
 namespace lutka::test {

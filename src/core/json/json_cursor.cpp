@@ -1,0 +1,155 @@
+#include "core/json/json_cursor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace lutka {
+namespace {
+
+// A key as a step of a JSON pointer (RFC 6901).
+std::string escaped(const std::string& key) {
+    std::string out;
+    for (const char c : key)
+        out += c == '~' ? std::string("~0") : c == '/' ? std::string("~1") : std::string(1, c);
+    return out;
+}
+
+}  // namespace
+
+JsonCursor JsonCursor::operator[](const char* key) const {
+    const bool there = has(key);
+    return {there ? &(*value_)[key] : nullptr, pointer_ + '/' + escaped(key), problems_};
+}
+
+JsonCursor JsonCursor::operator[](std::size_t index) const {
+    const bool there = value_ != nullptr && value_->is_array() && index < value_->size();
+    return {there ? &(*value_)[index] : nullptr, fmt::format("{}/{}", pointer_, index), problems_};
+}
+
+bool JsonCursor::has(const char* key) const {
+    return value_ != nullptr && value_->is_object() && value_->contains(key);
+}
+
+void JsonCursor::report(const std::string& expectation) const {
+    problems_->push_back((pointer_.empty() ? "/" : pointer_) + ": " + expectation);
+    failed_ = true;
+}
+
+void JsonCursor::wrongType(const char* expectation) const {
+    failed_ = true;
+    if (value_ != nullptr) report(fmt::format("expected {}, got {}", expectation, value_->type_name()));
+}
+
+void JsonCursor::expectObject(std::initializer_list<const char*> required,
+                              std::initializer_list<const char*> optional) const {
+    if (value_ == nullptr || !value_->is_object()) {
+        wrongType("an object");
+        return;
+    }
+    for (const char* key : required) {
+        if (!value_->contains(key)) report(fmt::format("expected a member \"{}\", there is none", key));
+    }
+    for (const auto& [key, value] : value_->items()) {
+        const auto isKey = [&name = key](const char* known) { return name == known; };
+        if (std::none_of(required.begin(), required.end(), isKey) &&
+            std::none_of(optional.begin(), optional.end(), isKey)) {
+            std::vector<const char*> known(required);
+            known.insert(known.end(), optional.begin(), optional.end());
+            problems_->push_back(pointer_ + '/' + escaped(key) + ": unknown key, expected one of " +
+                                 fmt::format("{}", fmt::join(known, ", ")));
+        }
+    }
+}
+
+bool JsonCursor::expectArray(int fewest, int most) const {
+    if (value_ == nullptr || !value_->is_array()) {
+        wrongType("an array");
+        return false;
+    }
+    const auto size = static_cast<long long>(value_->size());
+    if (size >= fewest && size <= most) return true;
+    report(fewest == most ? fmt::format("expected {} items, got {}", fewest, size)
+                          : fmt::format("expected {} to {} items, got {}", fewest, most, size));
+    return false;
+}
+
+float JsonCursor::number(float low, float high) const {
+    const float harmless = std::clamp(0.0F, low, high);
+    if (value_ == nullptr || !value_->is_number()) {
+        wrongType("a number");
+        return harmless;
+    }
+    const auto value = static_cast<float>(value_->get<double>());
+    if (std::isfinite(value) && value >= low && value <= high) return value;
+    report(fmt::format("expected a finite number in [{}, {}], got {}", low, high, value_->dump()));
+    return harmless;
+}
+
+std::vector<float> JsonCursor::numbers(std::size_t count, float low, float high) const {
+    std::vector<float> values(count, std::clamp(0.0F, low, high));
+    if (!expectArray(static_cast<int>(count), static_cast<int>(count))) return values;
+    for (std::size_t i = 0; i < count; ++i) {
+        const JsonCursor item = (*this)[i];
+        values[i] = item.number(low, high);
+        failed_ = failed_ || !item.readable();
+    }
+    return values;
+}
+
+std::optional<long long> JsonCursor::wholeNumber() const {
+    if (value_ != nullptr && value_->is_number_integer()) return value_->get<long long>();
+    if (value_ == nullptr) report("expected a whole number, there is none");
+    wrongType("a whole number");
+    return std::nullopt;
+}
+
+std::string JsonCursor::text() const {
+    if (value_ != nullptr && value_->is_string()) return value_->get<std::string>();
+    wrongType("a text");
+    return {};
+}
+
+std::optional<bool> JsonCursor::truth() const {
+    if (value_ != nullptr && value_->is_boolean()) return value_->get<bool>();
+    wrongType("true or false");
+    return std::nullopt;
+}
+
+int JsonCursor::oneOf(std::span<const char* const> choices) const {
+    if (value_ == nullptr || !value_->is_string()) {
+        wrongType("a text");
+        return -1;
+    }
+    const auto value = value_->get<std::string>();
+    int index = 0;
+    for (const char* choice : choices) {
+        if (value == choice) return index;
+        ++index;
+    }
+    report(fmt::format("expected one of \"{}\", got \"{}\"", fmt::join(choices, "\", \""), value));
+    return -1;
+}
+
+std::vector<std::string> checkFormat(const nlohmann::json& document, const char* format, int version) {
+    std::vector<std::string> problems;
+    const JsonCursor at(document, problems);
+    if (!document.is_object()) {
+        at.report("expected an object");
+        return problems;
+    }
+    if (!at.has("format")) at.report(fmt::format("expected a member \"format\": \"{}\"", format));
+    at["format"].oneOf({format});
+    const JsonCursor found = at["version"];
+    const auto number = found.wholeNumber();
+    if (number && *number != version) {
+        found.report(fmt::format(
+            "expected version {}, got {}: {}", version, *number,
+            *number > version ? "the file is from a newer program" : "there has never been such a version"));
+    }
+    return problems;
+}
+
+}  // namespace lutka

@@ -1,0 +1,203 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "core/result.hpp"
+#include "editor/document/document_state.hpp"
+#include "editor/document/undo_stack.hpp"
+#include "physics/doctor/doctor.hpp"
+#include "physics/profile/joint_range.hpp"
+#include "scene/ragdoll_asset.hpp"
+
+namespace lutka::editor {
+
+/// A character with the ragdoll that is being edited, and the scene it falls in. All editing goes through here: every
+/// call below makes one entry of undo (or joins its group), is checked before it takes effect, and leaves everything as
+/// it was when it fails. Knows no window, no UI and no running simulation.
+class EditorDocument {
+  public:
+    /// Loads the model (and the profile of `options`, when it names one).
+    [[nodiscard]] static Result<std::unique_ptr<EditorDocument>> open(const std::filesystem::path& model,
+                                                                      const scene::LoadOptions& options = {});
+    /// For an asset that is there already.
+    explicit EditorDocument(std::unique_ptr<scene::RagdollAsset> asset);
+
+    [[nodiscard]] const animation::Character& character() const { return asset_->character; }
+    [[nodiscard]] const DocumentState& state() const { return state_; }
+    [[nodiscard]] const physics::RagdollProfile& profile() const { return state_.profile; }
+
+    /// Grows with every change of the ragdoll or the scene, undo and redo included: who runs a simulation compares.
+    [[nodiscard]] std::uint64_t revision() const { return revision_; }
+    /// The asset as of the last commitAsset(), for simulations to borrow.
+    [[nodiscard]] const scene::RagdollAsset& asset() const { return *asset_; }
+    /// Makes asset() follow state(). No simulation may live on asset() while this is called.
+    void commitAsset();
+
+    // Mapping. Each maps the other roles anew around what the user fixed, and fits the ragdoll anew with the user's
+    // other edits kept. Fails with ErrorCode::input when the result would not be a humanoid.
+    [[nodiscard]] Result<void> assignRole(animation::Role role, int joint);
+    [[nodiscard]] Result<void> unmapRole(animation::Role role);
+    /// Gives the roles of the other side the joints that mirror those of `from` (by position across the figure).
+    [[nodiscard]] Result<void> mirrorRoles(animation::Side from);
+    /// Maps anew; keeps what the user fixed unless `forgetFixed`.
+    [[nodiscard]] Result<void> mapAgain(bool forgetFixed);
+
+    /// A body with the constraint it hangs by, as changeParts() offers them.
+    struct Part {
+        physics::BodyProfile& body;
+        physics::ConstraintProfile* constraint;  ///< Nothing for the root.
+        physics::BindFrames bind;                ///< Of the constraint's two bodies; for physics::setJointRange() & co.
+    };
+    /// The same change to several bodies, as one entry of undo: shapes and their places, masses, kinds, limits, axes,
+    /// friction. A value that comes out as the fit has it is no edit. `what` names the change; `group` as in UndoStack.
+    /// Fails with what `change` fails with, and with ErrorCode::usage as below.
+    [[nodiscard]] Result<void> changeParts(std::span<const int> bodies, const std::string& what,
+                                           const std::string& group, const std::function<Result<void>(Part&)>& change);
+
+    /// What copying takes of a part; limits as they are told from the bind pose, so that they mean the same elsewhere.
+    struct PartValues {
+        animation::Side side = animation::Side::center;
+        physics::BodyShape shape;
+        float massKg = 1.0F;
+        struct Joint {
+            physics::ConstraintProfile::Kind kind = physics::ConstraintProfile::Kind::coneTwist;
+            physics::JointRange range;
+            float frictionNm = 0.0F;
+        };
+        std::optional<Joint> joint;  ///< Unless it was the root.
+    };
+    [[nodiscard]] PartValues copyPart(int body) const;
+    /// Gives the values to all these bodies; side and twist are turned round for the other side of the body.
+    [[nodiscard]] Result<void> pasteParts(std::span<const int> bodies, const PartValues& values);
+    /// Gives the bodies on the other side the shapes, places, masses, kinds, limits and axes of these. Fails with
+    /// ErrorCode::usage when one of them has no other side.
+    [[nodiscard]] Result<void> mirrorParts(std::span<const int> bodies);
+    /// Forgets the user's edits of these bodies and their constraints.
+    [[nodiscard]] Result<void> resetParts(std::span<const int> bodies);
+    /// Whether two bodies collide (in the ragdoll that has them both). Linked bodies never do: ErrorCode::usage.
+    [[nodiscard]] Result<void> setCollision(int bodyA, int bodyB, bool collide);
+    [[nodiscard]] bool collides(int bodyA, int bodyB) const;
+    [[nodiscard]] bool linked(int bodyA, int bodyB) const;
+    /// The bodies of a constraint in the bind pose of the present profile, in model space.
+    [[nodiscard]] physics::BindFrames bindOf(int constraint) const;
+
+    // Single bodies and constraints; indices into profile(). `group`: see UndoStack. Fail with ErrorCode::usage, naming
+    // all that validate() finds, when the value is out of range.
+    [[nodiscard]] Result<void> setShape(int body, const physics::BodyShape& shape, const std::string& group = "");
+    [[nodiscard]] Result<void> setMass(int body, float massKg, const std::string& group = "");
+    [[nodiscard]] Result<void> setHinge(int constraint, const physics::HingeLimits& limits,
+                                        const std::string& group = "");
+    [[nodiscard]] Result<void> setCone(int constraint, const physics::ConeTwistLimits& limits,
+                                       const std::string& group = "");
+    [[nodiscard]] Result<void> setFriction(int constraint, float frictionNm, const std::string& group = "");
+    [[nodiscard]] Result<void> resetPart(int body) { return resetParts(std::span(&body, 1)); }
+    [[nodiscard]] Result<void> mirrorPart(int body) { return mirrorParts(std::span(&body, 1)); }
+    [[nodiscard]] Result<void> setFit(const physics::FitOptions& fit);
+    /// Takes a profile from a file in place of the present one. Fails with ErrorCode::input when it can't be read or
+    /// doesn't fit the skeleton.
+    [[nodiscard]] Result<void> useProfile(const std::filesystem::path& file);
+
+    /// What the ragdoll doctor says of the present profile; kept until that changes.
+    [[nodiscard]] const physics::Diagnosis& diagnosis() const;
+    /// Mends these findings (those that are mendable). Fails as physics::applyMends() does.
+    [[nodiscard]] Result<void> mend(std::span<const physics::Finding> findings);
+
+    /// The scene to begin with; not an edit.
+    /// Named scenes are made when `scene.entities` is empty. Fails as setScene() does; the scene is then as it was.
+    [[nodiscard]] Result<void> startScene(SceneSettings scene);
+    [[nodiscard]] const scene::EntityScene& scene() const { return state_.scene.entities; }
+    /// Entities, gravity, start pose …; another scenario, count or seed makes the named scene's entities anew. Fails
+    /// with ErrorCode::usage for what no scene can have, and with ErrorCode::input when a character's files can't be
+    /// read.
+    [[nodiscard]] Result<void> setScene(const SceneSettings& scene, const std::string& label,
+                                        const std::string& group = "");
+
+    /// The characters of the scene: asset() first, then those with other models or profiles.
+    [[nodiscard]] std::vector<const scene::RagdollAsset*> assets() const;
+    /// Which of assets() each of scene().all<Ragdoll>() is.
+    [[nodiscard]] std::vector<int> assetOfRagdoll() const;
+    [[nodiscard]] const scene::RagdollAsset& assetOf(const scene::Ragdoll& ragdoll) const;
+    /// Whether it is the character that this document edits.
+    [[nodiscard]] bool isEdited(const scene::Ragdoll& ragdoll) const;
+    /// A scene from a file, in place of the present one and as one entry of undo, when its first character is the one
+    /// that is edited or none has a model.
+    [[nodiscard]] Result<void> useScene(const std::filesystem::path& file, const scene::EntityScene& scene);
+    /// Whether the scene differs from what it began with, was opened, or was saved last.
+    [[nodiscard]] bool sceneUnsaved() const { return sceneUnsaved_; }
+    /// Where saveScene() writes: the file that was opened or saved last; beside the model else.
+    [[nodiscard]] std::filesystem::path sceneFile() const;
+    [[nodiscard]] bool hasSceneFile() const { return !sceneFile_.empty(); }
+    /// Characters that name no model are written with that of asset(), and its profile when that has a file.
+    [[nodiscard]] Result<void> saveScene(const std::filesystem::path& file);
+    /// The scene counts as saved there (it was just read from it).
+    void setSceneFile(const std::filesystem::path& file);
+
+    /// Ends a group of changes (the mouse was released).
+    void endGroup() { undo_.endGroup(); }
+    /// Takes the open group of changes back without a trace in undo or redo; nothing when none is open.
+    void cancelGroup();
+    [[nodiscard]] bool canUndo() const { return undo_.canUndo(); }
+    [[nodiscard]] bool canRedo() const { return undo_.canRedo(); }
+    [[nodiscard]] std::string undoLabel() const { return undo_.undoLabel(); }
+    [[nodiscard]] std::string redoLabel() const { return undo_.redoLabel(); }
+    [[nodiscard]] std::vector<std::string> undoLabels() const { return undo_.undoLabels(); }
+    [[nodiscard]] std::vector<std::string> redoLabels() const { return undo_.redoLabels(); }
+    void undo();
+    void redo();
+
+    /// Whether the profile differs from what was loaded, fitted at opening, or saved last.
+    [[nodiscard]] bool unsaved() const { return unsaved_; }
+    /// Where save() writes: the profile that was loaded or saved last; beside the model else. Undoing the opening of a
+    /// profile takes its file back with it.
+    [[nodiscard]] std::filesystem::path profileFile() const;
+    /// Whether saving there would replace a file that this document neither opened nor wrote.
+    [[nodiscard]] bool wouldReplace(const std::filesystem::path& file) const;
+    [[nodiscard]] Result<void> save(const std::filesystem::path& file);
+
+  private:
+    using Change = std::function<Result<void>(DocumentState&)>;
+    Result<void> apply(const std::string& label, const std::string& group, const Change& change);
+    Result<void> editPart(int body, const std::string& what, const std::string& group,
+                          const std::function<void(PartEdits&)>& change);
+    [[nodiscard]] std::string partNames(std::span<const int> bodies) const;
+    [[nodiscard]] std::vector<RigidTransform> bindModelFromBody(const physics::RagdollProfile& profile) const;
+    void mirrorPlace(physics::RagdollProfile& profile, std::span<const RigidTransform> bind, int from, int to) const;
+    void rememberBase(DocumentState& state) const;
+    [[nodiscard]] Result<void> remap(DocumentState& state) const;
+    void adopt(DocumentState state);
+    void followScene();
+    [[nodiscard]] Result<void> checkScene(SceneSettings& scene);
+    [[nodiscard]] Result<void> loadOthers(const scene::EntityScene& scene);
+    void remember(const std::filesystem::path& file);
+
+    std::unique_ptr<scene::RagdollAsset> asset_;
+    // Of the scene's other characters, by model and profile. Kept for undo.
+    using OtherKey = std::pair<std::filesystem::path, std::filesystem::path>;
+    std::map<OtherKey, std::unique_ptr<scene::RagdollAsset>> others_;
+    scene::LoadOptions load_;
+    std::filesystem::path openedWith_;  ///< The profile that open() was given: with another one, or none, the same
+                                        ///< model is another character of the scene.
+    std::filesystem::path sceneFile_;
+    scene::EntityScene savedScene_;
+    bool sceneUnsaved_ = false;
+    DocumentState state_;
+    UndoStack<DocumentState> undo_;
+    std::uint64_t revision_ = 1;
+    mutable physics::Diagnosis diagnosis_;
+    mutable std::uint64_t diagnosedRevision_ = 0;
+    /// What was loaded or saved last, for each profile that the document was based on (empty: the fit).
+    struct Saved {
+        std::filesystem::path file;  ///< Empty: beside the model.
+        std::string profile;         ///< As JSON.
+    };
+    std::map<std::filesystem::path, Saved> saved_;
+    std::vector<std::filesystem::path> ownFiles_;  ///< Opened or saved.
+    bool unsaved_ = false;
+};
+
+}  // namespace lutka::editor

@@ -1,0 +1,351 @@
+#include "editor/play/player.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "scene/scenario.hpp"
+
+namespace lutka::editor {
+namespace {
+
+constexpr float kBallRadius = 0.09F;  // metres; with the mass, a medicine ball
+constexpr float kBallMassKg = 5.0F;
+constexpr float kPosingDamping = 0.75F;  // of the velocity that a step leaves while posing
+constexpr std::size_t kMaxThrown = 24;   // each makes every step slower
+
+// Whether every body is the same part of the same joint, so that its state can go on bit for bit.
+bool sameFrames(std::span<const physics::BodyProfile> a, std::span<const physics::BodyProfile> b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const physics::BodyProfile& x, const physics::BodyProfile& y) {
+                          return x.role == y.role && x.jointPath == y.jointPath &&
+                                 x.jointFromBody.rotation == y.jointFromBody.rotation &&
+                                 x.jointFromBody.translation == y.jointFromBody.translation;
+                      });
+}
+
+}  // namespace
+
+/// What moves, with the joints and the roles it belongs to, so that it survives a change of the ragdoll.
+struct Player::Motion {
+    struct Doll {
+        scene::EntityId entity = scene::kNoEntity;
+        int asset = 0;
+        std::vector<physics::BodyState> bodies;
+        std::vector<RigidTransform> modelFromJoint;
+        RigidTransform worldFromModel;
+    };
+    std::vector<std::vector<physics::BodyProfile>> bodies;  // of each asset, as they were
+    std::vector<Doll> dolls;
+    std::vector<physics::BodyState> props;
+    std::vector<scene::EntityId> propEntities;  // of the scene's own, which come first
+};
+
+Player::Player(EditorDocument& document, scene::FrameLoop::Clock clock)
+    : document_(document), loop_({}, std::move(clock)) {}
+
+Player::~Player() = default;
+
+Player::Motion Player::capture() const {
+    Motion motion;
+    scene::Simulation& simulation = *simulation_;
+    for (const scene::RagdollAsset* asset : simulation.assets())
+        motion.bodies.push_back(asset->profile.bodies);
+    for (int doll = 0; doll < simulation.dollCount(); ++doll) {
+        const scene::RagdollAsset& asset = simulation.assetOf(doll);
+        Motion::Doll& one = motion.dolls.emplace_back();
+        one.entity = entityOfDoll(doll);
+        one.asset = simulation.scenario().dolls[doll].asset;
+        one.bodies.resize(asset.profile.bodies.size());
+        one.modelFromJoint.resize(asset.character.skeleton.parents.size());
+        one.worldFromModel = simulation.worldFromModel(doll);
+        simulation.world().getBodies(doll, one.bodies);
+        simulation.pose(doll, 1.0F, one.modelFromJoint);
+    }
+    for (int prop = 0; prop < simulation.world().propCount(); ++prop)
+        motion.props.push_back(simulation.world().propState(prop));
+    motion.propEntities = simulation.scenario().propEntities;
+    return motion;
+}
+
+// Whether an entity starts where and as it did at the last rebuild: then its motion goes on.
+bool Player::startsAsBefore(scene::EntityId id) const {
+    const scene::EntityScene& now = document_.scene();
+    if (scene::findEntity(built_, id) == nullptr) return false;
+    const RigidTransform was = scene::worldFromEntity(built_, id);
+    const RigidTransform is = scene::worldFromEntity(now, id);
+    if (was.translation != is.translation || was.rotation != is.rotation) return false;
+    const auto* oldDoll = built_.find<scene::Ragdoll>(id);
+    const auto* newDoll = now.find<scene::Ragdoll>(id);
+    if ((oldDoll == nullptr) != (newDoll == nullptr)) return false;
+    const auto* oldBody = built_.find<scene::RigidBody>(id);
+    const auto* newBody = now.find<scene::RigidBody>(id);
+    if (oldBody != nullptr && newBody != nullptr &&
+        (oldBody->linearVelocity != newBody->linearVelocity || oldBody->angularVelocity != newBody->angularVelocity)) {
+        return false;
+    }
+    return oldDoll == nullptr || *oldDoll == *newDoll;
+}
+
+void Player::restore(const Motion& motion) {
+    scene::Simulation& simulation = *simulation_;
+    std::map<scene::EntityId, const Motion::Doll*> before;
+    for (const Motion::Doll& doll : motion.dolls)
+        before[doll.entity] = &doll;
+    std::vector<physics::BodyState> bodies;
+    for (int doll = 0; doll < simulation.dollCount(); ++doll) {
+        const auto was = before.find(entityOfDoll(doll));
+        if (was == before.end() || !startsAsBefore(was->first)) continue;
+        const scene::RagdollAsset& asset = simulation.assetOf(doll);
+        const std::vector<physics::BodyProfile>& oldBodies = motion.bodies[was->second->asset];
+        if (asset.character.skeleton.parents.size() != was->second->modelFromJoint.size()) continue;
+        const bool same = sameFrames(oldBodies, asset.profile.bodies);
+        bodies.resize(asset.profile.bodies.size());
+        if (!same) {
+            placeByJoints(doll, oldBodies, was->second->bodies, was->second->modelFromJoint,
+                          was->second->worldFromModel, bodies);
+        }
+        simulation.world().setBodies(doll, same ? was->second->bodies : bodies);
+    }
+    simulation.refresh();
+}
+
+// Other bodies than before: the skin stays where it is, and each body goes on with its role's velocity.
+void Player::placeByJoints(int doll, std::span<const physics::BodyProfile> oldBodies,
+                           std::span<const physics::BodyState> oldStates,
+                           std::span<const RigidTransform> modelFromJoint, const RigidTransform& worldFromModel,
+                           std::span<physics::BodyState> bodies) const {
+    const scene::RagdollAsset& asset = simulation_->assetOf(doll);
+    physics::bodiesFromPose(asset.rig, modelFromJoint, worldFromModel, bodies);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const auto old = std::find_if(oldBodies.begin(), oldBodies.end(), [&](const physics::BodyProfile& body) {
+            return body.role == asset.profile.bodies[i].role;
+        });
+        if (old == oldBodies.end()) continue;
+        const physics::BodyState& state = oldStates[old - oldBodies.begin()];
+        bodies[i].linearVelocity = state.linearVelocity;
+        bodies[i].angularVelocity = state.angularVelocity;
+    }
+}
+
+Result<scene::Scenario> Player::makeScenario() {
+    std::vector<scene::Figure> figures;
+    for (const scene::RagdollAsset* asset : document_.assets())
+        figures.push_back(scene::figureOf(*asset));
+    auto scenario = scene::compileScene(document_.scene(), figures, document_.assetOfRagdoll());
+    if (!scenario) return scenario;
+    const std::optional<scene::ClipStart>& clip = document_.state().scene.clip;
+    for (scene::Placement& doll : scenario.value().dolls) {
+        if (!doll.pose && !doll.clip && doll.asset == 0) doll.clip = clip;
+    }
+    auto& props = scenario.value().props;
+    props.insert(props.end(), thrown_.begin(), thrown_.end());
+    return scenario;
+}
+
+// Props go on where they are. What the user moved since, or what is new, starts where the document has it.
+void Player::keepProps(const Motion& motion, scene::Scenario& scenario) const {
+    for (std::size_t i = 0; i < scenario.propEntities.size(); ++i) {
+        const scene::EntityId id = scenario.propEntities[i];
+        const auto was = std::find(motion.propEntities.begin(), motion.propEntities.end(), id);
+        if (was == motion.propEntities.end() || !startsAsBefore(id)) continue;
+        scenario.props[i].state = motion.props[static_cast<std::size_t>(was - motion.propEntities.begin())];
+    }
+    const std::size_t firstOld = motion.propEntities.size();
+    const std::size_t firstNew = scenario.propEntities.size();
+    for (std::size_t i = 0; firstOld + i < motion.props.size() && firstNew + i < scenario.props.size(); ++i)
+        scenario.props[firstNew + i].state = motion.props[firstOld + i];
+}
+
+Result<void> Player::rebuild(Keep keep) {
+    replaying_ = false;
+    recordingOn_ = recordingOn_ && keep == Keep::motion;
+    if (keep == Keep::nothing) {
+        atPlay_.reset();
+        thrown_.clear();
+        posing_ = false;
+        secondsBefore_ = 0.0;
+    } else if (simulation_ != nullptr) {
+        secondsBefore_ = seconds();
+    }
+    std::optional<Motion> motion;
+    if (keep == Keep::motion && simulation_ != nullptr) motion = capture();
+    simulation_.reset();  // it borrows the asset that changes now
+    document_.commitAsset();
+    revision_ = document_.revision();
+    auto scenario = makeScenario();
+    if (!scenario) return scenario.error();
+    if (motion) keepProps(*motion, scenario.value());
+    scene::SimulationOptions options = scene::simulationOptionsOf(document_.scene());
+    if (posing_) {
+        options.world.gravity = vec3(0);
+        options.world.sleeping = false;
+    }
+    options.pose = document_.state().scene.pose;
+    auto simulation = scene::Simulation::create(document_.assets(), std::move(scenario).value(), options);
+    if (!simulation) return simulation.error();
+    simulation_ = std::move(simulation).value();
+    governor_.emplace(simulation_->world().substepsPerStep());
+    if (motion) restore(*motion);
+    built_ = document_.scene();
+    loop_.setStepSeconds(options.dt);
+    loop_.restart();
+    return {};
+}
+
+void Player::dampDolls(float share) {
+    for (int doll = 0; doll < simulation_->dollCount(); ++doll) {
+        auto bodies = bodiesOf(doll);
+        for (physics::BodyState& body : bodies) {
+            body.linearVelocity *= share;
+            body.angularVelocity *= share;
+        }
+        simulation_->world().setBodies(doll, bodies);
+    }
+}
+
+Result<void> Player::setPosing(bool posing) {
+    if (posing == posing_) return {};
+    if (posing_) dampDolls(0.0F);
+    secondsBefore_ = seconds();
+    posing_ = posing;
+    const double standing = secondsBefore_;
+    auto rebuilt = rebuild(Keep::motion);
+    secondsBefore_ = standing;
+    return rebuilt;
+}
+
+void Player::setPlaying(bool playing) {
+    if (playing && !playing_ && !replaying_ && simulation_ != nullptr) atPlay_ = std::make_unique<Motion>(capture());
+    if (playing && replaying_ && replaySeconds_ >= recordedSeconds()) scrubTo(0.0);
+    playing_ = playing;
+}
+
+void Player::returnToPlay() {
+    if (atPlay_ == nullptr) return;
+    endReplay();
+    playing_ = false;
+    // As a rebuild would, but for the time: what was thrown since stays thrown.
+    const std::unique_ptr<Motion> motion = std::move(atPlay_);
+    simulation_.reset();
+    auto scenario = makeScenario();
+    if (!scenario) return;
+    keepProps(*motion, scenario.value());
+    scene::SimulationOptions options = scene::simulationOptionsOf(document_.scene());
+    options.pose = document_.state().scene.pose;
+    auto simulation = scene::Simulation::create(document_.assets(), std::move(scenario).value(), options);
+    if (!simulation) return;
+    simulation_ = std::move(simulation).value();
+    restore(*motion);
+    loop_.restart();
+}
+
+void Player::advance(double seconds) {
+    if (replaying_) return advanceReplay(seconds);
+    if (!playing_ && !posing_) return;
+    loop_.setSpeed(posing_ ? 1.0 : speed_);
+    loop_.advance(seconds, [&] {
+        simulation_->step();
+        if (posing_) dampDolls(kPosingDamping);
+        keepStep();
+    });
+    if (sparing_) simulation_->world().setSubsteps(governor_->update(loop_.load()));
+}
+
+void Player::stepOnce() {
+    playing_ = false;
+    if (replaying_) return scrubTo(replaySeconds_ + static_cast<double>(recording_.dt));
+    loop_.restart();
+    simulation_->step();
+    keepStep();
+}
+
+Result<void> Player::reset() {
+    return rebuild(Keep::nothing);
+}
+
+int Player::dollOf(scene::EntityId id) const {
+    const auto& dolls = simulation_->scenario().dollEntities;
+    const auto at = std::find(dolls.begin(), dolls.end(), id);
+    return at != dolls.end() ? static_cast<int>(at - dolls.begin()) : -1;
+}
+
+RigidTransform Player::worldFromEntity(scene::EntityId id) const {
+    RigidTransform start = scene::worldFromEntity(document_.scene(), id);
+    if (stale()) return start;
+    const auto& props = simulation_->scenario().propEntities;
+    if (const auto prop = std::find(props.begin(), props.end(), id); prop != props.end()) {
+        return simulation_->worldFromProp(static_cast<int>(prop - props.begin()), alpha());
+    }
+    if (const int doll = dollOf(id); doll >= 0) {
+        return {start.rotation, bodiesOf(doll).front().worldFromBody.translation};
+    }
+    return start;
+}
+
+std::vector<PickTarget> Player::pickTargets() const {
+    std::vector<PickTarget> targets;
+    const scene::EntityScene& scene = document_.scene();
+    const auto add = [&](scene::EntityId id, const RigidTransform& world, const vec3& half, bool marker) {
+        targets.push_back({static_cast<int>(id), world, half, marker});
+    };
+    for (const scene::Collider& collider : scene.all<scene::Collider>()) {
+        const auto* mesh = scene.find<scene::MeshRenderer>(collider.entity);
+        // What is see-through must not hide what is behind it.
+        if (mesh == nullptr || !mesh->visible || mesh->opacity < 0.5F) continue;
+        const RigidTransform world = worldFromEntity(collider.entity);
+        const std::vector<scene::ColliderBox> boxes = scene::boxesOf(collider);
+        for (const scene::ColliderBox& box : boxes)
+            add(collider.entity, world * box.entityFromBox, box.halfExtents, false);
+        const auto box = scene::boxOf(scene, collider.entity);
+        if (boxes.empty() && box) add(collider.entity, world, box->half, false);
+    }
+    const auto addMarker = [&](scene::EntityId id) {
+        if (scene.find<scene::Collider>(id) != nullptr) return;
+        if (const auto box = scene::boxOf(scene, id)) add(id, worldFromEntity(id), box->half, true);
+    };
+    for (const scene::Light& light : scene.all<scene::Light>())
+        addMarker(light.entity);
+    for (const scene::Camera& camera : scene.all<scene::Camera>())
+        addMarker(camera.entity);
+    return targets;
+}
+
+std::vector<physics::BodyState> Player::bodiesOf(int doll) const {
+    std::vector<physics::BodyState> bodies(simulation_->assetOf(doll).profile.bodies.size());
+    simulation_->world().getBodies(doll, bodies);
+    return bodies;
+}
+
+void Player::placeBodies(int doll, std::span<const physics::BodyState> bodies) {
+    simulation_->world().setBodies(doll, bodies);
+    simulation_->refresh();
+}
+
+void Player::preview(int doll, std::span<const RigidTransform> worldFromBody) {
+    std::vector<RigidTransform> frame;
+    for (int other = 0; other < simulation_->dollCount(); ++other) {
+        if (other == doll) {
+            frame.insert(frame.end(), worldFromBody.begin(), worldFromBody.end());
+            continue;
+        }
+        for (const physics::BodyState& body : bodiesOf(other))
+            frame.push_back(body.worldFromBody);
+    }
+    for (int prop = 0; prop < simulation_->world().propCount(); ++prop)
+        frame.push_back(simulation_->world().propState(prop).worldFromBody);
+    simulation_->preview(frame);
+}
+
+Result<void> Player::throwBall(const vec3& from, const vec3& velocity) {
+    physics::DynamicProp ball;
+    ball.shape.kind = physics::BodyShape::Kind::sphere;
+    ball.shape.radius = kBallRadius;
+    ball.massKg = kBallMassKg;
+    ball.state.worldFromBody.translation = from;
+    ball.state.linearVelocity = velocity;
+    if (thrown_.size() >= kMaxThrown) return Error{ErrorCode::usage, "enough balls are in play: reset first", "", ""};
+    thrown_.push_back(ball);
+    return rebuild(Keep::motion);
+}
+
+}  // namespace lutka::editor

@@ -1,0 +1,147 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/result.hpp"
+#include "editor/document/editor_document.hpp"
+#include "editor/view/picking.hpp"
+#include "scene/frame_loop.hpp"
+#include "scene/recording.hpp"
+#include "scene/simulation.hpp"
+#include "scene/substep_governor.hpp"
+
+namespace lutka::editor {
+
+/// Runs the document's scene in fixed steps, whatever the length of a frame, and follows the document's changes.
+class Player {
+  public:
+    /// What becomes of the motion when the simulation is made anew.
+    enum class Keep {
+        nothing,  ///< From the scene's start.
+        motion,   ///< Every doll goes on at its present pose, without a jump.
+    };
+
+    /// The document must outlive the player. `clock` as in scene::FrameLoop.
+    explicit Player(EditorDocument& document, scene::FrameLoop::Clock clock = {});
+    Player(const Player&) = delete;
+    Player& operator=(const Player&) = delete;
+
+    /// Makes the simulation anew from the document's state. When that fails the old one is gone: the document refuses
+    /// what cannot be simulated, so this is ErrorCode::internal.
+    [[nodiscard]] Result<void> rebuild(Keep keep);
+    /// Whether the document has changed since the last rebuild().
+    [[nodiscard]] bool stale() const { return simulation_ == nullptr || revision_ != document_.revision(); }
+
+    /// Steps as often as `seconds` of wall time ask for, when playing.
+    void advance(double seconds);
+    /// One step, and pauses.
+    void stepOnce();
+    /// Back to the scene's start: the same bits as the first time.
+    [[nodiscard]] Result<void> reset();
+
+    [[nodiscard]] bool playing() const { return playing_; }
+    /// From pause to play: the present state is what returnToPlay() goes back to.
+    void setPlaying(bool playing);
+    [[nodiscard]] bool canReturnToPlay() const { return atPlay_ != nullptr; }
+    /// Every doll and prop where it was when Play was pressed last, and pauses.
+    void returnToPlay();
+    /// Simulated time since the scene's start, edits in between included.
+    [[nodiscard]] double seconds() const { return posing_ ? secondsBefore_ : secondsBefore_ + simulation_->seconds(); }
+    /// Posing: the dolls move without gravity and heavily damped, so that pulls pose them through their constraints
+    /// while the scene's time stands still. They rest where they are when it ends.
+    [[nodiscard]] Result<void> setPosing(bool posing);
+    /// Simulated seconds a second, (0, 1].
+    [[nodiscard]] double speed() const { return speed_; }
+    void setSpeed(double speed) { speed_ = speed; }
+
+    /// Valid after the first rebuild() that succeeded.
+    [[nodiscard]] scene::Simulation& simulation() { return *simulation_; }
+    [[nodiscard]] const scene::Simulation& simulation() const { return *simulation_; }
+    /// Whether substeps are spared while the machine is late (scene::SubstepGovernor); needs the constructor's clock.
+    void setSparing(bool sparing) { sparing_ = sparing; }
+    [[nodiscard]] bool sparing() const { return sparing_; }
+    /// Where between the last two states the picture is, [0, 1].
+    [[nodiscard]] float alpha() const { return loop_.alpha(); }
+    /// How well the steps keep up with the clock.
+    [[nodiscard]] const scene::FrameLoop& loop() const { return loop_; }
+
+    /// Where an entity is now: what rolls or falls is where the simulation has it (a character: its first body's middle
+    /// with the start's rotation), everything else stands where the document has it.
+    [[nodiscard]] RigidTransform worldFromEntity(scene::EntityId id) const;
+    /// What can be picked by its box, each where it is now.
+    [[nodiscard]] std::vector<PickTarget> pickTargets() const;
+    /// The doll of a character; -1: none.
+    [[nodiscard]] int dollOf(scene::EntityId id) const;
+    /// The entity that a doll is.
+    [[nodiscard]] scene::EntityId entityOfDoll(int doll) const { return simulation_->scenario().dollEntities[doll]; }
+    /// Whether the document's own character, whose bodies the panels edit, is this doll's.
+    [[nodiscard]] bool isEditedDoll(int doll) const { return simulation_->scenario().dolls[doll].asset == 0; }
+
+    /// The bodies of a doll, and back: they stay where they are put until the next step.
+    [[nodiscard]] std::vector<physics::BodyState> bodiesOf(int doll) const;
+    void placeBodies(int doll, std::span<const physics::BodyState> bodies);
+    /// Shows a doll's bodies elsewhere than they are, until endPreview(); the world does not know.
+    void preview(int doll, std::span<const RigidTransform> worldFromBody);
+    void endPreview() { simulation_->refresh(); }
+    /// Throws a ball into the running scene; it is not part of the document.
+    [[nodiscard]] Result<void> throwBall(const vec3& from, const vec3& velocity);
+
+    // Recording: the bodies of every step, and their replay, during which the physics stands still. A change of the
+    // scene ends both; what was recorded stays until the next recording.
+    static constexpr int kMostRecordedSteps = 36000;  ///< Ten minutes; recording ends there.
+    void startRecording();
+    void stopRecording() { recordingOn_ = false; }
+    [[nodiscard]] bool recording() const { return recordingOn_; }
+    [[nodiscard]] int recordedSteps() const;
+    [[nodiscard]] double recordedSeconds() const;
+    /// Fails with ErrorCode::usage when there is none, or the scene has other bodies.
+    [[nodiscard]] Result<void> replay();
+    void endReplay();
+    [[nodiscard]] bool replaying() const { return replaying_; }
+    [[nodiscard]] double replaySeconds() const { return replaySeconds_; }
+    [[nodiscard]] double replayLength() const { return recordedSeconds(); }
+    void scrubTo(double seconds);
+    [[nodiscard]] Result<void> saveRecording(const std::filesystem::path& file) const;
+    /// Opens and replays it; fails as loadRecording() and replay() do.
+    [[nodiscard]] Result<void> openRecording(const std::filesystem::path& file);
+
+    ~Player();
+
+  private:
+    struct Motion;
+    void keepStep();
+    void advanceReplay(double seconds);
+    [[nodiscard]] Motion capture() const;
+    void dampDolls(float share);
+    void restore(const Motion& motion);
+    void keepProps(const Motion& motion, scene::Scenario& scenario) const;
+    [[nodiscard]] bool startsAsBefore(scene::EntityId id) const;
+    void placeByJoints(int doll, std::span<const physics::BodyProfile> oldBodies,
+                       std::span<const physics::BodyState> oldStates, std::span<const RigidTransform> modelFromJoint,
+                       const RigidTransform& worldFromModel, std::span<physics::BodyState> bodies) const;
+    [[nodiscard]] Result<scene::Scenario> makeScenario();
+
+    EditorDocument& document_;
+    std::unique_ptr<scene::Simulation> simulation_;
+    scene::EntityScene built_;                  ///< The document's scene as of the last rebuild.
+    std::vector<physics::DynamicProp> thrown_;  ///< After the scene's own props.
+    std::unique_ptr<Motion> atPlay_;
+    scene::Recording recording_;
+    bool recordingOn_ = false;
+    bool replaying_ = false;
+    double replaySeconds_ = 0.0;
+    std::vector<RigidTransform> shown_;
+    std::uint64_t revision_ = 0;
+    bool playing_ = true;
+    double speed_ = 1.0;
+    bool posing_ = false;
+    double secondsBefore_ = 0.0;  ///< Of the simulations before the present one.
+    scene::FrameLoop loop_;
+    bool sparing_ = false;
+    std::optional<scene::SubstepGovernor> governor_;  ///< Of the present simulation.
+};
+
+}  // namespace lutka::editor

@@ -1,0 +1,125 @@
+#include "editor/states/workspace.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lutka::editor {
+
+std::optional<Pick> Workspace::pickUnderMouse() const {
+    // Walls that are drawn see-through do not hide what fell between them.
+    const auto& looks = player->simulation().scenario().staticLooks;
+    constexpr int solid = 128;
+    const bool seeThrough =
+        std::any_of(looks.begin(), looks.end(), [](const scene::Look& look) { return look.color.a < solid; });
+    auto picked = pick(mouseRay(), player->simulation().world(), player->pickTargets(), seeThrough);
+    // The panels edit no bodies of the other characters: these are picked as a whole, and pulled by their bodies.
+    if (picked && picked->item.kind == Item::Kind::body && !player->isEditedDoll(picked->item.doll)) {
+        picked->item = {Item::Kind::object, 0, static_cast<int>(player->entityOfDoll(picked->item.doll))};
+    }
+    return picked;
+}
+
+std::optional<HandleScene> Workspace::handleScene() const {
+    const auto active = selection.active();
+    if (!active || active->kind != Item::Kind::body || player->stale()) return std::nullopt;
+    const auto bodies = player->simulation().worldFromBody(active->doll, player->alpha());
+    HandleScene scene{document->profile(), active->index, bodies[active->index], {}, {}};
+    if (const physics::ConstraintProfile* constraint = scene.constraint()) {
+        const auto& bind = document->asset().rig.bindModelFromBody;
+        scene.worldFromParent = bodies[constraint->parent];
+        scene.bind = {bind[constraint->parent], bind[constraint->child]};
+    }
+    return scene;
+}
+
+std::optional<Handle> Workspace::handleUnderMouse() const {
+    if (!showHandles) return std::nullopt;
+    const auto scene = handleScene();
+    if (!scene) return std::nullopt;
+    constexpr float reach = 11.0F;
+    return handleUnder(handlesOf(*scene, camera), camera, mouse, window, reach * uiScale);
+}
+
+std::vector<vec3> Workspace::worldOfJoints(int doll) const {
+    scene::Simulation& simulation = player->simulation();
+    std::vector<RigidTransform> pose(simulation.assetOf(doll).character.skeleton.parents.size());
+    simulation.pose(doll, player->alpha(), pose);
+    std::vector<vec3> places;
+    places.reserve(pose.size());
+    for (const RigidTransform& joint : pose)
+        places.push_back(simulation.worldFromModel(doll) * joint.translation);
+    return places;
+}
+
+std::vector<int> Workspace::selectedBodies() const {
+    std::vector<int> bodies;
+    for (const Item& item : selection.items()) {
+        if (item.kind != Item::Kind::body) continue;
+        std::erase(bodies, item.index);
+        bodies.push_back(item.index);
+    }
+    return bodies;
+}
+
+bool Workspace::edit(const std::function<Result<void>(EditorDocument&)>& change) {
+    const bool failed = report(change(*document));
+    follow();
+    return !failed;
+}
+
+vec3 Workspace::positionOf(const Item& item) const {
+    if (item.kind == Item::Kind::object) {
+        return player->worldFromEntity(static_cast<scene::EntityId>(item.index)).translation;
+    }
+    return player->bodiesOf(item.doll)[static_cast<std::size_t>(item.index)].worldFromBody.translation;
+}
+
+std::string Workspace::nameOf(const Item& item) const {
+    if (item.kind == Item::Kind::object) {
+        const scene::Entity* entity = scene::findEntity(document->scene(), static_cast<scene::EntityId>(item.index));
+        return entity != nullptr ? entity->name : "";
+    }
+    const physics::BodyProfile& body = document->profile().bodies[item.index];
+    const std::string doll = player->simulation().dollCount() > 1 ? fmt::format(" of doll {}", item.doll + 1) : "";
+    const std::string_view role = animation::roleName(body.role);
+    return fmt::format("{}{}{}", role, doll, body.joint == role ? "" : " (" + body.joint + ")");
+}
+
+void Workspace::follow() {
+    if (!player->stale()) return;
+    report(player->rebuild(Player::Keep::motion));
+    pulls.applyTo(player->simulation().world());
+    const auto& state = document->state();
+    selection.keepIf([&](const Item& item) {
+        if (item.kind == Item::Kind::object) {
+            return scene::findEntity(state.scene.entities, static_cast<scene::EntityId>(item.index)) != nullptr;
+        }
+        return item.doll < player->simulation().dollCount() && player->isEditedDoll(item.doll) &&
+               item.index < static_cast<int>(state.profile.bodies.size());
+    });
+}
+
+void Workspace::pose(bool on) {
+    report(player->setPosing(on));
+    pulls.applyTo(player->simulation().world());
+}
+
+bool Workspace::report(const Result<void>& result) {
+    if (result) return false;
+    say(Toast::Kind::error, result.error().text());
+    return true;
+}
+
+void Workspace::say(Toast::Kind kind, std::string text) {
+    constexpr std::size_t maxToasts = 4;
+    constexpr std::size_t maxLog = 500;
+    log.push_back({kind, text});
+    if (log.size() > maxLog) log.erase(log.begin());
+    const bool shown = std::any_of(toasts.begin(), toasts.end(), [&](Toast& toast) { return toast.text == text; });
+    if (shown) return;
+    if (toasts.size() >= maxToasts) toasts.erase(toasts.begin());
+    toasts.push_back({kind, std::move(text), kind == Toast::Kind::error ? 8.0F : 4.0F});
+}
+
+}  // namespace lutka::editor

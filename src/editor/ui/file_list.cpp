@@ -1,0 +1,83 @@
+#include "editor/ui/file_list.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdlib>
+#include <string_view>
+
+namespace lutka::editor {
+namespace {
+
+// Of what Assimp reads those that hold skeletons; anything else is shown by FileFilter::all.
+constexpr std::array<std::string_view, 18> kModelEnds = {".glb", ".gltf", ".vrm",     ".fbx", ".dae", ".bvh",
+                                                         ".x",   ".b3d",  ".md5mesh", ".md2", ".md3", ".mdl",
+                                                         ".smd", ".ms3d", ".iqm",     ".cob", ".lwo", ".blend"};
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+}  // namespace
+
+const char* filterName(FileFilter filter) {
+    switch (filter) {
+        case FileFilter::models:
+            return "Models, profiles, scenes";
+        case FileFilter::profiles:
+            return "Profiles (*.json)";
+        case FileFilter::baked:
+            return "Baked models (*.glb)";
+        case FileFilter::all:
+            break;
+    }
+    return "All files";
+}
+
+bool passes(FileFilter filter, const std::filesystem::path& file) {
+    const std::string end = lower(file.extension().string());
+    switch (filter) {
+        case FileFilter::models:
+            return end == ".json" || std::find(kModelEnds.begin(), kModelEnds.end(), end) != kModelEnds.end();
+        case FileFilter::profiles:
+            return end == ".json";
+        case FileFilter::baked:
+            return end == ".glb";
+        case FileFilter::all:
+            break;
+    }
+    return true;
+}
+
+std::vector<FileEntry> listFolder(const std::filesystem::path& folder, FileFilter filter) {
+    std::vector<FileEntry> entries;
+    std::error_code failed;
+    std::filesystem::directory_iterator at(folder.empty() ? "." : folder,
+                                           std::filesystem::directory_options::skip_permission_denied, failed);
+    for (; !failed && at != std::filesystem::directory_iterator(); at.increment(failed)) {
+        const std::string name = at->path().filename().string();
+        std::error_code ignored;
+        const bool isFolder = at->is_directory(ignored);
+        if (name.front() == '.' || (!isFolder && !passes(filter, at->path()))) continue;
+        if (entries.size() == kMaxFileEntries) break;
+        entries.push_back({name, isFolder});
+    }
+    std::sort(entries.begin(), entries.end(), [](const FileEntry& a, const FileEntry& b) {
+        if (a.folder != b.folder) return a.folder;
+        return std::pair(lower(a.name), a.name) < std::pair(lower(b.name), b.name);
+    });
+    return entries;
+}
+
+std::string readablePath(const std::filesystem::path& path) {
+    std::string text = path.lexically_normal().string();
+    const char* home = std::getenv("HOME");
+    const std::string_view prefix = home != nullptr ? home : "";
+    const bool below =
+        !prefix.empty() && text.starts_with(prefix) && (text.size() == prefix.size() || text[prefix.size()] == '/');
+    return below ? "~" + text.substr(prefix.size()) : text;
+}
+
+}  // namespace lutka::editor

@@ -1,0 +1,56 @@
+#include "editor/ui/user_settings.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "core/files.hpp"
+
+namespace lutka::editor {
+
+void UserSettings::remember(const std::filesystem::path& file) {
+    std::error_code failed;
+    const std::filesystem::path whole = std::filesystem::absolute(file, failed);
+    if (failed || file.empty()) return;
+    std::erase(recent, whole);
+    recent.insert(recent.begin(), whole);
+    if (recent.size() > kMaxRecent) recent.resize(kMaxRecent);
+}
+
+std::filesystem::path userSettingsFile() {
+    const char* config = std::getenv("XDG_CONFIG_HOME");
+    if (config != nullptr && *config != '\0') return std::filesystem::path(config) / "lutka" / "editor.json";
+    const char* home = std::getenv("HOME");
+    if (home != nullptr && *home != '\0') return std::filesystem::path(home) / ".config" / "lutka" / "editor.json";
+    return {};
+}
+
+UserSettings loadUserSettings(const std::filesystem::path& file) {
+    UserSettings settings;
+    if (file.empty() || !std::filesystem::exists(file)) return settings;
+    constexpr std::size_t maxBytes = 1U << 20U;
+    const auto bytes = readFile(file, maxBytes);
+    if (!bytes) return settings;
+    const auto json = nlohmann::json::parse(bytes.value(), nullptr, false);
+    if (!json.is_object() || !json.contains("recent") || !json["recent"].is_array()) return settings;
+    for (const auto& one : json["recent"]) {
+        if (one.is_string() && settings.recent.size() < UserSettings::kMaxRecent) {
+            settings.recent.emplace_back(one.get<std::string>());
+        }
+    }
+    return settings;
+}
+
+void saveUserSettings(const std::filesystem::path& file, const UserSettings& settings) {
+    if (file.empty()) return;
+    nlohmann::ordered_json json = {{"version", 1}, {"recent", nlohmann::ordered_json::array()}};
+    for (const std::filesystem::path& one : settings.recent)
+        json["recent"].push_back(one.string());
+    using Handler = nlohmann::ordered_json::error_handler_t;
+    const auto written = writeFileAtomically(file, json.dump(2, ' ', false, Handler::replace) + '\n');
+    if (!written) spdlog::warn("{}", written.error().text());
+}
+
+}  // namespace lutka::editor

@@ -1,0 +1,106 @@
+#include "editor/view/picking.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace lutka::editor {
+namespace {
+
+constexpr float kReach = 100.0F;  // metres
+
+vec3 boxNormal(const PickTarget& target, const vec3& world) {
+    const vec3 local = inverse(target.worldFromBox) * world / target.halfExtents;
+    const vec3 size = glm::abs(local);
+    int axis = 0;
+    if (size.y > size[axis]) axis = 1;
+    if (size.z > size[axis]) axis = 2;
+    vec3 normal(0);
+    normal[axis] = local[axis] < 0.0F ? -1.0F : 1.0F;
+    return target.worldFromBox.rotation * normal;
+}
+
+struct Solid {
+    physics::RayHit hit;
+    float distance = 0.0F;
+};
+
+// The first doll on the way, or the first thing at all when geometry stops the ray.
+std::optional<Solid> firstSolid(const render::Ray& ray, const physics::World& world, bool throughGeometry) {
+    constexpr int mostLayers = 16;
+    constexpr float beyond = 0.01F;  // metres past a surface, where the next cast starts
+    float start = 0.0F;
+    for (int layer = 0; layer < mostLayers && start < kReach; ++layer) {
+        const auto hit = world.rayTest(ray.origin + ray.direction * start, ray.origin + ray.direction * kReach);
+        if (!hit) return std::nullopt;
+        const float distance = start + hit->fraction * (kReach - start);
+        if (hit->doll >= 0 || !throughGeometry) return Solid{*hit, distance};
+        start = distance + beyond;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<float> rayBox(const render::Ray& ray, const RigidTransform& worldFromBox, const vec3& halfExtents) {
+    const RigidTransform boxFromWorld = inverse(worldFromBox);
+    const vec3 origin = boxFromWorld * ray.origin;
+    const vec3 direction = boxFromWorld.rotation * ray.direction;
+    float enter = 0.0F;
+    float leave = std::numeric_limits<float>::max();
+    for (int axis = 0; axis < 3; ++axis) {
+        if (direction[axis] == 0.0F) {
+            if (std::abs(origin[axis]) > halfExtents[axis]) return std::nullopt;
+            continue;
+        }
+        const float a = (-halfExtents[axis] - origin[axis]) / direction[axis];
+        const float b = (halfExtents[axis] - origin[axis]) / direction[axis];
+        enter = std::max(enter, std::min(a, b));
+        leave = std::min(leave, std::max(a, b));
+    }
+    if (enter > leave) return std::nullopt;
+    return enter;
+}
+
+std::optional<Pick> pick(const render::Ray& ray, const physics::World& world, std::span<const PickTarget> targets,
+                         bool throughGeometry) {
+    std::optional<Pick> nearest;
+    float distance = std::numeric_limits<float>::max();
+    bool marker = false;
+    if (const auto solid = firstSolid(ray, world, throughGeometry)) {
+        const physics::RayHit& hit = solid->hit;
+        distance = solid->distance;
+        if (hit.doll >= 0) {
+            const Item body{Item::Kind::body, hit.doll, hit.body};
+            nearest = Pick{body, hit.position, hit.normal, body};
+        }
+    }
+    // What the world hit may be the very object: its slab is met at the same distance, and must win.
+    constexpr float tie = 0.01F;
+    distance += tie;
+    for (const PickTarget& target : targets) {
+        const auto entered = rayBox(ray, target.worldFromBox, target.halfExtents);
+        if (!entered || *entered > kReach) continue;
+        if (marker && !target.marker) continue;
+        if (marker == target.marker && *entered > distance) continue;
+        const vec3 at = ray.origin + ray.direction * *entered;
+        nearest = Pick{{Item::Kind::object, 0, target.entity}, at, boxNormal(target, at), {}};
+        distance = *entered;
+        marker = target.marker;
+    }
+    return nearest;
+}
+
+std::optional<vec3> surfaceUnder(const render::Ray& ray, const physics::World& world, float height) {
+    std::optional<float> nearest;
+    if (const auto hit = world.rayTest(ray.origin, ray.origin + ray.direction * kReach))
+        nearest = hit->fraction * kReach;
+    if (ray.direction.y < 0.0F && ray.origin.y > height) {
+        const float toPlane = (height - ray.origin.y) / ray.direction.y;
+        if (toPlane <= kReach && (!nearest || toPlane < *nearest)) nearest = toPlane;
+    }
+    if (!nearest) return std::nullopt;
+    return ray.origin + ray.direction * *nearest;
+}
+
+}  // namespace lutka::editor

@@ -1,0 +1,232 @@
+#include "physics/collision/contacts.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "physics/collision/mesh_contacts.hpp"
+
+namespace lutka::physics {
+namespace {
+
+using Kind = CollisionGeometry::Kind;
+
+constexpr float kSamePlace = 0.005F;  // metres: contacts nearer to each other than this say the same
+
+Segment coreOf(const CollisionGeometry& round) {
+    const vec3 half = round.worldFromShape.rotation * vec3(0, round.halfLength, 0);
+    return {round.worldFromShape.translation - half, round.worldFromShape.translation + half};
+}
+
+void roundOnPlane(const CollisionGeometry& round, const CollisionGeometry& plane, float margin, ContactList& out) {
+    const vec3 normal = plane.worldFromShape.rotation * vec3(0, 1, 0);
+    const Segment core = coreOf(round);
+    const int ends = round.halfLength > 0.0F ? 2 : 1;
+    for (int end = 0; end < ends; ++end) {
+        const vec3 centre = end == 0 ? core.start : core.end;
+        const float height = glm::dot(centre - plane.worldFromShape.translation, normal);
+        if (height - round.radius < margin) out.add({end, centre - height * normal, normal, height - round.radius});
+    }
+}
+
+void boxOnPlane(const CollisionGeometry& box, const CollisionGeometry& plane, float margin, ContactList& out) {
+    const vec3 normal = plane.worldFromShape.rotation * vec3(0, 1, 0);
+    std::array<SurfaceContact, 8> corners;
+    for (int corner = 0; corner < 8; ++corner) {
+        const vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
+        const vec3 point = box.worldFromShape * (sign * box.halfExtents);
+        const float height = glm::dot(point - plane.worldFromShape.translation, normal);
+        corners[corner] = {corner, point - height * normal, normal, height};
+    }
+    constexpr int kCorners = 4;  // of a face
+    std::partial_sort(corners.begin(), corners.begin() + kCorners, corners.end(),
+                      [](const SurfaceContact& p, const SurfaceContact& q) { return p.distance < q.distance; });
+    for (int i = 0; i < kCorners && corners[i].distance < margin; ++i)
+        out.add(corners[i]);
+}
+
+// One point of a round shape's core against a box.
+void pointOnBox(const vec3& inBox, const CollisionGeometry& round, const CollisionGeometry& box, float margin,
+                int feature, ContactList& out) {
+    const SurfaceDistance surface = distanceToBox(inBox, box.halfExtents);
+    if (surface.distance - round.radius >= margin) return;
+    const vec3 onBox = inBox - surface.distance * surface.normal;
+    out.add({feature, box.worldFromShape * onBox, box.worldFromShape.rotation * surface.normal,
+             surface.distance - round.radius});
+}
+
+void roundOnBox(const CollisionGeometry& round, const CollisionGeometry& box, float margin, ContactList& out) {
+    const RigidTransform boxFromWorld = inverse(box.worldFromShape);
+    const Segment world = coreOf(round);
+    const Segment core{boxFromWorld * world.start, boxFromWorld * world.end};
+    // Most pairs that the broadphase reports don't touch.
+    const vec3 centre = core.at(0.5F);
+    const float reach = round.radius + round.halfLength + margin;
+    if (distanceToBox(centre, box.halfExtents).distance > reach) return;
+    pointOnBox(core.start, round, box, margin, 0, out);
+    if (round.halfLength <= 0.0F) return;
+    pointOnBox(core.end, round, box, margin, 1, out);
+    // An edge or corner of the box may press between the ends.
+    const float nearAnEnd = kSamePlace / (2.0F * round.halfLength);
+    const float deepest = deepestOnSegment(core, box.halfExtents);
+    if (deepest > nearAnEnd && deepest < 1.0F - nearAnEnd) pointOnBox(core.at(deepest), round, box, margin, 2, out);
+}
+
+void roundPoints(const CollisionGeometry& a, const CollisionGeometry& b, const vec3& onA, const vec3& onB, float margin,
+                 int feature, ContactList& out) {
+    const vec3 between = onA - onB;
+    const float centres = glm::length(between);
+    const float distance = centres - a.radius - b.radius;
+    if (distance >= margin) return;
+    const vec3 normal = centres > 1e-5F ? between / centres : vec3(0, 1, 0);
+    out.add({feature, onB + b.radius * normal, normal, distance});
+}
+
+// The fraction of `segment` that is nearest to `point`.
+float nearestOn(const Segment& segment, const vec3& point) {
+    const vec3 along = segment.end - segment.start;
+    const float square = glm::dot(along, along);
+    return square > 0.0F ? std::clamp(glm::dot(point - segment.start, along) / square, 0.0F, 1.0F) : 0.0F;
+}
+
+void roundOnRound(const CollisionGeometry& a, const CollisionGeometry& b, float margin, ContactList& out) {
+    const float reach = a.radius + a.halfLength + b.radius + b.halfLength + margin;
+    const vec3 offset = a.worldFromShape.translation - b.worldFromShape.translation;
+    if (glm::dot(offset, offset) > reach * reach) return;
+    const Segment coreA = coreOf(a);
+    const Segment coreB = coreOf(b);
+    const vec3 alongA = coreA.end - coreA.start;
+    const vec3 alongB = coreB.end - coreB.start;
+    const SegmentPair closest = closestBetweenSegments(coreA, coreB);
+    // Side by side (within 30 degrees) they touch along a line: a contact at each end of it.
+    const float product = glm::dot(alongA, alongB);
+    if (product * product > 0.75F * glm::dot(alongA, alongA) * glm::dot(alongB, alongB) && product != 0.0F) {
+        float low = nearestOn(coreA, product > 0.0F ? coreB.start : coreB.end);
+        float high = nearestOn(coreA, product > 0.0F ? coreB.end : coreB.start);
+        constexpr float kLine = 0.15F;  // of the length: shorter is a point
+        if (high - low > kLine) {
+            for (int end = 0; end < 2; ++end) {
+                const vec3 onA = coreA.at(end == 0 ? low : high);
+                roundPoints(a, b, onA, coreB.at(nearestOn(coreB, onA)), margin, end, out);
+            }
+            const float nearAnEnd = kSamePlace / (2.0F * a.halfLength);
+            if (std::abs(closest.s - low) < nearAnEnd || std::abs(closest.s - high) < nearAnEnd) return;
+        }
+    }
+    roundPoints(a, b, coreA.at(closest.s), coreB.at(closest.t), margin, 2, out);
+}
+
+void takeFromMesh(const MeshContactList& touches, const RigidTransform& worldFromMesh, float radius, ContactList& out) {
+    for (int i = 0; i < touches.count; ++i) {
+        const MeshContact& touch = touches.contacts[i];
+        out.add({touch.feature, worldFromMesh * (touch.core - touch.gap * touch.normal),
+                 worldFromMesh.rotation * touch.normal, touch.gap - radius});
+    }
+}
+
+void roundOnMesh(const CollisionGeometry& round, const CollisionGeometry& mesh, float margin, ContactList& out) {
+    const RigidTransform meshFromWorld = inverse(mesh.worldFromShape);
+    const Segment world = coreOf(round);
+    MeshContactList touches;
+    touchMesh(*mesh.mesh, Segment{meshFromWorld * world.start, meshFromWorld * world.end}, round.radius + margin,
+              touches);
+    takeFromMesh(touches, mesh.worldFromShape, round.radius, out);
+}
+
+void boxOnMesh(const CollisionGeometry& box, const CollisionGeometry& mesh, float margin, ContactList& out) {
+    const RigidTransform meshFromBox = inverse(mesh.worldFromShape) * box.worldFromShape;
+    MeshContactList touches;
+    for (int corner = 0; corner < 8; ++corner) {
+        const vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
+        touchMesh(*mesh.mesh, meshFromBox * (sign * box.halfExtents), corner, margin, touches);
+    }
+    takeFromMesh(touches, mesh.worldFromShape, 0.0F, out);
+    // Peaks of the mesh in a face of the box.
+    const RigidTransform boxFromMesh = inverse(meshFromBox);
+    const vec3 reach(glm::length(box.halfExtents) + margin);
+    mesh.mesh->forEachIn(meshFromBox.translation - reach, meshFromBox.translation + reach, [&](int triangle) {
+        for (const int vertex : mesh.mesh->triangles()[triangle]) {
+            if (mesh.mesh->ownerOf(vertex) != triangle) continue;
+            const vec3 peak = mesh.mesh->vertices()[vertex];
+            const SurfaceDistance surface = distanceToBox(boxFromMesh * peak, box.halfExtents);
+            const vec3 normal = meshFromBox.rotation * -surface.normal;  // from the mesh towards the box
+            if (surface.distance >= margin || !mesh.mesh->vertexSupports(vertex, normal)) continue;
+            constexpr int kFirstPeak = 1 << 19;  // beyond touchMesh()'s numbers
+            out.add({kFirstPeak + vertex, mesh.worldFromShape * peak, mesh.worldFromShape.rotation * normal,
+                     surface.distance});
+        }
+    });
+}
+
+void flip(ContactList& list) {
+    for (int i = 0; i < list.count; ++i) {
+        SurfaceContact& contact = list.contacts[i];
+        contact.position += contact.distance * contact.normal;
+        contact.normal = -contact.normal;
+    }
+}
+
+}  // namespace
+
+ContactList findContacts(const CollisionGeometry& a, const CollisionGeometry& b, float margin) {
+    ContactList out;
+    // Round before box before plane; the other order is the same pair seen from the other side.
+    if (a.kind > b.kind) {
+        out = findContacts(b, a, margin);
+        flip(out);
+        return out;
+    }
+    if (a.kind == Kind::round && b.kind == Kind::round)
+        roundOnRound(a, b, margin, out);
+    else if (a.kind == Kind::round && b.kind == Kind::box)
+        roundOnBox(a, b, margin, out);
+    else if (a.kind == Kind::round && b.kind == Kind::plane)
+        roundOnPlane(a, b, margin, out);
+    else if (a.kind == Kind::round)
+        roundOnMesh(a, b, margin, out);
+    else if (a.kind == Kind::box && b.kind == Kind::plane)
+        boxOnPlane(a, b, margin, out);
+    else if (a.kind == Kind::box && b.kind == Kind::mesh)
+        boxOnMesh(a, b, margin, out);
+    return out;
+}
+
+CollisionGeometry geometryOf(const BodyShape& shape, const RigidTransform& worldFromBody) {
+    CollisionGeometry geometry;
+    geometry.worldFromShape = worldFromBody;
+    if (shape.kind == BodyShape::Kind::box) {
+        geometry.kind = Kind::box;
+        geometry.halfExtents = shape.halfExtents;
+        return geometry;
+    }
+    geometry.radius = shape.radius;
+    geometry.halfLength = shape.kind == BodyShape::Kind::capsule ? shape.halfLength : 0.0F;
+    return geometry;
+}
+
+CollisionGeometry geometryOf(const StaticShape& shape) {
+    CollisionGeometry geometry;
+    geometry.worldFromShape = shape.worldFromShape;
+    geometry.halfExtents = shape.halfExtents;
+    geometry.mesh = shape.mesh.get();
+    switch (shape.kind) {
+        case StaticShape::Kind::plane:
+            geometry.kind = Kind::plane;
+            break;
+        case StaticShape::Kind::box:
+            geometry.kind = Kind::box;
+            break;
+        case StaticShape::Kind::mesh:
+            geometry.kind = Kind::mesh;
+            break;
+        case StaticShape::Kind::capsule:
+            geometry.halfLength = shape.halfLength;
+            [[fallthrough]];
+        case StaticShape::Kind::sphere:
+            geometry.radius = shape.radius;
+            break;
+    }
+    return geometry;
+}
+
+}  // namespace lutka::physics

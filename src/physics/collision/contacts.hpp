@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+
+#include "core/rigid_transform.hpp"
+#include "physics/collision/shape_distance.hpp"
+#include "physics/collision/static_shape.hpp"
+#include "physics/profile/profile.hpp"
+
+namespace lutka::physics {
+
+/// What collides: a capsule or sphere (`round`: a segment along y with a radius), a box, a half-space below y = 0, or a
+/// triangle mesh.
+struct CollisionGeometry {
+    enum class Kind { round, box, plane, mesh };
+    Kind kind = Kind::round;
+    float radius = 0.0F;        ///< Metres; round.
+    float halfLength = 0.0F;    ///< Metres; round, 0 for a sphere.
+    vec3 halfExtents{0, 0, 0};  ///< Metres; box.
+    RigidTransform worldFromShape;
+    const TriangleMesh* mesh = nullptr;  ///< Not null for a mesh.
+};
+
+[[nodiscard]] CollisionGeometry geometryOf(const BodyShape& shape, const RigidTransform& worldFromBody);
+[[nodiscard]] CollisionGeometry geometryOf(const StaticShape& shape);
+
+/// Where two shapes touch or soon will.
+struct SurfaceContact {
+    int feature = 0;         ///< Which part of the pair it belongs to: the same one a step later has the same number.
+    vec3 position{0, 0, 0};  ///< World, on B's surface.
+    vec3 normal{0, 1, 0};    ///< Unit, from B towards A.
+    float distance = 0.0F;   ///< Metres between the surfaces; negative: depth of the overlap.
+};
+
+/// At most eight contacts of one pair; only meshes have more than four.
+struct ContactList {
+    static constexpr int kMax = 8;
+    std::array<SurfaceContact, kMax> contacts;
+    int count = 0;
+
+    void add(const SurfaceContact& contact) {
+        if (count < kMax) contacts[count++] = contact;
+    }
+};
+
+/// The contacts of A with B that are nearer than `margin` metres, in closed form: a lying capsule has one at each end,
+/// a box on a plane one at each corner (the four lowest), a round shape on a mesh as touchMesh() says, a box on a mesh
+/// at its own corners and at the mesh's vertices. Two boxes, planes or meshes are not handled: no contacts.
+[[nodiscard]] ContactList findContacts(const CollisionGeometry& a, const CollisionGeometry& b, float margin);
+
+}  // namespace lutka::physics

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+
+#include "physics/collision/shape_distance.hpp"
+#include "physics/collision/triangle_mesh.hpp"
+
+namespace lutka::physics {
+
+/// Where a shape's core (a point of it, mesh space) is near a mesh.
+struct MeshContact {
+    vec3 core{0, 0, 0};
+    vec3 normal{0, 1, 0};  ///< Unit, out of the solid.
+    float gap = 0.0F;      ///< Metres from the surface to the core point; negative behind the surface.
+    int feature = 0;  ///< The same a step later where the core's part and about the same slope meet: in [0, 2¹⁹).
+};
+
+/// At most eight contacts, the deepest where there are more.
+struct MeshContactList {
+    static constexpr int kMax = 8;
+    std::array<MeshContact, kMax> contacts;
+    int count = 0;
+
+    void add(const MeshContact& contact);
+};
+
+/// Contacts of one point of a core, number `part` in [0, 16), nearer to the surface than `reach` metres: where the
+/// distance to the surface has a minimum of its own, so that neighbouring triangles of a plane give one contact with
+/// the plane's normal and nothing bumps into the edge between them, while the two sides of a valley give one each. A
+/// point behind the surface, up to kDeepest, has one contact that leads out the shortest way.
+void touchMesh(const TriangleMesh& mesh, const vec3& point, int part, float reach, MeshContactList& out);
+
+/// Contacts of a capsule's core (both ends, and sharp edges and corners that come near in between).
+void touchMesh(const TriangleMesh& mesh, const Segment& core, float reach, MeshContactList& out);
+
+/// How far behind the surface a point is still led out, metres.
+inline constexpr float kDeepestInMesh = 0.3F;
+
+}  // namespace lutka::physics

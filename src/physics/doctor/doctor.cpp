@@ -1,0 +1,350 @@
+#include "physics/doctor/doctor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "physics/collision/shape.hpp"
+#include "physics/fit/anatomy.hpp"
+#include "physics/fit/rebind.hpp"
+#include "physics/profile/swing_twist.hpp"
+
+namespace lutka::physics {
+namespace {
+
+constexpr float kHighRatio = 10.0F;
+constexpr float kExtremeRatio = 20.0F;
+
+std::string nameOf(Role role) {
+    return std::string(roleName(role));
+}
+
+// One look at a profile on its character; each check adds its findings.
+class Examination {
+  public:
+    Examination(const RagdollProfile& profile, const animation::Character& character, const animation::HumanoidMap& map)
+        : profile_(profile),
+          map_(map),
+          plan_(planBodies(character, map, rolesOf(profile))),
+          anatomy_(findAnatomy(plan_)),
+          shapes_(shapesInBindPose(profile, character.skeleton)) {}
+
+    void checkMap(Diagnosis& diagnosis) const {
+        for (const Role role : map_.missing) {
+            diagnosis.findings.push_back({Severity::warning,
+                                          "role-unmapped",
+                                          nameOf(role),
+                                          "a required role without a joint",
+                                          "bind it by hand if the rig has such a joint",
+                                          false,
+                                          {role}});
+        }
+    }
+
+    // Every joint but the root's should hang below the joint that its body hangs on: else the file's hierarchy does not
+    // move the limb as the ragdoll does (feet driven by inverse kinematics), or the role is on a wrong joint.
+    void checkHierarchy(Diagnosis& diagnosis, const animation::Skeleton& skeleton) const {
+        for (const ConstraintProfile& c : profile_.constraints) {
+            const int parent = map_.jointOf(profile_.bodies[c.parent].role);
+            const int child = map_.jointOf(profile_.bodies[c.child].role);
+            if (parent == animation::kNoJoint || child == animation::kNoJoint ||
+                animation::isAncestorOrSelf(skeleton, parent, child)) {
+                continue;
+            }
+            diagnosis.findings.push_back(
+                {Severity::warning, "joint-not-below", link(c),
+                 fmt::format("the joint \"{}\" is not below \"{}\"", skeleton.names[child], skeleton.names[parent]),
+                 "map a joint below it, unless the rig drives this limb by an IK root", false, childRole(c)});
+        }
+    }
+
+    void checkMasses(Diagnosis& diagnosis) {
+        for (const ConstraintProfile& c : profile_.constraints) {
+            const float parent = profile_.bodies[c.parent].massKg;
+            const float child = profile_.bodies[c.child].massKg;
+            const float ratio = std::max(parent, child) / std::min(parent, child);
+            worstRatio_ = std::max(worstRatio_, ratio);
+            if (ratio <= kHighRatio) continue;
+            diagnosis.findings.push_back({ratio > kExtremeRatio ? Severity::error : Severity::warning, "mass-ratio",
+                                          link(c), fmt::format("{:.1f} : 1, at most 10 : 1", ratio),
+                                          "balance the masses", true, childRole(c)});
+        }
+    }
+
+    void checkLimits(Diagnosis& diagnosis) {
+        for (const ConstraintProfile& c : profile_.constraints) {
+            const float outside = violation(c);
+            if (outside > radians(0.05F)) {
+                ++brokenLimits_;
+                diagnosis.findings.push_back({Severity::error, "bind-outside-limits", link(c),
+                                              fmt::format("the bind pose is {:.1f} degrees outside", degrees(outside)),
+                                              "widen the limit to hold the bind pose", true, childRole(c)});
+            }
+            const float span = c.kind == ConstraintProfile::Kind::hinge
+                                   ? 0.5F * (c.hinge.upper - c.hinge.lower)
+                                   : std::min({c.cone.swingY, c.cone.swingZ, c.cone.twist});
+            if (span < radians(5.0F)) {
+                diagnosis.findings.push_back({Severity::warning, "limit-span-small", link(c),
+                                              fmt::format("{:.1f} degrees either way, at least 5", degrees(span)),
+                                              "widen the limit; a narrow one jitters", false, childRole(c)});
+            }
+            checkHinge(diagnosis, c);
+        }
+    }
+
+    void checkOverlaps(Diagnosis& diagnosis) const {
+        for (const BodyOverlap& overlap : findOverlaps(profile_, shapes_)) {
+            const Role first = profile_.bodies[overlap.first].role;
+            const Role second = profile_.bodies[overlap.second].role;
+            const bool deep = overlap.depthM > 0.01F * profile_.heightM;
+            diagnosis.findings.push_back({deep ? Severity::error : Severity::warning,
+                                          "overlap",
+                                          nameOf(first) + " and " + nameOf(second),
+                                          fmt::format("{:.1f} mm deep in the bind pose", 1000.0F * overlap.depthM),
+                                          "filter the pair, or shrink one of the shapes",
+                                          true,
+                                          {first, second}});
+        }
+    }
+
+    void checkShapes(Diagnosis& diagnosis) const {
+        for (std::size_t body = 0; body < profile_.bodies.size(); ++body) {
+            checkSize(diagnosis, profile_.bodies[body]);
+            checkSkin(diagnosis, body);
+        }
+        for (const ConstraintProfile& c : profile_.constraints) {
+            const float distance =
+                glm::distance(plan_.bodies[indexOf(c.parent)].start, plan_.bodies[indexOf(c.child)].start);
+            if (c.parent == 0 || distance >= 0.005F * profile_.heightM) continue;
+            diagnosis.findings.push_back({Severity::warning, "chain-degenerate", link(c),
+                                          fmt::format("joints {:.1f} mm apart", 1000.0F * distance),
+                                          "leave one of the two roles without a body", false, childRole(c)});
+        }
+    }
+
+    void checkSides(Diagnosis& diagnosis) const {
+        constexpr float kDifference = 0.1F;
+        if (!plan_.symmetric) return;
+        for (const BodyProfile& left : profile_.bodies) {
+            const int other = bodyOf(profile_, mirrored(left.role));
+            if (sideOf(left.role) != animation::Side::left || other < 0) continue;
+            const BodyProfile& right = profile_.bodies[other];
+            const auto differ = [](float a, float b) { return std::abs(a - b) / std::max(a, b); };
+            const float size = differ(shapeVolume(left.shape), shapeVolume(right.shape));
+            const float mass = differ(left.massKg, right.massKg);
+            if (size <= kDifference && mass <= kDifference && left.shape.kind == right.shape.kind) continue;
+            diagnosis.findings.push_back(
+                {Severity::warning,
+                 "sides-differ",
+                 nameOf(left.role) + " and " + nameOf(right.role),
+                 fmt::format("volume by {:.0f} %, mass by {:.0f} %, at most 10", 100.0F * size, 100.0F * mass),
+                 "give both sides the mean",
+                 true,
+                 {left.role, right.role}});
+        }
+    }
+
+    void measure(Diagnosis& diagnosis, const animation::Character& character) const {
+        std::vector<PlacedShape> ordered(shapes_.size());
+        for (std::size_t body = 0; body < shapes_.size(); ++body)
+            ordered[indexOf(static_cast<int>(body))] = shapes_[body];
+        diagnosis.fit = measureSkin(character, plan_, ordered, map_.standardFromModel);
+        for (const BodyOverlap& overlap : findOverlaps(profile_, shapes_))
+            diagnosis.fit.overlapM = std::max(diagnosis.fit.overlapM, overlap.depthM);
+    }
+
+    void score(Diagnosis& diagnosis) const {
+        const auto part = [&](const char* name, float of, float share) {
+            diagnosis.parts.push_back({name, of * std::clamp(share, 0.0F, 1.0F), of});
+        };
+        constexpr float kRequiredRoles = 15.0F;
+        part("map", 15, 1.0F - static_cast<float>(map_.missing.size()) / kRequiredRoles);
+        part("masses", 10, (3.0F * kHighRatio - worstRatio_) / (2.0F * kHighRatio));
+        const auto count = static_cast<float>(std::max<std::size_t>(profile_.constraints.size(), 1));
+        part("limits", 20, 1.0F - 3.0F * static_cast<float>(brokenLimits_) / count);
+        part("overlap", 15, 1.0F - diagnosis.fit.overlapM / (0.05F * profile_.heightM));
+        if (diagnosis.fit.vertices > 0) part("skin near", 25, (diagnosis.fit.skinNear - 0.3F) / 0.6F);
+        if (diagnosis.fit.volumeCovered) part("volume covered", 15, *diagnosis.fit.volumeCovered / 0.8F);
+        float points = 0.0F;
+        float of = 0.0F;
+        for (const ScorePart& p : diagnosis.parts) {
+            points += p.points;
+            of += p.of;
+        }
+        diagnosis.score = 100.0F * points / of;
+    }
+
+    [[nodiscard]] bool matches() const { return plan_.bodies.size() == profile_.bodies.size(); }
+
+  private:
+    // The plan lists bodies in the order of roles, which a profile edited by hand need not keep.
+    [[nodiscard]] int indexOf(int body) const { return plan_.bodyOf(profile_.bodies[body].role); }
+
+    [[nodiscard]] std::string link(const ConstraintProfile& c) const {
+        return nameOf(profile_.bodies[c.child].role) + " on " + nameOf(profile_.bodies[c.parent].role);
+    }
+    [[nodiscard]] std::vector<Role> childRole(const ConstraintProfile& c) const {
+        return {profile_.bodies[c.child].role};
+    }
+    [[nodiscard]] float violation(const ConstraintProfile& c) const {
+        const quat relative = glm::conjugate(shapes_[c.parent].standardFromBody.rotation * c.parentFromFrame.rotation) *
+                              (shapes_[c.child].standardFromBody.rotation * c.childFromFrame.rotation);
+        if (c.kind == ConstraintProfile::Kind::hinge) {
+            const float angle = std::remainder(2.0F * std::atan2(relative.z, relative.w), 2.0F * kPi);
+            return std::max({0.0F, c.hinge.lower - angle, angle - c.hinge.upper});
+        }
+        const SwingTwist pose = swingTwist(relative);
+        const float filled = std::hypot(pose.swing.y / c.cone.swingY, pose.swing.z / c.cone.swingZ);
+        const float swing = filled > 1.0F ? glm::length(pose.swing) * (1.0F - 1.0F / filled) : 0.0F;
+        return std::max(swing, std::abs(pose.twist) - c.cone.twist);
+    }
+
+    void checkHinge(Diagnosis& diagnosis, const ConstraintProfile& c) {
+        const vec3& expected = anatomy_.flexionAxis[indexOf(c.child)];
+        if (c.kind != ConstraintProfile::Kind::hinge || glm::length(expected) < 0.5F) return;
+        const vec3 axis = shapes_[c.child].standardFromBody.rotation * c.childFromFrame.rotation * vec3(0, 0, 1);
+        const float angle = degrees(std::acos(std::clamp(glm::dot(axis, expected), -1.0F, 1.0F)));
+        if (angle < 45.0F) return;
+        const bool reversed = angle > 135.0F;
+        brokenLimits_ += reversed ? 1 : 0;
+        diagnosis.findings.push_back({reversed ? Severity::error : Severity::warning,
+                                      reversed ? "hinge-reversed" : "hinge-askew", link(c),
+                                      fmt::format("its axis is {:.0f} degrees off the anatomy's", angle),
+                                      "make the frames anew from the anatomy", true, childRole(c)});
+    }
+
+    void checkSize(Diagnosis& diagnosis, const BodyProfile& body) const {
+        constexpr float kTiny = 0.008F;
+        constexpr float kHuge = 0.32F;
+        const float radius = std::min(supportExtent(body.shape, {1, 0, 0}), supportExtent(body.shape, {0, 0, 1}));
+        const float share = radius / profile_.heightM;
+        if (share >= kTiny && share <= kHuge) return;
+        diagnosis.findings.push_back({Severity::warning,
+                                      share < kTiny ? "body-tiny" : "body-huge",
+                                      nameOf(body.role),
+                                      fmt::format("{:.1f} % of the height thick, expected 0.8 to 32", 100.0F * share),
+                                      "fit the shape anew",
+                                      true,
+                                      {body.role}});
+    }
+
+    void checkSkin(Diagnosis& diagnosis, std::size_t body) const {
+        constexpr float kStandsOut = 0.02F;
+        constexpr float kUncovered = 0.04F;
+        constexpr float kShare = 0.25F;
+        const std::vector<SkinPoint>& skin = plan_.bodies[indexOf(static_cast<int>(body))].skin;
+        const RigidTransform bodyFromStandard = inverse(shapes_[body].standardFromBody);
+        float total = 0.0F;
+        float inside = 0.0F;
+        float outside = 0.0F;
+        for (const SkinPoint& point : skin) {
+            const float distance = signedDistance(shapes_[body].shape, bodyFromStandard * point.position);
+            total += point.area;
+            if (distance < -kStandsOut * profile_.heightM) inside += point.area;
+            if (distance > kUncovered * profile_.heightM) outside += point.area;
+        }
+        if (total <= 0.0F) return;
+        const auto report = [&](const char* code, float share, const char* what) {
+            if (share <= kShare) return;
+            const Role role = profile_.bodies[body].role;
+            diagnosis.findings.push_back({Severity::warning,
+                                          code,
+                                          nameOf(role),
+                                          fmt::format("{:.0f} % of its skin {}, at most 25", 100.0F * share, what),
+                                          "fit the shape anew, or give it another shape",
+                                          true,
+                                          {role}});
+        };
+        report("capsule-outside-skin", inside / total, "lies more than 2 % of the height inside the shape");
+        report("skin-not-covered", outside / total, "lies more than 4 % of the height outside the shape");
+    }
+
+    const RagdollProfile& profile_;
+    const animation::HumanoidMap& map_;
+    BodyPlan plan_;
+    Anatomy anatomy_;
+    std::vector<PlacedShape> shapes_;
+    float worstRatio_ = 1.0F;
+    int brokenLimits_ = 0;
+};
+
+void findMissingJoints(Diagnosis& diagnosis, const RagdollProfile& profile, const animation::Character& character,
+                       const animation::HumanoidMap& map) {
+    for (const BodyProfile& body : profile.bodies) {
+        const bool there = findJoint(character.skeleton, body.jointPath) != animation::kNoJoint ||
+                           findJoint(character.skeleton, body.joint) != animation::kNoJoint;
+        if (there && map.jointOf(body.role) != animation::kNoJoint) continue;
+        diagnosis.findings.push_back(
+            {Severity::error,
+             "joint-missing",
+             nameOf(body.role),
+             there ? "the rig has no joint of that role" : "no joint \"" + body.jointPath + "\" in the rig",
+             "re-bind the profile to this rig",
+             false,
+             {body.role}});
+    }
+}
+
+}  // namespace
+
+const char* severityName(Severity severity) {
+    switch (severity) {
+        case Severity::info:
+            return "info";
+        case Severity::warning:
+            return "warning";
+        case Severity::error:
+            break;
+    }
+    return "error";
+}
+
+bool Diagnosis::hasErrors() const {
+    return std::any_of(findings.begin(), findings.end(),
+                       [](const Finding& finding) { return finding.severity == Severity::error; });
+}
+
+Diagnosis diagnose(const RagdollProfile& profile, const animation::Character& character,
+                   const animation::HumanoidMap& map) {
+    Diagnosis diagnosis;
+    for (const std::string& problem : validate(profile)) {
+        const std::size_t colon = problem.find(": ");
+        diagnosis.findings.push_back({Severity::error,
+                                      "profile-invalid",
+                                      problem.substr(0, colon),
+                                      problem.substr(colon + 2),
+                                      "mend the profile by hand or build it anew",
+                                      false,
+                                      {}});
+    }
+    if (diagnosis.findings.empty()) findMissingJoints(diagnosis, profile, character, map);
+    if (!diagnosis.findings.empty()) return diagnosis;
+    Examination examination(profile, character, map);
+    if (!examination.matches()) {
+        diagnosis.findings.push_back({Severity::error,
+                                      "joint-missing",
+                                      "/bodies",
+                                      "two roles share a joint of the rig",
+                                      "re-bind the profile to this rig",
+                                      false,
+                                      {}});
+        return diagnosis;
+    }
+    examination.checkMap(diagnosis);
+    examination.checkHierarchy(diagnosis, character.skeleton);
+    examination.checkMasses(diagnosis);
+    examination.checkLimits(diagnosis);
+    examination.checkOverlaps(diagnosis);
+    examination.checkShapes(diagnosis);
+    examination.checkSides(diagnosis);
+    for (const std::string& note : profile.notes)
+        diagnosis.findings.push_back({Severity::info, "note", "", note, "", false, {}});
+    std::stable_sort(diagnosis.findings.begin(), diagnosis.findings.end(),
+                     [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+    examination.measure(diagnosis, character);
+    examination.score(diagnosis);
+    return diagnosis;
+}
+
+}  // namespace lutka::physics

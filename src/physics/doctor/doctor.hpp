@@ -1,0 +1,70 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "animation/character.hpp"
+#include "animation/humanoid/map_humanoid.hpp"
+#include "core/result.hpp"
+#include "physics/fit/fit_measures.hpp"
+#include "physics/profile/profile.hpp"
+
+namespace lutka::physics {
+
+enum class Severity { info, warning, error };
+[[nodiscard]] const char* severityName(Severity severity);
+
+/// What the ragdoll doctor found wrong, or worth knowing.
+struct Finding {
+    Severity severity = Severity::warning;
+    std::string code;         ///< Which check, one of those listed at diagnose().
+    std::string place;        ///< Role or roles, or a JSON pointer into the profile.
+    std::string measure;      ///< The figure and the bound that it breaks, in words.
+    std::string mend;         ///< What to do about it.
+    bool mendable = false;    ///< applyMends() does it.
+    std::vector<Role> roles;  ///< The bodies concerned; a constraint is told by its child.
+};
+
+/// A part of the score: `points` out of `of`.
+struct ScorePart {
+    std::string name;
+    float points = 0.0F;
+    float of = 0.0F;
+};
+
+struct Diagnosis {
+    std::vector<Finding> findings;  ///< Errors first, then warnings, then notes.
+    FitMeasures fit;
+    float score = 0.0F;  ///< [0, 100]: the parts' points over what they could be.
+    std::vector<ScorePart> parts;
+
+    [[nodiscard]] bool hasErrors() const;
+};
+
+/// Examines a profile at rest on its character. The checks, by code:
+/// - `profile-invalid` what validate() says; nothing else is looked at (error)
+/// - `joint-missing` a body's joint is not in the skeleton; nothing else is looked at (error)
+/// - `role-unmapped` a required role has no joint (warning: the ragdoll has fewer bodies)
+/// - `mass-ratio` above 10 : 1 across a constraint (warning; above 20 : 1 error)
+/// - `bind-outside-limits` a limit excludes the bind pose: energy appears at the first step (error)
+/// - `limit-span-small` a span below 5 degrees either way, known to jitter (warning)
+/// - `hinge-reversed` a knee or elbow that would bend the wrong way (error)
+/// - `hinge-askew` a hinge axis more than 45 degrees off the anatomy's (warning)
+/// - `overlap` bodies that overlap in the bind pose though they may collide (error from 1 % of the height)
+/// - `capsule-outside-skin` a body that stands out of its skin by more than 2 % of the height at over a quarter of it
+/// - `skin-not-covered` a body more than 4 % of the height below its skin at over a quarter of it (both warnings)
+/// - `sides-differ` shape or mass of left and right differ by more than a tenth on a symmetric rig (warning)
+/// - `body-tiny`, `body-huge` radius below 0.8 % or above 32 % of the height (warning)
+/// - `chain-degenerate` two linked joints nearer than 0.5 % of the height (warning)
+/// - `note` what the fit had to bend (info)
+[[nodiscard]] Diagnosis diagnose(const RagdollProfile& profile, const animation::Character& character,
+                                 const animation::HumanoidMap& map);
+
+/// The profile with the mendable findings mended (limits widened, pairs filtered, hinge frames and shapes made anew,
+/// masses balanced, sides made equal), and a sentence a mend in its notes. Fails with ErrorCode::input when the profile
+/// is invalid or does not belong to the character.
+[[nodiscard]] Result<RagdollProfile> applyMends(const RagdollProfile& profile, const animation::Character& character,
+                                                const animation::HumanoidMap& map, std::span<const Finding> findings);
+
+}  // namespace lutka::physics

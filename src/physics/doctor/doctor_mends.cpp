@@ -1,0 +1,163 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "physics/collision/shape.hpp"
+#include "physics/doctor/doctor.hpp"
+#include "physics/fit/anatomy.hpp"
+#include "physics/fit/fit_shapes.hpp"
+#include "physics/fit/masses.hpp"
+#include "physics/fit/rebind.hpp"
+
+namespace lutka::physics {
+namespace {
+
+bool isShapeFault(const Finding& finding) {
+    return finding.code == "body-tiny" || finding.code == "body-huge" || finding.code == "capsule-outside-skin" ||
+           finding.code == "skin-not-covered";
+}
+
+// Mends a copy of the profile, one finding after the other.
+class Mender {
+  public:
+    Mender(const RagdollProfile& profile, const animation::Character& character, const animation::HumanoidMap& map)
+        : profile_(profile),
+          character_(character),
+          plan_(planBodies(character, map, rolesOf(profile))),
+          anatomy_(findAnatomy(plan_)) {}
+
+    [[nodiscard]] bool matches() const { return plan_.bodies.size() == profile_.bodies.size(); }
+
+    void mend(const Finding& finding) {
+        if (finding.code == "overlap" && finding.roles.size() == 2) filter(finding.roles[0], finding.roles[1]);
+        if (finding.code == "mass-ratio") balanceMasses();
+        if (finding.code == "sides-differ" && finding.roles.size() == 2) makeEqual(finding.roles[0], finding.roles[1]);
+        if (finding.roles.empty() || bodyOf(profile_, finding.roles[0]) < 0) return;
+        const int body = bodyOf(profile_, finding.roles[0]);
+        if (isShapeFault(finding)) refit(body);
+        if (finding.code == "hinge-reversed" || finding.code == "hinge-askew") rebuildFrames(body);
+        if (finding.code == "bind-outside-limits") widen(body);
+    }
+
+    [[nodiscard]] RagdollProfile take() { return std::move(profile_); }
+
+  private:
+    void note(std::string text) { profile_.notes.push_back("mended: " + std::move(text)); }
+
+    void filter(Role first, Role second) {
+        const int a = bodyOf(profile_, first);
+        const int b = bodyOf(profile_, second);
+        if (a < 0 || b < 0 || a == b) return;
+        const std::pair pair(std::min(a, b), std::max(a, b));
+        auto& pairs = profile_.filteredPairs;
+        if (std::find(pairs.begin(), pairs.end(), pair) != pairs.end()) return;
+        pairs.insert(std::upper_bound(pairs.begin(), pairs.end(), pair), pair);
+        note(fmt::format("{} and {} no longer collide", roleName(first), roleName(second)));
+    }
+
+    void balanceMasses() {
+        if (balanced_) return;
+        balanced_ = true;
+        FitOptions options;
+        options.totalMassKg = profile_.totalMassKg;
+        options.massPreset = MassPreset::balanced;
+        assignMasses(profile_.bodies, options);
+        note("masses balanced");
+    }
+
+    void makeEqual(Role first, Role second) {
+        const int a = bodyOf(profile_, first);
+        const int b = bodyOf(profile_, second);
+        if (a < 0 || b < 0) return;
+        BodyProfile& left = profile_.bodies[a];
+        BodyProfile& right = profile_.bodies[b];
+        left.massKg = right.massKg = 0.5F * (left.massKg + right.massKg);
+        BodyShape mean = left.shape;
+        if (left.shape.kind == right.shape.kind) {
+            mean.radius = 0.5F * (left.shape.radius + right.shape.radius);
+            mean.halfLength = 0.5F * (left.shape.halfLength + right.shape.halfLength);
+            mean.halfExtents = 0.5F * (left.shape.halfExtents + right.shape.halfExtents);
+        }
+        left.shape = right.shape = mean;
+        left.inertia = right.inertia = shapeInertia(mean, left.massKg);
+        note(fmt::format("{} and {} made equal", roleName(first), roleName(second)));
+    }
+
+    // The frames of a body's own constraint and of those that hang on it move with it.
+    void refit(int body) {
+        if (fitted_.empty()) fitted_ = fitShapes(plan_, anatomy_);
+        const PlacedShape& shape = fitted_[plan_.bodyOf(profile_.bodies[body].role)];
+        const RigidTransform standardFromOld = placed()[body].standardFromBody;
+        BodyProfile& target = profile_.bodies[body];
+        target.shape = shape.shape;
+        target.inertia = shapeInertia(shape.shape, target.massKg);
+        const RigidTransform oldFromNew = inverse(standardFromOld) * shape.standardFromBody;
+        target.jointFromBody = target.jointFromBody * oldFromNew;
+        target.jointFromBody.rotation = glm::normalize(target.jointFromBody.rotation);
+        for (ConstraintProfile& c : profile_.constraints) {
+            if (c.child == body) c.childFromFrame = inverse(oldFromNew) * c.childFromFrame;
+            if (c.parent == body) c.parentFromFrame = inverse(oldFromNew) * c.parentFromFrame;
+            c.childFromFrame.rotation = glm::normalize(c.childFromFrame.rotation);
+            c.parentFromFrame.rotation = glm::normalize(c.parentFromFrame.rotation);
+        }
+        note(fmt::format("shape of {} fitted anew", roleName(target.role)));
+    }
+
+    void rebuildFrames(int body) {
+        const std::vector<PlacedShape> shapes = placed();
+        ConstraintProfile& c = profile_.constraints[body - 1];
+        const Role role = profile_.bodies[body].role;
+        setFrames(c, jointFrames(plan_, anatomy_, plan_.bodyOf(role)), shapes[c.parent].standardFromBody,
+                  shapes[c.child].standardFromBody);
+        note(fmt::format("frames of {} made anew", roleName(role)));
+        widen(body);
+    }
+
+    void widen(int body) {
+        const std::vector<PlacedShape> shapes = placed();
+        ConstraintProfile& c = profile_.constraints[body - 1];
+        std::string done = widenToHold(c, shapes[c.parent].standardFromBody, shapes[c.child].standardFromBody,
+                                       profile_.bodies[body].role);
+        if (!done.empty()) note(std::move(done));
+    }
+
+    [[nodiscard]] std::vector<PlacedShape> placed() const { return shapesInBindPose(profile_, character_.skeleton); }
+
+    RagdollProfile profile_;
+    const animation::Character& character_;
+    BodyPlan plan_;
+    Anatomy anatomy_;
+    std::vector<PlacedShape> fitted_;
+    bool balanced_ = false;
+};
+
+}  // namespace
+
+Result<RagdollProfile> applyMends(const RagdollProfile& profile, const animation::Character& character,
+                                  const animation::HumanoidMap& map, std::span<const Finding> findings) {
+    for (const Finding& finding : findings) {
+        if (finding.code == "profile-invalid" || finding.code == "joint-missing") {
+            return Error{ErrorCode::input, finding.measure, finding.place, finding.mend};
+        }
+    }
+    Mender mender(profile, character, map);
+    if (!mender.matches()) {
+        return Error{ErrorCode::input, "the profile does not belong to the rig", character.name,
+                     "re-bind the profile to this rig"};
+    }
+    // Shapes before what is measured on them: frames, then limits, then pairs.
+    const auto order = [](const Finding& finding) {
+        return isShapeFault(finding) || finding.code == "sides-differ" ? 0
+               : finding.code == "bind-outside-limits"                 ? 2
+               : finding.code == "overlap"                             ? 3
+                                                                       : 1;
+    };
+    for (int stage = 0; stage < 4; ++stage) {
+        for (const Finding& finding : findings) {
+            if (finding.mendable && order(finding) == stage) mender.mend(finding);
+        }
+    }
+    return mender.take();
+}
+
+}  // namespace lutka::physics

@@ -1,0 +1,300 @@
+#include "physics/fit/body_plan.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "core/assert.hpp"
+#include "core/quantile.hpp"
+#include "physics/fit/body_tips.hpp"
+#include "physics/fit/skin_regions.hpp"
+
+namespace lutka::physics {
+namespace {
+
+using animation::Character;
+using animation::HumanoidMap;
+using animation::kNoJoint;
+
+Role topmostTrunk(const HumanoidMap& map) {
+    for (const Role role : {Role::upperChest, Role::chest, Role::spine}) {
+        if (map.jointOf(role) != kNoJoint) return role;
+    }
+    return Role::hips;
+}
+
+bool wantsBody(Role role, const HumanoidMap& map, const FitOptions& options) {
+    if (map.jointOf(role) == kNoJoint) return false;
+    switch (role) {
+        case Role::chest:
+        case Role::upperChest:
+            return options.allTrunkBodies || role == topmostTrunk(map);
+        case Role::neck:
+            return options.neckBody;
+        case Role::leftShoulder:
+        case Role::rightShoulder:
+            return options.shoulderBodies;
+        case Role::leftToes:
+        case Role::rightToes:
+            return options.toeBodies;
+        default:
+            return true;
+    }
+}
+
+// The roles that may end a role's segment, nearest first.
+std::vector<Role> endRoles(Role role) {
+    switch (role) {
+        case Role::hips:
+            return {Role::spine, Role::chest, Role::upperChest, Role::neck, Role::head};
+        case Role::spine:
+            return {Role::chest, Role::upperChest, Role::neck, Role::head};
+        case Role::chest:
+            return {Role::upperChest, Role::neck, Role::head};
+        case Role::upperChest:
+            return {Role::neck, Role::head};
+        case Role::neck:
+            return {Role::head};
+        case Role::leftShoulder:
+            return {Role::leftUpperArm};
+        case Role::leftUpperArm:
+            return {Role::leftLowerArm, Role::leftHand};
+        case Role::leftLowerArm:
+            return {Role::leftHand};
+        case Role::leftUpperLeg:
+            return {Role::leftLowerLeg, Role::leftFoot};
+        case Role::leftLowerLeg:
+            return {Role::leftFoot};
+        case Role::head:
+        case Role::leftHand:
+        case Role::leftFoot:
+        case Role::leftToes:
+            return {};
+        default:
+            break;
+    }
+    std::vector<Role> roles = endRoles(mirrored(role));
+    for (Role& end : roles)
+        end = mirrored(end);
+    return roles;
+}
+
+bool isTrunk(Role role) {
+    return role == Role::spine || role == Role::chest || role == Role::upperChest;
+}
+
+// Roles come parents first in the enumeration; so do the bodies.
+void addBodies(BodyPlan& plan, const Character& character, const HumanoidMap& map, std::span<const Role> roles) {
+    for (int index = 0; index < animation::kRoleCount; ++index) {
+        const Role role = animation::roleAt(index);
+        if (std::find(roles.begin(), roles.end(), role) == roles.end() || map.jointOf(role) == kNoJoint) continue;
+        PlannedBody body;
+        body.role = role;
+        body.joint = map.jointOf(role);
+        // A joint that plays two roles carries one body, the upper role's.
+        const auto taken = [&](const PlannedBody& other) { return other.joint == body.joint; };
+        if (std::any_of(plan.bodies.begin(), plan.bodies.end(), taken)) continue;
+        body.start = map.standardFromModel * character.skeleton.bindModelFromJoint[body.joint].translation;
+        const auto above = parentRole(role);
+        body.parent = above ? bodyCarrying(plan, *above) : -1;
+        plan.bodies.push_back(std::move(body));
+    }
+}
+
+// The joint of each role that has one, or kNoJoint's place: joint -> role index, -1 where there is none.
+std::vector<int> rolesOfJoints(const Character& character, const HumanoidMap& map) {
+    std::vector<int> roleOf(character.skeleton.parents.size(), -1);
+    for (int index = 0; index < animation::kRoleCount; ++index) {
+        const int joint = map.jointOf(animation::roleAt(index));
+        if (joint != kNoJoint) roleOf[joint] = index;
+    }
+    return roleOf;
+}
+
+float distanceToSegment(const vec3& point, const vec3& start, const vec3& end) {
+    const vec3 along = end - start;
+    const float square = glm::dot(along, along);
+    const float t = square > 0.0F ? std::clamp(glm::dot(point - start, along) / square, 0.0F, 1.0F) : 0.0F;
+    return glm::distance(point, start + t * along);
+}
+
+int nearestBody(const BodyPlan& plan, const vec3& point) {
+    int nearest = 0;
+    float least = distanceToSegment(point, plan.bodies[0].start, plan.bodies[0].end);
+    for (std::size_t body = 1; body < plan.bodies.size(); ++body) {
+        const float distance = distanceToSegment(point, plan.bodies[body].start, plan.bodies[body].end);
+        if (distance < least) {
+            least = distance;
+            nearest = static_cast<int>(body);
+        }
+    }
+    return nearest;
+}
+
+void assignJoints(BodyPlan& plan, const Character& character, const HumanoidMap& map) {
+    const animation::Skeleton& skeleton = character.skeleton;
+    const std::vector<int> roleOf = rolesOfJoints(character, map);
+    plan.bodyOfJoint.assign(skeleton.parents.size(), -1);
+    for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
+        if (roleOf[joint] >= 0) {
+            plan.bodyOfJoint[joint] = bodyCarrying(plan, animation::roleAt(roleOf[joint]));
+        } else if (skeleton.parents[joint] != kNoJoint) {
+            plan.bodyOfJoint[joint] = plan.bodyOfJoint[skeleton.parents[joint]];
+        }
+    }
+    for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
+        if (plan.bodyOfJoint[joint] >= 0) continue;
+        plan.bodyOfJoint[joint] =
+            nearestBody(plan, map.standardFromModel * skeleton.bindModelFromJoint[joint].translation);
+    }
+}
+
+bool isLeg(Role role) {
+    const Role left = sideOf(role) == animation::Side::right ? mirrored(role) : role;
+    return left == Role::leftUpperLeg || left == Role::leftLowerLeg || left == Role::leftFoot;
+}
+
+// Crown minus sole: from the skin of the head (or of the trunk, where there is none) and of the legs, else from the
+// joints (the head joint of a man lies at 0.89 of his height, the ankle at 0.05: hence the factor).
+float figureHeight(const BodyPlan& plan, float jointSpanM) {
+    std::vector<SkinPoint> low;
+    std::vector<SkinPoint> high;
+    for (const PlannedBody& body : plan.bodies) {
+        if (body.role == Role::head || (plan.bodyOf(Role::head) < 0 && sideOf(body.role) == animation::Side::center)) {
+            high.insert(high.end(), body.skin.begin(), body.skin.end());
+        }
+        if (isLeg(body.role)) low.insert(low.end(), body.skin.begin(), body.skin.end());
+    }
+    constexpr float kJointsOfHeight = 0.84F;
+    const float fromJoints = jointSpanM / kJointsOfHeight;
+    if (low.empty() || high.empty()) return fromJoints;
+    const auto y = [](const SkinPoint& point) { return point.position.y; };
+    const float fromSkin = quantileOf(high, 0.99F, y) - quantileOf(low, 0.005F, y);
+    return fromSkin > 0.5F * fromJoints ? fromSkin : fromJoints;
+}
+
+// Vertical extent of the bodies' joints.
+float jointSpan(const BodyPlan& plan) {
+    float low = plan.bodies[0].start.y;
+    float high = low;
+    for (const PlannedBody& body : plan.bodies) {
+        low = std::min(low, body.start.y);
+        high = std::max(high, body.start.y);
+    }
+    return std::max(high - low, 1e-3F);
+}
+
+void findEnds(BodyPlan& plan, const Character& character, const HumanoidMap& map) {
+    for (PlannedBody& body : plan.bodies) {
+        const vec3 standing = sideOf(body.role) == animation::Side::right
+                                  ? standingDirection(body.role) * vec3(-1, 1, 1)
+                                  : standingDirection(body.role);
+        const int above = body.parent;
+        // Without anything else a tip continues the limb.
+        const bool continues = above >= 0 && plan.bodies[above].endsAtJoint && body.role != Role::leftFoot &&
+                               body.role != Role::rightFoot && body.role != Role::head;
+        const vec3 direction = continues ? plan.bodies[above].direction() : standing;
+        body.end = body.start + direction * (0.1F * plan.heightM);
+        for (const Role role : endRoles(body.role)) {
+            const int joint = map.jointOf(role);
+            if (joint == kNoJoint || (isTrunk(role) && plan.bodyOf(role) < 0)) continue;
+            const vec3 end = map.standardFromModel * character.skeleton.bindModelFromJoint[joint].translation;
+            if (glm::distance(end, body.start) < 1e-3F * plan.heightM) continue;
+            body.end = end;
+            body.endsAtJoint = true;
+            break;
+        }
+    }
+}
+
+bool isSymmetric(const BodyPlan& plan) {
+    for (const PlannedBody& body : plan.bodies) {
+        if (sideOf(body.role) != animation::Side::left) continue;
+        const int other = plan.bodyOf(mirrored(body.role));
+        if (other < 0) return false;
+        const float off = glm::distance(plan.mirror(body.start), plan.bodies[other].start);
+        if (off > kSymmetryTolerance * plan.heightM) return false;
+    }
+    return true;
+}
+
+void findMiddle(BodyPlan& plan) {
+    float sum = 0.0F;
+    int count = 0;
+    for (const PlannedBody& body : plan.bodies) {
+        if (sideOf(body.role) == animation::Side::center) {
+            sum += body.start.x;
+            ++count;
+        }
+    }
+    plan.middleX = sum / static_cast<float>(count);
+    plan.symmetric = isSymmetric(plan);
+}
+
+}  // namespace
+
+vec3 PlannedBody::direction() const {
+    return glm::normalize(end - start);
+}
+
+float PlannedBody::length() const {
+    return glm::distance(end, start);
+}
+
+int BodyPlan::bodyOf(Role role) const {
+    for (std::size_t body = 0; body < bodies.size(); ++body) {
+        if (bodies[body].role == role) return static_cast<int>(body);
+    }
+    return -1;
+}
+
+vec3 standingDirection(Role role) {
+    switch (sideOf(role) == animation::Side::right ? mirrored(role) : role) {
+        case Role::leftShoulder:
+            return {1, 0, 0};
+        case Role::leftUpperArm:
+        case Role::leftLowerArm:
+        case Role::leftHand:
+        case Role::leftUpperLeg:
+        case Role::leftLowerLeg:
+            return {0, -1, 0};
+        case Role::leftFoot:
+        case Role::leftToes:
+            return {0, 0, 1};
+        default:
+            return {0, 1, 0};
+    }
+}
+
+int bodyCarrying(const BodyPlan& plan, Role role) {
+    for (std::optional<Role> at = role; at; at = animation::parentRole(*at)) {
+        const int body = plan.bodyOf(*at);
+        if (body >= 0) return body;
+    }
+    return 0;
+}
+
+BodyPlan planBodies(const Character& character, const HumanoidMap& map, const FitOptions& options) {
+    std::vector<Role> roles;
+    for (int index = 0; index < animation::kRoleCount; ++index) {
+        if (wantsBody(animation::roleAt(index), map, options)) roles.push_back(animation::roleAt(index));
+    }
+    return planBodies(character, map, roles);
+}
+
+BodyPlan planBodies(const Character& character, const HumanoidMap& map, std::span<const Role> roles) {
+    LUTKA_ASSERT(map.jointOf(Role::hips) != kNoJoint);
+    BodyPlan plan;
+    addBodies(plan, character, map, roles);
+    plan.heightM = jointSpan(plan);
+    findEnds(plan, character, map);
+    assignJoints(plan, character, map);
+    gatherSkin(plan, character, map.standardFromModel);
+    plan.heightM = figureHeight(plan, jointSpan(plan));
+    findEnds(plan, character, map);
+    balanceTrunk(plan);
+    findTips(plan, character, map);
+    findMiddle(plan);
+    return plan;
+}
+
+}  // namespace lutka::physics

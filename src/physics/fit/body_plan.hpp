@@ -1,0 +1,65 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "animation/character.hpp"
+#include "animation/humanoid/map_humanoid.hpp"
+#include "physics/fit/fit_options.hpp"
+#include "physics/fit/skin_point.hpp"
+
+namespace lutka::physics {
+
+/// A body to be made: whose it is and where its segment runs. Positions in the standard stance's axes.
+struct PlannedBody {
+    Role role = Role::hips;
+    int joint = animation::kNoJoint;
+    int parent = -1;              ///< Index of the parent body; -1 for the first.
+    vec3 start{0, 0, 0};          ///< The joint.
+    vec3 end{0, 0, 0};            ///< The next joint down the limb, or the tip.
+    bool endsAtJoint = false;     ///< False: `end` is a tip, from the skin or from proportions.
+    std::vector<SkinPoint> skin;  ///< The vertices that the joint and what follows it own.
+
+    [[nodiscard]] vec3 direction() const;  ///< Unit, from start to end.
+    [[nodiscard]] float length() const;
+};
+
+/// Which bodies a ragdoll will have and which part of the character each stands for.
+struct BodyPlan {
+    std::vector<PlannedBody> bodies;  ///< Parents first; bodies[0] is the hips.
+    std::vector<int> bodyOfJoint;     ///< One a joint of the skeleton: the body that its skin belongs to.
+    float heightM = 0.0F;             ///< Of the standing figure: crown to sole.
+    float middleX = 0.0F;             ///< The plane of symmetry, in the standard stance's axes.
+    /// Whether every joint of a left body lies within kSymmetryTolerance · height of its right counterpart's mirror
+    /// image. Left and right shapes are then made equal.
+    bool symmetric = false;
+    /// Where the trunk's skin was split by height because the rig leaves a trunk body next to none: the upper bounds of
+    /// the trunk bodies from the hips on, but for the topmost; empty where the rig's own weights decide.
+    std::vector<float> trunkBounds;
+
+    [[nodiscard]] int bodyOf(Role role) const;
+    [[nodiscard]] vec3 mirror(const vec3& point) const { return {2.0F * middleX - point.x, point.y, point.z}; }
+};
+inline constexpr float kSymmetryTolerance = 0.02F;
+
+/// The direction in which a role's segment runs from its joint when the figure stands with arms hanging and palms to
+/// the thighs, in the standard stance's axes; for the left side and the middle (mirror x for the right).
+[[nodiscard]] vec3 standingDirection(Role role);
+
+/// Which roles get a body: hips, spine, the topmost trunk role, head and the limbs, as far as they are mapped, and what
+/// the options add; with the segments and the skin of each. The map must be a humanoid's with hips.
+///
+/// A joint's skin belongs to its own body, else to that of the nearest joint above it with a role (a role without a
+/// body counts for the nearest role above that has one), else, where a rig hangs limbs on control joints, to the body
+/// whose segment is nearest.
+[[nodiscard]] BodyPlan planBodies(const animation::Character& character, const animation::HumanoidMap& map,
+                                  const FitOptions& options);
+
+/// The same for a given set of roles, of which those without a joint are left out.
+[[nodiscard]] BodyPlan planBodies(const animation::Character& character, const animation::HumanoidMap& map,
+                                  std::span<const Role> roles);
+
+/// The body that carries a role's part: its own, else that of the nearest role above; 0 when there is none.
+[[nodiscard]] int bodyCarrying(const BodyPlan& plan, Role role);
+
+}  // namespace lutka::physics

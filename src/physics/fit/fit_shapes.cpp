@@ -1,0 +1,287 @@
+#include "physics/fit/fit_shapes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <glm/geometric.hpp>
+
+#include "core/quantile.hpp"
+#include "physics/fit/body_tips.hpp"
+#include "physics/fit/capsule_search.hpp"
+#include "physics/fit/principal_axes.hpp"
+#include "physics/fit/separate_shapes.hpp"
+
+namespace lutka::physics {
+namespace {
+
+using animation::Side;
+
+constexpr std::size_t kFewestPoints = 24;
+constexpr float kSmallestRadius = 0.01F;  // of the height, like the next
+constexpr float kLargestRadius = 0.15F;
+constexpr float kLargestTrunkRadius = 0.2F;
+constexpr float kLargestHeadRadius = 0.3F;
+// Skin further than this from the surface counts no more than that; of the height.
+constexpr float kCutoff = 0.04F;
+// How far a limb's cap may reach past its joint, in radii: enough to close the knee, not to look like a sausage.
+constexpr float kOvershoot = 0.5F;
+
+bool isOneOf(Role role, Role left) {
+    return role == left || role == mirrored(left);
+}
+
+bool isTrunk(Role role) {
+    return role == Role::hips || role == Role::spine || role == Role::chest || role == Role::upperChest;
+}
+
+// Radius of a man's segment as a share of his height, and for what has no second joint its length.
+float radiusShare(Role role) {
+    switch (sideOf(role) == Side::right ? mirrored(role) : role) {
+        case Role::hips:
+        case Role::spine:
+        case Role::chest:
+        case Role::upperChest:
+            return 0.068F;
+        case Role::head:
+            return 0.05F;
+        case Role::neck:
+            return 0.033F;
+        case Role::leftShoulder:
+            return 0.03F;
+        case Role::leftUpperArm:
+            return 0.028F;
+        case Role::leftLowerArm:
+            return 0.023F;
+        case Role::leftUpperLeg:
+            return 0.045F;
+        case Role::leftLowerLeg:
+            return 0.032F;
+        case Role::leftToes:
+            return 0.015F;
+        default:
+            return 0.02F;
+    }
+}
+
+// The limits that keep a searched capsule what its segment is: `settle` clamps a trial.
+void settleLimb(CapsuleTrial& trial, float length) {
+    // Caps end within kOvershoot radii of the joints; the axis keeps within 0.6 radii of the line between them.
+    const float reach = kOvershoot * trial.radius;
+    const float longest = std::max(0.0F, 0.5F * length + reach - trial.radius);
+    trial.halfLength = std::clamp(trial.halfLength, 0.0F, longest);
+    const float slack = longest - trial.halfLength;
+    trial.center.y = std::clamp(trial.center.y, 0.5F * length - slack, 0.5F * length + slack);
+    const float aside = std::hypot(trial.center.x, trial.center.z);
+    const float most = 0.6F * trial.radius;
+    if (aside > most) {
+        trial.center.x *= most / aside;
+        trial.center.z *= most / aside;
+    }
+}
+
+// The search's axes for a segment: y along `direction`.
+quat axesAlong(const vec3& direction) {
+    const vec3 ahead = std::abs(direction.z) < 0.9F ? vec3(0, 0, 1) : vec3(0, 1, 0);
+    const vec3 x = glm::normalize(glm::cross(direction, ahead));
+    return glm::normalize(glm::quat_cast(mat3(x, direction, glm::cross(x, direction))));
+}
+
+class BodyFit {
+  public:
+    BodyFit(const BodyPlan& plan, const Anatomy& anatomy, int body)
+        : plan_(plan), body_(plan.bodies[body]), rotation_(anatomy.standardFromAnatomy[body]) {
+        points_ = skinNearSegment(plan, body_);
+        central_ = plan.symmetric && sideOf(body_.role) == Side::center;
+        if (plan.symmetric) addMirrored(body);
+        if (points_.size() >= kFewestPoints) spread_ = principalAxes(points_).spread[1];
+    }
+
+    [[nodiscard]] Capsule fit() const {
+        if (points_.size() < kFewestPoints) return byProportions();
+        if (isOneOf(body_.role, Role::leftFoot) || isOneOf(body_.role, Role::leftToes)) return fitFoot();
+        if (isTrunk(body_.role) || body_.role == Role::head) return fitStandingOrLying();
+        return fitLimb();
+    }
+
+  private:
+    // Both sides of a symmetric figure tell about one shape.
+    void addMirrored(int body) {
+        const int other = central_ ? body : plan_.bodyOf(mirrored(body_.role));
+        const vec3 shift = body_.start - plan_.mirror(plan_.bodies[other].start);
+        for (const SkinPoint& point : skinNearSegment(plan_, plan_.bodies[other]))
+            points_.push_back({plan_.mirror(point.position) + (central_ ? vec3(0) : shift), point.area});
+    }
+
+    [[nodiscard]] CapsuleSearch searchAlong(const vec3& origin, const quat& axes) const {
+        const bool head = body_.role == Role::head;
+        const float largest = head ? kLargestHeadRadius : isTrunk(body_.role) ? kLargestTrunkRadius : kLargestRadius;
+        const float cutoff = std::max(kCutoff * plan_.heightM, (head ? 1.0F : 0.5F) * spread_);
+        return {points_, {axes, origin}, plan_.heightM * kSmallestRadius, plan_.heightM * largest, cutoff};
+    }
+
+    [[nodiscard]] Capsule fitLimb() const {
+        const CapsuleSearch search = searchAlong(body_.start, axesAlong(body_.direction()));
+        const float length = body_.length();
+        CapsuleTrial trial;
+        trial.radius = search.radiusAboutAxis(0.15F * length, 0.85F * length);
+        trial.center = {0, 0.5F * length, 0};
+        trial.halfLength = 0.5F * length;
+        return search.run(trial, [&](CapsuleTrial& t) {
+            t.radius = std::min(t.radius, std::max(0.6F * length, 0.02F * plan_.heightM));
+            settleLimb(t, length);
+        });
+    }
+
+    // Standing or lying across: whichever lies nearer to the skin.
+    [[nodiscard]] Capsule fitStandingOrLying() const {
+        const std::array<vec3, 2> directions{rotation_ * vec3(0, 1, 0), rotation_ * vec3(1, 0, 0)};
+        Capsule best;
+        float least = 0.0F;
+        for (const vec3& direction : directions) {
+            const CapsuleSearch search =
+                searchAlong({plan_.middleX, body_.start.y, body_.start.z}, axesAlong(direction));
+            const Capsule capsule = fitFree(search);
+            const float cost = search.cost(capsule);
+            if (least == 0.0F || cost < least) {
+                least = cost;
+                best = capsule;
+            }
+        }
+        return best;
+    }
+
+    // Anywhere, as long as its tips stay with the skin.
+    [[nodiscard]] Capsule fitFree(const CapsuleSearch& search) const {
+        const float low = search.quantiles(0.01F).y;
+        const float high = search.quantiles(0.99F).y;
+        return search.run(search.boundingTrial(), [&](CapsuleTrial& t) {
+            keepCentral(t, search);
+            const float spare = 0.1F * t.radius;
+            const float longest = std::max(0.0F, 0.5F * (high - low) + spare - t.radius);
+            t.halfLength = std::min(t.halfLength, longest);
+            const float slack = longest - t.halfLength;
+            t.center.y = std::clamp(t.center.y, 0.5F * (low + high) - slack, 0.5F * (low + high) + slack);
+        });
+    }
+
+    // Along the sole and touching it.
+    [[nodiscard]] Capsule fitFoot() const {
+        const CapsuleSearch search = searchAlong(body_.start, axesAlong(rotation_ * vec3(0, 0, 1)));
+        const vec3 low = search.quantiles(0.02F);
+        const vec3 high = search.quantiles(0.98F);
+        const vec3 up = search.inSearch(rotation_ * vec3(0, 1, 0));
+        // The search's axes across the foot: which of x and z is up depends on the heading.
+        const int vertical = std::abs(up.x) > std::abs(up.z) ? 0 : 2;
+        const float sole = up[vertical] > 0.0F ? low[vertical] : high[vertical];
+        const float sign = up[vertical] > 0.0F ? 1.0F : -1.0F;
+        const int lateral = 2 - vertical;
+        const float width = high[lateral] - low[lateral];
+        CapsuleTrial trial;
+        trial.radius = std::max(0.4F * width, kSmallestRadius * plan_.heightM);
+        trial.center = 0.5F * (low + high);
+        trial.halfLength = 0.5F * (high.y - low.y) - trial.radius;
+        return search.run(trial, [&](CapsuleTrial& t) {
+            t.radius = std::clamp(t.radius, 0.3F * width, 0.5F * width);
+            t.center[vertical] = sole + sign * t.radius;
+            const float longest = std::max(0.0F, 0.5F * (high.y - low.y) - t.radius);
+            t.halfLength = std::clamp(t.halfLength, 0.8F * longest, longest);
+            const float slack = longest - t.halfLength;
+            const float middle = 0.5F * (low.y + high.y);
+            t.center.y = std::clamp(t.center.y, middle - slack, middle + slack);
+        });
+    }
+
+    void keepCentral(CapsuleTrial& trial, const CapsuleSearch& search) const {
+        if (!central_) return;
+        vec3 center = search.inStandard(trial.center);
+        center.x = plan_.middleX;
+        trial.center = search.toSearch(center);
+    }
+
+    // A man's measures, for figures without a skin and bodies without a share of it.
+    [[nodiscard]] Capsule byProportions() const {
+        const Role role = body_.role;
+        const float length = body_.length();
+        float radius = radiusShare(role) * plan_.heightM;
+        if (isTrunk(role)) return trunkByProportions(radius);
+        radius = std::min(radius, std::max(0.35F * length, kSmallestRadius * plan_.heightM));
+        vec3 start = body_.start;
+        vec3 end = body_.end;
+        if (isOneOf(role, Role::leftFoot) || isOneOf(role, Role::leftToes)) {
+            // The ankle stands 0.04 of the height above the sole and a quarter of the foot ahead of the heel.
+            const vec3 ahead = rotation_ * vec3(0, 0, 1);
+            const vec3 sole = start - vec3(0, (isOneOf(role, Role::leftFoot) ? 0.04F : 0.01F) * plan_.heightM, 0);
+            start = sole + vec3(0, radius, 0) - 0.02F * plan_.heightM * ahead;
+            end = start + ahead * std::max(length, 0.04F * plan_.heightM);
+        }
+        const vec3 along = glm::normalize(end - start);
+        const float inset = std::min((1.0F - kOvershoot) * radius, 0.5F * glm::distance(start, end));
+        return {start + inset * along, end - inset * along, radius};
+    }
+
+    // Across the body, as wide as hips or shoulders are, from joint to joint in height.
+    [[nodiscard]] Capsule trunkByProportions(float radius) const {
+        const bool lowest = body_.role == Role::hips;
+        const int side = plan_.bodyOf(lowest ? Role::leftUpperLeg : Role::leftUpperArm);
+        const int otherSide = plan_.bodyOf(lowest ? Role::rightUpperLeg : Role::rightUpperArm);
+        float halfWidth = 0.05F * plan_.heightM;
+        if (side >= 0 && otherSide >= 0) {
+            const float joints = std::abs(plan_.bodies[side].start.x - plan_.bodies[otherSide].start.x);
+            halfWidth = std::max((lowest ? 0.5F : 0.4F) * joints, 0.02F * plan_.heightM);
+        }
+        if (body_.role == Role::spine) halfWidth *= 0.7F;
+        radius = std::clamp(0.5F * body_.length() + 0.01F * plan_.heightM, 0.6F * radius, radius);
+        const vec3 center = 0.5F * (body_.start + body_.end);
+        const vec3 across = rotation_ * vec3(1, 0, 0);
+        const float half = std::max(0.0F, halfWidth - 0.3F * radius);
+        return {center - half * across, center + half * across, radius};
+    }
+
+    const BodyPlan& plan_;
+    const PlannedBody& body_;
+    quat rotation_;
+    std::vector<SkinPoint> points_;
+    bool central_ = false;
+    float spread_ = 0.0F;  // of the points, the second largest
+};
+
+// The mirror image of the left's shape about the right's joint.
+Capsule mirroredCapsule(const BodyPlan& plan, const Capsule& capsule, const PlannedBody& from, const PlannedBody& to) {
+    const vec3 shift = to.start - plan.mirror(from.start);
+    return {plan.mirror(capsule.start) + shift, plan.mirror(capsule.end) + shift, capsule.radius};
+}
+
+}  // namespace
+
+PlacedShape placeCapsule(const Capsule& capsule) {
+    const vec3 along = capsule.end - capsule.start;
+    const float length = glm::length(along);
+    PlacedShape placed;
+    placed.shape.kind = BodyShape::Kind::capsule;
+    placed.shape.radius = capsule.radius;
+    placed.shape.halfLength = 0.5F * length;
+    placed.standardFromBody.rotation = axesAlong(length > 1e-6F ? along / length : vec3(0, 1, 0));
+    placed.standardFromBody.translation = 0.5F * (capsule.start + capsule.end);
+    return placed;
+}
+
+std::vector<PlacedShape> fitShapes(const BodyPlan& plan, const Anatomy& anatomy) {
+    std::vector<Capsule> capsules(plan.bodies.size());
+    for (int body = 0; body < static_cast<int>(plan.bodies.size()); ++body) {
+        const PlannedBody& planned = plan.bodies[body];
+        if (plan.symmetric && sideOf(planned.role) == Side::right) {
+            const int left = plan.bodyOf(mirrored(planned.role));
+            capsules[body] = mirroredCapsule(plan, capsules[left], plan.bodies[left], planned);
+        } else {
+            capsules[body] = BodyFit(plan, anatomy, body).fit();
+        }
+    }
+    std::vector<PlacedShape> shapes;
+    shapes.reserve(capsules.size());
+    for (const Capsule& capsule : capsules)
+        shapes.push_back(placeCapsule(capsule));
+    separateShapes(plan, shapes);
+    return shapes;
+}
+
+}  // namespace lutka::physics

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "physics/fit/anatomy.hpp"
+#include "physics/fit/body_plan.hpp"
+#include "physics/fit/limits.hpp"
+
+namespace lutka::physics {
+
+/// A capsule by the centres of its caps.
+struct Capsule {
+    vec3 start{0, 0, 0};
+    vec3 end{0, 0, 0};
+    float radius = 0.0F;
+};
+
+/// A shape for every body of the plan.
+///
+/// Each capsule minimises the area-weighted mean distance of its skin to its surface, cut off at 4 % of the height or,
+/// where that is more, half the spread of the part (so that hair, skirts and weapons weigh little), by a coordinate
+/// search that starts from robust quantiles. Limbs keep the axis from joint to joint, displaced towards the middle of
+/// the flesh, and end near the joints; trunk capsules stand or lie across, whichever fits better; the head stands; feet
+/// lie on the sole. Bodies with fewer than 24 points of skin get a man's proportions. Radii are kept between 1 % and 15
+/// % of the height (trunk 20, head 30 %). On a symmetric rig both sides are fitted as one and come out as mirror
+/// images. Shapes of bodies that are not linked are then shrunk by up to a quarter where that keeps them apart.
+[[nodiscard]] std::vector<PlacedShape> fitShapes(const BodyPlan& plan, const Anatomy& anatomy);
+
+/// A capsule as a placed shape: axis along body Y, body Z as near to straight ahead as the axis lets it.
+[[nodiscard]] PlacedShape placeCapsule(const Capsule& capsule);
+
+}  // namespace lutka::physics

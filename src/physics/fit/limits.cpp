@@ -1,0 +1,137 @@
+#include "physics/fit/limits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "physics/fit/range_of_motion.hpp"
+#include "physics/profile/swing_twist.hpp"
+
+namespace lutka::physics {
+namespace {
+
+constexpr float kSpare = 2.0F;  // degrees
+constexpr float kWidest = 175.0F;
+
+// The frames of a hinge share their z in the bind pose, whatever lies out of its plane; they agree when the child is
+// turned from its bind angle to the neutral one.
+JointFrames hingeFrames(const BodyPlan& plan, const vec3& axis, int child, float neutralFlexion) {
+    const PlannedBody& body = plan.bodies[child];
+    const vec3 x = body.direction();
+    const vec3 upper = plan.bodies[body.parent].direction();
+    const vec3 inPlane = upper - glm::dot(upper, axis) * axis;
+    const float flexion = std::atan2(glm::dot(glm::cross(inPlane, x), axis), glm::dot(inPlane, x));
+    const quat frame = rotationFromXY(x, glm::cross(axis, x));
+    return {glm::angleAxis(neutralFlexion - flexion, axis) * frame, frame, body.start};
+}
+
+std::string widenHinge(HingeLimits& limits, float angle, Role child) {
+    const float lower = std::max(std::min(limits.lower, angle - radians(kSpare)), -kPi);
+    const float upper = std::min(std::max(limits.upper, angle + radians(kSpare)), kPi);
+    if (lower == limits.lower && upper == limits.upper) return {};
+    const float by = degrees(std::max(limits.lower - lower, upper - limits.upper));
+    limits = {lower, upper};
+    return fmt::format("{}: hinge widened by {:.1f} degrees to hold the bind pose", roleName(child), by);
+}
+
+std::string widenCone(ConeTwistLimits& limits, const SwingTwist& pose, Role child) {
+    std::string note;
+    const float angle = glm::length(pose.swing);
+    const float filled = std::hypot(pose.swing.y / limits.swingY, pose.swing.z / limits.swingZ);
+    const float factor = angle > 1e-4F ? filled * (angle + radians(kSpare)) / angle : 0.0F;
+    if (factor > 1.0F) {
+        note = fmt::format("{}: cone of {:.0f} by {:.0f} degrees widened {:.2f} times to hold the bind pose",
+                           roleName(child), degrees(limits.swingY), degrees(limits.swingZ), factor);
+        limits.swingY = std::min(limits.swingY * factor, radians(kWidest));
+        limits.swingZ = std::min(limits.swingZ * factor, radians(kWidest));
+    }
+    const float twist = std::min(std::abs(pose.twist) + radians(kSpare), radians(kWidest));
+    if (twist > limits.twist) {
+        if (!note.empty()) note += "; ";
+        note += fmt::format("{}: twist of {:.0f} degrees widened to {:.0f} to hold the bind pose", roleName(child),
+                            degrees(limits.twist), degrees(twist));
+        limits.twist = twist;
+    }
+    return note;
+}
+
+}  // namespace
+
+JointFrames jointFrames(const BodyPlan& plan, const Anatomy& anatomy, int child) {
+    const PlannedBody& body = plan.bodies[child];
+    const RangeOfMotion range = rangeOfMotion(plan, body.role);
+    const vec3& axis = anatomy.flexionAxis[child];
+    if (range.kind == ConstraintProfile::Kind::hinge && glm::length(axis) > 0.5F) {
+        return hingeFrames(plan, axis, child, range.neutralFlexion);
+    }
+    const quat frame = standingFrame(body.role);
+    return {anatomy.standardFromAnatomy[body.parent] * range.neutral * frame,
+            anatomy.standardFromAnatomy[child] * frame, body.start};
+}
+
+void setFrames(ConstraintProfile& constraint, const JointFrames& frames, const RigidTransform& standardFromParent,
+               const RigidTransform& standardFromChild) {
+    constraint.parentFromFrame = inverse(standardFromParent) * RigidTransform{frames.parent, frames.anchor};
+    constraint.childFromFrame = inverse(standardFromChild) * RigidTransform{frames.child, frames.anchor};
+    constraint.parentFromFrame.rotation = glm::normalize(constraint.parentFromFrame.rotation);
+    constraint.childFromFrame.rotation = glm::normalize(constraint.childFromFrame.rotation);
+}
+
+std::vector<ConstraintProfile> makeConstraints(const BodyPlan& plan, const Anatomy& anatomy,
+                                               const std::vector<PlacedShape>& shapes,
+                                               std::vector<std::string>& notes) {
+    std::vector<ConstraintProfile> constraints;
+    for (int child = 1; child < static_cast<int>(plan.bodies.size()); ++child) {
+        const PlannedBody& body = plan.bodies[child];
+        const RangeOfMotion range = rangeOfMotion(plan, body.role);
+        ConstraintProfile& constraint = constraints.emplace_back();
+        constraint.kind = range.kind;
+        constraint.parent = body.parent;
+        constraint.child = child;
+        constraint.hinge = range.hinge;
+        constraint.cone = range.cone;
+        const RigidTransform& parentBody = shapes[body.parent].standardFromBody;
+        const RigidTransform& childBody = shapes[child].standardFromBody;
+        setFrames(constraint, jointFrames(plan, anatomy, child), parentBody, childBody);
+        std::string note = widenToHold(constraint, parentBody, childBody, body.role);
+        if (!note.empty()) notes.push_back(std::move(note));
+    }
+    return constraints;
+}
+
+std::string widenToHold(ConstraintProfile& constraint, const RigidTransform& worldFromParent,
+                        const RigidTransform& worldFromChild, Role child) {
+    const quat parentFrame = worldFromParent.rotation * constraint.parentFromFrame.rotation;
+    const quat childFrame = worldFromChild.rotation * constraint.childFromFrame.rotation;
+    const quat relative = glm::conjugate(parentFrame) * childFrame;
+    if (constraint.kind == ConstraintProfile::Kind::hinge) {
+        const float angle = 2.0F * std::atan2(relative.z, relative.w);
+        return widenHinge(constraint.hinge, std::remainder(angle, 2.0F * kPi), child);
+    }
+    return widenCone(constraint.cone, swingTwist(relative), child);
+}
+
+void setJointFriction(RagdollProfile& profile) {
+    constexpr float kShare = 1.0F / 40.0F;
+    constexpr float kGravity = 9.81F;
+    const std::size_t count = profile.bodies.size();
+    // Mass of each body with all below it, and its moment arm about the body's own joint, stretched out straight.
+    std::vector<float> mass(count, 0.0F);
+    std::vector<float> moment(count, 0.0F);
+    for (std::size_t child = count; child-- > 1;) {
+        ConstraintProfile& constraint = profile.constraints[child - 1];
+        const float arm = glm::length(constraint.childFromFrame.translation);
+        mass[child] += profile.bodies[child].massKg;
+        moment[child] += profile.bodies[child].massKg * arm;
+        constraint.frictionNm = kShare * kGravity * moment[child];
+        if (constraint.parent == 0) continue;
+        const ConstraintProfile& above = profile.constraints[constraint.parent - 1];
+        const float reach = glm::distance(constraint.parentFromFrame.translation, above.childFromFrame.translation);
+        mass[constraint.parent] += mass[child];
+        moment[constraint.parent] += moment[child] + mass[child] * reach;
+    }
+}
+
+}  // namespace lutka::physics

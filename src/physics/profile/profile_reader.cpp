@@ -1,0 +1,234 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/files.hpp"
+#include "core/json/json_cursor.hpp"
+#include "core/json/json_text.hpp"
+#include "physics/profile/profile_format.hpp"
+#include "physics/profile/profile_io.hpp"
+
+namespace lutka::physics {
+namespace {
+
+using nlohmann::json;
+
+constexpr float kLargest = 1e6F;  // of any length, mass or moment; beyond it floats in a simulation mean nothing
+constexpr float kSmallest = 1e-9F;
+
+quat readQuaternion(const JsonCursor& at) {
+    const std::vector<float> v = at.numbers(4, -1.01F, 1.01F);
+    const quat q(v[3], v[0], v[1], v[2]);
+    if (at.readable() && std::abs(glm::dot(q, q) - 1.0F) > 1e-4F)
+        at.report("expected a quaternion [x, y, z, w] of length 1");
+    return q;
+}
+
+vec3 readVector(const JsonCursor& at, float low, float high) {
+    const std::vector<float> v = at.numbers(3, low, high);
+    return {v[0], v[1], v[2]};
+}
+
+RigidTransform readFrame(const JsonCursor& at) {
+    at.expectObject({"rotation", "translation"});
+    return {readQuaternion(at["rotation"]), readVector(at["translation"], -kLargest, kLargest)};
+}
+
+BodyShape readShape(const JsonCursor& at) {
+    BodyShape shape;
+    const int kind = at["kind"].oneOf({"capsule", "box", "sphere"});
+    switch (kind) {
+        case 0:
+            at.expectObject({"kind", "radius", "halfLength"});
+            shape.radius = at["radius"].number(kSmallest, kLargest);
+            shape.halfLength = at["halfLength"].number(0.0F, kLargest);
+            break;
+        case 1:
+            at.expectObject({"kind", "halfExtents"});
+            shape.kind = BodyShape::Kind::box;
+            shape.halfExtents = readVector(at["halfExtents"], kSmallest, kLargest);
+            break;
+        case 2:
+            at.expectObject({"kind", "radius"});
+            shape.kind = BodyShape::Kind::sphere;
+            shape.radius = at["radius"].number(kSmallest, kLargest);
+            break;
+        default:
+            break;
+    }
+    return shape;
+}
+
+std::optional<Role> readRole(const JsonCursor& at) {
+    const std::string name = at.text();
+    const std::optional<Role> role = animation::roleFromName(name);
+    if (at.readable() && !role) at.report("expected a role of the VRM 1.0 humanoid, got \"" + name + "\"");
+    return role;
+}
+
+// The body of a named role; -1 (reported) when there is none.
+int readBodyRole(const JsonCursor& at, const RagdollProfile& profile) {
+    const std::optional<Role> role = readRole(at);
+    if (!role) return -1;
+    const int body = bodyOf(profile, *role);
+    if (body < 0) at.report(fmt::format("expected the role of one of the bodies, none is {}", roleName(*role)));
+    return body;
+}
+
+void readBody(const JsonCursor& at, RagdollProfile& profile) {
+    at.expectObject({"role", "joint", "jointPath", "shape", "jointFromBody", "massKg", "inertia"});
+    BodyProfile body;
+    const std::optional<Role> role = readRole(at["role"]);
+    if (role && bodyOf(profile, *role) >= 0) {
+        at["role"].report(fmt::format("expected a role of its own, there is a body for {} before", roleName(*role)));
+    }
+    body.role = role.value_or(Role::hips);
+    body.joint = at["joint"].text();
+    body.jointPath = at["jointPath"].text();
+    const auto sameJoint = [&](const BodyProfile& other) { return other.jointPath == body.jointPath; };
+    if (std::any_of(profile.bodies.begin(), profile.bodies.end(), sameJoint)) {
+        at["jointPath"].report("expected a joint of its own, another body is on \"" + body.jointPath + "\"");
+    }
+    body.shape = readShape(at["shape"]);
+    body.jointFromBody = readFrame(at["jointFromBody"]);
+    body.massKg = at["massKg"].number(kSmallest, kLargest);
+    body.inertia = readVector(at["inertia"], kSmallest * kSmallest, kLargest);
+    profile.bodies.push_back(std::move(body));
+}
+
+void readConstraint(const JsonCursor& at, RagdollProfile& profile) {
+    constexpr float kAlmostPi = kPi - 1e-4F;
+    constexpr float kTinyAngle = 1e-4F;
+    const int kind = at["kind"].oneOf({"hinge", "coneTwist"});
+    const char* limits = kind == 0 ? "hinge" : "cone";
+    at.expectObject({"child", "parent", "kind", "parentFromFrame", "childFromFrame", limits, "frictionNm"});
+    ConstraintProfile c;
+    c.kind = kind == 0 ? ConstraintProfile::Kind::hinge : ConstraintProfile::Kind::coneTwist;
+    c.child = readBodyRole(at["child"], profile);
+    c.parent = readBodyRole(at["parent"], profile);
+    if (c.child == 0) at["child"].report("expected a body beside hips, the root, which hangs on nothing");
+    if (c.child > 0 && c.parent >= c.child) {
+        at["parent"].report("expected a body listed before the child (otherwise the links form a cycle)");
+    }
+    const auto sameChild = [&](const ConstraintProfile& other) { return other.child == c.child; };
+    if (c.child > 0 && std::any_of(profile.constraints.begin(), profile.constraints.end(), sameChild)) {
+        at["child"].report("expected one constraint a child, there is one before");
+    }
+    c.parentFromFrame = readFrame(at["parentFromFrame"]);
+    c.childFromFrame = readFrame(at["childFromFrame"]);
+    const JsonCursor range = at[limits];
+    if (kind == 0) {
+        range.expectObject({"lower", "upper"});
+        c.hinge = {range["lower"].number(-kPi, 0.0F), range["upper"].number(0.0F, kPi)};
+    } else if (kind == 1) {
+        range.expectObject({"swingY", "swingZ", "twist"});
+        c.cone = {range["swingY"].number(kTinyAngle, kAlmostPi), range["swingZ"].number(kTinyAngle, kAlmostPi),
+                  range["twist"].number(kTinyAngle, kAlmostPi)};
+    }
+    c.frictionNm = at["frictionNm"].number(0.0F, kLargest);
+    profile.constraints.push_back(c);
+}
+
+// Every body but the first hangs on something, and the constraints follow their children's order.
+void orderConstraints(const JsonCursor& at, RagdollProfile& profile) {
+    for (std::size_t body = 1; body < profile.bodies.size(); ++body) {
+        const auto isMine = [&](const ConstraintProfile& c) { return c.child == static_cast<int>(body); };
+        // A body that came out as a second hips has been reported for its role.
+        if (profile.bodies[body].role == Role::hips) continue;
+        if (std::none_of(profile.constraints.begin(), profile.constraints.end(), isMine)) {
+            at.report(fmt::format("expected a constraint whose child is {}: it has no parent",
+                                  roleName(profile.bodies[body].role)));
+        }
+    }
+    std::stable_sort(profile.constraints.begin(), profile.constraints.end(),
+                     [](const auto& a, const auto& b) { return a.child < b.child; });
+}
+
+void readPair(const JsonCursor& at, RagdollProfile& profile) {
+    if (!at.expectArray(2, 2)) return;
+    const int a = readBodyRole(at[std::size_t{0}], profile);
+    const int b = readBodyRole(at[std::size_t{1}], profile);
+    if (a >= 0 && a == b) at.report("expected two different roles");
+    profile.filteredPairs.emplace_back(std::min(a, b), std::max(a, b));
+}
+
+void readHeader(const JsonCursor& at, RagdollProfile& profile) {
+    at.expectObject({"format", "version", "units", "name", "heightM", "totalMassKg", "standardFromModel", "bodies",
+                     "constraints", "filteredPairs", "notes"},
+                    {"$schema"});
+    if (at.has("$schema")) static_cast<void>(at["$schema"].text());
+    const JsonCursor units = at["units"];
+    units.expectObject({"length", "mass", "angle", "torque"});
+    units["length"].oneOf({"m"});
+    units["mass"].oneOf({"kg"});
+    units["angle"].oneOf({"rad"});
+    units["torque"].oneOf({"N m"});
+    profile.name = at["name"].text();
+    profile.heightM = at["heightM"].number(kSmallest, kLargest);
+    profile.totalMassKg = at["totalMassKg"].number(kSmallest, kLargest);
+    profile.standardFromModel = readQuaternion(at["standardFromModel"]);
+}
+
+void readLists(const JsonCursor& at, RagdollProfile& profile) {
+    const JsonCursor bodies = at["bodies"];
+    if (bodies.expectArray(1, profile_format::kMostBodies)) {
+        for (std::size_t i = 0; i < bodies.size(); ++i)
+            readBody(bodies[i], profile);
+        if (profile.bodies[0].role != Role::hips) bodies[std::size_t{0}]["role"].report("expected hips, the root");
+    }
+    const JsonCursor constraints = at["constraints"];
+    if (constraints.expectArray(0, profile_format::kMostBodies)) {
+        for (std::size_t i = 0; i < constraints.size(); ++i)
+            readConstraint(constraints[i], profile);
+        orderConstraints(constraints, profile);
+    }
+    const JsonCursor pairs = at["filteredPairs"];
+    if (pairs.expectArray(0, profile_format::kMostPairs)) {
+        for (std::size_t i = 0; i < pairs.size(); ++i)
+            readPair(pairs[i], profile);
+    }
+    const JsonCursor notes = at["notes"];
+    if (notes.expectArray(0, profile_format::kMostPairs)) {
+        for (std::size_t i = 0; i < notes.size(); ++i)
+            profile.notes.push_back(notes[i].text());
+    }
+}
+
+Error asError(std::string_view source, const std::vector<std::string>& problems) {
+    std::string message = problems.size() == 1
+                              ? "not a valid ragdoll profile, 1 problem:"
+                              : fmt::format("not a valid ragdoll profile, {} problems:", problems.size());
+    for (const std::string& problem : problems)
+        message += "\n  " + problem;
+    return {ErrorCode::input, std::move(message), std::string(source), "docs/profile.md describes every field"};
+}
+
+}  // namespace
+
+Result<RagdollProfile> profileFromJson(std::string_view text, std::string_view source) {
+    std::vector<std::string> duplicates;
+    const Result<json> parsed = parseJson(text, source, duplicates);
+    if (!parsed) return parsed.error();
+    const json& document = parsed.value();
+    std::vector<std::string> problems = checkFormat(document, profile_format::kName, RagdollProfile::kVersion);
+    if (!problems.empty()) return asError(source, problems);
+    problems = duplicates;
+    RagdollProfile profile;
+    const JsonCursor root(document, problems);
+    readHeader(root, profile);
+    readLists(root, profile);
+    if (problems.empty()) problems = validate(profile);
+    if (!problems.empty()) return asError(source, problems);
+    return profile;
+}
+
+Result<RagdollProfile> loadProfile(const std::filesystem::path& file) {
+    constexpr std::size_t kMostBytes = std::size_t{16} << 20U;
+    const Result<std::vector<unsigned char>> bytes = readFile(file, kMostBytes);
+    if (!bytes) return bytes.error();
+    const auto* text = reinterpret_cast<const char*>(bytes.value().data());
+    return profileFromJson({text, bytes.value().size()}, file.string());
+}
+
+}  // namespace lutka::physics

@@ -1,0 +1,171 @@
+/// Opening, saving and what the editor asks on the way.
+
+#include <filesystem>
+#include <fstream>
+
+#include "editor/input/input_script.hpp"
+#include "editor/sessions.hpp"
+#include "editor/ui/file_list.hpp"
+#include "physics/profile/profile_io.hpp"
+#include "support/command.hpp"
+
+using namespace lutka;
+using namespace lutka::editor;
+using animation::Role;
+using test::makeEditor;
+using test::send;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A model with a profile beside it, in which the left knee bends to 0.6 rad only.
+struct Neighbours {
+    test::ScratchFolder folder;
+    fs::path model = folder / "mannequin.glb";
+    fs::path profile = folder / "mannequin.ragdoll.json";
+
+    Neighbours() {
+        fs::copy_file(LUTKA_ASSETS_DIR "/models/mannequin.glb", model);
+        auto document = EditorDocument::open(model);
+        REQUIRE(document.ok());
+        const int knee = physics::bodyOf(document.value()->profile(), Role::leftLowerLeg) - 1;
+        REQUIRE(document.value()->setHinge(knee, {-0.5F, 0.6F}).ok());
+        REQUIRE(document.value()->save(profile).ok());
+    }
+};
+
+float kneeOf(const Editor& editor) {
+    const physics::RagdollProfile& profile = editor.document().profile();
+    return profile.constraints[physics::bodyOf(profile, Role::leftLowerLeg) - 1].hinge.upper;
+}
+
+void editKnee(Editor& editor) {
+    const int knee = physics::bodyOf(editor.document().profile(), Role::leftLowerLeg) - 1;
+    REQUIRE(editor.edit([&](EditorDocument& document) { return document.setHinge(knee, {-0.1F, 0.3F}); }));
+}
+
+}  // namespace
+
+TEST_CASE("a profile beside the model is offered when the model is opened and taken when the user agrees") {
+    const Neighbours files;
+    const auto editor = makeEditor();
+    CHECK(editor->offeredProfile().empty());
+    send(*editor, filesDropped({files.model.string()}));
+    REQUIRE(editor->offeredProfile() == files.profile);
+    CHECK(kneeOf(*editor) != 0.6F);
+    editor->answerOffer(true);
+    CHECK(editor->offeredProfile().empty());
+    CHECK(kneeOf(*editor) == 0.6F);
+    CHECK_FALSE(editor->document().unsaved());
+}
+
+TEST_CASE("a profile that was asked for is not offered again") {
+    const Neighbours files;
+    EditorOptions options;
+    options.model = files.model;
+    const auto offered = Editor::create(options);
+    REQUIRE(offered.ok());
+    CHECK(offered.value()->offeredProfile() == files.profile);
+    offered.value()->answerOffer(false);
+    CHECK(offered.value()->offeredProfile().empty());
+    options.load.profile = files.profile;
+    const auto asked = Editor::create(options);
+    REQUIRE(asked.ok());
+    CHECK(asked.value()->offeredProfile().empty());
+}
+
+TEST_CASE("a first save over a file that is there asks and replaces only when told to") {
+    const Neighbours files;
+    EditorOptions options;
+    options.model = files.model;
+    const auto editor = Editor::create(options);
+    REQUIRE(editor.ok());
+    Editor& one = *editor.value();
+    editKnee(one);
+    send(one, keyPressed(Key::s, {false, true, false}));
+    REQUIRE(one.asking());
+    CHECK(one.replacedFile() == files.profile);
+    one.answerReplace(false);
+    CHECK_FALSE(one.asking());
+    CHECK(one.document().unsaved());
+    CHECK(physics::loadProfile(files.profile).value().constraints.size() > 1);
+    const std::string theirs = test::fileText(files.profile);
+    send(one, keyPressed(Key::s, {false, true, false}));
+    CHECK(test::fileText(files.profile) == theirs);
+    one.answerReplace(true);
+    CHECK_FALSE(one.document().unsaved());
+    CHECK(test::fileText(files.profile) != theirs);
+    editKnee(one);
+    send(one, keyPressed(Key::s, {false, true, false}));  // it is this session's file now
+    CHECK_FALSE(one.asking());
+}
+
+TEST_CASE("closing with unsaved changes asks about a file that is there before it quits") {
+    const Neighbours files;
+    EditorOptions options;
+    options.model = files.model;
+    const auto editor = Editor::create(options);
+    REQUIRE(editor.ok());
+    Editor& one = *editor.value();
+    editKnee(one);
+    send(one, windowClosed());
+    one.answer(Editor::Answer::save);
+    CHECK_FALSE(one.quitting());
+    REQUIRE_FALSE(one.replacedFile().empty());
+    one.answerReplace(true);
+    CHECK(one.quitting());
+}
+
+TEST_CASE("a recording is on disk event by event") {
+    const test::ScratchFolder folder;
+    const fs::path file = folder / "recorded.jsonl";
+    auto writer = ScriptWriter::create(file, {640, 480});
+    REQUIRE(writer.ok());
+    CHECK(loadScript(file).value().entries.empty());
+    const InputScript::Entry entry{3, keyPressed(Key::g)};
+    REQUIRE(writer.value().add(std::span(&entry, 1)).ok());
+    const auto read = loadScript(file);
+    REQUIRE(read.ok());
+    CHECK(read.value().size.width == 640);
+    REQUIRE(read.value().entries.size() == 1);
+    CHECK(read.value().entries.front() == entry);
+    const auto refused = ScriptWriter::create(folder / "no/such/folder.jsonl", {640, 480});
+    REQUIRE_FALSE(refused.ok());
+    CHECK(refused.error().code == ErrorCode::output);
+}
+
+TEST_CASE("a folder lists its folders first, then what the filter lets through, by name in any case") {
+    const test::ScratchFolder folder;
+    fs::create_directories(folder / "zebra");
+    fs::create_directories(folder / "Apes");
+    for (const char* name : {"knight.FBX", "b.glb", "A.ragdoll.json", "notes.txt", ".hidden.glb"})
+        std::ofstream(folder / name) << "x";
+    const auto names = [&](FileFilter filter) {
+        std::string all;
+        for (const FileEntry& entry : listFolder(folder.path, filter))
+            all += entry.name + (entry.folder ? "/ " : " ");
+        return all;
+    };
+    CHECK(names(FileFilter::models) == "Apes/ zebra/ A.ragdoll.json b.glb knight.FBX ");
+    CHECK(names(FileFilter::profiles) == "Apes/ zebra/ A.ragdoll.json ");
+    CHECK(names(FileFilter::baked) == "Apes/ zebra/ b.glb ");
+    CHECK(names(FileFilter::all) == "Apes/ zebra/ A.ragdoll.json b.glb knight.FBX notes.txt ");
+    CHECK(listFolder(folder / "no such folder", FileFilter::all).empty());
+}
+
+TEST_CASE("an export over a file that is there asks, and the next one over its own does not") {
+    const auto editor = makeEditor();
+    const test::ScratchFolder folder;
+    const fs::path file = folder / "baked.glb";
+    std::ofstream(file) << "theirs";
+    editor->requestExport(file, 0.2F);
+    REQUIRE(editor->replacedFile() == file);
+    editor->answerReplace(false);
+    CHECK(test::fileText(file) == "theirs");
+    editor->requestExport(file, 0.2F);
+    editor->answerReplace(true);
+    CHECK(test::fileText(file) != "theirs");
+    editor->requestExport(file, 0.2F);
+    CHECK_FALSE(editor->asking());
+}

@@ -1,0 +1,382 @@
+#include <glm/geometric.hpp>
+
+#include "editor/editor.hpp"
+#include "editor/sessions.hpp"
+#include "scene/scene_file.hpp"
+#include "support/command.hpp"
+
+using namespace lutka;
+using namespace lutka::editor;
+using scene::EntityId;
+using scene::EntityKind;
+using scene::EntityScene;
+
+namespace {
+
+const std::filesystem::path kPlayground = LUTKA_ASSETS_DIR "/scenes/playground.scene.json";
+
+EntityId add(Editor& editor, EntityKind kind, const vec3& at) {
+    EntityId id = scene::kNoEntity;
+    REQUIRE(editor.editScene("Add", "", [&](EntityScene& scene) {
+        id = scene::addEntity(scene, kind, {{1, 0, 0, 0}, at}).id;
+    }));
+    return id;
+}
+
+std::unique_ptr<Editor> playground() {
+    EditorOptions options;
+    options.sceneFile = kPlayground;
+    auto editor = Editor::create(options);
+    REQUIRE(editor);
+    return std::move(editor).value();
+}
+
+EntityId named(const Editor& editor, const std::string& name) {
+    for (const scene::Entity& entity : editor.document().scene().entities) {
+        if (entity.name == name) return entity.id;
+    }
+    FAIL(name + " is not there");
+    return scene::kNoEntity;
+}
+
+}  // namespace
+
+TEST_CASE("another named scene takes the place of its entities and leaves those that the user added") {
+    const auto editor = test::makeEditor();
+    const EntityId own = add(*editor, EntityKind::box, {2, 0.25F, 0});
+    SceneSettings settings = editor->document().state().scene;
+    settings.scenario = "stairs";
+    settings.count = 3;
+    REQUIRE(editor->edit([&](EditorDocument& document) { return document.setScene(settings, "Scene"); }));
+    const EntityScene& scene = editor->document().scene();
+    CHECK(scene.all<scene::Ragdoll>().size() == 3);
+    CHECK(named(*editor, "Stairs") != scene::kNoEntity);
+    CHECK(scene::worldFromEntity(scene, own).translation == vec3(2, 0.25F, 0));
+    CHECK(editor->player().simulation().dollCount() == 3);
+    CHECK(scene::validate(scene).empty());
+    editor->perform(Action::undo);
+    CHECK(editor->document().scene().all<scene::Ragdoll>().size() == 1);
+}
+
+TEST_CASE("dolls and balls go on where they are while the scene around them is edited, what is moved starts there") {
+    const auto editor = test::makeEditor();
+    const EntityId ball = add(*editor, EntityKind::sphere, {1.5F, 2, 0});
+    for (int frame = 0; frame < 20; ++frame)
+        editor->update(1.0 / 60.0);
+    const vec3 hips = test::placeOf(*editor, animation::Role::hips);
+    const auto placeOfBall = [&] {
+        return editor->player().simulation().world().propState(0).worldFromBody.translation;
+    };
+    const vec3 fallen = placeOfBall();
+    CHECK(fallen.y < 1.9F);
+    const EntityId second = add(*editor, EntityKind::character, {-3, 1, 0});
+    CHECK(glm::distance(test::placeOf(*editor, animation::Role::hips), hips) < 1e-4F);
+    CHECK(glm::distance(placeOfBall(), fallen) < 1e-4F);
+    REQUIRE(editor->editScene("Move", "", [&](EntityScene& scene) {
+        scene::placeEntity(scene, ball, {{1, 0, 0, 0}, {1.5F, 3, 0}});
+        scene::placeEntity(scene, second, {{1, 0, 0, 0}, {-5, 1, 0}});
+    }));
+    CHECK(editor->player().worldFromEntity(ball).translation.y == Approx(3.0F));
+    CHECK(editor->player().bodiesOf(1).front().worldFromBody.translation.x == Approx(-5.0F).margin(0.1));
+    CHECK(glm::distance(test::placeOf(*editor, animation::Role::hips), hips) < 1e-4F);
+}
+
+TEST_CASE("what no scene can have is refused and nothing is changed") {
+    const auto editor = test::makeEditor();
+    const EntityId box = add(*editor, EntityKind::box, {2, 0.25F, 0});
+    const EntityScene before = editor->document().scene();
+    CHECK_FALSE(editor->editScene("Edit", "",
+                                  [&](EntityScene& scene) { scene.find<scene::Collider>(box)->halfExtents.x = -1; }));
+    CHECK_FALSE(editor->editScene("Edit", "", [&](EntityScene& scene) { scene.add(box, scene::Ragdoll{}); }));
+    CHECK_FALSE(editor->editScene(
+        "Edit", "", [&](EntityScene& scene) { scene.all<scene::Ragdoll>().front().model = "nowhere.glb"; }));
+    CHECK_FALSE(editor->editScene("Edit", "", [&](EntityScene& scene) {
+        scene.all<scene::Ragdoll>().front().clip = scene::ClipStart{"moonwalk", 0};
+    }));
+    CHECK(editor->document().scene() == before);
+    CHECK(editor->workspace().toasts.size() >= 3);
+}
+
+TEST_CASE("a drag of a slider is one entry of undo") {
+    const auto editor = test::makeEditor();
+    const EntityId light = add(*editor, EntityKind::spot, {0, 3, 0});
+    for (int i = 1; i < 6; ++i) {
+        editor->editScene("Light", "intensity", [&](EntityScene& scene) {
+            scene.find<scene::Light>(light)->intensity = static_cast<float>(i);
+        });
+    }
+    editor->document().endGroup();
+    CHECK(editor->document().scene().find<scene::Light>(light)->intensity == 5.0F);
+    editor->perform(Action::undo);
+    CHECK(editor->document().scene().find<scene::Light>(light)->intensity == 4.0F);
+    editor->perform(Action::undo);
+    CHECK(editor->document().scene().all<scene::Light>().empty());
+}
+
+TEST_CASE("a scene file opens with its characters, camera and lights, and is saved as it was") {
+    const auto editor = playground();
+    CHECK(editor->document().assets().size() == 2);
+    CHECK(editor->player().simulation().dollCount() == 3);
+    CHECK_FALSE(editor->document().sceneUnsaved());
+    CHECK(editor->document().sceneFile() == kPlayground);
+    const test::ScratchFolder folder;
+    const std::filesystem::path copy = folder / "copy.scene.json";
+    REQUIRE(editor->document().saveScene(copy));
+    const auto read = scene::loadScene(copy);
+    REQUIRE(read);
+    CHECK(read.value().entities == editor->document().scene().entities);
+    CHECK(std::filesystem::equivalent(read.value().all<scene::Ragdoll>().front().model,
+                                      LUTKA_ASSETS_DIR "/models/mannequin.glb"));
+    for (int frame = 0; frame < 60; ++frame)
+        editor->update(1.0 / 60.0);
+    CHECK(editor->player().simulation().quality().nonFinite == 0);
+}
+
+TEST_CASE("the character that is edited can be changed for another of the scene") {
+    const auto editor = playground();
+    const EntityId heavy = named(*editor, "Heavy on the ramp");
+    const auto ragdoll = [&] { return *editor->document().scene().find<scene::Ragdoll>(heavy); };
+    CHECK_FALSE(editor->document().isEdited(ragdoll()));
+    const float light = editor->document().profile().totalMassKg;
+    editor->editCharacter(heavy);
+    CHECK(editor->document().isEdited(ragdoll()));
+    CHECK(editor->document().profile().totalMassKg > light + 50.0F);
+    CHECK(editor->document().assets().size() == 2);
+    CHECK(editor->player().simulation().dollCount() == 3);
+    CHECK_FALSE(editor->asking());
+}
+
+TEST_CASE("a character of another profile is pulled and pinned by its bodies, and stays where the scene has it") {
+    const auto editor = playground();
+    const EntityId heavy = named(*editor, "Heavy on the ramp");
+    const int doll = editor->player().dollOf(heavy);
+    REQUIRE(doll > 0);
+    REQUIRE_FALSE(editor->player().isEditedDoll(doll));
+    const EntityScene before = editor->document().scene();
+    test::pass(*editor, 5);
+    editor->player().setPlaying(false);  // posed without gravity: it is too heavy to be lifted by a hand
+    const auto place = [&] { return editor->player().bodiesOf(doll).front().worldFromBody.translation; };
+    render::Camera& camera = editor->workspace().camera;
+    // From where nothing is in between.
+    const auto seen = [&] {
+        const auto pick = editor->workspace().pickUnderMouse();
+        return pick && pick->body && pick->body->doll == doll;
+    };
+    for (int turn = 0; turn < 12 && !seen(); ++turn) {
+        camera.yaw = radians(30.0F * static_cast<float>(turn));
+        render::frameSphere(camera, place(), 1.0F, editor->workspace().window.aspect());
+        editor->handle(mouseMoved(vec2(*render::project(camera, place(), editor->workspace().window))), {});
+    }
+    REQUIRE(seen());
+    test::send(*editor, mouseButton(MouseButton::left, true));
+    REQUIRE(editor->workspace().press->pick);
+    REQUIRE(editor->workspace().press->pick->body);
+    CHECK(editor->workspace().press->pick->body->doll == doll);
+    CHECK(editor->workspace().selection.active() == Item{Item::Kind::object, 0, static_cast<int>(heavy)});
+    test::send(*editor, mouseMoved(editor->workspace().mouse + vec2(0, -8)));
+    REQUIRE(editor->state() == State::grab);
+    REQUIRE(editor->workspace().pulls.mouse);
+    const Pull held = *editor->workspace().pulls.mouse;
+    CHECK(held.doll == doll);
+    test::send(*editor, mouseMoved(editor->workspace().mouse + vec2(0, -150)));
+    const vec3 target = editor->workspace().pulls.mouse->target;
+    CHECK(target.y > held.target.y + 0.2F);
+    const auto miss = [&] {
+        const auto& profile = editor->player().simulation().assetOf(doll).profile;
+        const auto body = static_cast<std::size_t>(physics::bodyOf(profile, held.role));
+        return glm::distance(editor->player().bodiesOf(doll)[body].worldFromBody * held.bodyPoint, target);
+    };
+    const float far = miss();
+    test::pass(*editor, 60);
+    CHECK(miss() < 0.5F * far);
+
+    test::send(*editor, keyPressed(Key::p));
+    CHECK(editor->state() != State::grab);
+    CHECK(editor->workspace().pulls.pins.size() == 1);
+    test::send(*editor, keyPressed(Key::p));
+    CHECK(editor->workspace().pulls.pins.empty());
+    CHECK(editor->document().scene() == before);
+    CHECK_FALSE(editor->document().sceneUnsaved());
+}
+
+TEST_CASE("unsaved changes of a scene are marked and asked about, and Ctrl+S saves a scene that has a file") {
+    const test::ScratchFolder folder;
+    const auto editor = playground();
+    REQUIRE(editor->document().saveScene(folder / "own.scene.json"));
+    add(*editor, EntityKind::capsule, {0, 3, 2});
+    CHECK(editor->document().sceneUnsaved());
+    CHECK_FALSE(editor->document().unsaved());
+    editor->perform(Action::quit);
+    REQUIRE(editor->askingUnsaved());
+    editor->answer(Editor::Answer::cancel);
+    CHECK_FALSE(editor->quitting());
+    editor->perform(Action::saveProfile);
+    CHECK_FALSE(editor->document().sceneUnsaved());
+    const auto read = scene::loadScene(folder / "own.scene.json");
+    REQUIRE(read);
+    CHECK(read.value().entities.back().name == "Capsule");
+    editor->perform(Action::undo);
+    CHECK(editor->document().sceneUnsaved());
+    editor->perform(Action::quit);
+    editor->answer(Editor::Answer::discard);
+    CHECK(editor->quitting());
+}
+
+TEST_CASE("a scene that is dropped on the window opens, and a faulty one leaves everything as it was") {
+    const auto editor = test::makeEditor();
+    InputEvent drop;
+    drop.kind = InputEvent::Kind::drop;
+    drop.files = {kPlayground};
+    editor->handle(drop, {});
+    CHECK(editor->document().scene().name == "playground");
+    CHECK(editor->document().sceneFile() == kPlayground);
+    const test::ScratchFolder folder;
+    std::ofstream(folder / "bad.scene.json") << R"({"format": "lutka.scene", "version": 1})";
+    const EntityScene before = editor->document().scene();
+    editor->open(folder / "bad.scene.json");
+    CHECK(editor->document().scene() == before);
+    CHECK(editor->workspace().toasts.back().kind == Toast::Kind::error);
+}
+
+TEST_CASE("a camera takes the view and gives it back") {
+    const auto editor = test::makeEditor();
+    const EntityId camera = add(*editor, EntityKind::camera, {0, 1, 5});
+    const render::Camera view = editor->workspace().camera;
+    editor->placeCamera(camera);
+    editor->workspace().camera.yaw += 1.0F;
+    editor->workspace().camera.distance *= 2.0F;
+    editor->lookThrough(camera);
+    CHECK(glm::distance(render::eyeOf(editor->workspace().camera), render::eyeOf(view)) < 1e-3F);
+    CHECK(glm::distance(render::forwardOf(editor->workspace().camera), render::forwardOf(view)) < 1e-4F);
+}
+
+TEST_CASE("copies are dropped as characters of the scene, and one undo takes them away") {
+    const auto editor = test::makeEditor();
+    editor->dropCopies(20);
+    CHECK(editor->player().simulation().dollCount() == 21);
+    for (int frame = 0; frame < 30; ++frame)
+        editor->update(1.0 / 60.0);
+    CHECK(editor->player().simulation().quality().nonFinite == 0);
+    editor->perform(Action::undo);
+    CHECK(editor->player().simulation().dollCount() == 1);
+}
+
+TEST_CASE("a recording replays what was simulated, can be scrubbed, saved and opened, and the fall goes on after it") {
+    const test::ScratchFolder folder;
+    const auto editor = test::makeEditor();
+    Player& player = editor->player();
+    player.startRecording();
+    std::vector<vec3> heights;
+    for (int frame = 0; frame < 40; ++frame) {
+        heights.push_back(player.simulation().worldFromBody(0)[0].translation);
+        editor->update(1.0 / 60.0);
+    }
+    player.stopRecording();
+    CHECK(player.recordedSteps() == 41);
+    const vec3 end = player.simulation().worldFromBody(0)[0].translation;
+    REQUIRE(player.replay());
+    player.setPlaying(false);
+    player.scrubTo(10.0 / 60.0);
+    CHECK(glm::distance(player.simulation().worldFromBody(0)[0].translation, heights[10]) < 1e-4F);
+    player.scrubTo(1e9);
+    CHECK(glm::distance(player.simulation().worldFromBody(0)[0].translation, end) < 1e-5F);
+    REQUIRE(player.saveRecording(folder / "fall"));
+    player.endReplay();
+    CHECK(glm::distance(player.simulation().worldFromBody(0)[0].translation, end) < 1e-5F);
+    editor->perform(Action::reset);
+    REQUIRE(player.openRecording(folder / "fall"));
+    CHECK(player.replaying());
+    player.setPlaying(true);
+    for (int frame = 0; frame < 20; ++frame)
+        editor->update(1.0 / 60.0);
+    CHECK(player.replaySeconds() == Approx(20.0 / 60.0).margin(1e-3));
+    editor->perform(Action::reset);
+    CHECK_FALSE(player.replaying());
+    CHECK_FALSE(player.openRecording(folder / "nowhere"));
+}
+
+TEST_CASE("a recording ends when the scene gets other bodies, and is refused by a scene with others") {
+    const auto editor = test::makeEditor();
+    Player& player = editor->player();
+    player.startRecording();
+    editor->update(1.0 / 60.0);
+    CHECK(player.recording());
+    editor->dropCopies(1);
+    editor->update(1.0 / 60.0);
+    CHECK_FALSE(player.recording());
+    const auto refused = player.replay();
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().message.find("moving things") != std::string::npos);
+}
+
+TEST_CASE("the dolls go back to where they were when Play was pressed") {
+    const auto editor = test::makeEditor();
+    for (int frame = 0; frame < 25; ++frame)
+        editor->update(1.0 / 60.0);
+    editor->perform(Action::togglePlay);
+    const vec3 paused = test::placeOf(*editor, animation::Role::hips);
+    editor->perform(Action::togglePlay);
+    REQUIRE(editor->player().canReturnToPlay());
+    for (int frame = 0; frame < 25; ++frame)
+        editor->update(1.0 / 60.0);
+    CHECK(glm::distance(test::placeOf(*editor, animation::Role::hips), paused) > 0.05F);
+    editor->perform(Action::returnToPlay);
+    CHECK(glm::distance(test::placeOf(*editor, animation::Role::hips), paused) < 1e-4F);
+    CHECK_FALSE(editor->player().playing());
+}
+
+TEST_CASE("step, substeps, iterations and damping reach the simulation") {
+    const auto editor = test::makeEditor();
+    SceneSettings settings = editor->document().state().scene;
+    settings.entities.simulation.dt = 1.0F / 120.0F;
+    settings.entities.simulation.world.substeps = 3;
+    settings.entities.simulation.world.linearDamping = 0.9F;
+    settings.entities.simulation.world.gravity = vec3(0);
+    for (const auto solver : {physics::SolverKind::bullet, physics::SolverKind::crowd}) {
+        settings.entities.simulation.world.solver = solver;
+        for (auto& doll : settings.entities.all<scene::Ragdoll>())
+            doll.linearVelocity = {1, 0, 0};
+        REQUIRE(editor->edit([&](EditorDocument& document) { return document.setScene(settings, "Physics"); }));
+        editor->perform(Action::reset);
+        CHECK(editor->player().simulation().world().substepsPerStep() == 3);
+        for (int frame = 0; frame < 60; ++frame)
+            editor->update(1.0 / 60.0);
+        CHECK(editor->player().simulation().steps() == 120);
+        const vec3 speed = editor->player().bodiesOf(0).front().linearVelocity;
+        CHECK(speed.x == Approx(0.1F).margin(0.03));  // a tenth is left after a second
+    }
+}
+
+TEST_CASE("a scene without characters goes on, and takes one again") {
+    const auto editor = test::makeEditor();
+    REQUIRE(editor->editScene("Delete", "", [](EntityScene& scene) {
+        scene::removeEntity(scene, scene.all<scene::Ragdoll>().front().entity);
+    }));
+    test::pass(*editor, 3);
+    editor->perform(Action::focus);
+    editor->perform(Action::reset);
+    editor->perform(Action::throwBall);
+    test::pass(*editor, 3);
+    CHECK(editor->player().simulation().dollCount() == 0);
+    CHECK_FALSE(editor->exportBaked("nothing.glb", 0.1F));
+    add(*editor, EntityKind::character, {0, 1, 0});
+    test::pass(*editor, 3);
+    CHECK(editor->player().simulation().dollCount() == 1);
+}
+
+TEST_CASE("the fall starts from a clip at a time, with its velocities") {
+    EditorOptions options;
+    options.model = LUTKA_ASSETS_DIR "/models/mannequin.glb";
+    auto made = Editor::create(options);
+    REQUIRE(made);
+    Editor& editor = *made.value();
+    SceneSettings settings = editor.document().state().scene;
+    settings.clip = scene::ClipStart{"walk", 0.4F};
+    REQUIRE(editor.edit([&](EditorDocument& document) { return document.setScene(settings, "Start"); }));
+    editor.perform(Action::reset);
+    const auto bodies = editor.player().bodiesOf(0);
+    const bool moves = std::any_of(bodies.begin(), bodies.end(), [](const physics::BodyState& body) {
+        return glm::length(body.linearVelocity) > 0.2F;
+    });
+    CHECK(moves);
+}

@@ -1,0 +1,105 @@
+#include <set>
+
+#include "editor/input/actions.hpp"
+#include "editor/input/input_script.hpp"
+#include "support/catch.hpp"
+
+using namespace lutka;
+using namespace lutka::editor;
+
+namespace {
+
+InputScript everyKind() {
+    InputScript script;
+    script.size = {800, 600};
+    InputEvent held = keyPressed(Key::z, {true, true, false});
+    held.repeated = true;
+    const InputEvent events[] = {
+        mouseMoved({12.5F, 700}),
+        mouseButton(MouseButton::middle, true, {false, false, true}),
+        wheelTurned(-2.0F),
+        held,
+        keyReleased(Key::f3),
+        textTyped(0x3042),
+        filesDropped({"a b.glb", "日本.fbx"}),
+        windowResized({640, 480}),
+        focusChanged(false),
+        windowClosed(),
+    };
+    int frame = 0;
+    for (const InputEvent& event : events)
+        script.entries.push_back({frame++ / 2, event});
+    return script;
+}
+
+}  // namespace
+
+TEST_CASE("every key has a name of its own and is found by it") {
+    std::set<std::string_view> names;
+    for (int i = 0; i < kKeyCount; ++i) {
+        const Key key = static_cast<Key>(i);
+        INFO(i);
+        CHECK_FALSE(keyName(key).empty());
+        CHECK(names.insert(keyName(key)).second);
+        CHECK(keyFromName(keyName(key)) == key);
+    }
+    CHECK(keyName(Key::pageDown) == "PageDown");
+    CHECK(keyName(Key::rightAlt) == "RightAlt");
+    CHECK(keyName(Key::f12) == "F12");
+    CHECK_FALSE(keyFromName("Hyper").has_value());
+}
+
+TEST_CASE("an input script survives the way through its text") {
+    const InputScript script = everyKind();
+    const auto back = scriptFromText(scriptToText(script), "test");
+    REQUIRE(back.ok());
+    CHECK(back.value().size == script.size);
+    CHECK(back.value().entries == script.entries);
+}
+
+TEST_CASE("a broken input script is refused with its line and the reason") {
+    const std::string header = "{\"format\":\"lutka.input\",\"version\":1}\n";
+    const std::pair<std::string, std::string> cases[] = {
+        {"", "is empty"},
+        {"{\"format\":\"else\"}\n", "test:1"},
+        {"{\"format\":\"lutka.input\",\"version\":9}\n", "version 9"},
+        {header + "not json\n", "test:2"},
+        {header + "{\"frame\":0,\"event\":\"jump\"}\n", "unknown event \"jump\""},
+        {header + "{\"frame\":0,\"event\":\"key\",\"key\":\"Hyper\",\"pressed\":true}\n", "unknown key"},
+        {header + "{\"frame\":0,\"event\":\"mouseButton\",\"button\":\"fourth\",\"pressed\":true}\n", "unknown button"},
+        {header + "{\"frame\":0,\"event\":\"mouseMove\",\"x\":1}\n", "y"},
+        {header + "{\"frame\":3,\"event\":\"close\"}\n\n{\"frame\":2,\"event\":\"close\"}\n", "test:4"},
+        {header + "{\"frame\":99999999,\"event\":\"close\"}\n", "out of order"},
+        {header + "{\"frame\":0,\"event\":\"resize\",\"size\":[0,5]}\n", "size"},
+    };
+    for (const auto& [text, expected] : cases) {
+        INFO(text);
+        const auto script = scriptFromText(text, "test");
+        REQUIRE_FALSE(script.ok());
+        CHECK(script.error().code == ErrorCode::input);
+        CHECK_THAT(script.error().text(), Catch::Contains(expected));
+    }
+}
+
+TEST_CASE("a script player hands each event out once, at its frame or as soon after as asked") {
+    ScriptPlayer player(everyKind());
+    CHECK(player.take(0).size() == 2);
+    CHECK(player.take(0).empty());
+    CHECK(player.take(2).size() == 4);
+    CHECK_FALSE(player.finished());
+    CHECK(player.take(100).size() == 4);
+    CHECK(player.finished());
+}
+
+TEST_CASE("no key does two things and every action has a name") {
+    std::set<std::string> shortcuts;
+    for (const Binding& binding : keyBindings()) {
+        INFO(shortcutText(binding));
+        CHECK(shortcuts.insert(shortcutText(binding)).second);
+        CHECK_FALSE(actionName(binding.action).empty());
+        CHECK(actionFor(keyPressed(binding.key, binding.modifiers)) == binding.action);
+        CHECK_FALSE(actionFor(keyReleased(binding.key, binding.modifiers)).has_value());
+    }
+    CHECK(shortcutText(Action::redo) == "Ctrl+Shift+Z");
+    CHECK_FALSE(actionFor(keyPressed(Key::z)).has_value());
+}

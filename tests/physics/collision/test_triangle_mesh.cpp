@@ -1,0 +1,152 @@
+#include "physics/collision/triangle_mesh.hpp"
+
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "core/random.hpp"
+#include "physics/collision/contacts.hpp"
+#include "physics/collision/shape_distance.hpp"
+#include "physics/collision/static_distance.hpp"
+#include "support/catch.hpp"
+
+using namespace lutka;
+using physics::TriangleMesh;
+
+namespace {
+
+std::shared_ptr<const TriangleMesh> boxOf(const vec3& half) {
+    std::vector<vec3> vertices;
+    for (int i = 0; i < 8; ++i)
+        vertices.push_back(half * vec3((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1));
+    const std::vector<TriangleMesh::Triangle> triangles{{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
+                                                        {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
+                                                        {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    auto mesh = TriangleMesh::make(vertices, triangles);
+    REQUIRE(mesh.ok());
+    return std::move(mesh).value();
+}
+
+physics::CollisionGeometry meshGeometry(const TriangleMesh& mesh) {
+    physics::CollisionGeometry geometry;
+    geometry.kind = physics::CollisionGeometry::Kind::mesh;
+    geometry.mesh = &mesh;
+    return geometry;
+}
+
+}  // namespace
+
+TEST_CASE("a box of triangles has the distances of a box", "[mesh]") {
+    const vec3 half(0.7F, 0.4F, 1.1F);
+    const auto mesh = boxOf(half);
+    Random random(3);
+    for (int i = 0; i < 2000; ++i) {
+        const vec3 point(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2));
+        const physics::SurfaceDistance expected = physics::distanceToBox(point, half);
+        const physics::MeshDistance found = mesh->distanceTo(point, 10.0F);
+        REQUIRE(found.found);
+        CHECK(found.distance == Approx(expected.distance).margin(1e-4));
+        if (expected.distance > 0.01F) CHECK(glm::dot(found.normal, expected.normal) > 0.999F);
+    }
+    CHECK_FALSE(mesh->distanceTo({5, 0, 0}, 1.0F).found);
+}
+
+TEST_CASE("contacts with a box of triangles are those with a box", "[mesh]") {
+    const vec3 half(0.5F, 0.3F, 0.6F);
+    const auto mesh = boxOf(half);
+    physics::CollisionGeometry box;
+    box.kind = physics::CollisionGeometry::Kind::box;
+    box.halfExtents = half;
+    Random random(11);
+    int touching = 0;
+    for (int i = 0; i < 3000; ++i) {
+        physics::CollisionGeometry capsule;
+        capsule.radius = 0.1F;
+        capsule.halfLength = i % 3 == 0 ? 0.0F : 0.25F;
+        capsule.worldFromShape.translation = {random.uniform(-1, 1), random.uniform(-0.8F, 0.8F),
+                                              random.uniform(-1, 1)};
+        capsule.worldFromShape.rotation =
+            glm::normalize(quat(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), 0.3F));
+        const auto ours = findContacts(capsule, meshGeometry(*mesh), 0.04F);
+        const auto theirs = findContacts(capsule, box, 0.04F);
+        float nearest[2] = {1, 1};
+        for (int k = 0; k < ours.count; ++k)
+            nearest[0] = std::min(nearest[0], ours.contacts[k].distance);
+        for (int k = 0; k < theirs.count; ++k)
+            nearest[1] = std::min(nearest[1], theirs.contacts[k].distance);
+        // Where the core is inside, both lead out, a box by its nearest face at that point.
+        if (nearest[1] < -capsule.radius) continue;
+        CHECK((ours.count > 0) == (theirs.count > 0));
+        if (theirs.count > 0) CHECK(nearest[0] == Approx(nearest[1]).margin(2e-3));
+        touching += theirs.count > 0 ? 1 : 0;
+    }
+    CHECK(touching > 500);
+}
+
+TEST_CASE("a capsule on a plane of many triangles has two contacts with the plane's normal", "[mesh]") {
+    std::vector<vec3> vertices;
+    std::vector<TriangleMesh::Triangle> triangles;
+    constexpr int kSide = 21;
+    for (int i = 0; i < kSide * kSide; ++i)
+        vertices.emplace_back(0.1F * static_cast<float>(i % kSide) - 1.0F, 0.0F,
+                              0.1F * static_cast<float>(i / kSide) - 1.0F);
+    for (int row = 0; row + 1 < kSide; ++row) {
+        for (int column = 0; column + 1 < kSide; ++column) {
+            const int at = row * kSide + column;
+            triangles.push_back({at, at + kSide, at + 1});
+            triangles.push_back({at + 1, at + kSide, at + kSide + 1});
+        }
+    }
+    const auto mesh = TriangleMesh::make(vertices, triangles);
+    REQUIRE(mesh.ok());
+    for (int i = 0; i < 200; ++i) {
+        physics::CollisionGeometry capsule;
+        capsule.radius = 0.08F;
+        capsule.halfLength = 0.2F;
+        // On a grid that meets edges and corners exactly, too.
+        capsule.worldFromShape.translation = {0.05F * static_cast<float>(i % 9) - 0.2F, 0.07F,
+                                              0.05F * static_cast<float>(i % 11) - 0.25F};
+        capsule.worldFromShape.rotation = glm::angleAxis(static_cast<float>(i % 8) * 0.25F * kPi, vec3(0, 1, 0)) *
+                                          glm::angleAxis(0.5F * kPi, vec3(0, 0, 1));
+        const auto contacts = findContacts(capsule, meshGeometry(*mesh.value()), 0.02F);
+        REQUIRE(contacts.count == 2);
+        for (int k = 0; k < 2; ++k) {
+            CHECK(contacts.contacts[k].normal.y > 0.9999F);
+            CHECK(contacts.contacts[k].distance == Approx(-0.01F).margin(1e-4));
+        }
+    }
+}
+
+TEST_CASE("the depth in a mesh that quality reports is that in the box it stands for", "[mesh]") {
+    physics::StaticShape box;
+    box.kind = physics::StaticShape::Kind::box;
+    box.halfExtents = {1, 0.5F, 1};
+    box.worldFromShape = {glm::angleAxis(0.3F, vec3(0, 0, 1)), {0.2F, -0.5F, 0}};
+    physics::StaticShape mesh = box;
+    mesh.kind = physics::StaticShape::Kind::mesh;
+    mesh.mesh = boxOf(box.halfExtents);
+    physics::BodyShape capsule;
+    capsule.radius = 0.1F;
+    capsule.halfLength = 0.3F;
+    Random random(5);
+    for (int i = 0; i < 500; ++i) {
+        const RigidTransform at{
+            glm::normalize(quat(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), 0.3F)),
+            {random.uniform(-1.5F, 1.5F), random.uniform(-0.3F, 0.8F), random.uniform(-1, 1)}};
+        const float expected = distanceToStatic(capsule, at, box);
+        if (expected > 0.2F) continue;
+        CHECK(distanceToStatic(capsule, at, mesh) == Approx(expected).margin(2e-3));
+    }
+}
+
+TEST_CASE("a mesh of nonsense is refused with a reason", "[mesh]") {
+    const std::vector<vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+    const std::vector<TriangleMesh::Triangle> outside{{0, 1, 3}};
+    CHECK(TriangleMesh::make(corners, outside).error().message.find("vertex 3 of 3") != std::string::npos);
+    const std::vector<TriangleMesh::Triangle> thin{{0, 1, 1}};
+    CHECK_FALSE(TriangleMesh::make(corners, thin).ok());
+    const std::vector<vec3> broken{{0, 0, 0}, {1, std::numeric_limits<float>::quiet_NaN(), 0}, {0, 0, 1}};
+    const std::vector<TriangleMesh::Triangle> good{{0, 2, 1}};
+    CHECK_FALSE(TriangleMesh::make(broken, good).ok());
+    CHECK(TriangleMesh::make(corners, good).ok());
+    CHECK_FALSE(TriangleMesh::make({}, {}).ok());
+}

@@ -1,0 +1,194 @@
+#include "physics/doctor/doctor.hpp"
+
+#include <algorithm>
+
+#include "physics/fit/fit_ragdoll.hpp"
+#include "physics/fit/rebind.hpp"
+#include "support/catch.hpp"
+#include "support/rigs.hpp"
+
+using namespace lutka;
+using namespace lutka::physics;
+
+namespace {
+
+struct Patient {
+    animation::Character character = test::makeBiped();
+    animation::HumanoidMap map = test::mapOfBiped(character);
+    RagdollProfile profile = fitRagdoll(character, map).value();
+
+    [[nodiscard]] Diagnosis look() const { return diagnose(profile, character, map); }
+    BodyProfile& body(Role role) { return profile.bodies[bodyOf(profile, role)]; }
+    ConstraintProfile& constraint(Role child) { return profile.constraints[bodyOf(profile, child) - 1]; }
+};
+
+const Finding* find(const Diagnosis& diagnosis, const std::string& code) {
+    for (const Finding& finding : diagnosis.findings) {
+        if (finding.code == code) return &finding;
+    }
+    return nullptr;
+}
+
+// Turns the hinge's frames half about x, so that flexion becomes its opposite.
+void reverse(ConstraintProfile& c) {
+    const quat half = glm::angleAxis(kPi, vec3(1, 0, 0));
+    c.parentFromFrame.rotation = c.parentFromFrame.rotation * half;
+    c.childFromFrame.rotation = c.childFromFrame.rotation * half;
+    c.hinge = {-c.hinge.upper, -c.hinge.lower};
+}
+
+struct Illness {
+    const char* code;
+    Severity severity;
+    const char* place;
+    void (*infect)(Patient&);
+};
+
+const std::vector<Illness>& mendableIllnesses() {
+    static const std::vector<Illness> illnesses = {
+        {"mass-ratio", Severity::error, "leftHand on leftLowerArm",
+         [](Patient& p) {
+             p.body(Role::hips).massKg += p.body(Role::leftHand).massKg - 0.01F;
+             p.body(Role::leftHand).massKg = 0.01F;
+         }},
+        {"bind-outside-limits", Severity::error, "rightUpperArm on chest",
+         [](Patient& p) { p.constraint(Role::rightUpperArm).cone.swingY = radians(10); }},
+        {"bind-outside-limits", Severity::error, "leftLowerLeg on leftUpperLeg",
+         [](Patient& p) { p.constraint(Role::leftLowerLeg).hinge.lower = radians(-20); }},
+        {"hinge-reversed", Severity::error, "leftLowerLeg on leftUpperLeg",
+         [](Patient& p) { reverse(p.constraint(Role::leftLowerLeg)); }},
+        {"overlap", Severity::error, "leftUpperLeg and rightUpperLeg",
+         [](Patient& p) {
+             for (const Role role : {Role::leftUpperLeg, Role::rightUpperLeg})
+                 p.body(role).shape.radius = 0.13F;
+         }},
+        {"capsule-outside-skin", Severity::warning, "leftLowerArm",
+         [](Patient& p) { p.body(Role::leftLowerArm).shape.radius = 0.1F; }},
+        {"skin-not-covered", Severity::warning, "chest", [](Patient& p) { p.body(Role::chest).shape.radius = 0.05F; }},
+        {"sides-differ", Severity::warning, "leftLowerLeg and rightLowerLeg",
+         [](Patient& p) { p.body(Role::leftLowerLeg).shape.radius *= 1.15F; }},
+        {"body-tiny", Severity::warning, "leftHand", [](Patient& p) { p.body(Role::leftHand).shape.radius = 0.005F; }},
+        {"body-huge", Severity::warning, "head", [](Patient& p) { p.body(Role::head).shape.radius = 0.7F; }},
+    };
+    return illnesses;
+}
+
+}  // namespace
+
+TEST_CASE("the doctor finds nothing on a fitted biped") {
+    const Diagnosis diagnosis = Patient{}.look();
+    for (const Finding& finding : diagnosis.findings)
+        FAIL_CHECK(finding.code + " at " + finding.place + ": " + finding.measure);
+    CHECK_FALSE(diagnosis.hasErrors());
+    CHECK(diagnosis.score > 90.0F);
+    CHECK(diagnosis.fit.vertices > 1000);
+    CHECK(diagnosis.fit.skinNear > 0.85F);
+    REQUIRE(diagnosis.fit.volumeCovered);
+    CHECK(*diagnosis.fit.volumeCovered > 0.85F);
+    CHECK(*diagnosis.fit.volumeCovered <= 1.0F);
+    CHECK(diagnosis.fit.overlapM == 0.0F);
+}
+
+TEST_CASE("the doctor names each illness and its mend cures it") {
+    for (const Illness& illness : mendableIllnesses()) {
+        INFO(illness.code << " at " << illness.place);
+        Patient patient;
+        const float healthy = patient.look().score;
+        illness.infect(patient);
+        const Diagnosis ill = patient.look();
+        const Finding* finding = find(ill, illness.code);
+        REQUIRE(finding != nullptr);
+        CHECK(finding->place == illness.place);
+        CHECK(finding->severity == illness.severity);
+        CHECK(finding->mendable);
+        CHECK(ill.score < healthy + 1e-3F);
+        if (illness.severity == Severity::error) CHECK(ill.hasErrors());
+        const auto mended = applyMends(patient.profile, patient.character, patient.map, ill.findings);
+        REQUIRE(mended);
+        CHECK(validate(mended.value()).empty());
+        CHECK(mended.value().notes.size() > patient.profile.notes.size());
+        const Diagnosis after = diagnose(mended.value(), patient.character, patient.map);
+        CHECK(find(after, illness.code) == nullptr);
+        CHECK_FALSE(after.hasErrors());
+    }
+}
+
+TEST_CASE("the doctor tells of roles without joints, narrow limits and degenerate chains") {
+    Patient patient;
+    patient.map.missing = {Role::leftHand};
+    patient.constraint(Role::head).cone.twist = radians(2);
+    const Diagnosis diagnosis = patient.look();
+    REQUIRE(find(diagnosis, "role-unmapped") != nullptr);
+    CHECK(find(diagnosis, "role-unmapped")->place == "leftHand");
+    REQUIRE(find(diagnosis, "limit-span-small") != nullptr);
+    CHECK(find(diagnosis, "limit-span-small")->measure.find("2.0 degrees") == 0);
+
+    Patient folded;
+    const int hand = findJoint(folded.character.skeleton, "leftHand");
+    const int forearm = findJoint(folded.character.skeleton, "leftLowerArm");
+    folded.character.skeleton.bindModelFromJoint[hand] = folded.character.skeleton.bindModelFromJoint[forearm];
+    const Diagnosis chain = folded.look();
+    REQUIRE(find(chain, "chain-degenerate") != nullptr);
+    CHECK(find(chain, "chain-degenerate")->place == "leftHand on leftLowerArm");
+}
+
+TEST_CASE("the doctor tells of a role whose joint is not below its parent's") {
+    Patient p;
+    REQUIRE(find(p.look(), "joint-not-below") == nullptr);
+    const int left = p.map.jointOf(Role::leftHand);
+    p.map.roles[animation::indexOf(Role::leftHand)]->joint = p.map.jointOf(Role::rightHand);
+    p.map.roles[animation::indexOf(Role::rightHand)]->joint = left;
+    const Diagnosis diagnosis = p.look();
+    const Finding* finding = find(diagnosis, "joint-not-below");
+    REQUIRE(finding != nullptr);
+    CHECK(finding->place == "leftHand on leftLowerArm");
+    CHECK(finding->roles == std::vector{Role::leftHand});
+    CHECK_THAT(finding->measure, Catch::Contains("leftLowerArm"));
+}
+
+TEST_CASE("an invalid profile and one of another rig are told apart from a sick one") {
+    Patient invalid;
+    invalid.profile.bodies[3].massKg = -1;
+    const Diagnosis first = invalid.look();
+    CHECK(first.hasErrors());
+    CHECK(find(first, "profile-invalid") != nullptr);
+    CHECK_FALSE(applyMends(invalid.profile, invalid.character, invalid.map, first.findings));
+
+    Patient stranger;
+    stranger.profile.bodies[4].joint = stranger.profile.bodies[4].jointPath = "mixamorig:LeftArm";
+    const Diagnosis second = stranger.look();
+    REQUIRE(find(second, "joint-missing") != nullptr);
+    CHECK(find(second, "joint-missing")->measure.find("mixamorig:LeftArm") != std::string::npos);
+}
+
+TEST_CASE("volume covered is the share that a shape of known size takes") {
+    Patient patient;
+    // Only the head is left of the skin, and a sphere of half its radius stands for all bodies.
+    animation::SkinnedMesh& mesh = patient.character.meshes[0];
+    const int head = findJoint(patient.character.skeleton, "head");
+    std::vector<std::uint32_t> kept;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        if (mesh.joints[mesh.indices[i]][0] == head)
+            kept.insert(kept.end(), mesh.indices.begin() + i, mesh.indices.begin() + i + 3);
+    }
+    // Close the tube's two ends, rings of twelve.
+    const std::uint32_t first = *std::min_element(kept.begin(), kept.end());
+    for (std::uint32_t k = 1; k + 1 < 12; ++k) {
+        kept.insert(kept.end(), {first, first + k + 1, first + k});
+        kept.insert(kept.end(), {first + 96, first + 96 + k, first + 96 + k + 1});
+    }
+    mesh.indices = kept;
+    for (BodyProfile& body : patient.profile.bodies) {
+        body.shape.kind = BodyShape::Kind::sphere;
+        body.shape.radius = body.role == Role::head ? 0.045F : 0.001F;
+    }
+    const Diagnosis diagnosis = patient.look();
+    REQUIRE(diagnosis.fit.volumeCovered);
+    // The tube: seven rings of full radius and two frusta to half of it, each an eighth of the length; its section is a
+    // regular twelve-sided polygon.
+    const float length = 0.19F;
+    const float section = 3.0F * 0.09F * 0.09F;
+    const float tube = section * (0.75F * length + 0.25F * length * (1.0F + 0.5F + 0.25F) / 3.0F);
+    const float ball = 4.0F / 3.0F * kPi * 0.045F * 0.045F * 0.045F;
+    CHECK(*diagnosis.fit.volumeCovered == Approx(ball / tube).epsilon(0.1));
+}

@@ -1,0 +1,216 @@
+#include "physics/fit/fit_ragdoll.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "support/catch.hpp"
+#include "support/rigs.hpp"
+
+using namespace lutka;
+using namespace lutka::physics;
+
+namespace {
+
+RagdollProfile fitBiped(const FitOptions& options = {}) {
+    const auto biped = test::makeBiped();
+    Result<RagdollProfile> fitted = fitRagdoll(biped, test::mapOfBiped(biped), options);
+    REQUIRE(fitted);
+    CHECK(validate(fitted.value()).empty());
+    return std::move(fitted).value();
+}
+
+RigidTransform modelFromBody(const animation::Character& character, const BodyProfile& body) {
+    return character.skeleton.bindModelFromJoint[findJoint(character.skeleton, body.joint)] * body.jointFromBody;
+}
+
+}  // namespace
+
+TEST_CASE("the biped gets sixteen bodies with the hips first") {
+    const RagdollProfile profile = fitBiped();
+    CHECK(profile.bodies.size() == 16);
+    CHECK(profile.bodies[0].role == Role::hips);
+    CHECK(profile.heightM == Approx(1.75).margin(0.05));
+    CHECK(profile.notes.empty());
+    CHECK(profile.filteredPairs.empty());
+}
+
+TEST_CASE("capsules lie in the tubes that the biped's skin is made of") {
+    const auto biped = test::makeBiped();
+    const RagdollProfile profile = fitBiped();
+    struct Tube {
+        Role role;
+        float radius;
+        vec3 axis;
+    };
+    for (const Tube& tube : {Tube{Role::leftUpperArm, 0.05F, {1, 0, 0}}, Tube{Role::leftLowerArm, 0.04F, {1, 0, 0}},
+                             Tube{Role::rightHand, 0.03F, {1, 0, 0}}, Tube{Role::leftUpperLeg, 0.08F, {0, 1, 0}},
+                             Tube{Role::rightLowerLeg, 0.055F, {0, 1, 0}}, Tube{Role::leftFoot, 0.04F, {0, 0, 1}},
+                             Tube{Role::head, 0.09F, {0, 1, 0}}, Tube{Role::chest, 0.15F, {0, 1, 0}}}) {
+        const BodyProfile& body = profile.bodies[bodyOf(profile, tube.role)];
+        INFO(roleName(tube.role));
+        CHECK(body.shape.kind == BodyShape::Kind::capsule);
+        CHECK(body.shape.radius == Approx(tube.radius).epsilon(0.08));
+        const vec3 axis = modelFromBody(biped, body).rotation * vec3(0, 1, 0);
+        CHECK(std::abs(glm::dot(axis, tube.axis)) > 0.99F);
+    }
+}
+
+TEST_CASE("both sides of a symmetric figure are mirror images") {
+    const auto biped = test::makeBiped();
+    const RagdollProfile profile = fitBiped();
+    for (const BodyProfile& body : profile.bodies) {
+        const BodyProfile& other = profile.bodies[bodyOf(profile, mirrored(body.role))];
+        CHECK(body.shape.radius == other.shape.radius);
+        CHECK(body.shape.halfLength == Approx(other.shape.halfLength).epsilon(1e-6));
+        const vec3 here = modelFromBody(biped, body).translation;
+        const vec3 there = modelFromBody(biped, other).translation;
+        CHECK(glm::distance(here * vec3(-1, 1, 1), there) < 1e-5F);
+    }
+}
+
+TEST_CASE("options add bodies for clavicles, neck and the whole trunk") {
+    FitOptions options;
+    options.shoulderBodies = options.neckBody = options.allTrunkBodies = options.toeBodies = true;
+    const RagdollProfile profile = fitBiped(options);
+    CHECK(profile.bodies.size() == 19);  // the biped has no toes and no upper chest
+    CHECK(bodyOf(profile, Role::neck) >= 0);
+    const int arm = bodyOf(profile, Role::rightUpperArm);
+    CHECK(profile.bodies[profile.constraints[arm - 1].parent].role == Role::rightShoulder);
+}
+
+TEST_CASE("missing roles give fewer bodies, hung on the nearest body above") {
+    const auto biped = test::makeBiped();
+    auto map = test::mapOfBiped(biped);
+    for (const Role role : {Role::leftHand, Role::rightHand, Role::chest, Role::neck, Role::leftFoot, Role::rightFoot})
+        map.roles[animation::indexOf(role)].reset();
+    const auto fitted = fitRagdoll(biped, map);
+    REQUIRE(fitted);
+    const RagdollProfile& profile = fitted.value();
+    CHECK(profile.bodies.size() == 11);
+    CHECK(profile.bodies[profile.constraints[bodyOf(profile, Role::leftUpperArm) - 1].parent].role == Role::spine);
+    // The forearm takes over the hand's skin and mass.
+    const BodyProfile& forearm = profile.bodies[bodyOf(profile, Role::leftLowerArm)];
+    CHECK(forearm.massKg == Approx(75.0F * (0.0162F + 0.0061F)).epsilon(1e-3));
+    CHECK(2.0F * (forearm.shape.halfLength + forearm.shape.radius) > 0.4F);
+}
+
+TEST_CASE("a figure without a skin gets a man's proportions") {
+    auto biped = test::makeBiped();
+    const auto map = test::mapOfBiped(biped);
+    biped.meshes.clear();
+    const auto fitted = fitRagdoll(biped, map);
+    REQUIRE(fitted);
+    const RagdollProfile& profile = fitted.value();
+    CHECK(profile.bodies.size() == 16);
+    CHECK(profile.heightM == Approx(1.75).epsilon(0.05));
+    for (const BodyProfile& body : profile.bodies) {
+        INFO(roleName(body.role));
+        CHECK(body.shape.radius > 0.01F * profile.heightM);
+        CHECK(body.shape.radius < 0.1F * profile.heightM);
+    }
+}
+
+namespace {
+
+// The biped turned and scaled as a whole, with the map that says so.
+std::pair<animation::Character, animation::HumanoidMap> movedBiped(const quat& turn, float scale) {
+    animation::Character biped = test::makeBiped();
+    animation::HumanoidMap map = test::mapOfBiped(biped);
+    map.standardFromModel = glm::conjugate(turn);
+    for (RigidTransform& frame : biped.skeleton.bindModelFromJoint)
+        frame = {turn * frame.rotation, turn * (scale * frame.translation)};
+    for (vec3& position : biped.meshes[0].positions)
+        position = turn * (scale * position);
+    return {std::move(biped), std::move(map)};
+}
+
+}  // namespace
+
+TEST_CASE("a turned or scaled figure gets the same ragdoll, turned or scaled") {
+    const RagdollProfile expected = fitBiped();
+    const quat lying = glm::angleAxis(kPi / 2, vec3(1, 0, 0));
+    const quat oblique = glm::angleAxis(radians(37), vec3(0, 1, 0));
+    for (const auto& [turn, scale] : {std::pair(lying, 1.0F), std::pair(oblique, 1.0F), std::pair(oblique, 3.0F),
+                                      std::pair(quat(1, 0, 0, 0), 0.02F)}) {
+        const auto [biped, map] = movedBiped(turn, scale);
+        const RagdollProfile profile = fitRagdoll(biped, map).value();
+        CHECK(profile.heightM == Approx(scale * expected.heightM).epsilon(1e-3));
+        REQUIRE(profile.bodies.size() == expected.bodies.size());
+        for (std::size_t i = 0; i < profile.bodies.size(); ++i) {
+            INFO(roleName(profile.bodies[i].role) << " at scale " << scale);
+            const BodyProfile& body = profile.bodies[i];
+            const BodyProfile& same = expected.bodies[i];
+            CHECK(body.shape.radius == Approx(scale * same.shape.radius).epsilon(0.02));
+            CHECK(body.shape.halfLength ==
+                  Approx(scale * same.shape.halfLength).margin(0.05 * scale * same.shape.radius));
+            CHECK(body.massKg == Approx(same.massKg));
+            CHECK(glm::distance(body.jointFromBody.translation, scale * same.jointFromBody.translation) <
+                  0.004F * profile.heightM);
+        }
+    }
+}
+
+TEST_CASE("joint friction grows with what hangs on the joint and with mass") {
+    const RagdollProfile profile = fitBiped();
+    FitOptions heavy;
+    heavy.totalMassKg = 150.0F;
+    const RagdollProfile heavier = fitBiped(heavy);
+    const auto friction = [](const RagdollProfile& p, Role role) {
+        return p.constraints[bodyOf(p, role) - 1].frictionNm;
+    };
+    // A hand of 0.4575 kg whose centre of mass lies 9 cm from the wrist.
+    CHECK(friction(profile, Role::leftHand) == Approx(9.81 * 0.4575 * 0.09 / 40.0).epsilon(0.05));
+    CHECK(friction(profile, Role::leftLowerArm) > friction(profile, Role::leftHand));
+    CHECK(friction(profile, Role::leftUpperArm) > friction(profile, Role::leftLowerArm));
+    CHECK(friction(profile, Role::leftUpperLeg) > 0.5F);
+    CHECK(friction(profile, Role::leftUpperLeg) < 3.0F);
+    for (const Role role : {Role::leftHand, Role::rightUpperLeg, Role::spine})
+        CHECK(friction(heavier, role) == Approx(2.0F * friction(profile, role)).epsilon(1e-3));
+}
+
+TEST_CASE("bodies that cannot be told apart in the bind pose are filtered and slight overlaps are shrunk away") {
+    // Thighs of 8 cm radius whose joints are 13 cm apart part when shrunk by a fifth; 6 cm apart they cannot.
+    for (const auto& [apart, filtered] : {std::pair(0.13F, false), std::pair(0.06F, true)}) {
+        animation::Character biped = test::makeBiped();
+        const auto map = test::mapOfBiped(biped);
+        for (const char* name : {"UpperLeg", "LowerLeg", "Foot"}) {
+            for (const float side : {1.0F, -1.0F}) {
+                const int joint = findJoint(biped.skeleton, (side > 0 ? "left" : "right") + std::string(name));
+                const float shift = side * (0.5F * apart - 0.1F);
+                biped.skeleton.bindModelFromJoint[joint].translation.x += shift;
+                animation::SkinnedMesh& mesh = biped.meshes[0];
+                for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+                    if (mesh.joints[v][0] == joint) mesh.positions[v].x += shift;
+                }
+            }
+        }
+        const RagdollProfile profile = fitRagdoll(biped, map).value();
+        const std::pair thighs(bodyOf(profile, Role::leftUpperLeg), bodyOf(profile, Role::rightUpperLeg));
+        const auto& pairs = profile.filteredPairs;
+        CHECK((std::find(pairs.begin(), pairs.end(), thighs) != pairs.end()) == filtered);
+        if (!filtered) CHECK(profile.bodies[thighs.first].shape.radius < 0.5F * apart);
+    }
+}
+
+TEST_CASE("joints that all lie in one point give a valid ragdoll or an error, never a number that is none") {
+    animation::Character biped = test::makeBiped();
+    const auto map = test::mapOfBiped(biped);
+    for (const bool skin : {true, false}) {
+        for (RigidTransform& frame : biped.skeleton.bindModelFromJoint)
+            frame.translation = vec3(0, 1, 0);
+        if (!skin) biped.meshes.clear();
+        const auto fitted = fitRagdoll(biped, map);
+        if (fitted) CHECK(validate(fitted.value()).empty());
+    }
+}
+
+TEST_CASE("a map without hips and a total mass of nothing are refused") {
+    const auto biped = test::makeBiped();
+    const auto refused = fitRagdoll(biped, {});
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().code == ErrorCode::input);
+    FitOptions options;
+    options.totalMassKg = 0.0F;
+    CHECK_FALSE(fitRagdoll(biped, test::mapOfBiped(biped), options));
+}

@@ -1,0 +1,229 @@
+#include "physics/profile/profile_io.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/random.hpp"
+#include "physics/fit/fit_ragdoll.hpp"
+#include "support/catch.hpp"
+#include "support/json_schema.hpp"
+#include "support/rigs.hpp"
+
+using namespace lutka;
+using namespace lutka::physics;
+using nlohmann::json;
+
+namespace {
+
+RagdollProfile bipedProfile() {
+    const auto biped = test::makeBiped();
+    RagdollProfile profile = fitRagdoll(biped, test::mapOfBiped(biped)).value();
+    profile.filteredPairs = {{1, 3}, {2, 9}};
+    profile.notes = {"a \"note\" with ümlauts"};
+    profile.bodies[2].shape.kind = BodyShape::Kind::box;
+    profile.bodies[3].shape.kind = BodyShape::Kind::sphere;
+    return profile;
+}
+
+json bipedJson() {
+    return json::parse(profileToJson(bipedProfile()));
+}
+
+std::string problemsOf(const json& document) {
+    const auto read = profileFromJson(document.dump(), "planted.json");
+    return read ? std::string() : read.error().message;
+}
+
+void checkSame(const RigidTransform& a, const RigidTransform& b) {
+    CHECK(a.rotation == b.rotation);
+    CHECK(a.translation == b.translation);
+}
+
+}  // namespace
+
+TEST_CASE("a profile comes back from its JSON to the last bit") {
+    const RagdollProfile profile = bipedProfile();
+    const auto read = profileFromJson(profileToJson(profile), "memory");
+    REQUIRE(read);
+    const RagdollProfile& back = read.value();
+    CHECK(back.name == profile.name);
+    CHECK(back.heightM == profile.heightM);
+    CHECK(back.totalMassKg == profile.totalMassKg);
+    CHECK(back.standardFromModel == profile.standardFromModel);
+    CHECK(back.filteredPairs == profile.filteredPairs);
+    CHECK(back.notes == profile.notes);
+    REQUIRE(back.bodies.size() == profile.bodies.size());
+    for (std::size_t i = 0; i < back.bodies.size(); ++i) {
+        const BodyProfile& a = back.bodies[i];
+        const BodyProfile& b = profile.bodies[i];
+        CHECK(a.role == b.role);
+        CHECK(a.joint == b.joint);
+        CHECK(a.jointPath == b.jointPath);
+        CHECK(a.shape.kind == b.shape.kind);
+        if (a.shape.kind != BodyShape::Kind::box) CHECK(a.shape.radius == b.shape.radius);
+        if (a.shape.kind == BodyShape::Kind::capsule) CHECK(a.shape.halfLength == b.shape.halfLength);
+        if (a.shape.kind == BodyShape::Kind::box) CHECK(a.shape.halfExtents == b.shape.halfExtents);
+        checkSame(a.jointFromBody, b.jointFromBody);
+        CHECK(a.massKg == b.massKg);
+        CHECK(a.inertia == b.inertia);
+    }
+    REQUIRE(back.constraints.size() == profile.constraints.size());
+    for (std::size_t i = 0; i < back.constraints.size(); ++i) {
+        const ConstraintProfile& a = back.constraints[i];
+        const ConstraintProfile& b = profile.constraints[i];
+        CHECK(a.kind == b.kind);
+        CHECK(a.parent == b.parent);
+        CHECK(a.child == b.child);
+        checkSame(a.parentFromFrame, b.parentFromFrame);
+        checkSame(a.childFromFrame, b.childFromFrame);
+        CHECK(a.frictionNm == b.frictionNm);
+        if (a.kind == ConstraintProfile::Kind::hinge) {
+            CHECK(a.hinge.lower == b.hinge.lower);
+            CHECK(a.hinge.upper == b.hinge.upper);
+        } else {
+            CHECK(a.cone.swingY == b.cone.swingY);
+            CHECK(a.cone.swingZ == b.cone.swingZ);
+            CHECK(a.cone.twist == b.cone.twist);
+        }
+    }
+    CHECK(profileToJson(back) == profileToJson(profile));
+}
+
+TEST_CASE("a profile survives the way through a file") {
+    const auto file = std::filesystem::temp_directory_path() / "lutka_profile_test" / "biped.ragdoll.json";
+    REQUIRE(saveProfile(file, bipedProfile()));
+    const auto read = loadProfile(file);
+    REQUIRE(read);
+    CHECK(profileToJson(read.value()) == profileToJson(bipedProfile()));
+    std::filesystem::remove_all(file.parent_path());
+    CHECK_FALSE(loadProfile(file));
+}
+
+TEST_CASE("vectors stand on one line and numbers in their shortest form") {
+    RagdollProfile profile = bipedProfile();
+    profile.heightM = 0.1F;
+    const std::string text = profileToJson(profile);
+    CHECK(text.find("\"heightM\": 0.1,") != std::string::npos);
+    CHECK(text.find("\"standardFromModel\": [0.0, 0.0, 0.0, 1.0],") != std::string::npos);
+}
+
+TEST_CASE("the committed schema describes what is written") {
+    std::ifstream file(std::string(LUTKA_ASSETS_DIR) + "/profiles/ragdoll.schema.json");
+    REQUIRE(file);
+    const json schema = json::parse(file);
+    const auto problems = test::checkSchema(schema, bipedJson());
+    for (const std::string& problem : problems)
+        FAIL_CHECK(problem);
+    // The checker sees what is wrong.
+    json wrong = bipedJson();
+    wrong["bodies"][0]["massKg"] = -1;
+    wrong["constraints"][0].erase("cone");
+    wrong["colour"] = "red";
+    CHECK(test::checkSchema(schema, wrong).size() == 3);
+}
+
+TEST_CASE("every planted fault is listed in one go with its place") {
+    json wrong = bipedJson();
+    wrong["colour"] = "red";
+    wrong.erase("name");
+    wrong["heightM"] = "tall";
+    wrong["bodies"][1]["shape"]["radius"] = -0.1;
+    wrong["bodies"][1]["shape"]["halfLength"] = nullptr;  // what NaN is written as
+    wrong["bodies"][4]["jointPath"] = wrong["bodies"][5]["jointPath"];
+    wrong["bodies"][6]["role"] = "tail";
+    wrong["bodies"][7]["inertia"] = {1, 2};
+    wrong["bodies"][8]["jointFromBody"]["rotation"] = {0, 0, 1, 1};
+    wrong["bodies"][9]["massKg"] = 0;
+    wrong["constraints"][0]["hinge"] = {{"lower", 0}, {"upper", 1}};
+    wrong["constraints"][1]["parent"] = "rightFoot";
+    wrong["constraints"][2]["cone"]["twist"] = 4.0;
+    wrong["constraints"][11]["child"] = wrong["constraints"][10]["child"];
+    wrong["filteredPairs"][0] = {"hips", "leftToes"};
+    const std::string message = problemsOf(wrong);
+    INFO(message);
+    for (const char* expected :
+         {"/colour: unknown key", "expected a member \"name\"", "/heightM: expected a number, got string",
+          "/bodies/1/shape/radius: expected a finite number", "/bodies/1/shape/halfLength: expected a number, got null",
+          "/bodies/5/jointPath: expected a joint of its own", "/bodies/6/role: expected a role",
+          "/bodies/7/inertia: expected 3 items, got 2", "/bodies/8/jointFromBody/rotation: expected a quaternion",
+          "/bodies/9/massKg: expected a finite number", "/constraints/0/hinge: unknown key",
+          "/constraints/1/parent: expected a body listed before the child", "/constraints/2/cone/twist: expected",
+          "/constraints/11/child: expected one constraint a child", "it has no parent",
+          "/filteredPairs/0/1: expected the role of one of the bodies"}) {
+        CHECK(message.find(expected) != std::string::npos);
+    }
+}
+
+TEST_CASE("other formats and versions are refused before anything else is read") {
+    json other = bipedJson();
+    other["version"] = 2;
+    CHECK(problemsOf(other).find("the file is from a newer program") != std::string::npos);
+    other["version"] = 0;
+    CHECK(problemsOf(other).find("there has never been such a version") != std::string::npos);
+    other["version"] = 1.5;
+    CHECK(problemsOf(other).find("/version: expected a whole number") != std::string::npos);
+    other = bipedJson();
+    other["format"] = "blend";
+    CHECK(problemsOf(other).find("/format: expected one of \"lutka-ragdoll\"") != std::string::npos);
+    CHECK(problemsOf(json::object()).find("expected a member \"format\"") != std::string::npos);
+    CHECK(problemsOf(json::array()).find("expected an object") != std::string::npos);
+    const auto broken = profileFromJson("{\"format\": ", "broken.json");
+    REQUIRE_FALSE(broken);
+    CHECK(broken.error().code == ErrorCode::input);
+    CHECK(broken.error().text().find("broken.json: not JSON") == 0);
+}
+
+TEST_CASE("a key that stands twice and masses that do not add up are problems") {
+    std::string text = profileToJson(bipedProfile());
+    text.insert(1, "\"name\": \"other\",");
+    const auto twice = profileFromJson(text, "memory");
+    REQUIRE_FALSE(twice);
+    CHECK(twice.error().message.find("\"name\" stands twice") != std::string::npos);
+    json heavy = bipedJson();
+    heavy["totalMassKg"] = 80;
+    CHECK(problemsOf(heavy).find("/totalMassKg: expected the sum of the bodies' masses") != std::string::npos);
+}
+
+TEST_CASE("a file of version 1 is read by every later version") {
+    const auto read = loadProfile(std::string(LUTKA_TESTS_DIR) + "/golden/profiles/biped_v1.ragdoll.json");
+    REQUIRE(read);
+    const RagdollProfile& profile = read.value();
+    CHECK(profile.bodies.size() == 16);
+    CHECK(profile.totalMassKg == 75.0F);
+    CHECK(profile.bodies[3].shape.kind == BodyShape::Kind::sphere);
+    CHECK(profile.bodies[6].shape.halfExtents == vec3(0.04F, 0.08F, 0.015F));
+    CHECK(profile.bodies[1].massKg == 12.2475F);
+    CHECK(profile.constraints[bodyOf(profile, Role::rightLowerLeg) - 1].kind == ConstraintProfile::Kind::hinge);
+    CHECK(profile.constraints[bodyOf(profile, Role::rightLowerLeg) - 1].hinge.upper == Approx(1.2217305));
+    CHECK(profile.filteredPairs == std::vector<std::pair<int, int>>{{1, 3}});
+    CHECK(profile.notes == std::vector<std::string>{"written by hand for the tests"});
+}
+
+TEST_CASE("damaged documents are refused or read, but never crash the reader") {
+    const std::string whole = profileToJson(bipedProfile());
+    Random random(11);
+    int refused = 0;
+    constexpr int kTrials = 1500;
+    for (int trial = 0; trial < kTrials; ++trial) {
+        std::string damaged = whole;
+        for (int change = 0; change < 3; ++change) {
+            const std::size_t at = random.next() % damaged.size();
+            switch (random.next() % 3) {
+                case 0:
+                    damaged[at] = static_cast<char>(random.next() % 128);
+                    break;
+                case 1:
+                    damaged.erase(at, 1 + random.next() % 40);
+                    break;
+                default:
+                    damaged.insert(at, whole.substr(random.next() % whole.size(), random.next() % 40));
+                    break;
+            }
+        }
+        const auto read = profileFromJson(damaged, "damaged");
+        refused += read ? 0 : 1;
+        if (read) CHECK(validate(read.value()).empty());
+    }
+    CHECK(refused > kTrials / 2);
+}
