@@ -97,29 +97,24 @@ void run(const Options& options) {
 
 }  // namespace
 
-void addBench(CLI::App& app) {
+void addBench(const Command& app) {
     auto options = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("bench", "Time our solver beside stock Bullet, interleaved, with the quality");
-    options->ragdoll.addTo(*command, false);
-    command->add_option("--count", options->counts, "numbers of dolls, comma separated")
-        ->delimiter(',')
-        ->check(CLI::Range(1, 10000))
-        ->capture_default_str();
-    command->add_option("--scene", options->scenes, "scenes or files *.scene.json, comma separated")
-        ->delimiter(',')
-        ->capture_default_str();
-    command->add_option("--threads", options->threads, "threads to step with")
-        ->check(CLI::Range(1, 256))
-        ->capture_default_str();
-    command->add_option("--steps", options->steps, "steps of 1/60 s a case")
-        ->check(CLI::Range(10, 100000))
-        ->capture_default_str();
-    addSolverOption(*command, options->solver);
-    command->add_flag("--sleeping", options->sleeping, "let dolls at rest sleep");
-    command->add_option("--csv", options->csv, "write the figures as CSV");
-    command->add_flag("--json", options->json, "print the figures as JSON on stdout");
-    command->callback([options] { run(*options); });
+    const Command command = app.add("bench", "Time our solver beside stock Bullet, interleaved, with the quality");
+    options->ragdoll.addTo(command, false);
+    command.option("--count", options->counts, "numbers of dolls, comma separated")
+        .commaSeparated()
+        .range(1, 10000)
+        .showDefault();
+    command.option("--scene", options->scenes, "scenes or files *.scene.json, comma separated")
+        .commaSeparated()
+        .showDefault();
+    command.option("--threads", options->threads, "threads to step with").range(1, 256).showDefault();
+    command.option("--steps", options->steps, "steps of 1/60 s a case").range(10, 100000).showDefault();
+    addSolverOption(command, options->solver);
+    command.flag("--sleeping", options->sleeping, "let dolls at rest sleep");
+    command.option("--csv", options->csv, "write the figures as CSV");
+    command.flag("--json", options->json, "print the figures as JSON on stdout");
+    command.onRun([options] { run(*options); });
 }
 
 }  // namespace lutka::cli

@@ -97,17 +97,17 @@ void run(const Options& options) {
 
 }  // namespace
 
-void addBuild(CLI::App& app) {
+void addBuild(const Command& app) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("build", "Make the whole ragdoll profile: map, fit, masses, limits, filter");
-    options->ragdoll.addTo(*command);
-    command->add_option("-o,--output", options->out, "write the profile (*.ragdoll.json)");
+    const Command command = app.add("build", "Make the whole ragdoll profile: map, fit, masses, limits, filter");
+    options->ragdoll.addTo(command);
+    command.option("-o,--output", options->out, "write the profile (*.ragdoll.json)");
     command
-        ->add_option("--limits-from-clips", options->limitsFromClips,
-                     "widen: make room for what the model's own animations do; fit: allow just that")
-        ->check(CLI::IsMember(&kClipLimits));
-    command->add_flag("--json", options->json, "print the profile as JSON on stdout");
-    command->callback([options] { run(*options); });
+        .option("--limits-from-clips", options->limitsFromClips,
+                "widen: make room for what the model's own animations do; fit: allow just that")
+        .oneOf(wordsOf(kClipLimits));
+    command.flag("--json", options->json, "print the profile as JSON on stdout");
+    command.onRun([options] { run(*options); });
 }
 
 }  // namespace lutka::cli

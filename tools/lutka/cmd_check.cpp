@@ -36,15 +36,14 @@ void run(const Options& options) {
 
 }  // namespace
 
-void addCheck(CLI::App& app) {
+void addCheck(const Command& app) {
     auto options = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("check", "Examine a ragdoll: findings with measures and mends, three drops, one score");
-    options->ragdoll.addTo(*command);
-    command->add_option("--fix", options->fixTo,
-                        "write the profile with what can be mended to this file, and judge that");
-    command->add_flag("--json", options->json, "print the findings as JSON on stdout");
-    command->callback([options] { run(*options); });
+    const Command command =
+        app.add("check", "Examine a ragdoll: findings with measures and mends, three drops, one score");
+    options->ragdoll.addTo(command);
+    command.option("--fix", options->fixTo, "write the profile with what can be mended to this file, and judge that");
+    command.flag("--json", options->json, "print the findings as JSON on stdout");
+    command.onRun([options] { run(*options); });
 }
 
 }  // namespace lutka::cli

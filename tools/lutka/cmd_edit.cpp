@@ -88,32 +88,28 @@ void run(Options& options) {
 
 }  // namespace
 
-void addEdit(CLI::App& app) {
+void addEdit(const Command& app) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("edit", "Open the editor: watch, drag and edit the ragdoll");
-    options->ragdoll.addTo(*command);
-    command->get_option("MODEL")->required(false)->description(
-        "model file, or a scene (*.scene.json); default: our own mannequin");
-    options->scene.addTo(*command);
-    command->add_flag("--paused", options->paused, "begin paused");
-    command->add_flag("--headless", options->headless, "no window: draw on an EGL context");
-    command->add_option("--input", options->input, "replay window events from a file (*.jsonl)");
-    command->add_option("--record-input", options->recordInput, "write the window's events to a file (*.jsonl)");
-    command->add_option("--screenshot-at", options->screenshots, "FRAME:FILE.png, as often as wanted")
-        ->allow_extra_args(false);
-    command->add_option("--frames", options->frames, "end after so many frames")->check(CLI::Range(1, 10000000));
-    command->add_option("--size", options->size, "window size, WxH")->capture_default_str();
-    command->add_option("--ui-scale", options->uiScale, "size of the panels; default: the monitor's")
-        ->check(CLI::Range(0.5, 4.0));
-    command
-        ->add_option("--quality", options->quality, "of the picture: best, fast, or auto: fast where a processor draws")
-        ->check(CLI::IsMember({"auto", "best", "fast"}))
-        ->capture_default_str();
-    command->add_flag("--no-vsync", options->noVsync, "don't wait for the monitor");
-    command->add_flag("--spare-substeps", options->spareSubsteps,
-                      "while the machine is late, take fewer substeps before the simulation slows down");
-    command->add_flag("--states", options->states, "print the state machine as a Mermaid diagram and end");
-    command->callback([options] { run(*options); });
+    const Command command = app.add("edit", "Open the editor: watch, drag and edit the ragdoll");
+    options->ragdoll.addTo(command);
+    command.find("MODEL").required(false).describe("model file, or a scene (*.scene.json); default: our own mannequin");
+    options->scene.addTo(command);
+    command.flag("--paused", options->paused, "begin paused");
+    command.flag("--headless", options->headless, "no window: draw on an EGL context");
+    command.option("--input", options->input, "replay window events from a file (*.jsonl)");
+    command.option("--record-input", options->recordInput, "write the window's events to a file (*.jsonl)");
+    command.option("--screenshot-at", options->screenshots, "FRAME:FILE.png, as often as wanted").oneValueEach();
+    command.option("--frames", options->frames, "end after so many frames").range(1, 10000000);
+    command.option("--size", options->size, "window size, WxH").showDefault();
+    command.option("--ui-scale", options->uiScale, "size of the panels; default: the monitor's").range(0.5, 4.0);
+    command.option("--quality", options->quality, "of the picture: best, fast, or auto: fast where a processor draws")
+        .oneOf({"auto", "best", "fast"})
+        .showDefault();
+    command.flag("--no-vsync", options->noVsync, "don't wait for the monitor");
+    command.flag("--spare-substeps", options->spareSubsteps,
+                 "while the machine is late, take fewer substeps before the simulation slows down");
+    command.flag("--states", options->states, "print the state machine as a Mermaid diagram and end");
+    command.onRun([options] { run(*options); });
 }
 
 }  // namespace lutka::cli

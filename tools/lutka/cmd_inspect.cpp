@@ -106,13 +106,13 @@ void run(const Options& options) {
 
 }  // namespace
 
-void addInspect(CLI::App& app) {
+void addInspect(const Command& app) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("inspect", "Show the skeleton, meshes, clips, units and what was repaired");
-    options->model.addTo(*command);
+    const Command command = app.add("inspect", "Show the skeleton, meshes, clips, units and what was repaired");
+    options->model.addTo(command);
     options->model.textures = true;
-    command->add_flag("--json", options->json, "print it as JSON on stdout");
-    command->callback([options] { run(*options); });
+    command.flag("--json", options->json, "print it as JSON on stdout");
+    command.onRun([options] { run(*options); });
 }
 
 }  // namespace lutka::cli

@@ -96,14 +96,14 @@ void run(const Options& options) {
 
 }  // namespace
 
-void addMap(CLI::App& app) {
+void addMap(const Command& app) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("map", "Bind the joints to body parts: role, joint, confidence and reason");
-    options->model.addTo(*command);
-    command->add_option("-o,--output", options->out, "write the map as JSON");
-    command->add_flag("--json", options->json, "print the map as JSON on stdout");
-    command->add_flag("--ignore-names", options->ignoreNames, "map by topology, geometry and weights alone");
-    command->callback([options] { run(*options); });
+    const Command command = app.add("map", "Bind the joints to body parts: role, joint, confidence and reason");
+    options->model.addTo(command);
+    command.option("-o,--output", options->out, "write the map as JSON");
+    command.flag("--json", options->json, "print the map as JSON on stdout");
+    command.flag("--ignore-names", options->ignoreNames, "map by topology, geometry and weights alone");
+    command.onRun([options] { run(*options); });
 }
 
 }  // namespace lutka::cli

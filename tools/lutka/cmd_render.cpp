@@ -173,32 +173,29 @@ void run(Options& options) {
 
 }  // namespace
 
-void addRender(CLI::App& app) {
+void addRender(const Command& app) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("render", "Draw the fall to a picture or a video, without a display");
-    options->simulate.addTo(*command);
-    auto* sky = command->add_option("--sky", options->sky, "light from a panorama (*.hdr) in place of the default sky");
-    command->add_flag("--sky-background", options->skyBackground, "show the panorama behind the scene")->needs(sky);
-    command->add_option("-o,--output", options->out, "FILE.png (the last moment), FILE.mp4 or FILE.gif")->required();
-    command->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-    command->add_option("--fps", options->framesPerSecond, "frames a second of a video")
-        ->check(finiteIn(1, 240))
-        ->capture_default_str();
-    command->add_flag("--frames", options->frames, "with a .png: the whole fall as FILE_0000.png, FILE_0001.png …");
-    command->add_option("--debug", options->debug,
-                        "layers over the picture, joined by commas: " + scene::debugLayerNames());
-    command->add_flag("!--no-legend", options->legend, "leave the colours' meaning out of the picture");
-    command->add_option("--opacity", options->opacity, "of the skin, 0 to 1")->check(finiteIn(0, 1));
-    command
-        ->add_option("--skinning", options->skinning, "linear, or dual: quaternions that keep a twisted limb's volume")
-        ->check(CLI::IsMember({"linear", "dual"}))
-        ->capture_default_str();
-    command->add_flag("--follow", options->follow, "keep the first doll in the middle of the picture");
-    command->add_option("--yaw", options->yawDeg, "camera's heading in degrees; 0 looks at the front")
-        ->check(finiteIn(-3600, 3600));
-    command->add_option("--pitch", options->pitchDeg, "camera's height in degrees")->check(finiteIn(-89, 89));
-    command->add_option("--distance", options->distance, "camera's distance in metres")->check(finiteIn(0.01, 1000));
-    command->callback([options] { run(*options); });
+    const Command command = app.add("render", "Draw the fall to a picture or a video, without a display");
+    options->simulate.addTo(command);
+    const Option sky =
+        command.option("--sky", options->sky, "light from a panorama (*.hdr) in place of the default sky");
+    command.flag("--sky-background", options->skyBackground, "show the panorama behind the scene").needs(sky);
+    command.option("-o,--output", options->out, "FILE.png (the last moment), FILE.mp4 or FILE.gif").required();
+    command.option("--size", options->size, "WIDTHxHEIGHT in pixels").showDefault();
+    command.option("--fps", options->framesPerSecond, "frames a second of a video").range(1.0, 240.0).showDefault();
+    command.flag("--frames", options->frames, "with a .png: the whole fall as FILE_0000.png, FILE_0001.png …");
+    command.option("--debug", options->debug, "layers over the picture, joined by commas: " + scene::debugLayerNames());
+    command.flag("!--no-legend", options->legend, "leave the colours' meaning out of the picture");
+    command.option("--opacity", options->opacity, "of the skin, 0 to 1").range(0.0, 1.0);
+    command.option("--skinning", options->skinning, "linear, or dual: quaternions that keep a twisted limb's volume")
+        .oneOf({"linear", "dual"})
+        .showDefault();
+    command.flag("--follow", options->follow, "keep the first doll in the middle of the picture");
+    command.option("--yaw", options->yawDeg, "camera's heading in degrees; 0 looks at the front")
+        .range(-3600.0, 3600.0);
+    command.option("--pitch", options->pitchDeg, "camera's height in degrees").range(-89.0, 89.0);
+    command.option("--distance", options->distance, "camera's distance in metres").range(0.01, 1000.0);
+    command.onRun([options] { run(*options); });
 }
 
 }  // namespace lutka::cli

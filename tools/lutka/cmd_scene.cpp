@@ -77,19 +77,16 @@ void run(const Options& options) {
 
 }  // namespace
 
-void addScene(CLI::App& app) {
+void addScene(const Command& app) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("scene", "Check a scene file, or write a named scene as a file");
-    command->add_option("SCENE", options->scene, "a named scene, or a file *.scene.json")->required();
-    command->add_option("--model", options->model, "model of the characters that have none");
-    command->add_option("--count", options->count, "number of dolls of a named scene")
-        ->check(CLI::Range(1, 10000))
-        ->capture_default_str();
-    command->add_option("--seed", options->seed, "varies the start of a named scene; 0 stands upright")
-        ->capture_default_str();
-    command->add_option("-o,--output", options->out, "write the scene to this file (*.scene.json)");
-    command->add_flag("--json", options->json, "print the scene as a document on stdout");
-    command->callback([options] { run(*options); });
+    const Command command = app.add("scene", "Check a scene file, or write a named scene as a file");
+    command.option("SCENE", options->scene, "a named scene, or a file *.scene.json").required();
+    command.option("--model", options->model, "model of the characters that have none");
+    command.option("--count", options->count, "number of dolls of a named scene").range(1, 10000).showDefault();
+    command.option("--seed", options->seed, "varies the start of a named scene; 0 stands upright").showDefault();
+    command.option("-o,--output", options->out, "write the scene to this file (*.scene.json)");
+    command.flag("--json", options->json, "print the scene as a document on stdout");
+    command.onRun([options] { run(*options); });
 }
 
 }  // namespace lutka::cli

@@ -25,11 +25,11 @@ void run(SimulateOptions& options) {
 
 }  // namespace
 
-void addSimulate(CLI::App& app) {
+void addSimulate(const Command& app) {
     auto options = std::make_shared<SimulateOptions>();
-    CLI::App* command = app.add_subcommand("simulate", "Let the character fall without a window and measure it");
-    options->addTo(*command);
-    command->callback([options] { run(*options); });
+    const Command command = app.add("simulate", "Let the character fall without a window and measure it");
+    options->addTo(command);
+    command.onRun([options] { run(*options); });
 }
 
 }  // namespace lutka::cli

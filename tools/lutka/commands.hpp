@@ -1,18 +1,18 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "command_line.hpp"
 
 /// One function a command: adds its options to `app` and a callback that runs it. A callback ends by exitWith().
 namespace lutka::cli {
 
-void addInspect(CLI::App& app);
-void addMap(CLI::App& app);
-void addBuild(CLI::App& app);
-void addCheck(CLI::App& app);
-void addScene(CLI::App& app);
-void addSimulate(CLI::App& app);
-void addRender(CLI::App& app);
-void addEdit(CLI::App& app);
-void addBench(CLI::App& app);
+void addInspect(const Command& app);
+void addMap(const Command& app);
+void addBuild(const Command& app);
+void addCheck(const Command& app);
+void addScene(const Command& app);
+void addSimulate(const Command& app);
+void addRender(const Command& app);
+void addEdit(const Command& app);
+void addBench(const Command& app);
 
 }  // namespace lutka::cli

@@ -16,11 +16,7 @@ constexpr const char* kExitCodes =
     "Exit codes: 0 done; 1 internal failure; 2 wrong usage; 3 the input can't be read or is not usable;\n"
     "4 `check` found errors; 5 an output can't be written; 6 no display or no GL context.";
 
-int runCommandLine(int argc, char** argv) {
-    CLI::App app("Lutka turns any rigged character into a physically sound ragdoll.", "lutka");
-    app.set_version_flag("--version", LUTKA_VERSION);
-    app.footer(kExitCodes);
-    app.require_subcommand(1);
+void addCommands(const lutka::cli::Command& app) {
     lutka::cli::addInspect(app);
     lutka::cli::addMap(app);
     lutka::cli::addBuild(app);
@@ -30,15 +26,6 @@ int runCommandLine(int argc, char** argv) {
     lutka::cli::addRender(app);
     lutka::cli::addEdit(app);
     lutka::cli::addBench(app);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& asked) {
-        return app.exit(asked);
-    } catch (const CLI::ParseError& wrong) {
-        app.exit(wrong);
-        return static_cast<int>(lutka::ErrorCode::usage);
-    }
-    return 0;
 }
 
 }  // namespace
@@ -49,7 +36,7 @@ int main(int argc, char** argv) {
     spdlog::set_pattern("lutka: %^%l%$: %v");
     lutka::cli::installInterruptHandler();
     try {
-        return runCommandLine(argc, argv);
+        return lutka::cli::parseCommandLine(argc, argv, LUTKA_VERSION, kExitCodes, addCommands);
     } catch (const lutka::cli::Exit& exit) {
         return exit.code;
     } catch (const std::system_error& refused) {

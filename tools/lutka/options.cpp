@@ -4,6 +4,8 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <map>
 #include <utility>
 
@@ -30,6 +32,11 @@ const std::map<std::string, physics::SolverKind> kSolvers = {{"stock", physics::
                                                              {"bullet", physics::SolverKind::bullet},
                                                              {"crowd", physics::SolverKind::crowd}};
 
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
 physics::RagdollPreset presetFromName(const std::string& name) {
     for (const physics::PresetInfo& info : physics::presetInfos()) {
         if (info.name == name) return info.preset;
@@ -45,8 +52,7 @@ std::vector<std::string> presetNames() {
 }
 
 void addExtraBodies(const std::string& list, physics::FitOptions& fit) {
-    for (const std::string& piece : CLI::detail::split(list, ',')) {
-        const std::string word = CLI::detail::trim_copy(piece);
+    for (const std::string& word : splitList(list)) {
         if (word == "shoulders") {
             fit.shoulderBodies = true;
         } else if (word == "neck") {
@@ -82,47 +88,43 @@ void leave(const Error& error) {
     throw Exit{static_cast<int>(error.code)};
 }
 
-void ModelOptions::addTo(CLI::App& app, bool required) {
-    app.add_option("MODEL", model, "rigged character in any format that Assimp reads")->required(required);
-    app.add_option("--scale", scale, "metres a file unit, instead of what the file or the figure's height says")
-        ->check(finiteIn(1e-6, 1e6));
-    app.add_option("--up", up, "the file's up axis: x, y, z, -x, -y or -z")
-        ->check(CLI::IsMember(&kUpAxes, CLI::ignore_case));
+void ModelOptions::addTo(const Command& app, bool required) {
+    app.option("MODEL", model, "rigged character in any format that Assimp reads").required(required);
+    app.option("--scale", scale, "metres a file unit, instead of what the file or the figure's height says")
+        .range(1e-6, 1e6);
+    app.option("--up", up, "the file's up axis: x, y, z, -x, -y or -z").oneOf(wordsOf(kUpAxes), true);
 }
 
 animation::ImportOptions ModelOptions::import() const {
     animation::ImportOptions options;
     options.metresPerFileUnit = scale;
-    if (!up.empty()) options.up = kUpAxes.at(CLI::detail::to_lower(up));
+    if (!up.empty()) options.up = kUpAxes.at(lower(up));
     options.loadTextures = textures;
     return options;
 }
 
-void RagdollOptions::addTo(CLI::App& app, bool modelRequired) {
+void RagdollOptions::addTo(const Command& app, bool modelRequired) {
     model.addTo(app, modelRequired);
-    auto* profileOption =
-        app.add_option("--profile", profile, "ragdoll profile (*.ragdoll.json) instead of a fitted one");
-    app.add_flag("--keep-shapes", keepShapes,
-                 "with the profile of another rig: keep its shapes instead of fitting them anew")
-        ->needs(profileOption);
-    app.add_option("--mass", massKg, "total mass in kilograms")
-        ->check(finiteIn(0.1, 1e5))
-        ->excludes(profileOption)
-        ->capture_default_str();
-    app.add_option("--mass-table", massTable, "shares of the segments")
-        ->check(CLI::IsMember(&kMassTables))
-        ->excludes(profileOption)
-        ->capture_default_str();
-    app.add_option("--masses", massPreset, "how the total is split")
-        ->check(CLI::IsMember(&kMassPresets))
-        ->excludes(profileOption)
-        ->capture_default_str();
-    app.add_option("--preset", preset, "character of the joints: their limits, friction and masses")
-        ->check(CLI::IsMember(presetNames()))
-        ->excludes(profileOption)
-        ->capture_default_str();
-    app.add_option("--bodies", bodies, "bodies beside the 16: shoulders,neck,toes,trunk (comma separated)")
-        ->excludes(profileOption);
+    const Option profileOption =
+        app.option("--profile", profile, "ragdoll profile (*.ragdoll.json) instead of a fitted one");
+    app.flag("--keep-shapes", keepShapes,
+             "with the profile of another rig: keep its shapes instead of fitting them anew")
+        .needs(profileOption);
+    app.option("--mass", massKg, "total mass in kilograms").range(0.1, 1e5).excludes(profileOption).showDefault();
+    app.option("--mass-table", massTable, "shares of the segments")
+        .oneOf(wordsOf(kMassTables))
+        .excludes(profileOption)
+        .showDefault();
+    app.option("--masses", massPreset, "how the total is split")
+        .oneOf(wordsOf(kMassPresets))
+        .excludes(profileOption)
+        .showDefault();
+    app.option("--preset", preset, "character of the joints: their limits, friction and masses")
+        .oneOf(presetNames())
+        .excludes(profileOption)
+        .showDefault();
+    app.option("--bodies", bodies, "bodies beside the 16: shoulders,neck,toes,trunk (comma separated)")
+        .excludes(profileOption);
 }
 
 scene::LoadOptions RagdollOptions::load() const {
@@ -138,25 +140,23 @@ scene::LoadOptions RagdollOptions::load() const {
     return options;
 }
 
-void SceneOptions::addTo(CLI::App& app) {
+void SceneOptions::addTo(const Command& app) {
     std::string scenes;
     for (const scene::ScenarioInfo& info : scene::scenarioRegistry()) {
         scenes += fmt::format("{}{}", scenes.empty() ? "" : ", ", info.name);
     }
-    app.add_option("--scene", scene, "one of " + scenes + ", or a file *.scene.json")->capture_default_str();
-    app.add_option("--count", count, "number of dolls in a named scene; default: 1")->check(CLI::Range(1, 10000));
-    app.add_option("--seed", seed, "varies the start of a named scene; 0, the default, stands upright")
-        ->check(CLI::Validator(
-            [](const std::string& text) {
-                const bool digits =
-                    !text.empty() && text.size() < 19 && text.find_first_not_of("0123456789") == std::string::npos;
-                return digits ? std::string() : fmt::format("'{}' is no whole number from 0 up", text);
-            },
-            "UINT"));
-    app.add_option("--threads", threads, "threads to step with; default: the scene's, or 1")->check(CLI::Range(1, 256));
-    app.add_option("--solver", solver,
-                   "stock: plain Bullet; bullet: Bullet tuned for ragdolls; crowd: dolls in SIMD lanes, the default")
-        ->check(knownSolver());
+    app.option("--scene", scene, "one of " + scenes + ", or a file *.scene.json").showDefault();
+    app.option("--count", count, "number of dolls in a named scene; default: 1").range(1, 10000);
+    app.option("--seed", seed, "varies the start of a named scene; 0, the default, stands upright")
+        .check([](const std::string& text) {
+            const bool digits =
+                !text.empty() && text.size() < 19 && text.find_first_not_of("0123456789") == std::string::npos;
+            return digits ? std::string() : fmt::format("'{}' is no whole number from 0 up", text);
+        });
+    app.option("--threads", threads, "threads to step with; default: the scene's, or 1").range(1, 256);
+    app.option("--solver", solver,
+               "stock: plain Bullet; bullet: Bullet tuned for ragdolls; crowd: dolls in SIMD lanes, the default")
+        .oneOf(wordsOf(kSolvers));
 }
 
 bool SceneOptions::takeFile(std::filesystem::path& model) {
@@ -179,34 +179,32 @@ void SceneOptions::applyTo(physics::WorldSettings& world) const {
     if (solver) world.solver = solverFromName(*solver);
 }
 
-void SimulateOptions::addTo(CLI::App& app) {
+void SimulateOptions::addTo(const Command& app) {
     ragdoll.addTo(app, false);
-    app.get_option("MODEL")->description("rigged character; none when the scene file names its characters");
+    app.find("MODEL").describe("rigged character; none when the scene file names its characters");
     scene.addTo(app);
-    app.add_option("--seconds", seconds, "length of the run; default: what the scene needs")->check(finiteIn(0, 3600));
-    app.add_option("--pose", pose, "the pose to start in: the bind pose, the default, or the file's node pose")
-        ->check(CLI::IsMember({"bind", "node"}));
-    app.add_option("--from-clip", fromClip, "start from a clip's pose and velocities: NAME or NAME@SECONDS");
-    auto* shedOption = app.add_option(
-        "--shed", shed,
-        "spare dolls far from the eye, from so many metres on: lod@10,apart@15,slow@20,frozen@40 or some");
-    app.add_option(
-           "--eye", eye,
-           "X,Y,Z in metres, where --shed measures from; default: the camera of a picture, else the scene's middle")
-        ->delimiter(',')
-        ->expected(3)
-        ->needs(shedOption);
-    app.add_option("--out", bakedOut, "write the first doll's fall as an animation of its skin (.glb)");
-    app.add_option("--mesh-out", meshOut, "write the first doll's skin of the last frame (.obj)");
-    app.add_flag("--each", each, "--out and --mesh-out of every doll, as NAME_0001.glb, NAME_0002.glb …");
-    auto* reportOption = app.add_option("--report", report, "write the figures of the run (.json)");
-    auto* recordOption = app.add_option("--record", recordTo, "write the bodies of every step");
-    auto* jsonFlag = app.add_flag("--json", json, "print the report as JSON on stdout");
+    app.option("--seconds", seconds, "length of the run; default: what the scene needs").range(0.0, 3600.0);
+    app.option("--pose", pose, "the pose to start in: the bind pose, the default, or the file's node pose")
+        .oneOf({"bind", "node"});
+    app.option("--from-clip", fromClip, "start from a clip's pose and velocities: NAME or NAME@SECONDS");
+    const Option shedOption =
+        app.option("--shed", shed,
+                   "spare dolls far from the eye, from so many metres on: lod@10,apart@15,slow@20,frozen@40 or some");
+    app.option("--eye", eye,
+               "X,Y,Z in metres, where --shed measures from; default: the camera of a picture, else the scene's middle")
+        .commaSeparated(3)
+        .needs(shedOption);
+    app.option("--out", bakedOut, "write the first doll's fall as an animation of its skin (.glb)");
+    app.option("--mesh-out", meshOut, "write the first doll's skin of the last frame (.obj)");
+    app.flag("--each", each, "--out and --mesh-out of every doll, as NAME_0001.glb, NAME_0002.glb …");
+    const Option reportOption = app.option("--report", report, "write the figures of the run (.json)");
+    const Option recordOption = app.option("--record", recordTo, "write the bodies of every step");
+    const Option jsonFlag = app.flag("--json", json, "print the report as JSON on stdout");
     // A replay measures nothing, so it has no report.
-    app.add_option("--replay", replayFrom, "play a recording instead of simulating")
-        ->excludes(recordOption)
-        ->excludes(reportOption)
-        ->excludes(jsonFlag);
+    app.option("--replay", replayFrom, "play a recording instead of simulating")
+        .excludes(recordOption)
+        .excludes(reportOption)
+        .excludes(jsonFlag);
 }
 
 scene::SimulationOptions SimulateOptions::simulation(const scene::EntityScene& entities) const {
@@ -219,15 +217,10 @@ scene::SimulationOptions SimulateOptions::simulation(const scene::EntityScene& e
     return options;
 }
 
-CLI::Validator knownSolver() {
-    return CLI::IsMember(&kSolvers);
-}
-
-void addSolverOption(CLI::App& app, std::string& solver) {
-    app.add_option("--solver", solver,
-                   "stock: plain Bullet; bullet: Bullet tuned for ragdolls; crowd: dolls in SIMD lanes")
-        ->check(knownSolver())
-        ->capture_default_str();
+void addSolverOption(const Command& app, std::string& solver) {
+    app.option("--solver", solver, "stock: plain Bullet; bullet: Bullet tuned for ragdolls; crowd: dolls in SIMD lanes")
+        .oneOf(wordsOf(kSolvers))
+        .showDefault();
 }
 
 physics::SolverKind solverFromName(const std::string& name) {
@@ -246,16 +239,6 @@ render::Extent parseSize(const std::string& text) {
                fmt::format("give WIDTHxHEIGHT with both from {} to {}", kLeast, kMost)});
     }
     return {width, height};
-}
-
-CLI::Validator finiteIn(double low, double high) {
-    const std::string range = fmt::format("number in [{}, {}]", low, high);
-    return {[low, high, range](std::string& text) -> std::string {
-                double value = 0;
-                const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
-                return number && value >= low && value <= high ? "" : fmt::format("'{}' is no {}", text, range);
-            },
-            range};
 }
 
 Progress::Progress(std::string what, int total)

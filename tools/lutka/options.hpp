@@ -1,12 +1,13 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "command_line.hpp"
 #include "core/result.hpp"
 #include "render/extent.hpp"
 #include "scene/ragdoll_asset.hpp"
@@ -39,7 +40,7 @@ struct ModelOptions {
     std::string up;
     bool textures = false;  ///< Set by commands that draw.
 
-    void addTo(CLI::App& app, bool required = true);
+    void addTo(const Command& app, bool required = true);
     [[nodiscard]] animation::ImportOptions import() const;
 };
 
@@ -54,7 +55,7 @@ struct RagdollOptions {
     std::string preset = "anatomical";
     std::string bodies;  ///< Extra bodies, comma separated: shoulders,neck,toes,trunk.
 
-    void addTo(CLI::App& app, bool modelRequired = true);
+    void addTo(const Command& app, bool modelRequired = true);
     [[nodiscard]] scene::LoadOptions load() const;
 };
 
@@ -66,7 +67,7 @@ struct SceneOptions {
     std::optional<int> threads;
     std::optional<std::string> solver;
 
-    void addTo(CLI::App& app);
+    void addTo(const Command& app);
     /// Whether the scene is a file. A file in place of MODEL is the scene: `model` is empty then.
     bool takeFile(std::filesystem::path& model);
     /// Sets solver and threads where they were asked for.
@@ -90,21 +91,26 @@ struct SimulateOptions {
     std::filesystem::path replayFrom;
     bool json = false;
 
-    void addTo(CLI::App& app);
+    void addTo(const Command& app);
     /// How `scene` is simulated: as it says itself, but for what was asked for.
     [[nodiscard]] scene::SimulationOptions simulation(const scene::EntityScene& scene) const;
 };
 
+/// The words that an option of named choices takes.
+template <class T>
+[[nodiscard]] std::vector<std::string> wordsOf(const std::map<std::string, T>& choices) {
+    std::vector<std::string> words;
+    for (const auto& [word, choice] : choices)
+        words.push_back(word);
+    return words;
+}
+
 /// --solver, by the names of physics::solverName.
-void addSolverOption(CLI::App& app, std::string& solver);
-[[nodiscard]] CLI::Validator knownSolver();
+void addSolverOption(const Command& app, std::string& solver);
 [[nodiscard]] physics::SolverKind solverFromName(const std::string& name);
 
 /// WIDTHxHEIGHT in pixels, each in [16, 16384]; leaves with wrong usage otherwise.
 [[nodiscard]] render::Extent parseSize(const std::string& text);
-
-/// A finite number in [low, high]; CLI11's own range lets NaN through.
-[[nodiscard]] CLI::Validator finiteIn(double low, double high);
 
 /// A bar on stderr while it is a terminal; silent otherwise.
 class Progress {

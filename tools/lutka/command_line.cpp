@@ -1,0 +1,141 @@
+#include "command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "core/result.hpp"
+
+namespace lutka::cli {
+
+Option Option::required(bool yes) const {
+    option_->required(yes);
+    return *this;
+}
+
+Option Option::describe(const std::string& help) const {
+    option_->description(help);
+    return *this;
+}
+
+Option Option::range(int low, int high) const {
+    option_->check(CLI::Range(low, high));
+    return *this;
+}
+
+// CLI11's own range lets NaN through.
+Option Option::range(double low, double high) const {
+    const std::string range = fmt::format("number in [{}, {}]", low, high);
+    option_->check(CLI::Validator(
+        [low, high, range](std::string& text) -> std::string {
+            double value = 0;
+            const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+            return number && value >= low && value <= high ? "" : fmt::format("'{}' is no {}", text, range);
+        },
+        range));
+    return *this;
+}
+
+Option Option::oneOf(const std::vector<std::string>& words, bool ignoreCase) const {
+    ignoreCase ? option_->check(CLI::IsMember(words, CLI::ignore_case)) : option_->check(CLI::IsMember(words));
+    return *this;
+}
+
+Option Option::check(std::function<std::string(const std::string&)> problem) const {
+    option_->check(CLI::Validator([problem = std::move(problem)](std::string& text) { return problem(text); }, ""));
+    return *this;
+}
+
+Option Option::commaSeparated(int count) const {
+    option_->delimiter(',');
+    if (count > 0) option_->expected(count);
+    return *this;
+}
+
+Option Option::oneValueEach() const {
+    option_->allow_extra_args(false);
+    return *this;
+}
+
+Option Option::needs(const Option& other) const {
+    option_->needs(other.option_);
+    return *this;
+}
+
+Option Option::excludes(const Option& other) const {
+    option_->excludes(other.option_);
+    return *this;
+}
+
+Option Option::showDefault() const {
+    option_->capture_default_str();
+    return *this;
+}
+
+Command Command::add(const std::string& name, const std::string& help) const {
+    return Command(app_->add_subcommand(name, help));
+}
+
+template <class T>
+Option Command::option(const std::string& names, T& value, const std::string& help) const {
+    return Option(app_->add_option(names, value, help));
+}
+
+template Option Command::option(const std::string&, std::string&, const std::string&) const;
+template Option Command::option(const std::string&, std::filesystem::path&, const std::string&) const;
+template Option Command::option(const std::string&, int&, const std::string&) const;
+template Option Command::option(const std::string&, float&, const std::string&) const;
+template Option Command::option(const std::string&, double&, const std::string&) const;
+template Option Command::option(const std::string&, std::uint64_t&, const std::string&) const;
+template Option Command::option(const std::string&, std::optional<std::string>&, const std::string&) const;
+template Option Command::option(const std::string&, std::optional<std::filesystem::path>&, const std::string&) const;
+template Option Command::option(const std::string&, std::optional<int>&, const std::string&) const;
+template Option Command::option(const std::string&, std::optional<float>&, const std::string&) const;
+template Option Command::option(const std::string&, std::optional<std::uint64_t>&, const std::string&) const;
+template Option Command::option(const std::string&, std::vector<std::string>&, const std::string&) const;
+template Option Command::option(const std::string&, std::vector<int>&, const std::string&) const;
+template Option Command::option(const std::string&, std::vector<float>&, const std::string&) const;
+
+Option Command::flag(const std::string& names, bool& value, const std::string& help) const {
+    return Option(app_->add_flag(names, value, help));
+}
+
+Option Command::find(const std::string& name) const {
+    return Option(app_->get_option(name));
+}
+
+void Command::onRun(std::function<void()> run) const {
+    app_->callback(std::move(run));
+}
+
+int parseCommandLine(int argc, char** argv, const std::string& version, const std::string& footer,
+                     const std::function<void(const Command&)>& addCommands) {
+    CLI::App app("Lutka turns any rigged character into a physically sound ragdoll.", "lutka");
+    app.set_version_flag("--version", version);
+    app.footer(footer);
+    app.require_subcommand(1);
+    addCommands(Command(&app));
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& asked) {
+        return app.exit(asked);
+    } catch (const CLI::ParseError& wrong) {
+        app.exit(wrong);
+        return static_cast<int>(ErrorCode::usage);
+    }
+    return 0;
+}
+
+std::vector<std::string> splitList(const std::string& text) {
+    std::vector<std::string> pieces;
+    for (const std::string& piece : CLI::detail::split(text, ','))
+        pieces.push_back(CLI::detail::trim_copy(piece));
+    return pieces;
+}
+
+}  // namespace lutka::cli
