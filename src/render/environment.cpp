@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kWidest = 8192;
 constexpr int kHighest = 4096;
-constexpr std::size_t kChannels = 4;  // red, green, blue, exponent
+constexpr std::size_t kRgbeChannels = 4;  // red, green, blue, exponent
 
 /// Reads bytes and lines, and remembers when there were none left.
 class Reader {
@@ -64,8 +64,8 @@ std::string readHeader(Reader& reader, int& width, int& height) {
 // A row whose channels are run-length encoded one after the other. False when a run leaves the row.
 bool readRuns(Reader& reader, std::span<unsigned char> row) {
     constexpr int kRun = 128;
-    const std::size_t width = row.size() / kChannels;
-    for (std::size_t channel = 0; channel < kChannels; ++channel) {
+    const std::size_t width = row.size() / kRgbeChannels;
+    for (std::size_t channel = 0; channel < kRgbeChannels; ++channel) {
         for (std::size_t x = 0; x < width;) {
             int count = reader.byte();
             const bool run = count > kRun;
@@ -73,7 +73,7 @@ bool readRuns(Reader& reader, std::span<unsigned char> row) {
             if (count == 0 || x + static_cast<std::size_t>(count) > width || reader.ended()) return false;
             const int value = run ? reader.byte() : 0;
             for (; count > 0; --count, ++x)
-                row[x * kChannels + channel] = static_cast<unsigned char>(run ? value : reader.byte());
+                row[x * kRgbeChannels + channel] = static_cast<unsigned char>(run ? value : reader.byte());
         }
     }
     return !reader.ended();
@@ -83,22 +83,22 @@ bool readRuns(Reader& reader, std::span<unsigned char> row) {
 bool readPlain(Reader& reader, std::span<unsigned char> row) {
     int shift = 0;
     for (std::size_t x = 0; x < row.size();) {
-        std::array<unsigned char, kChannels> pixel{};
+        std::array<unsigned char, kRgbeChannels> pixel{};
         for (unsigned char& channel : pixel)
             channel = static_cast<unsigned char>(reader.byte());
         if (reader.ended()) return false;
         const bool repeats = pixel[0] == 1 && pixel[1] == 1 && pixel[2] == 1;
         if (!repeats) {
             std::copy(pixel.begin(), pixel.end(), row.begin() + static_cast<std::ptrdiff_t>(x));
-            x += kChannels;
+            x += kRgbeChannels;
             shift = 0;
             continue;
         }
         if (x == 0 || shift > 16) return false;
         const std::size_t count = static_cast<std::size_t>(pixel[3]) << static_cast<unsigned>(shift);
-        if (x + count * kChannels > row.size()) return false;
-        for (std::size_t i = 0; i < count * kChannels; ++i, ++x)
-            row[x] = row[x - kChannels];
+        if (x + count * kRgbeChannels > row.size()) return false;
+        for (std::size_t i = 0; i < count * kRgbeChannels; ++i, ++x)
+            row[x] = row[x - kRgbeChannels];
         shift += 8;
     }
     return true;
@@ -107,7 +107,7 @@ bool readPlain(Reader& reader, std::span<unsigned char> row) {
 bool readRow(Reader& reader, std::span<unsigned char> row) {
     constexpr std::size_t kLeastRuns = 8;
     constexpr std::size_t kMostRuns = 32767;
-    const std::size_t width = row.size() / kChannels;
+    const std::size_t width = row.size() / kRgbeChannels;
     if (width < kLeastRuns || width > kMostRuns) return readPlain(reader, row);
     const int first = reader.byte();
     const int second = reader.byte();
@@ -115,7 +115,7 @@ bool readRow(Reader& reader, std::span<unsigned char> row) {
     const auto low = static_cast<std::size_t>(reader.byte());
     if (reader.ended()) return false;
     if (first != 2 || second != 2 || high >= 128) {
-        reader.back(kChannels);
+        reader.back(kRgbeChannels);
         return readPlain(reader, row);
     }
     return high * 256 + low == width && readRuns(reader, row);
@@ -153,13 +153,13 @@ Result<Environment> loadHdr(const std::filesystem::path& file) {
     if (!defect.empty()) return fail(defect);
     const auto width = static_cast<std::size_t>(environment.width);
     const auto height = static_cast<std::size_t>(environment.height);
-    std::vector<unsigned char> row(width * kChannels);
+    std::vector<unsigned char> row(width * kRgbeChannels);
     bool lit = false;
     for (std::size_t y = 0; y < height; ++y) {
         if (!readRow(reader, row)) return fail("is damaged or cut off in row " + std::to_string(y));
         // Row by row, so that a header that lies about its size allocates little.
         for (std::size_t x = 0; x < width; ++x) {
-            const vec3 light = decoded(&row[x * kChannels]);
+            const vec3 light = decoded(&row[x * kRgbeChannels]);
             lit = lit || light.x > 0 || light.y > 0 || light.z > 0;
             environment.radiance.push_back(light);
         }

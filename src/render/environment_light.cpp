@@ -13,7 +13,7 @@ using Level = EnvironmentLight::Level;
 
 constexpr float kMeanLuminance = 0.65F;  // about that of the default sky, its intensity left out
 constexpr float kBrightest = 30.0F;      // of the mean
-constexpr int kWidest = 256;             // of the sharpest reflection
+constexpr int kSharpestWidth = 256;      // of the sharpest reflection
 constexpr int kLevels = 6;               // the last one is 8 x 4
 constexpr int kSamples = 64;             // of a blurred texel
 
@@ -140,11 +140,11 @@ EnvironmentLight makeEnvironmentLight(const Environment& environment) {
     EnvironmentLight light;
     light.gain = kMeanLuminance / std::max(luminance(meanRadiance(environment)), 1e-12F);
     const Level whole = scaled(environment, light.gain);
-    light.reflections.push_back(shrunk(whole, kWidest, kWidest / 2));
+    light.reflections.push_back(shrunk(whole, kSharpestWidth, kSharpestWidth / 2));
     light.diffuse = diffuseOf(light.reflections[0]);
     // Each level's lobe is some texels of the source wide.
     for (int i = 1; i < kLevels; ++i) {
-        const Level source = shrunk(light.reflections[0], kWidest >> i, (kWidest / 2) >> i);
+        const Level source = shrunk(light.reflections[0], kSharpestWidth >> i, (kSharpestWidth / 2) >> i);
         Level level = source;
         const float roughness = static_cast<float>(i) / (kLevels - 1);
         for (int y = 0; y < level.height; ++y) {

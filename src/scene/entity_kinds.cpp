@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "scene/entity_colors.hpp"
 #include "scene/entity_scene.hpp"
 
 namespace lutka::scene {
@@ -9,9 +10,6 @@ namespace {
 
 constexpr float kMarkerHalf = 0.12F;    // metres: of lights and cameras, which are drawn as markers
 constexpr float kRampThickness = 0.5F;  // metres
-constexpr render::Color kStandingColor{172, 177, 184, 255};
-constexpr render::Color kFloorColor{158, 160, 164, 255};
-constexpr render::Color kMovingColor{206, 120, 70, 255};
 
 constexpr std::array<std::string_view, kEntityKindCount> kNames = {"Character",   "Box",        "Sphere", "Capsule",
                                                                    "Ramp",        "Stairs",     "Floor",  "Sun",

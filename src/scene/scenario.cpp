@@ -9,6 +9,7 @@
 
 #include "core/random.hpp"
 #include "scene/body_bounds.hpp"
+#include "scene/entity_colors.hpp"
 
 namespace lutka::scene {
 namespace {
@@ -18,9 +19,6 @@ constexpr float kPitHalf = 3.0F;      // the pit of `pile` is 6 × 6 m inside
 constexpr float kPitSpacing = 1.15F;  // shoulder to shoulder
 constexpr float kLayerHeight = 2.1F;  // above one another in the pit
 
-constexpr render::Color kGeometryColor{172, 177, 184, 255};
-constexpr render::Color kFloorColor{158, 160, 164, 255};
-constexpr render::Color kPropColor{206, 120, 70, 255};
 constexpr vec3 kUp{0, 1, 0};
 const quat kUpright(1, 0, 0, 0);
 
@@ -35,7 +33,7 @@ struct Context {
 Collider& addStatic(Context& context, const char* name, const RigidTransform& world, const Collider& collider) {
     const EntityId id = addEntity(context.scene, name, world).id;
     MeshRenderer look;
-    look.color = collider.kind == Collider::Kind::plane ? kFloorColor : kGeometryColor;
+    look.color = collider.kind == Collider::Kind::plane ? kFloorColor : kStandingColor;
     context.scene.add(id, look);
     return context.scene.add(id, collider);
 }
@@ -248,7 +246,7 @@ void addBall(Context& context, const vec3& centre, const vec3& velocity) {
     ball.radius = 0.12F;
     context.scene.add(id, ball);
     context.scene.add(id, RigidBody{.massKg = 4.0F, .linearVelocity = velocity});
-    context.scene.add(id, MeshRenderer{.color = kPropColor});
+    context.scene.add(id, MeshRenderer{.color = kMovingColor});
 }
 
 void balls(Context& context) {

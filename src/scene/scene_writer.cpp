@@ -30,26 +30,26 @@ std::string pathFrom(const std::filesystem::path& path, const std::filesystem::p
     return (relative.empty() ? target : relative).generic_string();
 }
 
-Json json(const Transform& t) {
+Json toJson(const Transform& t) {
     return Json{{"rotation", jsonQuaternion(t.parentFromEntity.rotation)},
                 {"translation", jsonVector(t.parentFromEntity.translation)}};
 }
 
-Json json(const MeshRenderer& m) {
+Json toJson(const MeshRenderer& m) {
     return Json{{"color", hexOf(m.color)},
                 {"opacity", jsonNumber(m.opacity)},
                 {"visible", m.visible},
                 {"castsShadow", m.castsShadow}};
 }
 
-Json json(const RigidBody& b) {
+Json toJson(const RigidBody& b) {
     return Json{{"massKg", jsonNumber(b.massKg)},
                 {"linearVelocity", jsonVector(b.linearVelocity)},
                 {"angularVelocity", jsonVector(b.angularVelocity)}};
 }
 
 // Only what the kind has a use for.
-Json json(const Collider& c) {
+Json toJson(const Collider& c) {
     Json out{{"kind", nameOf(scene_format::kColliderKinds, c.kind)}};
     switch (c.kind) {
         case Collider::Kind::plane:
@@ -81,7 +81,7 @@ Json json(const Collider& c) {
     return out;
 }
 
-Json json(const Ragdoll& r, const std::filesystem::path& folder) {
+Json toJson(const Ragdoll& r, const std::filesystem::path& folder) {
     Json out = Json::object();
     if (!r.model.empty()) out["model"] = pathFrom(r.model, folder);
     if (!r.profile.empty()) out["profile"] = pathFrom(r.profile, folder);
@@ -97,7 +97,7 @@ Json json(const Ragdoll& r, const std::filesystem::path& folder) {
     return out;
 }
 
-Json json(const Light& l) {
+Json toJson(const Light& l) {
     Json out{{"kind", nameOf(scene_format::kLightKinds, l.kind)},
              {"color", jsonVector(l.color)},
              {"intensity", jsonNumber(l.intensity)}};
@@ -114,14 +114,14 @@ Json json(const Light& l) {
     return out;
 }
 
-Json json(const Camera& c) {
+Json toJson(const Camera& c) {
     return Json{{"fieldOfView", jsonNumber(c.fieldOfView)},
                 {"distance", jsonNumber(c.distance)},
                 {"orthographic", c.orthographic},
                 {"active", c.active}};
 }
 
-Json json(const SceneSimulation& s) {
+Json toJson(const SceneSimulation& s) {
     const physics::WorldSettings& world = s.world;
     Json out{{"solver", nameOf(scene_format::kSolvers, world.solver)},
              {"gravity", jsonVector(world.gravity)},
@@ -139,17 +139,17 @@ Json json(const SceneSimulation& s) {
     return out;
 }
 
-Json json(const EntityScene& scene, const Entity& entity, const std::filesystem::path& folder) {
+Json toJson(const EntityScene& scene, const Entity& entity, const std::filesystem::path& folder) {
     Json out{{"id", entity.id}, {"name", entity.name}};
     if (entity.parent != kNoEntity) out["parent"] = entity.parent;
     const auto put = [&](const char* key, const auto* component) {
-        if (component != nullptr) out[key] = json(*component);
+        if (component != nullptr) out[key] = toJson(*component);
     };
     put("transform", scene.find<Transform>(entity.id));
     put("meshRenderer", scene.find<MeshRenderer>(entity.id));
     put("rigidBody", scene.find<RigidBody>(entity.id));
     put("collider", scene.find<Collider>(entity.id));
-    if (const Ragdoll* ragdoll = scene.find<Ragdoll>(entity.id)) out["ragdoll"] = json(*ragdoll, folder);
+    if (const Ragdoll* ragdoll = scene.find<Ragdoll>(entity.id)) out["ragdoll"] = toJson(*ragdoll, folder);
     put("light", scene.find<Light>(entity.id));
     put("camera", scene.find<Camera>(entity.id));
     return out;
@@ -166,10 +166,10 @@ std::string sceneToJson(const EntityScene& scene, const std::filesystem::path& f
              {"format", scene_format::kName},
              {"version", EntityScene::kVersion},
              {"name", scene.name},
-             {"simulation", json(scene.simulation)}};
+             {"simulation", toJson(scene.simulation)}};
     out["entities"] = Json::array();
     for (const Entity& entity : scene.entities)
-        out["entities"].push_back(json(scene, entity, folder));
+        out["entities"].push_back(toJson(scene, entity, folder));
     return jsonText(out);
 }
 

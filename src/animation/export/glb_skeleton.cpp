@@ -5,11 +5,11 @@
 namespace lutka::animation::glb {
 namespace {
 
-std::vector<double> components(const quat& q) {
+std::vector<double> doubles(const quat& q) {
     return {q.x, q.y, q.z, q.w};
 }
 
-std::vector<double> components(const vec3& v) {
+std::vector<double> doubles(const vec3& v) {
     return {v.x, v.y, v.z};
 }
 
@@ -35,8 +35,8 @@ int addSkeleton(const Skeleton& skeleton, std::span<const RigidTransform> parent
     for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
         tinygltf::Node node;
         node.name = utf8(skeleton.names[joint]);
-        node.rotation = components(parentFromJoint[joint].rotation);
-        node.translation = components(parentFromJoint[joint].translation);
+        node.rotation = doubles(parentFromJoint[joint].rotation);
+        node.translation = doubles(parentFromJoint[joint].translation);
         model.nodes.push_back(std::move(node));
         const int parent = skeleton.parents[joint];
         model.nodes[parent == kNoJoint ? wrapper : first + parent].children.push_back(first + joint);

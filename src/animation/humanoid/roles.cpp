@@ -53,6 +53,18 @@ Role mirrored(Role role) {
     return role;
 }
 
+bool isEitherSide(Role role, Role left) {
+    return role == left || role == mirrored(left);
+}
+
+bool isSpine(Role role) {
+    return role == Role::spine || role == Role::chest || role == Role::upperChest;
+}
+
+bool isTrunk(Role role) {
+    return role == Role::hips || isSpine(role);
+}
+
 bool isRequired(Role role) {
     return kFacts[indexOf(role)].required;
 }

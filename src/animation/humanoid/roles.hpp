@@ -50,7 +50,14 @@ enum class Side { center, left, right };
 /// leftX ↔ rightX; the middle ones are their own mirror.
 [[nodiscard]] Role mirrored(Role role);
 
-/// hips, spine, head and, on both sides, upper and lower arm, hand, upper and lower leg, foot (DESIGN section 4).
+/// Whether it is `left` or its counterpart on the right.
+[[nodiscard]] bool isEitherSide(Role role, Role left);
+/// spine, chest or upperChest.
+[[nodiscard]] bool isSpine(Role role);
+/// hips or one of the spine.
+[[nodiscard]] bool isTrunk(Role role);
+
+/// hips, spine, head and, on both sides, upper and lower arm, hand, upper and lower leg, foot.
 [[nodiscard]] bool isRequired(Role role);
 
 /// The role above this one in a whole humanoid (spine → hips, leftHand → leftLowerArm); nothing for hips.

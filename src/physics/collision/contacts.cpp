@@ -11,8 +11,6 @@ namespace {
 
 using Kind = CollisionGeometry::Kind;
 
-constexpr float kSamePlace = 0.005F;  // metres: contacts nearer to each other than this say the same
-
 Segment coreOf(const CollisionGeometry& round) {
     const vec3 half = round.worldFromShape.rotation * vec3(0, round.halfLength, 0);
     return {round.worldFromShape.translation - half, round.worldFromShape.translation + half};

@@ -9,8 +9,7 @@ namespace lutka::physics {
 namespace {
 
 constexpr int kParts = 16;
-constexpr int kBetween = 15;          // the part of a capsule between its ends
-constexpr float kSamePlace = 0.005F;  // metres: contacts nearer to each other than this say the same
+constexpr int kBetween = 15;  // the part of a capsule between its ends
 
 // A part and a direction in steps of an eighth: what a contact is known by from step to step.
 int featureOf(int part, const vec3& normal) {

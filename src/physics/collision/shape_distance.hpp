@@ -6,6 +6,9 @@
 
 namespace lutka::physics {
 
+/// Contacts of one pair that are nearer to each other than this say the same, metres.
+inline constexpr float kSamePlace = 0.005F;
+
 /// A line segment; a sphere's centre is one of length 0.
 struct Segment {
     vec3 start{0, 0, 0};

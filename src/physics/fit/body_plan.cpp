@@ -78,10 +78,6 @@ std::vector<Role> endRoles(Role role) {
     return roles;
 }
 
-bool isTrunk(Role role) {
-    return role == Role::spine || role == Role::chest || role == Role::upperChest;
-}
-
 // Roles come parents first in the enumeration; so do the bodies.
 void addBodies(BodyPlan& plan, const Character& character, const HumanoidMap& map, std::span<const Role> roles) {
     for (int index = 0; index < animation::kRoleCount; ++index) {
@@ -196,7 +192,7 @@ void findEnds(BodyPlan& plan, const Character& character, const HumanoidMap& map
         body.end = body.start + direction * (0.1F * plan.heightM);
         for (const Role role : endRoles(body.role)) {
             const int joint = map.jointOf(role);
-            if (joint == kNoJoint || (isTrunk(role) && plan.bodyOf(role) < 0)) continue;
+            if (joint == kNoJoint || (animation::isSpine(role) && plan.bodyOf(role) < 0)) continue;
             const vec3 end = map.standardFromModel * character.skeleton.bindModelFromJoint[joint].translation;
             if (glm::distance(end, body.start) < 1e-3F * plan.heightM) continue;
             body.end = end;

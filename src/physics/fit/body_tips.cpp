@@ -12,11 +12,7 @@ namespace {
 using animation::Character;
 using animation::HumanoidMap;
 
-constexpr std::size_t kFewestPoints = 8;
-
-bool isOneOf(Role role, Role left) {
-    return role == left || role == mirrored(left);
-}
+constexpr std::size_t kFewestTipPoints = 8;
 
 // Length of a tip without skin, as a share of the height; and how far from its joint skin may still be the limb's own.
 struct TipProportions {
@@ -24,16 +20,16 @@ struct TipProportions {
 };
 TipProportions proportionsOf(Role role) {
     if (role == Role::head) return {0.12F, 0.35F};
-    if (isOneOf(role, Role::leftHand)) return {0.10F, 0.14F};
-    if (isOneOf(role, Role::leftFoot)) return {0.13F, 0.22F};
-    if (isOneOf(role, Role::leftToes)) return {0.05F, 0.10F};
+    if (isEitherSide(role, Role::leftHand)) return {0.10F, 0.14F};
+    if (isEitherSide(role, Role::leftFoot)) return {0.13F, 0.22F};
+    if (isEitherSide(role, Role::leftToes)) return {0.05F, 0.10F};
     return {0.14F, 0.35F};
 }
 
 // A hand of a figure with large hands may reach as far as its forearm is long, a large head as far as most of it does.
 float reachOf(const BodyPlan& plan, const PlannedBody& body) {
     const float reach = proportionsOf(body.role).reach * plan.heightM;
-    if (isOneOf(body.role, Role::leftHand) && body.parent >= 0) {
+    if (isEitherSide(body.role, Role::leftHand) && body.parent >= 0) {
         return std::max(reach, 0.8F * plan.bodies[body.parent].length());
     }
     if (body.role == Role::head && !body.skin.empty()) {
@@ -112,10 +108,10 @@ void findTips(BodyPlan& plan, const Character& character, const HumanoidMap& map
     for (PlannedBody& body : plan.bodies) {
         if (body.endsAtJoint) continue;
         std::vector<SkinPoint> points = skinNearSegment(plan, body);
-        if (points.size() < kFewestPoints) points = jointsBelow(character, map, body.joint);
+        if (points.size() < kFewestTipPoints) points = jointsBelow(character, map, body.joint);
         const float least = 0.3F * proportionsOf(body.role).length * plan.heightM;
         vec3 direction = body.direction();
-        if ((isOneOf(body.role, Role::leftFoot) || isOneOf(body.role, Role::leftToes)) && !points.empty()) {
+        if ((isEitherSide(body.role, Role::leftFoot) || isEitherSide(body.role, Role::leftToes)) && !points.empty()) {
             setFootTip(body, points, footHeading(body, points, character, map));
             continue;
         }

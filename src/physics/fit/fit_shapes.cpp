@@ -16,7 +16,7 @@ namespace {
 
 using animation::Side;
 
-constexpr std::size_t kFewestPoints = 24;
+constexpr std::size_t kFewestShapePoints = 24;
 constexpr float kSmallestRadius = 0.01F;  // of the height, like the next
 constexpr float kLargestRadius = 0.15F;
 constexpr float kLargestTrunkRadius = 0.2F;
@@ -25,14 +25,6 @@ constexpr float kLargestHeadRadius = 0.3F;
 constexpr float kCutoff = 0.04F;
 // How far a limb's cap may reach past its joint, in radii: enough to close the knee, not to look like a sausage.
 constexpr float kOvershoot = 0.5F;
-
-bool isOneOf(Role role, Role left) {
-    return role == left || role == mirrored(left);
-}
-
-bool isTrunk(Role role) {
-    return role == Role::hips || role == Role::spine || role == Role::chest || role == Role::upperChest;
-}
 
 // Radius of a man's segment as a share of his height, and for what has no second joint its length.
 float radiusShare(Role role) {
@@ -93,12 +85,12 @@ class BodyFit {
         points_ = skinNearSegment(plan, body_);
         central_ = plan.symmetric && sideOf(body_.role) == Side::center;
         if (plan.symmetric) addMirrored(body);
-        if (points_.size() >= kFewestPoints) spread_ = principalAxes(points_).spread[1];
+        if (points_.size() >= kFewestShapePoints) spread_ = principalAxes(points_).spread[1];
     }
 
     [[nodiscard]] Capsule fit() const {
-        if (points_.size() < kFewestPoints) return byProportions();
-        if (isOneOf(body_.role, Role::leftFoot) || isOneOf(body_.role, Role::leftToes)) return fitFoot();
+        if (points_.size() < kFewestShapePoints) return byProportions();
+        if (isEitherSide(body_.role, Role::leftFoot) || isEitherSide(body_.role, Role::leftToes)) return fitFoot();
         if (isTrunk(body_.role) || body_.role == Role::head) return fitStandingOrLying();
         return fitLimb();
     }
@@ -207,10 +199,10 @@ class BodyFit {
         radius = std::min(radius, std::max(0.35F * length, kSmallestRadius * plan_.heightM));
         vec3 start = body_.start;
         vec3 end = body_.end;
-        if (isOneOf(role, Role::leftFoot) || isOneOf(role, Role::leftToes)) {
+        if (isEitherSide(role, Role::leftFoot) || isEitherSide(role, Role::leftToes)) {
             // The ankle stands 0.04 of the height above the sole and a quarter of the foot ahead of the heel.
             const vec3 ahead = rotation_ * vec3(0, 0, 1);
-            const vec3 sole = start - vec3(0, (isOneOf(role, Role::leftFoot) ? 0.04F : 0.01F) * plan_.heightM, 0);
+            const vec3 sole = start - vec3(0, (isEitherSide(role, Role::leftFoot) ? 0.04F : 0.01F) * plan_.heightM, 0);
             start = sole + vec3(0, radius, 0) - 0.02F * plan_.heightM * ahead;
             end = start + ahead * std::max(length, 0.04F * plan_.heightM);
         }

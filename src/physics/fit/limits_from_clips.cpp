@@ -9,7 +9,8 @@
 namespace lutka::physics {
 namespace {
 
-constexpr float kWidest = 0.98F * kPi;  // limits stay below half a turn, where swing and twist lose their meaning
+constexpr float kWidestClipSpan =
+    0.98F * kPi;  // limits stay below half a turn, where swing and twist lose their meaning
 
 // The largest angles of one joint over all frames so far, and each swing, since an ellipse is not a box.
 struct Used {
@@ -50,7 +51,7 @@ std::vector<Used> usedByClips(const RagdollProfile& profile, const Rig& rig, con
 }
 
 float withMargin(float angle) {
-    return std::clamp(angle + kClipMargin, kLeastClipSpan, kWidest);
+    return std::clamp(angle + kClipMargin, kLeastClipSpan, kWidestClipSpan);
 }
 
 HingeLimits hingeFor(const HingeLimits& before, const Used& used, ClipLimits mode) {
@@ -83,8 +84,8 @@ ConeTwistLimits coneFor(const ConeTwistLimits& before, const Used& used, ClipLim
     if (mode == ClipLimits::widen && used.twist > before.twist) cone.twist = withMargin(used.twist);
     // Grown in proportion until the furthest frame is inside, so that the ellipse keeps its shape.
     if (const float outside = reach(used, cone); outside > 1.0F) {
-        cone.swingY = std::min(cone.swingY * outside + kClipMargin, kWidest);
-        cone.swingZ = std::min(cone.swingZ * outside + kClipMargin, kWidest);
+        cone.swingY = std::min(cone.swingY * outside + kClipMargin, kWidestClipSpan);
+        cone.swingZ = std::min(cone.swingZ * outside + kClipMargin, kWidestClipSpan);
     }
     return cone;
 }

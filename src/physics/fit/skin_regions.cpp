@@ -60,11 +60,6 @@ void addTrianglePoints(BodyPlan& plan, const SkinnedMesh& mesh, const std::vecto
     }
 }
 
-bool isTrunkBody(const PlannedBody& body) {
-    return body.role == Role::hips || body.role == Role::spine || body.role == Role::chest ||
-           body.role == Role::upperChest;
-}
-
 float areaOf(const PlannedBody& body) {
     float sum = 0.0F;
     for (const SkinPoint& point : body.skin)
@@ -83,7 +78,7 @@ float heightOfPair(const BodyPlan& plan, Role left, float otherwise) {
 std::vector<int> trunkBodies(const BodyPlan& plan) {
     std::vector<int> trunk;
     for (std::size_t body = 0; body < plan.bodies.size(); ++body) {
-        if (isTrunkBody(plan.bodies[body])) trunk.push_back(static_cast<int>(body));
+        if (isTrunk(plan.bodies[body].role)) trunk.push_back(static_cast<int>(body));
     }
     return trunk;
 }
@@ -100,7 +95,7 @@ std::vector<int> ownersOfVertices(const BodyPlan& plan, const SkinnedMesh& mesh,
     if (plan.trunkBounds.empty()) return owners;
     const std::vector<int> trunk = trunkBodies(plan);
     for (std::size_t vertex = 0; vertex < owners.size(); ++vertex) {
-        if (!isTrunkBody(plan.bodies[owners[vertex]])) continue;
+        if (!isTrunk(plan.bodies[owners[vertex]].role)) continue;
         owners[vertex] = trunkBodyAt(plan, trunk, (standardFromModel * mesh.positions[vertex]).y);
     }
     return owners;

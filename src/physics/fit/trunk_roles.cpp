@@ -7,12 +7,12 @@
 namespace lutka::physics {
 namespace {
 
-constexpr std::array<Role, 3> kTrunk = {Role::spine, Role::chest, Role::upperChest};
+constexpr std::array<Role, 3> kSpineRoles = {Role::spine, Role::chest, Role::upperChest};
 
 // Trunk roles with a joint of their own, from below; a trunk of one joint may be hips and spine at once.
 std::vector<Role> trunkOfRig(const animation::HumanoidMap& map) {
     std::vector<Role> roles;
-    for (const Role role : kTrunk) {
+    for (const Role role : kSpineRoles) {
         const int joint = map.jointOf(role);
         if (joint != animation::kNoJoint && joint != map.jointOf(Role::hips)) roles.push_back(role);
     }
@@ -21,7 +21,7 @@ std::vector<Role> trunkOfRig(const animation::HumanoidMap& map) {
 
 std::vector<int> trunkBodies(const RagdollProfile& profile) {
     std::vector<int> bodies;
-    for (const Role role : kTrunk) {
+    for (const Role role : kSpineRoles) {
         if (const int body = bodyOf(profile, role); body >= 0) bodies.push_back(body);
     }
     return bodies;

@@ -30,7 +30,7 @@ struct Binding {
     }
 };
 
-bool isTrunk(Role role) {
+bool isCentral(Role role) {
     return animation::sideOf(role) == animation::Side::center;
 }
 
@@ -99,7 +99,7 @@ void makeChain(Binding& b, const std::vector<int>& between, int upperBody, int l
         joint.upperBody = upperBody;
         joint.body = lowerBody;
         joint.share = length > 1e-6F ? along[i] / length : byIndex;
-        if (!isTrunk(role) && glm::length(axis) > 1e-6F) joint.twistAxis = glm::normalize(axis);
+        if (!isCentral(role) && glm::length(axis) > 1e-6F) joint.twistAxis = glm::normalize(axis);
     }
 }
 
@@ -107,7 +107,7 @@ void makeChain(Binding& b, const std::vector<int>& between, int upperBody, int l
 // twist as well.
 void makeTwistHelpers(Binding& b, int upperBody, int lowerBody) {
     const Role role = b.profile.bodies[lowerBody].role;
-    if (isTrunk(role) || isLimbRoot(role)) return;
+    if (isCentral(role) || isLimbRoot(role)) return;
     const int upper = b.rig.jointOfBody[upperBody];
     const vec3 axis = b.position(b.rig.jointOfBody[lowerBody]) - b.position(upper);
     const float length = glm::length(axis);

@@ -8,18 +8,19 @@ namespace lutka::render {
 namespace {
 
 // Position = roundPart · radius + extentPart · half extents.
-struct Vertex {
+struct PropVertex {
     vec3 roundPart;
     vec3 extentPart;
     vec3 normal;
 };
 
-void addQuad(std::vector<Vertex>& out, const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& d) {
+void addQuad(std::vector<PropVertex>& out, const PropVertex& a, const PropVertex& b, const PropVertex& c,
+             const PropVertex& d) {
     out.insert(out.end(), {a, b, c, a, c, d});
 }
 
-std::vector<Vertex> boxVertices() {
-    std::vector<Vertex> out;
+std::vector<PropVertex> boxVertices() {
+    std::vector<PropVertex> out;
     for (int axis = 0; axis < 3; ++axis) {
         for (const float sign : {-1.0F, 1.0F}) {
             vec3 n(0);
@@ -29,7 +30,7 @@ std::vector<Vertex> boxVertices() {
             u[(axis + 1) % 3] = 1.0F;
             v[(axis + 2) % 3] = sign;
             const auto corner = [&](float along, float across) {
-                return Vertex{vec3(0), n + along * u + across * v, n};
+                return PropVertex{vec3(0), n + along * u + across * v, n};
             };
             addQuad(out, corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1));
         }
@@ -37,15 +38,15 @@ std::vector<Vertex> boxVertices() {
     return out;
 }
 
-std::vector<Vertex> planeVertices() {
-    const auto corner = [](float x, float z) { return Vertex{vec3(0), vec3(x, 0, z), vec3(0, 1, 0)}; };
-    std::vector<Vertex> out;
+std::vector<PropVertex> planeVertices() {
+    const auto corner = [](float x, float z) { return PropVertex{vec3(0), vec3(x, 0, z), vec3(0, 1, 0)}; };
+    std::vector<PropVertex> out;
     addQuad(out, corner(-1, -1), corner(-1, 1), corner(1, 1), corner(1, -1));
     return out;
 }
 
 // A sphere, cut at the equator: the halves move apart by the half length (a sphere's is not used).
-std::vector<Vertex> roundVertices(bool capsule) {
+std::vector<PropVertex> roundVertices(bool capsule) {
     constexpr int kSegments = 40;
     constexpr int kHalfRings = 10;
     const auto at = [&](int ring, int segment) {
@@ -55,9 +56,9 @@ std::vector<Vertex> roundVertices(bool capsule) {
         const float longitude = 2.0F * kPi * static_cast<float>(segment % kSegments) / kSegments;
         const vec3 n(std::cos(latitude) * std::cos(longitude), std::sin(latitude),
                      -std::cos(latitude) * std::sin(longitude));
-        return Vertex{n, capsule ? vec3(0, upper ? 1.0F : -1.0F, 0) : vec3(0), n};
+        return PropVertex{n, capsule ? vec3(0, upper ? 1.0F : -1.0F, 0) : vec3(0), n};
     };
-    std::vector<Vertex> out;
+    std::vector<PropVertex> out;
     for (int ring = 0; ring < 2 * kHalfRings + 1; ++ring) {
         for (int segment = 0; segment < kSegments; ++segment)
             addQuad(out, at(ring, segment), at(ring, segment + 1), at(ring + 1, segment + 1), at(ring + 1, segment));
@@ -65,7 +66,7 @@ std::vector<Vertex> roundVertices(bool capsule) {
     return out;
 }
 
-std::vector<Vertex> verticesOf(PropItem::Kind kind) {
+std::vector<PropVertex> verticesOf(PropItem::Kind kind) {
     switch (kind) {
         case PropItem::Kind::box:
             return boxVertices();
@@ -84,19 +85,20 @@ std::vector<Vertex> verticesOf(PropItem::Kind kind) {
 PropMeshes::PropMeshes() {
     for (int kind = 0; kind < kKinds; ++kind) {
         Mesh& mesh = meshes_[kind];
-        const std::vector<Vertex> vertices = verticesOf(static_cast<PropItem::Kind>(kind));
+        const std::vector<PropVertex> vertices = verticesOf(static_cast<PropItem::Kind>(kind));
         mesh.vertexArray = GlVertexArray::create();
         mesh.vertices = GlBuffer::create();
         mesh.vertexCount = static_cast<GLsizei>(vertices.size());
         glBindVertexArray(mesh.vertexArray.name());
         glBindBuffer(GL_ARRAY_BUFFER, mesh.vertices.name());
-        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),
+        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(PropVertex)), vertices.data(),
                      GL_STATIC_DRAW);
-        const std::size_t offsets[] = {offsetof(Vertex, roundPart), offsetof(Vertex, extentPart),
-                                       offsetof(Vertex, normal)};
+        const std::size_t offsets[] = {offsetof(PropVertex, roundPart), offsetof(PropVertex, extentPart),
+                                       offsetof(PropVertex, normal)};
         for (GLuint location = 0; location < 3; ++location) {
             glEnableVertexAttribArray(location);
-            glVertexAttribPointer(location, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), attributeOffset(offsets[location]));
+            glVertexAttribPointer(location, 3, GL_FLOAT, GL_FALSE, sizeof(PropVertex),
+                                  attributeOffset(offsets[location]));
         }
     }
     glBindVertexArray(0);
@@ -111,7 +113,7 @@ void PropMeshes::draw(PropItem::Kind kind, int instances) const {
 long long PropMeshes::bytes() const {
     long long sum = 0;
     for (const Mesh& mesh : meshes_)
-        sum += static_cast<long long>(mesh.vertexCount) * static_cast<long long>(sizeof(Vertex));
+        sum += static_cast<long long>(mesh.vertexCount) * static_cast<long long>(sizeof(PropVertex));
     return sum;
 }
 
