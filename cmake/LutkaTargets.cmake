@@ -62,5 +62,5 @@ function(lutka_test name)
   lutka_common(test_${name})
   # `-w NoTests`: a name that matches nothing fails instead of passing without having run.
   catch_discover_tests(test_${name} TEST_PREFIX "${name}: " EXTRA_ARGS -w NoTests
-                       PROPERTIES TIMEOUT 600)
+                       PROPERTIES TIMEOUT 600 SKIP_REGULAR_EXPRESSION "lutka-test-skipped: ")
 endfunction()

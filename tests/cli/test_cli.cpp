@@ -140,10 +140,7 @@ TEST_CASE("a recording is replayed to the same picture") {
     const std::string common = "render " + kMannequin + " --size 160x120 ";
     const CommandResult recorded =
         lutkaCommand(common + "--seconds 1 --record " + (folder / "run") + " -o " + (folder / "a.png"));
-    if (recorded.code == 6) {
-        WARN("skipped: no GL context can be had");
-        return;
-    }
+    NEEDS_DISPLAY_OF(recorded);
     REQUIRE(recorded.code == 0);
     REQUIRE(lutkaCommand(common + "--replay " + (folder / "run") + " -o " + (folder / "b.png")).code == 0);
     CHECK(fileText(folder / "a.png").size() > 2000);
@@ -151,7 +148,7 @@ TEST_CASE("a recording is replayed to the same picture") {
 }
 
 TEST_CASE("what is not a humanoid is refused with 3 and a reason") {
-    if (!zooIsThere()) return;
+    NEEDS_ZOO();
     for (const char* model : {"fox/Fox.glb", "webxr_hand/hand_left.glb", "nonhum_static_mannequin/m2m_mannequin.glb",
                               "quat_trex/dinosaurs_pack_Trex.glb", "nonhum_velociraptor/q_velociraptor.fbx"}) {
         INFO(model);
@@ -166,7 +163,7 @@ TEST_CASE("what is not a humanoid is refused with 3 and a reason") {
 }
 
 TEST_CASE("every humanoid of the zoo falls, stays finite and comes to rest") {
-    if (!zooIsThere()) return;
+    NEEDS_ZOO();
     int humanoids = 0;
     int resting = 0;
     for (const auto& entry : fs::directory_iterator(LUTKA_ZOO_DIR)) {
@@ -311,14 +308,14 @@ TEST_CASE("the mannequin falls within every bound on the crowd solver") {
 }
 
 TEST_CASE("a stdout that can't be written ends with 5") {
-    if (!fs::exists("/dev/full")) return;
+    if (!fs::exists("/dev/full")) SKIP_TEST("this system has no /dev/full");
     const CommandResult result =
         runCommand("sh -c \"'" LUTKA_BINARY "' map --json " LUTKA_ASSETS_DIR "/models/mannequin.glb >/dev/full\"");
     CHECK(result.code == 5);
 }
 
 TEST_CASE("a damaged FBX that trips an assertion of the importer ends with 3") {
-    if (!zooIsThere()) return;
+    NEEDS_ZOO();
     const ScratchFolder folder;
     std::string bytes = fileText(zooFile("rocketbox_male/Male_Adult_17.fbx"));
     REQUIRE(bytes.size() > 401604);
@@ -330,27 +327,23 @@ TEST_CASE("a damaged FBX that trips an assertion of the importer ends with 3") {
 }
 
 TEST_CASE("an interrupted video leaves nothing behind") {
+    NEEDS_PROGRAM("ffmpeg");
     const ScratchFolder folder;
     const CommandResult result = runCommand("timeout --signal=INT 3 '" LUTKA_BINARY "' render " + kMannequin +
                                             " --seconds 600 --size 160x120 -o " + (folder / "long.mp4"));
-    if (result.code == 6 || contains(result.err, "ffmpeg")) {
-        WARN("skipped: no GL context or no ffmpeg");
-        return;
-    }
+    NEEDS_DISPLAY_OF(result);
     CHECK(result.code == 124);  // timeout's own word for having sent the signal
     CHECK(fs::is_empty(folder.path));
 }
 
 TEST_CASE("an interrupt that comes several times at once is one") {
+    NEEDS_PROGRAM("ffmpeg");
     const ScratchFolder folder;
     // A picture of this size takes longer than the two are apart.
     const CommandResult result = runCommand(
         "sh -c \"'" LUTKA_BINARY "' render " + kMannequin + " --seconds 600 --size 1280x720 -o " +
         (folder / "long.mp4") + " & p=\\$!; sleep 3; kill -TERM \\$p; sleep 0.02; kill -TERM \\$p; wait \\$p\"");
-    if (result.code == 6 || contains(result.err, "ffmpeg")) {
-        WARN("skipped: no GL context or no ffmpeg");
-        return;
-    }
+    NEEDS_DISPLAY_OF(result);
     CHECK(result.code == 128 + SIGTERM);
     CHECK(fs::is_empty(folder.path));
 }

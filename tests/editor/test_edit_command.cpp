@@ -46,17 +46,9 @@ Outcome edit(const Scratch& scratch, const std::string& arguments) {
     return run(scratch, std::string(LUTKA_BINARY) + " edit " + scratch.model().string() + " " + arguments);
 }
 
-bool skipped(const Outcome& outcome) {
-    if (outcome.code != static_cast<int>(ErrorCode::noDisplay)) return false;
-    WARN("skipped: there is no GL context: " + outcome.output);
-    return true;
-}
-
 // Places in a 1280 × 720 window follow from the fonts that the layout was made with.
 bool layoutIsKnown() {
-    const bool known = fs::exists("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf");
-    if (!known) WARN("skipped: the package fonts-dejavu-core is not there");
-    return known;
+    return fs::exists("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf");
 }
 
 /// Writes a script step by step; each call takes its frames.
@@ -155,7 +147,7 @@ struct Rehearsal {
 }  // namespace
 
 TEST_CASE("a script sets a limit by its slider, changes another value, undoes that, and saves") {
-    if (!layoutIsKnown()) return;
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;
     Script script;
     script.key(Key::space).click(663, 355);       // the left lower leg
@@ -164,7 +156,7 @@ TEST_CASE("a script sets a limit by its slider, changes another value, undoes th
     script.key(Key::z, kControl).key(Key::s, kControl).wait(2);
     script.save(scratch / "script.jsonl");
     const Outcome outcome = edit(scratch, "--headless --input " + (scratch / "script.jsonl").string());
-    if (skipped(outcome)) return;
+    NEEDS_DISPLAY_OF(outcome);
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
     const auto saved = physics::loadProfile(scratch / "mannequin.ragdoll.json");
@@ -212,7 +204,7 @@ TEST_CASE("a script drags a limit's handle in the view, pulls a hand, undoes a c
         edit(scratch, "--paused --headless --input " + (scratch / "script.jsonl").string() + " --screenshot-at " +
                           std::to_string(before) + ":" + (scratch / "before.png").string() + " --screenshot-at " +
                           std::to_string(after) + ":" + (scratch / "after.png").string());
-    if (skipped(outcome)) return;
+    NEEDS_DISPLAY_OF(outcome);
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
     const auto saved = physics::loadProfile(scratch / "mannequin.ragdoll.json");
@@ -235,7 +227,7 @@ TEST_CASE("a script drags a limit's handle in the view, pulls a hand, undoes a c
 }
 
 TEST_CASE("a script gives a role to another joint by the mapping's list and saves it") {
-    if (!layoutIsKnown()) return;
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;
     Script script;
     script.key(Key::space).click(122, 43);  // the tab Mapping
@@ -250,7 +242,7 @@ TEST_CASE("a script gives a role to another joint by the mapping's list and save
     const Outcome outcome =
         edit(scratch, "--headless --input " + (scratch / "script.jsonl").string() + " --screenshot-at " +
                           std::to_string(list) + ":" + (scratch / "list.png").string());
-    if (skipped(outcome)) return;
+    NEEDS_DISPLAY_OF(outcome);
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
     const auto saved = physics::loadProfile(scratch / "mannequin.ragdoll.json");
@@ -261,7 +253,7 @@ TEST_CASE("a script gives a role to another joint by the mapping's list and save
 }
 
 TEST_CASE("a role that a script drags from its panel onto a joint in the view takes that joint") {
-    if (!layoutIsKnown()) return;
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;
     Script script;
     script.key(Key::space).click(122, 43).wait(2);     // the tab Mapping
@@ -269,7 +261,7 @@ TEST_CASE("a role that a script drags from its panel onto a joint in the view ta
     script.move(640, 600).key(Key::s, kControl).wait(2);
     script.save(scratch / "script.jsonl");
     const Outcome outcome = edit(scratch, "--headless --input " + (scratch / "script.jsonl").string());
-    if (skipped(outcome)) return;
+    NEEDS_DISPLAY_OF(outcome);
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
     const auto saved = physics::loadProfile(scratch / "mannequin.ragdoll.json");
@@ -280,7 +272,7 @@ TEST_CASE("a role that a script drags from its panel onto a joint in the view ta
 }
 
 TEST_CASE("the panels look as they did when they were looked at") {
-    if (!layoutIsKnown()) return;
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;
     Script script;
     std::string screenshots;
@@ -313,7 +305,7 @@ TEST_CASE("the panels look as they did when they were looked at") {
     picture("collisions.png");
     script.save(scratch / "script.jsonl");
     const Outcome outcome = edit(scratch, "--headless --input " + (scratch / "script.jsonl").string() + screenshots);
-    if (skipped(outcome)) return;
+    NEEDS_DISPLAY_OF(outcome);
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
     // The panels alone: what the view shows has pictures of its own, and the status bar tells the machine's frame rate.
@@ -341,7 +333,7 @@ TEST_CASE("the panels look as they did when they were looked at") {
 }
 
 TEST_CASE("the log and the file dialog look as they did when they were looked at") {
-    if (!layoutIsKnown()) return;
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;
     for (const char* folder : {"clips", "Older"})
         fs::create_directory(scratch / folder);
@@ -359,7 +351,7 @@ TEST_CASE("the log and the file dialog look as they did when they were looked at
         edit(scratch, "--headless --input " + (scratch / "script.jsonl").string() + " --screenshot-at " +
                           std::to_string(log) + ":" + (scratch / "log.png").string() + " --screenshot-at " +
                           std::to_string(dialog) + ":" + (scratch / "dialog.png").string());
-    if (skipped(outcome)) return;
+    NEEDS_DISPLAY_OF(outcome);
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
     const auto logPicture = render::loadPng(scratch / "log.png");
@@ -370,7 +362,7 @@ TEST_CASE("the log and the file dialog look as they did when they were looked at
 }
 
 TEST_CASE("the same script gives the same picture twice and a drag shows in it") {
-    if (!layoutIsKnown()) return;
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;
     Script script;
     script.wait(12).drag(640, 420, 640, 250).wait(20);
@@ -422,9 +414,6 @@ TEST_CASE("a real window takes a real pointer and keyboard, records them, and cl
                                              LUTKA_BINARY + " " + (scratch / "replay.png").string());
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
-    if (outcome.output.find("skipped:") != std::string::npos) {
-        WARN(outcome.output);
-        return;
-    }
+    if (outcome.output.find("skipped:") != std::string::npos) SKIP_TEST("%s", outcome.output.c_str());
     CHECK_THAT(outcome.output, Catch::Contains("done"));
 }

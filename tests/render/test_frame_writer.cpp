@@ -9,6 +9,7 @@
 #include "render/child_process.hpp"
 #include "render/frame_writer.hpp"
 #include "support/catch.hpp"
+#include "support/skip.hpp"
 
 using namespace lutka;
 using namespace lutka::render;
@@ -36,12 +37,6 @@ class Folder {
   private:
     fs::path path_;
 };
-
-bool ffmpegIsThere() {
-    if (FrameWriter::ffmpegIsThere()) return true;
-    std::printf("skipped: the program ffmpeg is not on the PATH\n");
-    return false;
-}
 
 Image frameOf(Extent size, int number) {
     return {size, {static_cast<std::uint8_t>(20 * number), 90, 160, 255}};
@@ -71,7 +66,7 @@ TEST_CASE("a PNG sequence counts its frames from 0000") {
 }
 
 TEST_CASE("an mp4 with odd sides is written whole and alone") {
-    if (!ffmpegIsThere()) return;
+    if (!FrameWriter::ffmpegIsThere()) SKIP_TEST("the program ffmpeg is not on the PATH");
     const Folder folder("mp4");
     Result<FrameWriter> writer = FrameWriter::open(folder / "fall.mp4", {65, 33}, 30);
     REQUIRE(writer.ok());
@@ -84,7 +79,7 @@ TEST_CASE("an mp4 with odd sides is written whole and alone") {
 }
 
 TEST_CASE("a gif is written whole and alone") {
-    if (!ffmpegIsThere()) return;
+    if (!FrameWriter::ffmpegIsThere()) SKIP_TEST("the program ffmpeg is not on the PATH");
     const Folder folder("gif");
     Result<FrameWriter> writer = FrameWriter::open(folder / "fall.gif", {64, 32}, 25);
     REQUIRE(writer.ok());
@@ -96,7 +91,7 @@ TEST_CASE("a gif is written whole and alone") {
 }
 
 TEST_CASE("a video that is dropped before its end leaves nothing behind and keeps the old file") {
-    if (!ffmpegIsThere()) return;
+    if (!FrameWriter::ffmpegIsThere()) SKIP_TEST("the program ffmpeg is not on the PATH");
     const Folder folder("dropped");
     std::ofstream(folder / "fall.mp4") << "an old film";
     {

@@ -91,7 +91,7 @@ void checkVelocities(const RagdollAsset& asset, const animation::Clip& clip, int
 }  // namespace
 
 TEST_CASE("a fall from a clip of a real model starts with the clip's velocities and goes on as the clip does") {
-    if (!test::zooIsThere()) return;
+    NEEDS_ZOO();
     int clips = 0;
     for (const char* file :
          {"cesium_man_glb/CesiumMan.glb", "lumberjack_rigify/lumberjack.glb", "khronos_rigged_figure/RiggedFigure.glb",
@@ -112,7 +112,7 @@ TEST_CASE("a fall from a clip of a real model starts with the clip's velocities 
 }
 
 TEST_CASE("a moment outside of a clip is its nearest end, with the velocities of that end") {
-    if (!test::zooIsThere()) return;
+    NEEDS_ZOO();
     const auto asset = load("cesium_man_glb/CesiumMan.glb");
     const animation::Clip& clip = asset->character.clips.front();
     const auto hash = [&](float seconds) { return startFrom(*asset, clip, seconds, 1.0F / 60.0F)->stateHash(); };

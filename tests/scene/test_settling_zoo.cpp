@@ -23,7 +23,7 @@ bool comesToRest(const scene::RagdollAsset& asset, std::string_view scene, std::
 
 // 97 to 100 % of drops, stairs and throws do (docs/physics.md); which of them don't changes with every rounding.
 TEST_CASE("nearly all real models come to rest within six seconds of the first contact, on edges and limits as well") {
-    if (!test::zooIsThere()) return;
+    NEEDS_ZOO();
     int settled = 0;
     int trials = 0;
     // On the first three throws dolls rocked on the limits of their spines, or crept, for longer.

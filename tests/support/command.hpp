@@ -10,6 +10,8 @@
 #include <sstream>
 #include <string>
 
+#include "support/skip.hpp"
+
 namespace lutka::test {
 
 inline std::string fileText(const std::filesystem::path& file) {
@@ -58,4 +60,15 @@ inline std::string shellQuoted(const std::filesystem::path& file) {
     return "'" + file.string() + "'";
 }
 
+/// Exit code of a command that needs a display or a GL context and has none.
+inline constexpr int kNoDisplay = 6;
+
 }  // namespace lutka::test
+
+/// Skips the test case where the program is not on the PATH.
+#define NEEDS_PROGRAM(name) \
+    if (runCommand("sh -c 'command -v " name "'").code != 0) SKIP_TEST("the program " name " is not on the PATH")
+
+/// Skips the test case where the command ended for want of a display or a GL context.
+#define NEEDS_DISPLAY_OF(result) \
+    if ((result).code == lutka::test::kNoDisplay) SKIP_TEST("no headless OpenGL context")

@@ -255,7 +255,7 @@ TEST_CASE("the .obj holds the skinned vertices in the character's order") {
 }
 
 TEST_CASE("zoo models come back from their .glb as they were") {
-    if (!zooIsThere()) return;
+    NEEDS_ZOO();
     const TemporaryFolder folder;
     for (const char* model :
          {"cesium_man_glb/CesiumMan.glb", "kaykit_rogue/Rogue_Hooded.glb", "lumberjack_rigify/lumberjack.glb",

@@ -100,18 +100,18 @@ void requireUnnamed(const Totals& totals) {
 }  // namespace
 
 TEST_CASE("every test model maps to its truth", "[zoo]") {
-    if (!zooIsThere()) return;
+    NEEDS_ZOO();
     requireNamed(scoreAll("as they are", [](const Character& c) { return c; }));
 }
 
 TEST_CASE("test models map without any names", "[zoo]") {
-    if (!zooIsThere()) return;
+    NEEDS_ZOO();
     requireUnnamed(scoreAll(
         "all joints named joint_N", [](const Character& c) { return withoutNames(c); }, Sides::unnamed));
 }
 
 TEST_CASE("turned about the vertical test models keep their roles", "[zoo]") {
-    if (!zooIsThere()) return;
+    NEEDS_ZOO();
     const quat turn = aboutY(radians(37.0F));
     requireNamed(scoreAll("turned by 37 degrees", [&](const Character& c) { return rotated(c, turn); }));
     requireUnnamed(scoreAll(
@@ -120,14 +120,14 @@ TEST_CASE("turned about the vertical test models keep their roles", "[zoo]") {
 }
 
 TEST_CASE("with Z up test models keep their roles", "[zoo]") {
-    if (!zooIsThere()) return;
+    NEEDS_ZOO();
     requireNamed(scoreAll("Z up", [](const Character& c) { return rotated(c, zUp()); }));
     requireUnnamed(scoreAll(
         "Z up, joint_N", [](const Character& c) { return rotated(withoutNames(c), zUp()); }, Sides::unnamed));
 }
 
 TEST_CASE("at any scale test models keep their roles", "[zoo]") {
-    if (!zooIsThere()) return;
+    NEEDS_ZOO();
     for (const float factor : {0.01F, 100.0F}) {
         requireNamed(scoreAll("scaled", [&](const Character& c) { return scaled(c, factor); }));
         requireUnnamed(scoreAll(
@@ -136,7 +136,7 @@ TEST_CASE("at any scale test models keep their roles", "[zoo]") {
 }
 
 TEST_CASE("mirror images of test models exchange left and right", "[zoo]") {
-    if (!zooIsThere()) return;
+    NEEDS_ZOO();
     requireNamed(scoreAll(
         "mirrored", [](const Character& c) { return mirrorImage(c); }, Sides::againstNames));
     requireUnnamed(scoreAll(
@@ -144,7 +144,7 @@ TEST_CASE("mirror images of test models exchange left and right", "[zoo]") {
 }
 
 TEST_CASE("joints and weights alone are enough in whatever pose the nodes have", "[zoo]") {
-    if (!zooIsThere()) return;
+    NEEDS_ZOO();
     std::printf("\njoints of bones.txt\n");
     Score named;
     Score unnamed;

@@ -155,7 +155,7 @@ bool sameBitsOnAllSets(const SkinnedMesh& mesh, std::span<const SkinMatrix> pale
 }  // namespace
 
 TEST_CASE("every model of the zoo loads, or is refused for its known damage") {
-    if (!zooIsThere()) return;
+    NEEDS_ZOO();
     for (const Model& model : models()) {
         INFO(model.folder);
         const Result<Character> result = importCharacter(model.file);
@@ -173,7 +173,7 @@ TEST_CASE("every model of the zoo loads, or is refused for its known damage") {
 }
 
 TEST_CASE("the node pose of every zoo model shows what the file shows") {
-    if (!zooIsThere()) return;
+    NEEDS_ZOO();
     for (const Model& model : models()) {
         INFO(model.folder);
         if (model.refused || !model.oracleKnows) continue;
@@ -185,7 +185,7 @@ TEST_CASE("the node pose of every zoo model shows what the file shows") {
 }
 
 TEST_CASE("wide skinning of every zoo model is the plain loop's, and both are the sum of the joints' motions") {
-    if (!zooIsThere()) return;
+    NEEDS_ZOO();
     ImportOptions options;
     options.loadTextures = false;
     for (const Model& model : models()) {
@@ -210,7 +210,7 @@ TEST_CASE("wide skinning of every zoo model is the plain loop's, and both are th
 }
 
 TEST_CASE("a .vrm of the zoo is the same character as its .glb") {
-    if (!zooIsThere()) return;
+    NEEDS_ZOO();
     const Character vrm = imported(zooFile("vrm_addon_example/Example.vrm"));
     const Character glb = imported(zooFile("vrm_addon_example/Example.glb"));
     CHECK(vrm.skeleton.names == glb.skeleton.names);
@@ -221,7 +221,7 @@ TEST_CASE("a .vrm of the zoo is the same character as its .glb") {
 }
 
 TEST_CASE("a clip of an FBX with pivots that holds still holds the node pose") {
-    if (!zooIsThere()) return;
+    NEEDS_ZOO();
     const Character character = imported(zooFile("rocketbox_male/Male_Adult_17.fbx"));
     REQUIRE(character.clips.size() == 1);
     std::vector<RigidTransform> pose(character.skeleton.parents.size());
@@ -235,7 +235,7 @@ TEST_CASE("a clip of an FBX with pivots that holds still holds the node pose") {
 }
 
 TEST_CASE("a Half-Life model gets the hierarchy back that Assimp drops") {
-    if (!zooIsThere()) return;
+    NEEDS_ZOO();
     const Character character = imported(zooFile("hl1_man/man.mdl"));
     const Skeleton& skeleton = character.skeleton;
     const std::string bones = "<MDL_root>/<MDL_bones>/";

@@ -95,7 +95,7 @@ vec3 sweep(const Subject& subject, Role role) {
 }  // namespace
 
 TEST_CASE("the bind pose of every humanoid of the zoo lies inside all limits of its ragdoll") {
-    if (!test::zooIsThere()) return;
+    NEEDS_ZOO();
     REQUIRE(subjects().size() >= 20);
     for (const Subject& subject : subjects()) {
         INFO(subject.name);
@@ -123,7 +123,7 @@ TEST_CASE("the bind pose of every humanoid of the zoo lies inside all limits of 
 }
 
 TEST_CASE("knees take the heel backwards and elbows the hand forwards or up on every humanoid of the zoo") {
-    if (!test::zooIsThere()) return;
+    NEEDS_ZOO();
     for (const Subject& subject : subjects()) {
         INFO(subject.name);
         for (const Role knee : {Role::leftLowerLeg, Role::rightLowerLeg}) {
@@ -140,7 +140,7 @@ TEST_CASE("knees take the heel backwards and elbows the hand forwards or up on e
 }
 
 TEST_CASE("a limb at the extension limit of its hinge is nearly straight on every humanoid of the zoo") {
-    if (!test::zooIsThere()) return;
+    NEEDS_ZOO();
     for (const Subject& subject : subjects()) {
         INFO(subject.name);
         const BodyPlan plan = planBodies(subject.character, subject.map, FitOptions{});
@@ -156,7 +156,7 @@ TEST_CASE("a limb at the extension limit of its hinge is nearly straight on ever
 }
 
 TEST_CASE("hips, trunk, head and feet flex the way people do on every humanoid of the zoo") {
-    if (!test::zooIsThere()) return;
+    NEEDS_ZOO();
     struct Way {
         Role role;
         vec3 direction;
@@ -177,7 +177,7 @@ TEST_CASE("hips, trunk, head and feet flex the way people do on every humanoid o
 }
 
 TEST_CASE("in the neutral pose all frames agree and the figure crouches with its hands ahead") {
-    if (!test::zooIsThere()) return;
+    NEEDS_ZOO();
     for (const Subject& subject : subjects()) {
         INFO(subject.name);
         std::vector<RigidTransform> pose{subject.bind[0].standardFromBody};
@@ -201,7 +201,7 @@ TEST_CASE("in the neutral pose all frames agree and the figure crouches with its
 }
 
 TEST_CASE("shapes of the zoo's humanoids lie near their skin and fill it") {
-    if (!test::zooIsThere()) return;
+    NEEDS_ZOO();
     const std::vector<std::string> peopleOfUsualBuild = {"cesium_man_glb",    "godot_mannequiny",  "kenney_medium",
                                                          "makehuman_cmu_zup", "makehuman_default", "makehuman_mixamo",
                                                          "mesh2motion_human", "ozz_pab_skeleton",  "quaternius_man_fbx",

@@ -81,7 +81,7 @@ float worstOffset(const animation::Skeleton& skeleton, const std::vector<RigidTr
 
 TEST_CASE("the bind pose of every humanoid of the zoo comes back through its bodies, alone and beside others",
           "[rig][zoo]") {
-    if (!test::zooIsThere()) return;
+    NEEDS_ZOO();
     const RigidTransform somewhere{glm::angleAxis(0.7F, glm::normalize(vec3(1, 2, 3))), {4, -1, 2}};
     int checked = 0;
     for (const std::filesystem::path& file : models()) {

@@ -9,10 +9,11 @@
 #include "core/random.hpp"
 #include "render/gl/renderer.hpp"
 #include "support/catch.hpp"
+#include "support/skip.hpp"
 
 namespace lutka::test {
 
-/// A headless context with a renderer; null, with a printed word, where none can be had.
+/// A headless context with a renderer; null where none can be had (NEEDS_GL).
 struct GlFixture {
     render::GlContext context;
     render::Renderer renderer;
@@ -20,7 +21,7 @@ struct GlFixture {
     static std::unique_ptr<GlFixture> create(const render::RendererOptions& options = {}) {
         Result<render::GlContext> context = render::GlContext::createHeadless();
         if (!context) {
-            std::printf("skipped: %s\n", context.error().text().c_str());
+            std::fprintf(stderr, "%s\n", context.error().text().c_str());
             return nullptr;
         }
         Result<render::Renderer> renderer = render::Renderer::create(context.value(), options);
@@ -65,3 +66,7 @@ struct GlFixture {
 }
 
 }  // namespace lutka::test
+
+/// Skips the test case where no headless context can be had; `fixture` is what GlFixture::create() gave.
+#define NEEDS_GL(fixture) \
+    if ((fixture) == nullptr) SKIP_TEST("no headless OpenGL context")

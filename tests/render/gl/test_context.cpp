@@ -20,7 +20,7 @@ TEST_CASE("without a display a window is refused with the reason and what would 
 
 TEST_CASE("a headless context has no window, no size, and tells its driver") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     CHECK(gl->context.window() == nullptr);
     CHECK(gl->context.framebufferSize() == Extent{0, 0});
     CHECK(gl->context.description().find(", ") != std::string::npos);
@@ -29,7 +29,7 @@ TEST_CASE("a headless context has no window, no size, and tells its driver") {
 
 TEST_CASE("two headless contexts live side by side, and either can go first") {
     auto first = GlFixture::create();
-    if (!first) return;
+    NEEDS_GL(first);
     auto second = GlFixture::create();
     REQUIRE(second);
     FrameDescription frame;
@@ -43,16 +43,13 @@ TEST_CASE("two headless contexts live side by side, and either can go first") {
 
 TEST_CASE("a window shows the same picture as the headless context") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     FrameDescription frame;
     const Extent size{160, 120};
     const Image expected = gl->picture(frame, size);
     Result<GlContext> window =
         GlContext::createWindow({.title = "test", .size = size, .visible = false, .vsync = false});
-    if (!window) {
-        std::printf("skipped: %s\n", window.error().text().c_str());
-        return;
-    }
+    if (!window) SKIP_TEST("%s", window.error().text().c_str());
     Result<Renderer> renderer = Renderer::create(window.value());
     REQUIRE(renderer.ok());
     renderer.value().draw(frame, size);

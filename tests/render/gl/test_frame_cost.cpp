@@ -42,7 +42,7 @@ struct Crowd {
 
 TEST_CASE("two hundred ragdolls with capsules on cost one upload and one draw call more than without") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     Crowd crowd(*gl, 200);
     gl->renderer.draw(crowd.frame, kSize);
     const FrameStats bare = gl->renderer.stats();
@@ -61,7 +61,7 @@ TEST_CASE("two hundred ragdolls with capsules on cost one upload and one draw ca
 
 TEST_CASE("a frame like the last one allocates nothing") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     Crowd crowd(*gl, 30);
     crowd.addCapsules();
     PropItem box;
@@ -80,7 +80,7 @@ TEST_CASE("a frame like the last one allocates nothing") {
 
 TEST_CASE("the times of every pass that ran arrive from the GPU without being waited for") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     Crowd crowd(*gl, 5);
     crowd.addCapsules();
     gl->renderer.draw(crowd.frame, kSize);
@@ -113,7 +113,7 @@ TEST_CASE("each pass has a name of its own") {
 
 TEST_CASE("GPU memory follows what is uploaded, its size and its removal") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     FrameDescription empty;
     gl->renderer.draw(empty, kSize);
     const GpuMemory before = gl->renderer.stats().memory;
@@ -141,7 +141,7 @@ TEST_CASE("GPU memory follows what is uploaded, its size and its removal") {
 
 TEST_CASE("the fast quality shows the same scene with less work") {
     const auto best = GlFixture::create();
-    if (!best) return;
+    NEEDS_GL(best);
     Crowd crowd(*best, 3);
     const Image fine = best->picture(crowd.frame, {320, 240});
     const FrameStats work = best->renderer.stats();

@@ -108,13 +108,13 @@ void checkSkinning(GlFixture& gl, const animation::Character& character) {
 
 TEST_CASE("the GPU skins the hand-made figure as the CPU does in any pose") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     checkSkinning(*gl, makeBiped());
 }
 
 TEST_CASE("the comparison of GPU and CPU skinning sees a joint that is off by a millimetre") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     const animation::Character biped = makeBiped();
     render::CharacterItem item;
     item.character = gl->upload(biped);
@@ -130,7 +130,7 @@ TEST_CASE("the comparison of GPU and CPU skinning sees a joint that is off by a 
 
 TEST_CASE("the GPU skins vertices with four weights as the CPU does") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     animation::Character biped = makeBiped();
     Random random(5);
     const auto joints = static_cast<float>(biped.skeleton.jointCount());
@@ -160,7 +160,7 @@ TEST_CASE("the GPU skins vertices with four weights as the CPU does") {
 
 TEST_CASE("the GPU skins our own mannequin as the CPU does") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     const Result<animation::Character> mannequin =
         animation::importCharacter(std::filesystem::path(LUTKA_ASSETS_DIR) / "models" / "mannequin.glb");
     if (!mannequin) FAIL(mannequin.error().text());
@@ -169,7 +169,8 @@ TEST_CASE("the GPU skins our own mannequin as the CPU does") {
 
 TEST_CASE("the GPU skins every model of the zoo as the CPU does") {
     const auto gl = GlFixture::create();
-    if (!gl || !zooIsThere()) return;
+    NEEDS_GL(gl);
+    NEEDS_ZOO();
     int models = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(LUTKA_ZOO_DIR)) {
         const std::string extension = entry.path().extension().string();

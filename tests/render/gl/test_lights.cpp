@@ -56,7 +56,7 @@ Color pixelAt(const Image& image, const Camera& camera, const vec3& world) {
 
 TEST_CASE("picture: the sun alone with its shadow") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     DarkRoom room(*gl);
     room.frame.sun.intensity = 2.2F;
     checkGolden(gl->picture(room.frame, kSize), "light_sun");
@@ -64,7 +64,7 @@ TEST_CASE("picture: the sun alone with its shadow") {
 
 TEST_CASE("picture: the sky alone, then with ambient occlusion") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     DarkRoom room(*gl);
     room.frame.sky.intensity = 0.9F;
     checkGolden(gl->picture(room.frame, kSize), "light_sky");
@@ -74,7 +74,7 @@ TEST_CASE("picture: the sky alone, then with ambient occlusion") {
 
 TEST_CASE("picture: two point lights of different colours") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     DarkRoom room(*gl);
     room.frame.localLights = {lamp({-1.2F, 1.2F, 0.9F}), lamp({1.3F, 1.5F, 0.7F})};
     room.frame.localLights[0].color = {1.0F, 0.45F, 0.2F};
@@ -84,7 +84,7 @@ TEST_CASE("picture: two point lights of different colours") {
 
 TEST_CASE("picture: a spot light from above with a soft rim") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     DarkRoom room(*gl);
     LocalLight spot = lamp({0.4F, 2.6F, 1.2F});
     spot.intensity = 9.0F;
@@ -98,7 +98,7 @@ TEST_CASE("picture: a spot light from above with a soft rim") {
 
 TEST_CASE("eight local lights add up and a ninth is left out") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     DarkRoom room(*gl);
     room.frame.characters.clear();
     room.frame.props.clear();
@@ -150,7 +150,7 @@ TEST_CASE("a shadow's edge does not swim: moved by a few pixels the picture is t
     // Without the noise of the soft filter, which is fixed to the pixels.
     const auto gl =
         GlFixture::create({.samples = 1, .shadowMapSize = 512, .ambientOcclusion = false, .fastShading = true});
-    if (!gl) return;
+    NEEDS_GL(gl);
     FrameDescription frame;
     frame.floor.gridSpacing = 0.0F;
     frame.floor.fadeDistance = 500.0F;

@@ -147,7 +147,7 @@ const nlohmann::json kMatte = {{"metallicFactor", 0.0}, {"roughnessFactor", 0.9}
 
 TEST_CASE("base colour: factor and texture multiply, the picture's left is the square's left") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     Squares squares;
     nlohmann::json plain = kMatte;
     plain["baseColorFactor"] = {0.8, 0.1, 0.1, 1.0};
@@ -166,7 +166,7 @@ TEST_CASE("base colour: factor and texture multiply, the picture's left is the s
 
 TEST_CASE("metallic and roughness: a metal has no diffuse colour and a rough one spreads the light") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     Squares squares;
     const auto surface = [](double metallic, double roughness) {
         return nlohmann::json{{"pbrMetallicRoughness",
@@ -192,7 +192,7 @@ TEST_CASE("metallic and roughness: a metal has no diffuse colour and a rough one
 
 TEST_CASE("a normal map tilts the light: the half that leans towards it is brighter") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     Squares squares;
     nlohmann::json leaning = {{"pbrMetallicRoughness", kMatte}};
     leaning["normalTexture"] = squares.texture({218, 128, 218, 255}, {38, 128, 218, 255});
@@ -205,7 +205,7 @@ TEST_CASE("a normal map tilts the light: the half that leans towards it is brigh
 
 TEST_CASE("an occlusion map darkens the sky's light and an emissive one glows without any") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     Squares squares;
     nlohmann::json occluded = {{"pbrMetallicRoughness", kMatte}};
     occluded["occlusionTexture"] = squares.texture({30, 30, 30, 255}, {255, 255, 255, 255});
@@ -224,7 +224,7 @@ TEST_CASE("an occlusion map darkens the sky's light and an emissive one glows wi
 
 TEST_CASE("an alpha mask cuts out, blending mixes, and single-sided backs are not there") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     Squares squares;
     nlohmann::json masked = {{"pbrMetallicRoughness", kMatte}, {"alphaMode", "MASK"}, {"alphaCutoff", 0.5}};
     masked["pbrMetallicRoughness"]["baseColorTexture"] = squares.texture({10, 10, 10, 40}, {10, 10, 10, 255});
@@ -252,7 +252,7 @@ TEST_CASE("an alpha mask cuts out, blending mixes, and single-sided backs are no
 
 TEST_CASE("a missing texture leaves a visible neutral material and one warning") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     Squares squares;
     nlohmann::json lost = kMatte;
     lost["baseColorTexture"] = squares.named("gone.png");

@@ -34,7 +34,7 @@ CharacterItem itemOf(CharacterHandle handle, const std::vector<animation::SkinMa
 
 TEST_CASE("picture: the mannequin on the floor with its shadow") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     const animation::Character figure = mannequin();
     const auto palette = bindPalette(figure.skeleton);
     FrameDescription frame;
@@ -45,7 +45,7 @@ TEST_CASE("picture: the mannequin on the floor with its shadow") {
 
 TEST_CASE("picture: props, debug capsules, axes and limits over a figure") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     const animation::Character biped = makeBiped();
     const auto palette = bindPalette(biped.skeleton);
     FrameDescription frame;
@@ -84,7 +84,7 @@ TEST_CASE("picture: props, debug capsules, axes and limits over a figure") {
 
 TEST_CASE("picture: a forearm twisted by 160 degrees is wrung by linear blending and whole with dual quaternions") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     const animation::Character figure = mannequin();
     std::vector<RigidTransform> pose = figure.skeleton.bindModelFromJoint;
     const int hand = animation::findJoint(figure.skeleton, "leftHand");

@@ -40,7 +40,7 @@ double differingShare(const Image& a, const Image& b) {
 
 TEST_CASE("fifty characters that share a mesh cost one draw call a mesh and pass") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     Scene scene(*gl);
     const CharacterItem first = scene.frame.characters[0];
     gl->renderer.draw(scene.frame, kSize);
@@ -66,7 +66,7 @@ TEST_CASE("fifty characters that share a mesh cost one draw call a mesh and pass
 
 TEST_CASE("each instance stands in its own pose at its own place") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     Scene scene(*gl);
     scene.frame.ambientOcclusion = false;
     // A second one to the right whose pose is moved up by a metre through its palette alone.
@@ -88,7 +88,7 @@ TEST_CASE("each instance stands in its own pose at its own place") {
 
 TEST_CASE("a character outside the picture is culled but still casts its shadow") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     Scene scene(*gl);
     scene.frame.characters[0].worldFromModel.translation = vec3(0, 0, 30);
     gl->renderer.draw(scene.frame, kSize);
@@ -99,7 +99,7 @@ TEST_CASE("a character outside the picture is culled but still casts its shadow"
 
 TEST_CASE("the shadow darkens the floor below a body and nowhere else") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     Scene scene(*gl);
     scene.frame.floor.gridSpacing = 0.0F;
     scene.frame.ambientOcclusion = false;
@@ -118,7 +118,7 @@ TEST_CASE("the shadow darkens the floor below a body and nowhere else") {
 
 TEST_CASE("a lit surface does not shade itself") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     // A ball and a tilted box alone: everything that faces the light must look the same with and without the shadow.
     FrameDescription frame;
     frame.ambientOcclusion = false;
@@ -142,7 +142,7 @@ TEST_CASE("a lit surface does not shade itself") {
 
 TEST_CASE("ambient occlusion darkens the corner between a box and the floor") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     FrameDescription frame;
     frame.sun.intensity = 0.0F;
     frame.floor.gridSpacing = 0.0F;
@@ -164,7 +164,7 @@ TEST_CASE("ambient occlusion darkens the corner between a box and the floor") {
 
 TEST_CASE("a point light lights what is near it, and a spot only what is in its cone") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     FrameDescription frame;
     frame.sun.intensity = 0.0F;
     frame.sky.intensity = 0.05F;
@@ -197,7 +197,7 @@ TEST_CASE("a point light lights what is near it, and a spot only what is in its 
 
 TEST_CASE("from below the floor lets one see through") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     Scene scene(*gl);
     scene.frame.camera.pitch = radians(-40);
     scene.frame.characters[0].tint = vec3(1.0F, 0.02F, 0.02F);
@@ -208,7 +208,7 @@ TEST_CASE("from below the floor lets one see through") {
 
 TEST_CASE("debug lines and solids are drawn, hidden ones faintly, each in a fixed number of draw calls") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     Scene scene(*gl);
     const Image bare = gl->picture(scene.frame, kSize);
     const int bareCalls = gl->renderer.stats().drawCalls;
@@ -242,7 +242,7 @@ TEST_CASE("debug lines and solids are drawn, hidden ones faintly, each in a fixe
 
 TEST_CASE("a translucent character lets the background through, and a highlight shows") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     Scene scene(*gl);
     const vec3 belly(0, 1.10F, 0.13F);
     scene.frame.characters[0].tint = vec3(0.02F);
@@ -262,7 +262,7 @@ TEST_CASE("a translucent character lets the background through, and a highlight 
 
 TEST_CASE("a texture is sampled at its own place with its first row on top") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     Scene scene(*gl);
     animation::Character painted = makeBiped();
     animation::Texture texture;
@@ -283,7 +283,7 @@ TEST_CASE("a texture is sampled at its own place with its first row on top") {
 
 TEST_CASE("a material that names a missing texture is drawn without it and told once") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     animation::Character biped = makeBiped();
     biped.materials[0].name = "cloth";
     biped.materials[0].normalTexture = 3;
@@ -294,7 +294,7 @@ TEST_CASE("a material that names a missing texture is drawn without it and told 
 
 TEST_CASE("meshes whose arrays do not fit together are refused") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     const auto refused = [&](const auto& spoil) {
         animation::Character biped = makeBiped();
         spoil(biped);
@@ -313,7 +313,7 @@ TEST_CASE("meshes whose arrays do not fit together are refused") {
 
 TEST_CASE("the same frame gives the same picture, also at another size in between") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     Scene scene(*gl);
     const Image first = gl->picture(scene.frame, kSize);
     const Image small = gl->picture(scene.frame, {97, 61});
@@ -323,7 +323,7 @@ TEST_CASE("the same frame gives the same picture, also at another size in betwee
 
 TEST_CASE("a shader that does not compile is told with its file and line") {
     const auto gl = GlFixture::create();
-    if (!gl) return;
+    NEEDS_GL(gl);
     namespace fs = std::filesystem;
     const fs::path folder = fs::temp_directory_path() / ("lutka-shaders-" + std::to_string(std::rand()));
     fs::create_directories(folder);
