@@ -11,12 +11,14 @@ find_package(spdlog REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(TBB REQUIRED)
 find_package(assimp REQUIRED)
+find_package(meshoptimizer REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(TinyGLTF REQUIRED)
 find_package(glfw3 REQUIRED)
 
 # Bullet by pkg-config: the package's CMake CONFIG gives a relative include path.
 pkg_check_modules(bullet REQUIRED IMPORTED_TARGET bullet)
+pkg_check_modules(draco REQUIRED IMPORTED_TARGET draco)
 pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
 pkg_check_modules(stb REQUIRED IMPORTED_TARGET stb)
 

@@ -57,7 +57,13 @@ void sampleClip(const Clip& clip, float seconds, std::span<RigidTransform> paren
     const auto before = static_cast<std::size_t>(at);
     const std::size_t after = std::min<std::size_t>(before + 1, static_cast<std::size_t>(clip.frameCount) - 1);
     const float alpha = at - static_cast<float>(before);
+    // A time that misses its frame by rounding alone shows that frame.
+    const std::size_t held = std::min<std::size_t>(static_cast<std::size_t>(at + 1e-3F), clip.frameCount - 1U);
     for (std::size_t joint = 0; joint < joints; ++joint) {
+        if (joint < clip.steppedJoints.size() && clip.steppedJoints[joint]) {
+            parentFromJoint[joint] = frames[held * joints + joint];
+            continue;
+        }
         parentFromJoint[joint] = interpolate(frames[before * joints + joint], frames[after * joints + joint], alpha);
     }
 }

@@ -10,7 +10,7 @@ export LUTKA_ASSETS=${LUTKA_ASSETS:-$LUTKA_ROOT/assets}
 # maths, UI; data; logs, threads, tests.
 LUTKA_BUILD_PACKAGES=(
   g++ cmake ninja-build ccache pkg-config python3-glad
-  libbullet-dev libassimp-dev zlib1g-dev libminizip-dev libglfw3-dev libgl-dev libegl-dev libgl1-mesa-dri libegl1
+  libbullet-dev libassimp-dev zlib1g-dev libminizip-dev libdraco-dev libmeshoptimizer-dev libglfw3-dev libgl-dev libegl-dev libgl1-mesa-dri libegl1
   libglm-dev libimgui-dev nlohmann-json3-dev libcli11-dev libtinygltf-dev libstb-dev
   libspdlog-dev libfmt-dev libtbb-dev catch2
 )

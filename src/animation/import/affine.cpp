@@ -62,11 +62,6 @@ dmat3 rotationFromFlat(const dmat3& m) {
 
 }  // namespace
 
-dmat4 fromAssimp(const aiMatrix4x4& m) {
-    return {dvec4(m.a1, m.b1, m.c1, m.d1), dvec4(m.a2, m.b2, m.c2, m.d2), dvec4(m.a3, m.b3, m.c3, m.d3),
-            dvec4(m.a4, m.b4, m.c4, m.d4)};
-}
-
 double meanScale(const dmat4& matrix) {
     return std::cbrt(std::abs(glm::determinant(dmat3(matrix))));
 }

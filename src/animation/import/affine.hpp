@@ -1,8 +1,5 @@
 #pragma once
 
-#include <assimp/matrix4x4.h>
-#include <assimp/vector3.h>
-
 #include <glm/mat4x4.hpp>
 
 #include "core/rigid_transform.hpp"
@@ -14,11 +11,6 @@ using glm::dmat3;
 using glm::dmat4;
 using glm::dvec3;
 using glm::dvec4;
-
-[[nodiscard]] dmat4 fromAssimp(const aiMatrix4x4& matrix);
-[[nodiscard]] inline dvec3 fromAssimp(const aiVector3D& v) {
-    return {v.x, v.y, v.z};
-}
 
 /// The mean factor by which lengths grow: the cube root of the determinant's magnitude.
 [[nodiscard]] double meanScale(const dmat4& matrix);

@@ -23,11 +23,11 @@ struct Box {
     double size = 1.0;
 };
 
-Box boxOf(const aiMesh& mesh) {
+Box boxOf(const SourceMesh& mesh) {
     dvec3 low(std::numeric_limits<double>::max());
     dvec3 high(std::numeric_limits<double>::lowest());
-    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-        const dvec3 p = fromAssimp(mesh.mVertices[i]);
+    for (const vec3& position : mesh.positions) {
+        const dvec3 p(position);
         if (!std::isfinite(p.x + p.y + p.z)) continue;
         low = glm::min(low, p);
         high = glm::max(high, p);
@@ -154,6 +154,7 @@ class BindSolver {
     }
 
     dmat4 frameOfFirst(const MeshInstance& mesh) const {
+        if (mesh.sceneFromMesh && isInvertible(*mesh.sceneFromMesh)) return *mesh.sceneFromMesh;
         const Box box = boxOf(*mesh.mesh);
         std::vector<Vote> votes;
         for (const SkinJoint& joint : mesh.joints) {
@@ -182,8 +183,11 @@ class BindSolver {
 
     void settle(int index, const dmat4& sceneFromMesh) {
         settled_[index] = true;
+        const bool byNodes = meshes_[index].verticesAreInJoints;
         for (const SkinJoint& joint : meshes_[index].joints) {
-            if (!bind_[joint.joint]) bind_[joint.joint] = sceneFromMesh * glm::inverse(joint.jointFromMesh);
+            if (bind_[joint.joint]) continue;
+            bind_[joint.joint] =
+                byNodes ? tree_.sceneFromJoint(joint.joint) : sceneFromMesh * glm::inverse(joint.jointFromMesh);
         }
     }
 

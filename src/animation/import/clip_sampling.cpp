@@ -16,157 +16,171 @@ namespace lutka::animation::rig_import {
 namespace {
 
 constexpr double kLeastRate = 30.0;
+constexpr double kLeastSplineRate = 60.0;
 constexpr double kMostRate = 120.0;
-// Assimp's own default for files that don't say how long a tick is.
-constexpr double kDefaultTicksPerSecond = 25.0;
 constexpr int kMaxFrames = 36'000;
 // Bounds the memory of all clips together: 28 bytes each.
 constexpr std::size_t kMaxTransforms = 20'000'000;
 constexpr double kVisibleScale = 0.01;
 
 struct KeyTimes {
-    double first = std::numeric_limits<double>::max();  // ticks
+    double first = std::numeric_limits<double>::max();  // seconds
     double last = std::numeric_limits<double>::lowest();
     double smallestGap = std::numeric_limits<double>::max();
+    bool spline = false;
 
     // A clip's time is the file's, from 0; but one cut from the middle of a long timeline starts at its first key.
     [[nodiscard]] double start() const { return first < 0.0 || first > last - first ? first : 0.0; }
 };
 
-template <class Key>
-void addTimes(const Key* keys, unsigned count, KeyTimes& times) {
-    if (count < 2) return;  // a constant, often put at 0 by the importer: no part of the time line
-    for (unsigned i = 0; i < count; ++i) {
-        if (!std::isfinite(keys[i].mTime)) continue;
-        times.first = std::min(times.first, keys[i].mTime);
-        times.last = std::max(times.last, keys[i].mTime);
-        const double gap = i > 0 ? keys[i].mTime - keys[i - 1].mTime : 0.0;
-        if (gap > 0.0) times.smallestGap = std::min(times.smallestGap, gap);
-    }
-}
-
-KeyTimes keyTimes(const aiAnimation& animation) {
+KeyTimes keyTimes(const SourceClip& clip) {
     KeyTimes times;
-    for (unsigned c = 0; c < animation.mNumChannels; ++c) {
-        const aiNodeAnim& channel = *animation.mChannels[c];
-        addTimes(channel.mPositionKeys, channel.mNumPositionKeys, times);
-        addTimes(channel.mRotationKeys, channel.mNumRotationKeys, times);
-        addTimes(channel.mScalingKeys, channel.mNumScalingKeys, times);
+    for (const SourceChannel& channel : clip.channels) {
+        times.spline = times.spline || channel.interpolation == SourceChannel::Interpolation::cubicSpline;
+        if (channel.times.size() < 2) continue;  // a constant, often put at 0: no part of the time line
+        for (std::size_t i = 0; i < channel.times.size(); ++i) {
+            times.first = std::min(times.first, channel.times[i]);
+            times.last = std::max(times.last, channel.times[i]);
+            const double gap = i > 0 ? channel.times[i] - channel.times[i - 1] : 0.0;
+            if (gap > 0.0) times.smallestGap = std::min(times.smallestGap, gap);
+        }
     }
     // Constants only: one pose.
-    if (times.last < times.first && animation.mNumChannels > 0) times.first = times.last = 0.0;
+    if (times.last < times.first && !clip.channels.empty()) times.first = times.last = 0.0;
     return times;
 }
 
 // A multiple of the keys' rate; the rate itself is snapped to whole numbers that it misses by rounding only.
-double rateFor(double keysPerSecond) {
-    if (!std::isfinite(keysPerSecond) || keysPerSecond <= 0.0) return kLeastRate;
+double rateFor(double keysPerSecond, double least) {
+    if (!std::isfinite(keysPerSecond) || keysPerSecond <= 0.0) return least;
     const double whole = std::round(keysPerSecond);
     if (whole > 0.0 && std::abs(whole - keysPerSecond) < 5e-4 * whole) keysPerSecond = whole;
     if (keysPerSecond > kMostRate) return 60.0;
-    return keysPerSecond * std::max(1.0, std::ceil(kLeastRate / keysPerSecond - 0.01));
+    return keysPerSecond * std::max(1.0, std::ceil(least / keysPerSecond - 0.01));
 }
 
-aiVector3D mix(const aiVector3D& a, const aiVector3D& b, double alpha) {
-    return a + (b - a) * static_cast<ai_real>(alpha);
+int widthOf(SourceChannel::Path path) {
+    return path == SourceChannel::Path::rotation ? 4 : 3;
 }
 
-aiQuaternion mix(const aiQuaternion& a, const aiQuaternion& b, double alpha) {
-    aiQuaternion out;
-    aiQuaternion::Interpolate(out, a, b, static_cast<ai_real>(alpha));
-    return out.Normalize();
+dvec4 numbersAt(const SourceChannel& channel, std::size_t index) {
+    const int width = widthOf(channel.path);
+    dvec4 out(0.0);
+    for (int i = 0; i < width; ++i)
+        out[i] =
+            static_cast<double>(channel.values[index * static_cast<std::size_t>(width) + static_cast<std::size_t>(i)]);
+    return out;
+}
+
+// The key's value; with splines it stands between its two tangents.
+dvec4 keyAt(const SourceChannel& channel, std::size_t key) {
+    const bool spline = channel.interpolation == SourceChannel::Interpolation::cubicSpline;
+    return numbersAt(channel, spline ? 3 * key + 1 : key);
+}
+
+// Along the shorter arc (Shoemake 1985).
+dvec4 slerp(const dvec4& a, const dvec4& b, double alpha) {
+    const glm::dquat from = glm::normalize(glm::dquat(a.w, a.x, a.y, a.z));
+    const glm::dquat to = glm::normalize(glm::dquat(b.w, b.x, b.y, b.z));
+    const glm::dquat q = glm::slerp(from, to, alpha);
+    return {q.x, q.y, q.z, q.w};
+}
+
+// glTF 2.0, appendix C: a cubic Hermite spline whose tangents are scaled by the keys' distance.
+dvec4 hermite(const SourceChannel& channel, std::size_t before, double span, double alpha) {
+    const dvec4 outTangent = span * numbersAt(channel, 3 * before + 2);
+    const dvec4 inTangent = span * numbersAt(channel, 3 * before + 3);
+    const double t2 = alpha * alpha;
+    const double t3 = t2 * alpha;
+    return (2.0 * t3 - 3.0 * t2 + 1.0) * keyAt(channel, before) + (t3 - 2.0 * t2 + alpha) * outTangent +
+           (3.0 * t2 - 2.0 * t3) * keyAt(channel, before + 1) + (t3 - t2) * inTangent;
 }
 
 // The value at a time: held before the first and after the last key.
-template <class Key>
-auto valueAt(const Key* keys, unsigned count, double time) -> decltype(Key::mValue) {
-    const Key* const end = keys + count;
-    const Key* const after = std::upper_bound(keys, end, time, [](double t, const Key& key) { return t < key.mTime; });
-    if (after == keys) return keys->mValue;
-    if (after == end) return (end - 1)->mValue;
-    const Key* const before = after - 1;
-    const double span = after->mTime - before->mTime;
-    return span > 0.0 ? mix(before->mValue, after->mValue, (time - before->mTime) / span) : before->mValue;
+dvec4 valueAt(const SourceChannel& channel, double time) {
+    const std::vector<double>& times = channel.times;
+    // A frame that misses its key by rounding alone shows that key.
+    constexpr double kRounding = 1e-5;
+    const auto after = std::upper_bound(times.begin(), times.end(), time + kRounding);
+    if (after == times.begin()) return keyAt(channel, 0);
+    const auto before = static_cast<std::size_t>(after - times.begin()) - 1;
+    const double span = after == times.end() ? 0.0 : *after - times[before];
+    if (!(span > 0.0) || channel.interpolation == SourceChannel::Interpolation::step) return keyAt(channel, before);
+    const double alpha = std::clamp((time - times[before]) / span, 0.0, 1.0);
+    if (channel.interpolation == SourceChannel::Interpolation::cubicSpline)
+        return hermite(channel, before, span, alpha);
+    const dvec4 a = keyAt(channel, before);
+    const dvec4 b = keyAt(channel, before + 1);
+    return channel.path == SourceChannel::Path::rotation ? slerp(a, b, alpha) : glm::mix(a, b, alpha);
 }
 
-// Which node each channel moves; nodes that share a name take the channels of that name in turn, joints of the skin
-// first (a mesh node often has the name of the joint that it follows).
-std::vector<int> nodesOfChannels(const aiAnimation& animation, const NodeTree& tree, std::span<const bool> matters) {
-    std::vector<bool> taken(tree.nodes.size(), false);
-    std::vector<int> nodes(animation.mNumChannels, -1);
-    for (unsigned c = 0; c < animation.mNumChannels; ++c) {
-        int best = -1;
-        for (const int node : tree.named(animation.mChannels[c]->mNodeName.C_Str())) {
-            const bool better = best < 0 || (matters[tree.nodes[node].joint] && !matters[tree.nodes[best].joint]);
-            if (!taken[node] && better) best = node;
-        }
-        if (best >= 0) taken[best] = true;
-        nodes[c] = best;
-    }
-    return nodes;
+SourceTrs partsOf(const dmat4& matrix) {
+    SourceTrs parts;
+    parts.translation = dvec3(matrix[3]);
+    parts.rotation = glm::normalize(glm::quat_cast(nearestRotation(matrix)));
+    parts.scale = {glm::length(dvec3(matrix[0])), glm::length(dvec3(matrix[1])), glm::length(dvec3(matrix[2]))};
+    return parts;
 }
 
-// Where an FBX node has nothing but a pre-rotation, Assimp 5.2.5 splits the node into a chain of helpers and yet writes
-// one channel with the whole transform for the node itself: then the helpers above it must not turn it once more.
-void silenceHelpers(const NodeTree& tree, std::span<const int> nodesOfChannels, std::span<dmat4> parentFromNode) {
-    for (const int node : nodesOfChannels) {
-        if (node < 0 || tree.isHelper(node)) continue;
-        const std::string prefix = std::string(tree.nodes[node].source->mName.C_Str()) + kPivotMark;
-        for (int above = tree.nodes[node].parent; above >= 0 && tree.isHelper(above);
-             above = tree.nodes[above].parent) {
-            const bool own = std::string_view(tree.nodes[above].source->mName.C_Str()).starts_with(prefix);
-            if (own) parentFromNode[above] = dmat4(1.0);
-        }
-    }
+std::vector<SourceTrs> partsOf(const SourceScene& scene) {
+    std::vector<SourceTrs> parts;
+    parts.reserve(scene.nodes.size());
+    for (const SourceNode& node : scene.nodes)
+        parts.push_back(node.trs ? *node.trs : partsOf(node.parentFromNode));
+    return parts;
 }
 
-dmat4 channelTransform(const aiNodeAnim& channel, const dmat4& own, double time) {
-    aiVector3D position(static_cast<ai_real>(own[3].x), static_cast<ai_real>(own[3].y), static_cast<ai_real>(own[3].z));
-    if (channel.mNumPositionKeys > 0) position = valueAt(channel.mPositionKeys, channel.mNumPositionKeys, time);
-    dmat3 rotation;
-    if (channel.mNumRotationKeys > 0) {
-        const aiQuaternion q = valueAt(channel.mRotationKeys, channel.mNumRotationKeys, time);
-        rotation = glm::mat3_cast(glm::normalize(glm::dquat(q.w, q.x, q.y, q.z)));
-    } else {
-        rotation = nearestRotation(own);
+dmat4 matrixOf(const SourceTrs& parts) {
+    const dmat3 rotation = glm::mat3_cast(glm::normalize(parts.rotation));
+    return {dvec4(rotation[0] * parts.scale.x, 0.0), dvec4(rotation[1] * parts.scale.y, 0.0),
+            dvec4(rotation[2] * parts.scale.z, 0.0), dvec4(parts.translation, 1.0)};
+}
+
+// Replaces the part that the channel moves; what is not finite or no rotation leaves it.
+void apply(const SourceChannel& channel, double time, SourceTrs& parts) {
+    const dvec4 value = valueAt(channel, time);
+    if (!std::isfinite(value.x + value.y + value.z + value.w)) return;
+    switch (channel.path) {
+        case SourceChannel::Path::translation:
+            parts.translation = dvec3(value);
+            break;
+        case SourceChannel::Path::rotation:
+            if (glm::length(value) > 1e-9) parts.rotation = glm::dquat(value.w, value.x, value.y, value.z);
+            break;
+        case SourceChannel::Path::scale:
+            parts.scale = dvec3(value);
+            break;
     }
-    const dvec3 scale = channel.mNumScalingKeys > 0
-                            ? fromAssimp(valueAt(channel.mScalingKeys, channel.mNumScalingKeys, time))
-                            : dvec3(glm::length(dvec3(own[0])), glm::length(dvec3(own[1])), glm::length(dvec3(own[2])));
-    const dmat4 out(dvec4(rotation[0] * scale.x, 0.0), dvec4(rotation[1] * scale.y, 0.0),
-                    dvec4(rotation[2] * scale.z, 0.0), dvec4(fromAssimp(position), 1.0));
-    const double sum = out[0][0] + out[1][1] + out[2][2] + out[3][0] + out[3][1] + out[3][2];
-    return std::isfinite(sum) ? out : own;
 }
 
 // When and how often a clip is sampled.
 struct Timing {
-    double start = 0.0;  // ticks
-    double ticksPerFrame = 1.0;
+    double start = 0.0;  // seconds
+    double secondsPerFrame = 1.0;
     double commonScale = 1.0;
     int frames = 0;
 };
 
 // The frames to look at for scale that has to be dropped: a share of all, and those where a scale is at its farthest
 // from where it starts.
-std::vector<int> tellingFrames(const aiAnimation& animation, const Timing& timing) {
+std::vector<int> tellingFrames(const SourceClip& clip, const Timing& timing) {
     constexpr int kShare = 24;
     std::vector<int> frames;
     frames.reserve(kShare);
     for (int i = 0; i < kShare; ++i)
         frames.push_back(i * (timing.frames - 1) / (kShare - 1));
-    for (unsigned c = 0; c < animation.mNumChannels; ++c) {
-        const aiNodeAnim& channel = *animation.mChannels[c];
+    for (const SourceChannel& channel : clip.channels) {
+        if (channel.path != SourceChannel::Path::scale) continue;
+        const dvec4 first = keyAt(channel, 0);
         double farthest = 0.1 * kVisibleScale;
         double when = timing.start;
-        for (unsigned i = 1; i < channel.mNumScalingKeys; ++i) {
-            const dvec3 first = fromAssimp(channel.mScalingKeys[0].mValue);
-            const double far = glm::length(fromAssimp(channel.mScalingKeys[i].mValue) - first);
+        for (std::size_t i = 1; i < channel.times.size(); ++i) {
+            const double far = glm::length(keyAt(channel, i) - first);
             if (far <= farthest * glm::length(first)) continue;
             farthest = far / std::max(glm::length(first), 1e-12);
-            when = channel.mScalingKeys[i].mTime;
+            when = channel.times[i];
         }
-        const double frame = std::round((when - timing.start) / timing.ticksPerFrame);
+        const double frame = std::round((when - timing.start) / timing.secondsPerFrame);
         frames.push_back(static_cast<int>(std::clamp(frame, 0.0, static_cast<double>(timing.frames - 1))));
     }
     std::sort(frames.begin(), frames.end());
@@ -177,21 +191,18 @@ std::vector<int> tellingFrames(const aiAnimation& animation, const Timing& timin
 // The poses of one animation, frame by frame.
 class ClipSampler {
   public:
-    ClipSampler(const ClipFile& file, const aiAnimation& animation)
-        : file_(file), animation_(animation), nodeOf_(nodesOfChannels(animation, file.tree, file.matters())) {
+    ClipSampler(const ClipFile& file, const SourceClip& clip) : file_(file), clip_(clip), parts_(file.own) {
         for (const NodeTree::Node& node : file.tree.nodes)
             local_.push_back(node.parentFromNode);
-        silenceHelpers(file.tree, nodeOf_, local_);
         sceneFromNode_.resize(local_.size());
     }
 
-    // Scene-space frames of all nodes at a time in ticks.
+    // Scene-space frames of all nodes at a time in seconds.
     std::span<const dmat4> at(double time) {
-        for (unsigned c = 0; c < animation_.mNumChannels; ++c) {
-            if (nodeOf_[c] < 0) continue;
-            const dmat4& own = file_.tree.nodes[nodeOf_[c]].parentFromNode;
-            local_[nodeOf_[c]] = channelTransform(*animation_.mChannels[c], own, time);
-        }
+        for (const SourceChannel& channel : clip_.channels)
+            apply(channel, time, parts_[channel.node]);
+        for (const SourceChannel& channel : clip_.channels)
+            local_[channel.node] = matrixOf(parts_[channel.node]);
         evaluatePose(file_.tree, local_, sceneFromNode_);
         return sceneFromNode_;
     }
@@ -201,7 +212,7 @@ class ClipSampler {
         std::vector<RigidTransform> model(file_.tree.nodeOfJoint.size());
         double worst = 0.0;
         for (const int frame : frames) {
-            const auto sceneFromNode = at(timing.start + frame * timing.ticksPerFrame);
+            const auto sceneFromNode = at(timing.start + frame * timing.secondsPerFrame);
             worst = std::max(worst, file_.poser.pose(sceneFromNode, timing.commonScale, file_.matters(), model));
         }
         return worst;
@@ -213,7 +224,7 @@ class ClipSampler {
         std::vector<RigidTransform> frames(joints * static_cast<std::size_t>(timing.frames));
         std::vector<RigidTransform> model(joints);
         for (int frame = 0; frame < timing.frames; ++frame) {
-            const auto sceneFromNode = at(timing.start + frame * timing.ticksPerFrame);
+            const auto sceneFromNode = at(timing.start + frame * timing.secondsPerFrame);
             file_.poser.pose(sceneFromNode, timing.commonScale, file_.matters(), model);
             modelToLocal(file_.skeleton, model,
                          std::span(frames).subspan(joints * static_cast<std::size_t>(frame), joints));
@@ -223,21 +234,20 @@ class ClipSampler {
 
   private:
     const ClipFile& file_;
-    const aiAnimation& animation_;
-    std::vector<int> nodeOf_;
+    const SourceClip& clip_;
+    std::vector<SourceTrs> parts_;
     std::vector<dmat4> local_;
     std::vector<dmat4> sceneFromNode_;
 };
 
 // Rate and length of a clip, without its poses.
-Clip outlineOf(const aiAnimation& animation, std::size_t joints, std::size_t budget, Timing& timing,
+Clip outlineOf(const SourceClip& source, std::size_t joints, std::size_t budget, Timing& timing,
                std::vector<std::string>& warnings) {
-    const KeyTimes times = keyTimes(animation);
-    const double ticks = animation.mTicksPerSecond > 0.0 ? animation.mTicksPerSecond : kDefaultTicksPerSecond;
-    const double seconds = std::max(0.0, (times.last - times.start()) / ticks);
+    const KeyTimes times = keyTimes(source);
+    const double seconds = std::max(0.0, times.last - times.start());
     Clip clip;
-    clip.name = animation.mName.C_Str();
-    const double rate = rateFor(ticks / times.smallestGap);
+    clip.name = source.name;
+    const double rate = rateFor(1.0 / times.smallestGap, times.spline ? kLeastSplineRate : kLeastRate);
     clip.framesPerSecond = static_cast<float>(rate);
     const double wanted = std::floor(seconds * rate + 1.0 + 1e-3);
     const std::size_t affordable = std::min<std::size_t>(budget / joints, kMaxFrames);
@@ -246,7 +256,7 @@ Clip outlineOf(const aiAnimation& animation, std::size_t joints, std::size_t bud
         warnings.push_back(fmt::format("clip '{}' is {:.0f} s long; only the first {:.0f} s were kept", clip.name,
                                        seconds, clip.frameCount / rate));
     }
-    timing = {times.start(), ticks / rate, 1.0, clip.frameCount};
+    timing = {times.start(), 1.0 / rate, 1.0, clip.frameCount};
     return clip;
 }
 
@@ -260,8 +270,19 @@ double commonScale(const ClipFile& file, std::span<const dmat4> sceneFromNode, c
     return scale;
 }
 
+// The joints whose node has a channel that jumps: their poses must not be blended across the jump.
+std::vector<bool> steppedJoints(const ClipFile& file, const SourceClip& clip) {
+    std::vector<bool> stepped;
+    for (const SourceChannel& channel : clip.channels) {
+        if (channel.interpolation != SourceChannel::Interpolation::step || channel.times.size() < 2) continue;
+        stepped.resize(file.tree.nodeOfJoint.size(), false);
+        stepped[file.tree.nodes[channel.node].joint] = true;
+    }
+    return stepped;
+}
+
 // Only what there is to warn of is looked at now; the poses wait until somebody plays the clip.
-Clip makeClip(const std::shared_ptr<const ClipFile>& file, const aiAnimation& animation, std::size_t budget,
+Clip makeClip(const std::shared_ptr<const ClipFile>& file, const SourceClip& animation, std::size_t budget,
               std::vector<std::string>& warnings) {
     Timing timing;
     const std::size_t joints = file->tree.nodeOfJoint.size();
@@ -274,6 +295,7 @@ Clip makeClip(const std::shared_ptr<const ClipFile>& file, const aiAnimation& an
             fmt::format("clip '{}' scales joints by up to {:.0f} %; the scale was dropped", clip.name, 100.0 * worst));
     }
     const std::size_t size = joints * static_cast<std::size_t>(timing.frames);
+    clip.steppedJoints = steppedJoints(*file, animation);
     clip.parentFromJoint =
         ClipFrames(size, [file, &animation, timing] { return ClipSampler(*file, animation).sample(timing); });
     return clip;
@@ -282,37 +304,29 @@ Clip makeClip(const std::shared_ptr<const ClipFile>& file, const aiAnimation& an
 }  // namespace
 
 ClipFile::ClipFile(const NodeTree& nodes, std::span<const dmat4> bindSceneFromJoint, const dmat4& modelFromScene,
-                   const Skeleton& of)
-    : tree(nodes), poser(tree, bindSceneFromJoint, modelFromScene), matters_(new bool[of.parents.size()]) {
+                   const Skeleton& of, SourceScene& scene)
+    : tree(nodes),
+      poser(tree, bindSceneFromJoint, modelFromScene),
+      own(partsOf(scene)),
+      clips(std::move(scene.clips)),
+      matters_(new bool[of.parents.size()]) {
     skeleton.parents = of.parents;
     for (std::size_t joint = 0; joint < of.parents.size(); ++joint)
         matters_[joint] = of.skinWeight[joint] > 0.0F;
 }
 
-void ClipFile::keep(std::unique_ptr<Assimp::Importer> importer) {
-    scene_.reset(importer->GetOrphanedScene());
-    // Only animations and nodes are read from now on.
-    for (unsigned i = 0; i < scene_->mNumMeshes; ++i)
-        delete std::exchange(scene_->mMeshes[i], nullptr);
-    for (unsigned i = 0; i < scene_->mNumTextures; ++i)
-        delete std::exchange(scene_->mTextures[i], nullptr);
-    scene_->mNumMeshes = 0;
-    scene_->mNumTextures = 0;
-}
-
-std::vector<Clip> sampleAnimations(const aiScene& scene, const std::shared_ptr<const ClipFile>& file,
-                                   std::vector<std::string>& warnings) {
+std::vector<Clip> sampleAnimations(const std::shared_ptr<const ClipFile>& file, std::vector<std::string>& warnings) {
     std::vector<Clip> clips;
     std::size_t budget = kMaxTransforms;
-    for (unsigned i = 0; i < scene.mNumAnimations; ++i) {
-        const aiAnimation& animation = *scene.mAnimations[i];
-        if (keyTimes(animation).last < keyTimes(animation).first) continue;
+    for (const SourceClip& clip : file->clips) {
+        const KeyTimes times = keyTimes(clip);
+        if (times.last < times.first) continue;
         if (budget < file->tree.nodeOfJoint.size()) {
-            warnings.push_back(fmt::format("clips from '{}' on were left out: too much motion for the memory",
-                                           animation.mName.C_Str()));
+            warnings.push_back(
+                fmt::format("clips from '{}' on were left out: too much motion for the memory", clip.name));
             break;
         }
-        clips.push_back(makeClip(file, animation, budget, warnings));
+        clips.push_back(makeClip(file, clip, budget, warnings));
         budget -= clips.back().parentFromJoint.size();
     }
     return clips;

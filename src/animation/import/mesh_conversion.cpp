@@ -38,60 +38,46 @@ vec3 unitOrUp(const dvec3& v) {
     return std::isfinite(length) && length > 1e-20 ? vec3(v / length) : vec3(0, 1, 0);
 }
 
-void copyTriangles(const aiMesh& source, bool mirrored, SkinnedMesh& mesh) {
-    mesh.indices.reserve(static_cast<std::size_t>(source.mNumFaces) * 3);
-    for (unsigned f = 0; f < source.mNumFaces; ++f) {
-        const aiFace& face = source.mFaces[f];
-        if (face.mNumIndices != 3) continue;
-        const unsigned a = face.mIndices[0];
-        const unsigned b = face.mIndices[mirrored ? 2 : 1];
-        const unsigned c = face.mIndices[mirrored ? 1 : 2];
-        if (a < source.mNumVertices && b < source.mNumVertices && c < source.mNumVertices) {
-            mesh.indices.insert(mesh.indices.end(), {a, b, c});
-        }
-    }
+void copyTriangles(const SourceMesh& source, bool mirrored, SkinnedMesh& mesh) {
+    mesh.indices = source.indices;
+    for (std::size_t i = 0; mirrored && i + 2 < mesh.indices.size(); i += 3)
+        std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
 }
 
-void copyVertices(const aiMesh& source, std::span<const VertexSkin> skins, std::span<const dmat4> sceneFromMesh,
+void copyVertices(const SourceMesh& source, std::span<const VertexSkin> skins, std::span<const dmat4> sceneFromMesh,
                   SkinnedMesh& mesh) {
-    for (unsigned v = 0; v < source.mNumVertices; ++v) {
+    const bool hasTangents = !source.tangents.empty() && !source.normals.empty() && !source.uvs.empty();
+    for (std::size_t v = 0; v < source.positions.size(); ++v) {
         const VertexSkin& skin = skins[v];
         dmat4 place(0.0);
         for (int i = 0; i < kMaxInfluences; ++i)
             place += static_cast<double>(skin.weights[i]) * sceneFromMesh[skin.joints[i]];
-        mesh.positions.emplace_back(place * dvec4(fromAssimp(source.mVertices[v]), 1.0));
+        mesh.positions.emplace_back(place * dvec4(dvec3(source.positions[v]), 1.0));
         const dmat3 turn(place);
         // The cofactor matrix: the inverse transpose without the division, which a flat frame would not survive.
         const dmat3 normalTurn(glm::cross(turn[1], turn[2]), glm::cross(turn[2], turn[0]),
                                glm::cross(turn[0], turn[1]));
         const double side = glm::determinant(turn) < 0.0 ? -1.0 : 1.0;
-        if (source.HasNormals()) mesh.normals.push_back(unitOrUp(side * (normalTurn * fromAssimp(source.mNormals[v]))));
-        if (source.HasTextureCoords(0)) {
-            const aiVector3D& uv = source.mTextureCoords[0][v];
-            // Assimp's pictures start at the lower left.
-            mesh.uvs.emplace_back(std::isfinite(uv.x) ? uv.x : 0.0F, std::isfinite(uv.y) ? 1.0F - uv.y : 0.0F);
+        if (!source.normals.empty()) mesh.normals.push_back(unitOrUp(side * (normalTurn * dvec3(source.normals[v]))));
+        if (!source.uvs.empty()) {
+            const vec2 uv = source.uvs[v];
+            mesh.uvs.emplace_back(std::isfinite(uv.x) ? uv.x : 0.0F, std::isfinite(uv.y) ? uv.y : 0.0F);
         }
-        if (source.HasTangentsAndBitangents() && source.HasNormals() && source.HasTextureCoords(0)) {
-            const dvec3 n = fromAssimp(source.mNormals[v]);
-            const dvec3 t = fromAssimp(source.mTangents[v]);
-            const double hand = glm::dot(glm::cross(n, t), fromAssimp(source.mBitangents[v])) < 0.0 ? -1.0 : 1.0;
-            mesh.tangents.emplace_back(unitOrUp(turn * t), static_cast<float>(hand * side));
+        if (hasTangents) {
+            const vec4& tangent = source.tangents[v];
+            const double hand = tangent.w < 0.0F ? -1.0 : 1.0;
+            mesh.tangents.emplace_back(unitOrUp(turn * dvec3(tangent)), static_cast<float>(hand * side));
         }
         mesh.joints.push_back(skin.joints);
         mesh.weights.push_back(skin.weights);
     }
 }
 
-std::string nameOf(const NodeTree& tree, const MeshInstance& instance) {
-    const std::string own = instance.mesh->mName.C_Str();
-    return own.empty() ? tree.nodes[instance.node].source->mName.C_Str() : own;
-}
-
 SkinnedMesh convertMesh(const NodeTree& tree, const MeshInstance& instance, std::span<const dmat4> bind,
                         WeightRepairs& repairs) {
     SkinnedMesh mesh;
-    mesh.name = nameOf(tree, instance);
-    mesh.material = static_cast<int>(instance.mesh->mMaterialIndex);
+    mesh.name = instance.mesh->name.empty() ? tree.jointNames[tree.nodes[instance.node].joint] : instance.mesh->name;
+    mesh.material = std::max(instance.mesh->material, 0);
     mesh.rigid = instance.joints.empty();
     std::vector<VertexSkin> skins;
     std::vector<dmat4> sceneFromMesh;
@@ -99,7 +85,7 @@ SkinnedMesh convertMesh(const NodeTree& tree, const MeshInstance& instance, std:
     if (mesh.rigid) {
         const NodeTree::Node& node = tree.nodes[instance.node];
         guide = node.joint;
-        skins.assign(instance.mesh->mNumVertices, VertexSkin{{static_cast<std::uint16_t>(guide)}, {1.0F}});
+        skins.assign(instance.mesh->positions.size(), VertexSkin{{static_cast<std::uint16_t>(guide)}, {1.0F}});
         // A helper below the joint (FBX geometry offsets) adds its own way to the joint's.
         const dmat4& joint = tree.sceneFromJoint(guide);
         const dmat4 way = isInvertible(joint) ? glm::inverse(joint) * node.sceneFromNode : dmat4(1.0);

@@ -6,18 +6,28 @@
 #include <string>
 #include <vector>
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 
 #include "animation/character.hpp"
 #include "animation/import/import_character.hpp"
 
 namespace lutka::animation::rig_import {
 
+/// Translation, rotation and scale in that order from the left: what a channel replaces a part of.
+struct SourceTrs {
+    glm::dvec3 translation{0.0};
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+    glm::dvec3 scale{1.0};
+};
+
 /// A node of the file's scene.
 struct SourceNode {
     std::string name;                ///< As in the file; neither unique nor always there.
     int parent = -1;                 ///< Index of the parent node, smaller than the node's own; -1 for a root.
     glm::dmat4 parentFromNode{1.0};  ///< The node's own pose.
+    std::optional<SourceTrs> trs;    ///< Its parts, where the file states them.
     /// A node that the reader made up between two of the file's (Assimp's FBX pivots): posed like any other, no joint.
     bool isHelper = false;
 };
@@ -55,13 +65,16 @@ struct SourceSkin {
     /// Where the undeformed mesh stands in the scene, when the file states it (FBX: the clusters' TransformLink times
     /// jointFromMesh). Without it only the joints' own matrices tell, up to a common factor.
     std::optional<glm::dmat4> sceneFromMesh;
+    /// The file has no inverse bind matrices: vertices are stored relative to their joints, which stand in the nodes'
+    /// pose when the mesh is undeformed.
+    bool verticesAreInJoints = false;
 };
 
 /// A mesh where it hangs in the scene. A mesh may be instanced several times, with different skins too.
 struct SourceInstance {
     int mesh = -1;
     int node = -1;
-    int skin = -1;  ///< -1: carried rigidly by its node.
+    int skin = -1;  ///< -1: carried rigidly by its node. Else the skin has a slot for each influence of the mesh.
 };
 
 /// Key frames of one property of one node.

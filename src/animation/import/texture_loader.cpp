@@ -1,8 +1,10 @@
 #include "animation/import/texture_loader.hpp"
 
+#include <fmt/format.h>
 #include <stb/stb_image.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <memory>
 #include <system_error>
@@ -16,37 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr int kMaxSide = 16384;
 constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30U;
-
-std::optional<Texture> decodeBytes(const unsigned char* bytes, std::size_t size) {
-    const int length = static_cast<int>(std::min(size, kMaxFileBytes));
-    Texture texture;
-    int channels = 0;
-    if (stbi_info_from_memory(bytes, length, &texture.width, &texture.height, &channels) == 0) return std::nullopt;
-    if (texture.width <= 0 || texture.height <= 0 || texture.width > kMaxSide || texture.height > kMaxSide)
-        return std::nullopt;
-    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-        stbi_load_from_memory(bytes, length, &texture.width, &texture.height, &channels, 4), stbi_image_free);
-    if (!pixels) return std::nullopt;
-    const std::size_t count =
-        std::size_t{4} * static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height);
-    texture.rgba.assign(pixels.get(), pixels.get() + count);
-    return texture;
-}
-
-// A picture in the scene: a compressed file (height 0, width its bytes) or plain BGRA texels.
-std::optional<Texture> decodeEmbedded(const aiTexture& source) {
-    if (source.mHeight == 0) return decodeBytes(reinterpret_cast<const unsigned char*>(source.pcData), source.mWidth);
-    if (source.mWidth > kMaxSide || source.mHeight > kMaxSide) return std::nullopt;
-    Texture texture;
-    texture.width = static_cast<int>(source.mWidth);
-    texture.height = static_cast<int>(source.mHeight);
-    const std::size_t count = static_cast<std::size_t>(source.mWidth) * source.mHeight;
-    for (std::size_t i = 0; i < count; ++i) {
-        const aiTexel& texel = source.pcData[i];
-        texture.rgba.insert(texture.rgba.end(), {texel.r, texel.g, texel.b, texel.a});
-    }
-    return texture;
-}
 
 std::string lower(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -78,6 +49,22 @@ std::optional<fs::path> findIn(const fs::path& folder, const std::string& name) 
     return std::nullopt;
 }
 
+// Of a path in any spelling, Windows' too.
+std::string extensionOf(std::string path) {
+    std::replace(path.begin(), path.end(), '\\', '/');
+    return fs::path(path).extension().string();
+}
+
+// The picture of that name in one of the folders where exporters put them.
+std::optional<fs::path> findAround(const fs::path& folder, const std::string& name) {
+    const fs::path above = folder / "..";
+    for (const fs::path& place :
+         {folder, folder / "textures", folder / "Textures", folder / "tex", above / "textures", above / "Textures"}) {
+        if (auto found = findIn(place, name)) return found;
+    }
+    return std::nullopt;
+}
+
 std::optional<fs::path> findPicture(const fs::path& folder, std::string path) {
     std::replace(path.begin(), path.end(), '\\', '/');
     for (const std::string& spelling : {path, decodePercents(path)}) {
@@ -88,19 +75,40 @@ std::optional<fs::path> findPicture(const fs::path& folder, std::string path) {
             return folder / written;
         const std::string name = written.filename().string();
         if (name.empty()) continue;
-        const fs::path above = folder / "..";
-        for (const fs::path& place : {folder, folder / "textures", folder / "Textures", folder / "tex",
-                                      above / "textures", above / "Textures"}) {
-            if (auto found = findIn(place, name)) return found;
-        }
+        if (auto found = findAround(folder, name)) return found;
+    }
+    // A model is often handed on with its pictures converted.
+    const std::string stem = fs::path(decodePercents(path)).stem().string();
+    if (stem.empty()) return std::nullopt;
+    for (const char* ending : {".png", ".jpg", ".jpeg", ".tga", ".bmp"}) {
+        if (auto found = findAround(folder, stem + ending)) return found;
     }
     return std::nullopt;
 }
 
 }  // namespace
 
-TextureLoader::TextureLoader(const aiScene& scene, const fs::path& model, bool enabled)
-    : scene_(scene), folder_(model.has_parent_path() ? model.parent_path() : fs::path(".")), enabled_(enabled) {}
+std::optional<Texture> decodePicture(std::span<const std::uint8_t> bytes) {
+    const int length = static_cast<int>(std::min(bytes.size(), kMaxFileBytes));
+    Texture texture;
+    int channels = 0;
+    if (stbi_info_from_memory(bytes.data(), length, &texture.width, &texture.height, &channels) == 0)
+        return std::nullopt;
+    if (texture.width <= 0 || texture.height <= 0 || texture.width > kMaxSide || texture.height > kMaxSide)
+        return std::nullopt;
+    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+        stbi_load_from_memory(bytes.data(), length, &texture.width, &texture.height, &channels, 4), stbi_image_free);
+    if (!pixels) return std::nullopt;
+    const std::size_t count =
+        std::size_t{4} * static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height);
+    texture.rgba.assign(pixels.get(), pixels.get() + count);
+    return texture;
+}
+
+TextureLoader::TextureLoader(Embedded embedded, const fs::path& model, bool enabled)
+    : embedded_(std::move(embedded)),
+      folder_(model.has_parent_path() ? model.parent_path() : fs::path(".")),
+      enabled_(enabled) {}
 
 int TextureLoader::load(const std::string& path) {
     if (!enabled_) return Material::kNoTexture;
@@ -116,19 +124,31 @@ int TextureLoader::load(const std::string& path) {
     return index;
 }
 
-std::optional<Texture> TextureLoader::decode(const std::string& path) const {
-    if (const aiTexture* embedded = scene_.GetEmbeddedTexture(path.c_str())) {
-        std::optional<Texture> texture = decodeEmbedded(*embedded);
-        if (texture) texture->name = embedded->mFilename.length > 0 ? embedded->mFilename.C_Str() : path;
-        return texture;
-    }
+std::optional<Texture> TextureLoader::decode(const std::string& path) {
+    if (std::optional<Texture> embedded = embedded_(path)) return embedded;
     const std::optional<fs::path> file = findPicture(folder_, path);
     if (!file) return std::nullopt;
     const Result<std::vector<unsigned char>> bytes = readFile(*file, kMaxFileBytes);
     if (!bytes) return std::nullopt;
-    std::optional<Texture> texture = decodeBytes(bytes.value().data(), bytes.value().size());
-    if (texture) texture->name = file->filename().string();
+    std::optional<Texture> texture = decodePicture(bytes.value());
+    if (!texture) return std::nullopt;
+    texture->name = file->filename().string();
+    if (lower(file->extension().string()) != lower(extensionOf(path)))
+        replaced_.push_back(fmt::format("{} for {}", texture->name, path));
     return texture;
+}
+
+std::vector<std::string> TextureLoader::sentences() const {
+    std::vector<std::string> out;
+    if (!missing_.empty()) {
+        out.push_back(fmt::format("{} pictures were not found or can't be decoded and were left out: {}",
+                                  missing_.size(), fmt::join(missing_, ", ")));
+    }
+    if (!replaced_.empty()) {
+        out.push_back(
+            fmt::format("pictures of the same name with another ending were taken: {}", fmt::join(replaced_, ", ")));
+    }
+    return out;
 }
 
 }  // namespace lutka::animation::rig_import

@@ -60,30 +60,6 @@ Extents extentsOf(std::span<const vec3> points) {
     return out;
 }
 
-template <class T>
-std::optional<T> metadataValue(const aiMetadata* metadata, const char* key) {
-    T value{};
-    if (metadata == nullptr || !metadata->Get(key, value)) return std::nullopt;
-    return value;
-}
-
-std::optional<double> fbxUnit(const aiMetadata* metadata) {
-    const auto asDouble = metadataValue<double>(metadata, "UnitScaleFactor");
-    const auto asFloat = metadataValue<float>(metadata, "UnitScaleFactor");
-    const std::optional<double> centimetres = asDouble  ? asDouble
-                                              : asFloat ? std::optional<double>(*asFloat)
-                                                        : asDouble;
-    if (!centimetres || !std::isfinite(*centimetres) || !(*centimetres > 0.0)) return std::nullopt;
-    return 0.01 * *centimetres;
-}
-
-std::optional<UpAxis> fbxUp(const aiMetadata* metadata) {
-    const auto axis = metadataValue<std::int32_t>(metadata, "UpAxis");
-    const auto sign = metadataValue<std::int32_t>(metadata, "UpAxisSign");
-    if (!axis || *axis < 0 || *axis > 2) return std::nullopt;
-    return axisOf(*axis, sign.value_or(1) >= 0);
-}
-
 // A figure flat along the stated axis that stands on the origin along another one, the same on both sides of the third:
 // then it is that other axis. Anything less clear is left alone.
 std::optional<UpAxis> contradictingUp(const Extents& box, UpAxis stated) {
@@ -103,19 +79,15 @@ std::optional<UpAxis> contradictingUp(const Extents& box, UpAxis stated) {
     return found;
 }
 
-void settleUp(const SceneConvention& convention, const Extents& box, const ImportOptions& options, UnitsAndAxes& out,
+void settleUp(const SourceConvention& convention, const Extents& box, const ImportOptions& options, UnitsAndAxes& out,
               std::vector<std::string>& warnings) {
     UpAxis up = UpAxis::positiveY;
     if (options.up) {
         up = *options.up;
         out.info.upSource = "--up";
     } else {
-        const std::optional<UpAxis> stated = fbxUp(convention.metadata);
-        up = stated.value_or(UpAxis::positiveY);
-        out.info.upSource = stated                 ? "FBX UpAxis"
-                            : convention.isGltf    ? "glTF"
-                            : convention.isCollada ? "Collada up_axis"
-                                                   : "assumed";
+        up = convention.up.value_or(UpAxis::positiveY);
+        out.info.upSource = convention.up ? convention.upSource : "assumed";
         if (const auto other = contradictingUp(box, up)) {
             warnings.push_back(
                 fmt::format("{} is up according to {}, but the figure lies flat that way and stands along "
@@ -140,15 +112,8 @@ std::optional<double> usualUnit(double height) {
     return std::nullopt;
 }
 
-// The unit that the file itself states, and where.
-std::pair<std::optional<double>, std::string> statedUnit(const SceneConvention& convention) {
-    if (convention.isGltf) return {1.0, "glTF"};
-    if (convention.isCollada) return {1.0, "Collada unit"};
-    return {fbxUnit(convention.metadata), "FBX UnitScaleFactor"};
-}
-
-void settleScale(const SceneConvention& convention, const Extents& box, const ImportOptions& options, UnitsAndAxes& out,
-                 std::vector<std::string>& warnings) {
+void settleScale(const SourceConvention& convention, const Extents& box, const ImportOptions& options,
+                 UnitsAndAxes& out, std::vector<std::string>& warnings) {
     if (options.metresPerFileUnit) {
         out.scale = *options.metresPerFileUnit;
         out.info.unitSource = "--scale";
@@ -158,7 +123,8 @@ void settleScale(const SceneConvention& convention, const Extents& box, const Im
     const dvec3 size = glm::abs(out.rotation * box.size());
     const double longest = std::max({size.x, size.y, size.z});
     const double height = size.y < 0.3 * longest ? longest : size.y;
-    const auto [stated, source] = statedUnit(convention);
+    const std::optional<double> stated = convention.metresPerUnit;
+    const std::string& source = convention.unitSource;
     if (stated && (height * *stated >= kLeastHeight || !(height > 0.0)) && height * *stated <= kMostHeight) {
         out.scale = *stated;
         out.info.unitSource = source;
@@ -187,7 +153,7 @@ dmat4 UnitsAndAxes::modelFromScene() const {
     return dmat4(scale * rotation);
 }
 
-UnitsAndAxes settleUnits(const SceneConvention& convention, std::span<const vec3> points, const ImportOptions& options,
+UnitsAndAxes settleUnits(const SourceConvention& convention, std::span<const vec3> points, const ImportOptions& options,
                          std::vector<std::string>& warnings) {
     UnitsAndAxes out;
     const Extents box = extentsOf(points);

@@ -82,27 +82,29 @@ std::vector<std::string> WeightRepairs::sentences() const {
 }
 
 std::vector<VertexSkin> readWeights(const MeshInstance& instance, int fallbackJoint, WeightRepairs& repairs) {
-    std::vector<std::vector<Influence>> influences(instance.mesh->mNumVertices);
-    for (const SkinJoint& joint : instance.joints) {
-        for (unsigned i = 0; i < joint.source->mNumWeights; ++i) {
-            const aiVertexWeight& entry = joint.source->mWeights[i];
-            const double weight = entry.mWeight;
-            if (entry.mVertexId >= influences.size() || !std::isfinite(weight) || weight < 0.0) {
+    const SourceMesh& mesh = *instance.mesh;
+    const std::size_t count = mesh.positions.size();
+    std::vector<VertexSkin> skins;
+    skins.reserve(count);
+    repairs.vertices += static_cast<int>(count);
+    std::vector<Influence> influences;
+    for (std::size_t v = 0; v < count; ++v) {
+        influences.clear();
+        const std::uint32_t end = mesh.influenceStart.empty() ? 0 : mesh.influenceStart[v + 1];
+        for (std::uint32_t i = mesh.influenceStart.empty() ? 0 : mesh.influenceStart[v]; i < end; ++i) {
+            const double weight = mesh.influences[i].weight;
+            const int joint = instance.jointOfSlot[mesh.influences[i].slot];
+            if (!std::isfinite(weight) || weight < 0.0) {
                 ++repairs.invalid;
-            } else if (weight > 0.0) {
-                add(influences[entry.mVertexId], joint.joint, weight);
+            } else if (weight > 0.0 && joint >= 0) {
+                add(influences, joint, weight);
             }
         }
-    }
-    std::vector<VertexSkin> skins;
-    skins.reserve(influences.size());
-    repairs.vertices += static_cast<int>(influences.size());
-    for (std::vector<Influence>& vertex : influences) {
-        if (vertex.empty()) {
+        if (influences.empty()) {
             ++repairs.unweighted;
             skins.push_back({{static_cast<std::uint16_t>(fallbackJoint)}, {1.0F}});
         } else {
-            skins.push_back(strongest(vertex, repairs));
+            skins.push_back(strongest(influences, repairs));
         }
     }
     return skins;

@@ -5,9 +5,7 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 
-#include "animation/import/gltf_document.hpp"
 #include "core/result.hpp"
 
 namespace lutka::animation::rig_import {
@@ -16,11 +14,9 @@ namespace lutka::animation::rig_import {
 struct SceneFile {
     std::unique_ptr<Assimp::Importer> importer;  ///< Owns `scene`.
     const aiScene* scene = nullptr;
-    std::optional<GltfDocument> gltf;  ///< For glTF, by content (`.gltf`, `.glb`, `.vrm` …).
 };
 
-/// Fails with the importer's own message; also when a glTF requires an extension that Assimp ignores, and when the
-/// counts in the file are absurd.
+/// Fails with the importer's own message, and when the counts in the file are absurd.
 [[nodiscard]] Result<SceneFile> readScene(const std::filesystem::path& file);
 
 }  // namespace lutka::animation::rig_import

@@ -1,4 +1,4 @@
-#include "animation/import/material_conversion.hpp"
+#include "animation/import/assimp/material_conversion.hpp"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
@@ -11,6 +11,8 @@
 
 namespace lutka::animation::rig_import {
 namespace {
+
+constexpr unsigned kMaxTexels = 16384;  // of a side
 
 float linearFromSrgb(float c) {
     return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
@@ -117,25 +119,36 @@ Material convert(const aiMaterial& source, TextureLoader& loader) {
     return material;
 }
 
+// A picture in the scene: a compressed file (height 0, width its bytes) or plain BGRA texels.
+std::optional<Texture> decodeEmbedded(const aiScene& scene, const std::string& path) {
+    const aiTexture* source = scene.GetEmbeddedTexture(path.c_str());
+    if (source == nullptr) return std::nullopt;
+    std::optional<Texture> texture;
+    if (source->mHeight == 0) {
+        texture = decodePicture({reinterpret_cast<const std::uint8_t*>(source->pcData), source->mWidth});
+    } else if (source->mWidth <= kMaxTexels && source->mHeight <= kMaxTexels) {
+        texture.emplace();
+        texture->width = static_cast<int>(source->mWidth);
+        texture->height = static_cast<int>(source->mHeight);
+        const std::size_t count = static_cast<std::size_t>(source->mWidth) * source->mHeight;
+        for (std::size_t i = 0; i < count; ++i) {
+            const aiTexel& texel = source->pcData[i];
+            texture->rgba.insert(texture->rgba.end(), {texel.r, texel.g, texel.b, texel.a});
+        }
+    }
+    if (texture) texture->name = source->mFilename.length > 0 ? source->mFilename.C_Str() : path;
+    return texture;
+}
+
 }  // namespace
 
-void convertMaterials(const aiScene& scene, const std::filesystem::path& file, bool loadTextures,
-                      Character& character) {
-    TextureLoader loader(scene, file, loadTextures);
+void convertMaterials(const aiScene& scene, const std::filesystem::path& file, bool loadTextures, SourceScene& out) {
+    TextureLoader loader([&scene](const std::string& path) { return decodeEmbedded(scene, path); }, file, loadTextures);
     for (unsigned i = 0; i < scene.mNumMaterials; ++i)
-        character.materials.push_back(convert(*scene.mMaterials[i], loader));
-    if (character.materials.empty() && !character.meshes.empty()) character.materials.emplace_back();
-    for (SkinnedMesh& mesh : character.meshes) {
-        if (mesh.material >= static_cast<int>(character.materials.size())) mesh.material = 0;
-    }
-    if (!loader.missing().empty()) {
-        std::string list;
-        for (const std::string& name : loader.missing())
-            list += (list.empty() ? "" : ", ") + name;
-        character.warnings.push_back(fmt::format("{} pictures were not found or can't be decoded and were left out: {}",
-                                                 loader.missing().size(), list));
-    }
-    character.textures = loader.takeTextures();
+        out.materials.push_back(convert(*scene.mMaterials[i], loader));
+    for (std::string& sentence : loader.sentences())
+        out.warnings.push_back(std::move(sentence));
+    out.textures = loader.takeTextures();
 }
 
 }  // namespace lutka::animation::rig_import

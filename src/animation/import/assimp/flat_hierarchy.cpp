@@ -1,11 +1,14 @@
-#include "animation/import/flat_hierarchy.hpp"
+#include "animation/import/assimp/flat_hierarchy.hpp"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+
+#include "animation/import/affine.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {
@@ -18,13 +21,11 @@ struct FlatJoint {
     int parent = -1;              ///< Index among the flat joints; -1 for a root.
 };
 
-std::map<std::string, dmat4> statedBinds(const aiScene& scene) {
-    std::map<std::string, dmat4> binds;
-    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-        for (unsigned b = 0; b < scene.mMeshes[m]->mNumBones; ++b) {
-            const aiBone& bone = *scene.mMeshes[m]->mBones[b];
-            const dmat4 offset = fromAssimp(bone.mOffsetMatrix);
-            if (isInvertible(offset)) binds[bone.mName.C_Str()] = glm::inverse(offset);
+std::map<int, dmat4> statedBinds(const SourceScene& scene) {
+    std::map<int, dmat4> binds;
+    for (const SourceSkin& skin : scene.skins) {
+        for (const SourceSkin::Joint& joint : skin.joints) {
+            if (isInvertible(joint.jointFromMesh)) binds[joint.node] = glm::inverse(joint.jointFromMesh);
         }
     }
     return binds;
@@ -88,40 +89,37 @@ class HierarchyFinder {
     double reach_ = 1e-9;
 };
 
-void hang(std::span<const FlatJoint> joints, NodeTree& tree) {
+// Parents stand before their children in the file.
+void hang(std::span<const FlatJoint> joints, SourceScene& scene) {
     for (const FlatJoint& joint : joints) {
-        if (joint.parent < 0) continue;
-        tree.nodes[joint.node].parent = joints[joint.parent].node;
-        tree.jointParents[tree.nodes[joint.node].joint] = tree.nodes[joints[joint.parent].node].joint;
-    }
-    for (NodeTree::Node& node : tree.nodes) {
-        node.sceneFromNode =
-            node.parent < 0 ? node.parentFromNode : tree.nodes[node.parent].sceneFromNode * node.parentFromNode;
+        if (joint.parent >= 0) scene.nodes[joint.node].parent = joints[joint.parent].node;
     }
 }
 
 }  // namespace
 
-void restoreFlatHierarchy(const aiScene& scene, NodeTree& tree) {
-    const std::vector<int> flat = tree.named("<MDL_bones>");
-    if (flat.empty()) return;
-    const std::map<std::string, dmat4> binds = statedBinds(scene);
+void restoreFlatHierarchy(SourceScene& scene) {
+    const auto flat = std::find_if(scene.nodes.begin(), scene.nodes.end(),
+                                   [](const SourceNode& node) { return node.name == "<MDL_bones>"; });
+    if (flat == scene.nodes.end()) return;
+    const int first = static_cast<int>(flat - scene.nodes.begin());
+    const std::map<int, dmat4> binds = statedBinds(scene);
     std::vector<FlatJoint> joints;
-    for (int node = flat.front() + 1; node < static_cast<int>(tree.nodes.size()); ++node) {
-        if (tree.nodes[node].parent != flat.front()) continue;
+    for (int node = first + 1; node < static_cast<int>(scene.nodes.size()); ++node) {
+        if (scene.nodes[node].parent != first) continue;
         FlatJoint joint;
         joint.node = node;
-        joint.parentFromJoint = tree.nodes[node].parentFromNode;
-        const auto stated = binds.find(tree.nodes[node].source->mName.C_Str());
+        joint.parentFromJoint = scene.nodes[node].parentFromNode;
+        const auto stated = binds.find(node);
         if (stated != binds.end()) joint.stated = stated->second;
         if (!isInvertible(joint.parentFromJoint)) {
-            tree.nodesArePosed = false;
+            scene.nodesArePosed = false;
             return;
         }
         joints.push_back(std::move(joint));
     }
-    tree.nodesArePosed = HierarchyFinder(joints).solve();
-    if (tree.nodesArePosed) hang(joints, tree);
+    scene.nodesArePosed = HierarchyFinder(joints).solve();
+    if (scene.nodesArePosed) hang(joints, scene);
 }
 
 }  // namespace lutka::animation::rig_import

@@ -1,0 +1,80 @@
+#include "animation/import/assimp/read_with_assimp.hpp"
+
+#include <assimp/commonMetaData.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "animation/import/assimp/clip_conversion.hpp"
+#include "animation/import/assimp/flat_hierarchy.hpp"
+#include "animation/import/assimp/material_conversion.hpp"
+#include "animation/import/assimp/mesh_instances.hpp"
+#include "animation/import/assimp/scene_file.hpp"
+#include "animation/import/assimp/scene_nodes.hpp"
+
+namespace lutka::animation::rig_import {
+namespace {
+
+template <class T>
+std::optional<T> metadataValue(const aiMetadata* metadata, const char* key) {
+    T value{};
+    if (metadata == nullptr || !metadata->Get(key, value)) return std::nullopt;
+    return value;
+}
+
+std::optional<double> fbxUnit(const aiMetadata* metadata) {
+    const auto asDouble = metadataValue<double>(metadata, "UnitScaleFactor");
+    const auto asFloat = metadataValue<float>(metadata, "UnitScaleFactor");
+    const std::optional<double> centimetres = asDouble  ? asDouble
+                                              : asFloat ? std::optional<double>(*asFloat)
+                                                        : asDouble;
+    if (!centimetres || !std::isfinite(*centimetres) || !(*centimetres > 0.0)) return std::nullopt;
+    return 0.01 * *centimetres;
+}
+
+std::optional<UpAxis> fbxUp(const aiMetadata* metadata) {
+    const auto axis = metadataValue<std::int32_t>(metadata, "UpAxis");
+    const auto sign = metadataValue<std::int32_t>(metadata, "UpAxisSign");
+    if (!axis || *axis < 0 || *axis > 2) return std::nullopt;
+    return static_cast<UpAxis>(2 * *axis + (sign.value_or(1) >= 0 ? 0 : 1));
+}
+
+SourceConvention conventionOf(const aiScene& scene, const std::filesystem::path& file) {
+    SourceConvention convention;
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
+    if (extension == ".dae") {  // Assimp converts both.
+        convention.metresPerUnit = 1.0;
+        convention.unitSource = "Collada unit";
+        convention.up = UpAxis::positiveY;
+        convention.upSource = "Collada up_axis";
+        return convention;
+    }
+    convention.metresPerUnit = fbxUnit(scene.mMetaData);
+    convention.unitSource = "FBX UnitScaleFactor";
+    convention.up = fbxUp(scene.mMetaData);
+    convention.upSource = "FBX UpAxis";
+    return convention;
+}
+
+}  // namespace
+
+Result<SourceScene> readWithAssimp(const std::filesystem::path& file, const ImportOptions& options) {
+    const Result<SceneFile> opened = readScene(file);
+    if (!opened) return opened.error();
+    const aiScene& scene = *opened.value().scene;
+    SourceScene out;
+    out.format = metadataValue<aiString>(scene.mMetaData, AI_METADATA_SOURCE_FORMAT).value_or(aiString("")).C_Str();
+    Result<SceneNodes> read = readNodes(scene, file.string(), out);
+    if (!read) return read.error();
+    const SceneNodes& nodes = read.value();
+    out.convention = conventionOf(scene, file);
+    addMeshes(scene, nodes, out);
+    addClips(scene, nodes, out);
+    convertMaterials(scene, file, options.loadTextures, out);
+    restoreFlatHierarchy(out);
+    return out;
+}
+
+}  // namespace lutka::animation::rig_import

@@ -1,0 +1,137 @@
+#include "animation/import/build_character.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "animation/import/bind_pose.hpp"
+#include "animation/import/clip_sampling.hpp"
+#include "animation/import/mesh_conversion.hpp"
+#include "animation/import/node_tree.hpp"
+#include "animation/import/rigid_pose.hpp"
+#include "animation/import/units.hpp"
+#include "animation/import/vertex_order.hpp"
+#include "animation/pose.hpp"
+
+namespace lutka::animation::rig_import {
+namespace {
+
+// Scale that a joint has in a pose but not in the bind pose is dropped; below this share nobody sees it.
+constexpr double kVisibleScale = 0.01;
+
+// The root of the part of the tree that holds most joints: leaves out cameras, lights and helpers beside the figure.
+int rootOfFigure(const Skeleton& skeleton) {
+    const int count = skeleton.jointCount();
+    std::vector<int> size(count, 1);
+    for (int joint = count - 1; joint > 0; --joint) {
+        if (skeleton.parents[joint] != kNoJoint) size[skeleton.parents[joint]] += size[joint];
+    }
+    int root = 0;
+    for (int joint = 1; joint < count; ++joint) {
+        if (skeleton.parents[joint] == root && size[joint] * 5 > size[root] * 4) root = joint;
+    }
+    return root;
+}
+
+// What the height of the figure is measured on: skins and their joints, else rigid meshes, else the joints alone.
+std::vector<vec3> pointsOfFigure(const Character& character, std::span<const dmat4> bind) {
+    std::vector<vec3> points;
+    const int root = rootOfFigure(character.skeleton);
+    bool skinned = false;
+    for (const SkinnedMesh& mesh : character.meshes)
+        skinned = skinned || !mesh.rigid;
+    for (const SkinnedMesh& mesh : character.meshes) {
+        if (skinned == !mesh.rigid) points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
+    }
+    for (int joint = 0; joint < character.skeleton.jointCount(); ++joint) {
+        const bool deforms = character.skeleton.skinWeight[joint] > 0.0F && skinned;
+        const bool alone = character.meshes.empty() && isAncestorOrSelf(character.skeleton, root, joint);
+        if (deforms || alone) points.emplace_back(bind[joint][3]);
+    }
+    return points;
+}
+
+void settleMeshes(const UnitsAndAxes& units, std::vector<SkinnedMesh>& meshes) {
+    const mat3 rotation(units.rotation);
+    const mat3 scaled(units.scale * units.rotation);
+    for (SkinnedMesh& mesh : meshes) {
+        for (vec3& position : mesh.positions)
+            position = scaled * position;
+        for (vec3& normal : mesh.normals)
+            normal = rotation * normal;
+        for (vec4& tangent : mesh.tangents)
+            tangent = vec4(rotation * vec3(tangent), tangent.w);
+    }
+}
+
+void poseNodes(const ClipFile& file, Character& character) {
+    std::vector<dmat4> sceneFromNode;
+    sceneFromNode.reserve(file.tree.nodes.size());
+    for (const NodeTree::Node& node : file.tree.nodes)
+        sceneFromNode.push_back(node.sceneFromNode);
+    std::vector<RigidTransform> modelFromJoint(file.tree.nodeOfJoint.size());
+    const double worst = file.poser.pose(sceneFromNode, 1.0, file.matters(), modelFromJoint);
+    modelToLocal(character.skeleton, modelFromJoint, character.skeleton.nodeParentFromJoint);
+    if (worst > kVisibleScale) {
+        character.warnings.push_back(
+            fmt::format("the nodes' pose scales joints by up to {:.1f} % against the bind pose; the scale was dropped",
+                        100.0 * worst));
+    }
+}
+
+// Skeleton and clips from the solved bind pose and the settled units.
+void buildMotion(SourceScene& source, const NodeTree& tree, std::span<const dmat4> bind, const UnitsAndAxes& units,
+                 Character& character) {
+    const auto file = std::make_shared<ClipFile>(tree, bind, units.modelFromScene(), character.skeleton, source);
+    character.skeleton.bindModelFromJoint = file->poser.bindModelFromJoint();
+    character.skeleton.nodeParentFromJoint.resize(tree.nodeOfJoint.size());
+    if (!tree.nodesArePosed) {
+        modelToLocal(character.skeleton, file->poser.bindModelFromJoint(), character.skeleton.nodeParentFromJoint);
+        character.warnings.push_back("the file's joint hierarchy and clips can't be read; the bind pose can");
+        return;
+    }
+    poseNodes(*file, character);
+    character.clips = sampleAnimations(file, character.warnings);
+}
+
+void takeMaterials(SourceScene& source, Character& character) {
+    character.materials = std::move(source.materials);
+    character.textures = std::move(source.textures);
+    if (character.materials.empty() && !character.meshes.empty()) character.materials.emplace_back();
+    for (SkinnedMesh& mesh : character.meshes) {
+        if (mesh.material >= static_cast<int>(character.materials.size())) mesh.material = 0;
+    }
+}
+
+}  // namespace
+
+Result<Character> buildCharacter(SourceScene source, const std::filesystem::path& file, const ImportOptions& options) {
+    if (std::optional<Error> error = validate(source, file.string())) return *std::move(error);
+    const NodeTree tree = makeNodeTree(source);
+    Character character;
+    character.name = file.stem().string();
+    character.file = file;
+    character.warnings = std::move(source.warnings);
+    character.skeleton.names = tree.jointNames;
+    character.skeleton.parents = tree.jointParents;
+    character.skeleton.skinWeight.assign(tree.nodeOfJoint.size(), 0.0F);
+
+    const std::vector<MeshInstance> instances = bindMeshes(source, tree, character.warnings);
+    const std::vector<dmat4> bind = solveBindPose(tree, instances);
+    character.meshes = convertMeshes(tree, instances, bind, character.skeleton.skinWeight, character.warnings);
+    const UnitsAndAxes units =
+        settleUnits(source.convention, pointsOfFigure(character, bind), options, character.warnings);
+    character.units = units.info;
+    settleMeshes(units, character.meshes);
+    for (SkinnedMesh& mesh : character.meshes)
+        orderForSkinning(mesh);
+    takeMaterials(source, character);
+    for (const auto& [role, node] : source.vrmHumanoid)
+        character.vrmHumanoid[role] = tree.nodes[node].joint;
+    buildMotion(source, tree, bind, units, character);
+    return character;
+}
+
+}  // namespace lutka::animation::rig_import

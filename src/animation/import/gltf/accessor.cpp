@@ -1,0 +1,228 @@
+#include "animation/import/gltf/accessor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+namespace lutka::animation::rig_import::gltf {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMaxElements = 50'000'000;
+// An accessor without data costs no bytes in the file; a real one of this kind is the base of a sparse one.
+constexpr std::size_t kMaxElementsOfNothing = 2'000'000;
+
+enum class Component { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
+
+std::size_t bytesOf(Component component) {
+    switch (component) {
+        case Component::i8:
+        case Component::u8:
+            return 1;
+        case Component::i16:
+        case Component::u16:
+            return 2;
+        case Component::u32:
+        case Component::f32:
+            return 4;
+    }
+    return 4;
+}
+
+Component componentOf(const json& object) {
+    const std::size_t code = sizeOf(object, "componentType", 0);
+    if (code < 5120 || code == 5124 || code > 5126)
+        throw Damage{fmt::format("an accessor has the component type {}, which glTF does not know", code)};
+    return static_cast<Component>(code);
+}
+
+struct Shape {
+    std::size_t width = 1;
+    std::size_t rows = 0;  // of a matrix, whose columns start at multiples of four bytes; 0: no matrix
+};
+
+Shape shapeOf(const std::string& type) {
+    if (type == "SCALAR") return {1, 0};
+    if (type == "VEC2") return {2, 0};
+    if (type == "VEC3") return {3, 0};
+    if (type == "VEC4") return {4, 0};
+    if (type == "MAT2") return {4, 2};
+    if (type == "MAT3") return {9, 3};
+    if (type == "MAT4") return {16, 4};
+    throw Damage{fmt::format("an accessor has the type '{}', which glTF does not know", type)};
+}
+
+template <class T>
+T load(const std::uint8_t* bytes) {
+    T value;
+    std::memcpy(&value, bytes, sizeof(T));
+    return value;
+}
+
+// Fractions by the equations of the specification's section 3.11.
+template <class T>
+float fraction(T value) {
+    const float scaled = static_cast<float>(value) / static_cast<float>(std::numeric_limits<T>::max());
+    return std::max(scaled, -1.0F);
+}
+
+template <class T>
+float converted(const std::uint8_t* bytes, bool normalised) {
+    const T value = load<T>(bytes);
+    return normalised ? fraction(value) : static_cast<float>(value);
+}
+
+float numberAt(const std::uint8_t* bytes, Component component, bool normalised) {
+    switch (component) {
+        case Component::i8:
+            return converted<std::int8_t>(bytes, normalised);
+        case Component::u8:
+            return converted<std::uint8_t>(bytes, normalised);
+        case Component::i16:
+            return converted<std::int16_t>(bytes, normalised);
+        case Component::u16:
+            return converted<std::uint16_t>(bytes, normalised);
+        case Component::u32:
+            return converted<std::uint32_t>(bytes, normalised);
+        case Component::f32:
+            return load<float>(bytes);
+    }
+    return 0.0F;
+}
+
+std::uint32_t integerAt(const std::uint8_t* bytes, Component component) {
+    switch (component) {
+        case Component::i8:
+        case Component::u8:
+            return load<std::uint8_t>(bytes);
+        case Component::i16:
+        case Component::u16:
+            return load<std::uint16_t>(bytes);
+        case Component::u32:
+            return load<std::uint32_t>(bytes);
+        case Component::f32: {  // some exporters write joints as floats
+            const float value = load<float>(bytes);
+            return value >= 0.0F && value < 4e9F ? static_cast<std::uint32_t>(value) : 0U;
+        }
+    }
+    return 0;
+}
+
+// Where the elements of an accessor lie.
+struct Layout {
+    Component component = Component::f32;
+    Shape shape;
+    std::size_t count = 0;
+    bool normalised = false;
+
+    [[nodiscard]] std::size_t offsetOf(std::size_t component_) const {
+        if (shape.rows == 0) return component_ * bytesOf(component);
+        const std::size_t column = (shape.rows * bytesOf(component) + 3) / 4 * 4;
+        return component_ / shape.rows * column + component_ % shape.rows * bytesOf(component);
+    }
+    [[nodiscard]] std::size_t elementBytes() const { return offsetOf(shape.width - 1) + bytesOf(component); }
+};
+
+Layout layoutOf(const json& accessor) {
+    Layout layout;
+    layout.component = componentOf(accessor);
+    layout.shape = shapeOf(textOf(accessor, "type"));
+    layout.count = sizeOf(accessor, "count", 0);
+    layout.normalised = truthOf(accessor, "normalized", false);
+    if (layout.count > kMaxElements) throw Damage{fmt::format("an accessor has more than {} elements", kMaxElements)};
+    return layout;
+}
+
+// Calls `take(element, bytes of it)` for `count` elements of a view.
+template <class Take>
+void forEachElement(GltfFile& file, const json& place, std::size_t count, std::size_t elementBytes, const Take& take) {
+    const std::optional<int> view = indexOf(place, "bufferView", file.count("bufferViews"));
+    if (!view) throw Damage{"sparse data without a buffer view"};
+    const std::span<const std::uint8_t> bytes = file.viewBytes(*view);
+    const std::size_t offset = sizeOf(place, "byteOffset", 0);
+    const json& source = file.element("bufferViews", *view);
+    const json* packed = extensionOf(source, "EXT_meshopt_compression");
+    if (packed == nullptr) packed = extensionOf(source, "KHR_meshopt_compression");
+    std::size_t stride = sizeOf(packed != nullptr ? *packed : source, "byteStride", 0);
+    if (stride == 0) stride = elementBytes;
+    if (count == 0) return;
+    const std::size_t last = (count - 1) * stride + elementBytes;
+    if (offset > bytes.size() || last > bytes.size() - offset)
+        throw Damage{fmt::format("buffer view {} ends before its accessor's {} elements do", *view, count)};
+    for (std::size_t element = 0; element < count; ++element)
+        take(element, bytes.data() + offset + element * stride);
+}
+
+// Calls `take(element, bytes of it)` for what the accessor holds: its view's elements, then its sparse ones.
+template <class Take>
+void readElements(GltfFile& file, const json& accessor, const Layout& layout, const Take& take) {
+    const json* sparse = member(accessor, "sparse");
+    if (member(accessor, "bufferView") != nullptr)
+        forEachElement(file, accessor, layout.count, layout.elementBytes(), take);
+    else if (layout.count > kMaxElementsOfNothing)
+        throw Damage{fmt::format("an accessor of {} elements has no data", layout.count)};
+    if (sparse == nullptr) return;
+    const json* indices = member(*sparse, "indices");
+    const json* values = member(*sparse, "values");
+    const std::size_t count = sizeOf(*sparse, "count", 0);
+    if (indices == nullptr || values == nullptr || count > layout.count) throw Damage{"a sparse accessor is damaged"};
+    const Component component = componentOf(*indices);
+    std::vector<std::uint32_t> places;
+    forEachElement(file, *indices, count, bytesOf(component),
+                   [&](std::size_t, const std::uint8_t* bytes) { places.push_back(integerAt(bytes, component)); });
+    forEachElement(file, *values, count, layout.elementBytes(), [&](std::size_t i, const std::uint8_t* bytes) {
+        if (places[i] < layout.count) take(places[i], bytes);
+    });
+}
+
+void checkWidth(std::size_t has, std::size_t wanted, const char* what) {
+    if (has != wanted) throw Damage{fmt::format("{} have {} components instead of {}", what, has, wanted)};
+}
+
+}  // namespace
+
+Numbers readNumbers(GltfFile& file, int accessor) {
+    const json& source = file.element("accessors", accessor);
+    const Layout layout = layoutOf(source);
+    if (member(source, "bufferView") == nullptr && layout.count > kMaxElementsOfNothing)
+        throw Damage{fmt::format("an accessor of {} elements has no data", layout.count)};
+    Numbers numbers;
+    numbers.count = layout.count;
+    numbers.width = layout.shape.width;
+    // The view's length bounds the count before anything is made that large.
+    if (member(source, "bufferView") != nullptr)
+        forEachElement(file, source, layout.count, layout.elementBytes(), [](std::size_t, const std::uint8_t*) {});
+    numbers.values.assign(layout.count * layout.shape.width, 0.0F);
+    readElements(file, source, layout, [&](std::size_t element, const std::uint8_t* bytes) {
+        for (std::size_t i = 0; i < layout.shape.width; ++i)
+            numbers.values[element * layout.shape.width + i] =
+                numberAt(bytes + layout.offsetOf(i), layout.component, layout.normalised);
+    });
+    return numbers;
+}
+
+Numbers readNumbers(GltfFile& file, int accessor, std::size_t width, const char* what) {
+    checkWidth(shapeOf(textOf(file.element("accessors", accessor), "type")).width, width, what);
+    return readNumbers(file, accessor);
+}
+
+std::vector<std::uint32_t> readIntegers(GltfFile& file, int accessor, std::size_t width, const char* what) {
+    const json& source = file.element("accessors", accessor);
+    const Layout layout = layoutOf(source);
+    checkWidth(layout.shape.width, width, what);
+    std::vector<std::uint32_t> integers;
+    if (member(source, "bufferView") == nullptr)
+        integers.resize(std::min(layout.count, kMaxElementsOfNothing) * width, 0);
+    readElements(file, source, layout, [&](std::size_t element, const std::uint8_t* bytes) {
+        if (integers.size() < (element + 1) * width) integers.resize((element + 1) * width);
+        for (std::size_t i = 0; i < width; ++i)
+            integers[element * width + i] = integerAt(bytes + layout.offsetOf(i), layout.component);
+    });
+    return integers;
+}
+
+}  // namespace lutka::animation::rig_import::gltf

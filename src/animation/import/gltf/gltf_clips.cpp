@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "animation/import/gltf/accessor.hpp"
+#include "animation/import/gltf/gltf_parts.hpp"
+
+namespace lutka::animation::rig_import::gltf {
+namespace {
+
+using nlohmann::json;
+using Interpolation = SourceChannel::Interpolation;
+
+std::optional<SourceChannel::Path> pathOf(const std::string& name) {
+    if (name == "translation") return SourceChannel::Path::translation;
+    if (name == "rotation") return SourceChannel::Path::rotation;
+    if (name == "scale") return SourceChannel::Path::scale;
+    return std::nullopt;
+}
+
+Interpolation interpolationOf(const std::string& name) {
+    if (name == "STEP") return Interpolation::step;
+    return name == "CUBICSPLINE" ? Interpolation::cubicSpline : Interpolation::linear;
+}
+
+// Keys whose time is not finite or runs backwards are left out.
+void takeKeys(const Numbers& times, const Numbers& values, SourceChannel& channel, GltfFile& file) {
+    const std::size_t parts = channel.interpolation == Interpolation::cubicSpline ? 3 : 1;
+    const std::size_t perKey = parts * values.width;
+    const std::size_t keys = std::min(times.count, values.count / parts);
+    if (keys < times.count) file.leaveOut("keys of animations that have no value");
+    for (std::size_t key = 0; key < keys; ++key) {
+        const double time = times.at(key, 0);
+        if (!std::isfinite(time) || (!channel.times.empty() && time < channel.times.back())) {
+            file.leaveOut("keys of animations whose times run backwards");
+            continue;
+        }
+        channel.times.push_back(time);
+        const auto first = values.values.begin() + static_cast<std::ptrdiff_t>(key * perKey);
+        channel.values.insert(channel.values.end(), first, first + static_cast<std::ptrdiff_t>(perKey));
+    }
+}
+
+void addChannel(GltfFile& file, const json& animation, const json& source, const NodeMap& nodes, SourceClip& clip) {
+    const json* target = member(source, "target");
+    const std::optional<int> node = target == nullptr ? std::nullopt : indexOf(*target, "node", nodes.size());
+    if (!node) return;  // aimed at something else by an extension
+    const std::string name = textOf(*target, "path");
+    const std::optional<SourceChannel::Path> path = pathOf(name);
+    if (!path) {
+        file.leaveOut(name == "weights" ? "animations of morph targets" : "animations of other things than nodes");
+        return;
+    }
+    const std::optional<int> samplerIndex = indexOf(source, "sampler", countOf(animation, "samplers"));
+    if (!samplerIndex || nodes[*node] < 0) return;
+    const json& sampler = animation.at("samplers").at(static_cast<std::size_t>(*samplerIndex));
+    const std::optional<int> input = indexOf(sampler, "input", file.count("accessors"));
+    const std::optional<int> output = indexOf(sampler, "output", file.count("accessors"));
+    if (!input || !output) throw Damage{fmt::format("animation '{}' has a sampler without keys", clip.name)};
+    SourceChannel channel;
+    channel.node = nodes[*node];
+    channel.path = *path;
+    channel.interpolation = interpolationOf(textOf(sampler, "interpolation"));
+    const std::size_t width = *path == SourceChannel::Path::rotation ? 4 : 3;
+    takeKeys(readNumbers(file, *input, 1, "key times"), readNumbers(file, *output, width, "key values"), channel, file);
+    if (!channel.times.empty()) clip.channels.push_back(std::move(channel));
+}
+
+}  // namespace
+
+void addClips(GltfFile& file, const NodeMap& nodes, SourceScene& out) {
+    for (std::size_t i = 0; i < file.count("animations"); ++i) {
+        const json& source = file.element("animations", static_cast<int>(i));
+        SourceClip clip;
+        clip.name = textOf(source, "name");
+        const json* channels = arrayOf(source, "channels");
+        for (std::size_t c = 0; channels != nullptr && c < channels->size(); ++c)
+            addChannel(file, source, (*channels)[c], nodes, clip);
+        out.clips.push_back(std::move(clip));
+    }
+}
+
+}  // namespace lutka::animation::rig_import::gltf

@@ -1,0 +1,243 @@
+#include "animation/import/gltf/gltf_file.hpp"
+
+#include <fmt/format.h>
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstring>
+#include <string_view>
+#include <system_error>
+
+#include "core/files.hpp"
+
+namespace lutka::animation::rig_import::gltf {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30U;
+constexpr std::size_t kMaxJsonBytes = std::size_t{256} << 20U;
+constexpr std::size_t kMaxUnpackedBytes = std::size_t{1} << 30U;  // of a compressed view
+
+// Read here, or without bearing on shape and motion.
+bool isUnderstood(std::string_view extension) {
+    constexpr std::array<std::string_view, 13> kExact = {"KHR_draco_mesh_compression",
+                                                         "KHR_mesh_quantization",
+                                                         "EXT_meshopt_compression",
+                                                         "KHR_meshopt_compression",
+                                                         "KHR_texture_transform",
+                                                         "KHR_lights_punctual",
+                                                         "KHR_node_visibility",
+                                                         "KHR_xmp_json_ld",
+                                                         "KHR_xmp",
+                                                         "KHR_animation_pointer",
+                                                         "VRM",
+                                                         "VRMC_vrm",
+                                                         "KHR_implicit_shapes"};
+    if (std::find(kExact.begin(), kExact.end(), extension) != kExact.end()) return true;
+    return extension.starts_with("KHR_materials_") || extension.starts_with("VRMC_") ||
+           extension.starts_with("KHR_physics");
+}
+
+bool isPictureFormat(std::string_view extension) {
+    return extension == "KHR_texture_basisu" || extension == "EXT_texture_webp" || extension == "EXT_texture_avif" ||
+           extension == "MSFT_texture_dds";
+}
+
+std::uint32_t littleEndian(const std::uint8_t* bytes) {
+    std::uint32_t value = 0;
+    for (int i = 3; i >= 0; --i)
+        value = (value << 8U) | bytes[i];
+    return value;
+}
+
+std::vector<std::uint8_t> readWhole(const fs::path& file) {
+    Result<std::vector<unsigned char>> bytes = readFile(file, kMaxFileBytes);
+    if (!bytes)
+        throw Damage{fmt::format("{}: {}", file.filename().string(), bytes.error().message), bytes.error().mend};
+    return std::move(bytes).value();
+}
+
+// A file that the model names, which must lie in the model's folder or below.
+fs::path fileBeside(const fs::path& model, const std::string& uri) {
+    std::error_code failed;
+    const fs::path folder = fs::weakly_canonical(model.has_parent_path() ? model.parent_path() : fs::path("."), failed);
+    const fs::path written(decodePercents(uri));
+    const fs::path target = fs::weakly_canonical(folder / written, failed);
+    const fs::path inside = target.lexically_relative(folder);
+    if (written.is_absolute() || inside.empty() || *inside.begin() == "..")
+        throw Damage{fmt::format("the buffer '{}' lies outside of the model's folder", uri),
+                     "put the buffer beside the model"};
+    return target;
+}
+
+int base64Value(char c) {
+    if (c >= 'A' && c <= 'Z') return c - 'A';
+    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+    if (c >= '0' && c <= '9') return c - '0' + 52;
+    if (c == '+' || c == '-') return 62;
+    return c == '/' || c == '_' ? 63 : -1;
+}
+
+std::vector<std::uint8_t> decodeBase64(std::string_view text) {
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(text.size() * 3 / 4);
+    std::uint32_t bits = 0;
+    int count = 0;
+    for (const char c : text) {
+        if (c == '=' || std::isspace(static_cast<unsigned char>(c)) != 0) continue;
+        const int value = base64Value(c);
+        if (value < 0) throw Damage{"a data URI holds something else than base64"};
+        bits = (bits << 6U) | static_cast<std::uint32_t>(value);
+        count += 6;
+        if (count < 8) continue;
+        count -= 8;
+        bytes.push_back(static_cast<std::uint8_t>(bits >> static_cast<unsigned>(count)));
+    }
+    return bytes;
+}
+
+}  // namespace
+
+std::string decodePercents(const std::string& uri) {
+    std::string out;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        const bool escape = uri[i] == '%' && i + 2 < uri.size() &&
+                            std::isxdigit(static_cast<unsigned char>(uri[i + 1])) != 0 &&
+                            std::isxdigit(static_cast<unsigned char>(uri[i + 2])) != 0;
+        if (escape) {
+            out += static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16));
+            i += 2;
+        } else {
+            out += uri[i];
+        }
+    }
+    return out;
+}
+
+std::optional<std::vector<std::uint8_t>> decodeDataUri(const std::string& uri) {
+    if (!uri.starts_with("data:")) return std::nullopt;
+    const std::size_t comma = uri.find(',');
+    if (comma == std::string::npos) throw Damage{"a data URI has no data"};
+    if (uri.substr(0, comma).find(";base64") != std::string::npos)
+        return decodeBase64(std::string_view(uri).substr(comma + 1));
+    const std::string plain = decodePercents(uri.substr(comma + 1));
+    return std::vector<std::uint8_t>(plain.begin(), plain.end());
+}
+
+GltfFile::GltfFile(const fs::path& file) : file_(file) {
+    readContainer();
+    checkExtensions();
+}
+
+void GltfFile::readContainer() {
+    std::vector<std::uint8_t> bytes = readWhole(file_);
+    std::span<const std::uint8_t> text(bytes);
+    if (bytes.size() >= 12 && std::memcmp(bytes.data(), "glTF", 4) == 0) {
+        if (const std::uint32_t version = littleEndian(bytes.data() + 4); version != 2)
+            throw Damage{fmt::format("is a glTF {} container; glTF 2.0 can be read", version),
+                         "convert it to glTF 2.0"};
+        text = {};
+        for (std::size_t at = 12; at + 8 <= bytes.size();) {
+            const std::size_t length = littleEndian(bytes.data() + at);
+            const std::uint32_t kind = littleEndian(bytes.data() + at + 4);
+            at += 8;
+            const std::size_t there = std::min(length, bytes.size() - at);
+            const std::span<const std::uint8_t> chunk(bytes.data() + at, there);
+            if (kind == 0x4E4F534A && text.empty()) text = chunk;                                   // "JSON"
+            if (kind == 0x004E4942 && binary_.empty()) binary_.assign(chunk.begin(), chunk.end());  // "BIN"
+            at += there;
+        }
+    }
+    if (text.size() > kMaxJsonBytes)
+        throw Damage{fmt::format("its JSON has more than {} MB", kMaxJsonBytes >> 20U), "export only the character"};
+    json_ = nlohmann::json::parse(text.begin(), text.end(), nullptr, false);
+    if (json_.is_discarded() || !json_.is_object()) throw Damage{"the glTF's JSON is broken or cut off"};
+    const nlohmann::json* asset = member(json_, "asset");
+    const std::string version = asset == nullptr ? "" : textOf(*asset, "version");
+    if (!version.empty() && !version.starts_with("2"))
+        throw Damage{fmt::format("is glTF {}; glTF 2.0 can be read", version), "convert it to glTF 2.0"};
+}
+
+void GltfFile::checkExtensions() {
+    const nlohmann::json* required = arrayOf(json_, "extensionsRequired");
+    if (required == nullptr) return;
+    for (const nlohmann::json& entry : *required) {
+        if (!entry.is_string()) continue;
+        const std::string extension = entry.get<std::string>();
+        if (isPictureFormat(extension)) continue;  // told where a picture is missed
+        if (!isUnderstood(extension)) {
+            throw Damage{fmt::format("requires the glTF extension {}, which can't be read", extension),
+                         "export it again without this extension"};
+        }
+    }
+}
+
+const nlohmann::json& GltfFile::element(const char* array, int index) const {
+    return json_.at(array).at(static_cast<std::size_t>(index));
+}
+
+std::vector<std::uint8_t> GltfFile::loadBuffer(int buffer) const {
+    const std::string uri = textOf(element("buffers", buffer), "uri");
+    if (std::optional<std::vector<std::uint8_t>> data = decodeDataUri(uri)) return *std::move(data);
+    return readWhole(fileBeside(file_, uri));
+}
+
+std::span<const std::uint8_t> GltfFile::bufferBytes(int buffer) {
+    if (member(element("buffers", buffer), "uri") == nullptr) {
+        if (buffer != 0 || binary_.empty()) throw Damage{fmt::format("buffer {} has no data", buffer)};
+        return binary_;
+    }
+    const auto found = buffers_.find(buffer);
+    return found != buffers_.end() ? found->second : (buffers_[buffer] = loadBuffer(buffer));
+}
+
+std::span<const std::uint8_t> GltfFile::slice(int buffer, std::size_t offset, std::size_t length) {
+    const std::span<const std::uint8_t> bytes = bufferBytes(buffer);
+    if (offset > bytes.size() || length > bytes.size() - offset)
+        throw Damage{fmt::format("buffer {} ends before the data that is named in it: it is cut off", buffer)};
+    return bytes.subspan(offset, length);
+}
+
+std::vector<std::uint8_t> GltfFile::decompressed(const nlohmann::json& block) {
+    const int buffer = indexOf(block, "buffer", count("buffers")).value_or(0);
+    const std::size_t stride = sizeOf(block, "byteStride", 0);
+    const std::size_t elements = sizeOf(block, "count", 0);
+    const std::span<const std::uint8_t> packed =
+        slice(buffer, sizeOf(block, "byteOffset", 0), sizeOf(block, "byteLength", 0));
+    if (stride == 0 || stride > 256 || elements > kMaxUnpackedBytes / stride)
+        throw Damage{"a compressed view has absurd counts"};
+    std::vector<std::uint8_t> out(stride * elements);
+    const std::string mode = textOf(block, "mode");
+    int failed = -1;
+    if (mode == "ATTRIBUTES" && stride % 4 == 0)
+        failed = meshopt_decodeVertexBuffer(out.data(), elements, stride, packed.data(), packed.size());
+    if (mode == "TRIANGLES" && elements % 3 == 0 && (stride == 2 || stride == 4))
+        failed = meshopt_decodeIndexBuffer(out.data(), elements, stride, packed.data(), packed.size());
+    if (mode == "INDICES" && (stride == 2 || stride == 4))
+        failed = meshopt_decodeIndexSequence(out.data(), elements, stride, packed.data(), packed.size());
+    if (failed != 0) throw Damage{"a compressed view is damaged"};
+    const std::string filter = textOf(block, "filter");
+    if (filter == "OCTAHEDRAL" && (stride == 4 || stride == 8)) meshopt_decodeFilterOct(out.data(), elements, stride);
+    if (filter == "QUATERNION" && stride == 8) meshopt_decodeFilterQuat(out.data(), elements, stride);
+    if (filter == "EXPONENTIAL" && stride % 4 == 0) meshopt_decodeFilterExp(out.data(), elements, stride);
+    return out;
+}
+
+std::span<const std::uint8_t> GltfFile::viewBytes(int view) {
+    const nlohmann::json& source = element("bufferViews", view);
+    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+        const nlohmann::json* block = extensionOf(source, name);
+        if (block == nullptr) continue;
+        const auto found = unpackedViews_.find(view);
+        return found != unpackedViews_.end() ? found->second : (unpackedViews_[view] = decompressed(*block));
+    }
+    const std::optional<int> buffer = indexOf(source, "buffer", count("buffers"));
+    if (!buffer) throw Damage{fmt::format("buffer view {} has no buffer", view)};
+    return slice(*buffer, sizeOf(source, "byteOffset", 0), sizeOf(source, "byteLength", 0));
+}
+
+}  // namespace lutka::animation::rig_import::gltf

@@ -1,0 +1,256 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/mat3x3.hpp>
+
+#include "animation/import/gltf/accessor.hpp"
+#include "animation/import/gltf/gltf_parts.hpp"
+#include "animation/import/source_limits.hpp"
+
+namespace lutka::animation::rig_import::gltf {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMaxInfluenceSets = 4;  // JOINTS_0 … JOINTS_3
+
+enum Mode { kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
+
+// One skin's slots and weights of every vertex, set after set.
+struct VertexSkins {
+    std::vector<std::uint32_t> joints;  // four a vertex
+    std::vector<float> weights;
+};
+
+std::optional<int> attribute(const GltfFile& file, const json& primitive, const std::string& name) {
+    const json* attributes = member(primitive, "attributes");
+    return attributes == nullptr ? std::nullopt : indexOf(*attributes, name.c_str(), file.count("accessors"));
+}
+
+std::vector<std::uint32_t> trianglesOf(const std::vector<std::uint32_t>& corners, std::size_t mode) {
+    if (mode == kTriangles) return {corners.begin(), corners.end() - static_cast<std::ptrdiff_t>(corners.size() % 3)};
+    std::vector<std::uint32_t> triangles;
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+        const std::uint32_t first = mode == kTriangleFan ? corners[0] : corners[i - 2];
+        const std::uint32_t second = corners[i - 1];
+        // Every other triangle of a strip runs the other way round.
+        const bool turned = mode == kTriangleStrip && i % 2 == 1;
+        triangles.insert(triangles.end(), {turned ? second : first, turned ? first : second, corners[i]});
+    }
+    return triangles;
+}
+
+void readIndices(GltfFile& file, const json& primitive, std::size_t mode, SourceMesh& mesh) {
+    std::vector<std::uint32_t> corners;
+    if (const std::optional<int> indices = indexOf(primitive, "indices", file.count("accessors"))) {
+        corners = readIntegers(file, *indices, 1, "indices");
+    } else {
+        corners.resize(mesh.positions.size());
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            corners[i] = static_cast<std::uint32_t>(i);
+    }
+    if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t i) { return i >= mesh.positions.size(); }))
+        throw Damage{fmt::format("mesh '{}': a triangle names a vertex that is not there", mesh.name)};
+    mesh.indices = trianglesOf(corners, mode);
+}
+
+template <class T, class Make>
+void readPerVertex(GltfFile& file, const json& primitive, const char* name, std::size_t width, std::size_t count,
+                   std::vector<T>& out, const Make& make) {
+    const std::optional<int> accessor = attribute(file, primitive, name);
+    if (!accessor) return;
+    const Numbers numbers = readNumbers(file, *accessor, width, name);
+    if (numbers.count != count) throw Damage{fmt::format("{} has another count than POSITION", name)};
+    out.reserve(count);
+    for (std::size_t v = 0; v < count; ++v)
+        out.push_back(make(numbers, v));
+}
+
+void readColors(GltfFile& file, const json& primitive, SourceMesh& mesh) {
+    const std::optional<int> accessor = attribute(file, primitive, "COLOR_0");
+    if (!accessor) return;
+    const Numbers numbers = readNumbers(file, *accessor);
+    if (numbers.count != mesh.positions.size() || numbers.width < 3) return;
+    for (std::size_t v = 0; v < numbers.count; ++v)
+        mesh.colors.emplace_back(numbers.vector3(v), numbers.width == 4 ? numbers.at(v, 3) : 1.0F);
+}
+
+void readUvs(GltfFile& file, const json& primitive, SourceMesh& mesh) {
+    UvUse use;
+    if (mesh.material >= 0) use = uvUseOf(file, mesh.material);
+    if (!attribute(file, primitive, fmt::format("TEXCOORD_{}", use.set))) use.set = 0;
+    readPerVertex(
+        file, primitive, fmt::format("TEXCOORD_{}", use.set).c_str(), 2, mesh.positions.size(), mesh.uvs,
+        [&](const Numbers& n, std::size_t v) { return vec2(use.transform * vec3(n.at(v, 0), n.at(v, 1), 1)); });
+}
+
+void readSets(GltfFile& file, const json& primitive, std::size_t vertices, std::vector<VertexSkins>& sets) {
+    for (std::size_t set = 0; set < kMaxInfluenceSets; ++set) {
+        const std::optional<int> joints = attribute(file, primitive, fmt::format("JOINTS_{}", set));
+        const std::optional<int> weights = attribute(file, primitive, fmt::format("WEIGHTS_{}", set));
+        if (!joints || !weights) return;
+        VertexSkins skins;
+        skins.joints = readIntegers(file, *joints, 4, "JOINTS");
+        skins.weights = readNumbers(file, *weights, 4, "WEIGHTS").values;
+        if (skins.joints.size() != 4 * vertices || skins.weights.size() != 4 * vertices)
+            throw Damage{"JOINTS or WEIGHTS have another count than POSITION"};
+        sets.push_back(std::move(skins));
+    }
+}
+
+void takeInfluences(const std::vector<VertexSkins>& sets, SourceMesh& mesh) {
+    if (sets.empty()) return;
+    mesh.influenceStart.reserve(mesh.positions.size() + 1);
+    mesh.influenceStart.push_back(0);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        for (const VertexSkins& set : sets) {
+            for (std::size_t i = 4 * v; i < 4 * v + 4; ++i) {
+                if (set.weights[i] != 0.0F) mesh.influences.push_back({set.joints[i], set.weights[i]});
+            }
+        }
+        mesh.influenceStart.push_back(static_cast<std::uint32_t>(mesh.influences.size()));
+    }
+}
+
+// Moves the vertices by the morph targets that are on from the start.
+void applyMorphs(GltfFile& file, const json& primitive, const std::vector<double>& weights, SourceMesh& mesh) {
+    const json* targets = arrayOf(primitive, "targets");
+    if (targets == nullptr) return;
+    for (std::size_t t = 0; t < targets->size() && t < weights.size(); ++t) {
+        const auto weight = static_cast<float>(weights[t]);
+        if (weight == 0.0F) continue;
+        for (const char* name : {"POSITION", "NORMAL"}) {
+            const std::optional<int> accessor = indexOf((*targets)[t], name, file.count("accessors"));
+            std::vector<vec3>& moved = name[0] == 'P' ? mesh.positions : mesh.normals;
+            if (!accessor || moved.empty()) continue;
+            const Numbers offsets = readNumbers(file, *accessor, 3, "morph targets");
+            if (offsets.count != moved.size()) throw Damage{"a morph target has another count than its mesh"};
+            for (std::size_t v = 0; v < moved.size(); ++v)
+                moved[v] += weight * offsets.vector3(v);
+        }
+    }
+}
+
+std::vector<double> weightsOf(const json& object) {
+    std::vector<double> weights;
+    const json* array = member(object, "weights");
+    if (array == nullptr || !array->is_array()) return weights;
+    for (const json& weight : *array)
+        weights.push_back(weight.is_number() && std::isfinite(weight.get<double>()) ? weight.get<double>() : 0.0);
+    return weights;
+}
+
+std::optional<SourceMesh> readPrimitive(GltfFile& file, const json& primitive, const std::string& name,
+                                        const std::vector<double>& morphs) {
+    const std::size_t mode = sizeOf(primitive, "mode", kTriangles);
+    if (mode != kTriangles && mode != kTriangleStrip && mode != kTriangleFan) return std::nullopt;  // points and lines
+    SourceMesh mesh;
+    mesh.name = name;
+    mesh.material = indexOf(primitive, "material", file.count("materials")).value_or(-1);
+    std::vector<VertexSkins> sets;
+    if (const json* block = extensionOf(primitive, "KHR_draco_mesh_compression")) {
+        VertexSkins skins;
+        readDraco(file, primitive, *block, mesh, skins.joints, skins.weights);
+        if (!skins.joints.empty()) sets.push_back(std::move(skins));
+    } else {
+        const std::optional<int> positions = attribute(file, primitive, "POSITION");
+        if (!positions) return std::nullopt;
+        const Numbers numbers = readNumbers(file, *positions, 3, "POSITION");
+        for (std::size_t v = 0; v < numbers.count; ++v)
+            mesh.positions.push_back(numbers.vector3(v));
+        const auto three = [](const Numbers& n, std::size_t v) { return n.vector3(v); };
+        readPerVertex(file, primitive, "NORMAL", 3, numbers.count, mesh.normals, three);
+        readPerVertex(file, primitive, "TANGENT", 4, numbers.count, mesh.tangents,
+                      [](const Numbers& n, std::size_t v) { return vec4(n.vector3(v), n.at(v, 3)); });
+        readUvs(file, primitive, mesh);
+        readColors(file, primitive, mesh);
+        readSets(file, primitive, numbers.count, sets);
+        readIndices(file, primitive, mode, mesh);
+    }
+    applyMorphs(file, primitive, morphs, mesh);
+    takeInfluences(sets, mesh);
+    if (mesh.normals.empty()) mesh.tangents.clear();
+    return mesh;
+}
+
+glm::dmat4 matrixAt(const Numbers& numbers, std::size_t element) {
+    glm::dmat4 matrix(1.0);
+    for (int i = 0; i < 16; ++i)
+        matrix[i / 4][i % 4] = static_cast<double>(numbers.at(element, static_cast<std::size_t>(i)));
+    return matrix;
+}
+
+SourceSkin readSkin(GltfFile& file, const json& source, const NodeMap& nodes) {
+    SourceSkin skin;
+    const json* joints = arrayOf(source, "joints");
+    if (joints == nullptr) throw Damage{"a skin has no joints"};
+    Numbers matrices;
+    const std::optional<int> accessor = indexOf(source, "inverseBindMatrices", file.count("accessors"));
+    if (accessor) matrices = readNumbers(file, *accessor, 16, "inverse bind matrices");
+    if (accessor && matrices.count < joints->size()) throw Damage{"a skin has fewer inverse bind matrices than joints"};
+    skin.verticesAreInJoints = !accessor;
+    for (std::size_t i = 0; i < joints->size(); ++i) {
+        const json& joint = (*joints)[i];
+        if (!joint.is_number_unsigned() || joint.get<std::size_t>() >= nodes.size())
+            throw Damage{fmt::format("a skin names node {}, of which there are {}", joint.dump(), nodes.size())};
+        const int node = nodes[joint.get<std::size_t>()];
+        if (node < 0) throw Damage{fmt::format("a skin names node {}, which is not in the scene", joint.dump())};
+        skin.joints.push_back({node, accessor ? matrixAt(matrices, i) : glm::dmat4(1.0)});
+    }
+    return skin;
+}
+
+// Influences that name no joint of the skin are dropped.
+void dropStrayInfluences(std::size_t slots, SourceMesh& mesh, GltfFile& file) {
+    bool stray = false;
+    for (SourceMesh::Influence& influence : mesh.influences) {
+        if (influence.slot < slots) continue;
+        influence = {0, 0.0F};
+        stray = true;
+    }
+    if (stray) file.leaveOut(fmt::format("weights of mesh '{}' for joints that its skin does not have", mesh.name));
+}
+
+}  // namespace
+
+void addMeshes(GltfFile& file, const NodeMap& nodes, SourceScene& out) {
+    const std::size_t skinCount = file.count("skins");
+    std::map<int, int> skinOf;
+    // The primitives of a mesh with the morphs of a node; nodes mostly share them.
+    std::map<std::pair<int, std::vector<double>>, std::vector<int>> known;
+    std::size_t vertices = 0;
+    for (std::size_t index = 0; index < nodes.size(); ++index) {
+        if (nodes[index] < 0) continue;
+        const json& node = file.element("nodes", static_cast<int>(index));
+        const std::optional<int> meshIndex = indexOf(node, "mesh", file.count("meshes"));
+        if (!meshIndex) continue;
+        const std::optional<int> skin = indexOf(node, "skin", skinCount);
+        if (skin && skinOf.count(*skin) == 0) {
+            skinOf[*skin] = static_cast<int>(out.skins.size());
+            out.skins.push_back(readSkin(file, file.element("skins", *skin), nodes));
+        }
+        const json& source = file.element("meshes", *meshIndex);
+        std::vector<double> morphs = weightsOf(node);
+        if (morphs.empty()) morphs = weightsOf(source);
+        const auto [found, isNew] = known.try_emplace({*meshIndex, morphs});
+        const json* primitives = arrayOf(source, "primitives");
+        for (std::size_t i = 0; isNew && primitives != nullptr && i < primitives->size(); ++i) {
+            std::optional<SourceMesh> mesh = readPrimitive(file, (*primitives)[i], textOf(source, "name"), morphs);
+            if (!mesh) continue;
+            vertices += mesh->positions.size();
+            if (vertices > kMaxVertices || out.meshes.size() >= kMaxMeshes)
+                throw Damage{fmt::format("has more than {} vertices or {} meshes", kMaxVertices, kMaxMeshes),
+                             "export only the character"};
+            found->second.push_back(static_cast<int>(out.meshes.size()));
+            out.meshes.push_back(*std::move(mesh));
+        }
+        for (const int mesh : found->second) {
+            const bool bound = skin && !out.meshes[mesh].influences.empty();
+            if (bound) dropStrayInfluences(out.skins[skinOf[*skin]].joints.size(), out.meshes[mesh], file);
+            out.instances.push_back({mesh, nodes[index], bound ? skinOf[*skin] : -1});
+        }
+    }
+}
+
+}  // namespace lutka::animation::rig_import::gltf

@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "animation/import/gltf/gltf_parts.hpp"
+#include "animation/import/source_limits.hpp"
+
+namespace lutka::animation::rig_import::gltf {
+namespace {
+
+using nlohmann::json;
+
+glm::dvec3 vectorOf(const json& object, const char* key, const glm::dvec3& otherwise) {
+    const std::optional<std::vector<double>> numbers = numbersOf(object, key, 3);
+    return numbers ? glm::dvec3((*numbers)[0], (*numbers)[1], (*numbers)[2]) : otherwise;
+}
+
+SourceTrs partsOf(const json& node) {
+    SourceTrs parts;
+    parts.translation = vectorOf(node, "translation", glm::dvec3(0.0));
+    parts.scale = vectorOf(node, "scale", glm::dvec3(1.0));
+    if (const std::optional<std::vector<double>> q = numbersOf(node, "rotation", 4)) {
+        const glm::dquat rotation((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
+        if (glm::length(rotation) > 1e-9) parts.rotation = glm::normalize(rotation);
+    }
+    return parts;
+}
+
+glm::dmat4 matrixOf(const SourceTrs& parts) {
+    return glm::translate(glm::dmat4(1.0), parts.translation) * glm::mat4_cast(parts.rotation) *
+           glm::scale(glm::dmat4(1.0), parts.scale);
+}
+
+SourceNode nodeOf(const json& source, int index, int parent) {
+    SourceNode node;
+    node.name = textOf(source, "name");
+    if (node.name.empty()) node.name = fmt::format("nodes[{}]", index);
+    node.parent = parent;
+    if (const std::optional<std::vector<double>> m = numbersOf(source, "matrix", 16)) {
+        for (int i = 0; i < 16; ++i)
+            node.parentFromNode[i / 4][i % 4] = (*m)[static_cast<std::size_t>(i)];
+    } else {
+        node.trs = partsOf(source);
+        node.parentFromNode = matrixOf(*node.trs);
+    }
+    return node;
+}
+
+std::vector<int> indicesOf(const json& object, const char* key, std::size_t count) {
+    std::vector<int> indices;
+    const json* array = arrayOf(object, key);
+    if (array == nullptr) return indices;
+    for (const json& entry : *array) {
+        if (!entry.is_number_unsigned() || entry.get<std::size_t>() >= count)
+            throw Damage{fmt::format("\"{}\" names node {}, of which there are {}", key, entry.dump(), count)};
+        indices.push_back(entry.get<int>());
+    }
+    return indices;
+}
+
+std::vector<int> rootsOf(const GltfFile& file) {
+    const std::size_t count = file.count("nodes");
+    if (file.count("scenes") > 0) {
+        const int scene = indexOf(file.json(), "scene", file.count("scenes")).value_or(0);
+        return indicesOf(file.element("scenes", scene), "nodes", count);
+    }
+    std::vector<bool> isChild(count, false);
+    for (std::size_t node = 0; node < count; ++node) {
+        for (const int child : indicesOf(file.element("nodes", static_cast<int>(node)), "children", count))
+            isChild[child] = true;
+    }
+    std::vector<int> roots;
+    for (std::size_t node = 0; node < count; ++node) {
+        if (!isChild[node]) roots.push_back(static_cast<int>(node));
+    }
+    return roots;
+}
+
+[[noreturn]] void refuse(const Error& error) {
+    throw Damage{error.message, error.mend};
+}
+
+}  // namespace
+
+NodeMap addNodes(const GltfFile& file, SourceScene& out) {
+    struct Pending {
+        int node;
+        int parent;
+        int depth;
+    };
+    const std::size_t count = file.count("nodes");
+    const std::vector<int> roots = rootsOf(file);
+    NodeMap map(count, -1);
+    std::vector<Pending> pending;
+    int parent = -1;
+    if (roots.size() != 1) {  // a skeleton has one root
+        SourceNode root;
+        root.name = "ROOT";
+        out.nodes.push_back(root);
+        parent = 0;
+    }
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root)
+        pending.push_back({*root, parent, 0});
+    while (!pending.empty()) {
+        const Pending next = pending.back();
+        pending.pop_back();
+        if (map[next.node] >= 0) {
+            throw Damage{
+                fmt::format("node {} hangs below two parents (or below itself); glTF 2.0 allows one", next.node),
+                "export it again with a node of its own for each place"};
+        }
+        if (out.nodes.size() >= kMaxNodes) refuse(tooManyNodes(""));
+        if (next.depth > kMaxDepth) refuse(nestedTooDeep(""));
+        const json& source = file.element("nodes", next.node);
+        map[next.node] = static_cast<int>(out.nodes.size());
+        out.nodes.push_back(nodeOf(source, next.node, next.parent));
+        const std::vector<int> children = indicesOf(source, "children", count);
+        for (auto child = children.rbegin(); child != children.rend(); ++child)
+            pending.push_back({*child, map[next.node], next.depth + 1});
+    }
+    return map;
+}
+
+}  // namespace lutka::animation::rig_import::gltf

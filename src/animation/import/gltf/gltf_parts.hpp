@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "animation/import/gltf/gltf_file.hpp"
+#include "animation/import/source_scene.hpp"
+
+/// The parts of a glTF scene, one function each. They throw Damage.
+namespace lutka::animation::rig_import::gltf {
+
+/// glTF node index → node of the plain scene; -1 for those that are not in the scene that is shown.
+using NodeMap = std::vector<int>;
+
+/// Adds the nodes of the file's default scene (of all scenes where none is there), depth first.
+[[nodiscard]] NodeMap addNodes(const GltfFile& file, SourceScene& out);
+
+/// Adds the materials, and with `loadTextures` their pictures.
+void addMaterials(GltfFile& file, const std::filesystem::path& model, bool loadTextures, SourceScene& out);
+
+/// The UV set that a material's pictures use, and how they are moved over it (KHR_texture_transform).
+struct UvUse {
+    int set = 0;
+    mat3 transform{1.0F};
+};
+[[nodiscard]] UvUse uvUseOf(GltfFile& file, int material);
+
+/// Adds meshes (one a primitive), skins and where they hang.
+void addMeshes(GltfFile& file, const NodeMap& nodes, SourceScene& out);
+/// The triangles of a primitive in a compressed form (KHR_draco_mesh_compression) in place of its accessors.
+void readDraco(GltfFile& file, const nlohmann::json& primitive, const nlohmann::json& block, SourceMesh& mesh,
+               std::vector<std::uint32_t>& joints, std::vector<float>& weights);
+
+/// Adds the animations; those of morph weights are left out and told.
+void addClips(GltfFile& file, const NodeMap& nodes, SourceScene& out);
+
+/// Adds the VRM 0.x or 1.0 humanoid block: role (VRM 1.0 name) → node.
+void addVrmHumanoid(const GltfFile& file, const NodeMap& nodes, SourceScene& out);
+
+}  // namespace lutka::animation::rig_import::gltf

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "core/result.hpp"
+
+namespace lutka::animation::rig_import {
+
+/// What a character may have at most; a file with more is refused by name of the limit.
+inline constexpr std::size_t kMaxNodes = 65535;  ///< Node instances; a vertex names its joints with 16 bits.
+inline constexpr int kMaxDepth = 4096;           ///< Nodes below one another.
+inline constexpr std::size_t kMaxMeshes = 20'000;
+inline constexpr std::size_t kMaxVertices = 50'000'000;  ///< Of all meshes together.
+
+[[nodiscard]] Error tooManyNodes(const std::string& location);
+[[nodiscard]] Error nestedTooDeep(const std::string& location);
+
+}  // namespace lutka::animation::rig_import

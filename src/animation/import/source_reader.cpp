@@ -1,0 +1,64 @@
+#include "animation/import/source_reader.hpp"
+
+#include <array>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "animation/import/assimp/read_with_assimp.hpp"
+#include "animation/import/gltf/read_gltf.hpp"
+
+namespace lutka::animation::rig_import {
+namespace {
+
+namespace fs = std::filesystem;
+
+Error unreadable(const fs::path& file, std::string message) {
+    return {ErrorCode::input, std::move(message), file.string(), ""};
+}
+
+std::string firstBytes(const fs::path& file) {
+    std::array<char, 512> bytes{};
+    std::ifstream in(file, std::ios::binary);
+    in.read(bytes.data(), bytes.size());
+    return {bytes.data(), static_cast<std::size_t>(in.gcount())};
+}
+
+std::string lowerExtension(const fs::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
+}
+
+// A binary container says so; a text is JSON under glTF's name (there are other formats in JSON).
+bool isGltf(const fs::path& file, std::string_view start) {
+    if (start.starts_with("glTF")) return true;
+    const std::size_t first = start.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    const std::string extension = lowerExtension(file);
+    return first != std::string_view::npos && start[first] == '{' && (extension == ".gltf" || extension == ".vrm");
+}
+
+}  // namespace
+
+Result<SourceScene> readSource(const fs::path& file, const ImportOptions& options) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(file, ignored);
+    if (!fs::exists(status)) return unreadable(file, "there is no such file");
+    if (fs::is_directory(status)) return unreadable(file, "is a folder, not a model");
+    if (!fs::is_regular_file(status)) return unreadable(file, "is a device or a pipe, not a model");
+    if (fs::file_size(file, ignored) == 0) return unreadable(file, "is empty");
+    const std::string start = firstBytes(file);
+    // Third parties throw; what is left is memory running out over a monstrous file.
+    try {
+        if (isGltf(file, start)) return readGltf(file, options);
+        return readWithAssimp(file, options);
+    } catch (const std::exception& e) {
+        return unreadable(file, std::string("can't be imported: ") + e.what());
+    }
+}
+
+}  // namespace lutka::animation::rig_import
