@@ -184,9 +184,8 @@ void print(const Run& run, const Run& first, const std::string& scene, int seed,
 }
 
 void runScene(const scene::RagdollAsset& figure, const std::string& scene, int seed, const Arguments& arguments) {
-    auto scenario =
-        scene::makeScenario(scene, arguments.count, static_cast<std::uint64_t>(seed),
-                            scene::figureBounds(figure.profile, figure.rig), figure.profile.standardFromModel);
+    auto scenario = scene::makeScenario(
+        {.name = scene, .count = arguments.count, .seed = static_cast<std::uint64_t>(seed)}, figure);
     if (!scenario) {
         fmt::print(stderr, "{}\n", scenario.error().text());
         return;

@@ -116,8 +116,7 @@ struct Drawn {
     std::size_t next = 0;
 
     explicit Drawn(const scene::RagdollAsset& asset) {
-        auto scenario = scene::makeScenario("spread", kInstances, 0, scene::figureBounds(asset.profile, asset.rig),
-                                            asset.profile.standardFromModel);
+        auto scenario = scene::makeScenario({.name = "spread", .count = kInstances}, asset);
         scene::SimulationOptions options;
         options.world.solver = physics::SolverKind::crowd;
         options.measure = false;

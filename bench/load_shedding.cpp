@@ -85,9 +85,7 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "{}\n", asset.error().text());
         return 3;
     }
-    const auto scenario =
-        scene::makeScenario("spread", count, 1, scene::figureBounds(asset.value()->profile, asset.value()->rig),
-                            asset.value()->profile.standardFromModel);
+    const auto scenario = scene::makeScenario({.name = "spread", .count = count, .seed = 1}, *asset.value());
     if (!scenario) {
         fmt::print(stderr, "{}\n", scenario.error().text());
         return 2;

@@ -50,8 +50,7 @@ std::vector<physics::BodyState> placedBodies(const scene::RagdollAsset& asset, c
 Trial::Trial(const scene::RagdollAsset& asset, const TrialSettings& settings)
     : settings_(settings),
       scenario_(
-          orExit(scene::makeScenario(settings.scene, settings.count, settings.seed,
-                                     scene::figureBounds(asset.profile, asset.rig), asset.profile.standardFromModel))),
+          orExit(scene::makeScenario({.name = settings.scene, .count = settings.count, .seed = settings.seed}, asset))),
       world_(physics::createBulletWorld(settings.world, settings.tuning)) {
     for (const physics::StaticShape& shape : scenario_.statics)
         world_->addStatic(shape);

@@ -93,8 +93,7 @@ Result<BenchResult> runBenchmark(const Stage& stage, const BenchCase& what) {
 }  // namespace
 
 Result<BenchResult> runBenchmark(const RagdollAsset& asset, const BenchCase& what) {
-    auto scenario = makeScenario(what.scene, what.count, 1, figureBounds(asset.profile, asset.rig),
-                                 asset.profile.standardFromModel);
+    auto scenario = makeScenario({.name = what.scene, .count = what.count, .seed = 1}, asset);
     if (!scenario) return scenario.error();
     return runBenchmark(Stage{{&asset}, std::move(scenario).value(), {}}, what);
 }

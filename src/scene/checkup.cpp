@@ -48,9 +48,8 @@ constexpr Measure kMeasures[] = {
 
 std::vector<Quality> dropThrice(const RagdollAsset& asset) {
     std::vector<Quality> drops;
-    const FigureBounds figure = figureBounds(asset.profile, asset.rig);
     for (std::uint64_t seed = 0; seed < kDrops; ++seed) {
-        auto scenario = makeScenario("drop", 1, seed, figure, asset.profile.standardFromModel);
+        auto scenario = makeScenario({.name = "drop", .seed = seed}, asset);
         if (!scenario) return drops;
         auto simulation = Simulation::create(asset, std::move(scenario).value(), {});
         if (!simulation) return drops;

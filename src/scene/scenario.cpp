@@ -350,13 +350,15 @@ Result<EntityScene> makeScene(std::string_view name, int count, std::uint64_t se
     return scene;
 }
 
-Result<Scenario> makeScenario(std::string_view name, int count, std::uint64_t seed, const FigureBounds& figure,
-                              const quat& standardFromModel) {
-    const auto scene = makeScene(name, count, seed, figure);
-    if (!scene) return scene.error();
-    const Figure one{figure, standardFromModel};
-    const std::vector<int> assetOfRagdoll(scene.value().all<Ragdoll>().size(), 0);
-    return compileScene(scene.value(), std::span(&one, 1), assetOfRagdoll);
+Result<Scenario> makeScenario(const NamedScene& scene, const Figure& figure) {
+    const auto made = makeScene(scene.name, scene.count, scene.seed, figure.bounds);
+    if (!made) return made.error();
+    const std::vector<int> assetOfRagdoll(made.value().all<Ragdoll>().size(), 0);
+    return compileScene(made.value(), std::span(&figure, 1), assetOfRagdoll);
+}
+
+Result<Scenario> makeScenario(const NamedScene& scene, const RagdollAsset& asset) {
+    return makeScenario(scene, figureOf(asset));
 }
 
 }  // namespace lutka::scene

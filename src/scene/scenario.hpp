@@ -101,8 +101,16 @@ struct Figure {
 [[nodiscard]] Result<Scenario> compileScene(const EntityScene& scene, std::span<const Figure> figures,
                                             std::span<const int> assetOfRagdoll);
 
-/// makeScene() and compileScene() in one, for one figure.
-[[nodiscard]] Result<Scenario> makeScenario(std::string_view name, int count, std::uint64_t seed,
-                                            const FigureBounds& figure, const quat& standardFromModel);
+/// Which of the named scenes (scenarioRegistry()), for makeScenario().
+struct NamedScene {
+    std::string_view name = "drop";
+    int count = 1;           ///< Dolls, [1, 10000].
+    std::uint64_t seed = 0;  ///< 0 stands exactly upright; other seeds turn, tilt and nudge the figures.
+};
+
+/// makeScene() and compileScene() in one, for dolls of one figure. Fails as they do.
+[[nodiscard]] Result<Scenario> makeScenario(const NamedScene& scene, const Figure& figure);
+/// For dolls of one asset: its figure is figureOf(asset).
+[[nodiscard]] Result<Scenario> makeScenario(const NamedScene& scene, const RagdollAsset& asset);
 
 }  // namespace lutka::scene

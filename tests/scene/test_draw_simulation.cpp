@@ -26,8 +26,7 @@ TEST_CASE("debug layers are read from a list and unknown ones are refused with t
 
 TEST_CASE("a frame holds every doll, the geometry and only the layers that were asked for") {
     const auto asset = test::bipedRagdoll();
-    auto scenario =
-        makeScenario("stairs", 2, 0, figureBounds(asset->profile, asset->rig), asset->profile.standardFromModel);
+    auto scenario = makeScenario({.name = "stairs", .count = 2}, *asset);
     REQUIRE(scenario);
     const auto simulation = Simulation::create(*asset, std::move(scenario).value(), {});
     REQUIRE(simulation);
@@ -98,8 +97,7 @@ bool draws(const render::FrameDescription& frame, render::Color color) {
 
 TEST_CASE("every layer draws something by itself, in the colours of its legend") {
     const auto asset = test::bipedRagdoll();
-    auto scenario =
-        makeScenario("drop", 1, 0, figureBounds(asset->profile, asset->rig), asset->profile.standardFromModel);
+    auto scenario = makeScenario({.name = "drop"}, *asset);
     REQUIRE(scenario);
     SimulationOptions options;
     options.world.solver = physics::SolverKind::bullet;  // one layer is its own
@@ -145,8 +143,7 @@ TEST_CASE("Bullet's own drawer shows the dolls of its worlds, and the crowd solv
     const auto asset = test::bipedRagdoll();
     for (const auto solver : {physics::SolverKind::stock, physics::SolverKind::bullet, physics::SolverKind::crowd}) {
         INFO(physics::solverName(solver));
-        auto scenario =
-            makeScenario("drop", 1, 0, figureBounds(asset->profile, asset->rig), asset->profile.standardFromModel);
+        auto scenario = makeScenario({.name = "drop"}, *asset);
         REQUIRE(scenario);
         SimulationOptions options;
         options.world.solver = solver;

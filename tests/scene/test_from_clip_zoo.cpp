@@ -23,8 +23,7 @@ std::unique_ptr<RagdollAsset> load(const char* file) {
 }
 
 std::unique_ptr<Simulation> startFrom(const RagdollAsset& asset, const animation::Clip& clip, float seconds, float dt) {
-    auto scenario = scene::makeScenario("drop", 1, 0, scene::figureBounds(asset.profile, asset.rig),
-                                        asset.profile.standardFromModel);
+    auto scenario = scene::makeScenario({.name = "drop"}, asset);
     REQUIRE(scenario.ok());
     scene::SimulationOptions options;
     options.world.gravity = vec3(0);

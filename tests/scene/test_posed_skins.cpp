@@ -32,8 +32,7 @@ struct Crowd {
     std::unique_ptr<Simulation> simulation;
 
     explicit Crowd(int count, int threads = 1, physics::SolverKind solver = physics::SolverKind::crowd) {
-        auto scenario = makeScenario("spread", count, 3, figureBounds(plain->profile, plain->rig),
-                                     plain->profile.standardFromModel);
+        auto scenario = makeScenario({.name = "spread", .count = count, .seed = 3}, *plain);
         REQUIRE(scenario);
         for (std::size_t doll = 0; doll < scenario.value().dolls.size(); doll += 3)
             scenario.value().dolls[doll].asset = 1;

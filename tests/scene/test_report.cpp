@@ -22,8 +22,7 @@ TEST_CASE("step times are summarised by mean, median and 99th percentile") {
 
 TEST_CASE("the report is one JSON document with every key of the contract") {
     const auto asset = test::bipedRagdoll();
-    auto scenario =
-        makeScenario("drop", 2, 1, figureBounds(asset->profile, asset->rig), asset->profile.standardFromModel);
+    auto scenario = makeScenario({.name = "drop", .count = 2, .seed = 1}, *asset);
     REQUIRE(scenario);
     const auto simulation = Simulation::create(*asset, std::move(scenario).value(), {});
     REQUIRE(simulation);

@@ -12,8 +12,7 @@ using namespace lutka::scene;
 namespace {
 
 Scenario make(const RagdollAsset& asset, std::string_view name, int count = 1, std::uint64_t seed = 0) {
-    auto scenario =
-        makeScenario(name, count, seed, figureBounds(asset.profile, asset.rig), asset.profile.standardFromModel);
+    auto scenario = makeScenario({.name = name, .count = count, .seed = seed}, asset);
     REQUIRE(scenario);
     return std::move(scenario).value();
 }
@@ -61,7 +60,7 @@ TEST_CASE("a figure that stands with its legs wide apart starts above the ground
     CHECK(bounds.stance < 0.5F);
     bounds.stance = 0.75F;
     const auto clearance = [&](const FigureBounds& figure, std::string_view scene, std::uint64_t seed) {
-        const auto scenario = makeScenario(scene, 1, seed, figure, quat(1, 0, 0, 0));
+        const auto scenario = makeScenario({.name = scene, .seed = seed}, Figure{figure});
         REQUIRE(scenario);
         // Where a sole as far out as that comes, whichever way it points.
         const RigidTransform& world = scenario.value().dolls[0].worldFromModel;
@@ -96,8 +95,8 @@ TEST_CASE("the same seed gives the same start and another seed another one") {
 TEST_CASE("a figure that faces elsewhere in its file stands the same way in a scene") {
     const FigureBounds figure{{-0.8F, 0, -0.1F}, {0.8F, 1.75F, 0.1F}};
     const quat turned = glm::angleAxis(1.0F, vec3(0, 1, 0));
-    const auto straight = makeScenario("drop", 1, 0, figure, quat(1, 0, 0, 0));
-    const auto other = makeScenario("drop", 1, 0, figure, turned);
+    const auto straight = makeScenario({.name = "drop"}, Figure{figure});
+    const auto other = makeScenario({.name = "drop"}, Figure{figure, turned});
     REQUIRE(straight);
     REQUIRE(other);
     const vec3 point(0.2F, 1.0F, 0.1F);  // in the standard stance
@@ -108,10 +107,10 @@ TEST_CASE("a figure that faces elsewhere in its file stands the same way in a sc
 
 TEST_CASE("an unknown scene and an absurd count are usage errors that list what there is") {
     const FigureBounds figure{vec3(-1), vec3(1)};
-    const auto unknown = makeScenario("dropp", 1, 0, figure, quat(1, 0, 0, 0));
+    const auto unknown = makeScenario({.name = "dropp"}, Figure{figure});
     REQUIRE_FALSE(unknown);
     CHECK(unknown.error().code == ErrorCode::usage);
     CHECK(unknown.error().mend.find("drop, spread") != std::string::npos);
-    CHECK_FALSE(makeScenario("drop", 0, 0, figure, quat(1, 0, 0, 0)));
-    CHECK_FALSE(makeScenario("drop", 10001, 0, figure, quat(1, 0, 0, 0)));
+    CHECK_FALSE(makeScenario({.name = "drop", .count = 0}, Figure{figure}));
+    CHECK_FALSE(makeScenario({.name = "drop", .count = 10001}, Figure{figure}));
 }

@@ -8,8 +8,7 @@ using namespace lutka;
 namespace {
 
 bool comesToRest(const scene::RagdollAsset& asset, std::string_view scene, std::uint64_t seed) {
-    auto scenario = scene::makeScenario(scene, 1, seed, scene::figureBounds(asset.profile, asset.rig),
-                                        asset.profile.standardFromModel);
+    auto scenario = scene::makeScenario({.name = scene, .seed = seed}, asset);
     REQUIRE(scenario.ok());
     auto simulation = scene::Simulation::create(asset, std::move(scenario).value(), {});
     REQUIRE(simulation.ok());

@@ -14,8 +14,7 @@ namespace {
 
 std::unique_ptr<Simulation> start(const RagdollAsset& asset, std::string_view name,
                                   const SimulationOptions& options = {}, int count = 1, std::uint64_t seed = 0) {
-    auto scenario =
-        makeScenario(name, count, seed, figureBounds(asset.profile, asset.rig), asset.profile.standardFromModel);
+    auto scenario = makeScenario({.name = name, .count = count, .seed = seed}, asset);
     REQUIRE(scenario);
     auto simulation = Simulation::create(asset, std::move(scenario).value(), options);
     REQUIRE(simulation);
@@ -126,7 +125,7 @@ TEST_CASE("a clip that is not there is a usage error that lists those that are")
     REQUIRE(asset);
     SimulationOptions options;
     options.fromClip = ClipStart{"run", 0.0F};
-    auto scenario = makeScenario("drop", 1, 0, {vec3(-1), vec3(1)}, quat(1, 0, 0, 0));
+    auto scenario = makeScenario({.name = "drop"}, Figure{{vec3(-1), vec3(1)}});
     REQUIRE(scenario);
     const auto simulation = Simulation::create(*asset.value(), std::move(scenario).value(), options);
     REQUIRE_FALSE(simulation);

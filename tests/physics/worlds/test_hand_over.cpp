@@ -38,7 +38,8 @@ scene::Scenario sceneOf(const std::string& name, const RagdollProfile& profile, 
     const auto rig = physics::bindRig(profile, skeleton);
     REQUIRE(rig.ok());
     auto made =
-        scene::makeScenario(name, 1, seed, scene::figureBounds(profile, rig.value()), profile.standardFromModel);
+        scene::makeScenario({.name = name, .seed = seed},
+                            scene::Figure{scene::figureBounds(profile, rig.value()), profile.standardFromModel});
     REQUIRE(made.ok());
     return std::move(made).value();
 }
