@@ -59,7 +59,8 @@ TEST_CASE("a doll faster than sense allows is put back to where it was and to sl
 TEST_CASE("a doll that no solver can hold leaves its neighbours the bits that they have without it") {
     const physics::RagdollProfile profile = makeDoll();
     const physics::RagdollProfile bad = poisoned();
-    for (const SolverKind solver : kAllSolvers) {
+    // Not stock Bullet: the order in which it solves depends on what else is in the world.
+    for (const SolverKind solver : kOurSolvers) {
         INFO(physics::solverName(solver));
         std::unique_ptr<physics::World> worlds[2];
         for (int with = 0; with < 2; ++with) {
