@@ -127,8 +127,9 @@ void fill(physics::World& world, const scene::RagdollAsset& figure, const scene:
     std::vector<physics::BodyState> bodies(figure.profile.bodies.size());
     for (const scene::Pin& pin : scenario.pins) {
         const int body = physics::bodyOf(figure.profile, pin.role);
-        world.getBodies(pin.doll, bodies);
-        world.setDrag(pin.doll, {pin.doll, body, vec3(0), bodies[body].worldFromBody.translation, 5000.0F});
+        const physics::DollId doll = world.dolls()[pin.doll];
+        world.getBodies(doll, bodies);
+        world.addDrag({doll, body, vec3(0), bodies[body].worldFromBody.translation, 5000.0F});
     }
 }
 
@@ -168,7 +169,7 @@ void print(const Run& run, const Run& first, const std::string& scene, int seed,
         ratios.push_back(first.ms[i] / run.ms[i]);
     std::sort(ratios.begin(), ratios.end());
     int asleep = 0;
-    for (int doll = 0; doll < run.world->dollCount(); ++doll)
+    for (const physics::DollId doll : run.world->dolls())
         asleep += run.world->isAsleep(doll) ? 1 : 0;
     fmt::print(
         "{},{},{},{},{:.4f},{:.2f},{:.2f},{:.2f},{:.2f},{:.3f},{:.2f},{:.2f},{:.1f},{:.1f},{:.2f},{:.2f},{:.2f},{},{},{"

@@ -11,9 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "physics/bullet/bullet_world.hpp"
-#include "physics/crowd/crowd_world.hpp"
 #include "scene/load_shedding.hpp"
+#include "scene/make_world.hpp"
 #include "scene/ragdoll_asset.hpp"
 #include "scene/scenario.hpp"
 
@@ -43,8 +42,7 @@ Variant makeVariant(const std::string& name, const scene::ShedSettings& settings
     options.solver = solver;
     options.sleeping = false;
     Variant variant{name, nullptr, nullptr, {}};
-    variant.world =
-        solver == physics::SolverKind::crowd ? physics::createCrowdWorld(options) : physics::createBulletWorld(options);
+    variant.world = scene::makeWorld(options);
     for (const physics::StaticShape& shape : scenario.statics)
         variant.world->addStatic(shape);
     std::vector<physics::BodyState> bodies(asset.profile.bodies.size());

@@ -64,8 +64,8 @@ class Restlessness {
     void sample(const Trial& trial) {
         constexpr int kSecond = 60;
         if (trial.steps() <= 5 * kSecond || trial.steps() > 6 * kSecond) return;
-        std::vector<physics::BodyState> bodies(trial.world().profileOf(0).bodies.size());
-        trial.world().getBodies(0, bodies);
+        std::vector<physics::BodyState> bodies(trial.world().profileOf(trial.world().dolls()[0]).bodies.size());
+        trial.world().getBodies(trial.world().dolls()[0], bodies);
         if (watched_.empty()) {
             for (const physics::BodyState& body : bodies)
                 watched_.push_back({body.worldFromBody.translation});
@@ -83,7 +83,7 @@ class Restlessness {
         for (std::size_t i = 0; i < watched_.size(); ++i) {
             const Watched& watched = watched_[i];
             fmt::print(stderr, "{} seed {} {}: {:.1f} mm/s and {:.2f} rad/s at most, way {:.1f} mm, moved {:.1f} mm\n",
-                       settings.scene, settings.seed, trial.world().profileOf(0).bodies[i].joint,
+                       settings.scene, settings.seed, trial.world().profileOf(trial.world().dolls()[0]).bodies[i].joint,
                        1e3F * watched.fastest, watched.fastestTurn, 1e3F * watched.path, 1e3F * watched.moved);
         }
     }

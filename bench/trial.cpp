@@ -62,7 +62,7 @@ Trial::Trial(const scene::RagdollAsset& asset, const TrialSettings& settings)
         const int body = physics::bodyOf(asset.profile, pin.role);
         if (body < 0) continue;
         const RigidTransform worldFromBody = placedBodies(asset, scenario_.dolls[pin.doll])[body].worldFromBody;
-        world_->setDrag(pin.doll, {pin.doll, body, vec3(0), worldFromBody.translation, 5000.0F});
+        world_->addDrag({world_->dolls()[pin.doll], body, vec3(0), worldFromBody.translation, 5000.0F});
     }
     if (settings.measure)
         meter_ = std::make_unique<physics::QualityMeter>(*world_, scenario_.statics, settings.world.gravity);
@@ -93,7 +93,7 @@ void Trial::watchTurning() {
     if (turnBeforeSleep_) return;
     float fastest = 0;
     bool asleep = true;
-    for (int doll = 0; doll < world_->dollCount(); ++doll) {
+    for (const physics::DollId doll : world_->dolls()) {
         std::vector<physics::BodyState> bodies(world_->profileOf(doll).bodies.size());
         world_->getBodies(doll, bodies);
         for (const physics::BodyState& body : bodies)

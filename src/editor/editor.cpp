@@ -255,7 +255,7 @@ bool Editor::performOnSimulation(Action action) {
             player.setPlaying(!player.playing());
             return true;
         case Action::stepOnce:
-            workspace_.pulls.applyTo(player.simulation().world());
+            workspace_.pulls.applyTo(player.simulation());
             player.stepOnce();
             return true;
         case Action::reset:
@@ -266,7 +266,7 @@ bool Editor::performOnSimulation(Action action) {
         case Action::returnToPlay:
             endTransform();
             player.returnToPlay();
-            workspace_.pulls.applyTo(player.simulation().world());
+            workspace_.pulls.applyTo(player.simulation());
             return true;
         case Action::throwBall:
             throwBall();
@@ -281,7 +281,7 @@ void Editor::update(double seconds) {
     workspace_.frameSeconds = static_cast<float>(seconds);
     machine_->update();
     workspace_.follow();
-    workspace_.pulls.applyTo(workspace_.player->simulation().world());
+    workspace_.pulls.applyTo(workspace_.player->simulation());
     if (swing_) {
         swing_->advance(static_cast<float>(seconds));
         player().preview(swingDoll_, swing_->worldFromBody());
@@ -393,7 +393,7 @@ void Editor::throwBall() {
     const vec3 from = ray.origin + ray.direction * std::min(0.5F, workspace_.camera.distance * 0.2F);
     // Lifted a little, so that it meets what the mouse points at in spite of gravity.
     if (workspace_.report(player().throwBall(from, ray.direction * kThrowSpeed + vec3(0, 0.8F, 0)))) return;
-    workspace_.pulls.applyTo(player().simulation().world());
+    workspace_.pulls.applyTo(player().simulation());
 }
 
 void Editor::focus() {

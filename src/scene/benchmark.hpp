@@ -23,8 +23,8 @@ struct BenchCase {
 
 struct BenchResult {
     BenchCase what;
-    StepTimes ours;            ///< Milliseconds a step, without measuring.
-    StepTimes stock;           ///< Likewise.
+    StepSummary ours;          ///< Milliseconds a step, without measuring.
+    StepSummary stock;         ///< Likewise.
     float speedup = 0;         ///< Stock's time over ours: the median over interleaved blocks of steps.
     physics::Quality quality;  ///< Of a run of its own, so that measuring costs no time above.
     physics::Quality stockQuality;

@@ -24,7 +24,7 @@ std::string machineName() {
     return fmt::format("unknown processor, {} threads", std::thread::hardware_concurrency());
 }
 
-Json timesJson(const StepTimes& times) {
+Json timesJson(const StepSummary& times) {
     return {{"mean", times.mean}, {"p50", times.p50}, {"p99", times.p99}};
 }
 

@@ -6,12 +6,10 @@
 #include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numeric>
 #include <string>
 
 #include "core/assert.hpp"
-#include "physics/bullet/bullet_world.hpp"
-#include "physics/crowd/crowd_world.hpp"
+#include "scene/make_world.hpp"
 
 namespace lutka::scene {
 namespace {
@@ -21,11 +19,6 @@ using physics::BodyState;
 // Dolls that pass through each other: a layer that does not collide with itself.
 constexpr std::uint32_t kApartLayer = 1U << 31U;
 constexpr physics::CollisionFilter kApart{kApartLayer, physics::CollisionFilter::kAll & ~kApartLayer};
-
-std::unique_ptr<physics::World> makeWorld(const physics::WorldSettings& settings) {
-    return settings.solver == physics::SolverKind::crowd ? physics::createCrowdWorld(settings)
-                                                         : physics::createBulletWorld(settings);
-}
 
 Error notAMeasure(std::string_view word) {
     return {ErrorCode::usage, fmt::format("'{}' is nothing that can be spared", word), "--shed",
@@ -77,9 +70,8 @@ Result<ShedSettings> parseShedSettings(std::string_view list) {
 LoadShedder::LoadShedder(std::span<const Kind> kinds, physics::World& world,
                          std::span<const physics::StaticShape> statics, const physics::WorldSettings& worldSettings,
                          const ShedSettings& settings)
-    : near_(world), settings_(settings), dolls_(kinds.size()), inNear_(kinds.size()) {
-    LUTKA_ASSERT(world.dollCount() == static_cast<int>(kinds.size()) && settings.slowEvery >= 2);
-    std::iota(inNear_.begin(), inNear_.end(), 0);
+    : near_(world), settings_(settings), dolls_(kinds.size()) {
+    LUTKA_ASSERT(world.dolls().size() == kinds.size() && settings.slowEvery >= 2);
     for (int index = 0; index < static_cast<int>(kinds.size()); ++index) {
         const Kind& kind = kinds[index];
         auto lod = lods_.find(kind.profile);
@@ -87,7 +79,7 @@ LoadShedder::LoadShedder(std::span<const Kind> kinds, physics::World& world,
             lod = lods_.emplace(kind.profile, makeLodProfile(*kind.profile, *kind.rig, settings.lodLevel)).first;
         dolls_[index].profile = kind.profile;
         dolls_[index].lod = &lod->second;
-        dolls_[index].index = index;
+        dolls_[index].id = world.dolls()[index];
     }
     if (settings.slowFrom == ShedSettings::kOff) return;
     slow_ = makeWorld(worldSettings);
@@ -99,8 +91,9 @@ physics::World& LoadShedder::worldOf(const Doll& doll) const {
     return doll.measures.slow ? *slow_ : near_;
 }
 
-std::vector<int>& LoadShedder::order(const Doll& doll) {
-    return doll.measures.slow ? inSlow_ : inNear_;
+physics::DollId LoadShedder::idIn(const physics::World& world, int index) const {
+    const Doll& doll = dolls_[index];
+    return !doll.measures.frozen && &worldOf(doll) == &world ? doll.id : physics::DollId{};
 }
 
 LoadShedder::Measures LoadShedder::wanted(const Doll& doll, float distance) const {
@@ -120,7 +113,7 @@ bool LoadShedder::mayChange(const Doll& doll) const {
     if (phase_ != 0 && (doll.measures.slow || settings_.slowFrom < ShedSettings::kOff)) return false;
     if (doll.measures.frozen) return true;
     const physics::World& world = worldOf(doll);
-    return !world.isAsleep(doll.index) && world.dragsOf(doll.index).empty();
+    return !world.isAsleep(doll.id) && !world.isDragged(doll.id);
 }
 
 void LoadShedder::getStates(int index, std::span<BodyState> bodies) const {
@@ -130,11 +123,11 @@ void LoadShedder::getStates(int index, std::span<BodyState> bodies) const {
         return;
     }
     if (!doll.measures.lod) {
-        worldOf(doll).getBodies(doll.index, bodies);
+        worldOf(doll).getBodies(doll.id, bodies);
         return;
     }
     merged_.resize(doll.lod->profile.bodies.size());
-    worldOf(doll).getBodies(doll.index, merged_);
+    worldOf(doll).getBodies(doll.id, merged_);
     lodToFull(*doll.lod, *doll.profile, merged_, doll.lodFromMember, bodies);
 }
 
@@ -156,12 +149,9 @@ void LoadShedder::getBodies(int index, std::span<RigidTransform> worldFromBody) 
 void LoadShedder::takeOut(int index) {
     Doll& doll = dolls_[index];
     if (doll.measures.frozen) return;
-    std::vector<int>& others = order(doll);
-    worldOf(doll).removeDoll(doll.index);
-    others.erase(others.begin() + doll.index);
-    for (int i = doll.index; i < static_cast<int>(others.size()); ++i)
-        dolls_[others[i]].index = i;
-    doll.index = -1;
+    worldOf(doll).removeDoll(doll.id);
+    if (doll.measures.slow) std::erase(slowOnes_, index);
+    doll.id = {};
 }
 
 void LoadShedder::putIn(int index, std::span<const BodyState> bodies) {
@@ -176,12 +166,12 @@ void LoadShedder::putIn(int index, std::span<const BodyState> bodies) {
         doll.lodFromMember.resize(bodies.size());
         merged_.resize(doll.lod->profile.bodies.size());
         fullToLod(*doll.lod, *doll.profile, bodies, merged_, doll.lodFromMember);
-        doll.index = worldOf(doll).addDoll(doll.lod->profile, merged_);
+        doll.id = worldOf(doll).addDoll(doll.lod->profile, merged_);
     } else {
-        doll.index = worldOf(doll).addDoll(*doll.profile, bodies);
+        doll.id = worldOf(doll).addDoll(*doll.profile, bodies);
     }
-    order(doll).push_back(index);
-    if (doll.measures.apart) worldOf(doll).setDollFilter(doll.index, kApart);
+    if (doll.measures.slow) slowOnes_.push_back(index);
+    if (doll.measures.apart) worldOf(doll).setDollFilter(doll.id, kApart);
 }
 
 void LoadShedder::change(int index, const Measures& to) {
@@ -191,7 +181,7 @@ void LoadShedder::change(int index, const Measures& to) {
     onlyApart.apart = to.apart;
     if (onlyApart == to && !to.frozen) {
         doll.measures = to;
-        worldOf(doll).setDollFilter(doll.index, to.apart ? kApart : physics::CollisionFilter{});
+        worldOf(doll).setDollFilter(doll.id, to.apart ? kApart : physics::CollisionFilter{});
         return;
     }
     if (doll.measures.frozen && to.frozen) {  // nothing to be seen; taken up when it thaws
@@ -213,15 +203,15 @@ void LoadShedder::stepSlow(float dt) {
         for (std::size_t i = 0; i < full_.size(); ++i)
             to[i] = full_[i].worldFromBody;
     };
-    for (const int doll : inSlow_)
+    for (const int doll : slowOnes_)
         show(doll, dolls_[doll].before);
     slow_->step(dt * static_cast<float>(settings_.slowEvery));
-    for (const int doll : inSlow_)
+    for (const int doll : slowOnes_)
         show(doll, dolls_[doll].after);
 }
 
 void LoadShedder::step(float dt, const vec3& eye) {
-    std::vector<RigidTransform> bodies;
+    std::vector<RigidTransform>& bodies = shown_;
     for (int index = 0; index < static_cast<int>(dolls_.size()); ++index) {
         if (!mayChange(dolls_[index])) continue;
         bodies.resize(dolls_[index].profile->bodies.size());
@@ -238,7 +228,7 @@ void LoadShedder::step(float dt, const vec3& eye) {
 bool LoadShedder::still(int index) const {
     const Doll& doll = dolls_[index];
     if (doll.measures.frozen) return true;
-    return !doll.measures.slow && worldOf(doll).isAsleep(doll.index);
+    return !doll.measures.slow && worldOf(doll).isAsleep(doll.id);
 }
 
 LoadShedder::Counts LoadShedder::counts() const {

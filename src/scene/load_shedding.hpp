@@ -57,7 +57,8 @@ class LoadShedder {
     };
 
     /// `world`, made with `worldSettings`, holds `statics` and its dolls, one a kind of `kinds` in order, each of that
-    /// profile; they belong to the shedder from now on, and their indices there change. World, profiles and rigs must
+    /// profile; they belong to the shedder from now on, and their
+    /// ids there change. World, profiles and rigs must
     /// outlive it.
     LoadShedder(std::span<const Kind> kinds, physics::World& world, std::span<const physics::StaticShape> statics,
                 const physics::WorldSettings& worldSettings, const ShedSettings& settings);
@@ -72,6 +73,8 @@ class LoadShedder {
     [[nodiscard]] const Measures& measuresOf(int doll) const { return dolls_[doll].measures; }
     /// Whether nothing of it can change until it wakes or the eye moves.
     [[nodiscard]] bool still(int doll) const;
+    /// What `world` calls a doll now; unset while it is not there.
+    [[nodiscard]] physics::DollId idIn(const physics::World& world, int doll) const;
     /// How many dolls each measure is taken on.
     struct Counts {
         int lod = 0, apart = 0, slow = 0, frozen = 0;
@@ -85,7 +88,7 @@ class LoadShedder {
         const physics::RagdollProfile* profile = nullptr;
         const physics::LodProfile* lod = nullptr;
         Measures measures;
-        int index = 0;                            // in its world; -1 while frozen
+        physics::DollId id;                       // in its world; unset while frozen
         std::vector<quat> lodFromMember;          // while merged
         std::vector<physics::BodyState> stopped;  // while frozen, of the full profile
         std::vector<RigidTransform> before;       // slow: what was shown before the last step …
@@ -93,7 +96,6 @@ class LoadShedder {
     };
     [[nodiscard]] Measures wanted(const Doll& doll, float distance) const;
     [[nodiscard]] physics::World& worldOf(const Doll& doll) const;
-    [[nodiscard]] std::vector<int>& order(const Doll& doll);
     [[nodiscard]] bool mayChange(const Doll& doll) const;
     void change(int doll, const Measures& to);
     void takeOut(int doll);
@@ -105,10 +107,10 @@ class LoadShedder {
     ShedSettings settings_;
     std::map<const physics::RagdollProfile*, physics::LodProfile> lods_;
     std::vector<Doll> dolls_;
-    std::vector<int> inNear_;  // dolls by their index in near_
-    std::vector<int> inSlow_;
-    int phase_ = 0;  // steps since the slow ones' last
+    std::vector<int> slowOnes_;  // dolls in slow_
+    int phase_ = 0;              // steps since the slow ones' last
     int switches_ = 0;
+    std::vector<RigidTransform> shown_;  // the doll at hand
     mutable std::vector<physics::BodyState> full_;
     mutable std::vector<physics::BodyState> merged_;
 };

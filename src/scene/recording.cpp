@@ -77,7 +77,7 @@ Recording beginRecording(const Simulation& simulation) {
         mixed = mixed || bodiesOf(doll) != recording.bodiesPerDoll;
     }
     if (!mixed) recording.bodiesOfDoll.clear();
-    recording.props = simulation.world().propCount();
+    recording.props = static_cast<int>(simulation.world().props().size());
     return recording;
 }
 

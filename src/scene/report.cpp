@@ -11,7 +11,7 @@
 #include "scene/quality_json.hpp"
 
 namespace lutka::scene {
-StepTimes summarise(std::span<const float> stepMs) {
+StepSummary summarise(std::span<const float> stepMs) {
     if (stepMs.empty()) return {};
     std::vector<float> sorted(stepMs.begin(), stepMs.end());
     std::sort(sorted.begin(), sorted.end());
@@ -47,6 +47,18 @@ nlohmann::ordered_json charactersJson(const Simulation& simulation) {
     return list;
 }
 
+// The dolls that were stopped because their motion made no sense, by the scenario's numbers.
+nlohmann::ordered_json caughtJson(const Simulation& simulation) {
+    auto list = nlohmann::ordered_json::array();
+    for (const physics::CaughtDoll& caught : simulation.world().caught()) {
+        list.push_back({{"doll", simulation.dollOf(caught.doll)},
+                        {"why", physics::textOf(caught.why)},
+                        {"seconds", caught.seconds},
+                        {"times", caught.times}});
+    }
+    return list;
+}
+
 std::string castText(const Simulation& simulation) {
     if (simulation.assets().size() == 1) {
         return fmt::format("{} × {} bodies", simulation.dollCount(), simulation.asset().profile.bodies.size());
@@ -59,7 +71,7 @@ std::string castText(const Simulation& simulation) {
 
 std::string reportJson(const Simulation& simulation) {
     const SimulationOptions& options = simulation.options();
-    const StepTimes times = summarise(simulation.stepMs());
+    const StepSummary times = summarise(simulation.stepMs());
     const physics::RagdollProfile& profile = simulation.asset().profile;
     nlohmann::ordered_json json;
     json["model"] = simulation.asset().character.file.string();
@@ -94,6 +106,7 @@ std::string reportJson(const Simulation& simulation) {
                         {"frozen", counts.frozen},
                         {"switches", shedder->switches()}};
     }
+    json["caught"] = caughtJson(simulation);
     json["bodies"] = simulation.bodyCount();
     json["constraints"] = constraintCount(simulation);
     if (simulation.assets().size() > 1) json["characters"] = charactersJson(simulation);
@@ -102,7 +115,7 @@ std::string reportJson(const Simulation& simulation) {
 
 std::string reportText(const Simulation& simulation) {
     const physics::Quality q = simulation.quality();
-    const StepTimes times = summarise(simulation.stepMs());
+    const StepSummary times = summarise(simulation.stepMs());
     std::string text =
         fmt::format("{}, scene {}: {}, {:.1f} s in {} steps\n", simulation.asset().character.name,
                     simulation.scenario().name, castText(simulation), simulation.seconds(), simulation.steps());
@@ -123,6 +136,9 @@ std::string reportText(const Simulation& simulation) {
     text += q.settleSeconds ? fmt::format("  at rest            {:7.2f} s after the first contact\n", *q.settleSeconds)
                             : fmt::format("  not at rest        {:7.3f} m/s at the end\n", q.residualSpeedMps);
     text += fmt::format("  time a step        {:7.2f} ms in the median, {:.2f} ms p99\n", times.p50, times.p99);
+    for (const physics::CaughtDoll& caught : simulation.world().caught())
+        text += fmt::format("  CAUGHT             doll {} at {:.2f} s: {}; put back and to sleep\n",
+                            simulation.dollOf(caught.doll), caught.seconds, physics::textOf(caught.why));
     if (q.nonFinite > 0) text += fmt::format("  NOT FINITE         {:7} body states\n", q.nonFinite);
     return text;
 }

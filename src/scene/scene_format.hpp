@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "scene/entity_scene.hpp"
+
 namespace lutka::scene::scene_format {
 
 inline constexpr const char* kName = "lutka.scene";
@@ -9,10 +11,27 @@ inline constexpr const char* kSchema = "scene.schema.json";
 inline constexpr const char* kExtension = ".scene.json";
 inline constexpr int kMostEntities = 20000;
 
-// In the order of the enums.
-inline constexpr std::array kColliderKinds = {"plane", "box", "sphere", "capsule", "ramp", "stairs"};
-inline constexpr std::array kLightKinds = {"sun", "point", "spot"};
-inline constexpr std::array kPoses = {"bind", "node"};
-inline constexpr std::array kSolvers = {"stock", "bullet", "crowd"};
+/// A word of the format and what it stands for.
+template <class Enum>
+struct Named {
+    const char* name;
+    Enum value;
+};
+
+inline constexpr std::array<Named<Collider::Kind>, 6> kColliderKinds{{
+    {"plane", Collider::Kind::plane},
+    {"box", Collider::Kind::box},
+    {"sphere", Collider::Kind::sphere},
+    {"capsule", Collider::Kind::capsule},
+    {"ramp", Collider::Kind::ramp},
+    {"stairs", Collider::Kind::stairs},
+}};
+inline constexpr std::array<Named<Light::Kind>, 3> kLightKinds{{
+    {"sun", Light::Kind::sun},
+    {"point", Light::Kind::point},
+    {"spot", Light::Kind::spot},
+}};
+inline constexpr std::array<Named<StartPose>, 2> kPoses{{{"bind", StartPose::bind}, {"node", StartPose::node}}};
+// Solvers: physics::kSolvers.
 
 }  // namespace lutka::scene::scene_format

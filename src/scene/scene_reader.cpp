@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/files.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/json_text.hpp"
@@ -61,11 +63,31 @@ void takeWhole(const JsonCursor& at, const char* key, Whole& value, long long lo
     value = static_cast<Whole>(*read);
 }
 
-template <class Enum, std::size_t count>
-void takeName(const JsonCursor& at, const char* key, const std::array<const char*, count>& names, Enum& value) {
+// One of the words of a table.
+template <class Entry, std::size_t count, class Enum, class Name, class Value>
+void takeEntry(const JsonCursor& at, const char* key, const std::array<Entry, count>& table, Enum& value,
+               const Name& name, const Value& meaning) {
     if (!at.has(key)) return;
+    std::array<const char*, count> names{};
+    std::transform(table.begin(), table.end(), names.begin(), name);
     const int index = at[key].oneOf(names);
-    if (index >= 0) value = static_cast<Enum>(index);
+    if (index >= 0) value = meaning(table[index]);
+}
+
+template <class Enum, std::size_t count>
+void takeName(const JsonCursor& at, const char* key, const std::array<scene_format::Named<Enum>, count>& table,
+              Enum& value) {
+    using Entry = scene_format::Named<Enum>;
+    takeEntry(
+        at, key, table, value, [](const Entry& entry) { return entry.name; },
+        [](const Entry& entry) { return entry.value; });
+}
+
+void takeName(const JsonCursor& at, const char* key, physics::SolverKind& value) {
+    using Entry = physics::SolverEntry;
+    takeEntry(
+        at, key, physics::kSolvers, value, [](const Entry& entry) { return entry.name; },
+        [](const Entry& entry) { return entry.kind; });
 }
 
 void takeOptional(const JsonCursor& at, const char* key, std::optional<float>& value) {
@@ -246,7 +268,7 @@ Camera readCamera(const JsonCursor& at) {
 void readSimulation(const JsonCursor& at, SceneSimulation& out) {
     at.expectObject({}, {"solver", "gravity", "step", "seconds", "threads", "sleeping", "seed", "substeps",
                          "iterations", "linearDamping", "angularDamping", "focus", "focusRadius"});
-    takeName(at, "solver", scene_format::kSolvers, out.world.solver);
+    takeName(at, "solver", out.world.solver);
     take(at, "gravity", out.world.gravity);
     take(at, "step", out.dt);
     take(at, "seconds", out.seconds);

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "core/files.hpp"
 #include "core/json/json_text.hpp"
 #include "scene/scene_file.hpp"
@@ -10,9 +13,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-template <class Names, class Enum>
-const char* nameOf(const Names& names, Enum value) {
-    return names[static_cast<std::size_t>(value)];
+template <class Enum, std::size_t count>
+const char* nameOf(const std::array<scene_format::Named<Enum>, count>& table, Enum value) {
+    return std::find_if(table.begin(), table.end(), [&](const auto& entry) { return entry.value == value; })->name;
 }
 
 std::string hexOf(const render::Color& color) {
@@ -123,7 +126,7 @@ Json toJson(const Camera& c) {
 
 Json toJson(const SceneSimulation& s) {
     const physics::WorldSettings& world = s.world;
-    Json out{{"solver", nameOf(scene_format::kSolvers, world.solver)},
+    Json out{{"solver", physics::solverName(world.solver)},
              {"gravity", jsonVector(world.gravity)},
              {"step", jsonNumber(s.dt)},
              {"seconds", jsonNumber(s.seconds)},

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <functional>
 #include <glm/geometric.hpp>
 
 #include "core/assert.hpp"
 #include "core/random.hpp"
-#include "physics/bullet/bullet_world.hpp"
-#include "physics/crowd/crowd_world.hpp"
+#include "scene/make_world.hpp"
 #include "scene/start_pose.hpp"
 
 namespace lutka::scene {
@@ -53,7 +53,6 @@ vec3 tipOf(const physics::BodyProfile& body, const RigidTransform& worldFromBody
 
 // Strong enough to hold several figures' weight: a pin is a part of the scene, not a user's pull.
 constexpr float kPinForceN = 5000.0F;
-constexpr int kFirstPinId = 1000;
 
 }  // namespace
 
@@ -109,18 +108,29 @@ Result<void> Simulation::findStarts() {
 void Simulation::build() {
     meter_.reset();
     shedder_.reset();
-    world_ = options_.world.solver == physics::SolverKind::crowd ? physics::createCrowdWorld(options_.world)
-                                                                 : physics::createBulletWorld(options_.world);
+    dollIds_.clear();
+    world_ = makeWorld(options_.world);
     for (const physics::StaticShape& shape : scenario_.statics)
         world_->addStatic(shape);
     for (const physics::DynamicProp& prop : scenario_.props)
         world_->addProp(prop);
     for (int doll = 0; doll < dollCount(); ++doll) {
         placeAtStart(doll);
-        world_->addDoll(assetOf(doll).profile, scratch_);
+        dollIds_.push_back(world_->addDoll(assetOf(doll).profile, scratch_));
     }
-    for (std::size_t i = 0; i < scenario_.pins.size(); ++i) {
-        const Pin& pin = scenario_.pins[i];
+    addPins();
+    watch();
+    steps_ = 0;
+    stepMs_.clear();
+    stepMs_.reserve(2 * kKeptSteps);
+    secondsMeasured_ = 0;
+    remember();
+    noteJump();
+}
+
+// Pulls on the hands that the scene holds, towards where they start.
+void Simulation::addPins() {
+    for (const Pin& pin : scenario_.pins) {
         const RagdollAsset& asset = assetOf(pin.doll);
         const int body = physics::bodyOf(asset.profile, pin.role);
         if (body < 0) continue;  // a figure without hands falls
@@ -128,9 +138,12 @@ void Simulation::build() {
         const RigidTransform& worldFromBody = scratch_[body].worldFromBody;
         const vec3 joint = worldFromBody * asset.rig.bodyFromJoint[body].translation;
         const vec3 tip = tipOf(asset.profile.bodies[body], worldFromBody, joint);
-        world_->setDrag(kFirstPinId + static_cast<int>(i),
-                        {pin.doll, body, inverse(worldFromBody) * tip, tip, kPinForceN});
+        world_->addDrag({dollIds_[pin.doll], body, inverse(worldFromBody) * tip, tip, kPinForceN});
     }
+}
+
+// What is spared, or what is measured.
+void Simulation::watch() {
     if (options_.shed.any()) {
         std::vector<LoadShedder::Kind> kinds;
         kinds.reserve(scenario_.dolls.size());
@@ -140,10 +153,6 @@ void Simulation::build() {
     } else if (options_.measure) {
         meter_ = std::make_unique<physics::QualityMeter>(*world_, scenario_.statics, options_.world.gravity);
     }
-    stepMs_.clear();
-    secondsMeasured_ = 0;
-    remember();
-    noteJump();
 }
 
 // The doll's bodies at its start, in scratch_.
@@ -171,12 +180,13 @@ void Simulation::remember() {
             continue;
         }
         scratch_.resize(to.size());
-        world_->getBodies(doll, scratch_);
+        world_->getBodies(dollIds_[doll], scratch_);
         for (std::size_t i = 0; i < to.size(); ++i)
             to[i] = scratch_[i].worldFromBody;
     }
-    for (int prop = 0; prop < world_->propCount(); ++prop)
-        present_[bodyCount() + prop] = world_->propState(prop).worldFromBody;
+    std::size_t at = bodyCount();
+    for (const physics::PropId prop : world_->props())
+        present_[at++] = world_->propState(prop).worldFromBody;
 }
 
 void Simulation::step() {
@@ -187,19 +197,27 @@ void Simulation::step() {
         shedder_->step(options_.dt, eye_);
     } else if (meter_ != nullptr) {
         const double substep = static_cast<double>(options_.dt) / world_->substepsPerStep();
-        world_->step(options_.dt, [&] {
+        const auto sample = [&] {
             const auto measuring = Clock::now();
             secondsMeasured_ += substep;
             meter_->sample(secondsMeasured_);
             measured += Clock::now() - measuring;
-        });
+        };
+        world_->step(options_.dt, std::cref(sample));  // by reference: a copy of its captures would be on the heap
     } else {
         world_->step(options_.dt);
     }
-    stepMs_.push_back(std::chrono::duration<float, std::milli>(Clock::now() - before - measured).count());
+    noteTime(std::chrono::duration<float, std::milli>(Clock::now() - before - measured).count());
     std::swap(previous_, present_);
     remember();
     noteMotion();
+}
+
+// The older half of the times goes when there is no more room.
+void Simulation::noteTime(float milliseconds) {
+    ++steps_;
+    if (stepMs_.size() == 2 * kKeptSteps) stepMs_.erase(stepMs_.begin(), stepMs_.begin() + kKeptSteps);
+    stepMs_.push_back(milliseconds);
 }
 
 // After a step. By their bits rather than by isAsleep(): frozen dolls and what a recording shows at rest count too,
@@ -230,7 +248,7 @@ void Simulation::show(std::span<const RigidTransform> frame) {
     std::swap(previous_, present_);
     std::copy(frame.begin(), frame.end(), present_.begin());
     noteMotion();
-    stepMs_.push_back(0.0F);
+    noteTime(0.0F);
 }
 
 void Simulation::preview(std::span<const RigidTransform> frame) {
@@ -270,11 +288,21 @@ void Simulation::getBodies(int doll, std::span<BodyState> bodies) const {
     if (shedder_ != nullptr)
         shedder_->getStates(doll, bodies);
     else
-        world_->getBodies(doll, bodies);
+        world_->getBodies(dollIds_[doll], bodies);
 }
 
 bool Simulation::isAsleep(int doll) const {
-    return shedder_ != nullptr ? shedder_->still(doll) : world_->isAsleep(doll);
+    return shedder_ != nullptr ? shedder_->still(doll) : world_->isAsleep(dollIds_[doll]);
+}
+
+physics::DollId Simulation::dollId(int doll) const {
+    return shedder_ != nullptr ? shedder_->idIn(*world_, doll) : dollIds_[doll];
+}
+
+int Simulation::dollOf(physics::DollId id) const {
+    for (int doll = 0; id.isSet() && doll < dollCount(); ++doll)
+        if (dollId(doll) == id) return doll;
+    return -1;
 }
 
 physics::Quality Simulation::quality() const {

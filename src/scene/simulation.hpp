@@ -55,21 +55,27 @@ class Simulation {
     /// Call after placing bodies in world() by hand: what is shown is where they are now, not on the way there.
     void refresh();
 
-    [[nodiscard]] int steps() const { return static_cast<int>(stepMs_.size()); }
+    [[nodiscard]] int steps() const { return steps_; }
     [[nodiscard]] double seconds() const { return static_cast<double>(steps()) * static_cast<double>(options_.dt); }
     [[nodiscard]] int dollCount() const { return static_cast<int>(scenario_.dolls.size()); }
-    /// With SimulationOptions::shed its dolls are those that are neither slow nor frozen, under indices of its own.
+    /// Its dolls, when none are spared, are the scenario's; see dollId().
     [[nodiscard]] physics::World& world() { return *world_; }
     [[nodiscard]] const physics::World& world() const { return *world_; }
     [[nodiscard]] const Scenario& scenario() const { return scenario_; }
     [[nodiscard]] const SimulationOptions& options() const { return options_; }
+    /// What world() calls a doll of the scenario now. With SimulationOptions::shed it changes from step to step, and is
+    /// unset while the doll is slow or frozen and thus not in world().
+    [[nodiscard]] physics::DollId dollId(int doll) const;
+    /// The scenario's doll that world() calls so; -1: none.
+    [[nodiscard]] int dollOf(physics::DollId id) const;
     /// The first one, or a doll's.
     [[nodiscard]] const RagdollAsset& asset() const { return *assets_.front(); }
     [[nodiscard]] const RagdollAsset& assetOf(int doll) const { return *assets_[scenario_.dolls[doll].asset]; }
     [[nodiscard]] std::span<const RagdollAsset* const> assets() const { return assets_; }
     /// Bodies of all dolls together.
     [[nodiscard]] std::size_t bodyCount() const { return firstBody_.back(); }
-    /// Wall time of every step so far, milliseconds, without the measuring.
+    static constexpr std::size_t kKeptSteps = 36000;  ///< Of stepMs(): ten minutes at 60 Hz.
+    /// Wall time of the steps so far, of the last kKeptSteps at least, milliseconds, without the measuring.
     [[nodiscard]] std::span<const float> stepMs() const { return stepMs_; }
 
     /// The bodies of a doll `alpha` of the way from the state before the last step to the present one.
@@ -100,6 +106,9 @@ class Simulation {
     Simulation(std::vector<const RagdollAsset*> assets, Scenario scenario, const SimulationOptions& options);
     Result<void> findStarts();
     void build();
+    void addPins();
+    void watch();
+    void noteTime(float milliseconds);
     void placeAtStart(int doll);
     void remember();
     void noteMotion();
@@ -116,7 +125,9 @@ class Simulation {
     std::unique_ptr<physics::QualityMeter> meter_;
     std::unique_ptr<LoadShedder> shedder_;
     vec3 eye_{0, 0, 0};
+    int steps_ = 0;
     std::vector<float> stepMs_;
+    std::vector<physics::DollId> dollIds_;  // in world_, while nothing is spared
     double secondsMeasured_ = 0;
 
     std::vector<RigidTransform> previous_;  // the bodies of each doll, then the props

@@ -326,14 +326,14 @@ TEST_CASE("a ball that is thrown meets the doll and is gone after a reset") {
     const auto editor = makeEditor();
     send(*editor, mouseMoved(seenAt(*editor, Role::hips)));
     send(*editor, keyPressed(Key::b));
-    CHECK(editor->player().simulation().world().propCount() == 1);
+    CHECK(editor->player().simulation().world().props().size() == 1);
     const vec3 start = editor->player().simulation().worldFromProp(0).translation;
     pass(*editor, 10);
     CHECK(glm::distance(editor->player().simulation().worldFromProp(0).translation, start) > 0.8F);
     send(*editor, keyPressed(Key::b));
-    CHECK(editor->player().simulation().world().propCount() == 2);
+    CHECK(editor->player().simulation().world().props().size() == 2);
     editor->perform(Action::reset);
-    CHECK(editor->player().simulation().world().propCount() == 0);
+    CHECK(editor->player().simulation().world().props().size() == 0);
 }
 
 TEST_CASE("a file that is no model is told and the old scene goes on") {

@@ -151,7 +151,7 @@ TEST_CASE("Bullet's own drawer shows the dolls of its worlds, and the crowd solv
         REQUIRE(simulation);
         physics::World& world = simulation.value()->world();
         const auto bodies = simulation.value()->worldFromBody(0, 1.0F);
-        world.setDrag(0, {0, 0, vec3(0), bodies[0].translation + vec3(0, 0.5F, 0), 100.0F});
+        world.addDrag({world.dolls()[0], 0, vec3(0), bodies[0].translation + vec3(0, 0.5F, 0), 100.0F});
         simulation.value()->step();
         std::vector<std::size_t> near(bodies.size());
         std::size_t lines = 0;

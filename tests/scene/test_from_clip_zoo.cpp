@@ -37,7 +37,7 @@ std::unique_ptr<Simulation> startFrom(const RagdollAsset& asset, const animation
 
 std::vector<BodyState> bodiesOf(const Simulation& simulation) {
     std::vector<BodyState> bodies(simulation.asset().profile.bodies.size());
-    simulation.world().getBodies(0, bodies);
+    simulation.world().getBodies(simulation.world().dolls()[0], bodies);
     return bodies;
 }
 

@@ -118,7 +118,7 @@ TEST_CASE("without measures a shedder is the world alone, bit for bit") {
         }
         const auto got = with.states(1);
         std::vector<BodyState> expected(with.bodies);
-        alone.world->getBodies(1, expected);
+        alone.world->getBodies(alone.world->dolls()[1], expected);
         for (std::size_t i = 0; i < got.size(); ++i)
             CHECK(got[i].worldFromBody.translation == expected[i].worldFromBody.translation);
         CHECK(with.shedder->switches() == 0);
@@ -138,7 +138,7 @@ TEST_CASE("a far doll freezes and goes on when it is near again as if nothing ha
             crowd.shedder->step(kDt, kFar);
         CHECK(crowd.shedder->measuresOf(0).frozen);
         CHECK(crowd.shedder->still(0));
-        CHECK(crowd.world->dollCount() == 0);
+        CHECK(crowd.world->dolls().size() == 0);
         CHECK(farthest(crowd.shown(0), shown) == 0.0F);
         crowd.shedder->step(kDt, kNear);
         CHECK_FALSE(crowd.shedder->measuresOf(0).frozen);
@@ -216,7 +216,7 @@ TEST_CASE("a slow doll falls as fast as the others and is drawn at every step") 
             }
             CHECK(crowd.shedder->measuresOf(1).slow);
             CHECK_FALSE(crowd.shedder->measuresOf(0).slow);
-            CHECK(crowd.world->dollCount() == 1);
+            CHECK(crowd.world->dolls().size() == 1);
             const float fallen = start - last;
             CHECK(fallen == Approx(0.5F * 9.81F * 0.7F * 0.7F).epsilon(0.06));
             const float other = start - crowd.shown(0)[0].translation.y;
@@ -261,15 +261,15 @@ TEST_CASE("what sleeps or is dragged is left as it is") {
     settings.frozenFrom = 20.0F;
     settings.lodFrom = 20.0F;
     Crowd crowd(physics::SolverKind::crowd, {vec3(0), vec3(4, 0, 0)}, settings, true);
-    crowd.world->setDrag(1, {1, 0, {0, 0, 0}, {4, 1.5F, 0}, 1500.0F});
-    for (int step = 0; step < 600 && !crowd.world->isAsleep(0); ++step)
+    const physics::DragId pull = crowd.world->addDrag({crowd.world->dolls()[1], 0, {0, 0, 0}, {4, 1.5F, 0}, 1500.0F});
+    for (int step = 0; step < 600 && !crowd.world->isAsleep(crowd.world->dolls()[0]); ++step)
         crowd.shedder->step(kDt, kNear);
-    REQUIRE(crowd.world->isAsleep(0));
+    REQUIRE(crowd.world->isAsleep(crowd.world->dolls()[0]));
     for (int step = 0; step < 10; ++step)
         crowd.shedder->step(kDt, kFar);
     CHECK(crowd.shedder->switches() == 0);
     CHECK(crowd.shedder->still(0));
-    crowd.world->removeDrag(1);
+    crowd.world->removeDrag(pull);
     crowd.shedder->step(kDt, kFar);
     CHECK(crowd.shedder->measuresOf(1).frozen);
     CHECK_FALSE(crowd.shedder->measuresOf(0).frozen);

@@ -121,7 +121,8 @@ TEST_CASE("dolls that sleep are not posed again until they are woken") {
         CHECK(sameBits(crowd.palettes(), before));
 
         // Straight up, away from its neighbours.
-        crowd.simulation->world().applyImpulse(4, 0, {0, 40, 0}, crowd.simulation->worldFromBody(4)[0].translation);
+        crowd.simulation->world().applyImpulse(crowd.simulation->world().dolls()[4], 0, {0, 40, 0},
+                                               crowd.simulation->worldFromBody(4)[0].translation);
         crowd.step(1);
         const PosedSkins& skins = crowd.simulation->poseSkins(0.25F);
         CHECK(skins.posed() == 1);
@@ -154,7 +155,7 @@ TEST_CASE("whatever places dolls is seen, and in the step after it too") {
     simulation.getBodies(2, bodies);
     for (physics::BodyState& body : bodies)
         body.worldFromBody.translation.y += 0.5F;
-    simulation.world().setBodies(2, bodies);
+    simulation.world().setBodies(simulation.world().dolls()[2], bodies);
     simulation.refresh();
     CHECK(isRight(0.5F));
 

@@ -13,7 +13,7 @@ TEST_CASE("step times are summarised by mean, median and 99th percentile") {
     std::vector<float> ms(101);
     for (std::size_t i = 0; i < ms.size(); ++i)
         ms[i] = static_cast<float>(100 - i);
-    const StepTimes times = summarise(ms);
+    const StepSummary times = summarise(ms);
     CHECK(times.mean == Approx(50));
     CHECK(times.p50 == Approx(50));
     CHECK(times.p99 == Approx(99));

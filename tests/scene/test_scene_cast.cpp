@@ -163,11 +163,11 @@ TEST_CASE("each character starts in its own pose and with its own velocity") {
     REQUIRE(made);
     Simulation& simulation = *made.value();
     std::vector<physics::BodyState> bodies(simulation.asset().profile.bodies.size());
-    simulation.world().getBodies(0, bodies);
+    simulation.world().getBodies(simulation.world().dolls()[0], bodies);
     CHECK(bodies[0].linearVelocity == vec3(0));
-    simulation.world().getBodies(1, bodies);
+    simulation.world().getBodies(simulation.world().dolls()[1], bodies);
     CHECK(bodies[0].linearVelocity == vec3(0, 2, 1));
-    simulation.world().getBodies(2, bodies);
+    simulation.world().getBodies(simulation.world().dolls()[2], bodies);
     const float fastest = std::max_element(bodies.begin(), bodies.end(), [](const auto& a, const auto& b) {
                               return glm::length(a.linearVelocity) < glm::length(b.linearVelocity);
                           })->linearVelocity.z;

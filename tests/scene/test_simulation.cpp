@@ -105,7 +105,7 @@ TEST_CASE("a fall from a clip starts with the clip's own velocities") {
     options.fromClip = ClipStart{"turn", 0.5F};
     const auto simulation = start(*asset.value(), "drop", options);
     std::vector<physics::BodyState> bodies(asset.value()->profile.bodies.size());
-    simulation->world().getBodies(0, bodies);
+    simulation->world().getBodies(simulation->world().dolls()[0], bodies);
     const quat worldFromModel = simulation->worldFromModel(0).rotation;
     const vec3 turn = worldFromModel * vec3(0, speed, 0);
     const vec3 slide = worldFromModel * vec3(2, 0, 0);

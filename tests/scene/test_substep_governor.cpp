@@ -95,7 +95,7 @@ TEST_CASE("the number of substeps changes while dolls fall and none tears") {
             int taken = 0;
             world->step(1.0F / 60.0F, [&] { ++taken; });
             CHECK(taken == wanted);
-            world->getBodies(0, bodies);
+            world->getBodies(world->dolls()[0], bodies);
             const physics::ConstraintProfile& joint = profile.constraints[0];
             worst = std::max(worst, glm::distance(bodies[0].worldFromBody * joint.parentFromFrame.translation,
                                                   bodies[1].worldFromBody * joint.childFromFrame.translation));

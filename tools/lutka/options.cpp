@@ -28,9 +28,12 @@ const std::map<std::string, physics::MassPreset> kMassPresets = {{"anatomical", 
                                                                  {"uniform", physics::MassPreset::uniform},
                                                                  {"volume", physics::MassPreset::volume}};
 
-const std::map<std::string, physics::SolverKind> kSolvers = {{"stock", physics::SolverKind::stock},
-                                                             {"bullet", physics::SolverKind::bullet},
-                                                             {"crowd", physics::SolverKind::crowd}};
+std::vector<std::string> solverNames() {
+    std::vector<std::string> names;
+    for (const physics::SolverEntry& entry : physics::kSolvers)
+        names.emplace_back(entry.name);
+    return names;
+}
 
 std::string lower(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -156,7 +159,7 @@ void SceneOptions::addTo(const Command& app) {
     app.option("--threads", threads, "threads to step with; default: the scene's, or 1").range(1, 256);
     app.option("--solver", solver,
                "stock: plain Bullet; bullet: Bullet tuned for ragdolls; crowd: dolls in SIMD lanes, the default")
-        .oneOf(wordsOf(kSolvers));
+        .oneOf(solverNames());
 }
 
 bool SceneOptions::takeFile(std::filesystem::path& model) {
@@ -219,12 +222,12 @@ scene::SimulationOptions SimulateOptions::simulation(const scene::EntityScene& e
 
 void addSolverOption(const Command& app, std::string& solver) {
     app.option("--solver", solver, "stock: plain Bullet; bullet: Bullet tuned for ragdolls; crowd: dolls in SIMD lanes")
-        .oneOf(wordsOf(kSolvers))
+        .oneOf(solverNames())
         .showDefault();
 }
 
 physics::SolverKind solverFromName(const std::string& name) {
-    return kSolvers.at(name);
+    return physics::solverNamed(name).value_or(physics::WorldSettings{}.solver);  // oneOf() let no other pass
 }
 
 render::Extent parseSize(const std::string& text) {

@@ -58,10 +58,10 @@ Player::Motion Player::capture() const {
         one.bodies.resize(asset.profile.bodies.size());
         one.modelFromJoint.resize(asset.character.skeleton.parents.size());
         one.worldFromModel = simulation.worldFromModel(doll);
-        simulation.world().getBodies(doll, one.bodies);
+        simulation.getBodies(doll, one.bodies);
         simulation.pose(doll, 1.0F, one.modelFromJoint);
     }
-    for (int prop = 0; prop < simulation.world().propCount(); ++prop)
+    for (const physics::PropId prop : simulation.world().props())
         motion.props.push_back(simulation.world().propState(prop));
     motion.propEntities = simulation.scenario().propEntities;
     return motion;
@@ -104,7 +104,7 @@ void Player::restore(const Motion& motion) {
             placeByJoints(doll, oldBodies, was->second->bodies, was->second->modelFromJoint,
                           was->second->worldFromModel, bodies);
         }
-        simulation.world().setBodies(doll, same ? was->second->bodies : bodies);
+        simulation.world().setBodies(simulation.dollId(doll), same ? was->second->bodies : bodies);
     }
     simulation.refresh();
 }
@@ -199,7 +199,7 @@ void Player::dampDolls(float share) {
             body.linearVelocity *= share;
             body.angularVelocity *= share;
         }
-        simulation_->world().setBodies(doll, bodies);
+        simulation_->world().setBodies(simulation_->dollId(doll), bodies);
     }
 }
 
@@ -312,12 +312,12 @@ std::vector<PickTarget> Player::pickTargets() const {
 
 std::vector<physics::BodyState> Player::bodiesOf(int doll) const {
     std::vector<physics::BodyState> bodies(simulation_->assetOf(doll).profile.bodies.size());
-    simulation_->world().getBodies(doll, bodies);
+    simulation_->getBodies(doll, bodies);
     return bodies;
 }
 
 void Player::placeBodies(int doll, std::span<const physics::BodyState> bodies) {
-    simulation_->world().setBodies(doll, bodies);
+    simulation_->world().setBodies(simulation_->dollId(doll), bodies);
     simulation_->refresh();
 }
 
@@ -331,7 +331,7 @@ void Player::preview(int doll, std::span<const RigidTransform> worldFromBody) {
         for (const physics::BodyState& body : bodiesOf(other))
             frame.push_back(body.worldFromBody);
     }
-    for (int prop = 0; prop < simulation_->world().propCount(); ++prop)
+    for (const physics::PropId prop : simulation_->world().props())
         frame.push_back(simulation_->world().propState(prop).worldFromBody);
     simulation_->preview(frame);
 }

@@ -8,31 +8,37 @@ namespace {
 // Enough to lift a whole adult by a hand; the constraint's damping keeps it from whipping.
 constexpr float kMaxForceN = 1500.0F;
 
-std::optional<physics::Drag> dragOf(const Pull& pull, const physics::World& world) {
-    if (pull.doll >= world.dollCount()) return std::nullopt;
-    const int body = physics::bodyOf(world.profileOf(pull.doll), pull.role);
+std::optional<physics::Drag> dragOf(const Pull& pull, const scene::Simulation& simulation) {
+    if (pull.doll >= simulation.dollCount()) return std::nullopt;
+    const int body = physics::bodyOf(simulation.assetOf(pull.doll).profile, pull.role);
     if (body < 0) return std::nullopt;
-    return physics::Drag{pull.doll, body, pull.bodyPoint, pull.target, kMaxForceN};
-}
-
-void set(physics::World& world, int id, const std::optional<physics::Drag>& drag) {
-    if (drag) {
-        world.setDrag(id, *drag);
-    } else {
-        world.removeDrag(id);
-    }
+    return physics::Drag{simulation.dollId(pull.doll), body, pull.bodyPoint, pull.target, kMaxForceN};
 }
 
 }  // namespace
 
-void Pulls::applyTo(physics::World& world) {
-    set(world, kMouseId, mouse ? dragOf(*mouse, world) : std::nullopt);
-    const int count = std::min(static_cast<int>(pins.size()), kMaxPins);
-    for (int i = 0; i < count; ++i)
-        set(world, kFirstPinId + i, dragOf(pins[i], world));
-    for (int i = count; i < applied_; ++i)
-        world.removeDrag(kFirstPinId + i);
-    applied_ = count;
+void Pulls::set(physics::World& world, Applied& pull, const std::optional<physics::Drag>& wanted) {
+    // A world made anew knows the id as nothing, or as a pull of its own.
+    const bool known = world.has(pull.id) && world.dragOf(pull.id) == pull.drag;
+    if (!wanted) {
+        if (known) world.removeDrag(pull.id);
+        pull = {};
+        return;
+    }
+    if (known)
+        world.setDrag(pull.id, *wanted);
+    else
+        pull.id = world.addDrag(*wanted);
+    pull.drag = *wanted;
+}
+
+void Pulls::applyTo(scene::Simulation& simulation) {
+    physics::World& world = simulation.world();
+    set(world, appliedMouse_, mouse ? dragOf(*mouse, simulation) : std::nullopt);
+    if (appliedPins_.size() < pins.size()) appliedPins_.resize(pins.size());
+    for (std::size_t i = 0; i < appliedPins_.size(); ++i)
+        set(world, appliedPins_[i], i < pins.size() ? dragOf(pins[i], simulation) : std::nullopt);
+    appliedPins_.resize(pins.size());
 }
 
 std::vector<Pull>::iterator Pulls::findPin(int doll, animation::Role role) {

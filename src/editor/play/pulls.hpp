@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "physics/world/world.hpp"
+#include "scene/simulation.hpp"
 
 namespace lutka::editor {
 
@@ -22,17 +23,21 @@ class Pulls {
     std::optional<Pull> mouse;
     std::vector<Pull> pins;
 
-    /// Makes the world's drags these, exactly. Call before every step and when one has gone.
-    void applyTo(physics::World& world);
+    /// Makes the world's drags these, beside the scene's own. Call before every step and when one has gone.
+    void applyTo(scene::Simulation& simulation);
     /// The pin on that part of a doll; pins.end() when there is none.
     [[nodiscard]] std::vector<Pull>::iterator findPin(int doll, animation::Role role);
 
   private:
-    static constexpr int kMouseId = 1;
-    static constexpr int kFirstPinId = 2;
-    static constexpr int kMaxPins = 900;  // the scenes' own pins have ids from 1000
+    // A drag of the world as it was asked for last.
+    struct Applied {
+        physics::DragId id;
+        physics::Drag drag;
+    };
+    static void set(physics::World& world, Applied& pull, const std::optional<physics::Drag>& wanted);
 
-    int applied_ = 0;  // pins that the world had last
+    Applied appliedMouse_;
+    std::vector<Applied> appliedPins_;  // in the order of `pins`
 };
 
 }  // namespace lutka::editor

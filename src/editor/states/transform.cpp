@@ -49,7 +49,7 @@ class TransformHandler : public StateHandler {
     void exit() override {
         if (item_) finish(confirmed_);
         workspace_.pulls.mouse.reset();
-        workspace_.pulls.applyTo(workspace_.player->simulation().world());
+        workspace_.pulls.applyTo(workspace_.player->simulation());
         workspace_.document->endGroup();
         workspace_.press.reset();
         workspace_.hint.clear();

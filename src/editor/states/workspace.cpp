@@ -12,7 +12,7 @@ std::optional<Pick> Workspace::pickUnderMouse() const {
     constexpr int solid = 128;
     const bool seeThrough =
         std::any_of(looks.begin(), looks.end(), [](const scene::Look& look) { return look.color.a < solid; });
-    auto picked = pick(mouseRay(), player->simulation().world(), player->pickTargets(), seeThrough);
+    auto picked = pick(mouseRay(), player->simulation(), player->pickTargets(), seeThrough);
     // The panels edit no bodies of the other characters: these are picked as a whole, and pulled by their bodies.
     if (picked && picked->item.kind == Item::Kind::body && !player->isEditedDoll(picked->item.doll)) {
         picked->item = {Item::Kind::object, 0, static_cast<int>(player->entityOfDoll(picked->item.doll))};
@@ -89,7 +89,7 @@ std::string Workspace::nameOf(const Item& item) const {
 void Workspace::follow() {
     if (!player->stale()) return;
     report(player->rebuild(Player::Keep::motion));
-    pulls.applyTo(player->simulation().world());
+    pulls.applyTo(player->simulation());
     const auto& state = document->state();
     selection.keepIf([&](const Item& item) {
         if (item.kind == Item::Kind::object) {
@@ -102,7 +102,7 @@ void Workspace::follow() {
 
 void Workspace::pose(bool on) {
     report(player->setPosing(on));
-    pulls.applyTo(player->simulation().world());
+    pulls.applyTo(player->simulation());
 }
 
 bool Workspace::report(const Result<void>& result) {

@@ -130,6 +130,20 @@ void optionalField(const PanelContext& context, const char* label, std::optional
     ImGui::PopID();
 }
 
+bool chooseSolver(physics::SolverKind& solver) {
+    const auto isChosen = [&](const physics::SolverEntry& entry) { return entry.kind == solver; };
+    const auto* now = std::find_if(physics::kSolvers.begin(), physics::kSolvers.end(), isChosen);
+    if (!ImGui::BeginCombo("##solver", now->title)) return false;
+    bool changed = false;
+    for (const physics::SolverEntry& entry : physics::kSolvers) {
+        if (!ImGui::Selectable(entry.title, isChosen(entry)) || isChosen(entry)) continue;
+        solver = entry.kind;
+        changed = true;
+    }
+    ImGui::EndCombo();
+    return changed;
+}
+
 void drawPhysics(const PanelContext& context) {
     Editor& editor = context.editor;
     SceneSettings scene = editor.document().state().scene;
@@ -146,11 +160,7 @@ void drawPhysics(const PanelContext& context) {
         change(editor, scene, "Step", "step", false);
     }
     labelled("Solver", labelWidth(context));
-    int solver = static_cast<int>(world.solver);
-    if (ImGui::Combo("##solver", &solver, "Stock Bullet\0Tuned for ragdolls\0Crowd\0")) {
-        world.solver = static_cast<physics::SolverKind>(solver);
-        change(editor, scene, "Solver", "", false);
-    }
+    if (chooseSolver(world.solver)) change(editor, scene, "Solver", "", false);
     ImGui::BeginDisabled(world.solver == physics::SolverKind::stock);
     const auto whole = [&](const char* label, int most) {
         return [&, label, most](bool switched, std::optional<int>& value) {

@@ -79,20 +79,20 @@ void drawParts(const PanelContext& context) {
 
 void drawCounts(const PanelContext& context) {
     const scene::Simulation& simulation = context.editor.player().simulation();
-    const physics::World& world = simulation.world();
+    const physics::WorldView& world = simulation.world();
     const render::FrameStats& stats = context.history.stats;
     const auto bodies = static_cast<int>(simulation.asset().profile.bodies.size());
     const auto constraints = static_cast<int>(simulation.asset().profile.constraints.size());
     int asleep = 0;
-    for (int doll = 0; doll < world.dollCount(); ++doll)
+    for (const physics::DollId doll : world.dolls())
         asleep += world.isAsleep(doll) ? 1 : 0;
     std::vector<physics::ContactPoint> contacts;
     world.getContacts(contacts);
     caption("WHAT IS THERE");
     if (!beginRows(context, "##counts")) return;
-    row("Dolls", fmt::format("{}, {} asleep", world.dollCount(), asleep));
-    row("Bodies", fmt::format("{} and {} props", bodies * world.dollCount(), world.propCount()));
-    row("Constraints", fmt::format("{}", constraints * world.dollCount()));
+    row("Dolls", fmt::format("{}, {} asleep", simulation.dollCount(), asleep));
+    row("Bodies", fmt::format("{} and {} props", bodies * simulation.dollCount(), world.props().size()));
+    row("Constraints", fmt::format("{}", constraints * simulation.dollCount()));
     row("Contacts", fmt::format("{}", contacts.size()));
     row("Islands awake", fmt::format("{}", world.stepTimes().islands));
     row("Draw calls", fmt::format("{} ({} skinned)", stats.drawCalls, stats.characterDrawCalls));

@@ -26,7 +26,7 @@ struct Solid {
 };
 
 // The first doll on the way, or the first thing at all when geometry stops the ray.
-std::optional<Solid> firstSolid(const render::Ray& ray, const physics::World& world, bool throughGeometry) {
+std::optional<Solid> firstSolid(const render::Ray& ray, const physics::WorldView& world, bool throughGeometry) {
     constexpr int mostLayers = 16;
     constexpr float beyond = 0.01F;  // metres past a surface, where the next cast starts
     float start = 0.0F;
@@ -34,7 +34,7 @@ std::optional<Solid> firstSolid(const render::Ray& ray, const physics::World& wo
         const auto hit = world.rayTest(ray.origin + ray.direction * start, ray.origin + ray.direction * kReach);
         if (!hit) return std::nullopt;
         const float distance = start + hit->fraction * (kReach - start);
-        if (hit->doll >= 0 || !throughGeometry) return Solid{*hit, distance};
+        if (hit->doll.isSet() || !throughGeometry) return Solid{*hit, distance};
         start = distance + beyond;
     }
     return std::nullopt;
@@ -62,16 +62,16 @@ std::optional<float> rayBox(const render::Ray& ray, const RigidTransform& worldF
     return enter;
 }
 
-std::optional<Pick> pick(const render::Ray& ray, const physics::World& world, std::span<const PickTarget> targets,
-                         bool throughGeometry) {
+std::optional<Pick> pick(const render::Ray& ray, const scene::Simulation& simulation,
+                         std::span<const PickTarget> targets, bool throughGeometry) {
     std::optional<Pick> nearest;
     float distance = std::numeric_limits<float>::max();
     bool marker = false;
-    if (const auto solid = firstSolid(ray, world, throughGeometry)) {
+    if (const auto solid = firstSolid(ray, simulation.world(), throughGeometry)) {
         const physics::RayHit& hit = solid->hit;
         distance = solid->distance;
-        if (hit.doll >= 0) {
-            const Item body{Item::Kind::body, hit.doll, hit.body};
+        if (hit.doll.isSet()) {
+            const Item body{Item::Kind::body, simulation.dollOf(hit.doll), hit.body};
             nearest = Pick{body, hit.position, hit.normal, body};
         }
     }
@@ -91,7 +91,7 @@ std::optional<Pick> pick(const render::Ray& ray, const physics::World& world, st
     return nearest;
 }
 
-std::optional<vec3> surfaceUnder(const render::Ray& ray, const physics::World& world, float height) {
+std::optional<vec3> surfaceUnder(const render::Ray& ray, const physics::WorldView& world, float height) {
     std::optional<float> nearest;
     if (const auto hit = world.rayTest(ray.origin, ray.origin + ray.direction * kReach))
         nearest = hit->fraction * kReach;

@@ -6,6 +6,7 @@
 #include "editor/document/document_state.hpp"
 #include "editor/view/selection.hpp"
 #include "render/camera.hpp"
+#include "scene/simulation.hpp"
 
 namespace lutka::editor {
 
@@ -35,11 +36,11 @@ struct Pick {
 /// The nearest thing under the ray: bodies by the world's ray test, objects by the slab test. Markers (lights,
 /// cameras) are in the layer before everything solid, since they are drawn over it: layers go before distance. What has
 /// no target hides what is behind it, unless the ray goes `throughGeometry` (see-through walls).
-[[nodiscard]] std::optional<Pick> pick(const render::Ray& ray, const physics::World& world,
+[[nodiscard]] std::optional<Pick> pick(const render::Ray& ray, const scene::Simulation& simulation,
                                        std::span<const PickTarget> targets, bool throughGeometry = false);
 
 /// Where the ray meets the horizontal plane at `height`, or the nearest solid surface before it; nothing when the ray
 /// points away from both, or the place is beyond 100 m.
-[[nodiscard]] std::optional<vec3> surfaceUnder(const render::Ray& ray, const physics::World& world, float height);
+[[nodiscard]] std::optional<vec3> surfaceUnder(const render::Ray& ray, const physics::WorldView& world, float height);
 
 }  // namespace lutka::editor

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <glm/geometric.hpp>
-#include <map>
 
-#include "core/assert.hpp"
 #include "physics/bullet/contact_gatherer.hpp"
 #include "physics/bullet/convert.hpp"
 #include "physics/bullet/debug_draw.hpp"
@@ -27,52 +26,56 @@ class BulletWorld final : public World {
     }
     ~BulletWorld() override;
 
-    int addStatic(const StaticShape& shape) override;
-    void removeStatic(int index) override;
-    void removeProp(int prop) override;
-    void removeDoll(int doll) override;
-    int addProp(const DynamicProp& prop) override;
-    int addDoll(const RagdollProfile& profile, std::span<const BodyState> bodies) override;
-    void step(float dt, const std::function<void()>& afterSubstep) override;
     [[nodiscard]] int substepsPerStep() const override { return isStock() ? 1 : tuning_.substeps; }
-    void setSubsteps(int substeps) override { tuning_.substeps = substeps; }
+    [[nodiscard]] double dragWork() const override { return dragWork_; }
+    [[nodiscard]] double motorWork() const override { return motorWork_; }
+    void getContacts(std::vector<ContactPoint>& contacts) const override;
+    [[nodiscard]] std::span<const ContactReport> contactReports() const override { return gatherer_.reports(); }
+    [[nodiscard]] StepTimes stepTimes() const override { return parts_.world->times(stepMs_); }
+    void drawDebug(const DebugLineSink& line) const override { drawBulletDebug(*parts_.world, line); }
 
-    [[nodiscard]] int dollCount() const override { return static_cast<int>(dolls_.size()); }
-    [[nodiscard]] const RagdollProfile& profileOf(int doll) const override { return dolls_[doll]->profile(); }
-    [[nodiscard]] vec3 inertiaOf(int doll, int body) const override {
-        const RagdollProfile& profile = profileOf(doll);
+  private:
+    [[nodiscard]] const RagdollProfile& profileAt(int doll) const override { return dolls_[doll]->profile(); }
+    [[nodiscard]] vec3 inertiaAt(int doll, int body) const override {
+        const RagdollProfile& profile = profileAt(doll);
         return conditionedInertia(profile, profile.bodies[body], isStock() ? 0.0F : tuning_.leastGyration);
     }
-    void getBodies(int doll, std::span<BodyState> bodies) const override;
-    void setBodies(int doll, std::span<const BodyState> bodies) override { dolls_[doll]->setBodies(bodies); }
-    [[nodiscard]] bool isAsleep(int doll) const override { return dolls_[doll]->isAsleep(); }
-    void wake(int doll) override { dolls_[doll]->wake(); }
-    [[nodiscard]] DollState dollState(int doll) const override { return dolls_[doll]->state(); }
-    void setDollState(int doll, const DollState& state) override {
+    void getBodiesAt(int doll, std::span<BodyState> bodies) const override;
+    [[nodiscard]] bool isAsleepAt(int doll) const override { return dolls_[doll]->isAsleep(); }
+    [[nodiscard]] const DynamicProp& propAt(int prop) const override { return propSettings_[prop]; }
+    [[nodiscard]] BodyState propStateAt(int prop) const override { return stateOf(*props_[prop].body); }
+    [[nodiscard]] std::optional<RayHit> castRay(const vec3& from, const vec3& to, std::uint32_t layers) const override;
+
+    void addStaticAs(StaticId id, const StaticShape& shape) override;
+    void addPropAs(PropId id, const DynamicProp& prop) override;
+    void addDollAs(DollId id, const RagdollProfile& profile, std::span<const BodyState> bodies) override;
+    void removeStaticAt(int fixed) override;
+    void removePropAt(int prop) override;
+    void removeDollAt(int doll) override;
+    void advance(float dt, const std::function<void()>& afterSubstep) override;
+    void useSubsteps(int substeps) override { tuning_.substeps = substeps; }
+    void setBodiesAt(int doll, std::span<const BodyState> bodies) override { dolls_[doll]->setBodies(bodies); }
+    void wakeAt(int doll) override { dolls_[doll]->wake(); }
+    [[nodiscard]] DollState dollStateAt(int doll) const override { return dolls_[doll]->state(); }
+    void setDollStateAt(int doll, const DollState& state) override {
         dolls_[doll]->setState(state, settings_.sleeping);
         listMotors();
     }
-    [[nodiscard]] int propCount() const override { return static_cast<int>(props_.size()); }
-    [[nodiscard]] const DynamicProp& propOf(int prop) const override { return propSettings_[prop]; }
-    [[nodiscard]] BodyState propState(int prop) const override { return stateOf(*props_[prop].body); }
-    void applyImpulse(int doll, int body, const vec3& impulse, const vec3& worldPoint) override;
-    void applyForce(int doll, int body, const vec3& force, const vec3& worldPoint) override;
-    void setMotor(int doll, int constraint, const std::optional<JointMotor>& motor) override;
-    [[nodiscard]] double motorWork() const override { return motorWork_; }
-    [[nodiscard]] std::optional<RayHit> rayTest(const vec3& from, const vec3& to, std::uint32_t layers) const override;
-    void setDollFilter(int doll, const CollisionFilter& filter) override;
-    [[nodiscard]] CollisionFilter dollFilter(int doll) const override { return dolls_[doll]->filter(); }
-    void setPropFilter(int prop, const CollisionFilter& filter) override;
-    void setDrag(int id, const Drag& drag) override;
-    void removeDrag(int id) override;
-    [[nodiscard]] double dragWork() const override { return dragWork_; }
-    [[nodiscard]] std::vector<std::pair<int, Drag>> dragsOf(int doll) const override;
-    [[nodiscard]] StepTimes stepTimes() const override { return parts_.world->times(stepMs_); }
-    void getContacts(std::vector<ContactPoint>& contacts) const override;
-    [[nodiscard]] std::span<const ContactReport> contactReports() const override { return gatherer_.reports(); }
-    void drawDebug(const DebugLineSink& line) override { drawBulletDebug(*parts_.world, line); }
+    void applyImpulseAt(int doll, int body, const vec3& impulse, const vec3& worldPoint) override;
+    void applyForceAt(int doll, int body, const vec3& force, const vec3& worldPoint) override;
+    void setMotorAt(int doll, int constraint, const std::optional<JointMotor>& motor) override;
+    void setDollFilterAt(int doll, const CollisionFilter& filter) override;
+    [[nodiscard]] CollisionFilter dollFilterAt(int doll) const override { return dolls_[doll]->filter(); }
+    void setPropFilterAt(int prop, const CollisionFilter& filter) override;
+    void addDragTo(int doll, const Drag& drag) override;
+    void setDragAt(int place, int doll, const Drag& drag) override;
+    void removeDragAt(int place) override;
 
-  private:
+    // A drag on a doll's body.
+    struct PulledBody {
+        Ragdoll* doll;
+        std::unique_ptr<DragConstraint> constraint;
+    };
     // A force that acts throughout the coming step.
     struct Force {
         btRigidBody* body;
@@ -96,7 +99,7 @@ class BulletWorld final : public World {
     std::vector<BodyInWorld> props_;
     std::vector<DynamicProp> propSettings_;
     std::vector<std::unique_ptr<Ragdoll>> dolls_;
-    std::map<int, std::unique_ptr<DragConstraint>> drags_;
+    std::vector<PulledBody> drags_;
     double dragWork_ = 0.0;
     std::vector<MotorConstraint*> motors_;  // of all dolls
     std::vector<Force> forces_;
@@ -107,8 +110,8 @@ class BulletWorld final : public World {
 };
 
 BulletWorld::~BulletWorld() {
-    for (const auto& [id, drag] : drags_)
-        parts_.world->removeConstraint(drag.get());
+    for (const PulledBody& drag : drags_)
+        parts_.world->removeConstraint(drag.constraint.get());
     dolls_.clear();
     for (const BodyInWorld& prop : props_)
         parts_.world->removeRigidBody(prop.body.get());
@@ -116,12 +119,11 @@ BulletWorld::~BulletWorld() {
         parts_.world->removeRigidBody(fixed.body.get());
 }
 
-int BulletWorld::addStatic(const StaticShape& shape) {
+void BulletWorld::addStaticAs(StaticId id, const StaticShape& shape) {
     BodyInWorld made = makeStaticShape(shape);
     const btRigidBody::btRigidBodyConstructionInfo info(0.0F, nullptr, made.shape.get());
     made.body = std::make_unique<btRigidBody>(info);
-    made.body->setUserIndex(kStaticUser);
-    made.body->setUserIndex2(static_cast<int>(statics_.size()));
+    name(*made.body, id);
     made.body->setWorldTransform(toBullet(shape.worldFromShape));
     made.body->setFriction(shape.friction);
     parts_.world->addRigidBody(made.body.get(), static_cast<int>(shape.filter.layers),
@@ -131,7 +133,6 @@ int BulletWorld::addStatic(const StaticShape& shape) {
         doll->wake();
     for (const BodyInWorld& prop : props_)
         prop.body->activate(true);
-    return static_cast<int>(statics_.size()) - 1;
 }
 
 void BulletWorld::wakeTouching(const btCollisionObject& object) {
@@ -142,67 +143,51 @@ void BulletWorld::wakeTouching(const btCollisionObject& object) {
     }
 }
 
-void BulletWorld::removeStatic(int index) {
-    wakeTouching(*statics_[index].body);
-    parts_.world->removeRigidBody(statics_[index].body.get());
-    statics_.erase(statics_.begin() + index);
-    for (std::size_t i = index; i < statics_.size(); ++i)
-        statics_[i].body->setUserIndex2(static_cast<int>(i));
+void BulletWorld::removeStaticAt(int fixed) {
+    wakeTouching(*statics_[fixed].body);
+    parts_.world->removeRigidBody(statics_[fixed].body.get());
+    statics_.erase(statics_.begin() + fixed);
     gatherer_.clear();
 }
 
-void BulletWorld::removeProp(int prop) {
+void BulletWorld::removePropAt(int prop) {
     wakeTouching(*props_[prop].body);
     parts_.world->removeRigidBody(props_[prop].body.get());
     props_.erase(props_.begin() + prop);
     propSettings_.erase(propSettings_.begin() + prop);
-    for (std::size_t i = prop; i < props_.size(); ++i)
-        props_[i].body->setUserIndex2(static_cast<int>(i));
     gatherer_.clear();
 }
 
-void BulletWorld::removeDoll(int doll) {
-    for (const auto& [id, drag] : dragsOf(doll))
-        removeDrag(id);
+void BulletWorld::removeDollAt(int doll) {
     for (int i = 0; i < dolls_[doll]->bodyCount(); ++i) {
         wakeTouching(dolls_[doll]->body(i));
         std::erase_if(forces_, [&](const Force& force) { return force.body == &dolls_[doll]->body(i); });
     }
     dolls_.erase(dolls_.begin() + doll);
-    for (int i = doll; i < dollCount(); ++i)
-        dolls_[i]->setIndex(i);
-    for (const auto& [id, drag] : drags_) {
-        Drag moved = drag->drag();
-        if (moved.doll > doll) --moved.doll;
-        drag->setTarget(moved);
-    }
     listMotors();
     gatherer_.clear();
 }
 
-int BulletWorld::addProp(const DynamicProp& prop) {
+void BulletWorld::addPropAs(PropId id, const DynamicProp& prop) {
     props_.push_back(makeBody(prop.shape, prop.massKg, shapeInertia(prop.shape, prop.massKg), prop.state));
     propSettings_.push_back(prop);
     btRigidBody& body = *props_.back().body;
-    body.setUserIndex(kPropUser);
-    body.setUserIndex2(propCount() - 1);
+    name(body, id);
     if (!settings_.sleeping) body.setActivationState(DISABLE_DEACTIVATION);
     if (!isStock()) body.setDamping(tuning_.linearDamping, tuning_.angularDamping);
     parts_.world->addRigidBody(&body, static_cast<int>(prop.filter.layers), static_cast<int>(prop.filter.mask));
-    return propCount() - 1;
 }
 
-int BulletWorld::addDoll(const RagdollProfile& profile, std::span<const BodyState> bodies) {
-    dolls_.push_back(std::make_unique<Ragdoll>(*parts_.world, dollCount(), profile, bodies, tuning_, jointTuning_,
-                                               isStock(), settings_.sleeping));
-    return dollCount() - 1;
+void BulletWorld::addDollAs(DollId id, const RagdollProfile& profile, std::span<const BodyState> bodies) {
+    dolls_.push_back(std::make_unique<Ragdoll>(*parts_.world, id, profile, bodies, tuning_, jointTuning_, isStock(),
+                                               settings_.sleeping));
 }
 
 // The speeds that drags, motors and forces work along.
 void BulletWorld::measureSpeeds(std::vector<vec3>& speeds) const {
     speeds.clear();
-    for (const auto& [id, drag] : drags_)
-        speeds.push_back(drag->pointVelocity());
+    for (const PulledBody& drag : drags_)
+        speeds.push_back(drag.constraint->pointVelocity());
     for (const MotorConstraint* motor : motors_)
         speeds.push_back(motor->relativeTurn());
     for (const Force& force : forces_)
@@ -214,10 +199,12 @@ void BulletWorld::addWork(float dt) {
     const auto work = [&](const vec3& impulse) {
         const vec3 mean = 0.5F * (speedsBefore_[index] + speedsAfter_[index]);
         ++index;
-        return static_cast<double>(glm::dot(impulse, mean));
+        // A doll that is about to be put back (World::caught) must not spoil the sum for good.
+        const auto done = static_cast<double>(glm::dot(impulse, mean));
+        return std::isfinite(done) ? done : 0.0;
     };
-    for (const auto& [id, drag] : drags_)
-        dragWork_ += work(drag->force() * dt);
+    for (const PulledBody& drag : drags_)
+        dragWork_ += work(drag.constraint->force() * dt);
     for (const MotorConstraint* motor : motors_)
         motorWork_ += work(motor->impulse());
     for (const Force& force : forces_)
@@ -240,8 +227,7 @@ void BulletWorld::substep(float dt) {
     if (settings_.contactReports) gatherer_.gather(*parts_.dispatcher);
 }
 
-void BulletWorld::step(float dt, const std::function<void()>& afterSubstep) {
-    LUTKA_ASSERT(dt > 0.0F);
+void BulletWorld::advance(float dt, const std::function<void()>& afterSubstep) {
     using Clock = std::chrono::steady_clock;
     const int substeps = substepsPerStep();
     gatherer_.clear();
@@ -256,25 +242,24 @@ void BulletWorld::step(float dt, const std::function<void()>& afterSubstep) {
     forces_.clear();
 }
 
-void BulletWorld::getBodies(int doll, std::span<BodyState> bodies) const {
-    LUTKA_ASSERT(static_cast<int>(bodies.size()) == dolls_[doll]->bodyCount());
+void BulletWorld::getBodiesAt(int doll, std::span<BodyState> bodies) const {
     for (std::size_t i = 0; i < bodies.size(); ++i)
         bodies[i] = stateOf(dolls_[doll]->body(static_cast<int>(i)));
 }
 
-void BulletWorld::applyImpulse(int doll, int body, const vec3& impulse, const vec3& worldPoint) {
+void BulletWorld::applyImpulseAt(int doll, int body, const vec3& impulse, const vec3& worldPoint) {
     dolls_[doll]->wake();
     btRigidBody& target = dolls_[doll]->body(body);
     target.applyImpulse(toBullet(impulse), toBullet(worldPoint) - target.getWorldTransform().getOrigin());
 }
 
-void BulletWorld::applyForce(int doll, int body, const vec3& force, const vec3& worldPoint) {
+void BulletWorld::applyForceAt(int doll, int body, const vec3& force, const vec3& worldPoint) {
     dolls_[doll]->wake();
     btRigidBody& target = dolls_[doll]->body(body);
     forces_.push_back({&target, toBullet(force), target.getWorldTransform().invXform(toBullet(worldPoint))});
 }
 
-void BulletWorld::setMotor(int doll, int constraint, const std::optional<JointMotor>& motor) {
+void BulletWorld::setMotorAt(int doll, int constraint, const std::optional<JointMotor>& motor) {
     dolls_[doll]->wake();
     dolls_[doll]->setMotor(constraint, motor);
     listMotors();
@@ -286,13 +271,6 @@ void BulletWorld::listMotors() {
         for (const auto& motor : doll->motors())
             if (motor != nullptr) motors_.push_back(motor.get());
     }
-}
-
-std::vector<std::pair<int, Drag>> BulletWorld::dragsOf(int doll) const {
-    std::vector<std::pair<int, Drag>> found;
-    for (const auto& [id, drag] : drags_)
-        if (drag->drag().doll == doll) found.emplace_back(id, drag->drag());
-    return found;
 }
 
 // Bullet's own test wants the ray in the body's mask as well; a ray has no layer.
@@ -316,7 +294,7 @@ struct LayeredRay final : btCollisionWorld::ClosestRayResultCallback {
     std::uint32_t layers;
 };
 
-std::optional<RayHit> BulletWorld::rayTest(const vec3& from, const vec3& to, std::uint32_t layers) const {
+std::optional<RayHit> BulletWorld::castRay(const vec3& from, const vec3& to, std::uint32_t layers) const {
     // The last step's boxes are those of before its motion.
     if (auto* ours = dynamic_cast<DynamicsWorld*>(parts_.world.get()))
         ours->refreshAabbs();
@@ -326,45 +304,49 @@ std::optional<RayHit> BulletWorld::rayTest(const vec3& from, const vec3& to, std
     parts_.world->rayTest(toBullet(from), toBullet(to), callback);
     if (!callback.hasHit()) return std::nullopt;
     RayHit hit;
-    hit.doll = std::max(callback.m_collisionObject->getUserIndex(), -1);
-    hit.body = hit.doll >= 0 ? callback.m_collisionObject->getUserIndex2() : -1;
+    const ContactReport::Side side = sideOf(*callback.m_collisionObject);
+    hit.doll = side.doll;
+    hit.body = hit.doll.isSet() ? side.body : -1;
     hit.position = fromBullet(callback.m_hitPointWorld);
     hit.normal = glm::normalize(fromBullet(callback.m_hitNormalWorld));
     hit.fraction = callback.m_closestHitFraction;
     return hit;
 }
 
-void BulletWorld::setDollFilter(int doll, const CollisionFilter& filter) {
+void BulletWorld::setDollFilterAt(int doll, const CollisionFilter& filter) {
     dolls_[doll]->wake();
     dolls_[doll]->setFilter(filter);
 }
 
-void BulletWorld::setPropFilter(int prop, const CollisionFilter& filter) {
+void BulletWorld::setPropFilterAt(int prop, const CollisionFilter& filter) {
     propSettings_[prop].filter = filter;
     setFilter(*parts_.world, *props_[prop].body, filter);
     props_[prop].body->activate(true);
 }
 
-void BulletWorld::setDrag(int id, const Drag& drag) {
-    LUTKA_ASSERT(drag.doll >= 0 && drag.doll < dollCount());
-    dolls_[drag.doll]->wake();
-    const auto known = drags_.find(id);
-    if (known != drags_.end() && known->second->drag().doll == drag.doll && known->second->drag().body == drag.body) {
-        known->second->setTarget(drag);
-        return;
-    }
-    removeDrag(id);
-    auto made = std::make_unique<DragConstraint>(dolls_[drag.doll]->body(drag.body), drag);
-    parts_.world->addConstraint(made.get());
-    drags_.emplace(id, std::move(made));
+void BulletWorld::addDragTo(int doll, const Drag& drag) {
+    dolls_[doll]->wake();
+    drags_.push_back({dolls_[doll].get(), std::make_unique<DragConstraint>(dolls_[doll]->body(drag.body), drag)});
+    parts_.world->addConstraint(drags_.back().constraint.get());
 }
 
-void BulletWorld::removeDrag(int id) {
-    const auto known = drags_.find(id);
-    if (known == drags_.end()) return;
-    dolls_[known->second->drag().doll]->wake();
-    parts_.world->removeConstraint(known->second.get());
-    drags_.erase(known);
+void BulletWorld::setDragAt(int place, int doll, const Drag& drag) {
+    PulledBody& known = drags_[place];
+    dolls_[doll]->wake();
+    if (known.doll == dolls_[doll].get() && known.constraint->drag().body == drag.body) {
+        known.constraint->setTarget(drag);
+        return;
+    }
+    known.doll->wake();
+    parts_.world->removeConstraint(known.constraint.get());
+    known = {dolls_[doll].get(), std::make_unique<DragConstraint>(dolls_[doll]->body(drag.body), drag)};
+    parts_.world->addConstraint(known.constraint.get());
+}
+
+void BulletWorld::removeDragAt(int place) {
+    drags_[place].doll->wake();
+    parts_.world->removeConstraint(drags_[place].constraint.get());
+    drags_.erase(drags_.begin() + place);
 }
 
 void BulletWorld::getContacts(std::vector<ContactPoint>& contacts) const {

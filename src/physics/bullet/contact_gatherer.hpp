@@ -3,7 +3,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <cstddef>
-#include <unordered_map>
+#include <span>
 #include <vector>
 
 #include "physics/world/world.hpp"
@@ -25,17 +25,21 @@ class ContactGatherer {
         int feature;
         bool operator==(const Key&) const = default;
     };
-    struct KeyHash {
-        std::size_t operator()(const Key& key) const;
-    };
+    [[nodiscard]] static std::size_t hashOf(const Key& key);
+    // The report of a contact; what it was told before stays.
+    ContactReport& reportOf(const Key& key);
+    void grow();
+
     std::vector<ContactReport> reports_;
-    std::unordered_map<Key, std::size_t, KeyHash> known_;
+    std::vector<Key> keys_;          // one a report
+    std::vector<int> reportOfSlot_;  // open addressing, a power of two; -1: empty. Kept from step to step.
 };
 
-/// How bodies of the world say what they are: see sideOf().
-inline constexpr int kStaticUser = -1;
-inline constexpr int kPropUser = -2;
-/// User index: the doll's, kStaticUser or kPropUser; second user index: the body's, the static's or the prop's.
+/// Tells an object of the world what the world calls it, in its three user indices; its user pointer stays free.
+void name(btCollisionObject& object, StaticId id);
+void name(btCollisionObject& object, PropId id);
+void name(btCollisionObject& object, DollId id, int body);
+/// What it was told.
 [[nodiscard]] ContactReport::Side sideOf(const btCollisionObject& object);
 
 }  // namespace lutka::physics

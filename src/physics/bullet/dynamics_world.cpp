@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "physics/bullet/contact_gatherer.hpp"
 #include "physics/bullet/convert.hpp"
 #include "physics/bullet/ragdoll.hpp"
 
@@ -19,9 +20,9 @@ struct PairFilter final : btOverlapFilterCallback {
             return false;
         const auto* first = static_cast<const btCollisionObject*>(a->m_clientObject);
         const auto* second = static_cast<const btCollisionObject*>(b->m_clientObject);
-        if (first->getUserIndex() < 0 || first->getUserIndex() != second->getUserIndex()) return true;
-        return static_cast<const Ragdoll*>(first->getUserPointer())
-            ->mayCollide(first->getUserIndex2(), second->getUserIndex2());
+        const auto* doll = static_cast<const Ragdoll*>(first->getUserPointer());
+        if (doll == nullptr || doll != second->getUserPointer()) return true;
+        return doll->mayCollide(sideOf(*first).body, sideOf(*second).body);
     }
 };
 

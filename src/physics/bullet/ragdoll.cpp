@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/assert.hpp"
+#include "physics/bullet/contact_gatherer.hpp"
 #include "physics/bullet/convert.hpp"
 
 namespace lutka::physics {
@@ -25,7 +26,6 @@ BodyInWorld makeBody(const BodyShape& shape, float massKg, const vec3& inertia, 
     BodyInWorld made{makeShape(shape), nullptr};
     const btRigidBody::btRigidBodyConstructionInfo info(massKg, nullptr, made.shape.get(), toBullet(inertia));
     made.body = std::make_unique<btRigidBody>(info);
-    made.body->setUserIndex(-1);
     setState(*made.body, state);
     return made;
 }
@@ -45,6 +45,8 @@ void setState(btRigidBody& body, const BodyState& state) {
     body.setInterpolationAngularVelocity(body.getAngularVelocity());
     body.updateInertiaTensor();
     body.clearForces();
+    // Bullet gives up a body whose bounds were not finite.
+    if (body.getActivationState() == DISABLE_SIMULATION) body.forceActivationState(ACTIVE_TAG);
     body.activate(true);
 }
 
@@ -55,7 +57,7 @@ void setFilter(btDiscreteDynamicsWorld& world, btRigidBody& body, const Collisio
     world.refreshBroadphaseProxy(&body);  // pairs are made anew under the new filter
 }
 
-Ragdoll::Ragdoll(btDiscreteDynamicsWorld& world, int index, const RagdollProfile& profile,
+Ragdoll::Ragdoll(btDiscreteDynamicsWorld& world, DollId id, const RagdollProfile& profile,
                  std::span<const BodyState> bodies, const BulletTuning& tuning, const JointTuning& jointTuning,
                  bool stockJoints, bool sleeping)
     : world_(world), profile_(profile), motors_(profile.constraints.size()), stock_(stockJoints) {
@@ -67,7 +69,7 @@ Ragdoll::Ragdoll(btDiscreteDynamicsWorld& world, int index, const RagdollProfile
         never(constraint.parent, constraint.child);
     for (const auto& [a, b] : profile.filteredPairs)
         never(a, b);
-    addBodies(index, bodies, tuning, stockJoints, sleeping);
+    addBodies(id, bodies, tuning, stockJoints, sleeping);
     if (stockJoints)
         addStockConstraints();
     else
@@ -83,15 +85,14 @@ Ragdoll::~Ragdoll() {
         world_.removeRigidBody(made.body.get());
 }
 
-void Ragdoll::addBodies(int index, std::span<const BodyState> states, const BulletTuning& tuning, bool stock,
+void Ragdoll::addBodies(DollId id, std::span<const BodyState> states, const BulletTuning& tuning, bool stock,
                         bool sleeping) {
     for (std::size_t i = 0; i < states.size(); ++i) {
         const BodyProfile& body = profile_.bodies[i];
         const vec3 inertia = conditionedInertia(profile_, body, stock ? 0.0F : tuning.leastGyration);
         bodies_.push_back(makeBody(body.shape, body.massKg, inertia, states[i]));
         btRigidBody& made = *bodies_.back().body;
-        made.setUserIndex(index);
-        made.setUserIndex2(static_cast<int>(i));
+        name(made, id, static_cast<int>(i));
         made.setUserPointer(this);
         if (!stock) made.setDamping(tuning.linearDamping, tuning.angularDamping);
         if (!sleeping) made.setActivationState(DISABLE_DEACTIVATION);
@@ -150,11 +151,6 @@ void Ragdoll::setBodies(std::span<const BodyState> bodies) {
         joint->forgetImpulses();
     for (const auto& motor : motors_)
         if (motor != nullptr) motor->forgetImpulses();
-}
-
-void Ragdoll::setIndex(int index) {
-    for (const BodyInWorld& made : bodies_)
-        made.body->setUserIndex(index);
 }
 
 DollState Ragdoll::state() const {

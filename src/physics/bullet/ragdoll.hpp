@@ -37,7 +37,7 @@ class Ragdoll {
   public:
     /// Adds the doll to `world`. `stockJoints`: Bullet's own hinge and cone-twist instead of RagdollJoint. `tuning`
     /// must outlive the doll.
-    Ragdoll(btDiscreteDynamicsWorld& world, int index, const RagdollProfile& profile, std::span<const BodyState> bodies,
+    Ragdoll(btDiscreteDynamicsWorld& world, DollId id, const RagdollProfile& profile, std::span<const BodyState> bodies,
             const BulletTuning& tuning, const JointTuning& jointTuning, bool stockJoints, bool sleeping);
     ~Ragdoll();
     Ragdoll(const Ragdoll&) = delete;
@@ -54,8 +54,6 @@ class Ragdoll {
     void wake();
     void setFilter(const CollisionFilter& filter);
     [[nodiscard]] const CollisionFilter& filter() const { return filter_; }
-    /// Its number among the dolls of the world, which may change when others are removed.
-    void setIndex(int index);
 
     [[nodiscard]] DollState state() const;
     /// `maySleep`: whether a sleeping state is taken over as such.
@@ -66,7 +64,7 @@ class Ragdoll {
     [[nodiscard]] std::span<const std::unique_ptr<MotorConstraint>> motors() const { return motors_; }
 
   private:
-    void addBodies(int index, std::span<const BodyState> states, const BulletTuning& tuning, bool stock, bool sleeping);
+    void addBodies(DollId id, std::span<const BodyState> states, const BulletTuning& tuning, bool stock, bool sleeping);
     void addStockConstraints();
     void addJoints(const JointTuning& tuning);
 

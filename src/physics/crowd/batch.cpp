@@ -1,7 +1,16 @@
 #include "physics/crowd/batch.hpp"
 
+#include <cstddef>
+
 namespace lutka::physics::crowd {
 namespace {
+
+// Pair contacts find members by these; layout.hpp, which the kernels of each instruction set see, includes nothing.
+static_assert(offsetof(BodyLanes, velocity) == kVelocityOffset * sizeof(float));
+static_assert(offsetof(BodyLanes, angular) == kAngularOffset * sizeof(float));
+static_assert(offsetof(BodyLanes, inverseInertia) == kInertiaOffset * sizeof(float));
+static_assert(offsetof(BodyLanes, position) == kPositionOffset * sizeof(float));
+static_assert(offsetof(BodyLanes, axisX) == kAxisOffset * sizeof(float));
 
 // Copies one lane of every Wide in `from`, which is made of nothing else.
 template <class Lanes>

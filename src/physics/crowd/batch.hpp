@@ -30,9 +30,12 @@ struct Batch {
     std::vector<StaticContactLanes> contacts;  ///< Of this step, body by body.
     std::vector<int> firstContact;             ///< See BatchView.
     std::vector<Wide> impulseSums;             ///< One a contact, of the substeps since they were found; for reports.
-    std::vector<StaticPush> pushes;  ///< Of contacts that were found anew since, and at last of all; for reports.
-    bool nearShapes = false;         ///< Whether some of its dolls are near static geometry other than planes.
-    std::vector<DragLanes> drags;    ///< Of this step, one a pull.
+    std::vector<StaticPush> pushes;        ///< Of contacts that were found anew since, and at last of all; for reports.
+    std::vector<int> nearPlanes;           ///< Statics that some lane is near, while contacts are found,
+    std::vector<int> nearStatics[kLanes];  ///< and the others, lane by lane.
+    std::vector<unsigned char> selfMasks;  ///< One a pair of the topology, likewise.
+    bool nearShapes = false;               ///< Whether some of its dolls are near static geometry other than planes.
+    std::vector<DragLanes> drags;          ///< Of this step, one a pull.
     RestLanes rest{};
     int doll[kLanes]{};  ///< Which doll is in which lane.
     int used = 0;

@@ -20,6 +20,7 @@ namespace crowd {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using Side = ContactReport::Side;
 
 double milliseconds(Clock::duration time) {
     return std::chrono::duration<double, std::milli>(time).count();
@@ -39,59 +40,57 @@ class CrowdWorld final : public World {
   public:
     CrowdWorld(const WorldSettings& settings, const CrowdTuning& tuning) : state_(settings, tuning) {}
 
-    int addStatic(const StaticShape& shape) override;
-    void removeStatic(int index) override;
-    void removeProp(int prop) override;
-    void removeDoll(int doll) override;
-    int addProp(const DynamicProp& prop) override;
-    int addDoll(const RagdollProfile& profile, std::span<const BodyState> bodies) override;
-
-    void step(float dt, const std::function<void()>& afterSubstep) override;
     [[nodiscard]] int substepsPerStep() const override { return state_.tuning.substeps; }
-    void setSubsteps(int substeps) override { state_.tuning.substeps = substeps; }
-
-    [[nodiscard]] int dollCount() const override { return static_cast<int>(state_.ragdolls.size()); }
-    [[nodiscard]] const RagdollProfile& profileOf(int doll) const override { return *dollOf(doll).profile; }
-    [[nodiscard]] vec3 inertiaOf(int doll, int body) const override {
-        const RagdollProfile& profile = profileOf(doll);
-        return conditionedInertia(profile, profile.bodies[body], state_.tuning.leastGyration);
-    }
-    void getBodies(int doll, std::span<BodyState> bodies) const override;
-    void setBodies(int doll, std::span<const BodyState> bodies) override;
-    [[nodiscard]] bool isAsleep(int doll) const override { return dollOf(doll).asleep(); }
-    void wake(int doll) override { wakeDoll(doll); }
-    [[nodiscard]] DollState dollState(int doll) const override;
-    void setDollState(int doll, const DollState& state) override;
-    [[nodiscard]] int propCount() const override { return static_cast<int>(state_.props.size()); }
-    [[nodiscard]] const DynamicProp& propOf(int prop) const override { return state_.propSettings[prop]; }
-    [[nodiscard]] BodyState propState(int prop) const override {
-        return bodyState(state_, state_.dolls[state_.props[prop]], 0);
-    }
-
-    void applyImpulse(int doll, int body, const vec3& impulse, const vec3& worldPoint) override;
-    void applyForce(int doll, int body, const vec3& force, const vec3& worldPoint) override;
-    void setMotor(int doll, int constraint, const std::optional<JointMotor>& motor) override {
-        wakeDoll(doll);
-        crowd::setMotor(state_, state_.ragdolls[doll], constraint, motor);
-    }
-    [[nodiscard]] double motorWork() const override { return state_.motorWork; }
-    [[nodiscard]] std::optional<RayHit> rayTest(const vec3& from, const vec3& to, std::uint32_t layers) const override;
-    void setDollFilter(int doll, const CollisionFilter& filter) override;
-    [[nodiscard]] CollisionFilter dollFilter(int doll) const override { return dollOf(doll).filter; }
-    void setPropFilter(int prop, const CollisionFilter& filter) override;
-    void setDrag(int id, const Drag& drag) override;
-    void removeDrag(int id) override;
     [[nodiscard]] double dragWork() const override { return state_.dragWork; }
-    [[nodiscard]] std::vector<std::pair<int, Drag>> dragsOf(int doll) const override;
-    [[nodiscard]] StepTimes stepTimes() const override { return times_; }
+    [[nodiscard]] double motorWork() const override { return state_.motorWork; }
     void getContacts(std::vector<ContactPoint>& contacts) const override;
     [[nodiscard]] std::span<const ContactReport> contactReports() const override { return state_.reports; }
+    [[nodiscard]] StepTimes stepTimes() const override { return times_; }
 
   private:
+    [[nodiscard]] const RagdollProfile& profileAt(int doll) const override { return *dollOf(doll).profile; }
+    [[nodiscard]] vec3 inertiaAt(int doll, int body) const override {
+        const RagdollProfile& profile = profileAt(doll);
+        return conditionedInertia(profile, profile.bodies[body], state_.tuning.leastGyration);
+    }
+    void getBodiesAt(int doll, std::span<BodyState> bodies) const override;
+    [[nodiscard]] bool isAsleepAt(int doll) const override { return dollOf(doll).asleep(); }
+    [[nodiscard]] const DynamicProp& propAt(int prop) const override { return state_.propSettings[prop]; }
+    [[nodiscard]] BodyState propStateAt(int prop) const override {
+        return bodyState(state_, state_.dolls[state_.props[prop]], 0);
+    }
+    [[nodiscard]] std::optional<RayHit> castRay(const vec3& from, const vec3& to, std::uint32_t layers) const override;
+
+    void addStaticAs(StaticId id, const StaticShape& shape) override;
+    void addPropAs(PropId id, const DynamicProp& prop) override;
+    void addDollAs(DollId id, const RagdollProfile& profile, std::span<const BodyState> bodies) override;
+    void removeStaticAt(int fixed) override;
+    void removePropAt(int prop) override;
+    void removeDollAt(int doll) override;
+    void advance(float dt, const std::function<void()>& afterSubstep) override;
+    void useSubsteps(int substeps) override { state_.tuning.substeps = substeps; }
+    void setBodiesAt(int doll, std::span<const BodyState> bodies) override;
+    void wakeAt(int doll) override { wakeDoll(state_.ragdolls[doll]); }
+    [[nodiscard]] DollState dollStateAt(int doll) const override;
+    void setDollStateAt(int doll, const DollState& state) override;
+    void applyImpulseAt(int doll, int body, const vec3& impulse, const vec3& worldPoint) override;
+    void applyForceAt(int doll, int body, const vec3& force, const vec3& worldPoint) override;
+    void setMotorAt(int doll, int constraint, const std::optional<JointMotor>& motor) override {
+        wakeAt(doll);
+        crowd::setMotor(state_, state_.ragdolls[doll], constraint, motor);
+    }
+    void setDollFilterAt(int doll, const CollisionFilter& filter) override;
+    [[nodiscard]] CollisionFilter dollFilterAt(int doll) const override { return dollOf(doll).filter; }
+    void setPropFilterAt(int prop, const CollisionFilter& filter) override;
+    void addDragTo(int doll, const Drag& drag) override;
+    void setDragAt(int place, int doll, const Drag& drag) override;
+    void removeDragAt(int place) override { state_.drags.erase(state_.drags.begin() + place); }
+
     [[nodiscard]] const Doll& dollOf(int doll) const { return state_.dolls[state_.ragdolls[doll]]; }
-    void wakeDoll(int doll) {
-        if (dollOf(doll).asleep()) wakeIsland(state_, state_.ragdolls[doll]);
-        state_.dolls[state_.ragdolls[doll]].restSeconds = 0.0F;
+    // By its place in CrowdState::dolls.
+    void wakeDoll(int index) {
+        if (state_.dolls[index].asleep()) wakeIsland(state_, index);
+        state_.dolls[index].restSeconds = 0.0F;
     }
     void wakeAll();
     void rayAgainstDoll(int index, const vec3& from, const vec3& to, std::optional<RayHit>& nearest) const;
@@ -105,13 +104,13 @@ void CrowdWorld::wakeAll() {
         if (state_.dolls[i].asleep() && !state_.dolls[i].removed) crowd::wake(state_, static_cast<int>(i));
 }
 
-int CrowdWorld::addStatic(const StaticShape& shape) {
+void CrowdWorld::addStaticAs(StaticId id, const StaticShape& shape) {
     state_.statics.emplace_back(shape);
+    state_.staticIds.push_back(id);
     wakeAll();
-    return static_cast<int>(state_.statics.size()) - 1;
 }
 
-void CrowdWorld::removeStatic(int index) {
+void CrowdWorld::removeStaticAt(int index) {
     for (std::size_t i = 0; i < state_.dolls.size(); ++i) {
         const auto& statics = state_.dolls[i].statics;
         const bool held = std::any_of(statics.begin(), statics.end(), [&](const CarriedStatic& touch) {
@@ -120,6 +119,7 @@ void CrowdWorld::removeStatic(int index) {
         if (held && state_.dolls[i].asleep()) wakeIsland(state_, static_cast<int>(i));
     }
     state_.statics.erase(state_.statics.begin() + index);
+    state_.staticIds.erase(state_.staticIds.begin() + index);
     for (Doll& doll : state_.dolls) {
         std::erase_if(doll.statics,
                       [&](const CarriedStatic& touch) { return geometryOfKey(touch.contact.key) == index; });
@@ -129,40 +129,36 @@ void CrowdWorld::removeStatic(int index) {
     state_.reports.clear();
 }
 
-void CrowdWorld::removeProp(int prop) {
+void CrowdWorld::removePropAt(int prop) {
     crowd::removeDoll(state_, state_.props[prop]);
     state_.props.erase(state_.props.begin() + prop);
     state_.propSettings.erase(state_.propSettings.begin() + prop);
     state_.reports.clear();
 }
 
-void CrowdWorld::removeDoll(int doll) {
-    std::erase_if(state_.drags, [&](const DragRecord& record) { return record.drag.doll == doll; });
+void CrowdWorld::removeDollAt(int doll) {
     crowd::removeDoll(state_, state_.ragdolls[doll]);
     state_.ragdolls.erase(state_.ragdolls.begin() + doll);
-    for (DragRecord& record : state_.drags)
-        if (record.drag.doll > doll) --record.drag.doll;
     state_.reports.clear();
 }
 
-int CrowdWorld::addProp(const DynamicProp& prop) {
+void CrowdWorld::addPropAs(PropId id, const DynamicProp& prop) {
     const int index = crowd::addDoll(state_, makeTopology(prop), nullptr, std::span(&prop.state, 1));
     state_.dolls[index].filter = prop.filter;
+    state_.dolls[index].side = {Side::Kind::prop, {}, id, {}, 0};
     state_.props.push_back(index);
     state_.propSettings.push_back(prop);
-    return static_cast<int>(state_.props.size()) - 1;
 }
 
-int CrowdWorld::addDoll(const RagdollProfile& profile, std::span<const BodyState> bodies) {
-    LUTKA_ASSERT(bodies.size() == profile.bodies.size());
+void CrowdWorld::addDollAs(DollId id, const RagdollProfile& profile, std::span<const BodyState> bodies) {
     const int index = crowd::addDoll(state_, makeTopology(profile, state_.tuning.leastGyration), &profile, bodies);
+    state_.dolls[index].side = {Side::Kind::doll, id, {}, {}, 0};
     state_.ragdolls.push_back(index);
-    return static_cast<int>(state_.ragdolls.size()) - 1;
 }
 
-void CrowdWorld::step(float dt, const std::function<void()>& afterSubstep) {
+void CrowdWorld::advance(float dt, const std::function<void()>& afterSubstep) {
     for (const DragRecord& record : state_.drags)
-        wakeDoll(record.drag.doll);
+        wakeDoll(record.doll);
     gatherActive(state_);
     state_.reports.clear();
     if (state_.active.empty()) {  // all asleep: nothing can change
@@ -190,7 +186,7 @@ void CrowdWorld::step(float dt, const std::function<void()>& afterSubstep) {
               static_cast<int>(state_.jobs.size())};
 }
 
-void CrowdWorld::getBodies(int doll, std::span<BodyState> bodies) const {
+void CrowdWorld::getBodiesAt(int doll, std::span<BodyState> bodies) const {
     const Doll& from = dollOf(doll);
     if (from.asleep())
         std::copy(from.frozen.begin(), from.frozen.end(), bodies.begin());
@@ -198,8 +194,8 @@ void CrowdWorld::getBodies(int doll, std::span<BodyState> bodies) const {
         readLane(state_.batchOf(from), from.lane, bodies);
 }
 
-void CrowdWorld::setBodies(int doll, std::span<const BodyState> bodies) {
-    wakeDoll(doll);
+void CrowdWorld::setBodiesAt(int doll, std::span<const BodyState> bodies) {
+    wakeAt(doll);
     Doll& to = state_.dolls[state_.ragdolls[doll]];
     Batch& batch = state_.batchOf(to);
     writeLane(batch, to.lane, bodies);
@@ -210,8 +206,8 @@ void CrowdWorld::setBodies(int doll, std::span<const BodyState> bodies) {
     to.restSeconds = 0.0F;
 }
 
-void CrowdWorld::applyImpulse(int doll, int body, const vec3& impulse, const vec3& worldPoint) {
-    wakeDoll(doll);
+void CrowdWorld::applyImpulseAt(int doll, int body, const vec3& impulse, const vec3& worldPoint) {
+    wakeAt(doll);
     Doll& to = state_.dolls[state_.ragdolls[doll]];
     to.restSeconds = 0.0F;
     BodyLanes& lanes = state_.batchOf(to).bodies[body];
@@ -225,18 +221,18 @@ void CrowdWorld::applyImpulse(int doll, int body, const vec3& impulse, const vec
     writeVector(lanes.angular, to.lane, before.angularVelocity + turned);
 }
 
-void CrowdWorld::applyForce(int doll, int body, const vec3& force, const vec3& worldPoint) {
-    wakeDoll(doll);
+void CrowdWorld::applyForceAt(int doll, int body, const vec3& force, const vec3& worldPoint) {
+    wakeAt(doll);
     const int index = state_.ragdolls[doll];
     const RigidTransform worldFromBody = bodyState(state_, state_.dolls[index], body).worldFromBody;
     state_.forces.push_back({index, body, force, inverse(worldFromBody) * worldPoint});
 }
 
-DollState CrowdWorld::dollState(int doll) const {
+DollState CrowdWorld::dollStateAt(int doll) const {
     const Doll& from = dollOf(doll);
     DollState state;
     state.bodies.resize(from.profile->bodies.size());
-    getBodies(doll, state.bodies);
+    getBodiesAt(doll, state.bodies);
     state.filter = from.filter;
     for (std::size_t i = 0; i < from.profile->constraints.size(); ++i) {
         const MotorRecord* motor = findMotor(state_, state_.ragdolls[doll], static_cast<int>(i));
@@ -247,8 +243,8 @@ DollState CrowdWorld::dollState(int doll) const {
     return state;
 }
 
-void CrowdWorld::setDollState(int doll, const DollState& state) {
-    setBodies(doll, state.bodies);
+void CrowdWorld::setDollStateAt(int doll, const DollState& state) {
+    setBodiesAt(doll, state.bodies);
     const int index = state_.ragdolls[doll];
     Doll& to = state_.dolls[index];
     to.filter = state.filter;
@@ -260,32 +256,24 @@ void CrowdWorld::setDollState(int doll, const DollState& state) {
     to.island = state_.nextIsland++;
 }
 
-std::vector<std::pair<int, Drag>> CrowdWorld::dragsOf(int doll) const {
-    std::vector<std::pair<int, Drag>> found;
-    for (const DragRecord& record : state_.drags)
-        if (record.drag.doll == doll) found.emplace_back(record.id, record.drag);
-    return found;
-}
-
 void CrowdWorld::rayAgainstDoll(int index, const vec3& from, const vec3& to, std::optional<RayHit>& nearest) const {
     const Doll& doll = state_.dolls[index];
-    const auto at = std::find(state_.ragdolls.begin(), state_.ragdolls.end(), index);
     const bool isDoll = doll.profile != nullptr;
     for (int body = 0; body < state_.groupOf(doll).topology.bodyCount(); ++body) {
         const RayTouch touch = rayAgainst(placedShape(state_, doll, body), from, to);
         if (touch.fraction > 1.0F || (nearest && touch.fraction >= nearest->fraction)) continue;
-        nearest = RayHit{isDoll ? static_cast<int>(at - state_.ragdolls.begin()) : -1, isDoll ? body : -1,
-                         from + touch.fraction * (to - from), touch.normal, touch.fraction};
+        nearest = RayHit{doll.side.doll, isDoll ? body : -1, from + touch.fraction * (to - from), touch.normal,
+                         touch.fraction};
     }
 }
 
-std::optional<RayHit> CrowdWorld::rayTest(const vec3& from, const vec3& to, std::uint32_t layers) const {
+std::optional<RayHit> CrowdWorld::castRay(const vec3& from, const vec3& to, std::uint32_t layers) const {
     std::optional<RayHit> nearest;
     for (const PlacedStatic& geometry : state_.statics) {
         if ((geometry.shape.filter.layers & layers) == 0) continue;
         const RayTouch touch = rayAgainst(geometry, from, to);
         if (touch.fraction > 1.0F || (nearest && touch.fraction >= nearest->fraction)) continue;
-        nearest = RayHit{-1, -1, from + touch.fraction * (to - from), touch.normal, touch.fraction};
+        nearest = RayHit{{}, -1, from + touch.fraction * (to - from), touch.normal, touch.fraction};
     }
     for (std::size_t i = 0; i < state_.dolls.size(); ++i)
         if (!state_.dolls[i].removed && (state_.dolls[i].filter.layers & layers) != 0)
@@ -293,28 +281,28 @@ std::optional<RayHit> CrowdWorld::rayTest(const vec3& from, const vec3& to, std:
     return nearest;
 }
 
-void CrowdWorld::setDollFilter(int doll, const CollisionFilter& filter) {
-    wakeDoll(doll);
+void CrowdWorld::setDollFilterAt(int doll, const CollisionFilter& filter) {
+    wakeAt(doll);
     state_.dolls[state_.ragdolls[doll]].filter = filter;
 }
 
-void CrowdWorld::setPropFilter(int prop, const CollisionFilter& filter) {
+void CrowdWorld::setPropFilterAt(int prop, const CollisionFilter& filter) {
     state_.propSettings[prop].filter = filter;
     if (state_.dolls[state_.props[prop]].asleep()) wakeIsland(state_, state_.props[prop]);
     state_.dolls[state_.props[prop]].filter = filter;
 }
 
-void CrowdWorld::setDrag(int id, const Drag& drag) {
-    auto at = std::lower_bound(state_.drags.begin(), state_.drags.end(), id,
-                               [](const DragRecord& record, int wanted) { return record.id < wanted; });
-    const bool known = at != state_.drags.end() && at->id == id;
-    if (!known) at = state_.drags.insert(at, {id, drag, true, 0, vec3(0)});
-    at->drag = drag;
-    wakeDoll(drag.doll);
+void CrowdWorld::addDragTo(int doll, const Drag& drag) {
+    const int index = state_.ragdolls[doll];
+    state_.drags.push_back({index, drag, true, 0, vec3(0)});
+    wakeDoll(index);
 }
 
-void CrowdWorld::removeDrag(int id) {
-    std::erase_if(state_.drags, [&](const DragRecord& record) { return record.id == id; });
+void CrowdWorld::setDragAt(int place, int doll, const Drag& drag) {
+    DragRecord& record = state_.drags[place];
+    record.doll = state_.ragdolls[doll];
+    record.drag = drag;
+    wakeDoll(record.doll);
 }
 
 void CrowdWorld::getContacts(std::vector<ContactPoint>& contacts) const {

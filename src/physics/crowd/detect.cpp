@@ -154,12 +154,13 @@ Bounds worldBounds(const Doll& doll, float dt, float farther) {
 
 namespace {
 
-void findSelfContacts(CrowdState& state, const Batch& batch, const BatchView& view, const Topology& topology, float dt,
+void findSelfContacts(CrowdState& state, Batch& batch, const BatchView& view, const Topology& topology, float dt,
                       std::vector<PairTouch>& out) {
     out.clear();
     const TouchRange range = touchRange(state, dt);
     const std::vector<SelfPair>& pairs = topology.selfPairs;
-    std::vector<unsigned char> masks(pairs.size());
+    std::vector<unsigned char>& masks = batch.selfMasks;
+    masks.resize(pairs.size());
     state.kernels->findSelfPairs(view, pairs.data(), static_cast<int>(pairs.size()), masks.data());
     const auto isBox = [&](int body) { return topology.shapes[body].kind == BodyShape::Kind::box; };
     for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -181,7 +182,8 @@ void findSelfContacts(CrowdState& state, const Batch& batch, const BatchView& vi
     }
 }
 
-void collideDolls(const CrowdState& state, int indexA, int indexB, float dt, TouchSearch& search) {
+void collideDolls(const CrowdState& state, int indexA, int indexB, float dt, std::vector<BodyPair>& near,
+                  TouchSearch& search) {
     const Doll& a = state.dolls[indexA];
     const Doll& b = state.dolls[indexB];
     // How far the two roots move against each other.
@@ -189,7 +191,6 @@ void collideDolls(const CrowdState& state, int indexA, int indexB, float dt, Tou
     const float apart[3] = {moved.x, moved.y, moved.z};
     const float low[3] = {b.low.x, b.low.y, b.low.z};
     const float high[3] = {b.high.x, b.high.y, b.high.z};
-    thread_local std::vector<BodyPair> near;
     near.resize(static_cast<std::size_t>(a.boxes) * static_cast<std::size_t>(b.boxes) * kLanes * kLanes);
     const int count = state.kernels->findBodyPairs(&state.stepBoxes[a.firstBox], a.boxes, &state.stepBoxes[b.firstBox],
                                                    b.boxes, apart, low, high, near.data());
@@ -229,24 +230,23 @@ bool pushes(const CrowdState& state, const Doll& mover, const Doll& sleeper, flo
 }  // namespace
 
 void findBounds(CrowdState& state, float dt) {
-    state.pool.parallelFor(state.active.size(), 4, [&](std::size_t begin, std::size_t end) {
+    state.inParallel(state.active.size(), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             findBounds(state, *state.active[i], state.activeGroup[i]->topology, dt);
     });
 }
 
-void sweepDolls(CrowdState& state, float dt) {
-    struct Swept {
-        Bounds bounds;
-        int doll;
-        bool asleep;
-    };
-    std::vector<Swept> swept(state.sweep.size());
+namespace {
+
+// The bounds of all dolls by their low end along x. They come in the order of the step before, which is nearly that of
+// this one: sorting by insertion looks at each a few times.
+void sortAlongX(CrowdState& state, float dt) {
+    std::vector<Swept>& swept = state.scratch.swept;
+    swept.resize(state.sweep.size());
     for (std::size_t i = 0; i < swept.size(); ++i) {
         const Doll& doll = state.dolls[state.sweep[i]];
         swept[i] = {worldBounds(doll, dt), state.sweep[i], doll.asleep()};
     }
-    // Nearly sorted from the step before.
     for (std::size_t i = 1; i < swept.size(); ++i) {
         if (swept[i - 1].bounds.low.x <= swept[i].bounds.low.x) continue;
         const Swept moving = swept[i];
@@ -255,26 +255,44 @@ void sweepDolls(CrowdState& state, float dt) {
             swept[to] = swept[to - 1];
         swept[to] = moving;
     }
-    std::vector<std::pair<int, int>> found;
-    std::vector<int> firstOf(state.dolls.size() + 1, 0);  // counts, then places: pairs by their first doll
-    for (std::size_t i = 0; i < swept.size(); ++i) {
-        const Swept& a = swept[i];
-        state.sweep[i] = a.doll;
-        for (std::size_t k = i + 1; k < swept.size() && swept[k].bounds.low.x <= a.bounds.high.x; ++k) {
-            const Swept& b = swept[k];
-            if ((a.asleep && b.asleep) || !meet(a.bounds.low, a.bounds.high, b.bounds.low, b.bounds.high)) continue;
-            if (!state.dolls[a.doll].filter.collidesWith(state.dolls[b.doll].filter)) continue;
-            found.push_back(std::minmax(a.doll, b.doll));
-            ++firstOf[static_cast<std::size_t>(found.back().first) + 1];
-        }
-    }
-    std::partial_sum(firstOf.begin(), firstOf.end(), firstOf.begin());
-    state.dollPairs.resize(found.size());
-    std::vector<int> next(firstOf.begin(), firstOf.end() - 1);
+    for (std::size_t i = 0; i < swept.size(); ++i)
+        state.sweep[i] = swept[i].doll;
+}
+
+bool mayTouch(const CrowdState& state, const Swept& a, const Swept& b) {
+    if ((a.asleep && b.asleep) || !meet(a.bounds.low, a.bounds.high, b.bounds.low, b.bounds.high)) return false;
+    return state.dolls[a.doll].filter.collidesWith(state.dolls[b.doll].filter);
+}
+
+// The pairs found into CrowdState::dollPairs, in the order of their dolls: by counting for the first, by sorting the
+// few that share it for the second.
+void orderPairs(CrowdState& state) {
+    const std::vector<std::pair<int, int>>& found = state.scratch.found;
+    std::vector<int>& firstOf = state.scratch.firstOf;
+    firstOf.assign(state.dolls.size() + 1, 0);
     for (const std::pair<int, int>& pair : found)
-        state.dollPairs[next[pair.first]++] = pair;
+        ++firstOf[static_cast<std::size_t>(pair.first) + 1];
+    std::partial_sum(firstOf.begin(), firstOf.end(), firstOf.begin());
+    state.scratch.next.assign(firstOf.begin(), firstOf.end() - 1);
+    state.dollPairs.resize(found.size());
+    for (const std::pair<int, int>& pair : found)
+        state.dollPairs[state.scratch.next[pair.first]++] = pair;
     for (std::size_t i = 0; i + 1 < firstOf.size(); ++i)
         std::sort(state.dollPairs.begin() + firstOf[i], state.dollPairs.begin() + firstOf[i + 1]);
+}
+
+}  // namespace
+
+void sweepDolls(CrowdState& state, float dt) {
+    sortAlongX(state, dt);
+    const std::vector<Swept>& swept = state.scratch.swept;
+    state.scratch.found.clear();
+    for (std::size_t i = 0; i < swept.size(); ++i) {
+        for (std::size_t k = i + 1; k < swept.size() && swept[k].bounds.low.x <= swept[i].bounds.high.x; ++k)
+            if (mayTouch(state, swept[i], swept[k]))
+                state.scratch.found.push_back(std::minmax(swept[i].doll, swept[k].doll));
+    }
+    orderPairs(state);
 }
 
 void wakeTouched(CrowdState& state, float dt) {
@@ -318,7 +336,7 @@ void placeNearDolls(CrowdState& state) {
         state.isNear[a] = state.isNear[b] = 1;
     state.stepBodies.resize(static_cast<std::size_t>(state.bodyTotal));
     state.stepBoxes.resize(static_cast<std::size_t>(state.boxTotal));
-    state.pool.parallelFor(state.dolls.size(), 32, [&](std::size_t begin, std::size_t end) {
+    state.inParallel(state.dolls.size(), 32, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Doll& doll = state.dolls[i];
             if (state.isNear[i] == 0 || doll.asleep()) continue;
@@ -332,14 +350,15 @@ void collideAllDolls(CrowdState& state, float dt) {
     constexpr std::size_t kPiece = 64;  // pairs of dolls
     const std::size_t pieces = (state.dollPairs.size() + kPiece - 1) / kPiece;
     if (state.dollTouches.size() < pieces) state.dollTouches.resize(pieces);
-    state.pool.parallelFor(pieces, 1, [&](std::size_t begin, std::size_t end) {
+    state.inParallel(pieces, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t piece = begin; piece < end; ++piece) {
-            std::vector<PairTouch>& out = state.dollTouches[piece];
-            out.clear();
-            TouchSearch search(state, dt, out);
+            PieceTouches& out = state.dollTouches[piece];
+            out.touches.clear();
+            TouchSearch search(state, dt, out.touches);
             for (std::size_t i = piece * kPiece; i < std::min((piece + 1) * kPiece, state.dollPairs.size()); ++i) {
                 const auto& [a, b] = state.dollPairs[i];
-                if (!state.dolls[a].asleep() && !state.dolls[b].asleep()) collideDolls(state, a, b, dt, search);
+                if (!state.dolls[a].asleep() && !state.dolls[b].asleep())
+                    collideDolls(state, a, b, dt, out.near, search);
             }
             search.flush();
         }
@@ -349,7 +368,7 @@ void collideAllDolls(CrowdState& state, float dt) {
         for (std::size_t i = 0; i < state.active.size(); ++i)
             use(state.selfTouches[i]);
         for (std::size_t piece = 0; piece < pieces; ++piece)
-            use(state.dollTouches[piece]);
+            use(state.dollTouches[piece].touches);
     };
     join([&](const std::vector<PairTouch>& touches) { found += touches.size(); });
     state.touches.clear();
@@ -364,7 +383,7 @@ void collideAllDolls(CrowdState& state, float dt) {
 void findContacts(CrowdState& state, float dt) {
     if (state.selfTouches.size() < state.active.size()) state.selfTouches.resize(state.active.size());
     placeNearDolls(state);
-    state.pool.parallelFor(state.active.size(), 2, [&](std::size_t begin, std::size_t end) {
+    state.inParallel(state.active.size(), 2, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             Batch& batch = *state.active[i];
             const Topology& topology = state.activeGroup[i]->topology;

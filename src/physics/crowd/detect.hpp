@@ -7,12 +7,8 @@ namespace lutka::physics::crowd {
 /// Predicted motion counts a little more than whole: limbs speed up within a step.
 inline constexpr float kForesight = 1.2F;
 
-/// A doll's bounds in the world's frame, metres.
-struct Bounds {
-    vec3 low, high;
-};
-/// Those that findBounds() gave it as seen from its root, with the root's own motion in `dt` s and `farther` metres
-/// more.
+/// The bounds that findBounds() gave a doll as seen from its root, with the root's own motion in `dt` s and `farther`
+/// metres more.
 [[nodiscard]] Bounds worldBounds(const Doll& doll, float dt, float farther = 0.0F);
 [[nodiscard]] bool meet(const vec3& lowA, const vec3& highA, const vec3& lowB, const vec3& highB);
 

@@ -17,7 +17,7 @@ float massOf(const Topology& topology) {
 }
 
 Doll& dollOf(CrowdState& state, const DragRecord& record) {
-    return state.dolls[state.ragdolls[record.drag.doll]];
+    return state.dolls[record.doll];
 }
 
 }  // namespace

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "physics/crowd/union_find.hpp"
-
 namespace lutka::physics::crowd {
 namespace {
 
@@ -14,7 +12,7 @@ constexpr float kNear = 0.005F;
 constexpr int kWindow = 64;
 
 void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTouch& touch) {
-    constexpr float kFriction = 0.25F;  // of skin on skin: Bullet's default of a body, squared
+    constexpr float kFriction = kBodyFriction * kBodyFriction;
     const Doll& a = state.dolls[touch.dollA];
     const Doll& b = state.dolls[touch.dollB];
     pair.bodyA[lane] = state.batchOf(a).bodyLane(touch.bodyA, a.lane);
@@ -49,16 +47,14 @@ void emptyBlock(PairContactLanes& pair, Batch& batch) {
 // one by one: a block is large, and filling 64 in turn would push them all out of the nearest cache.
 class Packer {
   public:
-    explicit Packer(CrowdState& state) : state_(state), usedBy_(static_cast<std::size_t>(state.bodyTotal), 0) {}
+    explicit Packer(CrowdState& state) : state_(state), usedBy_(state.scratch.usedBy) {
+        usedBy_.resize(static_cast<std::size_t>(state.bodyTotal), 0);
+    }
 
     void pack(Job& job) {
         job.touchOfLane.clear();
         openWindow(job);
-        // What will hardly press shares blocks, which are left early.
-        std::stable_partition(job.touches.begin(), job.touches.end(), [&](int index) {
-            const PairTouch& touch = state_.touches[index];
-            return touch.carried.normal > 0.0F || touch.touch.separation < kNear;
-        });
+        putPressingFirst(job.touches);
         for (std::size_t i = 0; i < job.touches.size(); ++i) {
             if (place(job, job.touches[i])) continue;
             forget(job, i);
@@ -68,13 +64,29 @@ class Packer {
         forget(job, job.touches.size());
         makeRoom(job.pairs, job.touchOfLane.size());
         job.pairs.resize(job.touchOfLane.size());
-        state_.pool.parallelFor(job.pairs.size(), 64, [&](std::size_t begin, std::size_t end) {
+        state_.inParallel(job.pairs.size(), 64, [&](std::size_t begin, std::size_t end) {
             for (std::size_t block = begin; block < end; ++block)
                 fill(job, block);
         });
     }
 
   private:
+    // What will hardly press shares blocks, which are left early. std::stable_partition would allocate.
+    void putPressingFirst(std::vector<int>& touches) {
+        std::vector<int>& later = state_.scratch.later;
+        later.clear();
+        std::size_t to = 0;
+        for (const int index : touches) {
+            const PairTouch& touch = state_.touches[index];
+            const bool presses = touch.carried.normal > 0.0F || touch.touch.separation < kNear;
+            if (presses)
+                touches[to++] = index;
+            else
+                later.push_back(index);
+        }
+        std::copy(later.begin(), later.end(), touches.begin() + static_cast<std::ptrdiff_t>(to));
+    }
+
     std::uint64_t& used(int doll, int body) { return usedBy_[state_.dolls[doll].firstBody + body]; }
 
     // Leaves the table clean of the window's contacts, of which `end` is the one after the last.
@@ -121,9 +133,9 @@ class Packer {
     }
 
     CrowdState& state_;
-    std::vector<std::uint64_t> usedBy_;  // one a body of the world: the blocks of the window that have it
-    std::size_t placed_ = 0;             // the window's first contact
-    std::size_t first_ = 0;              // the window's first block
+    std::vector<std::uint64_t>& usedBy_;  // one a body of the world: the blocks of the window that have it
+    std::size_t placed_ = 0;              // the window's first contact
+    std::size_t first_ = 0;               // the window's first block
     std::uint64_t full_ = 0;
     std::array<int, kWindow> filled_{};
 };
@@ -131,10 +143,12 @@ class Packer {
 void assignBatches(CrowdState& state) {
     for (std::size_t i = 0; i < state.active.size(); ++i)
         state.active[i]->job = static_cast<int>(i);
-    UnionFind sets(state.active.size());
+    UnionFind& sets = state.scratch.sets;
+    sets.reset(state.active.size());
     for (const PairTouch& touch : state.touches)
         sets.join(state.batchOf(state.dolls[touch.dollA]).job, state.batchOf(state.dolls[touch.dollB]).job);
-    std::vector<int> jobOf(state.active.size(), -1);
+    std::vector<int>& jobOf = state.scratch.jobOf;
+    jobOf.assign(state.active.size(), -1);
     state.jobCount = 0;
     for (std::size_t i = 0; i < state.active.size(); ++i) {
         const int root = sets.find(static_cast<int>(i));
@@ -164,7 +178,7 @@ void makeJobs(CrowdState& state) {
     for (std::size_t i = 0; i < state.touches.size(); ++i)
         state.jobs[state.batchOf(state.dolls[state.touches[i].dollA]).job].touches.push_back(static_cast<int>(i));
     for (DragRecord& record : state.drags) {
-        const Doll& doll = state.dolls[state.ragdolls[record.drag.doll]];
+        const Doll& doll = state.dolls[record.doll];
         state.jobs[state.batchOf(doll).job].drags.push_back(&record);
     }
     const auto jobOf = [&](int doll) -> Job& { return state.jobs[state.batchOf(state.dolls[doll]).job]; };

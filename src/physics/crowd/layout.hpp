@@ -41,7 +41,7 @@ struct BodyLanes {
     Wide3 spin;       ///< What half a substep of free motion adds to the turning rate.
     Wide3 low, high;  ///< Bounds for the coming step as seen from the doll's root: see `findBounds`.
 };
-/// In floats, from the first member to the lane's own.
+/// In floats, from the first member to the lane's own; batch.cpp holds them to the members.
 inline constexpr int kVelocityOffset = 0;
 inline constexpr int kAngularOffset = 3 * kLanes;
 inline constexpr int kInertiaOffset = 18 * kLanes;
@@ -203,39 +203,45 @@ struct PairContactLanes {
     Wide tangentMass[2];
 };
 
+/// What decides quality and cost within a substep; the same for all of them. The defaults are the outcome of the sweep
+/// described in docs/crowd.md.
+struct SubstepTuning {
+    int passes = 8;           ///< At most, with bias in a substep, >= 1: until the guess of what holds is right.
+    int patience = 3;         ///< Passes after which rows that will not come to rest are only added any more.
+    float aimGap = 0.0003F;   ///< Metres by which an anchor may miss in a substep before its arm is foreseen anew.
+    float letGo = 2.0F;       ///< By how much faster a contact between bodies takes back what it pressed too much.
+    float nearSpeed = 8.0F;   ///< m/s that an approach may grow by within a substep: contacts farther off are left out.
+    float mendGap = 0.0002F;  ///< Metres, and
+    float mendAngle = 0.002F;       ///< rad: errors below which nothing is mended.
+    float contactTolerance = 0.1F;  ///< m/s by which the guess of which contacts hold may be wrong.
+    float limitTolerance = 1.0F;    ///< rad/s, the same of limits.
+
+    float jointStiffness = 300.0F;  ///< Weight of rows that hold over the local effective mass. More: quicker, rougher.
+    float limitStiffness = 30.0F;   ///< The same of limits, and
+    float contactStiffness = 100.0F;  ///< static contacts.
+    float stiffen = 4.0F;             ///< Factor on a static contact's weight a pass in which it gives way,
+    float stiffest = 300.0F;          ///< up to this weight over the body's mass.
+    float firstTouch = 40.0F;         ///< Of both while they are still ahead: a wrong guess there pulls.
+    float grip = 1.0F;                ///< The same of friction. More: quicker to grip, chatters.
+    float pushSpeed = 2.0F;           ///< m/s, largest speed that overlap is pushed apart with.
+    float limitSpeed = 6.0F;          ///< rad/s, the same for limits.
+    float slop = 0.0005F;             ///< Metres of overlap left alone, so that resting contacts stay.
+    float rollingLever = 0.004F;      ///< Metres, rolling resistance: flesh is no ideal cylinder.
+    float jointStiction = 3.0F;       ///< Friction of a joint at rest over that of one that turns, less 1;
+    float stictionRate = 4.0F;        ///< fades out up to so many rad/s.
+};
+
 /// What a substep needs.
-struct SubstepParams {
+struct SubstepParams : SubstepTuning {
     float dt;
     float inverseDt;
     float gravity[3];
-    float linearDamping;     ///< Factor a substep.
-    float angularDamping;    ///< Likewise.
-    float jointRate;         ///< 1/s: the speed over the error that it is mended with.
-    float limitRate;         ///< Likewise.
-    float contactRate;       ///< Likewise.
-    float pushSpeed;         ///< m/s, largest speed that overlap is pushed apart with.
-    float limitSpeed;        ///< rad/s, the same of limits.
-    float slop;              ///< Metres of overlap that are left alone.
-    float jointStiction;     ///< By how much friction of a joint at rest exceeds that of one that turns fast,
-    float stictionRate;      ///< which is faster than so many rad/s.
-    float rollingLever;      ///< Metres: rolling resistance over normal force.
-    float jointStiffness;    ///< Weight of rows that hold over the local effective mass: hinges.
-    float limitStiffness;    ///< Limits.
-    float contactStiffness;  ///< Static contacts.
-    float stiffen;           ///< Factor on the weight of a contact that gives way, a pass,
-    float stiffest;          ///< up to this weight over its mass.
-    float firstTouch;        ///< Limits and contacts that are about to be met.
-    float grip;              ///< The same of friction.
-    float limitTolerance;    ///< rad/s, and
-    float contactTolerance;  ///< m/s: a guess of which rows hold that is wrong by more is mended in another pass.
-    float mendGap;           ///< Metres, and
-    float mendAngle;         ///< rad: errors below which nothing is mended.
-    float aimGap;            ///< Metres by which an anchor may go astray because the body turns at another rate.
-    float letGo;             ///< By how much faster a contact between bodies takes back what it pressed too much.
-    float nearSpeed;         ///< m/s that a contact's approach may grow by within a substep.
-    int patience;            ///< Passes before rows that will not come to rest are only added any more.
-    int passes;              ///< At most, until the guess of what holds is right.
-    int warmStart;           ///< The first substep of a step makes the carried friction impulses its own.
+    float linearDamping;   ///< Factor on the speed, a substep.
+    float angularDamping;  ///< Likewise.
+    float jointRate;       ///< 1/s: the speed over the error that it is mended with.
+    float limitRate;       ///< Likewise.
+    float contactRate;     ///< Likewise.
+    int warmStart;         ///< The first substep of a step makes the carried friction impulses its own.
 };
 
 /// What brings dolls to rest, one a lane; 1 for those that move.

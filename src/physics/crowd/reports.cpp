@@ -13,22 +13,12 @@ void add(const Wide& impulse, Wide& sum) {
         sum.lane[lane] += impulse.lane[lane];
 }
 
-// What a doll of the state is for the world, by its place in CrowdState::dolls.
-std::vector<Side> sidesOf(const CrowdState& state) {
-    std::vector<Side> sides(state.dolls.size());
-    for (std::size_t i = 0; i < state.ragdolls.size(); ++i)
-        sides[state.ragdolls[i]] = {Side::Kind::doll, static_cast<int>(i), 0};
-    for (std::size_t i = 0; i < state.props.size(); ++i)
-        sides[state.props[i]] = {Side::Kind::prop, static_cast<int>(i), 0};
-    return sides;
-}
-
-void reportStatics(CrowdState& state, const Batch& batch, const std::vector<Side>& sides) {
+void reportStatics(CrowdState& state, const Batch& batch) {
     for (const StaticPush& push : batch.pushes) {
         ContactReport report;
-        report.a = sides[batch.doll[push.lane]];
+        report.a = state.dolls[batch.doll[push.lane]].side;
         report.a.body = push.body;
-        report.b = {Side::Kind::fixed, geometryOfKey(push.key), 0};
+        report.b = {Side::Kind::fixed, {}, {}, state.staticIds[geometryOfKey(push.key)], 0};
         report.position = push.position;
         report.normal = push.normal;
         report.impulse = push.impulse;
@@ -36,7 +26,7 @@ void reportStatics(CrowdState& state, const Batch& batch, const std::vector<Side
     }
 }
 
-void reportPairs(CrowdState& state, const Job& job, const std::vector<Side>& sides) {
+void reportPairs(CrowdState& state, const Job& job) {
     for (std::size_t block = 0; block < job.pairs.size(); ++block) {
         for (int lane = 0; lane < kLanes; ++lane) {
             const int index = job.touchOfLane[block][lane];
@@ -44,9 +34,9 @@ void reportPairs(CrowdState& state, const Job& job, const std::vector<Side>& sid
             if (index < 0 || impulse <= 0.0F) continue;
             const PairTouch& touch = state.touches[index];
             ContactReport report;
-            report.a = sides[touch.dollA];
+            report.a = state.dolls[touch.dollA].side;
             report.a.body = touch.bodyA;
-            report.b = sides[touch.dollB];
+            report.b = state.dolls[touch.dollB].side;
             report.b.body = touch.bodyB;
             report.normal = touch.touch.normal;
             const Doll& b = state.dolls[touch.dollB];
@@ -108,13 +98,12 @@ void closeSums(const CrowdState& state, Batch& batch) {
 
 void makeReports(CrowdState& state) {
     if (!state.settings.contactReports) return;
-    const std::vector<Side> sides = sidesOf(state);
     for (Batch* batch : state.active) {
         closeSums(state, *batch);
-        reportStatics(state, *batch, sides);
+        reportStatics(state, *batch);
     }
     for (std::size_t i = 0; i < state.jobCount; ++i)
-        reportPairs(state, state.jobs[i], sides);
+        reportPairs(state, state.jobs[i]);
 }
 
 }  // namespace lutka::physics::crowd

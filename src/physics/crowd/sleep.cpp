@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/crowd/union_find.hpp"
-
 namespace lutka::physics::crowd {
 namespace {
 
@@ -35,19 +33,21 @@ void settle(CrowdState& state, float dt) {
         if (touch.carried.normal <= 0.0F || touch.dollA == touch.dollB) continue;
         state.dolls[touch.dollA].touching = state.dolls[touch.dollB].touching = true;
     }
-    state.pool.parallelFor(state.active.size(), 8, [&](std::size_t begin, std::size_t end) {
+    state.inParallel(state.active.size(), 8, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             measureRest(state, *state.active[i], state.activeGroup[i]->topology, dt);
     });
     if (!state.settings.sleeping) return;
 
-    UnionFind islands(state.dolls.size());
+    UnionFind& islands = state.scratch.sets;
+    islands.reset(state.dolls.size());
     for (const PairTouch& touch : state.touches) {
         if (touch.carried.normal > 0.0F) islands.join(touch.dollA, touch.dollB);
     }
-    std::vector<char> restless(state.dolls.size(), 0);
+    std::vector<char>& restless = state.scratch.restless;
+    restless.assign(state.dolls.size(), 0);
     for (const DragRecord& record : state.drags)
-        restless[islands.find(state.ragdolls[record.drag.doll])] = 1;
+        restless[islands.find(record.doll)] = 1;
     for (int i = 0; i < static_cast<int>(state.dolls.size()); ++i) {
         const Doll& doll = state.dolls[i];
         if (!doll.asleep() && doll.restSeconds < state.tuning.sleepSeconds) restless[islands.find(i)] = 1;

@@ -22,6 +22,7 @@ constexpr int kRefresh = 2;
 SubstepParams paramsOf(const CrowdState& state, float dt) {
     const CrowdTuning& tuning = state.tuning;
     SubstepParams params{};
+    static_cast<SubstepTuning&>(params) = tuning;
     params.dt = dt;
     params.inverseDt = 1.0F / dt;
     for (int i = 0; i < 3; ++i)
@@ -31,28 +32,6 @@ SubstepParams paramsOf(const CrowdState& state, float dt) {
     params.jointRate = tuning.jointErp / dt;
     params.limitRate = tuning.limitErp / dt;
     params.contactRate = tuning.contactErp / dt;
-    params.pushSpeed = tuning.pushSpeed;
-    params.limitSpeed = tuning.limitSpeed;
-    params.slop = tuning.slop;
-    params.jointStiffness = tuning.jointStiffness;
-    params.limitStiffness = tuning.limitStiffness;
-    params.contactStiffness = tuning.contactStiffness;
-    params.stiffen = tuning.stiffen;
-    params.stiffest = tuning.stiffest;
-    params.firstTouch = tuning.firstTouch;
-    params.passes = tuning.passes;
-    params.mendGap = tuning.mendGap;
-    params.mendAngle = tuning.mendAngle;
-    params.aimGap = tuning.aimGap;
-    params.letGo = tuning.letGo;
-    params.nearSpeed = tuning.nearSpeed;
-    params.patience = tuning.patience;
-    params.contactTolerance = tuning.contactTolerance;
-    params.limitTolerance = tuning.limitTolerance;
-    params.grip = tuning.grip;
-    params.jointStiction = tuning.jointStiction;
-    params.stictionRate = tuning.stictionRate;
-    params.rollingLever = tuning.rollingLever;
     return params;
 }
 
@@ -137,7 +116,7 @@ class JobSubstep {
                 work(job_.batches[i]->view(*job_.topologies[i]));
         };
         if (job_.batches.size() >= kSplitJob)
-            state_.pool.parallelFor(job_.batches.size(), 4, range);
+            state_.inParallel(job_.batches.size(), 4, range);
         else
             range(0, job_.batches.size());
     }
@@ -151,7 +130,7 @@ class JobSubstep {
 // Runs the work for all jobs: small ones side by side, then the large ones, each of which uses all threads itself.
 template <class Work>
 void forJobs(CrowdState& state, const Work& work) {
-    state.pool.parallelFor(state.jobCount, 1, [&](std::size_t begin, std::size_t end) {
+    state.inParallel(state.jobCount, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             if (state.jobs[i].batches.size() < kSplitJob) work(state.jobs[i]);
     });
@@ -188,8 +167,9 @@ void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSu
     // In the order of the jobs, so that the sum is the same at every thread count.
     const auto takeDragWork = [&] {
         for (std::size_t i = 0; i < state.jobCount; ++i) {
-            state.dragWork += state.jobs[i].dragWork;
-            state.motorWork += state.jobs[i].motorWork;
+            // A doll that is about to be put back (World::caught) must not spoil the sums for good.
+            if (std::isfinite(state.jobs[i].dragWork)) state.dragWork += state.jobs[i].dragWork;
+            if (std::isfinite(state.jobs[i].motorWork)) state.motorWork += state.jobs[i].motorWork;
             state.jobs[i].dragWork = state.jobs[i].motorWork = 0.0;
         }
     };
@@ -215,7 +195,7 @@ void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSu
 }
 
 void keepImpulses(CrowdState& state) {
-    state.pool.parallelFor(state.active.size(), 4, [&](std::size_t begin, std::size_t end) {
+    state.inParallel(state.active.size(), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             keepStatics(state, *state.active[i]);
     });

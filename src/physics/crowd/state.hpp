@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "physics/crowd/kernels.hpp"
 #include "physics/crowd/narrowphase.hpp"
 #include "physics/crowd/tuning.hpp"
+#include "physics/crowd/union_find.hpp"
+#include "physics/world/world.hpp"
 
 namespace lutka::physics::crowd {
 
@@ -49,7 +52,8 @@ struct Doll {
     vec3 high{0, 0, 0};
     vec3 rootVelocity{0, 0, 0};
     CollisionFilter filter;
-    bool removed = false;  ///< Its place waits for another with as many bodies.
+    bool removed = false;      ///< Its place waits for another with as many bodies.
+    ContactReport::Side side;  ///< What the world calls it.
     std::vector<CarriedStatic> statics;
 
     [[nodiscard]] bool asleep() const { return batch < 0; }
@@ -93,7 +97,7 @@ class CarriedPairs {
 
 /// A pull on a body.
 struct DragRecord {
-    int id = 0;
+    int doll = 0;  ///< Into CrowdState::dolls.
     Drag drag;
     bool bounded = false;   ///< Whether its force reached the bound at the end of the last step.
     std::size_t index = 0;  ///< Of this step, into Batch::drags.
@@ -146,6 +150,39 @@ struct Job {
     std::vector<Wide> impulseSums;  ///< One a pair block, of a step's substeps; for reports.
 };
 
+/// The friction of every body: Bullet's default. As there, a contact's is the product of both sides'.
+inline constexpr float kBodyFriction = 0.5F;
+
+/// A doll's bounds in the world's frame, metres.
+struct Bounds {
+    vec3 low, high;
+};
+
+/// A doll's place in the sweep along x.
+struct Swept {
+    Bounds bounds;
+    int doll = 0;
+    bool asleep = false;
+};
+
+/// A piece of the pairs of dolls: what was found, and room to look for it.
+struct PieceTouches {
+    std::vector<PairTouch> touches;
+    std::vector<BodyPair> near;
+};
+
+/// What the parts of a step work with; kept so that a step allocates nothing.
+struct Scratch {
+    std::vector<Swept> swept;
+    std::vector<std::pair<int, int>> found;  ///< Pairs of dolls in the order of the sweep.
+    std::vector<int> firstOf, next;          ///< Places of a doll's pairs.
+    UnionFind sets;
+    std::vector<int> jobOf;             ///< One a representative of `sets`.
+    std::vector<std::uint64_t> usedBy;  ///< One a body of the world, 0 between packings; see Packer.
+    std::vector<int> later;             ///< Touches that will hardly press.
+    std::vector<char> restless;         ///< One a doll.
+};
+
 /// Everything in a crowd world. The steps of the simulation are free functions over it, each in its own file.
 struct CrowdState {
     CrowdState(const WorldSettings& given, const CrowdTuning& tuned);
@@ -156,12 +193,13 @@ struct CrowdState {
     TaskPool pool;
 
     std::vector<PlacedStatic> statics;
+    std::vector<StaticId> staticIds;  ///< One a static.
     std::vector<std::unique_ptr<Group>> groups;
     std::vector<Doll> dolls;
-    std::vector<int> ragdolls;              ///< World's doll index to `dolls`.
-    std::vector<int> props;                 ///< World's prop index to `dolls`.
+    std::vector<int> ragdolls;              ///< In the order of the world's dolls, into `dolls`.
+    std::vector<int> props;                 ///< In the order of the world's props, into `dolls`.
     std::vector<DynamicProp> propSettings;  ///< One a prop, as it was added.
-    std::vector<DragRecord> drags;          ///< By id.
+    std::vector<DragRecord> drags;          ///< In the order of the world's drags.
     double dragWork = 0.0;
     std::vector<MotorRecord> motors;  ///< By doll and constraint.
     std::vector<ForceRecord> forces;  ///< Of the coming step.
@@ -177,14 +215,20 @@ struct CrowdState {
     std::vector<StepBody> stepBodies;                 ///< One a body of the world; those of dolls near others are set.
     std::vector<BoxLanes> stepBoxes;                  ///< From Doll::firstBox on, of the same dolls.
     std::vector<char> isNear;                         ///< One a doll: whether its bounds meet another's.
-    std::vector<std::vector<PairTouch>> dollTouches;  ///< One a piece of `dollPairs`.
+    std::vector<PieceTouches> dollTouches;            ///< One a piece of `dollPairs`.
     std::vector<int> sweep;                           ///< Dolls by the low end of their bounds along x.
     std::vector<std::pair<int, int>> dollPairs;
     std::vector<PairTouch> touches;  ///< Of this step; after it with its impulses.
     CarriedPairs carried;
     std::vector<Job> jobs;
     std::size_t jobCount = 0;
+    Scratch scratch;
 
+    /// TaskPool::parallelFor() by reference: a copy of the work's captures would be on the heap.
+    template <class Work>
+    void inParallel(std::size_t count, std::size_t grain, const Work& work) const {
+        pool.parallelFor(count, grain, std::cref(work));
+    }
     [[nodiscard]] Group& groupOf(const Doll& doll) { return *groups[doll.group]; }
     [[nodiscard]] const Group& groupOf(const Doll& doll) const { return *groups[doll.group]; }
     [[nodiscard]] Batch& batchOf(const Doll& doll) { return groupOf(doll).batches[doll.batch]; }

@@ -9,9 +9,6 @@
 namespace lutka::physics::crowd {
 namespace {
 
-// Bullet's default for a body; as there, the friction of a contact is the product of both sides'.
-constexpr float kBodyFriction = 0.5F;
-
 float speedBound(const BodyState& body, const BodyConstants& constants) {
     return glm::length(body.linearVelocity) + glm::length(body.angularVelocity) * constants.reach;
 }
@@ -73,6 +70,9 @@ class StaticContacts {
     void find() {
         batch_.contacts.clear();
         batch_.nearShapes = false;
+        batch_.nearPlanes.clear();
+        for (std::vector<int>& near : batch_.nearStatics)
+            near.clear();
         for (int lane = 0; lane < batch_.used; ++lane) {
             const Doll& doll = state_.dolls[batch_.doll[lane]];
             const Bounds bounds = worldBounds(doll, dt_, farther_);
@@ -80,7 +80,7 @@ class StaticContacts {
                 if (!state_.statics[i].shape.filter.collidesWith(doll.filter)) continue;
                 if (!nearStatic(state_.statics[i], bounds.low, bounds.high)) continue;
                 const bool isPlane = state_.statics[i].shape.kind == StaticShape::Kind::plane;
-                std::vector<int>& near = isPlane ? planes_ : near_[lane];
+                std::vector<int>& near = isPlane ? batch_.nearPlanes : batch_.nearStatics[lane];
                 batch_.nearShapes = batch_.nearShapes || !isPlane;
                 if (!isPlane || std::find(near.begin(), near.end(), i) == near.end()) near.push_back(i);
             }
@@ -88,7 +88,7 @@ class StaticContacts {
         for (int body = 0; body < topology_.bodyCount(); ++body) {
             firstSlot_ = batch_.contacts.size();
             batch_.firstContact[body] = static_cast<int>(firstSlot_);
-            for (const int plane : planes_)
+            for (const int plane : batch_.nearPlanes)
                 findOnPlane(body, plane);
             firstSlot_ = batch_.contacts.size();
             for (int lane = 0; lane < batch_.used; ++lane)
@@ -135,14 +135,14 @@ class StaticContacts {
     }
 
     void findOf(int body, int lane) {
-        if (near_[lane].empty()) return;
+        if (batch_.nearStatics[lane].empty()) return;
         const Doll& doll = state_.dolls[batch_.doll[lane]];
         const BodyLanes& lanes = batch_.bodies[body];
         const vec3 moved = glm::abs(doll.rootVelocity) * (kForesight * dt_) + farther_;
         const vec3 low = readVector(lanes.low, lane) - moved;
         const vec3 high = readVector(lanes.high, lane) + moved;
         std::size_t slot = firstSlot_;
-        for (const int index : near_[lane]) {
+        for (const int index : batch_.nearStatics[lane]) {
             const PlacedStatic& geometry = state_.statics[index];
             if (!nearStatic(geometry, low, high)) continue;
             const float range = state_.tuning.staticMargin +
@@ -182,9 +182,7 @@ class StaticContacts {
     float dt_;
     float farther_ = state_.tuning.staticMargin - state_.tuning.pairMargin;  // than the bodies' own bounds reach
     std::size_t firstSlot_ = 0;
-    std::vector<int> planes_;        // that some lane is near
-    std::vector<int> near_[kLanes];  // the other geometry
-    std::size_t cursor_[kLanes]{};   // see carriedStatic
+    std::size_t cursor_[kLanes]{};  // see carriedStatic
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <numeric>
 #include <vector>
 
@@ -10,7 +11,11 @@ namespace lutka::physics::crowd {
 /// joining.
 class UnionFind {
   public:
-    explicit UnionFind(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+    /// Every one of [0, count) a set of its own.
+    void reset(std::size_t count) {
+        parent_.resize(count);
+        std::iota(parent_.begin(), parent_.end(), 0);
+    }
 
     int find(int item) {
         while (parent_[item] != item)

@@ -8,7 +8,7 @@
 #include "physics/collision/shape.hpp"
 #include "physics/fit/anatomy.hpp"
 #include "physics/fit/rebind.hpp"
-#include "physics/profile/swing_twist.hpp"
+#include "physics/profile/constraint_state.hpp"
 
 namespace lutka::physics {
 namespace {
@@ -74,7 +74,8 @@ class Examination {
 
     void checkLimits(Diagnosis& diagnosis) {
         for (const ConstraintProfile& c : profile_.constraints) {
-            const float outside = violation(c);
+            const float outside =
+                measureConstraint(c, shapes_[c.parent].standardFromBody, shapes_[c.child].standardFromBody).violation;
             if (outside > radians(0.05F)) {
                 ++brokenLimits_;
                 diagnosis.findings.push_back({Severity::error, "bind-outside-limits", link(c),
@@ -187,19 +188,6 @@ class Examination {
     [[nodiscard]] std::vector<Role> childRole(const ConstraintProfile& c) const {
         return {profile_.bodies[c.child].role};
     }
-    [[nodiscard]] float violation(const ConstraintProfile& c) const {
-        const quat relative = glm::conjugate(shapes_[c.parent].standardFromBody.rotation * c.parentFromFrame.rotation) *
-                              (shapes_[c.child].standardFromBody.rotation * c.childFromFrame.rotation);
-        if (c.kind == ConstraintProfile::Kind::hinge) {
-            const float angle = std::remainder(2.0F * std::atan2(relative.z, relative.w), 2.0F * kPi);
-            return std::max({0.0F, c.hinge.lower - angle, angle - c.hinge.upper});
-        }
-        const SwingTwist pose = swingTwist(relative);
-        const float filled = std::hypot(pose.swing.y / c.cone.swingY, pose.swing.z / c.cone.swingZ);
-        const float swing = filled > 1.0F ? glm::length(pose.swing) * (1.0F - 1.0F / filled) : 0.0F;
-        return std::max(swing, std::abs(pose.twist) - c.cone.twist);
-    }
-
     void checkHinge(Diagnosis& diagnosis, const ConstraintProfile& c) {
         const vec3& expected = anatomy_.flexionAxis[indexOf(c.child)];
         if (c.kind != ConstraintProfile::Kind::hinge || glm::length(expected) < 0.5F) return;

@@ -2,16 +2,19 @@
 
 namespace lutka::physics {
 
-int moveDoll(World& from, int doll, World& to) {
+MovedDoll moveDoll(World& from, DollId doll, World& to) {
+    if (!from.has(doll)) return {};
     const DollState state = from.dollState(doll);
-    const auto drags = from.dragsOf(doll);
+    std::vector<Drag> drags;
+    for (const DragId id : from.dragsOf(doll))
+        drags.push_back(from.dragOf(id));
     const RagdollProfile& profile = from.profileOf(doll);
     from.removeDoll(doll);
-    const int moved = to.addDoll(profile, state.bodies);
-    to.setDollState(moved, state);
-    for (auto [id, drag] : drags) {
-        drag.doll = moved;
-        to.setDrag(id, drag);
+    MovedDoll moved{to.addDoll(profile, state.bodies), {}};
+    to.setDollState(moved.doll, state);
+    for (Drag& drag : drags) {
+        drag.doll = moved.doll;
+        moved.drags.push_back(to.addDrag(drag));
     }
     return moved;
 }

@@ -87,7 +87,7 @@ double kineticEnergy(const BodyState& state, float massKg, const vec3& inertia) 
 }  // namespace
 
 struct QualityMeter::State {
-    State(const World& observed, std::span<const StaticShape> geometry, const vec3& pull)
+    State(const WorldView& observed, std::span<const StaticShape> geometry, const vec3& pull)
         : world(observed), statics(geometry.begin(), geometry.end()), gravity(pull) {
         const float strength = glm::length(gravity);
         up = strength > 0.0F ? -gravity / strength : vec3(0, 1, 0);
@@ -98,7 +98,7 @@ struct QualityMeter::State {
 
     // Takes the figures of all dolls (when `figures`) and returns the mechanical energy of all dynamic bodies, joules.
     double sampleWorld(bool figures);
-    void sampleDoll(int doll);
+    void sampleDoll(DollId doll);
     // The pairs of bodies that may collide.
     const std::vector<std::pair<int, int>>& pairsOf(const RagdollProfile& profile);
     double energyOf(const BodyState& state, float massKg, const vec3& inertia) const {
@@ -106,7 +106,7 @@ struct QualityMeter::State {
         return kineticEnergy(state, massKg, inertia) + static_cast<double>(massKg * glm::length(gravity) * height);
     }
 
-    const World& world;
+    const WorldView& world;
     std::vector<StaticShape> statics;
     vec3 gravity;
     vec3 up;
@@ -125,7 +125,7 @@ struct QualityMeter::State {
     bool counting = true;  // whether the present sample goes into the percentiles
 };
 
-void QualityMeter::State::sampleDoll(int doll) {
+void QualityMeter::State::sampleDoll(DollId doll) {
     const RagdollProfile& profile = world.profileOf(doll);
     for (const ConstraintProfile& constraint : profile.constraints) {
         const ConstraintState state = measureConstraint(constraint, bodies[constraint.parent].worldFromBody,
@@ -161,14 +161,17 @@ double QualityMeter::State::sampleWorld(bool figures) {
     std::int64_t broken = 0;
     touching = false;
     settled = true;
-    for (int doll = 0; doll < world.dollCount(); ++doll) {
+    for (const DollId doll : world.dolls()) {
         const RagdollProfile& profile = world.profileOf(doll);
         bodies.resize(profile.bodies.size());
         world.getBodies(doll, bodies);
         const std::int64_t brokenBefore = broken;
         float fastest = 0;
         for (std::size_t i = 0; i < bodies.size(); ++i) {
-            broken += isFinite(bodies[i]) ? 0 : 1;
+            if (!isFinite(bodies[i])) {  // counted; it must not spoil the sums
+                ++broken;
+                continue;
+            }
             energy += energyOf(bodies[i], profile.bodies[i].massKg, world.inertiaOf(doll, static_cast<int>(i)));
             const float speed = glm::length(bodies[i].linearVelocity);
             squares += static_cast<double>(speed * speed);
@@ -181,10 +184,13 @@ double QualityMeter::State::sampleWorld(bool figures) {
         const bool asItWas = !counting && world.isAsleep(doll);
         if (figures && whole && !asItWas) sampleDoll(doll);
     }
-    for (int prop = 0; prop < world.propCount(); ++prop) {
+    for (const PropId prop : world.props()) {
         const DynamicProp& settings = world.propOf(prop);
         const BodyState state = world.propState(prop);
-        broken += isFinite(state) ? 0 : 1;
+        if (!isFinite(state)) {
+            ++broken;
+            continue;
+        }
         energy += energyOf(state, settings.massKg, shapeInertia(settings.shape, settings.massKg));
     }
     quality.nonFinite += broken;
@@ -207,7 +213,7 @@ const std::vector<std::pair<int, int>>& QualityMeter::State::pairsOf(const Ragdo
     return colliding;
 }
 
-QualityMeter::QualityMeter(const World& world, std::span<const StaticShape> statics, const vec3& gravity)
+QualityMeter::QualityMeter(const WorldView& world, std::span<const StaticShape> statics, const vec3& gravity)
     : state_(std::make_unique<State>(world, statics, gravity)) {}
 
 QualityMeter::~QualityMeter() = default;

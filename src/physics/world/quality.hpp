@@ -6,7 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "physics/world/world.hpp"
+#include "physics/collision/static_shape.hpp"
+#include "physics/world/world_view.hpp"
 
 namespace lutka::physics {
 
@@ -32,7 +33,7 @@ struct Quality {
 class QualityMeter {
   public:
     /// `statics` and `world` must outlive the meter. `gravity` in m/s².
-    QualityMeter(const World& world, std::span<const StaticShape> statics, const vec3& gravity);
+    QualityMeter(const WorldView& world, std::span<const StaticShape> statics, const vec3& gravity);
     ~QualityMeter();
 
     /// Call after every substep with the time since release.

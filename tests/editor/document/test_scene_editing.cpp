@@ -65,7 +65,11 @@ TEST_CASE("dolls and balls go on where they are while the scene around them is e
         editor->update(1.0 / 60.0);
     const vec3 hips = test::placeOf(*editor, animation::Role::hips);
     const auto placeOfBall = [&] {
-        return editor->player().simulation().world().propState(0).worldFromBody.translation;
+        return editor->player()
+            .simulation()
+            .world()
+            .propState(editor->player().simulation().world().props()[0])
+            .worldFromBody.translation;
     };
     const vec3 fallen = placeOfBall();
     CHECK(fallen.y < 1.9F);

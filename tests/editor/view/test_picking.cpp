@@ -35,8 +35,8 @@ TEST_CASE("the nearest of bodies and objects is picked, and markers before both"
     const auto editor = test::makeEditor();
     const vec3 hips = test::placeOf(*editor, animation::Role::hips);
     const render::Ray ray{hips + vec3(0, 0, 3), {0, 0, -1}};
-    physics::World& world = editor->player().simulation().world();
-    const auto body = pick(ray, world, {});
+    const scene::Simulation& simulation = editor->player().simulation();
+    const auto body = pick(ray, simulation, {});
     REQUIRE(body.has_value());
     CHECK(body->item.kind == Item::Kind::body);
     CHECK(editor->document().profile().bodies[body->item.index].role == animation::Role::hips);
@@ -45,7 +45,7 @@ TEST_CASE("the nearest of bodies and objects is picked, and markers before both"
     const PickTarget before = boxAt(8, hips + vec3(0, 0, 1));
     const PickTarget behind = boxAt(7, hips - vec3(0, 0, 1));
     const std::vector<PickTarget> boxes = {behind, before};
-    const auto box = pick(ray, world, boxes);
+    const auto box = pick(ray, simulation, boxes);
     REQUIRE(box.has_value());
     CHECK(box->item == Item{Item::Kind::object, 0, 8});
     CHECK(glm::distance(box->normal, vec3(0, 0, 1)) < 1e-4F);
@@ -53,12 +53,12 @@ TEST_CASE("the nearest of bodies and objects is picked, and markers before both"
     PickTarget light = boxAt(9, hips - vec3(0, 0, 2));
     light.marker = true;
     const std::vector<PickTarget> withLight = {behind, light, before};
-    const auto marker = pick(ray, world, withLight);
+    const auto marker = pick(ray, simulation, withLight);
     REQUIRE(marker.has_value());
     CHECK(marker->item == Item{Item::Kind::object, 0, 9});
 
-    CHECK_FALSE(pick({hips + vec3(0, 0, 3), {0, 1, 0}}, world, {}).has_value());
-    CHECK_FALSE(pick({{5, 3, 0}, {0, -1, 0}}, world, {}).has_value());  // the floor is not picked
+    CHECK_FALSE(pick({hips + vec3(0, 0, 3), {0, 1, 0}}, simulation, {}).has_value());
+    CHECK_FALSE(pick({{5, 3, 0}, {0, -1, 0}}, simulation, {}).has_value());  // the floor is not picked
 }
 
 TEST_CASE("walls hide what is behind them unless they are see-through") {
@@ -70,9 +70,9 @@ TEST_CASE("walls hide what is behind them unless they are see-through") {
     }));
     const vec3 hips = test::placeOf(*editor, animation::Role::hips);
     const render::Ray ray{hips + vec3(0, 0, 4), {0, 0, -1}};
-    const physics::World& world = editor->player().simulation().world();
-    CHECK_FALSE(pick(ray, world, {}).has_value());
-    const auto behind = pick(ray, world, {}, true);
+    const scene::Simulation& simulation = editor->player().simulation();
+    CHECK_FALSE(pick(ray, simulation, {}).has_value());
+    const auto behind = pick(ray, simulation, {}, true);
     REQUIRE(behind.has_value());
     CHECK(behind->item.kind == Item::Kind::body);
     CHECK(behind->position.z == Approx(hips.z).margin(0.25));

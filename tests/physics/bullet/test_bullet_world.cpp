@@ -62,14 +62,15 @@ StaticShape box(const vec3& centre, const vec3& halfExtents) {
 }
 
 std::vector<BodyState> bodiesOf(const World& world, int index = 0) {
-    std::vector<BodyState> bodies(world.profileOf(index).bodies.size());
-    world.getBodies(index, bodies);
+    const physics::DollId id = world.dolls()[index];
+    std::vector<BodyState> bodies(world.profileOf(id).bodies.size());
+    world.getBodies(id, bodies);
     return bodies;
 }
 
 float fastestOf(const World& world) {
     float fastest = 0;
-    for (int i = 0; i < world.dollCount(); ++i) {
+    for (int i = 0; i < static_cast<int>(world.dolls().size()); ++i) {
         for (const BodyState& body : bodiesOf(world, i))
             fastest = std::max(fastest, glm::length(body.linearVelocity));
     }
@@ -188,7 +189,7 @@ TEST_CASE("a doll that falls is sound all the way and falls asleep", "[bullet]")
         requireSound(quality);
         REQUIRE(quality.settleSeconds);
         CHECK(*quality.settleSeconds < 6.0F);
-        CHECK(world->isAsleep(0));
+        CHECK(world->isAsleep(world->dolls()[0]));
     }
 }
 
@@ -207,8 +208,8 @@ TEST_CASE("resistance to rolling holds a ball on a slope up to its arm over the 
         world->addProp(ball);
         for (int i = 0; i < 240; ++i)
             world->step(kDt);
-        const float moved =
-            glm::distance(world->propState(0).worldFromBody.translation, ball.state.worldFromBody.translation);
+        const float moved = glm::distance(world->propState(world->props()[0]).worldFromBody.translation,
+                                          ball.state.worldFromBody.translation);
         INFO(slopeDeg << " degrees: " << moved << " m");
         CHECK((slopeDeg < 2.9F ? moved < 0.002F : moved > 0.1F));
     }
@@ -231,9 +232,10 @@ TEST_CASE("what hangs from a body at rest soon stops swinging", "[bullet]") {
         const auto world = createBulletWorld({}, tuning);
         world->addStatic(box({-1.1F, -radius - 0.5F, 0}, {1.0F, 0.5F, 1.0F}));
         world->addDoll(pair, bodies);
-        world->applyImpulse(0, 1, {0, 0, 0.5F * pair.bodies[1].massKg}, bodiesOf(*world)[1].worldFromBody.translation);
+        world->applyImpulse(world->dolls()[0], 1, {0, 0, 0.5F * pair.bodies[1].massKg},
+                            bodiesOf(*world)[1].worldFromBody.translation);
         int frames = 0;
-        for (; !world->isAsleep(0) && frames < 1200; ++frames)
+        for (; !world->isAsleep(world->dolls()[0]) && frames < 1200; ++frames)
             world->step(kDt);
         return frames;
     };
@@ -321,9 +323,12 @@ TEST_CASE("dragging by the hand at any speed keeps the doll together", "[bullet]
         const int hand = bodyOf(doll(), animation::Role::leftHand);
         QualityMeter meter(*world, statics, kGravity);
         double time = 0;
+        physics::Drag drag{world->dolls()[0], hand};
+        const physics::DragId pull = world->addDrag(drag);
         for (int i = 0; i < 240; ++i) {
             const float angle = speed * kDt * static_cast<float>(i);
-            world->setDrag(7, {0, hand, vec3(0), vec3(std::sin(angle), 1.5F + 0.5F * std::cos(angle), 0)});
+            drag.worldTarget = vec3(std::sin(angle), 1.5F + 0.5F * std::cos(angle), 0);
+            world->setDrag(pull, drag);
             world->step(kDt, [&] { meter.sample(time += static_cast<double>(kDt) / world->substepsPerStep()); });
         }
         const Quality quality = meter.result();
@@ -332,8 +337,8 @@ TEST_CASE("dragging by the hand at any speed keeps the doll together", "[bullet]
         CHECK(quality.jointSeparationM.p99 < 0.010F);
         CHECK(quality.limitViolationDeg.p99 < 25.0F);
         CHECK(world->dragWork() > 10.0);
-        world->removeDrag(7);
-        world->removeDrag(8);
+        world->removeDrag(pull);
+        CHECK_FALSE(world->has(pull));
         const double work = world->dragWork();
         world->step(kDt);
         CHECK(world->dragWork() == work);
@@ -363,14 +368,14 @@ TEST_CASE("a ray finds the body that it meets first", "[bullet]") {
         world->addDoll(doll(), standingAt({0, 0, 0}));
         const auto chest = world->rayTest({0, 1.33F, 5}, {0, 1.33F, -5});
         REQUIRE(chest);
-        CHECK(chest->doll == 1);
+        CHECK(chest->doll == world->dolls()[1]);
         CHECK(doll().bodies[chest->body].role == animation::Role::chest);
         CHECK(chest->position.z == Approx(0.13F).margin(0.01));
         CHECK(chest->normal.z == Approx(1.0F).margin(0.01));
         CHECK(chest->fraction == Approx((5 - 0.13F) / 10).margin(0.001));
         const auto floor = world->rayTest({9, 3, 9}, {9, -3, 9});
         REQUIRE(floor);
-        CHECK(floor->doll == -1);
+        CHECK_FALSE(floor->doll.isSet());
         CHECK_FALSE(world->rayTest({9, 3, 9}, {9, 2, 9}));
     }
 }
@@ -379,15 +384,15 @@ TEST_CASE("an impulse changes the momentum by itself and wakes the doll", "[bull
     const auto world = makeWorld(SolverKind::bullet);
     world->addStatic({});
     world->addDoll(doll(), standingAt({0, 0.2F, 0}));
-    for (int i = 0; i < 600 && !world->isAsleep(0); ++i)
+    for (int i = 0; i < 600 && !world->isAsleep(world->dolls()[0]); ++i)
         world->step(kDt);
-    REQUIRE(world->isAsleep(0));
+    REQUIRE(world->isAsleep(world->dolls()[0]));
     const std::uint64_t asleep = hashOf(*world);
     world->step(kDt);
     CHECK(hashOf(*world) == asleep);
     const vec3 impulse(30, 60, 0);
-    world->applyImpulse(0, 0, impulse, bodiesOf(*world)[0].worldFromBody.translation);
-    CHECK_FALSE(world->isAsleep(0));
+    world->applyImpulse(world->dolls()[0], 0, impulse, bodiesOf(*world)[0].worldFromBody.translation);
+    CHECK_FALSE(world->isAsleep(world->dolls()[0]));
     vec3 momentum(0);
     const std::vector<BodyState> bodies = bodiesOf(*world);
     for (std::size_t i = 0; i < bodies.size(); ++i)
@@ -404,7 +409,7 @@ TEST_CASE("a doll that is placed anew starts as if it had always been there", "[
         if (moved == 1) {
             for (int i = 0; i < 90; ++i)
                 world->step(kDt);
-            world->setBodies(0, standingAt({0, 1, 0}));
+            world->setBodies(world->dolls()[0], standingAt({0, 1, 0}));
         }
         for (int i = 0; i < 20; ++i)
             world->step(kDt);
@@ -422,12 +427,12 @@ TEST_CASE("a prop pushes a doll and keeps what it was made as", "[bullet]") {
     ball.massKg = 4.0F;
     ball.state.worldFromBody.translation = {0, 1.33F, 1.0F};
     ball.state.linearVelocity = {0, 0, -6};
-    CHECK(world->addProp(ball) == 0);
+    CHECK(world->addProp(ball) == world->props()[0]);
     for (int i = 0; i < 30; ++i)
         world->step(kDt);
-    CHECK(world->propCount() == 1);
-    CHECK(world->propOf(0).massKg == 4.0F);
-    CHECK(world->propState(0).linearVelocity.z > -3.0F);
+    CHECK(world->props().size() == 1);
+    CHECK(world->propOf(world->props()[0]).massKg == 4.0F);
+    CHECK(world->propState(world->props()[0]).linearVelocity.z > -3.0F);
     CHECK(bodiesOf(*world)[bodyOf(doll(), animation::Role::chest)].linearVelocity.z < -0.1F);
 }
 
@@ -436,10 +441,10 @@ TEST_CASE("a doll that falls asleep while it is held stays asleep and whole") {
     const auto start = standingAt({0, 1, 0});
     world->addDoll(doll(), start);
     const int hand = physics::bodyOf(doll(), physics::Role::leftHand);
-    world->setDrag(1, {0, hand, vec3(0), start[hand].worldFromBody.translation, 500.0F});
+    world->addDrag({world->dolls()[0], hand, vec3(0), start[hand].worldFromBody.translation, 500.0F});
     for (int i = 0; i < 600; ++i)
         world->step(kDt);
-    CHECK(world->isAsleep(0));
+    CHECK(world->isAsleep(world->dolls()[0]));
     const auto bodies = bodiesOf(*world);
     for (std::size_t i = 0; i < bodies.size(); ++i)
         CHECK(glm::distance(bodies[i].worldFromBody.translation, start[i].worldFromBody.translation) < 1e-3F);

@@ -67,8 +67,9 @@ void fillPit(physics::World& world, const RagdollProfile& profile, int count, st
 }
 
 std::vector<BodyState> bodiesOf(const physics::World& world, int doll) {
-    std::vector<BodyState> bodies(world.profileOf(doll).bodies.size());
-    world.getBodies(doll, bodies);
+    const physics::DollId id = world.dolls()[doll];
+    std::vector<BodyState> bodies(world.profileOf(id).bodies.size());
+    world.getBodies(id, bodies);
     return bodies;
 }
 
@@ -76,7 +77,7 @@ Totals totalsOf(const physics::World& world, int doll) {
     Totals totals;
     const std::vector<BodyState> bodies = bodiesOf(world, doll);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const physics::BodyProfile& body = world.profileOf(doll).bodies[i];
+        const physics::BodyProfile& body = world.profileOf(world.dolls()[doll]).bodies[i];
         const quat& rotation = bodies[i].worldFromBody.rotation;
         const vec3 spin = rotation * (body.inertia * (glm::conjugate(rotation) * bodies[i].angularVelocity));
         totals.massKg += body.massKg;
@@ -91,7 +92,7 @@ Totals totalsOf(const physics::World& world, int doll) {
 
 std::uint64_t stateHash(const physics::World& world) {
     std::uint64_t hash = kHashStart;
-    for (int doll = 0; doll < world.dollCount(); ++doll) {
+    for (int doll = 0; doll < static_cast<int>(world.dolls().size()); ++doll) {
         for (const BodyState& body : bodiesOf(world, doll))
             hash = hashBytes(&body, sizeof body, hash);
     }

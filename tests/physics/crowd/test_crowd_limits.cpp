@@ -33,7 +33,7 @@ struct PairRun {
         const vec3 anchor = bodies[0].worldFromBody * profile.constraints[0].parentFromFrame.translation;
         bodies[body].angularVelocity += rate;
         bodies[body].linearVelocity += glm::cross(rate, bodies[body].worldFromBody.translation - anchor);
-        world->setBodies(0, bodies);
+        world->setBodies(world->dolls()[0], bodies);
     }
 
     void run(int steps) {

@@ -85,7 +85,7 @@ TEST_CASE("a rod held at its end swings with the period of a physical pendulum")
     body.worldFromBody.rotation = glm::angleAxis(0.1F, vec3(0, 0, 1));
     body.worldFromBody.translation = body.worldFromBody.rotation * vec3(0, -half, 0);
     world->addDoll(profile, std::vector<BodyState>{body});
-    world->setDrag(1, {0, 0, {0, half, 0}, {0, 0, 0}, 1e4F});
+    world->addDrag({world->dolls()[0], 0, {0, half, 0}, {0, 0, 0}, 1e4F});
     // Two crossings of the vertical with the same sign of speed are a period apart.
     std::vector<float> crossings;
     float last = body.worldFromBody.translation.x;
@@ -107,7 +107,7 @@ TEST_CASE("an impulse changes momentum by itself") {
     settings.gravity = vec3(0);
     const auto world = createCrowdWorld(settings, plainMotion());
     world->addDoll(profile, placedDoll(profile, {0, 0, 0}));
-    world->applyImpulse(0, 6, {0, 0, 5}, bodiesOf(*world, 0)[6].worldFromBody.translation);
+    world->applyImpulse(world->dolls()[0], 6, {0, 0, 5}, bodiesOf(*world, 0)[6].worldFromBody.translation);
     for (int i = 0; i < 30; ++i)
         world->step(kStep);
     CHECK(glm::distance(totalsOf(*world, 0).momentum, vec3(0, 0, 5)) < 0.05F);

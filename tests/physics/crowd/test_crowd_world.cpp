@@ -82,15 +82,15 @@ TEST_CASE("a fallen doll sleeps without moving and an impulse wakes it") {
     world->addStatic(floorPlane());
     world->addDoll(profile, placedDoll(profile, {0, 0.5F, 0}, glm::angleAxis(1.0F, vec3(1, 0, 0))));
     int steps = 0;
-    for (; steps < 600 && !world->isAsleep(0); ++steps)
+    for (; steps < 600 && !world->isAsleep(world->dolls()[0]); ++steps)
         world->step(kStep);
-    REQUIRE(world->isAsleep(0));
+    REQUIRE(world->isAsleep(world->dolls()[0]));
     const std::uint64_t asleep = stateHash(*world);
     for (int i = 0; i < 30; ++i)
         world->step(kStep);
     CHECK(stateHash(*world) == asleep);
-    world->applyImpulse(0, 0, {0, 60, 0}, bodiesOf(*world, 0)[0].worldFromBody.translation);
-    CHECK_FALSE(world->isAsleep(0));
+    world->applyImpulse(world->dolls()[0], 0, {0, 60, 0}, bodiesOf(*world, 0)[0].worldFromBody.translation);
+    CHECK_FALSE(world->isAsleep(world->dolls()[0]));
     for (int i = 0; i < 10; ++i)
         world->step(kStep);
     CHECK(stateHash(*world) != asleep);
@@ -103,19 +103,19 @@ TEST_CASE("a sleeping doll wakes when another falls on it and one far away sleep
     const quat lying = glm::angleAxis(1.4F, vec3(1, 0, 0));
     world->addDoll(profile, placedDoll(profile, {0, -0.5F, 0}, lying));
     world->addDoll(profile, placedDoll(profile, {6, -0.5F, 0}, lying));
-    for (int i = 0; i < 600 && !(world->isAsleep(0) && world->isAsleep(1)); ++i)
+    for (int i = 0; i < 600 && !(world->isAsleep(world->dolls()[0]) && world->isAsleep(world->dolls()[1])); ++i)
         world->step(kStep);
-    REQUIRE(world->isAsleep(0));
-    REQUIRE(world->isAsleep(1));
+    REQUIRE(world->isAsleep(world->dolls()[0]));
+    REQUIRE(world->isAsleep(world->dolls()[1]));
     world->addDoll(profile, placedDoll(profile, {0, 1.2F, 0}));
-    CHECK(world->isAsleep(0));
+    CHECK(world->isAsleep(world->dolls()[0]));
     bool woken = false;
     for (int i = 0; i < 90; ++i) {
         world->step(kStep);
-        woken = woken || !world->isAsleep(0);
+        woken = woken || !world->isAsleep(world->dolls()[0]);
     }
     CHECK(woken);
-    CHECK(world->isAsleep(1));
+    CHECK(world->isAsleep(world->dolls()[1]));
 }
 
 TEST_CASE("a doll dragged by the hand at 50 m/s holds together") {
@@ -124,11 +124,13 @@ TEST_CASE("a doll dragged by the hand at 50 m/s holds together") {
     world->addStatic(floorPlane());
     world->addDoll(profile, placedDoll(profile, {0, 0.3F, 0}));
     const int hand = physics::bodyOf(profile, physics::Role::leftHand);
+    const physics::DollId held = world->dolls()[0];
+    const physics::DragId pull = world->addDrag({held, hand, vec3(0), vec3(2, 1.5F, 0), 1500.0F});
     float separation = 0.0F;
     for (int i = 0; i < 600; ++i) {
         // Round and round on a circle of 2 m.
         const float angle = 25.0F * kStep * static_cast<float>(i);
-        world->setDrag(3, {0, hand, vec3(0), vec3(2 * std::cos(angle), 1.5F, 2 * std::sin(angle)), 1500.0F});
+        world->setDrag(pull, {held, hand, vec3(0), vec3(2 * std::cos(angle), 1.5F, 2 * std::sin(angle)), 1500.0F});
         world->step(kStep, [&] {
             const std::vector<BodyState> bodies = bodiesOf(*world, 0);
             for (const physics::ConstraintProfile& constraint : profile.constraints) {
@@ -151,7 +153,8 @@ TEST_CASE("a hand that is pinned in the air carries the doll") {
     world->addDoll(profile, start);
     const int hand = physics::bodyOf(profile, physics::Role::leftHand);
     const vec3 pin = start[hand].worldFromBody.translation;
-    world->setDrag(0, {0, hand, vec3(0), pin, 5000.0F});
+    const physics::DollId held = world->dolls()[0];
+    const physics::DragId pull = world->addDrag({held, hand, vec3(0), pin, 5000.0F});
     float sag = 0.0F;
     for (int i = 0; i < 300; ++i) {
         world->step(kStep);
@@ -159,7 +162,7 @@ TEST_CASE("a hand that is pinned in the air carries the doll") {
     }
     CHECK(sag < 0.02F);
     // A pull that may not carry the weight lets it fall, no faster than gravity has it.
-    world->setDrag(0, {0, hand, vec3(0), pin, 200.0F});
+    world->setDrag(pull, {held, hand, vec3(0), pin, 200.0F});
     for (int i = 0; i < 30; ++i)
         world->step(kStep);
     const float fallen = pin.y - bodiesOf(*world, 0)[hand].worldFromBody.translation.y;
@@ -171,8 +174,11 @@ TEST_CASE("the work of a drag is the energy that a lifted rod gains") {
     const physics::RagdollProfile profile = makeRod(0.2F, 0.05F, 2.0F);
     const auto world = createCrowdWorld(WorldSettings{});
     world->addDoll(profile, std::vector<BodyState>(1));
+    const physics::DollId rod = world->dolls()[0];
+    const physics::DragId pull = world->addDrag({rod, 0, vec3(0), vec3(0), 500.0F});
     for (int i = 0; i < 240; ++i) {
-        world->setDrag(1, {0, 0, vec3(0), vec3(0, 0.5F * kStep * static_cast<float>(std::min(i, 180)), 0), 500.0F});
+        world->setDrag(pull,
+                       {rod, 0, vec3(0), vec3(0, 0.5F * kStep * static_cast<float>(std::min(i, 180)), 0), 500.0F});
         world->step(kStep);
     }
     const BodyState body = bodiesOf(*world, 0)[0];
@@ -191,7 +197,7 @@ TEST_CASE("rays meet bodies and floors where they are") {
     world->addDoll(profile, bodies);
     const auto side = world->rayTest({-2, 2, 0}, {2, 2, 0});
     REQUIRE(side);
-    CHECK(side->doll == 0);
+    CHECK(side->doll == world->dolls()[0]);
     CHECK(side->body == 0);
     CHECK(side->position.x == Approx(-0.1F).margin(1e-4));
     CHECK(side->normal.x == Approx(-1.0F).margin(1e-4));
@@ -200,7 +206,7 @@ TEST_CASE("rays meet bodies and floors where they are") {
     CHECK(cap->position.y == Approx(2.6F).margin(1e-4));
     const auto floor = world->rayTest({1, 3, 0}, {1, -1, 0});
     REQUIRE(floor);
-    CHECK(floor->doll == -1);
+    CHECK_FALSE(floor->doll.isSet());
     CHECK(floor->fraction == Approx(0.75F));
     CHECK_FALSE(world->rayTest({1, 3, 0}, {1, 1, 0}));
 }
@@ -233,16 +239,16 @@ TEST_CASE("dolls of two profiles share a world and placing one anew wakes it") {
     world->addStatic(floorPlane());
     std::vector<BodyState> bodies(1);
     bodies[0].worldFromBody.translation = {3, 0.6F, 0};
-    CHECK(world->addDoll(doll, placedDoll(doll, {0, 0.2F, 0})) == 0);
-    CHECK(world->addDoll(rod, bodies) == 1);
-    CHECK(world->addDoll(doll, placedDoll(doll, {-3, 0.2F, 0})) == 2);
-    CHECK(&world->profileOf(1) == &rod);
+    world->addDoll(doll, placedDoll(doll, {0, 0.2F, 0}));
+    CHECK(world->addDoll(rod, bodies) == world->dolls()[1]);
+    world->addDoll(doll, placedDoll(doll, {-3, 0.2F, 0}));
+    CHECK(&world->profileOf(world->dolls()[1]) == &rod);
     for (int i = 0; i < 480; ++i)
         world->step(kStep);
-    CHECK(world->isAsleep(1));
+    CHECK(world->isAsleep(world->dolls()[1]));
     bodies[0].worldFromBody.translation = {3, 2, 0};
-    world->setBodies(1, bodies);
-    CHECK_FALSE(world->isAsleep(1));
+    world->setBodies(world->dolls()[1], bodies);
+    CHECK_FALSE(world->isAsleep(world->dolls()[1]));
     CHECK(bodiesOf(*world, 1)[0].worldFromBody.translation.y == Approx(2.0F));
     world->step(kStep);
     CHECK(bodiesOf(*world, 1)[0].worldFromBody.translation.y < 2.0F);

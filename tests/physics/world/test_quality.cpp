@@ -39,50 +39,13 @@ BodyShape capsule(float radius, float halfLength) {
 }
 
 // A world that shows what it is told to.
-class PuppetWorld final : public physics::World {
+class PuppetWorld final : public physics::WorldView {
   public:
-    explicit PuppetWorld(const RagdollProfile& profile) : profile_(profile), bodies(profile.bodies.size()) {}
-
-    int addStatic(const StaticShape& /*shape*/) override { return 0; }
-    void removeStatic(int /*index*/) override {}
-    void removeProp(int /*prop*/) override {}
-    void removeDoll(int /*doll*/) override {}
-    void wake(int /*doll*/) override {}
-    [[nodiscard]] physics::DollState dollState(int /*doll*/) const override { return {}; }
-    void setDollState(int /*doll*/, const physics::DollState& /*state*/) override {}
-    void applyForce(int /*doll*/, int /*body*/, const vec3& /*force*/, const vec3& /*worldPoint*/) override {}
-    void setMotor(int /*doll*/, int /*constraint*/, const std::optional<physics::JointMotor>& /*motor*/) override {}
-    [[nodiscard]] double motorWork() const override { return 0; }
-    [[nodiscard]] std::vector<std::pair<int, physics::Drag>> dragsOf(int /*doll*/) const override { return {}; }
-    [[nodiscard]] std::span<const physics::ContactReport> contactReports() const override { return {}; }
-    int addProp(const physics::DynamicProp& /*prop*/) override { return 0; }
-    int addDoll(const RagdollProfile& /*profile*/, std::span<const BodyState> /*bodies*/) override { return 0; }
-    void step(float /*dt*/, const std::function<void()>& /*afterSubstep*/) override {}
+    explicit PuppetWorld(const RagdollProfile& profile) : profile_(profile), bodies(profile.bodies.size()) {
+        dollIds_.add();
+    }
     [[nodiscard]] int substepsPerStep() const override { return 1; }
-    void setSubsteps(int /*substeps*/) override {}
-    [[nodiscard]] int dollCount() const override { return 1; }
-    [[nodiscard]] const RagdollProfile& profileOf(int /*doll*/) const override { return profile_; }
-    [[nodiscard]] vec3 inertiaOf(int doll, int body) const override { return profileOf(doll).bodies[body].inertia; }
-    void getBodies(int /*doll*/, std::span<BodyState> out) const override {
-        std::copy(bodies.begin(), bodies.end(), out.begin());
-    }
-    void setBodies(int /*doll*/, std::span<const BodyState> /*bodies*/) override {}
-    [[nodiscard]] bool isAsleep(int /*doll*/) const override { return asleep; }
-    [[nodiscard]] int propCount() const override { return 0; }
-    [[nodiscard]] const physics::DynamicProp& propOf(int /*prop*/) const override { return noProp_; }
-    [[nodiscard]] BodyState propState(int /*prop*/) const override { return {}; }
-    void applyImpulse(int /*doll*/, int /*body*/, const vec3& /*impulse*/, const vec3& /*worldPoint*/) override {}
-    [[nodiscard]] std::optional<physics::RayHit> rayTest(const vec3& /*from*/, const vec3& /*to*/,
-                                                         std::uint32_t /*layers*/) const override {
-        return {};
-    }
-    void setDollFilter(int /*doll*/, const physics::CollisionFilter& /*filter*/) override {}
-    [[nodiscard]] physics::CollisionFilter dollFilter(int /*doll*/) const override { return {}; }
-    void setPropFilter(int /*prop*/, const physics::CollisionFilter& /*filter*/) override {}
-    void setDrag(int /*id*/, const physics::Drag& /*drag*/) override {}
-    void removeDrag(int /*id*/) override {}
     [[nodiscard]] double dragWork() const override { return work; }
-    void getContacts(std::vector<physics::ContactPoint>& /*contacts*/) const override {}
 
     // Both bodies of makePair(), lying along x at a height.
     void lieAt(float height) {
@@ -93,6 +56,15 @@ class PuppetWorld final : public physics::World {
     }
 
   private:
+    [[nodiscard]] const RagdollProfile& profileAt(int /*doll*/) const override { return profile_; }
+    [[nodiscard]] vec3 inertiaAt(int /*doll*/, int body) const override { return profile_.bodies[body].inertia; }
+    void getBodiesAt(int /*doll*/, std::span<BodyState> out) const override {
+        std::copy(bodies.begin(), bodies.end(), out.begin());
+    }
+    [[nodiscard]] bool isAsleepAt(int /*doll*/) const override { return asleep; }
+    [[nodiscard]] const physics::DynamicProp& propAt(int /*prop*/) const override { return noProp_; }
+    [[nodiscard]] BodyState propStateAt(int /*prop*/) const override { return {}; }
+
     const RagdollProfile& profile_;
     physics::DynamicProp noProp_;
 

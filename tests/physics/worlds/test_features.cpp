@@ -60,11 +60,11 @@ TEST_CASE("a force acts for one step at its point and does its work") {
             const BodyState now = bodyOfDoll(*world, 0);
             const vec3 turn = glm::conjugate(now.worldFromBody.rotation) * now.angularVelocity;
             return 0.5F * (2.0F * glm::dot(now.linearVelocity, now.linearVelocity) +
-                           glm::dot(world->inertiaOf(0, 0), turn * turn));
+                           glm::dot(world->inertiaOf(world->dolls()[0], 0), turn * turn));
         };
         for (int i = 0; i < 6; ++i) {
             const RigidTransform at = bodyOfDoll(*world, 0).worldFromBody;
-            world->applyForce(0, 0, {10, 0, 0}, at * vec3(0, 0.1F, 0));
+            world->applyForce(world->dolls()[0], 0, {10, 0, 0}, at * vec3(0, 0.1F, 0));
             world->step(kFrame);
         }
         const float expected = 10.0F * 6.0F * kFrame / 2.0F;
@@ -85,13 +85,13 @@ TEST_CASE("a force wakes a sleeping doll and can hold it up") {
         world->addStatic({});
         world->addDoll(rod, std::vector<BodyState>{stateAt({0, 0.06F, 0}, kLying)});
         stepSeconds(*world, 6.0F);
-        REQUIRE(world->isAsleep(0));
+        REQUIRE(world->isAsleep(world->dolls()[0]));
         for (int i = 0; i < 30; ++i) {
             const vec3 centre = bodyOfDoll(*world, 0).worldFromBody.translation;
-            world->applyForce(0, 0, {0, 2.0F * (9.81F + 4.0F), 0}, centre);
+            world->applyForce(world->dolls()[0], 0, {0, 2.0F * (9.81F + 4.0F), 0}, centre);
             world->step(kFrame);
         }
-        CHECK_FALSE(world->isAsleep(0));
+        CHECK_FALSE(world->isAsleep(world->dolls()[0]));
         CHECK(bodyOfDoll(*world, 0).worldFromBody.translation.y == Approx(0.05F + 0.5F * 4.0F * 0.25F).margin(0.06));
     }
 }
@@ -112,7 +112,7 @@ TEST_CASE("a motor holds a joint against gravity where its spring says") {
             motor.target = glm::angleAxis(radians(30), vec3(0, 0, 1));
             motor.stiffness = 60.0F;
             motor.damping = 6.0F;
-            world->setMotor(0, 0, motor);
+            world->setMotor(world->dolls()[0], 0, motor);
             stepSeconds(*world, 2.0F);
             CHECK(degrees(angleOf(*world, *pair)) == Approx(30.0F).margin(0.6));
             CHECK(std::abs(world->motorWork()) < 40.0);
@@ -120,7 +120,8 @@ TEST_CASE("a motor holds a joint against gravity where its spring says") {
             for (int i = 0; i < 240; ++i) {
                 const RigidTransform at = bodyOfDoll(*world, 0, 1).worldFromBody;
                 const vec3 along = at.translation;  // from the joint at the origin
-                world->applyForce(0, 1, 20.0F * glm::normalize(vec3(along.y, -along.x, 0)), at.translation);
+                world->applyForce(world->dolls()[0], 1, 20.0F * glm::normalize(vec3(along.y, -along.x, 0)),
+                                  at.translation);
                 world->step(kFrame);
             }
             const float arm = glm::length(pair->constraints[0].childFromFrame.translation);
@@ -129,7 +130,7 @@ TEST_CASE("a motor holds a joint against gravity where its spring says") {
             if (solver != SolverKind::stock)
                 CHECK(degrees(angleOf(*world, *pair)) == Approx(30.0F - sag).margin(0.1F * sag + 0.3F));
             CHECK(degrees(angleOf(*world, *pair)) < 30.0F - 0.5F * sag);
-            world->setMotor(0, 0, std::nullopt);
+            world->setMotor(world->dolls()[0], 0, std::nullopt);
             const double work = world->motorWork();
             stepSeconds(*world, 0.2F);
             CHECK(world->motorWork() == work);
@@ -147,11 +148,11 @@ TEST_CASE("a motor's torque has its bound") {
         motor.angle = radians(140);
         motor.stiffness = 1e4F;
         motor.maxTorqueNm = 0.5F;
-        world->setMotor(0, 0, motor);
+        world->setMotor(world->dolls()[0], 0, motor);
         stepSeconds(*world, 0.1F);
         const BodyState child = bodyOfDoll(*world, 0, 1);
         const float arm = glm::length(hinge.constraints[0].childFromFrame.translation);
-        const float inertia = world->inertiaOf(0, 1).z + hinge.bodies[1].massKg * arm * arm;
+        const float inertia = world->inertiaOf(world->dolls()[0], 1).z + hinge.bodies[1].massKg * arm * arm;
         CHECK(child.angularVelocity.z == Approx(0.5F * 0.1F / inertia).epsilon(0.1));
     }
 }
@@ -177,7 +178,7 @@ TEST_CASE("motors of any stiffness hold a whole doll in its pose while it is thr
                 motor.stiffness = stiffness;
                 motor.damping = 0.05F * stiffness;
                 motor.maxTorqueNm = 400.0F;
-                world->setMotor(0, static_cast<int>(i), motor);
+                world->setMotor(world->dolls()[0], static_cast<int>(i), motor);
             }
             const physics::Quality quality = measureSeconds(*world, statics, 3.0F);
             CHECK(quality.nonFinite == 0);
@@ -206,8 +207,8 @@ TEST_CASE("contact reports add up to the weight of what rests and name who it is
     for (const SolverKind solver : kAllSolvers) {
         INFO(physics::solverName(solver));
         const auto world = worldOf(solver, settings);
-        CHECK(world->addStatic(staticBoxAt({9, 0, 0}, {1, 1, 1})) == 0);
-        CHECK(world->addStatic({}) == 1);
+        CHECK(world->addStatic(staticBoxAt({9, 0, 0}, {1, 1, 1})).isSet());
+        CHECK(world->addStatic({}).isSet());
         world->addDoll(rod, std::vector<BodyState>{stateAt({0, 0.05F, 0}, kLying)});
         physics::DynamicProp crate;
         crate.shape.kind = physics::BodyShape::Kind::box;
@@ -222,10 +223,11 @@ TEST_CASE("contact reports add up to the weight of what rests and name who it is
             const bool first = report.a.kind != ContactReport::Side::Kind::fixed;
             const ContactReport::Side& mover = first ? report.a : report.b;
             const ContactReport::Side& floor = first ? report.b : report.a;
-            CHECK(floor == ContactReport::Side{ContactReport::Side::Kind::fixed, 1, 0});
+            CHECK(floor == ContactReport::Side{ContactReport::Side::Kind::fixed, {}, {}, world->statics()[1], 0});
             CHECK((first ? report.normal.y : -report.normal.y) > 0.99F);
             CHECK(std::abs(report.position.y) < 0.01F);
-            CHECK(mover.index == 0);
+            CHECK(mover.doll.isSet() == (mover.kind == ContactReport::Side::Kind::doll));
+            CHECK((world->has(mover.doll) || world->has(mover.prop)));
             (mover.kind == ContactReport::Side::Kind::doll ? ofRod : ofCrate) += report.impulse;
         }
         CHECK(ofRod == Approx(3.0F * 9.81F * kFrame).epsilon(0.05));
@@ -248,7 +250,8 @@ TEST_CASE("a hit is reported between the two that hit each other, with the momen
                 world->step(kFrame);
                 for (const ContactReport& report : world->contactReports()) {
                     CHECK(report.a.kind == ContactReport::Side::Kind::doll);
-                    CHECK(report.a.index + report.b.index == 1);
+                    CHECK_FALSE(report.a.doll == report.b.doll);
+                    CHECK((world->has(report.a.doll) && world->has(report.b.doll)));
                     CHECK(std::abs(report.normal.x) > 0.99F);
                     sum += report.impulse;
                 }
@@ -267,10 +270,11 @@ TEST_CASE("what is removed is gone, what rested on it falls, and later ones keep
         const auto world = worldOf(solver);
         world->addStatic(staticBoxAt({0, 0.9F, 0}, {1, 0.1F, 1}));
         world->addStatic({});
-        for (int i = 0; i < 3; ++i)
-            world->addDoll(
-                rod, std::vector<BodyState>{
-                         stateAt({0.02F * static_cast<float>(i), 1.05F, 0.6F * static_cast<float>(i) - 0.6F}, kLying)});
+        physics::DollId dolls[3];
+        for (int i = 0; i < 3; ++i) {
+            const vec3 at(0.02F * static_cast<float>(i), 1.05F, 0.6F * static_cast<float>(i) - 0.6F);
+            dolls[i] = world->addDoll(rod, std::vector<BodyState>{stateAt(at, kLying)});
+        }
         physics::DynamicProp prop;
         prop.shape.halfLength = 0.0F;
         prop.shape.radius = 0.1F;
@@ -280,34 +284,38 @@ TEST_CASE("what is removed is gone, what rested on it falls, and later ones keep
         prop.state = stateAt({5, 0.1F, 0});
         world->addProp(prop);
         stepSeconds(*world, 5.0F);
-        REQUIRE(world->isAsleep(2));
+        REQUIRE(world->isAsleep(world->dolls()[2]));
         const vec3 last = bodyOfDoll(*world, 2).worldFromBody.translation;
-        world->setDrag(3, {1, 0, vec3(0), {0, 2, 0}, 10.0F});
-        world->setDrag(4, {2, 0, vec3(0), last, 1.0F});
-        world->removeDoll(1);
-        REQUIRE(world->dollCount() == 2);
-        CHECK(world->dragsOf(1).size() == 1);
-        CHECK(world->dragsOf(1)[0].first == 4);
+        const physics::DragId gone = world->addDrag({dolls[1], 0, vec3(0), {0, 2, 0}, 10.0F});
+        const physics::DragId pull = world->addDrag({dolls[2], 0, vec3(0), last, 1.0F});
+        world->removeDoll(dolls[1]);
+        CHECK_FALSE(world->has(dolls[1]));
+        CHECK_FALSE(world->has(gone));
+        REQUIRE(world->dolls().size() == 2);
+        CHECK(world->dolls()[1] == dolls[2]);
+        CHECK(world->dragsOf(dolls[2]) == std::vector{pull});
         CHECK(glm::distance(bodyOfDoll(*world, 1).worldFromBody.translation, last) < 1e-3F);
         CHECK_FALSE(world->rayTest({0, 3, 0}, {0, 1.005F, 0}));
-        world->removeDrag(4);
+        world->removeDrag(pull);
 
-        world->removeProp(0);
-        REQUIRE(world->propCount() == 1);
-        CHECK(world->propOf(0).massKg == 7.0F);
-        CHECK(world->propState(0).worldFromBody.translation.x == Approx(5.0F).margin(0.01));
+        world->removeProp(world->props()[0]);
+        REQUIRE(world->props().size() == 1);
+        CHECK(world->propOf(world->props()[0]).massKg == 7.0F);
+        CHECK(world->propState(world->props()[0]).worldFromBody.translation.x == Approx(5.0F).margin(0.01));
 
         stepSeconds(*world, 4.0F);
-        REQUIRE(world->isAsleep(0));
-        world->removeStatic(0);
+        REQUIRE(world->isAsleep(world->dolls()[0]));
+        world->removeStatic(world->statics()[0]);
         stepSeconds(*world, 3.0F);
         for (int doll = 0; doll < 2; ++doll)
             CHECK(bodyOfDoll(*world, doll).worldFromBody.translation.y == Approx(0.05F).margin(0.02));
         // Its place is free for another.
-        const int next = world->addDoll(rod, std::vector<BodyState>{stateAt({0, 2, 0}, kLying)});
-        CHECK(next == 2);
+        const physics::DollId next = world->addDoll(rod, std::vector<BodyState>{stateAt({0, 2, 0}, kLying)});
+        CHECK(world->dolls()[2] == next);
+        CHECK_FALSE(next == dolls[1]);
+        CHECK_FALSE(world->has(dolls[1]));
         stepSeconds(*world, 2.0F);
-        CHECK(bodyOfDoll(*world, next).worldFromBody.translation.y < 0.3F);
+        CHECK(bodyOfDoll(*world, 2).worldFromBody.translation.y < 0.3F);
     }
 }
 
@@ -319,13 +327,13 @@ TEST_CASE("a doll that is woken by hand is awake and falls asleep again") {
         world->addStatic({});
         world->addDoll(rod, std::vector<BodyState>{stateAt({0, 0.06F, 0}, kLying)});
         stepSeconds(*world, 6.0F);
-        REQUIRE(world->isAsleep(0));
-        world->wake(0);
-        CHECK_FALSE(world->isAsleep(0));
+        REQUIRE(world->isAsleep(world->dolls()[0]));
+        world->wake(world->dolls()[0]);
+        CHECK_FALSE(world->isAsleep(world->dolls()[0]));
         world->step(kFrame);
-        CHECK_FALSE(world->isAsleep(0));
+        CHECK_FALSE(world->isAsleep(world->dolls()[0]));
         stepSeconds(*world, 6.0F);
-        CHECK(world->isAsleep(0));
+        CHECK(world->isAsleep(world->dolls()[0]));
     }
 }
 

@@ -56,8 +56,8 @@ void addDolls(World& world, const scene::Scenario& scenario, const RagdollProfil
     }
     for (const scene::Pin& pin : scenario.pins) {
         const int body = physics::bodyOf(profile, pin.role);
-        world.setDrag(pin.doll + 1,
-                      {pin.doll, body, vec3(0), bodyOfDoll(world, pin.doll, body).worldFromBody.translation, 5000.0F});
+        world.addDrag({world.dolls()[pin.doll], body, vec3(0),
+                       bodyOfDoll(world, pin.doll, body).worldFromBody.translation, 5000.0F});
     }
 }
 
@@ -89,9 +89,12 @@ TEST_CASE("a doll moves between the solvers in every scene without a jump and st
             INFO(name << ", step " << step);
             const auto before = bodiesOfDoll(*worlds[at], 0);
             if (step % 7 == 3) {  // at no particular moment
-                const bool asleep = worlds[at]->isAsleep(0);
-                const auto drags = worlds[at]->dragsOf(0);
-                CHECK(physics::moveDoll(*worlds[at], 0, *worlds[1 - at]) == 0);
+                const bool asleep = worlds[at]->isAsleep(worlds[at]->dolls()[0]);
+                const auto drags = worlds[at]->dragsOf(worlds[at]->dolls()[0]);
+                const physics::MovedDoll moved =
+                    physics::moveDoll(*worlds[at], worlds[at]->dolls()[0], *worlds[1 - at]);
+                CHECK(moved.doll == worlds[1 - at]->dolls()[0]);
+                CHECK(moved.drags == worlds[1 - at]->dragsOf(moved.doll));
                 at = 1 - at;
                 const auto after = bodiesOfDoll(*worlds[at], 0);
                 for (std::size_t i = 0; i < after.size(); ++i) {
@@ -102,9 +105,9 @@ TEST_CASE("a doll moves between the solvers in every scene without a jump and st
                     CHECK(glm::distance(after[i].linearVelocity, before[i].linearVelocity) < 1e-5F);
                     CHECK(glm::distance(after[i].angularVelocity, before[i].angularVelocity) < 1e-4F);
                 }
-                CHECK(worlds[at]->isAsleep(0) == asleep);
-                CHECK(worlds[at]->dragsOf(0).size() == drags.size());
-                CHECK(worlds[1 - at]->dollCount() == 0);
+                CHECK(worlds[at]->isAsleep(worlds[at]->dolls()[0]) == asleep);
+                CHECK(worlds[at]->dragsOf(worlds[at]->dolls()[0]).size() == drags.size());
+                CHECK(worlds[1 - at]->dolls().empty());
                 meters[at] = std::make_unique<physics::QualityMeter>(*worlds[at], scenario.statics, vec3(0, -9.81F, 0));
                 meter = meters[at].get();
             }
@@ -148,7 +151,7 @@ TEST_CASE("a doll that sleeps moves on asleep, with its motors and its filter, a
             for (World* world : {from.get(), to.get()})
                 world->addStatic({});
             from->addDoll(profile, standingDoll(profile, {0, 0.02F, 0}, glm::angleAxis(1.4F, vec3(1, 0, 0))));
-            physics::DollState state = from->dollState(0);
+            physics::DollState state = from->dollState(from->dolls()[0]);
             for (BodyState& body : state.bodies)
                 body.worldFromBody.translation.y += 0.5F;
             state.asleep = true;
@@ -156,18 +159,18 @@ TEST_CASE("a doll that sleeps moves on asleep, with its motors and its filter, a
             physics::JointMotor motor;
             motor.stiffness = 12.0F;
             state.motors[4] = motor;
-            from->setDollState(0, state);
-            REQUIRE(from->isAsleep(0));
-            physics::moveDoll(*from, 0, *to);
-            CHECK(to->isAsleep(0));
-            CHECK(to->dollFilter(0) == state.filter);
-            REQUIRE(to->dollState(0).motors[4]);
-            CHECK(to->dollState(0).motors[4]->stiffness == 12.0F);
-            CHECK_FALSE(to->dollState(0).motors[3]);
+            from->setDollState(from->dolls()[0], state);
+            REQUIRE(from->isAsleep(from->dolls()[0]));
+            physics::moveDoll(*from, from->dolls()[0], *to);
+            CHECK(to->isAsleep(to->dolls()[0]));
+            CHECK(to->dollFilter(to->dolls()[0]) == state.filter);
+            REQUIRE(to->dollState(to->dolls()[0]).motors[4]);
+            CHECK(to->dollState(to->dolls()[0]).motors[4]->stiffness == 12.0F);
+            CHECK_FALSE(to->dollState(to->dolls()[0]).motors[3]);
             const auto hung = bodiesOfDoll(*to, 0);
             stepSeconds(*to, 0.5F);
             CHECK(bodiesOfDoll(*to, 0)[0].worldFromBody.translation == hung[0].worldFromBody.translation);
-            to->wake(0);
+            to->wake(to->dolls()[0]);
             stepSeconds(*to, 0.5F);
             CHECK(bodiesOfDoll(*to, 0)[0].worldFromBody.translation.y < hung[0].worldFromBody.translation.y - 0.2F);
         }

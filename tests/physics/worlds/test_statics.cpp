@@ -166,7 +166,7 @@ TEST_CASE("rays meet every kind of static geometry, and meshes only from the fro
         world->addStatic(staticMesh(gridMesh(8, 4.0F, hills), {10, 0, 0}));
         const auto sphere = world->rayTest({0, 1, 5}, {0, 1, -5});
         REQUIRE(sphere);
-        CHECK(sphere->doll == -1);
+        CHECK_FALSE(sphere->doll.isSet());
         CHECK(sphere->position.z == Approx(0.5F).margin(0.01));
         const auto capsule = world->rayTest({4.9F, 3, 0}, {4.9F, -1, 0});
         REQUIRE(capsule);
@@ -191,14 +191,14 @@ TEST_CASE("layers and masks decide who collides and what a ray meets") {
         table.filter.layers = 4;
         world->addStatic(table);
         const auto drop = [&](float x, const CollisionFilter& filter) {
-            const int doll = world->addDoll(ball, std::vector<BodyState>{stateAt({x, 1.5F, 0})});
+            const physics::DollId doll = world->addDoll(ball, std::vector<BodyState>{stateAt({x, 1.5F, 0})});
             world->setDollFilter(doll, filter);
             CHECK(world->dollFilter(doll) == filter);
             return doll;
         };
-        const int plain = drop(-2, {});
-        const int ghost = drop(0, {1, ~4U});
-        const int nothing = drop(2, {0, CollisionFilter::kAll});
+        const physics::DollId plain = drop(-2, {});
+        drop(0, {1, ~4U});
+        drop(2, {0, CollisionFilter::kAll});
         physics::DynamicProp prop;
         prop.shape.kind = physics::BodyShape::Kind::sphere;
         prop.shape.radius = 0.1F;
@@ -206,24 +206,24 @@ TEST_CASE("layers and masks decide who collides and what a ray meets") {
         prop.filter = {8, ~4U};
         world->addProp(prop);
         stepSeconds(*world, 1.5F);
-        CHECK(bodyOfDoll(*world, plain).worldFromBody.translation.y == Approx(1.1F).margin(0.02));
-        CHECK(bodyOfDoll(*world, ghost).worldFromBody.translation.y == Approx(0.1F).margin(0.02));
-        CHECK(bodyOfDoll(*world, nothing).worldFromBody.translation.y < -3.0F);
-        CHECK(world->propState(0).worldFromBody.translation.y == Approx(0.1F).margin(0.02));
+        CHECK(bodyOfDoll(*world, 0).worldFromBody.translation.y == Approx(1.1F).margin(0.02));
+        CHECK(bodyOfDoll(*world, 1).worldFromBody.translation.y == Approx(0.1F).margin(0.02));
+        CHECK(bodyOfDoll(*world, 2).worldFromBody.translation.y < -3.0F);
+        CHECK(world->propState(world->props()[0]).worldFromBody.translation.y == Approx(0.1F).margin(0.02));
 
         CHECK(world->rayTest({-2, 3, 0}, {-2, -1, 0})->doll == plain);
         const auto through = world->rayTest({-2, 3, 0}, {-2, -1, 0}, 4U);
         REQUIRE(through);
-        CHECK(through->doll == -1);
+        CHECK_FALSE(through->doll.isSet());
         CHECK(through->position.y == Approx(1.0F).margin(0.01));
         CHECK_FALSE(world->rayTest({-2, 3, 0}, {-2, -1, 0}, 2U));
 
         // What lies on the table falls through it once it no longer collides, though it may have slept.
         world->setDollFilter(plain, {1, ~4U});
-        world->setPropFilter(0, {8, 0});
+        world->setPropFilter(world->props()[0], {8, 0});
         stepSeconds(*world, 1.5F);
-        CHECK(bodyOfDoll(*world, plain).worldFromBody.translation.y == Approx(0.1F).margin(0.02));
-        CHECK(world->propState(0).worldFromBody.translation.y < -3.0F);
+        CHECK(bodyOfDoll(*world, 0).worldFromBody.translation.y == Approx(0.1F).margin(0.02));
+        CHECK(world->propState(world->props()[0]).worldFromBody.translation.y < -3.0F);
     }
 }
 
@@ -237,8 +237,8 @@ TEST_CASE("dolls of layers that don't meet pass through each other") {
             const auto world = worldOf(solver, settings);
             world->addDoll(ball, std::vector<BodyState>{stateAt({-1, 0, 0}, quat(1, 0, 0, 0), {2, 0, 0})});
             world->addDoll(ball, std::vector<BodyState>{stateAt({1, 0, 0}, quat(1, 0, 0, 0), {-2, 0, 0})});
-            world->setDollFilter(0, {2, meet ? 4U : 2U});
-            world->setDollFilter(1, {4, 2U | 4U});
+            world->setDollFilter(world->dolls()[0], {2, meet ? 4U : 2U});
+            world->setDollFilter(world->dolls()[1], {4, 2U | 4U});
             stepSeconds(*world, 1.0F);
             CHECK((bodyOfDoll(*world, 0).worldFromBody.translation.x < 0.5F) == meet);
         }

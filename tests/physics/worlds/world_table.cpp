@@ -65,8 +65,9 @@ BodyState stateAt(const vec3& position, const quat& rotation, const vec3& veloci
 }
 
 std::vector<BodyState> bodiesOfDoll(const World& world, int doll) {
-    std::vector<BodyState> bodies(world.profileOf(doll).bodies.size());
-    world.getBodies(doll, bodies);
+    const physics::DollId id = world.dolls()[doll];
+    std::vector<BodyState> bodies(world.profileOf(id).bodies.size());
+    world.getBodies(id, bodies);
     return bodies;
 }
 
