@@ -9,8 +9,7 @@
 #include "editor/input/actions.hpp"
 #include "editor/play/limit_swing.hpp"
 #include "editor/states/workspace.hpp"
-#include "render/frame.hpp"
-#include "scene/draw_simulation.hpp"
+#include "editor/view/describe_frame.hpp"
 
 namespace lutka::editor {
 
@@ -32,17 +31,6 @@ struct UiCapture {
     bool keyboard = false;  ///< A text field or another widget has the keyboard.
 };
 
-/// What the picture shows beside the dolls.
-struct ViewSettings {
-    scene::DebugLayers layers;
-    bool debug = false;  ///< F3: whether `layers` are drawn.
-    float skinOpacity = 1.0F;
-    bool vsync = true;             ///< The application's window waits for the monitor.
-    bool dualQuaternions = false;  ///< Skinning that keeps the volume of twisted limbs.
-    bool panels = true;
-    bool help = false;
-};
-
 /// The editor without a window, a GPU or a UI: documents, simulation, camera, selection and the state machine, driven
 /// by InputEvents and Actions. The application feeds it; panels read it and call it; tests do both.
 class Editor {
@@ -62,9 +50,10 @@ class Editor {
     void perform(Action action);
     /// Once a frame, after its events: `seconds` of wall time.
     void update(double seconds);
-    /// Fills in the frame: camera, dolls, objects, debug layers, highlights. `characters` are the uploaded ones of
-    /// document().assets().
-    void describe(std::span<const render::CharacterHandle> characters, render::FrameDescription& frame);
+    /// describeFrame() of what the editor shows now.
+    void describe(std::span<const render::CharacterHandle> characters, render::FrameDescription& frame) {
+        describeFrame(workspace_, view, drawer_, characters, frame);
+    }
 
     /// An edit of the document on behalf of a panel: ends what is under way in the view, tells failures, and lets the
     /// simulation follow. Whether it succeeded.
@@ -171,10 +160,7 @@ class Editor {
     void toggleFollow();
     void followDoll();
     void axisView(float yaw, float pitch);
-    void drawOverlay(render::FrameDescription& frame);
-    void drawActivePart(render::FrameDescription& frame) const;
     bool performOnParts(Action action);
-    void highlight(render::FrameDescription& frame) const;
 
     Workspace workspace_;
     std::unique_ptr<StateMachine> machine_;
