@@ -146,7 +146,7 @@ bool Editor::requestSaveScene(const std::filesystem::path& file, std::function<v
 
 void Editor::requestSaveRecording(const std::filesystem::path& file) {
     const auto write = [this, file] {
-        if (workspace_.report(player().saveRecording(file))) return false;
+        if (workspace_.report(player().deck().save(file))) return false;
         workspace_.say(Toast::Kind::info, "Saved the recording " + file.string());
         return true;
     };

@@ -194,10 +194,10 @@ void drawThings(const PanelContext& context) {
 
 void drawReplay(const PanelContext& context) {
     Player& player = context.editor.player();
-    if (!player.replaying()) return;
-    float seconds = static_cast<float>(player.replaySeconds());
+    if (!player.deck().replaying()) return;
+    float seconds = static_cast<float>(player.deck().position());
     ImGui::SetNextItemWidth(-1.0F);
-    const auto length = static_cast<float>(player.replayLength());
+    const auto length = static_cast<float>(player.deck().seconds());
     if (ImGui::SliderFloat("##scrub", &seconds, 0.0F, length, "%.2f s")) {
         player.setPlaying(false);
         player.scrubTo(static_cast<double>(seconds));
@@ -209,19 +209,19 @@ void drawReplay(const PanelContext& context) {
 void drawRecording(const PanelContext& context) {
     Editor& editor = context.editor;
     Player& player = editor.player();
-    const bool has = player.recordedSteps() > 0;
-    if (player.recording()) {
-        if (ImGui::Button(fmt::format("Stop ({:.1f} s)###record", player.recordedSeconds()).c_str(), {-1.0F, 0})) {
+    const bool has = player.deck().steps() > 0;
+    if (player.deck().recording()) {
+        if (ImGui::Button(fmt::format("Stop ({:.1f} s)###record", player.deck().seconds()).c_str(), {-1.0F, 0})) {
             player.stopRecording();
         }
     } else {
-        ImGui::BeginDisabled(player.replaying());
+        ImGui::BeginDisabled(player.deck().replaying());
         if (ImGui::Button("Record###record", {-1.0F, 0})) player.startRecording();
         ImGui::EndDisabled();
         tooltip("Keeps the bodies of every step from now on");
     }
     const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) * 0.5F;
-    ImGui::BeginDisabled(player.recording() || !has || player.replaying());
+    ImGui::BeginDisabled(player.deck().recording() || !has || player.deck().replaying());
     if (ImGui::Button("Replay", {half, 0})) editor.workspace().report(player.replay());
     ImGui::EndDisabled();
     ImGui::SameLine();
@@ -230,8 +230,8 @@ void drawRecording(const PanelContext& context) {
     ImGui::EndDisabled();
     if (ImGui::Button("Open a recording…", {-1.0F, 0})) editor.dialog = Editor::Dialog::openRecording;
     drawReplay(context);
-    if (has && !player.recording() && !player.replaying()) {
-        mutedText(fmt::format("{} steps, {:.1f} s are kept.", player.recordedSteps(), player.recordedSeconds()));
+    if (has && !player.deck().recording() && !player.deck().replaying()) {
+        mutedText(fmt::format("{} steps, {:.1f} s are kept.", player.deck().steps(), player.deck().seconds()));
     }
 }
 

@@ -272,7 +272,7 @@ TEST_CASE("a recording replays what was simulated, can be scrubbed, saved and op
         editor->update(1.0 / 60.0);
     }
     player.stopRecording();
-    CHECK(player.recordedSteps() == 41);
+    CHECK(player.deck().steps() == 41);
     const vec3 end = player.simulation().worldFromBody(0)[0].translation;
     REQUIRE(player.replay());
     player.setPlaying(false);
@@ -280,18 +280,18 @@ TEST_CASE("a recording replays what was simulated, can be scrubbed, saved and op
     CHECK(glm::distance(player.simulation().worldFromBody(0)[0].translation, heights[10]) < 1e-4F);
     player.scrubTo(1e9);
     CHECK(glm::distance(player.simulation().worldFromBody(0)[0].translation, end) < 1e-5F);
-    REQUIRE(player.saveRecording(folder / "fall"));
+    REQUIRE(player.deck().save(folder / "fall"));
     player.endReplay();
     CHECK(glm::distance(player.simulation().worldFromBody(0)[0].translation, end) < 1e-5F);
     editor->perform(Action::reset);
     REQUIRE(player.openRecording(folder / "fall"));
-    CHECK(player.replaying());
+    CHECK(player.deck().replaying());
     player.setPlaying(true);
     for (int frame = 0; frame < 20; ++frame)
         editor->update(1.0 / 60.0);
-    CHECK(player.replaySeconds() == Approx(20.0 / 60.0).margin(1e-3));
+    CHECK(player.deck().position() == Approx(20.0 / 60.0).margin(1e-3));
     editor->perform(Action::reset);
-    CHECK_FALSE(player.replaying());
+    CHECK_FALSE(player.deck().replaying());
     CHECK_FALSE(player.openRecording(folder / "nowhere"));
 }
 
@@ -300,10 +300,10 @@ TEST_CASE("a recording ends when the scene gets other bodies, and is refused by 
     Player& player = editor->player();
     player.startRecording();
     editor->update(1.0 / 60.0);
-    CHECK(player.recording());
+    CHECK(player.deck().recording());
     editor->dropCopies(1);
     editor->update(1.0 / 60.0);
-    CHECK_FALSE(player.recording());
+    CHECK_FALSE(player.deck().recording());
     const auto refused = player.replay();
     REQUIRE_FALSE(refused);
     CHECK(refused.error().message.find("moving things") != std::string::npos);
