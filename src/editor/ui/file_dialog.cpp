@@ -184,16 +184,16 @@ void finish(const PanelContext& context, Editor::Dialog dialog) {
             editor.open(file);
             break;
         case Editor::Dialog::saveAs:
-            editor.requestSave(file);
+            editor.files().requestSave(file);
             break;
         case Editor::Dialog::exportBaked:
-            editor.requestExport(file, context.state.exportSeconds);
+            editor.files().requestExport(file, context.state.exportSeconds);
             break;
         case Editor::Dialog::saveSceneAs:
-            editor.requestSaveScene(file);
+            editor.files().requestSaveScene(file);
             break;
         case Editor::Dialog::saveRecording:
-            editor.requestSaveRecording(file);
+            editor.files().requestSaveRecording(file);
             break;
         case Editor::Dialog::openRecording:
             editor.workspace().report(editor.player().openRecording(file));

@@ -143,7 +143,7 @@ TEST_CASE("the character that is edited can be changed for another of the scene"
     CHECK(editor->document().profile().totalMassKg > light + 50.0F);
     CHECK(editor->document().assets().size() == 2);
     CHECK(editor->player().simulation().dollCount() == 3);
-    CHECK_FALSE(editor->asking());
+    CHECK_FALSE(editor->files().asking());
 }
 
 TEST_CASE("a character of another profile is pulled and pinned by its bodies, and stays where the scene has it") {
@@ -207,8 +207,8 @@ TEST_CASE("unsaved changes of a scene are marked and asked about, and Ctrl+S sav
     CHECK(editor->document().sceneUnsaved());
     CHECK_FALSE(editor->document().unsaved());
     editor->perform(Action::quit);
-    REQUIRE(editor->askingUnsaved());
-    editor->answer(Editor::Answer::cancel);
+    REQUIRE(editor->files().askingUnsaved());
+    editor->files().answer(FileFlow::Answer::cancel);
     CHECK_FALSE(editor->quitting());
     editor->perform(Action::saveProfile);
     CHECK_FALSE(editor->document().sceneUnsaved());
@@ -218,7 +218,7 @@ TEST_CASE("unsaved changes of a scene are marked and asked about, and Ctrl+S sav
     editor->perform(Action::undo);
     CHECK(editor->document().sceneUnsaved());
     editor->perform(Action::quit);
-    editor->answer(Editor::Answer::discard);
+    editor->files().answer(FileFlow::Answer::discard);
     CHECK(editor->quitting());
 }
 
@@ -358,7 +358,7 @@ TEST_CASE("a scene without characters goes on, and takes one again") {
     editor->perform(Action::throwBall);
     test::pass(*editor, 3);
     CHECK(editor->player().simulation().dollCount() == 0);
-    CHECK_FALSE(editor->exportBaked("nothing.glb", 0.1F));
+    CHECK_FALSE(editor->files().exportBaked("nothing.glb", 0.1F));
     add(*editor, EntityKind::character, {0, 1, 0});
     test::pass(*editor, 3);
     CHECK(editor->player().simulation().dollCount() == 1);
