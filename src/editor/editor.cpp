@@ -49,7 +49,7 @@ Result<std::unique_ptr<Editor>> Editor::create(const EditorOptions& options) {
     auto document = EditorDocument::open(all.value().model, all.value().load);
     if (!document) return document.error();
     auto editor = create(std::move(document).value(), all.value());
-    if (editor && fromScene) editor.value()->document().setSceneFile(options.sceneFile);
+    if (editor && fromScene) editor.value()->document().sceneDocument().setFile(options.sceneFile);
     return editor;
 }
 
@@ -159,7 +159,8 @@ std::span<const Editor::Command> Editor::commands() {
         Command{Action::openModel, true, [](Editor& e) { e.dialog = Dialog::openModel; }},
         Command{Action::saveProfile, true, [](Editor& e) { e.files_.saveAll(); }},
         Command{Action::saveProfileAs, true, [](Editor& e) { e.dialog = Dialog::saveAs; }},
-        Command{Action::saveScene, true, [](Editor& e) { e.files_.requestSaveScene(e.document().sceneFile()); }},
+        Command{Action::saveScene, true,
+                [](Editor& e) { e.files_.requestSaveScene(e.document().sceneDocument().file()); }},
         Command{Action::saveSceneAs, true, [](Editor& e) { e.dialog = Dialog::saveSceneAs; }},
         Command{Action::exportBaked, true, [](Editor& e) { e.dialog = Dialog::exportBaked; }},
         Command{Action::quit, true, [](Editor& e) { e.files_.afterUnsaved([&e] { e.quitting_ = true; }); }},
@@ -360,7 +361,7 @@ void Editor::throwBall() {
 
 bool Editor::editScene(const std::string& label, const std::string& group,
                        const std::function<void(scene::EntityScene&)>& change) {
-    SceneSettings settings = document().state().scene;
+    SceneSettings settings = document().sceneDocument().settings();
     change(settings.entities);
     return edit([&](EditorDocument& document) { return document.setScene(settings, label, group); });
 }

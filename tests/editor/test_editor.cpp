@@ -399,7 +399,7 @@ TEST_CASE("any sequence of events keeps the editor whole and the same one gives 
         options.scene.count = 2;
         const auto editor = makeEditor(options);
         const test::ScratchFolder folder;  // for when it happens to press Ctrl+S
-        REQUIRE(editor->save(folder / "saved.ragdoll.json").ok());
+        REQUIRE(editor->document().save(folder / "saved.ragdoll.json").ok());
         Random random(seed);
         const auto pick = [&](int count) {
             return static_cast<int>(random.next() % static_cast<std::uint64_t>(count));

@@ -9,20 +9,18 @@
 
 #include "animation/humanoid/map_humanoid.hpp"
 #include "editor/document/part_edits.hpp"
-#include "editor/document/scene_settings.hpp"
 #include "physics/fit/fit_ragdoll.hpp"
 #include "physics/profile/profile.hpp"
 
 namespace lutka::editor {
 
-/// Everything that editing changes; undo keeps whole ones.
+/// Everything that editing changes of the ragdoll; undo keeps whole ones.
 struct DocumentState {
     /// Bindings that the user chose. kNoJoint: the role shall have no joint.
     std::array<std::optional<int>, animation::kRoleCount> fixed{};
     physics::FitOptions fit;
     AllPartEdits edits{};
-    std::vector<PairEdit> pairs;  ///< Of the collision filter.
-    SceneSettings scene;
+    std::vector<PairEdit> pairs;          ///< Of the collision filter.
     std::filesystem::path openedProfile;  ///< The profile's file that `base` was read from; empty: fitted.
 
     // What follows from the above.

@@ -20,9 +20,9 @@ Opened started(Opened opened, const SceneSettings& scene) {
 }  // namespace
 
 Opened openModel(const std::filesystem::path& file, const scene::LoadOptions& load, const EditorDocument& present) {
-    SceneSettings settings = present.state().scene;
+    SceneSettings settings = present.sceneDocument().settings();
     for (scene::Ragdoll& ragdoll : settings.entities.all<scene::Ragdoll>()) {
-        if (!present.isEdited(ragdoll)) continue;
+        if (!present.sceneDocument().isEdited(ragdoll)) continue;
         ragdoll.model.clear();
         ragdoll.profile.clear();
         ragdoll.clip.reset();  // of the old one
@@ -33,7 +33,7 @@ Opened openModel(const std::filesystem::path& file, const scene::LoadOptions& lo
 }
 
 Opened openCharacter(const scene::Ragdoll& character, const scene::LoadOptions& load, const EditorDocument& present) {
-    SceneSettings settings = present.state().scene;
+    SceneSettings settings = present.sceneDocument().settings();
     // Who had no model had that of the document, which is another one from now on.
     for (scene::Ragdoll& one : settings.entities.all<scene::Ragdoll>()) {
         if (one.model.empty()) one.model = present.character().file;
@@ -41,7 +41,8 @@ Opened openCharacter(const scene::Ragdoll& character, const scene::LoadOptions& 
     settings.scenario.clear();
     settings.made.clear();
     auto opened = started(openAsset(character, load, present), settings);
-    if (opened && present.hasSceneFile()) opened.value()->setSceneFile(present.sceneFile());
+    if (opened && present.sceneDocument().hasFile())
+        opened.value()->sceneDocument().setFile(present.sceneDocument().file());
     return opened;
 }
 
@@ -50,14 +51,14 @@ Opened openScene(const std::filesystem::path& file, const scene::EntityScene& sc
     for (const scene::Entity& entity : scene.entities) {
         const auto* ragdoll = scene.find<scene::Ragdoll>(entity.id);
         if (ragdoll == nullptr) continue;
-        if (present.isEdited(*ragdoll)) break;
-        SceneSettings settings = present.state().scene;
+        if (present.sceneDocument().isEdited(*ragdoll)) break;
+        SceneSettings settings = present.sceneDocument().settings();
         settings.entities = scene;
         settings.scenario.clear();
         settings.made.clear();
         settings.clip.reset();
         auto opened = started(openAsset(*ragdoll, load, present), settings);
-        if (opened) opened.value()->setSceneFile(file);
+        if (opened) opened.value()->sceneDocument().setFile(file);
         return opened;
     }
     return std::unique_ptr<EditorDocument>();

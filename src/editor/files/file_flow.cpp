@@ -11,7 +11,7 @@
 namespace lutka::editor {
 
 bool FileFlow::anythingUnsaved() const {
-    return document().unsaved() || document().sceneUnsaved();
+    return document().unsaved() || document().sceneDocument().unsaved();
 }
 
 void FileFlow::afterUnsaved(std::function<void()> then) {
@@ -31,7 +31,7 @@ void FileFlow::answer(Answer answer) {
         return;
     }
     const auto saveScene = [this, then] {
-        if (!document().sceneUnsaved() || requestSaveScene(document().sceneFile(), then)) then();
+        if (!document().sceneDocument().unsaved() || requestSaveScene(document().sceneDocument().file(), then)) then();
     };
     if (!document().unsaved() || requestSave(document().profileFile(), saveScene)) saveScene();
 }
@@ -62,14 +62,14 @@ bool FileFlow::requestSave(const std::filesystem::path& file, std::function<void
 
 bool FileFlow::requestSaveScene(const std::filesystem::path& file, std::function<void()> afterwards) {
     const auto write = [this, file] {
-        if (workspace_.report(document().saveScene(file))) return false;
+        if (workspace_.report(document().sceneDocument().save(file))) return false;
         workspace_.say(Toast::Kind::info, "Saved the scene " + file.string());
         if (document().unsaved()) {
             workspace_.say(Toast::Kind::warning, "The ragdoll itself has unsaved changes: Ctrl+S saves its profile");
         }
         return true;
     };
-    const bool ours = document().hasSceneFile() && file == document().sceneFile();
+    const bool ours = document().sceneDocument().hasFile() && file == document().sceneDocument().file();
     return writeOrAsk(file, ours, write, std::move(afterwards));
 }
 
@@ -91,8 +91,8 @@ void FileFlow::requestExport(const std::filesystem::path& file, float seconds) {
 }
 
 void FileFlow::saveAll() {
-    const bool scene = document().sceneUnsaved() && document().hasSceneFile();
-    if (scene) requestSaveScene(document().sceneFile());
+    const bool scene = document().sceneDocument().unsaved() && document().sceneDocument().hasFile();
+    if (scene) requestSaveScene(document().sceneDocument().file());
     if (document().unsaved() || !scene) requestSave(document().profileFile());
 }
 

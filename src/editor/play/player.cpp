@@ -129,11 +129,11 @@ void Player::placeByJoints(int doll, std::span<const physics::BodyProfile> oldBo
 
 Result<scene::Scenario> Player::makeScenario() {
     std::vector<scene::Figure> figures;
-    for (const scene::RagdollAsset* asset : document_.assets())
+    for (const scene::RagdollAsset* asset : document_.sceneDocument().assets())
         figures.push_back(scene::figureOf(*asset));
-    auto scenario = scene::compileScene(document_.scene(), figures, document_.assetOfRagdoll());
+    auto scenario = scene::compileScene(document_.scene(), figures, document_.sceneDocument().assetOfRagdoll());
     if (!scenario) return scenario;
-    const std::optional<scene::ClipStart>& clip = document_.state().scene.clip;
+    const std::optional<scene::ClipStart>& clip = document_.sceneDocument().settings().clip;
     for (scene::Placement& doll : scenario.value().dolls) {
         if (!doll.pose && !doll.clip && doll.asset == 0) doll.clip = clip;
     }
@@ -180,8 +180,9 @@ Result<void> Player::rebuild(Keep keep) {
         options.world.gravity = vec3(0);
         options.world.sleeping = false;
     }
-    options.pose = document_.state().scene.pose;
-    auto simulation = scene::Simulation::create(document_.assets(), std::move(scenario).value(), options);
+    options.pose = document_.sceneDocument().settings().pose;
+    auto simulation =
+        scene::Simulation::create(document_.sceneDocument().assets(), std::move(scenario).value(), options);
     if (!simulation) return simulation.error();
     simulation_ = std::move(simulation).value();
     governor_.emplace(simulation_->world().substepsPerStep());
@@ -232,8 +233,9 @@ void Player::returnToPlay() {
     if (!scenario) return;
     keepProps(*motion, scenario.value());
     scene::SimulationOptions options = scene::simulationOptionsOf(document_.scene());
-    options.pose = document_.state().scene.pose;
-    auto simulation = scene::Simulation::create(document_.assets(), std::move(scenario).value(), options);
+    options.pose = document_.sceneDocument().settings().pose;
+    auto simulation =
+        scene::Simulation::create(document_.sceneDocument().assets(), std::move(scenario).value(), options);
     if (!simulation) return;
     simulation_ = std::move(simulation).value();
     restore(*motion);

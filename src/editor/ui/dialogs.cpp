@@ -28,9 +28,9 @@ void drawQuestion(const PanelContext& context) {
         ImGui::Text("The ragdoll of %s has changes that are not saved.", document.character().name.c_str());
         mutedText("Save writes " + document.profileFile().string());
     }
-    if (document.sceneUnsaved()) {
+    if (document.sceneDocument().unsaved()) {
         ImGui::Text("The scene %s has changes that are not saved.", document.scene().name.c_str());
-        mutedText("Save writes " + document.sceneFile().string());
+        mutedText("Save writes " + document.sceneDocument().file().string());
     }
     ImGui::Spacing();
     const ImVec2 button(context.px(110), 0);

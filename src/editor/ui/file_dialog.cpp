@@ -33,7 +33,7 @@ fs::path suggestedPath(const PanelContext& context, Editor::Dialog dialog) {
             return fs::absolute(document.profileFile().parent_path() / (document.character().name + "_fall.glb"),
                                 failed);
         case Editor::Dialog::saveSceneAs:
-            return fs::absolute(document.sceneFile(), failed);
+            return fs::absolute(document.sceneDocument().file(), failed);
         case Editor::Dialog::saveRecording:
             return fs::absolute(document.profileFile().parent_path() / (document.scene().name + ".recording"), failed);
         case Editor::Dialog::openRecording:
