@@ -156,7 +156,7 @@ Result<void> Application::record() {
 }
 
 Result<void> Application::followCharacter() {
-    const std::vector<const scene::RagdollAsset*> wanted = editor_->document().assets();
+    const std::vector<const scene::RagdollAsset*> wanted = editor_->document().sceneDocument().assets();
     const bool sameModel = characterRevision_ == editor_->characterRevision();
     if (sameModel && wanted == uploaded_) return {};
     for (const render::CharacterHandle old : characters_)
@@ -248,7 +248,8 @@ double Application::nextFrameSeconds() {
 Result<void> Application::run() {
     const int limit = frameLimit();
     lastFrame_ = Clock::now();
-    while (frameIndex_ < limit && !editor_->quitting()) {
+    const auto interrupted = [this] { return options_.interrupted && options_.interrupted(); };
+    while (frameIndex_ < limit && !editor_->quitting() && !interrupted()) {
         if (auto drawn = oneFrame(nextFrameSeconds()); !drawn) return drawn;
         ++frameIndex_;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct ApplicationOptions {
     bool vsync = true;
     /// Without a window every picture is `best`: only those that are kept are drawn at all.
     render::RenderQuality quality = render::RenderQuality::automatic;
+    /// Asked every frame: whether the process shall end. The editor then ends without a question.
+    std::function<bool()> interrupted;
     bool settings = true;  ///< Whether recent files are read from and kept in the user's configuration folder.
 };
 

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <glm/geometric.hpp>
 
 #include "core/files.hpp"
+#include "editor/document/open_document.hpp"
 #include "scene/scene_file.hpp"
 
 namespace lutka::editor {
@@ -12,14 +14,12 @@ namespace {
 
 constexpr float kThrowSpeed = 9.0F;  // m/s
 
-}  // namespace
+bool isProfile(const std::filesystem::path& file) {
+    return file.extension() == ".json";
+}
 
-Result<std::unique_ptr<Editor>> Editor::create(const EditorOptions& options) {
-    if (options.sceneFile.empty()) {
-        auto document = EditorDocument::open(options.model, options.load);
-        if (!document) return document.error();
-        return create(std::move(document).value(), options);
-    }
+// The options with the scene's file read: its first character is the model, unless another was asked for.
+Result<EditorOptions> withSceneRead(const EditorOptions& options) {
     const auto scene = scene::loadScene(options.sceneFile);
     if (!scene) return scene.error();
     EditorOptions all = options;
@@ -37,10 +37,19 @@ Result<std::unique_ptr<Editor>> Editor::create(const EditorOptions& options) {
     }
     all.scene.entities = scene.value();
     all.scene.scenario.clear();
-    auto document = EditorDocument::open(all.model, all.load);
+    return all;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Editor>> Editor::create(const EditorOptions& options) {
+    const bool fromScene = !options.sceneFile.empty();
+    const auto all = fromScene ? withSceneRead(options) : Result<EditorOptions>(options);
+    if (!all) return all.error();
+    auto document = EditorDocument::open(all.value().model, all.value().load);
     if (!document) return document.error();
-    auto editor = create(std::move(document).value(), all);
-    if (editor) editor.value()->document().setSceneFile(options.sceneFile);
+    auto editor = create(std::move(document).value(), all.value());
+    if (editor && fromScene) editor.value()->document().sceneDocument().setFile(options.sceneFile);
     return editor;
 }
 
@@ -60,11 +69,13 @@ Result<std::unique_ptr<Editor>> Editor::create(std::unique_ptr<EditorDocument> d
     editor->player().setSparing(options.spareSubsteps);
     editor->view.layers.capsules = true;
     editor->view.layers.limits = true;
-    editor->workspace_.camera = startCamera(editor->player().simulation(), options.window);
+    editor->camera_.frameScene();
     editor->machine_ = std::make_unique<StateMachine>(makeHandlers(editor->workspace_));
-    editor->greet(!options.load.profile.has_value());
+    editor->files_.greet(!options.load.profile.has_value());
     return editor;
 }
+
+Editor::Editor() : files_(workspace_, [this] { endTransform(); }) {}
 
 Editor::~Editor() = default;
 
@@ -115,7 +126,7 @@ void Editor::handle(const InputEvent& event, const UiCapture& capture) {
 
 void Editor::handleMouseButton(const InputEvent& event, const UiCapture& capture) {
     bool& held = held_[static_cast<std::size_t>(event.button)];
-    if (event.pressed && (capture.mouse || asking())) return;
+    if (event.pressed && (capture.mouse || files_.asking())) return;
     if (!event.pressed && !held) return;  // it went down on a panel
     held = event.pressed;
     if (event.pressed) endSwing();
@@ -123,7 +134,7 @@ void Editor::handleMouseButton(const InputEvent& event, const UiCapture& capture
 }
 
 void Editor::handleKey(const InputEvent& event, const UiCapture& capture) {
-    if (capture.keyboard || asking()) return;
+    if (capture.keyboard || files_.asking()) return;
     if (view.help && event.pressed && event.key == Key::escape) {
         view.help = false;
         return;
@@ -142,138 +153,90 @@ void Editor::handleKey(const InputEvent& event, const UiCapture& capture) {
     machine_->key(event);
 }
 
+// In the order of Action.
+std::span<const Editor::Command> Editor::commands() {
+    static constexpr std::array kCommands{
+        Command{Action::openModel, true, [](Editor& e) { e.dialog = Dialog::openModel; }},
+        Command{Action::saveProfile, true, [](Editor& e) { e.files_.saveAll(); }},
+        Command{Action::saveProfileAs, true, [](Editor& e) { e.dialog = Dialog::saveAs; }},
+        Command{Action::saveScene, true,
+                [](Editor& e) { e.files_.requestSaveScene(e.document().sceneDocument().file()); }},
+        Command{Action::saveSceneAs, true, [](Editor& e) { e.dialog = Dialog::saveSceneAs; }},
+        Command{Action::exportBaked, true, [](Editor& e) { e.dialog = Dialog::exportBaked; }},
+        Command{Action::quit, true, [](Editor& e) { e.files_.afterUnsaved([&e] { e.quitting_ = true; }); }},
+        Command{Action::undo, true, [](Editor& e) { e.travel(-1); }},
+        Command{Action::redo, true, [](Editor& e) { e.travel(1); }},
+        Command{Action::selectNone, true, [](Editor& e) { e.select(std::nullopt); }},
+        Command{Action::copyPart, true, [](Editor& e) { e.copyPart(); }},
+        Command{Action::pastePart, true, [](Editor& e) { e.pastePart(); }},
+        Command{Action::mirrorParts, true, [](Editor& e) { e.mirrorParts(); }},
+        Command{Action::swingLimits, true, [](Editor& e) { e.swingLimits(); }},
+        Command{Action::pin, true, [](Editor& e) { e.togglePin(); }},
+        Command{Action::unpinAll, true, [](Editor& e) { e.workspace_.pulls.pins.clear(); }},
+        Command{Action::togglePlay, true, [](Editor& e) { e.player().setPlaying(!e.player().playing()); }},
+        Command{Action::stepOnce, true, [](Editor& e) { e.stepOnce(); }},
+        Command{Action::reset, true, [](Editor& e) { e.reset(); }},
+        Command{Action::throwBall, true, [](Editor& e) { e.throwBall(); }},
+        Command{Action::returnToPlay, true, [](Editor& e) { e.returnToPlay(); }},
+        Command{Action::focus, false, [](Editor& e) { e.camera_.focus(); }},
+        Command{Action::followDoll, false, [](Editor& e) { e.camera_.toggleFollow(); }},
+        Command{Action::viewFront, false, [](Editor& e) { e.camera_.lookAlong(0.0F, 0.0F); }},
+        Command{Action::viewRight, false, [](Editor& e) { e.camera_.lookAlong(kPi / 2.0F, 0.0F); }},
+        Command{Action::viewTop, false, [](Editor& e) { e.camera_.lookAlong(0.0F, kPi / 2.0F); }},
+        Command{Action::toggleDebug, false, [](Editor& e) { e.view.debug = !e.view.debug; }},
+        Command{Action::toggleHandles, false, [](Editor& e) { e.toggleHandles(); }},
+        Command{Action::togglePanels, false, [](Editor& e) { e.view.panels = !e.view.panels; }},
+        Command{Action::toggleHelp, false, [](Editor& e) { e.view.help = !e.view.help; }},
+    };
+    return kCommands;
+}
+
 void Editor::perform(Action action) {
-    const bool looksOnly = action >= Action::focus;
-    if (!looksOnly) endSwing();
-    if (performOnDocument(action) || performOnParts(action) || performOnSimulation(action)) return;
-    switch (action) {
-        case Action::selectNone:
-            select(std::nullopt);
-            break;
-        case Action::focus:
-            focus();
-            break;
-        case Action::followDoll:
-            toggleFollow();
-            break;
-        case Action::viewFront:
-            axisView(0.0F, 0.0F);
-            break;
-        case Action::viewRight:
-            axisView(kPi / 2.0F, 0.0F);
-            break;
-        case Action::viewTop:
-            axisView(0.0F, kPi / 2.0F);
-            break;
-        case Action::toggleDebug:
-            view.debug = !view.debug;
-            break;
-        case Action::togglePanels:
-            view.panels = !view.panels;
-            break;
-        case Action::toggleHandles:
-            workspace_.showHandles = !workspace_.showHandles;
-            workspace_.hotHandle.reset();
-            break;
-        case Action::toggleHelp:
-            view.help = !view.help;
-            break;
-        default:
-            LUTKA_ASSERT(false);  // the two above have done it
-            break;
-    }
+    const Command& command = commands()[static_cast<std::size_t>(action)];
+    LUTKA_ASSERT(command.action == action);
+    if (command.endsSwing) endSwing();
+    command.run(*this);
 }
 
-bool Editor::performOnDocument(Action action) {
-    switch (action) {
-        case Action::openModel:
-            dialog = Dialog::openModel;
-            return true;
-        case Action::saveProfile:
-            saveAll();
-            return true;
-        case Action::saveScene:
-            requestSaveScene(document().sceneFile());
-            return true;
-        case Action::saveSceneAs:
-            dialog = Dialog::saveSceneAs;
-            return true;
-        case Action::saveProfileAs:
-            dialog = Dialog::saveAs;
-            return true;
-        case Action::exportBaked:
-            dialog = Dialog::exportBaked;
-            return true;
-        case Action::quit:
-            afterUnsaved([this] { quitting_ = true; });
-            return true;
-        case Action::undo:
-        case Action::redo:
-            travel(action == Action::undo ? -1 : 1);
-            return true;
-        default:
-            return false;
-    }
-}
-
-bool Editor::performOnParts(Action action) {
+void Editor::copyPart() {
     const std::vector<int> bodies = workspace_.selectedBodies();
-    switch (action) {
-        case Action::copyPart:
-            if (bodies.empty()) return true;
-            workspace_.clipboard = document().copyPart(bodies.back());
-            workspace_.say(
-                Toast::Kind::info,
-                fmt::format("Copied {}", animation::roleName(document().profile().bodies[bodies.back()].role)));
-            return true;
-        case Action::pastePart:
-            if (workspace_.clipboard && !bodies.empty()) {
-                edit([&](EditorDocument& one) { return one.pasteParts(bodies, *workspace_.clipboard); });
-            }
-            return true;
-        case Action::mirrorParts:
-            if (!bodies.empty()) edit([&](EditorDocument& one) { return one.mirrorParts(bodies); });
-            return true;
-        case Action::swingLimits:
-            swingLimits();
-            return true;
-        default:
-            return false;
-    }
+    if (bodies.empty()) return;
+    workspace_.clipboard = document().copyPart(bodies.back());
+    workspace_.say(Toast::Kind::info,
+                   fmt::format("Copied {}", animation::roleName(document().profile().bodies[bodies.back()].role)));
 }
 
-bool Editor::performOnSimulation(Action action) {
-    Player& player = *workspace_.player;
-    switch (action) {
-        case Action::pin:
-            togglePin();
-            return true;
-        case Action::unpinAll:
-            workspace_.pulls.pins.clear();
-            return true;
-        case Action::togglePlay:
-            player.setPlaying(!player.playing());
-            return true;
-        case Action::stepOnce:
-            workspace_.pulls.applyTo(player.simulation());
-            player.stepOnce();
-            return true;
-        case Action::reset:
-            endTransform();
-            workspace_.pulls.pins.clear();
-            workspace_.report(player.reset());
-            return true;
-        case Action::returnToPlay:
-            endTransform();
-            player.returnToPlay();
-            workspace_.pulls.applyTo(player.simulation());
-            return true;
-        case Action::throwBall:
-            throwBall();
-            return true;
-        default:
-            return false;
-    }
+void Editor::pastePart() {
+    const std::vector<int> bodies = workspace_.selectedBodies();
+    if (!workspace_.clipboard || bodies.empty()) return;
+    edit([&](EditorDocument& one) { return one.pasteParts(bodies, *workspace_.clipboard); });
+}
+
+void Editor::mirrorParts() {
+    const std::vector<int> bodies = workspace_.selectedBodies();
+    if (!bodies.empty()) edit([&](EditorDocument& one) { return one.mirrorParts(bodies); });
+}
+
+void Editor::stepOnce() {
+    workspace_.pulls.applyTo(player().simulation());
+    player().stepOnce();
+}
+
+void Editor::reset() {
+    endTransform();
+    workspace_.pulls.pins.clear();
+    workspace_.report(player().reset());
+}
+
+void Editor::returnToPlay() {
+    endTransform();
+    player().returnToPlay();
+    workspace_.pulls.applyTo(player().simulation());
+}
+
+void Editor::toggleHandles() {
+    workspace_.showHandles = !workspace_.showHandles;
+    workspace_.hotHandle.reset();
 }
 
 void Editor::update(double seconds) {
@@ -290,7 +253,7 @@ void Editor::update(double seconds) {
     } else {
         player().advance(seconds);
     }
-    followDoll();
+    camera_.follow();
     for (Toast& toast : workspace_.toasts)
         toast.secondsLeft -= static_cast<float>(seconds);
     std::erase_if(workspace_.toasts, [](const Toast& toast) { return toast.secondsLeft <= 0.0F; });
@@ -396,53 +359,99 @@ void Editor::throwBall() {
     workspace_.pulls.applyTo(player().simulation());
 }
 
-void Editor::focus() {
-    render::Camera& camera = workspace_.camera;
-    const float aspect = workspace_.window.aspect();
-    if (const auto active = workspace_.selection.active()) {
-        constexpr float bodyRadius = 0.45F;
-        render::frameSphere(camera, workspace_.positionOf(*active), bodyRadius, aspect);
-        return;
-    }
-    if (player().simulation().dollCount() == 0) return;
-    const auto bodies = player().bodiesOf(0);
-    vec3 low = bodies.front().worldFromBody.translation;
-    vec3 high = low;
-    for (const physics::BodyState& body : bodies) {
-        low = glm::min(low, body.worldFromBody.translation);
-        high = glm::max(high, body.worldFromBody.translation);
-    }
-    constexpr float around = 0.25F;  // metres of flesh beyond the outermost centres
-    render::frameSphere(camera, (low + high) * 0.5F, glm::distance(low, high) * 0.5F + around, aspect);
+bool Editor::editScene(const std::string& label, const std::string& group,
+                       const std::function<void(scene::EntityScene&)>& change) {
+    SceneSettings settings = document().sceneDocument().settings();
+    change(settings.entities);
+    return edit([&](EditorDocument& document) { return document.setScene(settings, label, group); });
 }
 
-void Editor::toggleFollow() {
-    if (workspace_.followed) {
-        workspace_.followed.reset();
-        return;
-    }
-    const auto active = workspace_.selection.active();
-    workspace_.followed = active && active->kind == Item::Kind::body ? active->doll : 0;
-    followedAt_ = player().simulation().worldFromBody(*workspace_.followed, player().alpha())[0].translation;
-    workspace_.say(Toast::Kind::info, "The camera follows the doll; Shift+F lets it go");
+void Editor::dropCopies(int count) {
+    editScene(fmt::format("Drop {} copies", count), "", [&](scene::EntityScene& scene) { addCopies(scene, count); });
 }
 
-// Target and eye go along with the hips, so that orbiting and zooming stay the user's.
-void Editor::followDoll() {
-    if (!workspace_.followed) return;
-    if (*workspace_.followed >= player().simulation().dollCount()) {
-        workspace_.followed.reset();
-        return;
-    }
-    const vec3 now = player().simulation().worldFromBody(*workspace_.followed, player().alpha())[0].translation;
-    workspace_.camera.target += now - followedAt_;
-    followedAt_ = now;
+void Editor::placeCamera(scene::EntityId id) {
+    const render::Camera& seen = workspace_.camera;
+    const mat3 axes(render::rightOf(seen), render::upOf(seen), -render::forwardOf(seen));
+    const RigidTransform world{glm::normalize(glm::quat_cast(axes)), render::eyeOf(seen)};
+    editScene("Place the camera at the view", "", [&](scene::EntityScene& scene) {
+        scene::placeEntity(scene, id, world);
+        scene::Camera& camera = *scene.find<scene::Camera>(id);
+        camera.fieldOfView = seen.fieldOfView;
+        camera.distance = seen.distance;
+        camera.orthographic = seen.orthographic;
+    });
 }
 
-void Editor::axisView(float yaw, float pitch) {
-    workspace_.camera.yaw = yaw;
-    workspace_.camera.pitch = pitch;
-    render::orbit(workspace_.camera, 0.0F, 0.0F);  // keeps off the pole
+void Editor::editCharacter(scene::EntityId id) {
+    const auto* ragdoll = document().scene().find<scene::Ragdoll>(id);
+    if (ragdoll == nullptr) return;
+    const auto change = [this, wanted = *ragdoll] {
+        const render::Camera seen = workspace_.camera;
+        if (adopt(openCharacter(wanted, load_, document()))) workspace_.camera = seen;
+    };
+    if (document().unsaved()) {
+        files_.afterUnsaved(change);
+    } else {
+        change();
+    }
+}
+
+void Editor::open(const std::filesystem::path& file) {
+    if (scene::isSceneFile(file)) {
+        files_.afterUnsaved([this, file] { openSceneNow(file); });
+        return;
+    }
+    if (isProfile(file)) {
+        files_.takeOffer();
+        if (edit([&](EditorDocument& document) { return document.useProfile(file); })) {
+            workspace_.say(Toast::Kind::info, "Opened the profile " + file.filename().string());
+        }
+        return;
+    }
+    files_.afterUnsaved([this, file] { adopt(openModel(file, load_, document())); });
+}
+
+void Editor::answerOffer(bool take) {
+    const std::filesystem::path file = files_.takeOffer();
+    if (take && !file.empty()) open(file);
+}
+
+void Editor::openSceneNow(const std::filesystem::path& file) {
+    const auto scene = scene::loadScene(file);
+    if (!scene) return workspace_.say(Toast::Kind::error, scene.error().text());
+    auto other = openScene(file, scene.value(), load_, document());
+    if (other && other.value() == nullptr) {
+        // The character that is edited is the scene's first one: its ragdoll stays as it is.
+        if (!edit([&](EditorDocument& document) { return document.useScene(file, scene.value()); })) return;
+        select(std::nullopt);
+        perform(Action::reset);
+        camera_.frameScene();
+    } else if (!adopt(std::move(other))) {
+        return;
+    }
+    workspace_.say(Toast::Kind::info, "Opened the scene " + file.filename().string());
+}
+
+bool Editor::adopt(Result<std::unique_ptr<EditorDocument>> opened) {
+    if (!opened) {
+        workspace_.say(Toast::Kind::error, opened.error().text());
+        return false;
+    }
+    auto player = std::make_unique<Player>(*opened.value(), clock_);
+    if (workspace_.report(player->rebuild(Player::Keep::nothing))) return false;
+    select(std::nullopt);
+    workspace_.pulls.pins.clear();
+    player->setPlaying(workspace_.player->playing());
+    player->setSpeed(workspace_.player->speed());
+    player->setSparing(workspace_.player->sparing());
+    workspace_.player = std::move(player);  // before the document that the old one borrows
+    workspace_.document = std::move(opened).value();
+    camera_.frameScene();
+    ++characterRevision_;
+    workspace_.say(Toast::Kind::info, "Opened " + document().character().file.filename().string());
+    files_.greet(true);
+    return true;
 }
 
 }  // namespace lutka::editor

@@ -6,11 +6,12 @@
 #include <optional>
 #include <string>
 
+#include "editor/files/file_flow.hpp"
 #include "editor/input/actions.hpp"
 #include "editor/play/limit_swing.hpp"
 #include "editor/states/workspace.hpp"
-#include "render/frame.hpp"
-#include "scene/draw_simulation.hpp"
+#include "editor/view/describe_frame.hpp"
+#include "editor/view/view_camera.hpp"
 
 namespace lutka::editor {
 
@@ -32,17 +33,6 @@ struct UiCapture {
     bool keyboard = false;  ///< A text field or another widget has the keyboard.
 };
 
-/// What the picture shows beside the dolls.
-struct ViewSettings {
-    scene::DebugLayers layers;
-    bool debug = false;  ///< F3: whether `layers` are drawn.
-    float skinOpacity = 1.0F;
-    bool vsync = true;             ///< The application's window waits for the monitor.
-    bool dualQuaternions = false;  ///< Skinning that keeps the volume of twisted limbs.
-    bool panels = true;
-    bool help = false;
-};
-
 /// The editor without a window, a GPU or a UI: documents, simulation, camera, selection and the state machine, driven
 /// by InputEvents and Actions. The application feeds it; panels read it and call it; tests do both.
 class Editor {
@@ -62,9 +52,10 @@ class Editor {
     void perform(Action action);
     /// Once a frame, after its events: `seconds` of wall time.
     void update(double seconds);
-    /// Fills in the frame: camera, dolls, objects, debug layers, highlights. `characters` are the uploaded ones of
-    /// document().assets().
-    void describe(std::span<const render::CharacterHandle> characters, render::FrameDescription& frame);
+    /// describeFrame() of what the editor shows now.
+    void describe(std::span<const render::CharacterHandle> characters, render::FrameDescription& frame) {
+        describeFrame(workspace_, view, drawer_, characters, frame);
+    }
 
     /// An edit of the document on behalf of a panel: ends what is under way in the view, tells failures, and lets the
     /// simulation follow. Whether it succeeded.
@@ -80,7 +71,7 @@ class Editor {
     /// Adds so many of the edited character in the air over the middle, each turned another way.
     void dropCopies(int count);
     /// The view becomes that of a camera, and back: the camera is placed where the view is.
-    void lookThrough(scene::EntityId camera);
+    void lookThrough(scene::EntityId camera) { camera_.lookThrough(camera); }
     void placeCamera(scene::EntityId camera);
     /// Makes this character, whose model or profile are others, the one that the panels edit. Asks first when there are
     /// unsaved changes of the ragdoll.
@@ -98,34 +89,11 @@ class Editor {
     /// Opens a model (*.ragdoll.json: a profile for the present one; *.scene.json: a scene); the old scene stays when
     /// that fails. Asks first when there are unsaved changes.
     void open(const std::filesystem::path& file);
-    [[nodiscard]] Result<void> save(const std::filesystem::path& file);
-    /// The same as requestSave() for the scene.
-    bool requestSaveScene(const std::filesystem::path& file, std::function<void()> afterwards = {});
-    /// And for the player's recording.
-    void requestSaveRecording(const std::filesystem::path& file);
-    /// The first doll's motion from the scene's start, `seconds` long, as an animation of its skin (*.glb).
-    [[nodiscard]] Result<void> exportBaked(const std::filesystem::path& file, float seconds);
-
-    /// What waits for the answer about unsaved changes.
-    enum class Answer { save, discard, cancel };
-    [[nodiscard]] bool asking() const { return afterAnswer_ != nullptr || replacing_.has_value(); }
-    [[nodiscard]] bool askingUnsaved() const { return afterAnswer_ != nullptr; }
-    void answer(Answer answer);
-
-    /// Saves there, unless that would replace a file that the document neither opened nor wrote: then it asks first
-    /// (replacedFile(), answerReplace()), and calls `afterwards` when it was saved after all. Whether it was saved now.
-    bool requestSave(const std::filesystem::path& file, std::function<void()> afterwards = {});
-    /// The same for exportBaked().
-    void requestExport(const std::filesystem::path& file, float seconds);
-    /// The file that the user is asked about; empty when there is no such question.
-    [[nodiscard]] std::filesystem::path replacedFile() const {
-        return replacing_ ? replacing_->file : std::filesystem::path();
-    }
-    void answerReplace(bool replace);
-
-    /// A profile that lies beside the model and was not asked for; empty when there is none or the user has answered.
-    [[nodiscard]] const std::filesystem::path& offeredProfile() const { return offeredProfile_; }
+    /// Takes the offered profile (FileFlow::offeredProfile()), or not.
     void answerOffer(bool take);
+    /// Saving, exporting, and the questions about files.
+    [[nodiscard]] FileFlow& files() { return files_; }
+    [[nodiscard]] const FileFlow& files() const { return files_; }
 
     /// A dialog that the UI should show; the UI clears it.
     enum class Dialog { none, openModel, saveAs, exportBaked, saveSceneAs, saveRecording, openRecording };
@@ -147,36 +115,35 @@ class Editor {
     ViewSettings view;
 
   private:
-    Editor() = default;
-    void adopt(std::unique_ptr<EditorDocument> document);
+    /// What perform() does. `endsSwing`: unless it only changes how things look.
+    struct Command {
+        Action action = Action::quit;
+        bool endsSwing = true;
+        void (*run)(Editor&) = nullptr;
+    };
+    [[nodiscard]] static std::span<const Command> commands();
+
+    Editor();
     void handleMouseButton(const InputEvent& event, const UiCapture& capture);
     void handleKey(const InputEvent& event, const UiCapture& capture);
-    bool performOnDocument(Action action);
-    bool performOnSimulation(Action action);
     [[nodiscard]] bool busy() const;
     void endTransform();
-    void afterUnsaved(std::function<void()> then);
-    void openNow(const std::filesystem::path& file);
     void openSceneNow(const std::filesystem::path& file);
-    /// The document of the scene's first character; null when it is the present one.
-    [[nodiscard]] Result<std::unique_ptr<EditorDocument>> openForScene(const scene::EntityScene& scene) const;
-    void adoptStarted(std::unique_ptr<EditorDocument> document);
-    void saveAll();
-    [[nodiscard]] bool anythingUnsaved() const { return document().unsaved() || document().sceneUnsaved(); }
-    void greet(bool offerProfile);
-    [[nodiscard]] static render::Camera startCamera(const scene::Simulation& simulation, render::Extent window);
+    /// Takes an opened document in the place of the present one; tells a failure. Whether it did.
+    bool adopt(Result<std::unique_ptr<EditorDocument>> opened);
+    void copyPart();
+    void pastePart();
+    void mirrorParts();
+    void stepOnce();
+    void reset();
+    void returnToPlay();
     void togglePin();
     void throwBall();
-    void focus();
-    void toggleFollow();
-    void followDoll();
-    void axisView(float yaw, float pitch);
-    void drawOverlay(render::FrameDescription& frame);
-    void drawActivePart(render::FrameDescription& frame) const;
-    bool performOnParts(Action action);
-    void highlight(render::FrameDescription& frame) const;
+    void toggleHandles();
 
     Workspace workspace_;
+    ViewCamera camera_{workspace_};
+    FileFlow files_;
     std::unique_ptr<StateMachine> machine_;
     scene::SimulationDrawer drawer_;
     scene::LoadOptions load_;
@@ -184,16 +151,6 @@ class Editor {
     std::array<bool, kMouseButtonCount> held_{};  // pressed in the view and not released yet
     std::optional<LimitSwing> swing_;
     int swingDoll_ = 0;
-    vec3 followedAt_{0, 0, 0};  // where the followed doll's hips were when the camera last moved
-    std::function<void()> afterAnswer_;
-    struct Replacing {
-        std::filesystem::path file;
-        std::function<bool()> write;
-        std::function<void()> afterwards;
-    };
-    std::vector<std::filesystem::path> exported_;
-    std::optional<Replacing> replacing_;
-    std::filesystem::path offeredProfile_;
     bool quitting_ = false;
     int characterRevision_ = 0;
 };

@@ -369,13 +369,13 @@ TEST_CASE("unsaved changes are asked about before they are lost") {
     const int hand = physics::bodyOf(editor->document().profile(), Role::leftHand);
     REQUIRE(editor->edit([&](EditorDocument& document) { return document.setMass(hand, 2.0F); }));
     send(*editor, windowClosed());
-    REQUIRE(editor->asking());
+    REQUIRE(editor->files().asking());
     CHECK_FALSE(editor->quitting());
-    editor->answer(Editor::Answer::cancel);
-    CHECK_FALSE(editor->asking());
+    editor->files().answer(FileFlow::Answer::cancel);
+    CHECK_FALSE(editor->files().asking());
     CHECK_FALSE(editor->quitting());
     send(*editor, windowClosed());
-    editor->answer(Editor::Answer::discard);
+    editor->files().answer(FileFlow::Answer::discard);
     CHECK(editor->quitting());
 }
 
@@ -389,7 +389,7 @@ TEST_CASE("the baked fall is written as a glb") {
     const auto editor = makeEditor();
     const test::ScratchFolder folder;
     const std::filesystem::path file = folder / "baked.glb";
-    REQUIRE(editor->exportBaked(file, 0.5F).ok());
+    REQUIRE(editor->files().exportBaked(file, 0.5F).ok());
     CHECK(std::filesystem::file_size(file) > 1000);
 }
 
@@ -399,7 +399,7 @@ TEST_CASE("any sequence of events keeps the editor whole and the same one gives 
         options.scene.count = 2;
         const auto editor = makeEditor(options);
         const test::ScratchFolder folder;  // for when it happens to press Ctrl+S
-        REQUIRE(editor->save(folder / "saved.ragdoll.json").ok());
+        REQUIRE(editor->document().save(folder / "saved.ragdoll.json").ok());
         Random random(seed);
         const auto pick = [&](int count) {
             return static_cast<int>(random.next() % static_cast<std::uint64_t>(count));
@@ -420,7 +420,7 @@ TEST_CASE("any sequence of events keeps the editor whole and the same one gives 
                     send(*editor, mouseMoved({random.uniform(400, 880), random.uniform(60, 660)}));
                     break;
             }
-            if (editor->asking()) editor->answer(Editor::Answer::cancel);
+            if (editor->files().asking()) editor->files().answer(FileFlow::Answer::cancel);
             const bool pulling = editor->workspace().pulls.mouse.has_value();
             REQUIRE((!pulling || editor->state() == State::grab));
             REQUIRE((editor->state() != State::idle || editor->workspace().selection.empty()));

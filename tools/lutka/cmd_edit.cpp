@@ -5,6 +5,7 @@
 #include "commands.hpp"
 #include "core/files.hpp"
 #include "editor/application.hpp"
+#include "interrupt.hpp"
 #include "options.hpp"
 
 namespace lutka::cli {
@@ -83,7 +84,10 @@ void run(Options& options) {
         fmt::print("{}", editor::stateDiagram());
         return;
     }
-    orLeave(editor::runApplication(applicationOptions(options)));
+    editor::ApplicationOptions application = applicationOptions(options);
+    application.interrupted = interrupted;
+    orLeave(editor::runApplication(application));
+    leaveIfInterrupted();
 }
 
 }  // namespace

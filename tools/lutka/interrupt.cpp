@@ -42,6 +42,10 @@ void installInterruptHandler() {
         ::sigaction(number, &action, nullptr);
 }
 
+bool interrupted() {
+    return caughtSignal != 0;
+}
+
 void leaveIfInterrupted() {
     constexpr int kShellBase = 128;
     if (caughtSignal != 0) throw Exit{kShellBase + caughtSignal};

@@ -6,6 +6,9 @@ namespace lutka::cli {
 /// temporary files are removed; a second signal, half a second or more after the first, ends it at once.
 void installInterruptHandler();
 
+/// Whether a signal asked the program to stop.
+[[nodiscard]] bool interrupted();
+
 /// Leaves with the shell's code for the signal (128 + its number) when one came.
 void leaveIfInterrupted();
 

@@ -11,35 +11,16 @@
 #include "editor/document/part_edits.hpp"
 #include "physics/fit/fit_ragdoll.hpp"
 #include "physics/profile/profile.hpp"
-#include "physics/world/world.hpp"
-#include "scene/simulation.hpp"
 
 namespace lutka::editor {
 
-/// What is simulated, where and how.
-struct SceneSettings {
-    scene::EntityScene entities;
-    std::string scenario = "drop";      ///< The named scene that `made` were made as; empty: the scene is from a file.
-    int count = 1;                      ///< Its dolls, [1, 10000].
-    std::uint64_t seed = 0;             ///< And its seed.
-    std::vector<scene::EntityId> made;  ///< Sorted; what another named scene takes the place of.
-    scene::EntityScene begun;           ///< The scene before the user changed its entities.
-    scene::StartPose pose = scene::StartPose::bind;  ///< Of characters that say nothing themselves.
-    std::optional<scene::ClipStart> clip;            ///< Likewise, where they have it; wins over `pose`.
-};
-
-/// Makes the entities of the named scene anew; those that the user added stay, and so do the world's settings. Fails as
-/// makeScene() does; nothing is done when `scenario` is empty.
-[[nodiscard]] Result<void> makeNamedScene(SceneSettings& settings, const scene::FigureBounds& figure);
-
-/// Everything that editing changes; undo keeps whole ones.
+/// Everything that editing changes of the ragdoll; undo keeps whole ones.
 struct DocumentState {
     /// Bindings that the user chose. kNoJoint: the role shall have no joint.
     std::array<std::optional<int>, animation::kRoleCount> fixed{};
     physics::FitOptions fit;
     AllPartEdits edits{};
-    std::vector<PairEdit> pairs;  ///< Of the collision filter.
-    SceneSettings scene;
+    std::vector<PairEdit> pairs;          ///< Of the collision filter.
     std::filesystem::path openedProfile;  ///< The profile's file that `base` was read from; empty: fitted.
 
     // What follows from the above.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "editor/document/mirror_body.hpp"
 #include "physics/profile/profile_io.hpp"
 #include "physics/rig/rig.hpp"
 
@@ -13,6 +14,9 @@ namespace {
 
 using animation::Role;
 using animation::Side;
+using physics::BodyProfile;
+using physics::ConstraintProfile;
+using physics::RagdollProfile;
 
 Error outOfRange(const std::vector<std::string>& problems) {
     std::string all;
@@ -55,29 +59,33 @@ Result<std::unique_ptr<EditorDocument>> EditorDocument::open(const std::filesyst
     if (!asset) return asset.error();
     auto document = std::make_unique<EditorDocument>(std::move(asset).value());
     document->state_.fit = options.fit;
-    document->load_.import = options.import;
+    document->scene_.setOrigin(options.import, options.profile.value_or(""));
     if (options.profile) {
         document->state_.openedProfile = *options.profile;
-        document->openedWith_ = *options.profile;
         document->remember(*options.profile);
         document->rememberBase(document->state_);
     }
     return document;
 }
 
-EditorDocument::EditorDocument(std::unique_ptr<scene::RagdollAsset> asset) : asset_(std::move(asset)) {
+EditorDocument::EditorDocument(std::unique_ptr<scene::RagdollAsset> asset) : asset_(std::move(asset)), scene_(*asset_) {
     state_.map = asset_->map;
     state_.base = asset_->profile;
     state_.profile = asset_->profile;
-    saved_[{}] = {{}, physics::profileToJson(state_.profile)};
+    saved_.begin(physics::profileToJson(state_.profile));
+    tellScene();
     const Result<void> started = startScene({});
     LUTKA_ASSERT(started.ok());
 }
 
 void EditorDocument::remember(const std::filesystem::path& file) {
-    saved_[state_.openedProfile] = {file, physics::profileToJson(state_.profile)};
-    ownFiles_.push_back(file);
+    saved_.remember(state_.openedProfile, file, physics::profileToJson(state_.profile));
     unsaved_ = false;
+    tellScene();
+}
+
+void EditorDocument::tellScene() {
+    scene_.setProfileFile(profileFile(), saved_.fileOf(state_.openedProfile).has_value());
 }
 
 void EditorDocument::commitAsset() {
@@ -88,11 +96,12 @@ void EditorDocument::commitAsset() {
     if (rig) asset_->rig = std::move(rig).value();
 }
 
-void EditorDocument::adopt(DocumentState state) {
-    state_ = std::move(state);
+void EditorDocument::adopt(Snapshot snapshot) {
+    state_ = std::move(snapshot.ragdoll);
     ++revision_;
-    unsaved_ = physics::profileToJson(state_.profile) != saved_[state_.openedProfile].profile;
-    followScene();
+    unsaved_ = saved_.differs(state_.openedProfile, physics::profileToJson(state_.profile));
+    tellScene();
+    scene_.adopt(std::move(snapshot.scene));
 }
 
 // Works on a copy, so that a change that fails half-way leaves nothing behind.
@@ -102,8 +111,32 @@ Result<void> EditorDocument::apply(const std::string& label, const std::string& 
     next.profile = applyEdits(next.base, next.edits, next.pairs);
     if (const auto problems = physics::validate(next.profile); !problems.empty()) return outOfRange(problems);
     if (const auto rig = physics::bindRig(next.profile, asset_->character.skeleton); !rig) return rig.error();
-    undo_.changed(state_, label, group);
-    adopt(std::move(next));
+    undo_.changed(snapshot(), label, group);
+    adopt({std::move(next), scene_.settings()});
+    return {};
+}
+
+Result<void> EditorDocument::startScene(SceneSettings scene) {
+    if (auto started = scene_.start(std::move(scene)); !started) return started;
+    ++revision_;
+    return {};
+}
+
+Result<void> EditorDocument::setScene(const SceneSettings& scene, const std::string& label, const std::string& group) {
+    auto next = scene_.prepare(scene);
+    if (!next) return next.error();
+    undo_.changed(snapshot(), label, group);
+    adopt({state_, std::move(next).value()});
+    return {};
+}
+
+Result<void> EditorDocument::useScene(const std::filesystem::path& file, const scene::EntityScene& scene) {
+    SceneSettings next = scene_.settings();
+    next.entities = scene;
+    next.scenario.clear();
+    next.made.clear();
+    if (auto done = setScene(next, "Open scene " + file.filename().string()); !done) return done;
+    scene_.setFile(file);
     return {};
 }
 
@@ -190,6 +223,130 @@ Result<void> EditorDocument::editPart(int body, const std::string& what, const s
                  });
 }
 
+std::vector<RigidTransform> EditorDocument::bindModelFromBody(const RagdollProfile& profile) const {
+    const auto rig = physics::bindRig(profile, character().skeleton);
+    LUTKA_ASSERT(rig.ok());  // apply() lets no other profile in
+    return rig ? rig.value().bindModelFromBody : std::vector<RigidTransform>(profile.bodies.size());
+}
+
+physics::BindFrames EditorDocument::bindOf(int constraint) const {
+    const auto bind = bindModelFromBody(profile());
+    const ConstraintProfile& one = profile().constraints[constraint];
+    return {bind[one.parent], bind[one.child]};
+}
+
+std::string EditorDocument::partNames(std::span<const int> bodies) const {
+    if (bodies.size() == 1) return std::string(animation::roleName(profile().bodies[bodies.front()].role));
+    return fmt::format("{} bodies", bodies.size());
+}
+
+Result<void> EditorDocument::changeParts(std::span<const int> bodies, const std::string& what, const std::string& group,
+                                         const std::function<Result<void>(Part&)>& change) {
+    if (bodies.empty()) return Error{ErrorCode::usage, "no body is selected", "", "select one"};
+    return apply(fmt::format("{} of {}", what, partNames(bodies)), group, [&](DocumentState& next) -> Result<void> {
+        RagdollProfile work = next.profile;
+        const auto bind = bindModelFromBody(work);
+        for (const int body : bodies) {
+            BodyProfile changed = work.bodies[body];
+            ConstraintProfile* constraint = body > 0 ? &work.constraints[body - 1] : nullptr;
+            const int parent = constraint != nullptr ? constraint->parent : 0;
+            Part part{changed, constraint, {bind[parent], bind[body]}};
+            if (auto done = change(part); !done) return done;
+            const RigidTransform place = changed.jointFromBody;
+            changed.jointFromBody = work.bodies[body].jointFromBody;
+            work.bodies[body] = changed;
+            physics::moveBody(work, body, place);
+        }
+        for (const int body : bodies) {
+            next.edits[animation::indexOf(work.bodies[body].role)] = partEditsBetween(next.base, body, work, body);
+        }
+        return {};
+    });
+}
+
+EditorDocument::PartValues EditorDocument::copyPart(int body) const {
+    const BodyProfile& from = profile().bodies[body];
+    PartValues values{animation::sideOf(from.role), from.shape, from.massKg, std::nullopt};
+    if (body > 0) {
+        const ConstraintProfile& joint = profile().constraints[body - 1];
+        values.joint = {joint.kind, physics::jointRange(joint, bindOf(body - 1)), joint.frictionNm};
+    }
+    return values;
+}
+
+Result<void> EditorDocument::pasteParts(std::span<const int> bodies, const PartValues& values) {
+    return changeParts(bodies, "Paste", "", [&](Part& part) -> Result<void> {
+        part.body.shape = values.shape;
+        part.body.massKg = values.massKg;
+        if (part.constraint == nullptr || !values.joint) return {};
+        const Side side = animation::sideOf(part.body.role);
+        const bool across = side != values.side && side != Side::center && values.side != Side::center;
+        physics::changeKind(*part.constraint, values.joint->kind, part.bind);
+        physics::setJointRange(*part.constraint, across ? mirrored(values.joint->range) : values.joint->range,
+                               part.bind);
+        part.constraint->frictionNm = values.joint->frictionNm;
+        return {};
+    });
+}
+
+Result<void> EditorDocument::mirrorParts(std::span<const int> bodies) {
+    for (const int body : bodies) {
+        const int other = physics::bodyOf(profile(), animation::mirrored(profile().bodies[body].role));
+        if (other >= 0 && other != body) continue;
+        return Error{ErrorCode::usage,
+                     fmt::format("{} has no other side", animation::roleName(profile().bodies[body].role)), "", ""};
+    }
+    return apply("Mirror " + partNames(bodies), "", [&](DocumentState& next) -> Result<void> {
+        RagdollProfile work = next.profile;
+        const auto bind = bindModelFromBody(work);
+        for (const int body : bodies) {
+            const int other = physics::bodyOf(work, animation::mirrored(work.bodies[body].role));
+            mirrorBody(work, bind, body, other);
+            next.edits[animation::indexOf(work.bodies[other].role)] = partEditsBetween(next.base, other, work, other);
+        }
+        return {};
+    });
+}
+
+Result<void> EditorDocument::resetParts(std::span<const int> bodies) {
+    return apply("Reset " + partNames(bodies), "", [&](DocumentState& next) -> Result<void> {
+        for (const int body : bodies)
+            next.edits[animation::indexOf(next.profile.bodies[body].role)] = {};
+        return {};
+    });
+}
+
+bool EditorDocument::linked(int bodyA, int bodyB) const {
+    const auto& constraints = profile().constraints;
+    return std::any_of(constraints.begin(), constraints.end(), [&](const ConstraintProfile& c) {
+        return (c.parent == bodyA && c.child == bodyB) || (c.parent == bodyB && c.child == bodyA);
+    });
+}
+
+bool EditorDocument::collides(int bodyA, int bodyB) const {
+    if (bodyA == bodyB || linked(bodyA, bodyB)) return false;
+    const std::pair pair(std::min(bodyA, bodyB), std::max(bodyA, bodyB));
+    const auto& filtered = profile().filteredPairs;
+    return std::find(filtered.begin(), filtered.end(), pair) == filtered.end();
+}
+
+Result<void> EditorDocument::setCollision(int bodyA, int bodyB, bool collide) {
+    const Role a = profile().bodies[bodyA].role;
+    const Role b = profile().bodies[bodyB].role;
+    if (bodyA == bodyB || linked(bodyA, bodyB)) {
+        return Error{
+            ErrorCode::usage,
+            fmt::format("{} and {} are linked and never collide", animation::roleName(a), animation::roleName(b)), "",
+            ""};
+    }
+    const std::string label = fmt::format("{} and {} {}", animation::roleName(a), animation::roleName(b),
+                                          collide ? "collide" : "pass through");
+    return apply(label, "", [&](DocumentState& next) -> Result<void> {
+        setPair(next.pairs, {a, b, collide});
+        return {};
+    });
+}
+
 Result<void> EditorDocument::setShape(int body, const physics::BodyShape& shape, const std::string& group) {
     return editPart(body, "Shape", group, [&](PartEdits& edits) { edits.shape = shape; });
 }
@@ -262,27 +419,18 @@ void EditorDocument::cancelGroup() {
 }
 
 void EditorDocument::undo() {
-    if (undo_.canUndo()) adopt(undo_.undo(state_));
+    if (undo_.canUndo()) adopt(undo_.undo(snapshot()));
 }
 
 void EditorDocument::redo() {
-    if (undo_.canRedo()) adopt(undo_.redo(state_));
+    if (undo_.canRedo()) adopt(undo_.redo(snapshot()));
 }
 
 std::filesystem::path EditorDocument::profileFile() const {
-    const auto saved = saved_.find(state_.openedProfile);
-    if (saved != saved_.end() && !saved->second.file.empty()) return saved->second.file;
+    if (const auto saved = saved_.fileOf(state_.openedProfile)) return *saved;
     const std::filesystem::path& model = character().file;
     std::filesystem::path file = model.parent_path() / (model.empty() ? character().name : model.stem().string());
     return file += ".ragdoll.json";
-}
-
-bool EditorDocument::wouldReplace(const std::filesystem::path& file) const {
-    std::error_code failed;
-    if (!std::filesystem::exists(file, failed)) return false;
-    return std::none_of(ownFiles_.begin(), ownFiles_.end(), [&](const std::filesystem::path& own) {
-        return std::filesystem::equivalent(own, file, failed);
-    });
 }
 
 Result<void> EditorDocument::save(const std::filesystem::path& file) {

@@ -2,13 +2,14 @@
 
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <span>
 #include <string>
 
 #include "core/result.hpp"
 #include "editor/document/document_state.hpp"
+#include "editor/document/saved_profiles.hpp"
+#include "editor/document/scene_document.hpp"
 #include "editor/document/undo_stack.hpp"
 #include "physics/doctor/doctor.hpp"
 #include "physics/profile/joint_range.hpp"
@@ -16,9 +17,9 @@
 
 namespace lutka::editor {
 
-/// A character with the ragdoll that is being edited, and the scene it falls in. All editing goes through here: every
-/// call below makes one entry of undo (or joins its group), is checked before it takes effect, and leaves everything as
-/// it was when it fails. Knows no window, no UI and no running simulation.
+/// A character with the ragdoll that is being edited, and undo for it and for the scene it falls in. All editing goes
+/// through here: every call below makes one entry of undo (or joins its group), is checked before it takes effect, and
+/// leaves everything as it was when it fails. Knows no window, no UI and no running simulation.
 class EditorDocument {
   public:
     /// Loads the model (and the profile of `options`, when it names one).
@@ -26,6 +27,8 @@ class EditorDocument {
                                                                       const scene::LoadOptions& options = {});
     /// For an asset that is there already.
     explicit EditorDocument(std::unique_ptr<scene::RagdollAsset> asset);
+    EditorDocument(const EditorDocument&) = delete;  // its scene borrows its asset
+    EditorDocument& operator=(const EditorDocument&) = delete;
 
     [[nodiscard]] const animation::Character& character() const { return asset_->character; }
     [[nodiscard]] const DocumentState& state() const { return state_; }
@@ -107,35 +110,18 @@ class EditorDocument {
     /// Mends these findings (those that are mendable). Fails as physics::applyMends() does.
     [[nodiscard]] Result<void> mend(std::span<const physics::Finding> findings);
 
-    /// The scene to begin with; not an edit.
-    /// Named scenes are made when `scene.entities` is empty. Fails as setScene() does; the scene is then as it was.
+    /// The scene's settings, characters and file. Its edits are these below, because undo has them.
+    [[nodiscard]] SceneDocument& sceneDocument() { return scene_; }
+    [[nodiscard]] const SceneDocument& sceneDocument() const { return scene_; }
+    [[nodiscard]] const scene::EntityScene& scene() const { return scene_.scene(); }
+    /// SceneDocument::start(); not an edit.
     [[nodiscard]] Result<void> startScene(SceneSettings scene);
-    [[nodiscard]] const scene::EntityScene& scene() const { return state_.scene.entities; }
-    /// Entities, gravity, start pose …; another scenario, count or seed makes the named scene's entities anew. Fails
-    /// with ErrorCode::usage for what no scene can have, and with ErrorCode::input when a character's files can't be
-    /// read.
+    /// Entities, gravity, start pose … Fails as SceneDocument::prepare() does.
     [[nodiscard]] Result<void> setScene(const SceneSettings& scene, const std::string& label,
                                         const std::string& group = "");
-
-    /// The characters of the scene: asset() first, then those with other models or profiles.
-    [[nodiscard]] std::vector<const scene::RagdollAsset*> assets() const;
-    /// Which of assets() each of scene().all<Ragdoll>() is.
-    [[nodiscard]] std::vector<int> assetOfRagdoll() const;
-    [[nodiscard]] const scene::RagdollAsset& assetOf(const scene::Ragdoll& ragdoll) const;
-    /// Whether it is the character that this document edits.
-    [[nodiscard]] bool isEdited(const scene::Ragdoll& ragdoll) const;
     /// A scene from a file, in place of the present one and as one entry of undo, when its first character is the one
     /// that is edited or none has a model.
     [[nodiscard]] Result<void> useScene(const std::filesystem::path& file, const scene::EntityScene& scene);
-    /// Whether the scene differs from what it began with, was opened, or was saved last.
-    [[nodiscard]] bool sceneUnsaved() const { return sceneUnsaved_; }
-    /// Where saveScene() writes: the file that was opened or saved last; beside the model else.
-    [[nodiscard]] std::filesystem::path sceneFile() const;
-    [[nodiscard]] bool hasSceneFile() const { return !sceneFile_.empty(); }
-    /// Characters that name no model are written with that of asset(), and its profile when that has a file.
-    [[nodiscard]] Result<void> saveScene(const std::filesystem::path& file);
-    /// The scene counts as saved there (it was just read from it).
-    void setSceneFile(const std::filesystem::path& file);
 
     /// Ends a group of changes (the mouse was released).
     void endGroup() { undo_.endGroup(); }
@@ -156,7 +142,7 @@ class EditorDocument {
     /// profile takes its file back with it.
     [[nodiscard]] std::filesystem::path profileFile() const;
     /// Whether saving there would replace a file that this document neither opened nor wrote.
-    [[nodiscard]] bool wouldReplace(const std::filesystem::path& file) const;
+    [[nodiscard]] bool wouldReplace(const std::filesystem::path& file) const { return saved_.wouldReplace(file); }
     [[nodiscard]] Result<void> save(const std::filesystem::path& file);
 
   private:
@@ -166,37 +152,25 @@ class EditorDocument {
                           const std::function<void(PartEdits&)>& change);
     [[nodiscard]] std::string partNames(std::span<const int> bodies) const;
     [[nodiscard]] std::vector<RigidTransform> bindModelFromBody(const physics::RagdollProfile& profile) const;
-    void mirrorPlace(physics::RagdollProfile& profile, std::span<const RigidTransform> bind, int from, int to) const;
     void rememberBase(DocumentState& state) const;
     [[nodiscard]] Result<void> remap(DocumentState& state) const;
-    void adopt(DocumentState state);
-    void followScene();
-    [[nodiscard]] Result<void> checkScene(SceneSettings& scene);
-    [[nodiscard]] Result<void> loadOthers(const scene::EntityScene& scene);
+    struct Snapshot {
+        DocumentState ragdoll;
+        SceneSettings scene;
+    };
+    [[nodiscard]] Snapshot snapshot() const { return {state_, scene_.settings()}; }
+    void adopt(Snapshot snapshot);
+    void tellScene();
     void remember(const std::filesystem::path& file);
 
     std::unique_ptr<scene::RagdollAsset> asset_;
-    // Of the scene's other characters, by model and profile. Kept for undo.
-    using OtherKey = std::pair<std::filesystem::path, std::filesystem::path>;
-    std::map<OtherKey, std::unique_ptr<scene::RagdollAsset>> others_;
-    scene::LoadOptions load_;
-    std::filesystem::path openedWith_;  ///< The profile that open() was given: with another one, or none, the same
-                                        ///< model is another character of the scene.
-    std::filesystem::path sceneFile_;
-    scene::EntityScene savedScene_;
-    bool sceneUnsaved_ = false;
+    SceneDocument scene_;
     DocumentState state_;
-    UndoStack<DocumentState> undo_;
+    UndoStack<Snapshot> undo_;
     std::uint64_t revision_ = 1;
     mutable physics::Diagnosis diagnosis_;
     mutable std::uint64_t diagnosedRevision_ = 0;
-    /// What was loaded or saved last, for each profile that the document was based on (empty: the fit).
-    struct Saved {
-        std::filesystem::path file;  ///< Empty: beside the model.
-        std::string profile;         ///< As JSON.
-    };
-    std::map<std::filesystem::path, Saved> saved_;
-    std::vector<std::filesystem::path> ownFiles_;  ///< Opened or saved.
+    SavedProfiles saved_;
     bool unsaved_ = false;
 };
 

@@ -129,11 +129,11 @@ void Player::placeByJoints(int doll, std::span<const physics::BodyProfile> oldBo
 
 Result<scene::Scenario> Player::makeScenario() {
     std::vector<scene::Figure> figures;
-    for (const scene::RagdollAsset* asset : document_.assets())
+    for (const scene::RagdollAsset* asset : document_.sceneDocument().assets())
         figures.push_back(scene::figureOf(*asset));
-    auto scenario = scene::compileScene(document_.scene(), figures, document_.assetOfRagdoll());
+    auto scenario = scene::compileScene(document_.scene(), figures, document_.sceneDocument().assetOfRagdoll());
     if (!scenario) return scenario;
-    const std::optional<scene::ClipStart>& clip = document_.state().scene.clip;
+    const std::optional<scene::ClipStart>& clip = document_.sceneDocument().settings().clip;
     for (scene::Placement& doll : scenario.value().dolls) {
         if (!doll.pose && !doll.clip && doll.asset == 0) doll.clip = clip;
     }
@@ -157,8 +157,8 @@ void Player::keepProps(const Motion& motion, scene::Scenario& scenario) const {
 }
 
 Result<void> Player::rebuild(Keep keep) {
-    replaying_ = false;
-    recordingOn_ = recordingOn_ && keep == Keep::motion;
+    deck_.endReplay();
+    if (keep == Keep::nothing) deck_.stop();
     if (keep == Keep::nothing) {
         atPlay_.reset();
         thrown_.clear();
@@ -180,8 +180,9 @@ Result<void> Player::rebuild(Keep keep) {
         options.world.gravity = vec3(0);
         options.world.sleeping = false;
     }
-    options.pose = document_.state().scene.pose;
-    auto simulation = scene::Simulation::create(document_.assets(), std::move(scenario).value(), options);
+    options.pose = document_.sceneDocument().settings().pose;
+    auto simulation =
+        scene::Simulation::create(document_.sceneDocument().assets(), std::move(scenario).value(), options);
     if (!simulation) return simulation.error();
     simulation_ = std::move(simulation).value();
     governor_.emplace(simulation_->world().substepsPerStep());
@@ -215,8 +216,9 @@ Result<void> Player::setPosing(bool posing) {
 }
 
 void Player::setPlaying(bool playing) {
-    if (playing && !playing_ && !replaying_ && simulation_ != nullptr) atPlay_ = std::make_unique<Motion>(capture());
-    if (playing && replaying_ && replaySeconds_ >= recordedSeconds()) scrubTo(0.0);
+    if (playing && !playing_ && !deck_.replaying() && simulation_ != nullptr)
+        atPlay_ = std::make_unique<Motion>(capture());
+    if (playing && deck_.replaying() && deck_.atEnd()) scrubTo(0.0);
     playing_ = playing;
 }
 
@@ -231,8 +233,9 @@ void Player::returnToPlay() {
     if (!scenario) return;
     keepProps(*motion, scenario.value());
     scene::SimulationOptions options = scene::simulationOptionsOf(document_.scene());
-    options.pose = document_.state().scene.pose;
-    auto simulation = scene::Simulation::create(document_.assets(), std::move(scenario).value(), options);
+    options.pose = document_.sceneDocument().settings().pose;
+    auto simulation =
+        scene::Simulation::create(document_.sceneDocument().assets(), std::move(scenario).value(), options);
     if (!simulation) return;
     simulation_ = std::move(simulation).value();
     restore(*motion);
@@ -240,23 +243,23 @@ void Player::returnToPlay() {
 }
 
 void Player::advance(double seconds) {
-    if (replaying_) return advanceReplay(seconds);
+    if (deck_.replaying()) return advanceReplay(seconds);
     if (!playing_ && !posing_) return;
     loop_.setSpeed(posing_ ? 1.0 : speed_);
     loop_.advance(seconds, [&] {
         simulation_->step();
         if (posing_) dampDolls(kPosingDamping);
-        keepStep();
+        deck_.keepStep(*simulation_);
     });
     if (sparing_) simulation_->world().setSubsteps(governor_->update(loop_.load()));
 }
 
 void Player::stepOnce() {
     playing_ = false;
-    if (replaying_) return scrubTo(replaySeconds_ + static_cast<double>(recording_.dt));
+    if (deck_.replaying()) return deck_.showNextStep(*simulation_);
     loop_.restart();
     simulation_->step();
-    keepStep();
+    deck_.keepStep(*simulation_);
 }
 
 Result<void> Player::reset() {
@@ -346,6 +349,40 @@ Result<void> Player::throwBall(const vec3& from, const vec3& velocity) {
     if (thrown_.size() >= kMaxThrown) return Error{ErrorCode::usage, "enough balls are in play: reset first", "", ""};
     thrown_.push_back(ball);
     return rebuild(Keep::motion);
+}
+
+void Player::startRecording() {
+    endReplay();
+    deck_.start(*simulation_);
+}
+
+Result<void> Player::replay() {
+    auto shown = deck_.replay(*simulation_);
+    if (shown) playing_ = true;
+    return shown;
+}
+
+void Player::endReplay() {
+    if (!deck_.replaying()) return;
+    deck_.endReplay();
+    playing_ = false;
+    loop_.restart();
+    simulation_->refresh();
+}
+
+void Player::advanceReplay(double seconds) {
+    if (!playing_) return;
+    if (deck_.atEnd()) {
+        playing_ = false;
+        return;
+    }
+    scrubTo(deck_.position() + std::min(seconds, 0.1) * speed_);
+}
+
+Result<void> Player::openRecording(const std::filesystem::path& file) {
+    auto shown = deck_.open(file, *simulation_);
+    if (shown) playing_ = true;
+    return shown;
 }
 
 }  // namespace lutka::editor

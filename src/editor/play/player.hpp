@@ -7,9 +7,9 @@
 
 #include "core/result.hpp"
 #include "editor/document/editor_document.hpp"
+#include "editor/play/recording_deck.hpp"
 #include "editor/view/picking.hpp"
 #include "scene/frame_loop.hpp"
-#include "scene/recording.hpp"
 #include "scene/simulation.hpp"
 #include "scene/substep_governor.hpp"
 
@@ -89,30 +89,21 @@ class Player {
     /// Throws a ball into the running scene; it is not part of the document.
     [[nodiscard]] Result<void> throwBall(const vec3& from, const vec3& velocity);
 
-    // Recording: the bodies of every step, and their replay, during which the physics stands still. A change of the
-    // scene ends both; what was recorded stays until the next recording.
-    static constexpr int kMostRecordedSteps = 36000;  ///< Ten minutes; recording ends there.
+    /// What is recorded and replayed; during a replay the physics stands still. A change of the scene ends both.
+    [[nodiscard]] const RecordingDeck& deck() const { return deck_; }
     void startRecording();
-    void stopRecording() { recordingOn_ = false; }
-    [[nodiscard]] bool recording() const { return recordingOn_; }
-    [[nodiscard]] int recordedSteps() const;
-    [[nodiscard]] double recordedSeconds() const;
-    /// Fails with ErrorCode::usage when there is none, or the scene has other bodies.
+    void stopRecording() { deck_.stop(); }
+    /// Fails as RecordingDeck::replay() does.
     [[nodiscard]] Result<void> replay();
     void endReplay();
-    [[nodiscard]] bool replaying() const { return replaying_; }
-    [[nodiscard]] double replaySeconds() const { return replaySeconds_; }
-    [[nodiscard]] double replayLength() const { return recordedSeconds(); }
-    void scrubTo(double seconds);
-    [[nodiscard]] Result<void> saveRecording(const std::filesystem::path& file) const;
-    /// Opens and replays it; fails as loadRecording() and replay() do.
+    void scrubTo(double seconds) { deck_.scrubTo(seconds, *simulation_); }
+    /// Opens and replays it; fails as RecordingDeck::open() does.
     [[nodiscard]] Result<void> openRecording(const std::filesystem::path& file);
 
     ~Player();
 
   private:
     struct Motion;
-    void keepStep();
     void advanceReplay(double seconds);
     [[nodiscard]] Motion capture() const;
     void dampDolls(float share);
@@ -129,11 +120,7 @@ class Player {
     scene::EntityScene built_;                  ///< The document's scene as of the last rebuild.
     std::vector<physics::DynamicProp> thrown_;  ///< After the scene's own props.
     std::unique_ptr<Motion> atPlay_;
-    scene::Recording recording_;
-    bool recordingOn_ = false;
-    bool replaying_ = false;
-    double replaySeconds_ = 0.0;
-    std::vector<RigidTransform> shown_;
+    RecordingDeck deck_;
     std::uint64_t revision_ = 0;
     bool playing_ = true;
     double speed_ = 1.0;

@@ -109,7 +109,7 @@ class AddHandler final : public StateHandler {
             workspace_.say(Toast::Kind::info, "There is no ground under the mouse here");
             return std::nullopt;
         }
-        SceneSettings settings = workspace_.document->state().scene;
+        SceneSettings settings = workspace_.document->sceneDocument().settings();
         const scene::EntityId id = scene::addEntity(settings.entities, workspace_.addKind, *workspace_.ghost).id;
         const std::string label = fmt::format("Add {}", scene::findEntity(settings.entities, id)->name);
         if (workspace_.report(workspace_.document->setScene(settings, label))) return workspace_.ended();
@@ -143,7 +143,7 @@ class DeleteHandler final : public StateHandler {
         if (!event.pressed) return std::nullopt;
         if (event.key == Key::escape) return workspace_.ended();
         if (event.key != Key::enter && event.key != Key::x && event.key != Key::del) return std::nullopt;
-        SceneSettings settings = workspace_.document->state().scene;
+        SceneSettings settings = workspace_.document->sceneDocument().settings();
         for (const Item& item : workspace_.selection.items()) {
             if (item.kind == Item::Kind::object) {
                 scene::removeEntity(settings.entities, static_cast<scene::EntityId>(item.index));

@@ -96,7 +96,7 @@ class SelectHandler final : public StateHandler {
     // The stairs and walls of a named scene fill the picture: a drag on them orbits, unless they were chosen before.
     [[nodiscard]] bool movable(const Workspace::Press& press) const {
         if (press.pick->body || press.wasSelected) return true;
-        const std::vector<scene::EntityId>& made = workspace_.document->state().scene.made;
+        const std::vector<scene::EntityId>& made = workspace_.document->sceneDocument().settings().made;
         const auto id = static_cast<scene::EntityId>(press.pick->item.index);
         const bool moves = workspace_.document->scene().find<scene::RigidBody>(id) != nullptr;
         return moves || !std::binary_search(made.begin(), made.end(), id);

@@ -18,7 +18,7 @@ constexpr render::Color kPullColor{255, 196, 64, 255};
 constexpr std::array<render::Color, 3> kAxisColors = {render::colors::red, render::colors::green, render::colors::blue};
 constexpr float kGuideLength = 50.0F;    // metres; an axis guide crosses the picture
 constexpr float kDepthPerNotch = 0.06F;  // of the distance to the eye
-constexpr const char* kGroup = "transform";
+constexpr const char* kTransformGroup = "transform";
 
 /// What the three share: begun by a key or by a drag, ended by release, click, Enter, Esc or right click; the axis keys
 /// and numbers.
@@ -118,11 +118,11 @@ class TransformHandler : public StateHandler {
 
     // The scene is as it was when the state began, but for what `change` does to it.
     void setEntity(const char* what, const std::function<void(scene::EntityScene&)>& change) {
-        SceneSettings settings = workspace_.document->state().scene;
+        SceneSettings settings = workspace_.document->sceneDocument().settings();
         settings.entities = before_;
         change(settings.entities);
         const std::string label = fmt::format("{} {}", what, workspace_.nameOf(*item_));
-        workspace_.report(workspace_.document->setScene(settings, label, kGroup));
+        workspace_.report(workspace_.document->setScene(settings, label, kTransformGroup));
         workspace_.follow();
     }
     void placeEntity(const char* what, const RigidTransform& world) {
@@ -220,11 +220,10 @@ class GrabHandler final : public TransformHandler {
     }
 
     void finish(bool confirmed) override {
-        if (pulled_) {
-            workspace_.pose(false);
-        } else {
-            keepOrCancelEdits(confirmed);
-        }
+        if (!pulled_) return keepOrCancelEdits(confirmed);
+        workspace_.pose(false);
+        if (!confirmed && !workspace_.player->playing()) putBack();
+        posedFrom_.clear();
     }
 
     std::optional<Trigger> otherKey(Key key) override {
@@ -252,6 +251,20 @@ class GrabHandler final : public TransformHandler {
         start_ = worldFromBody * pull.bodyPoint;
         pull.target = start_;
         workspace_.pulls.mouse = pull;
+        posedFrom_.clear();
+        if (workspace_.player->playing()) return;
+        for (int doll = 0; doll < workspace_.player->simulation().dollCount(); ++doll)
+            posedFrom_.push_back(workspace_.player->bodiesOf(doll));
+    }
+
+    // A pose that was cancelled: all dolls, because the pulled one may have pushed others.
+    void putBack() {
+        Player& player = *workspace_.player;
+        if (player.simulation().dollCount() != static_cast<int>(posedFrom_.size())) return;  // others by now
+        for (int doll = 0; doll < player.simulation().dollCount(); ++doll) {
+            const std::vector<physics::BodyState>& bodies = posedFrom_[static_cast<std::size_t>(doll)];
+            if (bodies.size() == player.bodiesOf(doll).size()) player.placeBodies(doll, bodies);
+        }
     }
 
     [[nodiscard]] std::optional<vec3> mousePoint() const {
@@ -259,6 +272,7 @@ class GrabHandler final : public TransformHandler {
     }
 
     std::optional<Item> pulled_;  // the body that is held; else the entity is moved
+    std::vector<std::vector<physics::BodyState>> posedFrom_;  // of each doll, before it was posed; else empty
     vec3 start_{0, 0, 0};
     vec3 grabbedAt_{0, 0, 0};
     vec3 target_{0, 0, 0};
@@ -361,7 +375,7 @@ class ScaleHandler final : public TransformHandler {
             shape.radius *= factor_;
             shape.halfLength *= factor_;
             shape.halfExtents *= factor_;
-            workspace_.report(workspace_.document->setShape(item_->index, shape, kGroup));
+            workspace_.report(workspace_.document->setShape(item_->index, shape, kTransformGroup));
             workspace_.follow();
             return;
         }

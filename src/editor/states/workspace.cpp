@@ -90,13 +90,13 @@ void Workspace::follow() {
     if (!player->stale()) return;
     report(player->rebuild(Player::Keep::motion));
     pulls.applyTo(player->simulation());
-    const auto& state = document->state();
+    const physics::RagdollProfile& profile = document->profile();
     selection.keepIf([&](const Item& item) {
         if (item.kind == Item::Kind::object) {
-            return scene::findEntity(state.scene.entities, static_cast<scene::EntityId>(item.index)) != nullptr;
+            return scene::findEntity(document->scene(), static_cast<scene::EntityId>(item.index)) != nullptr;
         }
         return item.doll < player->simulation().dollCount() && player->isEditedDoll(item.doll) &&
-               item.index < static_cast<int>(state.profile.bodies.size());
+               item.index < static_cast<int>(profile.bodies.size());
     });
 }
 

@@ -173,16 +173,16 @@ void drawMenuBar(const PanelContext& context) {
         ImGui::EndMenu();
     }
     const EditorDocument& document = context.editor.document();
-    const bool unsaved = document.unsaved() || document.sceneUnsaved();
+    const bool unsaved = document.unsaved() || document.sceneDocument().unsaved();
     const std::string name = document.character().name + (document.unsaved() ? " ●" : "") + "  /  " +
-                             document.scene().name + (document.sceneUnsaved() ? " ●" : "");
+                             document.scene().name + (document.sceneDocument().unsaved() ? " ●" : "");
     const float width = ImGui::CalcTextSize(name.c_str()).x;
     ImGui::SameLine(ImGui::GetWindowWidth() - width - context.px(14));
     ImGui::TextColored(unsaved ? accentColor() : mutedColor(), "%s", name.c_str());
     std::string what = document.character().file.string();
     if (document.unsaved()) what = "The ragdoll has unsaved changes: Ctrl+S saves " + document.profileFile().string();
-    if (document.sceneUnsaved()) {
-        what += "\nThe scene has unsaved changes: Ctrl+Alt+S saves " + document.sceneFile().string();
+    if (document.sceneDocument().unsaved()) {
+        what += "\nThe scene has unsaved changes: Ctrl+Alt+S saves " + document.sceneDocument().file().string();
     }
     tooltip(what);
     ImGui::EndMainMenuBar();

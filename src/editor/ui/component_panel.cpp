@@ -165,7 +165,7 @@ void draw(const PanelContext& /*context*/, Fields& fields, scene::Collider& coll
 }
 
 void drawClip(const PanelContext& context, Fields& fields, scene::Ragdoll& ragdoll) {
-    const auto& clips = context.editor.document().assetOf(ragdoll).character.clips;
+    const auto& clips = context.editor.document().sceneDocument().assetOf(ragdoll).character.clips;
     labelled("Clip", fields.labelWidth());
     if (ImGui::BeginCombo("##clip", ragdoll.clip ? ragdoll.clip->clip.c_str() : "none")) {
         if (ImGui::Selectable("none", !ragdoll.clip)) {
@@ -220,7 +220,7 @@ void draw(const PanelContext& context, Fields& fields, scene::Ragdoll& ragdoll) 
     drawPins(fields, ragdoll);
     fields.vector("Velocity", ragdoll.linearVelocity, -100, 100, "%.1f m/s", 0.05F);
     fields.vector("Spin", ragdoll.angularVelocity, -100, 100, "%.1f rad/s", 0.05F);
-    if (editor.document().isEdited(ragdoll)) {
+    if (editor.document().sceneDocument().isEdited(ragdoll)) {
         mutedText("This is the character that the other panels edit.");
     } else if (ImGui::Button("Edit this character")) {
         editor.editCharacter(ragdoll.entity);

@@ -20,7 +20,7 @@ void placeInMiddle() {
 void drawQuestion(const PanelContext& context) {
     constexpr const char* title = "Unsaved changes";
     Editor& editor = context.editor;
-    if (editor.askingUnsaved() && !ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
+    if (editor.files().askingUnsaved() && !ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
     placeInMiddle();
     if (!ImGui::BeginPopupModal(title, nullptr, kDialog)) return;
     const EditorDocument& document = editor.document();
@@ -28,23 +28,23 @@ void drawQuestion(const PanelContext& context) {
         ImGui::Text("The ragdoll of %s has changes that are not saved.", document.character().name.c_str());
         mutedText("Save writes " + document.profileFile().string());
     }
-    if (document.sceneUnsaved()) {
+    if (document.sceneDocument().unsaved()) {
         ImGui::Text("The scene %s has changes that are not saved.", document.scene().name.c_str());
-        mutedText("Save writes " + document.sceneFile().string());
+        mutedText("Save writes " + document.sceneDocument().file().string());
     }
     ImGui::Spacing();
     const ImVec2 button(context.px(110), 0);
-    std::optional<Editor::Answer> answer;
-    if (ImGui::Button("Save", button)) answer = Editor::Answer::save;
+    std::optional<FileFlow::Answer> answer;
+    if (ImGui::Button("Save", button)) answer = FileFlow::Answer::save;
     ImGui::SameLine();
-    if (ImGui::Button("Discard", button)) answer = Editor::Answer::discard;
+    if (ImGui::Button("Discard", button)) answer = FileFlow::Answer::discard;
     ImGui::SameLine();
     if (ImGui::Button("Cancel", button) || ImGui::IsKeyPressed(static_cast<int>(Key::escape), false)) {
-        answer = Editor::Answer::cancel;
+        answer = FileFlow::Answer::cancel;
     }
     if (answer) {
         ImGui::CloseCurrentPopup();
-        editor.answer(*answer);
+        editor.files().answer(*answer);
     }
     ImGui::EndPopup();
 }
@@ -52,7 +52,7 @@ void drawQuestion(const PanelContext& context) {
 void drawReplaceQuestion(const PanelContext& context) {
     constexpr const char* title = "Replace the file?";
     Editor& editor = context.editor;
-    const std::filesystem::path file = editor.replacedFile();
+    const std::filesystem::path file = editor.files().replacedFile();
     if (!file.empty() && !ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
     placeInMiddle();
     if (!ImGui::BeginPopupModal(title, nullptr, kDialog)) return;
@@ -71,7 +71,7 @@ void drawReplaceQuestion(const PanelContext& context) {
     }
     if (replace) {
         ImGui::CloseCurrentPopup();
-        editor.answerReplace(*replace);
+        editor.files().answerReplace(*replace);
     }
     ImGui::EndPopup();
 }
@@ -107,7 +107,7 @@ void drawDialogs(const PanelContext& context) {
 
 void drawOffer(const PanelContext& context) {
     Editor& editor = context.editor;
-    const std::filesystem::path file = editor.offeredProfile();
+    const std::filesystem::path file = editor.files().offeredProfile();
     if (file.empty()) return;
     const auto [left, right] = viewSpan(context);
     const float top = ImGui::GetFrameHeight() + context.px(56);

@@ -190,9 +190,9 @@ void drawSceneName(const PanelContext& context) {
     if (ImGui::InputText("##sceneName", &name, ImGuiInputTextFlags_EnterReturnsTrue)) {
         editor.editScene("Rename the scene", "", [&](EntityScene& scene) { scene.name = name; });
     }
-    tooltip(editor.document().sceneUnsaved()
-                ? "Unsaved changes; Ctrl+Alt+S saves " + editor.document().sceneFile().string()
-                : editor.document().sceneFile().string());
+    tooltip(editor.document().sceneDocument().unsaved()
+                ? "Unsaved changes; Ctrl+Alt+S saves " + editor.document().sceneDocument().file().string()
+                : editor.document().sceneDocument().file().string());
 }
 
 }  // namespace

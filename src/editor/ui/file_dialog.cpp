@@ -33,7 +33,7 @@ fs::path suggestedPath(const PanelContext& context, Editor::Dialog dialog) {
             return fs::absolute(document.profileFile().parent_path() / (document.character().name + "_fall.glb"),
                                 failed);
         case Editor::Dialog::saveSceneAs:
-            return fs::absolute(document.sceneFile(), failed);
+            return fs::absolute(document.sceneDocument().file(), failed);
         case Editor::Dialog::saveRecording:
             return fs::absolute(document.profileFile().parent_path() / (document.scene().name + ".recording"), failed);
         case Editor::Dialog::openRecording:
@@ -184,16 +184,16 @@ void finish(const PanelContext& context, Editor::Dialog dialog) {
             editor.open(file);
             break;
         case Editor::Dialog::saveAs:
-            editor.requestSave(file);
+            editor.files().requestSave(file);
             break;
         case Editor::Dialog::exportBaked:
-            editor.requestExport(file, context.state.exportSeconds);
+            editor.files().requestExport(file, context.state.exportSeconds);
             break;
         case Editor::Dialog::saveSceneAs:
-            editor.requestSaveScene(file);
+            editor.files().requestSaveScene(file);
             break;
         case Editor::Dialog::saveRecording:
-            editor.requestSaveRecording(file);
+            editor.files().requestSaveRecording(file);
             break;
         case Editor::Dialog::openRecording:
             editor.workspace().report(editor.player().openRecording(file));

@@ -5,10 +5,12 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "editor/ui/panels.hpp"
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"
+#include "scene/solver_defaults.hpp"
 
 namespace lutka::editor {
 namespace {
@@ -17,9 +19,26 @@ float labelWidth(const PanelContext& context) {
     return context.px(92);
 }
 
-void change(Editor& editor, const SceneSettings& scene, const char* label, const char* group, bool restart) {
-    const bool done = editor.edit([&](EditorDocument& document) { return document.setScene(scene, label, group); });
-    if (done && restart) editor.perform(Action::reset);
+/// How a change of the scene is told and undone.
+struct Told {
+    const char* label;
+    const char* group = "";  ///< As in UndoStack.
+    bool restart = false;    ///< Whether the scene begins anew.
+};
+
+// The settings hold the whole scene: they are copied when something is changed, not to be looked at.
+template <class Change>
+void change(Editor& editor, const Told& told, const Change& change) {
+    SceneSettings scene = editor.document().sceneDocument().settings();
+    change(scene);
+    const bool done =
+        editor.edit([&](EditorDocument& document) { return document.setScene(scene, told.label, told.group); });
+    if (done && told.restart) editor.perform(Action::reset);
+}
+
+template <class Change>
+void changeWorld(Editor& editor, const Told& told, const Change& change) {
+    lutka::editor::change(editor, told, [&](SceneSettings& scene) { change(scene.entities.simulation.world); });
 }
 
 void drawTime(const PanelContext& context) {
@@ -45,89 +64,135 @@ void drawTime(const PanelContext& context) {
 
 void drawNamedScene(const PanelContext& context) {
     Editor& editor = context.editor;
-    SceneSettings scene = editor.document().state().scene;
+    const SceneSettings& scene = editor.document().sceneDocument().settings();
+    std::string_view chosen;
     labelled("Scene", labelWidth(context));
     if (ImGui::BeginCombo("##scenario", scene.scenario.empty() ? "from a file" : scene.scenario.c_str())) {
         for (const scene::ScenarioInfo& info : scene::scenarioRegistry()) {
             const std::string name(info.name);
-            if (ImGui::Selectable(name.c_str(), name == scene.scenario)) {
-                scene.scenario = name;
-                change(editor, scene, "Choose the scene", "", true);
-            }
+            if (ImGui::Selectable(name.c_str(), name == scene.scenario)) chosen = info.name;
             tooltip(std::string(info.summary));
         }
         ImGui::EndCombo();
     }
     tooltip("Takes the place of the present scene's entities, but for those that you added");
+    if (!chosen.empty()) {
+        change(editor, {"Choose the scene", "", true}, [&](SceneSettings& next) { next.scenario = chosen; });
+    }
     ImGui::BeginDisabled(scene.scenario.empty());
     labelled("Dolls", labelWidth(context));
-    if (ImGui::SliderInt("##count", &scene.count, 1, 100, "%d", ImGuiSliderFlags_Logarithmic)) {
-        scene.count = std::max(scene.count, 1);
-        change(editor, scene, "Number of dolls", "count", true);
+    int count = scene.count;
+    if (ImGui::SliderInt("##count", &count, 1, 100, "%d", ImGuiSliderFlags_Logarithmic)) {
+        change(editor, {"Number of dolls", "count", true},
+               [&](SceneSettings& next) { next.count = std::max(count, 1); });
     }
     labelled("Seed", labelWidth(context));
     int seed = static_cast<int>(scene.seed);
     if (ImGui::InputInt("##seed", &seed)) {
-        scene.seed = static_cast<std::uint64_t>(std::max(seed, 0));
-        change(editor, scene, "Seed", "", true);
+        change(editor, {"Seed", "", true},
+               [&](SceneSettings& next) { next.seed = static_cast<std::uint64_t>(std::max(seed, 0)); });
     }
     tooltip("Varies the start; 0 stands upright");
     ImGui::EndDisabled();
 }
 
-// The pose that dolls start in, unless their own says otherwise: bind, the file's, or a clip at a time.
-void drawStart(const PanelContext& context) {
+// When in the clip the dolls start.
+void drawClipTime(const PanelContext& context) {
     Editor& editor = context.editor;
-    SceneSettings scene = editor.document().state().scene;
+    const scene::ClipStart& start = *editor.document().sceneDocument().settings().clip;
     const auto& clips = editor.document().character().clips;
-    const char* poses[] = {"Bind pose", "File's node pose"};
-    labelled("Start pose", labelWidth(context));
-    const std::string shown = scene.clip ? "Clip " + scene.clip->clip : poses[static_cast<int>(scene.pose)];
-    if (ImGui::BeginCombo("##pose", shown.c_str())) {
-        for (int pose = 0; pose < 2; ++pose) {
-            if (!ImGui::Selectable(poses[pose], !scene.clip && static_cast<int>(scene.pose) == pose)) continue;
-            scene.pose = static_cast<scene::StartPose>(pose);
-            scene.clip.reset();
-            change(editor, scene, "Start pose", "", true);
-        }
-        for (const animation::Clip& clip : clips) {
-            if (!ImGui::Selectable(("Clip " + clip.name).c_str(), scene.clip && scene.clip->clip == clip.name))
-                continue;
-            scene.clip = scene::ClipStart{clip.name, 0.0F};
-            change(editor, scene, "Start pose", "", true);
-        }
-        ImGui::EndCombo();
-    }
-    if (!scene.clip) return;
-    const auto clip = std::find_if(clips.begin(), clips.end(),
-                                   [&](const animation::Clip& one) { return one.name == scene.clip->clip; });
+    const auto clip =
+        std::find_if(clips.begin(), clips.end(), [&](const animation::Clip& one) { return one.name == start.clip; });
     labelled("At", labelWidth(context));
     const float length = clip != clips.end() ? clip->seconds() : 1.0F;
-    if (ImGui::SliderFloat("##clipTime", &scene.clip->seconds, 0.0F, length, "%.2f s of the clip")) {
-        change(editor, scene, "Start time", "clipTime", true);
+    float seconds = start.seconds;
+    if (ImGui::SliderFloat("##clipTime", &seconds, 0.0F, length, "%.2f s of the clip")) {
+        change(editor, {"Start time", "clipTime", true}, [&](SceneSettings& next) { next.clip->seconds = seconds; });
     }
     tooltip("The fall begins with the pose and the velocities that the clip has there");
 }
 
-// An override that is off means the solver's own value.
-template <class T, class Draw>
-void optionalField(const PanelContext& context, const char* label, std::optional<T>& value, T start, const Draw& draw) {
-    ImGui::PushID(label);
-    bool own = value.has_value();
-    labelled(label, labelWidth(context));
-    if (ImGui::Checkbox("##own", &own)) {
-        value = own ? std::optional<T>(start) : std::nullopt;
-        draw(true, value);
+// The pose that dolls start in, unless their own says otherwise: bind, the file's, or a clip at a time.
+void drawStart(const PanelContext& context) {
+    Editor& editor = context.editor;
+    const SceneSettings& scene = editor.document().sceneDocument().settings();
+    const char* poses[] = {"Bind pose", "File's node pose"};
+    std::optional<int> pose;
+    std::optional<scene::ClipStart> clip;
+    labelled("Start pose", labelWidth(context));
+    const std::string shown = scene.clip ? "Clip " + scene.clip->clip : poses[static_cast<int>(scene.pose)];
+    if (ImGui::BeginCombo("##pose", shown.c_str())) {
+        for (int one = 0; one < 2; ++one) {
+            if (ImGui::Selectable(poses[one], !scene.clip && static_cast<int>(scene.pose) == one)) pose = one;
+        }
+        for (const animation::Clip& one : editor.document().character().clips) {
+            const bool now = scene.clip && scene.clip->clip == one.name;
+            if (ImGui::Selectable(("Clip " + one.name).c_str(), now)) clip = scene::ClipStart{one.name, 0.0F};
+        }
+        ImGui::EndCombo();
     }
+    if (pose || clip) {
+        change(editor, {"Start pose", "", true}, [&](SceneSettings& next) {
+            if (pose) next.pose = static_cast<scene::StartPose>(*pose);
+            next.clip = clip;
+        });
+    }
+    if (editor.document().sceneDocument().settings().clip) drawClipTime(context);
+}
+
+/// What the solver does by itself unless the scene overrides it.
+template <class T>
+struct Override {
+    const char* label;
+    std::optional<T> physics::WorldSettings::*value;
+    T own;  ///< The solver's.
+    T least;
+    T most;
+};
+
+bool dragValue(int& value, const Override<int>& one) {
+    return ImGui::DragInt("##value", &value, 0.1F, one.least, one.most);
+}
+
+bool dragValue(float& value, const Override<float>& one) {
+    return ImGui::SliderFloat("##value", &value, one.least, one.most, "%.2f a second");
+}
+
+// Ticked it begins with the solver's own value, so that ticking alone changes nothing.
+template <class T>
+void drawOverride(const PanelContext& context, const Override<T>& one) {
+    Editor& editor = context.editor;
+    std::optional<T> value = editor.document().scene().simulation.world.*one.value;
+    ImGui::PushID(one.label);
+    labelled(one.label, labelWidth(context));
+    bool set = value.has_value();
+    bool changed = ImGui::Checkbox("##own", &set);
+    if (changed) value = set ? std::optional<T>(one.own) : std::nullopt;
     ImGui::SameLine();
     if (value) {
         ImGui::SetNextItemWidth(-1.0F);
-        draw(false, value);
+        changed = dragValue(*value, one) || changed;
+        value = std::clamp(*value, one.least, one.most);
     } else {
         ImGui::AlignTextToFramePadding();
         ImGui::TextColored(mutedColor(), "the solver's own");
     }
     ImGui::PopID();
+    if (!changed) return;
+    changeWorld(editor, {one.label, one.label}, [&](physics::WorldSettings& world) { world.*one.value = value; });
+}
+
+void drawOverrides(const PanelContext& context) {
+    using World = physics::WorldSettings;
+    const physics::SolverKind solver = context.editor.document().scene().simulation.world.solver;
+    const scene::SolverDefaults own = scene::solverDefaults(solver);
+    constexpr float mostShare = 0.99F;
+    ImGui::BeginDisabled(solver == physics::SolverKind::stock);
+    drawOverride<int>(context, {"Substeps", &World::substeps, own.substeps, 1, 64});
+    drawOverride<int>(context, {"Iterations", &World::iterations, own.iterations, 1, 1000});
+    drawOverride<float>(context, {"Air drag", &World::linearDamping, own.linearDamping, 0.0F, mostShare});
+    drawOverride<float>(context, {"Turn drag", &World::angularDamping, own.angularDamping, 0.0F, mostShare});
+    ImGui::EndDisabled();
 }
 
 bool chooseSolver(physics::SolverKind& solver) {
@@ -144,50 +209,42 @@ bool chooseSolver(physics::SolverKind& solver) {
     return changed;
 }
 
+void drawSolver(const PanelContext& context) {
+    Editor& editor = context.editor;
+    labelled("Solver", labelWidth(context));
+    physics::SolverKind solver = editor.document().scene().simulation.world.solver;
+    if (!chooseSolver(solver)) return;
+    changeWorld(editor, {"Solver"}, [&](physics::WorldSettings& world) { world.solver = solver; });
+}
+
 void drawPhysics(const PanelContext& context) {
     Editor& editor = context.editor;
-    SceneSettings scene = editor.document().state().scene;
-    physics::WorldSettings& world = scene.entities.simulation.world;
+    const auto& simulation = editor.document().scene().simulation;
     labelled("Gravity", labelWidth(context));
-    if (ImGui::DragFloat3("##gravity", &world.gravity.x, 0.05F, -100.0F, 100.0F, "%.2f")) {
-        change(editor, scene, "Gravity", "gravity", false);
+    vec3 gravity = simulation.world.gravity;
+    if (ImGui::DragFloat3("##gravity", &gravity.x, 0.05F, -100.0F, 100.0F, "%.2f")) {
+        changeWorld(editor, {"Gravity", "gravity"}, [&](physics::WorldSettings& world) { world.gravity = gravity; });
     }
     tooltip("m/s², in world space");
     labelled("Step", labelWidth(context));
-    int rate = static_cast<int>(std::lround(1.0F / scene.entities.simulation.dt));
+    int rate = static_cast<int>(std::lround(1.0F / simulation.dt));
     if (ImGui::SliderInt("##step", &rate, 15, 480, "1/%d s", ImGuiSliderFlags_Logarithmic)) {
-        scene.entities.simulation.dt = 1.0F / static_cast<float>(std::clamp(rate, 15, 480));
-        change(editor, scene, "Step", "step", false);
+        change(editor, {"Step", "step"}, [&](SceneSettings& next) {
+            next.entities.simulation.dt = 1.0F / static_cast<float>(std::clamp(rate, 15, 480));
+        });
     }
-    labelled("Solver", labelWidth(context));
-    if (chooseSolver(world.solver)) change(editor, scene, "Solver", "", false);
-    ImGui::BeginDisabled(world.solver == physics::SolverKind::stock);
-    const auto whole = [&](const char* label, int most) {
-        return [&, label, most](bool switched, std::optional<int>& value) {
-            const bool dragged = !switched && ImGui::DragInt("##value", &*value, 0.1F, 1, most);
-            if (dragged) value = std::clamp(*value, 1, most);
-            if (switched || dragged) change(editor, scene, label, label, false);
-        };
-    };
-    const auto share = [&](const char* label) {
-        return [&, label](bool switched, std::optional<float>& value) {
-            constexpr float most = 0.99F;
-            const bool dragged = !switched && ImGui::SliderFloat("##value", &*value, 0.0F, most, "%.2f a second");
-            if (dragged) value = std::clamp(*value, 0.0F, most);
-            if (switched || dragged) change(editor, scene, label, label, false);
-        };
-    };
-    optionalField(context, "Substeps", world.substeps, 8, whole("Substeps", 64));
-    optionalField(context, "Iterations", world.iterations, 20, whole("Iterations", 1000));
-    optionalField(context, "Air drag", world.linearDamping, 0.02F, share("Air drag"));
-    optionalField(context, "Turn drag", world.angularDamping, 0.4F, share("Turn drag"));
-    ImGui::EndDisabled();
+    drawSolver(context);
+    drawOverrides(context);
     labelled("Threads", labelWidth(context));
-    if (ImGui::SliderInt("##threads", &world.threads, 1, 16)) {
-        world.threads = std::clamp(world.threads, 1, 256);
-        change(editor, scene, "Threads", "threads", false);
+    int threads = simulation.world.threads;
+    if (ImGui::SliderInt("##threads", &threads, 1, 16)) {
+        changeWorld(editor, {"Threads", "threads"},
+                    [&](physics::WorldSettings& world) { world.threads = std::clamp(threads, 1, 256); });
     }
-    if (ImGui::Checkbox("Bodies at rest sleep", &world.sleeping)) change(editor, scene, "Sleeping", "", false);
+    bool sleeping = simulation.world.sleeping;
+    if (ImGui::Checkbox("Bodies at rest sleep", &sleeping)) {
+        changeWorld(editor, {"Sleeping"}, [&](physics::WorldSettings& world) { world.sleeping = sleeping; });
+    }
 }
 
 void drawThings(const PanelContext& context) {
@@ -204,10 +261,10 @@ void drawThings(const PanelContext& context) {
 
 void drawReplay(const PanelContext& context) {
     Player& player = context.editor.player();
-    if (!player.replaying()) return;
-    float seconds = static_cast<float>(player.replaySeconds());
+    if (!player.deck().replaying()) return;
+    float seconds = static_cast<float>(player.deck().position());
     ImGui::SetNextItemWidth(-1.0F);
-    const auto length = static_cast<float>(player.replayLength());
+    const auto length = static_cast<float>(player.deck().seconds());
     if (ImGui::SliderFloat("##scrub", &seconds, 0.0F, length, "%.2f s")) {
         player.setPlaying(false);
         player.scrubTo(static_cast<double>(seconds));
@@ -219,19 +276,19 @@ void drawReplay(const PanelContext& context) {
 void drawRecording(const PanelContext& context) {
     Editor& editor = context.editor;
     Player& player = editor.player();
-    const bool has = player.recordedSteps() > 0;
-    if (player.recording()) {
-        if (ImGui::Button(fmt::format("Stop ({:.1f} s)###record", player.recordedSeconds()).c_str(), {-1.0F, 0})) {
+    const bool has = player.deck().steps() > 0;
+    if (player.deck().recording()) {
+        if (ImGui::Button(fmt::format("Stop ({:.1f} s)###record", player.deck().seconds()).c_str(), {-1.0F, 0})) {
             player.stopRecording();
         }
     } else {
-        ImGui::BeginDisabled(player.replaying());
+        ImGui::BeginDisabled(player.deck().replaying());
         if (ImGui::Button("Record###record", {-1.0F, 0})) player.startRecording();
         ImGui::EndDisabled();
         tooltip("Keeps the bodies of every step from now on");
     }
     const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) * 0.5F;
-    ImGui::BeginDisabled(player.recording() || !has || player.replaying());
+    ImGui::BeginDisabled(player.deck().recording() || !has || player.deck().replaying());
     if (ImGui::Button("Replay", {half, 0})) editor.workspace().report(player.replay());
     ImGui::EndDisabled();
     ImGui::SameLine();
@@ -240,8 +297,8 @@ void drawRecording(const PanelContext& context) {
     ImGui::EndDisabled();
     if (ImGui::Button("Open a recording…", {-1.0F, 0})) editor.dialog = Editor::Dialog::openRecording;
     drawReplay(context);
-    if (has && !player.recording() && !player.replaying()) {
-        mutedText(fmt::format("{} steps, {:.1f} s are kept.", player.recordedSteps(), player.recordedSeconds()));
+    if (has && !player.deck().recording() && !player.deck().replaying()) {
+        mutedText(fmt::format("{} steps, {:.1f} s are kept.", player.deck().steps(), player.deck().seconds()));
     }
 }
 

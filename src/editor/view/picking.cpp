@@ -7,7 +7,7 @@
 namespace lutka::editor {
 namespace {
 
-constexpr float kReach = 100.0F;  // metres
+constexpr float kPickReach = 100.0F;  // metres
 
 vec3 boxNormal(const PickTarget& target, const vec3& world) {
     const vec3 local = inverse(target.worldFromBox) * world / target.halfExtents;
@@ -30,10 +30,10 @@ std::optional<Solid> firstSolid(const render::Ray& ray, const physics::WorldView
     constexpr int mostLayers = 16;
     constexpr float beyond = 0.01F;  // metres past a surface, where the next cast starts
     float start = 0.0F;
-    for (int layer = 0; layer < mostLayers && start < kReach; ++layer) {
-        const auto hit = world.rayTest(ray.origin + ray.direction * start, ray.origin + ray.direction * kReach);
+    for (int layer = 0; layer < mostLayers && start < kPickReach; ++layer) {
+        const auto hit = world.rayTest(ray.origin + ray.direction * start, ray.origin + ray.direction * kPickReach);
         if (!hit) return std::nullopt;
-        const float distance = start + hit->fraction * (kReach - start);
+        const float distance = start + hit->fraction * (kPickReach - start);
         if (hit->doll.isSet() || !throughGeometry) return Solid{*hit, distance};
         start = distance + beyond;
     }
@@ -80,7 +80,7 @@ std::optional<Pick> pick(const render::Ray& ray, const scene::Simulation& simula
     distance += tie;
     for (const PickTarget& target : targets) {
         const auto entered = rayBox(ray, target.worldFromBox, target.halfExtents);
-        if (!entered || *entered > kReach) continue;
+        if (!entered || *entered > kPickReach) continue;
         if (marker && !target.marker) continue;
         if (marker == target.marker && *entered > distance) continue;
         const vec3 at = ray.origin + ray.direction * *entered;
@@ -93,11 +93,11 @@ std::optional<Pick> pick(const render::Ray& ray, const scene::Simulation& simula
 
 std::optional<vec3> surfaceUnder(const render::Ray& ray, const physics::WorldView& world, float height) {
     std::optional<float> nearest;
-    if (const auto hit = world.rayTest(ray.origin, ray.origin + ray.direction * kReach))
-        nearest = hit->fraction * kReach;
+    if (const auto hit = world.rayTest(ray.origin, ray.origin + ray.direction * kPickReach))
+        nearest = hit->fraction * kPickReach;
     if (ray.direction.y < 0.0F && ray.origin.y > height) {
         const float toPlane = (height - ray.origin.y) / ray.direction.y;
-        if (toPlane <= kReach && (!nearest || toPlane < *nearest)) nearest = toPlane;
+        if (toPlane <= kPickReach && (!nearest || toPlane < *nearest)) nearest = toPlane;
     }
     if (!nearest) return std::nullopt;
     return ray.origin + ray.direction * *nearest;

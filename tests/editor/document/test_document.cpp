@@ -202,7 +202,7 @@ TEST_CASE("the doctor finds a limit that excludes the bind pose and mending it i
 
 TEST_CASE("a scene that does not exist is refused") {
     const auto document = makeDocument();
-    SceneSettings scene = document->state().scene;
+    SceneSettings scene = document->sceneDocument().settings();
     scene.scenario = "moon";
     const auto refused = document->setScene(scene, "Scene");
     REQUIRE_FALSE(refused.ok());
@@ -210,7 +210,7 @@ TEST_CASE("a scene that does not exist is refused") {
     scene.scenario = "drop";
     scene.count = 0;
     CHECK_FALSE(document->setScene(scene, "Scene").ok());
-    CHECK(document->state().scene.count == 1);
+    CHECK(document->sceneDocument().settings().count == 1);
 }
 
 TEST_CASE("the undo stack forgets its oldest entries and not its newest") {

@@ -44,7 +44,7 @@ EntityId named(const Editor& editor, const std::string& name) {
 TEST_CASE("another named scene takes the place of its entities and leaves those that the user added") {
     const auto editor = test::makeEditor();
     const EntityId own = add(*editor, EntityKind::box, {2, 0.25F, 0});
-    SceneSettings settings = editor->document().state().scene;
+    SceneSettings settings = editor->document().sceneDocument().settings();
     settings.scenario = "stairs";
     settings.count = 3;
     REQUIRE(editor->edit([&](EditorDocument& document) { return document.setScene(settings, "Scene"); }));
@@ -119,13 +119,13 @@ TEST_CASE("a drag of a slider is one entry of undo") {
 
 TEST_CASE("a scene file opens with its characters, camera and lights, and is saved as it was") {
     const auto editor = playground();
-    CHECK(editor->document().assets().size() == 2);
+    CHECK(editor->document().sceneDocument().assets().size() == 2);
     CHECK(editor->player().simulation().dollCount() == 3);
-    CHECK_FALSE(editor->document().sceneUnsaved());
-    CHECK(editor->document().sceneFile() == kPlayground);
+    CHECK_FALSE(editor->document().sceneDocument().unsaved());
+    CHECK(editor->document().sceneDocument().file() == kPlayground);
     const test::ScratchFolder folder;
     const std::filesystem::path copy = folder / "copy.scene.json";
-    REQUIRE(editor->document().saveScene(copy));
+    REQUIRE(editor->document().sceneDocument().save(copy));
     const auto read = scene::loadScene(copy);
     REQUIRE(read);
     CHECK(read.value().entities == editor->document().scene().entities);
@@ -140,14 +140,14 @@ TEST_CASE("the character that is edited can be changed for another of the scene"
     const auto editor = playground();
     const EntityId heavy = named(*editor, "Heavy on the ramp");
     const auto ragdoll = [&] { return *editor->document().scene().find<scene::Ragdoll>(heavy); };
-    CHECK_FALSE(editor->document().isEdited(ragdoll()));
+    CHECK_FALSE(editor->document().sceneDocument().isEdited(ragdoll()));
     const float light = editor->document().profile().totalMassKg;
     editor->editCharacter(heavy);
-    CHECK(editor->document().isEdited(ragdoll()));
+    CHECK(editor->document().sceneDocument().isEdited(ragdoll()));
     CHECK(editor->document().profile().totalMassKg > light + 50.0F);
-    CHECK(editor->document().assets().size() == 2);
+    CHECK(editor->document().sceneDocument().assets().size() == 2);
     CHECK(editor->player().simulation().dollCount() == 3);
-    CHECK_FALSE(editor->asking());
+    CHECK_FALSE(editor->files().asking());
 }
 
 TEST_CASE("a character of another profile is pulled and pinned by its bodies, and stays where the scene has it") {
@@ -200,29 +200,29 @@ TEST_CASE("a character of another profile is pulled and pinned by its bodies, an
     test::send(*editor, keyPressed(Key::p));
     CHECK(editor->workspace().pulls.pins.empty());
     CHECK(editor->document().scene() == before);
-    CHECK_FALSE(editor->document().sceneUnsaved());
+    CHECK_FALSE(editor->document().sceneDocument().unsaved());
 }
 
 TEST_CASE("unsaved changes of a scene are marked and asked about, and Ctrl+S saves a scene that has a file") {
     const test::ScratchFolder folder;
     const auto editor = playground();
-    REQUIRE(editor->document().saveScene(folder / "own.scene.json"));
+    REQUIRE(editor->document().sceneDocument().save(folder / "own.scene.json"));
     add(*editor, EntityKind::capsule, {0, 3, 2});
-    CHECK(editor->document().sceneUnsaved());
+    CHECK(editor->document().sceneDocument().unsaved());
     CHECK_FALSE(editor->document().unsaved());
     editor->perform(Action::quit);
-    REQUIRE(editor->askingUnsaved());
-    editor->answer(Editor::Answer::cancel);
+    REQUIRE(editor->files().askingUnsaved());
+    editor->files().answer(FileFlow::Answer::cancel);
     CHECK_FALSE(editor->quitting());
     editor->perform(Action::saveProfile);
-    CHECK_FALSE(editor->document().sceneUnsaved());
+    CHECK_FALSE(editor->document().sceneDocument().unsaved());
     const auto read = scene::loadScene(folder / "own.scene.json");
     REQUIRE(read);
     CHECK(read.value().entities.back().name == "Capsule");
     editor->perform(Action::undo);
-    CHECK(editor->document().sceneUnsaved());
+    CHECK(editor->document().sceneDocument().unsaved());
     editor->perform(Action::quit);
-    editor->answer(Editor::Answer::discard);
+    editor->files().answer(FileFlow::Answer::discard);
     CHECK(editor->quitting());
 }
 
@@ -233,7 +233,7 @@ TEST_CASE("a scene that is dropped on the window opens, and a faulty one leaves 
     drop.files = {kPlayground};
     editor->handle(drop, {});
     CHECK(editor->document().scene().name == "playground");
-    CHECK(editor->document().sceneFile() == kPlayground);
+    CHECK(editor->document().sceneDocument().file() == kPlayground);
     const test::ScratchFolder folder;
     std::ofstream(folder / "bad.scene.json") << R"({"format": "lutka.scene", "version": 1})";
     const EntityScene before = editor->document().scene();
@@ -276,7 +276,7 @@ TEST_CASE("a recording replays what was simulated, can be scrubbed, saved and op
         editor->update(1.0 / 60.0);
     }
     player.stopRecording();
-    CHECK(player.recordedSteps() == 41);
+    CHECK(player.deck().steps() == 41);
     const vec3 end = player.simulation().worldFromBody(0)[0].translation;
     REQUIRE(player.replay());
     player.setPlaying(false);
@@ -284,18 +284,18 @@ TEST_CASE("a recording replays what was simulated, can be scrubbed, saved and op
     CHECK(glm::distance(player.simulation().worldFromBody(0)[0].translation, heights[10]) < 1e-4F);
     player.scrubTo(1e9);
     CHECK(glm::distance(player.simulation().worldFromBody(0)[0].translation, end) < 1e-5F);
-    REQUIRE(player.saveRecording(folder / "fall"));
+    REQUIRE(player.deck().save(folder / "fall"));
     player.endReplay();
     CHECK(glm::distance(player.simulation().worldFromBody(0)[0].translation, end) < 1e-5F);
     editor->perform(Action::reset);
     REQUIRE(player.openRecording(folder / "fall"));
-    CHECK(player.replaying());
+    CHECK(player.deck().replaying());
     player.setPlaying(true);
     for (int frame = 0; frame < 20; ++frame)
         editor->update(1.0 / 60.0);
-    CHECK(player.replaySeconds() == Approx(20.0 / 60.0).margin(1e-3));
+    CHECK(player.deck().position() == Approx(20.0 / 60.0).margin(1e-3));
     editor->perform(Action::reset);
-    CHECK_FALSE(player.replaying());
+    CHECK_FALSE(player.deck().replaying());
     CHECK_FALSE(player.openRecording(folder / "nowhere"));
 }
 
@@ -304,10 +304,10 @@ TEST_CASE("a recording ends when the scene gets other bodies, and is refused by 
     Player& player = editor->player();
     player.startRecording();
     editor->update(1.0 / 60.0);
-    CHECK(player.recording());
+    CHECK(player.deck().recording());
     editor->dropCopies(1);
     editor->update(1.0 / 60.0);
-    CHECK_FALSE(player.recording());
+    CHECK_FALSE(player.deck().recording());
     const auto refused = player.replay();
     REQUIRE_FALSE(refused);
     CHECK(refused.error().message.find("moving things") != std::string::npos);
@@ -331,7 +331,7 @@ TEST_CASE("the dolls go back to where they were when Play was pressed") {
 
 TEST_CASE("step, substeps, iterations and damping reach the simulation") {
     const auto editor = test::makeEditor();
-    SceneSettings settings = editor->document().state().scene;
+    SceneSettings settings = editor->document().sceneDocument().settings();
     settings.entities.simulation.dt = 1.0F / 120.0F;
     settings.entities.simulation.world.substeps = 3;
     settings.entities.simulation.world.linearDamping = 0.9F;
@@ -362,7 +362,7 @@ TEST_CASE("a scene without characters goes on, and takes one again") {
     editor->perform(Action::throwBall);
     test::pass(*editor, 3);
     CHECK(editor->player().simulation().dollCount() == 0);
-    CHECK_FALSE(editor->exportBaked("nothing.glb", 0.1F));
+    CHECK_FALSE(editor->files().exportBaked("nothing.glb", 0.1F));
     add(*editor, EntityKind::character, {0, 1, 0});
     test::pass(*editor, 3);
     CHECK(editor->player().simulation().dollCount() == 1);
@@ -374,7 +374,7 @@ TEST_CASE("the fall starts from a clip at a time, with its velocities") {
     auto made = Editor::create(options);
     REQUIRE(made);
     Editor& editor = *made.value();
-    SceneSettings settings = editor.document().state().scene;
+    SceneSettings settings = editor.document().sceneDocument().settings();
     settings.clip = scene::ClipStart{"walk", 0.4F};
     REQUIRE(editor.edit([&](EditorDocument& document) { return document.setScene(settings, "Start"); }));
     editor.perform(Action::reset);

@@ -97,6 +97,26 @@ TEST_CASE("in a paused scene a drag poses the doll against no gravity and leaves
     CHECK(placeOf(*editor, Role::leftHand).y < posed.y - 0.5F);  // gravity is back
 }
 
+TEST_CASE("Esc puts a posed doll back, and the release of the mouse keeps the pose") {
+    EditorOptions options;
+    options.playing = false;
+    for (const bool cancelled : {true, false}) {
+        const auto editor = makeEditor(options);
+        const vec3 hand = test::placeOf(*editor, Role::rightHand);
+        const vec3 hips = test::placeOf(*editor, Role::hips);
+        beginDrag(*editor, Role::rightHand);
+        send(*editor, mouseMoved(editor->workspace().mouse + vec2(60, -120)));
+        pass(*editor, 60);
+        REQUIRE(glm::distance(test::placeOf(*editor, Role::rightHand), hand) > 0.1F);
+        if (cancelled) send(*editor, keyPressed(Key::escape));
+        send(*editor, mouseButton(MouseButton::left, false));
+        pass(*editor, 5);
+        const float moved = glm::distance(test::placeOf(*editor, Role::rightHand), hand);
+        CHECK((cancelled ? moved < 1e-5F : moved > 0.1F));
+        if (cancelled) CHECK(glm::distance(test::placeOf(*editor, Role::hips), hips) < 1e-5F);
+    }
+}
+
 TEST_CASE("the wheel takes what is held away from the eye and back") {
     EditorOptions options;
     options.playing = false;

@@ -50,12 +50,12 @@ void editKnee(Editor& editor) {
 TEST_CASE("a profile beside the model is offered when the model is opened and taken when the user agrees") {
     const Neighbours files;
     const auto editor = makeEditor();
-    CHECK(editor->offeredProfile().empty());
+    CHECK(editor->files().offeredProfile().empty());
     send(*editor, filesDropped({files.model.string()}));
-    REQUIRE(editor->offeredProfile() == files.profile);
+    REQUIRE(editor->files().offeredProfile() == files.profile);
     CHECK(kneeOf(*editor) != 0.6F);
     editor->answerOffer(true);
-    CHECK(editor->offeredProfile().empty());
+    CHECK(editor->files().offeredProfile().empty());
     CHECK(kneeOf(*editor) == 0.6F);
     CHECK_FALSE(editor->document().unsaved());
 }
@@ -66,13 +66,13 @@ TEST_CASE("a profile that was asked for is not offered again") {
     options.model = files.model;
     const auto offered = Editor::create(options);
     REQUIRE(offered.ok());
-    CHECK(offered.value()->offeredProfile() == files.profile);
+    CHECK(offered.value()->files().offeredProfile() == files.profile);
     offered.value()->answerOffer(false);
-    CHECK(offered.value()->offeredProfile().empty());
+    CHECK(offered.value()->files().offeredProfile().empty());
     options.load.profile = files.profile;
     const auto asked = Editor::create(options);
     REQUIRE(asked.ok());
-    CHECK(asked.value()->offeredProfile().empty());
+    CHECK(asked.value()->files().offeredProfile().empty());
 }
 
 TEST_CASE("a first save over a file that is there asks and replaces only when told to") {
@@ -84,21 +84,21 @@ TEST_CASE("a first save over a file that is there asks and replaces only when to
     Editor& one = *editor.value();
     editKnee(one);
     send(one, keyPressed(Key::s, {false, true, false}));
-    REQUIRE(one.asking());
-    CHECK(one.replacedFile() == files.profile);
-    one.answerReplace(false);
-    CHECK_FALSE(one.asking());
+    REQUIRE(one.files().asking());
+    CHECK(one.files().replacedFile() == files.profile);
+    one.files().answerReplace(false);
+    CHECK_FALSE(one.files().asking());
     CHECK(one.document().unsaved());
     CHECK(physics::loadProfile(files.profile).value().constraints.size() > 1);
     const std::string theirs = test::fileText(files.profile);
     send(one, keyPressed(Key::s, {false, true, false}));
     CHECK(test::fileText(files.profile) == theirs);
-    one.answerReplace(true);
+    one.files().answerReplace(true);
     CHECK_FALSE(one.document().unsaved());
     CHECK(test::fileText(files.profile) != theirs);
     editKnee(one);
     send(one, keyPressed(Key::s, {false, true, false}));  // it is this session's file now
-    CHECK_FALSE(one.asking());
+    CHECK_FALSE(one.files().asking());
 }
 
 TEST_CASE("closing with unsaved changes asks about a file that is there before it quits") {
@@ -110,10 +110,10 @@ TEST_CASE("closing with unsaved changes asks about a file that is there before i
     Editor& one = *editor.value();
     editKnee(one);
     send(one, windowClosed());
-    one.answer(Editor::Answer::save);
+    one.files().answer(FileFlow::Answer::save);
     CHECK_FALSE(one.quitting());
-    REQUIRE_FALSE(one.replacedFile().empty());
-    one.answerReplace(true);
+    REQUIRE_FALSE(one.files().replacedFile().empty());
+    one.files().answerReplace(true);
     CHECK(one.quitting());
 }
 
@@ -159,13 +159,13 @@ TEST_CASE("an export over a file that is there asks, and the next one over its o
     const test::ScratchFolder folder;
     const fs::path file = folder / "baked.glb";
     std::ofstream(file) << "theirs";
-    editor->requestExport(file, 0.2F);
-    REQUIRE(editor->replacedFile() == file);
-    editor->answerReplace(false);
+    editor->files().requestExport(file, 0.2F);
+    REQUIRE(editor->files().replacedFile() == file);
+    editor->files().answerReplace(false);
     CHECK(test::fileText(file) == "theirs");
-    editor->requestExport(file, 0.2F);
-    editor->answerReplace(true);
+    editor->files().requestExport(file, 0.2F);
+    editor->files().answerReplace(true);
     CHECK(test::fileText(file) != "theirs");
-    editor->requestExport(file, 0.2F);
-    CHECK_FALSE(editor->asking());
+    editor->files().requestExport(file, 0.2F);
+    CHECK_FALSE(editor->files().asking());
 }

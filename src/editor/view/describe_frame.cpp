@@ -1,10 +1,8 @@
-/// What the editor's picture shows: Editor::describe() and its parts.
+#include "editor/view/describe_frame.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-
-#include "editor/editor.hpp"
 
 namespace lutka::editor {
 namespace {
@@ -70,76 +68,92 @@ void drawShape(const scene::Collider& collider, const RigidTransform& frame, ren
         render::addBox(lines, frame * box.entityFromBox, box.halfExtents, kSelectionLine);
 }
 
-}  // namespace
-
-void Editor::describe(std::span<const render::CharacterHandle> characters, render::FrameDescription& frame) {
-    frame.clear();
-    frame.camera = workspace_.camera;
-    drawer_.skinning =
-        view.dualQuaternions ? animation::SkinningMethod::dualQuaternion : animation::SkinningMethod::linear;
-    drawer_.draw(player().simulation(), characters, view.debug ? view.layers : scene::DebugLayers{}, player().alpha(),
-                 view.skinOpacity, frame);
-    highlight(frame);
-    drawOverlay(frame);
-}
-
-void Editor::highlight(render::FrameDescription& frame) const {
-    for (const Item& item : workspace_.selection.items()) {
+void highlight(const Workspace& workspace, const scene::SimulationDrawer& drawer, render::FrameDescription& frame) {
+    const Player& player = *workspace.player;
+    for (const Item& item : workspace.selection.items()) {
         const bool body = item.kind == Item::Kind::body;
-        const int doll = body ? item.doll : player().dollOf(static_cast<scene::EntityId>(item.index));
-        const int at = doll >= 0 ? drawer_.characterItem(doll) : -1;
+        const int doll = body ? item.doll : player.dollOf(static_cast<scene::EntityId>(item.index));
+        const int at = doll >= 0 ? drawer.characterItem(doll) : -1;
         if (at < 0) continue;
         frame.characters[at].highlight = kSelection;
-        frame.characters[at].highlightJoint = body ? document().asset().rig.jointOfBody[item.index] : -1;
+        frame.characters[at].highlightJoint = body ? workspace.document->asset().rig.jointOfBody[item.index] : -1;
     }
 }
 
-void Editor::drawActivePart(render::FrameDescription& frame) const {
-    if (!workspace_.showHandles) return;
-    const auto scene = workspace_.handleScene();
-    if (!scene) return;
-    const std::vector<Handle> handles = handlesOf(*scene, workspace_.camera);
-    drawHandles(*scene, handles, workspace_.hotHandle, workspace_.camera, frame.lines);
-}
-
-void Editor::drawOverlay(render::FrameDescription& frame) {
-    const scene::EntityScene& scene = document().scene();
+void drawLightsAndCameras(const Workspace& workspace, render::LineBatch& lines) {
+    const scene::EntityScene& scene = workspace.document->scene();
+    const Player& player = *workspace.player;
     const auto selected = [&](scene::EntityId id) {
-        return workspace_.selection.contains({Item::Kind::object, 0, static_cast<int>(id)});
+        return workspace.selection.contains({Item::Kind::object, 0, static_cast<int>(id)});
     };
     for (const scene::Light& light : scene.all<scene::Light>())
-        drawLight(light, player().worldFromEntity(light.entity), selected(light.entity), frame.lines);
+        drawLight(light, player.worldFromEntity(light.entity), selected(light.entity), lines);
     for (const scene::Camera& camera : scene.all<scene::Camera>()) {
-        const RigidTransform place = player().worldFromEntity(camera.entity);
+        const RigidTransform place = player.worldFromEntity(camera.entity);
         constexpr float here = 0.1F;  // metres: who looks through a camera does not see it
-        if (glm::distance(place.translation, render::eyeOf(workspace_.camera)) < here) continue;
-        drawCamera(camera, place, selected(camera.entity), frame.lines);
+        if (glm::distance(place.translation, render::eyeOf(workspace.camera)) < here) continue;
+        drawCamera(camera, place, selected(camera.entity), lines);
     }
-    for (const Item& item : workspace_.selection.items()) {
+}
+
+void drawBody(const physics::BodyShape& shape, const RigidTransform& worldFromBody, render::LineBatch& lines) {
+    if (shape.kind == physics::BodyShape::Kind::capsule) {
+        render::addCapsule(lines, worldFromBody, shape.radius, shape.halfLength, kSelectionLine);
+    } else if (shape.kind == physics::BodyShape::Kind::sphere) {
+        render::addSphere(lines, worldFromBody.translation, shape.radius, kSelectionLine);
+    } else {
+        render::addBox(lines, worldFromBody, shape.halfExtents, kSelectionLine);
+    }
+}
+
+// Objects before bodies, so that what is selected of a doll lies over what it stands on.
+void drawSelection(const Workspace& workspace, render::LineBatch& lines) {
+    Player& player = *workspace.player;
+    for (const Item& item : workspace.selection.items()) {
         if (item.kind != Item::Kind::object) continue;
         const auto id = static_cast<scene::EntityId>(item.index);
-        if (const auto* collider = scene.find<scene::Collider>(id)) {
-            drawShape(*collider, player().worldFromEntity(id), frame.lines);
+        if (const auto* collider = workspace.document->scene().find<scene::Collider>(id)) {
+            drawShape(*collider, player.worldFromEntity(id), lines);
         }
     }
-    for (const Item& item : workspace_.selection.items()) {
+    for (const Item& item : workspace.selection.items()) {
         if (item.kind != Item::Kind::body) continue;
-        const physics::BodyShape& shape = document().profile().bodies[item.index].shape;
-        const RigidTransform frameOfBody = player().simulation().worldFromBody(item.doll, player().alpha())[item.index];
-        if (shape.kind == physics::BodyShape::Kind::capsule) {
-            render::addCapsule(frame.lines, frameOfBody, shape.radius, shape.halfLength, kSelectionLine);
-        } else if (shape.kind == physics::BodyShape::Kind::sphere) {
-            render::addSphere(frame.lines, frameOfBody.translation, shape.radius, kSelectionLine);
-        } else {
-            render::addBox(frame.lines, frameOfBody, shape.halfExtents, kSelectionLine);
-        }
+        drawBody(workspace.document->profile().bodies[item.index].shape,
+                 player.simulation().worldFromBody(item.doll, player.alpha())[item.index], lines);
     }
-    drawActivePart(frame);
-    for (const Pull& pin : workspace_.pulls.pins) {
-        render::addSphere(frame.lines, pin.target, 0.025F, kPin);
-        render::addCross(frame.lines, pin.target, 0.1F, kPin);
+}
+
+void drawActivePart(const Workspace& workspace, render::LineBatch& lines) {
+    if (!workspace.showHandles) return;
+    const auto scene = workspace.handleScene();
+    if (!scene) return;
+    const std::vector<Handle> handles = handlesOf(*scene, workspace.camera);
+    drawHandles(*scene, handles, workspace.hotHandle, workspace.camera, lines);
+}
+
+void drawPins(const Workspace& workspace, render::LineBatch& lines) {
+    for (const Pull& pin : workspace.pulls.pins) {
+        render::addSphere(lines, pin.target, 0.025F, kPin);
+        render::addCross(lines, pin.target, 0.1F, kPin);
     }
-    const auto& lines = workspace_.overlay.vertices;
+}
+
+}  // namespace
+
+void describeFrame(const Workspace& workspace, const ViewSettings& view, scene::SimulationDrawer& drawer,
+                   std::span<const render::CharacterHandle> characters, render::FrameDescription& frame) {
+    frame.clear();
+    frame.camera = workspace.camera;
+    drawer.skinning =
+        view.dualQuaternions ? animation::SkinningMethod::dualQuaternion : animation::SkinningMethod::linear;
+    drawer.draw(workspace.player->simulation(), characters, view.debug ? view.layers : scene::DebugLayers{},
+                workspace.player->alpha(), view.skinOpacity, frame);
+    highlight(workspace, drawer, frame);
+    drawLightsAndCameras(workspace, frame.lines);
+    drawSelection(workspace, frame.lines);
+    drawActivePart(workspace, frame.lines);
+    drawPins(workspace, frame.lines);
+    const auto& lines = workspace.overlay.vertices;
     frame.lines.vertices.insert(frame.lines.vertices.end(), lines.begin(), lines.end());
 }
 

@@ -1,0 +1,67 @@
+#include "editor/document/open_document.hpp"
+
+namespace lutka::editor {
+namespace {
+
+using Opened = Result<std::unique_ptr<EditorDocument>>;
+
+Opened openAsset(const scene::Ragdoll& character, scene::LoadOptions load, const EditorDocument& present) {
+    load.profile.reset();
+    if (!character.profile.empty()) load.profile = character.profile;
+    return EditorDocument::open(character.model.empty() ? present.character().file : character.model, load);
+}
+
+Opened started(Opened opened, const SceneSettings& scene) {
+    if (!opened) return opened;
+    if (auto started = opened.value()->startScene(scene); !started) return started.error();
+    return opened;
+}
+
+}  // namespace
+
+Opened openModel(const std::filesystem::path& file, const scene::LoadOptions& load, const EditorDocument& present) {
+    SceneSettings settings = present.sceneDocument().settings();
+    for (scene::Ragdoll& ragdoll : settings.entities.all<scene::Ragdoll>()) {
+        if (!present.sceneDocument().isEdited(ragdoll)) continue;
+        ragdoll.model.clear();
+        ragdoll.profile.clear();
+        ragdoll.clip.reset();  // of the old one
+    }
+    scene::LoadOptions plain = load;
+    plain.profile.reset();
+    return started(EditorDocument::open(file, plain), settings);
+}
+
+Opened openCharacter(const scene::Ragdoll& character, const scene::LoadOptions& load, const EditorDocument& present) {
+    SceneSettings settings = present.sceneDocument().settings();
+    // Who had no model had that of the document, which is another one from now on.
+    for (scene::Ragdoll& one : settings.entities.all<scene::Ragdoll>()) {
+        if (one.model.empty()) one.model = present.character().file;
+    }
+    settings.scenario.clear();
+    settings.made.clear();
+    auto opened = started(openAsset(character, load, present), settings);
+    if (opened && present.sceneDocument().hasFile())
+        opened.value()->sceneDocument().setFile(present.sceneDocument().file());
+    return opened;
+}
+
+Opened openScene(const std::filesystem::path& file, const scene::EntityScene& scene, const scene::LoadOptions& load,
+                 const EditorDocument& present) {
+    for (const scene::Entity& entity : scene.entities) {
+        const auto* ragdoll = scene.find<scene::Ragdoll>(entity.id);
+        if (ragdoll == nullptr) continue;
+        if (present.sceneDocument().isEdited(*ragdoll)) break;
+        SceneSettings settings = present.sceneDocument().settings();
+        settings.entities = scene;
+        settings.scenario.clear();
+        settings.made.clear();
+        settings.clip.reset();
+        auto opened = started(openAsset(*ragdoll, load, present), settings);
+        if (opened) opened.value()->sceneDocument().setFile(file);
+        return opened;
+    }
+    return std::unique_ptr<EditorDocument>();
+}
+
+}  // namespace lutka::editor

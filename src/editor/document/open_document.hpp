@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "editor/document/editor_document.hpp"
+
+namespace lutka::editor {
+
+/// Documents that are to take the place of `present`, each with its scene begun. `load` tells how to read a model; the
+/// profile that it names belongs to another one and is not used. All fail as EditorDocument::open() and startScene()
+/// do.
+
+/// The model of a file, in the place of the edited character in the present scene.
+[[nodiscard]] Result<std::unique_ptr<EditorDocument>> openModel(const std::filesystem::path& file,
+                                                                const scene::LoadOptions& load,
+                                                                const EditorDocument& present);
+/// Another character of the present scene, to be edited in it.
+[[nodiscard]] Result<std::unique_ptr<EditorDocument>> openCharacter(const scene::Ragdoll& character,
+                                                                    const scene::LoadOptions& load,
+                                                                    const EditorDocument& present);
+/// The first character of a scene that was read from `file`, in that scene; null when it is the one that `present`
+/// edits, or the scene has none: then `present` can take the scene itself.
+[[nodiscard]] Result<std::unique_ptr<EditorDocument>> openScene(const std::filesystem::path& file,
+                                                                const scene::EntityScene& scene,
+                                                                const scene::LoadOptions& load,
+                                                                const EditorDocument& present);
+
+}  // namespace lutka::editor

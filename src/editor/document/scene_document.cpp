@@ -1,0 +1,160 @@
+#include "editor/document/scene_document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/scene_file.hpp"
+
+namespace lutka::editor {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool samePath(const fs::path& a, const fs::path& b) {
+    std::error_code failed;
+    return fs::weakly_canonical(a, failed) == fs::weakly_canonical(b, failed);
+}
+
+bool hasClip(const scene::RagdollAsset& asset, const std::string& name) {
+    const auto& clips = asset.character.clips;
+    return std::any_of(clips.begin(), clips.end(), [&](const animation::Clip& clip) { return clip.name == name; });
+}
+
+}  // namespace
+
+void SceneDocument::setOrigin(const animation::ImportOptions& import, const fs::path& profile) {
+    load_.import = import;
+    openedWith_ = profile;
+}
+
+void SceneDocument::setProfileFile(const fs::path& file, bool exists) {
+    profileFile_ = file;
+    profileExists_ = exists;
+}
+
+const fs::path& SceneDocument::modelOf(const scene::Ragdoll& ragdoll) const {
+    return ragdoll.model.empty() ? edited_.character.file : ragdoll.model;
+}
+
+bool SceneDocument::isEdited(const scene::Ragdoll& ragdoll) const {
+    if (!ragdoll.model.empty() && !samePath(ragdoll.model, edited_.character.file)) return false;
+    if (ragdoll.profile.empty()) return ragdoll.model.empty() || openedWith_.empty();
+    return samePath(ragdoll.profile, profileFile_) || samePath(ragdoll.profile, openedWith_);
+}
+
+Result<void> SceneDocument::loadOthers(const scene::EntityScene& scene) {
+    for (const scene::Ragdoll& ragdoll : scene.all<scene::Ragdoll>()) {
+        if (isEdited(ragdoll)) continue;
+        const fs::path& model = modelOf(ragdoll);
+        const OtherKey key{model, ragdoll.profile};
+        if (others_.contains(key)) continue;
+        scene::LoadOptions load = load_;
+        if (!ragdoll.profile.empty()) load.profile = ragdoll.profile;
+        auto asset = scene::loadRagdoll(model, load);
+        if (!asset) return asset.error();
+        others_.emplace(key, std::move(asset).value());
+    }
+    return {};
+}
+
+const scene::RagdollAsset& SceneDocument::assetOf(const scene::Ragdoll& ragdoll) const {
+    if (isEdited(ragdoll)) return edited_;
+    const auto other = others_.find({modelOf(ragdoll), ragdoll.profile});
+    return other != others_.end() ? *other->second : edited_;
+}
+
+std::vector<const scene::RagdollAsset*> SceneDocument::assets() const {
+    std::vector<const scene::RagdollAsset*> all{&edited_};
+    for (const scene::Ragdoll& ragdoll : scene().all<scene::Ragdoll>()) {
+        const scene::RagdollAsset* asset = &assetOf(ragdoll);
+        if (std::find(all.begin(), all.end(), asset) == all.end()) all.push_back(asset);
+    }
+    return all;
+}
+
+std::vector<int> SceneDocument::assetOfRagdoll() const {
+    const std::vector<const scene::RagdollAsset*> all = assets();
+    std::vector<int> indices;
+    for (const scene::Ragdoll& ragdoll : scene().all<scene::Ragdoll>()) {
+        const auto at = std::find(all.begin(), all.end(), &assetOf(ragdoll));
+        indices.push_back(static_cast<int>(at - all.begin()));
+    }
+    return indices;
+}
+
+// What the simulation would refuse is refused here, before anything is changed.
+Result<void> SceneDocument::check(SceneSettings& scene) {
+    if (const auto problems = scene::validate(scene.entities); !problems.empty()) {
+        std::string all;
+        for (const std::string& problem : problems)
+            all += (all.empty() ? "" : "; ") + problem;
+        return Error{ErrorCode::usage, all, "", "choose a value inside the range"};
+    }
+    if (auto loaded = loadOthers(scene.entities); !loaded) return loaded;
+    for (const scene::Ragdoll& ragdoll : scene.entities.all<scene::Ragdoll>()) {
+        if (!ragdoll.clip || hasClip(assetOf(ragdoll), ragdoll.clip->clip)) continue;
+        return Error{ErrorCode::usage, fmt::format("there is no clip named '{}'", ragdoll.clip->clip),
+                     assetOf(ragdoll).character.file.string(), "choose one of the model's clips"};
+    }
+    // The scene outlives its characters: one that has no such clip falls from the pose instead.
+    if (scene.clip && !hasClip(edited_, scene.clip->clip)) scene.clip.reset();
+    return {};
+}
+
+Result<void> SceneDocument::start(SceneSettings settings) {
+    if (settings.entities.entities.empty()) {
+        const auto figure = scene::figureBounds(edited_.profile, edited_.rig);
+        if (auto made = makeNamedScene(settings, figure); !made) return made;
+    }
+    if (auto checked = check(settings); !checked) return checked;
+    settings_ = std::move(settings);
+    settings_.begun = settings_.entities;
+    unsaved_ = false;
+    return {};
+}
+
+Result<SceneSettings> SceneDocument::prepare(SceneSettings settings) {
+    const bool anew =
+        settings.scenario != settings_.scenario || settings.count != settings_.count || settings.seed != settings_.seed;
+    if (anew) {
+        const auto figure = scene::figureBounds(edited_.profile, edited_.rig);
+        if (auto made = makeNamedScene(settings, figure); !made) return made.error();
+    }
+    if (auto checked = check(settings); !checked) return checked.error();
+    return settings;
+}
+
+// A named scene that was not saved yet counts as changed when its entities are: who tries another gravity has made
+// nothing that could be lost.
+void SceneDocument::adopt(SceneSettings settings) {
+    settings_ = std::move(settings);
+    const scene::EntityScene& now = settings_.entities;
+    const scene::EntityScene& begun = settings_.begun;
+    unsaved_ = hasFile() ? now != saved_ : now.entities != begun.entities || now.components != begun.components;
+}
+
+void SceneDocument::setFile(const fs::path& file) {
+    file_ = file;
+    saved_ = settings_.entities;
+    unsaved_ = false;
+}
+
+fs::path SceneDocument::file() const {
+    if (!file_.empty()) return file_;
+    return edited_.character.file.parent_path() / (scene().name + ".scene.json");
+}
+
+Result<void> SceneDocument::save(const fs::path& file) {
+    scene::EntityScene written = scene();
+    for (scene::Ragdoll& ragdoll : written.all<scene::Ragdoll>()) {
+        if (!isEdited(ragdoll)) continue;
+        if (ragdoll.model.empty()) ragdoll.model = edited_.character.file;
+        if (ragdoll.profile.empty() && profileExists_) ragdoll.profile = profileFile_;
+    }
+    if (auto saved = scene::saveScene(file, written); !saved) return saved;
+    setFile(file);
+    return {};
+}
+
+}  // namespace lutka::editor

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/result.hpp"
+#include "editor/document/scene_settings.hpp"
+#include "scene/ragdoll_asset.hpp"
+
+namespace lutka::editor {
+
+/// The scene that a ragdoll is edited in: its entities and settings, the assets of its other characters, its file, and
+/// whether it differs from that. What it holds was prepared: it is valid and every character in it has its asset.
+/// Knows no undo: who keeps that gives earlier settings back by adopt().
+class SceneDocument {
+  public:
+    /// `edited` is the character whose ragdoll is edited; it must outlive the document.
+    explicit SceneDocument(const scene::RagdollAsset& edited) : edited_(edited) {}
+    SceneDocument(const SceneDocument&) = delete;
+    SceneDocument& operator=(const SceneDocument&) = delete;
+
+    /// How the edited character was opened: others are read alike, and with another profile than `profile`, or none,
+    /// the same model is another character of the scene.
+    void setOrigin(const animation::ImportOptions& import, const std::filesystem::path& profile);
+    /// Where the edited profile is saved, and whether it is a file by now; scenes that are saved name it then.
+    void setProfileFile(const std::filesystem::path& file, bool exists);
+
+    [[nodiscard]] const SceneSettings& settings() const { return settings_; }
+    [[nodiscard]] const scene::EntityScene& scene() const { return settings_.entities; }
+
+    /// The scene to begin with; named scenes are made when it has no entities. Fails as prepare() does; the scene is
+    /// then as it was.
+    [[nodiscard]] Result<void> start(SceneSettings settings);
+    /// The settings as adopt() takes them: another scenario, count or seed makes the named scene's entities anew, and
+    /// other characters are read. Fails with ErrorCode::usage for what no scene can have, and with ErrorCode::input
+    /// when a character's files can't be read.
+    [[nodiscard]] Result<SceneSettings> prepare(SceneSettings settings);
+    /// `settings` must have been prepared by this document.
+    void adopt(SceneSettings settings);
+
+    /// The characters of the scene: the edited one first, then those with other models or profiles.
+    [[nodiscard]] std::vector<const scene::RagdollAsset*> assets() const;
+    /// Which of assets() each of scene().all<Ragdoll>() is.
+    [[nodiscard]] std::vector<int> assetOfRagdoll() const;
+    [[nodiscard]] const scene::RagdollAsset& assetOf(const scene::Ragdoll& ragdoll) const;
+    [[nodiscard]] bool isEdited(const scene::Ragdoll& ragdoll) const;
+
+    /// Whether the scene differs from what it began with, was opened, or was saved last.
+    [[nodiscard]] bool unsaved() const { return unsaved_; }
+    /// Where the scene is saved: the file that was opened or saved last; beside the model else.
+    [[nodiscard]] std::filesystem::path file() const;
+    [[nodiscard]] bool hasFile() const { return !file_.empty(); }
+    /// The scene counts as saved there (it was just read from it).
+    void setFile(const std::filesystem::path& file);
+    /// Characters that name no model are written with that of the edited one, and its profile when that is a file.
+    [[nodiscard]] Result<void> save(const std::filesystem::path& file);
+
+  private:
+    [[nodiscard]] Result<void> check(SceneSettings& settings);
+    [[nodiscard]] Result<void> loadOthers(const scene::EntityScene& scene);
+    [[nodiscard]] const std::filesystem::path& modelOf(const scene::Ragdoll& ragdoll) const;
+
+    const scene::RagdollAsset& edited_;
+    SceneSettings settings_;
+    // Of the scene's other characters, by model and profile. Kept for undo.
+    using OtherKey = std::pair<std::filesystem::path, std::filesystem::path>;
+    std::map<OtherKey, std::unique_ptr<scene::RagdollAsset>> others_;
+    scene::LoadOptions load_;
+    std::filesystem::path openedWith_;
+    std::filesystem::path profileFile_;
+    bool profileExists_ = false;
+    std::filesystem::path file_;
+    scene::EntityScene saved_;
+    bool unsaved_ = false;
+};
+
+}  // namespace lutka::editor

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+
+#include "editor/states/workspace.hpp"
+#include "render/frame.hpp"
+#include "scene/draw_simulation.hpp"
+
+namespace lutka::editor {
+
+/// What the picture shows beside the dolls.
+struct ViewSettings {
+    scene::DebugLayers layers;
+    bool debug = false;  ///< F3: whether `layers` are drawn.
+    float skinOpacity = 1.0F;
+    bool vsync = true;             ///< The application's window waits for the monitor.
+    bool dualQuaternions = false;  ///< Skinning that keeps the volume of twisted limbs.
+    bool panels = true;
+    bool help = false;
+};
+
+/// Fills in what the editor's view shows: camera, dolls, objects, debug layers, the selection and its handles, pins.
+/// `characters` are the uploaded ones of the document's assets; `drawer` keeps its buffers from frame to frame.
+void describeFrame(const Workspace& workspace, const ViewSettings& view, scene::SimulationDrawer& drawer,
+                   std::span<const render::CharacterHandle> characters, render::FrameDescription& frame);
+
+}  // namespace lutka::editor

@@ -1,0 +1,77 @@
+#include "editor/document/scene_document.hpp"
+
+#include "editor/sessions.hpp"
+#include "support/command.hpp"
+
+using namespace lutka;
+using namespace lutka::editor;
+
+namespace {
+
+// A scene around the hand-made figure, as the editor begins with it.
+struct Session {
+    std::unique_ptr<scene::RagdollAsset> asset = std::move(scene::makeRagdoll(test::makeBiped())).value();
+    SceneDocument document{*asset};
+
+    Session() { REQUIRE(document.start({}).ok()); }
+    // Prepares and adopts; whether it was let in.
+    bool change(const std::function<void(SceneSettings&)>& change) {
+        SceneSettings next = document.settings();
+        change(next);
+        auto prepared = document.prepare(std::move(next));
+        if (prepared) document.adopt(std::move(prepared).value());
+        return prepared.ok();
+    }
+};
+
+}  // namespace
+
+TEST_CASE("a scene that begins is made, saved, and has the edited character alone") {
+    const Session session;
+    CHECK_FALSE(session.document.scene().entities.empty());
+    CHECK_FALSE(session.document.unsaved());
+    CHECK_FALSE(session.document.hasFile());
+    CHECK(session.document.assets() == std::vector<const scene::RagdollAsset*>{session.asset.get()});
+}
+
+TEST_CASE("what no scene can have is refused by prepare() and changes nothing") {
+    Session session;
+    const scene::EntityScene before = session.document.scene();
+    CHECK_FALSE(session.change([](SceneSettings& next) { next.entities.simulation.dt = -1.0F; }));
+    CHECK_FALSE(session.change([](SceneSettings& next) {
+        next.entities.all<scene::Ragdoll>().front().clip = scene::ClipStart{"no such clip", 0.0F};
+    }));
+    CHECK_FALSE(session.change(
+        [](SceneSettings& next) { next.entities.all<scene::Ragdoll>().front().model = "no such file.glb"; }));
+    CHECK(session.document.scene() == before);
+    CHECK_FALSE(session.document.unsaved());
+}
+
+TEST_CASE("another number of dolls makes the named scene anew; earlier settings come back by adopt()") {
+    Session session;
+    const SceneSettings before = session.document.settings();
+    REQUIRE(session.change([](SceneSettings& next) { next.count = 3; }));
+    CHECK(session.document.scene().all<scene::Ragdoll>().size() == 3);
+    CHECK(session.document.assetOfRagdoll() == std::vector<int>{0, 0, 0});
+    session.document.adopt(before);
+    CHECK(session.document.scene() == before.entities);
+}
+
+TEST_CASE("a scene is unsaved from a change of its entities until it is saved or the change is taken back") {
+    const test::ScratchFolder folder;
+    Session session;
+    const auto addBox = [](SceneSettings& next) {
+        scene::addEntity(next.entities, scene::EntityKind::box, RigidTransform{});
+    };
+    const SceneSettings before = session.document.settings();
+    REQUIRE(session.change(addBox));
+    CHECK(session.document.unsaved());
+    session.document.adopt(before);
+    CHECK_FALSE(session.document.unsaved());
+    REQUIRE(session.change(addBox));
+    REQUIRE(session.document.save(folder / "own.scene.json").ok());
+    CHECK_FALSE(session.document.unsaved());
+    CHECK(session.document.file() == folder / "own.scene.json");
+    session.document.adopt(before);  // the file has the box
+    CHECK(session.document.unsaved());
+}
