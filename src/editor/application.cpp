@@ -249,6 +249,7 @@ Result<void> Application::run() {
     const int limit = frameLimit();
     lastFrame_ = Clock::now();
     while (frameIndex_ < limit && !editor_->quitting()) {
+        if (options_.stopped && options_.stopped()) break;
         if (auto drawn = oneFrame(nextFrameSeconds()); !drawn) return drawn;
         ++frameIndex_;
     }

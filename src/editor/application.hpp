@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -26,7 +27,8 @@ struct ApplicationOptions {
     bool vsync = true;
     /// Without a window every picture is `best`: only those that are kept are drawn at all.
     render::RenderQuality quality = render::RenderQuality::automatic;
-    bool settings = true;  ///< Whether recent files are read from and kept in the user's configuration folder.
+    std::function<bool()> stopped;  ///< Asked every frame; true ends the editor as if it had been closed (signals).
+    bool settings = true;           ///< Whether recent files are read from and kept in the user's configuration folder.
 };
 
 /// Runs the editor until it is closed. Fails with ErrorCode::noDisplay without a display or GL, and with whatever

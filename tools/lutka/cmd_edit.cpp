@@ -5,6 +5,7 @@
 #include "commands.hpp"
 #include "core/files.hpp"
 #include "editor/application.hpp"
+#include "interrupt.hpp"
 #include "options.hpp"
 
 namespace lutka::cli {
@@ -69,6 +70,7 @@ editor::ApplicationOptions applicationOptions(Options& options) {
                "--screenshot-at", "frames count from 0: ask for an earlier one or give more --frames"});
     }
     application.frames = options.frames;
+    application.stopped = isInterrupted;
     application.uiScale = options.uiScale;
     application.vsync = !options.noVsync;
     application.quality = qualityFromName(options.quality);
@@ -84,6 +86,7 @@ void run(Options& options) {
         return;
     }
     orLeave(editor::runApplication(applicationOptions(options)));
+    leaveIfInterrupted();
 }
 
 }  // namespace
