@@ -21,7 +21,7 @@ constexpr std::string_view kPrefix = ".lutka-";
 constexpr int kMostTries = 1000;
 constexpr std::size_t kLongestExtension = 16;
 
-Error outputError(const fs::path& file, const std::string& what, int errorNumber) {
+Error unwritable(const fs::path& file, const std::string& what, int errorNumber) {
     return {ErrorCode::output, fmt::format("{}: {}", what, std::strerror(errorNumber)), file.string(),
             "check that the folder is writable and that the disk has room"};
 }
@@ -69,7 +69,7 @@ Result<TemporaryFile> TemporaryFile::beside(const fs::path& target, std::string_
         path.replace_filename(fmt::format("{}{}-{}{}", kPrefix, ::getpid(), number, extension));
         const int handle = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
         if (handle < 0 && errno == EEXIST) continue;
-        if (handle < 0) return outputError(target, "can't be written", errno);
+        if (handle < 0) return unwritable(target, "can't be written", errno);
         if (lockOwn(handle)) return TemporaryFile(std::move(path), handle);
         ::close(handle);
     }
@@ -88,8 +88,8 @@ TemporaryFile::~TemporaryFile() {
 
 Result<void> TemporaryFile::replace(const fs::path& target) {
     // Data first, name second: without this a crash after the rename can leave an empty file under the final name.
-    if (::fsync(lock_) != 0 && errno != EINVAL) return outputError(target, "can't be written", errno);
-    if (std::rename(path_.c_str(), target.c_str()) != 0) return outputError(target, "can't be written", errno);
+    if (::fsync(lock_) != 0 && errno != EINVAL) return unwritable(target, "can't be written", errno);
+    if (std::rename(path_.c_str(), target.c_str()) != 0) return unwritable(target, "can't be written", errno);
     ::close(std::exchange(lock_, -1));
     return {};
 }
