@@ -15,6 +15,10 @@
 
 namespace lutka::animation::rig_import {
 
+/// What its bytes are all of. Not std::is_trivially_copyable: glm's types say no to it only because they start as zero.
+template <class T>
+concept PlainValue = std::is_standard_layout_v<T> && std::is_trivially_destructible_v<T> && !std::is_pointer_v<T>;
+
 /// Both archives have the same members, so that one function can say what a struct consists of and serve for writing
 /// and for reading. Plain values go as their bytes, in the byte order of this machine: a blob never leaves it.
 
@@ -24,10 +28,8 @@ class BlobWriter {
     static constexpr bool kReads = false;
 
     template <class T>
-        requires std::is_trivially_copyable_v<T>
-    void value(const T& item) {
-        bytes_.append(reinterpret_cast<const char*>(&item), sizeof item);
-    }
+    requires PlainValue<T>
+    void value(const T& item) { bytes_.append(reinterpret_cast<const char*>(&item), sizeof item); }
     template <class Enum>
     void choice(const Enum& item, Enum /*last*/) {
         value(static_cast<std::uint8_t>(item));
@@ -37,7 +39,7 @@ class BlobWriter {
         bytes_ += item;
     }
     /// A vector of plain values.
-    template <class T>
+    template <PlainValue T>
     void array(const std::vector<T>& items) {
         count(items.size());
         bytes_.append(reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T));
@@ -87,7 +89,7 @@ class BlobReader {
     [[nodiscard]] bool atEnd() const { return bytes_.empty(); }
 
     template <class T>
-        requires std::is_trivially_copyable_v<T>
+    requires PlainValue<T>
     void value(T& item) {
         if (!take(&item, sizeof item) || !isNumber(item)) item = fail<T>();
     }
@@ -102,7 +104,7 @@ class BlobReader {
         item.resize(count(1));
         take(item.data(), item.size());
     }
-    template <class T>
+    template <PlainValue T>
     void array(std::vector<T>& items) {
         items.resize(count(sizeof(T)));
         take(items.data(), items.size() * sizeof(T));

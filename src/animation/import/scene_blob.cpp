@@ -11,14 +11,14 @@ constexpr std::uint32_t kMagic = 0x53'54'55'4C;  // LUTS
 constexpr std::uint32_t kVersion = 1;
 
 // What each struct consists of, for both directions: `Scene` is const for the writer. A new member is added here once.
-constexpr auto kNode = [](auto& archive, auto& node) {
+constexpr auto kNodeParts = [](auto& archive, auto& node) {
     archive.text(node.name);
     archive.value(node.parent);
     archive.value(node.parentFromNode);
     archive.choice(node.isHelper, true);
 };
 
-constexpr auto kMesh = [](auto& archive, auto& mesh) {
+constexpr auto kMeshParts = [](auto& archive, auto& mesh) {
     archive.text(mesh.name);
     archive.array(mesh.positions);
     archive.array(mesh.normals);
@@ -31,7 +31,7 @@ constexpr auto kMesh = [](auto& archive, auto& mesh) {
     archive.array(mesh.influences);
 };
 
-constexpr auto kSkin = [](auto& archive, auto& skin) {
+constexpr auto kSkinParts = [](auto& archive, auto& skin) {
     archive.list(skin.joints, [](auto& inner, auto& joint) {
         inner.value(joint.node);
         inner.value(joint.jointFromMesh);
@@ -39,13 +39,13 @@ constexpr auto kSkin = [](auto& archive, auto& skin) {
     archive.maybe(skin.sceneFromMesh);
 };
 
-constexpr auto kInstance = [](auto& archive, auto& instance) {
+constexpr auto kInstanceParts = [](auto& archive, auto& instance) {
     archive.value(instance.mesh);
     archive.value(instance.node);
     archive.value(instance.skin);
 };
 
-constexpr auto kChannel = [](auto& archive, auto& channel) {
+constexpr auto kChannelParts = [](auto& archive, auto& channel) {
     archive.value(channel.node);
     archive.choice(channel.path, SourceChannel::Path::scale);
     archive.choice(channel.interpolation, SourceChannel::Interpolation::cubicSpline);
@@ -53,12 +53,12 @@ constexpr auto kChannel = [](auto& archive, auto& channel) {
     archive.array(channel.values);
 };
 
-constexpr auto kClip = [](auto& archive, auto& clip) {
+constexpr auto kClipParts = [](auto& archive, auto& clip) {
     archive.text(clip.name);
-    archive.list(clip.channels, kChannel);
+    archive.list(clip.channels, kChannelParts);
 };
 
-constexpr auto kMaterial = [](auto& archive, auto& material) {
+constexpr auto kMaterialParts = [](auto& archive, auto& material) {
     archive.text(material.name);
     archive.value(material.baseColor);
     archive.value(material.metallic);
@@ -74,32 +74,32 @@ constexpr auto kMaterial = [](auto& archive, auto& material) {
     archive.value(material.emissiveTexture);
 };
 
-constexpr auto kTexture = [](auto& archive, auto& texture) {
+constexpr auto kTextureParts = [](auto& archive, auto& texture) {
     archive.text(texture.name);
     archive.value(texture.width);
     archive.value(texture.height);
     archive.array(texture.rgba);
 };
 
-constexpr auto kText = [](auto& archive, auto& text) { archive.text(text); };
+constexpr auto kTextParts = [](auto& archive, auto& text) { archive.text(text); };
 
 template <class Archive, class Scene>
 void exchange(Archive& archive, Scene& scene) {
     archive.text(scene.format);
-    archive.list(scene.nodes, kNode);
-    archive.list(scene.meshes, kMesh);
-    archive.list(scene.skins, kSkin);
-    archive.list(scene.instances, kInstance);
-    archive.list(scene.clips, kClip);
-    archive.list(scene.materials, kMaterial);
-    archive.list(scene.textures, kTexture);
+    archive.list(scene.nodes, kNodeParts);
+    archive.list(scene.meshes, kMeshParts);
+    archive.list(scene.skins, kSkinParts);
+    archive.list(scene.instances, kInstanceParts);
+    archive.list(scene.clips, kClipParts);
+    archive.list(scene.materials, kMaterialParts);
+    archive.list(scene.textures, kTextureParts);
     archive.maybe(scene.convention.metresPerUnit);
     archive.text(scene.convention.unitSource);
     archive.maybeChoice(scene.convention.up, UpAxis::negativeZ);
     archive.text(scene.convention.upSource);
     archive.choice(scene.nodesArePosed, true);
     archive.names(scene.vrmHumanoid);
-    archive.list(scene.warnings, kText);
+    archive.list(scene.warnings, kTextParts);
 }
 
 template <class Archive, class Failure>
