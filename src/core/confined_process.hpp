@@ -35,16 +35,16 @@ struct ProcessEnd {
 /// The handle that a confined process writes its result to.
 inline constexpr int kConfinedOutput = 3;
 
-/// Runs a program that calls confineThisProcess() first thing, with its standard output going to our standard error, and
-/// collects what it writes to kConfinedOutput. `arguments[0]` is the program's path. `stop` is asked ten times a second.
-/// Fails with ErrorCode::internal when the program can't be started.
+/// Runs a program that calls confineThisProcess() first thing, with its standard output going to our standard error,
+/// and collects what it writes to kConfinedOutput. `arguments[0]` is the program's path. `stop` is asked ten times a
+/// second. Fails with ErrorCode::internal when the program can't be started.
 [[nodiscard]] Result<ProcessEnd> runConfined(const std::vector<std::string>& arguments, const ProcessLimits& limits,
                                              const std::function<bool()>& stop = {});
 
 /// Takes from this process, for good, what it has beyond the limits: closes all handles but the standard ones and
-/// kConfinedOutput, sets the resource limits, ends it with its parent, and where the kernel has seccomp forbids to write,
-/// make, rename or remove files, to open sockets and to start programs. For a process of its own, before it opens
-/// anything that is not trusted.
+/// kConfinedOutput, sets the resource limits, ends it with its parent, and where the kernel has seccomp forbids to
+/// write, make, rename or remove files, to open sockets and to start programs. For a process of its own, before it
+/// opens anything that is not trusted.
 void confineThisProcess(const ProcessLimits& limits);
 
 }  // namespace lutka

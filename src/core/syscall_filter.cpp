@@ -110,7 +110,9 @@ class Filter {
 #endif
     }
 
-    void refuse(int call, std::uint32_t answer) { when(BPF_JEQ, static_cast<std::uint32_t>(call), answer); }
+    void refuse(int call, std::uint32_t answer) {
+        when(BPF_JEQ, static_cast<std::uint32_t>(call), answer);
+    }
 
     /// Refuses the call when its argument has any of the bits.
     void refuseBits(int call, std::size_t argument, std::uint32_t bits) {
@@ -141,7 +143,9 @@ class Filter {
     void load(std::size_t offset) {
         code_.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset)));
     }
-    void give(std::uint32_t answer) { code_.push_back(BPF_STMT(BPF_RET | BPF_K, answer)); }
+    void give(std::uint32_t answer) {
+        code_.push_back(BPF_STMT(BPF_RET | BPF_K, answer));
+    }
     void jump(std::uint16_t test, std::uint32_t value, std::uint8_t ifTrue, std::uint8_t ifFalse) {
         code_.push_back({static_cast<std::uint16_t>(BPF_JMP | test | BPF_K), ifTrue, ifFalse, value});
     }
