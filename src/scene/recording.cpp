@@ -126,10 +126,7 @@ Result<void> saveRecording(const std::filesystem::path& file, const Recording& r
     return writeFileAtomically(file, bytes);
 }
 
-Result<Recording> loadRecording(const std::filesystem::path& file) {
-    const auto bytes = readFile(file);
-    if (!bytes) return bytes.error();
-    const std::vector<unsigned char>& data = bytes.value();
+Result<Recording> recordingFromBytes(std::span<const unsigned char> data, const std::filesystem::path& file) {
     const auto newline = std::find(data.begin(), data.end(), static_cast<unsigned char>('\n'));
     if (newline == data.end()) return broken(file, "is not a recording of ours");
     const std::string line(data.begin(), newline);
@@ -153,6 +150,12 @@ Result<Recording> loadRecording(const std::filesystem::path& file) {
         if (!isFinite(t)) return broken(file, "holds a frame that is not finite");
     }
     return recording;
+}
+
+Result<Recording> loadRecording(const std::filesystem::path& file) {
+    const auto bytes = readFile(file);
+    if (!bytes) return bytes.error();
+    return recordingFromBytes(bytes.value(), file);
 }
 
 }  // namespace lutka::scene
