@@ -18,6 +18,10 @@ constexpr const char* kExitCodes =
     "Exit codes: 0 done; 1 internal failure; 2 wrong usage; 3 the input can't be read or is not usable;\n"
     "4 `check` found errors; 5 an output can't be written; 6 no display or no GL context.";
 
+constexpr const char* kLicenses = "Lutka " LUTKA_VERSION ", MIT\n"
+#include "lutka_parts.inc"
+    ;
+
 void addCommands(const lutka::cli::Command& app) {
     lutka::cli::addInspect(app);
     lutka::cli::addMap(app);
@@ -33,7 +37,7 @@ void addCommands(const lutka::cli::Command& app) {
 // The exit code; whatever was thrown ends here.
 int runCommands(int argc, char** argv) {
     try {
-        return lutka::cli::parseCommandLine(argc, argv, LUTKA_VERSION, kExitCodes, addCommands);
+        return lutka::cli::parseCommandLine(argc, argv, {LUTKA_VERSION, kLicenses, kExitCodes}, addCommands);
     } catch (const lutka::cli::Exit& exit) {
         return exit.code;
     } catch (const std::system_error& refused) {
