@@ -4,19 +4,25 @@
 
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
+#include <map>
+#include <utility>
+
+#include "animation/joint_paths.hpp"
 
 namespace lutka::animation {
 namespace {
 
-// 1 for the first sibling of a name, 2 for the second …
-int ordinalAmongSiblings(const Skeleton& skeleton, int joint) {
-    int ordinal = 1;
-    for (int other = 0; other < joint; ++other) {
-        if (skeleton.parents[other] == skeleton.parents[joint] && skeleton.names[other] == skeleton.names[joint]) {
-            ++ordinal;
-        }
+// A joint's name as a step of a path: NAME for the first sibling of the name, NAME#2 for the second …
+std::vector<std::string> pathSteps(const Skeleton& skeleton) {
+    std::map<std::pair<int, std::string_view>, int> siblings;  // of one parent and name, so far
+    std::vector<std::string> steps;
+    steps.reserve(skeleton.parents.size());
+    for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
+        const std::string& name = skeleton.names[joint];
+        const int ordinal = ++siblings[{skeleton.parents[joint], name}];
+        steps.push_back(ordinal > 1 ? fmt::format("{}#{}", name, ordinal) : name);
     }
-    return ordinal;
+    return steps;
 }
 
 bool isUsable(const RigidTransform& frame) {
@@ -25,13 +31,23 @@ bool isUsable(const RigidTransform& frame) {
 
 }  // namespace
 
-std::string jointPath(const Skeleton& skeleton, int joint) {
-    std::string path;
-    for (int at = joint; at != kNoJoint; at = skeleton.parents[at]) {
-        std::string step = skeleton.names[at];
-        if (const int ordinal = ordinalAmongSiblings(skeleton, at); ordinal > 1) step += fmt::format("#{}", ordinal);
-        path = path.empty() ? std::move(step) : fmt::format("{}/{}", step, path);
+std::vector<std::string> jointPaths(const Skeleton& skeleton) {
+    std::vector<std::string> paths = pathSteps(skeleton);
+    for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
+        const int parent = skeleton.parents[joint];
+        if (parent != kNoJoint) paths[joint] = paths[parent] + '/' + paths[joint];
     }
+    return paths;
+}
+
+std::string jointPath(const Skeleton& skeleton, int joint) {
+    const std::vector<std::string> steps = pathSteps(skeleton);
+    std::vector<int> chain;
+    for (int at = joint; at != kNoJoint; at = skeleton.parents[at])
+        chain.push_back(at);
+    std::string path;
+    for (auto at = chain.rbegin(); at != chain.rend(); ++at)
+        path += (path.empty() ? "" : "/") + steps[*at];
     return path;
 }
 
@@ -45,10 +61,9 @@ int findJoint(const Skeleton& skeleton, std::string_view pathOrName) {
         }
     }
     if (matches == 1) return found;
-    for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
-        if (jointPath(skeleton, joint) == pathOrName) return joint;
-    }
-    return kNoJoint;
+    const std::vector<std::string> paths = jointPaths(skeleton);
+    const auto path = std::find(paths.begin(), paths.end(), pathOrName);
+    return path == paths.end() ? kNoJoint : static_cast<int>(path - paths.begin());
 }
 
 std::vector<std::vector<int>> childrenOf(const Skeleton& skeleton) {

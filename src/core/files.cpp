@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,6 +11,8 @@
 #include <cstring>
 #include <memory>
 #include <system_error>
+
+#include "core/temporary_file.hpp"
 
 namespace lutka {
 namespace {
@@ -30,78 +33,73 @@ Error outputError(const fs::path& file, const std::string& what, int errorNumber
             "check that the folder is writable and that the disk has room"};
 }
 
-// Beside the target, so that the rename stays on one file system; the process id keeps two writers apart.
-fs::path temporaryBeside(const fs::path& file) {
-    fs::path temporary = file;
-    temporary.replace_filename(fmt::format(".{}.{}{}", file.stem().string(), ::getpid(), file.extension().string()));
-    return temporary;
-}
-
-// Data first, name second: without this a crash after the rename can leave an empty file under the final name.
-Result<void> flushToDisk(const fs::path& file) {
-    const int handle = ::open(file.c_str(), O_RDONLY);
-    if (handle < 0) return outputError(file, "can't be written", errno);
-    const bool synced = ::fsync(handle) == 0 || errno == EINVAL;
-    const int why = errno;
-    ::close(handle);
-    if (!synced) return outputError(file, "can't be written", why);
+Result<void> writeTo(std::FILE* out, const fs::path& file, std::string_view bytes) {
+    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), out) == bytes.size();
+    if (!written || std::fflush(out) != 0) return outputError(file, "can't be written", errno);
     return {};
 }
 
 Result<void> writeBytes(const fs::path& file, std::string_view bytes) {
-    File out(std::fopen(file.c_str(), "wb"));
+    const File out(std::fopen(file.c_str(), "wb"));
     if (!out) return outputError(file, "can't be written", errno);
-    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), out.get()) == bytes.size();
-    if (!written || std::fflush(out.get()) != 0) return outputError(file, "can't be written", errno);
-    return {};
+    return writeTo(out.get(), file, bytes);
+}
+
+// A file, or a folder that is in the way of one: what is neither has no second version to rename over it.
+bool isStream(const fs::path& file) {
+    std::error_code failed;
+    return fs::exists(file, failed) && !fs::is_regular_file(file, failed) && !fs::is_directory(file, failed);
 }
 
 }  // namespace
 
 Result<std::vector<unsigned char>> readFile(const fs::path& file, std::size_t maxBytes) {
-    std::error_code failed;
-    if (fs::is_directory(file, failed)) return inputError(file, "is a folder, not a file");
-    File in(std::fopen(file.c_str(), "rb"));
-    if (!in) return inputError(file, fmt::format("can't be read: {}", std::strerror(errno)));
-    const std::uintmax_t size = fs::file_size(file, failed);
-    if (failed) return inputError(file, fmt::format("can't be read: {}", failed.message()));
+    const auto unreadable = [&](int why) {
+        return inputError(file, fmt::format("can't be read: {}", std::strerror(why)));
+    };
+    // Without O_NONBLOCK a FIFO that nobody writes to would hold us for ever before we could see what it is.
+    const int handle = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (handle < 0) return unreadable(errno);
+    const File in(::fdopen(handle, "rb"));
+    struct stat status {};
+    if (!in || ::fstat(handle, &status) != 0) return unreadable(errno);
+    if (S_ISDIR(status.st_mode)) return inputError(file, "is a folder, not a file");
+    if (!S_ISREG(status.st_mode)) return inputError(file, "is no ordinary file but a pipe or a device");
+    const auto size = static_cast<std::size_t>(status.st_size);
     if (size > maxBytes) return inputError(file, fmt::format("is larger than {} bytes", maxBytes));
     std::vector<unsigned char> bytes(size);
     if (std::fread(bytes.data(), 1, size, in.get()) != size) return inputError(file, "can't be read to its end");
     return bytes;
 }
 
+bool isStandardOutput(const fs::path& file) {
+    return file == "-" || file == "/dev/stdout" || file == "/dev/fd/1" || file == "/proc/self/fd/1";
+}
+
 Result<void> writeFileAtomically(const fs::path& named, const std::function<Result<void>(const fs::path&)>& write) {
     std::error_code failed;
-    // What a link names is replaced, not the link; a device or pipe has no second version to rename over it.
+    // What a link names is replaced, not the link.
     const fs::path file = fs::is_symlink(named, failed) ? fs::weakly_canonical(named, failed) : named;
-    if (fs::exists(file, failed) && !fs::is_regular_file(file, failed) && !fs::is_directory(file, failed)) {
+    if (isStream(file) || isStandardOutput(named)) {
         return Error{ErrorCode::output, "is no ordinary file, and this output can't be streamed", named.string(),
                      "give the name of a file"};
     }
     if (file.has_parent_path()) fs::create_directories(file.parent_path(), failed);
     if (failed) return outputError(file, "its folder can't be made", failed.value());
     if (fs::is_directory(file, failed)) return outputError(file, "can't be written", EISDIR);
-    const fs::path temporary = temporaryBeside(file);
-    Result<void> result = write(temporary);
-    if (result) result = flushToDisk(temporary);
-    if (result && std::rename(temporary.c_str(), file.c_str()) != 0) {
-        result = outputError(file, "can't be written", errno);
-    }
-    if (!result) {
-        fs::remove(temporary, failed);
-        Error error = result.error();
-        error.location = file.string();
-        return error;
-    }
-    return result;
+    Result<TemporaryFile> temporary = TemporaryFile::beside(file, file.extension().string());
+    if (!temporary) return temporary.error();
+    Result<void> result = write(temporary.value().path());
+    if (result) return temporary.value().replace(file);
+    Error error = result.error();
+    error.location = file.string();
+    return error;
 }
 
 Result<void> writeFileAtomically(const fs::path& file, std::string_view bytes) {
-    std::error_code failed;
-    const bool stream =
-        fs::exists(file, failed) && !fs::is_regular_file(file, failed) && !fs::is_directory(file, failed);
-    if (stream) return writeBytes(file, bytes);  // /dev/stdout, a pipe
+    // By its own handle: the name of a redirected standard output is that of a file, which a rename would replace.
+    if (isStandardOutput(file)) return writeTo(stdout, "standard output", bytes);
+    if (isStream(file)) return writeBytes(file, bytes);
     return writeFileAtomically(file, [&](const fs::path& temporary) { return writeBytes(temporary, bytes); });
 }
 

@@ -11,13 +11,18 @@
 
 namespace lutka {
 
-/// The whole file as bytes. Fails with ErrorCode::input when it is missing, a folder, unreadable or above `maxBytes`.
+/// The whole file as bytes. Fails with ErrorCode::input when it is missing, no ordinary file (a folder, a pipe, a
+/// device), unreadable or above `maxBytes`.
 [[nodiscard]] Result<std::vector<unsigned char>> readFile(const std::filesystem::path& file,
                                                           std::size_t maxBytes = std::size_t{4} << 30U);
 
+/// Whether an output of that name is the process's standard output: `-`, /dev/stdout and its other names.
+[[nodiscard]] bool isStandardOutput(const std::filesystem::path& file);
+
 /// Writes the file whole or not at all: `bytes` go to a temporary file in the same folder, which is flushed and renamed
 /// over `file`; on failure (ErrorCode::output) the temporary file is removed and an old `file` is left as it was.
-/// Missing parent folders are made. A link's target is written, not the link; a device or pipe is written straight.
+/// Missing parent folders are made. A link's target is written, not the link; a device, a pipe and the standard output
+/// are written straight.
 [[nodiscard]] Result<void> writeFileAtomically(const std::filesystem::path& file, std::string_view bytes);
 
 /// The same for a writer that needs a path (an encoder, a third-party library): `write` gets a temporary path beside

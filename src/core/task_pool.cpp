@@ -6,9 +6,35 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <future>
+#include <system_error>
 #include <thread>
+#include <vector>
 
 namespace lutka {
+namespace {
+
+// How many threads of `wanted` may run beside this one: oneTBB ends the program when it can't make one of its own, so
+// that is tried first, with all of them alive at once. Containers and `ulimit -v` are where it fails.
+int threadsToBeHad(int wanted) {
+    std::promise<void> tried;
+    const std::shared_future<void> end = tried.get_future().share();
+    std::vector<std::thread> threads;
+    threads.reserve(static_cast<std::size_t>(wanted));
+    try {
+        while (static_cast<int>(threads.size()) < wanted)
+            threads.emplace_back([end] { end.wait(); });
+    } catch (const std::system_error&) {  // as many as there are, then
+    }
+    tried.set_value();
+    for (std::thread& thread : threads)
+        thread.join();
+    // Half of what there was, where it was short: the simulation needs memory, too.
+    const int had = static_cast<int>(threads.size());
+    return had == wanted ? had : had / 2;
+}
+
+}  // namespace
 
 struct TaskPool::Arena {
     explicit Arena(int threads)
@@ -20,6 +46,7 @@ struct TaskPool::Arena {
 TaskPool::TaskPool(int threads) {
     const int wanted = threads == 0 ? static_cast<int>(std::thread::hardware_concurrency()) : threads;
     threads_ = std::clamp(wanted, 1, 256);
+    if (threads_ > 1) threads_ = 1 + threadsToBeHad(threads_ - 1);
     if (threads_ > 1) arena_ = std::make_unique<Arena>(threads_);
 }
 

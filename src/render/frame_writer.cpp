@@ -1,7 +1,6 @@
 #include "render/frame_writer.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -10,7 +9,9 @@
 #include <vector>
 
 #include "core/assert.hpp"
+#include "core/temporary_file.hpp"
 #include "render/child_process.hpp"
+#include "render/video_end.hpp"
 
 namespace lutka::render {
 namespace {
@@ -32,14 +33,6 @@ std::optional<Format> formatOf(const fs::path& file) {
 // Without the protocol a colon in a name would be taken for one.
 std::string ffmpegName(const fs::path& file) {
     return "file:" + file.string();
-}
-
-// Beside the target, so that the last rename stays on one file system.
-fs::path temporaryBeside(const fs::path& file, const std::string& extension) {
-    fs::path temporary = file;
-    // Not the file's own stem: ffmpeg reads a % in it as a pattern.
-    temporary.replace_filename(fmt::format(".lutka.{}{}", ::getpid(), extension));
-    return temporary;
 }
 
 std::vector<std::string> inputArguments(Extent size, double framesPerSecond) {
@@ -64,24 +57,23 @@ std::vector<std::string> inputArguments(Extent size, double framesPerSecond) {
 
 struct FrameWriter::State {
     fs::path file;
-    fs::path temporary;  ///< What ffmpeg writes; empty for PNG sequences.
+    std::optional<TemporaryFile> temporary;  ///< What ffmpeg writes; unset for PNG sequences.
     Format format = Format::pngs;
     Extent size;
     int frames = 0;
-    std::optional<ChildProcess> encoder;
-
-    State() = default;
-    State(const State&) = delete;
-    State& operator=(const State&) = delete;
-    ~State() {
-        encoder.reset();
-        std::error_code ignored;
-        if (!temporary.empty()) fs::remove(temporary, ignored);
-    }
+    std::optional<ChildProcess> encoder;  ///< After the file that it writes: it ends first.
 
     [[nodiscard]] Error encoderError(const std::string& words) const {
         return {ErrorCode::output, words.empty() ? "ffmpeg stopped without a word" : "ffmpeg failed: " + words,
                 file.string(), "check the free space of the disk, or write PNG frames (-o NAME.png)"};
+    }
+
+    /// A new file for ffmpeg. Not by the output's own stem, in which ffmpeg reads a % as a pattern.
+    Result<void> openTemporary(std::string_view extension) {
+        Result<TemporaryFile> opened = TemporaryFile::beside(file, extension);
+        if (!opened) return opened.error();
+        temporary.emplace(std::move(opened).value());
+        return {};
     }
 
     Result<void> startEncoder(double framesPerSecond) {
@@ -89,17 +81,18 @@ struct FrameWriter::State {
         const auto append = [&](std::initializer_list<const char*> more) {
             arguments.insert(arguments.end(), more.begin(), more.end());
         };
+        // Lossless first for a GIF: its palette must have seen the whole clip, and ffmpeg would hold all of it in
+        // memory.
+        const Result<void> opened = openTemporary(format == Format::mp4 ? ".mp4" : ".mkv");
+        if (!opened) return opened;
         if (format == Format::mp4) {
-            temporary = temporaryBeside(file, ".mp4");
             // yuv420p halves the chroma: both sides must be even.
             append({"-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2:0:0", "-c:v", "libx264", "-preset", "veryfast", "-crf",
                     "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart"});
         } else {
-            // Lossless first: the palette must have seen the whole clip, and ffmpeg would hold all of it in memory.
-            temporary = temporaryBeside(file, ".mkv");
             append({"-c:v", "ffv1", "-pix_fmt", "bgr0"});
         }
-        arguments.push_back(ffmpegName(temporary));
+        arguments.push_back(ffmpegName(temporary->path()));
         Result<ChildProcess> started = ChildProcess::start(arguments);
         if (!started) return started.error();
         encoder.emplace(std::move(started).value());
@@ -109,7 +102,10 @@ struct FrameWriter::State {
     Result<void> finishEncoder() {
         const ChildProcess::Ended ended = encoder->finish();
         encoder.reset();
-        if (!ended.succeeded) return encoderError(ended.errorText);
+        // It ends with success on a full disk, too, when only the file's index doesn't fit any more; it says so,
+        // though.
+        if (!ended.succeeded || ended.errorText.find("No space left") != std::string::npos)
+            return encoderError(ended.errorText);
         return {};
     }
 
@@ -124,18 +120,21 @@ struct FrameWriter::State {
 
     // Two passes over the lossless file: the palette of all frames, then the frames in it.
     Result<void> makeGif() {
-        const fs::path palette = temporaryBeside(file, ".png");
-        const fs::path gif = temporaryBeside(file, ".gif");
-        Result<void> result = runToEnd({"-i", ffmpegName(temporary), "-vf", "palettegen=stats_mode=diff", "-update",
-                                        "1", "-frames:v", "1", ffmpegName(palette)});
+        Result<TemporaryFile> palette = TemporaryFile::beside(file, ".png");
+        if (!palette) return palette.error();
+        Result<TemporaryFile> gif = TemporaryFile::beside(file, ".gif");
+        if (!gif) return gif.error();
+        const std::string clipName = ffmpegName(temporary->path());
+        const std::string paletteName = ffmpegName(palette.value().path());
+        Result<void> result = runToEnd(
+            {"-i", clipName, "-vf", "palettegen=stats_mode=diff", "-update", "1", "-frames:v", "1", paletteName});
         if (result) {
-            result = runToEnd({"-i", ffmpegName(temporary), "-i", ffmpegName(palette), "-lavfi",
-                               "paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle", ffmpegName(gif)});
+            result =
+                runToEnd({"-i", clipName, "-i", paletteName, "-lavfi",
+                          "paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle", ffmpegName(gif.value().path())});
         }
-        std::error_code ignored;
-        fs::remove(palette, ignored);
-        fs::remove(temporary, ignored);
-        temporary = gif;
+        temporary.reset();
+        temporary.emplace(std::move(gif).value());
         return result;
     }
 };
@@ -202,14 +201,10 @@ Result<void> FrameWriter::finish() {
     Result<void> result = state_->finishEncoder();
     if (result && state_->format == Format::gif) result = state_->makeGif();
     if (!result) return result;
-    std::error_code failed;
-    fs::rename(state_->temporary, state_->file, failed);
-    if (failed) {
-        return Error{ErrorCode::output, "can't be written: " + failed.message(), state_->file.string(),
-                     "check that the folder is writable"};
-    }
-    state_->temporary.clear();
-    return {};
+    if (!isWholeVideo(state_->temporary->path())) return state_->encoderError("the film has no end");
+    result = state_->temporary->replace(state_->file);
+    if (result) state_->temporary.reset();
+    return result;
 }
 
 int FrameWriter::frameCount() const {

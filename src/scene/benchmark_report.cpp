@@ -53,7 +53,7 @@ std::string benchmarkJson(std::span<const BenchResult> results) {
     json["cases"] = Json::array();
     for (const BenchResult& result : results)
         json["cases"].push_back(caseJson(result));
-    return json.dump(2) + "\n";
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string benchmarkCsv(std::span<const BenchResult> results) {

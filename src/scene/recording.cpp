@@ -6,16 +6,21 @@
 #include <bit>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/files.hpp"
+#include "core/json/json_cursor.hpp"
+#include "core/json/json_text.hpp"
 
 namespace lutka::scene {
 namespace {
 
 constexpr std::size_t kFloats = 7;
-constexpr std::string_view kFormat = "lutka.recording";
+constexpr const char* kFormat = "lutka.recording";
 constexpr int kMostDolls = 100000;
 constexpr int kMostBodies = 1000;
+constexpr long long kMostSteps = 100'000'000;
+constexpr float kLeastStep = 1e-6F;
 
 static_assert(std::endian::native == std::endian::little, "recordings are little-endian; a big-endian host must swap");
 
@@ -23,42 +28,45 @@ Error broken(const std::filesystem::path& file, std::string message) {
     return {ErrorCode::input, std::move(message), file.string(), "make it anew with `lutka simulate --record`"};
 }
 
-bool inRange(int value, int low, int high) {
-    return value >= low && value <= high;
+// What is wrong with the header, each with its JSON pointer; the parts that are right are in `recording`.
+void readHeader(const JsonCursor& at, int version, Recording& recording) {
+    const char* bodies = version == 1 ? "bodiesPerDoll" : "bodiesOfDoll";
+    at.expectObject({"format", "version", "model", "scene", "dt", "dolls", bodies, "props"}, {"steps"});
+    recording.model = at["model"].text();
+    recording.scene = at["scene"].text();
+    recording.dt = at["dt"].number(kLeastStep, 1.0F);
+    recording.dolls = static_cast<int>(at["dolls"].wholeNumber(1, kMostDolls).value_or(1));
+    if (version == 1) {
+        recording.bodiesPerDoll = static_cast<int>(at[bodies].wholeNumber(1, kMostBodies).value_or(1));
+    } else if (at[bodies].expectArray(recording.dolls, recording.dolls)) {
+        for (std::size_t doll = 0; doll < at[bodies].size(); ++doll) {
+            const auto count = at[bodies][doll].wholeNumber(1, kMostBodies);
+            recording.bodiesOfDoll.push_back(static_cast<int>(count.value_or(1)));
+        }
+        recording.bodiesPerDoll = recording.bodiesOfDoll.front();
+    }
+    recording.props = static_cast<int>(at["props"].wholeNumber(0, kMostDolls).value_or(0));
 }
 
-Result<Recording> readHeader(const std::filesystem::path& file, std::string_view line) {
-    const auto json = nlohmann::json::parse(line, nullptr, false);
-    if (!json.is_object() || json.value("format", "") != kFormat) return broken(file, "is not a recording of ours");
-    Recording recording;
-    try {
-        const int version = json.at("version").get<int>();
-        if (!inRange(version, 1, Recording::kVersion)) {
-            return broken(file,
-                          fmt::format("has version {}; this program reads 1 to {}", version, Recording::kVersion));
-        }
-        recording.model = json.at("model").get<std::string>();
-        recording.scene = json.at("scene").get<std::string>();
-        recording.dt = json.at("dt").get<float>();
-        recording.dolls = json.at("dolls").get<int>();
-        if (version == 1) {
-            recording.bodiesPerDoll = json.at("bodiesPerDoll").get<int>();
-        } else {
-            recording.bodiesOfDoll = json.at("bodiesOfDoll").get<std::vector<int>>();
-            recording.bodiesPerDoll = recording.bodiesOfDoll.empty() ? 0 : recording.bodiesOfDoll.front();
-        }
-        recording.props = json.at("props").get<int>();
-    } catch (const nlohmann::json::exception& wrong) {
-        return broken(file, fmt::format("has a damaged first line: {}", wrong.what()));
-    }
-    const bool sane = recording.dt > 0.0F && recording.dt < 1.0F && inRange(recording.dolls, 1, kMostDolls) &&
-                      inRange(recording.bodiesPerDoll, 1, kMostBodies) && inRange(recording.props, 0, kMostDolls);
-    const bool mixedSane =
-        recording.bodiesOfDoll.empty() || (static_cast<int>(recording.bodiesOfDoll.size()) == recording.dolls &&
-                                           std::all_of(recording.bodiesOfDoll.begin(), recording.bodiesOfDoll.end(),
-                                                       [](int count) { return inRange(count, 1, kMostBodies); }));
-    if (!sane || !mixedSane) return broken(file, "has counts or a step that are out of range");
-    return recording;
+/// The first line of the file.
+struct Header {
+    Recording recording;                 ///< Without frames.
+    std::optional<long long> stepCount;  ///< How many frames should follow.
+};
+
+Result<Header> readHeader(const std::filesystem::path& file, std::string_view line) {
+    std::vector<std::string> problems;
+    const Result<nlohmann::json> parsed = parseJson(line, file.string(), problems);
+    if (!parsed) return broken(file, "is not a recording of ours");
+    const JsonCursor at(parsed.value(), problems);
+    if (!at.has("format")) return broken(file, "is not a recording of ours");
+    Header header;
+    at["format"].oneOf({kFormat});
+    const auto version = at["version"].wholeNumber(1, Recording::kVersion);
+    if (problems.empty() && version) readHeader(at, static_cast<int>(*version), header.recording);
+    if (problems.empty() && at.has("steps")) header.stepCount = at["steps"].wholeNumber(1, kMostSteps);
+    if (problems.empty()) return header;
+    return broken(file, fmt::format("has a damaged first line: {}", fmt::join(problems, "; ")));
 }
 
 }  // namespace
@@ -105,7 +113,7 @@ Result<void> saveRecording(const std::filesystem::path& file, const Recording& r
     }
     header["props"] = recording.props;
     header["steps"] = recording.steps();
-    std::string bytes = header.dump() + "\n";
+    std::string bytes = header.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     const std::size_t start = bytes.size();
     bytes.resize(start + recording.frames.size() * kFloats * sizeof(float));
     char* out = bytes.data() + start;
@@ -118,22 +126,23 @@ Result<void> saveRecording(const std::filesystem::path& file, const Recording& r
     return writeFileAtomically(file, bytes);
 }
 
-Result<Recording> loadRecording(const std::filesystem::path& file) {
-    const auto bytes = readFile(file);
-    if (!bytes) return bytes.error();
-    const std::vector<unsigned char>& data = bytes.value();
+Result<Recording> recordingFromBytes(std::span<const unsigned char> data, const std::filesystem::path& file) {
     const auto newline = std::find(data.begin(), data.end(), static_cast<unsigned char>('\n'));
     if (newline == data.end()) return broken(file, "is not a recording of ours");
     const std::string line(data.begin(), newline);
-    auto recording = readHeader(file, line);
-    if (!recording) return recording;
+    Result<Header> header = readHeader(file, line);
+    if (!header) return header.error();
+    Recording recording = std::move(header.value().recording);
     const std::size_t start = line.size() + 1;
-    const std::size_t frameBytes = recording.value().frameSize() * kFloats * sizeof(float);
+    const std::size_t frameBytes = recording.frameSize() * kFloats * sizeof(float);
     const std::size_t payload = data.size() - start;
     if (payload == 0 || payload % frameBytes != 0) return broken(file, "is cut short");
-    recording.value().frames.resize(payload / (kFloats * sizeof(float)));
+    const auto steps = static_cast<long long>(payload / frameBytes);
+    if (const auto& promised = header.value().stepCount; promised && *promised != steps)
+        return broken(file, fmt::format("is cut short: {} of its {} steps are there", steps, *promised));
+    recording.frames.resize(payload / (kFloats * sizeof(float)));
     const unsigned char* in = data.data() + start;
-    for (RigidTransform& t : recording.value().frames) {
+    for (RigidTransform& t : recording.frames) {
         float v[kFloats];
         std::memcpy(v, in, sizeof v);
         in += sizeof v;
@@ -141,6 +150,12 @@ Result<Recording> loadRecording(const std::filesystem::path& file) {
         if (!isFinite(t)) return broken(file, "holds a frame that is not finite");
     }
     return recording;
+}
+
+Result<Recording> loadRecording(const std::filesystem::path& file) {
+    const auto bytes = readFile(file);
+    if (!bytes) return bytes.error();
+    return recordingFromBytes(bytes.value(), file);
 }
 
 }  // namespace lutka::scene

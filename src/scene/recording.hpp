@@ -48,7 +48,11 @@ struct Recording {
 void record(Simulation& simulation, Recording& recording);
 
 [[nodiscard]] Result<void> saveRecording(const std::filesystem::path& file, const Recording& recording);
-/// Fails with ErrorCode::input when the file isn't a recording, is cut short or holds what isn't finite.
+/// A recording as its file's bytes; `source` names it in messages. Fails with ErrorCode::input when it isn't a
+/// recording, holds more or fewer steps than it says, or what isn't finite.
+[[nodiscard]] Result<Recording> recordingFromBytes(std::span<const unsigned char> bytes,
+                                                   const std::filesystem::path& source);
+/// The same of a file.
 [[nodiscard]] Result<Recording> loadRecording(const std::filesystem::path& file);
 
 }  // namespace lutka::scene

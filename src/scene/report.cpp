@@ -110,7 +110,7 @@ std::string reportJson(const Simulation& simulation) {
     json["bodies"] = simulation.bodyCount();
     json["constraints"] = constraintCount(simulation);
     if (simulation.assets().size() > 1) json["characters"] = charactersJson(simulation);
-    return json.dump(2) + "\n";
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string reportText(const Simulation& simulation) {

@@ -53,14 +53,7 @@ void take(const JsonCursor& at, const char* key, bool& value) {
 template <class Whole>
 void takeWhole(const JsonCursor& at, const char* key, Whole& value, long long low, long long high) {
     if (!at.has(key)) return;
-    const JsonCursor member = at[key];
-    const auto read = member.wholeNumber();
-    if (!read) return;
-    if (*read < low || *read > high) {
-        member.report(fmt::format("expected a whole number in [{}, {}], got {}", low, high, *read));
-        return;
-    }
-    value = static_cast<Whole>(*read);
+    if (const auto read = at[key].wholeNumber(low, high)) value = static_cast<Whole>(*read);
 }
 
 // One of the words of a table.

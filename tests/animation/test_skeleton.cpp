@@ -1,5 +1,6 @@
 #include "animation/skeleton.hpp"
 
+#include "animation/joint_paths.hpp"
 #include "support/catch.hpp"
 #include "support/rigs.hpp"
 
@@ -17,6 +18,10 @@ TEST_CASE("joints that share a name are told apart by their path") {
         CHECK(findJoint(skeleton, jointPath(skeleton, joint)) == joint);
     }
     CHECK(findJoint(skeleton, "root/leg") == kNoJoint);
+    const std::vector<std::string> paths = jointPaths(skeleton);
+    REQUIRE(paths.size() == 4);
+    for (int joint = 0; joint < skeleton.jointCount(); ++joint)
+        CHECK(paths[joint] == jointPath(skeleton, joint));
 }
 
 TEST_CASE("ancestry counts the joint itself and stops at other branches") {

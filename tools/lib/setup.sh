@@ -17,6 +17,8 @@ LUTKA_BUILD_PACKAGES=(
 LUTKA_RUN_PACKAGES=(ffmpeg fonts-dejavu-core)
 LUTKA_TEST_PACKAGES=(clang-format-14 clang-tidy-14 xvfb xauth xdotool python3 python3-numpy python3-jsonschema)
 
+LUTKA_FUZZ_PACKAGES=(clang-14 libclang-rt-14-dev)
+
 say() { printf '\033[1m==> %s\033[0m\n' "$*" >&2; }
 fail() { printf 'lutka: %s\n' "$*" >&2; exit 1; }
 

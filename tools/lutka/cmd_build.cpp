@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "core/files.hpp"
 #include "options.hpp"
 #include "physics/fit/limits_from_clips.hpp"
 #include "physics/profile/profile_io.hpp"
@@ -87,6 +88,7 @@ void run(const Options& options) {
             spdlog::warn("{}: has no clips; the limits are the anatomy's", asset->character.file.string());
     }
     if (!options.out.empty()) orLeave(physics::saveProfile(options.out, asset->profile));
+    if (isStandardOutput(options.out)) return;
     if (options.json) {
         fmt::print("{}", physics::profileToJson(asset->profile));
     } else {
@@ -101,7 +103,7 @@ void addBuild(const Command& app) {
     auto options = std::make_shared<Options>();
     const Command command = app.add("build", "Make the whole ragdoll profile: map, fit, masses, limits, filter");
     options->ragdoll.addTo(command);
-    command.option("-o,--output", options->out, "write the profile (*.ragdoll.json)");
+    command.option("-o,--output", options->out, "write the profile (*.ragdoll.json); - for stdout");
     command
         .option("--limits-from-clips", options->limitsFromClips,
                 "widen: make room for what the model's own animations do; fit: allow just that")

@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "animation/joint_paths.hpp"
 #include "commands.hpp"
 #include "options.hpp"
 
@@ -31,9 +32,10 @@ Json inspectJson(const Character& character) {
                      {"up", character.units.upAxis},
                      {"upSource", character.units.upSource}};
     json["joints"] = Json::array();
+    const std::vector<std::string> paths = animation::jointPaths(skeleton);
     for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
         json["joints"].push_back({{"name", skeleton.names[joint]},
-                                  {"path", animation::jointPath(skeleton, joint)},
+                                  {"path", paths[joint]},
                                   {"parent", skeleton.parents[joint]},
                                   {"bindPosition", vecJson(skeleton.bindModelFromJoint[joint].translation)},
                                   {"skinWeight", skeleton.skinWeight[joint]}});

@@ -82,12 +82,13 @@ void run(const Options& options) {
     const HumanoidMap map = animation::mapHumanoid(character.value(), mapOptions);
     const Json json = mapJson(character.value(), map);
     if (!options.out.empty() && map.humanoid) orLeave(writeFileAtomically(options.out, dump(json)));
-    if (options.json) fmt::print("{}", dump(json));
+    const bool printed = isStandardOutput(options.out);
+    if (options.json && !(printed && map.humanoid)) fmt::print("{}", dump(json));
     if (!map.humanoid) {
         leave({ErrorCode::input, map.warnings.empty() ? "not a humanoid" : map.warnings.front(),
                options.model.model.string(), ""});
     }
-    if (!options.json) {
+    if (!options.json && !printed) {
         printWarnings(character.value());
         printWarnings(map);
         printTable(character.value(), map);
@@ -100,7 +101,7 @@ void addMap(const Command& app) {
     auto options = std::make_shared<Options>();
     const Command command = app.add("map", "Bind the joints to body parts: role, joint, confidence and reason");
     options->model.addTo(command);
-    command.option("-o,--output", options->out, "write the map as JSON");
+    command.option("-o,--output", options->out, "write the map as JSON; - for stdout");
     command.flag("--json", options->json, "print the map as JSON on stdout");
     command.flag("--ignore-names", options->ignoreNames, "map by topology, geometry and weights alone");
     command.onRun([options] { run(*options); });

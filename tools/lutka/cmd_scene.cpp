@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "core/files.hpp"
 #include "options.hpp"
 #include "scene/scene_cast.hpp"
 #include "scene/scene_file.hpp"
@@ -62,12 +63,13 @@ void print(const scene::EntityScene& scene) {
 
 void run(const Options& options) {
     const scene::EntityScene scene = sceneOf(options);
-    if (options.json) {
-        fmt::print("{}", scene::sceneToJson(scene, options.out.parent_path()));
+    // Paths in what goes to stdout are relative to the working folder, as they are with --json.
+    if (options.json || isStandardOutput(options.out)) {
+        fmt::print("{}", scene::sceneToJson(scene, isStandardOutput(options.out) ? "" : options.out.parent_path()));
     } else {
         print(scene);
     }
-    if (options.out.empty()) return;
+    if (options.out.empty() || isStandardOutput(options.out)) return;
     if (!scene::isSceneFile(options.out)) {
         leave({ErrorCode::usage, fmt::format("'{}' doesn't end in .scene.json", options.out.string()), "--output",
                "scene files are known by their name"});
@@ -84,7 +86,7 @@ void addScene(const Command& app) {
     command.option("--model", options->model, "model of the characters that have none");
     command.option("--count", options->count, "number of dolls of a named scene").range(1, 10000).showDefault();
     command.option("--seed", options->seed, "varies the start of a named scene; 0 stands upright").showDefault();
-    command.option("-o,--output", options->out, "write the scene to this file (*.scene.json)");
+    command.option("-o,--output", options->out, "write the scene to this file (*.scene.json); - for stdout");
     command.flag("--json", options->json, "print the scene as a document on stdout");
     command.onRun([options] { run(*options); });
 }

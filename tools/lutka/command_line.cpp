@@ -113,11 +113,15 @@ void Command::onRun(std::function<void()> run) const {
     app_->callback(std::move(run));
 }
 
-int parseCommandLine(int argc, char** argv, const std::string& version, const std::string& footer,
+int parseCommandLine(int argc, char** argv, const ProgramFacts& facts,
                      const std::function<void(const Command&)>& addCommands) {
     CLI::App app("Lutka turns any rigged character into a physically sound ragdoll.", "lutka");
-    app.set_version_flag("--version", version);
-    app.footer(footer);
+    app.set_version_flag("--version", facts.version);
+    // Like the version flag: what is thrown is printed, and nothing else is asked for.
+    app.add_flag_callback(
+        "--licenses", [&facts] { throw CLI::CallForVersion(facts.licenses, 0); },
+        "Print what the program is made of, with versions and licences, and exit");
+    app.footer(facts.footer);
     app.require_subcommand(1);
     addCommands(Command(&app));
     try {

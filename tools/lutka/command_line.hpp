@@ -63,11 +63,18 @@ class Command {
     CLI::App* app_;
 };
 
+/// What the program says of itself.
+struct ProgramFacts {
+    std::string version;
+    std::string licenses;  ///< A line a part.
+    std::string footer;    ///< Of the help.
+};
+
 /// Builds the commands with `addCommands`, reads the arguments and runs what they ask for. Returns the exit code: 0,
-/// also after --help and --version, or that of wrong usage. What the command throws goes on to the caller.
+/// also after --help, --version and --licenses, or that of wrong usage. What the command throws goes on to the caller.
 ///
 /// CLI11 stays behind this: its header alone costs seven seconds of compiling a file.
-int parseCommandLine(int argc, char** argv, const std::string& version, const std::string& footer,
+int parseCommandLine(int argc, char** argv, const ProgramFacts& facts,
                      const std::function<void(const Command&)>& addCommands);
 
 /// Pieces between commas, without the blanks around them.

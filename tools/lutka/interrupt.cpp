@@ -1,5 +1,8 @@
 #include "interrupt.hpp"
 
+#include <sys/time.h>
+#include <unistd.h>
+
 #include <atomic>
 #include <csignal>
 #include <ctime>
@@ -14,6 +17,12 @@ volatile std::sig_atomic_t caughtSignal = 0;
 std::atomic<long long> caughtAtMs = 0;
 static_assert(std::atomic<long long>::is_always_lock_free, "a signal handler must not wait for a lock");
 
+/// A shell's exit code of a process that a signal ended, less the signal's number.
+constexpr int kShellBase = 128;
+
+/// What is left of the second within which a signal ends everything, after the polite way had its chance.
+constexpr long long kGraceMs = 700;
+
 /// Signals nearer than this are one request: `timeout` and terminals send one to the process and one to its group.
 constexpr long long kOneRequestMs = 500;
 
@@ -23,10 +32,19 @@ long long nowMs() {
     return static_cast<long long>(now.tv_sec) * 1000 + now.tv_nsec / 1'000'000;
 }
 
+// Nothing looked at the flag in time: a long import, or a third party that never returns. Temporary files are hidden,
+// and the next run removes them.
+void onTimeUp(int /*number*/) {
+    ::_exit(kShellBase + static_cast<int>(caughtSignal));
+}
+
 void onSignal(int number) {
     if (caughtSignal == 0) {
         caughtSignal = number;
         caughtAtMs = nowMs();
+        itimerval grace{};
+        grace.it_value.tv_usec = kGraceMs * 1000;
+        ::setitimer(ITIMER_REAL, &grace, nullptr);
     } else if (nowMs() - caughtAtMs >= kOneRequestMs) {
         std::signal(number, SIG_DFL);
         std::raise(number);
@@ -36,6 +54,15 @@ void onSignal(int number) {
 }  // namespace
 
 void installInterruptHandler() {
+    struct sigaction timeUp {};
+    timeUp.sa_handler = onTimeUp;
+    ::sigaction(SIGALRM, &timeUp, nullptr);
+    // A reader that closed its end of our output is an output error like a full disk. A handler instead of SIG_IGN,
+    // which the programs that we start would inherit.
+    struct sigaction pipe {};
+    pipe.sa_handler = [](int) {};
+    pipe.sa_flags = SA_RESTART;
+    ::sigaction(SIGPIPE, &pipe, nullptr);
     struct sigaction action {};
     action.sa_handler = onSignal;
     for (const int number : {SIGINT, SIGTERM, SIGHUP})
@@ -47,7 +74,6 @@ bool interrupted() {
 }
 
 void leaveIfInterrupted() {
-    constexpr int kShellBase = 128;
     if (caughtSignal != 0) throw Exit{kShellBase + caughtSignal};
 }
 

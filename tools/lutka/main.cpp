@@ -2,6 +2,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <cstdio>
 #include <exception>
 #include <new>
 #include <system_error>
@@ -9,12 +10,17 @@
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
+#include "standard_streams.hpp"
 
 namespace {
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 done; 1 internal failure; 2 wrong usage; 3 the input can't be read or is not usable;\n"
     "4 `check` found errors; 5 an output can't be written; 6 no display or no GL context.";
+
+constexpr const char* kLicenses = "Lutka " LUTKA_VERSION ", MIT\n"
+#include "lutka_parts.inc"
+    ;
 
 void addCommands(const lutka::cli::Command& app) {
     lutka::cli::addInspect(app);
@@ -28,25 +34,37 @@ void addCommands(const lutka::cli::Command& app) {
     lutka::cli::addBench(app);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    // Facts go to stdout, everything else to stderr, so that `--json` can be piped.
-    spdlog::set_default_logger(spdlog::stderr_color_mt("lutka"));
-    spdlog::set_pattern("lutka: %^%l%$: %v");
-    lutka::cli::installInterruptHandler();
+// The exit code; whatever was thrown ends here.
+int runCommands(int argc, char** argv) {
     try {
-        return lutka::cli::parseCommandLine(argc, argv, LUTKA_VERSION, kExitCodes, addCommands);
+        return lutka::cli::parseCommandLine(argc, argv, {LUTKA_VERSION, kLicenses, kExitCodes}, addCommands);
     } catch (const lutka::cli::Exit& exit) {
         return exit.code;
     } catch (const std::system_error& refused) {
-        // What fmt throws when stdout can't be written (a full disk, a closed pipe).
-        spdlog::error("the output can't be written: {}", refused.what());
-        return static_cast<int>(lutka::ErrorCode::output);
+        // What fmt throws when stdout can't be written (a full disk, a closed pipe): main() finds that and tells it.
+        if (std::ferror(stdout) != 0) return 0;
+        spdlog::critical("the system refused: {}", refused.what());
     } catch (const std::bad_alloc&) {
         spdlog::critical("out of memory");
     } catch (const std::exception& unexpected) {
         spdlog::critical("internal failure: {}", unexpected.what());
     }
     return static_cast<int>(lutka::ErrorCode::internal);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    lutka::cli::openStandardStreams();
+    // Facts go to stdout, everything else to stderr, so that `--json` can be piped.
+    spdlog::set_default_logger(spdlog::stderr_color_mt("lutka"));
+    spdlog::set_pattern("lutka: %^%l%$: %v");
+    lutka::cli::installInterruptHandler();
+    const int code = runCommands(argc, argv);
+    // An error that came before is the more telling one; findings and success mean nothing when nobody could read them.
+    const bool told = code == 0 || code == static_cast<int>(lutka::ErrorCode::findings);
+    if (lutka::cli::flushStandardOutput() || !told) return code;
+    spdlog::error(
+        "standard output: can't be written (check that the disk has room and that the pipe's reader is alive)");
+    return static_cast<int>(lutka::ErrorCode::output);
 }

@@ -4,24 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <limits>
+
+#include "core/json/json_text.hpp"
 
 namespace lutka {
-namespace {
-
-// A key as a step of a JSON pointer (RFC 6901).
-std::string escaped(const std::string& key) {
-    std::string out;
-    for (const char c : key)
-        out += c == '~' ? std::string("~0") : c == '/' ? std::string("~1") : std::string(1, c);
-    return out;
-}
-
-}  // namespace
-
 JsonCursor JsonCursor::operator[](const char* key) const {
     const bool there = has(key);
-    return {there ? &(*value_)[key] : nullptr, pointer_ + '/' + escaped(key), problems_};
+    return {there ? &(*value_)[key] : nullptr, pointer_ + '/' + jsonPointerStep(key), problems_};
 }
 
 JsonCursor JsonCursor::operator[](std::size_t index) const {
@@ -58,7 +50,7 @@ void JsonCursor::expectObject(std::initializer_list<const char*> required,
             std::none_of(optional.begin(), optional.end(), isKey)) {
             std::vector<const char*> known(required);
             known.insert(known.end(), optional.begin(), optional.end());
-            problems_->push_back(pointer_ + '/' + escaped(key) + ": unknown key, expected one of " +
+            problems_->push_back(pointer_ + '/' + jsonPointerStep(key) + ": unknown key, expected one of " +
                                  fmt::format("{}", fmt::join(known, ", ")));
         }
     }
@@ -82,9 +74,12 @@ float JsonCursor::number(float low, float high) const {
         wrongType("a number");
         return harmless;
     }
-    const auto value = static_cast<float>(value_->get<double>());
-    if (std::isfinite(value) && value >= low && value <= high) return value;
-    report(fmt::format("expected a finite number in [{}, {}], got {}", low, high, value_->dump()));
+    // Compared as a double: one beyond a float's range has no defined value as a float.
+    const auto value = value_->get<double>();
+    if (std::isfinite(value) && value >= static_cast<double>(low) && value <= static_cast<double>(high))
+        return static_cast<float>(value);
+    report(fmt::format("expected a finite number in [{}, {}], got {}", low, high,
+                       value_->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
     return harmless;
 }
 
@@ -100,9 +95,23 @@ std::vector<float> JsonCursor::numbers(std::size_t count, float low, float high)
 }
 
 std::optional<long long> JsonCursor::wholeNumber() const {
-    if (value_ != nullptr && value_->is_number_integer()) return value_->get<long long>();
-    if (value_ == nullptr) report("expected a whole number, there is none");
-    wrongType("a whole number");
+    constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<long long>::max());
+    const bool tooLarge = value_ != nullptr && value_->is_number_unsigned() && value_->get<std::uint64_t>() > most;
+    if (value_ != nullptr && value_->is_number_integer() && !tooLarge) return value_->get<long long>();
+    if (value_ == nullptr) {
+        report("expected a whole number, there is none");
+    } else if (value_->is_number()) {
+        report("expected a whole number, got " + value_->dump());
+    } else {
+        wrongType("a whole number");
+    }
+    return std::nullopt;
+}
+
+std::optional<long long> JsonCursor::wholeNumber(long long low, long long high) const {
+    const std::optional<long long> value = wholeNumber();
+    if (!value || (*value >= low && *value <= high)) return value;
+    report(fmt::format("expected a whole number in [{}, {}], got {}", low, high, *value));
     return std::nullopt;
 }
 

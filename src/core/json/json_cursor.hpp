@@ -38,6 +38,8 @@ class JsonCursor {
     /// An array of `count` finite numbers in [low, high]; always `count` long.
     [[nodiscard]] std::vector<float> numbers(std::size_t count, float low, float high) const;
     [[nodiscard]] std::optional<long long> wholeNumber() const;
+    /// One in [low, high]; nothing (reported) where it is not.
+    [[nodiscard]] std::optional<long long> wholeNumber(long long low, long long high) const;
     [[nodiscard]] std::string text() const;
     /// Index of the text among the choices; -1 (reported) when it is none of them.
     int oneOf(std::span<const char* const> choices) const;

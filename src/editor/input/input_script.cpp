@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "core/files.hpp"
+#include "core/json/json_cursor.hpp"
+#include "core/json/json_text.hpp"
 
 namespace lutka::editor {
 namespace {
@@ -78,116 +82,142 @@ Json toJson(const InputScript::Entry& entry) {
     return json;
 }
 
-// Everything below throws std::string with what is wrong in a line; scriptFromText() catches it and adds the place.
-[[noreturn]] void wrong(std::string what) {
-    throw std::move(what);
+template <std::size_t count>
+std::array<const char*, count> namesOf(const std::array<std::string_view, count>& names) {
+    std::array<const char*, count> out{};
+    std::transform(names.begin(), names.end(), out.begin(), [](std::string_view name) { return name.data(); });
+    return out;
 }
 
-Modifiers readModifiers(const Json& json) {
+Modifiers readModifiers(const JsonCursor& at) {
+    constexpr int most = 3;
     Modifiers modifiers;
-    if (!json.contains("modifiers")) return modifiers;
-    for (const Json& word : json.at("modifiers")) {
-        const auto name = word.get<std::string>();
-        if (name == "shift") {
-            modifiers.shift = true;
-        } else if (name == "control") {
-            modifiers.control = true;
-        } else if (name == "alt") {
-            modifiers.alt = true;
-        } else {
-            wrong(fmt::format("unknown modifier \"{}\": shift, control or alt is expected", name));
-        }
+    if (!at.has("modifiers") || !at["modifiers"].expectArray(0, most)) return modifiers;
+    for (std::size_t i = 0; i < at["modifiers"].size(); ++i) {
+        const int which = at["modifiers"][i].oneOf({"shift", "control", "alt"});
+        modifiers.shift = modifiers.shift || which == 0;
+        modifiers.control = modifiers.control || which == 1;
+        modifiers.alt = modifiers.alt || which == 2;
     }
     return modifiers;
 }
 
-render::Extent readSize(const Json& json) {
-    const render::Extent size{json.at(0).get<int>(), json.at(1).get<int>()};
-    if (json.size() != 2 || size.width < 1 || size.height < 1 || size.width > kMaxWindowSide ||
-        size.height > kMaxWindowSide) {
-        wrong(fmt::format("a size is [width, height], each in [1, {}]", kMaxWindowSide));
-    }
-    return size;
+render::Extent readSize(const JsonCursor& at) {
+    if (!at.expectArray(2, 2)) return {1, 1};
+    const auto side = [&](std::size_t index) {
+        return static_cast<int>(at[index].wholeNumber(1, kMaxWindowSide).value_or(1));
+    };
+    return {side(0), side(1)};
 }
 
-float readFinite(const Json& json, const char* key) {
-    const float value = json.at(key).get<float>();
-    if (!std::isfinite(value)) wrong(fmt::format("\"{}\" is not a finite number", key));
-    return value;
+float readNumber(const JsonCursor& at, const char* key) {
+    constexpr float most = 1e6F;  // pixels or notches
+    return at[key].number(-most, most);
 }
 
-MouseButton readButton(const Json& json) {
-    const auto name = json.at("button").get<std::string>();
-    const auto* const found = std::find(kButtons.begin(), kButtons.end(), name);
-    if (found == kButtons.end()) wrong(fmt::format("unknown button \"{}\": left, right or middle is expected", name));
-    return static_cast<MouseButton>(found - kButtons.begin());
-}
-
-Key readKey(const Json& json) {
-    const auto name = json.at("key").get<std::string>();
+Key readKey(const JsonCursor& at) {
+    const std::string name = at.text();
     const auto key = keyFromName(name);
-    if (!key) wrong(fmt::format("unknown key \"{}\"", name));
-    return *key;
+    if (at.readable() && !key) at.report("expected the name of a key, got \"" + name + "\"");
+    return key.value_or(Key{});
 }
 
-void readMembers(const Json& json, InputEvent& event) {
+std::vector<std::string> readFiles(const JsonCursor& at) {
+    constexpr int most = 1000;
+    std::vector<std::string> files;
+    if (!at.expectArray(0, most)) return files;
+    for (std::size_t i = 0; i < at.size(); ++i)
+        files.push_back(at[i].text());
+    return files;
+}
+
+void readButton(const JsonCursor& at, InputEvent& event) {
+    at.expectObject({"frame", "event", "button", "pressed"}, {"modifiers"});
+    event.button = static_cast<MouseButton>(std::max(0, at["button"].oneOf(namesOf(kButtons))));
+    event.pressed = at["pressed"].truth().value_or(false);
+    event.modifiers = readModifiers(at);
+}
+
+void readKeyEvent(const JsonCursor& at, InputEvent& event) {
+    at.expectObject({"frame", "event", "key", "pressed"}, {"repeated", "modifiers"});
+    event.key = readKey(at["key"]);
+    event.pressed = at["pressed"].truth().value_or(false);
+    event.repeated = at.has("repeated") && at["repeated"].truth().value_or(false);
+    event.modifiers = readModifiers(at);
+}
+
+void readMembers(const JsonCursor& at, InputEvent& event) {
+    constexpr long long lastCodepoint = 0x10FFFF;
     switch (event.kind) {
         case Kind::mouseMove:
-            event.position = {readFinite(json, "x"), readFinite(json, "y")};
+            at.expectObject({"frame", "event", "x", "y"});
+            event.position = {readNumber(at, "x"), readNumber(at, "y")};
             break;
         case Kind::mouseButton:
-            event.button = readButton(json);
-            event.pressed = json.at("pressed").get<bool>();
-            event.modifiers = readModifiers(json);
+            readButton(at, event);
             break;
         case Kind::wheel:
-            event.wheel = readFinite(json, "notches");
+            at.expectObject({"frame", "event", "notches"});
+            event.wheel = readNumber(at, "notches");
             break;
         case Kind::key:
-            event.key = readKey(json);
-            event.pressed = json.at("pressed").get<bool>();
-            event.repeated = json.value("repeated", false);
-            event.modifiers = readModifiers(json);
+            readKeyEvent(at, event);
             break;
         case Kind::text:
-            event.codepoint = json.at("codepoint").get<std::uint32_t>();
+            at.expectObject({"frame", "event", "codepoint"});
+            event.codepoint = static_cast<std::uint32_t>(at["codepoint"].wholeNumber(0, lastCodepoint).value_or(0));
             break;
         case Kind::drop:
-            event.files = json.at("files").get<std::vector<std::string>>();
+            at.expectObject({"frame", "event", "files"});
+            event.files = readFiles(at["files"]);
             break;
         case Kind::resize:
-            event.size = readSize(json.at("size"));
+            at.expectObject({"frame", "event", "size"});
+            event.size = readSize(at["size"]);
             break;
         case Kind::focus:
-            event.pressed = json.at("gained").get<bool>();
+            at.expectObject({"frame", "event", "gained"});
+            event.pressed = at["gained"].truth().value_or(false);
             break;
         case Kind::close:
+            at.expectObject({"frame", "event"});
             break;
     }
 }
 
-InputScript::Entry readEntry(const Json& json, int previousFrame) {
+InputScript::Entry readEntry(const JsonCursor& at, int previousFrame) {
     InputScript::Entry entry;
-    entry.frame = json.at("frame").get<int>();
-    if (entry.frame < previousFrame || entry.frame > InputScript::kMaxFrame) {
-        wrong(fmt::format("frame {} is out of order: [{}, {}] is expected", entry.frame, previousFrame,
-                          InputScript::kMaxFrame));
-    }
-    const auto name = json.at("event").get<std::string>();
-    const auto* const kind =
-        std::find_if(kKinds.begin(), kKinds.end(), [&](const auto& known) { return known.second == name; });
-    if (kind == kKinds.end()) wrong(fmt::format("unknown event \"{}\"", name));
-    entry.event.kind = kind->first;
-    readMembers(json, entry.event);
+    entry.frame = static_cast<int>(at["frame"].wholeNumber(previousFrame, InputScript::kMaxFrame).value_or(0));
+    std::array<const char*, kKinds.size()> names{};
+    std::transform(kKinds.begin(), kKinds.end(), names.begin(), [](const auto& kind) { return kind.second.data(); });
+    if (!at.has("event")) at.report("expected a member \"event\", there is none");
+    const int kind = at["event"].oneOf(names);
+    if (kind < 0) return entry;
+    entry.event.kind = kKinds[static_cast<std::size_t>(kind)].first;
+    readMembers(at, entry.event);
     return entry;
 }
 
-void readHeader(const Json& json, InputScript& script) {
-    if (json.value("format", "") != "lutka.input") wrong(R"(a header {"format": "lutka.input", …} is expected)");
-    if (json.value("version", 0) != InputScript::kVersion) {
-        wrong(fmt::format("version {} is not known, only {}", json.value("version", 0), InputScript::kVersion));
+void readHeader(const JsonCursor& at, InputScript& script) {
+    at.expectObject({"format", "version"}, {"size"});
+    if (at.has("size")) script.size = readSize(at["size"]);
+}
+
+// One line of the file into the script; what is wrong with it, each with its JSON pointer, else nothing.
+std::vector<std::string> readLine(std::string_view row, bool isHeader, InputScript& script) {
+    std::vector<std::string> problems;
+    const Result<nlohmann::json> parsed = parseJson(row, "", problems);
+    if (!parsed) return {parsed.error().message};
+    const JsonCursor at(parsed.value(), problems);
+    if (isHeader) {
+        std::vector<std::string> header = checkFormat(parsed.value(), "lutka.input", InputScript::kVersion);
+        if (!header.empty()) return header;
+        readHeader(at, script);
+        return problems;
     }
-    if (json.contains("size")) script.size = readSize(json.at("size"));
+    if (!parsed.value().is_object()) return {"/: expected an object"};
+    script.entries.push_back(readEntry(at, std::max(script.lastFrame(), 0)));
+    return problems;
 }
 
 std::string headerLine(render::Extent size) {
@@ -223,19 +253,9 @@ Result<InputScript> scriptFromText(std::string_view text, std::string_view sourc
         const std::string_view row = text.substr(0, end);
         text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
         if (row.find_first_not_of(" \t\r") == std::string_view::npos) continue;
-        try {
-            const Json json = Json::parse(row);
-            if (!header) {
-                readHeader(json, script);
-                header = true;
-            } else {
-                script.entries.push_back(readEntry(json, std::max(script.lastFrame(), 0)));
-            }
-        } catch (const Json::exception& broken) {
-            return fail(broken.what());
-        } catch (const std::string& what) {
-            return fail(what);
-        }
+        const std::vector<std::string> problems = readLine(row, !header, script);
+        if (!problems.empty()) return fail(fmt::format("{}", fmt::join(problems, "; ")));
+        header = true;
     }
     if (!header) return fail("is empty");
     return script;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lutka::physics {
 namespace {
@@ -51,13 +52,79 @@ void checkShape(Problems& problems, const BodyShape& shape, const std::string& p
     }
 }
 
+// What a body of any ragdoll can be; beyond it a float's simulation means nothing. Lengths and torques in proportion to
+// the figure, so that a giant in another unit is judged like a man.
+constexpr float kLeastMassKg = 1e-6F;
+constexpr float kMostMassKg = 1e5F;
+constexpr float kLeastHeightM = 1e-3F;
+constexpr float kMostHeightM = 1e6F;
+constexpr float kThinnestShare = 1e-5F;  // of the figure's height
+constexpr float kWidestShare = 10.0F;
+constexpr float kMostFrictionShare = 100.0F;  // of the figure's weight times its height
+constexpr float kGravity = 9.81F;
+
+bool isWithin(float value, float low, float high) {
+    return std::isfinite(value) && value >= low && value <= high;
+}
+
+// Half the smallest and largest extent of the shape.
+std::pair<float, float> halfExtentsOf(const BodyShape& shape) {
+    switch (shape.kind) {
+        case BodyShape::Kind::box: {
+            const vec3& h = shape.halfExtents;
+            return {std::min({h.x, h.y, h.z}), std::max({h.x, h.y, h.z})};
+        }
+        case BodyShape::Kind::capsule:
+            return {shape.radius, shape.radius + shape.halfLength};
+        case BodyShape::Kind::sphere:
+            break;
+    }
+    return {shape.radius, shape.radius};
+}
+
+// Principal moments of any mass distribution are positive and keep the triangle inequality (Goldstein, Classical
+// Mechanics, 5.4). How far the mass lies from an axis is bounded by the shape, with room for shapes that stand for more
+// than themselves: the square root of moment over mass, the radius of gyration.
+void checkInertia(Problems& problems, const BodyProfile& body, const std::string& place) {
+    constexpr float slack = 1.01F;  // decimals
+    constexpr float inward = 1.0F / 30.0F;
+    constexpr float outward = 10.0F;
+    const vec3& i = body.inertia;
+    problems.require(isPositive(i), place, "expected three numbers above 0");
+    if (!isPositive(i) || !isPositive(body.massKg)) return;
+    const float most = std::max({i.x, i.y, i.z});
+    problems.require(
+        most <= slack * (i.x + i.y + i.z - most), place,
+        fmt::format("expected no moment above the sum of the other two, got [{}, {}, {}]; no body has these", i.x, i.y,
+                    i.z));
+    const auto [thinnest, widest] = halfExtentsOf(body.shape);
+    const auto momentAt = [&](float gyration) { return body.massKg * gyration * gyration; };
+    const float low = momentAt(thinnest * inward);
+    const float high = momentAt(widest * outward);
+    problems.require(
+        isWithin(std::min({i.x, i.y, i.z}), low, high) && isWithin(most, low, high), place,
+        fmt::format("expected moments that fit the body's mass and shape, in [{:.3g}, {:.3g}], got [{}, {}, {}]", low,
+                    high, i.x, i.y, i.z));
+}
+
+void checkSize(Problems& problems, const RagdollProfile& profile, const BodyShape& shape, const std::string& place) {
+    const auto [thinnest, widest] = halfExtentsOf(shape);
+    const float low = kThinnestShare * profile.heightM;
+    const float high = kWidestShare * profile.heightM;
+    problems.require(isWithin(thinnest, low, high) && isWithin(widest, low, high), place,
+                     fmt::format("expected radii and lengths in [{:.3g}, {:.3g}] m for a figure of {} m, got {} to {}",
+                                 low, high, profile.heightM, thinnest, widest));
+}
+
 void checkBody(Problems& problems, const RagdollProfile& profile, std::size_t index) {
     const BodyProfile& body = profile.bodies[index];
     const std::string place = fmt::format("/bodies/{}", index);
     checkShape(problems, body.shape, place + "/shape");
     checkFrame(problems, body.jointFromBody, place + "/jointFromBody");
-    problems.require(isPositive(body.massKg), place + "/massKg", "expected a number above 0");
-    problems.require(isPositive(body.inertia), place + "/inertia", "expected three numbers above 0");
+    checkSize(problems, profile, body.shape, place + "/shape");
+    problems.require(isWithin(body.massKg, kLeastMassKg, kMostMassKg), place + "/massKg",
+                     fmt::format("expected a number in [{}, {}]", kLeastMassKg, kMostMassKg));
+    checkInertia(problems, body, place + "/inertia");
     problems.require(!body.jointPath.empty(), place + "/jointPath", "expected the path of a joint");
     for (std::size_t other = 0; other < index; ++other) {
         problems.require(profile.bodies[other].role != body.role, place + "/role",
@@ -100,12 +167,15 @@ void checkConstraint(Problems& problems, const RagdollProfile& profile, std::siz
     checkFrame(problems, constraint.parentFromFrame, place + "/parentFromFrame");
     checkFrame(problems, constraint.childFromFrame, place + "/childFromFrame");
     checkLimits(problems, constraint, place);
-    problems.require(std::isfinite(constraint.frictionNm) && constraint.frictionNm >= 0.0F, place + "/frictionNm",
-                     "expected a number of at least 0");
+    const float mostFriction = kMostFrictionShare * profile.totalMassKg * kGravity * profile.heightM;
+    problems.require(
+        isWithin(constraint.frictionNm, 0.0F, mostFriction), place + "/frictionNm",
+        fmt::format("expected a number in [0, {:.3g}] for this figure, got {}", mostFriction, constraint.frictionNm));
 }
 
 void checkWhole(Problems& problems, const RagdollProfile& profile) {
-    problems.require(isPositive(profile.heightM), "/heightM", "expected a number above 0");
+    problems.require(isWithin(profile.heightM, kLeastHeightM, kMostHeightM), "/heightM",
+                     fmt::format("expected a number in [{}, {}]", kLeastHeightM, kMostHeightM));
     problems.require(isPositive(profile.totalMassKg), "/totalMassKg", "expected a number above 0");
     problems.require(isUnit(profile.standardFromModel), "/standardFromModel",
                      "expected a finite quaternion of length 1");

@@ -1,0 +1,159 @@
+#include <unistd.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "support/catch.hpp"
+#include "support/command.hpp"
+#include "support/skip.hpp"
+
+using namespace lutka::test;
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string kMannequin = shellQuoted(LUTKA_ASSETS_DIR "/models/mannequin.glb");
+const std::string kLutka = "'" LUTKA_BINARY "' ";
+
+// Every command that prints, with what it prints short enough to stay in a buffer until the end.
+const std::vector<std::string> kPrinting = {"--help",
+                                            "--version",
+                                            "--licenses",
+                                            "inspect --help",
+                                            "inspect " + kMannequin,
+                                            "inspect --json " + kMannequin,
+                                            "map " + kMannequin,
+                                            "build " + kMannequin,
+                                            "build --json " + kMannequin,
+                                            "check " + kMannequin,
+                                            "scene stairs",
+                                            "scene stairs --json",
+                                            "simulate --seconds 0.1 " + kMannequin,
+                                            "simulate --seconds 0.1 --json " + kMannequin};
+
+std::ptrdiff_t filesIn(const fs::path& folder) {
+    return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+}
+
+CommandResult shell(const std::string& script) {
+    return runCommand("sh -c \"" + script + "\"");
+}
+
+}  // namespace
+
+TEST_CASE("a full disk under stdout ends every command with 5 and a word") {
+    if (!fs::exists("/dev/full")) SKIP_TEST("no /dev/full");
+    for (const std::string& command : kPrinting) {
+        INFO(command);
+        const CommandResult result = shell(kLutka + command + " >/dev/full");
+        CHECK(result.code == 5);
+        CHECK_THAT(result.err, Catch::Contains("standard output"));
+    }
+}
+
+TEST_CASE("a closed stdout or a reader that has gone ends every command with 5") {
+    for (const std::string& command : kPrinting) {
+        INFO(command);
+        CHECK(shell(kLutka + command + " >&-").code == 5);
+        // The reader is gone before anything is printed.
+        CHECK(shell("(sleep 0.2; " + kLutka + command + "; echo \\$? >&2) | true").err.find("5\n") !=
+              std::string::npos);
+    }
+}
+
+TEST_CASE("with stdout closed, nothing that is printed lands in a file that is written") {
+    const ScratchFolder folder;
+    const std::string profile = folder / "p.ragdoll.json";
+    shell(kLutka + "build " + kMannequin + " -o " + profile + " >&-");
+    CHECK(Json::parse(fileText(profile))["format"] == "lutka-ragdoll");
+}
+
+TEST_CASE("a dash as output is stdout, with the document alone on it") {
+    const Json profile = Json::parse(lutkaCommand("build -o - " + kMannequin).out);
+    CHECK(profile["format"] == "lutka-ragdoll");
+    CHECK(Json::parse(lutkaCommand("map -o - " + kMannequin).out)["humanoid"] == true);
+    CHECK(Json::parse(lutkaCommand("scene stairs -o -").out)["format"] == "lutka.scene");
+    CHECK_FALSE(fs::exists("-"));
+    CHECK(shell(kLutka + "build -o - " + kMannequin + " >/dev/full").code == 5);
+}
+
+TEST_CASE("a film that the disk has no room for ends with 5, keeps the old one and leaves nothing") {
+    const ScratchFolder folder;
+    const std::string film = folder / "fall.mp4";
+    std::ofstream(film) << "an old film";
+    // A limit on the size of files stands for a disk's: writing fails halfway, with another number.
+    const CommandResult result = shell("trap '' XFSZ; ulimit -f 16; " + kLutka + "render " + kMannequin +
+                                       " --seconds 1 --size 320x240 -o " + film);
+    NEEDS_DISPLAY_OF(result);
+    CHECK(result.code == 5);
+    CHECK_THAT(result.err, Catch::Contains("fall.mp4"));
+    CHECK(fileText(film) == "an old film");
+    CHECK(filesIn(folder.path) == 1);
+}
+
+TEST_CASE("an encoder that says it succeeded and left half a film is not believed") {
+    const ScratchFolder folder;
+    std::ofstream(folder / "ffmpeg") << "#!/bin/sh\nfor last; do :; done\ncat >/dev/null\n"
+                                        "printf '\\0\\0\\0\\20ftypisom\\0\\0\\0\\0' >\"${last#file:}\"\n";
+    fs::permissions(folder / "ffmpeg", fs::perms::owner_all);
+    fs::create_directory(folder / "out");
+    const CommandResult result = runCommand("env PATH=" + folder.path.string() + ":$PATH " + kLutka + "render " +
+                                            kMannequin + " --seconds 0.1 --size 64x64 -o " + (folder / "out/a.mp4"));
+    NEEDS_DISPLAY_OF(result);
+    CHECK(result.code == 5);
+    CHECK_THAT(result.err, Catch::Contains("the film has no end"));
+    CHECK(filesIn(folder.path / "out") == 0);
+}
+
+TEST_CASE("names that are not UTF-8 work from the model to the report") {
+    const ScratchFolder folder;
+    const std::string model = folder / "caf\xe9.glb";
+    fs::copy_file(LUTKA_ASSETS_DIR "/models/mannequin.glb", model);
+    const std::string report = folder / "r\xe9port.json";
+    const CommandResult result = lutkaCommand("simulate --seconds 0.1 --json " + shellQuoted(model) + " --report " +
+                                              shellQuoted(report) + " --record " + shellQuoted(folder / "rec\xff"));
+    REQUIRE(result.code == 0);
+    CHECK(Json::parse(result.out)["steps"] == 6);
+    CHECK(Json::parse(fileText(report))["steps"] == 6);
+    const CommandResult replayed =
+        lutkaCommand("simulate " + shellQuoted(model) + " --replay " + shellQuoted(folder / "rec\xff"));
+    CHECK(replayed.code == 0);
+}
+
+TEST_CASE("one signal ends a command within a second, whatever it is doing") {
+    const ScratchFolder folder;
+    const std::string report = folder / "r.json";
+    for (const std::string& command : {"simulate " + kMannequin + " --seconds 3000 --report " + report,
+                                       "bench --count 500 --steps 100000", "edit --headless --frames 10000000"}) {
+        INFO(command);
+        const CommandResult result = shell(kLutka + command +
+                                           " & child=\\$!; sleep 1; kill -TERM \\$child; "
+                                           "(sleep 5; kill -KILL \\$child 2>/dev/null) & wait \\$child; echo \\$?");
+        if (result.out == "6\n") continue;  // no GL context
+        CHECK_THAT(result.out, Catch::Contains("143"));
+    }
+    CHECK(filesIn(folder.path) == 0);
+}
+
+TEST_CASE("where the system allows no more threads, fewer are taken") {
+    const std::string simulate = "simulate --seconds 0.1 --count 20 --threads 200 --json " + kMannequin;
+    const CommandResult starved = shell("ulimit -v 900000; " + kLutka + simulate);
+    REQUIRE(starved.code == 0);
+    CHECK(Json::parse(starved.out)["stateHash"] == Json::parse(lutkaCommand(simulate).out)["stateHash"]);
+}
+
+TEST_CASE("the program names what it is made of, with versions, and so does its SPDX document") {
+    const CommandResult result = lutkaCommand("--licenses");
+    REQUIRE(result.code == 0);
+    CHECK_THAT(result.out, !Catch::Contains("unknown"));
+    const Json document = Json::parse(fileText(fs::path(LUTKA_BINARY).parent_path() / "lutka.spdx.json"));
+    CHECK(document["spdxVersion"] == "SPDX-2.3");
+    REQUIRE(document["packages"].size() > 10);
+    CHECK(document["relationships"].size() == document["packages"].size());
+    for (const Json& package : document["packages"]) {
+        const auto name = package["name"].get<std::string>();
+        CHECK_THAT(result.out, Catch::Contains(name + " " + package["versionInfo"].get<std::string>()));
+        CHECK_FALSE(package["licenseDeclared"].get<std::string>().empty());
+    }
+}
