@@ -5,8 +5,11 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 #include <system_error>
+#include <vector>
 
+#include "animation/import/import_character.hpp"
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
@@ -55,6 +58,8 @@ int runCommands(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (argc > 1 && lutka::animation::asksForImport(argv[1]))
+        return lutka::animation::serveImport(std::vector<std::string>(argv + 1, argv + argc));
     lutka::cli::openStandardStreams();
     // Facts go to stdout, everything else to stderr, so that `--json` can be piped.
     spdlog::set_default_logger(spdlog::stderr_color_mt("lutka"));

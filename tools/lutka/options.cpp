@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "interrupt.hpp"
 #include "scene/scene_file.hpp"
 
 namespace lutka::cli {
@@ -96,6 +97,11 @@ void ModelOptions::addTo(const Command& app, bool required) {
     app.option("--scale", scale, "metres a file unit, instead of what the file or the figure's height says")
         .range(1e-6, 1e6);
     app.option("--up", up, "the file's up axis: x, y, z, -x, -y or -z").oneOf(wordsOf(kUpAxes), true);
+    const Option memory = app.option("--import-memory", importMemoryMiB, "MiB that reading the model may take")
+                              .range(64, 1 << 20)
+                              .showDefault();
+    app.flag("--in-process", inProcess, "read the model in this process, without limits: for files that you trust")
+        .excludes(memory);
 }
 
 animation::ImportOptions ModelOptions::import() const {
@@ -103,6 +109,10 @@ animation::ImportOptions ModelOptions::import() const {
     options.metresPerFileUnit = scale;
     if (!up.empty()) options.up = kUpAxes.at(lower(up));
     options.loadTextures = textures;
+    std::error_code failed;
+    if (!inProcess) options.worker.program = std::filesystem::read_symlink("/proc/self/exe", failed);
+    options.worker.memoryBytes = static_cast<std::size_t>(importMemoryMiB) << 20U;
+    options.worker.stop = interrupted;
     return options;
 }
 

@@ -8,6 +8,7 @@
 
 #include "animation/import/bind_pose.hpp"
 #include "animation/import/clip_sampling.hpp"
+#include "animation/import/figure_choice.hpp"
 #include "animation/import/mesh_conversion.hpp"
 #include "animation/import/node_tree.hpp"
 #include "animation/import/rigid_pose.hpp"
@@ -58,7 +59,7 @@ void settleMeshes(const UnitsAndAxes& units, std::vector<SkinnedMesh>& meshes) {
     const mat3 scaled(units.scale * units.rotation);
     for (SkinnedMesh& mesh : meshes) {
         for (vec3& position : mesh.positions)
-            position = scaled * position;
+            position = scaled * position + vec3(units.translation);
         for (vec3& normal : mesh.normals)
             normal = rotation * normal;
         for (vec4& tangent : mesh.tangents)
@@ -109,6 +110,7 @@ void takeMaterials(SourceScene& source, Character& character) {
 
 Result<Character> buildCharacter(SourceScene source, const std::filesystem::path& file, const ImportOptions& options) {
     if (std::optional<Error> error = validate(source, file.string())) return *std::move(error);
+    chooseFigure(source);
     const NodeTree tree = makeNodeTree(source);
     Character character;
     character.name = file.stem().string();

@@ -247,7 +247,8 @@ Clip outlineOf(const SourceClip& source, std::size_t joints, std::size_t budget,
     const double seconds = std::max(0.0, times.last - times.start());
     Clip clip;
     clip.name = source.name;
-    const double rate = rateFor(1.0 / times.smallestGap, times.spline ? kLeastSplineRate : kLeastRate);
+    const double rate =
+        rateFor(times.last > times.first ? 1.0 / times.smallestGap : 0.0, times.spline ? kLeastSplineRate : kLeastRate);
     clip.framesPerSecond = static_cast<float>(rate);
     const double wanted = std::floor(seconds * rate + 1.0 + 1e-3);
     const std::size_t affordable = std::min<std::size_t>(budget / joints, kMaxFrames);

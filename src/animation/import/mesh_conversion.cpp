@@ -73,6 +73,12 @@ void copyVertices(const SourceMesh& source, std::span<const VertexSkin> skins, s
     }
 }
 
+// White changes nothing.
+bool isColored(const SourceMesh& mesh) {
+    return std::any_of(mesh.colors.begin(), mesh.colors.end(),
+                       [](const vec4& color) { return vec3(color) != vec3(1.0F); });
+}
+
 SkinnedMesh convertMesh(const NodeTree& tree, const MeshInstance& instance, std::span<const dmat4> bind,
                         WeightRepairs& repairs) {
     SkinnedMesh mesh;
@@ -109,7 +115,9 @@ std::vector<SkinnedMesh> convertMeshes(const NodeTree& tree, std::span<const Mes
     std::vector<SkinnedMesh> meshes;
     WeightRepairs repairs;
     MeshRepairs meshRepairs;
+    int colored = 0;
     for (const MeshInstance& instance : instances) {
+        colored += isColored(*instance.mesh) ? 1 : 0;
         SkinnedMesh mesh = convertMesh(tree, instance, bindSceneFromJoint, repairs);
         repairMesh(mesh, meshRepairs);
         if (mesh.indices.empty()) continue;
@@ -118,6 +126,10 @@ std::vector<SkinnedMesh> convertMeshes(const NodeTree& tree, std::span<const Mes
                 skinWeight[mesh.joints[v][i]] += mesh.weights[v][i];
         }
         meshes.push_back(std::move(mesh));
+    }
+    if (colored > 0) {
+        warnings.push_back(
+            fmt::format("the vertex colours of {} mesh(es) are not shown; their materials' own colour is", colored));
     }
     for (std::string& sentence : repairs.sentences())
         warnings.push_back(std::move(sentence));

@@ -13,25 +13,6 @@
 namespace lutka::animation::rig_import {
 namespace {
 
-void dropBadVertices(SkinnedMesh& mesh, MeshRepairs& repairs) {
-    std::vector<bool> bad(mesh.positions.size(), false);
-    bool any = false;
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        if (isFinite(mesh.positions[v])) continue;
-        bad[v] = any = true;
-        mesh.positions[v] = vec3(0);
-        ++repairs.badVertices;
-    }
-    if (!any) return;
-    std::vector<std::uint32_t> kept;
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        if (bad[mesh.indices[i]] || bad[mesh.indices[i + 1]] || bad[mesh.indices[i + 2]]) continue;
-        kept.insert(kept.end(), mesh.indices.begin() + static_cast<std::ptrdiff_t>(i),
-                    mesh.indices.begin() + static_cast<std::ptrdiff_t>(i) + 3);
-    }
-    mesh.indices = std::move(kept);
-}
-
 template <class T>
 std::uint64_t fold(const std::vector<T>& values, std::uint32_t v, std::uint64_t hash) {
     return values.empty() ? hash : hashBytes(&values[v], sizeof(T), hash);
@@ -145,9 +126,6 @@ void makeTangents(SkinnedMesh& mesh) {
 
 std::vector<std::string> MeshRepairs::sentences() const {
     std::vector<std::string> out;
-    if (badVertices > 0) {
-        out.push_back(fmt::format("{} vertices have no finite position; their triangles were dropped", badVertices));
-    }
     if (turnedMeshes > 0) {
         out.push_back(
             fmt::format("{} meshes had their triangles wound against their normals and were turned", turnedMeshes));
@@ -156,7 +134,6 @@ std::vector<std::string> MeshRepairs::sentences() const {
 }
 
 void repairMesh(SkinnedMesh& mesh, MeshRepairs& repairs) {
-    dropBadVertices(mesh, repairs);
     mergeVertices(mesh);
     if (mesh.normals.empty()) {
         makeNormals(mesh);

@@ -9,14 +9,13 @@ namespace lutka::animation::rig_import {
 
 /// What had to be done to the geometry, over all meshes.
 struct MeshRepairs {
-    int badVertices = 0;   ///< Not finite; their triangles were dropped.
     int turnedMeshes = 0;  ///< Meshes whose triangles ran against their normals.
 
     /// A sentence for each kind of repair that occurred.
     [[nodiscard]] std::vector<std::string> sentences() const;
 };
 
-/// Drops triangles with vertices that are not finite, merges vertices that are equal in every attribute (the first one
+/// Merges vertices that are equal in every attribute (the first one
 /// stays, the order of triangles too), turns triangles that run against the normals, and makes missing normals and
 /// tangents.
 void repairMesh(SkinnedMesh& mesh, MeshRepairs& repairs);

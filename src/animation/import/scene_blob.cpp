@@ -8,13 +8,14 @@ namespace lutka::animation::rig_import {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x53'54'55'4C;  // LUTS
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 // What each struct consists of, for both directions: `Scene` is const for the writer. A new member is added here once.
 constexpr auto kNodeParts = [](auto& archive, auto& node) {
     archive.text(node.name);
     archive.value(node.parent);
     archive.value(node.parentFromNode);
+    archive.maybe(node.trs);
     archive.choice(node.isHelper, true);
 };
 
@@ -37,6 +38,7 @@ constexpr auto kSkinParts = [](auto& archive, auto& skin) {
         inner.value(joint.jointFromMesh);
     });
     archive.maybe(skin.sceneFromMesh);
+    archive.choice(skin.verticesAreInJoints, true);
 };
 
 constexpr auto kInstanceParts = [](auto& archive, auto& instance) {

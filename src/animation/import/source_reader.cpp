@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "animation/import/assimp/read_with_assimp.hpp"
+#include "animation/import/clean_source.hpp"
 #include "animation/import/gltf/read_gltf.hpp"
 
 namespace lutka::animation::rig_import {
@@ -54,8 +55,9 @@ Result<SourceScene> readSource(const fs::path& file, const ImportOptions& option
     const std::string start = firstBytes(file);
     // Third parties throw; what is left is memory running out over a monstrous file.
     try {
-        if (isGltf(file, start)) return readGltf(file, options);
-        return readWithAssimp(file, options);
+        Result<SourceScene> scene = isGltf(file, start) ? readGltf(file, options) : readWithAssimp(file, options);
+        if (scene) cleanNumbers(scene.value());
+        return scene;
     } catch (const std::exception& e) {
         return unreadable(file, std::string("can't be imported: ") + e.what());
     }

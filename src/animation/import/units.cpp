@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <optional>
 
 namespace lutka::animation::rig_import {
@@ -147,10 +148,24 @@ void settleScale(const SourceConvention& convention, const Extents& box, const I
     }
 }
 
+// Everything after import takes the figure to stand near the origin; single precision wears out far from it, too.
+void settlePlace(const Extents& box, UnitsAndAxes& out, std::vector<std::string>& warnings) {
+    constexpr double kFar = 4.0;  // sizes of the figure
+    const dvec3 size = out.scale * glm::abs(out.rotation * box.size());
+    const dvec3 centre = out.scale * (out.rotation * (0.5 * (box.low + box.high)));
+    const double extent = std::max({size.x, size.y, size.z});
+    const double away = glm::length(dvec3(centre.x, centre.y - 0.5 * size.y, centre.z));
+    if (!(extent > 0.0) || !(away > kFar * extent)) return;
+    out.translation = -dvec3(centre.x, centre.y - 0.5 * size.y, centre.z);
+    warnings.push_back(fmt::format("the figure stands {:.4g} m from the origin and was brought to it", away));
+}
+
 }  // namespace
 
 dmat4 UnitsAndAxes::modelFromScene() const {
-    return dmat4(scale * rotation);
+    dmat4 matrix(scale * rotation);
+    matrix[3] = dvec4(translation, 1.0);
+    return matrix;
 }
 
 UnitsAndAxes settleUnits(const SourceConvention& convention, std::span<const vec3> points, const ImportOptions& options,
@@ -159,6 +174,7 @@ UnitsAndAxes settleUnits(const SourceConvention& convention, std::span<const vec
     const Extents box = extentsOf(points);
     settleUp(convention, box, options, out, warnings);
     settleScale(convention, box, options, out, warnings);
+    settlePlace(box, out, warnings);
     out.info.metresPerFileUnit = static_cast<float>(out.scale);
     return out;
 }

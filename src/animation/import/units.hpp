@@ -14,6 +14,7 @@ namespace lutka::animation::rig_import {
 struct UnitsAndAxes {
     dmat3 rotation{1.0};
     double scale = 1.0;
+    dvec3 translation{0.0};  ///< Model space: brings a figure that stands far away to the origin, else zero.
     UnitInfo info;
 
     [[nodiscard]] dmat4 modelFromScene() const;

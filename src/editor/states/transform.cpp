@@ -271,7 +271,7 @@ class GrabHandler final : public TransformHandler {
         return dragTarget(workspace_.mouseRay(), start_, render::forwardOf(workspace_.camera), lock_, depth_);
     }
 
-    std::optional<Item> pulled_;  // the body that is held; else the entity is moved
+    std::optional<Item> pulled_;                              // the body that is held; else the entity is moved
     std::vector<std::vector<physics::BodyState>> posedFrom_;  // of each doll, before it was posed; else empty
     vec3 start_{0, 0, 0};
     vec3 grabbedAt_{0, 0, 0};

@@ -111,6 +111,23 @@ int GltfFile::addIndices(std::span<const std::uint16_t> values) {
     return static_cast<int>(json["accessors"].size()) - 1;
 }
 
+void GltfFile::addTurn(const std::string& clip, int node, std::span<const float> times, int values,
+                       const std::string& interpolation) {
+    json["animations"].push_back(
+        {{"name", clip},
+         {"samplers", {{{"input", addFloats(times, "SCALAR")}, {"output", values}, {"interpolation", interpolation}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", "rotation"}}}}}}});
+}
+
+void GltfFile::saveBeside(const std::filesystem::path& file, const std::string& bufferName,
+                          const std::string& uri) const {
+    nlohmann::json out = json;
+    out["buffers"] = {{{"byteLength", bytes_.size()}, {"uri", uri}}};
+    std::ofstream(file, std::ios::binary) << out.dump();
+    std::ofstream(file.parent_path() / bufferName, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes_.data()), static_cast<std::streamsize>(bytes_.size()));
+}
+
 void GltfFile::saveText(const std::filesystem::path& file) const {
     nlohmann::json out = json;
     if (!bytes_.empty()) {

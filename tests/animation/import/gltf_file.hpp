@@ -36,9 +36,25 @@ class GltfFile {
     int addFloats(std::span<const float> values, const std::string& type);
     int addBytes4(std::span<const std::array<std::uint8_t, 4>> values);
     int addIndices(std::span<const std::uint16_t> values);
+    /// An accessor over any component type of glTF (5120 … 5126).
+    template <class T>
+    int addComponents(std::span<const T> values, int componentType, const std::string& type, std::size_t count,
+                      bool normalized) {
+        json["accessors"].push_back({{"bufferView", addView(values.data(), values.size_bytes())},
+                                     {"componentType", componentType},
+                                     {"count", count},
+                                     {"type", type},
+                                     {"normalized", normalized}});
+        return static_cast<int>(json["accessors"].size()) - 1;
+    }
+    /// A clip that turns a node; `times` in seconds, `values` an accessor of quaternions.
+    void addTurn(const std::string& clip, int node, std::span<const float> times, int values,
+                 const std::string& interpolation);
 
     void saveText(const std::filesystem::path& file) const;
     void saveBinary(const std::filesystem::path& file) const;
+    /// As text, with the buffer in a file of its own beside it, which the document calls `uri`.
+    void saveBeside(const std::filesystem::path& file, const std::string& bufferName, const std::string& uri) const;
 
   private:
     int addView(const void* data, std::size_t size);

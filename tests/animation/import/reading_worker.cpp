@@ -27,7 +27,8 @@ Result<SourceScene> behave(const std::filesystem::path& file, const ImportOption
     std::getline(std::ifstream(file), text);
     SourceScene scene;
     scene.format = options.loadTextures ? "with pictures" : "without pictures";
-    scene.nodes = {{"root", -1, glm::dmat4(1.0), false}};
+    scene.nodes.resize(1);
+    scene.nodes[0].name = "root";
     if (text == "crash") std::raise(SIGSEGV);
     for (volatile int i = 0; text == "hang"; i = i + 1) {
     }

@@ -168,7 +168,10 @@ void GltfFile::checkExtensions() {
     for (const nlohmann::json& entry : *required) {
         if (!entry.is_string()) continue;
         const std::string extension = entry.get<std::string>();
-        if (isPictureFormat(extension)) continue;  // told where a picture is missed
+        if (isPictureFormat(extension)) {
+            leaveOut(fmt::format("pictures stored by {}", extension));
+            continue;
+        }
         if (!isUnderstood(extension)) {
             throw Damage{fmt::format("requires the glTF extension {}, which can't be read", extension),
                          "export it again without this extension"};

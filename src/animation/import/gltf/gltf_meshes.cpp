@@ -212,6 +212,15 @@ void dropStrayInfluences(std::size_t slots, SourceMesh& mesh, GltfFile& file) {
     if (stray) file.leaveOut(fmt::format("weights of mesh '{}' for joints that its skin does not have", mesh.name));
 }
 
+std::vector<int> inSceneOrder(const NodeMap& nodes) {
+    std::vector<int> order;
+    for (int index = 0; index < static_cast<int>(nodes.size()); ++index) {
+        if (nodes[index] >= 0) order.push_back(index);
+    }
+    std::sort(order.begin(), order.end(), [&](int a, int b) { return nodes[a] < nodes[b]; });
+    return order;
+}
+
 }  // namespace
 
 void addMeshes(GltfFile& file, const NodeMap& nodes, SourceScene& out) {
@@ -220,9 +229,8 @@ void addMeshes(GltfFile& file, const NodeMap& nodes, SourceScene& out) {
     // The primitives of a mesh with the morphs of a node; nodes mostly share them.
     std::map<std::pair<int, std::vector<double>>, std::vector<int>> known;
     std::size_t vertices = 0;
-    for (std::size_t index = 0; index < nodes.size(); ++index) {
-        if (nodes[index] < 0) continue;
-        const json& node = file.element("nodes", static_cast<int>(index));
+    for (const int index : inSceneOrder(nodes)) {
+        const json& node = file.element("nodes", index);
         const std::optional<int> meshIndex = indexOf(node, "mesh", file.count("meshes"));
         if (!meshIndex) continue;
         const std::optional<int> skin = indexOf(node, "skin", skinCount);

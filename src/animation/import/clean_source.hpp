@@ -1,0 +1,11 @@
+#pragma once
+
+#include "animation/import/source_scene.hpp"
+
+namespace lutka::animation::rig_import {
+
+/// Takes what is not a finite number out of a scene: triangles with such vertices, such weights, normals, keys and
+/// transforms. Tells what was dropped.
+void cleanNumbers(SourceScene& scene);
+
+}  // namespace lutka::animation::rig_import

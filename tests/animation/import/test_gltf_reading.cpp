@@ -1,0 +1,221 @@
+// What glTF's specification allows and exporters write: number formats, keys, buffers, joints by index, other figures.
+
+#include <cmath>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "animation/import/checks.hpp"
+#include "animation/import/gltf_file.hpp"
+#include "animation/pose.hpp"
+#include "support/catch.hpp"
+
+using namespace lutka;
+using namespace lutka::animation;
+using namespace lutka::test;
+
+namespace {
+
+// Where a joint points its y axis at a time of the first clip.
+vec3 directionAt(const Character& character, int joint, float seconds) {
+    std::vector<RigidTransform> pose(character.skeleton.parents.size());
+    sampleClip(character.clips.at(0), seconds, pose);
+    localToModel(character.skeleton, pose, pose);
+    return pose[joint].rotation * vec3(0, 1, 0);
+}
+
+int jointNamed(const Character& character, const std::string& name) {
+    const int joint = findJoint(character.skeleton, name);
+    REQUIRE(joint != kNoJoint);
+    return joint;
+}
+
+std::vector<float> quarterTurn() {
+    const float half = std::sqrt(0.5F);
+    return {0, 0, 0, 1, 0, 0, half, half};
+}
+
+float largestDifference(const std::vector<vec3>& a, const std::vector<vec3>& b) {
+    REQUIRE(a.size() == b.size());
+    float worst = 0.0F;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        worst = std::max(worst, glm::distance(a[i], b[i]));
+    return worst;
+}
+
+}  // namespace
+
+TEST_CASE("normalised weights and quantised positions are read as the fractions that they are") {
+    const TemporaryFolder folder;
+    GltfFile plain = makePostRig();
+    plain.saveBinary(folder / "plain.glb");
+    GltfFile file = makePostRig();
+    const Post post = makePost();
+    std::vector<std::int16_t> positions;
+    for (const vec3& p : post.positions) {
+        for (int i = 0; i < 3; ++i)
+            positions.push_back(static_cast<std::int16_t>(std::lround(p[i] / 2.0F * 32767.0F)));
+        positions.push_back(0);  // elements start at multiples of four bytes
+    }
+    std::vector<std::uint8_t> weights;
+    for (const HandSkin& skin : post.skin) {
+        for (const float weight : skin.weights)
+            weights.push_back(static_cast<std::uint8_t>(std::lround(weight * 255.0F)));
+    }
+    auto& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
+    attributes["POSITION"] = file.addComponents<std::int16_t>(positions, 5122, "VEC3", post.positions.size(), true);
+    const int view = file.json["accessors"][attributes["POSITION"].get<int>()]["bufferView"];
+    file.json["bufferViews"][view]["byteStride"] = 8;
+    attributes["WEIGHTS_0"] = file.addComponents<std::uint8_t>(weights, 5121, "VEC4", post.skin.size(), true);
+    // The mesh's unit is two metres.
+    const int matrices = file.json["skins"][0]["inverseBindMatrices"];
+    static_cast<void>(matrices);
+    std::vector<float> scaled;
+    for (int joint = 0; joint < 3; ++joint) {
+        const mat4 jointFromMesh = glm::translate(mat4(1.0F), vec3(0, -0.6F * static_cast<float>(joint), 0)) *
+                                   glm::scale(mat4(1.0F), vec3(2.0F));
+        for (int i = 0; i < 16; ++i)
+            scaled.push_back(jointFromMesh[i / 4][i % 4]);
+    }
+    file.json["skins"][0]["inverseBindMatrices"] = file.addFloats(scaled, "MAT4");
+    file.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+    file.saveBinary(folder / "packed.glb");
+    const Character expected = imported(folder / "plain.glb");
+    const Character character = imported(folder / "packed.glb");
+    checkInvariants(character);
+    CHECK_FALSE(warns(character, "did not sum"));
+    CHECK(largestDifference(bindVertices(character), bindVertices(expected)) < 1e-3F);
+}
+
+TEST_CASE("rotations in shorts turn as far as floats do") {
+    const TemporaryFolder folder;
+    GltfFile file = makePostRig();
+    const std::vector<float> times = {0, 1};
+    std::vector<std::int16_t> turns;
+    for (const float component : quarterTurn())
+        turns.push_back(static_cast<std::int16_t>(std::lround(component * 32767.0F)));
+    const int values = file.addComponents<std::int16_t>(turns, 5122, "VEC4", 2, true);
+    file.addTurn("turn", 2, times, values, "LINEAR");
+    file.saveBinary(folder / "rig.glb");
+    const Character character = imported(folder / "rig.glb");
+    const std::string name = file.json["nodes"][2]["name"];
+    CHECK(glm::distance(directionAt(character, jointNamed(character, name), 1.0F), vec3(-1, 0, 0)) < 1e-3F);
+}
+
+TEST_CASE("a stepped clip never shows a pose in between, and a spline follows its tangents") {
+    const TemporaryFolder folder;
+    const std::vector<float> times = {0, 1};
+    GltfFile stepped = makePostRig();
+    stepped.addTurn("turn", 2, times, stepped.addFloats(quarterTurn(), "VEC4"), "STEP");
+    stepped.saveBinary(folder / "stepped.glb");
+    const Character jumps = imported(folder / "stepped.glb");
+    const int joint = jointNamed(jumps, stepped.json["nodes"][2]["name"]);
+    CHECK(glm::distance(directionAt(jumps, joint, 0.99F), vec3(0, 1, 0)) < 1e-3F);
+    CHECK(glm::distance(directionAt(jumps, joint, 1.0F), vec3(-1, 0, 0)) < 1e-3F);
+
+    // Flat tangents ease in and out: a tenth of the way is passed later than on a straight line.
+    GltfFile spline = makePostRig();
+    const std::vector<float> turn = quarterTurn();
+    std::vector<float> keys(24, 0.0F);
+    std::copy(turn.begin(), turn.begin() + 4, keys.begin() + 4);
+    std::copy(turn.begin() + 4, turn.end(), keys.begin() + 16);
+    spline.addTurn("turn", 2, times, spline.addFloats(keys, "VEC4"), "CUBICSPLINE");
+    spline.saveBinary(folder / "spline.glb");
+    const Character eases = imported(folder / "spline.glb");
+    const float t = 0.1F;
+    const float eased = 3 * t * t - 2 * t * t * t;
+    const quat expected = glm::normalize(quat(1 - eased + eased * turn[7], 0, 0, eased * turn[6]));
+    CHECK(glm::distance(directionAt(eases, joint, t), expected * vec3(0, 1, 0)) < 2e-3F);
+}
+
+TEST_CASE("a skin without inverse bind matrices holds its vertices relative to their joints") {
+    const TemporaryFolder folder;
+    GltfFile plain = makePostRig();
+    plain.saveBinary(folder / "plain.glb");
+    GltfFile file = makePostRig();
+    const Post post = makePost();
+    std::vector<float> positions;
+    for (std::size_t v = 0; v < post.positions.size(); ++v) {
+        const auto joint = static_cast<float>(post.skin[v].joints[0]);
+        const vec3 local = post.positions[v] - vec3(0, 0.6F * joint, 0);
+        positions.insert(positions.end(), {local.x, local.y, local.z});
+    }
+    file.json["skins"][0].erase("inverseBindMatrices");
+    file.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = file.addFloats(positions, "VEC3");
+    file.saveBinary(folder / "rig.glb");
+    CHECK(largestDifference(bindVertices(imported(folder / "rig.glb")), bindVertices(imported(folder / "plain.glb"))) <
+          1e-4F);
+}
+
+TEST_CASE("joints of one name are told apart by their index") {
+    const TemporaryFolder folder;
+    GltfFile file = makePostRig();
+    for (int node = 1; node <= 3; ++node)
+        file.json["nodes"][node]["name"] = "Bone";
+    const std::vector<float> times = {0, 1};
+    file.addTurn("turn", 3, times, file.addFloats(quarterTurn(), "VEC4"), "LINEAR");
+    file.saveBinary(folder / "rig.glb");
+    const Character character = imported(folder / "rig.glb");
+    CHECK(glm::distance(directionAt(character, 3, 1.0F), vec3(-1, 0, 0)) < 1e-3F);
+    CHECK(glm::distance(directionAt(character, 2, 1.0F), vec3(0, 1, 0)) < 1e-3F);
+    CHECK(character.skeleton.skinWeight[1] == Approx(character.skeleton.skinWeight[2]));
+}
+
+TEST_CASE("a buffer is found by its percent-encoded name, and not outside of the model's folder") {
+    const TemporaryFolder folder;
+    const GltfFile file = makePostRig();
+    file.saveBeside(folder / "my rig.gltf", "my rig.bin", "my%20rig.bin");
+    checkInvariants(imported(folder / "my rig.gltf"));
+    std::filesystem::create_directories(folder / "below");
+    for (const char* uri : {"../my%20rig.bin", "%2e%2e/my%20rig.bin", "/etc/passwd"}) {
+        INFO(uri);
+        file.saveBeside(folder / "below/rig.gltf", "unused.bin", uri);
+        const Result<Character> outside = importCharacter(folder / "below/rig.gltf");
+        REQUIRE_FALSE(outside.ok());
+        CHECK(outside.error().message.find("outside") != std::string::npos);
+    }
+}
+
+TEST_CASE("a shared node, a ring of nodes and a deep chain are refused by name of the limit") {
+    const TemporaryFolder folder;
+    const auto refusedFor = [&](const GltfFile& file, const std::string& word) {
+        file.saveText(folder / "rig.gltf");
+        const Result<Character> result = importCharacter(folder / "rig.gltf");
+        REQUIRE_FALSE(result.ok());
+        CHECK(result.error().code == ErrorCode::input);
+        CHECK_THAT(result.error().message, Catch::Contains(word));
+    };
+    GltfFile shared = makePostRig();
+    const int node = shared.addNode("twice", 0);
+    shared.json["nodes"][1]["children"].push_back(node);
+    refusedFor(shared, "two parents");
+    GltfFile ring = makePostRig();
+    ring.json["nodes"][3]["children"].push_back(1);
+    refusedFor(ring, "two parents");
+    GltfFile chain;
+    for (int i = 0; i < 5000; ++i)
+        chain.addNode("link", i - 1);
+    refusedFor(chain, "4096");
+}
+
+TEST_CASE("a figure far from the origin is brought to it with a word, and things beside it are left out") {
+    const TemporaryFolder folder;
+    GltfFile far = makePostRig(glm::translate(mat4(1.0F), vec3(100, 0, -40)));
+    far.saveBinary(folder / "far.glb");
+    const Character brought = imported(folder / "far.glb");
+    CHECK(warns(brought, "from the origin"));
+    for (const vec3& p : bindVertices(brought))
+        CHECK(std::abs(p.x) < 1.0F);
+
+    GltfFile stage = makePostRig();
+    const Character alone = [&] {
+        stage.saveBinary(folder / "alone.glb");
+        return imported(folder / "alone.glb");
+    }();
+    const int ground = stage.addNode("Ground", -1, glm::scale(mat4(1.0F), vec3(30, 0.1F, 30)));
+    stage.json["nodes"][ground]["mesh"] = addPostMesh(stage, makePost(), mat4(1.0F), false);
+    stage.saveBinary(folder / "stage.glb");
+    const Character staged = imported(folder / "stage.glb");
+    CHECK(warns(staged, "Ground"));
+    CHECK(bindVertices(staged) == bindVertices(alone));
+}
