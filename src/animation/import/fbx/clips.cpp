@@ -130,21 +130,21 @@ Trs decomposed(const NodeTransform& transform, const dmat4& parentFromNode, doub
 }
 
 // The nodes whose parent-relative frame may change: those with curves, and those that work a changed parent's scale in.
-std::vector<int> movedNodes(const Motion& motion, const MovedNodes& nodes) {
-    std::vector<bool> moves(nodes.parents.size(), false);
+std::vector<int> movedNodes(const Motion& motion, const ModelTree& tree) {
+    std::vector<bool> moves(tree.parents.size(), false);
     for (const MotionLayer& layer : motion.layers) {
         for (const AnimatedPart& part : layer.parts)
             moves[static_cast<std::size_t>(part.node)] = true;
     }
     std::vector<int> out;
-    std::vector<bool> belowMoved(nodes.parents.size(), false);
-    for (std::size_t node = 0; node < nodes.parents.size(); ++node) {
-        const int parent = nodes.parents[node];
+    std::vector<bool> belowMoved(tree.parents.size(), false);
+    for (std::size_t node = 0; node < tree.parents.size(); ++node) {
+        const int parent = tree.parents[node];
         if (parent >= 0) {
             const auto above = static_cast<std::size_t>(parent);
             belowMoved[node] = moves[above] || belowMoved[above];
         }
-        if (belowMoved[node] && nodes.transforms[node].inherit != Inherit::plain) moves[node] = true;
+        if (belowMoved[node] && tree.transforms[node].inherit != Inherit::plain) moves[node] = true;
         if (moves[node]) out.push_back(static_cast<int>(node));
     }
     return out;
@@ -161,34 +161,28 @@ void shorten(SourceChannel& channel, std::size_t width) {
 
 class ClipWriter {
   public:
-    ClipWriter(const Motion& motion, const MovedNodes& nodes)
-        : player_(motion, nodes.transforms),
-          nodes_(nodes),
-          moved_(movedNodes(motion, nodes)),
-          local_(nodes.parents.size()) {
+    ClipWriter(const Motion& motion, const ModelTree& tree, const SceneLayout& layout)
+        : player_(motion, tree.transforms), tree_(tree), local_(tree.parents.size()) {
         clip_.name = motion.name;
-        for (const int node : moved_) {
-            for (const auto path :
-                 {SourceChannel::Path::translation, SourceChannel::Path::rotation, SourceChannel::Path::scale}) {
-                SourceChannel& channel = clip_.channels.emplace_back();
-                channel.node = node;
-                channel.path = path;
-            }
+        for (const int node : movedNodes(motion, tree)) {
+            const auto place = static_cast<std::size_t>(node);
+            if (layout.helper[place] >= 0) addTrack({place, Track::Kind::helper}, layout.helper[place]);
+            const bool below = layout.helper[place] >= 0;
+            addTrack({place, below ? Track::Kind::belowHelper : Track::Kind::plain}, layout.sceneNode[place]);
         }
-        last_.resize(moved_.size());
     }
 
-    [[nodiscard]] std::size_t width() const { return moved_.size(); }
+    [[nodiscard]] std::size_t width() const { return tracks_.size(); }
     [[nodiscard]] double worstShear() const { return worstShear_; }
 
     void addFrame(double seconds) {
         player_.pose(seconds, transforms_);
-        evaluateNodes(transforms_, nodes_.parents, local_);
-        for (std::size_t i = 0; i < moved_.size(); ++i) {
-            const auto node = static_cast<std::size_t>(moved_[i]);
-            Trs trs = decomposed(transforms_[node], local_[node], worstShear_);
-            if (glm::dot(last_[i], trs.rotation) < 0.0) trs.rotation = -trs.rotation;
-            last_[i] = trs.rotation;
+        evaluateNodes(transforms_, tree_.parents, local_);
+        for (std::size_t i = 0; i < tracks_.size(); ++i) {
+            Track& track = tracks_[i];
+            Trs trs = valueOf(track);
+            if (glm::dot(track.last, trs.rotation) < 0.0) trs.rotation = -trs.rotation;
+            track.last = trs.rotation;
             push(clip_.channels[3 * i], seconds, {trs.translation.x, trs.translation.y, trs.translation.z});
             push(clip_.channels[3 * i + 1], seconds, {trs.rotation.x, trs.rotation.y, trs.rotation.z, trs.rotation.w});
             push(clip_.channels[3 * i + 2], seconds, {trs.scale.x, trs.scale.y, trs.scale.z});
@@ -202,6 +196,34 @@ class ClipWriter {
     }
 
   private:
+    // Three channels of one scene node.
+    struct Track {
+        enum class Kind { plain, helper, belowHelper };
+        std::size_t node = 0;  // of the tree
+        Kind kind = Kind::plain;
+        glm::dquat last{1, 0, 0, 0};
+    };
+
+    void addTrack(const Track& track, int sceneNode) {
+        tracks_.push_back(track);
+        for (const auto path :
+             {SourceChannel::Path::translation, SourceChannel::Path::rotation, SourceChannel::Path::scale}) {
+            SourceChannel& channel = clip_.channels.emplace_back();
+            channel.node = sceneNode;
+            channel.path = path;
+        }
+    }
+
+    Trs valueOf(const Track& track) {
+        const NodeTransform& transform = transforms_[track.node];
+        if (track.kind == Track::Kind::plain) return decomposed(transform, local_[track.node], worstShear_);
+        const NodeTransform& parent = transforms_[static_cast<std::size_t>(tree_.parents[track.node])];
+        if (track.kind == Track::Kind::helper)
+            return {dvec3(local_[track.node][3]), glm::dquat(1, 0, 0, 0), 1.0 / usableScale(parent[Part::scaling])};
+        const dmat4 helper = parentFromHelper(local_[track.node], parent);
+        return decomposed(transform, glm::inverse(helper) * local_[track.node], worstShear_);
+    }
+
     static void push(SourceChannel& channel, double seconds, std::initializer_list<double> values) {
         channel.times.push_back(seconds);
         for (const double value : values)
@@ -209,11 +231,10 @@ class ClipWriter {
     }
 
     MotionPlayer player_;
-    const MovedNodes& nodes_;
-    std::vector<int> moved_;
+    const ModelTree& tree_;
+    std::vector<Track> tracks_;
     std::vector<NodeTransform> transforms_;
     std::vector<dmat4> local_;
-    std::vector<glm::dquat> last_;
     SourceClip clip_;
     double worstShear_ = 0.0;
 };
@@ -247,13 +268,13 @@ double frameRateOf(const Properties& settings) {
     return rate >= 1.0 && rate <= 1000.0 ? rate : kLeastRate;
 }
 
-std::vector<SourceClip> sampleMotions(std::span<const Motion> motions, const MovedNodes& nodes, double framesPerSecond,
-                                      std::vector<std::string>& warnings) {
+std::vector<SourceClip> sampleMotions(std::span<const Motion> motions, const ModelTree& tree, const SceneLayout& layout,
+                                      double framesPerSecond, std::vector<std::string>& warnings) {
     std::vector<SourceClip> clips;
     std::size_t budget = kMaxSamples;
     for (const Motion& motion : motions) {
         const Timing timing = timingOf(motion, framesPerSecond);
-        ClipWriter writer(motion, nodes);
+        ClipWriter writer(motion, tree, layout);
         const std::size_t affordable =
             std::min<std::size_t>(budget / std::max<std::size_t>(writer.width(), 1), kMaxFrames);
         const int frames = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(timing.frames), affordable));

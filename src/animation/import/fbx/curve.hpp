@@ -21,26 +21,37 @@ class Curve {
         double weightLeft = 1.0 / 3.0;   ///< The same towards the key before.
     };
 
+    /// What the curve does before its first or after its last key.
+    struct Beyond {
+        enum class Kind { hold, slope, repeat, mirror, repeatOnwards };
+        Kind kind = Kind::hold;
+        std::int64_t times = -1;  ///< How often it is repeated; negative: for ever.
+    };
+
     /// Keys out of order or not finite are dropped.
-    explicit Curve(std::vector<Key> keys);
+    Curve(std::vector<Key> keys, const Beyond& before, const Beyond& after);
 
     [[nodiscard]] const std::vector<Key>& keys() const { return keys_; }
-    /// Held before the first and after the last key.
     [[nodiscard]] double at(double seconds) const;
     /// Whether it changes at all.
     [[nodiscard]] bool moves() const;
 
   private:
+    [[nodiscard]] double within(double seconds) const;
+    [[nodiscard]] double beyond(double seconds) const;
+
     std::vector<Key> keys_;
+    Beyond before_;
+    Beyond after_;
 };
 
-/// Ticks of FBX time a second.
-inline constexpr double kTicksPerSecond = 46'186'158'000.0;
+/// How a curve goes on before its keys ("Pre-Extrapolation") or after them ("Post-Extrapolation").
+[[nodiscard]] Curve::Beyond readBeyond(const Record& curve, std::string_view side);
 
 /// The curve of an FBX 7 AnimationCurve record; nothing without keys.
-[[nodiscard]] std::optional<Curve> readCurve(const Record& record);
+[[nodiscard]] std::optional<Curve> readCurve(const Record& record, double ticksPerSecond);
 
 /// The curve of an FBX 6 channel record (Default, KeyVer, KeyCount, Key); nothing without keys.
-[[nodiscard]] std::optional<Curve> readChannel(const Record& record);
+[[nodiscard]] std::optional<Curve> readChannel(const Record& record, double ticksPerSecond);
 
 }  // namespace lutka::animation::rig_import::fbx

@@ -1,6 +1,8 @@
 #include "animation/import/fbx/document.hpp"
 
+#include <fmt/format.h>
 #include <zlib.h>
+
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -73,6 +75,20 @@ std::vector<double> unpacked(const PackedArray& array) {
     return out;
 }
 
+// Documents from FBX 8 on, and those that ask for it, count time in the newer unit.
+double ticksPerSecond(const Document& document) {
+    constexpr double kOld = 46'186'158'000.0;
+    constexpr double kNew = 141'120'000.0;
+    constexpr int kOldDefinition = 127;
+    const Record* header = document.root.child("FBXHeaderExtension");
+    const Record* flags = header != nullptr ? header->child("OtherFlags") : nullptr;
+    const Record* definition = flags != nullptr ? flags->child("TCDefinition") : nullptr;
+    const Record* version = header != nullptr ? header->child("FBXHeaderVersion") : nullptr;
+    if (definition != nullptr && version != nullptr && version->integer(0) >= 1004)
+        return definition->integer(0) == kOldDefinition ? kOld : kNew;
+    return document.version < 8000 ? kOld : kNew;
+}
+
 }  // namespace
 
 const Record* Record::child(std::string_view childName) const {
@@ -139,6 +155,12 @@ Result<Document> parseDocument(std::vector<std::uint8_t> bytes, const std::strin
     const std::optional<Error> failed =
         document.binary ? parseBinary(document, location) : parseAscii(document, location);
     if (failed) return *failed;
+    if (document.version != 0 && document.version < 6000) {
+        return Error{ErrorCode::input,
+                     fmt::format("FBX {} is too old; 6.0 is the oldest that can be read", document.version / 1000.0),
+                     location, "convert it to FBX 2013 or later"};
+    }
+    document.ticksPerSecond = ticksPerSecond(document);
     return document;
 }
 

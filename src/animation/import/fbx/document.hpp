@@ -56,15 +56,16 @@ struct Document {
     std::deque<std::string> texts;  ///< Texts that are not in the file as they are (ASCII escapes).
     bool binary = false;
     int version = 0;  ///< 7400 for 7.4.
-    Record root;      ///< Without name and values; its children are the document's sections.
+    double ticksPerSecond = 46'186'158'000.0;
+    Record root;  ///< Without name and values; its children are the document's sections.
 };
 
 /// Whether the beginning of a file is that of an FBX document, binary or ASCII.
 [[nodiscard]] bool isFbx(std::span<const std::uint8_t> beginning);
 
 /// Parses a document of any version, binary or ASCII. Fails with ErrorCode::input when the bytes are no such document,
-/// break off, nest records deeper than 64 or hold more than 4 million records, 8 million values or 64 million numbers
-/// in arrays.
+/// are older than FBX 6, break off, nest records deeper than 64 or hold more than 4 million records, 8 million values
+/// or 64 million numbers in arrays.
 [[nodiscard]] Result<Document> parseDocument(std::vector<std::uint8_t> bytes, const std::string& location);
 
 }  // namespace lutka::animation::rig_import::fbx

@@ -138,15 +138,17 @@ void flip(std::vector<std::uint32_t>& indices) {
         std::swap(indices[i + 1], indices[i + 2]);
 }
 
-// A shape's offsets, weighted, onto the control points.
-void addShape(const Record& shape, double weight, std::vector<dvec3>& points) {
+// A shape's offsets, weighted, onto the control points; `shares` are percentages of the single offsets, or empty.
+void addShape(const Record& shape, double weight, std::span<const double> shares, std::vector<dvec3>& points) {
     const std::vector<double> indices = shape.numbersOf("Indexes");
     const std::vector<double> offsets = shape.numbersOf("Vertices");
     for (std::size_t i = 0; i < indices.size() && 3 * i + 2 < offsets.size(); ++i) {
         if (!(indices[i] >= 0.0 && indices[i] < static_cast<double>(points.size()))) continue;
+        if (!shares.empty() && i >= shares.size()) return;
         const dvec3 offset(offsets[3 * i], offsets[3 * i + 1], offsets[3 * i + 2]);
         if (std::isfinite(offset.x + offset.y + offset.z))
-            points[static_cast<std::size_t>(indices[i])] += weight * offset;
+            points[static_cast<std::size_t>(indices[i])] +=
+                weight * (shares.empty() ? 1.0 : shares[i] / 100.0) * offset;
     }
 }
 
@@ -200,10 +202,14 @@ void GeometryReader::addShapes(int geometry, std::vector<dvec3>& points) const {
             const double percent = object.properties.number("DeformPercent", stated ? stated->number(0) : 0.0);
             if (!(std::abs(percent) > 1e-6)) continue;
             const std::vector<int> shapes = objects_.children(channel, "Geometry");
+            const std::vector<double> full = object.record->numbersOf("FullWeights");
+            // Blender's exporter keeps a vertex group there: a percentage for each of the shape's offsets.
+            const bool perOffset = full.size() != shapes.size();
             const std::vector<double> weights =
-                shapeWeights(percent, object.record->numbersOf("FullWeights"), shapes.size());
+                shapeWeights(percent, perOffset ? std::vector<double>{} : full, shapes.size());
             for (std::size_t i = 0; i < shapes.size(); ++i) {
-                if (weights[i] != 0.0) addShape(*objects_[shapes[i]].record, weights[i], points);
+                if (weights[i] != 0.0)
+                    addShape(*objects_[shapes[i]].record, weights[i], perOffset ? full : std::vector<double>{}, points);
             }
         }
     }

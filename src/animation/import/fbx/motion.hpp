@@ -29,6 +29,7 @@ enum class Blend { replace, add, mix };
 struct MotionLayer {
     Blend blend = Blend::replace;
     double weight = 1.0;            ///< [0, 1]
+    std::optional<Curve> weights;   ///< The weight over time, in percent, where it changes.
     bool rotationsByAngle = false;  ///< Angles are added one by one, not the rotations composed.
     bool scalesAdd = false;         ///< Scales are added, not multiplied.
     std::vector<AnimatedPart> parts;

@@ -36,14 +36,6 @@ dmat3 diagonal(const dvec3& scale) {
     return {dvec3(scale.x, 0, 0), dvec3(0, scale.y, 0), dvec3(0, 0, scale.z)};
 }
 
-// Without a scale of zero nothing can be taken out of the parent's.
-dvec3 usableScale(dvec3 scale) {
-    for (int i = 0; i < 3; ++i) {
-        if (!(std::abs(scale[i]) > 1e-12)) scale[i] = 1.0;
-    }
-    return scale;
-}
-
 // A node in the scene: its frame, and apart from it what later nodes take over.
 struct Placed {
     dmat4 sceneFromNode{1.0};
@@ -129,6 +121,13 @@ dmat4 localMatrix(const NodeTransform& transform) {
         transform[Part::scalingOffset] + transform[Part::scalingPivot] - transform[Part::rotationPivot];
     return glm::scale(glm::translate(rotated, between), transform[Part::scaling]) *
            glm::translate(one, -transform[Part::scalingPivot]);
+}
+
+dvec3 usableScale(dvec3 scale) {
+    for (int i = 0; i < 3; ++i) {
+        if (!(std::abs(scale[i]) > 1e-12)) scale[i] = 1.0;
+    }
+    return scale;
 }
 
 dmat4 geometricMatrix(const Properties& properties) {

@@ -66,6 +66,9 @@ struct NodeTransform {
 /// T Roff Rp Rpre R Rpost⁻¹ Rp⁻¹ Soff Sp S Sp⁻¹ (FBX SDK, "Computing transformation matrices").
 [[nodiscard]] dmat4 localMatrix(const NodeTransform& transform);
 
+/// The scale with 1 in place of zeros, which can't be taken out again.
+[[nodiscard]] dvec3 usableScale(dvec3 scale);
+
 /// The geometric transform: where a node's meshes, but not its children, stand in the node.
 [[nodiscard]] dmat4 geometricMatrix(const Properties& properties);
 

@@ -1,6 +1,6 @@
 #include "animation/import/fbx/objects.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 namespace lutka::animation::rig_import::fbx {
 namespace {
@@ -32,10 +32,10 @@ Properties::Properties(const Record* owner, const Record* defaults)
 
 const Record* Properties::findIn(const Record* list, std::string_view name) {
     if (list == nullptr) return nullptr;
-    for (const Record& property : list->children) {
-        if (property.text(0) == name) return &property;
-    }
-    return nullptr;
+    // Of two the last one counts.
+    const auto found = std::find_if(list->children.rbegin(), list->children.rend(),
+                                    [name](const Record& property) { return property.text(0) == name; });
+    return found != list->children.rend() ? &*found : nullptr;
 }
 
 const Record* Properties::find(std::string_view name) const {

@@ -219,7 +219,7 @@ class AsciiParser {
             if (next() != ':') return fail("an array without numbers");
             ++at_;
         }
-        while (!failed_ && isNumber(next())) {
+        while (!failed_ && (isNumber(next()) || isWord(next()))) {  // "nan" and "inf" are words
             if (countNumber()) numbers.push_back(numberAsReal());
             if (next() == ',') ++at_;
         }

@@ -101,6 +101,7 @@ class BinaryParser {
         switch (type) {
             case 'C':
             case 'B':
+            case 'Z':
                 return readScalar<std::uint8_t, std::int64_t>(record, end);
             case 'Y':
                 return readScalar<std::int16_t, std::int64_t>(record, end);

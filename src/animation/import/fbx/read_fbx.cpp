@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <glm/matrix.hpp>
 #include <map>
 #include <utility>
 
@@ -34,11 +35,11 @@ class SceneReader {
         tree_ = std::move(tree).value();
         scene_.format = fmt::format("FBX {}.{} {}", document_.version / 1000, document_.version / 100 % 10,
                                     document_.binary ? "binary" : "ASCII");
+        const std::vector<Motion> motions = readMotions(document_, objects_, tree_.nodeOfModel);
+        layout_ = layoutOf(tree_, motions);
         readNodes();
         readMeshes();
-        const MovedNodes nodes{tree_.transforms, tree_.parents};
-        scene_.clips = sampleMotions(readMotions(document_, objects_, tree_.nodeOfModel), nodes,
-                                     frameRateOf(objects_.settings()), scene_.warnings);
+        scene_.clips = sampleMotions(motions, tree_, layout_, frameRateOf(objects_.settings()), scene_.warnings);
         return std::nullopt;
     }
 
@@ -53,11 +54,22 @@ class SceneReader {
         parentFromNode[0] = conventions.sceneFromFile;
         for (std::size_t i = 0; i < tree_.parents.size(); ++i) {
             const int parent = tree_.parents[i];
-            scene_.nodes.push_back({tree_.names[i], parent, parentFromNode[i]});
+            addNode(i, parent, parentFromNode[i]);
             sceneFromNode_.push_back(parent < 0 ? parentFromNode[i]
                                                 : sceneFromNode_[static_cast<std::size_t>(parent)] * parentFromNode[i]);
         }
         sceneFromFile_ = conventions.sceneFromFile;
+    }
+
+    void addNode(std::size_t node, int parent, const dmat4& parentFromNode) {
+        const int above = parent < 0 ? -1 : layout_.sceneNode[static_cast<std::size_t>(parent)];
+        if (layout_.helper[node] < 0) {
+            scene_.nodes.push_back({tree_.names[node], above, parentFromNode});
+            return;
+        }
+        const dmat4 helper = parentFromHelper(parentFromNode, tree_.transforms[static_cast<std::size_t>(parent)]);
+        scene_.nodes.push_back({tree_.names[node] + " without its parent's scale", above, helper, true});
+        scene_.nodes.push_back({tree_.names[node], layout_.helper[node], glm::inverse(helper) * parentFromNode});
     }
 
     // The material of that slot of a model, read at its first use; -1 for none.
@@ -107,7 +119,11 @@ class SceneReader {
         const std::size_t points = objects_[place.owner].record->numbersOf("Vertices").size() / 3;
         const std::optional<ReadSkin> skin =
             parts.empty() ? std::nullopt : readSkin(context, place.owner, place.model, points);
-        if (skin) scene_.skins.push_back(skin->skin);
+        if (skin) {
+            scene_.skins.push_back(skin->skin);
+            for (SourceSkin::Joint& joint : scene_.skins.back().joints)
+                joint.node = layout_.sceneNode[static_cast<std::size_t>(joint.node)];
+        }
         for (MeshPart& part : parts) {
             if (skin) weightVertices(*skin, part.controlPoints, part.mesh);
             const std::string& own = objects_[place.owner].name;
@@ -115,7 +131,8 @@ class SceneReader {
             part.mesh.material = materialAt(slots, part.slot);
             const int mesh = static_cast<int>(scene_.meshes.size());
             scene_.meshes.push_back(std::move(part.mesh));
-            scene_.instances.push_back({mesh, place.node, skin ? static_cast<int>(scene_.skins.size()) - 1 : -1});
+            scene_.instances.push_back({mesh, layout_.sceneNode[static_cast<std::size_t>(place.node)],
+                                        skin ? static_cast<int>(scene_.skins.size()) - 1 : -1});
         }
     }
 
@@ -130,6 +147,7 @@ class SceneReader {
     Objects objects_;
     MaterialReader materials_;
     ModelTree tree_;
+    SceneLayout layout_;
     SourceScene scene_;
     std::vector<dmat4> sceneFromNode_;
     dmat4 sceneFromFile_{1.0};

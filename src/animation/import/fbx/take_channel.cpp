@@ -73,7 +73,7 @@ void readSlopes(KeyRow& row, int version, KeyData& data) {
 
 }  // namespace
 
-std::optional<Curve> readChannel(const Record& record) {
+std::optional<Curve> readChannel(const Record& record, double ticksPerSecond) {
     const Record* written = record.child("Key");
     const Record* version = record.child("KeyVer");
     if (written == nullptr) return std::nullopt;
@@ -84,7 +84,7 @@ std::optional<Curve> readChannel(const Record& record) {
     while (row.has(2)) {
         Curve::Key& key = keys.emplace_back();
         KeyData& datum = data.emplace_back();
-        key.seconds = row.number() / kTicksPerSecond;
+        key.seconds = row.number() / ticksPerSecond;
         key.value = row.number();
         const char kind = row.has(1) ? row.letter() : 'L';
         if (kind == 'C') {
@@ -97,7 +97,7 @@ std::optional<Curve> readChannel(const Record& record) {
     }
     if (keys.empty()) return std::nullopt;
     setTangents(keys, data);
-    return Curve(std::move(keys));
+    return Curve(std::move(keys), readBeyond(record, "Pre-Extrapolation"), readBeyond(record, "Post-Extrapolation"));
 }
 
 }  // namespace lutka::animation::rig_import::fbx

@@ -36,8 +36,12 @@ double autoSlope(const Neighbours& n, std::uint32_t flags, double bias) {
     if ((flags & kTimeIndependent) == 0U) {
         const double share = (n.key.seconds - n.before.seconds) / (n.after.seconds - n.before.seconds);
         out = 0.5 * out + 0.5 * (left * (1.0 - share) + right * share);
-        const double pull = std::min(std::abs(bias) / 100.0, 1.0);
-        if (pull > 1e-4) out = out * (1.0 - pull) + (bias > 0.0 ? right : left) * pull;
+        const double pull = std::abs(bias) / 100.0;
+        const double target = bias > 0.0 ? right : left;
+        const double towards = std::abs(target - out) > 1e-5 ? target - out : bias;
+        if (pull > 1e-4) out = out * (1.0 - pull) + target * pull;
+        // Beyond 500 % it is added to whatever the slopes are.
+        if (pull > 5.0) out += (pull - 5.0) * (pull - 5.0) * std::copysign(40.0, towards);
     }
     if ((flags & kClampProgressive) != 0U) {
         // No overshooting beyond either neighbour: the tangents' ends stay between the values.
