@@ -15,6 +15,9 @@ namespace {
 constexpr double kSameScale = 1e-3;
 constexpr double kAngleTolerance = 0.8;   // 45 degrees
 constexpr double kPlaceTolerance = 0.75;  // mesh sizes
+// How near two placings are that say the same, in mesh sizes, and the share of the weight that must.
+constexpr double kAlike = 0.01;
+constexpr double kMostVotes = 0.9;
 // The medoid compares every joint with every other; beyond this many only the heaviest ones are asked.
 constexpr std::size_t kMaxVoters = 200;
 
@@ -71,6 +74,18 @@ const dmat4& medoid(const Box& box, std::vector<Vote>& votes) {
         }
     }
     return votes[best].sceneFromMesh;
+}
+
+// Whether nearly all votes place the mesh alike: then the nodes are in the bind pose.
+bool agree(const Box& box, std::vector<Vote>& votes) {
+    const dmat4 middle = medoid(box, votes);
+    double all = 0.0;
+    double alike = 0.0;
+    for (const Vote& vote : votes) {
+        all += vote.weight;
+        if (disagreement(box, middle, vote.sceneFromMesh) < kAlike) alike += vote.weight;
+    }
+    return alike > kMostVotes * all;
 }
 
 // The mesh node's frame, brought to the size that the joints give the mesh, when it points and lies about where they
@@ -154,13 +169,14 @@ class BindSolver {
     }
 
     dmat4 frameOfFirst(const MeshInstance& mesh) const {
-        if (mesh.sceneFromMesh && isInvertible(*mesh.sceneFromMesh)) return *mesh.sceneFromMesh;
         const Box box = boxOf(*mesh.mesh);
         std::vector<Vote> votes;
         for (const SkinJoint& joint : mesh.joints) {
             const dmat4 frame = tree_.sceneFromJoint(joint.joint) * joint.jointFromMesh;
             if (isInvertible(frame)) votes.push_back({carried(joint.joint, frame), joint.weight});
         }
+        if (mesh.sceneFromMesh && isInvertible(*mesh.sceneFromMesh) && (votes.empty() || !agree(box, votes)))
+            return *mesh.sceneFromMesh;
         const dmat4& meshNode = tree_.nodes[mesh.node].sceneFromNode;
         if (votes.empty() || !tree_.nodesArePosed) return isInvertible(meshNode) ? meshNode : dmat4(1.0);
         return chooseFrame(box, meshNode, medoid(box, votes));

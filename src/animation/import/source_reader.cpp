@@ -9,7 +9,9 @@
 #include <system_error>
 
 #include "animation/import/assimp/read_with_assimp.hpp"
+#include "animation/import/bvh/read_bvh.hpp"
 #include "animation/import/clean_source.hpp"
+#include "animation/import/fbx/read_fbx.hpp"
 #include "animation/import/gltf/read_gltf.hpp"
 
 namespace lutka::animation::rig_import {
@@ -43,6 +45,25 @@ bool isGltf(const fs::path& file, std::string_view start) {
     return first != std::string_view::npos && start[first] == '{' && (extension == ".gltf" || extension == ".vrm");
 }
 
+bool isFbx(const fs::path& file, std::string_view start) {
+    if (start.starts_with("Kaydara FBX Binary")) return true;
+    return lowerExtension(file) == ".fbx" && (start.find("; FBX") != std::string_view::npos ||
+                                              start.find("FBXHeaderExtension") != std::string_view::npos);
+}
+
+bool isBvh(const fs::path& file, std::string_view start) {
+    const std::size_t first = start.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    return lowerExtension(file) == ".bvh" ||
+           (first != std::string_view::npos && start.substr(first).starts_with("HIERARCHY"));
+}
+
+Result<SourceScene> read(const fs::path& file, std::string_view start, const ImportOptions& options) {
+    if (isGltf(file, start)) return readGltf(file, options);
+    if (isFbx(file, start)) return readFbx(file, options);
+    if (isBvh(file, start)) return readBvh(file);
+    return readWithAssimp(file, options);
+}
+
 }  // namespace
 
 Result<SourceScene> readSource(const fs::path& file, const ImportOptions& options) {
@@ -55,7 +76,7 @@ Result<SourceScene> readSource(const fs::path& file, const ImportOptions& option
     const std::string start = firstBytes(file);
     // Third parties throw; what is left is memory running out over a monstrous file.
     try {
-        Result<SourceScene> scene = isGltf(file, start) ? readGltf(file, options) : readWithAssimp(file, options);
+        Result<SourceScene> scene = read(file, start, options);
         if (scene) cleanNumbers(scene.value());
         return scene;
     } catch (const std::exception& e) {

@@ -113,8 +113,21 @@ TextureLoader::TextureLoader(Embedded embedded, const fs::path& model, bool enab
 int TextureLoader::load(const std::string& path) {
     if (!enabled_) return Material::kNoTexture;
     if (const auto known = known_.find(path); known != known_.end()) return known->second;
+    return keep(path, decode(path));
+}
+
+int TextureLoader::load(const std::string& path, std::span<const std::uint8_t> embedded) {
+    if (!enabled_) return Material::kNoTexture;
+    if (embedded.empty()) return load(path);
+    std::optional<Texture> texture = decodePicture(embedded);
+    if (!texture) return load(path);
+    texture->name = path;
+    return keep(path, std::move(texture));
+}
+
+int TextureLoader::keep(const std::string& path, std::optional<Texture> texture) {
     int index = Material::kNoTexture;
-    if (std::optional<Texture> texture = decode(path)) {
+    if (texture) {
         index = static_cast<int>(textures_.size());
         textures_.push_back(*std::move(texture));
     } else {

@@ -31,6 +31,9 @@ class TextureLoader {
 
     /// Index of the texture, or Material::kNoTexture.
     int load(const std::string& path);
+    /// The same for a picture that may come along (its file's bytes, or empty): that one goes before one beside the
+    /// model.
+    int load(const std::string& path, std::span<const std::uint8_t> embedded);
 
     /// One sentence about all that was not found or can't be decoded, and one a picture that stands in for another;
     /// empty when nothing is to be told.
@@ -38,6 +41,7 @@ class TextureLoader {
     [[nodiscard]] std::vector<Texture> takeTextures() { return std::move(textures_); }
 
   private:
+    int keep(const std::string& path, std::optional<Texture> texture);
     [[nodiscard]] std::optional<Texture> decode(const std::string& path);
 
     Embedded embedded_;

@@ -1,0 +1,249 @@
+#include "animation/import/bvh/bvh_document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+#include <optional>
+
+namespace lutka::animation::rig_import::bvh {
+namespace {
+
+constexpr std::size_t kMaxJoints = 65535;
+constexpr int kMaxDepth = 4096;
+constexpr std::size_t kMaxNumbers = 64'000'000;
+constexpr std::int64_t kMaxChannels = 6;
+
+bool isBlank(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\0';
+}
+
+bool sameWord(std::string_view a, std::string_view b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+std::optional<Channel> channelNamed(std::string_view word) {
+    if (word.size() < 2) return std::nullopt;
+    const int axis = std::tolower(static_cast<unsigned char>(word[0])) - 'x';
+    if (axis < 0 || axis > 2) return std::nullopt;
+    if (sameWord(word.substr(1), "rotation")) return Channel{axis, true};
+    if (sameWord(word.substr(1), "position")) return Channel{axis, false};
+    return std::nullopt;
+}
+
+class BvhParser {
+  public:
+    BvhParser(std::string_view text, std::string location) : text_(text), location_(std::move(location)) {
+        if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+    }
+
+    std::optional<Error> parse() {
+        if (!sameWord(word(), "HIERARCHY")) fail("does not begin with HIERARCHY");
+        while (!failed_ && readRoot()) {
+        }
+        if (!failed_) readMotion();
+        return failed_;
+    }
+
+    BvhDocument document;
+
+  private:
+    void fail(const std::string& message) {
+        if (failed_) return;
+        const auto line = std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at_), '\n') + 1;
+        failed_ = Error{ErrorCode::input, fmt::format("{} (line {})", message, line), location_,
+                        "export the motion again as BVH"};
+    }
+
+    std::string_view word() {
+        while (at_ < text_.size() && isBlank(text_[at_]))
+            ++at_;
+        const std::size_t start = at_;
+        while (at_ < text_.size() && !isBlank(text_[at_]))
+            ++at_;
+        return text_.substr(start, at_ - start);
+    }
+
+    // A name may hold blanks: it is the rest of the line, without a brace at its end.
+    std::string restOfLine() {
+        const std::size_t end = std::min(text_.find_first_of("\r\n", at_), text_.size());
+        std::string_view line = text_.substr(at_, end - at_);
+        if (const std::size_t brace = line.find('{'); brace != std::string_view::npos) line = line.substr(0, brace);
+        at_ += line.size();
+        const std::size_t first = line.find_first_not_of(" \t");
+        const std::size_t last = line.find_last_not_of(" \t");
+        return first == std::string_view::npos ? "" : std::string(line.substr(first, last - first + 1));
+    }
+
+    static std::optional<double> asNumber(std::string_view token) {
+        if (token.starts_with('+')) token.remove_prefix(1);
+        double value = 0.0;
+        const auto [end, code] = std::from_chars(token.data(), token.data() + token.size(), value);
+        if (code == std::errc::result_out_of_range) return 0.0;
+        if (code != std::errc() || end == token.data()) return std::nullopt;
+        return std::isfinite(value) ? value : 0.0;
+    }
+
+    double number() {
+        const std::string_view token = word();
+        const std::optional<double> value = asNumber(token);
+        if (!value) fail(fmt::format("'{}' is no number", token.substr(0, 20)));
+        return value.value_or(0.0);
+    }
+
+    void expect(std::string_view wanted) {
+        const std::string_view found = word();
+        if (!sameWord(found, wanted)) fail(fmt::format("'{}' stands where {} should", found.substr(0, 20), wanted));
+    }
+
+    // One ROOT with all below it; false at MOTION and at the end.
+    bool readRoot() {
+        const std::string_view kind = word();
+        if (kind.empty() || sameWord(kind, "MOTION")) return false;
+        if (!sameWord(kind, "ROOT") && !sameWord(kind, "JOINT")) {
+            fail(fmt::format("'{}' stands where ROOT or MOTION should", kind.substr(0, 20)));
+            return false;
+        }
+        std::vector<int> open;
+        addJoint(restOfLine(), -1);
+        open.push_back(static_cast<int>(document.joints.size()) - 1);
+        expect("{");
+        while (!failed_ && !open.empty())
+            readEntry(open);
+        return !failed_;
+    }
+
+    void addJoint(std::string name, int parent) {
+        if (document.joints.size() >= kMaxJoints) return fail(fmt::format("more than {} joints", kMaxJoints));
+        Joint joint;
+        joint.name = std::move(name);
+        joint.parent = parent;
+        joint.firstValue = document.channelCount;
+        document.joints.push_back(std::move(joint));
+    }
+
+    // One line of the innermost open joint.
+    void readEntry(std::vector<int>& open) {
+        const auto joint = static_cast<std::size_t>(open.back());
+        const std::string_view kind = word();
+        if (kind == "}") {
+            open.pop_back();
+        } else if (sameWord(kind, "OFFSET")) {
+            for (int axis = 0; axis < 3; ++axis)
+                document.joints[joint].offset[axis] = number();
+        } else if (sameWord(kind, "CHANNELS")) {
+            readChannels(document.joints[joint]);
+        } else if (sameWord(kind, "JOINT") || sameWord(kind, "End")) {
+            std::string name = restOfLine();
+            if (sameWord(kind, "End")) name = "EndSite_" + document.joints[joint].name;
+            addJoint(std::move(name), open.back());
+            if (static_cast<int>(open.size()) >= kMaxDepth)
+                return fail(fmt::format("joints nested deeper than {}", kMaxDepth));
+            open.push_back(static_cast<int>(document.joints.size()) - 1);
+            expect("{");
+        } else {
+            fail(kind.empty() ? "the hierarchy breaks off"
+                              : fmt::format("'{}' stands where a joint's data should", kind.substr(0, 20)));
+        }
+    }
+
+    void readChannels(Joint& joint) {
+        const double count = number();
+        if (!(count >= 0.0 && count <= static_cast<double>(kMaxChannels)) || !joint.channels.empty())
+            return fail(fmt::format("joint '{}' has a wrong number of channels", joint.name));
+        joint.firstValue = document.channelCount;
+        for (int i = 0; i < static_cast<int>(count) && !failed_; ++i) {
+            const std::string_view name = word();
+            const std::optional<Channel> channel = channelNamed(name);
+            if (!channel) return fail(fmt::format("'{}' is no channel", name.substr(0, 20)));
+            joint.channels.push_back(*channel);
+        }
+        document.channelCount += joint.channels.size();
+    }
+
+    // "Frames: 12" and "Frame Time: 0.03", in which a blank may stand before the colon.
+    void readMotion() {
+        double stated = 0.0;
+        std::string_view token = word();
+        while (!failed_ && !token.empty() && !asNumber(token)) {
+            std::string label(token);
+            token = word();
+            while (!token.empty() && !asNumber(token)) {
+                label += token;
+                token = word();
+            }
+            const std::optional<double> value = asNumber(token);
+            if (!value) break;
+            const bool frames = sameWord(std::string_view(label).substr(0, 6), "Frames");
+            const bool time = sameWord(std::string_view(label).substr(0, 9), "FrameTime");
+            if (frames) stated = *value;
+            if (time && *value > 0.0 && *value < 60.0) document.frameSeconds = *value;
+            if (!frames && !time) return fail(fmt::format("'{}' stands where Frames or Frame Time should", label));
+            if (time) {
+                readFrames(stated);
+                return;
+            }
+            token = word();
+        }
+    }
+
+    void readFrames(double stated) {
+        if (document.channelCount == 0) return;
+        for (std::string_view token = word(); !token.empty(); token = word()) {
+            const std::optional<double> value = asNumber(token);
+            if (!value) break;
+            if (document.frames.size() >= kMaxNumbers)
+                return fail(fmt::format("more than {} numbers of motion", kMaxNumbers));
+            document.frames.push_back(static_cast<float>(*value));
+        }
+        const std::size_t whole = document.frames.size() / document.channelCount;
+        document.frames.resize(whole * document.channelCount);
+        if (static_cast<double>(whole) < stated) {
+            document.warnings.push_back(
+                fmt::format("the file says that it has {:.0f} frames, but {} are there", stated, whole));
+        }
+    }
+
+    std::string_view text_;
+    std::string location_;
+    std::size_t at_ = 0;
+    std::optional<Error> failed_;
+};
+
+}  // namespace
+
+glm::dmat4 BvhDocument::parentFromJoint(std::size_t joint, std::size_t frame) const {
+    const Joint& source = joints[joint];
+    glm::dvec3 place = source.offset;
+    glm::dmat4 turn(1.0);
+    for (std::size_t i = 0; i < source.channels.size(); ++i) {
+        const double value = frames[frame * channelCount + source.firstValue + i];
+        glm::dvec3 axis(0);
+        axis[source.channels[i].axis] = 1.0;
+        if (source.channels[i].turns)
+            turn = glm::rotate(turn, glm::radians(value), axis);
+        else
+            place[source.channels[i].axis] = value;
+    }
+    return glm::translate(glm::dmat4(1.0), place) * turn;
+}
+
+bool isBvh(std::string_view beginning) {
+    if (beginning.starts_with("\xEF\xBB\xBF")) beginning.remove_prefix(3);
+    const std::size_t start = beginning.find_first_not_of(" \t\r\n");
+    return start != std::string_view::npos && sameWord(beginning.substr(start, 9), "HIERARCHY");
+}
+
+Result<BvhDocument> parseBvh(std::string_view text, const std::string& location) {
+    BvhParser parser(text, location);
+    if (std::optional<Error> failed = parser.parse()) return *std::move(failed);
+    if (parser.document.joints.empty()) return Error{ErrorCode::input, "has no joints", location, ""};
+    return std::move(parser.document);
+}
+
+}  // namespace lutka::animation::rig_import::bvh

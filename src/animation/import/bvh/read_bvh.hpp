@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+
+#include "animation/import/source_scene.hpp"
+#include "core/result.hpp"
+
+namespace lutka::animation::rig_import {
+
+/// Reads a BVH file: joints and end sites as nodes, the motion as one clip named "Motion", no meshes. The format states
+/// neither unit nor up axis; Z is given as up where the motion stands on that floor and not on Y's.
+///
+/// The nodes' pose is the file's zero pose, unless nearly all of it points along one axis, as many captures are
+/// exported: then it is the first frame that spreads out like a figure, which a warning tells.
+[[nodiscard]] Result<SourceScene> readBvh(const std::filesystem::path& file);
+
+}  // namespace lutka::animation::rig_import

@@ -1,0 +1,97 @@
+#include "animation/import/fbx/model_tree.hpp"
+
+#include <fmt/format.h>
+
+namespace lutka::animation::rig_import::fbx {
+namespace {
+
+constexpr std::size_t kMaxNodes = 65535;
+constexpr int kMaxDepth = 4096;
+
+struct Pending {
+    int model;
+    int parent;
+    int depth;
+};
+
+class TreeBuilder {
+  public:
+    explicit TreeBuilder(const Objects& objects) : objects_(objects) {
+        tree_.names.emplace_back("RootNode");
+        tree_.parents.push_back(-1);
+        NodeTransform root;
+        root[Part::scaling] = dvec3(1);
+        tree_.transforms.push_back(root);
+    }
+
+    // The models below; false when there are too many or they are nested too deep.
+    bool addBelow(std::vector<Pending> pending) {
+        while (!pending.empty()) {
+            const Pending next = pending.back();
+            pending.pop_back();
+            if (tree_.nodeOfModel.count(next.model) > 0) continue;
+            if (tree_.parents.size() >= kMaxNodes || next.depth > kMaxDepth) return false;
+            const int node = add(next);
+            const std::vector<int> children = objects_.children(next.model, "Model");
+            for (auto child = children.rbegin(); child != children.rend(); ++child)
+                pending.push_back({*child, node, next.depth + 1});
+        }
+        return true;
+    }
+
+    ModelTree take() { return std::move(tree_); }
+
+  private:
+    int add(const Pending& next) {
+        const int node = static_cast<int>(tree_.parents.size());
+        const Object& object = objects_[next.model];
+        tree_.names.push_back(object.name);
+        tree_.parents.push_back(next.parent);
+        tree_.transforms.push_back(transformOf(object.properties));
+        tree_.nodeOfModel[next.model] = node;
+        tree_.inOrder.emplace_back(next.model, node);
+        return node;
+    }
+
+    const Objects& objects_;
+    ModelTree tree_;
+};
+
+// The models that no model is above.
+std::vector<int> topModels(const Objects& objects) {
+    std::vector<int> out;
+    for (int i = 0; i < static_cast<int>(objects.all().size()); ++i) {
+        if (objects[i].kind != "Model") continue;
+        bool below = false;
+        for (const Connection& connection : objects.parentsOf(i))
+            below = below || (connection.parent >= 0 && objects[connection.parent].kind == "Model");
+        if (!below) out.push_back(i);
+    }
+    return out;
+}
+
+}  // namespace
+
+Result<ModelTree> readModelTree(const Objects& objects, const std::string& location) {
+    TreeBuilder builder(objects);
+    std::vector<Pending> pending;
+    const std::vector<int> rooted = objects.children(Objects::kRoot, "Model");
+    const std::vector<int> top = topModels(objects);
+    // Those without any connection come last; what is left then hangs in a ring.
+    for (auto model = top.rbegin(); model != top.rend(); ++model)
+        pending.push_back({*model, 0, 1});
+    for (auto model = rooted.rbegin(); model != rooted.rend(); ++model)
+        pending.push_back({*model, 0, 1});
+    bool fits = builder.addBelow(std::move(pending));
+    for (int i = 0; fits && i < static_cast<int>(objects.all().size()); ++i) {
+        if (objects[i].kind == "Model") fits = builder.addBelow({{i, 0, 1}});
+    }
+    if (!fits) {
+        return Error{ErrorCode::input,
+                     fmt::format("more than {} nodes, or nodes nested deeper than {}", kMaxNodes, kMaxDepth), location,
+                     "export the character without the rest of the scene"};
+    }
+    return builder.take();
+}
+
+}  // namespace lutka::animation::rig_import::fbx

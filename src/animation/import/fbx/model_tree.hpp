@@ -1,0 +1,28 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "animation/import/fbx/node_transform.hpp"
+#include "animation/import/fbx/objects.hpp"
+#include "core/result.hpp"
+
+namespace lutka::animation::rig_import::fbx {
+
+/// The document's models as a tree, parents before children, depth first in the order of their connections. Node 0 is
+/// the scene's root, "RootNode". One element a node in each vector.
+struct ModelTree {
+    std::vector<std::string> names;
+    std::vector<int> parents;
+    std::vector<NodeTransform> transforms;
+    std::map<int, int> nodeOfModel;            ///< Object index → node.
+    std::vector<std::pair<int, int>> inOrder;  ///< Object index and node, in the order of the nodes.
+};
+
+/// Models that hang on no other one, or on each other in a ring, hang on the root. Fails beyond 65,535 nodes and where
+/// they are nested deeper than 4,096.
+[[nodiscard]] Result<ModelTree> readModelTree(const Objects& objects, const std::string& location);
+
+}  // namespace lutka::animation::rig_import::fbx

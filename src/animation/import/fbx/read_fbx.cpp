@@ -1,0 +1,176 @@
+#include "animation/import/fbx/read_fbx.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/matrix.hpp>
+#include <map>
+#include <utility>
+
+#include "animation/import/fbx/clips.hpp"
+#include "animation/import/fbx/conventions.hpp"
+#include "animation/import/fbx/limits.hpp"
+#include "animation/import/fbx/material.hpp"
+#include "animation/import/fbx/mesh_geometry.hpp"
+#include "animation/import/fbx/model_tree.hpp"
+#include "animation/import/fbx/motion.hpp"
+#include "animation/import/fbx/skin.hpp"
+#include "animation/import/texture_loader.hpp"
+#include "core/files.hpp"
+
+namespace lutka::animation::rig_import {
+namespace {
+
+using namespace fbx;
+
+// Builds the scene of one document, part by part.
+class SceneReader {
+  public:
+    SceneReader(const Document& document, PictureLoader load)
+        : document_(document), objects_(document), materials_(document, objects_, std::move(load)) {}
+
+    std::optional<Error> read(const std::string& location) {
+        Result<ModelTree> tree = readModelTree(objects_, location);
+        if (!tree) return tree.error();
+        tree_ = std::move(tree).value();
+        scene_.format = fmt::format("FBX {}.{} {}", document_.version / 1000, document_.version / 100 % 10,
+                                    document_.binary ? "binary" : "ASCII");
+        const std::vector<Motion> motions = readMotions(document_, objects_, tree_.nodeOfModel);
+        layout_ = layoutOf(tree_, motions);
+        readNodes();
+        readMeshes();
+        scene_.clips = sampleMotions(motions, tree_, layout_, frameRateOf(objects_.settings()), scene_.warnings);
+        return std::nullopt;
+    }
+
+    SourceScene take() { return std::move(scene_); }
+
+  private:
+    void readNodes() {
+        const Conventions conventions = conventionsOf(objects_.settings());
+        scene_.convention = conventions.stated;
+        std::vector<dmat4> parentFromNode(tree_.parents.size());
+        evaluateNodes(tree_.transforms, tree_.parents, parentFromNode);
+        parentFromNode[0] = conventions.sceneFromFile;
+        for (std::size_t i = 0; i < tree_.parents.size(); ++i) {
+            const int parent = tree_.parents[i];
+            addNode(i, parent, parentFromNode[i]);
+            sceneFromNode_.push_back(parent < 0 ? parentFromNode[i]
+                                                : sceneFromNode_[static_cast<std::size_t>(parent)] * parentFromNode[i]);
+        }
+        sceneFromFile_ = conventions.sceneFromFile;
+    }
+
+    void addNode(std::size_t node, int parent, const dmat4& parentFromNode) {
+        const int above = parent < 0 ? -1 : layout_.sceneNode[static_cast<std::size_t>(parent)];
+        if (layout_.helper[node] < 0) {
+            scene_.nodes.push_back({tree_.names[node], above, parentFromNode});
+            return;
+        }
+        const dmat4 helper = parentFromHelper(parentFromNode, tree_.transforms[static_cast<std::size_t>(parent)]);
+        scene_.nodes.push_back({tree_.names[node] + " without its parent's scale", above, helper, true});
+        scene_.nodes.push_back({tree_.names[node], layout_.helper[node], glm::inverse(helper) * parentFromNode});
+    }
+
+    // The material of that slot of a model, read at its first use; -1 for none.
+    int materialAt(std::span<const int> slots, int slot) {
+        if (slots.empty()) return -1;
+        const int object = slots[std::min(static_cast<std::size_t>(slot), slots.size() - 1)];
+        const auto [known, isNew] = materialOf_.try_emplace(object, static_cast<int>(scene_.materials.size()));
+        if (isNew) {
+            ReadMaterial read = materials_.read(object);
+            uvSets_[object] = std::move(read.uvSet);
+            scene_.materials.push_back(std::move(read.material));
+        }
+        return known->second;
+    }
+
+    void readMeshes() {
+        GeometryRepairs repairs;
+        GeometryReader geometries(objects_, repairs);
+        const std::map<int, dmat4> bindPose = bindPoseInScene();
+        const SkinContext context{objects_, tree_.nodeOfModel, sceneFromNode_, bindPose, sceneFromFile_};
+        for (const auto& [model, node] : tree_.inOrder) {
+            // FBX 6 keeps the geometry in the model itself.
+            std::vector<int> owners = objects_.children(model, "Geometry", "Mesh");
+            if (objects_[model].record->child("Vertices") != nullptr) owners.push_back(model);
+            for (const int owner : owners)
+                addMesh(context, geometries, {owner, model, node});
+        }
+        for (std::string& sentence : repairs.sentences())
+            scene_.warnings.push_back(std::move(sentence));
+    }
+
+    struct Place {
+        int owner;  // of the geometry
+        int model;
+        int node;
+    };
+
+    void addMesh(const SkinContext& context, GeometryReader& geometries, const Place& place) {
+        const std::vector<int> slots = objects_.children(place.model, "Material");
+        std::vector<std::string> uvSets;
+        for (std::size_t slot = 0; slot < slots.size(); ++slot) {
+            (void)materialAt(slots, static_cast<int>(slot));
+            uvSets.push_back(uvSets_[slots[slot]]);
+        }
+        std::vector<MeshPart> parts =
+            geometries.read(place.owner, geometricMatrix(objects_[place.model].properties), uvSets);
+        const std::size_t points = objects_[place.owner].record->numbersOf("Vertices").size() / 3;
+        const std::optional<ReadSkin> skin =
+            parts.empty() ? std::nullopt : readSkin(context, place.owner, place.model, points);
+        if (skin) {
+            scene_.skins.push_back(skin->skin);
+            for (SourceSkin::Joint& joint : scene_.skins.back().joints)
+                joint.node = layout_.sceneNode[static_cast<std::size_t>(joint.node)];
+        }
+        for (MeshPart& part : parts) {
+            if (skin) weightVertices(*skin, part.controlPoints, part.mesh);
+            const std::string& own = objects_[place.owner].name;
+            part.mesh.name = own.empty() ? objects_[place.model].name : own;
+            part.mesh.material = materialAt(slots, part.slot);
+            const int mesh = static_cast<int>(scene_.meshes.size());
+            scene_.meshes.push_back(std::move(part.mesh));
+            scene_.instances.push_back({mesh, layout_.sceneNode[static_cast<std::size_t>(place.node)],
+                                        skin ? static_cast<int>(scene_.skins.size()) - 1 : -1});
+        }
+    }
+
+    std::map<int, dmat4> bindPoseInScene() const {
+        std::map<int, dmat4> pose = readBindPose(objects_);
+        for (auto& [model, matrix] : pose)
+            matrix = sceneFromFile_ * matrix;
+        return pose;
+    }
+
+    const Document& document_;
+    Objects objects_;
+    MaterialReader materials_;
+    ModelTree tree_;
+    SceneLayout layout_;
+    SourceScene scene_;
+    std::vector<dmat4> sceneFromNode_;
+    dmat4 sceneFromFile_{1.0};
+    std::map<int, int> materialOf_;
+    std::map<int, std::string> uvSets_;
+};
+
+}  // namespace
+
+Result<SourceScene> readFbx(const std::filesystem::path& file, const ImportOptions& options) {
+    Result<std::vector<unsigned char>> bytes = readFile(file, kMaxDocumentBytes);
+    if (!bytes) return bytes.error();
+    Result<Document> document = parseDocument(std::move(bytes).value(), file.string());
+    if (!document) return document.error();
+    TextureLoader pictures([](const std::string&) { return std::optional<Texture>(); }, file, options.loadTextures);
+    SceneReader reader(document.value(),
+                       [&](const PictureSource& source) { return pictures.load(source.path, source.embedded); });
+    if (std::optional<Error> failed = reader.read(file.string())) return *std::move(failed);
+    SourceScene scene = reader.take();
+    scene.textures = pictures.takeTextures();
+    for (std::string& sentence : pictures.sentences())
+        scene.warnings.push_back(std::move(sentence));
+    return scene;
+}
+
+}  // namespace lutka::animation::rig_import
