@@ -27,9 +27,9 @@ struct SourceNode {
     std::string name;                ///< As in the file; neither unique nor always there.
     int parent = -1;                 ///< Index of the parent node, smaller than the node's own; -1 for a root.
     glm::dmat4 parentFromNode{1.0};  ///< The node's own pose.
-    std::optional<SourceTrs> trs;    ///< Its parts, where the file states them.
     /// A node that the reader made up between two of the file's (Assimp's FBX pivots): posed like any other, no joint.
     bool isHelper = false;
+    std::optional<SourceTrs> trs = std::nullopt;  ///< The pose's parts, where the file states them.
 };
 
 /// A triangle mesh as the file has it, in its own space. Vertex arrays have the size of `positions`, or are empty.

@@ -156,8 +156,13 @@ SourceClip clipOf(const BvhDocument& document) {
 }
 
 void addNodes(const BvhDocument& document, std::span<const dmat4> pose, SourceScene& scene) {
-    for (std::size_t i = 0; i < document.joints.size(); ++i)
-        scene.nodes.push_back({document.joints[i].name, document.joints[i].parent, pose[i]});
+    for (std::size_t i = 0; i < document.joints.size(); ++i) {
+        SourceNode node;
+        node.name = document.joints[i].name;
+        node.parent = document.joints[i].parent;
+        node.parentFromNode = pose[i];
+        scene.nodes.push_back(std::move(node));
+    }
 }
 
 }  // namespace

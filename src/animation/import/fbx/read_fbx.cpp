@@ -64,12 +64,21 @@ class SceneReader {
     void addNode(std::size_t node, int parent, const dmat4& parentFromNode) {
         const int above = parent < 0 ? -1 : layout_.sceneNode[static_cast<std::size_t>(parent)];
         if (layout_.helper[node] < 0) {
-            scene_.nodes.push_back({tree_.names[node], above, parentFromNode});
+            push(tree_.names[node], above, parentFromNode, false);
             return;
         }
         const dmat4 helper = parentFromHelper(parentFromNode, tree_.transforms[static_cast<std::size_t>(parent)]);
-        scene_.nodes.push_back({tree_.names[node] + " without its parent's scale", above, helper, true});
-        scene_.nodes.push_back({tree_.names[node], layout_.helper[node], glm::inverse(helper) * parentFromNode});
+        push(tree_.names[node] + " without its parent's scale", above, helper, true);
+        push(tree_.names[node], layout_.helper[node], glm::inverse(helper) * parentFromNode, false);
+    }
+
+    void push(std::string name, int parent, const dmat4& parentFromNode, bool isHelper) {
+        SourceNode node;
+        node.name = std::move(name);
+        node.parent = parent;
+        node.parentFromNode = parentFromNode;
+        node.isHelper = isHelper;
+        scene_.nodes.push_back(std::move(node));
     }
 
     // The material of that slot of a model, read at its first use; -1 for none.
