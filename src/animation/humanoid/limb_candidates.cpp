@@ -178,7 +178,7 @@ class LimbFinder {
         candidate.missing = kMissingEnd + kMissingMiddle;
         consider(candidate, 0.0F);
         for (int middle = 0; middle < static_cast<int>(framed_.pairs.size()); ++middle) {
-            if (!mayFollow(root, middle)) continue;
+            if (!mayFollow(root, middle, 1)) continue;
             candidate.pairs = {root, middle, kNoPair, kNoPair};
             candidate.missing = kMissingEnd;
             consider(candidate, link(root, middle));
@@ -195,7 +195,7 @@ class LimbFinder {
         const int middle = candidate.pairs[1];
         candidate.missing = 0.0F;
         for (int end = 0; end < static_cast<int>(framed_.pairs.size()); ++end) {
-            if (end == root || !mayFollow(middle, end)) continue;
+            if (end == root || !mayFollow(middle, end, 2)) continue;
             const float ratio = framed_.segment(root, middle) / framed_.segment(middle, end);
             if (ratio < kLeastRatio || ratio > kMostRatio) continue;
             candidate.pairs[2] = end;
@@ -203,12 +203,14 @@ class LimbFinder {
         }
     }
 
-    [[nodiscard]] bool mayFollow(int from, int to) const {
+    [[nodiscard]] bool mayFollow(int from, int to, int slot) const {
         return link(from, to) > kImpossible && framed_.segment(from, to) >= kShortestSegment * framed_.spread &&
-               rightWay(from, to);
+               (rightWay(from, to) || (isNamed(from, slot - 1) && isNamed(to, slot)));
     }
 
-    // Legs go down; arms may go anywhere.
+    [[nodiscard]] bool isNamed(int pair, int slot) const { return at(pair).names[parts_[slot]] >= kNamedPart; }
+
+    // Legs go down but for those of seated and kneeling figures, which their names tell; arms may go anywhere.
     [[nodiscard]] bool rightWay(int from, int to) const {
         return kind_ == LimbKind::arm || at(to).position.y < at(from).position.y;
     }
@@ -217,6 +219,8 @@ class LimbFinder {
     void consider(LimbCandidate candidate, float links) {
         candidate.score = links + candidate.missing;
         candidate.names = 0.0F;
+        candidate.named = candidate.pairs[2] != kNoPair && isNamed(candidate.pairs[0], 0) &&
+                          isNamed(candidate.pairs[1], 1) && isNamed(candidate.pairs[2], 2);
         if (kind_ == LimbKind::leg) {
             scoreLeg(candidate);
         } else {
@@ -297,25 +301,30 @@ class LimbFinder {
             leg.score += kImpossible;
             return;
         }
-        leg.score += angleTerm(leg.tip - leg.root, kDown, terms::kLegDown);
+        float pose = angleTerm(leg.tip - leg.root, kDown, terms::kLegDown);
         leg.score += terms::kThighAside.near(leg.root.x / length, slackOf(leg));
         if (leg.root.x < kMiddle * length) leg.score += kInMiddle;
         const float height = std::max(leg.root.y - framed_.floor, kLeastHipHeight * length);
         const float heightOfTip = (leg.tip.y - framed_.floor) / height;
-        leg.score += (foot != kNoPair ? terms::kAnkleHeight : terms::kSkinEndHeight).near(heightOfTip);
+        pose += (foot != kNoPair ? terms::kAnkleHeight : terms::kSkinEndHeight).near(heightOfTip);
         if (lower != kNoPair) {
-            leg.score += angleTerm(at(lower).position - leg.root, kDown, terms::kThighDown);
+            pose += angleTerm(at(lower).position - leg.root, kDown, terms::kThighDown);
         }
         if (foot != kNoPair) {
             leg.score +=
                 terms::kThighToShin.near(std::log(framed_.segment(upper, lower) / framed_.segment(lower, foot)));
-            leg.score += angleTerm(at(foot).position - at(lower).position, kDown, terms::kShinDown);
+            pose += angleTerm(at(foot).position - at(lower).position, kDown, terms::kShinDown);
             addToes(leg, height);
         } else if (lower != kNoPair) {
             const float thigh = framed_.segment(upper, lower);
             leg.score += terms::kThighToRest.near(std::log(thigh / (length - thigh + 1e-6F)));
         }
-        leg.score += unusedAbove(upper, length);
+        leg.score += poseOf(leg, pose) + unusedAbove(upper, length);
+    }
+
+    // A limb whose names are clear may be posed in any way.
+    [[nodiscard]] static float poseOf(const LimbCandidate& limb, float pose) {
+        return limb.named ? std::max(pose, kNamedPose) : pose;
     }
 
     void addToes(LimbCandidate& leg, float height) const {
@@ -345,19 +354,20 @@ class LimbFinder {
             return;
         }
         const vec3 along = (arm.tip - arm.root) / (glm::distance(arm.tip, arm.root) + 1e-6F);
-        arm.score += terms::kArmOut.atLeast(along.x) + terms::kArmRaised.atMost(along.y);
+        float pose = terms::kArmOut.atLeast(along.x) + terms::kArmRaised.atMost(along.y);
         if (arm.root.x < kMiddle * length) arm.score += kInMiddle;
         if (hand != kNoPair) {
             const vec3 first = at(lower).position - arm.root;
             const vec3 second = at(hand).position - at(lower).position;
             arm.score +=
                 terms::kUpperToFore.near(std::log(framed_.segment(upper, lower) / framed_.segment(lower, hand)));
-            arm.score += angleTerm(first, second, terms::kElbowStraight);
+            pose += angleTerm(first, second, terms::kElbowStraight);
             arm.score += beyondTerm(hand, length);
         } else if (lower != kNoPair) {
             const float first = framed_.segment(upper, lower);
             arm.score += terms::kUpperToRest.near(std::log(first / (length - first + 1e-6F)));
         }
+        arm.score += poseOf(arm, pose);
         addClavicle(arm);
     }
 
