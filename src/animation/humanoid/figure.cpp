@@ -217,7 +217,9 @@ Figure findFigure(const RigFeatures& rig) {
     // +Y is what nearly every file has by now: the others are read only where it fails.
     for (const MirrorPlane& plane : planes)
         readUpright(rig, plane, agreement(plane), upright, best);
-    if (best.refusal.empty()) return best;
+    // Where the likeliest plane leans, an upright reading is made of skirts and hair in another one.
+    const bool leans = !planes.empty() && std::abs(glm::dot(planes.front().normal, upright.axis)) > kMostLean;
+    if (best.refusal.empty() && !leans) return best;
     for (const MirrorPlane& plane : planes) {
         for (const UpAxis& up : leaningUps(plane))
             readUpright(rig, plane, agreement(plane), up, best);

@@ -17,7 +17,7 @@ namespace {
 constexpr float kFixed = 40.0F;  // log-odds of what the user or the file says
 constexpr int kFewestJoints = 5;
 constexpr float kLoudShape = 1.5F;  // log-odds of the facing by shape that are worth a word against the names
-constexpr int kMostMissing = 7;     // of the 15 required roles; blocky figures have no more
+constexpr int kMostMissing = 7;     // of the 15 required roles, without a warning
 
 using FixedJoints = std::array<std::optional<int>, kRoleCount>;
 
@@ -151,8 +151,9 @@ HumanoidMap mapHumanoid(const Character& character, const MapOptions& options) {
     bindFixed(options.fixed, "fixed by the user", map);
     listMissing(map);
     const auto missing = static_cast<int>(map.missing.size());
-    if (missing > kMostMissing && !figure.isBlocky() && !knownStance) {
-        return refused(fmt::format("{} of the 15 required parts have no joint; a map file can name them", missing));
+    if (missing > kMostMissing) {
+        map.warnings.push_back(
+            fmt::format("{} of the 15 required parts have no joint: the ragdoll has hardly half a body", missing));
     }
     return map;
 }
