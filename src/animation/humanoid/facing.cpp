@@ -11,7 +11,7 @@ namespace {
 // Names that agree on every joint of both limbs, and say its part besides, weigh more than any one measure of shape,
 // and less than several together: conversions that mirrored the mesh and kept the names do exist.
 constexpr float kNames = 2.6F;
-constexpr float kNamesOfEveryLimb = 6.0F;
+constexpr float kNamesOfEveryLimb = 4.8F;
 constexpr float kFewestOfEveryLimb = 4.0F;  // pairs of joints
 // What hats and hair can mislead (the head's reach, where its skin is finer) says no more than this together.
 constexpr float kMostOfHead = 3.0F;
