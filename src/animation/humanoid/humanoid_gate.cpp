@@ -50,7 +50,8 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     const float tilt = trunkTilt(figure, framed);
     const float legTilt = angleTo(figure.legs.tip - figure.legs.root, vec3(0, -1, 0));
     // A leaning figure is straight: an animal's legs and trunk are not in one line, however it is turned.
-    if (figure.leans && (tilt > kMostBend || legTilt > kMostBend)) return "the trunk and the legs are not in one line";
+    const float bend = figure.legs.named && figure.arms.named ? kMostBend : 0.5F * kMostBend;
+    if (figure.leans && (tilt > bend || legTilt > bend)) return "the trunk and the legs are not in one line";
     // The names tell a seated or kneeling figure, as long as its trunk is upright.
     const bool named = figure.legs.named && figure.arms.named && figure.prior >= 0.0F;
     if (tilt > kMostTilt) {
