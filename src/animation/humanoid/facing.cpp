@@ -8,7 +8,13 @@ namespace lutka::animation {
 namespace {
 
 // Log-odds that left and right in the names are right: of 32 rigs with sides in their names two have them swapped.
+// Names that agree on every joint of both limbs, and say its part besides, weigh more than any one measure of shape,
+// and less than several together: conversions that mirrored the mesh and kept the names do exist.
 constexpr float kNames = 2.6F;
+constexpr float kNamesOfEveryLimb = 4.8F;
+constexpr float kFewestOfEveryLimb = 4.0F;  // pairs of joints
+// What hats and hair can mislead (the head's reach, where its skin is finer) says no more than this together.
+constexpr float kMostOfHead = 3.0F;
 constexpr float kPriorPlusZ = 0.6F;
 
 class FacingFinder {
@@ -22,6 +28,7 @@ class FacingFinder {
         readBends();
         readHead();
         readHands();
+        facing_.shape += std::clamp(headOutline_, -kMostOfHead, kMostOfHead);
         readNames();
         facing_.prior = kPriorPlusZ * framed_.stance.through().z;
         return facing_;
@@ -34,6 +41,17 @@ class FacingFinder {
     void speak(float value, float slope, float most, const char* what) {
         const float odds = std::clamp(value * slope, -most, most);
         facing_.shape += odds;
+        note(odds, what);
+    }
+
+    // As speak(), of the outline of the head's skin.
+    void speakOfHead(float value, float slope, float most, const char* what) {
+        const float odds = std::clamp(value * slope, -most, most);
+        headOutline_ += odds;
+        note(odds, what);
+    }
+
+    void note(float odds, const char* what) {
         if (std::abs(odds) <= loudest_) return;
         loudest_ = std::abs(odds);
         facing_.reason = what;
@@ -116,9 +134,10 @@ class FacingFinder {
         if (count > 0) speak(face / static_cast<float>(count) / size, 12.0F, 2.5F, "the face's joints lie that way");
         const Box& own = framed_.ownSkin[trunk_.head];
         if (own.count == 0) return;
-        speak((0.5F * (own.low.z + own.high.z) - neck) / size, 5.0F, 1.2F, "the head reaches that way");
+        speakOfHead((0.5F * (own.low.z + own.high.z) - neck) / size, 5.0F, 1.2F, "the head reaches that way");
         // Eyes, nose and mouth take more vertices than the back of the head.
-        speak((own.mean().z - 0.5F * (own.low.z + own.high.z)) / size, 28.0F, 3.0F, "the head is finer on that side");
+        speakOfHead((own.mean().z - 0.5F * (own.low.z + own.high.z)) / size, 28.0F, 3.0F,
+                    "the head is finer on that side");
     }
 
     void readHands() {
@@ -135,17 +154,22 @@ class FacingFinder {
     void readNames() {
         float agree = 0.0F;
         float counted = 0.0F;
+        bool sayParts = true;
         for (const LimbCandidate* limb : {&legs_, &arms_}) {
-            for (const int index : limb->pairs) {
+            for (std::size_t slot = 0; slot < limb->pairs.size(); ++slot) {
+                const int index = limb->pairs[slot];
                 if (index == kNoPair) continue;
                 const Side plus = rig_.names[pair(index).joints[0]].side;
                 const Side minus = rig_.names[pair(index).joints[1]].side;
                 if (plus == minus) continue;
                 counted += 1.0F;
+                sayParts = sayParts && pair(index).names[partsOf(limb->kind)[slot]] > 0.0F;
                 agree += plus == Side::left || minus == Side::right ? 1.0F : -1.0F;
             }
         }
-        if (counted > 0.0F) facing_.names = kNames * agree / counted;
+        const bool every = sayParts && counted >= kFewestOfEveryLimb && std::abs(agree) >= counted;
+        if (counted > 0.0F) facing_.names = (every ? kNamesOfEveryLimb : kNames) * agree / counted;
+        facing_.shapeReason = facing_.reason;
         if (std::abs(facing_.names) > loudest_ + 1.0F) facing_.reason = "left and right in the names say so";
     }
 
@@ -156,6 +180,7 @@ class FacingFinder {
     const TrunkCandidate& trunk_;
     Facing facing_;
     float loudest_ = 0.0F;
+    float headOutline_ = 0.0F;
 };
 
 }  // namespace

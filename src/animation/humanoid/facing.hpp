@@ -9,10 +9,11 @@ namespace lutka::animation {
 
 /// Which way a figure faces, as log-odds of +z of its stance against -z.
 struct Facing {
-    float shape = 0.0F;  ///< From feet, knees, elbows, head and thumbs.
-    float names = 0.0F;  ///< From left and right in the names, were they right.
-    float prior = 0.0F;  ///< Most files face +Z.
-    std::string reason;  ///< What spoke loudest.
+    float shape = 0.0F;       ///< From feet, knees, elbows, head and thumbs.
+    float names = 0.0F;       ///< From left and right in the names, were they right.
+    float prior = 0.0F;       ///< Most files face +Z.
+    std::string reason;       ///< What spoke loudest.
+    std::string shapeReason;  ///< What spoke loudest of the shape.
 
     [[nodiscard]] float total() const { return shape + names + prior; }
     /// Whether the names call the left half right.

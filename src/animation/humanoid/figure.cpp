@@ -6,6 +6,7 @@
 
 #include "animation/humanoid/evidence_terms.hpp"
 #include "animation/humanoid/humanoid_gate.hpp"
+#include "animation/humanoid/lone_sides.hpp"
 
 namespace lutka::animation {
 namespace {
@@ -26,11 +27,12 @@ struct Combination {
 // Terms that bind legs and arms: how they stand to each other.
 float bindingTerms(const FramedRig& framed, const LimbCandidate& legs, const LimbCandidate& arms) {
     const float rise = arms.root.y - legs.root.y;
-    const float height = std::max(legs.root.y - framed.floor, 0.3F * legs.length);  // of the hips above the ground
+    // Of the hips above the ground; a seated figure's, whose names are clear, would be as high as its legs are long.
+    const float height = std::max(legs.root.y - framed.floor, (legs.named ? 0.95F : 0.3F) * legs.length);
     const float slack = legs.jointCount() == 1 || arms.jointCount() == 1 ? 2.0F : 1.0F;
     float score = rise > 0.05F * height ? near(std::log(rise / height), std::log(0.65F), 0.5F * slack) : -8.0F;
     score += near(std::log(arms.length / height), std::log(0.62F), 0.4F * slack);
-    score += atLeast((arms.tip.y - framed.floor) / legs.length, 0.45F, 0.15F, 8.0F);
+    score += atLeast((arms.tip.y - framed.floor) / legs.length, 0.45F, 0.15F, legs.named && arms.named ? 2.0F : 8.0F);
     const float tilt = std::atan2(std::abs(arms.root.z - legs.root.z), std::max(rise, 1e-6F));
     score += atMost(tilt, radians(12.0F), radians(14.0F), 10.0F);
     if (framed.rig->skinned) {
@@ -122,8 +124,14 @@ bool better(const Figure& a, const Figure& b) {
     return a.score - refusedA > b.score - refusedB;
 }
 
+struct UpAxis {
+    vec3 axis;
+    float prior;         // log-odds against +Y, which import takes care of
+    bool leans = false;  // the figure leans as a whole
+};
+
 // The best reading in one stance.
-Figure readInStance(const RigFeatures& rig, const Stance& stance, float upPrior, float agreement) {
+Figure readInStance(const RigFeatures& rig, const Stance& stance, const UpAxis& up, float agreement) {
     Figure best;
     best.refusal = "no joints stand as legs, trunk and arms of a figure";
     const FramedRig framed = frameRig(rig, stance);
@@ -135,8 +143,9 @@ Figure readInStance(const RigFeatures& rig, const Stance& stance, float upPrior,
         figure.arms = arms[combination.arms];
         figure.trunk = findTrunk(framed, figure.legs, figure.arms);
         if (figure.trunk.hips == kNoJoint) continue;
-        figure.prior = upPrior;
-        figure.score = upPrior + agreement + combination.score + figure.trunk.score;
+        figure.prior = up.prior;
+        figure.leans = up.leans;
+        figure.score = up.prior + agreement + combination.score + figure.trunk.score;
         figure.score += moreLimbs(framed, figure);
         figure.score += atMost(trunkTilt(figure, framed), radians(20.0F), radians(10.0F));
         figure.refusal = refusalOf(figure, framed);
@@ -145,47 +154,80 @@ Figure readInStance(const RigFeatures& rig, const Stance& stance, float upPrior,
     best.framed = framed;
     if (best.trunk.hips == kNoJoint) return best;
     findMargins(best, legs, arms);
+    findLoneSides(framed, best.legs);
+    findLoneSides(framed, best.arms);
     best.facing = findFacing(framed, best.legs, best.arms, best.trunk);
     return best;
 }
 
-// The plane's normal and the up axis made perpendicular, snapped to the model's axes where they nearly are those.
+// The plane's normal and the up axis made perpendicular, snapped to the model's axes where they nearly are those. The
+// plane turns about the middle of its pairs: about the origin a slight turn would carry it beside the trunk.
 Stance makeStance(MirrorPlane plane, const vec3& up) {
+    const vec3 middle = plane.middle - (glm::dot(plane.middle, plane.normal) - plane.offset) * plane.normal;
     for (int axis = 0; axis < 3; ++axis) {
         vec3 unit(0);
         unit[axis] = 1.0F;
         const float cosine = glm::dot(unit, plane.normal);
         if (std::abs(cosine) < kSnapCosine) continue;
-        plane.offset = cosine < 0.0F ? -plane.offset : plane.offset;
         plane.normal = unit;
     }
     plane.normal = glm::normalize(plane.normal - glm::dot(plane.normal, up) * up);
+    plane.offset = glm::dot(middle, plane.normal);
     return {plane, up};
 }
 
-struct UpAxis {
-    vec3 axis;
-    float prior;  // log-odds against +Y, which import takes care of
-};
+constexpr float kLeanPrior = -3.0F;
+constexpr float kMostLean = 0.3F;  // sine between the mirror plane and the up axis
+
+// The up axes of figures that lean as a whole: to their side, where the plane tells by how much, or to the front or
+// back in it.
+std::vector<UpAxis> leaningUps(const MirrorPlane& plane) {
+    constexpr float kMostSideways = 0.8F;
+    const vec3 vertical(0, 1, 0);
+    const float sideways = glm::dot(plane.normal, vertical);
+    if (std::abs(sideways) > kMostSideways) return {};
+    const vec3 up = glm::normalize(vertical - sideways * plane.normal);
+    const vec3 through = glm::cross(plane.normal, up);
+    std::vector<UpAxis> ups;
+    if (std::abs(sideways) > kMostLean) ups.push_back({up, kLeanPrior, true});
+    for (const float angle : {-45.0F, -30.0F, 30.0F, 45.0F})
+        ups.push_back({std::cos(radians(angle)) * up + std::sin(radians(angle)) * through, kLeanPrior, true});
+    return ups;
+}
+
+// Reads the rig with that up axis, where the plane holds it, and keeps the better reading.
+void readUpright(const RigFeatures& rig, const MirrorPlane& plane, float agreement, const UpAxis& up, Figure& best) {
+    if (std::abs(glm::dot(plane.normal, up.axis)) > kMostLean) return;
+    Figure figure = readInStance(rig, makeStance(plane, up.axis), up, agreement);
+    if (better(figure, best)) best = std::move(figure);
+}
 
 }  // namespace
 
 Figure findFigure(const RigFeatures& rig) {
-    constexpr float kMostLean = 0.3F;  // sine between the mirror plane and the up axis
-    const UpAxis ups[] = {{{0, 1, 0}, 0.0F},   {{0, 0, 1}, -3.0F}, {{0, -1, 0}, -5.0F},
-                          {{0, 0, -1}, -4.0F}, {{1, 0, 0}, -4.0F}, {{-1, 0, 0}, -4.0F}};
+    const UpAxis upright{{0, 1, 0}, 0.0F};
+    const UpAxis lying[] = {
+        {{0, 0, 1}, -3.0F}, {{0, -1, 0}, -5.0F}, {{0, 0, -1}, -4.0F}, {{1, 0, 0}, -4.0F}, {{-1, 0, 0}, -4.0F}};
     Figure best;
     best.refusal = "no joints that mirror each other: nothing here has a left and a right limb";
     const std::vector<MirrorPlane> planes = findMirrorPlanes(rig);
-    for (const UpAxis& up : ups) {
-        // +Y is what nearly every file has by now: the others are read only where it fails.
-        if (up.prior < 0.0F && best.refusal.empty()) break;
-        for (const MirrorPlane& plane : planes) {
-            if (std::abs(glm::dot(plane.normal, up.axis)) > kMostLean) continue;
-            const float agreement = kAgreement * (plane.agreement - planes.front().agreement);
-            Figure figure = readInStance(rig, makeStance(plane, up.axis), up.prior, agreement);
-            if (better(figure, best)) best = std::move(figure);
-        }
+    const auto agreement = [&](const MirrorPlane& plane) {
+        return kAgreement * (plane.agreement - planes.front().agreement);
+    };
+    // +Y is what nearly every file has by now: the others are read only where it fails.
+    for (const MirrorPlane& plane : planes)
+        readUpright(rig, plane, agreement(plane), upright, best);
+    // Where the likeliest plane leans, an upright reading is made of skirts and hair in another one.
+    const bool leans = !planes.empty() && std::abs(glm::dot(planes.front().normal, upright.axis)) > kMostLean;
+    if (best.refusal.empty() && !leans) return best;
+    for (const MirrorPlane& plane : planes) {
+        for (const UpAxis& up : leaningUps(plane))
+            readUpright(rig, plane, agreement(plane), up, best);
+    }
+    for (const UpAxis& up : lying) {
+        if (best.refusal.empty()) break;
+        for (const MirrorPlane& plane : planes)
+            readUpright(rig, plane, agreement(plane), up, best);
     }
     return best;
 }

@@ -21,6 +21,7 @@ struct Margins {
 struct Figure {
     std::string refusal;  ///< Empty when the figure stands.
     float prior = 0.0F;   ///< The part of the score that speaks for the up axis, before anything is read.
+    bool leans = false;   ///< Read in a stance that is not upright: it leans as a whole.
     float score = -1e9F;  ///< Sum of all terms: what readings are compared by.
     FramedRig framed;
     LimbCandidate legs;
@@ -29,12 +30,14 @@ struct Figure {
     Facing facing;
     Margins margins;
 
+    /// One joint or two for each limb.
+    [[nodiscard]] bool isBlocky() const { return legs.jointCount() + arms.jointCount() <= 4; }
+
     /// Sum of the terms of shape, structure and skin alone: what readings are accepted by.
     [[nodiscard]] float shapeScore() const {
         // Blocky figures may well have no head and one joint for the trunk; those with whole limbs have both.
-        const bool blocky = legs.jointCount() + arms.jointCount() <= 4;
         return score - prior - legs.names - arms.names - trunk.names - legs.missing - arms.missing -
-               (blocky ? trunk.missing : 0.0F);
+               (isBlocky() ? trunk.missing : 0.0F);
     }
 };
 

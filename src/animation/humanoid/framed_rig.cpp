@@ -8,10 +8,12 @@
 namespace lutka::animation {
 namespace {
 
-constexpr float kMaxCost = 1.8F;          // of a pair found by position
-constexpr float kMaxError = 0.10F;        // of the mirrored position, of the spread
-constexpr float kMinSeparation = 0.012F;  // of the spread; nearer joints lie in the plane
-constexpr float kChildLengths = 0.18F;    // log ratio of bone lengths of a pair found by structure
+constexpr float kMaxCost = 1.8F;           // of a pair found by position
+constexpr float kMaxError = 0.10F;         // of the mirrored position, of the spread
+constexpr float kMinSeparation = 0.012F;   // of the spread; nearer joints lie in the plane
+constexpr float kOnlyChildLengths = 0.9F;  // … where each parent has no other child: one arm is longer
+constexpr float kMostLengthCost = 1.0F;    // of unequal lengths, where only children or names make the pair
+constexpr float kChildLengths = 0.18F;     // log ratio of bone lengths of a pair found by structure
 
 vec3 mirrored(vec3 point) {
     point.x = -point.x;
@@ -143,14 +145,18 @@ class PairFinder {
                 const bool apart =
                     separation(a, b) > 0.05F * framed_.spread && centroids_[a].x * centroids_[b].x < 0.0F;
                 const bool named = nameCost(rig_.names[a], rig_.names[b]) < 0.0F;
-                if (lengths > kChildLengths && !named) continue;
+                const bool onlyTwo = parentA != parentB && isOnlyChild(parentA) && isOnlyChild(parentB);
+                if (lengths > (onlyTwo ? kOnlyChildLengths : kChildLengths) && !named) continue;
                 if (parentA == parentB && !apart && !named) continue;
-                const float cost = 4.0F * lengths + structureCost(a, b);
+                const float cost =
+                    std::min(4.0F * lengths, onlyTwo || named ? kMostLengthCost : kMaxCost) + structureCost(a, b);
                 if (cost < kMaxCost) candidates.push_back({a, b, cost});
             }
         }
         addCheapest(candidates);
     }
+
+    [[nodiscard]] bool isOnlyChild(int parent) const { return rig_.children[parent].size() == 1; }
 
     FramedRig& framed_;
     const RigFeatures& rig_;

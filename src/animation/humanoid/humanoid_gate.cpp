@@ -10,6 +10,7 @@ namespace lutka::animation {
 namespace {
 
 constexpr float kMostTilt = radians(40.0F);     // of the trunk from upright; hunched figures reach 30 degrees
+constexpr float kMostBend = radians(22.0F);     // of trunk and legs of a figure that leans as a whole
 constexpr float kMostLegTilt = radians(50.0F);  // of the legs from straight down
 constexpr float kLeastHandHeight = 0.16F;       // above the feet, as a share of the way up to the arms' roots
 constexpr float kLeastRise = 0.10F;             // of the arms' roots above the legs', as a share of the legs' length
@@ -47,16 +48,23 @@ float trunkTilt(const Figure& figure, const FramedRig& framed) {
 
 std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     const float tilt = trunkTilt(figure, framed);
+    const float legTilt = angleTo(figure.legs.tip - figure.legs.root, vec3(0, -1, 0));
+    // A leaning figure is straight: an animal's legs and trunk are not in one line, however it is turned.
+    // Without names a sitting animal reads as such a figure.
+    if (figure.leans && !(figure.legs.named && figure.arms.named)) return "no figure stands upright in it";
+    if (figure.leans && (tilt > kMostBend || legTilt > kMostBend)) return "the trunk and the legs are not in one line";
+    // The names tell a seated or kneeling figure, as long as its trunk is upright.
+    const bool named = figure.legs.named && figure.arms.named && figure.prior >= 0.0F;
     if (tilt > kMostTilt) {
         return fmt::format("the trunk lies at {:.0f} degrees from upright: an animal, not a standing figure",
                            degrees(tilt));
     }
-    if (angleTo(figure.legs.tip - figure.legs.root, vec3(0, -1, 0)) > kMostLegTilt) return "the legs do not go down";
+    if (legTilt > kMostLegTilt && !named) return "the legs do not go down";
     const float rise = figure.arms.root.y - figure.legs.root.y;
     if (rise < kLeastRise * figure.legs.length) return "the arms start no higher than the legs";
     const float feet = std::min(figure.legs.tip.y, framed.floor + 0.15F * figure.legs.length);
     const float hands = (figure.arms.tip.y - feet) / (figure.arms.root.y - feet);
-    if (hands < kLeastHandHeight) return "the hands stand on the ground: a four-legged animal";
+    if (hands < kLeastHandHeight && !named) return "the hands stand on the ground: a four-legged animal";
     if (creatureShare(framed, figure.arms) > 0.6F) return "what would be the arms are named as wings or front legs";
     if (creatureShare(framed, figure.legs) > 0.6F) return "what would be the legs are named as an animal's";
     // Names alone never make a humanoid, but they carry one that is put together oddly.

@@ -4,32 +4,29 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "animation/humanoid/evidence_terms.hpp"
+#include "animation/humanoid/limb_evidence.hpp"
 
 namespace lutka::animation {
 namespace {
 
-// A limb that lacks joints is the less likely reading of a chain that has them.
-constexpr float kMissingEnd = -2.5F;
-constexpr float kMissingMiddle = -2.5F;
-constexpr float kNoOwnSkin = -1.2F;
-constexpr float kNoSkinBelow = -2.5F;
-constexpr float kDetachedFromMore = -6.0F;  // … though the limb has joints to go on with
-constexpr float kDetached = -1.5F;          // the next joint is not below this one in the tree
-constexpr float kShadow = -3.0F;
-constexpr float kMainBranch = 0.7F;
-constexpr float kInMiddle = -3.5F;               // thighs and upper arms never start in the mirror plane
-constexpr float kSecondSegment = -4.0F;          // named like the joint above it: "upper_arm.L.001"
-constexpr float kSkippedJoint = -0.4F;           // a skinned joint between two placed ones: twist, or a second segment
-constexpr float kShortestSegment = 0.02F;        // of the spread
+using namespace limb_costs;
+using namespace limb_bounds;
+namespace terms = limb_terms;
+
 constexpr std::size_t kMostPairsDetached = 200;  // any pair may follow any other: time grows with the cube
 constexpr std::size_t kPerRoot = 3;
+constexpr std::size_t kHeldPerRoot = 64;  // before they are thinned to kPerRoot
 constexpr std::size_t kMost = 48;
+constexpr vec3 kDown{0, -1, 0};
 
-float angleTerm(const vec3& a, const vec3& b, float cosineLimit, float deviation) {
+float angleTerm(const vec3& a, const vec3& b, const LimbTerm& term) {
     const float lengths = glm::length(a) * glm::length(b);
-    if (lengths <= 0.0F) return -1.0F;
-    return atLeast(glm::dot(a, b) / lengths, cosineLimit, deviation);
+    if (lengths <= 0.0F) return kNoDirection;
+    return term.atLeast(glm::dot(a, b) / lengths);
+}
+
+bool likelier(const LimbCandidate& a, const LimbCandidate& b) {
+    return a.score > b.score;
 }
 
 class LimbFinder {
@@ -46,8 +43,7 @@ class LimbFinder {
     std::vector<LimbCandidate> find() {
         for (int root = 0; root < static_cast<int>(framed_.pairs.size()); ++root)
             findFrom(root);
-        std::stable_sort(found_.begin(), found_.end(),
-                         [](const LimbCandidate& a, const LimbCandidate& b) { return a.score > b.score; });
+        std::stable_sort(found_.begin(), found_.end(), likelier);
         if (found_.size() > kMost) found_.resize(kMost);
         return found_;
     }
@@ -74,7 +70,9 @@ class LimbFinder {
     }
 
     // A limb of one joint may start anywhere along it: proportions bind it less.
-    [[nodiscard]] static float slackOf(const LimbCandidate& limb) { return limb.pairs[1] == kNoPair ? 3.0F : 1.0F; }
+    [[nodiscard]] static float slackOf(const LimbCandidate& limb) {
+        return limb.pairs[1] == kNoPair ? kSlackOfOneJoint : 1.0F;
+    }
 
     void findRelations() {
         const int count = static_cast<int>(framed_.pairs.size());
@@ -127,7 +125,7 @@ class LimbFinder {
             const vec3 away = framed_.positions[joint] - start;
             const vec3 off = away - glm::dot(away, along) / square * along;
             total += kSkippedJoint;
-            if (straight) total += near(glm::length(off) / std::sqrt(square), 0.0F, 0.06F, 2.0F);
+            if (straight) total += terms::kStraightTwist.near(glm::length(off) / std::sqrt(square));
         }
         return total;
     }
@@ -146,7 +144,7 @@ class LimbFinder {
                 widest = std::max(widest, rig.subtreeWeight[sibling]);
             total += 0.5F * std::log((rig.subtreeWeight[branch] + 1e-4F) / (widest + 1e-4F));
         }
-        return kMainBranch * std::max(total, -4.0F);
+        return kMainBranch * std::max(total, kLeastMainBranch);
     }
 
     // Whether `lower` may follow `upper` though it hangs elsewhere: rigs with feet under a control root, flat trees.
@@ -163,17 +161,15 @@ class LimbFinder {
     }
 
     // 0 below it in the tree, a loss where detached, kImpossible otherwise.
-    static constexpr float kImpossible = -100.0F;
     [[nodiscard]] float linkTerm(int upper, int lower) const {
         if (framed_.isAbove(upper, lower)) return skipped(upper, lower) + mainBranchTerm(upper, lower);
         if (!mayContinueDetached(upper, lower)) return kImpossible;
         return endsThere_[upper] ? kDetached : kDetachedFromMore;
     }
 
+    // All readings that start at a pair: of one joint, two and three; the best few are kept.
     void findFrom(int root) {
         best_.clear();
-        const int count = static_cast<int>(framed_.pairs.size());
-        const float shortest = kShortestSegment * framed_.spread;
         LimbCandidate candidate;
         candidate.kind = kind_;
         candidate.first = root;
@@ -181,37 +177,50 @@ class LimbFinder {
         candidate.pairs = {root, kNoPair, kNoPair, kNoPair};
         candidate.missing = kMissingEnd + kMissingMiddle;
         consider(candidate, 0.0F);
-        for (int middle = 0; middle < count; ++middle) {
-            const float first = link(root, middle);
-            if (first <= kImpossible || framed_.segment(root, middle) < shortest) continue;
-            if (!rightWay(root, middle)) continue;
+        for (int middle = 0; middle < static_cast<int>(framed_.pairs.size()); ++middle) {
+            if (!mayFollow(root, middle, 1)) continue;
             candidate.pairs = {root, middle, kNoPair, kNoPair};
             candidate.missing = kMissingEnd;
-            consider(candidate, first);
-            for (int end = 0; end < count; ++end) {
-                const float second = end == root ? kImpossible : link(middle, end);
-                if (second <= kImpossible || framed_.segment(middle, end) < shortest) continue;
-                const float ratio = framed_.segment(root, middle) / framed_.segment(middle, end);
-                if (ratio < 0.2F || ratio > 5.0F || !rightWay(middle, end)) continue;
-                candidate.pairs = {root, middle, end, kNoPair};
-                candidate.missing = 0.0F;
-                consider(candidate, first + second);
-            }
+            consider(candidate, link(root, middle));
+            findEndsFrom(candidate);
         }
-        std::stable_sort(best_.begin(), best_.end(),
-                         [](const LimbCandidate& a, const LimbCandidate& b) { return a.score > b.score; });
+        std::stable_sort(best_.begin(), best_.end(), likelier);
         best_.resize(std::min(best_.size(), kPerRoot));
         found_.insert(found_.end(), best_.begin(), best_.end());
     }
 
-    // Legs go down; arms may go anywhere.
+    // The readings of three joints that go on from one of two.
+    void findEndsFrom(LimbCandidate candidate) {
+        const int root = candidate.pairs[0];
+        const int middle = candidate.pairs[1];
+        candidate.missing = 0.0F;
+        for (int end = 0; end < static_cast<int>(framed_.pairs.size()); ++end) {
+            if (end == root || !mayFollow(middle, end, 2)) continue;
+            const float ratio = framed_.segment(root, middle) / framed_.segment(middle, end);
+            if (ratio < kLeastRatio || ratio > kMostRatio) continue;
+            candidate.pairs[2] = end;
+            consider(candidate, link(root, middle) + link(middle, end));
+        }
+    }
+
+    [[nodiscard]] bool mayFollow(int from, int to, int slot) const {
+        return link(from, to) > kImpossible && framed_.segment(from, to) >= kShortestSegment * framed_.spread &&
+               (rightWay(from, to) || (isNamed(from, slot - 1) && isNamed(to, slot)));
+    }
+
+    [[nodiscard]] bool isNamed(int pair, int slot) const { return at(pair).names[parts_[slot]] >= kNamedPart; }
+
+    // Legs go down but for those of seated and kneeling figures, which their names tell; arms may go anywhere.
     [[nodiscard]] bool rightWay(int from, int to) const {
         return kind_ == LimbKind::arm || at(to).position.y < at(from).position.y;
     }
 
+    // Scores a reading and holds it; they are thinned before they grow too many.
     void consider(LimbCandidate candidate, float links) {
         candidate.score = links + candidate.missing;
         candidate.names = 0.0F;
+        candidate.named = candidate.pairs[2] != kNoPair && isNamed(candidate.pairs[0], 0) &&
+                          isNamed(candidate.pairs[1], 1) && isNamed(candidate.pairs[2], 2);
         if (kind_ == LimbKind::leg) {
             scoreLeg(candidate);
         } else {
@@ -221,15 +230,13 @@ class LimbFinder {
         nameByWords(candidate);
         for (int slot = 0; slot < 3; ++slot) {
             if (candidate.pairs[slot] == kNoPair) continue;
-            candidate.score += placing(candidate.pairs[slot], slot) + 1.0F;
+            candidate.score += placing(candidate.pairs[slot], slot) + kJoint;
             candidate.names += nameTerm(candidate.pairs[slot], slot);
         }
         best_.push_back(candidate);
-        if (best_.size() > 64) {
-            std::nth_element(best_.begin(), best_.begin() + kPerRoot, best_.end(),
-                             [](const LimbCandidate& a, const LimbCandidate& b) { return a.score > b.score; });
-            best_.resize(kPerRoot);
-        }
+        if (best_.size() <= kHeldPerRoot) return;
+        std::nth_element(best_.begin(), best_.begin() + kPerRoot, best_.end(), likelier);
+        best_.resize(kPerRoot);
     }
 
     // A limb that is read as shorter than its chain of skinned joints.
@@ -237,7 +244,7 @@ class LimbFinder {
         if (limb.pairs[2] != kNoPair) return 0.0F;
         const int last = limb.pairs[1] != kNoPair ? limb.pairs[1] : limb.pairs[0];
         if (endsThere_[last]) return 0.0F;
-        return limb.pairs[1] != kNoPair ? -1.0F : -4.0F;
+        return limb.pairs[1] != kNoPair ? kLeftOverAfterTwo : kLeftOverAfterOne;
     }
 
     // Limbs of one or two joints: the last one may be the hand or foot, if its name says so.
@@ -247,7 +254,7 @@ class LimbFinder {
         int& last = middle != kNoPair ? middle : root;
         const PartScores& names = at(last).names;
         const float asEnd = names[parts_[2]];
-        if (asEnd > names[middle != kNoPair ? parts_[1] : parts_[0]] + 2.0F && asEnd > 0.0F) {
+        if (asEnd > names[middle != kNoPair ? parts_[1] : parts_[0]] + kEndWordLead && asEnd > 0.0F) {
             end = last;
             last = kNoPair;
         }
@@ -290,29 +297,34 @@ class LimbFinder {
         measure(leg);
         const auto& [upper, lower, foot, toes] = leg.pairs;
         const float length = leg.length;
-        if (length < 3.0F * kShortestSegment * framed_.spread) {
+        if (length < kShortestLimb * kShortestSegment * framed_.spread) {
             leg.score += kImpossible;
             return;
         }
-        leg.score += angleTerm(leg.tip - leg.root, vec3(0, -1, 0), 0.97F, 0.12F);
-        leg.score += near(leg.root.x / length, 0.2F, 0.2F * slackOf(leg), 2.0F);
-        if (leg.root.x < 0.03F * length) leg.score += kInMiddle;
-        const float height = std::max(leg.root.y - framed_.floor, 0.3F * length);
+        float pose = angleTerm(leg.tip - leg.root, kDown, terms::kLegDown);
+        leg.score += terms::kThighAside.near(leg.root.x / length, slackOf(leg));
+        if (leg.root.x < kMiddle * length) leg.score += kInMiddle;
+        const float height = std::max(leg.root.y - framed_.floor, kLeastHipHeight * length);
         const float heightOfTip = (leg.tip.y - framed_.floor) / height;
-        leg.score += near(heightOfTip, foot != kNoPair ? 0.1F : 0.0F, 0.18F, 5.0F);
+        pose += (foot != kNoPair ? terms::kAnkleHeight : terms::kSkinEndHeight).near(heightOfTip);
         if (lower != kNoPair) {
-            leg.score += angleTerm(at(lower).position - leg.root, vec3(0, -1, 0), 0.7F, 0.25F);
+            pose += angleTerm(at(lower).position - leg.root, kDown, terms::kThighDown);
         }
         if (foot != kNoPair) {
-            leg.score += near(std::log(framed_.segment(upper, lower) / framed_.segment(lower, foot)), 0.05F, 0.3F);
-            leg.score += angleTerm(at(foot).position - at(lower).position, vec3(0, -1, 0), 0.88F, 0.08F);
+            leg.score +=
+                terms::kThighToShin.near(std::log(framed_.segment(upper, lower) / framed_.segment(lower, foot)));
+            pose += angleTerm(at(foot).position - at(lower).position, kDown, terms::kShinDown);
             addToes(leg, height);
         } else if (lower != kNoPair) {
-            leg.score +=
-                near(std::log(framed_.segment(upper, lower) / (length - framed_.segment(upper, lower) + 1e-6F)), 0.0F,
-                     0.45F, 4.0F);
+            const float thigh = framed_.segment(upper, lower);
+            leg.score += terms::kThighToRest.near(std::log(thigh / (length - thigh + 1e-6F)));
         }
-        leg.score += unusedAbove(upper, length);
+        leg.score += poseOf(leg, pose) + unusedAbove(upper, length);
+    }
+
+    // A limb whose names are clear may be posed in any way.
+    [[nodiscard]] static float poseOf(const LimbCandidate& limb, float pose) {
+        return limb.named ? std::max(pose, kNamedPose) : pose;
     }
 
     void addToes(LimbCandidate& leg, float height) const {
@@ -321,10 +333,10 @@ class LimbFinder {
         for (const int pair : below_[foot]) {
             const vec3 away = at(pair).position - at(foot).position;
             const float distance = framed_.segment(foot, pair) / height;
-            if (distance < 0.03F || away.y > 0.04F * leg.length) continue;
+            if (distance < kShortestToes || away.y > kHighestToes * leg.length) continue;
             const float sideways = std::abs(away.x) / (glm::length(away) + 1e-6F);
-            const float score = 1.6F + placing(pair, 3) + near(distance, 0.18F, 0.2F, 3.0F) +
-                                atMost(sideways, 0.3F, 0.25F, 3.0F) + skipped(foot, pair, false);
+            const float score = kToes + placing(pair, 3) + terms::kToeDistance.near(distance) +
+                                terms::kToesSideways.atMost(sideways) + skipped(foot, pair, false);
             if (score <= best) continue;
             best = score;
             leg.pairs[3] = pair;
@@ -337,24 +349,25 @@ class LimbFinder {
         measure(arm);
         const auto& [upper, lower, hand, clavicle] = arm.pairs;
         const float length = arm.length;
-        if (length < 3.0F * kShortestSegment * framed_.spread) {
+        if (length < kShortestLimb * kShortestSegment * framed_.spread) {
             arm.score += kImpossible;
             return;
         }
         const vec3 along = (arm.tip - arm.root) / (glm::distance(arm.tip, arm.root) + 1e-6F);
-        arm.score += atLeast(along.x, 0.0F, 0.15F) + atMost(along.y, 0.3F, 0.3F, 3.0F);
-        if (arm.root.x < 0.03F * length) arm.score += kInMiddle;
+        float pose = terms::kArmOut.atLeast(along.x) + terms::kArmRaised.atMost(along.y);
+        if (arm.root.x < kMiddle * length) arm.score += kInMiddle;
         if (hand != kNoPair) {
             const vec3 first = at(lower).position - arm.root;
             const vec3 second = at(hand).position - at(lower).position;
             arm.score +=
-                near(std::log(framed_.segment(upper, lower) / framed_.segment(lower, hand)), 0.08F, 0.28F, 3.0F);
-            arm.score += angleTerm(first, second, 0.75F, 0.3F);
+                terms::kUpperToFore.near(std::log(framed_.segment(upper, lower) / framed_.segment(lower, hand)));
+            pose += angleTerm(first, second, terms::kElbowStraight);
             arm.score += beyondTerm(hand, length);
         } else if (lower != kNoPair) {
             const float first = framed_.segment(upper, lower);
-            arm.score += near(std::log(first / (length - first + 1e-6F)), -0.1F, 0.45F, 4.0F);
+            arm.score += terms::kUpperToRest.near(std::log(first / (length - first + 1e-6F)));
         }
+        arm.score += poseOf(arm, pose);
         addClavicle(arm);
     }
 
@@ -379,28 +392,32 @@ class LimbFinder {
     // Beyond the hand there are fingers, not another segment.
     [[nodiscard]] float beyondTerm(int hand, float length) const {
         const float reach = reachBeyond(hand) / length;
-        return reach > 0.0F ? near(reach, 0.3F, 0.22F, 4.0F) : -0.3F;
+        return reach > 0.0F ? terms::kBeyondHand.near(reach) : kNothingBeyondHand;
     }
 
+    // The pair above the upper arm (or beside it) that is likeliest its clavicle, if that is likelier than none.
     void addClavicle(LimbCandidate& arm) const {
         const int upper = arm.pairs[0];
-        const float base = near(arm.root.x / arm.length, 0.33F, 0.14F * slackOf(arm), 3.0F);
         float best = unusedAbove(upper, arm.length);
         for (int pair = 0; pair < static_cast<int>(framed_.pairs.size()); ++pair) {
-            const bool beside = areSiblings(pair, upper);
-            if (!framed_.isAbove(pair, upper) && !beside) continue;
-            const vec3 position = at(pair).position;
-            const float length = framed_.segment(pair, upper) / arm.length;
-            if (length < 0.04F) continue;
-            const float score = 1.0F + placing(pair, 3) + near(length, 0.28F, 0.13F, 4.0F) +
-                                near(position.x / arm.length, 0.08F, 0.12F, 3.0F) + skipped(pair, upper, false) +
-                                unusedAbove(pair, arm.length) + (beside ? kDetached : 0.0F);
+            const float score = clavicleTerm(arm, pair);
             if (score <= best) continue;
             best = score;
             arm.pairs[3] = pair;
         }
+        const float base = terms::kShoulderAside.near(arm.root.x / arm.length, slackOf(arm));
         arm.score += base + best;
         if (arm.pairs[3] != kNoPair) arm.names += nameTerm(arm.pairs[3], 3);
+    }
+
+    [[nodiscard]] float clavicleTerm(const LimbCandidate& arm, int pair) const {
+        const int upper = arm.pairs[0];
+        const bool beside = areSiblings(pair, upper);
+        const float length = framed_.segment(pair, upper) / arm.length;
+        if ((!framed_.isAbove(pair, upper) && !beside) || length < kShortestClavicle) return kImpossible;
+        return kClavicle + placing(pair, 3) + terms::kClavicleLength.near(length) +
+               terms::kClavicleAside.near(at(pair).position.x / arm.length) + skipped(pair, upper, false) +
+               unusedAbove(pair, arm.length) + (beside ? kDetached : 0.0F);
     }
 
     // A clavicle may hang beside the upper arm instead of above it.
@@ -417,7 +434,7 @@ class LimbFinder {
         float total = 0.0F;
         for (const int pair : above_[first]) {
             const bool counts = !framed_.rig->skinned || at(pair).ownWeight > 0.0F;
-            if (counts && !at(pair).helper && at(pair).position.x > 0.03F * length) total -= 0.8F;
+            if (counts && !at(pair).helper && at(pair).position.x > kMiddle * length) total += kUnusedAbove;
         }
         return total;
     }

@@ -24,6 +24,11 @@ struct LimbCandidate {
     vec3 root{0};          ///< Position of the first pair, in the stance.
     vec3 tip{0};           ///< Foot or hand, or the end of what there is.
 
+    bool named = false;  ///< All three joints are there and named as those parts: their pose proves little.
+    /// Joints that only one side has (the other limb is a stump), by side ([0] at +x) and slot; kNoJoint elsewhere.
+    std::array<std::array<int, 4>, 2> lone{
+        {{kNoJoint, kNoJoint, kNoJoint, kNoJoint}, {kNoJoint, kNoJoint, kNoJoint, kNoJoint}}};
+
     int first = kNoPair;  ///< The pair that the limb starts at (without clavicle), whatever part it is.
 
     [[nodiscard]] bool uses(int pair) const;

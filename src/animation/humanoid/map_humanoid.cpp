@@ -16,6 +16,8 @@ namespace {
 
 constexpr float kFixed = 40.0F;  // log-odds of what the user or the file says
 constexpr int kFewestJoints = 5;
+constexpr float kLoudShape = 1.5F;  // log-odds of the facing by shape that are worth a word against the names
+constexpr int kMostMissing = 7;     // of the 15 required roles, without a warning
 
 using FixedJoints = std::array<std::optional<int>, kRoleCount>;
 
@@ -98,6 +100,10 @@ void addWarnings(const Figure& figure, HumanoidMap& map) {
     if (figure.facing.namesDisagree()) {
         map.warnings.push_back(fmt::format(
             "left and right in the names disagree with the geometry, which is followed ({})", figure.facing.reason));
+    } else if (figure.facing.shape * figure.facing.names < -kLoudShape * std::abs(figure.facing.names)) {
+        map.warnings.push_back(
+            fmt::format("the geometry speaks against left and right in the names, which are followed ({})",
+                        figure.facing.shapeReason));
     } else if (std::abs(figure.facing.total()) < 1.0F) {
         map.warnings.emplace_back("front and back look alike: left and right may be exchanged");
     }
@@ -144,6 +150,11 @@ HumanoidMap mapHumanoid(const Character& character, const MapOptions& options) {
     bindFixed(ofFile, "the file's own VRM humanoid block", map);
     bindFixed(options.fixed, "fixed by the user", map);
     listMissing(map);
+    const auto missing = static_cast<int>(map.missing.size());
+    if (missing > kMostMissing) {
+        map.warnings.push_back(
+            fmt::format("{} of the 15 required parts have no joint: the ragdoll has hardly half a body", missing));
+    }
     return map;
 }
 

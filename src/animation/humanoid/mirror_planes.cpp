@@ -20,6 +20,7 @@ struct Vote {
     vec3 normal;
     float offset;
     float weight;
+    vec3 middle;  // between the two joints
 };
 
 bool namesMirror(const NameEvidence& a, const NameEvidence& b) {
@@ -58,6 +59,7 @@ void addVote(const Vote& vote, float spread, std::vector<Vote>& clusters) {
         const float offset = cosine < 0.0F ? -vote.offset : vote.offset;
         if (std::abs(cosine) > kSameDirection && std::abs(offset - cluster.offset) < kSameOffset * spread) {
             cluster.weight += vote.weight;
+            cluster.middle += vote.weight / cluster.weight * (vote.middle - cluster.middle);
             return;
         }
     }
@@ -78,8 +80,8 @@ std::vector<Vote> gatherVotes(const RigFeatures& rig, float spread) {
             const vec3 normal = across / length;
             const float skin = rig.carriesSkin(a) && rig.carriesSkin(b) ? 1.0F : 0.2F;
             const vec3 middle = 0.5F * (rig.positions[a] + rig.positions[b]);
-            votes.push_back(
-                {normal, glm::dot(normal, middle), (named ? 2.0F : 1.0F) * skin * length / static_cast<float>(climb)});
+            votes.push_back({normal, glm::dot(normal, middle),
+                             (named ? 2.0F : 1.0F) * skin * length / static_cast<float>(climb), middle});
         }
     }
     std::sort(votes.begin(), votes.end(), [](const Vote& a, const Vote& b) { return a.weight > b.weight; });
@@ -119,7 +121,8 @@ std::vector<MirrorPlane> findMirrorPlanes(const RigFeatures& rig) {
     const std::vector<Vote> clusters = gatherVotes(rig, spread);
     std::vector<MirrorPlane> planes;
     for (std::size_t i = 0; i < std::min(clusters.size(), kTested); ++i)
-        planes.push_back({clusters[i].normal, clusters[i].offset, agreementOf(rig, clusters[i], spread)});
+        planes.push_back(
+            {clusters[i].normal, clusters[i].offset, clusters[i].middle, agreementOf(rig, clusters[i], spread)});
     std::stable_sort(planes.begin(), planes.end(),
                      [](const MirrorPlane& a, const MirrorPlane& b) { return a.agreement > b.agreement; });
     if (planes.size() > kKept) planes.resize(kKept);

@@ -10,6 +10,7 @@ namespace lutka::animation {
 struct MirrorPlane {
     vec3 normal;      ///< Unit length; the sign means nothing yet.
     float offset;     ///< Model units.
+    vec3 middle;      ///< A point of it amid the pairs that it was found by.
     float agreement;  ///< [0, 1], how much of the joint tree is its own mirror image.
 };
 

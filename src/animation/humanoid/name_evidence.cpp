@@ -145,6 +145,18 @@ bool takesNoRole(const Concepts& c, const NameTokens& tokens) {
                      Concept::creature});
 }
 
+// "FootIK.L": a control by its name; where it moves skin it is the foot.
+void keepBelowControl(const Concepts& c, NameEvidence& evidence) {
+    constexpr float kControlLoss = -1.0F;
+    evidence.control = c.has(Concept::control) &&
+                       !c.hasAny({Concept::finger, Concept::end, Concept::face, Concept::hair, Concept::cloth,
+                                  Concept::prop, Concept::creature, Concept::twist, Concept::root});
+    if (!evidence.control) return;
+    evidence.partsIfSkinned = evidence.parts;
+    for (float& score : evidence.partsIfSkinned.values)
+        score += kControlLoss;
+}
+
 bool hasWord(const std::vector<std::string>& words, std::string_view word) {
     return std::find(words.begin(), words.end(), word) != words.end();
 }
@@ -171,6 +183,7 @@ NameEvidence nameEvidence(std::string_view name) {
     evidence.thumb = hasWord(tokens.words, "thumb") || hasWord(tokens.words, "thumbs");
     evidence.helper = concepts.hasAny({Concept::twist, Concept::control, Concept::end, Concept::prop});
     evidence.meaningful = !concepts.empty();
+    keepBelowControl(concepts, evidence);
     if (takesNoRole(concepts, tokens) || evidence.creature) {
         for (float& score : evidence.parts.values)
             score = std::min(score, 0.0F) * 0.2F + kNoRole;

@@ -15,10 +15,12 @@ struct NameEvidence {
     /// part's.
     PartScores parts;
     Side side = Side::center;
-    bool meaningful = false;  ///< Some word of the name is in the lexicon.
-    bool helper = false;      ///< Twist, control, tip, prop: sits at a body part without being it.
-    bool bareLimb = false;    ///< Only "arm" or "leg", without a word for which part of it.
-    bool face = false;        ///< Eye, jaw, nose …: in front of the head.
+    bool meaningful = false;    ///< Some word of the name is in the lexicon.
+    PartScores partsIfSkinned;  ///< As parts, where the name says control but the joint moves skin of its own.
+    bool control = false;       ///< Takes no role only because the name says control ("FootIK.L").
+    bool helper = false;        ///< Twist, control, tip, prop: sits at a body part without being it.
+    bool bareLimb = false;      ///< Only "arm" or "leg", without a word for which part of it.
+    bool face = false;          ///< Eye, jaw, nose …: in front of the head.
     bool thumb = false;
     bool tail = false;
     bool creature = false;           ///< Wing, paw, front leg …: not a human part.

@@ -100,6 +100,42 @@ void findShadows(RigFeatures& rig) {
     }
 }
 
+// What moves skin of its own is no control, whatever its name says: feet that are their own IK targets.
+void believeSkinnedControls(RigFeatures& rig) {
+    constexpr float kLeastSkin = 0.002F;
+    if (!rig.skinned) return;
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        NameEvidence& name = rig.names[joint];
+        if (!name.control || rig.directWeight[joint] < kLeastSkin) continue;
+        name.parts = name.partsIfSkinned;
+        name.helper = false;
+    }
+}
+
+// A word of two meanings has one where its neighbour has the other: a shoulder above an arm is the clavicle and that
+// arm the upper arm, a leg below a thigh is the shin.
+void readNamesInChains(RigFeatures& rig) {
+    constexpr float kSurely = 4.0F;
+    constexpr float kSurelyNot = -2.5F;
+    constexpr float kMaybe = 2.0F;
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        const int parent = rig.parents[joint];
+        if (parent == kNoJoint || rig.names[parent].side != rig.names[joint].side) continue;
+        PartScores& upper = rig.names[parent].parts;
+        PartScores& lower = rig.names[joint].parts;
+        if (rig.names[parent].words == rig.names[joint].words) continue;
+        if (upper[Part::clavicle] >= kMaybe && lower[Part::upperArm] >= kMaybe && lower[Part::clavicle] < kMaybe) {
+            upper[Part::clavicle] = std::max(upper[Part::clavicle], kSurely);
+            upper[Part::upperArm] = kSurelyNot;
+            lower[Part::upperArm] = std::max(lower[Part::upperArm], kSurely);
+        }
+        if (upper[Part::upperLeg] >= kSurely && lower[Part::lowerLeg] >= kMaybe) {
+            lower[Part::lowerLeg] = std::max(lower[Part::lowerLeg], kSurely);
+            lower[Part::upperLeg] = kSurelyNot;
+        }
+    }
+}
+
 // "Arm 1, Arm 2, Arm 3": where one chain calls three joints or more by the same word for a limb, the word tells the
 // limb and no part of it.
 void flattenNumberedLimbs(RigFeatures& rig) {
@@ -119,22 +155,32 @@ void flattenNumberedLimbs(RigFeatures& rig) {
 
 }  // namespace
 
-float spreadOf(const RigFeatures& rig) {
-    vec3 mean(0);
+namespace {
+
+vec3 middleOf(const RigFeatures& rig) {
+    vec3 sum(0);
     float count = 0.0F;
     for (int joint = 0; joint < rig.count(); ++joint) {
         if (!rig.carriesSkin(joint)) continue;
-        mean += rig.positions[joint];
+        sum += rig.positions[joint];
         count += 1.0F;
     }
-    if (count == 0.0F) return 0.0F;
-    mean /= count;
+    return count > 0.0F ? sum / count : sum;
+}
+
+}  // namespace
+
+float spreadOf(const RigFeatures& rig) {
+    const vec3 mean = middleOf(rig);
+    float count = 0.0F;
     float square = 0.0F;
     for (int joint = 0; joint < rig.count(); ++joint) {
+        if (!rig.carriesSkin(joint)) continue;
         const vec3 away = rig.positions[joint] - mean;
-        if (rig.carriesSkin(joint)) square += glm::dot(away, away);
+        square += glm::dot(away, away);
+        count += 1.0F;
     }
-    return 2.0F * std::sqrt(square / count);
+    return count > 0.0F ? 2.0F * std::sqrt(square / count) : 0.0F;
 }
 
 int RigFeatures::commonAncestor(int a, int b) const {
@@ -157,6 +203,8 @@ RigFeatures readRig(const Character& character, bool useNames) {
     readVertices(character, rig);
     rig.names.resize(rig.positions.size());
     if (useNames) std::transform(skeleton.names.begin(), skeleton.names.end(), rig.names.begin(), nameEvidence);
+    believeSkinnedControls(rig);
+    readNamesInChains(rig);
     flattenNumberedLimbs(rig);
     findShadows(rig);
     return rig;

@@ -35,6 +35,7 @@ class RoleAssembler {
         constexpr std::array<Role, 4> kArms{Role::leftUpperArm, Role::leftLowerArm, Role::leftHand, Role::leftShoulder};
         bindLimb(figure_.legs, kLegs, figure_.margins.legs, "leg");
         bindLimb(figure_.arms, kArms, figure_.margins.arms, "arm");
+        distrustAstray();
         map_.standardFromModel = standardStance();
         return map_;
     }
@@ -93,7 +94,10 @@ class RoleAssembler {
         const bool plusIsLeft = figure_.facing.total() >= 0.0F;
         std::size_t order = 0;
         for (std::size_t slot = 0; slot < leftRoles.size(); ++slot) {
-            if (limb.pairs[slot] == kNoPair) continue;
+            if (limb.pairs[slot] == kNoPair) {
+                bindLone(limb, slot, leftRoles[slot], what);
+                continue;
+            }
             const char* count = slot < 3 ? kOrder[order++] : nullptr;
             for (const bool left : {true, false}) {
                 const int joint = figure_.framed.pairs[limb.pairs[slot]].joints[left == plusIsLeft ? 0 : 1];
@@ -104,6 +108,32 @@ class RoleAssembler {
                                               : fmt::format("lies in front of the {} foot's joint", side);
                 bind(left ? leftRoles[slot] : mirrored(leftRoles[slot]), joint, parts[slot], margins[slot], place);
             }
+        }
+    }
+
+    // A role whose joint does not hang below that of the role above it, though the rig has limbs that do: the file's
+    // hierarchy does not move that part as the body would.
+    void distrustAstray() {
+        constexpr float kAstray = 0.9F;
+        for (int index = 0; index < kRoleCount; ++index) {
+            const std::optional<Role> above = parentRole(roleAt(index));
+            auto& binding = map_.roles[index];
+            if (!binding || !above || !map_.roles[indexOf(*above)]) continue;
+            const int parent = map_.roles[indexOf(*above)]->joint;
+            if (rig_.isAncestorOrSelf(parent, binding->joint)) continue;
+            binding->confidence *= kAstray;
+            map_.confidence *= kAstray;
+        }
+    }
+
+    // A joint that only one side has.
+    void bindLone(const LimbCandidate& limb, std::size_t slot, Role leftRole, const char* what) {
+        constexpr float kMargin = 2.0F;
+        const bool plusIsLeft = figure_.facing.total() >= 0.0F;
+        for (std::size_t side = 0; side < limb.lone.size(); ++side) {
+            const bool left = (side == 0) == plusIsLeft;
+            bind(left ? leftRole : mirrored(leftRole), limb.lone[side][slot], partsOf(limb.kind)[slot], kMargin,
+                 fmt::format("goes on with the {} {}, which the other side does not", left ? "left" : "right", what));
         }
     }
 

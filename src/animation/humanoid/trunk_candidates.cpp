@@ -15,6 +15,9 @@ constexpr float kShadow = -3.0F;
 constexpr float kOneJointTrunk = -1.5F;   // hips and chest in one
 constexpr float kUnskinnedTrunk = -4.0F;  // … that moves no skin
 constexpr float kHeadless = -3.0F;
+constexpr float kNamedChest = 2.0F;
+constexpr float kNamedHead = 4.0F;   // a name's score from which it says head and nothing else
+constexpr float kNamedPose = -2.0F;  // the most that the place of a head so named may cost
 constexpr std::size_t kHeadsTried = 6;
 constexpr std::size_t kHipsTried = 4;
 constexpr float kFarAway = 1e8F;
@@ -157,7 +160,8 @@ class TrunkFinder {
         bool anyAbove = false;  // a figure with joints where its head would be is not headless
         std::vector<int> joints;
         for (const int joint : central_) {
-            if (position(joint).y < arms_.root.y - 0.15F * length_ || joint == banned) continue;
+            const float lowest = isNamedHead(joint) ? 0.5F : 0.15F;
+            if (position(joint).y < arms_.root.y - lowest * length_ || joint == banned) continue;
             joints.push_back(joint);
             if (rig_.isAncestorOrSelf(joint, armRoot())) continue;
             skinAbove = std::max(skinAbove, rig_.subtreeWeight[joint]);
@@ -166,9 +170,10 @@ class TrunkFinder {
         }
         std::vector<Scored> heads;
         for (const int joint : joints) {
+            const float pose = near((position(joint).y - arms_.root.y) / length_, 0.32F, 0.2F, 5.0F) +
+                               near((position(joint).z - arms_.root.z) / length_, 0.0F, 0.3F, 3.0F);
             float score = name(joint, Part::head) + skinTerm(joint) + centralTerm(joint) +
-                          near((position(joint).y - arms_.root.y) / length_, 0.32F, 0.2F, 5.0F) +
-                          near((position(joint).z - arms_.root.z) / length_, 0.0F, 0.3F, 3.0F);
+                          (isNamedHead(joint) ? std::max(pose, kNamedPose) : pose);
             if (skinAbove > 0.0F) score += 2.0F * std::min(retainedSkin(joint) / (0.4F * skinAbove), 1.0F);
             if (rig_.isAncestorOrSelf(joint, armRoot())) score -= 6.0F;
             heads.push_back({joint, score});
@@ -177,6 +182,9 @@ class TrunkFinder {
         heads.push_back({kNoJoint, anyAbove ? 2.0F * kHeadless : kHeadless});
         return heads;
     }
+
+    // A head that is thrust forward is still one by its name.
+    [[nodiscard]] bool isNamedHead(int joint) const { return name(joint, Part::head) >= kNamedHead; }
 
     // Skin at and below a joint, without what goes on upwards along the middle: much for a head, little for a neck.
     [[nodiscard]] float retainedSkin(int joint) const {
@@ -217,14 +225,18 @@ class TrunkFinder {
         }
         if (chest != trunk.hips) {
             const float below = (arms_.root.y - place.y) / length_;
-            score += near(below, 0.2F, 0.2F * slack_, 5.0F) + atMost(-below, 0.08F, 0.05F * slack_ * slack_, 3.0F);
+            const float height =
+                near(below, 0.2F, 0.2F * slack_, 5.0F) + atMost(-below, 0.08F, 0.05F * slack_ * slack_, 3.0F);
+            // Squat figures' arms start below the joint that they hang from; its name tells.
+            const bool named = chest == armParent_ && name(chest, Part::chest) >= kNamedChest;
+            score += named ? std::max(height, kNamedPose) : height;
         }
         if (rig_.isAncestorOrSelf(trunk.hips, chest)) score += 1.5F;
         // Hips without skin below a trunk that is no higher are a control of that trunk.
         const bool low = place.y - legs_.root.y < 0.3F * length_;
         if (low && chest != trunk.hips && rig_.skinned && ownSkin(trunk.hips) <= 0.0F) score += 1.5F * kUnskinnedTrunk;
         if (trunk.head == kNoJoint) return score;
-        score += near((position(trunk.head).y - place.y) / length_, 0.6F, 0.25F, 4.0F);
+        score += near((position(trunk.head).y - place.y) / length_, 0.6F, 0.25F, isNamedHead(trunk.head) ? 1.5F : 4.0F);
         return score + neckScore(trunk);
     }
 

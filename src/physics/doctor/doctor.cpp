@@ -15,6 +15,9 @@ namespace {
 
 constexpr float kHighRatio = 10.0F;
 constexpr float kExtremeRatio = 20.0F;
+constexpr float kMostOfBroken = 40.0F;  // points that a figure whose skin or limbs are elsewhere can have
+constexpr float kLeastNear = 0.1F;      // of the skin's vertices near their body, below which …
+constexpr float kLeastCovered = 0.12F;  // … with less than this of the volume in some body, the skin is elsewhere
 
 std::string nameOf(Role role) {
     return std::string(roleName(role));
@@ -44,7 +47,7 @@ class Examination {
 
     // Every joint but the root's should hang below the joint that its body hangs on: else the file's hierarchy does not
     // move the limb as the ragdoll does (feet driven by inverse kinematics), or the role is on a wrong joint.
-    void checkHierarchy(Diagnosis& diagnosis, const animation::Skeleton& skeleton) const {
+    void checkHierarchy(Diagnosis& diagnosis, const animation::Skeleton& skeleton) {
         for (const ConstraintProfile& c : profile_.constraints) {
             const int parent = map_.jointOf(profile_.bodies[c.parent].role);
             const int child = map_.jointOf(profile_.bodies[c.child].role);
@@ -52,8 +55,10 @@ class Examination {
                 animation::isAncestorOrSelf(skeleton, parent, child)) {
                 continue;
             }
+            const bool elsewhere = hangsElsewhere(skeleton, profile_.bodies[c.child].role);
+            astray_ += elsewhere ? 1 : 0;
             diagnosis.findings.push_back(
-                {Severity::warning, "joint-not-below", link(c),
+                {elsewhere ? Severity::error : Severity::warning, "joint-not-below", link(c),
                  fmt::format("the joint \"{}\" is not below \"{}\"", skeleton.names[child], skeleton.names[parent]),
                  "map a joint below it, unless the rig drives this limb by an IK root", false, childRole(c)});
         }
@@ -174,11 +179,49 @@ class Examination {
             of += p.of;
         }
         diagnosis.score = 100.0F * points / of;
+        if (astray_ > 0 || isOutsideBodies(diagnosis.fit)) {
+            diagnosis.score = std::min(diagnosis.score, kMostOfBroken);
+        }
+    }
+
+    // Most of the skin far from its bodies: no measure of the rest makes that a figure.
+    void checkWhole(Diagnosis& diagnosis) const {
+        if (!isOutsideBodies(diagnosis.fit)) return;
+        const float near = 100.0F * diagnosis.fit.skinNear;
+        const float covered = 100.0F * *diagnosis.fit.volumeCovered;
+        diagnosis.findings.push_back(
+            {Severity::error,
+             "skin-outside-bodies",
+             "/bodies",
+             fmt::format("{:.0f} % of the skin is near its body and {:.0f} % of the volume in one", near, covered),
+             "look at the bodies on the skin: the map, the skin's weights or the bind pose are wrong",
+             false,
+             {}});
     }
 
     [[nodiscard]] bool matches() const { return plan_.bodies.size() == profile_.bodies.size(); }
 
   private:
+    [[nodiscard]] static bool isOutsideBodies(const FitMeasures& fit) {
+        return fit.vertices > 0 && fit.volumeCovered && fit.skinNear < kLeastNear && *fit.volumeCovered < kLeastCovered;
+    }
+
+    // Whether the role's joint hangs below the joint of a role that is not above it: a hand on the other arm.
+    [[nodiscard]] bool hangsElsewhere(const animation::Skeleton& skeleton, Role role) const {
+        const int joint = map_.jointOf(role);
+        for (int index = 0; index < animation::kRoleCount; ++index) {
+            const Role other = animation::roleAt(index);
+            const int top = map_.jointOf(other);
+            if (top == animation::kNoJoint || top == joint || isTrunk(other)) continue;
+            if (!animation::isAncestorOrSelf(skeleton, top, joint)) continue;
+            std::optional<Role> above = animation::parentRole(role);
+            while (above && *above != other)
+                above = animation::parentRole(*above);
+            if (!above) return true;
+        }
+        return false;
+    }
+
     // The plan lists bodies in the order of roles, which a profile edited by hand need not keep.
     [[nodiscard]] int indexOf(int body) const { return plan_.bodyOf(profile_.bodies[body].role); }
 
@@ -255,6 +298,7 @@ class Examination {
     std::vector<PlacedShape> shapes_;
     float worstRatio_ = 1.0F;
     int brokenLimits_ = 0;
+    int astray_ = 0;  // roles whose joints hang on another limb
 };
 
 void findMissingJoints(Diagnosis& diagnosis, const RagdollProfile& profile, const animation::Character& character,
@@ -328,9 +372,10 @@ Diagnosis diagnose(const RagdollProfile& profile, const animation::Character& ch
     examination.checkSides(diagnosis);
     for (const std::string& note : profile.notes)
         diagnosis.findings.push_back({Severity::info, "note", "", note, "", false, {}});
+    examination.measure(diagnosis, character);
+    examination.checkWhole(diagnosis);
     std::stable_sort(diagnosis.findings.begin(), diagnosis.findings.end(),
                      [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
-    examination.measure(diagnosis, character);
     examination.score(diagnosis);
     return diagnosis;
 }

@@ -46,6 +46,8 @@ struct Diagnosis {
 /// - `profile-invalid` what validate() says; nothing else is looked at (error)
 /// - `joint-missing` a body's joint is not in the skeleton; nothing else is looked at (error)
 /// - `role-unmapped` a required role has no joint (warning: the ragdoll has fewer bodies)
+/// - `joint-not-below` a role's joint is not below that of the role above it (warning; on another limb: error)
+/// - `skin-outside-bodies` most of the skin is far from its body and outside all others (error)
 /// - `mass-ratio` above 10 : 1 across a constraint (warning; above 20 : 1 error)
 /// - `bind-outside-limits` a limit excludes the bind pose: energy appears at the first step (error)
 /// - `limit-span-small` a span below 5 degrees either way, known to jitter (warning)

@@ -46,9 +46,11 @@ struct Totals {
     int falselyAccepted = 0;
 };
 
-// Block men whose front and back are alike: without names, or against them, their sides are anybody's guess.
+// Block men whose front and back are alike, or that only their soles tell apart: without names their sides are
+// anybody's guess, and names that agree everywhere outweigh a single measure.
 bool sidesAreUnknown(const Model& model) {
-    return model.truth.model == "minetest_character" || model.truth.model == "hl1_man";
+    return model.truth.model == "minetest_character" || model.truth.model == "hl1_man" ||
+           model.truth.model == "sketchbook_boxman";
 }
 
 enum class Sides { asNamed, unnamed, againstNames };

@@ -144,6 +144,8 @@ TEST_CASE("the doctor tells of a role whose joint is not below its parent's") {
     CHECK(finding->place == "leftHand on leftLowerArm");
     CHECK(finding->roles == std::vector{Role::leftHand});
     CHECK_THAT(finding->measure, Catch::Contains("leftLowerArm"));
+    CHECK(finding->severity == Severity::error);
+    CHECK(diagnosis.score < 50.0F);
 }
 
 TEST_CASE("an invalid profile and one of another rig are told apart from a sick one") {
