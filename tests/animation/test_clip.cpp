@@ -17,10 +17,15 @@ RigidTransform at(float x) {
 
 TEST_CASE("the poses of a clip are made at their first use, once for all its copies") {
     int made = 0;
-    Clip clip{"walk", 30.0F, 2, ClipFrames(2, [&] {
-                  ++made;
-                  return std::vector<RigidTransform>{at(1), at(3)};
-              })};
+    Clip clip{"walk",
+              30.0F,
+              2,
+              ClipFrames(2,
+                         [&] {
+                             ++made;
+                             return std::vector<RigidTransform>{at(1), at(3)};
+                         }),
+              {}};
     const Clip copy = clip;
     CHECK(clip.seconds() == Approx(1.0F / 30.0F));
     CHECK(clip.parentFromJoint.size() == 2);
@@ -34,7 +39,7 @@ TEST_CASE("the poses of a clip are made at their first use, once for all its cop
 }
 
 TEST_CASE("changing a clip leaves its copies as they were") {
-    Clip clip{"walk", 30.0F, 1, ClipFrames(1, [] { return std::vector<RigidTransform>{at(1)}; })};
+    Clip clip{"walk", 30.0F, 1, ClipFrames(1, [] { return std::vector<RigidTransform>{at(1)}; }), {}};
     const Clip before = clip;
     clip.parentFromJoint.append(std::vector<RigidTransform>{at(2)});
     CHECK(clip.parentFromJoint.size() == 2);
@@ -47,10 +52,15 @@ TEST_CASE("changing a clip leaves its copies as they were") {
 
 TEST_CASE("several threads may come to a clip first") {
     int made = 0;
-    const Clip clip{"walk", 30.0F, 1, ClipFrames(1, [&] {
-                        ++made;
-                        return std::vector<RigidTransform>{at(7)};
-                    })};
+    const Clip clip{"walk",
+                    30.0F,
+                    1,
+                    ClipFrames(1,
+                               [&] {
+                                   ++made;
+                                   return std::vector<RigidTransform>{at(7)};
+                               }),
+                    {}};
     std::vector<std::thread> threads;
     std::vector<float> seen(8);
     for (float& x : seen)

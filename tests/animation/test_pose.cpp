@@ -34,7 +34,7 @@ TEST_CASE("a turned parent carries its children around") {
 }
 
 TEST_CASE("a clip is read at its frames, between them and clamped beyond its ends") {
-    Clip clip{"slide", 10.0F, 3, {}};
+    Clip clip{"slide", 10.0F, 3, {}, {}};
     for (const float x : {0.0F, 1.0F, 4.0F})
         clip.parentFromJoint.push_back({quat(1, 0, 0, 0), {x, 0, 0}});
     CHECK(clip.seconds() == Approx(0.2F));

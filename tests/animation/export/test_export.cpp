@@ -125,8 +125,8 @@ Character movingBiped() {
     const int elbow = findJoint(biped.skeleton, "leftLowerArm");
     std::vector<RigidTransform> rest(biped.skeleton.parents.size());
     modelToLocal(biped.skeleton, biped.skeleton.bindModelFromJoint, rest);
-    Clip bend{"bend", 30.0F, 31, {}};
-    Clip lift{"lift", 60.0F, 61, {}};
+    Clip bend{"bend", 30.0F, 31, {}, {}};
+    Clip lift{"lift", 60.0F, 61, {}, {}};
     for (int frame = 0; frame < bend.frameCount; ++frame) {
         std::vector<RigidTransform> pose = rest;
         pose[elbow].rotation = glm::angleAxis(0.05F * static_cast<float>(frame), vec3(0, 1, 0));

@@ -85,7 +85,7 @@ TEST_CASE("a reading that is stopped ends at once") {
 TEST_CASE("only ordinary files are given to the reading process") {
     const test::ScratchFolder folder;
     REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
-    for (const std::string& name : {"pipe", "missing", "."}) {
+    for (const char* name : {"pipe", "missing", "."}) {
         INFO(name);
         const auto read = readIsolated(folder / name, {}, smallIsolation());
         REQUIRE_FALSE(read);

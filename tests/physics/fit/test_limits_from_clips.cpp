@@ -22,7 +22,7 @@ struct Doll {
 Doll dollThatTurns(const std::string& joint, const vec3& axis, float angle) {
     Doll doll;
     doll.character = test::makeBiped();
-    animation::Clip clip{"turn", 30.0F, 11, {}};
+    animation::Clip clip{"turn", 30.0F, 11, {}, {}};
     const int turned = animation::findJoint(doll.character.skeleton, joint);
     for (int frame = 0; frame < clip.frameCount; ++frame) {
         std::vector<RigidTransform> pose = doll.character.skeleton.nodeParentFromJoint;
