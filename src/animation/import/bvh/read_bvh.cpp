@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <optional>
+#include <span>
 
 #include "animation/import/bvh/bvh_document.hpp"
 #include "core/files.hpp"
@@ -27,6 +29,8 @@ constexpr double kMostOneAxis = 0.93;
 constexpr double kOnFloor = 0.15;
 constexpr double kOffFloor = 0.35;
 constexpr std::size_t kFramesLookedAt = 40;
+constexpr std::size_t kFramesToChooseFrom = 300;
+constexpr double kClearlyBetter = 1.02;
 
 std::vector<dmat4> sceneFromJoints(const BvhDocument& document, std::span<const dmat4> parentFromJoint) {
     std::vector<dmat4> out;
@@ -52,13 +56,23 @@ std::vector<dmat4> poseAt(const BvhDocument& document, std::size_t frame) {
     return out;
 }
 
+// The joints from the first on that has several children: what is above them only leads to the figure.
+std::size_t firstFork(const BvhDocument& document) {
+    std::vector<int> children(document.joints.size(), 0);
+    for (const bvh::Joint& joint : document.joints) {
+        if (joint.parent >= 0) ++children[static_cast<std::size_t>(joint.parent)];
+    }
+    const auto fork = std::find_if(children.begin(), children.end(), [](int count) { return count > 1; });
+    return fork == children.end() ? 0 : static_cast<std::size_t>(fork - children.begin());
+}
+
 // Whether the bones point into different directions, as those of a figure do in any pose.
 bool spreadsOut(const BvhDocument& document, std::span<const dmat4> parentFromJoint) {
     const std::vector<dmat4> scene = sceneFromJoints(document, parentFromJoint);
     dvec3 positive(0);
     dvec3 negative(0);
     double total = 0.0;
-    for (std::size_t i = 0; i < scene.size(); ++i) {
+    for (std::size_t i = firstFork(document) + 1; i < scene.size(); ++i) {
         const int parent = document.joints[i].parent;
         if (parent < 0) continue;
         const dvec3 bone = dvec3(scene[i][3]) - dvec3(scene[static_cast<std::size_t>(parent)][3]);
@@ -72,25 +86,6 @@ bool spreadsOut(const BvhDocument& document, std::span<const dmat4> parentFromJo
         if (oneWay > kMostOneWay * total || positive[axis] + negative[axis] > kMostOneAxis * total) return false;
     }
     return true;
-}
-
-// The nodes' pose.
-std::vector<dmat4> restPose(const BvhDocument& document, std::vector<std::string>& warnings) {
-    std::vector<dmat4> zero = zeroPose(document);
-    const std::size_t frames = document.frameCount();
-    if (frames == 0 || document.joints.size() < 4 || spreadsOut(document, zero)) return zero;
-    const std::size_t step = std::max<std::size_t>(1, frames / 1000);
-    for (std::size_t frame = 0; frame < frames; frame += step) {
-        std::vector<dmat4> pose = poseAt(document, frame);
-        if (!spreadsOut(document, pose)) continue;
-        warnings.push_back(
-            fmt::format("the file's zero pose is no figure (its bones all point along one axis); "
-                        "frame {} of the motion is taken in its place",
-                        frame));
-        return pose;
-    }
-    warnings.emplace_back("the file's zero pose is no figure (its bones all point along one axis), nor is any frame");
-    return zero;
 }
 
 // How far the lowest joint is from the floor along an axis, in sizes of the figure; over some frames.
@@ -113,6 +108,70 @@ double offFloor(const BvhDocument& document, int axis) {
         count += 1.0;
     }
     return count > 0.0 ? sum / count : 0.0;
+}
+
+// The axis that points up: Z where the motion stands on that floor and not on Y's.
+int upAxisOf(const BvhDocument& document) {
+    const bool z = document.frameCount() > 0 && offFloor(document, 2) < kOnFloor && offFloor(document, 1) > kOffFloor;
+    return z ? 2 : 1;
+}
+
+// How plainly a pose shows the figure: how high the hips stand over the lowest joint, in lengths of the longest way
+// down from them, and how straight the limbs are.
+double plainness(const BvhDocument& document, std::span<const dmat4> parentFromJoint, int up) {
+    const std::vector<dmat4> scene = sceneFromJoints(document, parentFromJoint);
+    const std::size_t fork = firstFork(document);
+    const dvec3 hips(scene[fork][3]);
+    std::vector<double> way(scene.size(), 0.0);
+    std::vector<bool> isTip(scene.size(), true);
+    double longest = 1e-12;
+    double low = hips[up];
+    for (std::size_t i = fork + 1; i < scene.size(); ++i) {
+        if (document.joints[i].parent < static_cast<int>(fork)) break;  // another hierarchy
+        const auto parent = static_cast<std::size_t>(document.joints[i].parent);
+        way[i] = way[parent] + glm::distance(dvec3(scene[i][3]), dvec3(scene[parent][3]));
+        isTip[parent] = false;
+        longest = std::max(longest, way[i]);
+        low = std::min(low, scene[i][3][up]);
+    }
+    double straight = 0.0;
+    double tips = 0.0;
+    for (std::size_t i = fork + 1; i < scene.size(); ++i) {
+        if (!isTip[i] || !(way[i] > 0.0)) continue;
+        straight += glm::distance(dvec3(scene[i][3]), hips) / way[i];
+        tips += 1.0;
+    }
+    return (hips[up] - low) / longest + straight / std::max(tips, 1.0);
+}
+
+// The nodes' pose.
+std::vector<dmat4> restPose(const BvhDocument& document, std::vector<std::string>& warnings) {
+    std::vector<dmat4> zero = zeroPose(document);
+    const std::size_t frames = document.frameCount();
+    if (frames == 0 || document.joints.size() < 4 || spreadsOut(document, zero)) return zero;
+    const int up = upAxisOf(document);
+    const std::size_t step = std::max<std::size_t>(1, frames / kFramesToChooseFrom);
+    std::optional<std::size_t> chosen;
+    double best = 0.0;
+    for (std::size_t frame = 0; frame < frames; frame += step) {
+        const std::vector<dmat4> pose = poseAt(document, frame);
+        if (!spreadsOut(document, pose)) continue;
+        const double score = plainness(document, pose, up);
+        // The earliest of those that are about as good: many captures begin with a pose for the purpose.
+        if (chosen && score < kClearlyBetter * best) continue;
+        chosen = frame;
+        best = score;
+    }
+    if (!chosen) {
+        warnings.emplace_back(
+            "the file's zero pose is no figure (its bones all point along one axis), nor is any frame");
+        return zero;
+    }
+    warnings.push_back(
+        fmt::format("the file's zero pose is no figure (its bones all point along one axis); frame {} of "
+                    "the motion is taken in its place",
+                    *chosen));
+    return poseAt(document, *chosen);
 }
 
 SourceChannel channelOf(int node, SourceChannel::Path path) {
@@ -180,7 +239,7 @@ Result<SourceScene> readBvh(const std::filesystem::path& file) {
     addNodes(document, restPose(document, scene.warnings), scene);
     if (document.frameCount() > 0) {
         scene.clips.push_back(clipOf(document));
-        if (offFloor(document, 2) < kOnFloor && offFloor(document, 1) > kOffFloor) {
+        if (upAxisOf(document) == 2) {
             scene.convention.up = UpAxis::positiveZ;
             scene.convention.upSource = "the floor of the motion";
         }

@@ -11,7 +11,8 @@ namespace lutka::animation::rig_import {
 /// neither unit nor up axis; Z is given as up where the motion stands on that floor and not on Y's.
 ///
 /// The nodes' pose is the file's zero pose, unless nearly all of it points along one axis, as many captures are
-/// exported: then it is the first frame that spreads out like a figure, which a warning tells.
+/// exported: then it is the frame of the motion that shows the figure most plainly (upright, with straight limbs; the
+/// earliest of those that do), which a warning tells.
 [[nodiscard]] Result<SourceScene> readBvh(const std::filesystem::path& file);
 
 }  // namespace lutka::animation::rig_import

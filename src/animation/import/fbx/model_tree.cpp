@@ -39,7 +39,10 @@ class TreeBuilder {
         return true;
     }
 
-    ModelTree take() { return std::move(tree_); }
+    ModelTree take() {
+        leaveOutEffectors();
+        return std::move(tree_);
+    }
 
   private:
     int add(const Pending& next) {
@@ -51,6 +54,34 @@ class TreeBuilder {
         tree_.nodeOfModel[next.model] = node;
         tree_.inOrder.emplace_back(next.model, node);
         return node;
+    }
+
+    // They repeat the figure joint by joint, and would be taken for a second one.
+    void leaveOutEffectors() {
+        std::vector<bool> keep(tree_.parents.size(), false);
+        keep[0] = true;
+        for (auto entry = tree_.inOrder.rbegin(); entry != tree_.inOrder.rend(); ++entry) {
+            const auto node = static_cast<std::size_t>(entry->second);
+            if (!objects_[entry->first].subKind.ends_with("Effector")) keep[node] = true;
+            if (keep[node]) keep[static_cast<std::size_t>(tree_.parents[node])] = true;
+        }
+        ModelTree kept;
+        std::vector<int> newIndex(keep.size(), -1);
+        for (std::size_t node = 0; node < keep.size(); ++node) {
+            if (!keep[node]) continue;
+            newIndex[node] = static_cast<int>(kept.parents.size());
+            const int parent = tree_.parents[node];
+            kept.parents.push_back(parent < 0 ? -1 : newIndex[static_cast<std::size_t>(parent)]);
+            kept.names.push_back(std::move(tree_.names[node]));
+            kept.transforms.push_back(tree_.transforms[node]);
+        }
+        for (const auto& [model, node] : tree_.inOrder) {
+            const int index = newIndex[static_cast<std::size_t>(node)];
+            if (index < 0) continue;
+            kept.nodeOfModel[model] = index;
+            kept.inOrder.emplace_back(model, index);
+        }
+        tree_ = std::move(kept);
     }
 
     const Objects& objects_;

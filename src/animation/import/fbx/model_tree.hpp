@@ -21,8 +21,9 @@ struct ModelTree {
     std::vector<std::pair<int, int>> inOrder;  ///< Object index and node, in the order of the nodes.
 };
 
-/// Models that hang on no other one, or on each other in a ring, hang on the root. Fails beyond 65,535 nodes and where
-/// they are nested deeper than 4,096.
+/// The handles of control rigs (effectors, which MotionBuilder saves along) are left out with what hangs on them,
+/// unless that is something else. Models that hang on no other one, or on each other in a ring, hang on the root. Fails
+/// beyond 65,535 nodes and where they are nested deeper than 4,096.
 [[nodiscard]] Result<ModelTree> readModelTree(const Objects& objects, const std::string& location);
 
 }  // namespace lutka::animation::rig_import::fbx
