@@ -77,9 +77,10 @@ bool isStandardOutput(const fs::path& file) {
 }
 
 Result<void> writeFileAtomically(const fs::path& named, const std::function<Result<void>(const fs::path&)>& write) {
+    // What a link names is replaced, not the link. A file that is not there yet is no link.
+    std::error_code ignored;
+    const fs::path file = fs::is_symlink(named, ignored) ? fs::weakly_canonical(named, ignored) : named;
     std::error_code failed;
-    // What a link names is replaced, not the link.
-    const fs::path file = fs::is_symlink(named, failed) ? fs::weakly_canonical(named, failed) : named;
     if (isStream(file) || isStandardOutput(named)) {
         return Error{ErrorCode::output, "is no ordinary file, and this output can't be streamed", named.string(),
                      "give the name of a file"};

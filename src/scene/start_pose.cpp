@@ -49,6 +49,11 @@ Result<std::vector<BodyState>> startBodies(const RagdollAsset& asset, const Simu
     const auto clip = findClip(asset.character, start->clip);
     if (!clip) return clip.error();
     const float length = clip.value()->seconds();
+    constexpr float kRounding = 1e-3F;  // seconds
+    if (start->seconds < 0.0F || start->seconds > length + kRounding) {
+        return Error{ErrorCode::usage, fmt::format("clip '{}' has no pose at {} s", start->clip, start->seconds),
+                     asset.character.file.string(), fmt::format("it lasts from 0 to {:.3g} s", length)};
+    }
     const float now = std::clamp(start->seconds, 0.0F, length);
     const float before = std::max(now - options.dt, 0.0F);
     const float after = std::min(now + options.dt, length);

@@ -124,8 +124,9 @@ TEST_CASE("names that are not UTF-8 work from the model to the report") {
 TEST_CASE("one signal ends a command within a second, whatever it is doing") {
     const ScratchFolder folder;
     const std::string report = folder / "r.json";
-    for (const std::string& command : {"simulate " + kMannequin + " --seconds 3000 --report " + report,
-                                       "bench --count 500 --steps 100000", "edit --headless --frames 10000000"}) {
+    const std::string simulate = "simulate " + kMannequin + " --seconds 3000 --report " + report;
+    for (const std::string& command : {simulate, std::string("bench --count 500 --steps 100000"),
+                                       std::string("edit --headless --frames 10000000")}) {
         INFO(command);
         const CommandResult result = shell(kLutka + command +
                                            " & child=\\$!; sleep 1; kill -TERM \\$child; "

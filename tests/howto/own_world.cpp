@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
     const RigidTransform worldFromModel{asset.profile.standardFromModel, vec3(0, 0.5F, 0)};
     std::vector<physics::BodyState> bodies(asset.profile.bodies.size());
     physics::bodiesFromPose(asset.rig, asset.character.skeleton.bindModelFromJoint, worldFromModel, bodies);
-    const int doll = world->addDoll(asset.profile, bodies);
+    const physics::DollId doll = world->addDoll(asset.profile, bodies);
 
     physics::JointMotor stiff;  // towards the neutral pose, the middle of each joint's range
     stiff.stiffness = 200.0F;   // N m / rad

@@ -12,8 +12,7 @@ namespace {
 std::vector<physics::BodyState> fallen(const physics::WorldSettings& world) {
     const auto asset = scene::makeRagdoll(test::makeBiped());
     REQUIRE(asset.ok());
-    const auto figure = scene::figureBounds(asset.value()->profile, asset.value()->rig);
-    auto scenario = scene::makeScenario("drop", 1, 0, figure, asset.value()->profile.standardFromModel);
+    auto scenario = scene::makeScenario({}, *asset.value());
     REQUIRE(scenario.ok());
     scene::SimulationOptions options;
     options.world = world;
@@ -22,7 +21,7 @@ std::vector<physics::BodyState> fallen(const physics::WorldSettings& world) {
     for (int step = 0; step < 30; ++step)
         simulation.value()->step();
     std::vector<physics::BodyState> bodies(asset.value()->profile.bodies.size());
-    simulation.value()->world().getBodies(0, bodies);
+    simulation.value()->getBodies(0, bodies);
     return bodies;
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -59,6 +60,7 @@ class Painter {
         }
         if (layers_.bullet && run.simulation->options().world.solver == physics::SolverKind::crowd)
             spdlog::warn("--debug bullet draws nothing with the crowd solver; add --solver bullet");
+        showBodiesForSkins(run);
         legend_ = scene::legendOf(layers_);
         for (const auto& asset : run.cast.assets)
             characters_.push_back(orLeave(renderer_.uploadCharacter(asset->character)));
@@ -85,6 +87,16 @@ class Painter {
     [[nodiscard]] render::Extent size() const { return size_; }
 
   private:
+    // A file of joints alone (motion capture) would be an empty floor.
+    void showBodiesForSkins(const Run& run) {
+        const auto& assets = run.cast.assets;
+        const bool skinned = std::any_of(assets.begin(), assets.end(),
+                                         [](const auto& asset) { return !asset->character.meshes.empty(); });
+        if (skinned || !options_.debug.empty()) return;
+        layers_.solidCapsules = true;
+        spdlog::warn("the file has no skin: the bodies are drawn in its place (--debug says which layers are)");
+    }
+
     // What is far from the camera is spared (--shed) unless an eye was asked for.
     void watch(scene::Simulation& simulation) const {
         if (options_.simulate.eye.empty()) simulation.setEye(render::eyeOf(frame_.camera));

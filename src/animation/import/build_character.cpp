@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <memory>
 #include <utility>
 
@@ -67,6 +69,19 @@ void settleMeshes(const UnitsAndAxes& units, std::vector<SkinnedMesh>& meshes) {
     }
 }
 
+// Where the figure was brought to the origin, joints above it that move no skin may have stood at the old one: they
+// would be as far away now, and stand at the origin instead.
+void bringAlong(const UnitsAndAxes& units, std::span<const float> skinWeight, std::span<dmat4> bind) {
+    const double moved = glm::length(units.translation);
+    if (!(moved > 0.0)) return;
+    const dmat4 modelFromScene = units.modelFromScene();
+    const dmat4 sceneFromModel = glm::inverse(modelFromScene);
+    for (std::size_t joint = 0; joint < bind.size(); ++joint) {
+        const dvec3 at(modelFromScene * bind[joint][3]);
+        if (skinWeight[joint] == 0.0F && glm::length(at) > 0.5 * moved) bind[joint][3] = sceneFromModel[3];
+    }
+}
+
 void poseNodes(const ClipFile& file, Character& character) {
     std::vector<dmat4> sceneFromNode;
     sceneFromNode.reserve(file.tree.nodes.size());
@@ -121,11 +136,12 @@ Result<Character> buildCharacter(SourceScene source, const std::filesystem::path
     character.skeleton.skinWeight.assign(tree.nodeOfJoint.size(), 0.0F);
 
     const std::vector<MeshInstance> instances = bindMeshes(source, tree, character.warnings);
-    const std::vector<dmat4> bind = solveBindPose(tree, instances);
+    std::vector<dmat4> bind = solveBindPose(tree, instances);
     character.meshes = convertMeshes(tree, instances, bind, character.skeleton.skinWeight, character.warnings);
     const UnitsAndAxes units =
         settleUnits(source.convention, pointsOfFigure(character, bind), options, character.warnings);
     character.units = units.info;
+    bringAlong(units, character.skeleton.skinWeight, bind);
     settleMeshes(units, character.meshes);
     for (SkinnedMesh& mesh : character.meshes)
         orderForSkinning(mesh);

@@ -11,6 +11,7 @@
 #include "animation/import/assimp/read_with_assimp.hpp"
 #include "animation/import/bvh/read_bvh.hpp"
 #include "animation/import/clean_source.hpp"
+#include "animation/import/fbx/document.hpp"
 #include "animation/import/fbx/read_fbx.hpp"
 #include "animation/import/gltf/read_gltf.hpp"
 
@@ -45,12 +46,6 @@ bool isGltf(const fs::path& file, std::string_view start) {
     return first != std::string_view::npos && start[first] == '{' && (extension == ".gltf" || extension == ".vrm");
 }
 
-bool isFbx(const fs::path& file, std::string_view start) {
-    if (start.starts_with("Kaydara FBX Binary")) return true;
-    return lowerExtension(file) == ".fbx" && (start.find("; FBX") != std::string_view::npos ||
-                                              start.find("FBXHeaderExtension") != std::string_view::npos);
-}
-
 bool isBvh(const fs::path& file, std::string_view start) {
     const std::size_t first = start.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
     return lowerExtension(file) == ".bvh" ||
@@ -59,7 +54,7 @@ bool isBvh(const fs::path& file, std::string_view start) {
 
 Result<SourceScene> read(const fs::path& file, std::string_view start, const ImportOptions& options) {
     if (isGltf(file, start)) return readGltf(file, options);
-    if (isFbx(file, start)) return readFbx(file, options);
+    if (fbx::isFbx({reinterpret_cast<const std::uint8_t*>(start.data()), start.size()})) return readFbx(file, options);
     if (isBvh(file, start)) return readBvh(file);
     return readWithAssimp(file, options);
 }

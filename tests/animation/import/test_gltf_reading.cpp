@@ -206,6 +206,8 @@ TEST_CASE("a figure far from the origin is brought to it with a word, and things
     CHECK(warns(brought, "from the origin"));
     for (const vec3& p : bindVertices(brought))
         CHECK(std::abs(p.x) < 1.0F);
+    for (const RigidTransform& joint : brought.skeleton.bindModelFromJoint)
+        CHECK(glm::length(joint.translation) < 3.0F);
 
     GltfFile stage = makePostRig();
     const Character alone = [&] {
