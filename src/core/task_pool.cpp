@@ -23,7 +23,12 @@ int threadsToBeHad(int wanted) {
     threads.reserve(static_cast<std::size_t>(wanted));
     try {
         while (static_cast<int>(threads.size()) < wanted)
-            threads.emplace_back([end] { end.wait(); });
+            threads.emplace_back([end] {
+                // The C library reserves address space for a thread when it first allocates; oneTBB's all do.
+                const std::unique_ptr<volatile char[]> own(new volatile char[64]);
+                own[0] = 0;
+                end.wait();
+            });
     } catch (const std::system_error&) {  // as many as there are, then
     }
     tried.set_value();

@@ -314,16 +314,16 @@ TEST_CASE("a stdout that can't be written ends with 5") {
     CHECK(result.code == 5);
 }
 
-TEST_CASE("a damaged FBX that trips an assertion of the importer ends with 3") {
+TEST_CASE("an FBX that is cut off ends with 3") {
     NEEDS_ZOO();
     const ScratchFolder folder;
     std::string bytes = fileText(zooFile("rocketbox_male/Male_Adult_17.fbx"));
     REQUIRE(bytes.size() > 401604);
-    bytes[401604] = '\x3B';
+    bytes.resize(bytes.size() / 2);
     std::ofstream(folder / "damaged.fbx", std::ios::binary) << bytes;
     const CommandResult result = lutkaCommand("map " + (folder / "damaged.fbx"));
     CHECK(result.code == 3);
-    CHECK(contains(result.err, "damaged"));
+    CHECK(contains(result.err, "damaged.fbx"));
 }
 
 TEST_CASE("an interrupted video leaves nothing behind") {

@@ -4,6 +4,7 @@
 
 #include "animation/pose.hpp"
 #include "scene/simulation.hpp"
+#include "scene/start_pose.hpp"
 #include "support/catch.hpp"
 #include "support/zoo.hpp"
 
@@ -110,13 +111,18 @@ TEST_CASE("a fall from a clip of a real model starts with the clip's velocities 
     CHECK(clips >= 6);
 }
 
-TEST_CASE("a moment outside of a clip is its nearest end, with the velocities of that end") {
+TEST_CASE("a moment outside of a clip is refused, and its end has the velocities of its last step") {
     NEEDS_ZOO();
     const auto asset = load("cesium_man_glb/CesiumMan.glb");
     const animation::Clip& clip = asset->character.clips.front();
     const auto hash = [&](float seconds) { return startFrom(*asset, clip, seconds, 1.0F / 60.0F)->stateHash(); };
-    CHECK(hash(clip.seconds() + 5.0F) == hash(clip.seconds()));
-    CHECK(hash(-1.0F) == hash(0.0F));
+    for (const float outside : {clip.seconds() + 5.0F, -1.0F}) {
+        scene::SimulationOptions options;
+        options.fromClip = scene::ClipStart{clip.name, outside};
+        const auto refused = scene::startBodies(*asset, options, {});
+        REQUIRE_FALSE(refused.ok());
+        CHECK(refused.error().code == ErrorCode::usage);
+    }
     CHECK(hash(0.0F) != hash(0.5F * clip.seconds()));
     // At the end the clip still moves: one-sided differences over its last step.
     const auto end = startFrom(*asset, clip, clip.seconds(), 1.0F / clip.framesPerSecond);

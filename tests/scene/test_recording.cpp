@@ -80,5 +80,5 @@ TEST_CASE("a damaged recording is an input error that says what is wrong") {
     CHECK(refusal(notFinite) == "holds a frame that is not finite");
     std::string tooMany = good;
     tooMany.replace(tooMany.find("\"dolls\":2"), 9, "\"dolls\":0");
-    CHECK(refusal(tooMany) == "has counts or a step that are out of range");
+    CHECK(refusal(tooMany) == "has a damaged first line: /dolls: expected a whole number in [1, 100000], got 0");
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -69,16 +70,19 @@ void settleMeshes(const UnitsAndAxes& units, std::vector<SkinnedMesh>& meshes) {
     }
 }
 
-// Where the figure was brought to the origin, joints above it that move no skin may have stood at the old one: they
-// would be as far away now, and stand at the origin instead.
+// Joints that move no skin and stand far from all that do (the root of an armature that was moved) would make the
+// figure as large as the way there: they stand at the origin instead.
 void bringAlong(const UnitsAndAxes& units, std::span<const float> skinWeight, std::span<dmat4> bind) {
-    const double moved = glm::length(units.translation);
-    if (!(moved > 0.0)) return;
+    constexpr double kFar = 4.0;  // reaches of the skin's joints
     const dmat4 modelFromScene = units.modelFromScene();
-    const dmat4 sceneFromModel = glm::inverse(modelFromScene);
+    const auto away = [&](std::size_t joint) { return glm::length(dvec3(modelFromScene * bind[joint][3])); };
+    double reach = 0.0;
     for (std::size_t joint = 0; joint < bind.size(); ++joint) {
-        const dvec3 at(modelFromScene * bind[joint][3]);
-        if (skinWeight[joint] == 0.0F && glm::length(at) > 0.5 * moved) bind[joint][3] = sceneFromModel[3];
+        if (skinWeight[joint] > 0.0F) reach = std::max(reach, away(joint));
+    }
+    const dmat4 sceneFromModel = glm::inverse(modelFromScene);
+    for (std::size_t joint = 0; reach > 0.0 && joint < bind.size(); ++joint) {
+        if (skinWeight[joint] == 0.0F && away(joint) > kFar * reach) bind[joint][3] = sceneFromModel[3];
     }
 }
 

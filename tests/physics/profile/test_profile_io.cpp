@@ -171,7 +171,7 @@ TEST_CASE("other formats and versions are refused before anything else is read")
     const auto broken = profileFromJson("{\"format\": ", "broken.json");
     REQUIRE_FALSE(broken);
     CHECK(broken.error().code == ErrorCode::input);
-    CHECK(broken.error().text().find("broken.json: not JSON") == 0);
+    CHECK(broken.error().text().find("broken.json: /format: not JSON") == 0);
 }
 
 TEST_CASE("a key that stands twice and masses that do not add up are problems") {

@@ -69,7 +69,7 @@ TEST_CASE("a doll that no solver can hold leaves its neighbours the bits that th
             for (int i = 0; i < 2; ++i)
                 worlds[with]->addDoll(profile, standingDoll(profile, {5.0F * static_cast<float>(i), 0.5F, 0}));
             if (with == 0) continue;
-            worlds[with]->addDoll(bad, standingDoll(bad, {-5, 0.5F, 0}, quat(1, 0, 0, 0), {0, -30, 0}));
+            worlds[with]->addDoll(bad, standingDoll(profile, {-5, 0.5F, 0}, quat(1, 0, 0, 0), {0, -30, 0}));
         }
         for (int step = 0; step < 180; ++step) {
             for (const auto& world : worlds)
