@@ -23,7 +23,7 @@ std::unique_ptr<Simulation> start(const RagdollAsset& asset, std::string_view na
 
 // A clip of the biped: everything turns about Y at `speed` rad/s and moves along X at 2 m/s.
 void addTurningClip(animation::Character& character, float speed) {
-    animation::Clip clip{"turn", 60.0F, 61, {}};
+    animation::Clip clip{"turn", 60.0F, 61, {}, {}};
     for (int frame = 0; frame < clip.frameCount; ++frame) {
         const float t = static_cast<float>(frame) / clip.framesPerSecond;
         std::vector<RigidTransform> pose = character.skeleton.nodeParentFromJoint;
