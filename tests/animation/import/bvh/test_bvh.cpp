@@ -1,0 +1,126 @@
+// BVH files made here, in the spellings that recorders use.
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
+#include <sstream>
+
+#include "animation/import/bvh/bvh_document.hpp"
+#include "animation/import/bvh/read_bvh.hpp"
+#include "support/catch.hpp"
+#include "support/command.hpp"
+
+using namespace lutka;
+using namespace lutka::animation;
+using namespace lutka::animation::rig_import;
+using namespace lutka::test;
+using glm::dmat4;
+using glm::dvec3;
+
+namespace {
+
+Result<SourceScene> readText(const std::string& text) {
+    const ScratchFolder folder;
+    const std::string file = folder / "motion.bvh";
+    std::ofstream(file, std::ios::binary) << text;
+    return readBvh(file);
+}
+
+bool warns(const SourceScene& scene, const std::string& text) {
+    for (const std::string& warning : scene.warnings) {
+        if (warning.find(text) != std::string::npos) return true;
+    }
+    return false;
+}
+
+// A figure whose offsets all point along x, as captures have it; the second frame
+// turns spine, legs and arms apart.
+std::string lineFigure() {
+    std::ostringstream out;
+    const auto limb = [&](const char* name, int length) {
+        out << "JOINT " << name << "\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET "
+            << length << " 0 0\n}\n}\n";
+    };
+    out << "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation "
+           "Yrotation\n";
+    for (const auto& [name, length] : {std::pair{"Spine", 60}, std::pair{"LeftArm", 60}, std::pair{"RightArm", 60},
+                                       std::pair{"LeftLeg", 90}, std::pair{"RightLeg", 90}})
+        limb(name, length);
+    out << "}\nMOTION\nFrames: 2\nFrame Time: 0.01\n";
+    out << "0 90 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n";
+    out << "0 90 0 0 0 0 90 0 0 0 0 0 180 0 0 -85 0 0 -95 0 0\n";
+    return out.str();
+}
+
+}  // namespace
+
+TEST_CASE("BVH channels apply in the file's order, on any joint, with any line ends and blanks") {
+    const Result<SourceScene> scene = readText(
+        "HIERARCHY\r\nROOT Left Hip \r\n{\r\n\tOFFSET 1 2 3\r\n\tCHANNELS 3 Yrotation Zrotation Xrotation\r\n"
+        "\tJOINT Knee\r\n\t{\r\n\t\tOFFSET 0 -4 0\r\n\t\tCHANNELS 4 Xrotation Yposition Zrotation Yrotation\r\n"
+        "\t\tEnd Site\r\n\t\t{\r\n\t\t\tOFFSET 0 -5 0\r\n\t\t}\r\n\t}\r\n}\r\n"
+        "MOTION\r\nFrames:\t2\r\nFrame Time:\t0.04\r\n10 20 30\t40 -6 50 60\r\n0 0 0 0 -4 0 0\r\n");
+    REQUIRE(scene.ok());
+    REQUIRE(scene.value().nodes.size() == 3);
+    CHECK(scene.value().nodes[0].name == "Left Hip");
+    CHECK(scene.value().nodes[2].name == "EndSite_Knee");
+    CHECK(glm::distance(dvec3(scene.value().nodes[1].parentFromNode[3]), dvec3(0, -4, 0)) < 1e-9);
+    const auto turn = [](double degrees, const dvec3& axis) {
+        return glm::rotate(dmat4(1.0), glm::radians(degrees), axis);
+    };
+    REQUIRE(scene.value().clips.size() == 1);
+    const auto& channels = scene.value().clips[0].channels;
+    REQUIRE(channels.size() == 3);  // the hip turns, the knee moves and turns
+    CHECK(channels[0].times[1] == Approx(0.04));
+    const glm::dquat hip = glm::quat_cast(turn(10, {0, 1, 0}) * turn(20, {0, 0, 1}) * turn(30, {1, 0, 0}));
+    const glm::dquat knee = glm::quat_cast(turn(40, {1, 0, 0}) * turn(50, {0, 0, 1}) * turn(60, {0, 1, 0}));
+    const auto same = [](const float* q, const glm::dquat& expected) {
+        return std::abs(glm::dot(glm::dquat(q[3], q[0], q[1], q[2]), expected)) > 1.0 - 1e-6;
+    };
+    CHECK(same(channels[0].values.data(), hip));
+    CHECK(channels[1].values[1] == Approx(-6.0F));
+    CHECK(same(channels[2].values.data(), knee));
+}
+
+TEST_CASE("a BVH zero pose along one axis gives way to the frame that shows the figure") {
+    const Result<SourceScene> scene = readText(lineFigure());
+    REQUIRE(scene.ok());
+    CHECK(warns(scene.value(), "frame 1 of the motion"));
+    std::vector<dmat4> at;
+    for (const SourceNode& node : scene.value().nodes)
+        at.push_back(node.parent < 0 ? node.parentFromNode
+                                     : at[static_cast<std::size_t>(node.parent)] * node.parentFromNode);
+    CHECK(glm::distance(dvec3(at[2][3]), dvec3(0, 150, 0)) < 1e-4);   // the spine's tip
+    CHECK(glm::distance(dvec3(at[4][3]), dvec3(60, 90, 0)) < 1e-4);   // the left arm's
+    CHECK(glm::distance(dvec3(at[6][3]), dvec3(-60, 90, 0)) < 1e-4);  // the right arm's
+}
+
+TEST_CASE("a BVH motion that breaks off keeps its whole frames") {
+    std::string text = lineFigure();
+    text.resize(text.size() - 10);
+    const Result<SourceScene> scene = readText(text);
+    REQUIRE(scene.ok());
+    CHECK(warns(scene.value(), "2 frames, but 1 are there"));
+}
+
+TEST_CASE("a damaged BVH hierarchy is refused with its line") {
+    for (const char* text : {"HIERARCHY\nROOT a\n{\nOFFSET 0 0\n}", "HIERARCHY\nROOT a\n{\nCHANNELS 99 Xposition\n}",
+                             "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\n", "HIERARCHY\n"}) {
+        const Result<SourceScene> scene = readText(text);
+        REQUIRE_FALSE(scene.ok());
+        CHECK(scene.error().code == ErrorCode::input);
+    }
+}
+
+TEST_CASE("BVH joints nested beyond all measure are refused with the limit") {
+    std::string text = "HIERARCHY\nROOT a\n{\n";
+    for (int i = 0; i < 6000; ++i)
+        text += "JOINT a\n{\n";
+    const Result<SourceScene> scene = readText(text);
+    REQUIRE_FALSE(scene.ok());
+    CHECK(scene.error().message.find("deeper than 4096") != std::string::npos);
+}

@@ -1,0 +1,308 @@
+// Documents made here, read by our own reader: each result against a formula that does not share its code.
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
+#include <random>
+
+#include "animation/import/fbx/fbx_writer.hpp"
+#include "animation/import/fbx/read_fbx.hpp"
+#include "animation/import/fbx/triangulate.hpp"
+#include "support/catch.hpp"
+#include "support/command.hpp"
+
+using namespace lutka;
+using namespace lutka::animation;
+using namespace lutka::animation::rig_import;
+using namespace lutka::test;
+using glm::dmat4;
+using glm::dvec3;
+using glm::dvec4;
+
+namespace {
+
+using Numbers = std::vector<std::pair<std::string, std::vector<double>>>;
+
+constexpr double kTicks = 46'186'158'000.0;
+
+FbxRecord row(const std::string& name, std::vector<double> numbers) {
+    return {name, {std::move(numbers)}, {}};
+}
+
+FbxRecord wholes(const std::string& name, std::vector<std::int32_t> numbers) {
+    return {name, {std::move(numbers)}, {}};
+}
+
+FbxRecord model(std::int64_t id, const std::string& name, const Numbers& properties) {
+    return {"Model", {id, "Model::" + name, std::string("LimbNode")}, {fbxProperties(properties)}};
+}
+
+std::vector<FbxRecord> document(std::vector<FbxRecord> objects, std::vector<FbxRecord> links) {
+    return {{"Objects", {}, std::move(objects)}, {"Connections", {}, std::move(links)}};
+}
+
+Result<SourceScene> readBytes(const std::string& bytes) {
+    const ScratchFolder folder;
+    const std::string file = folder / "document.fbx";
+    std::ofstream(file, std::ios::binary) << bytes;
+    return readFbx(file, {});
+}
+
+SourceScene readAll(const std::vector<FbxRecord>& sections) {
+    Result<SourceScene> scene = readBytes(asciiFbx(sections));
+    if (!scene) FAIL(scene.error().text());
+    return std::move(scene).value();
+}
+
+dmat4 turn(double degrees, int axis) {
+    dvec3 about(0);
+    about[axis] = 1.0;
+    return glm::rotate(dmat4(1.0), glm::radians(degrees), about);
+}
+
+dmat4 xyz(const dvec3& degrees) {
+    return turn(degrees.z, 2) * turn(degrees.y, 1) * turn(degrees.x, 0);
+}
+
+dmat4 move(const dvec3& by) {
+    return glm::translate(dmat4(1.0), by);
+}
+
+double difference(const dmat4& a, const dmat4& b) {
+    double worst = 0.0;
+    for (int column = 0; column < 4; ++column)
+        worst = std::max(worst, glm::length(a[column] - b[column]));
+    return worst;
+}
+
+const Numbers kPivots = {{"Lcl Translation", {1, 2, 3}}, {"Lcl Rotation", {10, 20, 30}}, {"Lcl Scaling", {2, 2, 2}},
+                         {"RotationOffset", {4, 5, 6}},  {"RotationPivot", {7, 8, 9}},   {"PreRotation", {15, 25, 35}},
+                         {"PostRotation", {40, 50, 60}}, {"ScalingOffset", {3, 1, 2}},   {"ScalingPivot", {5, 7, 6}},
+                         {"RotationActive", {1}}};
+
+// The FBX SDK's product, with `rotation` in the place of the node's own.
+dmat4 pivotsMatrix(const dvec3& rotation) {
+    return move({1, 2, 3}) * move({4, 5, 6}) * move({7, 8, 9}) * xyz({15, 25, 35}) * xyz(rotation) *
+           glm::inverse(xyz({40, 50, 60})) * move({-7, -8, -9}) * move({3, 1, 2}) * move({5, 7, 6}) *
+           glm::scale(dmat4(1.0), dvec3(2)) * move({-5, -7, -6});
+}
+
+// A square of side 2 about the origin, bound whole to joint 2.
+std::vector<FbxRecord> skinnedSquare(const Numbers& meshProperties, const dmat4& sceneFromJoint,
+                                     const dmat4& jointFromMesh) {
+    const auto matrix = [](const dmat4& m) {
+        std::vector<double> out;
+        for (int i = 0; i < 16; ++i)
+            out.push_back(m[i / 4][i % 4]);
+        return out;
+    };
+    FbxRecord mesh = model(1, "Body", meshProperties);
+    return document(
+        {std::move(mesh),
+         model(2, "Hips", {}),
+         {"Geometry",
+          {std::int64_t{3}, std::string("Geometry::Square"), std::string("Mesh")},
+          {row("Vertices", {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0}), wholes("PolygonVertexIndex", {0, 1, 2, -4})}},
+         {"Deformer", {std::int64_t{4}, std::string("Deformer::"), std::string("Skin")}, {}},
+         {"Deformer",
+          {std::int64_t{5}, std::string("SubDeformer::"), std::string("Cluster")},
+          {wholes("Indexes", {0, 1, 2, 3}), row("Weights", {1, 1, 1, 1}), row("Transform", matrix(jointFromMesh)),
+           row("TransformLink", matrix(sceneFromJoint))}}},
+        {fbxLink(1, 0), fbxLink(2, 0), fbxLink(3, 1), fbxLink(4, 3), fbxLink(5, 4), fbxLink(2, 5)});
+}
+
+}  // namespace
+
+TEST_CASE("an FBX node stands where all its pivots put it, in every way of writing the document") {
+    const auto sections = document({model(7, "Arm", kPivots)}, {fbxLink(7, 0)});
+    for (const std::string& bytes :
+         {asciiFbx(sections), binaryFbx(sections, 7400, false), binaryFbx(sections, 7500, true)}) {
+        const Result<SourceScene> scene = readBytes(bytes);
+        REQUIRE(scene.ok());
+        REQUIRE(scene.value().nodes.size() == 2);
+        CHECK(scene.value().nodes[1].name == "Arm");
+        CHECK(difference(scene.value().nodes[1].parentFromNode, pivotsMatrix({10, 20, 30})) < 1e-9);
+    }
+}
+
+TEST_CASE("all six orders of FBX rotations turn about the first axis first") {
+    const int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}};
+    const dvec3 angles(20, 50, -70);
+    for (int order = 0; order < 6; ++order) {
+        const SourceScene scene = readAll(document({model(7, "Arm",
+                                                          {{"Lcl Rotation", {angles.x, angles.y, angles.z}},
+                                                           {"RotationOrder", {static_cast<double>(order)}},
+                                                           {"RotationActive", {1}}})},
+                                                   {fbxLink(7, 0)}));
+        dmat4 expected(1.0);
+        for (const int axis : orders[order])
+            expected = turn(angles[axis], axis) * expected;
+        CHECK(difference(scene.nodes[1].parentFromNode, expected) < 1e-9);
+    }
+}
+
+TEST_CASE(
+    "an FBX joint that does not inherit its parent's scale keeps its own, and the place that the scale gives it") {
+    const Numbers joint = {{"Lcl Translation", {10, 0, 0}}, {"Lcl Scaling", {0.01, 0.01, 0.01}}, {"InheritType", {2}}};
+    const SourceScene scene = readAll(document({model(1, "A", joint), model(2, "B", joint), model(3, "C", joint)},
+                                               {fbxLink(1, 0), fbxLink(2, 1), fbxLink(3, 2)}));
+    dmat4 at(1.0);
+    for (std::size_t node = 1; node < 4; ++node)
+        at *= scene.nodes[node].parentFromNode;
+    CHECK(at[3].x == Approx(10.0 + 0.1 + 0.1));
+    CHECK(at[0].x == Approx(0.01));
+}
+
+TEST_CASE("an uneven scale that is not inherited becomes a helper node, and all frames are exact") {
+    const SourceScene scene = readAll(
+        document({model(1, "A", {{"Lcl Scaling", {2, 1, 1}}}),
+                  model(2, "B", {{"Lcl Translation", {3, 4, 5}}, {"Lcl Rotation", {0, 0, 30}}, {"InheritType", {2}}})},
+                 {fbxLink(1, 0), fbxLink(2, 1)}));
+    REQUIRE(scene.nodes.size() == 4);
+    CHECK(scene.nodes[2].isHelper);
+    const dmat4 found = scene.nodes[1].parentFromNode * scene.nodes[2].parentFromNode * scene.nodes[3].parentFromNode;
+    CHECK(difference(found, move({6, 4, 5}) * turn(30, 2)) < 1e-9);
+}
+
+TEST_CASE("FBX clips turn about the rotation's pivot, in the node's euler angles, between pre- and post-rotation") {
+    const FbxRecord curve{
+        "AnimationCurve",
+        {std::int64_t{11}, std::string("AnimCurve::"), std::string()},
+        {row("KeyTime", {0.0, kTicks}), row("KeyValueFloat", {10.0, 370.0}), wholes("KeyAttrFlags", {4}),
+         row("KeyAttrDataFloat", {0, 0, 0, 0}), wholes("KeyAttrRefCount", {2})}};
+    const FbxRecord curveNode{"AnimationCurveNode",
+                              {std::int64_t{10}, std::string("AnimCurveNode::R"), std::string()},
+                              {fbxProperties({{"d|X", {10}}, {"d|Y", {20}}, {"d|Z", {30}}})}};
+    const SourceScene scene = readAll(document(
+        {model(7, "Arm", kPivots),
+         {"AnimationStack", {std::int64_t{8}, std::string("AnimStack::Wave"), std::string()}, {}},
+         {"AnimationLayer", {std::int64_t{9}, std::string("AnimLayer::Base"), std::string()}, {}},
+         curveNode,
+         curve},
+        {fbxLink(7, 0), fbxLink(9, 8), fbxLink(10, 9), fbxLink(10, 7, "Lcl Rotation"), fbxLink(11, 10, "d|X")}));
+    REQUIRE(scene.clips.size() == 1);
+    CHECK(scene.clips[0].name == "Wave");
+    REQUIRE(scene.clips[0].channels.size() == 3);
+    const SourceChannel& places = scene.clips[0].channels[0];
+    const SourceChannel& turns = scene.clips[0].channels[1];
+    REQUIRE(turns.times.size() == 31);
+    glm::dquat last(1, 0, 0, 0);
+    for (std::size_t frame = 0; frame < turns.times.size(); ++frame) {
+        // A whole turn between two keys: a reader that knew the keys' rotations only would stand still.
+        const dmat4 expected = pivotsMatrix({10.0 + 360.0 * turns.times[frame], 20, 30});
+        const float* q = &turns.values[4 * frame];
+        const glm::dquat rotation(q[3], q[0], q[1], q[2]);
+        dmat4 found = glm::mat4_cast(rotation) * glm::scale(dmat4(1.0), dvec3(2));
+        found[3] = dvec4(places.values[3 * frame], places.values[3 * frame + 1], places.values[3 * frame + 2], 1.0);
+        CHECK(difference(found, expected) < 1e-4);
+        if (frame > 0) CHECK(glm::dot(last, rotation) > 0.0);
+        last = rotation;
+    }
+}
+
+TEST_CASE("a geometric transform moves a skinned FBX mesh in its node and is no part of its joints") {
+    const dmat4 sceneFromJoint = move({0, 5, 0}) * turn(30, 0);
+    const dmat4 jointFromMesh = glm::inverse(sceneFromJoint) * move({0, 1, 0});
+    const SourceScene scene = readAll(skinnedSquare(
+        {{"GeometricTranslation", {0, 0, 90}}, {"GeometricRotation", {90, 0, 0}}}, sceneFromJoint, jointFromMesh));
+    REQUIRE(scene.meshes.size() == 1);
+    REQUIRE(scene.skins.size() == 1);
+    REQUIRE(scene.skins[0].sceneFromMesh);
+    CHECK(difference(*scene.skins[0].sceneFromMesh, move({0, 1, 0})) < 1e-9);
+    CHECK(difference(scene.skins[0].joints[0].jointFromMesh, jointFromMesh) < 1e-9);
+    const dmat4 geometric = move({0, 0, 90}) * turn(90, 0);
+    for (const vec3& corner : {vec3(-1, -1, 0), vec3(1, 1, 0)}) {
+        const vec3 expected(geometric * dvec4(dvec3(corner), 1.0));
+        const auto& all = scene.meshes[0].positions;
+        CHECK(std::any_of(all.begin(), all.end(), [&](const vec3& p) { return glm::distance(p, expected) < 1e-4F; }));
+    }
+    REQUIRE(scene.meshes[0].influenceStart.size() == 5);
+    CHECK(scene.meshes[0].influences[0].weight == 1.0F);
+}
+
+TEST_CASE("left-handed FBX axes are mirrored at the root") {
+    auto sections = document({model(1, "A", {{"Lcl Translation", {1, 2, 3}}})}, {fbxLink(1, 0)});
+    sections.insert(sections.begin(), {"GlobalSettings",
+                                       {},
+                                       {fbxProperties({{"UpAxis", {1}},
+                                                       {"UpAxisSign", {1}},
+                                                       {"FrontAxis", {2}},
+                                                       {"FrontAxisSign", {-1}},
+                                                       {"CoordAxis", {0}},
+                                                       {"CoordAxisSign", {1}},
+                                                       {"UnitScaleFactor", {2.54}}})}});
+    const SourceScene scene = readAll(sections);
+    const dmat4 place = scene.nodes[0].parentFromNode * scene.nodes[1].parentFromNode;
+    CHECK(glm::distance(dvec3(place[3]), dvec3(1, 2, -3)) < 1e-9);
+    REQUIRE(scene.convention.metresPerUnit);
+    CHECK(*scene.convention.metresPerUnit == Approx(0.0254));
+    CHECK(scene.convention.up == UpAxis::positiveY);
+}
+
+TEST_CASE("a concave polygon is cut into triangles that cover it once") {
+    // A comb with two teeth, area 7.
+    const std::vector<vec3> comb = {{0, 0, 0}, {5, 0, 0}, {5, 2, 0}, {4, 2, 0},
+                                    {4, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}};
+    std::vector<std::uint32_t> triangles;
+    fbx::triangulate(comb, triangles);
+    REQUIRE(triangles.size() == 3 * 6);
+    float area = 0.0F;
+    for (std::size_t i = 0; i < triangles.size(); i += 3) {
+        const vec3 a = comb[triangles[i]];
+        const float z = glm::cross(comb[triangles[i + 1]] - a, comb[triangles[i + 2]] - a).z;
+        CHECK(z >= 0.0F);
+        area += 0.5F * z;
+    }
+    CHECK(area == Approx(7.0F));
+}
+
+TEST_CASE("FBX records nested beyond all measure are refused with the limit") {
+    std::string bytes = "; FBX 7.4.0 project file\n";
+    for (int i = 0; i < 5000; ++i)
+        bytes += "A: {\n";
+    const Result<SourceScene> scene = readBytes(bytes);
+    REQUIRE_FALSE(scene.ok());
+    CHECK(scene.error().code == ErrorCode::input);
+    CHECK(scene.error().message.find("deeper than 64") != std::string::npos);
+}
+
+TEST_CASE("an FBX array that claims more than its bytes can hold is refused before memory is taken") {
+    auto sections = skinnedSquare({}, dmat4(1.0), dmat4(1.0));
+    std::string bytes = binaryFbx(sections, 7400, true);
+    const std::size_t vertices = bytes.find("Vertices");
+    REQUIRE(vertices != std::string::npos);
+    const std::uint32_t claimed = 60'000'000;
+    bytes.replace(vertices + 9, 4, std::string(reinterpret_cast<const char*>(&claimed), 4));
+    const Result<SourceScene> scene = readBytes(bytes);
+    REQUIRE_FALSE(scene.ok());
+    CHECK(scene.error().message.find("60000000 numbers") != std::string::npos);
+}
+
+TEST_CASE("damaged FBX documents are read or refused, and never more") {
+    const auto sections = skinnedSquare(kPivots, move({0, 5, 0}), move({0, -5, 0}));
+    std::mt19937 random(7);
+    int refused = 0;
+    for (const std::string& whole :
+         {asciiFbx(sections), binaryFbx(sections, 7400, true), binaryFbx(sections, 7700, false)}) {
+        for (int round = 0; round < 400; ++round) {
+            std::string bytes = whole;
+            for (auto hits = 1 + random() % 6; hits > 0; --hits)
+                bytes[random() % bytes.size()] = static_cast<char>(random() % 256);
+            if (random() % 4 == 0) bytes.resize(random() % bytes.size());
+            const Result<SourceScene> scene = readBytes(bytes);
+            if (!scene) ++refused;
+            if (!scene) CHECK(scene.error().code == ErrorCode::input);
+            for (std::size_t i = 0; scene && i < scene.value().meshes.size(); ++i) {
+                const SourceMesh& mesh = scene.value().meshes[i];
+                for (const std::uint32_t index : mesh.indices)
+                    REQUIRE(index < mesh.positions.size());
+            }
+        }
+    }
+    CHECK(refused > 100);
+}
