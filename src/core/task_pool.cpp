@@ -6,6 +6,8 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cstdlib>
 #include <future>
 #include <system_error>
 #include <thread>
@@ -15,28 +17,35 @@ namespace lutka {
 namespace {
 
 // How many threads of `wanted` may run beside this one: oneTBB ends the program when it can't make one of its own, so
-// that is tried first, with all of them alive at once. Containers and `ulimit -v` are where it fails.
+// that is tried first, with a quarter more of them alive at once. Containers and `ulimit -v` are where it fails.
 int threadsToBeHad(int wanted) {
-    std::promise<void> tried;
-    const std::shared_future<void> end = tried.get_future().share();
+    const int tried = wanted + wanted / 4 + 1;
+    std::atomic<int> ready{0};
+    std::atomic<bool> starved{false};
+    std::promise<void> finished;
+    const std::shared_future<void> end = finished.get_future().share();
     std::vector<std::thread> threads;
-    threads.reserve(static_cast<std::size_t>(wanted));
+    threads.reserve(static_cast<std::size_t>(tried));
     try {
-        while (static_cast<int>(threads.size()) < wanted)
-            threads.emplace_back([end] {
+        while (static_cast<int>(threads.size()) < tried)
+            threads.emplace_back([&, end] {
                 // The C library reserves address space for a thread when it first allocates; oneTBB's all do.
-                const std::unique_ptr<volatile char[]> own(new volatile char[64]);
-                own[0] = 0;
+                void* const own = std::malloc(64);
+                if (own == nullptr) starved = true;
+                ++ready;
                 end.wait();
+                std::free(own);
             });
     } catch (const std::system_error&) {  // as many as there are, then
     }
-    tried.set_value();
+    const int had = static_cast<int>(threads.size());
+    while (ready < had)
+        std::this_thread::yield();
+    finished.set_value();
     for (std::thread& thread : threads)
         thread.join();
-    // Half of what there was, where it was short: the simulation needs memory, too.
-    const int had = static_cast<int>(threads.size());
-    return had == wanted ? had : had / 2;
+    // A quarter of what there was, where it was short: the simulation needs memory, too.
+    return had == tried && !starved ? wanted : std::min(wanted, had / 4);
 }
 
 }  // namespace
