@@ -110,7 +110,10 @@ TEST_CASE("a confined process gets no more memory than it may, and is ended when
 #endif
     const int time = codeOfChild([&] {
         confineThisProcess(limits);
-        for (volatile int i = 0;; i = i + 1) {
+        volatile unsigned turns = 0;  // volatile: a loop without an effect may be taken away
+        while (true) {
+            const unsigned next = turns + 1;
+            turns = next;
         }
         return 0;
     });
