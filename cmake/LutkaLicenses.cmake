@@ -13,6 +13,7 @@ set(LUTKA_PARTS
   "Assimp|${assimp_VERSION}|BSD-3-Clause|https://www.assimp.org"
   "Bullet Physics|${bullet_VERSION}|Zlib|https://pybullet.org"
   "CLI11|${CLI11_VERSION}|BSD-3-Clause|https://github.com/CLIUtils/CLI11"
+  "Draco|${draco_VERSION}|Apache-2.0|https://google.github.io/draco"
   "Dear ImGui|${imgui_VERSION}|MIT|https://github.com/ocornut/imgui"
   "fmt|${fmt_VERSION}|MIT|https://fmt.dev"
   "GLAD|${glad_VERSION}|MIT|https://github.com/Dav1dde/glad"
@@ -20,6 +21,7 @@ set(LUTKA_PARTS
   "GLM|${glm_VERSION}|MIT|https://github.com/g-truc/glm"
   "JSON for Modern C++|${nlohmann_json_VERSION}|MIT|https://json.nlohmann.me"
   "libglvnd (EGL)|${egl_VERSION}|MIT|https://gitlab.freedesktop.org/glvnd/libglvnd"
+  "meshoptimizer|${meshoptimizer_VERSION}|MIT|https://meshoptimizer.org"
   "oneTBB|${TBB_VERSION}|Apache-2.0|https://github.com/oneapi-src/oneTBB"
   "spdlog|${spdlog_VERSION}|MIT|https://github.com/gabime/spdlog"
   "stb|${stb_VERSION}|MIT|https://github.com/nothings/stb"
@@ -73,4 +75,4 @@ file(CONFIGURE OUTPUT "${CMAKE_BINARY_DIR}/lutka.spdx.json" CONTENT [[
 file(CONFIGURE OUTPUT "${CMAKE_BINARY_DIR}/generated/lutka_parts.inc" CONTENT [==[
 R"parts(@LUTKA_PARTS_TEXT@)parts"
 ]==] @ONLY)
-install(FILES "${CMAKE_BINARY_DIR}/lutka.spdx.json" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/lutka")
+install(FILES "${CMAKE_BINARY_DIR}/lutka.spdx.json" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/lutka" COMPONENT program)

@@ -65,9 +65,9 @@ class Command {
 
 /// What the program says of itself.
 struct ProgramFacts {
-    std::string version;
-    std::string licenses;  ///< A line a part.
-    std::string footer;    ///< Of the help.
+    std::function<std::string()> version;  ///< Asked only when it is to be printed.
+    std::string licenses;                  ///< A line a part.
+    std::string footer;                    ///< Of the help.
 };
 
 /// Builds the commands with `addCommands`, reads the arguments and runs what they ask for. Returns the exit code: 0,

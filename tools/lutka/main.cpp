@@ -13,6 +13,7 @@
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
+#include "render/gl/gl_context.hpp"
 #include "standard_streams.hpp"
 
 namespace {
@@ -24,6 +25,14 @@ constexpr const char* kExitCodes =
 constexpr const char* kLicenses = "Lutka " LUTKA_VERSION ", MIT\n"
 #include "lutka_parts.inc"
     ;
+
+// The program's version and those of the parts that decide what a run gives. OpenGL's is the driver's that a picture
+// without a window would be drawn with.
+std::string versions() {
+    const auto context = lutka::render::GlContext::createHeadless();
+    return "lutka " LUTKA_VERSION "\nBullet " LUTKA_BULLET_VERSION ", Assimp " LUTKA_ASSIMP_VERSION "\nOpenGL: " +
+           (context ? context.value().description() : std::string("none"));
+}
 
 void addCommands(const lutka::cli::Command& app) {
     lutka::cli::addInspect(app);
@@ -40,7 +49,7 @@ void addCommands(const lutka::cli::Command& app) {
 // The exit code; whatever was thrown ends here.
 int runCommands(int argc, char** argv) {
     try {
-        return lutka::cli::parseCommandLine(argc, argv, {LUTKA_VERSION, kLicenses, kExitCodes}, addCommands);
+        return lutka::cli::parseCommandLine(argc, argv, {versions, kLicenses, kExitCodes}, addCommands);
     } catch (const lutka::cli::Exit& exit) {
         return exit.code;
     } catch (const std::system_error& refused) {
