@@ -17,6 +17,7 @@ LUTKA_BUILD_PACKAGES=(
 LUTKA_RUN_PACKAGES=(ffmpeg fonts-dejavu-core)
 LUTKA_TEST_PACKAGES=(clang-format-14 clang-tidy-14 xvfb xauth xdotool python3 python3-numpy python3-jsonschema)
 
+LUTKA_PACKAGE_PACKAGES=(dpkg-dev help2man)
 LUTKA_FUZZ_PACKAGES=(clang-14 libclang-rt-14-dev)
 
 say() { printf '\033[1m==> %s\033[0m\n' "$*" >&2; }
@@ -41,13 +42,14 @@ install_missing() {
     >/dev/null || fail "apt-get could not install: ${missing[*]}"
 }
 
-# configure_and_build [-DNAME=VALUE ...] -- [TARGET ...]: the release preset, in build/.
+# configure_and_build [-DNAME=VALUE ...] -- [TARGET ...]: the release preset, in build/. A unity build: half the processor
+# time of a first build.
 configure_and_build() {
   local definitions=()
   while [ $# -gt 0 ] && [ "$1" != -- ]; do definitions+=("$1"); shift; done
   [ "${1:-}" = -- ] && shift
   say "configuring (release, Ninja)"
-  (cd "$LUTKA_ROOT" && cmake --preset release "${definitions[@]}" >build.log 2>&1) ||
+  (cd "$LUTKA_ROOT" && cmake --preset release -DLUTKA_UNITY_BUILD=ON "${definitions[@]}" >build.log 2>&1) ||
     { cat "$LUTKA_ROOT/build.log" >&2; rm -f "$LUTKA_ROOT/build.log"; fail "cmake could not configure the build"; }
   rm -f "$LUTKA_ROOT/build.log"
   say "building"
