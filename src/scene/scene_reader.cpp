@@ -70,17 +70,17 @@ void takeEntry(const JsonCursor& at, const char* key, const std::array<Entry, co
 template <class Enum, std::size_t count>
 void takeName(const JsonCursor& at, const char* key, const std::array<scene_format::Named<Enum>, count>& table,
               Enum& value) {
-    using Entry = scene_format::Named<Enum>;
+    using NamedValue = scene_format::Named<Enum>;
     takeEntry(
-        at, key, table, value, [](const Entry& entry) { return entry.name; },
-        [](const Entry& entry) { return entry.value; });
+        at, key, table, value, [](const NamedValue& entry) { return entry.name; },
+        [](const NamedValue& entry) { return entry.value; });
 }
 
 void takeName(const JsonCursor& at, const char* key, physics::SolverKind& value) {
-    using Entry = physics::SolverEntry;
+    using Solver = physics::SolverEntry;
     takeEntry(
-        at, key, physics::kSolvers, value, [](const Entry& entry) { return entry.name; },
-        [](const Entry& entry) { return entry.kind; });
+        at, key, physics::kSolvers, value, [](const Solver& entry) { return entry.name; },
+        [](const Solver& entry) { return entry.kind; });
 }
 
 void takeOptional(const JsonCursor& at, const char* key, std::optional<float>& value) {

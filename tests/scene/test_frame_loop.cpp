@@ -37,7 +37,7 @@ struct Machine {
     }
 };
 
-constexpr double kDt = 1.0 / 60.0;
+constexpr double kFrameSeconds = 1.0 / 60.0;
 
 }  // namespace
 
@@ -45,7 +45,7 @@ TEST_CASE("frames of a step's length give one step each and show the newest stat
     FrameLoop loop;
     int steps = 0;
     for (int frame = 0; frame < 600; ++frame)
-        CHECK(loop.advance(kDt, [&] { ++steps; }) == 1);
+        CHECK(loop.advance(kFrameSeconds, [&] { ++steps; }) == 1);
     CHECK(steps == 600);
     CHECK(loop.alpha() == Approx(0.0F).margin(1e-6));
     CHECK(loop.keepsUp());
@@ -59,8 +59,8 @@ TEST_CASE("the simulation's clock does not depend on the drawing's") {
         for (int frame = 0; frame < frames; ++frame) {
             loop.advance(1.0 / hz, [&] { ++steps; });
             // What is drawn lies one step behind the clock, at every moment.
-            const double drawn = (steps - 1 + static_cast<double>(loop.alpha())) * kDt;
-            CHECK(drawn == Approx((frame + 1) / hz - kDt).margin(1e-6));
+            const double drawn = (steps - 1 + static_cast<double>(loop.alpha())) * kFrameSeconds;
+            CHECK(drawn == Approx((frame + 1) / hz - kFrameSeconds).margin(1e-6));
         }
         INFO(hz);
         CHECK(std::abs(steps - 600) <= 1);
@@ -73,7 +73,7 @@ TEST_CASE("slow motion takes fewer steps, not shorter ones, and is not called la
     loop.setSpeed(0.25);
     int steps = 0;
     for (int frame = 0; frame < 400; ++frame)
-        loop.advance(kDt, [&] { ++steps; });
+        loop.advance(kFrameSeconds, [&] { ++steps; });
     CHECK(steps == 100);
     CHECK(loop.achievedSpeed() == Approx(0.25));
     CHECK(loop.keepsUp());
@@ -100,8 +100,8 @@ TEST_CASE("a machine that cannot keep up slows the simulation down evenly and th
         CHECK(one == 1);
     CHECK(steps.size() == Approx(200).margin(2));
     CHECK(loop.alpha() == 1.0F);
-    const double speed = (machine.steps - before) * kDt / 7.0;
-    CHECK(speed == Approx(kDt / 0.035).margin(0.01));
+    const double speed = (machine.steps - before) * kFrameSeconds / 7.0;
+    CHECK(speed == Approx(kFrameSeconds / 0.035).margin(0.01));
     CHECK(loop.achievedSpeed() == Approx(speed).margin(0.01));
     CHECK_FALSE(loop.keepsUp());
     CHECK(loop.load() > 1.5);
@@ -148,9 +148,9 @@ TEST_CASE("a frame time that is no time counts as none") {
 
 TEST_CASE("a restarted loop shows the present state and owes nothing") {
     FrameLoop loop;
-    loop.advance(1.9 * kDt, [] {});
+    loop.advance(1.9 * kFrameSeconds, [] {});
     CHECK(loop.alpha() == Approx(0.9F));
     loop.restart();
     CHECK(loop.alpha() == 1.0F);
-    CHECK(loop.advance(0.5 * kDt, [] {}) == 0);
+    CHECK(loop.advance(0.5 * kFrameSeconds, [] {}) == 0);
 }

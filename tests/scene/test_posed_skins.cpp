@@ -26,12 +26,12 @@ std::unique_ptr<RagdollAsset> tailedRagdoll() {
     return std::move(asset).value();
 }
 
-struct Crowd {
+struct SkinnedCrowd {
     std::unique_ptr<RagdollAsset> plain = test::bipedRagdoll();
     std::unique_ptr<RagdollAsset> tailed = tailedRagdoll();
     std::unique_ptr<Simulation> simulation;
 
-    explicit Crowd(int count, int threads = 1, physics::SolverKind solver = physics::SolverKind::crowd) {
+    explicit SkinnedCrowd(int count, int threads = 1, physics::SolverKind solver = physics::SolverKind::crowd) {
         auto scenario = makeScenario({.name = "spread", .count = count, .seed = 3}, *plain);
         REQUIRE(scenario);
         for (std::size_t doll = 0; doll < scenario.value().dolls.size(); doll += 3)
@@ -96,7 +96,7 @@ float differenceToOneByOne(Simulation& simulation, const PosedSkins& skins, floa
 }  // namespace
 
 TEST_CASE("the skins of a scene are those of its dolls one by one, at every moment between two steps") {
-    const Crowd crowd(20);
+    const SkinnedCrowd crowd(20);
     for (const int steps : {0, 1, 25, 200}) {
         crowd.step(steps);
         for (const float alpha : {0.3F, 1.0F, 0.0F}) {
@@ -110,7 +110,7 @@ TEST_CASE("the skins of a scene are those of its dolls one by one, at every mome
 TEST_CASE("dolls that sleep are not posed again until they are woken") {
     for (const auto solver : {physics::SolverKind::crowd, physics::SolverKind::bullet}) {
         INFO(physics::solverName(solver));
-        const Crowd crowd(12, 1, solver);
+        const SkinnedCrowd crowd(12, 1, solver);
         CHECK(crowd.simulation->poseSkins(0.5F).posed() == 12);
         crowd.stepUntilAsleep();
         CHECK(crowd.simulation->poseSkins(0.5F).posed() == 12);
@@ -132,7 +132,7 @@ TEST_CASE("dolls that sleep are not posed again until they are woken") {
 }
 
 TEST_CASE("a paused scene is posed once for each moment that is shown") {
-    const Crowd crowd(5);
+    const SkinnedCrowd crowd(5);
     crowd.step(10);
     Simulation& simulation = *crowd.simulation;
     CHECK(simulation.poseSkins(0.5F).posed() == 5);
@@ -143,7 +143,7 @@ TEST_CASE("a paused scene is posed once for each moment that is shown") {
 }
 
 TEST_CASE("whatever places dolls is seen, and in the step after it too") {
-    const Crowd crowd(6);
+    const SkinnedCrowd crowd(6);
     crowd.stepUntilAsleep();
     Simulation& simulation = *crowd.simulation;
     const auto isRight = [&](float alpha) {
@@ -181,8 +181,8 @@ TEST_CASE("whatever places dolls is seen, and in the step after it too") {
 }
 
 TEST_CASE("skins have the same bits at every number of threads and whenever they were drawn") {
-    const Crowd one(40);
-    const Crowd three(40, 3);
+    const SkinnedCrowd one(40);
+    const SkinnedCrowd three(40, 3);
     for (int i = 0; i < 30; ++i) {
         one.step(1);
         three.step(1);
@@ -197,7 +197,7 @@ TEST_CASE("skins have the same bits at every number of threads and whenever they
 }
 
 TEST_CASE("drawing a scene allocates nothing once its frame has grown, and tells how many dolls it posed") {
-    const Crowd crowd(30);
+    const SkinnedCrowd crowd(30);
     const std::vector<render::CharacterHandle> characters{{0}, {1}};
     SimulationDrawer drawer;
     render::FrameDescription frame;

@@ -10,15 +10,6 @@
 namespace lutka::animation::rig_import {
 namespace {
 
-bool isFinite(const dmat4& matrix) {
-    for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 4; ++row) {
-            if (!std::isfinite(matrix[column][row])) return false;
-        }
-    }
-    return true;
-}
-
 // Determinant of the linear part over the product of its columns' lengths: 1 for orthogonal columns, 0 for flat ones.
 double solidity(const dmat3& m) {
     const double lengths = glm::length(m[0]) * glm::length(m[1]) * glm::length(m[2]);
@@ -62,12 +53,21 @@ dmat3 rotationFromFlat(const dmat3& m) {
 
 }  // namespace
 
+bool allFinite(const dmat4& matrix) {
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            if (!std::isfinite(matrix[column][row])) return false;
+        }
+    }
+    return true;
+}
+
 double meanScale(const dmat4& matrix) {
     return std::cbrt(std::abs(glm::determinant(dmat3(matrix))));
 }
 
 bool isInvertible(const dmat4& matrix) {
-    return isFinite(matrix) && solidity(dmat3(matrix)) > 1e-7 && meanScale(matrix) > 1e-12;
+    return allFinite(matrix) && solidity(dmat3(matrix)) > 1e-7 && meanScale(matrix) > 1e-12;
 }
 
 dmat3 nearestRotation(const dmat4& matrix) {
@@ -75,7 +75,7 @@ dmat3 nearestRotation(const dmat4& matrix) {
     if (const double square = squareOfScale(matrix); square > 0.0) {
         m /= std::sqrt(square);
     } else {
-        if (!isFinite(matrix)) return dmat3(1.0);
+        if (!allFinite(matrix)) return dmat3(1.0);
         if (!isInvertible(matrix)) return rotationFromFlat(m);
         m /= meanScale(matrix);
     }

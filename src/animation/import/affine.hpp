@@ -12,6 +12,9 @@ using glm::dmat4;
 using glm::dvec3;
 using glm::dvec4;
 
+/// No number of it is infinite or not a number.
+[[nodiscard]] bool allFinite(const dmat4& matrix);
+
 /// The mean factor by which lengths grow: the cube root of the determinant's magnitude.
 [[nodiscard]] double meanScale(const dmat4& matrix);
 

@@ -21,12 +21,12 @@ constexpr double kMostVotes = 0.9;
 // The medoid compares every joint with every other; beyond this many only the heaviest ones are asked.
 constexpr std::size_t kMaxVoters = 200;
 
-struct Box {
+struct MeshExtent {
     dvec3 centre{0};
     double size = 1.0;
 };
 
-Box boxOf(const SourceMesh& mesh) {
+MeshExtent extentOf(const SourceMesh& mesh) {
     dvec3 low(std::numeric_limits<double>::max());
     dvec3 high(std::numeric_limits<double>::lowest());
     for (const vec3& position : mesh.positions) {
@@ -45,7 +45,7 @@ struct Vote {
 };
 
 // How differently two frames place the mesh, in sizes of the placed mesh.
-double disagreement(const Box& box, const dmat4& a, const dmat4& b) {
+double disagreement(const MeshExtent& box, const dmat4& a, const dmat4& b) {
     double sum = 0.0;
     for (int corner = 0; corner < 4; ++corner) {
         dvec3 point = box.centre;
@@ -57,7 +57,7 @@ double disagreement(const Box& box, const dmat4& a, const dmat4& b) {
 
 // The vote with the smallest weighted distance to all others; each distance counts at most 1, so that strays have no
 // say.
-const dmat4& medoid(const Box& box, std::vector<Vote>& votes) {
+const dmat4& medoid(const MeshExtent& box, std::vector<Vote>& votes) {
     if (votes.size() > kMaxVoters) {
         std::stable_sort(votes.begin(), votes.end(), [](const Vote& a, const Vote& b) { return a.weight > b.weight; });
         votes.resize(kMaxVoters);
@@ -77,7 +77,7 @@ const dmat4& medoid(const Box& box, std::vector<Vote>& votes) {
 }
 
 // Whether nearly all votes place the mesh alike: then the nodes are in the bind pose.
-bool agree(const Box& box, std::vector<Vote>& votes) {
+bool agree(const MeshExtent& box, std::vector<Vote>& votes) {
     const dmat4 middle = medoid(box, votes);
     double all = 0.0;
     double alike = 0.0;
@@ -90,7 +90,7 @@ bool agree(const Box& box, std::vector<Vote>& votes) {
 
 // The mesh node's frame, brought to the size that the joints give the mesh, when it points and lies about where they
 // do; else theirs. (glTF ignores the mesh node's frame, so nothing obliges an exporter to make it fit.)
-dmat4 chooseFrame(const Box& box, const dmat4& meshNode, const dmat4& joints) {
+dmat4 chooseFrame(const MeshExtent& box, const dmat4& meshNode, const dmat4& joints) {
     if (!isInvertible(meshNode) || angleBetween(nearestRotation(meshNode), nearestRotation(joints)) > kAngleTolerance) {
         return joints;
     }
@@ -169,7 +169,7 @@ class BindSolver {
     }
 
     dmat4 frameOfFirst(const MeshInstance& mesh) const {
-        const Box box = boxOf(*mesh.mesh);
+        const MeshExtent box = extentOf(*mesh.mesh);
         std::vector<Vote> votes;
         for (const SkinJoint& joint : mesh.joints) {
             const dmat4 frame = tree_.sceneFromJoint(joint.joint) * joint.jointFromMesh;
@@ -194,7 +194,7 @@ class BindSolver {
         for (const SkinJoint& joint : mesh.joints) {
             if (bind_[joint.joint]) votes.push_back({*bind_[joint.joint] * joint.jointFromMesh, joint.weight});
         }
-        return medoid(boxOf(*mesh.mesh), votes);
+        return medoid(extentOf(*mesh.mesh), votes);
     }
 
     void settle(int index, const dmat4& sceneFromMesh) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "animation/import/affine.hpp"
 #include "core/math.hpp"
 
 namespace lutka::animation::rig_import {
@@ -16,10 +17,6 @@ bool allFinite(const Vector& v) {
         if (!std::isfinite(v[i])) return false;
     }
     return true;
-}
-
-bool allFinite(const glm::dmat4& matrix) {
-    return allFinite(matrix[0]) && allFinite(matrix[1]) && allFinite(matrix[2]) && allFinite(matrix[3]);
 }
 
 template <class Vector>

@@ -21,7 +21,7 @@ constexpr double kMostRate = 120.0;
 constexpr int kMaxFrames = 36'000;
 // Bounds the memory of all clips together: 28 bytes each.
 constexpr std::size_t kMaxTransforms = 20'000'000;
-constexpr double kVisibleScale = 0.01;
+constexpr double kVisibleScaleOfClip = 0.01;
 
 struct KeyTimes {
     double first = std::numeric_limits<double>::max();  // seconds
@@ -172,7 +172,7 @@ std::vector<int> tellingFrames(const SourceClip& clip, const Timing& timing) {
     for (const SourceChannel& channel : clip.channels) {
         if (channel.path != SourceChannel::Path::scale) continue;
         const dvec4 first = keyAt(channel, 0);
-        double farthest = 0.1 * kVisibleScale;
+        double farthest = 0.1 * kVisibleScaleOfClip;
         double when = timing.start;
         for (std::size_t i = 1; i < channel.times.size(); ++i) {
             const double far = glm::length(keyAt(channel, i) - first);
@@ -291,7 +291,7 @@ Clip makeClip(const std::shared_ptr<const ClipFile>& file, const SourceClip& ani
     ClipSampler sampler(*file, animation);
     timing.commonScale = commonScale(*file, sampler.at(timing.start), clip.name, warnings);
     const double worst = sampler.droppedScale(tellingFrames(animation, timing), timing);
-    if (worst > kVisibleScale) {
+    if (worst > kVisibleScaleOfClip) {
         warnings.push_back(
             fmt::format("clip '{}' scales joints by up to {:.0f} %; the scale was dropped", clip.name, 100.0 * worst));
     }

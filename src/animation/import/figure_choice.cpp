@@ -78,13 +78,13 @@ double sharedNames(const SourceScene& scene, const Armature& a, const Armature& 
     return static_cast<double>(shared) / static_cast<double>(std::min(a.joints.size(), b.joints.size()));
 }
 
-struct Box {
+struct JointBounds {
     glm::dvec3 low{1e300};
     glm::dvec3 high{-1e300};
 };
 
-Box boxOf(const std::vector<glm::dmat4>& sceneFromNode, const Armature& armature) {
-    Box box;
+JointBounds boundsOf(const std::vector<glm::dmat4>& sceneFromNode, const Armature& armature) {
+    JointBounds box;
     for (const int joint : armature.joints) {
         box.low = glm::min(box.low, glm::dvec3(sceneFromNode[joint][3]));
         box.high = glm::max(box.high, glm::dvec3(sceneFromNode[joint][3]));
@@ -92,7 +92,7 @@ Box boxOf(const std::vector<glm::dmat4>& sceneFromNode, const Armature& armature
     return box;
 }
 
-bool apart(const Box& a, const Box& b) {
+bool apart(const JointBounds& a, const JointBounds& b) {
     for (int axis = 0; axis < 3; ++axis) {
         if (a.high[axis] < b.low[axis] || b.high[axis] < a.low[axis]) return true;
     }
@@ -119,8 +119,8 @@ std::set<int> skinsOfOthers(const SourceScene& scene, std::vector<std::string>& 
     for (const Armature& other : armatures) {
         if (&other == &first || other.joints.size() < kFewestJoints || first.joints.size() < kFewestJoints) continue;
         const bool twin = sharedNames(scene, first, other) >= kSameNames;
-        const bool another =
-            other.joints.size() >= kWholeSkeleton && apart(boxOf(sceneFromNode, first), boxOf(sceneFromNode, other));
+        const bool another = other.joints.size() >= kWholeSkeleton &&
+                             apart(boundsOf(sceneFromNode, first), boundsOf(sceneFromNode, other));
         if (!twin && !another) continue;
         others.insert(other.skins.begin(), other.skins.end());
         const int top = *other.joints.begin();

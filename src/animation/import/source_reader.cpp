@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Error unreadable(const fs::path& file, std::string message) {
+Error cannotRead(const fs::path& file, std::string message) {
     return {ErrorCode::input, std::move(message), file.string(), ""};
 }
 
@@ -64,10 +64,10 @@ Result<SourceScene> read(const fs::path& file, std::string_view start, const Imp
 Result<SourceScene> readSource(const fs::path& file, const ImportOptions& options) {
     std::error_code ignored;
     const fs::file_status status = fs::status(file, ignored);
-    if (!fs::exists(status)) return unreadable(file, "there is no such file");
-    if (fs::is_directory(status)) return unreadable(file, "is a folder, not a model");
-    if (!fs::is_regular_file(status)) return unreadable(file, "is a device or a pipe, not a model");
-    if (fs::file_size(file, ignored) == 0) return unreadable(file, "is empty");
+    if (!fs::exists(status)) return cannotRead(file, "there is no such file");
+    if (fs::is_directory(status)) return cannotRead(file, "is a folder, not a model");
+    if (!fs::is_regular_file(status)) return cannotRead(file, "is a device or a pipe, not a model");
+    if (fs::file_size(file, ignored) == 0) return cannotRead(file, "is empty");
     const std::string start = firstBytes(file);
     // Third parties throw; what is left is memory running out over a monstrous file.
     try {
@@ -75,7 +75,7 @@ Result<SourceScene> readSource(const fs::path& file, const ImportOptions& option
         if (scene) cleanNumbers(scene.value());
         return scene;
     } catch (const std::exception& e) {
-        return unreadable(file, std::string("can't be imported: ") + e.what());
+        return cannotRead(file, std::string("can't be imported: ") + e.what());
     }
 }
 

@@ -14,24 +14,24 @@ namespace lutka::editor {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Kind = InputEvent::Kind;
+using EventKind = InputEvent::Kind;
 
-constexpr std::array<std::pair<Kind, std::string_view>, 9> kKinds = {{
-    {Kind::mouseMove, "mouseMove"},
-    {Kind::mouseButton, "mouseButton"},
-    {Kind::wheel, "wheel"},
-    {Kind::key, "key"},
-    {Kind::text, "text"},
-    {Kind::drop, "drop"},
-    {Kind::resize, "resize"},
-    {Kind::focus, "focus"},
-    {Kind::close, "close"},
+constexpr std::array<std::pair<EventKind, std::string_view>, 9> kEventNames = {{
+    {EventKind::mouseMove, "mouseMove"},
+    {EventKind::mouseButton, "mouseButton"},
+    {EventKind::wheel, "wheel"},
+    {EventKind::key, "key"},
+    {EventKind::text, "text"},
+    {EventKind::drop, "drop"},
+    {EventKind::resize, "resize"},
+    {EventKind::focus, "focus"},
+    {EventKind::close, "close"},
 }};
 constexpr std::array<std::string_view, kMouseButtonCount> kButtons = {"left", "right", "middle"};
 constexpr int kMaxWindowSide = 16384;
 
-std::string_view kindName(Kind kind) {
-    return kKinds[static_cast<std::size_t>(kind)].second;
+std::string_view kindName(EventKind kind) {
+    return kEventNames[static_cast<std::size_t>(kind)].second;
 }
 
 void writeModifiers(Json& json, const Modifiers& modifiers) {
@@ -46,37 +46,37 @@ Json toJson(const InputScript::Entry& entry) {
     const InputEvent& event = entry.event;
     Json json = {{"frame", entry.frame}, {"event", kindName(event.kind)}};
     switch (event.kind) {
-        case Kind::mouseMove:
+        case EventKind::mouseMove:
             json["x"] = event.position.x;
             json["y"] = event.position.y;
             break;
-        case Kind::mouseButton:
+        case EventKind::mouseButton:
             json["button"] = kButtons[static_cast<std::size_t>(event.button)];
             json["pressed"] = event.pressed;
             writeModifiers(json, event.modifiers);
             break;
-        case Kind::wheel:
+        case EventKind::wheel:
             json["notches"] = event.wheel;
             break;
-        case Kind::key:
+        case EventKind::key:
             json["key"] = keyName(event.key);
             json["pressed"] = event.pressed;
             if (event.repeated) json["repeated"] = true;
             writeModifiers(json, event.modifiers);
             break;
-        case Kind::text:
+        case EventKind::text:
             json["codepoint"] = event.codepoint;
             break;
-        case Kind::drop:
+        case EventKind::drop:
             json["files"] = event.files;
             break;
-        case Kind::resize:
+        case EventKind::resize:
             json["size"] = {event.size.width, event.size.height};
             break;
-        case Kind::focus:
+        case EventKind::focus:
             json["gained"] = event.pressed;
             break;
-        case Kind::close:
+        case EventKind::close:
             break;
     }
     return json;
@@ -149,37 +149,37 @@ void readKeyEvent(const JsonCursor& at, InputEvent& event) {
 void readMembers(const JsonCursor& at, InputEvent& event) {
     constexpr long long lastCodepoint = 0x10FFFF;
     switch (event.kind) {
-        case Kind::mouseMove:
+        case EventKind::mouseMove:
             at.expectObject({"frame", "event", "x", "y"});
             event.position = {readNumber(at, "x"), readNumber(at, "y")};
             break;
-        case Kind::mouseButton:
+        case EventKind::mouseButton:
             readButton(at, event);
             break;
-        case Kind::wheel:
+        case EventKind::wheel:
             at.expectObject({"frame", "event", "notches"});
             event.wheel = readNumber(at, "notches");
             break;
-        case Kind::key:
+        case EventKind::key:
             readKeyEvent(at, event);
             break;
-        case Kind::text:
+        case EventKind::text:
             at.expectObject({"frame", "event", "codepoint"});
             event.codepoint = static_cast<std::uint32_t>(at["codepoint"].wholeNumber(0, lastCodepoint).value_or(0));
             break;
-        case Kind::drop:
+        case EventKind::drop:
             at.expectObject({"frame", "event", "files"});
             event.files = readFiles(at["files"]);
             break;
-        case Kind::resize:
+        case EventKind::resize:
             at.expectObject({"frame", "event", "size"});
             event.size = readSize(at["size"]);
             break;
-        case Kind::focus:
+        case EventKind::focus:
             at.expectObject({"frame", "event", "gained"});
             event.pressed = at["gained"].truth().value_or(false);
             break;
-        case Kind::close:
+        case EventKind::close:
             at.expectObject({"frame", "event"});
             break;
     }
@@ -188,12 +188,13 @@ void readMembers(const JsonCursor& at, InputEvent& event) {
 InputScript::Entry readEntry(const JsonCursor& at, int previousFrame) {
     InputScript::Entry entry;
     entry.frame = static_cast<int>(at["frame"].wholeNumber(previousFrame, InputScript::kMaxFrame).value_or(0));
-    std::array<const char*, kKinds.size()> names{};
-    std::transform(kKinds.begin(), kKinds.end(), names.begin(), [](const auto& kind) { return kind.second.data(); });
+    std::array<const char*, kEventNames.size()> names{};
+    std::transform(kEventNames.begin(), kEventNames.end(), names.begin(),
+                   [](const auto& kind) { return kind.second.data(); });
     if (!at.has("event")) at.report("expected a member \"event\", there is none");
     const int kind = at["event"].oneOf(names);
     if (kind < 0) return entry;
-    entry.event.kind = kKinds[static_cast<std::size_t>(kind)].first;
+    entry.event.kind = kEventNames[static_cast<std::size_t>(kind)].first;
     readMembers(at, entry.event);
     return entry;
 }

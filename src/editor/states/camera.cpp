@@ -6,7 +6,6 @@ namespace lutka::editor {
 namespace {
 
 constexpr float kRadiansPerPixel = 0.0075F;
-constexpr float kDollyPerNotch = 0.89F;
 
 /// CameraMove and CameraRotate: from a button's press to its release.
 class CameraHandler final : public StateHandler {

@@ -7,7 +7,7 @@ namespace lutka::editor {
 namespace {
 
 constexpr render::Color kJoint{120, 200, 255, 255};
-constexpr render::Color kHot{255, 90, 30, 255};
+constexpr render::Color kHotJoint{255, 90, 30, 255};
 
 /// PickJoint: every joint is shown, and a click gives the one under the mouse to the role that asked.
 class PickJointHandler final : public StateHandler {
@@ -35,7 +35,7 @@ class PickJointHandler final : public StateHandler {
             workspace_.hint = fmt::format("Click the joint of {}   Esc: cancel", role);
             return;
         }
-        render::addSphere(workspace_.overlay, places[workspace_.hotJoint], size, kHot);
+        render::addSphere(workspace_.overlay, places[workspace_.hotJoint], size, kHotJoint);
         workspace_.hint =
             fmt::format("{}: click takes \"{}\"   Esc: cancel", role, skeleton.names[workspace_.hotJoint]);
     }

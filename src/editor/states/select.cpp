@@ -10,7 +10,6 @@ namespace lutka::editor {
 namespace {
 
 constexpr float kDragPixels = 4.0F;  // a click may tremble this much
-constexpr float kDollyPerNotch = 0.89F;
 
 /// Default and Selected: what waits for the user. Clicks select; drags and keys lead on.
 class SelectHandler final : public StateHandler {

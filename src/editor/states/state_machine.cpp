@@ -7,10 +7,10 @@
 namespace lutka::editor {
 namespace {
 
-using Row = std::array<State, kTriggerCount>;
+using Transitions = std::array<State, kTriggerCount>;
 
 /// Rows: the present state, in the order of State. Columns: the trigger, in the order of Trigger.
-constexpr std::array<Row, kStateCount> makeTable() {
+constexpr std::array<Transitions, kStateCount> makeTable() {
     constexpr State idle = State::idle;
     constexpr State sel = State::selected;
     constexpr State grab = State::grab;
@@ -39,7 +39,7 @@ constexpr std::array<Row, kStateCount> makeTable() {
     }};
     // clang-format on
 }
-constexpr std::array<Row, kStateCount> kTable = makeTable();
+constexpr std::array<Transitions, kStateCount> kTable = makeTable();
 
 constexpr std::array<std::string_view, kStateCount> kStateNames = {"Default", "Selected",   "Grab",         "Rotate",
                                                                    "Scale",   "CameraMove", "CameraRotate", "Add",

@@ -5,6 +5,9 @@
 /// The handlers of the states; workspace.hpp's makeHandlers() puts them together.
 namespace lutka::editor {
 
+/// One notch of the wheel leaves this share of the camera's distance.
+inline constexpr float kDollyPerNotch = 0.89F;
+
 [[nodiscard]] std::unique_ptr<StateHandler> makeSelectHandler(Workspace& workspace);
 [[nodiscard]] std::unique_ptr<StateHandler> makeGrabHandler(Workspace& workspace);
 [[nodiscard]] std::unique_ptr<StateHandler> makeRotateHandler(Workspace& workspace);

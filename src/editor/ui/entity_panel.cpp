@@ -20,10 +20,10 @@ using scene::EntityId;
 using scene::EntityKind;
 using scene::EntityScene;
 
-constexpr const char* kPayload = "lutka-entity";
+constexpr const char* kEntityPayload = "lutka-entity";
 
 /// A line of the list: an entity, how deep it hangs, and whether something hangs on it.
-struct Row {
+struct EntityRow {
     const Entity* entity = nullptr;
     int depth = 0;
     bool parent = false;
@@ -43,11 +43,11 @@ const char* kindOf(const EntityScene& scene, EntityId id) {
     return scene.find<scene::Camera>(id) != nullptr ? "camera" : "";
 }
 
-std::vector<Row> rowsOf(const EntityScene& scene, const std::set<EntityId>& closed) {
+std::vector<EntityRow> rowsOf(const EntityScene& scene, const std::set<EntityId>& closed) {
     std::unordered_map<EntityId, std::vector<const Entity*>> children;
     for (const Entity& entity : scene.entities)
         children[entity.parent].push_back(&entity);
-    std::vector<Row> rows;
+    std::vector<EntityRow> rows;
     const std::function<void(EntityId, int)> add = [&](EntityId parent, int depth) {
         const auto all = children.find(parent);
         if (all == children.end()) return;
@@ -99,12 +99,12 @@ void drawContextMenu(const PanelContext& context, const Entity& entity) {
 // An entity is hung on another one by dragging its line there.
 void dragAndDrop(const PanelContext& context, const Entity& entity) {
     if (ImGui::BeginDragDropSource()) {
-        ImGui::SetDragDropPayload(kPayload, &entity.id, sizeof entity.id);
+        ImGui::SetDragDropPayload(kEntityPayload, &entity.id, sizeof entity.id);
         ImGui::TextUnformatted(entity.name.c_str());
         ImGui::EndDragDropSource();
     }
     if (!ImGui::BeginDragDropTarget()) return;
-    if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload(kPayload)) {
+    if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload(kEntityPayload)) {
         const EntityId child = *static_cast<const EntityId*>(payload->Data);
         const EntityId parent = entity.id;
         context.editor.editScene("Reparent", "",
@@ -125,7 +125,7 @@ void drawNameField(const PanelContext& context, EntityId id) {
     context.editor.editScene("Rename", "", [&](EntityScene& scene) { scene::findEntity(scene, id)->name = name; });
 }
 
-void drawRow(const PanelContext& context, const Row& row) {
+void drawRow(const PanelContext& context, const EntityRow& row) {
     Editor& editor = context.editor;
     const Entity entity = *row.entity;  // an edit takes the list away from under it
     ImGui::PushID(static_cast<int>(entity.id));
@@ -201,7 +201,7 @@ void drawEntityTab(const PanelContext& context) {
     const EntityScene& scene = context.editor.document().scene();
     drawSceneName(context);
     drawToolbar(context);
-    const std::vector<Row> rows = rowsOf(scene, context.state.closedEntities);
+    const std::vector<EntityRow> rows = rowsOf(scene, context.state.closedEntities);
     const float height = ImGui::GetContentRegionAvail().y;
     ImGui::BeginChild("##entities", {0, height * 0.42F}, true);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0, 0));

@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr ImGuiWindowFlags kDialog = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
-                                     ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize;
+constexpr ImGuiWindowFlags kFileDialog = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
+                                         ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize;
 
 bool opens(Editor::Dialog dialog) {
     return dialog == Editor::Dialog::openModel || dialog == Editor::Dialog::openRecording;
@@ -247,7 +247,7 @@ void drawFileDialog(const PanelContext& context) {
     }
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({size.x * 0.5F, size.y * 0.45F}, ImGuiCond_Always, {0.5F, 0.5F});
-    if (!ImGui::BeginPopupModal(title, nullptr, kDialog)) return;
+    if (!ImGui::BeginPopupModal(title, nullptr, kFileDialog)) return;
     const fs::path folder = folderOf(state.path);
     drawCrumbs(context, folder);
     ImGui::SetNextItemWidth(context.px(520));

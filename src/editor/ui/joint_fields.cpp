@@ -19,7 +19,7 @@ using physics::JointRange;
 
 constexpr float kNearLimit = radians(5.0F);
 constexpr float kMostDeg = 175.0F;
-constexpr const char* kKinds[] = {"Hinge", "Cone and twist"};
+constexpr const char* kConstraintKinds[] = {"Hinge", "Cone and twist"};
 
 std::string capital(std::string_view word) {
     std::string text(word);
@@ -39,10 +39,10 @@ void kindField(const PartFields& fields) {
     };
     int kind = static_cast<int>(now);
     fieldRow(fields, "Kind");
-    if (ImGui::Combo("##constraintKind", &kind, kKinds, 2)) set(static_cast<ConstraintProfile::Kind>(kind));
+    if (ImGui::Combo("##constraintKind", &kind, kConstraintKinds, 2)) set(static_cast<ConstraintProfile::Kind>(kind));
     tooltip(
         "A hinge bends about one axis; a cone and twist joint swings in two directions and turns. The flexion stays.");
-    if (wasText(fields, "constraintKind", now != was, kKinds[static_cast<int>(was)])) set(was);
+    if (wasText(fields, "constraintKind", now != was, kConstraintKinds[static_cast<int>(was)])) set(was);
 }
 
 /// One of the three turns of a joint.

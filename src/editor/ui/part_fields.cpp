@@ -92,7 +92,7 @@ void massField(const PartFields& fields) {
     }
 }
 
-constexpr const char* kKinds[] = {"Capsule", "Box", "Sphere"};
+constexpr const char* kShapeKinds[] = {"Capsule", "Box", "Sphere"};
 
 }  // namespace
 
@@ -185,8 +185,8 @@ void drawShapeFields(const PartFields& fields) {
             return {};
         });
     };
-    if (ImGui::Combo("##kind", &kind, kKinds, 3)) setKind(static_cast<Kind>(kind));
-    if (wasText(fields, "kind", shape.kind != was.kind, kKinds[static_cast<int>(was.kind)])) setKind(was.kind);
+    if (ImGui::Combo("##kind", &kind, kShapeKinds, 3)) setKind(static_cast<Kind>(kind));
+    if (wasText(fields, "kind", shape.kind != was.kind, kShapeKinds[static_cast<int>(was.kind)])) setKind(was.kind);
     if (shape.kind != Kind::box) measureField(fields, kRadius, kLeast, most);
     if (shape.kind == Kind::capsule) measureField(fields, kLength, shape.radius * 2.0F, most * 3.0F);
     if (shape.kind == Kind::box) {

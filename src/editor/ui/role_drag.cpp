@@ -5,10 +5,10 @@
 namespace lutka::editor {
 namespace {
 
-constexpr const char* kPayload = "role";
+constexpr const char* kRolePayload = "role";
 
 std::optional<animation::Role> roleIn(const ImGuiPayload* payload) {
-    if (payload == nullptr || !payload->IsDataType(kPayload)) return std::nullopt;
+    if (payload == nullptr || !payload->IsDataType(kRolePayload)) return std::nullopt;
     return animation::roleAt(*static_cast<const int*>(payload->Data));
 }
 
@@ -17,14 +17,14 @@ std::optional<animation::Role> roleIn(const ImGuiPayload* payload) {
 void dragRole(animation::Role role) {
     if (!ImGui::BeginDragDropSource(ImGuiDragDropFlags_SourceAllowNullID)) return;
     const int index = animation::indexOf(role);
-    ImGui::SetDragDropPayload(kPayload, &index, sizeof index);
+    ImGui::SetDragDropPayload(kRolePayload, &index, sizeof index);
     ImGui::TextUnformatted(std::string(animation::roleName(role)).c_str());
     ImGui::EndDragDropSource();
 }
 
 std::optional<animation::Role> droppedRole() {
     if (!ImGui::BeginDragDropTarget()) return std::nullopt;
-    const auto role = roleIn(ImGui::AcceptDragDropPayload(kPayload));
+    const auto role = roleIn(ImGui::AcceptDragDropPayload(kRolePayload));
     ImGui::EndDragDropTarget();
     return role;
 }

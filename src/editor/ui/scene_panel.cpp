@@ -12,7 +12,7 @@
 namespace lutka::editor {
 namespace {
 
-float labelWidth(const PanelContext& context) {
+float sceneLabelWidth(const PanelContext& context) {
     return context.px(92);
 }
 
@@ -22,7 +22,7 @@ void drawFit(const PanelContext& context) {
     Editor& editor = context.editor;
     physics::FitOptions fit = editor.document().state().fit;
     bool changed = false;
-    labelled("Preset", labelWidth(context));
+    labelled("Preset", sceneLabelWidth(context));
     if (ImGui::BeginCombo("##ragdollPreset", std::string(physics::infoOf(fit.preset).name).c_str())) {
         for (const physics::PresetInfo& info : physics::presetInfos()) {
             if (ImGui::Selectable(std::string(info.name).c_str(), info.preset == fit.preset)) {
@@ -34,10 +34,10 @@ void drawFit(const PanelContext& context) {
         ImGui::EndCombo();
     }
     tooltip(std::string(physics::infoOf(fit.preset).summary));
-    labelled("Total mass", labelWidth(context));
+    labelled("Total mass", sceneLabelWidth(context));
     ImGui::InputFloat("##total", &fit.totalMassKg, 0.0F, 0.0F, "%.1f kg");
     changed |= ImGui::IsItemDeactivatedAfterEdit() && fit.totalMassKg > 0.0F;
-    labelled("Masses", labelWidth(context));
+    labelled("Masses", sceneLabelWidth(context));
     int preset = static_cast<int>(fit.massPreset);
     if (ImGui::Combo("##preset", &preset, "Anatomical\0Balanced\0Uniform\0By volume\0")) {
         fit.massPreset = static_cast<physics::MassPreset>(preset);
@@ -85,11 +85,11 @@ void drawViewTab(const PanelContext& context) {
     ImGui::Unindent();
     ImGui::EndDisabled();
     caption("PICTURE");
-    labelled("Skin", labelWidth(context));
+    labelled("Skin", sceneLabelWidth(context));
     ImGui::SliderFloat("##skin", &view.skinOpacity, 0.0F, 1.0F, "opacity %.2f");
     ImGui::Checkbox("Dual quaternion skin", &view.dualQuaternions);
     tooltip("Keeps the volume of twisted limbs; bends bulge a little");
-    labelled("Lens", labelWidth(context));
+    labelled("Lens", sceneLabelWidth(context));
     render::Camera& camera = context.editor.workspace().camera;
     float lens = degrees(camera.fieldOfView);
     if (ImGui::SliderFloat("##lens", &lens, 15.0F, 90.0F, "%.0f°")) camera.fieldOfView = radians(lens);

@@ -15,7 +15,7 @@
 namespace lutka::editor {
 namespace {
 
-float labelWidth(const PanelContext& context) {
+float simulationLabelWidth(const PanelContext& context) {
     return context.px(92);
 }
 
@@ -57,7 +57,7 @@ void drawTime(const PanelContext& context) {
     ImGui::BeginDisabled(!player.canReturnToPlay());
     if (ImGui::Button("Back to where Play was pressed", {-1.0F, 0})) editor.perform(Action::returnToPlay);
     ImGui::EndDisabled();
-    labelled("Speed", labelWidth(context));
+    labelled("Speed", simulationLabelWidth(context));
     auto speed = static_cast<float>(player.speed());
     if (ImGui::SliderFloat("##slow", &speed, 0.05F, 1.0F, "%.2f of real time")) player.setSpeed(speed);
 }
@@ -66,7 +66,7 @@ void drawNamedScene(const PanelContext& context) {
     Editor& editor = context.editor;
     const SceneSettings& scene = editor.document().sceneDocument().settings();
     std::string_view chosen;
-    labelled("Scene", labelWidth(context));
+    labelled("Scene", simulationLabelWidth(context));
     if (ImGui::BeginCombo("##scenario", scene.scenario.empty() ? "from a file" : scene.scenario.c_str())) {
         for (const scene::ScenarioInfo& info : scene::scenarioRegistry()) {
             const std::string name(info.name);
@@ -80,13 +80,13 @@ void drawNamedScene(const PanelContext& context) {
         change(editor, {"Choose the scene", "", true}, [&](SceneSettings& next) { next.scenario = chosen; });
     }
     ImGui::BeginDisabled(scene.scenario.empty());
-    labelled("Dolls", labelWidth(context));
+    labelled("Dolls", simulationLabelWidth(context));
     int count = scene.count;
     if (ImGui::SliderInt("##count", &count, 1, 100, "%d", ImGuiSliderFlags_Logarithmic)) {
         change(editor, {"Number of dolls", "count", true},
                [&](SceneSettings& next) { next.count = std::max(count, 1); });
     }
-    labelled("Seed", labelWidth(context));
+    labelled("Seed", simulationLabelWidth(context));
     int seed = static_cast<int>(scene.seed);
     if (ImGui::InputInt("##seed", &seed)) {
         change(editor, {"Seed", "", true},
@@ -103,7 +103,7 @@ void drawClipTime(const PanelContext& context) {
     const auto& clips = editor.document().character().clips;
     const auto clip =
         std::find_if(clips.begin(), clips.end(), [&](const animation::Clip& one) { return one.name == start.clip; });
-    labelled("At", labelWidth(context));
+    labelled("At", simulationLabelWidth(context));
     const float length = clip != clips.end() ? clip->seconds() : 1.0F;
     float seconds = start.seconds;
     if (ImGui::SliderFloat("##clipTime", &seconds, 0.0F, length, "%.2f s of the clip")) {
@@ -119,7 +119,7 @@ void drawStart(const PanelContext& context) {
     const char* poses[] = {"Bind pose", "File's node pose"};
     std::optional<int> pose;
     std::optional<scene::ClipStart> clip;
-    labelled("Start pose", labelWidth(context));
+    labelled("Start pose", simulationLabelWidth(context));
     const std::string shown = scene.clip ? "Clip " + scene.clip->clip : poses[static_cast<int>(scene.pose)];
     if (ImGui::BeginCombo("##pose", shown.c_str())) {
         for (int one = 0; one < 2; ++one) {
@@ -164,7 +164,7 @@ void drawOverride(const PanelContext& context, const Override<T>& one) {
     Editor& editor = context.editor;
     std::optional<T> value = editor.document().scene().simulation.world.*one.value;
     ImGui::PushID(one.label);
-    labelled(one.label, labelWidth(context));
+    labelled(one.label, simulationLabelWidth(context));
     bool set = value.has_value();
     bool changed = ImGui::Checkbox("##own", &set);
     if (changed) value = set ? std::optional<T>(one.own) : std::nullopt;
@@ -211,7 +211,7 @@ bool chooseSolver(physics::SolverKind& solver) {
 
 void drawSolver(const PanelContext& context) {
     Editor& editor = context.editor;
-    labelled("Solver", labelWidth(context));
+    labelled("Solver", simulationLabelWidth(context));
     physics::SolverKind solver = editor.document().scene().simulation.world.solver;
     if (!chooseSolver(solver)) return;
     changeWorld(editor, {"Solver"}, [&](physics::WorldSettings& world) { world.solver = solver; });
@@ -220,13 +220,13 @@ void drawSolver(const PanelContext& context) {
 void drawPhysics(const PanelContext& context) {
     Editor& editor = context.editor;
     const auto& simulation = editor.document().scene().simulation;
-    labelled("Gravity", labelWidth(context));
+    labelled("Gravity", simulationLabelWidth(context));
     vec3 gravity = simulation.world.gravity;
     if (ImGui::DragFloat3("##gravity", &gravity.x, 0.05F, -100.0F, 100.0F, "%.2f")) {
         changeWorld(editor, {"Gravity", "gravity"}, [&](physics::WorldSettings& world) { world.gravity = gravity; });
     }
     tooltip("m/s², in world space");
-    labelled("Step", labelWidth(context));
+    labelled("Step", simulationLabelWidth(context));
     int rate = static_cast<int>(std::lround(1.0F / simulation.dt));
     if (ImGui::SliderInt("##step", &rate, 15, 480, "1/%d s", ImGuiSliderFlags_Logarithmic)) {
         change(editor, {"Step", "step"}, [&](SceneSettings& next) {
@@ -235,7 +235,7 @@ void drawPhysics(const PanelContext& context) {
     }
     drawSolver(context);
     drawOverrides(context);
-    labelled("Threads", labelWidth(context));
+    labelled("Threads", simulationLabelWidth(context));
     int threads = simulation.world.threads;
     if (ImGui::SliderInt("##threads", &threads, 1, 16)) {
         changeWorld(editor, {"Threads", "threads"},

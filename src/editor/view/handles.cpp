@@ -11,7 +11,7 @@
 namespace lutka::editor {
 namespace {
 
-using Kind = Handle::Kind;
+using HandleKind = Handle::Kind;
 using physics::BodyShape;
 using physics::ConstraintProfile;
 
@@ -21,7 +21,7 @@ constexpr vec3 kZ{0, 0, 1};
 constexpr float kTwistSize = 0.35F;  // of the cone's length: radius of the twist's circle
 constexpr render::Color kLimitLine{255, 196, 64, 255};
 constexpr render::Color kHandle{255, 232, 170, 255};
-constexpr render::Color kHot{255, 90, 30, 255};
+constexpr render::Color kHotHandle{255, 90, 30, 255};
 
 /// A limit's handle goes round `axis` through `center`; at angle 0 it lies in direction `zero`, `radius` away.
 struct Circle {
@@ -31,18 +31,18 @@ struct Circle {
     [[nodiscard]] vec3 at(float angle) const { return center + glm::angleAxis(angle, axis) * (zero * radius); }
 };
 
-bool isLow(Kind kind) {
-    return kind == Kind::flexionLow || kind == Kind::sideLow || kind == Kind::twistLow;
+bool isLow(HandleKind kind) {
+    return kind == HandleKind::flexionLow || kind == HandleKind::sideLow || kind == HandleKind::twistLow;
 }
 
-bool isTwist(Kind kind) {
-    return kind == Kind::twistLow || kind == Kind::twistHigh;
+bool isTwist(HandleKind kind) {
+    return kind == HandleKind::twistLow || kind == HandleKind::twistHigh;
 }
 
 Circle circleOf(const HandleScene& scene, const ConstraintProfile& constraint, const RigidTransform& worldFromChild,
-                Kind kind) {
+                HandleKind kind) {
     const RigidTransform parentFrame = scene.worldFromParent * constraint.parentFromFrame;
-    if (kind == Kind::flexionLow || kind == Kind::flexionHigh) {
+    if (kind == HandleKind::flexionLow || kind == HandleKind::flexionHigh) {
         return {parentFrame.translation, parentFrame.rotation * kZ, parentFrame.rotation * kX, scene.size()};
     }
     if (!isTwist(kind)) {
@@ -56,18 +56,18 @@ Circle circleOf(const HandleScene& scene, const ConstraintProfile& constraint, c
     return {childFrame.translation + axis * scene.size(), axis, zero, scene.size() * kTwistSize};
 }
 
-float limitOf(const ConstraintProfile& constraint, Kind kind) {
+float limitOf(const ConstraintProfile& constraint, HandleKind kind) {
     const bool hinge = constraint.kind == ConstraintProfile::Kind::hinge;
     switch (kind) {
-        case Kind::flexionLow:
+        case HandleKind::flexionLow:
             return hinge ? constraint.hinge.lower : -constraint.cone.swingZ;
-        case Kind::flexionHigh:
+        case HandleKind::flexionHigh:
             return hinge ? constraint.hinge.upper : constraint.cone.swingZ;
-        case Kind::sideLow:
+        case HandleKind::sideLow:
             return -constraint.cone.swingY;
-        case Kind::sideHigh:
+        case HandleKind::sideHigh:
             return constraint.cone.swingY;
-        case Kind::twistLow:
+        case HandleKind::twistLow:
             return -constraint.cone.twist;
         default:
             return constraint.cone.twist;
@@ -122,21 +122,21 @@ void addShapeHandles(const HandleScene& scene, const render::Camera& camera, std
     const BodyShape& shape = scene.profile.bodies[scene.body].shape;
     const RigidTransform& world = scene.worldFromBody;
     if (shape.kind == BodyShape::Kind::box) {
-        handles.push_back({Kind::boxX, world * (kX * shape.halfExtents.x)});
-        handles.push_back({Kind::boxY, world * (kY * shape.halfExtents.y)});
-        handles.push_back({Kind::boxZ, world * (kZ * shape.halfExtents.z)});
+        handles.push_back({HandleKind::boxX, world * (kX * shape.halfExtents.x)});
+        handles.push_back({HandleKind::boxY, world * (kY * shape.halfExtents.y)});
+        handles.push_back({HandleKind::boxZ, world * (kZ * shape.halfExtents.z)});
         return;
     }
-    handles.push_back({Kind::radius, world.translation + outward(scene, camera) * shape.radius});
+    handles.push_back({HandleKind::radius, world.translation + outward(scene, camera) * shape.radius});
     if (shape.kind == BodyShape::Kind::sphere) return;
     const vec3 end = kY * (shape.halfLength + shape.radius);
-    handles.push_back({Kind::capsuleTop, world * end});
-    handles.push_back({Kind::capsuleBottom, world * -end});
+    handles.push_back({HandleKind::capsuleTop, world * end});
+    handles.push_back({HandleKind::capsuleBottom, world * -end});
 }
 
-vec3 boxAxis(Kind kind) {
-    if (kind == Kind::boxX) return kX;
-    return kind == Kind::boxY ? kY : kZ;
+vec3 boxAxis(HandleKind kind) {
+    if (kind == HandleKind::boxX) return kX;
+    return kind == HandleKind::boxY ? kY : kZ;
 }
 
 void drawLimits(const HandleScene& scene, const ConstraintProfile& constraint, render::LineBatch& lines) {
@@ -144,12 +144,12 @@ void drawLimits(const HandleScene& scene, const ConstraintProfile& constraint, r
     if (constraint.kind == ConstraintProfile::Kind::hinge) {
         render::addArc(lines, frame, constraint.hinge.lower, constraint.hinge.upper, scene.size(), kLimitLine);
         const auto now = physics::measureConstraint(constraint, scene.worldFromParent, scene.worldFromBody);
-        const Circle circle = circleOf(scene, constraint, scene.worldFromBody, Kind::flexionHigh);
+        const Circle circle = circleOf(scene, constraint, scene.worldFromBody, HandleKind::flexionHigh);
         render::addArrow(lines, circle.center, circle.at(now.hingeAngle), render::colors::white);
         return;
     }
     render::addSwingCone(lines, frame, constraint.cone.swingY, constraint.cone.swingZ, scene.size(), kLimitLine);
-    const Circle twist = circleOf(scene, constraint, scene.worldFromBody, Kind::twistHigh);
+    const Circle twist = circleOf(scene, constraint, scene.worldFromBody, HandleKind::twistHigh);
     render::addArrow(lines, frame.translation, twist.center, render::colors::white);
     render::addArc(lines, twist.center, twist.axis, twist.zero, -constraint.cone.twist, constraint.cone.twist,
                    twist.radius, kLimitLine);
@@ -164,11 +164,11 @@ std::vector<Handle> handlesOf(const HandleScene& scene, const render::Camera& ca
     addShapeHandles(scene, camera, handles);
     const ConstraintProfile* constraint = scene.constraint();
     if (constraint == nullptr) return handles;
-    constexpr std::array hinge = {Kind::flexionLow, Kind::flexionHigh};
-    constexpr std::array cone = {Kind::flexionLow, Kind::flexionHigh, Kind::sideLow,
-                                 Kind::sideHigh,   Kind::twistLow,    Kind::twistHigh};
+    constexpr std::array hinge = {HandleKind::flexionLow, HandleKind::flexionHigh};
+    constexpr std::array cone = {HandleKind::flexionLow, HandleKind::flexionHigh, HandleKind::sideLow,
+                                 HandleKind::sideHigh,   HandleKind::twistLow,    HandleKind::twistHigh};
     const bool isHinge = constraint->kind == ConstraintProfile::Kind::hinge;
-    for (const Kind kind : isHinge ? std::span<const Kind>(hinge) : std::span<const Kind>(cone)) {
+    for (const HandleKind kind : isHinge ? std::span<const HandleKind>(hinge) : std::span<const HandleKind>(cone)) {
         handles.push_back(
             {kind, circleOf(scene, *constraint, scene.worldFromBody, kind).at(limitOf(*constraint, kind))});
     }
@@ -187,7 +187,7 @@ std::optional<Handle> handleUnder(std::span<const Handle> handles, const render:
     return nearest;
 }
 
-void drawHandles(const HandleScene& scene, std::span<const Handle> handles, const std::optional<Kind>& hot,
+void drawHandles(const HandleScene& scene, std::span<const Handle> handles, const std::optional<HandleKind>& hot,
                  const render::Camera& camera, render::LineBatch& lines) {
     if (const ConstraintProfile* constraint = scene.constraint()) drawLimits(scene, *constraint, lines);
     constexpr float seenSize = 0.0055F;  // of the distance to the eye: the same size wherever it is
@@ -196,7 +196,7 @@ void drawHandles(const HandleScene& scene, std::span<const Handle> handles, cons
             camera.orthographic ? camera.distance : glm::distance(render::eyeOf(camera), handle.position);
         const float size = distance * seenSize;
         const bool isHot = hot == handle.kind;
-        const render::Color color = isHot ? kHot : kHandle;
+        const render::Color color = isHot ? kHotHandle : kHandle;
         const RigidTransform facing{scene.worldFromBody.rotation, handle.position};
         if (handle.ofLimit()) {
             render::addSphere(lines, handle.position, size, color);
@@ -208,37 +208,37 @@ void drawHandles(const HandleScene& scene, std::span<const Handle> handles, cons
     }
 }
 
-std::string handleName(Kind kind, physics::Role role) {
+std::string handleName(HandleKind kind, physics::Role role) {
     const physics::JointWords words = physics::jointWords(role);
     switch (kind) {
-        case Kind::flexionLow:
+        case HandleKind::flexionLow:
             return std::string(words.flexion.low);
-        case Kind::flexionHigh:
+        case HandleKind::flexionHigh:
             return std::string(words.flexion.high);
-        case Kind::sideLow:
+        case HandleKind::sideLow:
             return std::string(words.side.low);
-        case Kind::sideHigh:
+        case HandleKind::sideHigh:
             return std::string(words.side.high);
-        case Kind::twistLow:
+        case HandleKind::twistLow:
             return std::string(words.twist.low);
-        case Kind::twistHigh:
+        case HandleKind::twistHigh:
             return std::string(words.twist.high);
-        case Kind::radius:
+        case HandleKind::radius:
             return "radius";
-        case Kind::capsuleTop:
-        case Kind::capsuleBottom:
+        case HandleKind::capsuleTop:
+        case HandleKind::capsuleBottom:
             return "length";
-        case Kind::boxX:
+        case HandleKind::boxX:
             return "half width";
-        case Kind::boxY:
+        case HandleKind::boxY:
             return "half height";
-        case Kind::boxZ:
+        case HandleKind::boxZ:
             break;
     }
     return "half depth";
 }
 
-HandleDrag::HandleDrag(const HandleScene& scene, Kind kind, const render::Camera& camera, const vec2& mouse,
+HandleDrag::HandleDrag(const HandleScene& scene, HandleKind kind, const render::Camera& camera, const vec2& mouse,
                        render::Extent window)
     : kind_(kind),
       startShape_(scene.profile.bodies[scene.body].shape),
@@ -249,7 +249,7 @@ HandleDrag::HandleDrag(const HandleScene& scene, Kind kind, const render::Camera
     if (constraint == nullptr) return;
     startConstraint_ = *constraint;
     startRange_ = range_ = physics::jointRange(startConstraint_, scene.bind);
-    if (kind > Kind::twistHigh) return;
+    if (kind > HandleKind::twistHigh) return;
     startAngle_ = limitOf(startConstraint_, kind);
     angle_ = startAngle_;
     const Circle circle = circleOf(scene, startConstraint_, scene.worldFromBody, kind);
@@ -261,13 +261,13 @@ bool HandleDrag::low() const {
 }
 
 physics::AngleSpan& HandleDrag::span() {
-    if (kind_ == Kind::flexionLow || kind_ == Kind::flexionHigh) return range_.flexion;
+    if (kind_ == HandleKind::flexionLow || kind_ == HandleKind::flexionHigh) return range_.flexion;
     return isTwist(kind_) ? range_.twist : range_.side;
 }
 
 void HandleDrag::follow(const HandleScene& scene, const render::Camera& camera, const vec2& mouse,
                         render::Extent window, bool bothEnds) {
-    if (kind_ <= Kind::twistHigh) {
+    if (kind_ <= HandleKind::twistHigh) {
         followLimit(scene, camera, mouse, window, bothEnds);
     } else {
         followShape(scene, camera, mouse, window);
@@ -309,17 +309,17 @@ void HandleDrag::followShape(const HandleScene& scene, const render::Camera& cam
         return std::clamp(alongUnder(world.translation, direction, ray, present), least, most);
     };
     switch (kind_) {
-        case Kind::radius: {
+        case HandleKind::radius: {
             shape_.radius = along(outward(scene, camera), startShape_.radius);
             // A capsule keeps its ends: what the caps gain the cylinder loses.
             const float reach = startShape_.halfLength + startShape_.radius;
             shape_.halfLength = std::max(reach - shape_.radius, 0.0F);
             break;
         }
-        case Kind::capsuleTop:
-        case Kind::capsuleBottom: {
+        case HandleKind::capsuleTop:
+        case HandleKind::capsuleBottom: {
             const float reach = startShape_.halfLength + startShape_.radius;
-            const vec3 out = kind_ == Kind::capsuleTop ? kY : -kY;
+            const vec3 out = kind_ == HandleKind::capsuleTop ? kY : -kY;
             const float end = alongUnder(world.translation, world.rotation * out, ray, reach);
             const float length = std::clamp(end + reach, 2.0F * startShape_.radius, 2.0F * most);
             shape_.halfLength = 0.5F * length - startShape_.radius;
@@ -342,22 +342,22 @@ std::string HandleDrag::text() const {
         return std::string(buffer.data());
     };
     switch (kind_) {
-        case Kind::flexionLow:
+        case HandleKind::flexionLow:
             return rounded(-degrees(range_.flexion.low)) + " deg";
-        case Kind::flexionHigh:
+        case HandleKind::flexionHigh:
             return rounded(degrees(range_.flexion.high)) + " deg";
-        case Kind::sideLow:
+        case HandleKind::sideLow:
             return rounded(-degrees(range_.side.low)) + " deg";
-        case Kind::sideHigh:
+        case HandleKind::sideHigh:
             return rounded(degrees(range_.side.high)) + " deg";
-        case Kind::twistLow:
+        case HandleKind::twistLow:
             return rounded(-degrees(range_.twist.low)) + " deg";
-        case Kind::twistHigh:
+        case HandleKind::twistHigh:
             return rounded(degrees(range_.twist.high)) + " deg";
-        case Kind::radius:
+        case HandleKind::radius:
             return rounded(shape_.radius * 100.0F) + " cm";
-        case Kind::capsuleTop:
-        case Kind::capsuleBottom:
+        case HandleKind::capsuleTop:
+        case HandleKind::capsuleBottom:
             return rounded((shape_.halfLength + shape_.radius) * 200.0F) + " cm";
         default:
             break;

@@ -11,4 +11,11 @@ struct BodyState {
     vec3 angularVelocity{0, 0, 0};  ///< rad/s, world axes.
 };
 
+using lutka::isFinite;  // of vectors and rotations, beside that of a body
+
+/// No number of it is infinite or not a number.
+[[nodiscard]] inline bool isFinite(const BodyState& state) {
+    return isFinite(state.worldFromBody) && isFinite(state.linearVelocity) && isFinite(state.angularVelocity);
+}
+
 }  // namespace lutka::physics

@@ -39,46 +39,46 @@ Json body(const BodyProfile& b) {
 
 Json constraint(const RagdollProfile& profile, const ConstraintProfile& c) {
     const bool hinge = c.kind == ConstraintProfile::Kind::hinge;
-    Json json{{"child", roleName(profile.bodies[c.child].role)},
-              {"parent", roleName(profile.bodies[c.parent].role)},
-              {"kind", hinge ? "hinge" : "coneTwist"},
-              {"parentFromFrame", frame(c.parentFromFrame)},
-              {"childFromFrame", frame(c.childFromFrame)}};
+    Json out{{"child", roleName(profile.bodies[c.child].role)},
+             {"parent", roleName(profile.bodies[c.parent].role)},
+             {"kind", hinge ? "hinge" : "coneTwist"},
+             {"parentFromFrame", frame(c.parentFromFrame)},
+             {"childFromFrame", frame(c.childFromFrame)}};
     if (hinge) {
-        json["hinge"] = Json{{"lower", jsonNumber(c.hinge.lower)}, {"upper", jsonNumber(c.hinge.upper)}};
+        out["hinge"] = Json{{"lower", jsonNumber(c.hinge.lower)}, {"upper", jsonNumber(c.hinge.upper)}};
     } else {
-        json["cone"] = Json{{"swingY", jsonNumber(c.cone.swingY)},
-                            {"swingZ", jsonNumber(c.cone.swingZ)},
-                            {"twist", jsonNumber(c.cone.twist)}};
+        out["cone"] = Json{{"swingY", jsonNumber(c.cone.swingY)},
+                           {"swingZ", jsonNumber(c.cone.swingZ)},
+                           {"twist", jsonNumber(c.cone.twist)}};
     }
-    json["frictionNm"] = jsonNumber(c.frictionNm);
-    return json;
+    out["frictionNm"] = jsonNumber(c.frictionNm);
+    return out;
 }
 
 }  // namespace
 
 std::string profileToJson(const RagdollProfile& profile) {
-    Json json{{"$schema", profile_format::kSchema},
-              {"format", profile_format::kName},
-              {"version", RagdollProfile::kVersion},
-              {"units", {{"length", "m"}, {"mass", "kg"}, {"angle", "rad"}, {"torque", "N m"}}},
-              {"name", profile.name},
-              {"heightM", jsonNumber(profile.heightM)},
-              {"totalMassKg", jsonNumber(profile.totalMassKg)},
-              {"standardFromModel", jsonQuaternion(profile.standardFromModel)}};
-    json["bodies"] = Json::array();
+    Json out{{"$schema", profile_format::kSchema},
+             {"format", profile_format::kName},
+             {"version", RagdollProfile::kVersion},
+             {"units", {{"length", "m"}, {"mass", "kg"}, {"angle", "rad"}, {"torque", "N m"}}},
+             {"name", profile.name},
+             {"heightM", jsonNumber(profile.heightM)},
+             {"totalMassKg", jsonNumber(profile.totalMassKg)},
+             {"standardFromModel", jsonQuaternion(profile.standardFromModel)}};
+    out["bodies"] = Json::array();
     for (const BodyProfile& b : profile.bodies)
-        json["bodies"].push_back(body(b));
-    json["constraints"] = Json::array();
+        out["bodies"].push_back(body(b));
+    out["constraints"] = Json::array();
     for (const ConstraintProfile& c : profile.constraints)
-        json["constraints"].push_back(constraint(profile, c));
-    json["filteredPairs"] = Json::array();
+        out["constraints"].push_back(constraint(profile, c));
+    out["filteredPairs"] = Json::array();
     for (const auto& [first, second] : profile.filteredPairs) {
-        json["filteredPairs"].push_back(
+        out["filteredPairs"].push_back(
             Json::array({roleName(profile.bodies[first].role), roleName(profile.bodies[second].role)}));
     }
-    json["notes"] = profile.notes;
-    return jsonText(json);
+    out["notes"] = profile.notes;
+    return jsonText(out);
 }
 
 Result<void> saveProfile(const std::filesystem::path& file, const RagdollProfile& profile) {

@@ -72,11 +72,6 @@ class Histogram {
     double sum_ = 0;
 };
 
-bool isFinite(const BodyState& state) {
-    return lutka::isFinite(state.worldFromBody) && lutka::isFinite(state.linearVelocity) &&
-           lutka::isFinite(state.angularVelocity);
-}
-
 // Half m v² plus half I w² (I in the body's principal axes).
 double kineticEnergy(const BodyState& state, float massKg, const vec3& inertia) {
     const vec3 turn = glm::conjugate(state.worldFromBody.rotation) * state.angularVelocity;

@@ -8,10 +8,6 @@
 namespace lutka::physics {
 namespace {
 
-bool isSound(const BodyState& state) {
-    return isFinite(state.worldFromBody) && isFinite(state.linearVelocity) && isFinite(state.angularVelocity);
-}
-
 bool isAtLeastZero(float value) {
     return std::isfinite(value) && value >= 0.0F;
 }
@@ -31,7 +27,7 @@ bool World::areSound(std::string_view call, const RagdollProfile& profile, std::
         return false;
     }
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-        if (physics::isSound(bodies[i])) continue;
+        if (isFinite(bodies[i])) continue;
         refuse(call, fmt::format("the state of body {} ({}) is not finite", i, profile.bodies[i].joint));
         return false;
     }
@@ -57,7 +53,7 @@ StaticId World::addStatic(const StaticShape& shape) {
 }
 
 PropId World::addProp(const DynamicProp& prop) {
-    if (!physics::isSound(prop.state) || !std::isfinite(prop.massKg) || prop.massKg <= 0.0F) {
+    if (!isFinite(prop.state) || !std::isfinite(prop.massKg) || prop.massKg <= 0.0F) {
         refuse("addProp", "the state is not finite or the mass not above 0");
         return {};
     }

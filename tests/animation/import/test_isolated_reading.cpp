@@ -25,7 +25,7 @@ Result<SourceScene> readText(const test::ScratchFolder& folder, const std::strin
     return readIsolated(file, {}, isolation);
 }
 
-std::string refusal(const std::string& text) {
+std::string refusalOfBlob(const std::string& text) {
     const test::ScratchFolder folder;
     const auto read = readText(folder, text);
     REQUIRE_FALSE(read);
@@ -51,18 +51,18 @@ TEST_CASE("a scene read by another process is the scene") {
 }
 
 TEST_CASE("a reader that crashes, hangs, overflows its stack or eats memory is an error that says so") {
-    CHECK_THAT(refusal("crash"), Catch::Contains("signal 11"));
-    CHECK_THAT(refusal("hang"), Catch::Contains("more than 2 seconds"));
-    CHECK_THAT(refusal("deep"), Catch::Contains("signal 11"));
+    CHECK_THAT(refusalOfBlob("crash"), Catch::Contains("signal 11"));
+    CHECK_THAT(refusalOfBlob("hang"), Catch::Contains("more than 2 seconds"));
+    CHECK_THAT(refusalOfBlob("deep"), Catch::Contains("signal 11"));
 #if !defined(__SANITIZE_ADDRESS__)
-    CHECK_THAT(refusal("bomb"), Catch::Contains("more than 512 MiB"));
+    CHECK_THAT(refusalOfBlob("bomb"), Catch::Contains("more than 512 MiB"));
 #endif
 }
 
 TEST_CASE("what a reader throws or refuses comes through, and a scene that makes no sense doesn't") {
-    CHECK(refusal("throw") == "can't be imported: thrown");
-    CHECK(refusal("error") == "is not to my taste");
-    CHECK_THAT(refusal("wrong"), Catch::Contains("no sound scene"));
+    CHECK(refusalOfBlob("throw") == "can't be imported: thrown");
+    CHECK(refusalOfBlob("error") == "is not to my taste");
+    CHECK_THAT(refusalOfBlob("wrong"), Catch::Contains("no sound scene"));
 }
 
 TEST_CASE("a reader writes no files") {

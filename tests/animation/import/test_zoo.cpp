@@ -45,7 +45,7 @@ std::vector<Model> models() {
 }
 
 // Height of vertices, or of the joints where there are none.
-float heightOf(const Character& character) {
+float heightOfSkin(const Character& character) {
     float low = 1e9F;
     float high = -1e9F;
     const auto add = [&](const vec3& p) {
@@ -166,8 +166,8 @@ TEST_CASE("every model of the zoo loads, or is refused for its known damage") {
         }
         checkInvariants(result.value());
         if (model.humanoid) {
-            CHECK(heightOf(result.value()) > 0.5F);
-            CHECK(heightOf(result.value()) < 3.0F);
+            CHECK(heightOfSkin(result.value()) > 0.5F);
+            CHECK(heightOfSkin(result.value()) < 3.0F);
         }
     }
 }
@@ -179,7 +179,7 @@ TEST_CASE("the node pose of every zoo model shows what the file shows") {
         // Assimp cuts polygons of FBX otherwise than our reader, and loses some of its transforms.
         if (model.refused || !model.oracleKnows || model.file.extension() == ".fbx") continue;
         const Character character = imported(model.file);
-        const float error = nodePoseError(character, model.file) / heightOf(character);
+        const float error = nodePoseError(character, model.file) / heightOfSkin(character);
         std::printf("%-32s node pose against the formula: %.2e of the height\n", model.folder.c_str(), error);
         if (!warns(character, "nodes' pose scales joints")) CHECK(error < 1e-3F);
     }

@@ -12,19 +12,19 @@ using test::makeDocument;
 
 namespace {
 
-int constraintOf(const EditorDocument& document, Role role) {
+int constraintIndexOf(const EditorDocument& document, Role role) {
     return physics::bodyOf(document.profile(), role) - 1;
 }
 
 physics::HingeLimits kneeLimits(const EditorDocument& document) {
-    return document.profile().constraints[constraintOf(document, Role::leftLowerLeg)].hinge;
+    return document.profile().constraints[constraintIndexOf(document, Role::leftLowerLeg)].hinge;
 }
 
 }  // namespace
 
 TEST_CASE("a limit is set, undone and redone") {
     const auto document = makeDocument();
-    const int knee = constraintOf(*document, Role::leftLowerLeg);
+    const int knee = constraintIndexOf(*document, Role::leftLowerLeg);
     const physics::HingeLimits before = kneeLimits(*document);
     REQUIRE(document->setHinge(knee, {-0.5F, 0.6F}).ok());
     CHECK(kneeLimits(*document).upper == 0.6F);
@@ -42,7 +42,7 @@ TEST_CASE("a limit is set, undone and redone") {
 
 TEST_CASE("changes of one drag are one entry of undo and the next drag is another") {
     const auto document = makeDocument();
-    const int knee = constraintOf(*document, Role::leftLowerLeg);
+    const int knee = constraintIndexOf(*document, Role::leftLowerLeg);
     const float before = kneeLimits(*document).upper;
     for (const float upper : {0.9F, 0.8F, 0.7F})
         REQUIRE(document->setHinge(knee, {-0.1F, upper}, "hinge").ok());
@@ -58,7 +58,7 @@ TEST_CASE("changes of one drag are one entry of undo and the next drag is anothe
 TEST_CASE("a cancelled drag leaves neither a change nor an entry") {
     const auto document = makeDocument();
     const float before = kneeLimits(*document).upper;
-    REQUIRE(document->setHinge(constraintOf(*document, Role::leftLowerLeg), {-0.1F, 0.5F}, "hinge").ok());
+    REQUIRE(document->setHinge(constraintIndexOf(*document, Role::leftLowerLeg), {-0.1F, 0.5F}, "hinge").ok());
     document->cancelGroup();
     CHECK(kneeLimits(*document).upper == before);
     CHECK_FALSE(document->canUndo());
@@ -69,13 +69,13 @@ TEST_CASE("a cancelled drag leaves neither a change nor an entry") {
 
 TEST_CASE("a value out of range is refused and nothing changes") {
     const auto document = makeDocument();
-    const int knee = constraintOf(*document, Role::leftLowerLeg);
+    const int knee = constraintIndexOf(*document, Role::leftLowerLeg);
     const std::uint64_t revision = document->revision();
     const auto hinge = document->setHinge(knee, {0.4F, 0.6F});
     REQUIRE_FALSE(hinge.ok());
     CHECK(hinge.error().code == ErrorCode::usage);
     CHECK_FALSE(document->setMass(0, -1.0F).ok());
-    CHECK_FALSE(document->setCone(constraintOf(*document, Role::head), {NAN, 1, 1}).ok());
+    CHECK_FALSE(document->setCone(constraintIndexOf(*document, Role::head), {NAN, 1, 1}).ok());
     physics::BodyShape flat;
     flat.radius = 0.0F;
     CHECK_FALSE(document->setShape(0, flat).ok());
@@ -96,7 +96,7 @@ TEST_CASE("a body's mass counts in the total and its inertia grows with it") {
 
 TEST_CASE("a role is given to another joint and the user's edits outlive the new fit") {
     const auto document = makeDocument();
-    const int knee = constraintOf(*document, Role::leftLowerLeg);
+    const int knee = constraintIndexOf(*document, Role::leftLowerLeg);
     REQUIRE(document->setHinge(knee, {-0.5F, 0.6F}).ok());
     const int spine = animation::findJoint(document->character().skeleton, "spine");
     const int chest = animation::findJoint(document->character().skeleton, "chest");
@@ -167,7 +167,7 @@ TEST_CASE("what is saved is what is loaded and the mark of unsaved changes goes"
     const auto document = makeDocument();
     const test::ScratchFolder folder;
     const std::filesystem::path file = folder / "biped.ragdoll.json";
-    REQUIRE(document->setHinge(constraintOf(*document, Role::leftLowerLeg), {-0.5F, 0.6F}).ok());
+    REQUIRE(document->setHinge(constraintIndexOf(*document, Role::leftLowerLeg), {-0.5F, 0.6F}).ok());
     REQUIRE(document->save(file).ok());
     CHECK_FALSE(document->unsaved());
     CHECK(document->profileFile() == file);
@@ -184,7 +184,7 @@ TEST_CASE("what is saved is what is loaded and the mark of unsaved changes goes"
 
 TEST_CASE("the doctor finds a limit that excludes the bind pose and mending it is one undoable edit") {
     const auto document = makeDocument();
-    const int knee = constraintOf(*document, Role::leftLowerLeg);
+    const int knee = constraintIndexOf(*document, Role::leftLowerLeg);
     const auto has = [&](const char* code) {
         const auto& findings = document->diagnosis().findings;
         return std::any_of(findings.begin(), findings.end(),
@@ -227,7 +227,7 @@ TEST_CASE("what an opened profile holds outlives a change of the mapping, and it
     const auto document = makeDocument();
     const test::ScratchFolder folder;
     const std::filesystem::path file = folder / "biped.ragdoll.json";
-    REQUIRE(document->setHinge(constraintOf(*document, Role::leftLowerLeg), {-0.5F, 0.6F}).ok());
+    REQUIRE(document->setHinge(constraintIndexOf(*document, Role::leftLowerLeg), {-0.5F, 0.6F}).ok());
     REQUIRE(document->save(file).ok());
     const auto again = makeDocument();
     REQUIRE(again->useProfile(file).ok());

@@ -23,7 +23,7 @@ using Kind = Handle::Kind;
 
 namespace {
 
-EditorOptions paused() {
+EditorOptions pausedAtStart() {
     EditorOptions options;
     options.playing = false;
     return options;
@@ -73,7 +73,7 @@ std::size_t textOf(const Editor& editor) {
 }  // namespace
 
 TEST_CASE("the end of a hinge's arc is hovered, dragged, and follows the mouse as one entry of undo") {
-    const auto editor = makeEditor(paused());
+    const auto editor = makeEditor(pausedAtStart());
     selectBody(*editor, Role::leftLowerLeg);
     send(*editor, keyPressed(Key::digit3));  // from the side, where a knee's arc is a circle
     const std::size_t before = textOf(*editor);
@@ -109,7 +109,7 @@ TEST_CASE("the end of a hinge's arc is hovered, dragged, and follows the mouse a
 TEST_CASE("no way out of a handle's drag but the release keeps the change") {
     for (const InputEvent& event :
          {keyPressed(Key::escape), mouseButton(MouseButton::right, true), focusChanged(false)}) {
-        const auto editor = makeEditor(paused());
+        const auto editor = makeEditor(pausedAtStart());
         selectBody(*editor, Role::leftUpperLeg);
         const std::size_t before = textOf(*editor);
         const vec2 at = handleAt(*editor, Kind::flexionHigh);
@@ -126,7 +126,7 @@ TEST_CASE("no way out of a handle's drag but the release keeps the change") {
 }
 
 TEST_CASE("half axes of a cone move both ends and with shift only the one that is held") {
-    const auto editor = makeEditor(paused());
+    const auto editor = makeEditor(pausedAtStart());
     selectBody(*editor, Role::leftUpperLeg);
     const physics::JointRange was = rangeOf(*editor, Role::leftUpperLeg);
     const auto drag = [&](bool shift) {
@@ -181,7 +181,7 @@ TEST_CASE("each handle can be dragged while the doll moves and leaves a valid pr
 }
 
 TEST_CASE("one end of a capsule follows the mouse and the other stays") {
-    const auto editor = makeEditor(paused());
+    const auto editor = makeEditor(pausedAtStart());
     selectBody(*editor, Role::leftUpperLeg);
     const int body = bodyOf(*editor, Role::leftUpperLeg);
     const auto ends = [&] {
@@ -205,7 +205,7 @@ TEST_CASE("one end of a capsule follows the mouse and the other stays") {
 }
 
 TEST_CASE("handles that are switched off take no click") {
-    const auto editor = makeEditor(paused());
+    const auto editor = makeEditor(pausedAtStart());
     selectBody(*editor, Role::leftUpperLeg);
     const vec2 at = handleAt(*editor, Kind::flexionHigh);
     send(*editor, keyPressed(Key::h));
@@ -216,7 +216,7 @@ TEST_CASE("handles that are switched off take no click") {
 }
 
 TEST_CASE("the swing of a joint reaches each limit, passes none, and ends where it began") {
-    const auto editor = makeEditor(paused());
+    const auto editor = makeEditor(pausedAtStart());
     for (const Role role : {Role::leftUpperLeg, Role::rightLowerArm}) {
         const int child = bodyOf(*editor, role);
         std::vector<RigidTransform> start;
@@ -273,7 +273,7 @@ TEST_CASE("swinging the limits leaves the simulation as it was, to the bit") {
 }
 
 TEST_CASE("a role takes the joint that is clicked in the view") {
-    const auto editor = makeEditor(paused());
+    const auto editor = makeEditor(pausedAtStart());
     const auto& skeleton = editor->document().character().skeleton;
     const int chest = animation::findJoint(skeleton, "chest");
     REQUIRE(editor->document().state().map.jointOf(Role::spine) != chest);
@@ -294,7 +294,7 @@ TEST_CASE("a role takes the joint that is clicked in the view") {
 }
 
 TEST_CASE("picking a joint is cancelled by escape and a click beside asks again") {
-    const auto editor = makeEditor(paused());
+    const auto editor = makeEditor(pausedAtStart());
     editor->beginPickJoint(Role::head);
     click(*editor, {20, 60});
     CHECK(editor->state() == State::pickJoint);
@@ -304,7 +304,7 @@ TEST_CASE("picking a joint is cancelled by escape and a click beside asks again"
 }
 
 TEST_CASE("copy, paste and mirror by keys work on all selected bodies") {
-    const auto editor = makeEditor(paused());
+    const auto editor = makeEditor(pausedAtStart());
     selectBody(*editor, Role::leftHand);
     const int hand = bodyOf(*editor, Role::leftHand);
     REQUIRE(editor->edit([&](EditorDocument& document) { return document.setMass(hand, 1.25F); }));

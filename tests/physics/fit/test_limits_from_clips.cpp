@@ -12,15 +12,15 @@ using animation::Character;
 
 namespace {
 
-struct Doll {
+struct FittedDoll {
     Character character;
     RagdollProfile profile;
     Rig rig;
 };
 
 // The biped with one clip that turns `joint` about `axis` from 0 to `angle`.
-Doll dollThatTurns(const std::string& joint, const vec3& axis, float angle) {
-    Doll doll;
+FittedDoll dollThatTurns(const std::string& joint, const vec3& axis, float angle) {
+    FittedDoll doll;
     doll.character = test::makeBiped();
     animation::Clip clip{"turn", 30.0F, 11, {}, {}};
     const int turned = animation::findJoint(doll.character.skeleton, joint);
@@ -39,7 +39,7 @@ Doll dollThatTurns(const std::string& joint, const vec3& axis, float angle) {
     return doll;
 }
 
-const ConstraintProfile& constraintOf(const Doll& doll, Role role) {
+const ConstraintProfile& constraintOf(const FittedDoll& doll, Role role) {
     return doll.profile.constraints[bodyOf(doll.profile, role) - 1];
 }
 
@@ -47,7 +47,7 @@ const ConstraintProfile& constraintOf(const Doll& doll, Role role) {
 
 TEST_CASE("a knee that a clip bends the wrong way gets room for just that, with a margin") {
     // About +X the shin swings forwards: 40 degrees of hyperextension, which the anatomy forbids.
-    Doll doll = dollThatTurns("leftLowerLeg", {1, 0, 0}, -radians(40));
+    FittedDoll doll = dollThatTurns("leftLowerLeg", {1, 0, 0}, -radians(40));
     const HingeLimits before = constraintOf(doll, Role::leftLowerLeg).hinge;
     const HingeLimits right = constraintOf(doll, Role::rightLowerLeg).hinge;
     const auto changes = applyClipLimits(doll.profile, doll.rig, doll.character, ClipLimits::widen);
@@ -63,7 +63,7 @@ TEST_CASE("a knee that a clip bends the wrong way gets room for just that, with 
 }
 
 TEST_CASE("limits that hold the clips stay as they are when widened") {
-    Doll doll = dollThatTurns("leftLowerLeg", {1, 0, 0}, radians(60));
+    FittedDoll doll = dollThatTurns("leftLowerLeg", {1, 0, 0}, radians(60));
     const RagdollProfile before = doll.profile;
     applyClipLimits(doll.profile, doll.rig, doll.character, ClipLimits::widen);
     for (std::size_t i = 0; i < before.constraints.size(); ++i) {
@@ -76,7 +76,7 @@ TEST_CASE("limits that hold the clips stay as they are when widened") {
 }
 
 TEST_CASE("fitted limits hold the clips and the bind pose and little else") {
-    Doll doll = dollThatTurns("leftUpperArm", {0, 0, 1}, -radians(70));
+    FittedDoll doll = dollThatTurns("leftUpperArm", {0, 0, 1}, -radians(70));
     const ConeTwistLimits before = constraintOf(doll, Role::leftUpperArm).cone;
     const auto changes = applyClipLimits(doll.profile, doll.rig, doll.character, ClipLimits::fit);
     for (const ClipLimitChange& change : changes) {
@@ -97,7 +97,7 @@ TEST_CASE("fitted limits hold the clips and the bind pose and little else") {
 }
 
 TEST_CASE("a character without clips keeps its limits") {
-    Doll doll = dollThatTurns("head", {0, 1, 0}, 0.1F);
+    FittedDoll doll = dollThatTurns("head", {0, 1, 0}, 0.1F);
     doll.character.clips.clear();
     CHECK(applyClipLimits(doll.profile, doll.rig, doll.character, ClipLimits::fit).empty());
 }

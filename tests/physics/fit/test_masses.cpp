@@ -12,7 +12,7 @@ using namespace lutka::physics;
 
 namespace {
 
-RagdollProfile fitBiped(const FitOptions& options) {
+RagdollProfile bipedWithMasses(const FitOptions& options) {
     const auto biped = test::makeBiped();
     return fitRagdoll(biped, test::mapOfBiped(biped), options).value();
 }
@@ -79,14 +79,14 @@ TEST_CASE("the total mass is exact for every preset, table and set of bodies") {
                 options.massTable = table;
                 options.totalMassKg = 61.7F;
                 options.shoulderBodies = options.neckBody = options.allTrunkBodies = more;
-                CHECK(std::abs(sumOf(fitBiped(options)) - options.totalMassKg) <= 1e-6 * options.totalMassKg);
+                CHECK(std::abs(sumOf(bipedWithMasses(options)) - options.totalMassKg) <= 1e-6 * options.totalMassKg);
             }
         }
     }
 }
 
 TEST_CASE("anatomical masses are de Leva's for a man of 75 kg") {
-    const RagdollProfile profile = fitBiped({});
+    const RagdollProfile profile = bipedWithMasses({});
     const auto mass = [&](Role role) { return profile.bodies[bodyOf(profile, role)].massKg; };
     // The table's shares sum to 0.9999, which scaling makes up for.
     CHECK(mass(Role::hips) == Approx(75 * 0.1117).epsilon(1e-3));
@@ -101,16 +101,17 @@ TEST_CASE("anatomical masses are de Leva's for a man of 75 kg") {
 TEST_CASE("balanced masses draw the ratios together and uniform ones make them equal") {
     FitOptions balanced;
     balanced.massPreset = MassPreset::balanced;
-    CHECK(largestRatio(fitBiped(balanced)) == Approx(std::sqrt(largestRatio(fitBiped({})))).epsilon(1e-3));
+    CHECK(largestRatio(bipedWithMasses(balanced)) ==
+          Approx(std::sqrt(largestRatio(bipedWithMasses({})))).epsilon(1e-3));
     FitOptions uniform;
     uniform.massPreset = MassPreset::uniform;
-    CHECK(largestRatio(fitBiped(uniform)) == Approx(1.0F).epsilon(1e-5));
+    CHECK(largestRatio(bipedWithMasses(uniform)) == Approx(1.0F).epsilon(1e-5));
 }
 
 TEST_CASE("by volume every body has the same density") {
     FitOptions options;
     options.massPreset = MassPreset::volume;
-    const RagdollProfile profile = fitBiped(options);
+    const RagdollProfile profile = bipedWithMasses(options);
     const float density = profile.bodies[0].massKg / shapeVolume(profile.bodies[0].shape);
     for (const BodyProfile& body : profile.bodies)
         CHECK(body.massKg / shapeVolume(body.shape) == Approx(density).epsilon(1e-4));

@@ -39,7 +39,7 @@ animation::HumanoidMap mapOfOther() {
     return map;
 }
 
-RagdollProfile bipedProfile() {
+RagdollProfile bipedToRebind() {
     const animation::Character biped = test::makeBiped();
     FitOptions options;
     options.massPreset = MassPreset::balanced;
@@ -55,10 +55,10 @@ RagdollProfile bipedProfile() {
 
 TEST_CASE("a profile re-bound to another rig fits it and keeps what was edited") {
     const animation::Character rig = otherRig();
-    const auto bound = rebindProfile(bipedProfile(), rig, mapOfOther());
+    const auto bound = rebindProfile(bipedToRebind(), rig, mapOfOther());
     REQUIRE(bound);
     const RagdollProfile& profile = bound.value();
-    const RagdollProfile original = bipedProfile();
+    const RagdollProfile original = bipedToRebind();
     const RagdollProfile fresh = fitRagdoll(rig, mapOfOther()).value();
     CHECK(validate(profile).empty());
     CHECK(profile.name == "other");
@@ -83,7 +83,7 @@ TEST_CASE("a profile re-bound to another rig fits it and keeps what was edited")
 
 TEST_CASE("re-binding to its own character changes nothing") {
     const animation::Character biped = test::makeBiped();
-    const RagdollProfile before = bipedProfile();
+    const RagdollProfile before = bipedToRebind();
     for (const bool keepShapes : {false, true}) {
         const RagdollProfile after = rebindProfile(before, biped, test::mapOfBiped(biped), keepShapes).value();
         for (std::size_t i = 0; i < before.bodies.size(); ++i) {
@@ -103,7 +103,7 @@ TEST_CASE("re-binding to its own character changes nothing") {
 
 TEST_CASE("kept shapes keep their size and their place in the limb on another rig") {
     const animation::Character rig = otherRig();
-    const RagdollProfile original = bipedProfile();
+    const RagdollProfile original = bipedToRebind();
     const RagdollProfile bound = rebindProfile(original, rig, mapOfOther(), true).value();
     for (std::size_t i = 0; i < bound.bodies.size(); ++i) {
         CHECK(bound.bodies[i].shape.radius == original.bodies[i].shape.radius);
@@ -120,7 +120,7 @@ TEST_CASE("re-binding names every role that the rig lacks") {
     animation::HumanoidMap map = mapOfOther();
     map.roles[animation::indexOf(Role::leftHand)].reset();
     map.roles[animation::indexOf(Role::head)].reset();
-    const auto bound = rebindProfile(bipedProfile(), rig, map);
+    const auto bound = rebindProfile(bipedToRebind(), rig, map);
     REQUIRE_FALSE(bound);
     CHECK(bound.error().code == ErrorCode::input);
     CHECK(bound.error().message.find("head, leftHand") != std::string::npos);

@@ -12,7 +12,7 @@ using namespace lutka::physics;
 
 namespace {
 
-RagdollProfile bipedProfile() {
+RagdollProfile soundProfile() {
     const auto biped = test::makeBiped();
     return fitRagdoll(biped, test::mapOfBiped(biped)).value();
 }
@@ -20,7 +20,7 @@ RagdollProfile bipedProfile() {
 }  // namespace
 
 TEST_CASE("a fitted profile is valid") {
-    CHECK(validate(bipedProfile()).empty());
+    CHECK(validate(soundProfile()).empty());
 }
 
 TEST_CASE("validate names every fault at once") {
@@ -47,10 +47,10 @@ TEST_CASE("validate names every fault at once") {
         {"/constraints/5/frictionNm", [](RagdollProfile& p) { p.constraints[5].frictionNm = -1; }},
         {"/filteredPairs/0", [](RagdollProfile& p) { p.filteredPairs.emplace_back(3, 3); }},
     };
-    RagdollProfile all = bipedProfile();
+    RagdollProfile all = soundProfile();
     for (const Fault& fault : faults) {
         INFO(fault.place);
-        RagdollProfile one = bipedProfile();
+        RagdollProfile one = soundProfile();
         fault.plant(one);
         fault.plant(all);
         const auto problems = validate(one);
@@ -62,7 +62,7 @@ TEST_CASE("validate names every fault at once") {
 }
 
 TEST_CASE("a missing constraint and an empty profile are invalid") {
-    RagdollProfile profile = bipedProfile();
+    RagdollProfile profile = soundProfile();
     profile.constraints.pop_back();
     CHECK_FALSE(validate(profile).empty());
     CHECK_FALSE(validate(RagdollProfile{}).empty());

@@ -16,7 +16,7 @@ using nlohmann::json;
 
 namespace {
 
-RagdollProfile bipedProfile() {
+RagdollProfile profileToWrite() {
     const auto biped = test::makeBiped();
     RagdollProfile profile = fitRagdoll(biped, test::mapOfBiped(biped)).value();
     profile.filteredPairs = {{1, 3}, {2, 9}};
@@ -27,7 +27,7 @@ RagdollProfile bipedProfile() {
 }
 
 json bipedJson() {
-    return json::parse(profileToJson(bipedProfile()));
+    return json::parse(profileToJson(profileToWrite()));
 }
 
 std::string problemsOf(const json& document) {
@@ -43,7 +43,7 @@ void checkSame(const RigidTransform& a, const RigidTransform& b) {
 }  // namespace
 
 TEST_CASE("a profile comes back from its JSON to the last bit") {
-    const RagdollProfile profile = bipedProfile();
+    const RagdollProfile profile = profileToWrite();
     const auto read = profileFromJson(profileToJson(profile), "memory");
     REQUIRE(read);
     const RagdollProfile& back = read.value();
@@ -92,16 +92,16 @@ TEST_CASE("a profile comes back from its JSON to the last bit") {
 
 TEST_CASE("a profile survives the way through a file") {
     const auto file = std::filesystem::temp_directory_path() / "lutka_profile_test" / "biped.ragdoll.json";
-    REQUIRE(saveProfile(file, bipedProfile()));
+    REQUIRE(saveProfile(file, profileToWrite()));
     const auto read = loadProfile(file);
     REQUIRE(read);
-    CHECK(profileToJson(read.value()) == profileToJson(bipedProfile()));
+    CHECK(profileToJson(read.value()) == profileToJson(profileToWrite()));
     std::filesystem::remove_all(file.parent_path());
     CHECK_FALSE(loadProfile(file));
 }
 
 TEST_CASE("vectors stand on one line and numbers in their shortest form") {
-    RagdollProfile profile = bipedProfile();
+    RagdollProfile profile = profileToWrite();
     profile.heightM = 0.1F;
     const std::string text = profileToJson(profile);
     CHECK(text.find("\"heightM\": 0.1,") != std::string::npos);
@@ -175,7 +175,7 @@ TEST_CASE("other formats and versions are refused before anything else is read")
 }
 
 TEST_CASE("a key that stands twice and masses that do not add up are problems") {
-    std::string text = profileToJson(bipedProfile());
+    std::string text = profileToJson(profileToWrite());
     text.insert(1, "\"name\": \"other\",");
     const auto twice = profileFromJson(text, "memory");
     REQUIRE_FALSE(twice);
@@ -201,7 +201,7 @@ TEST_CASE("a file of version 1 is read by every later version") {
 }
 
 TEST_CASE("damaged documents are refused or read, but never crash the reader") {
-    const std::string whole = profileToJson(bipedProfile());
+    const std::string whole = profileToJson(profileToWrite());
     Random random(11);
     int refused = 0;
     constexpr int kTrials = 1500;

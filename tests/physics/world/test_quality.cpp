@@ -31,7 +31,7 @@ quat turn(float angleDeg, const vec3& axis) {
     return glm::angleAxis(radians(angleDeg), glm::normalize(axis));
 }
 
-BodyShape capsule(float radius, float halfLength) {
+BodyShape capsuleShape(float radius, float halfLength) {
     BodyShape shape;
     shape.radius = radius;
     shape.halfLength = halfLength;
@@ -74,7 +74,7 @@ class PuppetWorld final : public physics::WorldView {
     bool asleep = false;
 };
 
-const std::vector<StaticShape> kFloor{StaticShape{}};
+const std::vector<StaticShape> kFloorOnly{StaticShape{}};
 const vec3 kGravity(0, -10, 0);
 
 }  // namespace
@@ -129,8 +129,8 @@ TEST_CASE("an oblique swing's excess is measured along the ray from the centre",
 
 TEST_CASE("distances to a plane are those of the lowest point", "[quality]") {
     const StaticShape floor;
-    CHECK(distanceToStatic(capsule(0.1F, 0.3F), {quat(1, 0, 0, 0), {0, 1, 0}}, floor) == Approx(0.6F));
-    CHECK(distanceToStatic(capsule(0.1F, 0.3F), {turn(90, {0, 0, 1}), {5, 0.05F, 0}}, floor) == Approx(-0.05F));
+    CHECK(distanceToStatic(capsuleShape(0.1F, 0.3F), {quat(1, 0, 0, 0), {0, 1, 0}}, floor) == Approx(0.6F));
+    CHECK(distanceToStatic(capsuleShape(0.1F, 0.3F), {turn(90, {0, 0, 1}), {5, 0.05F, 0}}, floor) == Approx(-0.05F));
     BodyShape box;
     box.kind = BodyShape::Kind::box;
     box.halfExtents = {0.1F, 0.1F, 0.1F};
@@ -148,8 +148,8 @@ TEST_CASE("distances to a box are those to its nearest face, edge or corner", "[
     block.kind = StaticShape::Kind::box;
     block.halfExtents = {1, 0.5F, 1};
     const quat upright(1, 0, 0, 0);
-    CHECK(distanceToStatic(capsule(0.1F, 0.3F), {upright, {0, 1.5F, 0}}, block) == Approx(0.6F));
-    CHECK(distanceToStatic(capsule(0.1F, 0.3F), {turn(90, {0, 0, 1}), {0, 0.58F, 0}}, block) ==
+    CHECK(distanceToStatic(capsuleShape(0.1F, 0.3F), {upright, {0, 1.5F, 0}}, block) == Approx(0.6F));
+    CHECK(distanceToStatic(capsuleShape(0.1F, 0.3F), {turn(90, {0, 0, 1}), {0, 0.58F, 0}}, block) ==
           Approx(-0.02F).margin(1e-5));
     const vec3 corner = vec3(1, 0.5F, 1) + glm::normalize(vec3(1, 1, 1)) * 0.7F;
     BodyShape ball;
@@ -158,14 +158,15 @@ TEST_CASE("distances to a box are those to its nearest face, edge or corner", "[
     CHECK(distanceToStatic(ball, {upright, corner}, block) == Approx(0.5F));
     // Across an edge: neither end is near it.
     const vec3 aboveEdge = vec3(1, 0.5F, 0) + glm::normalize(vec3(1, 1, 0)) * 0.3F;
-    CHECK(distanceToStatic(capsule(0.1F, 1.0F), {turn(45, {0, 0, 1}), aboveEdge}, block) == Approx(0.2F).margin(1e-4));
+    CHECK(distanceToStatic(capsuleShape(0.1F, 1.0F), {turn(45, {0, 0, 1}), aboveEdge}, block) ==
+          Approx(0.2F).margin(1e-4));
 }
 
 TEST_CASE("energy growth is the largest rise over the running minimum, less the work of drags", "[quality]") {
     const RagdollProfile pair = test::makePair(physics::ConeTwistLimits{1, 1, 1}, 2.0F);  // 4 kg in all
     PuppetWorld world(pair);
     world.lieAt(1.0F);
-    physics::QualityMeter meter(world, kFloor, kGravity);
+    physics::QualityMeter meter(world, kFloorOnly, kGravity);
     CHECK(meter.result().initialEnergyJ == Approx(40.0F));
     world.lieAt(0.5F);  // 20 J
     meter.sample(0.1);
@@ -189,14 +190,14 @@ TEST_CASE("turning energy is taken in the body's own axes", "[quality]") {
     world.lieAt(0.0F);
     for (BodyState& body : world.bodies)
         body.angularVelocity = {4, 0, 0};  // about the capsules' own axes, which lie along x
-    const physics::QualityMeter meter(world, kFloor, kGravity);
+    const physics::QualityMeter meter(world, kFloorOnly, kGravity);
     CHECK(meter.result().initialEnergyJ == Approx(2 * 0.5F * pair.bodies[0].inertia.y * 16.0F));
 }
 
 TEST_CASE("settling counts from the first contact and starts anew when something moves", "[quality]") {
     const RagdollProfile pair = test::makePair(physics::ConeTwistLimits{1, 1, 1});
     PuppetWorld world(pair);
-    physics::QualityMeter meter(world, kFloor, kGravity);
+    physics::QualityMeter meter(world, kFloorOnly, kGravity);
     const auto sample = [&](double seconds, float height, float speed) {
         world.lieAt(height);
         for (BodyState& body : world.bodies)
@@ -219,7 +220,7 @@ TEST_CASE("settling counts from the first contact and starts anew when something
 TEST_CASE("the percentile ends three seconds after the first contact, the maximum does not", "[quality]") {
     const RagdollProfile pair = test::makePair(physics::ConeTwistLimits{1, 1, 1});
     PuppetWorld world(pair);
-    physics::QualityMeter meter(world, kFloor, kGravity);
+    physics::QualityMeter meter(world, kFloorOnly, kGravity);
     const auto sample = [&](double seconds, float gap) {
         world.lieAt(0.05F);
         world.bodies[1].worldFromBody.translation.x += gap;
@@ -238,7 +239,7 @@ TEST_CASE("states that are not finite are counted and spoil nothing else", "[qua
     const RagdollProfile pair = test::makePair(physics::ConeTwistLimits{1, 1, 1});
     PuppetWorld world(pair);
     world.lieAt(0.04F);
-    physics::QualityMeter meter(world, kFloor, kGravity);
+    physics::QualityMeter meter(world, kFloorOnly, kGravity);
     world.bodies[1].worldFromBody.translation.x = std::numeric_limits<float>::quiet_NaN();
     meter.sample(0.1);
     CHECK(meter.result().nonFinite == 1);

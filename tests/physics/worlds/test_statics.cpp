@@ -32,7 +32,7 @@ float bowl(float x, float z) {
     return 0.15F * (x * x + z * z);
 }
 
-const quat kLying = glm::angleAxis(0.5F * kPi, vec3(0, 0, 1));  // the capsule's axis along x
+const quat kCapsuleAlongX = glm::angleAxis(0.5F * kPi, vec3(0, 0, 1));  // the capsule's axis along x
 
 }  // namespace
 
@@ -58,7 +58,7 @@ TEST_CASE("a rod comes to rest on every kind of static geometry, in every world"
             INFO(physics::solverName(solver) << " on " << c.name);
             const auto world = worldOf(solver);
             world->addStatic(c.shape);
-            world->addDoll(rod, std::vector<BodyState>{stateAt({0, 0.25F, 0}, kLying)});
+            world->addDoll(rod, std::vector<BodyState>{stateAt({0, 0.25F, 0}, kCapsuleAlongX)});
             stepSeconds(*world, 3.0F);
             const BodyState rest = bodyOfDoll(*world, 0);
             CHECK(rest.worldFromBody.translation.y == Approx(c.height).margin(0.003));
@@ -104,7 +104,7 @@ TEST_CASE("a capsule slides over a flat mesh as over a plane, without bumps at t
             floor.friction = 0.1F;
             world->addStatic(floor);
             const vec3 start(-4.0F, 0.08F, 0.013F);
-            world->addDoll(rod, std::vector<BodyState>{stateAt(start, kLying, {3, 0, 0.7F})});
+            world->addDoll(rod, std::vector<BodyState>{stateAt(start, kCapsuleAlongX, {3, 0, 0.7F})});
             float lift = 0;
             float highest = 0;
             for (int i = 0; i < 60; ++i) {
@@ -162,7 +162,7 @@ TEST_CASE("rays meet every kind of static geometry, and meshes only from the fro
         INFO(physics::solverName(solver));
         const auto world = worldOf(solver);
         world->addStatic(round(StaticShape::Kind::sphere, 0.5F, 0, {0, 1, 0}));
-        world->addStatic(round(StaticShape::Kind::capsule, 0.25F, 1.0F, {4, 1, 0}, kLying));
+        world->addStatic(round(StaticShape::Kind::capsule, 0.25F, 1.0F, {4, 1, 0}, kCapsuleAlongX));
         world->addStatic(staticMesh(gridMesh(8, 4.0F, hills), {10, 0, 0}));
         const auto sphere = world->rayTest({0, 1, 5}, {0, 1, -5});
         REQUIRE(sphere);

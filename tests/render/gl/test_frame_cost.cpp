@@ -10,14 +10,14 @@ using namespace lutka::render;
 
 namespace {
 
-constexpr Extent kSize{160, 120};
+constexpr Extent kCostSize{160, 120};
 
-struct Crowd {
+struct CrowdToDraw {
     animation::Character biped = makeBiped();
     std::vector<animation::SkinMatrix> palette = bindPalette(biped.skeleton);
     FrameDescription frame;
 
-    Crowd(GlFixture& gl, int count) {
+    CrowdToDraw(GlFixture& gl, int count) {
         const CharacterHandle handle = gl.upload(biped);
         for (int i = 0; i < count; ++i) {
             CharacterItem& item = frame.characters.emplace_back();
@@ -26,7 +26,7 @@ struct Crowd {
             item.worldFromModel.translation = vec3(static_cast<float>(i % 20) - 10.0F, 0, -static_cast<float>(i / 20));
             if (i % 2 == 1) item.skinning = animation::SkinningMethod::dualQuaternion;
         }
-        frameSphere(frame.camera, {0, 0.9F, 0}, 8.0F, kSize.aspect());
+        frameSphere(frame.camera, {0, 0.9F, 0}, 8.0F, kCostSize.aspect());
     }
     void addCapsules() {
         for (const CharacterItem& item : frame.characters) {
@@ -43,14 +43,14 @@ struct Crowd {
 TEST_CASE("two hundred ragdolls with capsules on cost one upload and one draw call more than without") {
     const auto gl = GlFixture::create();
     NEEDS_GL(gl);
-    Crowd crowd(*gl, 200);
-    gl->renderer.draw(crowd.frame, kSize);
+    CrowdToDraw crowd(*gl, 200);
+    gl->renderer.draw(crowd.frame, kCostSize);
     const FrameStats bare = gl->renderer.stats();
     CHECK(bare.debugDrawCalls == 0);
     CHECK(bare.debugUploads == 0);
     CHECK(bare.characterDrawCalls == 1);
     crowd.addCapsules();
-    gl->renderer.draw(crowd.frame, kSize);
+    gl->renderer.draw(crowd.frame, kCostSize);
     const FrameStats& with = gl->renderer.stats();
     CHECK(with.debugDrawCalls == 1);
     CHECK(with.debugUploads == 1);
@@ -62,16 +62,16 @@ TEST_CASE("two hundred ragdolls with capsules on cost one upload and one draw ca
 TEST_CASE("a frame like the last one allocates nothing") {
     const auto gl = GlFixture::create();
     NEEDS_GL(gl);
-    Crowd crowd(*gl, 30);
+    CrowdToDraw crowd(*gl, 30);
     crowd.addCapsules();
     PropItem box;
     crowd.frame.props = {box, box};
     crowd.frame.localLights.resize(2);
     for (int i = 0; i < 3; ++i)
-        gl->renderer.draw(crowd.frame, kSize);
+        gl->renderer.draw(crowd.frame, kCostSize);
     const std::size_t before = allocationCount();
     for (int i = 0; i < 3; ++i)
-        gl->renderer.draw(crowd.frame, kSize);
+        gl->renderer.draw(crowd.frame, kCostSize);
     CHECK(allocationCount() == before);
     // The counter does count.
     CHECK(std::vector<int>(3).size() == 3);
@@ -81,12 +81,12 @@ TEST_CASE("a frame like the last one allocates nothing") {
 TEST_CASE("the times of every pass that ran arrive from the GPU without being waited for") {
     const auto gl = GlFixture::create();
     NEEDS_GL(gl);
-    Crowd crowd(*gl, 5);
+    CrowdToDraw crowd(*gl, 5);
     crowd.addCapsules();
-    gl->renderer.draw(crowd.frame, kSize);
+    gl->renderer.draw(crowd.frame, kCostSize);
     CHECK_FALSE(gl->renderer.stats().gpu.known);  // nothing can have arrived yet
     for (int i = 0; i < 20 && !gl->renderer.stats().gpu.known; ++i)
-        static_cast<void>(gl->picture(crowd.frame, kSize));
+        static_cast<void>(gl->picture(crowd.frame, kCostSize));
     const FrameStats& stats = gl->renderer.stats();
     REQUIRE(stats.gpu.known);
     CHECK(stats.gpu.total() > 0.0);
@@ -98,7 +98,7 @@ TEST_CASE("the times of every pass that ran arrive from the GPU without being wa
     crowd.frame.sun.castsShadow = false;
     crowd.frame.lines.clear();
     for (int i = 0; i < 8; ++i)
-        static_cast<void>(gl->picture(crowd.frame, kSize));
+        static_cast<void>(gl->picture(crowd.frame, kCostSize));
     CHECK(gl->renderer.stats().cpu[RenderPass::shadow] == 0.0);
     CHECK(gl->renderer.stats().gpu[RenderPass::debug] == 0.0);
 }
@@ -115,7 +115,7 @@ TEST_CASE("GPU memory follows what is uploaded, its size and its removal") {
     const auto gl = GlFixture::create();
     NEEDS_GL(gl);
     FrameDescription empty;
-    gl->renderer.draw(empty, kSize);
+    gl->renderer.draw(empty, kCostSize);
     const GpuMemory before = gl->renderer.stats().memory;
     animation::Character painted = makeBiped();
     animation::Texture texture;
@@ -125,7 +125,7 @@ TEST_CASE("GPU memory follows what is uploaded, its size and its removal") {
     painted.textures.push_back(texture);
     painted.materials[0].baseColorTexture = 0;
     const CharacterHandle handle = gl->upload(painted);
-    gl->renderer.draw(empty, {2 * kSize.width, 2 * kSize.height});
+    gl->renderer.draw(empty, {2 * kCostSize.width, 2 * kCostSize.height});
     const GpuMemory with = gl->renderer.stats().memory;
     CHECK(with.textures - before.textures == 64 * 64 * 4 * 4 / 3);
     const long long vertices = 72 * static_cast<long long>(painted.meshes[0].positions.size());
@@ -133,7 +133,7 @@ TEST_CASE("GPU memory follows what is uploaded, its size and its removal") {
     CHECK(with.targets > before.targets);
     CHECK(with.total() == with.meshes + with.textures + with.targets + with.streams);
     gl->renderer.removeCharacter(handle);
-    gl->renderer.draw(empty, kSize);
+    gl->renderer.draw(empty, kCostSize);
     CHECK(gl->renderer.stats().memory.textures == before.textures);
     CHECK(gl->renderer.stats().memory.meshes == before.meshes);
     CHECK(gl->renderer.stats().memory.targets == before.targets);
@@ -142,13 +142,13 @@ TEST_CASE("GPU memory follows what is uploaded, its size and its removal") {
 TEST_CASE("the fast quality shows the same scene with less work") {
     const auto best = GlFixture::create();
     NEEDS_GL(best);
-    Crowd crowd(*best, 3);
+    CrowdToDraw crowd(*best, 3);
     const Image fine = best->picture(crowd.frame, {320, 240});
     const FrameStats work = best->renderer.stats();
     const RendererOptions options = rendererOptions(RenderQuality::fast, best->context);
     const auto fast = GlFixture::create(options);
     REQUIRE(fast);
-    Crowd same(*fast, 3);
+    CrowdToDraw same(*fast, 3);
     const Image rough = fast->picture(same.frame, {320, 240});
     const ImageDifference difference = compareImages(fine, rough, 24);
     CHECK(difference.differingShare < 0.05);

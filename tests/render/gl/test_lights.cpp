@@ -13,7 +13,7 @@ using namespace lutka::render;
 
 namespace {
 
-constexpr Extent kSize{320, 240};
+constexpr Extent kLightsSize{320, 240};
 
 /// A figure between a box and a ball, in the dark.
 struct DarkRoom : LoneFigure {
@@ -30,7 +30,7 @@ struct DarkRoom : LoneFigure {
         frame.sun.intensity = 0.0F;
         frame.sky.intensity = 0.0F;
         frame.ambientOcclusion = false;
-        frameSphere(frame.camera, {0, 0.8F, 0}, 1.15F, kSize.aspect());
+        frameSphere(frame.camera, {0, 0.8F, 0}, 1.15F, kLightsSize.aspect());
     }
 };
 
@@ -59,7 +59,7 @@ TEST_CASE("picture: the sun alone with its shadow") {
     NEEDS_GL(gl);
     DarkRoom room(*gl);
     room.frame.sun.intensity = 2.2F;
-    checkGolden(gl->picture(room.frame, kSize), "light_sun");
+    checkGolden(gl->picture(room.frame, kLightsSize), "light_sun");
 }
 
 TEST_CASE("picture: the sky alone, then with ambient occlusion") {
@@ -67,9 +67,9 @@ TEST_CASE("picture: the sky alone, then with ambient occlusion") {
     NEEDS_GL(gl);
     DarkRoom room(*gl);
     room.frame.sky.intensity = 0.9F;
-    checkGolden(gl->picture(room.frame, kSize), "light_sky");
+    checkGolden(gl->picture(room.frame, kLightsSize), "light_sky");
     room.frame.ambientOcclusion = true;
-    checkGolden(gl->picture(room.frame, kSize), "light_occlusion");
+    checkGolden(gl->picture(room.frame, kLightsSize), "light_occlusion");
 }
 
 TEST_CASE("picture: two point lights of different colours") {
@@ -79,7 +79,7 @@ TEST_CASE("picture: two point lights of different colours") {
     room.frame.localLights = {lamp({-1.2F, 1.2F, 0.9F}), lamp({1.3F, 1.5F, 0.7F})};
     room.frame.localLights[0].color = {1.0F, 0.45F, 0.2F};
     room.frame.localLights[1].color = {0.25F, 0.5F, 1.0F};
-    checkGolden(gl->picture(room.frame, kSize), "light_points");
+    checkGolden(gl->picture(room.frame, kLightsSize), "light_points");
 }
 
 TEST_CASE("picture: a spot light from above with a soft rim") {
@@ -93,7 +93,7 @@ TEST_CASE("picture: a spot light from above with a soft rim") {
     spot.outerAngle = radians(24);
     spot.innerAngle = radians(14);
     room.frame.localLights = {spot};
-    checkGolden(gl->picture(room.frame, kSize), "light_spot");
+    checkGolden(gl->picture(room.frame, kLightsSize), "light_spot");
 }
 
 TEST_CASE("eight local lights add up and a ninth is left out") {
@@ -108,7 +108,7 @@ TEST_CASE("eight local lights add up and a ninth is left out") {
         room.frame.localLights.assign(static_cast<std::size_t>(count), lamp({0.3F, 1.0F, 0.2F}));
         for (LocalLight& light : room.frame.localLights)
             light.intensity = 0.08F;
-        return brightness(pixelAt(gl->picture(room.frame, kSize), room.frame.camera, below));
+        return brightness(pixelAt(gl->picture(room.frame, kLightsSize), room.frame.camera, below));
     };
     int last = shown(0);
     for (int count = 1; count <= 8; ++count) {
@@ -165,12 +165,12 @@ TEST_CASE("a shadow's edge does not swim: moved by a few pixels the picture is t
     frame.camera.yaw = 0.0F;
     frame.camera.target = vec3(0);
     frame.camera.distance = 3.0F;
-    const Image first = gl->picture(frame, kSize);
-    const float metresPerPixel =
-        2.0F * frame.camera.distance * std::tan(0.5F * frame.camera.fieldOfView) / static_cast<float>(kSize.height);
+    const Image first = gl->picture(frame, kLightsSize);
+    const float metresPerPixel = 2.0F * frame.camera.distance * std::tan(0.5F * frame.camera.fieldOfView) /
+                                 static_cast<float>(kLightsSize.height);
     for (const int pixels : {1, 2, 3, 5, 9}) {
         frame.camera.target = rightOf(frame.camera) * (metresPerPixel * static_cast<float>(pixels));
-        const Image now = gl->picture(frame, kSize);
+        const Image now = gl->picture(frame, kLightsSize);
         int worst = 0;
         int dark = 0;
         // The pixel's place in the gradient of the backdrop changes a little; the shadow's edge would by far more.

@@ -14,7 +14,7 @@ using namespace lutka::render;
 
 namespace {
 
-constexpr Extent kSize{480, 120};
+constexpr Extent kMaterialsSize{480, 120};
 constexpr float kHalf = 0.4F;  // of a square's side, metres; squares stand a metre apart
 
 class Squares {
@@ -109,9 +109,9 @@ struct Picture {
         frame.camera.orthographic = true;
         const auto across = static_cast<float>(squares.count());
         frameSphere(frame.camera, {0.5F * (across - 1.0F), 0, 0}, 0.5F * across, 1.0F);
-        frame.camera.distance /= kSize.aspect();
+        frame.camera.distance /= kMaterialsSize.aspect();
         frame.camera.distance *= 1.1F;
-        image = gl.picture(frame, kSize);
+        image = gl.picture(frame, kMaterialsSize);
     }
 
     /// The left (-1) or right (1) half of a square.
@@ -123,13 +123,13 @@ struct Picture {
 
   private:
     [[nodiscard]] Color pixel(float x) const {
-        const auto seen = project(frame.camera, {x, 0, 0}, kSize);
+        const auto seen = project(frame.camera, {x, 0, 0}, kMaterialsSize);
         REQUIRE(seen.has_value());
         return image.at(static_cast<int>(seen->x), static_cast<int>(seen->y));
     }
 };
 
-int brightness(Color color) {
+int lightness(Color color) {
     return color.r + color.g + color.b;
 }
 
@@ -183,11 +183,11 @@ TEST_CASE("metallic and roughness: a metal has no diffuse colour and a rough one
     squares.add(textured);
     // From the side: a mirror shows the sky, not the sun.
     const Picture picture(*gl, squares, {1, 0, 0.6F});
-    CHECK(brightness(picture.at(0, 0)) > brightness(picture.at(1, 0)) + 40);
-    CHECK(brightness(picture.at(2, 0)) > brightness(picture.at(1, 0)) + 15);
+    CHECK(lightness(picture.at(0, 0)) > lightness(picture.at(1, 0)) + 40);
+    CHECK(lightness(picture.at(2, 0)) > lightness(picture.at(1, 0)) + 15);
     INFO(describe(picture.at(3, -1)) << " and " << describe(picture.at(1, 0)));
     CHECK(near(picture.at(3, -1), picture.at(1, 0), 16));
-    CHECK(brightness(picture.at(3, 1)) > brightness(picture.at(3, -1)) + 40);
+    CHECK(lightness(picture.at(3, 1)) > lightness(picture.at(3, -1)) + 40);
 }
 
 TEST_CASE("a normal map tilts the light: the half that leans towards it is brighter") {
@@ -199,8 +199,8 @@ TEST_CASE("a normal map tilts the light: the half that leans towards it is brigh
     squares.add(leaning);
     squares.add({{"pbrMetallicRoughness", kMatte}});
     const Picture picture(*gl, squares, {1, 0, 0.8F});
-    CHECK(brightness(picture.at(0, -1)) > brightness(picture.at(1, 0)) + 20);
-    CHECK(brightness(picture.at(0, 1)) < brightness(picture.at(1, 0)) - 40);
+    CHECK(lightness(picture.at(0, -1)) > lightness(picture.at(1, 0)) + 20);
+    CHECK(lightness(picture.at(0, 1)) < lightness(picture.at(1, 0)) - 40);
 }
 
 TEST_CASE("an occlusion map darkens the sky's light and an emissive one glows without any") {
@@ -217,9 +217,9 @@ TEST_CASE("an occlusion map darkens the sky's light and an emissive one glows wi
     squares.add(glowing);
     // The sun stands behind: only the sky lights the fronts.
     const Picture picture(*gl, squares, {0, 0, -1});
-    CHECK(brightness(picture.at(0, 1)) > brightness(picture.at(0, -1)) + 100);
+    CHECK(lightness(picture.at(0, 1)) > lightness(picture.at(0, -1)) + 100);
     CHECK(picture.at(1, -1).g > picture.at(1, -1).r + 80);
-    CHECK(brightness(picture.at(1, 1)) < 150);
+    CHECK(lightness(picture.at(1, 1)) < 150);
 }
 
 TEST_CASE("an alpha mask cuts out, blending mixes, and single-sided backs are not there") {
@@ -240,12 +240,12 @@ TEST_CASE("an alpha mask cuts out, blending mixes, and single-sided backs are no
     twoSided["doubleSided"] = true;
     squares.add(twoSided, true);
     const Picture picture(*gl, squares, {1, 0, 0.4F});  // no highlight towards the eye
-    const auto hidden = [&](Color color) { return brightness(color) < 0.55 * brightness(picture.behind()); };
+    const auto hidden = [&](Color color) { return lightness(color) < 0.55 * lightness(picture.behind()); };
     CHECK_FALSE(hidden(picture.at(0, -1)));
     CHECK(hidden(picture.at(0, 1)));
-    const int mixed = brightness(picture.at(1, 0));
-    CHECK(mixed < 0.9 * brightness(picture.behind()));
-    CHECK(mixed > 0.35 * brightness(picture.behind()));
+    const int mixed = lightness(picture.at(1, 0));
+    CHECK(mixed < 0.9 * lightness(picture.behind()));
+    CHECK(mixed > 0.35 * lightness(picture.behind()));
     CHECK_FALSE(hidden(picture.at(2, 0)));
     CHECK(hidden(picture.at(3, 0)));
 }
@@ -261,9 +261,9 @@ TEST_CASE("a missing texture leaves a visible neutral material and one warning")
     const Picture picture(*gl, squares);
     for (const int square : {0, 1}) {
         const Color color = picture.at(square, 0);
-        CHECK(brightness(color) > 240);  // neither black nor not there …
+        CHECK(lightness(color) > 240);  // neither black nor not there …
         CHECK(std::abs(color.r - color.b) < 40);
-        CHECK(brightness(color) != brightness(picture.behind()));
+        CHECK(lightness(color) != lightness(picture.behind()));
     }
     const auto mentions = [](const std::string& text) { return text.find("gone.png") != std::string::npos; };
     CHECK(std::count_if(picture.character.warnings.begin(), picture.character.warnings.end(), mentions) == 1);

@@ -13,7 +13,7 @@ using namespace lutka::render;
 
 namespace {
 
-constexpr Extent kSize{480, 360};
+constexpr Extent kPictureSize{480, 360};
 constexpr Extent kSmall{320, 240};
 
 animation::Character mannequin() {
@@ -39,8 +39,8 @@ TEST_CASE("picture: the mannequin on the floor with its shadow") {
     const auto palette = bindPalette(figure.skeleton);
     FrameDescription frame;
     frame.characters.push_back(itemOf(gl->upload(figure), palette));
-    frameSphere(frame.camera, {0, 0.85F, 0}, 0.95F, kSize.aspect());
-    checkGolden(gl->picture(frame, kSize), "render_mannequin");
+    frameSphere(frame.camera, {0, 0.85F, 0}, 0.95F, kPictureSize.aspect());
+    checkGolden(gl->picture(frame, kPictureSize), "render_mannequin");
 }
 
 TEST_CASE("picture: props, debug capsules, axes and limits over a figure") {
@@ -78,8 +78,8 @@ TEST_CASE("picture: props, debug capsules, axes and limits over a figure") {
     addArc(frame.lines, {quat(1, 0, 0, 0), {-0.1F, 0.5F, 0}}, radians(-90), radians(40), 0.2F, colors::green);
     addSector(frame.solids, {quat(1, 0, 0, 0), {-0.1F, 0.5F, 0}}, radians(-90), radians(40), 0.2F,
               withAlpha(colors::green, 0.3F));
-    frameSphere(frame.camera, {0, 0.85F, 0}, 0.95F, kSize.aspect());
-    checkGolden(gl->picture(frame, kSize), "render_debug_layers");
+    frameSphere(frame.camera, {0, 0.85F, 0}, 0.95F, kPictureSize.aspect());
+    checkGolden(gl->picture(frame, kPictureSize), "render_debug_layers");
 }
 
 TEST_CASE("picture: a forearm twisted by 160 degrees is wrung by linear blending and whole with dual quaternions") {

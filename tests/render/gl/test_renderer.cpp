@@ -11,24 +11,24 @@ using namespace lutka::render;
 
 namespace {
 
-constexpr Extent kSize{320, 240};
+constexpr Extent kRendererSize{320, 240};
 
 /// The hand-made figure in front of the camera.
 struct Scene : LoneFigure {
     explicit Scene(GlFixture& gl) : LoneFigure(gl) {
         frame.camera.yaw = 0.0F;
         frame.camera.pitch = radians(15);
-        frameSphere(frame.camera, {0, 0.9F, 0}, 1.0F, kSize.aspect());
+        frameSphere(frame.camera, {0, 0.9F, 0}, 1.0F, kRendererSize.aspect());
     }
 };
 
-Color pixelAt(const Image& image, const Camera& camera, const vec3& world) {
+Color colorAt(const Image& image, const Camera& camera, const vec3& world) {
     const auto seen = project(camera, world, image.size());
     REQUIRE(seen.has_value());
     return image.at(static_cast<int>(seen->x), static_cast<int>(seen->y));
 }
 
-int brightness(Color color) {
+int sumOf(Color color) {
     return color.r + color.g + color.b;
 }
 
@@ -43,7 +43,7 @@ TEST_CASE("fifty characters that share a mesh cost one draw call a mesh and pass
     NEEDS_GL(gl);
     Scene scene(*gl);
     const CharacterItem first = scene.frame.characters[0];
-    gl->renderer.draw(scene.frame, kSize);
+    gl->renderer.draw(scene.frame, kRendererSize);
     const FrameStats one = gl->renderer.stats();
     CHECK(one.characterDrawCalls == 1);
     CHECK(one.shadowDrawCalls == 1);
@@ -54,8 +54,8 @@ TEST_CASE("fifty characters that share a mesh cost one draw call a mesh and pass
         item.worldFromModel.translation = vec3(static_cast<float>(i % 10) - 5.0F, 0, -static_cast<float>(i / 10));
         scene.frame.characters.push_back(item);
     }
-    frameSphere(scene.frame.camera, {0, 0.9F, -2}, 8.0F, kSize.aspect());
-    gl->renderer.draw(scene.frame, kSize);
+    frameSphere(scene.frame.camera, {0, 0.9F, -2}, 8.0F, kRendererSize.aspect());
+    gl->renderer.draw(scene.frame, kRendererSize);
     const FrameStats fifty = gl->renderer.stats();
     CHECK(fifty.instances == 50);
     CHECK(fifty.characterDrawCalls == 1);
@@ -78,10 +78,10 @@ TEST_CASE("each instance stands in its own pose at its own place") {
     item.worldFromModel.translation = vec3(2, 0, 0);
     item.tint = vec3(1.0F, 0.05F, 0.05F);
     scene.frame.characters.push_back(item);
-    frameSphere(scene.frame.camera, {1, 1.3F, 0}, 2.0F, kSize.aspect());
-    const Image image = gl->picture(scene.frame, kSize);
-    const Color plain = pixelAt(image, scene.frame.camera, {0, 1.10F, 0.13F});
-    const Color tinted = pixelAt(image, scene.frame.camera, {2, 2.10F, 0.13F});
+    frameSphere(scene.frame.camera, {1, 1.3F, 0}, 2.0F, kRendererSize.aspect());
+    const Image image = gl->picture(scene.frame, kRendererSize);
+    const Color plain = colorAt(image, scene.frame.camera, {0, 1.10F, 0.13F});
+    const Color tinted = colorAt(image, scene.frame.camera, {2, 2.10F, 0.13F});
     CHECK(std::abs(plain.r - plain.g) < 30);
     CHECK(tinted.r > tinted.g + 80);
 }
@@ -91,7 +91,7 @@ TEST_CASE("a character outside the picture is culled but still casts its shadow"
     NEEDS_GL(gl);
     Scene scene(*gl);
     scene.frame.characters[0].worldFromModel.translation = vec3(0, 0, 30);
-    gl->renderer.draw(scene.frame, kSize);
+    gl->renderer.draw(scene.frame, kRendererSize);
     CHECK(gl->renderer.stats().culledInstances == 1);
     CHECK(gl->renderer.stats().characterDrawCalls == 0);
     CHECK(gl->renderer.stats().shadowDrawCalls == 1);
@@ -108,12 +108,12 @@ TEST_CASE("the shadow darkens the floor below a body and nowhere else") {
     scene.frame.characters[0].worldFromModel.translation = vec3(0, 0.5F, 0);
     const vec3 below(0, 0, -0.25F);
     const vec3 aside(0.9F, 0, 0.6F);
-    const Image with = gl->picture(scene.frame, kSize);
+    const Image with = gl->picture(scene.frame, kRendererSize);
     scene.frame.sun.castsShadow = false;
-    const Image without = gl->picture(scene.frame, kSize);
+    const Image without = gl->picture(scene.frame, kRendererSize);
     const Camera& camera = scene.frame.camera;
-    CHECK(brightness(pixelAt(with, camera, below)) < 0.7 * brightness(pixelAt(without, camera, below)));
-    CHECK(std::abs(brightness(pixelAt(with, camera, aside)) - brightness(pixelAt(without, camera, aside))) <= 6);
+    CHECK(sumOf(colorAt(with, camera, below)) < 0.7 * sumOf(colorAt(without, camera, below)));
+    CHECK(std::abs(sumOf(colorAt(with, camera, aside)) - sumOf(colorAt(without, camera, aside))) <= 6);
 }
 
 TEST_CASE("a lit surface does not shade itself") {
@@ -132,10 +132,10 @@ TEST_CASE("a lit surface does not shade itself") {
     box.halfExtents = vec3(0.4F);
     box.worldFromShape = {glm::angleAxis(0.6F, vec3(0, 1, 0)), vec3(0.8F, 0, -0.6F)};
     frame.props = {ball, box};
-    frameSphere(frame.camera, vec3(0), 1.4F, kSize.aspect());
-    const Image with = gl->picture(frame, kSize);
+    frameSphere(frame.camera, vec3(0), 1.4F, kRendererSize.aspect());
+    const Image with = gl->picture(frame, kRendererSize);
     frame.sun.castsShadow = false;
-    const Image without = gl->picture(frame, kSize);
+    const Image without = gl->picture(frame, kRendererSize);
     // The ball throws no shadow on the box from there; at the terminator the light is nearly nothing anyway.
     CHECK(differingShare(with, without) < 0.01);
 }
@@ -151,15 +151,14 @@ TEST_CASE("ambient occlusion darkens the corner between a box and the floor") {
     box.worldFromShape.translation = vec3(0, 0.5F, 0);
     frame.props = {box};
     frame.camera.yaw = 0.0F;
-    frameSphere(frame.camera, {0, 0.4F, 0}, 1.2F, kSize.aspect());
+    frameSphere(frame.camera, {0, 0.4F, 0}, 1.2F, kRendererSize.aspect());
     const vec3 corner(0, 0, 0.53F);
     const vec3 open(0, 0, 1.2F);
-    const Image with = gl->picture(frame, kSize);
+    const Image with = gl->picture(frame, kRendererSize);
     frame.ambientOcclusion = false;
-    const Image without = gl->picture(frame, kSize);
-    CHECK(brightness(pixelAt(with, frame.camera, corner)) < 0.85 * brightness(pixelAt(without, frame.camera, corner)));
-    CHECK(std::abs(brightness(pixelAt(with, frame.camera, open)) - brightness(pixelAt(without, frame.camera, open))) <=
-          6);
+    const Image without = gl->picture(frame, kRendererSize);
+    CHECK(sumOf(colorAt(with, frame.camera, corner)) < 0.85 * sumOf(colorAt(without, frame.camera, corner)));
+    CHECK(std::abs(sumOf(colorAt(with, frame.camera, open)) - sumOf(colorAt(without, frame.camera, open))) <= 6);
 }
 
 TEST_CASE("a point light lights what is near it, and a spot only what is in its cone") {
@@ -171,23 +170,21 @@ TEST_CASE("a point light lights what is near it, and a spot only what is in its 
     frame.ambientOcclusion = false;
     frame.floor.gridSpacing = 0.0F;
     frame.camera.pitch = radians(50);
-    frameSphere(frame.camera, vec3(0), 2.0F, kSize.aspect());
+    frameSphere(frame.camera, vec3(0), 2.0F, kRendererSize.aspect());
     const vec3 below(0);
     const vec3 aside(1.2F, 0, 0);
     LocalLight light;
     light.position = vec3(0, 1, 0);
     light.range = 3.0F;
     light.intensity = 1.0F;
-    const Image dark = gl->picture(frame, kSize);
+    const Image dark = gl->picture(frame, kRendererSize);
     frame.localLights = {light};
-    const Image point = gl->picture(frame, kSize);
+    const Image point = gl->picture(frame, kRendererSize);
     light.outerAngle = radians(30);
     light.innerAngle = radians(20);
     frame.localLights = {light};
-    const Image spot = gl->picture(frame, kSize);
-    const auto at = [&](const Image& image, const vec3& place) {
-        return brightness(pixelAt(image, frame.camera, place));
-    };
+    const Image spot = gl->picture(frame, kRendererSize);
+    const auto at = [&](const Image& image, const vec3& place) { return sumOf(colorAt(image, frame.camera, place)); };
     CHECK(at(point, below) > at(dark, below) + 150);
     CHECK(at(point, aside) > at(dark, aside) + 60);
     CHECK(at(point, below) > at(point, aside) + 60);
@@ -201,8 +198,8 @@ TEST_CASE("from below the floor lets one see through") {
     Scene scene(*gl);
     scene.frame.camera.pitch = radians(-40);
     scene.frame.characters[0].tint = vec3(1.0F, 0.02F, 0.02F);
-    const Image image = gl->picture(scene.frame, kSize);
-    const Color body = pixelAt(image, scene.frame.camera, {0.1F, 0.5F, 0.05F});
+    const Image image = gl->picture(scene.frame, kRendererSize);
+    const Color body = colorAt(image, scene.frame.camera, {0.1F, 0.5F, 0.05F});
     CHECK(body.r > body.g + 30);
 }
 
@@ -210,14 +207,14 @@ TEST_CASE("debug lines and solids are drawn, hidden ones faintly, each in a fixe
     const auto gl = GlFixture::create();
     NEEDS_GL(gl);
     Scene scene(*gl);
-    const Image bare = gl->picture(scene.frame, kSize);
+    const Image bare = gl->picture(scene.frame, kRendererSize);
     const int bareCalls = gl->renderer.stats().drawCalls;
     const RigidTransform chest{quat(1, 0, 0, 0), vec3(0, 1.3F, 0)};
 
     addCapsule(scene.frame.solids, chest, 0.25F, 0.1F, withAlpha(colors::cyan, 0.5F));
-    const Image solid = gl->picture(scene.frame, kSize);
+    const Image solid = gl->picture(scene.frame, kRendererSize);
     CHECK(differingShare(bare, solid) > 0.02);
-    const Color onChest = pixelAt(solid, scene.frame.camera, {0, 1.3F, 0.25F});
+    const Color onChest = colorAt(solid, scene.frame.camera, {0, 1.3F, 0.25F});
     CHECK(onChest.b > onChest.r + 20);
     CHECK(gl->renderer.stats().drawCalls == bareCalls + 3);
     CHECK(gl->renderer.stats().debugDrawCalls == 3);
@@ -225,7 +222,7 @@ TEST_CASE("debug lines and solids are drawn, hidden ones faintly, each in a fixe
     scene.frame.solids.clear();
     for (int i = 0; i < 200; ++i)
         addCapsule(scene.frame.lines, chest, 0.25F, 0.1F, colors::orange);
-    const Image wire = gl->picture(scene.frame, kSize);
+    const Image wire = gl->picture(scene.frame, kRendererSize);
     CHECK(differingShare(bare, wire) > 0.005);
     CHECK(gl->renderer.stats().drawCalls == bareCalls + 1);
     CHECK(gl->renderer.stats().debugUploads == 1);
@@ -235,9 +232,9 @@ TEST_CASE("debug lines and solids are drawn, hidden ones faintly, each in a fixe
     scene.frame.lines.add({0, 1.22F, 0}, {0, 1.42F, 0}, colors::red);
     scene.frame.lineWidth = 4.0F;
     scene.frame.hiddenLineOpacity = 0.0F;
-    CHECK(differingShare(bare, gl->picture(scene.frame, kSize)) == 0.0);
+    CHECK(differingShare(bare, gl->picture(scene.frame, kRendererSize)) == 0.0);
     scene.frame.hiddenLineOpacity = 1.0F;
-    CHECK(differingShare(bare, gl->picture(scene.frame, kSize)) > 0.0005);
+    CHECK(differingShare(bare, gl->picture(scene.frame, kRendererSize)) > 0.0005);
 }
 
 TEST_CASE("a translucent character lets the background through, and a highlight shows") {
@@ -246,17 +243,17 @@ TEST_CASE("a translucent character lets the background through, and a highlight 
     Scene scene(*gl);
     const vec3 belly(0, 1.10F, 0.13F);
     scene.frame.characters[0].tint = vec3(0.02F);
-    const Color solid = pixelAt(gl->picture(scene.frame, kSize), scene.frame.camera, belly);
+    const Color solid = colorAt(gl->picture(scene.frame, kRendererSize), scene.frame.camera, belly);
     scene.frame.characters[0].opacity = 0.3F;
-    const Color clear = pixelAt(gl->picture(scene.frame, kSize), scene.frame.camera, belly);
-    CHECK(brightness(clear) > brightness(solid) + 150);
+    const Color clear = colorAt(gl->picture(scene.frame, kRendererSize), scene.frame.camera, belly);
+    CHECK(sumOf(clear) > sumOf(solid) + 150);
     scene.frame.characters[0].opacity = 1.0F;
     scene.frame.characters[0].highlight = withAlpha(colors::orange, 0.9F);
     scene.frame.characters[0].highlightJoint = 1;  // the spine, which owns the belly
-    const Image lit = gl->picture(scene.frame, kSize);
-    const Color marked = pixelAt(lit, scene.frame.camera, belly);
+    const Image lit = gl->picture(scene.frame, kRendererSize);
+    const Color marked = colorAt(lit, scene.frame.camera, belly);
     CHECK(marked.r > marked.b + 50);
-    const Color head = pixelAt(lit, scene.frame.camera, {0, 1.66F, 0.09F});
+    const Color head = colorAt(lit, scene.frame.camera, {0, 1.66F, 0.09F});
     CHECK(std::abs(head.r - head.b) < 25);
 }
 
@@ -275,9 +272,9 @@ TEST_CASE("a texture is sampled at its own place with its first row on top") {
     for (vec2& uv : painted.meshes[0].uvs)
         uv.y = 0.25F + 0.5F * std::round(uv.y);
     scene.frame.characters[0].character = gl->upload(painted);
-    const Image image = gl->picture(scene.frame, kSize);
+    const Image image = gl->picture(scene.frame, kRendererSize);
     // The spine's tube runs from its joint (v = 0: the first row) upwards.
-    const Color low = pixelAt(image, scene.frame.camera, {0, 1.07F, 0.13F});
+    const Color low = colorAt(image, scene.frame.camera, {0, 1.07F, 0.13F});
     CHECK(low.r > low.b + 60);
 }
 
@@ -315,10 +312,10 @@ TEST_CASE("the same frame gives the same picture, also at another size in betwee
     const auto gl = GlFixture::create();
     NEEDS_GL(gl);
     Scene scene(*gl);
-    const Image first = gl->picture(scene.frame, kSize);
+    const Image first = gl->picture(scene.frame, kRendererSize);
     const Image small = gl->picture(scene.frame, {97, 61});
     CHECK(small.size() == Extent{97, 61});
-    CHECK(gl->picture(scene.frame, kSize).rgba == first.rgba);
+    CHECK(gl->picture(scene.frame, kRendererSize).rgba == first.rgba);
 }
 
 TEST_CASE("a shader that does not compile is told with its file and line") {

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "animation/import/source_limits.hpp"
+
 // Debian builds Assimp with its assertions on; on some damaged files they abort the whole process. They are called
 // through the dynamic linker, so this definition takes the place of Assimp's own and throws, which read() catches.
 namespace Assimp {
@@ -21,9 +23,6 @@ namespace lutka::animation::rig_import {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr unsigned kMaxMeshes = 20000;
-constexpr std::uint64_t kMaxVertices = 50'000'000;
 
 Error unreadable(const fs::path& file, std::string message, std::string mend = "") {
     return {ErrorCode::input, std::move(message), file.string(), std::move(mend)};

@@ -1,9 +1,9 @@
 #include "animation/import/assimp/scene_nodes.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 
+#include "animation/import/affine.hpp"
 #include "animation/import/assimp/convert.hpp"
 #include "animation/import/source_limits.hpp"
 
@@ -13,12 +13,7 @@ namespace {
 // A transform that is not finite would spoil everything below it.
 dmat4 usableTransform(const aiNode& node) {
     const dmat4 matrix = fromAssimp(node.mTransformation);
-    for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 4; ++row) {
-            if (!std::isfinite(matrix[column][row])) return dmat4(1.0);
-        }
-    }
-    return matrix;
+    return allFinite(matrix) ? matrix : dmat4(1.0);
 }
 
 }  // namespace

@@ -10,11 +10,11 @@
 #include <glm/trigonometric.hpp>
 #include <optional>
 
+#include "animation/import/source_limits.hpp"
+
 namespace lutka::animation::rig_import::bvh {
 namespace {
 
-constexpr std::size_t kMaxJoints = 65535;
-constexpr int kMaxDepth = 4096;
 constexpr std::size_t kMaxNumbers = 64'000'000;
 constexpr std::int64_t kMaxChannels = 6;
 
@@ -119,7 +119,7 @@ class BvhParser {
     }
 
     void addJoint(std::string name, int parent) {
-        if (document.joints.size() >= kMaxJoints) return fail(fmt::format("more than {} joints", kMaxJoints));
+        if (document.joints.size() >= kMaxNodes) return fail(fmt::format("more than {} joints", kMaxNodes));
         Joint joint;
         joint.name = std::move(name);
         joint.parent = parent;

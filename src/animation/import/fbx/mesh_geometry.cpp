@@ -11,11 +11,11 @@
 #include "animation/import/affine.hpp"
 #include "animation/import/fbx/layer_element.hpp"
 #include "animation/import/fbx/triangulate.hpp"
+#include "animation/import/source_limits.hpp"
 
 namespace lutka::animation::rig_import::fbx {
 namespace {
 
-constexpr std::size_t kMaxVertices = 20'000'000;
 constexpr int kMaxSlot = 4096;
 
 // The layer elements of a geometry that a mesh is made of.

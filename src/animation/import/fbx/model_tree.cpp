@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "animation/import/source_limits.hpp"
+
 namespace lutka::animation::rig_import::fbx {
 namespace {
-
-constexpr std::size_t kMaxNodes = 65535;
-constexpr int kMaxDepth = 4096;
 
 struct Pending {
     int model;
