@@ -83,7 +83,7 @@ struct FrameWriter::State {
         };
         // Lossless first for a GIF: its palette must have seen the whole clip, and ffmpeg would hold all of it in
         // memory.
-        const Result<void> opened = openTemporary(format == Format::mp4 ? ".mp4" : ".mkv");
+        Result<void> opened = openTemporary(format == Format::mp4 ? ".mp4" : ".mkv");
         if (!opened) return opened;
         if (format == Format::mp4) {
             // yuv420p halves the chroma: both sides must be even.

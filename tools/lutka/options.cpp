@@ -31,6 +31,7 @@ const std::map<std::string, physics::MassPreset> kMassPresets = {{"anatomical", 
 
 std::vector<std::string> solverNames() {
     std::vector<std::string> names;
+    names.reserve(physics::kSolvers.size());
     for (const physics::SolverEntry& entry : physics::kSolvers)
         names.emplace_back(entry.name);
     return names;

@@ -102,6 +102,7 @@ struct SimulateOptions {
 template <class T>
 [[nodiscard]] std::vector<std::string> wordsOf(const std::map<std::string, T>& choices) {
     std::vector<std::string> words;
+    words.reserve(choices.size());
     for (const auto& [word, choice] : choices)
         words.push_back(word);
     return words;

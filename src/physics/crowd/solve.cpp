@@ -22,7 +22,7 @@ constexpr int kRefresh = 2;
 SubstepParams paramsOf(const CrowdState& state, float dt) {
     const CrowdTuning& tuning = state.tuning;
     SubstepParams params{};
-    static_cast<SubstepTuning&>(params) = tuning;
+    static_cast<SubstepTuning&>(params) = static_cast<const SubstepTuning&>(tuning);
     params.dt = dt;
     params.inverseDt = 1.0F / dt;
     for (int i = 0; i < 3; ++i)

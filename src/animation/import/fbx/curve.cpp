@@ -63,7 +63,7 @@ float keyNumber(double written) {
 
 }  // namespace
 
-Curve::Curve(std::vector<Key> keys, const Beyond& before, const Beyond& after) : before_(before), after_(after) {
+Curve::Curve(const std::vector<Key>& keys, const Beyond& before, const Beyond& after) : before_(before), after_(after) {
     for (const Key& key : keys) {
         const bool usable = std::isfinite(key.seconds) && std::isfinite(key.value) && std::isfinite(key.slopeLeft) &&
                             std::isfinite(key.slopeRight);

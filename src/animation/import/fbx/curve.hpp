@@ -29,7 +29,7 @@ class Curve {
     };
 
     /// Keys out of order or not finite are dropped.
-    Curve(std::vector<Key> keys, const Beyond& before, const Beyond& after);
+    Curve(const std::vector<Key>& keys, const Beyond& before, const Beyond& after);
 
     [[nodiscard]] const std::vector<Key>& keys() const { return keys_; }
     [[nodiscard]] double at(double seconds) const;

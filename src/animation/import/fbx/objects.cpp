@@ -143,13 +143,13 @@ void Objects::connect(const Record& section) {
         const std::optional<int> parent = endOf(record, 2);
         if (!child || !parent || *child < 0 || *child == *parent) continue;
         const Connection connection{*child, *parent, type == "OP" ? record.text(3) : std::string_view{}};
-        children_[static_cast<std::size_t>(*parent + 1)].push_back(connection);
+        children_[static_cast<std::size_t>(*parent) + 1].push_back(connection);
         parents_[static_cast<std::size_t>(*child)].push_back(connection);
     }
 }
 
 std::span<const Connection> Objects::childrenOf(int index) const {
-    return children_[static_cast<std::size_t>(index + 1)];
+    return children_[static_cast<std::size_t>(index) + 1];
 }
 
 std::span<const Connection> Objects::parentsOf(int index) const {
