@@ -101,6 +101,8 @@ void ModelOptions::addTo(const Command& app, bool required) {
     const Option memory = app.option("--import-memory", importMemoryMiB, "MiB that reading the model may take")
                               .range(64, 1 << 20)
                               .showDefault();
+    app.flag("--allow-outside", allowOutside,
+             "take pictures, buffers and material files from outside of the model's folder, too");
     app.flag("--in-process", inProcess, "read the model in this process, without limits: for files that you trust")
         .excludes(memory);
 }
@@ -110,6 +112,7 @@ animation::ImportOptions ModelOptions::import() const {
     options.metresPerFileUnit = scale;
     if (!up.empty()) options.up = kUpAxes.at(lower(up));
     options.loadTextures = textures;
+    options.allowOutside = allowOutside;
     std::error_code failed;
     if (!inProcess) options.worker.program = std::filesystem::read_symlink("/proc/self/exe", failed);
     options.worker.memoryBytes = static_cast<std::size_t>(importMemoryMiB) << 20U;

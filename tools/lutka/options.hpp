@@ -38,8 +38,9 @@ struct ModelOptions {
     std::filesystem::path model;
     std::optional<float> scale;
     std::string up;
-    bool textures = false;   ///< Set by commands that draw.
-    bool inProcess = false;  ///< Read the file in this process.
+    bool textures = false;      ///< Set by commands that draw.
+    bool inProcess = false;     ///< Read the file in this process.
+    bool allowOutside = false;  ///< ImportOptions::allowOutside.
     int importMemoryMiB = 1536;
 
     void addTo(const Command& app, bool required = true);

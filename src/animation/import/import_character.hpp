@@ -30,6 +30,9 @@ struct ImportOptions {
     std::optional<float> metresPerFileUnit;
     std::optional<UpAxis> up;  ///< Unset: from the file's metadata, or from the figure where that is missing.
     bool loadTextures = true;  ///< False skips decoding pictures (mapping and physics don't need them).
+    /// Pictures, buffers and material libraries may lie anywhere. False: only in the model's folder and below, where
+    /// links lead too; a buffer elsewhere is an error, the rest is left out with a warning.
+    bool allowOutside = false;
     ImportWorker worker;
 };
 

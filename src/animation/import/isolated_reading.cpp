@@ -22,7 +22,7 @@ constexpr int kWrongCall = 2;
 constexpr int kNobodyListens = 3;
 constexpr int kOutOfMemory = 4;
 
-constexpr std::size_t kArgumentCount = 5;  // the command, the file, pictures, bytes of memory, seconds
+constexpr std::size_t kArgumentCount = 6;  // the command, the file, pictures, files outside, bytes of memory, seconds
 
 const char* const kExportAgain = "it is damaged or made to do harm; export it again as glTF 2.0 or FBX";
 
@@ -32,6 +32,7 @@ std::vector<std::string> callOf(const std::filesystem::path& file, const ImportO
             kReadingCommand,
             file.string(),
             options.loadTextures ? "1" : "0",
+            options.allowOutside ? "1" : "0",
             std::to_string(isolation.limits.memoryBytes),
             std::to_string(isolation.limits.seconds)};
 }
@@ -111,8 +112,8 @@ Result<SourceScene> readIsolated(const std::filesystem::path& file, const Import
 
 int serveReading(const std::vector<std::string>& arguments, const Reader& reader) {
     if (arguments.size() != kArgumentCount || arguments[0] != kReadingCommand) return kWrongCall;
-    const auto memory = numberIn<std::size_t>(arguments[3]);
-    const auto seconds = numberIn<int>(arguments[4]);
+    const auto memory = numberIn<std::size_t>(arguments[4]);
+    const auto seconds = numberIn<int>(arguments[5]);
     if (!memory || !seconds || *seconds <= 0) return kWrongCall;
     ProcessLimits limits;
     limits.memoryBytes = *memory;
@@ -122,6 +123,7 @@ int serveReading(const std::vector<std::string>& arguments, const Reader& reader
     std::set_new_handler([] { ::_exit(kOutOfMemory); });
     ImportOptions options;
     options.loadTextures = arguments[2] == "1";
+    options.allowOutside = arguments[3] == "1";
     const std::string bytes = packScene(readCaught(reader, arguments[1], options));
     return writeAll(bytes) ? 0 : kNobodyListens;
 }

@@ -23,7 +23,7 @@ inline constexpr const char* kReadingCommand = "import-worker";
 
 /// Reads the file in a process of its own, which can crash, hang or run out of memory without harm: each is an error
 /// like any other (ErrorCode::input, what happened, the limit, the mend). Only ordinary files are read. What the
-/// readers print goes to standard error. Of the options those of reading count (pictures).
+/// readers print goes to standard error. Of the options those of reading count (pictures, files outside).
 [[nodiscard]] Result<SourceScene> readIsolated(const std::filesystem::path& file, const ImportOptions& options,
                                                const Isolation& isolation);
 

@@ -9,6 +9,10 @@ constexpr const char* kMend = "export the character without the rest of the scen
 
 }  // namespace
 
+Error tooLargeFile(const std::string& location) {
+    return {ErrorCode::input, fmt::format("is larger than {} MiB", kMaxFileBytes >> 20U), location, kMend};
+}
+
 Error tooManyNodes(const std::string& location) {
     return {ErrorCode::input, fmt::format("more than {} nodes (each place of a shared node counts)", kMaxNodes),
             location, kMend};

@@ -13,6 +13,11 @@ inline constexpr int kMaxDepth = 4096;           ///< Nodes below one another.
 inline constexpr std::size_t kMaxMeshes = 20'000;
 inline constexpr std::size_t kMaxVertices = 50'000'000;  ///< Of all meshes together.
 
+inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30U;  ///< Of a model, and of each file that it names.
+inline constexpr std::size_t kMaxJsonBytes = std::size_t{256} << 20U;
+inline constexpr int kMaxJsonDepth = 256;  ///< Arrays and objects within one another.
+
+[[nodiscard]] Error tooLargeFile(const std::string& location);
 [[nodiscard]] Error tooManyNodes(const std::string& location);
 [[nodiscard]] Error nestedTooDeep(const std::string& location);
 

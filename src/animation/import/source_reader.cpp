@@ -14,6 +14,8 @@
 #include "animation/import/fbx/document.hpp"
 #include "animation/import/fbx/read_fbx.hpp"
 #include "animation/import/gltf/read_gltf.hpp"
+#include "animation/import/source_limits.hpp"
+#include "animation/import/uri.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {
@@ -32,10 +34,7 @@ std::string firstBytes(const fs::path& file) {
 }
 
 std::string lowerExtension(const fs::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return extension;
+    return lowerCased(file.extension().string());
 }
 
 // A binary container says so; a text is JSON under glTF's name (there are other formats in JSON).
@@ -67,7 +66,9 @@ Result<SourceScene> readSource(const fs::path& file, const ImportOptions& option
     if (!fs::exists(status)) return cannotRead(file, "there is no such file");
     if (fs::is_directory(status)) return cannotRead(file, "is a folder, not a model");
     if (!fs::is_regular_file(status)) return cannotRead(file, "is a device or a pipe, not a model");
-    if (fs::file_size(file, ignored) == 0) return cannotRead(file, "is empty");
+    const std::uintmax_t size = fs::file_size(file, ignored);
+    if (size == 0) return cannotRead(file, "is empty");
+    if (size > kMaxFileBytes) return tooLargeFile(file.string());
     const std::string start = firstBytes(file);
     // Third parties throw; what is left is memory running out over a monstrous file.
     try {

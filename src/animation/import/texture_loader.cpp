@@ -1,14 +1,12 @@
 #include "animation/import/texture_loader.hpp"
 
 #include <fmt/format.h>
-#include <stb/stb_image.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <memory>
 #include <system_error>
+#include <utility>
 
+#include "animation/import/uri.hpp"
 #include "core/files.hpp"
 
 namespace lutka::animation::rig_import {
@@ -16,35 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxSide = 16384;
-constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30U;
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
-
-// "%20" and the like, as URIs in glTF write them.
-std::string decodePercents(const std::string& text) {
-    std::string out;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const bool escape = text[i] == '%' && i + 2 < text.size() &&
-                            std::isxdigit(static_cast<unsigned char>(text[i + 1])) != 0 &&
-                            std::isxdigit(static_cast<unsigned char>(text[i + 2])) != 0;
-        if (escape) {
-            out += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
-            i += 2;
-        } else {
-            out += text[i];
-        }
-    }
-    return out;
-}
-
-std::optional<fs::path> findIn(const fs::path& folder, const std::string& name) {
+std::optional<fs::path> findIn(const ModelFolder& folder, const fs::path& place, const std::string& name) {
+    if (!folder.admits(place)) return std::nullopt;  // a link that leads away
     std::error_code failed;
-    for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
-        if (lower(at->path().filename().string()) == lower(name) && at->is_regular_file(failed)) return at->path();
+    for (fs::directory_iterator at(place, failed), end; !failed && at != end; at.increment(failed)) {
+        if (lowerCased(at->path().filename().string()) != lowerCased(name)) continue;
+        if (at->is_regular_file(failed) && folder.admits(at->path())) return at->path();
     }
     return std::nullopt;
 }
@@ -56,106 +31,106 @@ std::string extensionOf(std::string path) {
 }
 
 // The picture of that name in one of the folders where exporters put them.
-std::optional<fs::path> findAround(const fs::path& folder, const std::string& name) {
-    const fs::path above = folder / "..";
-    for (const fs::path& place :
-         {folder, folder / "textures", folder / "Textures", folder / "tex", above / "textures", above / "Textures"}) {
-        if (auto found = findIn(place, name)) return found;
+std::optional<fs::path> findAround(const ModelFolder& folder, const std::string& name) {
+    const fs::path above = folder.path() / "..";
+    for (const fs::path& place : {folder.path(), folder.path() / "textures", folder.path() / "Textures",
+                                  folder.path() / "tex", above / "textures", above / "Textures"}) {
+        if (auto found = findIn(folder, place, name)) return found;
     }
     return std::nullopt;
 }
 
-std::optional<fs::path> findPicture(const fs::path& folder, std::string path) {
+ModelFolder::Named findPicture(const ModelFolder& folder, std::string path) {
+    using Place = ModelFolder::Place;
     std::replace(path.begin(), path.end(), '\\', '/');
+    bool outside = false;
     for (const std::string& spelling : {path, decodePercents(path)}) {
-        const fs::path written(spelling);
-        const bool windowsDrive = spelling.size() > 1 && spelling[1] == ':';
-        std::error_code ignored;
-        if (written.is_relative() && !windowsDrive && fs::is_regular_file(folder / written, ignored))
-            return folder / written;
-        const std::string name = written.filename().string();
+        ModelFolder::Named named = folder.find(spelling);
+        if (named.place == Place::inside) return named;
+        outside = outside || named.place == Place::outside;
+        const std::string name = fs::path(spelling).filename().string();
         if (name.empty()) continue;
-        if (auto found = findAround(folder, name)) return found;
+        if (auto found = findAround(folder, name)) return {Place::inside, *found};
     }
     // A model is often handed on with its pictures converted.
     const std::string stem = fs::path(decodePercents(path)).stem().string();
-    if (stem.empty()) return std::nullopt;
     for (const char* ending : {".png", ".jpg", ".jpeg", ".tga", ".bmp"}) {
-        if (auto found = findAround(folder, stem + ending)) return found;
+        if (stem.empty()) break;
+        if (auto found = findAround(folder, stem + ending)) return {Place::inside, *found};
     }
-    return std::nullopt;
+    return {outside ? Place::outside : Place::missing, {}};
 }
 
 }  // namespace
 
-std::optional<Texture> decodePicture(std::span<const std::uint8_t> bytes) {
-    const int length = static_cast<int>(std::min(bytes.size(), kMaxFileBytes));
-    Texture texture;
-    int channels = 0;
-    if (stbi_info_from_memory(bytes.data(), length, &texture.width, &texture.height, &channels) == 0)
-        return std::nullopt;
-    if (texture.width <= 0 || texture.height <= 0 || texture.width > kMaxSide || texture.height > kMaxSide)
-        return std::nullopt;
-    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-        stbi_load_from_memory(bytes.data(), length, &texture.width, &texture.height, &channels, 4), stbi_image_free);
-    if (!pixels) return std::nullopt;
-    const std::size_t count =
-        std::size_t{4} * static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height);
-    texture.rgba.assign(pixels.get(), pixels.get() + count);
-    return texture;
-}
-
-TextureLoader::TextureLoader(Embedded embedded, const fs::path& model, bool enabled)
-    : embedded_(std::move(embedded)),
-      folder_(model.has_parent_path() ? model.parent_path() : fs::path(".")),
-      enabled_(enabled) {}
+TextureLoader::TextureLoader(Embedded embedded, ModelFolder folder, bool enabled)
+    : embedded_(std::move(embedded)), folder_(std::move(folder)), enabled_(enabled) {}
 
 int TextureLoader::load(const std::string& path) {
     if (!enabled_) return Material::kNoTexture;
     if (const auto known = known_.find(path); known != known_.end()) return known->second;
-    return keep(path, decode(path));
+    return keep(path, read(path));
 }
 
 int TextureLoader::load(const std::string& path, std::span<const std::uint8_t> embedded) {
     if (!enabled_) return Material::kNoTexture;
     if (embedded.empty()) return load(path);
-    std::optional<Texture> texture = decodePicture(embedded);
-    if (!texture) return load(path);
-    texture->name = path;
-    return keep(path, std::move(texture));
+    PictureDecoder::Decoded picture = decoder_.decode(embedded, path);
+    if (picture.outcome == PictureDecoder::Outcome::damaged) return load(path);
+    picture.texture.name = path;
+    return keep(path, std::move(picture));
 }
 
-int TextureLoader::keep(const std::string& path, std::optional<Texture> texture) {
+int TextureLoader::keep(const std::string& path, PictureDecoder::Decoded picture) {
     int index = Material::kNoTexture;
-    if (texture) {
+    if (picture.outcome == PictureDecoder::Outcome::decoded) {
         index = static_cast<int>(textures_.size());
-        textures_.push_back(*std::move(texture));
-    } else {
+        textures_.push_back(std::move(picture.texture));
+    } else if (picture.outcome == PictureDecoder::Outcome::damaged &&
+               std::find(outside_.begin(), outside_.end(), path) == outside_.end()) {
         missing_.push_back(path);
     }
     known_[path] = index;
     return index;
 }
 
-std::optional<Texture> TextureLoader::decode(const std::string& path) {
-    if (std::optional<Texture> embedded = embedded_(path)) return embedded;
-    const std::optional<fs::path> file = findPicture(folder_, path);
-    if (!file) return std::nullopt;
-    const Result<std::vector<unsigned char>> bytes = readFile(*file, kMaxFileBytes);
-    if (!bytes) return std::nullopt;
-    std::optional<Texture> texture = decodePicture(bytes.value());
-    if (!texture) return std::nullopt;
-    texture->name = file->filename().string();
-    if (lower(file->extension().string()) != lower(extensionOf(path)))
-        replaced_.push_back(fmt::format("{} for {}", texture->name, path));
-    return texture;
+PictureDecoder::Decoded TextureLoader::read(const std::string& path) {
+    if (std::optional<PictureDecoder::Decoded> embedded = embedded_(path, decoder_)) return *std::move(embedded);
+    const ModelFolder::Named found = findPicture(folder_, path);
+    if (found.place == ModelFolder::Place::outside) outside_.push_back(path);
+    if (found.place != ModelFolder::Place::inside) return {};
+    const Result<std::vector<unsigned char>> bytes = readFile(found.file, decoder_.limits().mostFileBytes);
+    if (!bytes) return {};
+    PictureDecoder::Decoded picture = decoder_.decode(bytes.value(), path);
+    picture.texture.name = found.file.filename().string();
+    if (picture.outcome == PictureDecoder::Outcome::decoded &&
+        lowerCased(found.file.extension().string()) != lowerCased(extensionOf(path)))
+        replaced_.push_back(fmt::format("{} for {}", picture.texture.name, path));
+    return picture;
+}
+
+// Packages from the net often have `source/model.fbx` beside `textures/`.
+std::string TextureLoader::hintAbove() const {
+    if (folder_.allowsOutside()) return {};
+    std::error_code failed;
+    for (const char* name : {"textures", "Textures"}) {
+        if (fs::is_directory(folder_.path() / ".." / name, failed))
+            return fmt::format("; --allow-outside looks into ../{}, too", name);
+    }
+    return {};
 }
 
 std::vector<std::string> TextureLoader::sentences() const {
-    std::vector<std::string> out;
+    std::vector<std::string> out = decoder_.sentences();
     if (!missing_.empty()) {
-        out.push_back(fmt::format("{} pictures were not found or can't be decoded and were left out: {}",
-                                  missing_.size(), fmt::join(missing_, ", ")));
+        out.push_back(fmt::format("{} pictures were not found or can't be decoded and were left out: {}{}",
+                                  missing_.size(), fmt::join(missing_, ", "), hintAbove()));
+    }
+    if (!outside_.empty()) {
+        out.push_back(
+            fmt::format("{} pictures lie outside of the model's folder and were left out: {}; put them "
+                        "beside the model, or --allow-outside takes them",
+                        outside_.size(), fmt::join(outside_, ", ")));
     }
     if (!replaced_.empty()) {
         out.push_back(

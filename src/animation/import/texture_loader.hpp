@@ -10,24 +10,23 @@
 #include <vector>
 
 #include "animation/character.hpp"
+#include "animation/import/model_folder.hpp"
+#include "animation/import/picture.hpp"
 
 namespace lutka::animation::rig_import {
 
-/// The picture in a file's bytes (PNG, JPEG, TGA, BMP …); nothing when it can't be decoded.
-[[nodiscard]] std::optional<Texture> decodePicture(std::span<const std::uint8_t> bytes);
-
 /// Finds and decodes a scene's pictures, each once.
 ///
-/// Looks among the embedded ones first, then beside the model: at the path as written where it is relative, then for
-/// its base name (also of an absolute Windows path) in the model's folder and its `textures` folders, whatever the
-/// case, and with another picture's ending where the one that is named is not there.
+/// Looks among the embedded ones first, then at the path as written, then for its base name (also of an absolute
+/// Windows path) in the model's folder and its `textures` folders, whatever the case, and with another picture's ending
+/// where the one that is named is not there. Only what the folder admits is opened.
 class TextureLoader {
   public:
     /// Gives a picture that is in the model file itself, by its path or number there; nothing when it isn't.
-    using Embedded = std::function<std::optional<Texture>(const std::string& path)>;
+    using Embedded = std::function<std::optional<PictureDecoder::Decoded>(const std::string& path, PictureDecoder&)>;
 
     /// With `enabled` false nothing is loaded and nothing is missing.
-    TextureLoader(Embedded embedded, const std::filesystem::path& model, bool enabled);
+    TextureLoader(Embedded embedded, ModelFolder folder, bool enabled);
 
     /// Index of the texture, or Material::kNoTexture.
     int load(const std::string& path);
@@ -35,21 +34,24 @@ class TextureLoader {
     /// model.
     int load(const std::string& path, std::span<const std::uint8_t> embedded);
 
-    /// One sentence about all that was not found or can't be decoded, and one a picture that stands in for another;
-    /// empty when nothing is to be told.
+    /// One sentence about all that was not found or can't be decoded, one about what lies outside of the folder, one
+    /// about pictures that stand in for others, and PictureDecoder's; empty when nothing is to be told.
     [[nodiscard]] std::vector<std::string> sentences() const;
     [[nodiscard]] std::vector<Texture> takeTextures() { return std::move(textures_); }
 
   private:
-    int keep(const std::string& path, std::optional<Texture> texture);
-    [[nodiscard]] std::optional<Texture> decode(const std::string& path);
+    int keep(const std::string& path, PictureDecoder::Decoded picture);
+    [[nodiscard]] PictureDecoder::Decoded read(const std::string& path);
+    [[nodiscard]] std::string hintAbove() const;
 
     Embedded embedded_;
-    std::filesystem::path folder_;
+    ModelFolder folder_;
+    PictureDecoder decoder_;
     bool enabled_;
     std::map<std::string, int> known_;
     std::vector<Texture> textures_;
     std::vector<std::string> missing_;
+    std::vector<std::string> outside_;
     std::vector<std::string> replaced_;
 };
 

@@ -12,7 +12,7 @@
 namespace lutka::animation::rig_import {
 namespace {
 
-constexpr unsigned kMaxTexels = 16384;  // of a side
+constexpr unsigned kMaxTexels = 65536;  // of a side
 
 float linearFromSrgb(float c) {
     return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
@@ -120,30 +120,38 @@ Material convert(const aiMaterial& source, TextureLoader& loader) {
 }
 
 // A picture in the scene: a compressed file (height 0, width its bytes) or plain BGRA texels.
-std::optional<Texture> decodeEmbedded(const aiScene& scene, const std::string& path) {
+std::optional<PictureDecoder::Decoded> decodeEmbedded(const aiScene& scene, const std::string& path,
+                                                      PictureDecoder& decoder) {
     const aiTexture* source = scene.GetEmbeddedTexture(path.c_str());
     if (source == nullptr) return std::nullopt;
-    std::optional<Texture> texture;
+    using Outcome = PictureDecoder::Outcome;
+    PictureDecoder::Decoded picture;
     if (source->mHeight == 0) {
-        texture = decodePicture({reinterpret_cast<const std::uint8_t*>(source->pcData), source->mWidth});
-    } else if (source->mWidth <= kMaxTexels && source->mHeight <= kMaxTexels) {
-        texture.emplace();
-        texture->width = static_cast<int>(source->mWidth);
-        texture->height = static_cast<int>(source->mHeight);
+        picture = decoder.decode({reinterpret_cast<const std::uint8_t*>(source->pcData), source->mWidth}, path);
+    } else if (source->mWidth > kMaxTexels || source->mHeight > kMaxTexels ||
+               !decoder.admits(static_cast<int>(source->mWidth), static_cast<int>(source->mHeight), path)) {
+        picture.outcome = Outcome::tooLarge;
+    } else {
+        Texture texture;
+        texture.width = static_cast<int>(source->mWidth);
+        texture.height = static_cast<int>(source->mHeight);
         const std::size_t count = static_cast<std::size_t>(source->mWidth) * source->mHeight;
         for (std::size_t i = 0; i < count; ++i) {
             const aiTexel& texel = source->pcData[i];
-            texture->rgba.insert(texture->rgba.end(), {texel.r, texel.g, texel.b, texel.a});
+            texture.rgba.insert(texture.rgba.end(), {texel.r, texel.g, texel.b, texel.a});
         }
+        picture = {Outcome::decoded, decoder.fitted(std::move(texture), path)};
     }
-    if (texture) texture->name = source->mFilename.length > 0 ? source->mFilename.C_Str() : path;
-    return texture;
+    picture.texture.name = source->mFilename.length > 0 ? source->mFilename.C_Str() : path;
+    return picture;
 }
 
 }  // namespace
 
-void convertMaterials(const aiScene& scene, const std::filesystem::path& file, bool loadTextures, SourceScene& out) {
-    TextureLoader loader([&scene](const std::string& path) { return decodeEmbedded(scene, path); }, file, loadTextures);
+void convertMaterials(const aiScene& scene, const ModelFolder& folder, bool loadTextures, SourceScene& out) {
+    TextureLoader loader(
+        [&scene](const std::string& path, PictureDecoder& decoder) { return decodeEmbedded(scene, path, decoder); },
+        folder, loadTextures);
     for (unsigned i = 0; i < scene.mNumMaterials; ++i)
         out.materials.push_back(convert(*scene.mMaterials[i], loader));
     for (std::string& sentence : loader.sentences())

@@ -1,8 +1,9 @@
 #include "animation/import/assimp/read_with_assimp.hpp"
 
 #include <assimp/commonMetaData.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "animation/import/assimp/clip_conversion.hpp"
@@ -11,6 +12,7 @@
 #include "animation/import/assimp/mesh_instances.hpp"
 #include "animation/import/assimp/scene_file.hpp"
 #include "animation/import/assimp/scene_nodes.hpp"
+#include "animation/import/uri.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {
@@ -41,10 +43,7 @@ std::optional<UpAxis> fbxUp(const aiMetadata* metadata) {
 
 SourceConvention conventionOf(const aiScene& scene, const std::filesystem::path& file) {
     SourceConvention convention;
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
-    if (extension == ".dae") {  // Assimp converts both.
+    if (lowerCased(file.extension().string()) == ".dae") {  // Assimp converts both.
         convention.metresPerUnit = 1.0;
         convention.unitSource = "Collada unit";
         convention.up = UpAxis::positiveY;
@@ -61,7 +60,8 @@ SourceConvention conventionOf(const aiScene& scene, const std::filesystem::path&
 }  // namespace
 
 Result<SourceScene> readWithAssimp(const std::filesystem::path& file, const ImportOptions& options) {
-    const Result<SceneFile> opened = readScene(file);
+    const ModelFolder folder(file, options.allowOutside);
+    const Result<SceneFile> opened = readScene(file, folder);
     if (!opened) return opened.error();
     const aiScene& scene = *opened.value().scene;
     SourceScene out;
@@ -72,7 +72,12 @@ Result<SourceScene> readWithAssimp(const std::filesystem::path& file, const Impo
     out.convention = conventionOf(scene, file);
     addMeshes(scene, nodes, out);
     addClips(scene, nodes, out);
-    convertMaterials(scene, file, options.loadTextures, out);
+    convertMaterials(scene, folder, options.loadTextures, out);
+    if (const std::set<std::string>& refused = *opened.value().refused; !refused.empty()) {
+        out.warnings.push_back(fmt::format(
+            "{} files that the model names lie outside of its folder and were left out: {}; --allow-outside takes them",
+            refused.size(), fmt::join(refused, ", ")));
+    }
     restoreFlatHierarchy(out);
     return out;
 }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "animation/import/assimp/confined_files.hpp"
 #include "animation/import/source_limits.hpp"
 
 // Debian builds Assimp with its assertions on; on some damaged files they abort the whole process. They are called
@@ -60,9 +61,11 @@ const aiScene* read(Assimp::Importer& importer, const fs::path& file, std::strin
 
 }  // namespace
 
-Result<SceneFile> readScene(const fs::path& file) {
+Result<SceneFile> readScene(const fs::path& file, const ModelFolder& folder) {
     SceneFile out;
     out.importer = std::make_unique<Assimp::Importer>();
+    out.refused = std::make_shared<std::set<std::string>>();
+    out.importer->SetIOHandler(new ConfinedFiles(file, folder, out.refused));  // the importer owns it
     configure(*out.importer);
     std::string why;
     out.scene = read(*out.importer, file, why);

@@ -5,7 +5,10 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
+#include <string>
 
+#include "animation/import/model_folder.hpp"
 #include "core/result.hpp"
 
 namespace lutka::animation::rig_import {
@@ -14,9 +17,10 @@ namespace lutka::animation::rig_import {
 struct SceneFile {
     std::unique_ptr<Assimp::Importer> importer;  ///< Owns `scene`.
     const aiScene* scene = nullptr;
+    std::shared_ptr<std::set<std::string>> refused;  ///< Files that it named outside of the model's folder.
 };
 
 /// Fails with the importer's own message, and when the counts in the file are absurd.
-[[nodiscard]] Result<SceneFile> readScene(const std::filesystem::path& file);
+[[nodiscard]] Result<SceneFile> readScene(const std::filesystem::path& file, const ModelFolder& folder);
 
 }  // namespace lutka::animation::rig_import

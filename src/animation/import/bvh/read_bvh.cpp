@@ -11,6 +11,7 @@
 #include <span>
 
 #include "animation/import/bvh/bvh_document.hpp"
+#include "animation/import/source_limits.hpp"
 #include "core/files.hpp"
 
 namespace lutka::animation::rig_import {
@@ -20,7 +21,6 @@ using bvh::BvhDocument;
 using glm::dmat4;
 using glm::dvec3;
 
-constexpr std::size_t kMaxBytes = std::size_t{1} << 30U;
 // The share of all bones' length that points one way, or along one axis, above which a pose is no figure. A figure that
 // stands with its arms down has about 0.7 and 0.85.
 constexpr double kMostOneWay = 0.82;
@@ -227,7 +227,7 @@ void addNodes(const BvhDocument& document, std::span<const dmat4> pose, SourceSc
 }  // namespace
 
 Result<SourceScene> readBvh(const std::filesystem::path& file) {
-    const Result<std::vector<unsigned char>> bytes = readFile(file, kMaxBytes);
+    const Result<std::vector<unsigned char>> bytes = readFile(file, kMaxFileBytes);
     if (!bytes) return bytes.error();
     const std::string_view text(reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size());
     Result<BvhDocument> parsed = bvh::parseBvh(text, file.string());

@@ -9,7 +9,6 @@ inline constexpr int kMaxRecordDepth = 64;
 inline constexpr std::size_t kMaxRecords = 4'000'000;
 inline constexpr std::size_t kMaxValues = 8'000'000;         ///< Scalars and texts.
 inline constexpr std::size_t kMaxArrayNumbers = 64'000'000;  ///< In all arrays together.
-inline constexpr std::size_t kMaxDocumentBytes = std::size_t{1} << 30U;
 /// zlib never packs more than 1032 : 1.
 inline constexpr std::size_t kMostDeflation = 1040;
 

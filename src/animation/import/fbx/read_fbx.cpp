@@ -9,12 +9,12 @@
 
 #include "animation/import/fbx/clips.hpp"
 #include "animation/import/fbx/conventions.hpp"
-#include "animation/import/fbx/limits.hpp"
 #include "animation/import/fbx/material.hpp"
 #include "animation/import/fbx/mesh_geometry.hpp"
 #include "animation/import/fbx/model_tree.hpp"
 #include "animation/import/fbx/motion.hpp"
 #include "animation/import/fbx/skin.hpp"
+#include "animation/import/source_limits.hpp"
 #include "animation/import/texture_loader.hpp"
 #include "core/files.hpp"
 
@@ -167,11 +167,12 @@ class SceneReader {
 }  // namespace
 
 Result<SourceScene> readFbx(const std::filesystem::path& file, const ImportOptions& options) {
-    Result<std::vector<unsigned char>> bytes = readFile(file, kMaxDocumentBytes);
+    Result<std::vector<unsigned char>> bytes = readFile(file, kMaxFileBytes);
     if (!bytes) return bytes.error();
     Result<Document> document = parseDocument(std::move(bytes).value(), file.string());
     if (!document) return document.error();
-    TextureLoader pictures([](const std::string&) { return std::optional<Texture>(); }, file, options.loadTextures);
+    TextureLoader pictures([](const std::string&, PictureDecoder&) { return std::nullopt; },
+                           ModelFolder(file, options.allowOutside), options.loadTextures);
     SceneReader reader(document.value(),
                        [&](const PictureSource& source) { return pictures.load(source.path, source.embedded); });
     if (std::optional<Error> failed = reader.read(file.string())) return *std::move(failed);

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "animation/import/source_limits.hpp"
+#include "animation/import/uri.hpp"
 #include "core/files.hpp"
 
 namespace lutka::animation::rig_import::gltf {
@@ -18,8 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30U;
-constexpr std::size_t kMaxJsonBytes = std::size_t{256} << 20U;
 constexpr std::size_t kMaxUnpackedBytes = std::size_t{1} << 30U;  // of a compressed view
 
 // Read here, or without bearing on shape and motion.
@@ -61,17 +61,21 @@ std::vector<std::uint8_t> readWhole(const fs::path& file) {
     return std::move(bytes).value();
 }
 
-// A file that the model names, which must lie in the model's folder or below.
-fs::path fileBeside(const fs::path& model, const std::string& uri) {
-    std::error_code failed;
-    const fs::path folder = fs::weakly_canonical(model.has_parent_path() ? model.parent_path() : fs::path("."), failed);
-    const fs::path written(decodePercents(uri));
-    const fs::path target = fs::weakly_canonical(folder / written, failed);
-    const fs::path inside = target.lexically_relative(folder);
-    if (written.is_absolute() || inside.empty() || *inside.begin() == "..")
-        throw Damage{fmt::format("the buffer '{}' lies outside of the model's folder", uri),
-                     "put the buffer beside the model"};
-    return target;
+// Whether arrays and objects stand deeper within one another than kMaxJsonDepth: nlohmann's document is copied and
+// written by recursion.
+bool isNestedTooDeep(std::span<const std::uint8_t> text) {
+    int depth = 0;
+    bool quoted = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const std::uint8_t c = text[i];
+        if (quoted && c == '\\') ++i;
+        if (c == '"') quoted = !quoted;
+        if (quoted) continue;
+        if (c == '{' || c == '[') ++depth;
+        if (c == '}' || c == ']') --depth;
+        if (depth > kMaxJsonDepth) return true;
+    }
+    return false;
 }
 
 int base64Value(char c) {
@@ -102,22 +106,6 @@ std::vector<std::uint8_t> decodeBase64(std::string_view text) {
 
 }  // namespace
 
-std::string decodePercents(const std::string& uri) {
-    std::string out;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        const bool escape = uri[i] == '%' && i + 2 < uri.size() &&
-                            std::isxdigit(static_cast<unsigned char>(uri[i + 1])) != 0 &&
-                            std::isxdigit(static_cast<unsigned char>(uri[i + 2])) != 0;
-        if (escape) {
-            out += static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16));
-            i += 2;
-        } else {
-            out += uri[i];
-        }
-    }
-    return out;
-}
-
 std::optional<std::vector<std::uint8_t>> decodeDataUri(const std::string& uri) {
     if (!uri.starts_with("data:")) return std::nullopt;
     const std::size_t comma = uri.find(',');
@@ -128,7 +116,7 @@ std::optional<std::vector<std::uint8_t>> decodeDataUri(const std::string& uri) {
     return std::vector<std::uint8_t>(plain.begin(), plain.end());
 }
 
-GltfFile::GltfFile(const fs::path& file) : file_(file) {
+GltfFile::GltfFile(const fs::path& file, bool allowOutside) : file_(file), folder_(file, allowOutside) {
     readContainer();
     checkExtensions();
 }
@@ -154,6 +142,8 @@ void GltfFile::readContainer() {
     }
     if (text.size() > kMaxJsonBytes)
         throw Damage{fmt::format("its JSON has more than {} MB", kMaxJsonBytes >> 20U), "export only the character"};
+    if (isNestedTooDeep(text))
+        throw Damage{fmt::format("its JSON is nested deeper than {}", kMaxJsonDepth), "export only the character"};
     json_ = nlohmann::json::parse(text.begin(), text.end(), nullptr, false);
     if (json_.is_discarded() || !json_.is_object()) throw Damage{"the glTF's JSON is broken or cut off"};
     const nlohmann::json* asset = member(json_, "asset");
@@ -186,7 +176,14 @@ const nlohmann::json& GltfFile::element(const char* array, int index) const {
 std::vector<std::uint8_t> GltfFile::loadBuffer(int buffer) const {
     const std::string uri = textOf(element("buffers", buffer), "uri");
     if (std::optional<std::vector<std::uint8_t>> data = decodeDataUri(uri)) return *std::move(data);
-    return readWhole(fileBeside(file_, uri));
+    for (const std::string& spelling : {decodePercents(uri), uri}) {
+        const ModelFolder::Named named = folder_.find(spelling);
+        if (named.place == ModelFolder::Place::inside) return readWhole(named.file);
+        if (named.place == ModelFolder::Place::outside)
+            throw Damage{fmt::format("the buffer '{}' lies outside of the model's folder", uri),
+                         "put the buffer beside the model, or allow it by --allow-outside"};
+    }
+    throw Damage{fmt::format("the buffer '{}' is missing", uri), "put the buffer beside the model"};
 }
 
 std::span<const std::uint8_t> GltfFile::bufferBytes(int buffer) {

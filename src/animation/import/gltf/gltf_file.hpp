@@ -11,11 +11,10 @@
 #include <vector>
 
 #include "animation/import/gltf/gltf_json.hpp"
+#include "animation/import/model_folder.hpp"
 
 namespace lutka::animation::rig_import::gltf {
 
-/// "%20" and the like as the bytes they stand for.
-[[nodiscard]] std::string decodePercents(const std::string& uri);
 /// The bytes of a data URI; nothing when it is another URI. Throws Damage when its base64 is broken.
 [[nodiscard]] std::optional<std::vector<std::uint8_t>> decodeDataUri(const std::string& uri);
 
@@ -23,9 +22,11 @@ namespace lutka::animation::rig_import::gltf {
 class GltfFile {
   public:
     /// Opens a .gltf or .glb, told apart by content, and checks extensionsRequired.
-    explicit GltfFile(const std::filesystem::path& file);
+    /// Buffers of its own lie where ModelFolder allows.
+    GltfFile(const std::filesystem::path& file, bool allowOutside);
 
     [[nodiscard]] const nlohmann::json& json() const { return json_; }
+    [[nodiscard]] const ModelFolder& folder() const { return folder_; }
     /// An element of a top-level array; the index comes from indexOf().
     [[nodiscard]] const nlohmann::json& element(const char* array, int index) const;
     [[nodiscard]] std::size_t count(const char* array) const { return countOf(json_, array); }
@@ -46,6 +47,7 @@ class GltfFile {
     [[nodiscard]] std::vector<std::uint8_t> decompressed(const nlohmann::json& block);
 
     std::filesystem::path file_;
+    ModelFolder folder_;
     nlohmann::json json_;
     std::vector<std::uint8_t> binary_;  ///< The .glb's own buffer.
     std::map<int, std::vector<std::uint8_t>> buffers_;

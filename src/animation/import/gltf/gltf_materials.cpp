@@ -161,17 +161,18 @@ class MaterialReader {
     TextureLoader& loader_;
 };
 
-std::optional<Texture> embeddedPicture(GltfFile& file, const std::string& key) {
+std::optional<PictureDecoder::Decoded> embeddedPicture(GltfFile& file, const std::string& key,
+                                                       PictureDecoder& decoder) {
     if (!key.starts_with(kEmbedded)) return std::nullopt;
     const json& image = file.element("images", std::stoi(key.substr(std::string(kEmbedded).size())));
-    std::optional<Texture> texture;
+    std::optional<PictureDecoder::Decoded> picture;
     if (const std::optional<int> view = indexOf(image, "bufferView", file.count("bufferViews"))) {
-        texture = decodePicture(file.viewBytes(*view));
+        picture = decoder.decode(file.viewBytes(*view), key);
     } else if (const auto data = decodeDataUri(textOf(image, "uri"))) {
-        texture = decodePicture(*data);
+        picture = decoder.decode(*data, key);
     }
-    if (texture) texture->name = textOf(image, "name");
-    return texture;
+    if (picture) picture->texture.name = textOf(image, "name");
+    return picture;
 }
 
 }  // namespace
@@ -181,8 +182,10 @@ UvUse uvUseOf(GltfFile& file, int material) {
     return textures.empty() ? UvUse{} : useOf(*textures.front());
 }
 
-void addMaterials(GltfFile& file, const std::filesystem::path& model, bool loadTextures, SourceScene& out) {
-    TextureLoader loader([&](const std::string& key) { return embeddedPicture(file, key); }, model, loadTextures);
+void addMaterials(GltfFile& file, bool loadTextures, SourceScene& out) {
+    TextureLoader loader(
+        [&](const std::string& key, PictureDecoder& decoder) { return embeddedPicture(file, key, decoder); },
+        file.folder(), loadTextures);
     MaterialReader reader(file, loader);
     for (std::size_t i = 0; i < file.count("materials"); ++i)
         out.materials.push_back(reader.read(file.element("materials", static_cast<int>(i))));

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -18,7 +17,7 @@ using NodeMap = std::vector<int>;
 [[nodiscard]] NodeMap addNodes(const GltfFile& file, SourceScene& out);
 
 /// Adds the materials, and with `loadTextures` their pictures.
-void addMaterials(GltfFile& file, const std::filesystem::path& model, bool loadTextures, SourceScene& out);
+void addMaterials(GltfFile& file, bool loadTextures, SourceScene& out);
 
 /// The UV set that a material's pictures use, and how they are moved over it (KHR_texture_transform).
 struct UvUse {

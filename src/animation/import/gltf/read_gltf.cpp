@@ -9,12 +9,12 @@ namespace lutka::animation::rig_import {
 namespace {
 
 SourceScene read(const std::filesystem::path& path, const ImportOptions& options) {
-    gltf::GltfFile file(path);
+    gltf::GltfFile file(path, options.allowOutside);
     SourceScene scene;
     scene.format = "glTF 2.0";
     scene.convention = {1.0, "glTF", UpAxis::positiveY, "glTF"};
     const gltf::NodeMap nodes = gltf::addNodes(file, scene);
-    gltf::addMaterials(file, path, options.loadTextures, scene);
+    gltf::addMaterials(file, options.loadTextures, scene);
     gltf::addMeshes(file, nodes, scene);
     gltf::addClips(file, nodes, scene);
     gltf::addVrmHumanoid(file, nodes, scene);

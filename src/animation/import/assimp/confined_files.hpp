@@ -1,0 +1,34 @@
+#pragma once
+
+#include <assimp/DefaultIOSystem.h>
+
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "animation/import/model_folder.hpp"
+
+namespace lutka::animation::rig_import {
+
+/// Assimp's door to the disk: opens the model and the ordinary files that its folder admits, for reading, up to
+/// kMaxFileBytes each. Whatever else a format names (a material library, an animation, a skin) is not there for it.
+class ConfinedFiles : public Assimp::DefaultIOSystem {
+  public:
+    /// `refused` takes the names of what was outside of the folder.
+    ConfinedFiles(std::filesystem::path model, ModelFolder folder, std::shared_ptr<std::set<std::string>> refused);
+
+    bool Exists(const char* file) const override;
+    Assimp::IOStream* Open(const char* file, const char* mode) override;
+    bool CreateDirectory(const std::string& path) override;
+    bool DeleteFile(const std::string& file) override;
+
+  private:
+    [[nodiscard]] bool mayOpen(const std::string& file) const;
+
+    std::filesystem::path model_;
+    ModelFolder folder_;
+    std::shared_ptr<std::set<std::string>> refused_;
+};
+
+}  // namespace lutka::animation::rig_import

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace lutka::animation::rig_import {
+
+/// Which files beside itself a model may have opened: ordinary ones in its folder and below. A model from the internet
+/// has no business with others, and what it says of them (`../`, an absolute path, a link that leads away) is no wish
+/// of the user's. Decided before anything is opened, with every link followed.
+class ModelFolder {
+  public:
+    /// With `allowOutside` any ordinary file may be opened.
+    ModelFolder(const std::filesystem::path& model, bool allowOutside);
+
+    [[nodiscard]] const std::filesystem::path& path() const { return folder_; }  ///< As the model's path was given.
+    [[nodiscard]] bool allowsOutside() const { return allowOutside_; }
+
+    /// Whether a file or folder may be looked into: where it is once links are followed counts, not its name.
+    [[nodiscard]] bool admits(const std::filesystem::path& place) const;
+
+    enum class Place { inside, missing, outside };
+    struct Named {
+        Place place = Place::missing;
+        std::filesystem::path file;  ///< To be opened, when it is `inside`.
+    };
+    /// The file that a name in the model means, relative to the folder; either slash separates. `missing` where there
+    /// is no ordinary file, and for names with a drive's letter.
+    [[nodiscard]] Named find(const std::string& written) const;
+
+  private:
+    std::filesystem::path folder_;
+    std::filesystem::path resolved_;
+    bool allowOutside_;
+};
+
+}  // namespace lutka::animation::rig_import

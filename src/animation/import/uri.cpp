@@ -1,0 +1,29 @@
+#include "animation/import/uri.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace lutka::animation::rig_import {
+
+std::string decodePercents(const std::string& uri) {
+    std::string out;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        const bool escape = uri[i] == '%' && i + 2 < uri.size() &&
+                            std::isxdigit(static_cast<unsigned char>(uri[i + 1])) != 0 &&
+                            std::isxdigit(static_cast<unsigned char>(uri[i + 2])) != 0;
+        if (escape) {
+            out += static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16));
+            i += 2;
+        } else {
+            out += uri[i];
+        }
+    }
+    return out;
+}
+
+std::string lowerCased(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+}  // namespace lutka::animation::rig_import
