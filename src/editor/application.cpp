@@ -38,6 +38,7 @@ class Application {
     Result<void> record();
     Result<void> followCharacter();
     Result<void> oneFrame(double seconds);
+    void rememberSettings();
     [[nodiscard]] bool isSeen() const;
     Result<void> takeScreenshots();
     void updateTitle();
@@ -58,6 +59,7 @@ class Application {
     std::vector<render::CharacterHandle> characters_;
     int characterRevision_ = -1;
     bool vsync_ = true;
+    bool allowsOutside_ = false;  // as the editor had it in the last frame
     render::FrameDescription frame_;
     FrameHistory history_;
     std::vector<InputEvent> events_;
@@ -99,6 +101,9 @@ Result<void> Application::start() {
     ui_ = std::make_unique<EditorUi>(*host_);
     EditorOptions editor = options_.editor;
     editor.window = windowSize_;
+    if (options_.settings) settings_ = loadUserSettings(userSettingsFile());
+    editor.load.import.allowOutside = editor.load.import.allowOutside || settings_.allowOutside;
+    allowsOutside_ = editor.load.import.allowOutside;
     if (!fixedFrames()) editor.clock = scene::steadyClock();
     auto made = Editor::create(editor);
     if (!made) return made.error();
@@ -111,7 +116,6 @@ Result<void> Application::start() {
         if (!recorder) return recorder.error();
         recorder_.emplace(std::move(recorder).value());
     }
-    if (options_.settings) settings_ = loadUserSettings(userSettingsFile());
     return followCharacter();
 }
 
@@ -177,6 +181,13 @@ Result<void> Application::followCharacter() {
     return {};
 }
 
+// What the command line allowed is for this run; what the user chose stays.
+void Application::rememberSettings() {
+    if (editor_->allowsOutside() == allowsOutside_) return;
+    allowsOutside_ = settings_.allowOutside = editor_->allowsOutside();
+    if (options_.settings) saveUserSettings(userSettingsFile(), settings_);
+}
+
 Result<void> Application::oneFrame(double seconds) {
     collectEvents();
     if (auto recorded = record(); !recorded) return recorded;
@@ -195,6 +206,7 @@ Result<void> Application::oneFrame(double seconds) {
     if (editor_->view.vsync != vsync_) context_.setVsync(vsync_ = editor_->view.vsync);
     editor_->update(seconds);
     if (auto followed = followCharacter(); !followed) return followed;
+    rememberSettings();
     editor_->describe(characters_, frame_);
     if (!isSeen()) {
         host_->skipDrawing();

@@ -89,6 +89,9 @@ class Editor {
     /// Opens a model (*.ragdoll.json: a profile for the present one; *.scene.json: a scene); the old scene stays when
     /// that fails. Asks first when there are unsaved changes.
     void open(const std::filesystem::path& file);
+    /// Whether what is opened from now on may take files from outside of its model's folder.
+    void allowOutside(bool allowed) { load_.import.allowOutside = allowed; }
+    [[nodiscard]] bool allowsOutside() const { return load_.import.allowOutside; }
     /// Takes the offered profile (FileFlow::offeredProfile()), or not.
     void answerOffer(bool take);
     /// Saving, exporting, and the questions about files.

@@ -34,6 +34,10 @@ void fileMenu(const PanelContext& context) {
         if (chosen) context.editor.open(*chosen);
         ImGui::EndMenu();
     }
+    const bool allowed = context.editor.allowsOutside();
+    if (ImGui::MenuItem("Take files from outside of a model's folder", nullptr, allowed))
+        context.editor.allowOutside(!allowed);
+    tooltip("Pictures, buffers and material files of models that are opened from now on. For files that you trust.");
     ImGui::Separator();
     item(context, Action::saveProfile);
     item(context, Action::saveProfileAs);

@@ -34,7 +34,10 @@ UserSettings loadUserSettings(const std::filesystem::path& file) {
     const auto bytes = readFile(file, maxBytes);
     if (!bytes) return settings;
     const auto json = nlohmann::json::parse(bytes.value(), nullptr, false);
-    if (!json.is_object() || !json.contains("recent") || !json["recent"].is_array()) return settings;
+    if (!json.is_object()) return settings;
+    if (json.contains("allowOutside") && json["allowOutside"].is_boolean())
+        settings.allowOutside = json["allowOutside"].get<bool>();
+    if (!json.contains("recent") || !json["recent"].is_array()) return settings;
     for (const auto& one : json["recent"]) {
         if (one.is_string() && settings.recent.size() < UserSettings::kMaxRecent) {
             settings.recent.emplace_back(one.get<std::string>());
@@ -45,7 +48,8 @@ UserSettings loadUserSettings(const std::filesystem::path& file) {
 
 void saveUserSettings(const std::filesystem::path& file, const UserSettings& settings) {
     if (file.empty()) return;
-    nlohmann::ordered_json json = {{"version", 1}, {"recent", nlohmann::ordered_json::array()}};
+    nlohmann::ordered_json json = {
+        {"version", 1}, {"allowOutside", settings.allowOutside}, {"recent", nlohmann::ordered_json::array()}};
     for (const std::filesystem::path& one : settings.recent)
         json["recent"].push_back(one.string());
     using Handler = nlohmann::ordered_json::error_handler_t;

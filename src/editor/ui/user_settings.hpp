@@ -9,6 +9,7 @@ namespace lutka::editor {
 struct UserSettings {
     static constexpr std::size_t kMaxRecent = 8;
     std::vector<std::filesystem::path> recent;  ///< Models, the last one first.
+    bool allowOutside = false;                  ///< animation::ImportOptions::allowOutside.
 
     /// Puts a file in front.
     void remember(const std::filesystem::path& file);

@@ -1,0 +1,51 @@
+/// The editor and its unsaved work live on, whatever happens to the process that reads a model.
+
+#include "editor/sessions.hpp"
+#include "physics/profile/profile_io.hpp"
+#include "support/command.hpp"
+
+using namespace lutka;
+using namespace lutka::editor;
+using namespace lutka::test;
+
+namespace {
+
+EditorOptions withWorker() {
+    EditorOptions options;
+    animation::ImportWorker& worker = options.load.import.worker;
+    worker.program = LUTKA_READING_WORKER;
+    worker.memoryBytes = std::size_t{512} << 20U;
+    worker.seconds = 2;
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE("a model that kills, stalls or starves its reader leaves the editor with its unsaved work") {
+    const ScratchFolder folder;
+    const auto editor = makeEditor(withWorker());
+    REQUIRE(editor->edit([](EditorDocument& document) { return document.setMass(0, 9.0F); }));
+    const std::string mine = physics::profileToJson(editor->document().profile());
+    const std::string character = editor->document().character().name;
+    struct Case {
+        const char* does;
+        const char* told;
+    };
+    for (const Case& each : {Case{"crash", "signal 11"}, Case{"hang", "more than 2 seconds"},
+                             Case{"throw", "can't be imported"}, Case{"wrong", "no sound scene"}}) {
+        INFO(each.does);
+        std::ofstream(folder / "model.glb") << each.does;
+        editor->open(folder / "model.glb");
+        REQUIRE(editor->files().askingUnsaved());  // the work that would be lost is asked about before
+        editor->files().answer(FileFlow::Answer::discard);
+        pass(*editor, 3);
+        REQUIRE_FALSE(editor->workspace().toasts.empty());
+        CHECK_THAT(editor->workspace().toasts.back().text, Catch::Contains(each.told));
+        CHECK(editor->document().character().name == character);
+        CHECK(editor->document().unsaved());
+        CHECK(physics::profileToJson(editor->document().profile()) == mine);
+        CHECK(editor->document().canUndo());
+    }
+    CHECK(editor->files().requestSave(folder / "mine.ragdoll.json"));
+    CHECK(fileText(folder / "mine.ragdoll.json") == mine);
+}
