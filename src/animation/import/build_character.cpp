@@ -125,6 +125,16 @@ void takeMaterials(SourceScene& source, Character& character) {
     }
 }
 
+// Finite numbers in the file may be no more so once they were scaled and put in their places.
+bool isFinite(const Character& character) {
+    for (const SkinnedMesh& mesh : character.meshes) {
+        for (const vec3& position : mesh.positions) {
+            if (!lutka::isFinite(position)) return false;
+        }
+    }
+    return true;
+}
+
 }  // namespace
 
 Result<Character> buildCharacter(SourceScene source, const std::filesystem::path& file, const ImportOptions& options) {
@@ -149,6 +159,10 @@ Result<Character> buildCharacter(SourceScene source, const std::filesystem::path
     settleMeshes(units, character.meshes);
     for (SkinnedMesh& mesh : character.meshes)
         orderForSkinning(mesh);
+    if (!isFinite(character)) {
+        return Error{ErrorCode::input, "its numbers are too large: placed in the scene, vertices are beyond any",
+                     file.string(), "scale the figure down where it was made"};
+    }
     takeMaterials(source, character);
     for (const auto& [role, node] : source.vrmHumanoid)
         character.vrmHumanoid[role] = tree.nodes[node].joint;
