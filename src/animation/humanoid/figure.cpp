@@ -7,6 +7,7 @@
 #include "animation/humanoid/evidence_terms.hpp"
 #include "animation/humanoid/humanoid_gate.hpp"
 #include "animation/humanoid/lone_sides.hpp"
+#include "animation/humanoid/named_stance.hpp"
 
 namespace lutka::animation {
 namespace {
@@ -16,6 +17,7 @@ constexpr float kSnapCosine = 0.9990F;  // 2.5 degrees
 constexpr float kAgreement = 10.0F;     // log-odds of a plane that mirrors all joints against one that mirrors none
 constexpr float kRefusedLoss = 4.0F;
 constexpr float kMoreLimbs = -3.0F;
+constexpr float kMostOfPosed = 3.0F;    // the most that shape says of the front of a figure in any pose
 constexpr float kUnknownMargin = 6.0F;  // no other reading at all
 
 struct Combination {
@@ -128,6 +130,7 @@ struct UpAxis {
     vec3 axis;
     float prior;         // log-odds against +Y, which import takes care of
     bool leans = false;  // the figure leans as a whole
+    bool posed = false;  // its names tell the stance
 };
 
 // The best reading in one stance.
@@ -145,6 +148,7 @@ Figure readInStance(const RigFeatures& rig, const Stance& stance, const UpAxis& 
         if (figure.trunk.hips == kNoJoint) continue;
         figure.prior = up.prior;
         figure.leans = up.leans;
+        figure.posed = up.posed;
         figure.score = up.prior + agreement + combination.score + figure.trunk.score;
         figure.score += moreLimbs(framed, figure);
         figure.score += atMost(trunkTilt(figure, framed), radians(20.0F), radians(10.0F));
@@ -157,6 +161,8 @@ Figure readInStance(const RigFeatures& rig, const Stance& stance, const UpAxis& 
     findLoneSides(framed, best.legs);
     findLoneSides(framed, best.arms);
     best.facing = findFacing(framed, best.legs, best.arms, best.trunk);
+    // Feet and knees of a figure in any pose prove little of its front.
+    if (best.posed) best.facing.shape = std::clamp(best.facing.shape, -kMostOfPosed, kMostOfPosed);
     return best;
 }
 
@@ -223,6 +229,10 @@ Figure findFigure(const RigFeatures& rig) {
     for (const MirrorPlane& plane : planes) {
         for (const UpAxis& up : leaningUps(plane))
             readUpright(rig, plane, agreement(plane), up, best);
+    }
+    if (const std::optional<Stance> stance = stanceOfNames(rig)) {
+        Figure figure = readInStance(rig, *stance, {stance->up, kLeanPrior, false, true}, 0.0F);
+        if (better(figure, best)) best = std::move(figure);
     }
     for (const UpAxis& up : lying) {
         if (best.refusal.empty()) break;

@@ -22,6 +22,7 @@ struct Figure {
     std::string refusal;  ///< Empty when the figure stands.
     float prior = 0.0F;   ///< The part of the score that speaks for the up axis, before anything is read.
     bool leans = false;   ///< Read in a stance that is not upright: it leans as a whole.
+    bool posed = false;   ///< Read in the stance that its names give, whatever its pose.
     float score = -1e9F;  ///< Sum of all terms: what readings are compared by.
     FramedRig framed;
     LimbCandidate legs;

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <map>
+#include <string>
+#include <utility>
 
 namespace lutka::animation {
 namespace {
@@ -43,6 +46,7 @@ class PairFinder {
     }
 
     void find() {
+        if (framed_.stance.byNames) pairByNames();
         pairByPosition();
         pairByStructure();
         std::sort(framed_.pairs.begin(), framed_.pairs.end(), [this](const JointPair& a, const JointPair& b) {
@@ -85,6 +89,11 @@ class PairFinder {
 
     void add(int a, int b) {
         if (centroids_[a].x + framed_.positions[a].x < centroids_[b].x + framed_.positions[b].x) std::swap(a, b);
+        addInOrder(a, b);
+    }
+
+    // `a` is the joint of the +x half.
+    void addInOrder(int a, int b) {
         JointPair pair;
         pair.joints = {a, b};
         pair.position = 0.5F * (framed_.positions[a] + mirrored(framed_.positions[b]));
@@ -107,10 +116,24 @@ class PairFinder {
         }
     }
 
+    // Joints whose names differ in the side alone, where no other joint has such a name. Legs may be crossed.
+    void pairByNames() {
+        std::map<std::pair<std::vector<std::string>, std::vector<int>>, std::array<std::vector<int>, 2>> alike;
+        for (int joint = 0; joint < rig_.count(); ++joint) {
+            const NameEvidence& name = rig_.names[joint];
+            if (name.side == Side::center || !name.meaningful) continue;
+            alike[{name.words, name.numbers}][name.side == Side::left ? 0 : 1].push_back(joint);
+        }
+        for (const auto& [name, sides] : alike) {
+            if (sides[0].size() == 1 && sides[1].size() == 1) addInOrder(sides[0][0], sides[1][0]);
+        }
+    }
+
     void pairByPosition() {
         std::vector<Candidate> candidates;
         for (int a = 0; a < rig_.count(); ++a) {
             for (int b = a + 1; b < rig_.count(); ++b) {
+                if (framed_.pairOf[a] >= 0 || framed_.pairOf[b] >= 0) continue;
                 const float error =
                     glm::distance(mirrored(framed_.positions[a]), framed_.positions[b]) / framed_.spread;
                 if (error > kMaxError || separation(a, b) < kMinSeparation * framed_.spread) continue;

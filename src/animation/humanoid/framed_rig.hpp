@@ -14,6 +14,7 @@ namespace lutka::animation {
 struct Stance {
     MirrorPlane plane;
     vec3 up;
+    bool byNames = false;  ///< Read off the names: +x is the side that they call left, and they pair the joints first.
 
     [[nodiscard]] vec3 across() const { return plane.normal; }
     [[nodiscard]] vec3 through() const;

@@ -13,10 +13,14 @@ constexpr float kMostTilt = radians(40.0F);     // of the trunk from upright; hu
 constexpr float kMostBend = radians(22.0F);     // of trunk and legs of a figure that leans as a whole
 constexpr float kMostLegTilt = radians(50.0F);  // of the legs from straight down
 constexpr float kLeastHandHeight = 0.16F;       // above the feet, as a share of the way up to the arms' roots
-constexpr float kLeastRise = 0.10F;             // of the arms' roots above the legs', as a share of the legs' length
+// Figures of blocks have one joint a limb and any proportions; names of arms and legs tell them.
+constexpr float kNamedBlock = 2.0F;
+constexpr float kBlocksShape = 1.0F;
+constexpr float kBlocksWhole = 5.0F;
+constexpr float kLeastRise = 0.10F;  // of the arms' roots above the legs', as a share of the legs' length
 
 float angleTo(const vec3& direction, const vec3& axis) {
-    const float length = glm::length(direction);
+    const float length = glm::length(direction) * glm::length(axis);
     return length > 0.0F ? std::acos(std::clamp(glm::dot(direction, axis) / length, -1.0F, 1.0F)) : 0.0F;
 }
 
@@ -30,6 +34,42 @@ float creatureShare(const FramedRig& framed, const LimbCandidate& limb) {
         if (framed.rig->names[framed.pairs[pair].joints[0]].creature) ++named;
     }
     return placed > 0 ? static_cast<float>(named) / static_cast<float>(placed) : 0.0F;
+}
+
+// Share of the joints below a limb's first pair that are named as an animal's: wings that hang on shoulders.
+float creaturesBelow(const FramedRig& framed, const LimbCandidate& limb) {
+    const RigFeatures& rig = *framed.rig;
+    const int top = framed.pairs[limb.first].joints[0];
+    int named = 0;
+    int all = 0;
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        if (joint == top || !rig.isAncestorOrSelf(top, joint) || !rig.names[joint].meaningful) continue;
+        ++all;
+        if (rig.names[joint].creature) ++named;
+    }
+    return all > 0 ? static_cast<float>(named) / static_cast<float>(all) : 0.0F;
+}
+
+// Straight arms and straight legs side by side, across the trunk: names of a human do not make an animal one.
+bool isOnAllFours(const Figure& figure) {
+    constexpr float kStraight = 0.8F;  // of the limb's length
+    const vec3 legs = figure.legs.tip - figure.legs.root;
+    const vec3 arms = figure.arms.tip - figure.arms.root;
+    return glm::length(legs) > kStraight * figure.legs.length && glm::length(arms) > kStraight * figure.arms.length &&
+           angleTo(legs, vec3(0, -1, 0)) > kMostLegTilt && angleTo(arms, legs) < kMostTilt;
+}
+
+// Parts that neither hang on each other nor bear a limb's name: props side by side, whatever pattern they lie in.
+bool isScattered(const Figure& figure, const FramedRig& framed) {
+    if (framed.rig->skinned || figure.legs.names > 0.0F || figure.arms.names > 0.0F) return false;
+    for (const LimbCandidate* limb : {&figure.legs, &figure.arms}) {
+        for (std::size_t slot = 1; slot < 3; ++slot) {
+            const int upper = limb->pairs[slot - 1];
+            const int lower = limb->pairs[slot];
+            if (upper != kNoPair && lower != kNoPair && framed.isAbove(upper, lower)) return false;
+        }
+    }
+    return true;
 }
 
 }  // namespace
@@ -54,7 +94,9 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     if (figure.leans && !(figure.legs.named && figure.arms.named)) return "no figure stands upright in it";
     if (figure.leans && (tilt > kMostBend || legTilt > kMostBend)) return "the trunk and the legs are not in one line";
     // The names tell a seated or kneeling figure, as long as its trunk is upright.
-    const bool named = figure.legs.named && figure.arms.named && figure.prior >= 0.0F;
+    const bool named = figure.legs.named && figure.arms.named && (figure.prior >= 0.0F || figure.posed);
+    if (figure.posed && !named) return "its names are not those of its limbs";
+    if (figure.posed && isOnAllFours(figure)) return "it stands on all fours, whatever its names say";
     if (tilt > kMostTilt) {
         return fmt::format("the trunk lies at {:.0f} degrees from upright: an animal, not a standing figure",
                            degrees(tilt));
@@ -65,12 +107,15 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     const float feet = std::min(figure.legs.tip.y, framed.floor + 0.15F * figure.legs.length);
     const float hands = (figure.arms.tip.y - feet) / (figure.arms.root.y - feet);
     if (hands < kLeastHandHeight && !named) return "the hands stand on the ground: a four-legged animal";
-    if (creatureShare(framed, figure.arms) > 0.6F) return "what would be the arms are named as wings or front legs";
+    if (creatureShare(framed, figure.arms) > 0.6F || creaturesBelow(framed, figure.arms) > 0.5F)
+        return "what would be the arms are named as wings or front legs";
     if (creatureShare(framed, figure.legs) > 0.6F) return "what would be the legs are named as an animal's";
+    if (isScattered(figure, framed)) return "its parts hang on nothing and are named as no limbs";
     // Names alone never make a humanoid, but they carry one that is put together oddly.
     const float names = figure.legs.names + figure.arms.names + figure.trunk.names;
-    const float helpShape = std::clamp(0.2F * names, -6.0F, 4.0F);
-    const float helpWhole = std::clamp(0.6F * names, -10.0F, 10.0F);
+    const bool blocks = figure.isBlocky() && figure.legs.names > kNamedBlock && figure.arms.names > kNamedBlock;
+    const float helpShape = std::clamp(0.2F * names, -6.0F, 4.0F) + (blocks ? kBlocksShape : 0.0F);
+    const float helpWhole = std::clamp(0.6F * names, -10.0F, 10.0F) + (blocks ? kBlocksWhole : 0.0F);
     if (figure.shapeScore() + helpShape < kLeastShapeScore ||
         figure.score - figure.prior - names + helpWhole < kLeastWholeScore) {
         return fmt::format("the limbs have not the proportions of a human figure (score {:.1f})", figure.shapeScore());

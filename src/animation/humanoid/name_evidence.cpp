@@ -89,6 +89,8 @@ bool scoreLeg(const Concepts& c, bool sided, PartScores& scores) {
         set(scores, {{Part::toes, kClear}, {Part::foot, -0.5F}});
     } else if (c.has(Concept::heel)) {
         set(scores, {{Part::foot, -1.5F}});
+    } else if (c.has(Concept::foot) && low) {
+        set(scores, {{Part::toes, 3.0F}, {Part::foot, 2.0F}});  // "ForeFoot"
     } else if (c.has(Concept::foot)) {
         set(scores, {{Part::foot, 4.0F}, {Part::toes, 0.5F}});
     } else if (sided && c.hasAny({Concept::hip, Concept::hips})) {

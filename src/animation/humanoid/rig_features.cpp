@@ -1,6 +1,7 @@
 #include "animation/humanoid/rig_features.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -112,6 +113,31 @@ void believeSkinnedControls(RigFeatures& rig) {
     }
 }
 
+// A file may hold the skin of the head alone (a face, an avatar's parts), and joints for the whole figure. Where names
+// tell all joints of arms and legs and hardly any of those carries skin, the skin proves nothing about the limbs.
+void doubtPartialSkin(RigFeatures& rig) {
+    constexpr float kNamedLimb = 1.5F;
+    constexpr std::array<Part, 4> kLimbs{Part::upperArm, Part::lowerArm, Part::upperLeg, Part::lowerLeg};
+    if (!rig.skinned) return;
+    int bare = 0;
+    for (const Part part : kLimbs) {
+        for (const Side side : {Side::left, Side::right}) {
+            bool named = false;
+            bool carries = false;
+            for (int joint = 0; joint < rig.count(); ++joint) {
+                const NameEvidence& name = rig.names[joint];
+                if (name.side != side || name.helper || name.parts[part] < kNamedLimb) continue;
+                named = true;
+                carries = carries || rig.subtreeWeight[joint] > 0.0F;
+            }
+            if (!named) return;
+            bare += carries ? 0 : 1;
+        }
+    }
+    constexpr int kMostLimbs = 4;  // of the eight: arms or legs alone
+    if (bare > kMostLimbs) rig.skinned = false;
+}
+
 // A word of two meanings has one where its neighbour has the other: a shoulder above an arm is the clavicle and that
 // arm the upper arm, a leg below a thigh is the shin.
 void readNamesInChains(RigFeatures& rig) {
@@ -128,6 +154,10 @@ void readNamesInChains(RigFeatures& rig) {
             upper[Part::clavicle] = std::max(upper[Part::clavicle], kSurely);
             upper[Part::upperArm] = kSurelyNot;
             lower[Part::upperArm] = std::max(lower[Part::upperArm], kSurely);
+        }
+        // Palm below a hand: the bones of the middle hand. Nor is a thing named so below a foot another foot.
+        for (const Part end : {Part::hand, Part::foot}) {
+            if (upper[end] >= kSurely && lower[end] >= kSurely) lower[end] = kSurelyNot;
         }
         if (upper[Part::upperLeg] >= kSurely && lower[Part::lowerLeg] >= kMaybe) {
             lower[Part::lowerLeg] = std::max(lower[Part::lowerLeg], kSurely);
@@ -206,6 +236,7 @@ RigFeatures readRig(const Character& character, bool useNames) {
     believeSkinnedControls(rig);
     readNamesInChains(rig);
     flattenNumberedLimbs(rig);
+    doubtPartialSkin(rig);
     findShadows(rig);
     return rig;
 }

@@ -146,6 +146,55 @@ TEST_CASE("a flat hierarchy maps by names and places", "[poses]") {
     checkWhole(rig);
 }
 
+TEST_CASE("a figure that sits cross-legged or crouches maps by its names", "[poses]") {
+    SyntheticRig crossed = makeSyntheticRig(kConvention);
+    turn(crossed, Role::leftUpperLeg, -1.4F, vec3(1, 0, 0));
+    turn(crossed, Role::rightUpperLeg, -1.4F, vec3(1, 0, 0));
+    turn(crossed, Role::leftLowerLeg, -1.9F, vec3(0, 1, 0));
+    turn(crossed, Role::rightLowerLeg, 1.9F, vec3(0, 1, 0));
+    checkWhole(crossed);
+    SyntheticRig crouched = makeSyntheticRig(kConvention);
+    turnBoth(crouched, Role::hips, 0.9F);
+    turnBoth(crouched, Role::leftUpperLeg, -2.2F);
+    turnBoth(crouched, Role::leftLowerLeg, 1.9F);
+    turn(crouched, Role::leftUpperArm, -1.3F, vec3(0, 0, 1));
+    turn(crouched, Role::rightUpperArm, 0.7F, vec3(0, 1, 0));
+    checkWhole(crouched);
+}
+
+TEST_CASE("a figure that lies in some pose maps by its names", "[poses]") {
+    SyntheticRig rig = makeSyntheticRig(kConvention);
+    turn(rig, Role::leftUpperLeg, -1.2F, vec3(1, 0, 0));
+    turn(rig, Role::leftLowerLeg, 1.6F, vec3(1, 0, 0));
+    turn(rig, Role::rightUpperArm, 1.1F, vec3(0, 1, 0));
+    rig.character = rotated(rig.character, glm::angleAxis(radians(-75.0F), vec3(1, 0, 0)));
+    checkWhole(rig);
+}
+
+TEST_CASE("limbs without weights beside a skinned head are found by their names", "[poses]") {
+    SyntheticRig rig = makeSyntheticRig(kConvention);
+    std::fill(rig.character.skeleton.skinWeight.begin(), rig.character.skeleton.skinWeight.end(), 0.0F);
+    rig.character.skeleton.skinWeight[jointOf(rig, Role::head)] = 900.0F;
+    rig.character.skeleton.skinWeight[jointOf(rig, Role::neck)] = 60.0F;
+    checkWhole(rig);
+}
+
+TEST_CASE("the bones of the middle hand are not the hand", "[poses]") {
+    SyntheticRig rig = makeSyntheticRig(kConvention);
+    animation::Skeleton& skeleton = rig.character.skeleton;
+    for (const Role role : {Role::leftHand, Role::rightHand}) {
+        const int hand = jointOf(rig, role);
+        skeleton.names.push_back(role == Role::leftHand ? "DEF-palm.02.L" : "DEF-palm.02.R");
+        skeleton.parents.push_back(hand);
+        const RigidTransform palm{quat(1, 0, 0, 0), vec3(role == Role::leftHand ? 0.06F : -0.06F, 0, 0)};
+        skeleton.bindModelFromJoint.push_back(skeleton.bindModelFromJoint[hand]);
+        skeleton.bindModelFromJoint.back().translation += palm.translation;
+        skeleton.nodeParentFromJoint.push_back(palm);
+        skeleton.skinWeight.push_back(400.0F);
+    }
+    checkWhole(rig);
+}
+
 TEST_CASE("a foot that is its own IK target is the foot", "[poses]") {
     SyntheticRig rig = makeSyntheticRig(kConvention);
     animation::Skeleton& skeleton = rig.character.skeleton;

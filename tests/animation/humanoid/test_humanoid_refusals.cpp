@@ -156,10 +156,85 @@ animation::Character tree() {
     return rig.character();
 }
 
+// All joints bear a human's names, and no tail tells.
+animation::Character namedQuadruped() {
+    RigBuilder rig;
+    const int hips = rig.add("Hips", -1, {0, 0.9F, -0.5F});
+    const int spine = rig.add("Spine", hips, {0, 0.95F, -0.2F});
+    const int chest = rig.add("Chest", spine, {0, 0.95F, 0.3F});
+    const int neck = rig.add("Neck", chest, {0, 1.1F, 0.5F});
+    rig.add("Head", neck, {0, 1.35F, 0.7F});
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string name = side > 0.0F ? "Left" : "Right";
+        const int arm = rig.add(name + "UpperArm", chest, {0.13F * side, 0.85F, 0.35F});
+        const int forearm = rig.add(name + "LowerArm", arm, {0.13F * side, 0.5F, 0.33F});
+        rig.add(name + "Hand", forearm, {0.13F * side, 0.1F, 0.35F});
+        const int thigh = rig.add(name + "UpperLeg", hips, {0.13F * side, 0.85F, -0.5F});
+        const int shin = rig.add(name + "LowerLeg", thigh, {0.13F * side, 0.5F, -0.42F});
+        rig.add(name + "Foot", shin, {0.13F * side, 0.1F, -0.52F});
+    }
+    return rig.character();
+}
+
+// Wings that hang on joints called shoulders, above legs that are named as such.
+animation::Character bat() {
+    RigBuilder rig;
+    const int root = rig.add("BodyRoot", -1, {0, 0.53F, 0});
+    const int body = rig.add("Body", root, {0, 0.67F, 0});
+    const int neck = rig.add("Neck", body, {0, 1.07F, 0.14F});
+    rig.add("Head", neck, {0, 1.16F, 0.15F});
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string name = side > 0.0F ? ".L" : ".R";
+        int wing = rig.add("Shoulder" + name, body, {0.11F * side, 0.75F, -0.05F});
+        const std::vector<vec3> places{
+            {0.16F, 0.89F, -0.06F}, {0.23F, 1.0F, -0.24F}, {0.33F, 1.17F, -0.42F}, {0.39F, 1.18F, -0.7F}};
+        for (std::size_t i = 0; i < places.size(); ++i)
+            wing = rig.add("Wing" + std::to_string(i + 1) + name, wing, places[i] * vec3(side, 1, 1));
+        const int thigh = rig.add("UpperLeg" + name, body, {0.22F * side, 0.52F, -0.05F});
+        const int shin = rig.add("LowerLeg" + name, thigh, {0.24F * side, 0.41F, -0.06F});
+        rig.add("Feet" + name, shin, {0.22F * side, 0.34F, -0.17F});
+    }
+    return rig.character();
+}
+
+// Every joint but the root carries a rigid triangle: up from those in the middle, down from the others.
+animation::Character ofRigidParts(animation::Character made) {
+    for (int joint = 1; joint < made.skeleton.jointCount(); ++joint) {
+        animation::SkinnedMesh part;
+        part.rigid = true;
+        const vec3 at = made.skeleton.bindModelFromJoint[joint].translation;
+        part.positions = {at, at + vec3(0.05F, 0, 0), at + vec3(0, at.x == 0.0F ? 0.2F : -0.3F, 0)};
+        part.joints.assign(3, {static_cast<std::uint16_t>(joint), 0, 0, 0});
+        part.weights.assign(3, {1.0F, 0.0F, 0.0F, 0.0F});
+        part.indices = {0, 1, 2};
+        made.meshes.push_back(part);
+    }
+    return made;
+}
+
+// Things that lie where a figure's joints would be.
+animation::Character thingsInAPattern() {
+    RigBuilder rig;
+    const int root = rig.add("Scene", -1, vec3(0));
+    int count = 0;
+    const auto add = [&](const vec3& place) { rig.add("Prism_" + std::to_string(++count), root, place); };
+    for (const float height : {0.95F, 1.2F, 1.45F, 1.6F})
+        add({0, height, 0});
+    for (const float side : {1.0F, -1.0F}) {
+        for (const vec3& place : {vec3(0.18F, 1.42F, 0), vec3(0.45F, 1.42F, 0), vec3(0.7F, 1.42F, 0),
+                                  vec3(0.1F, 0.9F, 0), vec3(0.1F, 0.48F, 0), vec3(0.1F, 0.08F, 0)})
+            add(place * vec3(side, 1, 1));
+    }
+    return ofRigidParts(rig.character());
+}
+
 const std::vector<std::pair<const char*, std::function<animation::Character()>>>& strangers() {
     static const std::vector<std::pair<const char*, std::function<animation::Character()>>> all = {
         {"quadruped with human names", [] { return quadruped("Arm", "Leg"); }},
         {"quadruped with an animal's names", [] { return quadruped("FrontLeg", "BackLeg"); }},
+        {"quadruped with all names of a human", namedQuadruped},
+        {"bat", bat},
+        {"things in a pattern", thingsInAPattern},
         {"raptor", raptor},
         {"spider", spider},
         {"bird", bird},
@@ -186,6 +261,24 @@ TEST_CASE("animals, limbs and things are refused with a reason", "[refusal]") {
             CHECK(map.warnings.front().find("not a humanoid: ") == 0);
         }
     }
+}
+
+TEST_CASE("blocks side by side are a figure by the names of arms and legs", "[blocks]") {
+    RigBuilder rig;
+    const int root = rig.add("character", -1, vec3(0));
+    rig.add("body 1", root, {0, 0.4F, 0});
+    rig.add("Group 143", root, {0, 0.78F, 0});
+    rig.add("armLeft 1", root, {0.17F, 0.7F, 0});
+    rig.add("armRight 1", root, {-0.17F, 0.7F, 0});
+    rig.add("legLeft 1", root, {0.15F, 0.4F, 0});
+    rig.add("legRight 1", root, {-0.15F, 0.4F, 0});
+    const animation::Character character = ofRigidParts(rig.character());
+    const animation::HumanoidMap map = animation::mapHumanoid(character);
+    INFO((map.warnings.empty() ? std::string() : map.warnings.front()));
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(animation::Role::leftUpperArm) == 3);
+    CHECK(map.jointOf(animation::Role::rightUpperLeg) == 6);
+    CHECK_FALSE(animation::mapHumanoid(withoutNames(character)).humanoid);
 }
 
 TEST_CASE("no joints, few joints and a chain are refused", "[refusal]") {
