@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "animation/pose.hpp"
 
@@ -34,18 +35,34 @@ Result<const animation::Clip*> findClip(const animation::Character& character, c
                  known.empty() ? "the file has no clips" : "the clips are " + known};
 }
 
+// "a@1" may be a clip's own name, which a command line reads as one second into "a". Where no clip is called "a", it
+// is.
+ClipStart withWholeName(const animation::Character& character, const ClipStart& start) {
+    const auto isNamed = [&](const animation::Clip& clip) { return clip.name == start.clip; };
+    if (std::any_of(character.clips.begin(), character.clips.end(), isNamed)) return start;
+    for (const animation::Clip& clip : character.clips) {
+        if (!clip.name.starts_with(start.clip + "@")) continue;
+        const char* number = clip.name.c_str() + start.clip.size() + 1;
+        char* end = nullptr;
+        const float seconds = std::strtof(number, &end);
+        if (end != number && *end == '\0' && seconds == start.seconds) return {clip.name, 0.0F};
+    }
+    return start;
+}
+
 }  // namespace
 
 Result<std::vector<BodyState>> startBodies(const RagdollAsset& asset, const SimulationOptions& options,
                                            const Placement& placement) {
     const bool own = placement.clip || placement.pose;
-    const std::optional<ClipStart>& start = own ? placement.clip : options.fromClip;
+    std::optional<ClipStart> start = own ? placement.clip : options.fromClip;
     if (!start) {
         if (placement.pose.value_or(options.pose) == StartPose::bind) {
             return bodiesOf(asset, asset.character.skeleton.bindModelFromJoint);
         }
         return bodiesOf(asset, animation::nodePose(asset.character.skeleton));
     }
+    start = withWholeName(asset.character, *start);
     const auto clip = findClip(asset.character, start->clip);
     if (!clip) return clip.error();
     const float length = clip.value()->seconds();

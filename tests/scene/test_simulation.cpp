@@ -133,6 +133,24 @@ TEST_CASE("a clip that is not there is a usage error that lists those that are")
     CHECK(simulation.error().mend.find("turn") != std::string::npos);
 }
 
+TEST_CASE("a clip whose name ends in a number after @ is found by its whole name") {
+    animation::Character character = test::makeBiped();
+    addTurningClip(character, 1.0F);
+    character.clips.front().name = "a@b@1";
+    const auto asset = makeRagdoll(std::move(character));
+    REQUIRE(asset);
+    const auto startsAt = [&](const ClipStart& clip) {
+        SimulationOptions options;
+        options.fromClip = clip;
+        auto scenario = makeScenario({.name = "drop"}, Figure{{vec3(-1), vec3(1)}});
+        REQUIRE(scenario);
+        return Simulation::create(*asset.value(), std::move(scenario).value(), options).ok();
+    };
+    CHECK(startsAt({"a@b", 1.0F}));  // as a command line reads it
+    CHECK(startsAt({"a@b@1", 0.0F}));
+    CHECK_FALSE(startsAt({"a@b", 0.5F}));
+}
+
 TEST_CASE("drawing between two steps is between their states") {
     const auto asset = test::bipedRagdoll();
     const auto simulation = start(*asset, "drop");

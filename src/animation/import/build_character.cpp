@@ -12,6 +12,7 @@
 #include "animation/import/bind_pose.hpp"
 #include "animation/import/clip_sampling.hpp"
 #include "animation/import/figure_choice.hpp"
+#include "animation/import/inside_out.hpp"
 #include "animation/import/mesh_conversion.hpp"
 #include "animation/import/node_tree.hpp"
 #include "animation/import/rigid_pose.hpp"
@@ -25,18 +26,29 @@ namespace {
 // Scale that a joint has in a pose but not in the bind pose is dropped; below this share nobody sees it.
 constexpr double kVisibleScale = 0.01;
 
-// The root of the part of the tree that holds most joints: leaves out cameras, lights and helpers beside the figure.
+// The root of the part of the tree that holds most joints: leaves out cameras, lights and helpers beside the figure, of
+// which MotionBuilder writes seven. They are single nodes or two; what has more joints beside it is a limb's neighbour.
 int rootOfFigure(const Skeleton& skeleton) {
+    constexpr int kMostOfHelper = 2;
     const int count = skeleton.jointCount();
     std::vector<int> size(count, 1);
     for (int joint = count - 1; joint > 0; --joint) {
         if (skeleton.parents[joint] != kNoJoint) size[skeleton.parents[joint]] += size[joint];
     }
-    int root = 0;
-    for (int joint = 1; joint < count; ++joint) {
-        if (skeleton.parents[joint] == root && size[joint] * 5 > size[root] * 4) root = joint;
+    int figure = 0;
+    for (int root = 0; root != kNoJoint;) {
+        int largest = kNoJoint;
+        int second = 0;  // joints of the largest of the others
+        for (int joint = root + 1; joint < count; ++joint) {
+            if (skeleton.parents[joint] != root) continue;
+            if (largest != kNoJoint) second = std::max(second, std::min(size[joint], size[largest]));
+            if (largest == kNoJoint || size[joint] > size[largest]) largest = joint;
+        }
+        const bool dominates = largest != kNoJoint && 2 * size[largest] > size[root] && second <= kMostOfHelper;
+        if (dominates && second > 0) figure = largest;
+        root = dominates ? largest : kNoJoint;
     }
-    return root;
+    return figure;
 }
 
 // What the height of the figure is measured on: skins and their joints, else rigid meshes, else the joints alone.
@@ -71,18 +83,25 @@ void settleMeshes(const UnitsAndAxes& units, std::vector<SkinnedMesh>& meshes) {
 }
 
 // Joints that move no skin and stand far from all that do (the root of an armature that was moved) would make the
-// figure as large as the way there: they stand at the origin instead.
-void bringAlong(const UnitsAndAxes& units, std::span<const float> skinWeight, std::span<dmat4> bind) {
+// figure as large as the way there: they stand at the origin instead. Of a file without a skin all joints below the
+// figure's root count as its own.
+void bringAlong(const UnitsAndAxes& units, const Skeleton& skeleton, std::span<dmat4> bind) {
     constexpr double kFar = 4.0;  // reaches of the skin's joints
     const dmat4 modelFromScene = units.modelFromScene();
     const auto away = [&](std::size_t joint) { return glm::length(dvec3(modelFromScene * bind[joint][3])); };
+    const auto weighs = [](float weight) { return weight > 0.0F; };
+    const bool skinned = std::any_of(skeleton.skinWeight.begin(), skeleton.skinWeight.end(), weighs);
+    const int root = rootOfFigure(skeleton);
+    const auto isOfFigure = [&](std::size_t joint) {
+        return skinned ? weighs(skeleton.skinWeight[joint]) : isAncestorOrSelf(skeleton, root, static_cast<int>(joint));
+    };
     double reach = 0.0;
     for (std::size_t joint = 0; joint < bind.size(); ++joint) {
-        if (skinWeight[joint] > 0.0F) reach = std::max(reach, away(joint));
+        if (isOfFigure(joint)) reach = std::max(reach, away(joint));
     }
     const dmat4 sceneFromModel = glm::inverse(modelFromScene);
     for (std::size_t joint = 0; reach > 0.0 && joint < bind.size(); ++joint) {
-        if (skinWeight[joint] == 0.0F && away(joint) > kFar * reach) bind[joint][3] = sceneFromModel[3];
+        if (!isOfFigure(joint) && away(joint) > kFar * reach) bind[joint][3] = sceneFromModel[3];
     }
 }
 
@@ -152,10 +171,11 @@ Result<Character> buildCharacter(SourceScene source, const std::filesystem::path
     const std::vector<MeshInstance> instances = bindMeshes(source, tree, character.warnings);
     std::vector<dmat4> bind = solveBindPose(tree, instances);
     character.meshes = convertMeshes(tree, instances, bind, character.skeleton.skinWeight, character.warnings);
+    turnOutwards(character.meshes, character.warnings);
     const UnitsAndAxes units =
         settleUnits(source.convention, pointsOfFigure(character, bind), options, character.warnings);
     character.units = units.info;
-    bringAlong(units, character.skeleton.skinWeight, bind);
+    bringAlong(units, character.skeleton, bind);
     settleMeshes(units, character.meshes);
     for (SkinnedMesh& mesh : character.meshes)
         orderForSkinning(mesh);

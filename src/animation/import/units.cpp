@@ -104,7 +104,8 @@ void settleUp(const SourceConvention& convention, const Extents& box, const Impo
 
 // The usual unit under which the figure is as tall as a person, in metres.
 std::optional<double> usualUnit(double height) {
-    constexpr std::array<double, 8> kUnits = {1.0, 0.01, 0.1, 0.0254, 0.001, 10.0, 100.0, 1000.0};
+    constexpr double kCmu = 0.0254 / 0.45;  // of the CMU motion capture database: inches, divided by 0.45
+    constexpr std::array<double, 9> kUnits = {1.0, 0.01, 0.1, 0.0254, 0.001, kCmu, 10.0, 100.0, 1000.0};
     for (const auto& [least, most] : {std::pair{1.4, 2.1}, std::pair{0.8, 2.5}}) {
         for (const double unit : kUnits) {
             if (height * unit >= least && height * unit <= most) return unit;

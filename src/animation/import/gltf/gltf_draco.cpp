@@ -33,8 +33,8 @@ std::vector<T> valuesOf(const draco::Mesh& mesh, const json& ids, const char* na
 
 }  // namespace
 
-void readDraco(GltfFile& file, const json& primitive, const json& block, SourceMesh& mesh,
-               std::vector<std::uint32_t>& joints, std::vector<float>& weights) {
+void readDraco(GltfFile& file, const json& block, SourceMesh& mesh, std::vector<std::uint32_t>& joints,
+               std::vector<float>& weights) {
     const std::optional<int> view = indexOf(block, "bufferView", file.count("bufferViews"));
     const json* ids = member(block, "attributes");
     if (!view || ids == nullptr) throw Damage{"a compressed mesh has no data"};
@@ -67,7 +67,6 @@ void readDraco(GltfFile& file, const json& primitive, const json& block, SourceM
     joints = valuesOf<std::uint32_t>(source, *ids, "JOINTS_0", 4);
     weights = valuesOf<float>(source, *ids, "WEIGHTS_0", 4);
     if (joints.size() != weights.size() || joints.size() != 4 * mesh.positions.size()) joints.clear();
-    static_cast<void>(primitive);
 }
 
 }  // namespace lutka::animation::rig_import::gltf

@@ -151,7 +151,7 @@ std::optional<SourceMesh> readPrimitive(GltfFile& file, const json& primitive, c
     std::vector<VertexSkins> sets;
     if (const json* block = extensionOf(primitive, "KHR_draco_mesh_compression")) {
         VertexSkins skins;
-        readDraco(file, primitive, *block, mesh, skins.joints, skins.weights);
+        readDraco(file, *block, mesh, skins.joints, skins.weights);
         if (!skins.joints.empty()) sets.push_back(std::move(skins));
     } else {
         const std::optional<int> positions = attribute(file, primitive, "POSITION");
