@@ -18,6 +18,9 @@ LUTKA_RUN_PACKAGES=(ffmpeg fonts-dejavu-core)
 LUTKA_TEST_PACKAGES=(clang-format-14 clang-tidy-14 xvfb xauth xdotool python3 python3-numpy python3-jsonschema)
 
 LUTKA_PACKAGE_PACKAGES=(dpkg-dev help2man)
+# Readers of what is exported (tests/witness). npm comes with the nodejs of other sources than Debian.
+LUTKA_WITNESS_PACKAGES=(libmujoco-dev)
+command -v npm >/dev/null || LUTKA_WITNESS_PACKAGES+=(nodejs npm)
 LUTKA_FUZZ_PACKAGES=(clang-14 libclang-rt-14-dev)
 
 say() { printf '\033[1m==> %s\033[0m\n' "$*" >&2; }

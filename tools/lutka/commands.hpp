@@ -5,6 +5,7 @@
 /// One function a command: adds its options to `app` and a callback that runs it. A callback ends by exitWith().
 namespace lutka::cli {
 
+void addExport(const Command& app);
 void addInspect(const Command& app);
 void addMap(const Command& app);
 void addBuild(const Command& app);

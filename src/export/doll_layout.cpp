@@ -1,0 +1,57 @@
+#include "export/doll_layout.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "animation/humanoid/roles.hpp"
+#include "physics/collision/shape.hpp"
+#include "physics/profile/constraint_frames.hpp"
+
+namespace lutka::exporting {
+
+using physics::ConstraintProfile;
+using physics::RagdollProfile;
+
+quat zUpFromStandard() {
+    return {0.5F, 0.5F, 0.5F, 0.5F};  // x → y, y → z, z → x
+}
+
+RigidTransform neutralParentFromChild(const ConstraintProfile& constraint) {
+    return constraint.parentFromFrame * inverse(constraint.childFromFrame);
+}
+
+std::vector<RigidTransform> neutralPose(const ExportSource& source) {
+    std::vector<RigidTransform> pose{source.rig.bindModelFromBody[0]};
+    for (const ConstraintProfile& constraint : source.profile.constraints) {
+        RigidTransform body = pose[constraint.parent] * neutralParentFromChild(constraint);
+        body.rotation = glm::normalize(body.rotation);
+        pose.push_back(body);
+    }
+    return pose;
+}
+
+quat bindRotation(const ExportSource& source, const ConstraintProfile& constraint) {
+    return physics::relativeFrame(
+        constraint, {source.rig.bindModelFromBody[constraint.parent], source.rig.bindModelFromBody[constraint.child]});
+}
+
+float bindHingeAngle(const ExportSource& source, const ConstraintProfile& constraint) {
+    const quat relative = bindRotation(source, constraint);
+    return std::remainder(2.0F * std::atan2(relative.z, relative.w), 2.0F * kPi);
+}
+
+float lowestPoint(const RagdollProfile& profile, std::span<const RigidTransform> spaceFromBody, const vec3& up) {
+    float lowest = std::numeric_limits<float>::max();
+    for (std::size_t i = 0; i < spaceFromBody.size(); ++i) {
+        const vec3 bodyUp = glm::conjugate(spaceFromBody[i].rotation) * up;
+        const float reach = physics::supportExtent(profile.bodies[i].shape, bodyUp);
+        lowest = std::min(lowest, glm::dot(spaceFromBody[i].translation, up) - reach);
+    }
+    return lowest;
+}
+
+std::string bodyName(const RagdollProfile& profile, int body) {
+    return std::string(animation::roleName(profile.bodies[body].role));
+}
+
+}  // namespace lutka::exporting

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "export/export_ragdoll.hpp"
+
+namespace lutka::exporting {
+
+/// The z-up world of robotics: x forward, y left, z up. Takes the standard stance (Y up, facing +Z, left at +X) to it.
+[[nodiscard]] quat zUpFromStandard();
+
+/// Bodies in the neutral pose of all constraints, where both frames of each agree, in the model's space; the first
+/// body stands as in the bind pose. In it every angle of every joint is zero.
+[[nodiscard]] std::vector<RigidTransform> neutralPose(const ExportSource& source);
+
+/// The child's body in the parent's, in the neutral pose of their constraint.
+[[nodiscard]] RigidTransform neutralParentFromChild(const physics::ConstraintProfile& constraint);
+
+/// R_parentFrame⁻¹ · R_childFrame in the bind pose.
+[[nodiscard]] quat bindRotation(const ExportSource& source, const physics::ConstraintProfile& constraint);
+
+/// The hinge's angle in the bind pose, radians.
+[[nodiscard]] float bindHingeAngle(const ExportSource& source, const physics::ConstraintProfile& constraint);
+
+/// How far the lowest point of all shapes lies along `up` (unit, in the space of the poses) from the origin, metres.
+[[nodiscard]] float lowestPoint(const physics::RagdollProfile& profile, std::span<const RigidTransform> spaceFromBody,
+                                const vec3& up);
+
+/// The role's name of a body: unique in a profile, and an identifier in every language.
+[[nodiscard]] std::string bodyName(const physics::RagdollProfile& profile, int body);
+
+}  // namespace lutka::exporting

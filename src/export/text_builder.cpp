@@ -1,0 +1,41 @@
+#include "export/text_builder.hpp"
+
+namespace lutka::exporting {
+
+std::string xmlEscaped(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            default:
+                out += static_cast<unsigned char>(c) < 0x20 ? '_' : c;
+        }
+    }
+    return out;
+}
+
+std::string quoted(std::string_view text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') {
+            out += '\\';
+            out += c;
+        } else {
+            out += static_cast<unsigned char>(c) < 0x20 ? '_' : c;
+        }
+    }
+    return out + '"';
+}
+
+}  // namespace lutka::exporting

@@ -1,0 +1,208 @@
+#include "export/write_mjcf.hpp"
+
+#include <glm/geometric.hpp>
+
+#include "export/doll_layout.hpp"
+#include "export/text_builder.hpp"
+#include "export/three_hinges.hpp"
+
+namespace lutka::exporting {
+namespace {
+
+using physics::BodyProfile;
+using physics::BodyShape;
+using physics::ConstraintProfile;
+using physics::RagdollProfile;
+
+constexpr float kFloorFriction = 0.8F;
+
+class MjcfWriter {
+  public:
+    explicit MjcfWriter(const ExportSource& source)
+        : source_(source), profile_(source.profile), children_(profile_.bodies.size()) {
+        for (const ConstraintProfile& constraint : profile_.constraints)
+            children_[constraint.parent].push_back(constraint.child);
+    }
+
+    Exported write() {
+        text_.line("<mujoco model=\"{}\">", xmlEscaped(profile_.name));
+        text_.indent();
+        header();
+        world();
+        excludes();
+        sums();
+        keyframe();
+        text_.outdent();
+        text_.line("</mujoco>");
+        return {text_.take(), std::move(warnings_)};
+    }
+
+  private:
+    void header() {
+        text_.line("<compiler angle=\"radian\" inertiafromgeom=\"false\"/>");
+        text_.line("<option timestep=\"0.002\" gravity=\"0 0 -9.81\"/>");
+        text_.line("<default>");
+        text_.line("  <joint armature=\"0\" damping=\"0\"/>");
+        text_.line("  <geom condim=\"3\" friction=\"{} 0.005 0.0001\"/>", numberText(kFloorFriction));
+        text_.line("</default>");
+    }
+
+    void world() {
+        text_.line("<worldbody>");
+        text_.indent();
+        text_.line("<light pos=\"0 0 4\" dir=\"0 0 -1\" directional=\"true\"/>");
+        text_.line("<geom name=\"floor\" type=\"plane\" size=\"0 0 1\" rgba=\"0.5 0.5 0.5 1\"/>");
+        body(0, standing(neutralPose(source_)));
+        text_.outdent();
+        text_.line("</worldbody>");
+    }
+
+    // The first body in the z-up world, with the lowest point of the whole pose on the floor.
+    RigidTransform standing(const std::vector<RigidTransform>& modelFromBody) const {
+        const quat worldFromModel = glm::normalize(zUpFromStandard() * profile_.standardFromModel);
+        const vec3 up = glm::conjugate(worldFromModel) * vec3(0, 0, 1);
+        const float lowest = lowestPoint(profile_, modelFromBody, up);
+        const RigidTransform& hips = modelFromBody[0];
+        return {glm::normalize(worldFromModel * hips.rotation), vec3(0, 0, glm::dot(hips.translation, up) - lowest)};
+    }
+
+    void body(int index, const RigidTransform& parentFromBody) {
+        const BodyProfile& b = profile_.bodies[index];
+        text_.line("<body name=\"{}\" pos=\"{}\" quat=\"{}\">", bodyName(profile_, index),
+                   vectorText(parentFromBody.translation), quaternionTextWxyz(parentFromBody.rotation));
+        text_.indent();
+        if (index == 0) {
+            text_.line("<freejoint name=\"root\"/>");
+        } else {
+            joints(profile_.constraints[index - 1]);
+        }
+        text_.line("<inertial pos=\"0 0 0\" mass=\"{}\" diaginertia=\"{}\"/>", numberText(b.massKg),
+                   vectorText(b.inertia));
+        shape(index, b.shape);
+        for (const int child : children_[index])
+            body(child, neutralParentFromChild(profile_.constraints[child - 1]));
+        text_.outdent();
+        text_.line("</body>");
+    }
+
+    void shape(int index, const BodyShape& s) {
+        const std::string name = bodyName(profile_, index);
+        switch (s.kind) {
+            case BodyShape::Kind::capsule:
+                // Theirs lies along z.
+                text_.line(
+                    "<geom name=\"{}\" type=\"capsule\" size=\"{} {}\" quat=\"0.70710678118654752 "
+                    "-0.70710678118654752 0 0\"/>",
+                    name, numberText(s.radius), numberText(s.halfLength));
+                return;
+            case BodyShape::Kind::sphere:
+                text_.line("<geom name=\"{}\" type=\"sphere\" size=\"{}\"/>", name, numberText(s.radius));
+                return;
+            case BodyShape::Kind::box:
+                text_.line("<geom name=\"{}\" type=\"box\" size=\"{}\"/>", name, vectorText(s.halfExtents));
+                return;
+        }
+    }
+
+    void hinge(const std::string& name, const ConstraintProfile& c, const vec3& axis, float low, float high) {
+        text_.line(
+            "<joint name=\"{}\" type=\"hinge\" pos=\"{}\" axis=\"{}\" limited=\"true\" range=\"{} {}\" "
+            "frictionloss=\"{}\"/>",
+            name, vectorText(c.childFromFrame.translation), vectorText(c.childFromFrame.rotation * axis),
+            numberText(low), numberText(high), numberText(c.frictionNm));
+    }
+
+    void joints(const ConstraintProfile& c) {
+        const std::string name = bodyName(profile_, c.child);
+        if (c.kind == ConstraintProfile::Kind::hinge) {
+            hinge(name, c, {0, 0, 1}, c.hinge.lower, c.hinge.upper);
+            return;
+        }
+        const ThreeHinges three = threeHinges(c.cone);
+        const char* const first = three.yFirst ? "y" : "z";
+        const char* const second = three.yFirst ? "z" : "y";
+        hinge(name + "_" + first, c, three.yFirst ? vec3(0, 1, 0) : vec3(0, 0, 1), -three.firstMax, three.firstMax);
+        hinge(name + "_" + second, c, three.yFirst ? vec3(0, 0, 1) : vec3(0, 1, 0), -three.secondMax, three.secondMax);
+        hinge(name + "_x", c, {1, 0, 0}, -three.twistMax, three.twistMax);
+        warnings_.push_back(
+            fmt::format("{}: the elliptic cone is an octagon, up to {:.1f} degrees wider (a rectangle, {:.1f}, for who "
+                        "does not read tendons); twist is up to {:.1f} degrees off at the rim",
+                        name, degrees(three.octagonExcess), degrees(three.rectangleExcess), degrees(three.twistError)));
+        if (three.secondMax > radians(80.0F)) {
+            warnings_.push_back(
+                fmt::format("{}: swings of {:.0f} degrees come near the right angle, where three hinges lock", name,
+                            degrees(three.secondMax)));
+        }
+    }
+
+    void excludes() {
+        text_.line("<contact>");
+        for (const ConstraintProfile& c : profile_.constraints)
+            exclude(c.parent, c.child);
+        for (const auto& [first, second] : profile_.filteredPairs)
+            exclude(first, second);
+        text_.line("</contact>");
+    }
+    void exclude(int a, int b) {
+        text_.line("  <exclude body1=\"{}\" body2=\"{}\"/>", bodyName(profile_, a), bodyName(profile_, b));
+    }
+
+    // The octagon's slanting sides: sums of the two swings.
+    void sums() {
+        text_.line("<tendon>");
+        text_.indent();
+        for (const ConstraintProfile& c : profile_.constraints) {
+            if (c.kind == ConstraintProfile::Kind::hinge) continue;
+            const ThreeHinges three = threeHinges(c.cone);
+            const std::string name = bodyName(profile_, c.child);
+            for (const float sign : {1.0F, -1.0F}) {
+                text_.line("<fixed name=\"{}_{}\" limited=\"true\" range=\"-1 1\">", name,
+                           sign > 0.0F ? "sum" : "difference");
+                text_.line("  <joint joint=\"{}_{}\" coef=\"{}\"/>", name, three.yFirst ? "y" : "z",
+                           numberText(three.sumFirst));
+                text_.line("  <joint joint=\"{}_{}\" coef=\"{}\"/>", name, three.yFirst ? "z" : "y",
+                           numberText(sign * three.sumSecond));
+                text_.line("</fixed>");
+            }
+        }
+        text_.outdent();
+        text_.line("</tendon>");
+    }
+
+    // The model's own bind pose; the bodies above stand in the neutral pose, where all angles are zero. Values come in
+    // the order of the tree, as the bodies are written.
+    void keyframe() {
+        const RigidTransform root = standing(source_.rig.bindModelFromBody);
+        std::string qpos = vectorText(root.translation) + " " + quaternionTextWxyz(root.rotation);
+        appendAngles(0, qpos);
+        text_.line("<keyframe>");
+        text_.line("  <key name=\"bind\" qpos=\"{}\"/>", qpos);
+        text_.line("</keyframe>");
+    }
+    void appendAngles(int body, std::string& qpos) const {
+        for (const int child : children_[body]) {
+            const ConstraintProfile& c = profile_.constraints[child - 1];
+            if (c.kind == ConstraintProfile::Kind::hinge) {
+                qpos += " " + numberText(bindHingeAngle(source_, c));
+            } else {
+                for (const float angle : hingeAngles(bindRotation(source_, c), threeHinges(c.cone).yFirst))
+                    qpos += " " + numberText(angle);
+            }
+            appendAngles(child, qpos);
+        }
+    }
+
+    const ExportSource& source_;
+    const RagdollProfile& profile_;
+    std::vector<std::vector<int>> children_;
+    TextBuilder text_;
+    std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+Exported writeMjcf(const ExportSource& source) {
+    return MjcfWriter(source).write();
+}
+
+}  // namespace lutka::exporting

@@ -1,0 +1,25 @@
+#include "export/doll_source.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "support/catch.hpp"
+#include "support/dolls.hpp"
+#include "support/rigs.hpp"
+
+namespace lutka::test {
+
+DollSource::DollSource() : DollSource(makeDoll()) {}
+
+DollSource::DollSource(physics::RagdollProfile p) : character(makeBiped()), profile(std::move(p)) {
+    auto bound = physics::bindRig(profile, character.skeleton);
+    REQUIRE(bound);
+    rig = std::move(bound).value();
+}
+
+float poseDifference(const RigidTransform& a, const RigidTransform& b) {
+    const float turn = std::min(glm::length(a.rotation - b.rotation), glm::length(a.rotation + b.rotation));
+    return std::max(glm::distance(a.translation, b.translation), turn);
+}
+
+}  // namespace lutka::test

@@ -1,0 +1,65 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+#include <string>
+
+#include "commands.hpp"
+#include "core/files.hpp"
+#include "export/export_ragdoll.hpp"
+#include "options.hpp"
+
+namespace lutka::cli {
+namespace {
+
+struct Options {
+    RagdollOptions ragdoll;
+    std::filesystem::path out;
+    std::string format;  // empty: by the ending of `out`
+};
+
+std::vector<std::string> formatNames() {
+    std::vector<std::string> names;
+    for (const exporting::ExportFormatInfo& info : exporting::exportFormats())
+        names.emplace_back(info.name);
+    return names;
+}
+
+exporting::ExportFormat formatOf(const Options& options) {
+    const auto format =
+        options.format.empty() ? exporting::exportFormatOf(options.out) : exporting::exportFormatNamed(options.format);
+    if (format) return *format;
+    leave({ErrorCode::usage, fmt::format("the ending of '{}' names no format", options.out.string()), "--output",
+           "add --format, or end the name as `lutka export --help` says"});
+}
+
+void run(Options& options) {
+    const exporting::ExportFormat format = formatOf(options);
+    const auto asset = orLeave(scene::loadRagdoll(options.ragdoll.model.model, options.ragdoll.load()));
+    printWarnings(*asset);
+    const auto exported = orLeave(exporting::exportRagdoll(format, {asset->character, asset->profile, asset->rig}));
+    for (const std::string& warning : exported.warnings)
+        spdlog::warn("{}", warning);
+    orLeave(writeFileAtomically(options.out, exported.bytes));
+    if (!isStandardOutput(options.out)) fmt::print("  wrote {}\n", options.out.string());
+}
+
+std::string formatHelp() {
+    std::string help = "the format; default: by the ending.";
+    for (const exporting::ExportFormatInfo& info : exporting::exportFormats())
+        help += fmt::format(" {} ({}): {}.", info.name, info.ending, info.summary);
+    return help;
+}
+
+}  // namespace
+
+void addExport(const Command& app) {
+    auto options = std::make_shared<Options>();
+    const Command command = app.add("export", "Write the ragdoll in another engine's format");
+    options->ragdoll.addTo(command);
+    command.option("-o,--output", options->out, "the file; its ending chooses the format; - for stdout").required();
+    command.option("--format", options->format, formatHelp()).oneOf(formatNames());
+    command.onRun([options] { run(*options); });
+}
+
+}  // namespace lutka::cli
