@@ -50,6 +50,12 @@ float lowestPoint(const RagdollProfile& profile, std::span<const RigidTransform>
     return lowest;
 }
 
+RigidTransform standingFromModel(const ExportSource& source) {
+    const quat& turn = source.profile.standardFromModel;
+    const vec3 up = glm::conjugate(turn) * vec3(0, 1, 0);
+    return {turn, vec3(0, -lowestPoint(source.profile, source.rig.bindModelFromBody, up), 0)};
+}
+
 std::string bodyName(const RagdollProfile& profile, int body) {
     return std::string(animation::roleName(profile.bodies[body].role));
 }

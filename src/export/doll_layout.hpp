@@ -27,6 +27,9 @@ namespace lutka::exporting {
 [[nodiscard]] float lowestPoint(const physics::RagdollProfile& profile, std::span<const RigidTransform> spaceFromBody,
                                 const vec3& up);
 
+/// Turns the figure upright and puts the lowest point of its bodies in the bind pose on height 0 (Y up).
+[[nodiscard]] RigidTransform standingFromModel(const ExportSource& source);
+
 /// The role's name of a body: unique in a profile, and an identifier in every language.
 [[nodiscard]] std::string bodyName(const physics::RagdollProfile& profile, int body);
 

@@ -4,13 +4,27 @@
 #include <array>
 #include <cctype>
 
+#include "export/write_blender.hpp"
+#include "export/write_bullet.hpp"
+#include "export/write_gltf.hpp"
+#include "export/write_godot.hpp"
 #include "export/write_mjcf.hpp"
+#include "export/write_urdf.hpp"
+#include "export/write_usd.hpp"
 
 namespace lutka::exporting {
 namespace {
 
 constexpr std::array kFormats{
     ExportFormatInfo{ExportFormat::mjcf, "mjcf", ".xml", "MuJoCo (Isaac and Newton import it)"},
+    ExportFormatInfo{ExportFormat::glb, "glb", ".glb", "glTF with KHR_physics_rigid_bodies, experimental"},
+    ExportFormatInfo{ExportFormat::gltf, "gltf", ".gltf", "the same as one text file"},
+    ExportFormatInfo{ExportFormat::godot4, "godot", ".tscn", "a scene of Godot 4"},
+    ExportFormatInfo{ExportFormat::godot3, "godot3", ".tscn", "a scene of Godot 3"},
+    ExportFormatInfo{ExportFormat::blender, "blender", ".py", "a script that builds it in Blender"},
+    ExportFormatInfo{ExportFormat::urdf, "urdf", ".urdf", "a robot of ROS"},
+    ExportFormatInfo{ExportFormat::bullet, "bullet", ".cpp", "C++ that builds it with plain Bullet"},
+    ExportFormatInfo{ExportFormat::usd, "usd", ".usda", "UsdPhysics, unverified"},
 };
 
 std::string lower(std::string text) {
@@ -45,6 +59,22 @@ Result<Exported> exportRagdoll(ExportFormat format, const ExportSource& source) 
     switch (format) {
         case ExportFormat::mjcf:
             return writeMjcf(source);
+        case ExportFormat::glb:
+            return writeGltf(source, GltfKind::binary);
+        case ExportFormat::gltf:
+            return writeGltf(source, GltfKind::text);
+        case ExportFormat::godot4:
+            return writeGodot(source, GodotVersion::four);
+        case ExportFormat::godot3:
+            return writeGodot(source, GodotVersion::three);
+        case ExportFormat::blender:
+            return writeBlender(source);
+        case ExportFormat::urdf:
+            return writeUrdf(source);
+        case ExportFormat::bullet:
+            return writeBullet(source);
+        case ExportFormat::usd:
+            return writeUsd(source);
     }
     return Error{ErrorCode::internal, "there is no writer for this format", "", ""};
 }

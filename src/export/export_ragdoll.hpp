@@ -22,7 +22,7 @@ struct ExportSource {
     const physics::Rig& rig;
 };
 
-enum class ExportFormat { mjcf };
+enum class ExportFormat { mjcf, glb, gltf, godot4, godot3, blender, urdf, bullet, usd };
 
 /// A format as users meet it.
 struct ExportFormatInfo {

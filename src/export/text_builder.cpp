@@ -25,7 +25,7 @@ std::string xmlEscaped(std::string_view text) {
     return out;
 }
 
-std::string quoted(std::string_view text) {
+std::string quotedText(std::string_view text) {
     std::string out = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\') {

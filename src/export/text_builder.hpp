@@ -55,6 +55,6 @@ class TextBuilder {
 [[nodiscard]] std::string xmlEscaped(std::string_view text);
 /// Between double quotes in C, C#, Python, JavaScript, JSON and Godot's scenes: backslash, quote and control characters
 /// are escaped.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string quotedText(std::string_view text);
 
 }  // namespace lutka::exporting

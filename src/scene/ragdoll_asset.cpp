@@ -1,5 +1,6 @@
 #include "scene/ragdoll_asset.hpp"
 
+#include "export/read_gltf_physics.hpp"
 #include "physics/fit/rebind.hpp"
 #include "physics/profile/profile_io.hpp"
 
@@ -33,6 +34,21 @@ Result<void> fitProfile(RagdollAsset& asset, const LoadOptions& options) {
     return {};
 }
 
+// In place of the fitted one.
+void takeRagdollOfFile(RagdollAsset& asset) {
+    const auto warn = [&](const std::string& why) {
+        asset.character.warnings.push_back("the physics in the file is no ragdoll of this figure (" + why +
+                                           "); one was fitted");
+    };
+    auto found = exporting::readGltfPhysics(asset.character.file, asset.character, asset.map, asset.profile);
+    if (!found) return warn(found.error().message);
+    if (!found.value()) return;
+    const auto rig = physics::bindRig(*found.value(), asset.character.skeleton);
+    if (!rig) return warn(rig.error().message);
+    asset.profile = *std::move(found).value();
+    asset.fromModel = true;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<RagdollAsset>> loadRagdoll(const std::filesystem::path& model, const LoadOptions& options) {
@@ -48,6 +64,7 @@ Result<std::unique_ptr<RagdollAsset>> makeRagdoll(animation::Character character
     if (!asset->map.humanoid) return notHumanoid(asset->character, asset->map);
     const Result<void> profile = options.profile ? readProfile(*asset, options) : fitProfile(*asset, options);
     if (!profile) return profile.error();
+    if (!options.profile && !options.refit && !asset->character.file.empty()) takeRagdollOfFile(*asset);
     auto rig = physics::bindRig(asset->profile, asset->character.skeleton);
     if (!rig) return rig.error();
     asset->rig = std::move(rig).value();

@@ -20,7 +20,8 @@ struct RagdollAsset {
     animation::HumanoidMap map;
     physics::RagdollProfile profile;
     physics::Rig rig;
-    bool rebound = false;  ///< The profile was made for another rig and was bound to this one by role.
+    bool fromModel = false;  ///< The model's own file brought the ragdoll along.
+    bool rebound = false;    ///< The profile was made for another rig and was bound to this one by role.
 };
 
 struct LoadOptions {
@@ -28,12 +29,14 @@ struct LoadOptions {
     animation::MapOptions map;
     physics::FitOptions fit;
     std::optional<std::filesystem::path> profile;  ///< Set: this file's profile instead of a fitted one.
+    bool refit = false;       ///< A ragdoll that the model's own file brings along (glTF) is not taken.
     bool keepShapes = false;  ///< A profile of another rig keeps its shapes; otherwise they are fitted to this one.
 };
 
-/// import → map → fit (or read the profile and bind it: by joints when it was made for this rig, else by role). Fails
-/// with ErrorCode::input: the file can't be read, isn't a humanoid (the reason is the mapper's), or the profile doesn't
-/// fit the rig.
+/// import → map → fit (or take the ragdoll that the file brings along; or read the profile and bind it: by joints when
+/// it was made for this rig, else by role). A ragdoll in the file that is none of this figure is told as a warning.
+/// Fails with ErrorCode::input: the file can't be read, isn't a humanoid (the reason is the mapper's), or the profile
+/// doesn't fit the rig.
 [[nodiscard]] Result<std::unique_ptr<RagdollAsset>> loadRagdoll(const std::filesystem::path& model,
                                                                 const LoadOptions& options = {});
 

@@ -19,7 +19,7 @@ LUTKA_TEST_PACKAGES=(clang-format-14 clang-tidy-14 xvfb xauth xdotool python3 py
 
 LUTKA_PACKAGE_PACKAGES=(dpkg-dev help2man)
 # Readers of what is exported (tests/witness). npm comes with the nodejs of other sources than Debian.
-LUTKA_WITNESS_PACKAGES=(libmujoco-dev)
+LUTKA_WITNESS_PACKAGES=(libmujoco-dev godot3-server blender liburdfdom-tools)
 command -v npm >/dev/null || LUTKA_WITNESS_PACKAGES+=(nodejs npm)
 LUTKA_FUZZ_PACKAGES=(clang-14 libclang-rt-14-dev)
 

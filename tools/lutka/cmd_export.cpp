@@ -35,6 +35,7 @@ exporting::ExportFormat formatOf(const Options& options) {
 
 void run(Options& options) {
     const exporting::ExportFormat format = formatOf(options);
+    options.ragdoll.model.textures = format == exporting::ExportFormat::glb || format == exporting::ExportFormat::gltf;
     const auto asset = orLeave(scene::loadRagdoll(options.ragdoll.model.model, options.ragdoll.load()));
     printWarnings(*asset);
     const auto exported = orLeave(exporting::exportRagdoll(format, {asset->character, asset->profile, asset->rig}));

@@ -127,6 +127,8 @@ void RagdollOptions::addTo(const Command& app, bool modelRequired) {
     app.flag("--keep-shapes", keepShapes,
              "with the profile of another rig: keep its shapes instead of fitting them anew")
         .needs(profileOption);
+    app.flag("--refit", refit, "fit anew although the model's own file brings a ragdoll along (glTF)")
+        .excludes(profileOption);
     app.option("--mass", massKg, "total mass in kilograms").range(0.1, 1e5).excludes(profileOption).showDefault();
     app.option("--mass-table", massTable, "shares of the segments")
         .oneOf(wordsOf(kMassTables))
@@ -149,6 +151,7 @@ scene::LoadOptions RagdollOptions::load() const {
     options.import = model.import();
     options.profile = profile;
     options.keepShapes = keepShapes;
+    options.refit = refit;
     options.fit.totalMassKg = massKg;
     options.fit.massTable = kMassTables.at(massTable);
     options.fit.massPreset = kMassPresets.at(massPreset);
@@ -290,6 +293,8 @@ void printWarnings(const animation::HumanoidMap& map) {
 void printWarnings(const scene::RagdollAsset& asset) {
     printWarnings(asset.character);
     printWarnings(asset.map);
+    if (asset.fromModel)
+        spdlog::warn("{}: the ragdoll is the file's own; --refit fits a new one", asset.character.file.string());
     if (asset.rebound)
         spdlog::warn("{}: the profile was made for another rig and is bound by role", asset.character.file.string());
 }

@@ -52,6 +52,7 @@ struct RagdollOptions {
     ModelOptions model;
     std::optional<std::filesystem::path> profile;
     bool keepShapes = false;
+    bool refit = false;
     float massKg = 75.0F;
     std::string massTable = "de-leva-male";
     std::string massPreset = "anatomical";

@@ -71,14 +71,19 @@ Result<std::string> serialise(tinygltf::Model& model) {
 
 }  // namespace
 
-Result<void> writeGlb(const std::filesystem::path& file, const Character& character, std::span<const Clip> clips,
-                      const RigidTransform& worldFromModel) {
+Result<std::string> glbBytes(const std::filesystem::path& name, const Character& character, std::span<const Clip> clips,
+                             const RigidTransform& worldFromModel) {
     tinygltf::Model model = buildModel(character, clips, worldFromModel);
     if (!model.buffers.empty() && model.buffers[0].data.size() > kMaxBytes) {
-        return Error{ErrorCode::output, "a .glb file can't hold more than 4 GiB", file.string(),
+        return Error{ErrorCode::output, "a .glb file can't hold more than 4 GiB", name.string(),
                      "write fewer or shorter clips"};
     }
-    const Result<std::string> bytes = serialise(model);
+    return serialise(model);
+}
+
+Result<void> writeGlb(const std::filesystem::path& file, const Character& character, std::span<const Clip> clips,
+                      const RigidTransform& worldFromModel) {
+    const Result<std::string> bytes = glbBytes(file, character, clips, worldFromModel);
     if (!bytes) return bytes.error();
     return writeFileAtomically(file, bytes.value());
 }

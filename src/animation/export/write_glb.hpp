@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 
 #include "animation/character.hpp"
 #include "core/result.hpp"
@@ -13,5 +14,10 @@ namespace lutka::animation {
 /// or not at all; ErrorCode::output on failure.
 [[nodiscard]] Result<void> writeGlb(const std::filesystem::path& file, const Character& character,
                                     std::span<const Clip> clips, const RigidTransform& worldFromModel = {});
+
+/// The same as bytes. Node 0 is the root node, node 1 + j is joint j of the skeleton. Fails as writeGlb() does; `name`
+/// stands for the file in messages.
+[[nodiscard]] Result<std::string> glbBytes(const std::filesystem::path& name, const Character& character,
+                                           std::span<const Clip> clips, const RigidTransform& worldFromModel = {});
 
 }  // namespace lutka::animation

@@ -76,6 +76,39 @@ std::vector<int> rootsOf(const GltfFile& file) {
     return roots;
 }
 
+// The node's part of KHR_physics_rigid_bodies; an empty object where it has none.
+json physicsOf(const json& node) {
+    const auto extensions = node.find("extensions");
+    if (extensions == node.end() || !extensions->is_object()) return json::object();
+    const auto physics = extensions->find("KHR_physics_rigid_bodies");
+    return physics != extensions->end() && physics->is_object() ? *physics : json::object();
+}
+
+// The frames and colliders of KHR_physics_rigid_bodies: leaves that say where a shape or a joint of a body is, not
+// what moves the skin. As joints they would look like fingers.
+std::vector<bool> physicsFrames(const GltfFile& file) {
+    std::vector<bool> frames(file.count("nodes"), false);
+    const int count = static_cast<int>(frames.size());
+    for (int i = 0; i < count; ++i) {
+        const json physics = physicsOf(file.element("nodes", i));
+        if (physics.contains("collider") || physics.contains("joint")) frames[i] = true;
+        const json joint = physics.value("joint", json());
+        const json other = joint.is_object() ? joint.value("connectedNode", json()) : json();
+        if (other.is_number_unsigned() && other.get<std::size_t>() < frames.size())
+            frames[other.get<std::size_t>()] = true;
+    }
+    for (int i = 0; i < count; ++i) {
+        const json& node = file.element("nodes", i);
+        const bool moves = physicsOf(node).contains("motion");
+        if (moves || node.contains("mesh") || node.contains("children") || node.contains("camera")) frames[i] = false;
+    }
+    for (int skin = 0; skin < static_cast<int>(file.count("skins")); ++skin) {
+        for (const int joint : indicesOf(file.element("skins", skin), "joints", frames.size()))
+            frames[joint] = false;
+    }
+    return frames;
+}
+
 [[noreturn]] void refuse(const Error& error) {
     throw Damage{error.message, error.mend};
 }
@@ -90,6 +123,7 @@ NodeMap addNodes(const GltfFile& file, SourceScene& out) {
     };
     const std::size_t count = file.count("nodes");
     const std::vector<int> roots = rootsOf(file);
+    const std::vector<bool> leftOut = physicsFrames(file);
     NodeMap map(count, -1);
     std::vector<Pending> pending;
     int parent = -1;
@@ -115,8 +149,9 @@ NodeMap addNodes(const GltfFile& file, SourceScene& out) {
         map[next.node] = static_cast<int>(out.nodes.size());
         out.nodes.push_back(nodeOf(source, next.node, next.parent));
         const std::vector<int> children = indicesOf(source, "children", count);
-        for (auto child = children.rbegin(); child != children.rend(); ++child)
-            pending.push_back({*child, map[next.node], next.depth + 1});
+        for (auto child = children.rbegin(); child != children.rend(); ++child) {
+            if (!leftOut[*child]) pending.push_back({*child, map[next.node], next.depth + 1});
+        }
     }
     return map;
 }

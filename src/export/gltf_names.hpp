@@ -1,0 +1,10 @@
+#pragma once
+
+namespace lutka::exporting {
+
+inline constexpr const char* kPhysicsExtension = "KHR_physics_rigid_bodies";
+inline constexpr const char* kShapesExtension = "KHR_implicit_shapes";
+/// In the extras of a motion that we write: the body's role.
+inline constexpr const char* kRoleKey = "lutkaRole";
+
+}  // namespace lutka::exporting

@@ -1,0 +1,186 @@
+#include "export/write_gltf.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <map>
+
+#include "animation/export/write_glb.hpp"
+#include "core/json/json_text.hpp"
+#include "export/doll_layout.hpp"
+#include "export/glb_container.hpp"
+#include "export/gltf_names.hpp"
+
+namespace lutka::exporting {
+namespace {
+
+using physics::BodyProfile;
+using physics::BodyShape;
+using physics::ConstraintProfile;
+using physics::RagdollProfile;
+using Json = nlohmann::ordered_json;
+
+constexpr float kFriction = 0.8F;
+// A drive reaches the torque of our dry friction at this speed.
+constexpr float kSlipSpeed = 0.1F;  // rad/s
+
+Json lockedLinear() {
+    return Json{{"linearAxes", {0, 1, 2}}, {"min", 0}, {"max", 0}};
+}
+Json angular(const std::vector<int>& axes, float low, float high) {
+    return Json{{"angularAxes", axes}, {"min", jsonNumber(low)}, {"max", jsonNumber(high)}};
+}
+
+Json shapeJson(const BodyShape& shape) {
+    switch (shape.kind) {
+        case BodyShape::Kind::capsule:
+            if (shape.halfLength <= 0.0F) break;  // a height of 0 is refused there: a sphere
+            return Json{{"type", "capsule"},
+                        {"capsule",
+                         {{"height", jsonNumber(2.0F * shape.halfLength)},
+                          {"radiusBottom", jsonNumber(shape.radius)},
+                          {"radiusTop", jsonNumber(shape.radius)}}}};
+        case BodyShape::Kind::box:
+            return Json{{"type", "box"}, {"box", {{"size", jsonVector(2.0F * shape.halfExtents)}}}};
+        case BodyShape::Kind::sphere:
+            break;
+    }
+    return Json{{"type", "sphere"}, {"sphere", {{"radius", jsonNumber(shape.radius)}}}};
+}
+
+class GltfPhysicsWriter {
+  public:
+    GltfPhysicsWriter(const ExportSource& source, Json& document)
+        : source_(source), profile_(source.profile), document_(document) {}
+
+    std::vector<std::string> write() {
+        physics_["physicsMaterials"] = Json::array({Json{{"staticFriction", jsonNumber(kFriction)},
+                                                         {"dynamicFriction", jsonNumber(kFriction)},
+                                                         {"restitution", 0}}});
+        for (std::size_t i = 0; i < profile_.bodies.size(); ++i)
+            addBody(static_cast<int>(i));
+        for (const ConstraintProfile& constraint : profile_.constraints)
+            addJoint(constraint);
+        document_["extensions"][kShapesExtension] = Json{{"shapes", std::move(shapes_)}};
+        document_["extensions"][kPhysicsExtension] = std::move(physics_);
+        document_["extensionsUsed"].push_back(kShapesExtension);
+        document_["extensionsUsed"].push_back(kPhysicsExtension);
+        return std::move(warnings_);
+    }
+
+  private:
+    [[nodiscard]] int nodeOf(int body) const { return 1 + source_.rig.jointOfBody[body]; }
+
+    // A node below the body's joint; `bodyFromNode` places it.
+    int addNode(int body, const std::string& suffix, const RigidTransform& bodyFromNode, Json extension) {
+        const RigidTransform jointFromNode = profile_.bodies[body].jointFromBody * bodyFromNode;
+        Json node{{"name", bodyName(profile_, body) + " " + suffix},
+                  {"rotation", jsonQuaternion(glm::normalize(jointFromNode.rotation))},
+                  {"translation", jsonVector(jointFromNode.translation)}};
+        if (!extension.is_null()) node["extensions"] = Json{{kPhysicsExtension, std::move(extension)}};
+        const int index = static_cast<int>(document_["nodes"].size());
+        document_["nodes"].push_back(std::move(node));
+        document_["nodes"][nodeOf(body)]["children"].push_back(index);
+        return index;
+    }
+
+    void addBody(int index) {
+        const BodyProfile& body = profile_.bodies[index];
+        Json& node = document_["nodes"][nodeOf(index)];
+        node["extensions"][kPhysicsExtension] =
+            Json{{"motion",
+                  {{"mass", jsonNumber(body.massKg)},
+                   {"centerOfMass", jsonVector(body.jointFromBody.translation)},
+                   {"inertiaDiagonal", jsonVector(body.inertia)},
+                   {"inertiaOrientation", jsonQuaternion(glm::normalize(body.jointFromBody.rotation))},
+                   {"extras", {{kRoleKey, bodyName(profile_, index)}}}}}};
+        Json collider{{"geometry", {{"shape", shapes_.size()}}}, {"physicsMaterial", 0}};
+        shapes_.push_back(shapeJson(body.shape));
+        if (const int filter = addFilter(index); filter >= 0) collider["collisionFilter"] = filter;
+        addNode(index, "collider", {}, Json{{"collider", std::move(collider)}});
+    }
+
+    // Index of the filter; -1 for a body that collides with all but those that it is linked to.
+    int addFilter(int body) {
+        Json others = Json::array();
+        for (const auto& [first, second] : profile_.filteredPairs) {
+            if (first == body) others.push_back(bodyName(profile_, second));
+            if (second == body) others.push_back(bodyName(profile_, first));
+        }
+        if (others.empty()) return -1;
+        Json& filters = physics_["collisionFilters"];
+        filters.push_back(Json{{"collisionSystems", Json::array({bodyName(profile_, body)})},
+                               {"notCollideWithSystems", std::move(others)}});
+        return static_cast<int>(filters.size()) - 1;
+    }
+
+    Json limitsOf(const ConstraintProfile& c) {
+        Json limits = Json::array({lockedLinear()});
+        if (c.kind == ConstraintProfile::Kind::hinge) {
+            limits.push_back(angular({0}, 0, 0));
+            limits.push_back(angular({1}, 0, 0));
+            limits.push_back(angular({2}, c.hinge.lower, c.hinge.upper));
+            return limits;
+        }
+        limits.push_back(angular({0}, -c.cone.twist, c.cone.twist));
+        if (c.cone.swingY == c.cone.swingZ) {
+            limits.push_back(angular({1, 2}, 0, c.cone.swingY));
+            return limits;
+        }
+        limits.push_back(angular({1}, -c.cone.swingY, c.cone.swingY));
+        limits.push_back(angular({2}, -c.cone.swingZ, c.cone.swingZ));
+        limits.push_back(angular({1, 2}, 0, std::max(c.cone.swingY, c.cone.swingZ)));
+        warnings_.push_back(fmt::format(
+            "{}: the elliptic cone of {:.0f} by {:.0f} degrees is a rectangle within a round cone of {:.0f}",
+            bodyName(profile_, c.child), degrees(c.cone.swingY), degrees(c.cone.swingZ),
+            degrees(std::max(c.cone.swingY, c.cone.swingZ))));
+        return limits;
+    }
+
+    static Json drivesOf(const ConstraintProfile& c) {
+        Json drives = Json::array();
+        for (int axis = c.kind == ConstraintProfile::Kind::hinge ? 2 : 0; axis < 3; ++axis) {
+            drives.push_back(Json{{"type", "angular"},
+                                  {"mode", "force"},
+                                  {"axis", axis},
+                                  {"maxForce", jsonNumber(c.frictionNm)},
+                                  {"velocityTarget", 0},
+                                  {"damping", jsonNumber(c.frictionNm / kSlipSpeed)}});
+        }
+        return drives;
+    }
+
+    void addJoint(const ConstraintProfile& c) {
+        Json joint{{"name", bodyName(profile_, c.child)}, {"limits", limitsOf(c)}};
+        if (c.frictionNm > 0.0F) joint["drives"] = drivesOf(c);
+        Json& joints = physics_["physicsJoints"];
+        joints.push_back(std::move(joint));
+        const int onChild = addNode(c.child, "joint", c.childFromFrame, {});
+        addNode(c.parent, "to " + bodyName(profile_, c.child) + " joint", c.parentFromFrame,
+                Json{{"joint", {{"connectedNode", onChild}, {"joint", joints.size() - 1}}}});
+    }
+
+    const ExportSource& source_;
+    const RagdollProfile& profile_;
+    Json& document_;
+    Json physics_ = Json::object();
+    Json shapes_ = Json::array();
+    std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+Result<Exported> writeGltf(const ExportSource& source, GltfKind kind) {
+    const auto bytes = animation::glbBytes("glTF", source.character, {}, standingFromModel(source));
+    if (!bytes) return bytes.error();
+    GlbContainer container = unpackGlb(bytes.value());
+    Exported exported;
+    exported.warnings = GltfPhysicsWriter(source, container.json).write();
+    exported.warnings.insert(exported.warnings.begin(),
+                             "KHR_physics_rigid_bodies is a draft: few programs read it, and it may change");
+    exported.bytes = kind == GltfKind::binary ? packGlb(container) : gltfText(container);
+    return exported;
+}
+
+}  // namespace lutka::exporting
