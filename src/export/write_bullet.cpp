@@ -69,7 +69,7 @@ std::string transformText(const RigidTransform& t) {
     return fmt::format("frame({}, {})", vectorText(t.translation, ", "), quaternionTextXyzw(t.rotation, ", "));
 }
 
-std::string shapeText(const BodyShape& shape) {
+std::string bulletShape(const BodyShape& shape) {
     switch (shape.kind) {
         case BodyShape::Kind::capsule:
             return fmt::format("std::make_unique<btCapsuleShape>({}, {})", numberText(shape.radius),
@@ -99,7 +99,7 @@ Exported writeBullet(const ExportSource& source) {
     for (std::size_t i = 0; i < profile.bodies.size(); ++i) {
         const BodyProfile& body = profile.bodies[i];
         text.line("// {}: {}", i, bodyName(profile, static_cast<int>(i)));
-        text.line("addBody(*doll, world, {}, {}, btVector3({}), worldFromDoll * {});", shapeText(body.shape),
+        text.line("addBody(*doll, world, {}, {}, btVector3({}), worldFromDoll * {});", bulletShape(body.shape),
                   numberText(body.massKg), vectorText(body.inertia, ", "),
                   transformText(standingFromModel(source) * source.rig.bindModelFromBody[i]));
     }

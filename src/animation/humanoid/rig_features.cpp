@@ -116,7 +116,7 @@ void believeSkinnedControls(RigFeatures& rig) {
 // A file may hold the skin of the head alone (a face, an avatar's parts), and joints for the whole figure. Where names
 // tell all joints of arms and legs and hardly any of those carries skin, the skin proves nothing about the limbs.
 void doubtPartialSkin(RigFeatures& rig) {
-    constexpr float kNamedLimb = 1.5F;
+    constexpr float kTellingName = 1.5F;
     constexpr std::array<Part, 4> kLimbs{Part::upperArm, Part::lowerArm, Part::upperLeg, Part::lowerLeg};
     if (!rig.skinned) return;
     int bare = 0;
@@ -126,7 +126,7 @@ void doubtPartialSkin(RigFeatures& rig) {
             bool carries = false;
             for (int joint = 0; joint < rig.count(); ++joint) {
                 const NameEvidence& name = rig.names[joint];
-                if (name.side != side || name.helper || name.parts[part] < kNamedLimb) continue;
+                if (name.side != side || name.helper || name.parts[part] < kTellingName) continue;
                 named = true;
                 carries = carries || rig.subtreeWeight[joint] > 0.0F;
             }

@@ -145,7 +145,7 @@ void takeMaterials(SourceScene& source, Character& character) {
 }
 
 // Finite numbers in the file may be no more so once they were scaled and put in their places.
-bool isFinite(const Character& character) {
+bool hasFinitePlaces(const Character& character) {
     for (const SkinnedMesh& mesh : character.meshes) {
         for (const vec3& position : mesh.positions) {
             if (!lutka::isFinite(position)) return false;
@@ -179,7 +179,7 @@ Result<Character> buildCharacter(SourceScene source, const std::filesystem::path
     settleMeshes(units, character.meshes);
     for (SkinnedMesh& mesh : character.meshes)
         orderForSkinning(mesh);
-    if (!isFinite(character)) {
+    if (!hasFinitePlaces(character)) {
         return Error{ErrorCode::input, "its numbers are too large: placed in the scene, vertices are beyond any",
                      file.string(), "scale the figure down where it was made"};
     }

@@ -41,13 +41,13 @@ std::string lowerExtension(const fs::path& file) {
 bool isGltf(const fs::path& file, std::string_view start) {
     if (start.starts_with("glTF")) return true;
     const std::size_t first = start.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-    const std::string extension = lowerCased(file.extension().string());
+    const std::string extension = lowerExtension(file);
     return first != std::string_view::npos && start[first] == '{' && (extension == ".gltf" || extension == ".vrm");
 }
 
 bool isBvh(const fs::path& file, std::string_view start) {
     const std::size_t first = start.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-    return lowerCased(file.extension().string()) == ".bvh" ||
+    return lowerExtension(file) == ".bvh" ||
            (first != std::string_view::npos && start.substr(first).starts_with("HIERARCHY"));
 }
 
