@@ -22,6 +22,10 @@ if(LUTKA_SANITIZE)
                          -fno-sanitize-recover=undefined)
   target_link_options(lutka_options INTERFACE -fsanitize=address,undefined)
 endif()
+if(LUTKA_HARDEN)
+  target_compile_options(lutka_options INTERFACE -D_GLIBCXX_ASSERTIONS -fstack-protector-strong
+                         $<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE> $<$<NOT:$<CONFIG:Debug>>:-D_FORTIFY_SOURCE=2>)
+endif()
 if(LUTKA_FUZZ)
   target_compile_options(lutka_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-omit-frame-pointer
                          -fno-sanitize-recover=undefined)
