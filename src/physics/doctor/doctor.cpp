@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <initializer_list>
 
 #include "physics/collision/shape.hpp"
+#include "physics/doctor/broken_figure.hpp"
 #include "physics/fit/anatomy.hpp"
 #include "physics/fit/rebind.hpp"
 #include "physics/profile/constraint_state.hpp"
@@ -16,8 +18,6 @@ namespace {
 constexpr float kHighRatio = 10.0F;
 constexpr float kExtremeRatio = 20.0F;
 constexpr float kMostOfBroken = 40.0F;  // points that a figure whose skin or limbs are elsewhere can have
-constexpr float kLeastNear = 0.1F;      // of the skin's vertices near their body, below which …
-constexpr float kLeastCovered = 0.12F;  // … with less than this of the volume in some body, the skin is elsewhere
 
 std::string nameOf(Role role) {
     return std::string(roleName(role));
@@ -33,7 +33,18 @@ class Examination {
           anatomy_(findAnatomy(plan_)),
           shapes_(shapesInBindPose(profile, character.skeleton)) {}
 
-    void checkMap(Diagnosis& diagnosis) const {
+    void checkMap(Diagnosis& diagnosis) {
+        constexpr std::size_t kMostMissing = 7;  // of the 15 required roles
+        if (map_.missing.size() > kMostMissing && !isWholeOfBlocks()) {
+            broken_ = true;
+            diagnosis.findings.push_back({Severity::error,
+                                          "roles-few",
+                                          "/bodies",
+                                          fmt::format("{} of the 15 required parts have no joint", map_.missing.size()),
+                                          "bind them by hand if the rig has such joints",
+                                          false,
+                                          {}});
+        }
         for (const Role role : map_.missing) {
             diagnosis.findings.push_back({Severity::warning,
                                           "role-unmapped",
@@ -152,10 +163,7 @@ class Examination {
     }
 
     void measure(Diagnosis& diagnosis, const animation::Character& character) const {
-        std::vector<PlacedShape> ordered(shapes_.size());
-        for (std::size_t body = 0; body < shapes_.size(); ++body)
-            ordered[indexOf(static_cast<int>(body))] = shapes_[body];
-        diagnosis.fit = measureSkin(character, plan_, ordered, map_.standardFromModel);
+        diagnosis.fit = measureSkin(character, plan_, shapesOfPlan(), map_.standardFromModel);
         for (const BodyOverlap& overlap : findOverlaps(profile_, shapes_))
             diagnosis.fit.overlapM = std::max(diagnosis.fit.overlapM, overlap.depthM);
     }
@@ -179,31 +187,36 @@ class Examination {
             of += p.of;
         }
         diagnosis.score = 100.0F * points / of;
-        if (astray_ > 0 || isOutsideBodies(diagnosis.fit)) {
-            diagnosis.score = std::min(diagnosis.score, kMostOfBroken);
-        }
+        if (astray_ > 0 || broken_) diagnosis.score = std::min(diagnosis.score, kMostOfBroken);
     }
 
-    // Most of the skin far from its bodies: no measure of the rest makes that a figure.
-    void checkWhole(Diagnosis& diagnosis) const {
-        if (!isOutsideBodies(diagnosis.fit)) return;
-        const float near = 100.0F * diagnosis.fit.skinNear;
-        const float covered = 100.0F * *diagnosis.fit.volumeCovered;
-        diagnosis.findings.push_back(
-            {Severity::error,
-             "skin-outside-bodies",
-             "/bodies",
-             fmt::format("{:.0f} % of the skin is near its body and {:.0f} % of the volume in one", near, covered),
-             "look at the bodies on the skin: the map, the skin's weights or the bind pose are wrong",
-             false,
-             {}});
+    void checkWhole(Diagnosis& diagnosis, const animation::Character& character) {
+        const std::vector<Finding> broken = findBrokenFigure(character, plan_, shapesOfPlan(), diagnosis.fit);
+        broken_ = broken_ || !broken.empty();
+        diagnosis.findings.insert(diagnosis.findings.end(), broken.begin(), broken.end());
     }
 
     [[nodiscard]] bool matches() const { return plan_.bodies.size() == profile_.bodies.size(); }
 
   private:
-    [[nodiscard]] static bool isOutsideBodies(const FitMeasures& fit) {
-        return fit.vertices > 0 && fit.volumeCovered && fit.skinNear < kLeastNear && *fit.volumeCovered < kLeastCovered;
+    // Head, hips and something of every limb: a figure of blocks lacks the further joints by its nature.
+    [[nodiscard]] bool isWholeOfBlocks() const {
+        const auto any = [&](std::initializer_list<Role> roles) {
+            return std::any_of(roles.begin(), roles.end(),
+                               [&](Role role) { return map_.jointOf(role) != animation::kNoJoint; });
+        };
+        return any({Role::head}) && any({Role::hips}) &&
+               any({Role::leftUpperArm, Role::leftLowerArm, Role::leftHand}) &&
+               any({Role::rightUpperArm, Role::rightLowerArm, Role::rightHand}) &&
+               any({Role::leftUpperLeg, Role::leftLowerLeg, Role::leftFoot}) &&
+               any({Role::rightUpperLeg, Role::rightLowerLeg, Role::rightFoot});
+    }
+
+    [[nodiscard]] std::vector<PlacedShape> shapesOfPlan() const {
+        std::vector<PlacedShape> ordered(shapes_.size());
+        for (std::size_t body = 0; body < shapes_.size(); ++body)
+            ordered[indexOf(static_cast<int>(body))] = shapes_[body];
+        return ordered;
     }
 
     // Whether the role's joint hangs below the joint of a role that is not above it: a hand on the other arm.
@@ -298,7 +311,8 @@ class Examination {
     std::vector<PlacedShape> shapes_;
     float worstRatio_ = 1.0F;
     int brokenLimits_ = 0;
-    int astray_ = 0;  // roles whose joints hang on another limb
+    int astray_ = 0;       // roles whose joints hang on another limb
+    bool broken_ = false;  // as a whole
 };
 
 void findMissingJoints(Diagnosis& diagnosis, const RagdollProfile& profile, const animation::Character& character,
@@ -373,7 +387,7 @@ Diagnosis diagnose(const RagdollProfile& profile, const animation::Character& ch
     for (const std::string& note : profile.notes)
         diagnosis.findings.push_back({Severity::info, "note", "", note, "", false, {}});
     examination.measure(diagnosis, character);
-    examination.checkWhole(diagnosis);
+    examination.checkWhole(diagnosis, character);
     std::stable_sort(diagnosis.findings.begin(), diagnosis.findings.end(),
                      [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
     examination.score(diagnosis);

@@ -42,12 +42,16 @@ struct Diagnosis {
     [[nodiscard]] bool hasErrors() const;
 };
 
-/// Examines a profile at rest on its character. The checks, by code:
+/// Examines a profile at rest on its character. A figure that is broken as a whole (hardly half a body, a limb's joint
+/// on another limb, skin elsewhere or on one joint, bodies beside their skin) scores 40 at most. The checks, by code:
 /// - `profile-invalid` what validate() says; nothing else is looked at (error)
 /// - `joint-missing` a body's joint is not in the skeleton; nothing else is looked at (error)
 /// - `role-unmapped` a required role has no joint (warning: the ragdoll has fewer bodies)
+/// - `roles-few` fewer than half of the required roles have a joint, and head or a whole limb has none (error)
 /// - `joint-not-below` a role's joint is not below that of the role above it (warning; on another limb: error)
-/// - `skin-outside-bodies` most of the skin is far from its body and outside all others (error)
+/// - `skin-outside-bodies` most of the skin is more than 6 % of the height from all bodies (error)
+/// - `skin-on-one-joint` nine tenths of the skin follow one joint where there are many bodies (error)
+/// - `body-beside-skin` a body lies beside all the skin that follows it and hardly touches any (error)
 /// - `mass-ratio` above 10 : 1 across a constraint (warning; above 20 : 1 error)
 /// - `bind-outside-limits` a limit excludes the bind pose: energy appears at the first step (error)
 /// - `limit-span-small` a span below 5 degrees either way, known to jitter (warning)

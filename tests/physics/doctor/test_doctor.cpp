@@ -149,6 +149,73 @@ TEST_CASE("the doctor tells of a role whose joint is not below its parent's") {
     CHECK(diagnosis.score < 50.0F);
 }
 
+// No figure that is broken as a whole passes, however sound its limits and masses are.
+void checkBroken(const Diagnosis& diagnosis, const std::string& code, const std::string& place) {
+    const Finding* finding = find(diagnosis, code);
+    REQUIRE(finding != nullptr);
+    CHECK(finding->severity == Severity::error);
+    CHECK(finding->place == place);
+    CHECK(diagnosis.hasErrors());
+    CHECK(diagnosis.score < 50.0F);
+}
+
+TEST_CASE("the doctor certifies no figure with fewer than half of its parts") {
+    Patient patient;
+    const auto without = [&](Role role) {
+        patient.map.roles[animation::indexOf(role)].reset();
+        patient.map.missing.push_back(role);
+    };
+    for (const Role role : {Role::leftLowerArm, Role::rightLowerArm, Role::leftHand, Role::rightHand,
+                            Role::leftLowerLeg, Role::rightLowerLeg, Role::leftFoot, Role::rightFoot})
+        without(role);
+    patient.profile = fitRagdoll(patient.character, patient.map).value();
+    // A figure of blocks is whole; one without a head or an arm besides is not.
+    CHECK(find(patient.look(), "roles-few") == nullptr);
+    without(Role::head);
+    patient.profile = fitRagdoll(patient.character, patient.map).value();
+    const Diagnosis half = patient.look();
+    REQUIRE(find(half, "roles-few") != nullptr);
+    CHECK(find(half, "roles-few")->severity == Severity::error);
+    CHECK(half.hasErrors());
+    CHECK(half.score < 50.0F);
+}
+
+TEST_CASE("the doctor certifies no figure whose skin is elsewhere") {
+    Patient patient;
+    for (vec3& position : patient.character.meshes[0].positions)
+        position += vec3(0, 0, 0.9F);
+    checkBroken(patient.look(), "skin-outside-bodies", "/bodies");
+    const auto fitted = fitRagdoll(patient.character, patient.map);
+    if (fitted) CHECK(diagnose(fitted.value(), patient.character, patient.map).hasErrors());
+}
+
+TEST_CASE("the doctor certifies no figure whose skin hangs on one joint") {
+    Patient patient;
+    const int hips = findJoint(patient.character.skeleton, "hips");
+    for (auto& joints : patient.character.meshes[0].joints)
+        joints = {static_cast<std::uint16_t>(hips), 0, 0, 0};
+    for (auto& weights : patient.character.meshes[0].weights)
+        weights = {1, 0, 0, 0};
+    checkBroken(patient.look(), "skin-on-one-joint", "hips");
+    patient.profile = fitRagdoll(patient.character, patient.map).value();
+    checkBroken(patient.look(), "skin-on-one-joint", "hips");
+}
+
+TEST_CASE("the doctor certifies no head above its skull and no forearm in the air") {
+    for (const Role role : {Role::head, Role::leftLowerArm}) {
+        Patient patient;
+        const vec3 away = role == Role::head ? vec3(0, 0.25F, 0) : vec3(0, 0, 0.4F);
+        for (ConstraintProfile& c : patient.profile.constraints) {
+            if (patient.profile.bodies[c.child].role == role) c.childFromFrame.translation -= away;
+        }
+        BodyProfile& body = patient.body(role);
+        const int joint = findJoint(patient.character.skeleton, body.joint);
+        const quat modelFromJoint = patient.character.skeleton.bindModelFromJoint[joint].rotation;
+        body.jointFromBody.translation += glm::conjugate(modelFromJoint) * away;
+        checkBroken(patient.look(), "body-beside-skin", std::string(roleName(role)));
+    }
+}
+
 TEST_CASE("an invalid profile and one of another rig are told apart from a sick one") {
     Patient invalid;
     invalid.profile.bodies[3].massKg = -1;

@@ -220,7 +220,8 @@ TEST_CASE("shapes of the zoo's humanoids lie near their skin and fill it") {
                     100.0 * static_cast<double>(diagnosis.fit.volumeCovered.value_or(0)),
                     1000.0 * static_cast<double>(diagnosis.fit.overlapM), subject.profile.filteredPairs.size(),
                     static_cast<double>(diagnosis.score), codes.c_str());
-        CHECK_FALSE(diagnosis.hasErrors());
+        // A body with hands and legs but no head: hardly half a figure, and most of its skin beside the bodies.
+        CHECK(diagnosis.hasErrors() == (subject.name == "raylib_greenman"));
         CHECK(diagnosis.fit.overlapM == 0.0F);
         const bool usual =
             std::find(peopleOfUsualBuild.begin(), peopleOfUsualBuild.end(), subject.name) != peopleOfUsualBuild.end();
