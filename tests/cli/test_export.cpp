@@ -28,3 +28,19 @@ TEST_CASE("export: an ending that names no format, an unknown format and a folde
     CHECK(lutkaCommand("export " + kExported).code == 2);
     CHECK(lutkaCommand("export " + kExported + " -o /dev/null/doll.xml").code == 5);
 }
+
+TEST_CASE("a glTF file's own ragdoll is taken and told, and --refit fits a new one") {
+    const ScratchFolder folder;
+    const std::string model = folder / "doll.glb";
+    const std::string profile = folder / "doll.ragdoll.json";
+    REQUIRE(lutkaCommand("export " + kMannequin + " -o " + model + " --mass 90").code == 0);
+    const CommandResult own = lutkaCommand("build " + model + " -o " + profile);
+    CHECK(own.code == 0);
+    CHECK_THAT(own.err, Catch::Contains("the ragdoll is the file's own"));
+    CHECK_THAT(own.out, Catch::Contains("90.0 kg, 16 bodies"));
+    const CommandResult refit = lutkaCommand("build --refit " + model);
+    CHECK(refit.err.find("own") == std::string::npos);
+    CHECK_THAT(refit.out, Catch::Contains("75.0 kg, 16 bodies"));
+    // It holds together as any other.
+    CHECK(lutkaCommand("simulate --seconds 1 " + model).code == 0);
+}
