@@ -7,8 +7,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <map>
 
+#include "crowd_settings.hpp"
 #include "physics/bullet/bullet_world.hpp"
 #include "physics/crowd/crowd_world.hpp"
 #include "physics/world/quality.hpp"
@@ -36,58 +36,6 @@ struct Arguments {
     bool measure = true;
 };
 
-void apply(CrowdTuning& tuning, const std::string& setting) {
-    const std::size_t at = setting.find('=');
-    const std::string name = setting.substr(0, at);
-    const float value = at == std::string::npos ? 0.0F : std::stof(setting.substr(at + 1));
-    const std::map<std::string, float*> reals{{"jointErp", &tuning.jointErp},
-                                              {"limitErp", &tuning.limitErp},
-                                              {"contactErp", &tuning.contactErp},
-                                              {"jointStiffness", &tuning.jointStiffness},
-                                              {"mendGap", &tuning.mendGap},
-                                              {"mendAngle", &tuning.mendAngle},
-                                              {"aimGap", &tuning.aimGap},
-                                              {"letGo", &tuning.letGo},
-                                              {"nearSpeed", &tuning.nearSpeed},
-                                              {"contactTolerance", &tuning.contactTolerance},
-                                              {"limitTolerance", &tuning.limitTolerance},
-                                              {"firstTouch", &tuning.firstTouch},
-                                              {"limitStiffness", &tuning.limitStiffness},
-                                              {"contactStiffness", &tuning.contactStiffness},
-                                              {"grip", &tuning.grip},
-                                              {"pushSpeed", &tuning.pushSpeed},
-                                              {"limitSpeed", &tuning.limitSpeed},
-                                              {"slop", &tuning.slop},
-                                              {"staticMargin", &tuning.staticMargin},
-                                              {"pairMargin", &tuning.pairMargin},
-                                              {"rollingLever", &tuning.rollingLever},
-                                              {"linearDamping", &tuning.linearDamping},
-                                              {"calmSpeed", &tuning.calmSpeed},
-                                              {"calmDamping", &tuning.calmDamping},
-                                              {"stiction", &tuning.stiction},
-                                              {"jointStiction", &tuning.jointStiction},
-                                              {"stictionRate", &tuning.stictionRate},
-                                              {"stiffen", &tuning.stiffen},
-                                              {"stiffest", &tuning.stiffest},
-                                              {"sleepSpeed", &tuning.sleepSpeed},
-                                              {"angularDamping", &tuning.angularDamping},
-                                              {"leastGyration", &tuning.leastGyration}};
-    const std::map<std::string, int*> whole{{"substeps", &tuning.substeps},
-                                            {"passes", &tuning.passes},
-                                            {"patience", &tuning.patience},
-                                            {"mendEvery", &tuning.mendEvery}};
-    if (const auto real = reals.find(name); real != reals.end())
-        *real->second = value;
-    else if (const auto number = whole.find(name); number != whole.end())
-        *number->second = static_cast<int>(value);
-    else if (name == "baseline")
-        tuning.instructionSet = physics::crowd::InstructionSet::baseline;
-    else if (name == "avx2")
-        tuning.instructionSet = physics::crowd::InstructionSet::avx2;
-    else
-        fmt::print(stderr, "there is no setting '{}'\n", name);
-}
-
 double cpuMs() {
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -113,7 +61,7 @@ std::unique_ptr<physics::World> makeWorld(const std::string& solver, const Argum
     if (solver != "crowd") return physics::createBulletWorld(settings);
     CrowdTuning tuning;
     for (const std::string& setting : arguments.settings)
-        apply(tuning, setting);
+        bench::apply(tuning, setting);
     return physics::createCrowdWorld(settings, tuning);
 }
 
@@ -173,14 +121,16 @@ void print(const Run& run, const Run& first, const std::string& scene, int seed,
         asleep += run.world->isAsleep(doll) ? 1 : 0;
     fmt::print(
         "{},{},{},{},{:.4f},{:.2f},{:.2f},{:.2f},{:.2f},{:.3f},{:.2f},{:.2f},{:.1f},{:.1f},{:.2f},{:.2f},{:.2f},{},{},{"
-        "}\n",
+        "},"
+        "{:.2f},{:.1f},{:.1f}\n",
         run.solver, scene, arguments.count, seed, mean(run.ms), mean(first.ms) / mean(run.ms),
         ratios[ratios.size() / 2], quality.jointSeparationM.max * 1e3F, quality.jointSeparationM.p99 * 1e3F,
         quality.jointSeparationM.mean * 1e3F, quality.limitViolationDeg.max, quality.limitViolationDeg.p99,
         quality.floorPenetrationM * 1e3F, quality.selfPenetrationM * 1e3F,
         100.0F * quality.energyGrowthJ / std::max(quality.initialEnergyJ, 1e-3F), quality.settleSeconds.value_or(-1.0F),
         quality.residualSpeedMps * 1e3F, quality.nonFinite, asleep,
-        run.contacts / std::max<std::size_t>(run.ms.size(), 1));
+        run.contacts / std::max<std::size_t>(run.ms.size(), 1), quality.limitViolationDeg.lasting,
+        quality.dollPenetrationM.max * 1e3F, quality.dollPenetrationM.p99 * 1e3F);
     std::fflush(stdout);
 }
 
@@ -242,7 +192,7 @@ int main(int argc, char** argv) {
     }
     fmt::print(
         "solver,scene,count,seed,ms,meanRatio,medianRatio,sepMaxMm,sepP99Mm,sepMeanMm,limitMaxDeg,limitP99Deg,floorMm,"
-        "selfMm,energyPercent,settleS,residualMmps,nonFinite,asleep,contacts\n");
+        "selfMm,energyPercent,settleS,residualMmps,nonFinite,asleep,contacts,limitLastingDeg,dollMaxMm,dollP99Mm\n");
     for (const std::string& scene : arguments.scenes) {
         for (int seed = arguments.firstSeed; seed < arguments.firstSeed + arguments.seeds; ++seed)
             runScene(*figure, scene, seed, arguments);

@@ -59,15 +59,20 @@ std::string benchmarkJson(std::span<const BenchResult> results) {
 std::string benchmarkCsv(std::span<const BenchResult> results) {
     std::string csv =
         "scene,count,threads,solver,sleeping,ms_p50,ms_p99,stock_ms_p50,stock_ms_p99,speedup,separation_max_m,"
-        "stock_separation_max_m,penetration_max_m,stock_penetration_max_m,residual_mps,stock_residual_mps,contacts,"
+        "stock_separation_max_m,penetration_max_m,stock_penetration_max_m,doll_penetration_max_m,"
+        "doll_penetration_p99_m,stock_doll_penetration_max_m,stock_doll_penetration_p99_m,residual_mps,stock_residual_"
+        "mps,contacts,"
         "memory_bytes\n";
     for (const BenchResult& r : results) {
         csv += fmt::format(
-            "{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.3f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{},{}\n",
+            "{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.3f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},{:.5f},"
+            "{:.5f},{:.5f},{},{}\n",
             r.what.scene, r.what.count, r.what.threads, physics::solverName(r.what.solver), r.what.sleeping, r.ours.p50,
             r.ours.p99, r.stock.p50, r.stock.p99, r.speedup, r.quality.jointSeparationM.max,
             r.stockQuality.jointSeparationM.max, r.quality.floorPenetrationM, r.stockQuality.floorPenetrationM,
-            r.quality.residualSpeedMps, r.stockQuality.residualSpeedMps, r.contacts, r.memoryBytes);
+            r.quality.dollPenetrationM.max, r.quality.dollPenetrationM.p99, r.stockQuality.dollPenetrationM.max,
+            r.stockQuality.dollPenetrationM.p99, r.quality.residualSpeedMps, r.stockQuality.residualSpeedMps,
+            r.contacts, r.memoryBytes);
     }
     return csv;
 }

@@ -36,6 +36,8 @@ constexpr Measure kMeasures[] = {
      "draw the masses of linked bodies together (--masses balanced)"},
     {"limit violation, p99", "deg", 5.0F, [](const Quality& q) { return q.limitViolationDeg.p99; },
      "widen limits that the body's own weight presses on"},
+    {"limit violation, lasting", "deg", 20.0F, [](const Quality& q) { return q.limitViolationDeg.lasting; },
+     "widen the limits of light bodies that lie under the others: hands and feet"},
     {"penetration of the ground", "mm", 10.0F, [](const Quality& q) { return q.floorPenetrationM * 1e3F; },
      "make thin bodies thicker"},
     {"energy growth", "% of the energy", 3.0F, &energySharePercent,

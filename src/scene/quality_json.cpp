@@ -6,9 +6,11 @@ nlohmann::ordered_json qualityJson(const physics::Quality& q) {
     nlohmann::ordered_json json;
     json["jointSeparationM"] = {
         {"max", q.jointSeparationM.max}, {"p99", q.jointSeparationM.p99}, {"mean", q.jointSeparationM.mean}};
-    json["limitViolationDeg"] = {{"max", q.limitViolationDeg.max}, {"p99", q.limitViolationDeg.p99}};
+    json["limitViolationDeg"] = {
+        {"max", q.limitViolationDeg.max}, {"p99", q.limitViolationDeg.p99}, {"lasting", q.limitViolationDeg.lasting}};
     json["floorPenetrationM"] = {{"max", q.floorPenetrationM}};
     json["selfPenetrationM"] = {{"max", q.selfPenetrationM}};
+    json["dollPenetrationM"] = {{"max", q.dollPenetrationM.max}, {"p99", q.dollPenetrationM.p99}};
     json["energyGrowthJ"] = q.energyGrowthJ;
     json["initialEnergyJ"] = q.initialEnergyJ;
     json["settleSeconds"] =

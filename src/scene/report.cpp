@@ -128,10 +128,14 @@ std::string reportText(const Simulation& simulation) {
     }
     text += fmt::format("  joint separation   {:7.2f} mm at most, {:.2f} mm p99\n", q.jointSeparationM.max * 1e3F,
                         q.jointSeparationM.p99 * 1e3F);
-    text += fmt::format("  past the limits    {:7.2f} deg at most, {:.2f} deg p99\n", q.limitViolationDeg.max,
-                        q.limitViolationDeg.p99);
+    text += fmt::format("  past the limits    {:7.2f} deg at most, {:.2f} deg p99, {:.2f} deg for two frames\n",
+                        q.limitViolationDeg.max, q.limitViolationDeg.p99, q.limitViolationDeg.lasting);
     text += fmt::format("  into the ground    {:7.2f} mm, into itself {:.2f} mm\n", q.floorPenetrationM * 1e3F,
                         q.selfPenetrationM * 1e3F);
+    if (simulation.dollCount() > 1) {
+        text += fmt::format("  into each other    {:7.2f} mm at most, {:.2f} mm p99 of those that touch\n",
+                            q.dollPenetrationM.max * 1e3F, q.dollPenetrationM.p99 * 1e3F);
+    }
     text += fmt::format("  energy growth      {:7.2f} J of {:.0f} J\n", q.energyGrowthJ, q.initialEnergyJ);
     text += q.settleSeconds ? fmt::format("  at rest            {:7.2f} s after the first contact\n", *q.settleSeconds)
                             : fmt::format("  not at rest        {:7.3f} m/s at the end\n", q.residualSpeedMps);

@@ -24,8 +24,11 @@ enum Slot {
     hingeLower,
     hingeUpper,
     swingLimit,
+    longLower,
+    longUpper,
     twistLower,
-    twistUpper
+    twistUpper,
+    slotCount
 };
 constexpr int kLinearRows = 3;
 
@@ -35,7 +38,18 @@ void setVector(btScalar* row, const vec3& v) {
     row[2] = v.z;
 }
 
+// The gradient, in the parent's frame, of the swing's part along `n`, a unit vector across x: see prepareCone().
+// `swing` is the angle about `u`.
+vec3 swingGradient(const vec3& n, const vec3& u, float swing) {
+    const vec3 v(0, -u.z, u.y);
+    const float turn = swing > 1e-3F ? swing / std::tan(swing) : 1.0F;
+    const float alongV = glm::dot(n, v);
+    return {alongV * swing, glm::dot(n, u) * u.y + alongV * turn * v.y, glm::dot(n, u) * u.z + alongV * turn * v.z};
+}
+
 }  // namespace
+
+static_assert(slotCount == RagdollJoint::kSlots);
 
 RagdollJoint::RagdollJoint(const ConstraintProfile& profile, btRigidBody& parent, btRigidBody& child,
                            const JointTuning& tuning)
@@ -96,32 +110,43 @@ void RagdollJoint::prepareCone(const mat3& parentAxes, const quat& parentFromChi
     const SwingTwist now = swingTwist(parentFromChild);
     const float swing = glm::length(now.swing);
     const vec3 u = swing > 1e-4F ? now.swing / swing : vec3(0, 1, 0);
-    const vec3 v(0, -u.z, u.y);
     const float bounded = std::min(swing, kLargestSwing);
-    const vec3 scaled(0, now.swing.y / profile_.cone.swingY, now.swing.z / profile_.cone.swingZ);
-    const float outness = glm::length(scaled);  // 1 on the ellipse
-    if (outness > 1e-3F) {
-        const float remaining = swing / outness - swing;
-        if (remaining < tuning_.limitMargin) {
-            const vec3 normal =
-                glm::normalize(vec3(0, scaled.y / profile_.cone.swingY, scaled.z / profile_.cone.swingZ));
-            const float turn = bounded > 1e-3F ? bounded / std::tan(bounded) : 1.0F;
-            const float alongV = glm::dot(normal, v);
-            const vec3 gradient(alongV * bounded, glm::dot(normal, u) * u.y + alongV * turn * v.y,
-                                glm::dot(normal, u) * u.z + alongV * turn * v.z);
-            // Along the ray from the centre the distance is longer than along the normal by the cosine between them.
-            addRow({swingLimit, parentAxes * -gradient, remaining * std::max(glm::dot(normal, u), 0.1F),
-                    AngularRow::Kind::limit});
-        }
-    }
+    addSwingRows(parentAxes, now.swing, u, bounded);
     const float aboveLower = profile_.cone.twist + now.twist;
     const float belowUpper = profile_.cone.twist - now.twist;
     if (std::min(aboveLower, belowUpper) > tuning_.limitMargin) return;
-    const vec3 axis = parentAxes * (vec3(1, 0, 0) - std::tan(0.5F * bounded) * v);
+    const vec3 axis = parentAxes * (vec3(1, 0, 0) - std::tan(0.5F * bounded) * vec3(0, -u.z, u.y));
     if (aboveLower < belowUpper)
         addRow({twistLower, axis, aboveLower, AngularRow::Kind::limit});
     else
         addRow({twistUpper, -axis, belowUpper, AngularRow::Kind::limit});
+}
+
+// The ellipse itself, and the end of its longer axis. Past that tip the ellipse's normal turns quickly towards the
+// short axis; a little to and fro there satisfies its row, while the swing runs on along the long axis.
+void RagdollJoint::addSwingRows(const mat3& parentAxes, const vec3& swing, const vec3& u, float bounded) {
+    const ConeTwistLimits& cone = profile_.cone;
+    const vec3 scaled(0, swing.y / cone.swingY, swing.z / cone.swingZ);
+    const float outness = glm::length(scaled);  // 1 on the ellipse
+    if (outness < 1e-3F) return;
+    const float angle = glm::length(swing);
+    const float remaining = angle / outness - angle;
+    if (remaining < tuning_.limitMargin) {
+        const vec3 normal = glm::normalize(vec3(0, scaled.y / cone.swingY, scaled.z / cone.swingZ));
+        // Along the ray from the centre the distance is longer than along the normal by the cosine between them.
+        addRow({swingLimit, parentAxes * -swingGradient(normal, u, bounded),
+                remaining * std::max(glm::dot(normal, u), 0.1F), AngularRow::Kind::limit});
+    }
+    constexpr float kRound = 1.2F;  // an ellipse whose axes differ by less is held by one row
+    if (std::max(cone.swingY, cone.swingZ) < kRound * std::min(cone.swingY, cone.swingZ)) return;
+    const bool isY = cone.swingY > cone.swingZ;
+    const float along = isY ? swing.y : swing.z;
+    const float left = (isY ? cone.swingY : cone.swingZ) - std::abs(along);
+    if (left > tuning_.limitMargin) return;
+    const float end = along < 0.0F ? -1.0F : 1.0F;
+    const vec3 axis(0, isY ? end : 0.0F, isY ? 0.0F : end);
+    addRow({end < 0.0F ? longLower : longUpper, parentAxes * -swingGradient(axis, u, bounded), left,
+            AngularRow::Kind::limit});
 }
 
 void RagdollJoint::getInfo1(btConstraintInfo1* info) {
@@ -147,7 +172,7 @@ RagdollJoint::AngularTarget RagdollJoint::targetOf(const AngularRow& row, float 
             break;
     }
     // Before the limit the row only bounds the speed towards it.
-    const float mended = std::min(-tuning_.limitErp * rate * row.error, tuning_.maxMendTurn);
+    const float mended = std::min(-tuning_.limitErp * rate * row.error, tuning_.maxLimitTurn);
     return {row.error > 0.0F ? -row.error * rate : mended, 0.0F, SIMD_INFINITY};
 }
 

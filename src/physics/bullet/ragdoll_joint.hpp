@@ -13,11 +13,12 @@ namespace lutka::physics {
 
 /// How firmly a joint is held; the same for all joints of a world.
 struct JointTuning {
-    float erp = 0.1F;           ///< Part of a position error mended in a substep, (0, 1]. More: tighter.
-    float limitErp = 0.1F;      ///< The same for angles past a limit.
-    float maxMendSpeed = 3.0F;  ///< m/s: bound on the speed that mending a gap may give.
-    float maxMendTurn = 6.0F;   ///< rad/s: the same for angles.
-    float limitMargin = 0.25F;  ///< Radians before a limit from where its row is active (it only bounds the speed).
+    float erp = 0.1F;            ///< Part of a position error mended in a substep, (0, 1]. More: tighter.
+    float limitErp = 0.1F;       ///< The same for angles past a limit.
+    float maxMendSpeed = 3.0F;   ///< m/s: bound on the speed that mending a gap may give.
+    float maxMendTurn = 6.0F;    ///< rad/s: the same for a hinge's axes,
+    float maxLimitTurn = 25.0F;  ///< and for angles past a limit.
+    float limitMargin = 0.25F;   ///< Radians before a limit from where its row is active (it only bounds the speed).
 };
 
 /// A hinge or cone-twist of a profile as rows for Bullet's solvers (docs/physics.md): three rows close the anchors, a
@@ -28,7 +29,8 @@ struct JointTuning {
 /// the exact gradients of swing and twist.
 class RagdollJoint final : public btTypedConstraint, public WarmStarted {
   public:
-    static constexpr int kMaxRows = 8;
+    static constexpr int kMaxRows = 10;
+    static constexpr int kSlots = 15;  ///< Places of impulses that are kept.
 
     /// Body A is the parent, body B the child. `tuning` must outlive the joint.
     RagdollJoint(const ConstraintProfile& profile, btRigidBody& parent, btRigidBody& child, const JointTuning& tuning);
@@ -78,6 +80,7 @@ class RagdollJoint final : public btTypedConstraint, public WarmStarted {
   private:
     void prepareHinge(const mat3& parentAxes, const mat3& childAxes);
     void prepareCone(const mat3& parentAxes, const quat& parentFromChild);
+    void addSwingRows(const mat3& parentAxes, const vec3& swing, const vec3& u, float bounded);
     void addRow(const AngularRow& row);
 
     const ConstraintProfile& profile_;
@@ -88,7 +91,6 @@ class RagdollJoint final : public btTypedConstraint, public WarmStarted {
     vec3 childArm_{0, 0, 0};
     vec3 gap_{0, 0, 0};  // from the parent's anchor to the child's, world
 
-    static constexpr int kSlots = 14;
     std::array<int, kMaxRows> slots_{};
     std::array<float, kSlots> impulses_{};
     std::array<float, kSlots> newImpulses_{};

@@ -100,7 +100,7 @@ void clearImpulses(Batch& batch, int lane) {
     for (JointLanes& joint : batch.joints) {
         writeVector(joint.frictionImpulse, lane, vec3(0));
         writeVector(joint.hinge.impulse, lane, vec3(0));
-        for (int i = 0; i < 2; ++i) {
+        for (int i = 0; i < kLimitRows; ++i) {
             clear(joint.limit[i].impulse, lane);
             clear(joint.side[i], lane);
         }
@@ -115,7 +115,7 @@ void copyLane(const Batch& from, int fromLane, Batch& to, int toLane) {
         JointLanes& target = to.joints[j];
         copyWides(source.frictionImpulse, fromLane, target.frictionImpulse, toLane);
         copyWides(source.hinge.impulse, fromLane, target.hinge.impulse, toLane);
-        for (int i = 0; i < 2; ++i) {
+        for (int i = 0; i < kLimitRows; ++i) {
             copyWides(source.limit[i].impulse, fromLane, target.limit[i].impulse, toLane);
             copyWides(source.side[i], fromLane, target.side[i], toLane);
         }

@@ -97,8 +97,20 @@ LUTKA_LANES Mask prepareCone(JointLanes& joint, const JointConstants& constants,
     const F cosine = one - two * sinHalf * sinHalf;
     const F bent = sine > all(1e-4F) ? angle * cosine / sine : one;
     const V3 inFrame{-sideways * angle, along * uy + sideways * bent * uz, along * uz - sideways * bent * uy};
-    const Mask swungOut =
+    Mask off =
         prepareLimit(joint, 0, setting.k, frame * -inFrame, (one - angle * rate) / steep, one, setting.near, params);
+    if (constants.longAxis >= 0) {
+        // Past the tip the ellipse's normal turns quickly towards the short axis, where a little to and fro satisfies
+        // its row while the swing runs on along the long one: that has a row of its own.
+        const bool isY = constants.longAxis == 0;
+        const F reached = angle * (isY ? uy : uz);
+        const F end = reached < zero ? -one : one;
+        const F n_u = isY ? uy : uz;
+        const F n_d = isY ? uz : -uy;
+        const V3 rising{-n_d * angle, n_u * uy + n_d * bent * uz, n_u * uz - n_d * bent * uy};
+        const F left = all(constants.limit[isY ? 0 : 1]) - magnitude(reached);
+        off |= prepareLimit(joint, 2, setting.k, frame * (rising * -end), left, end, setting.near, params);
+    }
 
     const F twist = two * angleOf(twistX, twistW);
     const F side = twist < zero ? -one : one;
@@ -108,7 +120,7 @@ LUTKA_LANES Mask prepareCone(JointLanes& joint, const JointConstants& constants,
     const F room = all(constants.limit[2]) - magnitude(twist);
     // One weight for all directions: that of the one that turns most easily.
     store(joint.frictionWeight, all(params.grip) / most(most(setting.k.xx, setting.k.yy), setting.k.zz));
-    return swungOut | prepareLimit(joint, 1, setting.k, frame * twistAxis, room, side, setting.near, params);
+    return off | prepareLimit(joint, 1, setting.k, frame * twistAxis, room, side, setting.near, params);
 }
 
 // The anchors' arms half way through the substep, as the bodies' aims foresee them. Returns the anchors' distance.

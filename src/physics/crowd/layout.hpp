@@ -71,6 +71,7 @@ struct JointConstants {
     float parentFrame[4];
     float childFrame[4];
     float limit[3];  ///< Hinge: lower, upper. Cone-twist: swing y, swing z, twist.
+    int longAxis;    ///< Cone-twist: which of limit[0] and [1] bounds a row of its own; -1: none, a round cone.
     float frictionNm;
 };
 
@@ -91,6 +92,8 @@ struct HingeRows {
     Wide weight;
 };
 
+inline constexpr int kLimitRows = 3;
+
 /// A constraint in all lanes: impulses that are kept (warm starting) and what a substep prepares.
 struct JointLanes {
     Wide3 parentArm, childArm;  ///< From centre of mass to anchor, as they will be half way through the substep.
@@ -100,11 +103,11 @@ struct JointLanes {
     Wide frictionWeight;
     Wide frictionLimit;  ///< N m s a substep.
     Wide frictionGain;
-    LimitRow limit[2];  ///< Hinge: [0]. Cone-twist: swing, twist.
+    LimitRow limit[kLimitRows];  ///< Hinge: [0]. Cone-twist: swing, twist, the swing ellipse's longer axis.
     HingeRows hinge;
-    Wide side[2];        ///< Which end of the range limit[i] stands for (+1, -1); a change drops the impulse.
-    int limitActive[2];  ///< Whether any lane is near limit[i].
-    int mends;           ///< Whether any lane's anchors or limits are so far off that mending them adds speed.
+    Wide side[kLimitRows];        ///< Which end of the range limit[i] stands for (+1, -1); a change drops the impulse.
+    int limitActive[kLimitRows];  ///< Whether any lane is near limit[i].
+    int mends;                    ///< Whether any lane's anchors or limits are so far off that mending them adds speed.
 };
 
 /// A general 3 × 3 matrix by rows.
@@ -224,7 +227,7 @@ struct SubstepTuning {
     float firstTouch = 40.0F;         ///< Of both while they are still ahead: a wrong guess there pulls.
     float grip = 1.0F;                ///< The same of friction. More: quicker to grip, chatters.
     float pushSpeed = 2.0F;           ///< m/s, largest speed that overlap is pushed apart with.
-    float limitSpeed = 6.0F;          ///< rad/s, the same for limits.
+    float limitSpeed = 25.0F;         ///< rad/s, the same for limits.
     float slop = 0.0005F;             ///< Metres of overlap left alone, so that resting contacts stay.
     float rollingLever = 0.004F;      ///< Metres, rolling resistance: flesh is no ideal cylinder.
     float jointStiction = 3.0F;       ///< Friction of a joint at rest over that of one that turns, less 1;

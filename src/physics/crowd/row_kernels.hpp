@@ -182,6 +182,7 @@ LUTKA_LANES Asked askJoint(JointLanes& joint, const JointConstants& constants, c
         if (rubs) askHingeFriction(joint, relative, frictionLimit, pass, asked);
     } else {
         if (joint.limitActive[1] != 0) askLimit(joint.limit[1], relative, pass, asked);
+        if (joint.limitActive[2] != 0) askLimit(joint.limit[2], relative, pass, asked);
         if (rubs) askConeFriction(joint, relative, frictionLimit, pass, asked);
     }
     if (joint.limitActive[0] != 0) askLimit(joint.limit[0], relative, pass, asked);
@@ -202,6 +203,7 @@ LUTKA_LANES Mask updateJoint(JointLanes& joint, const JointConstants& constants,
         }
     } else {
         if (joint.limitActive[1] != 0) wrong |= updateLimit(joint.limit[1], relative, params, pass);
+        if (joint.limitActive[2] != 0) wrong |= updateLimit(joint.limit[2], relative, params, pass);
         if (rubs) store(joint.frictionImpulse, load(joint.frictionImpulse) - relative * load(joint.frictionGain));
     }
     if (joint.limitActive[0] != 0) wrong |= updateLimit(joint.limit[0], relative, params, pass);

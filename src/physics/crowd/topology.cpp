@@ -10,6 +10,9 @@
 namespace lutka::physics::crowd {
 namespace {
 
+// An ellipse whose axes differ by less is held by one row.
+constexpr float kRound = 1.2F;
+
 void copy(float (&to)[3], const vec3& v) {
     to[0] = v.x;
     to[1] = v.y;
@@ -48,6 +51,9 @@ JointConstants constantsOf(const ConstraintProfile& constraint) {
     const ConeTwistLimits& cone = constraint.cone;
     copy(constants.limit, constants.isHinge != 0 ? vec3(constraint.hinge.lower, constraint.hinge.upper, 0)
                                                  : vec3(cone.swingY, cone.swingZ, cone.twist));
+    constants.longAxis = -1;
+    if (constants.isHinge == 0 && std::max(cone.swingY, cone.swingZ) > kRound * std::min(cone.swingY, cone.swingZ))
+        constants.longAxis = cone.swingY > cone.swingZ ? 0 : 1;
     constants.frictionNm = constraint.frictionNm;
     return constants;
 }

@@ -13,7 +13,7 @@ struct CrowdTuning : SubstepTuning {
     int mendEvery = 1;  ///< Errors of position are mended in every so many substeps, the last among them.
 
     float jointErp = 0.3F;        ///< Part of a joint's gap mended in a substep, (0, 1].
-    float limitErp = 0.2F;        ///< The same for limits.
+    float limitErp = 0.3F;        ///< The same for limits.
     float contactErp = 0.3F;      ///< The same for overlap.
     float staticMargin = 0.05F;   ///< Metres beyond the predicted motion within which contacts are made, with statics
     float pairMargin = 0.015F;    ///< and between bodies. Static ones are cheap while nothing presses.

@@ -1,11 +1,8 @@
 #include "physics/world/quality.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -13,6 +10,9 @@
 #include "physics/collision/shape.hpp"
 #include "physics/collision/static_distance.hpp"
 #include "physics/profile/constraint_state.hpp"
+#include "physics/world/doll_overlap.hpp"
+#include "physics/world/histogram.hpp"
+#include "physics/world/lasting_peak.hpp"
 
 namespace lutka::physics {
 namespace {
@@ -20,57 +20,8 @@ namespace {
 constexpr double kSecondsAfterContact = 3.0;  // samples for the 99th percentile and the mean end here
 constexpr float kTouching = 0.002F;           // metres: nearer than this is contact
 constexpr float kSettledSpeed = 0.01F;        // m/s
-
-constexpr unsigned kShift = 16;  // bits of a float that a bin does not tell apart
-constexpr int binOf(float value) {
-    return static_cast<int>(std::bit_cast<std::uint32_t>(value) >> kShift);
-}
-constexpr float middleOf(int bin) {
-    return std::bit_cast<float>((static_cast<std::uint32_t>(bin) << kShift) + (1U << (kShift - 1)));
-}
-
-// Counts values in bins that grow by less than 1 %, so that a percentile of millions of samples needs no memory. A bin
-// is a float's exponent and the first seven bits of its fraction: a logarithm for each sample cost more than measuring
-// it.
-class Histogram {
-  public:
-    void add(float value) {
-        ++count_;
-        if (!(value < kHighest)) {  // so far off, or not a number, that its place no longer matters
-            ++counts_[kBins - 1];
-            sum_ += static_cast<double>(kHighest);
-            return;
-        }
-        sum_ += static_cast<double>(value);
-        if (value <= kLowest) {
-            ++counts_[0];
-            return;
-        }
-        ++counts_[1 + binOf(value) - kFirst];
-    }
-    // The value that a share of the samples does not exceed, to 1 %; 0 without samples.
-    [[nodiscard]] float percentile(double share) const {
-        std::int64_t below = 0;
-        for (int bin = 0; bin < kBins; ++bin) {
-            below += counts_[bin];
-            if (count_ > 0 && static_cast<double>(below) >= share * static_cast<double>(count_))
-                return bin == 0 ? 0.0F : middleOf(bin - 1 + kFirst);
-        }
-        return 0.0F;
-    }
-    [[nodiscard]] float mean() const {
-        return count_ > 0 ? static_cast<float>(sum_ / static_cast<double>(count_)) : 0.0F;
-    }
-
-  private:
-    static constexpr float kLowest = 1e-7F;
-    static constexpr float kHighest = 1e4F;
-    static constexpr int kFirst = binOf(kLowest);
-    static constexpr int kBins = binOf(kHighest) - kFirst + 2;
-    std::array<std::int64_t, kBins> counts_{};
-    std::int64_t count_ = 0;
-    double sum_ = 0;
-};
+constexpr double kFrame = 0.999 / 60.0;       // seconds, but for the rounding of the samples' times
+constexpr double kLasting = 1.999 / 60.0;     // two frames
 
 // Half m v² plus half I w² (I in the body's principal axes).
 double kineticEnergy(const BodyState& state, float massKg, const vec3& inertia) {
@@ -94,6 +45,10 @@ struct QualityMeter::State {
     // Takes the figures of all dolls (when `figures`) and returns the mechanical energy of all dynamic bodies, joules.
     double sampleWorld(bool figures);
     void sampleDoll(DollId doll);
+    // How far dolls are in each other, once a frame: they move little in less.
+    void sampleOverlaps();
+    // What each of the doll's joints kept up of its violation.
+    std::vector<LastingPeak>& peaksOf(DollId doll, std::size_t joints);
     // The pairs of bodies that may collide.
     const std::vector<std::pair<int, int>>& pairsOf(const RagdollProfile& profile);
     double energyOf(const BodyState& state, float massKg, const vec3& inertia) const {
@@ -110,24 +65,36 @@ struct QualityMeter::State {
     Quality quality;
     Histogram separations;
     Histogram violations;  // degrees
+    struct DollPeaks {
+        DollId doll;
+        std::vector<LastingPeak> joints;
+    };
+    std::vector<DollPeaks> peaks;  // by the index of a doll's handle
     std::map<const RagdollProfile*, std::vector<std::pair<int, int>>> pairs;
+    DollOverlap overlap;
+    Histogram overlaps;             // of bodies of different dolls that touch or nearly do
+    double lastOverlap = -1;        // seconds since release
     std::vector<BodyState> bodies;  // of the doll at hand
     bool touching = false;          // some body is in contact with something static, in the present sample
     bool settled = false;           // all dolls rest, in the present sample
     double leastEnergy = 0;
     std::optional<double> firstContact;
     std::optional<double> restingSince;
+    double now = 0;        // seconds since release
     bool counting = true;  // whether the present sample goes into the percentiles
 };
 
 void QualityMeter::State::sampleDoll(DollId doll) {
     const RagdollProfile& profile = world.profileOf(doll);
-    for (const ConstraintProfile& constraint : profile.constraints) {
+    std::vector<LastingPeak>& held = peaksOf(doll, profile.constraints.size());
+    for (std::size_t i = 0; i < profile.constraints.size(); ++i) {
+        const ConstraintProfile& constraint = profile.constraints[i];
         const ConstraintState state = measureConstraint(constraint, bodies[constraint.parent].worldFromBody,
                                                         bodies[constraint.child].worldFromBody);
         const float violation = degrees(state.violation);
         quality.jointSeparationM.max = std::max(quality.jointSeparationM.max, state.separationM);
         quality.limitViolationDeg.max = std::max(quality.limitViolationDeg.max, violation);
+        quality.limitViolationDeg.lasting = std::max(quality.limitViolationDeg.lasting, held[i].add(now, violation));
         if (!counting) continue;
         separations.add(state.separationM);
         violations.add(violation);
@@ -147,6 +114,32 @@ void QualityMeter::State::sampleDoll(DollId doll) {
                                                profile.bodies[b].shape, bodies[b].worldFromBody);
         quality.selfPenetrationM = std::max(quality.selfPenetrationM, -distance);
     }
+}
+
+std::vector<LastingPeak>& QualityMeter::State::peaksOf(DollId doll, std::size_t joints) {
+    const auto index = static_cast<std::size_t>(doll.index);
+    if (peaks.size() <= index) peaks.resize(index + 1);
+    DollPeaks& known = peaks[index];
+    if (known.doll != doll) known = {doll, std::vector<LastingPeak>(joints, LastingPeak(kLasting))};
+    return known.joints;
+}
+
+void QualityMeter::State::sampleOverlaps() {
+    if (lastOverlap >= 0 && now < lastOverlap + kFrame) return;
+    lastOverlap = now;
+    overlap.clear();
+    const std::span<const DollId> dolls = world.dolls();
+    if (dolls.size() < 2) return;
+    for (std::size_t i = 0; i < dolls.size(); ++i) {
+        const RagdollProfile& profile = world.profileOf(dolls[i]);
+        bodies.resize(profile.bodies.size());
+        world.getBodies(dolls[i], bodies);
+        if (!std::all_of(bodies.begin(), bodies.end(), [](const BodyState& body) { return isFinite(body); })) continue;
+        overlap.add(static_cast<int>(i), profile, bodies);
+    }
+    for (const float depth : overlap.depths())
+        overlaps.add(depth);
+    quality.dollPenetrationM.max = std::max(quality.dollPenetrationM.max, overlap.deepest());
 }
 
 double QualityMeter::State::sampleWorld(bool figures) {
@@ -215,8 +208,10 @@ QualityMeter::~QualityMeter() = default;
 
 void QualityMeter::sample(double secondsSinceRelease) {
     State& s = *state_;
+    s.now = secondsSinceRelease;
     s.counting = !s.firstContact || secondsSinceRelease <= *s.firstContact + kSecondsAfterContact;
     const double energy = s.sampleWorld(true);
+    s.sampleOverlaps();
     if (s.touching && !s.firstContact) s.firstContact = secondsSinceRelease;
     s.leastEnergy = std::min(s.leastEnergy, energy);
     s.quality.energyGrowthJ = std::max(s.quality.energyGrowthJ, static_cast<float>(energy - s.leastEnergy));
@@ -231,6 +226,7 @@ Quality QualityMeter::result() const {
     quality.jointSeparationM.p99 = std::min(state_->separations.percentile(0.99), quality.jointSeparationM.max);
     quality.jointSeparationM.mean = state_->separations.mean();
     quality.limitViolationDeg.p99 = std::min(state_->violations.percentile(0.99), quality.limitViolationDeg.max);
+    quality.dollPenetrationM.p99 = std::min(state_->overlaps.percentile(0.99), quality.dollPenetrationM.max);
     if (state_->restingSince) quality.settleSeconds = static_cast<float>(*state_->restingSince - *state_->firstContact);
     return quality;
 }

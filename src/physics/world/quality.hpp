@@ -18,11 +18,15 @@ struct Quality {
     } jointSeparationM;
     struct {
         float max = 0, p99 = 0;
+        float lasting = 0;  ///< Largest that one joint held for two frames of 1/60 s.
     } limitViolationDeg;
     float floorPenetrationM = 0;  ///< Largest, into any static shape, by analytic distance.
     float selfPenetrationM = 0;   ///< Largest between bodies of one doll that may collide.
-    float energyGrowthJ = 0;      ///< Largest rise over the running minimum, less the work of drags, motors and forces.
-    float initialEnergyJ = 0;     ///< At release, for the growth's share.
+    struct {
+        float max = 0, p99 = 0;
+    } dollPenetrationM;       ///< Between bodies of different dolls, once a frame; p99 over pairs less than 1 cm apart.
+    float energyGrowthJ = 0;  ///< Largest rise over the running minimum, less the work of drags, motors and forces.
+    float initialEnergyJ = 0;  ///< At release, for the growth's share.
     std::optional<float>
         settleSeconds;           ///< From the first contact until all dolls are asleep or below 1 cm/s; unset: never.
     float residualSpeedMps = 0;  ///< Root mean square of the bodies' speeds at the end.

@@ -1,5 +1,6 @@
 #include "physics/collision/static_distance.hpp"
 #include "physics/profile/constraint_state.hpp"
+#include "physics/world/doll_overlap.hpp"
 #include "physics/world/quality.hpp"
 
 #include <glm/geometric.hpp>
@@ -235,6 +236,34 @@ TEST_CASE("the percentile ends three seconds after the first contact, the maximu
     CHECK(quality.jointSeparationM.mean == Approx(0.002F + 0.02F * 0.006F).epsilon(1e-3));
 }
 
+TEST_CASE("a lasting violation is what a joint held for two frames, not a peak", "[quality]") {
+    const RagdollProfile pair = test::makePair(physics::HingeLimits{radians(-20.0F), radians(30.0F)});
+    PuppetWorld world(pair);
+    physics::QualityMeter meter(world, kFloor, kGravity);
+    int samples = 0;
+    const auto hold = [&](float angleDeg, int count) {
+        const physics::ConstraintProfile& c = pair.constraints[0];
+        world.lieAt(1.0F);
+        const RigidTransform parentFrame = world.bodies[0].worldFromBody * c.parentFromFrame;
+        world.bodies[1].worldFromBody =
+            parentFrame * RigidTransform{turn(angleDeg, {0, 0, 1}), vec3(0)} * inverse(c.childFromFrame);
+        for (int i = 0; i < count; ++i)
+            meter.sample(++samples / 360.0);
+    };
+    hold(130, 12);  // from the first to the last less than two frames
+    hold(0, 1);
+    CHECK(meter.result().limitViolationDeg.max == Approx(100).epsilon(1e-3));
+    CHECK(meter.result().limitViolationDeg.lasting == 0.0F);
+    hold(75, 6);
+    hold(50, 6);
+    hold(90, 1);  // never below 20 for two frames
+    CHECK(meter.result().limitViolationDeg.lasting == Approx(20).epsilon(1e-3));
+    hold(90, 12);
+    CHECK(meter.result().limitViolationDeg.lasting == Approx(60).epsilon(1e-3));
+    hold(35, 30);
+    CHECK(meter.result().limitViolationDeg.lasting == Approx(60).epsilon(1e-3));
+}
+
 TEST_CASE("states that are not finite are counted and spoil nothing else", "[quality]") {
     const RagdollProfile pair = test::makePair(physics::ConeTwistLimits{1, 1, 1});
     PuppetWorld world(pair);
@@ -248,4 +277,29 @@ TEST_CASE("states that are not finite are counted and spoil nothing else", "[qua
     CHECK(meter.result().nonFinite == 1);
     CHECK(meter.result().floorPenetrationM == Approx(0.01F));
     CHECK(meter.result().jointSeparationM.max == Approx(0.0F).margin(1e-6));
+}
+
+TEST_CASE("dolls in each other are measured pair by pair, a doll's own bodies and distant ones are not", "[quality]") {
+    RagdollProfile ball = test::makePair(physics::ConeTwistLimits{1, 1, 1});
+    for (physics::BodyProfile& body : ball.bodies) {
+        body.shape = {};
+        body.shape.kind = BodyShape::Kind::sphere;
+        body.shape.radius = 0.1F;
+    }
+    const auto at = [](float x, float z) {
+        BodyState state;
+        state.worldFromBody.translation = {x, 0, z};
+        return state;
+    };
+    physics::DollOverlap overlap;
+    overlap.add(0, ball, std::vector{at(0, 0), at(0.02F, 0)});    // deep in itself
+    overlap.add(1, ball, std::vector{at(0.17F, 0), at(5, 0)});    // 30 mm and 50 mm into the first
+    overlap.add(2, ball, std::vector{at(5, 0.205F), at(5, -1)});  // 5 mm from the second
+    const std::span<const float> depths = overlap.depths();
+    REQUIRE(depths.size() == 3);
+    CHECK(overlap.deepest() == Approx(0.05F).margin(1e-5));
+    CHECK(*std::min_element(depths.begin(), depths.end()) == 0.0F);
+    overlap.clear();
+    CHECK(overlap.depths().empty());
+    CHECK(overlap.deepest() == 0.0F);
 }

@@ -1,0 +1,62 @@
+#include "crowd_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <map>
+
+namespace lutka::bench {
+
+void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
+    const std::size_t at = setting.find('=');
+    const std::string name = setting.substr(0, at);
+    const float value = at == std::string::npos ? 0.0F : std::stof(setting.substr(at + 1));
+    const std::map<std::string, float*> reals{{"jointErp", &tuning.jointErp},
+                                              {"limitErp", &tuning.limitErp},
+                                              {"contactErp", &tuning.contactErp},
+                                              {"jointStiffness", &tuning.jointStiffness},
+                                              {"mendGap", &tuning.mendGap},
+                                              {"mendAngle", &tuning.mendAngle},
+                                              {"aimGap", &tuning.aimGap},
+                                              {"letGo", &tuning.letGo},
+                                              {"nearSpeed", &tuning.nearSpeed},
+                                              {"contactTolerance", &tuning.contactTolerance},
+                                              {"limitTolerance", &tuning.limitTolerance},
+                                              {"firstTouch", &tuning.firstTouch},
+                                              {"limitStiffness", &tuning.limitStiffness},
+                                              {"contactStiffness", &tuning.contactStiffness},
+                                              {"grip", &tuning.grip},
+                                              {"pushSpeed", &tuning.pushSpeed},
+                                              {"limitSpeed", &tuning.limitSpeed},
+                                              {"slop", &tuning.slop},
+                                              {"staticMargin", &tuning.staticMargin},
+                                              {"pairMargin", &tuning.pairMargin},
+                                              {"rollingLever", &tuning.rollingLever},
+                                              {"linearDamping", &tuning.linearDamping},
+                                              {"calmSpeed", &tuning.calmSpeed},
+                                              {"calmDamping", &tuning.calmDamping},
+                                              {"stiction", &tuning.stiction},
+                                              {"jointStiction", &tuning.jointStiction},
+                                              {"stictionRate", &tuning.stictionRate},
+                                              {"stiffen", &tuning.stiffen},
+                                              {"stiffest", &tuning.stiffest},
+                                              {"sleepSpeed", &tuning.sleepSpeed},
+                                              {"angularDamping", &tuning.angularDamping},
+                                              {"leastGyration", &tuning.leastGyration}};
+    const std::map<std::string, int*> whole{{"substeps", &tuning.substeps},
+                                            {"passes", &tuning.passes},
+                                            {"patience", &tuning.patience},
+                                            {"mendEvery", &tuning.mendEvery}};
+    if (const auto real = reals.find(name); real != reals.end())
+        *real->second = value;
+    else if (const auto number = whole.find(name); number != whole.end())
+        *number->second = static_cast<int>(value);
+    else if (name == "baseline")
+        tuning.instructionSet = physics::crowd::InstructionSet::baseline;
+    else if (name == "avx2")
+        tuning.instructionSet = physics::crowd::InstructionSet::avx2;
+    else
+        fmt::print(stderr, "there is no setting '{}'\n", name);
+}
+
+}  // namespace lutka::bench

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "physics/profile/body_state.hpp"
+#include "physics/profile/profile.hpp"
+
+namespace lutka::physics {
+
+/// How deep bodies of different dolls are in each other, by the analytic distance of their shapes.
+class DollOverlap {
+  public:
+    static constexpr float kNear = 0.01F;  ///< Metres: pairs farther apart are not counted.
+
+    void clear() { bodies_.clear(); }
+    /// A doll's bodies, all of them finite; the profile must live until depths() is called.
+    void add(int doll, const RagdollProfile& profile, std::span<const BodyState> bodies);
+    /// The depth of each pair that is near, metres: 0 where the two are apart. Valid until the next call.
+    [[nodiscard]] std::span<const float> depths();
+    /// The largest of the last depths().
+    [[nodiscard]] float deepest() const;
+
+  private:
+    struct Body {
+        const BodyShape* shape;
+        RigidTransform worldFromBody;
+        vec3 low, high;  // bounds, grown by half of kNear
+        int doll;
+    };
+    void measure(const Body& a, const Body& b);
+
+    std::vector<Body> bodies_;
+    std::vector<float> depths_;
+};
+
+}  // namespace lutka::physics

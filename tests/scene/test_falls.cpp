@@ -1,0 +1,57 @@
+// Falls of real models, each scene and seed by itself. bench/falls.cpp runs thousands (docs/crowd.md has the figures);
+// here are a few of each, and those that went wrong.
+#include "support/falls.hpp"
+
+#include "scene/make_world.hpp"
+#include "support/catch.hpp"
+#include "support/zoo.hpp"
+
+using namespace lutka;
+
+namespace {
+
+std::unique_ptr<scene::RagdollAsset> mannequin() {
+    auto asset = test::loadFigure(LUTKA_ASSETS_DIR "/models/mannequin.glb");
+    REQUIRE(asset.ok());
+    return std::move(asset).value();
+}
+
+test::Fall fallOf(const scene::RagdollAsset& asset, physics::SolverKind solver, const std::string& scene,
+                  std::uint64_t seed, float seconds) {
+    physics::WorldSettings settings;
+    settings.solver = solver;
+    auto result = test::fall(asset, scene::makeWorld(settings), {scene, seed, seconds});
+    REQUIRE(result.ok());
+    return std::move(result).value();
+}
+
+}  // namespace
+
+// A wrist's ellipse is narrow: past its tip one row let the hand run 47, 66 and 106 degrees too far, for half a second
+// and more.
+TEST_CASE("no hand stays past its limit, whatever falls on it") {
+    const auto asset = mannequin();
+    for (const auto solver : {physics::SolverKind::crowd, physics::SolverKind::bullet}) {
+        for (const std::uint64_t seed : {59, 63, 65, 66, 77}) {
+            const test::Fall fall = fallOf(*asset, solver, "drop", seed, 3.0F);
+            CAPTURE(physics::solverName(solver), seed, fall.worstJoint);
+            CHECK(fall.quality.limitViolationDeg.lasting < 15.0F);
+        }
+    }
+}
+
+TEST_CASE("joints of real models hold their limits in every scene") {
+    NEEDS_ZOO();
+    for (const char* file : {"quaternius_man_fbx/Male_Casual.fbx", "rocketbox_male/Male_Adult_17.fbx",
+                             "makehuman_mixamo/makehuman_mixamo.glb"}) {
+        const auto asset = test::loadFigure(test::zooFile(file).string());
+        REQUIRE(asset.ok());
+        for (const char* scene : {"drop", "stairs", "throw", "balls"}) {
+            for (std::uint64_t seed = 0; seed < 5; ++seed) {
+                const test::Fall fall = fallOf(*asset.value(), physics::SolverKind::crowd, scene, seed, 3.0F);
+                CAPTURE(file, scene, seed, fall.worstJoint);
+                CHECK(fall.quality.limitViolationDeg.lasting < 15.0F);
+            }
+        }
+    }
+}
