@@ -196,9 +196,4 @@ LUTKA_LANES void advanceBody(BodyLanes& body, const BodyConstants& constants, F 
           turned * V3{inBody.x * inverseInertia.x, inBody.y * inverseInertia.y, inBody.z * inverseInertia.z});
 }
 
-static void advance(const BatchView& batch, const SubstepParams& params) {
-    for (int b = 0; b < batch.bodyCount; ++b)
-        advanceBody(batch.bodies[b], batch.bodyConstants[b], all(params.dt));
-}
-
 }  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS

@@ -3,6 +3,7 @@
 /// What a translation unit that defines LUTKA_CROWD_KERNELS includes to get that instruction set's kernels.
 
 #include "physics/crowd/contact_kernels.hpp"
+#include "physics/crowd/momentum_kernels.hpp"
 #include "physics/crowd/touch_kernels.hpp"
 
 namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {

@@ -38,6 +38,7 @@ struct BodyLanes {
     Wide3 position;                       ///< Of the centre of mass.
     Wide3 axisX, axisY, axisZ;            ///< The columns of the rotation, kept in step with `rotation`.
     Wide4 rotation;
+    Wide3 loose;      ///< The velocity before the joints were solved: what it changes by is their doing.
     Wide3 spin;       ///< What half a substep of free motion adds to the turning rate.
     Wide3 low, high;  ///< Bounds for the coming step as seen from the doll's root: see `findBounds`.
 };

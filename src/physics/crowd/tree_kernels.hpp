@@ -220,6 +220,8 @@ static void aim(const BatchView& batch, const SubstepParams& params) {
 }
 
 static void solve(const BatchView& batch, const SubstepParams& params, int first) {
+    for (int b = 0; first != 0 && b < batch.bodyCount; ++b)
+        batch.bodies[b].loose = batch.bodies[b].velocity;
     Pass pass{false, all(first != 0 ? 0.0F : 1.0F), noLanes(), load(batch.rest->stiction), noLanes()};
     for (int i = 0; i < params.passes; ++i) {
         pass.astray = noLanes();

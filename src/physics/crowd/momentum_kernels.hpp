@@ -1,0 +1,58 @@
+#pragma once
+
+/// The end of a substep: what a doll in free flight keeps, and the bodies' new positions.
+
+#include "physics/crowd/tree_kernels.hpp"
+
+namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
+
+// The lanes in which nothing holds the doll that the solver of joints took into account: no static contact, no drag.
+static Mask unheld(const BatchView& batch) {
+    Mask held = noLanes();
+    for (int i = 0; i < batch.contactCount; ++i) {
+        if (batch.contacts[i].engaged != 0) held |= load(batch.contacts[i].normalImpulse) > all(0.0F);
+    }
+    for (int i = 0; i < batch.dragCount; ++i)
+        held |= load(batch.drags[i].weight) > all(0.0F);
+    return ~held;
+}
+
+// The solver pushes at the arms of the substep's middle, so that the anchors meet at its end, while the bodies' centres
+// are still where the substep began. Together that is a torque of (middle arm - arm) x push from nowhere, and cost a
+// tumbling doll 4 % of its angular momentum a second. What a body keeps is what pushes at the arms of the start give
+// (as in SHAKE; Ryckaert, Ciccotti and Berendsen 1977): the anchors are one point there, so nothing is lost.
+// What rests on something keeps what the solver found, which holds the contact.
+static void keepMomentum(const BatchView& batch) {
+    const Mask free = unheld(batch);
+    if (bits(free) == 0) return;
+    const F share = free ? all(1.0F) : all(0.0F);
+    // A joint's push is the sum over all that hangs on it; velocityChange is free for that once the tree is solved.
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        const BodyLanes& body = batch.bodies[b];
+        const F mass = all(1.0F / batch.bodyConstants[b].inverseMass);
+        store(batch.tree[b].velocityChange, (load(body.steadyVelocity) - load(body.loose)) * mass);
+    }
+    for (int j = batch.jointCount - 1; j >= 0; --j) {
+        const JointLanes& joint = batch.joints[j];
+        const JointConstants& constants = batch.jointConstants[j];
+        BodyLanes& parent = batch.bodies[constants.parent];
+        BodyLanes& child = batch.bodies[constants.child];
+        const V3 push = load(batch.tree[constants.child].velocityChange);
+        Wide3& above = batch.tree[constants.parent].velocityChange;
+        store(above, load(above) + push);
+        const V3 childOff = axesOf(child) * all(constants.childAnchor) - load(joint.childArm);
+        const V3 parentOff = axesOf(parent) * all(constants.parentAnchor) - load(joint.parentArm);
+        const V3 childTurn = load(child.inverseInertia) * cross(childOff, push);
+        const V3 parentTurn = load(parent.inverseInertia) * cross(parentOff, push);
+        store(child.steadyAngular, load(child.steadyAngular) + childTurn * share);
+        store(parent.steadyAngular, load(parent.steadyAngular) - parentTurn * share);
+    }
+}
+
+static void advance(const BatchView& batch, const SubstepParams& params) {
+    if (batch.jointCount > 0) keepMomentum(batch);
+    for (int b = 0; b < batch.bodyCount; ++b)
+        advanceBody(batch.bodies[b], batch.bodyConstants[b], all(params.dt));
+}
+
+}  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS
