@@ -55,3 +55,25 @@ TEST_CASE("joints of real models hold their limits in every scene") {
         }
     }
 }
+
+// From seed 0 it sat on its knees, and figures with legs of one piece stood, each in exact balance.
+TEST_CASE("a figure that nothing holds up does not stay upright") {
+    NEEDS_ZOO();
+    int upright = 0;
+    int drops = 0;
+    for (const char* file : {"minetest_character/character.b3d", "hl1_man/man.mdl", "rocketbox_male/Male_Adult_17.fbx",
+                             "sketchbook_boxman/boxman.glb", "bvh_boxing/Boxing_Toes.bvh"}) {
+        const auto asset = test::loadFigure(test::zooFile(file).string());
+        REQUIRE(asset.ok());
+        for (std::uint64_t seed = 0; seed < 4; ++seed) {
+            const test::Fall fall = fallOf(*asset.value(), physics::SolverKind::crowd, "drop", seed, 6.0F);
+            CAPTURE(file, seed, fall.hipsHeightShare, fall.trunkLeanDeg);
+            CHECK(fall.hipsHeightShare < 0.6F);
+            if (seed == 0) CHECK(fall.trunkLeanDeg > 45.0F);
+            upright += fall.trunkLeanDeg > 45.0F ? 0 : 1;
+            ++drops;
+        }
+    }
+    CAPTURE(drops);
+    CHECK(upright <= 2);
+}
