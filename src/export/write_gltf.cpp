@@ -25,6 +25,12 @@ constexpr float kFriction = 0.8F;
 // A drive reaches the torque of our dry friction at this speed.
 constexpr float kSlipSpeed = 0.1F;  // rad/s
 
+// Rounding leaves components like 1.0000001, which glTF forbids.
+Json rotationJson(const quat& rotation) {
+    const quat unit = glm::normalize(rotation);
+    return jsonQuaternion({std::clamp(unit.w, -1.0F, 1.0F), std::clamp(unit.x, -1.0F, 1.0F),
+                           std::clamp(unit.y, -1.0F, 1.0F), std::clamp(unit.z, -1.0F, 1.0F)});
+}
 Json lockedLinear() {
     return Json{{"linearAxes", {0, 1, 2}}, {"min", 0}, {"max", 0}};
 }
@@ -76,7 +82,7 @@ class GltfPhysicsWriter {
     int addNode(int body, const std::string& suffix, const RigidTransform& bodyFromNode, Json extension) {
         const RigidTransform jointFromNode = profile_.bodies[body].jointFromBody * bodyFromNode;
         Json node{{"name", bodyName(profile_, body) + " " + suffix},
-                  {"rotation", jsonQuaternion(glm::normalize(jointFromNode.rotation))},
+                  {"rotation", rotationJson(jointFromNode.rotation)},
                   {"translation", jsonVector(jointFromNode.translation)}};
         if (!extension.is_null()) node["extensions"] = Json{{kPhysicsExtension, std::move(extension)}};
         const int index = static_cast<int>(document_["nodes"].size());
@@ -93,7 +99,7 @@ class GltfPhysicsWriter {
                   {{"mass", jsonNumber(body.massKg)},
                    {"centerOfMass", jsonVector(body.jointFromBody.translation)},
                    {"inertiaDiagonal", jsonVector(body.inertia)},
-                   {"inertiaOrientation", jsonQuaternion(glm::normalize(body.jointFromBody.rotation))},
+                   {"inertiaOrientation", rotationJson(body.jointFromBody.rotation)},
                    {"extras", {{kRoleKey, bodyName(profile_, index)}}}}}};
         Json collider{{"geometry", {{"shape", shapes_.size()}}}, {"physicsMaterial", 0}};
         shapes_.push_back(shapeJson(body.shape));

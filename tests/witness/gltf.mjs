@@ -72,6 +72,10 @@ function checkRoundTrip(file) {
   // q and -q are the same rotation.
   const flip = (value) => JSON.parse(JSON.stringify(value, (key, v) => (key === 'rotation' && v.findLast((c) => Math.abs(c) > 1e-3) < 0 ? v.map((c) => -c) : v)));
   const same = (a, b, what) => checks.near(numbers(flip(a)), numbers(flip(b)), 1e-5, what);
+  // A capsule of length 0 comes back as the sphere that it is.
+  for (const { shape } of profile.bodies) {
+    if (shape.kind === 'capsule' && shape.halfLength === 0) delete shape.halfLength;
+  }
   for (const body of profile.bodies) same({ ...back.byRole[body.role], jointPath: '' }, { ...body, jointPath: '' }, `round trip of ${body.role}`);
   for (const c of profile.constraints) same(back.constraints.find((d) => d.child === c.child), c, `round trip of the joint of ${c.child}`);
   const pairs = (p) => p.filteredPairs.map((pair) => [...pair].sort().join()).sort().join(' ');

@@ -5,8 +5,10 @@
 namespace lutka::animation::glb {
 namespace {
 
+// Rounding leaves components like 1.0000001, which glTF forbids.
 std::vector<double> doubles(const quat& q) {
-    return {q.x, q.y, q.z, q.w};
+    const glm::dquat unit = glm::normalize(glm::dquat(q));
+    return {unit.x, unit.y, unit.z, unit.w};
 }
 
 std::vector<double> doubles(const vec3& v) {

@@ -16,7 +16,7 @@ constexpr std::size_t kMaxBytes = 0xFFFF'0000ULL;
 tinygltf::Node wrapperNode(const Character& character, const RigidTransform& worldFromModel) {
     tinygltf::Node node;
     node.name = glb::utf8(character.name.empty() ? "character" : character.name);
-    const quat& q = worldFromModel.rotation;
+    const glm::dquat q = glm::normalize(glm::dquat(worldFromModel.rotation));
     const vec3& t = worldFromModel.translation;
     node.rotation = {q.x, q.y, q.z, q.w};
     node.translation = {t.x, t.y, t.z};
