@@ -128,7 +128,7 @@ void RagdollJoint::addSwingRows(const mat3& parentAxes, const vec3& swing, const
     const ConeTwistLimits& cone = profile_.cone;
     const vec3 scaled(0, swing.y / cone.swingY, swing.z / cone.swingZ);
     const float outness = glm::length(scaled);  // 1 on the ellipse
-    if (outness < 1e-3F) return;
+    if (!(outness > 1e-3F)) return;  // nor where it is not a number
     const float angle = glm::length(swing);
     const float remaining = angle / outness - angle;
     if (remaining < tuning_.limitMargin) {
@@ -142,7 +142,7 @@ void RagdollJoint::addSwingRows(const mat3& parentAxes, const vec3& swing, const
     const bool isY = cone.swingY > cone.swingZ;
     const float along = isY ? swing.y : swing.z;
     const float left = (isY ? cone.swingY : cone.swingZ) - std::abs(along);
-    if (left > tuning_.limitMargin) return;
+    if (!(left <= tuning_.limitMargin)) return;
     const float end = along < 0.0F ? -1.0F : 1.0F;
     const vec3 axis(0, isY ? end : 0.0F, isY ? 0.0F : end);
     addRow({end < 0.0F ? longLower : longUpper, parentAxes * -swingGradient(axis, u, bounded), left,
