@@ -136,7 +136,7 @@ void GltfScene::place(std::size_t index, int depth) {
 std::string GltfScene::pathOf(std::size_t node) const {
     std::string path = nodes_[node].step;
     for (int above = nodes_[node].parent; above >= 0; above = nodes_[above].parent)
-        path = nodes_[above].step + "/" + path;
+        path.insert(0, nodes_[above].step + "/");
     return path;
 }
 

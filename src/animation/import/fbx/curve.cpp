@@ -156,7 +156,7 @@ std::optional<Curve> readCurve(const Record& record, double ticksPerSecond) {
             data[i].numbers[n] = keyNumber(numbers[4 * attribute + n]);
     }
     setTangents(keys, data);
-    return Curve(std::move(keys), readBeyond(record, "Pre-Extrapolation"), readBeyond(record, "Post-Extrapolation"));
+    return Curve(keys, readBeyond(record, "Pre-Extrapolation"), readBeyond(record, "Post-Extrapolation"));
 }
 
 }  // namespace lutka::animation::rig_import::fbx

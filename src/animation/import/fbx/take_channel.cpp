@@ -97,7 +97,7 @@ std::optional<Curve> readChannel(const Record& record, double ticksPerSecond) {
     }
     if (keys.empty()) return std::nullopt;
     setTangents(keys, data);
-    return Curve(std::move(keys), readBeyond(record, "Pre-Extrapolation"), readBeyond(record, "Post-Extrapolation"));
+    return Curve(keys, readBeyond(record, "Pre-Extrapolation"), readBeyond(record, "Post-Extrapolation"));
 }
 
 }  // namespace lutka::animation::rig_import::fbx
