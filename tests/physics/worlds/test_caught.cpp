@@ -57,9 +57,10 @@ TEST_CASE("a doll faster than sense allows is put back to where it was and to sl
     }
 }
 
-TEST_CASE("a doll that no solver can hold leaves its neighbours alone, in the crowd to the bit") {
+TEST_CASE("a doll that no solver can hold leaves its neighbours the bits that they have without it") {
     const physics::RagdollProfile profile = makeDoll();
     const physics::RagdollProfile bad = poisoned();
+    // Not stock Bullet: the order in which it solves depends on what else is in the world.
     for (const SolverKind solver : kOurSolvers) {
         INFO(physics::solverName(solver));
         std::unique_ptr<physics::World> worlds[2];
@@ -75,15 +76,10 @@ TEST_CASE("a doll that no solver can hold leaves its neighbours alone, in the cr
             for (const auto& world : worlds)
                 world->step(kFrame);
             REQUIRE(isFinite(bodiesOfDoll(*worlds[1], 2)));
-            for (int i = 0; i < 2; ++i) {
-                const std::vector<BodyState> without = bodiesOfDoll(*worlds[0], i);
-                const std::vector<BodyState> beside = bodiesOfDoll(*worlds[1], i);
-                if (solver == SolverKind::crowd) REQUIRE(sameBits(without, beside));
-                // Bullet keeps its contacts in an order that depends on what else is there: other last bits, from which
-                // a fall goes another way in the end.
-                REQUIRE(glm::distance(without[0].worldFromBody.translation, beside[0].worldFromBody.translation) <
-                        0.3F);
-            }
+            // What holds in `bullet` once a doll was caught, docs/reliability.md says.
+            if (solver != SolverKind::crowd && !worlds[1]->caught().empty()) break;
+            for (int i = 0; i < 2; ++i)
+                REQUIRE(sameBits(bodiesOfDoll(*worlds[0], i), bodiesOfDoll(*worlds[1], i)));
         }
     }
 }
