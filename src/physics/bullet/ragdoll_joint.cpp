@@ -128,7 +128,7 @@ void RagdollJoint::addSwingRows(const mat3& parentAxes, const vec3& swing, const
     const ConeTwistLimits& cone = profile_.cone;
     const vec3 scaled(0, swing.y / cone.swingY, swing.z / cone.swingZ);
     const float outness = glm::length(scaled);  // 1 on the ellipse
-    if (!(outness > 1e-3F)) return;  // nor where it is not a number
+    if (!(outness > 1e-3F)) return;             // nor where it is not a number
     const float angle = glm::length(swing);
     const float remaining = angle / outness - angle;
     if (remaining < tuning_.limitMargin) {

@@ -1,6 +1,7 @@
 #include "physics/bullet/substep_solver.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "physics/bullet/contact_impulses.hpp"
@@ -132,6 +133,16 @@ void SubstepSolver::takeTouches(btDispatcher& dispatcher) {
         if (touch.a != touch.b) unsortedTouches_.push_back(touch);
     }
     sortByIsland(unsortedTouches_, touches_, &Island::firstTouch, &Island::touches);
+    // Bullet fills the place of a manifold that ends with its last one, so that what happens to one doll would change
+    // the order of another's contacts, and with it their bits.
+    const auto placeOf = [](const btCollisionObject* object) { return object->getWorldArrayIndex(); };
+    const auto key = [&](const Touch& touch) {
+        return std::tuple(touch.a, touch.b, placeOf(touch.what->getBody0()), placeOf(touch.what->getBody1()));
+    };
+    for (const Island& island : islands_) {
+        const std::span touches = std::span(touches_).subspan(island.firstTouch, island.touches);
+        std::sort(touches.begin(), touches.end(), [&](const Touch& x, const Touch& y) { return key(x) < key(y); });
+    }
 }
 
 template <class T>
