@@ -17,6 +17,7 @@
 #include <cstring>
 #include <utility>
 
+#include "core/spawn_arguments.hpp"
 #include "core/syscall_filter.hpp"
 
 namespace lutka {
@@ -77,11 +78,7 @@ Error cannotStart(const std::string& program, int why) {
 }
 
 int spawn(const std::vector<std::string>& arguments, int output, pid_t& pid) {
-    std::vector<char*> argv;
-    argv.reserve(arguments.size() + 1);
-    for (const std::string& argument : arguments)
-        argv.push_back(const_cast<char*>(argument.c_str()));  // posix_spawn leaves them alone
-    argv.push_back(nullptr);
+    const std::vector<char*> argv = spawnArguments(arguments);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);

@@ -15,6 +15,8 @@
 #include <sstream>
 #include <utility>
 
+#include "core/spawn_arguments.hpp"
+
 namespace lutka::render {
 namespace {
 
@@ -41,11 +43,7 @@ int openErrorFile() {
 }
 
 int spawn(const std::vector<std::string>& arguments, int input, int errors, pid_t& pid) {
-    std::vector<char*> argv;
-    argv.reserve(arguments.size() + 1);
-    for (const std::string& argument : arguments)
-        argv.push_back(const_cast<char*>(argument.c_str()));  // posix_spawn leaves them alone
-    argv.push_back(nullptr);
+    const std::vector<char*> argv = spawnArguments(arguments);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
