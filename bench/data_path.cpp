@@ -21,6 +21,7 @@
 #include "physics/rig/doll_poser.hpp"
 #include "scene/draw_simulation.hpp"
 #include "scene/ragdoll_asset.hpp"
+#include "timing.hpp"
 
 namespace {
 
@@ -33,17 +34,6 @@ struct Case {
     std::function<void()> run;
     std::vector<double> ms;
 };
-
-double medianOf(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
-
-double timeOf(const std::function<void()>& run) {
-    const auto before = std::chrono::steady_clock::now();
-    run();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - before).count();
-}
 
 // As a program would read a rigged model with Assimp alone.
 void readWithAssimp(const std::string& file) {

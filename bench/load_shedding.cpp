@@ -15,6 +15,7 @@
 #include "scene/make_world.hpp"
 #include "scene/ragdoll_asset.hpp"
 #include "scene/scenario.hpp"
+#include "timing.hpp"
 
 namespace {
 
@@ -30,11 +31,6 @@ struct Variant {
     std::unique_ptr<scene::LoadShedder> shedder;
     std::vector<double> blockMs;
 };
-
-double medianOf(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
 
 Variant makeVariant(const std::string& name, const scene::ShedSettings& settings, const scene::RagdollAsset& asset,
                     const scene::Scenario& scenario, physics::SolverKind solver) {

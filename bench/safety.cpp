@@ -18,6 +18,7 @@
 #include "scene/ragdoll_asset.hpp"
 #include "scene/scenario.hpp"
 #include "scene/simulation.hpp"
+#include "timing.hpp"
 
 namespace {
 
@@ -25,17 +26,6 @@ using namespace lutka;
 
 constexpr int kRounds = 31;
 constexpr int kSteps = 240;
-
-double medianOf(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
-
-double timeOf(const std::function<void()>& run) {
-    const auto before = std::chrono::steady_clock::now();
-    run();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - before).count();
-}
 
 std::size_t verticesOf(const animation::Character& character) {
     std::size_t count = 0;

@@ -16,6 +16,7 @@
 #include "animation/pose.hpp"
 #include "animation/skinning.hpp"
 #include "core/random.hpp"
+#include "timing.hpp"
 
 namespace {
 
@@ -41,11 +42,6 @@ double nsAVertex(Skin skin, InstructionSet set, const animation::Character& char
     }
     const auto taken = std::chrono::steady_clock::now() - before;
     return std::chrono::duration<double, std::nano>(taken).count() / (vertices * passes);
-}
-
-double medianOf(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-    return values[values.size() / 2];
 }
 
 std::vector<animation::SkinMatrix> bentPalette(const animation::Skeleton& skeleton, float mostDeg, Random& random) {

@@ -12,8 +12,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string kMannequin = shellQuoted(LUTKA_ASSETS_DIR "/models/mannequin.glb");
-
 bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
@@ -37,12 +35,12 @@ TEST_CASE("wrong usage ends with 2 and says what is wrong") {
     CHECK(lutkaCommand("").code == 2);
     CHECK(lutkaCommand("dance").code == 2);
     CHECK(lutkaCommand("map").code == 2);
-    CHECK(lutkaCommand("simulate " + kMannequin + " --count 0").code == 2);
-    const CommandResult scene = lutkaCommand("simulate " + kMannequin + " --scene dropp");
+    CHECK(lutkaCommand("simulate " + kMannequinArgument + " --count 0").code == 2);
+    const CommandResult scene = lutkaCommand("simulate " + kMannequinArgument + " --scene dropp");
     CHECK(scene.code == 2);
     CHECK(contains(scene.err, "stairs"));
-    CHECK(lutkaCommand("render " + kMannequin + " -o x.png --size 10by10").code == 2);
-    CHECK(lutkaCommand("simulate " + kMannequin + " --from-clip moonwalk").code == 2);
+    CHECK(lutkaCommand("render " + kMannequinArgument + " -o x.png --size 10by10").code == 2);
+    CHECK(lutkaCommand("simulate " + kMannequinArgument + " --from-clip moonwalk").code == 2);
 }
 
 TEST_CASE("a file that is missing, empty or no model ends with 3 and is named") {
@@ -62,11 +60,11 @@ TEST_CASE("a file that is missing, empty or no model ends with 3 and is named") 
 }
 
 TEST_CASE("inspect shows the mannequin's joints, meshes and clips") {
-    const CommandResult text = lutkaCommand("inspect " + kMannequin);
+    const CommandResult text = lutkaCommand("inspect " + kMannequinArgument);
     REQUIRE(text.code == 0);
     CHECK(contains(text.out, "leftUpperArm"));
     CHECK(contains(text.out, "walk"));
-    const Json json = Json::parse(lutkaCommand("inspect --json " + kMannequin).out);
+    const Json json = Json::parse(lutkaCommand("inspect --json " + kMannequinArgument).out);
     CHECK(json["joints"].size() >= 45);
     CHECK(json["meshes"].size() >= 1);
     CHECK(json["clips"].size() == 2);
@@ -74,7 +72,7 @@ TEST_CASE("inspect shows the mannequin's joints, meshes and clips") {
 }
 
 TEST_CASE("map binds every joint of the mannequin to the role that it is named after") {
-    const CommandResult result = lutkaCommand("map --json " + kMannequin);
+    const CommandResult result = lutkaCommand("map --json " + kMannequinArgument);
     REQUIRE(result.code == 0);
     const Json json = Json::parse(result.out);
     CHECK(json["humanoid"] == true);
@@ -89,8 +87,8 @@ TEST_CASE("map binds every joint of the mannequin to the role that it is named a
 TEST_CASE("a profile that was written and read again gives the same fall to the bit") {
     const ScratchFolder folder;
     const std::string profile = folder / "mannequin.ragdoll.json";
-    REQUIRE(lutkaCommand("build " + kMannequin + " -o " + profile).code == 0);
-    const std::string simulate = "simulate " + kMannequin + " --seconds 1 --json";
+    REQUIRE(lutkaCommand("build " + kMannequinArgument + " -o " + profile).code == 0);
+    const std::string simulate = "simulate " + kMannequinArgument + " --seconds 1 --json";
     const Json fitted = Json::parse(lutkaCommand(simulate).out);
     const Json read = Json::parse(lutkaCommand(simulate + " --profile " + profile).out);
     CHECK(fitted["stateHash"] == read["stateHash"]);
@@ -100,12 +98,12 @@ TEST_CASE("a profile that was written and read again gives the same fall to the 
 TEST_CASE("a profile with faults ends with 3 and lists them all") {
     const ScratchFolder folder;
     const std::string profile = folder / "broken.ragdoll.json";
-    REQUIRE(lutkaCommand("build " + kMannequin + " -o " + profile).code == 0);
+    REQUIRE(lutkaCommand("build " + kMannequinArgument + " -o " + profile).code == 0);
     Json json = Json::parse(fileText(profile));
     json["bodies"][3]["massKg"] = -1;
     json["bodies"][5]["colour"] = "red";
     std::ofstream(profile) << json.dump();
-    const CommandResult result = lutkaCommand("simulate " + kMannequin + " --profile " + profile);
+    const CommandResult result = lutkaCommand("simulate " + kMannequinArgument + " --profile " + profile);
     CHECK(result.code == 3);
     CHECK(contains(result.err, "/bodies/3"));
     CHECK(contains(result.err, "colour"));
@@ -114,7 +112,7 @@ TEST_CASE("a profile with faults ends with 3 and lists them all") {
 TEST_CASE("simulate writes the baked clip, the last mesh and the report") {
     const ScratchFolder folder;
     const CommandResult result =
-        lutkaCommand("simulate " + kMannequin + " --seconds 1 --out " + (folder / "fall.glb") + " --mesh-out " +
+        lutkaCommand("simulate " + kMannequinArgument + " --seconds 1 --out " + (folder / "fall.glb") + " --mesh-out " +
                      (folder / "last.obj") + " --report " + (folder / "report.json"));
     REQUIRE(result.code == 0);
     const Json report = Json::parse(fileText(folder / "report.json"));
@@ -129,7 +127,7 @@ TEST_CASE("an output that can't be written ends with 5 and leaves nothing") {
     const ScratchFolder folder;
     std::ofstream(folder / "file") << "in the way";
     const std::string target = folder / "file/report.json";
-    const CommandResult result = lutkaCommand("simulate " + kMannequin + " --seconds 0.1 --report " + target);
+    const CommandResult result = lutkaCommand("simulate " + kMannequinArgument + " --seconds 0.1 --report " + target);
     CHECK(result.code == 5);
     CHECK(contains(result.err, "report.json"));
     CHECK(fileText(folder / "file") == "in the way");
@@ -137,7 +135,7 @@ TEST_CASE("an output that can't be written ends with 5 and leaves nothing") {
 
 TEST_CASE("a recording is replayed to the same picture") {
     const ScratchFolder folder;
-    const std::string common = "render " + kMannequin + " --size 160x120 ";
+    const std::string common = "render " + kMannequinArgument + " --size 160x120 ";
     const CommandResult recorded =
         lutkaCommand(common + "--seconds 1 --record " + (folder / "run") + " -o " + (folder / "a.png"));
     NEEDS_DISPLAY_OF(recorded);
@@ -190,7 +188,7 @@ TEST_CASE("every humanoid of the zoo falls, stays finite and comes to rest") {
 }
 
 TEST_CASE("check finds nothing wrong with the mannequin and an error in a profile with a planted fault") {
-    const CommandResult sound = lutkaCommand("check --json " + kMannequin);
+    const CommandResult sound = lutkaCommand("check --json " + kMannequinArgument);
     REQUIRE(sound.code == 0);
     const Json good = Json::parse(sound.out);
     CHECK(good["score"].get<double>() > 90);
@@ -199,19 +197,19 @@ TEST_CASE("check finds nothing wrong with the mannequin and an error in a profil
     const ScratchFolder folder;
     const std::string profile = folder / "faulty.ragdoll.json";
     const std::string fixed = folder / "fixed.ragdoll.json";
-    REQUIRE(lutkaCommand("build " + kMannequin + " -o " + profile).code == 0);
+    REQUIRE(lutkaCommand("build " + kMannequinArgument + " -o " + profile).code == 0);
     Json json = Json::parse(fileText(profile));
     for (Json& constraint : json["constraints"]) {
         if (constraint["child"] == "leftLowerArm") constraint["hinge"] = {{"lower", 0.0}, {"upper", 0.1}};
     }
     std::ofstream(profile) << json.dump();
-    const CommandResult faulty = lutkaCommand("check --json " + kMannequin + " --profile " + profile);
+    const CommandResult faulty = lutkaCommand("check --json " + kMannequinArgument + " --profile " + profile);
     CHECK(faulty.code == 4);
     CHECK(contains(faulty.out, "bind-outside-limits"));
     const CommandResult mended =
-        lutkaCommand("check --json " + kMannequin + " --profile " + profile + " --fix " + fixed);
+        lutkaCommand("check --json " + kMannequinArgument + " --profile " + profile + " --fix " + fixed);
     CHECK(mended.code == 0);
-    CHECK(lutkaCommand("check " + kMannequin + " --profile " + fixed).code == 0);
+    CHECK(lutkaCommand("check " + kMannequinArgument + " --profile " + fixed).code == 0);
 }
 
 TEST_CASE("bench prints our time beside stock Bullet's, with the quality of both") {
@@ -228,7 +226,7 @@ TEST_CASE("bench prints our time beside stock Bullet's, with the quality of both
 }
 
 TEST_CASE("build shows the limits that the clips ask for beside the anatomy's") {
-    const CommandResult result = lutkaCommand("build " + kMannequin + " --limits-from-clips fit");
+    const CommandResult result = lutkaCommand("build " + kMannequinArgument + " --limits-from-clips fit");
     REQUIRE(result.code == 0);
     CHECK(contains(result.out, "ANATOMY"));
     CHECK(contains(result.out, "CLIPS"));
@@ -238,11 +236,11 @@ TEST_CASE("a recording brings its own scene and number of dolls, and one of othe
     const ScratchFolder folder;
     const std::string recording = folder / "three";
     REQUIRE(
-        lutkaCommand("simulate " + kMannequin + " --seconds 0.2 --scene stairs --count 3 --record " + recording).code ==
-        0);
-    CHECK(lutkaCommand("simulate " + kMannequin + " --replay " + recording).code == 0);
-    CHECK(lutkaCommand("simulate " + kMannequin + " --scene drop --count 1 --replay " + recording).code == 0);
-    const CommandResult other = lutkaCommand("simulate " + kMannequin + " --bodies toes --replay " + recording);
+        lutkaCommand("simulate " + kMannequinArgument + " --seconds 0.2 --scene stairs --count 3 --record " + recording)
+            .code == 0);
+    CHECK(lutkaCommand("simulate " + kMannequinArgument + " --replay " + recording).code == 0);
+    CHECK(lutkaCommand("simulate " + kMannequinArgument + " --scene drop --count 1 --replay " + recording).code == 0);
+    const CommandResult other = lutkaCommand("simulate " + kMannequinArgument + " --bodies toes --replay " + recording);
     CHECK(other.code == 3);
     CHECK(contains(other.err, "16 bodies"));
 }
@@ -265,14 +263,14 @@ TEST_CASE("numbers that are not finite or out of range are wrong usage") {
     for (const char* options : {"--seconds nan", "--mass inf", "--mass -1", "--scale 0", "--seed -1", "--seed 1e3",
                                 "--seed 99999999999999999999999", "--masses heavy"}) {
         INFO(options);
-        CHECK(lutkaCommand("simulate " + kMannequin + " --seconds 0.1 " + options).code == 2);
+        CHECK(lutkaCommand("simulate " + kMannequinArgument + " --seconds 0.1 " + options).code == 2);
     }
 }
 
 TEST_CASE("dolls far from the eye are spared and the report says how many") {
     const ScratchFolder folder;
     const CommandResult result =
-        lutkaCommand("simulate " + kMannequin +
+        lutkaCommand("simulate " + kMannequinArgument +
                      " --scene spread --count 6 --seconds 0.2 --solver crowd --shed lod@0,frozen@3"
                      " --eye 0,1,0 --report " +
                      (folder / "r.json"));
@@ -282,16 +280,17 @@ TEST_CASE("dolls far from the eye are spared and the report says how many") {
     CHECK(contains(report, "\"lod\": 6"));
     CHECK_FALSE(contains(report, "\"frozen\": 0"));
     CHECK(contains(result.out + result.err, "spared at the end"));
-    CHECK(lutkaCommand("simulate " + kMannequin + " --shed ice@3").code == 2);
-    CHECK(lutkaCommand("simulate " + kMannequin + " --shed lod@3 --eye 1,2").code == 2);
+    CHECK(lutkaCommand("simulate " + kMannequinArgument + " --shed ice@3").code == 2);
+    CHECK(lutkaCommand("simulate " + kMannequinArgument + " --shed lod@3 --eye 1,2").code == 2);
 }
 
 TEST_CASE("the mannequin falls within every bound on the crowd solver") {
     for (const std::string scene : {"drop", "stairs", "throw"}) {
         for (int seed = 0; seed < 6; ++seed) {
             INFO(scene << ", seed " << seed);
-            const CommandResult result = lutkaCommand("simulate " + kMannequin + " --solver crowd --scene " + scene +
-                                                      " --seed " + std::to_string(seed) + " --seconds 8 --json");
+            const CommandResult result =
+                lutkaCommand("simulate " + kMannequinArgument + " --solver crowd --scene " + scene + " --seed " +
+                             std::to_string(seed) + " --seconds 8 --json");
             REQUIRE(result.code == 0);
             const Json json = Json::parse(result.out);
             const Json& quality = json["quality"];
@@ -329,7 +328,7 @@ TEST_CASE("an FBX that is cut off ends with 3") {
 TEST_CASE("an interrupted video leaves nothing behind") {
     NEEDS_PROGRAM("ffmpeg");
     const ScratchFolder folder;
-    const CommandResult result = runCommand("timeout --signal=INT 3 '" LUTKA_BINARY "' render " + kMannequin +
+    const CommandResult result = runCommand("timeout --signal=INT 3 '" LUTKA_BINARY "' render " + kMannequinArgument +
                                             " --seconds 600 --size 160x120 -o " + (folder / "long.mp4"));
     NEEDS_DISPLAY_OF(result);
     CHECK(result.code == 124);  // timeout's own word for having sent the signal
@@ -341,7 +340,7 @@ TEST_CASE("an interrupt that comes several times at once is one") {
     const ScratchFolder folder;
     // A picture of this size takes longer than the two are apart.
     const CommandResult result = runCommand(
-        "sh -c \"'" LUTKA_BINARY "' render " + kMannequin + " --seconds 600 --size 1280x720 -o " +
+        "sh -c \"'" LUTKA_BINARY "' render " + kMannequinArgument + " --seconds 600 --size 1280x720 -o " +
         (folder / "long.mp4") + " & p=\\$!; sleep 3; kill -TERM \\$p; sleep 0.02; kill -TERM \\$p; wait \\$p\"");
     NEEDS_DISPLAY_OF(result);
     CHECK(result.code == 128 + SIGTERM);
@@ -372,7 +371,8 @@ TEST_CASE("a scene file brings its own characters: simulated, recorded, replayed
         CHECK(fs::exists(folder / name));
     }
     CHECK(lutkaCommand("simulate --scene " + kPlayground + " --replay " + recording).code == 0);
-    CHECK(lutkaCommand("simulate " + kMannequin + " --replay " + recording).code == 2);  // a scene of that name is none
+    CHECK(lutkaCommand("simulate " + kMannequinArgument + " --replay " + recording).code ==
+          2);  // a scene of that name is none
 }
 
 TEST_CASE(
@@ -381,7 +381,7 @@ TEST_CASE(
     CHECK(lutkaCommand("simulate " + kPlayground + " --count 2").code == 2);
     CHECK(lutkaCommand("simulate " + kPlayground + " --seed 2").code == 2);
     CHECK(lutkaCommand("simulate " + kPlayground + " --scene " + kPlayground).code == 2);
-    const CommandResult both = lutkaCommand("simulate " + kMannequin + " --scene " + kPlayground);
+    const CommandResult both = lutkaCommand("simulate " + kMannequinArgument + " --scene " + kPlayground);
     CHECK(both.code == 2);
     CHECK(contains(both.err, "model of its own"));
     CHECK(lutkaCommand("simulate --scene nowhere.scene.json").code == 3);
@@ -390,13 +390,13 @@ TEST_CASE(
 TEST_CASE("scene writes a named scene as a file that simulates to the same bits, and lists every fault of one") {
     const ScratchFolder folder;
     const std::string file = folder / "stairs.scene.json";
-    REQUIRE(lutkaCommand("scene stairs --count 2 --seed 3 --model " + kMannequin + " -o " + file).code == 0);
+    REQUIRE(lutkaCommand("scene stairs --count 2 --seed 3 --model " + kMannequinArgument + " -o " + file).code == 0);
     const auto hash = [](const std::string& arguments) {
         const CommandResult result = lutkaCommand("simulate --json --seconds 0.5 " + arguments);
         REQUIRE(result.code == 0);
         return Json::parse(result.out)["stateHash"];
     };
-    CHECK(hash(file) == hash(kMannequin + " --scene stairs --count 2 --seed 3"));
+    CHECK(hash(file) == hash(kMannequinArgument + " --scene stairs --count 2 --seed 3"));
     CHECK(contains(lutkaCommand("scene " + file).out, "Character 2"));
     std::string text = fileText(file);
     text.replace(text.find("\"steps\": 12"), 11, "\"steps\": 0");

@@ -13,7 +13,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string kModel = shellQuoted(LUTKA_ASSETS_DIR "/models/mannequin.glb");
 const std::string kLutka = "'" LUTKA_BINARY "' ";
 
 // Every command that prints, with what it prints short enough to stay in a buffer until the end.
@@ -21,20 +20,16 @@ const std::vector<std::string> kPrinting = {"--help",
                                             "--version",
                                             "--licenses",
                                             "inspect --help",
-                                            "inspect " + kModel,
-                                            "inspect --json " + kModel,
-                                            "map " + kModel,
-                                            "build " + kModel,
-                                            "build --json " + kModel,
-                                            "check " + kModel,
+                                            "inspect " + kMannequinArgument,
+                                            "inspect --json " + kMannequinArgument,
+                                            "map " + kMannequinArgument,
+                                            "build " + kMannequinArgument,
+                                            "build --json " + kMannequinArgument,
+                                            "check " + kMannequinArgument,
                                             "scene stairs",
                                             "scene stairs --json",
-                                            "simulate --seconds 0.1 " + kModel,
-                                            "simulate --seconds 0.1 --json " + kModel};
-
-std::ptrdiff_t filesIn(const fs::path& folder) {
-    return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
-}
+                                            "simulate --seconds 0.1 " + kMannequinArgument,
+                                            "simulate --seconds 0.1 --json " + kMannequinArgument};
 
 CommandResult shell(const std::string& script) {
     return runCommand("sh -c \"" + script + "\"");
@@ -65,17 +60,17 @@ TEST_CASE("a closed stdout or a reader that has gone ends every command with 5")
 TEST_CASE("with stdout closed, nothing that is printed lands in a file that is written") {
     const ScratchFolder folder;
     const std::string profile = folder / "p.ragdoll.json";
-    shell(kLutka + "build " + kModel + " -o " + profile + " >&-");
+    shell(kLutka + "build " + kMannequinArgument + " -o " + profile + " >&-");
     CHECK(Json::parse(fileText(profile))["format"] == "lutka-ragdoll");
 }
 
 TEST_CASE("a dash as output is stdout, with the document alone on it") {
-    const Json profile = Json::parse(lutkaCommand("build -o - " + kModel).out);
+    const Json profile = Json::parse(lutkaCommand("build -o - " + kMannequinArgument).out);
     CHECK(profile["format"] == "lutka-ragdoll");
-    CHECK(Json::parse(lutkaCommand("map -o - " + kModel).out)["humanoid"] == true);
+    CHECK(Json::parse(lutkaCommand("map -o - " + kMannequinArgument).out)["humanoid"] == true);
     CHECK(Json::parse(lutkaCommand("scene stairs -o -").out)["format"] == "lutka.scene");
     CHECK_FALSE(fs::exists("-"));
-    CHECK(shell(kLutka + "build -o - " + kModel + " >/dev/full").code == 5);
+    CHECK(shell(kLutka + "build -o - " + kMannequinArgument + " >/dev/full").code == 5);
 }
 
 TEST_CASE("a film that the disk has no room for ends with 5, keeps the old one and leaves nothing") {
@@ -83,8 +78,8 @@ TEST_CASE("a film that the disk has no room for ends with 5, keeps the old one a
     const std::string film = folder / "fall.mp4";
     std::ofstream(film) << "an old film";
     // A limit on the size of files stands for a disk's: writing fails halfway, with another number.
-    const CommandResult result =
-        shell("trap '' XFSZ; ulimit -f 16; " + kLutka + "render " + kModel + " --seconds 1 --size 320x240 -o " + film);
+    const CommandResult result = shell("trap '' XFSZ; ulimit -f 16; " + kLutka + "render " + kMannequinArgument +
+                                       " --seconds 1 --size 320x240 -o " + film);
     NEEDS_DISPLAY_OF(result);
     CHECK(result.code == 5);
     CHECK_THAT(result.err, Catch::Contains("fall.mp4"));
@@ -98,8 +93,9 @@ TEST_CASE("an encoder that says it succeeded and left half a film is not believe
                                         "printf '\\0\\0\\0\\20ftypisom\\0\\0\\0\\0' >\"${last#file:}\"\n";
     fs::permissions(folder / "ffmpeg", fs::perms::owner_all);
     fs::create_directory(folder / "out");
-    const CommandResult result = runCommand("env PATH=" + folder.path.string() + ":$PATH " + kLutka + "render " +
-                                            kModel + " --seconds 0.1 --size 64x64 -o " + (folder / "out/a.mp4"));
+    const CommandResult result =
+        runCommand("env PATH=" + folder.path.string() + ":$PATH " + kLutka + "render " + kMannequinArgument +
+                   " --seconds 0.1 --size 64x64 -o " + (folder / "out/a.mp4"));
     NEEDS_DISPLAY_OF(result);
     CHECK(result.code == 5);
     CHECK_THAT(result.err, Catch::Contains("the film has no end"));
@@ -124,7 +120,7 @@ TEST_CASE("names that are not UTF-8 work from the model to the report") {
 TEST_CASE("one signal ends a command within a second, whatever it is doing") {
     const ScratchFolder folder;
     const std::string report = folder / "r.json";
-    const std::string simulate = "simulate " + kModel + " --seconds 3000 --report " + report;
+    const std::string simulate = "simulate " + kMannequinArgument + " --seconds 3000 --report " + report;
     for (const std::string& command : {simulate, std::string("bench --count 500 --steps 100000"),
                                        std::string("edit --headless --frames 10000000")}) {
         INFO(command);
@@ -138,7 +134,7 @@ TEST_CASE("one signal ends a command within a second, whatever it is doing") {
 }
 
 TEST_CASE("where the system allows no more threads, fewer are taken") {
-    const std::string simulate = "simulate --seconds 0.1 --count 20 --threads 200 --json " + kModel;
+    const std::string simulate = "simulate --seconds 0.1 --count 20 --threads 200 --json " + kMannequinArgument;
     const CommandResult starved = shell("ulimit -v 900000; " + kLutka + simulate);
     REQUIRE(starved.code == 0);
     CHECK(Json::parse(starved.out)["stateHash"] == Json::parse(lutkaCommand(simulate).out)["stateHash"]);

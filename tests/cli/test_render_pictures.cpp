@@ -11,8 +11,6 @@ using namespace lutka::test;
 
 namespace {
 
-const std::string kDrawnModel = shellQuoted(LUTKA_ASSETS_DIR "/models/mannequin.glb");
-
 void checkPicture(const std::string& arguments, const std::string& name, const GoldenTolerance& tolerance = {}) {
     INFO(arguments);
     const ScratchFolder folder;
@@ -28,8 +26,8 @@ void checkPicture(const std::string& arguments, const std::string& name, const G
 
 bool drawsHere() {
     const ScratchFolder folder;
-    return lutkaCommand("render " + kDrawnModel + " --seconds 0 --size 16x16 -o " + (folder / "probe.png")).code !=
-           kNoDisplay;
+    return lutkaCommand("render " + kMannequinArgument + " --seconds 0 --size 16x16 -o " + (folder / "probe.png"))
+               .code != kNoDisplay;
 }
 
 }  // namespace
@@ -42,11 +40,11 @@ TEST_CASE("each debug layer looks as it did when it was looked at") {
     for (const char* layer :
          {"capsules", "solids", "skeleton", "joints", "limits", "velocities", "com", "aabbs", "sleep", "bullet"}) {
         const std::string solver = std::string(layer) == "bullet" ? " --solver bullet" : "";
-        checkPicture(kDrawnModel + " --seconds 0.3 --no-legend --debug " + layer + solver,
+        checkPicture(kMannequinArgument + " --seconds 0.3 --no-legend --debug " + layer + solver,
                      std::string("layer_") + layer);
     }
     // On the floor the pose is the solver's: its improvements move it.
-    checkPicture(kDrawnModel + " --seconds 0.9 --opacity 0.3 --debug contacts,velocities", "layer_contacts",
+    checkPicture(kMannequinArgument + " --seconds 0.9 --opacity 0.3 --debug contacts,velocities", "layer_contacts",
                  {10, 0.05, 2.0});
 }
 
@@ -83,7 +81,7 @@ TEST_CASE("a panorama lights the figure and is seen behind it, and a broken one 
     }
     const std::string sky = folder / "sky.hdr";
     std::ofstream(sky, std::ios::binary) << bytes;
-    const std::string still = kDrawnModel + " --seconds 0.1 --sky " + shellQuoted(sky);
+    const std::string still = kMannequinArgument + " --seconds 0.1 --sky " + shellQuoted(sky);
     checkPicture(still + " --sky-background", "sky_panorama");
     std::ofstream(sky, std::ios::binary) << bytes.substr(0, 900);
     const CommandResult broken = lutkaCommand("render " + still + " -o " + shellQuoted(folder / "x.png"));
@@ -97,8 +95,8 @@ TEST_CASE("the legend is in the picture of a debug layer unless it is not wanted
     const ScratchFolder folder;
     const auto paint = [&](const std::string& more) {
         const std::string file = folder / "picture.png";
-        const CommandResult result =
-            lutkaCommand("render " + kDrawnModel + " --seconds 0.1 --size 320x240 -o " + shellQuoted(file) + more);
+        const CommandResult result = lutkaCommand("render " + kMannequinArgument + " --seconds 0.1 --size 320x240 -o " +
+                                                  shellQuoted(file) + more);
         return result.code == 0 ? render::loadPng(file).value() : render::Image({320, 240}, {});
     };
     const render::Image with = paint(" --debug aabbs");
@@ -115,9 +113,9 @@ TEST_CASE("what is far from the camera that draws is spared unless an eye is giv
     const ScratchFolder folder;
     const auto frozen = [&](const std::string& options) -> int {
         const CommandResult result = lutkaCommand(
-            "render " + kDrawnModel + " --scene spread --count 4 --seconds 0.1 --solver crowd --shed frozen@15 " +
-            options + " --size 64x48 -o " + shellQuoted(folder / "p.png") + " --report " +
-            shellQuoted(folder / "r.json"));
+            "render " + kMannequinArgument +
+            " --scene spread --count 4 --seconds 0.1 --solver crowd --shed frozen@15 " + options + " --size 64x48 -o " +
+            shellQuoted(folder / "p.png") + " --report " + shellQuoted(folder / "r.json"));
         if (result.code == 6) return -1;
         INFO(result.err);
         REQUIRE(result.code == 0);

@@ -9,15 +9,8 @@
 #include "support/command.hpp"
 
 using namespace lutka;
+using lutka::test::filesIn;
 namespace fs = std::filesystem;
-
-namespace {
-
-std::ptrdiff_t filesIn(const fs::path& folder) {
-    return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
-}
-
-}  // namespace
 
 TEST_CASE("a file is written whole, with its missing folders") {
     const test::ScratchFolder folder;

@@ -11,13 +11,10 @@
 #include "support/command.hpp"
 
 using namespace lutka;
+using lutka::test::filesIn;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::ptrdiff_t entriesOf(const fs::path& folder) {
-    return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
-}
 
 // What a process leaves that is killed between writing and renaming.
 void leaveBehind(const fs::path& target) {
@@ -43,9 +40,9 @@ TEST_CASE("two temporary files of one target are two files, and both go when the
         REQUIRE(second);
         CHECK(first.value().path() != second.value().path());
         CHECK(first.value().path().extension() == ".txt");
-        CHECK(entriesOf(folder.path) == 2);
+        CHECK(filesIn(folder.path) == 2);
     }
-    CHECK(entriesOf(folder.path) == 0);
+    CHECK(filesIn(folder.path) == 0);
 }
 
 TEST_CASE("a temporary file never follows a link that lies in its way") {
@@ -63,14 +60,14 @@ TEST_CASE("a temporary file never follows a link that lies in its way") {
 TEST_CASE("what a killed process left behind is removed by the next one that writes there, and nothing else is") {
     const test::ScratchFolder folder;
     leaveBehind(folder.path / "a.txt");
-    REQUIRE(entriesOf(folder.path) == 1);
+    REQUIRE(filesIn(folder.path) == 1);
     const auto living = TemporaryFile::beside(folder.path / "b.txt", ".txt");
     REQUIRE(living);
     std::ofstream(folder / "lutka-notes.txt") << "the user's";
     REQUIRE(writeFileAtomically(folder.path / "c.txt", "new"));
     CHECK(fs::exists(living.value().path()));
     CHECK(fs::exists(folder / "lutka-notes.txt"));
-    CHECK(entriesOf(folder.path) == 3);
+    CHECK(filesIn(folder.path) == 3);
 }
 
 TEST_CASE("a name as long as the file system allows is written") {
@@ -80,7 +77,7 @@ TEST_CASE("a name as long as the file system allows is written") {
     CHECK(writeFileAtomically(plain, "plain"));
     CHECK(writeFileAtomically(extended, "extended"));
     CHECK(test::fileText(plain) == "plain");
-    CHECK(entriesOf(folder.path) == 2);
+    CHECK(filesIn(folder.path) == 2);
 }
 
 TEST_CASE("a name that is not UTF-8 is written") {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 
@@ -35,6 +36,11 @@ struct ScratchFolder {
     std::filesystem::path path;
 };
 
+/// How many entries a folder has.
+inline std::ptrdiff_t filesIn(const std::filesystem::path& folder) {
+    return std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator());
+}
+
 struct CommandResult {
     int code = -1;  ///< Exit code; -1 when it was ended by a signal.
     std::string out;
@@ -59,6 +65,9 @@ inline CommandResult lutkaCommand(const std::string& arguments) {
 inline std::string shellQuoted(const std::filesystem::path& file) {
     return "'" + file.string() + "'";
 }
+
+/// Our own character, as a word of a command line.
+inline const std::string kMannequinArgument = shellQuoted(LUTKA_ASSETS_DIR "/models/mannequin.glb");
 
 /// Exit code of a command that needs a display or a GL context and has none.
 inline constexpr int kNoDisplay = 6;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstring>
 #include <glm/geometric.hpp>
 
@@ -26,11 +27,7 @@ bool sameBits(const std::vector<BodyState>& a, const std::vector<BodyState>& b) 
 }
 
 bool isFinite(const std::vector<BodyState>& bodies) {
-    for (const BodyState& body : bodies)
-        if (!lutka::isFinite(body.worldFromBody) || !lutka::isFinite(body.linearVelocity) ||
-            !lutka::isFinite(body.angularVelocity))
-            return false;
-    return true;
+    return std::all_of(bodies.begin(), bodies.end(), [](const BodyState& body) { return physics::isFinite(body); });
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "lone_figure.hpp"
 #include "render/gl/golden.hpp"
+#include "render/gl/pixels.hpp"
 #include "render/shadow_fit.hpp"
 #include "support/rigs.hpp"
 
@@ -40,16 +41,6 @@ LocalLight lamp(const vec3& position) {
     light.intensity = 1.5F;
     light.range = 4.0F;
     return light;
-}
-
-int brightness(Color color) {
-    return color.r + color.g + color.b;
-}
-
-Color pixelAt(const Image& image, const Camera& camera, const vec3& world) {
-    const auto seen = project(camera, world, image.size());
-    REQUIRE(seen.has_value());
-    return image.at(static_cast<int>(seen->x), static_cast<int>(seen->y));
 }
 
 }  // namespace

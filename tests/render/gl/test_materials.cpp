@@ -7,6 +7,7 @@
 #include "animation/import/gltf_file.hpp"
 #include "animation/import/import_character.hpp"
 #include "gl_fixture.hpp"
+#include "render/gl/pixels.hpp"
 
 using namespace lutka;
 using namespace lutka::test;
@@ -129,10 +130,6 @@ struct Picture {
     }
 };
 
-int lightness(Color color) {
-    return color.r + color.g + color.b;
-}
-
 std::string describe(Color color) {
     return std::to_string(color.r) + " " + std::to_string(color.g) + " " + std::to_string(color.b);
 }
@@ -183,11 +180,11 @@ TEST_CASE("metallic and roughness: a metal has no diffuse colour and a rough one
     squares.add(textured);
     // From the side: a mirror shows the sky, not the sun.
     const Picture picture(*gl, squares, {1, 0, 0.6F});
-    CHECK(lightness(picture.at(0, 0)) > lightness(picture.at(1, 0)) + 40);
-    CHECK(lightness(picture.at(2, 0)) > lightness(picture.at(1, 0)) + 15);
+    CHECK(brightness(picture.at(0, 0)) > brightness(picture.at(1, 0)) + 40);
+    CHECK(brightness(picture.at(2, 0)) > brightness(picture.at(1, 0)) + 15);
     INFO(describe(picture.at(3, -1)) << " and " << describe(picture.at(1, 0)));
     CHECK(near(picture.at(3, -1), picture.at(1, 0), 16));
-    CHECK(lightness(picture.at(3, 1)) > lightness(picture.at(3, -1)) + 40);
+    CHECK(brightness(picture.at(3, 1)) > brightness(picture.at(3, -1)) + 40);
 }
 
 TEST_CASE("a normal map tilts the light: the half that leans towards it is brighter") {
@@ -199,8 +196,8 @@ TEST_CASE("a normal map tilts the light: the half that leans towards it is brigh
     squares.add(leaning);
     squares.add({{"pbrMetallicRoughness", kMatte}});
     const Picture picture(*gl, squares, {1, 0, 0.8F});
-    CHECK(lightness(picture.at(0, -1)) > lightness(picture.at(1, 0)) + 20);
-    CHECK(lightness(picture.at(0, 1)) < lightness(picture.at(1, 0)) - 40);
+    CHECK(brightness(picture.at(0, -1)) > brightness(picture.at(1, 0)) + 20);
+    CHECK(brightness(picture.at(0, 1)) < brightness(picture.at(1, 0)) - 40);
 }
 
 TEST_CASE("an occlusion map darkens the sky's light and an emissive one glows without any") {
@@ -217,9 +214,9 @@ TEST_CASE("an occlusion map darkens the sky's light and an emissive one glows wi
     squares.add(glowing);
     // The sun stands behind: only the sky lights the fronts.
     const Picture picture(*gl, squares, {0, 0, -1});
-    CHECK(lightness(picture.at(0, 1)) > lightness(picture.at(0, -1)) + 100);
+    CHECK(brightness(picture.at(0, 1)) > brightness(picture.at(0, -1)) + 100);
     CHECK(picture.at(1, -1).g > picture.at(1, -1).r + 80);
-    CHECK(lightness(picture.at(1, 1)) < 150);
+    CHECK(brightness(picture.at(1, 1)) < 150);
 }
 
 TEST_CASE("an alpha mask cuts out, blending mixes, and single-sided backs are not there") {
@@ -240,12 +237,12 @@ TEST_CASE("an alpha mask cuts out, blending mixes, and single-sided backs are no
     twoSided["doubleSided"] = true;
     squares.add(twoSided, true);
     const Picture picture(*gl, squares, {1, 0, 0.4F});  // no highlight towards the eye
-    const auto hidden = [&](Color color) { return lightness(color) < 0.55 * lightness(picture.behind()); };
+    const auto hidden = [&](Color color) { return brightness(color) < 0.55 * brightness(picture.behind()); };
     CHECK_FALSE(hidden(picture.at(0, -1)));
     CHECK(hidden(picture.at(0, 1)));
-    const int mixed = lightness(picture.at(1, 0));
-    CHECK(mixed < 0.9 * lightness(picture.behind()));
-    CHECK(mixed > 0.35 * lightness(picture.behind()));
+    const int mixed = brightness(picture.at(1, 0));
+    CHECK(mixed < 0.9 * brightness(picture.behind()));
+    CHECK(mixed > 0.35 * brightness(picture.behind()));
     CHECK_FALSE(hidden(picture.at(2, 0)));
     CHECK(hidden(picture.at(3, 0)));
 }
@@ -261,9 +258,9 @@ TEST_CASE("a missing texture leaves a visible neutral material and one warning")
     const Picture picture(*gl, squares);
     for (const int square : {0, 1}) {
         const Color color = picture.at(square, 0);
-        CHECK(lightness(color) > 240);  // neither black nor not there …
+        CHECK(brightness(color) > 240);  // neither black nor not there …
         CHECK(std::abs(color.r - color.b) < 40);
-        CHECK(lightness(color) != lightness(picture.behind()));
+        CHECK(brightness(color) != brightness(picture.behind()));
     }
     const auto mentions = [](const std::string& text) { return text.find("gone.png") != std::string::npos; };
     CHECK(std::count_if(picture.character.warnings.begin(), picture.character.warnings.end(), mentions) == 1);

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "lone_figure.hpp"
+#include "render/gl/pixels.hpp"
 #include "support/rigs.hpp"
 
 using namespace lutka;
@@ -21,16 +22,6 @@ struct Scene : LoneFigure {
         frameSphere(frame.camera, {0, 0.9F, 0}, 1.0F, kRendererSize.aspect());
     }
 };
-
-Color colorAt(const Image& image, const Camera& camera, const vec3& world) {
-    const auto seen = project(camera, world, image.size());
-    REQUIRE(seen.has_value());
-    return image.at(static_cast<int>(seen->x), static_cast<int>(seen->y));
-}
-
-int sumOf(Color color) {
-    return color.r + color.g + color.b;
-}
 
 double differingShare(const Image& a, const Image& b) {
     return compareImages(a, b, 8).differingShare;
@@ -80,8 +71,8 @@ TEST_CASE("each instance stands in its own pose at its own place") {
     scene.frame.characters.push_back(item);
     frameSphere(scene.frame.camera, {1, 1.3F, 0}, 2.0F, kRendererSize.aspect());
     const Image image = gl->picture(scene.frame, kRendererSize);
-    const Color plain = colorAt(image, scene.frame.camera, {0, 1.10F, 0.13F});
-    const Color tinted = colorAt(image, scene.frame.camera, {2, 2.10F, 0.13F});
+    const Color plain = pixelAt(image, scene.frame.camera, {0, 1.10F, 0.13F});
+    const Color tinted = pixelAt(image, scene.frame.camera, {2, 2.10F, 0.13F});
     CHECK(std::abs(plain.r - plain.g) < 30);
     CHECK(tinted.r > tinted.g + 80);
 }
@@ -112,8 +103,8 @@ TEST_CASE("the shadow darkens the floor below a body and nowhere else") {
     scene.frame.sun.castsShadow = false;
     const Image without = gl->picture(scene.frame, kRendererSize);
     const Camera& camera = scene.frame.camera;
-    CHECK(sumOf(colorAt(with, camera, below)) < 0.7 * sumOf(colorAt(without, camera, below)));
-    CHECK(std::abs(sumOf(colorAt(with, camera, aside)) - sumOf(colorAt(without, camera, aside))) <= 6);
+    CHECK(brightness(pixelAt(with, camera, below)) < 0.7 * brightness(pixelAt(without, camera, below)));
+    CHECK(std::abs(brightness(pixelAt(with, camera, aside)) - brightness(pixelAt(without, camera, aside))) <= 6);
 }
 
 TEST_CASE("a lit surface does not shade itself") {
@@ -157,8 +148,9 @@ TEST_CASE("ambient occlusion darkens the corner between a box and the floor") {
     const Image with = gl->picture(frame, kRendererSize);
     frame.ambientOcclusion = false;
     const Image without = gl->picture(frame, kRendererSize);
-    CHECK(sumOf(colorAt(with, frame.camera, corner)) < 0.85 * sumOf(colorAt(without, frame.camera, corner)));
-    CHECK(std::abs(sumOf(colorAt(with, frame.camera, open)) - sumOf(colorAt(without, frame.camera, open))) <= 6);
+    CHECK(brightness(pixelAt(with, frame.camera, corner)) < 0.85 * brightness(pixelAt(without, frame.camera, corner)));
+    CHECK(std::abs(brightness(pixelAt(with, frame.camera, open)) - brightness(pixelAt(without, frame.camera, open))) <=
+          6);
 }
 
 TEST_CASE("a point light lights what is near it, and a spot only what is in its cone") {
@@ -184,7 +176,9 @@ TEST_CASE("a point light lights what is near it, and a spot only what is in its 
     light.innerAngle = radians(20);
     frame.localLights = {light};
     const Image spot = gl->picture(frame, kRendererSize);
-    const auto at = [&](const Image& image, const vec3& place) { return sumOf(colorAt(image, frame.camera, place)); };
+    const auto at = [&](const Image& image, const vec3& place) {
+        return brightness(pixelAt(image, frame.camera, place));
+    };
     CHECK(at(point, below) > at(dark, below) + 150);
     CHECK(at(point, aside) > at(dark, aside) + 60);
     CHECK(at(point, below) > at(point, aside) + 60);
@@ -199,7 +193,7 @@ TEST_CASE("from below the floor lets one see through") {
     scene.frame.camera.pitch = radians(-40);
     scene.frame.characters[0].tint = vec3(1.0F, 0.02F, 0.02F);
     const Image image = gl->picture(scene.frame, kRendererSize);
-    const Color body = colorAt(image, scene.frame.camera, {0.1F, 0.5F, 0.05F});
+    const Color body = pixelAt(image, scene.frame.camera, {0.1F, 0.5F, 0.05F});
     CHECK(body.r > body.g + 30);
 }
 
@@ -214,7 +208,7 @@ TEST_CASE("debug lines and solids are drawn, hidden ones faintly, each in a fixe
     addCapsule(scene.frame.solids, chest, 0.25F, 0.1F, withAlpha(colors::cyan, 0.5F));
     const Image solid = gl->picture(scene.frame, kRendererSize);
     CHECK(differingShare(bare, solid) > 0.02);
-    const Color onChest = colorAt(solid, scene.frame.camera, {0, 1.3F, 0.25F});
+    const Color onChest = pixelAt(solid, scene.frame.camera, {0, 1.3F, 0.25F});
     CHECK(onChest.b > onChest.r + 20);
     CHECK(gl->renderer.stats().drawCalls == bareCalls + 3);
     CHECK(gl->renderer.stats().debugDrawCalls == 3);
@@ -243,17 +237,17 @@ TEST_CASE("a translucent character lets the background through, and a highlight 
     Scene scene(*gl);
     const vec3 belly(0, 1.10F, 0.13F);
     scene.frame.characters[0].tint = vec3(0.02F);
-    const Color solid = colorAt(gl->picture(scene.frame, kRendererSize), scene.frame.camera, belly);
+    const Color solid = pixelAt(gl->picture(scene.frame, kRendererSize), scene.frame.camera, belly);
     scene.frame.characters[0].opacity = 0.3F;
-    const Color clear = colorAt(gl->picture(scene.frame, kRendererSize), scene.frame.camera, belly);
-    CHECK(sumOf(clear) > sumOf(solid) + 150);
+    const Color clear = pixelAt(gl->picture(scene.frame, kRendererSize), scene.frame.camera, belly);
+    CHECK(brightness(clear) > brightness(solid) + 150);
     scene.frame.characters[0].opacity = 1.0F;
     scene.frame.characters[0].highlight = withAlpha(colors::orange, 0.9F);
     scene.frame.characters[0].highlightJoint = 1;  // the spine, which owns the belly
     const Image lit = gl->picture(scene.frame, kRendererSize);
-    const Color marked = colorAt(lit, scene.frame.camera, belly);
+    const Color marked = pixelAt(lit, scene.frame.camera, belly);
     CHECK(marked.r > marked.b + 50);
-    const Color head = colorAt(lit, scene.frame.camera, {0, 1.66F, 0.09F});
+    const Color head = pixelAt(lit, scene.frame.camera, {0, 1.66F, 0.09F});
     CHECK(std::abs(head.r - head.b) < 25);
 }
 
@@ -274,7 +268,7 @@ TEST_CASE("a texture is sampled at its own place with its first row on top") {
     scene.frame.characters[0].character = gl->upload(painted);
     const Image image = gl->picture(scene.frame, kRendererSize);
     // The spine's tube runs from its joint (v = 0: the first row) upwards.
-    const Color low = colorAt(image, scene.frame.camera, {0, 1.07F, 0.13F});
+    const Color low = pixelAt(image, scene.frame.camera, {0, 1.07F, 0.13F});
     CHECK(low.r > low.b + 60);
 }
 
