@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -69,6 +70,13 @@ struct UnitInfo {
     std::string upSource;            ///< Like unitSource.
 };
 
+/// One of the characters that a file holds.
+struct FigureInfo {
+    std::string name;          ///< Of the node that holds its joints.
+    std::vector<int> joints;   ///< Of the skeleton, ascending: those that its skins name.
+    std::size_t vertices = 0;  ///< That its skins move, as the file has them.
+};
+
 /// A rigged model as loaded: everything in model space, metres, Y up, rigid joint frames.
 struct Character {
     std::string name;            ///< The file's stem.
@@ -79,6 +87,9 @@ struct Character {
     std::vector<Material> materials;  ///< At least one when there are meshes.
     std::vector<Texture> textures;
     UnitInfo units;
+    std::vector<FigureInfo>
+        figures;     ///< Of the file, in its order; the skeleton holds the joints of all. Empty: no skin.
+    int figure = 0;  ///< Index into `figures`: whose meshes these are.
     std::vector<std::string> warnings;  ///< What was repaired, dropped or guessed, a sentence each.
 
     /// The file's own VRM humanoid map, when it has one: VRM role name → joint index.

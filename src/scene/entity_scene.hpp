@@ -106,6 +106,8 @@ struct Ragdoll {
     EntityId entity = kNoEntity;
     /// Of the model; in files relative to the scene file. Empty: the model that the scene is opened with.
     std::filesystem::path model;
+    /// ImportOptions::figure for `model`.
+    std::optional<int> figure;
     std::filesystem::path profile;      ///< *.ragdoll.json; empty: fitted.
     std::optional<StartPose> pose;      ///< Unset: what the simulation is started with, the bind pose as a rule.
     std::optional<ClipStart> clip;      ///< Wins over `pose`.

@@ -1,5 +1,8 @@
 #include "scene/ragdoll_asset.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include "export/read_gltf_physics.hpp"
 #include "physics/fit/rebind.hpp"
 #include "physics/profile/profile_io.hpp"
@@ -13,10 +16,34 @@ Error notHumanoid(const animation::Character& character, const animation::Humano
             "`lutka inspect` shows the joint tree; a humanoid has a trunk, two arms and two legs"};
 }
 
+// Index of the figure whose joints the profile's bodies are bound to; that of `character` where none is plainly so.
+int figureOf(const physics::RagdollProfile& profile, const animation::Character& character) {
+    std::vector<std::size_t> bodies(character.figures.size(), 0);
+    for (const physics::BodyProfile& body : profile.bodies) {
+        const int joint = animation::findJoint(character.skeleton, body.jointPath);
+        for (std::size_t i = 0; i < bodies.size(); ++i) {
+            const std::vector<int>& own = character.figures[i].joints;
+            if (std::binary_search(own.begin(), own.end(), joint)) ++bodies[i];
+        }
+    }
+    const auto most = std::max_element(bodies.begin(), bodies.end());
+    const bool sure = most != bodies.end() && 2 * *most > profile.bodies.size();
+    return sure ? static_cast<int>(most - bodies.begin()) : character.figure;
+}
+
+// The joints of a file's other figures are in the skeleton, too: a profile of one of them is another rig's.
+Result<physics::BoundProfile> bindProfile(physics::RagdollProfile profile, const RagdollAsset& asset, bool keepShapes) {
+    if (figureOf(profile, asset.character) == asset.character.figure)
+        return physics::bindOrRebind(std::move(profile), asset.character, asset.map, keepShapes);
+    auto rebound = physics::rebindProfile(profile, asset.character, asset.map, keepShapes);
+    if (!rebound) return rebound.error();
+    return physics::BoundProfile{std::move(rebound).value(), true};
+}
+
 Result<void> readProfile(RagdollAsset& asset, const LoadOptions& options) {
     auto read = physics::loadProfile(*options.profile);
     if (!read) return read.error();
-    auto bound = physics::bindOrRebind(std::move(read).value(), asset.character, asset.map, options.keepShapes);
+    auto bound = bindProfile(std::move(read).value(), asset, options.keepShapes);
     if (!bound) {
         Error error = bound.error();
         error.location = options.profile->string();
@@ -25,6 +52,15 @@ Result<void> readProfile(RagdollAsset& asset, const LoadOptions& options) {
     asset.rebound = bound.value().rebound;
     asset.profile = std::move(bound).value().profile;
     return {};
+}
+
+// Whose joints the profile's bodies are bound to, counted from 1, when that is another figure of the file than the one
+// that was taken. What is wrong with the profile is told later.
+std::optional<int> figureOfProfile(const animation::Character& character, const LoadOptions& options) {
+    if (!options.profile || options.import.figure || character.figures.size() < 2) return std::nullopt;
+    const auto profile = physics::loadProfile(*options.profile);
+    const int figure = profile ? figureOf(profile.value(), character) : character.figure;
+    return figure == character.figure ? std::nullopt : std::optional<int>(figure + 1);
 }
 
 Result<void> fitProfile(RagdollAsset& asset, const LoadOptions& options) {
@@ -54,6 +90,12 @@ void takeRagdollOfFile(RagdollAsset& asset) {
 Result<std::unique_ptr<RagdollAsset>> loadRagdoll(const std::filesystem::path& model, const LoadOptions& options) {
     auto character = animation::importCharacter(model, options.import);
     if (!character) return character.error();
+    if (const std::optional<int> figure = figureOfProfile(character.value(), options)) {
+        animation::ImportOptions again = options.import;
+        again.figure = figure;
+        character = animation::importCharacter(model, again);
+        if (!character) return character.error();
+    }
     return makeRagdoll(std::move(character).value(), options);
 }
 

@@ -34,7 +34,8 @@ struct LoadOptions {
 };
 
 /// import → map → fit (or take the ragdoll that the file brings along; or read the profile and bind it: by joints when
-/// it was made for this rig, else by role). A ragdoll in the file that is none of this figure is told as a warning.
+/// it was made for this rig, else by role). Of a file with several figures a profile's own is taken when none is asked
+/// for: that whose joints it names. A ragdoll in the file that is none of this figure is told as a warning.
 /// Fails with ErrorCode::input: the file can't be read, isn't a humanoid (the reason is the mapper's), or the profile
 /// doesn't fit the rig.
 [[nodiscard]] Result<std::unique_ptr<RagdollAsset>> loadRagdoll(const std::filesystem::path& model,

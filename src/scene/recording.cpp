@@ -19,6 +19,7 @@ constexpr std::size_t kFloats = 7;
 constexpr const char* kFormat = "lutka.recording";
 constexpr int kMostDolls = 100000;
 constexpr int kMostBodies = 1000;
+constexpr int kMostFigures = 10000;
 constexpr long long kMostSteps = 100'000'000;
 constexpr float kLeastStep = 1e-6F;
 
@@ -31,9 +32,10 @@ Error broken(const std::filesystem::path& file, std::string message) {
 // What is wrong with the header, each with its JSON pointer; the parts that are right are in `recording`.
 void readHeader(const JsonCursor& at, int version, Recording& recording) {
     const char* bodies = version == 1 ? "bodiesPerDoll" : "bodiesOfDoll";
-    at.expectObject({"format", "version", "model", "scene", "dt", "dolls", bodies, "props"}, {"steps"});
+    at.expectObject({"format", "version", "model", "scene", "dt", "dolls", bodies, "props"}, {"steps", "figure"});
     recording.model = at["model"].text();
     recording.scene = at["scene"].text();
+    if (at.has("figure")) recording.figure = static_cast<int>(at["figure"].wholeNumber(1, kMostFigures).value_or(0));
     recording.dt = at["dt"].number(kLeastStep, 1.0F);
     recording.dolls = static_cast<int>(at["dolls"].wholeNumber(1, kMostDolls).value_or(1));
     if (version == 1) {
@@ -75,6 +77,8 @@ Recording beginRecording(const Simulation& simulation) {
     Recording recording;
     recording.model = simulation.asset().character.name;
     recording.scene = simulation.scenario().name;
+    const animation::Character& character = simulation.asset().character;
+    if (character.figures.size() > 1) recording.figure = character.figure + 1;
     recording.dt = simulation.options().dt;
     recording.dolls = simulation.dollCount();
     const auto bodiesOf = [&](int doll) { return static_cast<int>(simulation.assetOf(doll).profile.bodies.size()); };
@@ -104,6 +108,7 @@ Result<void> saveRecording(const std::filesystem::path& file, const Recording& r
     header["version"] = recording.bodiesOfDoll.empty() ? 1 : Recording::kVersion;
     header["model"] = recording.model;
     header["scene"] = recording.scene;
+    if (recording.figure > 0) header["figure"] = recording.figure;
     header["dt"] = recording.dt;
     header["dolls"] = recording.dolls;
     if (recording.bodiesOfDoll.empty()) {

@@ -19,6 +19,7 @@ struct Recording {
 
     std::string model;  ///< The character's name.
     std::string scene;
+    int figure = 0;  ///< Which of the first doll's file, counted from 1; 0: the file holds one.
     float dt = 1.0F / 60.0F;
     int dolls = 0;
     int bodiesPerDoll = 0;          ///< Of each, when they are alike; else of the first.

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace lutka::scene {
 namespace {
 
 // What makes two dolls share an asset.
-using Key = std::pair<std::filesystem::path, std::filesystem::path>;
+using Key = std::tuple<std::filesystem::path, int, std::filesystem::path>;
 
 }  // namespace
 
@@ -44,11 +45,12 @@ Result<SceneCast> loadCast(const EntityScene& scene, const std::filesystem::path
         modelUsed = modelUsed || !named;
         LoadOptions load = options;
         if (named) load.profile.reset();
+        if (named || ragdoll->figure) load.import.figure = ragdoll->figure;
         if (!ragdoll->profile.empty()) load.profile = ragdoll->profile;
-        const Key key{named ? ragdoll->model : model, load.profile.value_or("")};
+        const Key key{named ? ragdoll->model : model, load.import.figure.value_or(0), load.profile.value_or("")};
         auto at = known.find(key);
         if (at == known.end()) {
-            auto asset = loadRagdoll(key.first, load);
+            auto asset = loadRagdoll(std::get<0>(key), load);
             if (!asset) return asset.error();
             at = known.emplace(key, static_cast<int>(cast.assets.size())).first;
             cast.assets.push_back(std::move(asset).value());

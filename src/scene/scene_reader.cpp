@@ -193,9 +193,10 @@ Collider readCollider(const JsonCursor& at) {
 }
 
 Ragdoll readRagdoll(const JsonCursor& at, const std::filesystem::path& folder) {
-    at.expectObject({}, {"model", "profile", "pose", "clip", "pins", "linearVelocity", "angularVelocity"});
+    at.expectObject({}, {"model", "figure", "profile", "pose", "clip", "pins", "linearVelocity", "angularVelocity"});
     Ragdoll out;
     takePath(at, "model", folder, out.model);
+    if (at.has("figure")) takeWhole(at, "figure", out.figure.emplace(1), 1, scene_format::kMostFigures);
     takePath(at, "profile", folder, out.profile);
     if (at.has("pose")) {
         StartPose pose = StartPose::bind;

@@ -87,6 +87,7 @@ Json toJson(const Collider& c) {
 Json toJson(const Ragdoll& r, const std::filesystem::path& folder) {
     Json out = Json::object();
     if (!r.model.empty()) out["model"] = pathFrom(r.model, folder);
+    if (r.figure) out["figure"] = *r.figure;
     if (!r.profile.empty()) out["profile"] = pathFrom(r.profile, folder);
     if (r.pose) out["pose"] = nameOf(scene_format::kPoses, *r.pose);
     if (r.clip) out["clip"] = Json{{"name", r.clip->clip}, {"seconds", jsonNumber(r.clip->seconds)}};

@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "animation/import/figure_file.hpp"
 #include "physics/profile/profile_io.hpp"
 #include "support/catch.hpp"
 #include "support/command.hpp"
@@ -60,5 +61,29 @@ TEST_CASE("a profile made for another rig is bound by role, with shapes of this 
             CHECK(profile.bodies[i].massKg == Approx(asset->profile.bodies[i].massKg));
             CHECK(profile.bodies[i].shape.radius == Approx(1.2F * asset->profile.bodies[i].shape.radius).epsilon(0.1));
         }
+    }
+}
+
+TEST_CASE("a profile made of one of a file's figures finds that figure again") {
+    const test::ScratchFolder folder;
+    test::makePair().saveBinary(folder / "pair.glb");
+    for (const int figure : {1, 2}) {
+        LoadOptions made;
+        made.import.figure = figure;
+        const auto asset = loadRagdoll(folder / "pair.glb", made);
+        REQUIRE(asset);
+        CHECK(asset.value()->character.figure == figure - 1);
+        REQUIRE(physics::saveProfile(folder / "own.ragdoll.json", asset.value()->profile));
+        const auto again = loadRagdoll(folder / "pair.glb", withProfile(folder / "own.ragdoll.json"));
+        REQUIRE(again);
+        CHECK(again.value()->character.figure == figure - 1);
+        CHECK_FALSE(again.value()->rebound);
+        // Who asks for another figure gets it, with the profile bound by role.
+        LoadOptions other = withProfile(folder / "own.ragdoll.json");
+        other.import.figure = 3 - figure;
+        const auto bound = loadRagdoll(folder / "pair.glb", other);
+        REQUIRE(bound);
+        CHECK(bound.value()->character.figure == 2 - figure);
+        CHECK(bound.value()->rebound);
     }
 }

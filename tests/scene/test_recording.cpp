@@ -50,11 +50,22 @@ TEST_CASE("a recording comes back as it was") {
     CHECK(read.value().dolls == 2);
     CHECK(read.value().bodiesPerDoll == 3);
     CHECK(read.value().props == 1);
+    CHECK(read.value().figure == 0);
     REQUIRE(read.value().frames.size() == written.frames.size());
     for (std::size_t i = 0; i < written.frames.size(); ++i) {
         CHECK(read.value().frames[i].translation == written.frames[i].translation);
         CHECK(read.value().frames[i].rotation == written.frames[i].rotation);
     }
+}
+
+TEST_CASE("a recording tells which of a file's figures it is of") {
+    const RemoveAtEnd file{temporaryFile()};
+    Recording written = sample();
+    written.figure = 2;
+    REQUIRE(saveRecording(file.file, written));
+    const auto read = loadRecording(file.file);
+    REQUIRE(read);
+    CHECK(read.value().figure == 2);
 }
 
 TEST_CASE("a damaged recording is an input error that says what is wrong") {

@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "animation/import/figure_file.hpp"
 #include "physics/profile/profile_io.hpp"
 #include "scene/bake.hpp"
 #include "scene/draw_simulation.hpp"
@@ -80,6 +81,26 @@ TEST_CASE("characters of one model and profile are loaded once, and others apart
     CHECK(cast.value().assets.size() == 2);
     CHECK(cast.value().assetOfRagdoll == std::vector<int>{0, 1, 0});
     CHECK(cast.value().assets[1]->profile.totalMassKg == Approx(2 * mannequin.value()->profile.totalMassKg));
+}
+
+TEST_CASE("two figures of one file stand side by side in a scene") {
+    const test::ScratchFolder folder;
+    test::makePair().saveBinary(folder / "pair.glb");
+    EntityScene scene;
+    for (const int figure : {1, 2, 1}) {
+        const EntityId id = addCharacter(scene, 2.0F * static_cast<float>(scene.entities.size()), folder / "pair.glb");
+        scene.find<Ragdoll>(id)->figure = figure;
+    }
+    const auto cast = loadCast(scene, {}, {});
+    REQUIRE(cast);
+    CHECK(cast.value().assetOfRagdoll == std::vector<int>{0, 1, 0});
+    CHECK(cast.value().assets[0]->profile.heightM == Approx(cast.value().assets[1]->profile.heightM / 0.8F));
+    // A file with one figure has no second.
+    scene.all<Ragdoll>().front().model = kMannequin;
+    scene.all<Ragdoll>().front().figure = 2;
+    const auto refused = loadCast(scene, {}, {});
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().code == ErrorCode::usage);
 }
 
 TEST_CASE("a missing model, one too many and a scene without characters are usage errors") {

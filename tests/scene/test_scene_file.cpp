@@ -28,6 +28,7 @@ EntityScene richScene() {
     REQUIRE(reparentEntity(scene, 3, 2));
     for (Ragdoll& ragdoll : scene.all<Ragdoll>()) {
         ragdoll.model = "models/a.glb";
+        ragdoll.figure = 2;
         ragdoll.profile = "profiles/a.ragdoll.json";
         ragdoll.pose = StartPose::node;
         ragdoll.clip = ClipStart{"run", some()};

@@ -23,6 +23,29 @@ Json vecJson(const vec3& v) {
     return {v.x, v.y, v.z};
 }
 
+Json figuresJson(const Character& character) {
+    Json figures = Json::array();
+    for (std::size_t i = 0; i < character.figures.size(); ++i) {
+        const animation::FigureInfo& figure = character.figures[i];
+        figures.push_back({{"name", figure.name},
+                           {"joints", figure.joints.size()},
+                           {"vertices", figure.vertices},
+                           {"taken", static_cast<int>(i) == character.figure}});
+    }
+    return figures;
+}
+
+// A file with one figure has nothing to choose.
+void printFigures(const Character& character) {
+    if (character.figures.size() < 2) return;
+    fmt::print("figures    {}: --figure N takes another\n", character.figures.size());
+    for (std::size_t i = 0; i < character.figures.size(); ++i) {
+        const animation::FigureInfo& figure = character.figures[i];
+        fmt::print("  {:>3} {:<44} {:>7} vertices {:>7} joints{}\n", i + 1, figure.name, figure.vertices,
+                   figure.joints.size(), static_cast<int>(i) == character.figure ? ", taken" : "");
+    }
+}
+
 Json inspectJson(const Character& character) {
     const Skeleton& skeleton = character.skeleton;
     Json json;
@@ -31,6 +54,7 @@ Json inspectJson(const Character& character) {
                      {"source", character.units.unitSource},
                      {"up", character.units.upAxis},
                      {"upSource", character.units.upSource}};
+    json["figures"] = figuresJson(character);
     json["joints"] = Json::array();
     const std::vector<std::string> paths = animation::jointPaths(skeleton);
     for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
@@ -76,6 +100,7 @@ void printText(const Character& character) {
     fmt::print("{}\n", character.file.string());
     fmt::print("units      1 file unit = {} m ({}), up {} ({})\n", character.units.metresPerFileUnit,
                character.units.unitSource, character.units.upAxis, character.units.upSource);
+    printFigures(character);
     fmt::print("joints     {}: bind position in metres, and the skin weight each carries in vertices\n",
                skeleton.jointCount());
     const auto children = animation::childrenOf(skeleton);

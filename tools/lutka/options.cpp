@@ -98,6 +98,8 @@ void ModelOptions::addTo(const Command& app, bool required) {
     app.option("--scale", scale, "metres a file unit, instead of what the file or the figure's height says")
         .range(1e-6, 1e6);
     app.option("--up", up, "the file's up axis: x, y, z, -x, -y or -z").oneOf(wordsOf(kUpAxes), true);
+    app.option("--figure", figure, "which figure of a file with several, counted from 1; default: the largest")
+        .range(1, 10000);
     const Option memory = app.option("--import-memory", importMemoryMiB, "MiB that reading the model may take")
                               .range(64, 1 << 20)
                               .showDefault();
@@ -111,6 +113,7 @@ animation::ImportOptions ModelOptions::import() const {
     animation::ImportOptions options;
     options.metresPerFileUnit = scale;
     if (!up.empty()) options.up = kUpAxes.at(lower(up));
+    options.figure = figure;
     options.loadTextures = textures;
     options.allowOutside = allowOutside;
     std::error_code failed;

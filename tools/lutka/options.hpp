@@ -33,11 +33,12 @@ inline void orLeave(const Result<void>& result) {
     if (!result) leave(result.error());
 }
 
-/// MODEL, --scale, --up: what every command that loads a model takes.
+/// MODEL, --scale, --up, --figure: what every command that loads a model takes.
 struct ModelOptions {
     std::filesystem::path model;
     std::optional<float> scale;
     std::string up;
+    std::optional<int> figure;
     bool textures = false;      ///< Set by commands that draw.
     bool inProcess = false;     ///< Read the file in this process.
     bool allowOutside = false;  ///< ImportOptions::allowOutside.

@@ -133,9 +133,11 @@ scene::EntityScene loadEverything(const SimulateOptions& options, bool fromFile,
     const std::filesystem::path& model = options.ragdoll.model.model;
     if (fromFile) {
         auto entities = orLeave(scene::loadScene(options.scene.scene));
-        if (options.ragdoll.profile && model.empty()) {
-            leave({ErrorCode::usage, "a profile goes with a MODEL, and there is none", "--profile",
-                   "give \"profile\" to the characters of the scene file"});
+        const bool figure = options.ragdoll.model.figure.has_value();
+        if ((options.ragdoll.profile || figure) && model.empty()) {
+            const std::string what = figure ? "figure" : "profile";
+            leave({ErrorCode::usage, fmt::format("a {} goes with a MODEL, and there is none", what), "--" + what,
+                   fmt::format("give \"{}\" to the characters of the scene file", what)});
         }
         run.cast = orLeave(scene::loadCast(entities, model, options.ragdoll.load()));
         return entities;
@@ -159,6 +161,8 @@ Run prepare(SimulateOptions& options, const std::filesystem::path& picture) {
     checkOutputs(options, picture);
     Run run;
     if (!options.replayFrom.empty()) run.replay = orLeave(scene::loadRecording(options.replayFrom));
+    if (run.replay && run.replay->figure > 0 && !options.ragdoll.model.figure && !options.ragdoll.model.model.empty())
+        options.ragdoll.model.figure = run.replay->figure;
     const scene::EntityScene entities = loadEverything(options, fromFile, run);
     for (const auto& asset : run.cast.assets) {
         printWarnings(*asset);

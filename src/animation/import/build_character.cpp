@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -25,6 +28,7 @@ namespace {
 
 // Scale that a joint has in a pose but not in the bind pose is dropped; below this share nobody sees it.
 constexpr double kVisibleScale = 0.01;
+constexpr std::size_t kFewestJointsOfFigure = 8;
 
 // The root of the part of the tree that holds most joints: leaves out cameras, lights and helpers beside the figure, of
 // which MotionBuilder writes seven. They are single nodes or two; what has more joints beside it is a limb's neighbour.
@@ -51,8 +55,26 @@ int rootOfFigure(const Skeleton& skeleton) {
     return figure;
 }
 
-// What the height of the figure is measured on: skins and their joints, else rigid meshes, else the joints alone.
-std::vector<vec3> pointsOfFigure(const Character& character, std::span<const dmat4> bind) {
+// Whether the points lie about the joints: a sphere at the hips of a bare skeleton is no figure's skin.
+bool cover(const std::vector<vec3>& points, const std::vector<vec3>& joints) {
+    constexpr float kMargin = 0.2F;  // of the points' box, on each side
+    constexpr double kLeastShare = 0.3;
+    vec3 low(std::numeric_limits<float>::max());
+    vec3 high(std::numeric_limits<float>::lowest());
+    for (const vec3& point : points) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    const vec3 margin(kMargin * glm::length(high - low));
+    const auto inside = std::count_if(joints.begin(), joints.end(), [&](const vec3& joint) {
+        return glm::all(glm::greaterThan(joint, low - margin)) && glm::all(glm::lessThan(joint, high + margin));
+    });
+    return static_cast<double>(inside) >= kLeastShare * static_cast<double>(joints.size());
+}
+
+// What the height of the figure is measured on: skins and their joints, else rigid meshes; the joints, too, where these
+// cover few of them or are not there.
+std::vector<vec3> pointsOfFigure(Character& character, std::span<const dmat4> bind) {
     std::vector<vec3> points;
     const int root = rootOfFigure(character.skeleton);
     bool skinned = false;
@@ -61,11 +83,18 @@ std::vector<vec3> pointsOfFigure(const Character& character, std::span<const dma
     for (const SkinnedMesh& mesh : character.meshes) {
         if (skinned == !mesh.rigid) points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
     }
+    std::vector<vec3> joints;
     for (int joint = 0; joint < character.skeleton.jointCount(); ++joint) {
         const bool deforms = character.skeleton.skinWeight[joint] > 0.0F && skinned;
-        const bool alone = character.meshes.empty() && isAncestorOrSelf(character.skeleton, root, joint);
-        if (deforms || alone) points.emplace_back(bind[joint][3]);
+        if (deforms) points.emplace_back(bind[joint][3]);
+        if (isAncestorOrSelf(character.skeleton, root, joint)) joints.emplace_back(bind[joint][3]);
     }
+    if (!points.empty() && (joints.size() < kFewestJointsOfFigure || cover(points, joints))) return points;
+    if (!points.empty()) {
+        character.warnings.emplace_back(
+            "the meshes lie about hardly any of the skeleton's joints: the figure's height is that of the joints");
+    }
+    points.insert(points.end(), joints.begin(), joints.end());
     return points;
 }
 
@@ -144,6 +173,21 @@ void takeMaterials(SourceScene& source, Character& character) {
     }
 }
 
+void takeFigures(const FigureChoice& choice, const NodeTree& tree, Character& character) {
+    for (const SourceFigure& source : choice.figures) {
+        FigureInfo figure{source.name, {}, source.vertices};
+        for (const int node : source.joints)
+            figure.joints.push_back(tree.nodes[node].joint);
+        character.figures.push_back(std::move(figure));
+    }
+    character.figure = static_cast<int>(choice.taken);
+}
+
+Error withLocation(Error error, std::string location) {
+    error.location = std::move(location);
+    return error;
+}
+
 // Finite numbers in the file may be no more so once they were scaled and put in their places.
 bool hasFinitePlaces(const Character& character) {
     for (const SkinnedMesh& mesh : character.meshes) {
@@ -158,9 +202,11 @@ bool hasFinitePlaces(const Character& character) {
 
 Result<Character> buildCharacter(SourceScene source, const std::filesystem::path& file, const ImportOptions& options) {
     if (std::optional<Error> error = validate(source, file.string())) return *std::move(error);
-    chooseFigure(source);
+    const Result<FigureChoice> figures = chooseFigure(source, options.figure);
+    if (!figures) return withLocation(figures.error(), file.string());
     const NodeTree tree = makeNodeTree(source);
     Character character;
+    takeFigures(figures.value(), tree, character);
     character.name = file.stem().string();
     character.file = file;
     character.warnings = std::move(source.warnings);

@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <numeric>
 #include <set>
 #include <string>
@@ -47,7 +49,7 @@ std::vector<Armature> armaturesOf(const SourceScene& scene) {
     }
     std::vector<Armature> armatures;
     for (int skin = 0; skin < static_cast<int>(scene.skins.size()); ++skin) {
-        if (weights[skin] == 0) continue;
+        if (weights[skin] == 0 || scene.skins[skin].joints.empty()) continue;
         Armature own;
         own.skins = {skin};
         own.weight = weights[skin];
@@ -108,67 +110,141 @@ std::vector<glm::dmat4> posed(const SourceScene& scene) {
     return sceneFromNode;
 }
 
-// The skins of other characters than the one with most vertices; their names are added to `told`.
-std::set<int> skinsOfOthers(const SourceScene& scene, std::vector<std::string>& told) {
-    std::vector<Armature> armatures = armaturesOf(scene);
-    std::set<int> others;
-    if (armatures.size() < 2) return others;
+// The armatures that are a character each: the one with most vertices, twins of it (another of its names) and whole
+// skeletons that stand apart. In the order of their nodes. Others are accessories.
+std::vector<const Armature*> charactersAmong(const SourceScene& scene, const std::vector<Armature>& armatures,
+                                             const std::vector<JointBounds>& bounds) {
     const auto heavier = [](const Armature& a, const Armature& b) { return a.weight < b.weight; };
-    const Armature& first = *std::max_element(armatures.begin(), armatures.end(), heavier);
-    const std::vector<glm::dmat4> sceneFromNode = posed(scene);
-    for (const Armature& other : armatures) {
-        if (&other == &first || other.joints.size() < kFewestJoints || first.joints.size() < kFewestJoints) continue;
-        const bool twin = sharedNames(scene, first, other) >= kSameNames;
-        const bool another = other.joints.size() >= kWholeSkeleton &&
-                             apart(boundsOf(sceneFromNode, first), boundsOf(sceneFromNode, other));
-        if (!twin && !another) continue;
-        others.insert(other.skins.begin(), other.skins.end());
-        const int top = *other.joints.begin();
-        told.push_back(scene.nodes[scene.nodes[top].parent < 0 ? top : scene.nodes[top].parent].name);
+    // The end where there is none.
+    const auto first = std::max_element(armatures.begin(), armatures.end(), heavier);
+    std::vector<const Armature*> characters;
+    for (auto other = armatures.begin(); other != armatures.end(); ++other) {
+        if (other != first) {
+            if (std::min(other->joints.size(), first->joints.size()) < kFewestJoints) continue;
+            const bool twin = sharedNames(scene, *first, *other) >= kSameNames;
+            const bool another = other->joints.size() >= kWholeSkeleton &&
+                                 apart(bounds[first - armatures.begin()], bounds[other - armatures.begin()]);
+            if (!twin && !another) continue;
+        }
+        characters.push_back(&*other);
     }
-    return others;
+    std::sort(characters.begin(), characters.end(),
+              [](const Armature* a, const Armature* b) { return *a->joints.begin() < *b->joints.begin(); });
+    return characters;
+}
+
+double distanceTo(const JointBounds& box, const JointBounds& other) {
+    const glm::dvec3 centre = 0.5 * (other.low + other.high);
+    return glm::distance(centre, glm::clamp(centre, box.low, box.high));
+}
+
+// A hat on joints of its own goes with the character that it is nearest to.
+std::size_t nearestCharacter(const std::vector<JointBounds>& characters, const JointBounds& accessory) {
+    const auto nearer = [&](const JointBounds& a, const JointBounds& b) {
+        return distanceTo(a, accessory) < distanceTo(b, accessory);
+    };
+    return static_cast<std::size_t>(std::min_element(characters.begin(), characters.end(), nearer) -
+                                    characters.begin());
+}
+
+// In a file without skins its own humanoid block tells what the figure is.
+FigureChoice figureOfHumanoid(const SourceScene& scene) {
+    FigureChoice choice;
+    SourceFigure figure;
+    for (const auto& [role, node] : scene.vrmHumanoid)
+        figure.joints.insert(node);
+    if (figure.joints.size() < kFewestJoints) return choice;
+    const int top = *figure.joints.begin();
+    figure.name = scene.nodes[scene.nodes[top].parent < 0 ? top : scene.nodes[top].parent].name;
+    choice.figures.push_back(std::move(figure));
+    return choice;
+}
+
+FigureChoice figuresOf(const SourceScene& scene) {
+    const std::vector<Armature> armatures = armaturesOf(scene);
+    const std::vector<glm::dmat4> sceneFromNode = posed(scene);
+    std::vector<JointBounds> bounds;
+    for (const Armature& armature : armatures)
+        bounds.push_back(boundsOf(sceneFromNode, armature));
+    FigureChoice choice;
+    std::vector<JointBounds> places;
+    std::set<const Armature*> isCharacter;
+    for (const Armature* armature : charactersAmong(scene, armatures, bounds)) {
+        const int top = *armature->joints.begin();
+        const int above = scene.nodes[top].parent;
+        choice.figures.push_back(
+            {scene.nodes[above < 0 ? top : above].name, armature->skins, armature->joints, armature->weight});
+        places.push_back(bounds[armature - armatures.data()]);
+        isCharacter.insert(armature);
+    }
+    for (std::size_t i = 0; i < armatures.size(); ++i) {
+        if (isCharacter.count(&armatures[i]) > 0) continue;
+        SourceFigure& owner = choice.figures[nearestCharacter(places, bounds[i])];
+        owner.skins.insert(owner.skins.end(), armatures[i].skins.begin(), armatures[i].skins.end());
+        owner.joints.insert(armatures[i].joints.begin(), armatures[i].joints.end());
+        owner.vertices += armatures[i].weight;
+    }
+    return choice;
+}
+
+// The meshes that are the figure's; what hangs on no figure at all is added to `things`.
+std::vector<SourceInstance> instancesOf(const SourceScene& scene, const FigureChoice& choice,
+                                        std::vector<std::string>& things) {
+    const SourceFigure& figure = choice.figures[choice.taken];
+    const std::set<int> skins(figure.skins.begin(), figure.skins.end());
+    std::vector<SourceInstance> kept;
+    for (const SourceInstance& instance : scene.instances) {
+        if (instance.skin >= 0 && !scene.skins[instance.skin].joints.empty()) {
+            if (skins.count(instance.skin) > 0) kept.push_back(instance);
+            continue;
+        }
+        const auto carries = [&](const SourceFigure& one) { return hangsBelow(scene, instance.node, one.joints); };
+        if (carries(figure)) {
+            kept.push_back(instance);
+        } else if (std::none_of(choice.figures.begin(), choice.figures.end(), carries)) {
+            things.push_back(scene.nodes[instance.node].name);
+        }
+    }
+    return kept;
+}
+
+void tellOfOthers(const FigureChoice& choice, std::vector<std::string>& warnings) {
+    if (choice.figures.size() < 2) return;
+    std::vector<std::string> others;
+    for (std::size_t i = 0; i < choice.figures.size(); ++i) {
+        if (i != choice.taken) others.push_back(fmt::format("{} (--figure {})", choice.figures[i].name, i + 1));
+    }
+    warnings.push_back(fmt::format("the file holds {} more character(s), which were left out: {}", others.size(),
+                                   fmt::join(others, ", ")));
 }
 
 }  // namespace
 
-void chooseFigure(SourceScene& scene) {
-    std::set<int> jointsOfSkins;
-    for (const SourceInstance& instance : scene.instances) {
-        if (instance.skin < 0) continue;
-        for (const SourceSkin::Joint& joint : scene.skins[instance.skin].joints)
-            jointsOfSkins.insert(joint.node);
+Result<FigureChoice> chooseFigure(SourceScene& scene, std::optional<int> wanted) {
+    const auto weighs = [](const SourceFigure& a, const SourceFigure& b) { return a.vertices < b.vertices; };
+    FigureChoice choice = figuresOf(scene);
+    if (choice.figures.empty()) choice = figureOfHumanoid(scene);
+    const auto count = static_cast<int>(std::max<std::size_t>(choice.figures.size(), 1));
+    if (wanted && (*wanted < 1 || *wanted > count)) {
+        return Error{ErrorCode::usage, fmt::format("there is no figure {}: the file holds {}", *wanted, count), "",
+                     "`lutka inspect` lists the figures of a file"};
     }
-    if (jointsOfSkins.empty()) return;
-    std::vector<std::string> characters;
-    const std::set<int> others = skinsOfOthers(scene, characters);
-    std::set<int> jointsOfOthers;
-    for (const int skin : others) {
-        for (const SourceSkin::Joint& joint : scene.skins[skin].joints)
-            jointsOfOthers.insert(joint.node);
-    }
+    if (choice.figures.empty()) return choice;
+    choice.taken =
+        wanted ? static_cast<std::size_t>(*wanted - 1)
+               : static_cast<std::size_t>(std::max_element(choice.figures.begin(), choice.figures.end(), weighs) -
+                                          choice.figures.begin());
     std::vector<std::string> things;
-    std::vector<SourceInstance> kept;
-    for (const SourceInstance& instance : scene.instances) {
-        const bool rigid = instance.skin < 0;
-        if (rigid ? hangsBelow(scene, instance.node, jointsOfOthers) : others.count(instance.skin) > 0) continue;
-        if (rigid && !hangsBelow(scene, instance.node, jointsOfSkins)) {
-            things.push_back(scene.nodes[instance.node].name);
-            continue;
-        }
-        kept.push_back(instance);
-    }
-    scene.instances = std::move(kept);
-    if (!characters.empty()) {
-        scene.warnings.push_back(fmt::format("the file holds {} more character(s), which were left out: {}",
-                                             characters.size(), fmt::join(characters, ", ")));
-    }
+    scene.instances = instancesOf(scene, choice, things);
+    tellOfOthers(choice, scene.warnings);
     if (!things.empty()) {
         constexpr std::size_t most = 8;
-        const std::size_t count = things.size();
-        if (count > most) things.resize(most);
-        scene.warnings.push_back(fmt::format("{} mesh(es) hang on no joint of the figure and were left out: {}{}",
-                                             count, fmt::join(things, ", "), count > most ? " …" : ""));
+        const std::size_t all = things.size();
+        if (all > most) things.resize(most);
+        scene.warnings.push_back(fmt::format("{} mesh(es) hang on no joint of the figure and were left out: {}{}", all,
+                                             fmt::join(things, ", "), all > most ? " …" : ""));
     }
+    return choice;
 }
 
 }  // namespace lutka::animation::rig_import

@@ -29,6 +29,9 @@ struct ImportOptions {
     /// where that is missing or absurd.
     std::optional<float> metresPerFileUnit;
     std::optional<UpAxis> up;  ///< Unset: from the file's metadata, or from the figure where that is missing.
+    /// Which of Character::figures is taken, counted from 1; unset: the one with most vertices. One that is not there
+    /// is ErrorCode::usage.
+    std::optional<int> figure;
     bool loadTextures = true;  ///< False skips decoding pictures (mapping and physics don't need them).
     /// Pictures, buffers and material libraries may lie anywhere. False: only in the model's folder and below, where
     /// links lead too; a buffer elsewhere is an error, the rest is left out with a warning.

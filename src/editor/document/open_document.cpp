@@ -7,6 +7,7 @@ using Opened = Result<std::unique_ptr<EditorDocument>>;
 
 Opened openAsset(const scene::Ragdoll& character, scene::LoadOptions load, const EditorDocument& present) {
     load.profile.reset();
+    load.import.figure = character.figure;
     if (!character.profile.empty()) load.profile = character.profile;
     return EditorDocument::open(character.model.empty() ? present.character().file : character.model, load);
 }
@@ -24,11 +25,13 @@ Opened openModel(const std::filesystem::path& file, const scene::LoadOptions& lo
     for (scene::Ragdoll& ragdoll : settings.entities.all<scene::Ragdoll>()) {
         if (!present.sceneDocument().isEdited(ragdoll)) continue;
         ragdoll.model.clear();
+        ragdoll.figure.reset();
         ragdoll.profile.clear();
         ragdoll.clip.reset();  // of the old one
     }
     scene::LoadOptions plain = load;
     plain.profile.reset();
+    plain.import.figure.reset();
     return started(EditorDocument::open(file, plain), settings);
 }
 

@@ -39,6 +39,7 @@ const fs::path& SceneDocument::modelOf(const scene::Ragdoll& ragdoll) const {
 
 bool SceneDocument::isEdited(const scene::Ragdoll& ragdoll) const {
     if (!ragdoll.model.empty() && !samePath(ragdoll.model, edited_.character.file)) return false;
+    if (ragdoll.figure && *ragdoll.figure != edited_.character.figure + 1) return false;
     if (ragdoll.profile.empty()) return ragdoll.model.empty() || openedWith_.empty();
     return samePath(ragdoll.profile, profileFile_) || samePath(ragdoll.profile, openedWith_);
 }
@@ -47,9 +48,10 @@ Result<void> SceneDocument::loadOthers(const scene::EntityScene& scene) {
     for (const scene::Ragdoll& ragdoll : scene.all<scene::Ragdoll>()) {
         if (isEdited(ragdoll)) continue;
         const fs::path& model = modelOf(ragdoll);
-        const OtherKey key{model, ragdoll.profile};
+        const OtherKey key{model, ragdoll.figure.value_or(0), ragdoll.profile};
         if (others_.contains(key)) continue;
         scene::LoadOptions load = load_;
+        load.import.figure = ragdoll.figure;
         if (!ragdoll.profile.empty()) load.profile = ragdoll.profile;
         auto asset = scene::loadRagdoll(model, load);
         if (!asset) return asset.error();
@@ -60,7 +62,7 @@ Result<void> SceneDocument::loadOthers(const scene::EntityScene& scene) {
 
 const scene::RagdollAsset& SceneDocument::assetOf(const scene::Ragdoll& ragdoll) const {
     if (isEdited(ragdoll)) return edited_;
-    const auto other = others_.find({modelOf(ragdoll), ragdoll.profile});
+    const auto other = others_.find({modelOf(ragdoll), ragdoll.figure.value_or(0), ragdoll.profile});
     return other != others_.end() ? *other->second : edited_;
 }
 
@@ -150,6 +152,7 @@ Result<void> SceneDocument::save(const fs::path& file) {
     for (scene::Ragdoll& ragdoll : written.all<scene::Ragdoll>()) {
         if (!isEdited(ragdoll)) continue;
         if (ragdoll.model.empty()) ragdoll.model = edited_.character.file;
+        if (edited_.character.figures.size() > 1) ragdoll.figure = edited_.character.figure + 1;
         if (ragdoll.profile.empty() && profileExists_) ragdoll.profile = profileFile_;
     }
     if (auto saved = scene::saveScene(file, written); !saved) return saved;

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -65,8 +66,8 @@ class SceneDocument {
 
     const scene::RagdollAsset& edited_;
     SceneSettings settings_;
-    // Of the scene's other characters, by model and profile. Kept for undo.
-    using OtherKey = std::pair<std::filesystem::path, std::filesystem::path>;
+    // Of the scene's other characters, by model, figure and profile. Kept for undo.
+    using OtherKey = std::tuple<std::filesystem::path, int, std::filesystem::path>;
     std::map<OtherKey, std::unique_ptr<scene::RagdollAsset>> others_;
     scene::LoadOptions load_;
     std::filesystem::path openedWith_;

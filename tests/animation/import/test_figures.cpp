@@ -1,0 +1,144 @@
+// Files with several figures: which there are, and which is taken.
+
+#include <algorithm>
+
+#include "animation/humanoid/map_humanoid.hpp"
+#include "animation/import/checks.hpp"
+#include "animation/import/figure_file.hpp"
+#include "support/catch.hpp"
+#include "support/rigs.hpp"
+
+using namespace lutka;
+using namespace lutka::animation;
+using namespace lutka::test;
+
+namespace {
+
+float tallness(const Character& character) {
+    float low = 1e9F;
+    float high = -1e9F;
+    for (const vec3& p : bindVertices(character)) {
+        low = std::min(low, p.y);
+        high = std::max(high, p.y);
+    }
+    return high - low;
+}
+
+ImportOptions takingFigure(int number) {
+    ImportOptions options;
+    options.figure = number;
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE("a file's figures are listed; the largest is taken unless another is asked for") {
+    const TemporaryFolder folder;
+    makePair().saveBinary(folder / "pair.glb");
+    const float height = tallness(makeBiped());
+    const Character plain = imported(folder / "pair.glb");
+    checkInvariants(plain);
+    REQUIRE(plain.figures.size() == 2);
+    CHECK(plain.figures[0].name == "Anna");
+    CHECK(plain.figures[1].name == "Bert");
+    CHECK(plain.figures[1].vertices == 2 * plain.figures[0].vertices);
+    CHECK(plain.figure == 1);
+    CHECK(tallness(plain) == Approx(0.8F * height));
+    CHECK(warns(plain, "Anna (--figure 1)"));
+
+    const Character anna = imported(folder / "pair.glb", takingFigure(1));
+    checkInvariants(anna);
+    CHECK(anna.figure == 0);
+    CHECK(tallness(anna) == Approx(height));
+    CHECK(warns(anna, "Bert (--figure 2)"));
+    CHECK(bindVertices(imported(folder / "pair.glb", takingFigure(2))) == bindVertices(plain));
+}
+
+TEST_CASE("the figure that is taken is the one whose joints are mapped, though others have their names") {
+    const TemporaryFolder folder;
+    makePair().saveBinary(folder / "pair.glb");
+    for (const int number : {1, 2}) {
+        INFO(number);
+        const Character character = imported(folder / "pair.glb", takingFigure(number));
+        const HumanoidMap map = mapHumanoid(character, {});
+        REQUIRE(map.humanoid);
+        const std::vector<int>& joints = character.figures[number - 1].joints;
+        for (const auto& binding : map.roles) {
+            if (binding) CHECK(std::binary_search(joints.begin(), joints.end(), binding->joint));
+        }
+    }
+}
+
+TEST_CASE("a figure that is not there is a usage error that says how many there are") {
+    const TemporaryFolder folder;
+    makePair().saveBinary(folder / "pair.glb");
+    makePostRig().saveBinary(folder / "post.glb");
+    for (const int number : {0, -1, 3}) {
+        const Result<Character> result = importCharacter(folder / "pair.glb", takingFigure(number));
+        REQUIRE_FALSE(result.ok());
+        CHECK(result.error().code == ErrorCode::usage);
+        CHECK_THAT(result.error().message, Catch::Contains("holds 2"));
+        CHECK_THAT(result.error().location, Catch::Contains("pair.glb"));
+    }
+    CHECK(importCharacter(folder / "post.glb", takingFigure(1)).ok());
+    CHECK_FALSE(importCharacter(folder / "post.glb", takingFigure(2)).ok());
+}
+
+TEST_CASE("a hat on joints of its own goes with the figure that it sits on") {
+    const TemporaryFolder folder;
+    GltfFile file = makePair();
+    for (const float x : {0.0F, 2.0F}) {
+        const std::string name = x > 1.0F ? "Bert's hat" : "Anna's hat";
+        const int joint = file.addNode(name, -1, mat4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, 1.6F, 0, 1));
+        const int mesh = addPostMesh(file, makePost(), mat4(0.1F, 0, 0, 0, 0, 0.1F, 0, 0, 0, 0, 0.1F, 0, 0, 0, 0, 1));
+        file.json["meshes"][mesh]["name"] = name;
+        const int node = file.addNode("hat", -1);
+        file.json["nodes"][node]["mesh"] = mesh;
+        file.json["nodes"][node]["skin"] = addSkin(file, {joint, joint, joint}, std::vector<mat4>(3, mat4(1.0F)));
+    }
+    file.saveBinary(folder / "hats.glb");
+    for (const int number : {1, 2}) {
+        const Character character = imported(folder / "hats.glb", takingFigure(number));
+        const auto has = [&](const std::string& name) {
+            return std::any_of(character.meshes.begin(), character.meshes.end(),
+                               [&](const SkinnedMesh& mesh) { return mesh.name == name; });
+        };
+        CHECK(character.figures.size() == 2);
+        CHECK(has("Anna's hat") == (number == 1));
+        CHECK(has("Bert's hat") == (number == 2));
+    }
+}
+
+TEST_CASE("a mesh that has nothing to do with the skeleton does not give the figure its height") {
+    const TemporaryFolder folder;
+    // The bare skeleton of a man, and a post at his hips: tiny, or on no joint and five times his size.
+    for (const bool large : {false, true}) {
+        INFO(large);
+        GltfFile file;
+        const Character biped = makeBiped();
+        addFigure(file, biped, "Anna");
+        const int joints = biped.skeleton.jointCount();
+        file.json["meshes"].clear();
+        file.json["nodes"].back().erase("mesh");
+        file.json["nodes"].back().erase("skin");
+        file.json.erase("skins");
+        const float size = large ? 5.0F : 0.01F;
+        const int mesh =
+            addPostMesh(file, makePost(), mat4(size, 0, 0, 0, 0, size, 0, 0, 0, 0, size, 0, 0, 0, 0, 1), false);
+        const int node = large ? file.addNode("crate", -1) : 1;  // the armature's first joint
+        file.json["nodes"][node]["mesh"] = mesh;
+        if (large) {
+            nlohmann::json bones;
+            for (int joint = 0; joint < joints; ++joint)
+                bones[biped.skeleton.names[joint]] = {{"node", joint + 1}};
+            file.json["extensions"]["VRMC_vrm"] = {{"specVersion", "1.0"}, {"humanoid", {{"humanBones", bones}}}};
+            file.json["extensionsUsed"] = {"VRMC_vrm"};
+        }
+        file.saveBinary(folder / "bare.glb");
+        const Character character = imported(folder / "bare.glb");
+        CHECK(character.units.metresPerFileUnit == 1.0F);
+        CHECK(mapHumanoid(character, {}).humanoid);
+        CHECK(character.meshes.size() == (large ? 0 : 1));
+        CHECK(warns(character, large ? "crate" : "hardly any of the skeleton's joints"));
+    }
+}
