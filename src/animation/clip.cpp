@@ -5,6 +5,13 @@
 #include "core/assert.hpp"
 
 namespace lutka::animation {
+namespace {
+
+bool marks(const std::vector<bool>& marked, std::size_t joint) {
+    return joint < marked.size() && marked[joint];
+}
+
+}  // namespace
 
 ClipFrames::ClipFrames(std::size_t size, Source source) : shared_(std::make_shared<Shared>()) {
     shared_->size = size;
@@ -60,11 +67,11 @@ void sampleClip(const Clip& clip, float seconds, std::span<RigidTransform> paren
     // A time that misses its frame by rounding alone shows that frame.
     const std::size_t held = std::min<std::size_t>(static_cast<std::size_t>(at + 1e-3F), clip.frameCount - 1U);
     for (std::size_t joint = 0; joint < joints; ++joint) {
-        if (joint < clip.steppedJoints.size() && clip.steppedJoints[joint]) {
-            parentFromJoint[joint] = frames[held * joints + joint];
-            continue;
-        }
-        parentFromJoint[joint] = interpolate(frames[before * joints + joint], frames[after * joints + joint], alpha);
+        RigidTransform& out = parentFromJoint[joint];
+        out = interpolate(frames[before * joints + joint], frames[after * joints + joint], alpha);
+        const RigidTransform& stepped = frames[held * joints + joint];
+        if (marks(clip.steppedRotations, joint)) out.rotation = stepped.rotation;
+        if (marks(clip.steppedTranslations, joint)) out.translation = stepped.translation;
     }
 }
 

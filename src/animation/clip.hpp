@@ -55,9 +55,10 @@ struct Clip {
     float framesPerSecond = 30.0F;  ///< > 0.
     int frameCount = 0;             ///< >= 1. The clip lasts (frameCount - 1) / framesPerSecond seconds.
     ClipFrames parentFromJoint;     ///< frameCount × jointCount, frame after frame.
-    /// Marks the joints that hold each frame until the next one instead of moving towards it (a file's STEP channels).
-    /// Empty: none does.
-    std::vector<bool> steppedJoints;
+    /// Mark the joints whose rotation or translation holds each frame until the next one instead of moving towards it
+    /// (a file's STEP channels). Empty: none does.
+    std::vector<bool> steppedRotations;
+    std::vector<bool> steppedTranslations = {};
 
     [[nodiscard]] float seconds() const {
         return frameCount > 1 ? static_cast<float>(frameCount - 1) / framesPerSecond : 0.0F;

@@ -23,6 +23,10 @@ vec4 components(const quat& q) {
     return {q.x, q.y, q.z, q.w};
 }
 
+bool isMarked(const std::vector<bool>& marks, std::size_t joint) {
+    return joint < marks.size() && marks[joint];
+}
+
 class AnimationBuilder {
   public:
     AnimationBuilder(const Clip& clip, int firstJoint, BufferBuilder& buffer, tinygltf::Model& model)
@@ -32,7 +36,8 @@ class AnimationBuilder {
 
     // Writes the channel when its values leave `rest`; one key is enough for values that stay equal.
     template <class Value>
-    void addChannel(std::size_t joint, std::vector<Value> values, const Value& rest, const char* path, int type) {
+    void addChannel(std::size_t joint, std::vector<Value> values, const Value& rest, const char* path, int type,
+                    bool stepped) {
         bool moves = false;
         bool leaves = false;
         for (const Value& value : values) {
@@ -44,7 +49,7 @@ class AnimationBuilder {
         tinygltf::AnimationSampler sampler;
         sampler.input = moves ? times() : startTime();
         sampler.output = buffer_.add(std::span<const Value>(values), TINYGLTF_COMPONENT_TYPE_FLOAT, type, 0);
-        sampler.interpolation = "LINEAR";
+        sampler.interpolation = stepped ? "STEP" : "LINEAR";
         animation_.samplers.push_back(std::move(sampler));
         tinygltf::AnimationChannel channel;
         channel.sampler = static_cast<int>(animation_.samplers.size()) - 1;
@@ -95,8 +100,10 @@ void addAnimation(const Clip& clip, std::span<const RigidTransform> parentFromJo
             translations.push_back(pose.translation);
         }
         const RigidTransform& rest = parentFromJoint[joint];
-        animation.addChannel(joint, std::move(rotations), components(rest.rotation), "rotation", TINYGLTF_TYPE_VEC4);
-        animation.addChannel(joint, std::move(translations), rest.translation, "translation", TINYGLTF_TYPE_VEC3);
+        animation.addChannel(joint, std::move(rotations), components(rest.rotation), "rotation", TINYGLTF_TYPE_VEC4,
+                             isMarked(clip.steppedRotations, joint));
+        animation.addChannel(joint, std::move(translations), rest.translation, "translation", TINYGLTF_TYPE_VEC3,
+                             isMarked(clip.steppedTranslations, joint));
     }
     animation.finish();
 }

@@ -271,15 +271,17 @@ double commonScale(const ClipFile& file, std::span<const dmat4> sceneFromNode, c
     return scale;
 }
 
-// The joints whose node has a channel that jumps: their poses must not be blended across the jump.
-std::vector<bool> steppedJoints(const ClipFile& file, const SourceClip& clip) {
-    std::vector<bool> stepped;
-    for (const SourceChannel& channel : clip.channels) {
+// Marks the parts of joints that a channel moves in jumps: they must not be blended across the jump. A channel of the
+// joint's other part may well be smooth. (Scales are dropped.)
+void markSteps(const ClipFile& file, const SourceClip& source, Clip& clip) {
+    for (const SourceChannel& channel : source.channels) {
         if (channel.interpolation != SourceChannel::Interpolation::step || channel.times.size() < 2) continue;
-        stepped.resize(file.tree.nodeOfJoint.size(), false);
-        stepped[file.tree.nodes[channel.node].joint] = true;
+        if (channel.path == SourceChannel::Path::scale) continue;
+        std::vector<bool>& marks =
+            channel.path == SourceChannel::Path::rotation ? clip.steppedRotations : clip.steppedTranslations;
+        marks.resize(file.tree.nodeOfJoint.size(), false);
+        marks[file.tree.nodes[channel.node].joint] = true;
     }
-    return stepped;
 }
 
 // Only what there is to warn of is looked at now; the poses wait until somebody plays the clip.
@@ -296,7 +298,7 @@ Clip makeClip(const std::shared_ptr<const ClipFile>& file, const SourceClip& ani
             fmt::format("clip '{}' scales joints by up to {:.0f} %; the scale was dropped", clip.name, 100.0 * worst));
     }
     const std::size_t size = joints * static_cast<std::size_t>(timing.frames);
-    clip.steppedJoints = steppedJoints(*file, animation);
+    markSteps(*file, animation, clip);
     clip.parentFromJoint =
         ClipFrames(size, [file, &animation, timing] { return ClipSampler(*file, animation).sample(timing); });
     return clip;

@@ -128,6 +128,47 @@ TEST_CASE("a stepped clip never shows a pose in between, and a spline follows it
     CHECK(glm::distance(directionAt(eases, joint, t), expected * vec3(0, 1, 0)) < 2e-3F);
 }
 
+TEST_CASE("a joint may jump in one channel and move smoothly in the other") {
+    const TemporaryFolder folder;
+    const std::vector<float> times = {0, 1};
+    const std::vector<float> moves = {0, 0.6F, 0, 0, 1.6F, 0};
+    const std::vector<float> turn = quarterTurn();
+    std::vector<float> flat(24, 0.0F);  // the turn with tangents of nothing: half way at half the time
+    std::copy(turn.begin(), turn.begin() + 4, flat.begin() + 4);
+    std::copy(turn.begin() + 4, turn.end(), flat.begin() + 16);
+    const vec3 halfTurned = glm::normalize(vec3(-1, 1, 0));
+    for (const char* turning : {"STEP", "LINEAR", "CUBICSPLINE"}) {
+        for (const char* moving : {"STEP", "LINEAR"}) {
+            INFO(turning << ' ' << moving);
+            GltfFile file = makePostRig();
+            const bool spline = std::string(turning) == "CUBICSPLINE";
+            file.addTurn("both", 2, times, file.addFloats(spline ? flat : turn, "VEC4"), turning);
+            auto& clip = file.json["animations"][0];
+            clip["samplers"].push_back({{"input", file.addFloats(times, "SCALAR")},
+                                        {"output", file.addFloats(moves, "VEC3")},
+                                        {"interpolation", moving}});
+            clip["channels"].push_back({{"sampler", 1}, {"target", {{"node", 2}, {"path", "translation"}}}});
+            file.saveBinary(folder / "rig.glb");
+            const Character character = imported(folder / "rig.glb");
+            const int joint = jointNamed(character, "middle");
+            const bool held = std::string(moving) == "STEP";
+            // Between two frames of the clip, too.
+            for (const float seconds : {0.5F, 0.5083F}) {
+                const vec3 direction = directionAt(character, joint, seconds);
+                const bool jumps = std::string(turning) == "STEP";
+                CHECK(glm::distance(direction, jumps ? vec3(0, 1, 0) : halfTurned) < (seconds == 0.5F ? 1e-3F : 0.03F));
+                std::vector<RigidTransform> pose(character.skeleton.parents.size());
+                sampleClip(character.clips[0], seconds, pose);
+                CHECK(pose[joint].translation.y == Approx(held ? 0.6F : 0.6F + seconds).margin(1e-4));
+            }
+            std::vector<RigidTransform> last(character.skeleton.parents.size());
+            sampleClip(character.clips[0], 0.9999F, last);
+            CHECK(last[joint].translation.y == Approx(held ? 0.6F : 1.6F).margin(1e-3));
+            CHECK(glm::distance(directionAt(character, joint, 1.0F), vec3(-1, 0, 0)) < 1e-3F);
+        }
+    }
+}
+
 TEST_CASE("a skin without inverse bind matrices holds its vertices relative to their joints") {
     const TemporaryFolder folder;
     GltfFile plain = makePostRig();
