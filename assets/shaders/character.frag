@@ -7,6 +7,9 @@ in vec3 worldPosition;
 in vec3 worldNormal;
 in vec4 worldTangent;
 in vec2 textureUv;
+#ifdef VERTEX_COLORS
+in vec4 vertexColor;
+#endif
 flat in vec4 tint;
 in vec4 highlight;
 
@@ -44,6 +47,9 @@ void main() {
     vec4 color = baseColor;
 #ifdef BASE_TEXTURE
     color *= texture(baseColorTexture, textureUv);
+#endif
+#ifdef VERTEX_COLORS
+    color *= vertexColor;
 #endif
     color *= tint;
 #ifdef ALPHA_MASK

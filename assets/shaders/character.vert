@@ -8,6 +8,7 @@ layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv;
 layout(location = 4) in uvec4 joints;
 layout(location = 5) in vec4 weights;
+layout(location = 6) in vec4 color;
 
 // The depth pass and the colour pass of a translucent figure must agree to the last bit.
 invariant gl_Position;
@@ -16,6 +17,9 @@ out vec3 worldPosition;
 out vec3 worldNormal;
 out vec4 worldTangent;
 out vec2 textureUv;
+#ifdef VERTEX_COLORS
+out vec4 vertexColor;
+#endif
 flat out vec4 tint;
 out vec4 highlight;
 
@@ -32,6 +36,9 @@ void main() {
     worldNormal = toWorld(vec4(applyRows(rows, vec4(normal, 0.0)), 0.0));
     worldTangent = vec4(toWorld(vec4(applyRows(rows, vec4(tangent.xyz, 0.0)), 0.0)), tangent.w);
     textureUv = uv;
+#ifdef VERTEX_COLORS
+    vertexColor = color;
+#endif
     tint = instanceTexel(3);
     highlight = instanceTexel(4);
     highlight.a *= highlightShare(int(palette.y));

@@ -24,6 +24,7 @@ struct SkinnedMesh {
     std::vector<vec3> normals;   ///< Unit length; made from the triangles when the file has none.
     std::vector<vec4> tangents;  ///< xyz unit, w = ±1 the sign of the bitangent; empty when there are no UVs.
     std::vector<vec2> uvs;       ///< glTF convention: (0, 0) is the picture's upper left; may be empty.
+    std::vector<vec4> colors;    ///< Linear RGBA in [0, 1], times the material's base colour; empty: white.
     std::vector<std::array<std::uint16_t, kMaxInfluences>> joints;  ///< Indices into the skeleton.
     std::vector<std::array<float, kMaxInfluences>> weights;         ///< >= 0, sum 1, strongest first.
     std::vector<std::uint32_t> indices;                             ///< Three a triangle, counter-clockwise outside.

@@ -41,6 +41,7 @@ int addMesh(const SkinnedMesh& mesh, int jointCount, BufferBuilder& buffer, tiny
     if (!mesh.normals.empty()) primitive.attributes["NORMAL"] = floats(view(mesh.normals), TINYGLTF_TYPE_VEC3);
     if (!mesh.tangents.empty()) primitive.attributes["TANGENT"] = floats(view(mesh.tangents), TINYGLTF_TYPE_VEC4);
     if (!mesh.uvs.empty()) primitive.attributes["TEXCOORD_0"] = floats(view(mesh.uvs), TINYGLTF_TYPE_VEC2);
+    if (!mesh.colors.empty()) primitive.attributes["COLOR_0"] = floats(view(mesh.colors), TINYGLTF_TYPE_VEC4);
     primitive.attributes["JOINTS_0"] = addJoints(mesh, jointCount, buffer);
     primitive.attributes["WEIGHTS_0"] = floats(view(mesh.weights), TINYGLTF_TYPE_VEC4);
     primitive.indices = buffer.add(view(mesh.indices), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,

@@ -1,8 +1,7 @@
 #include "animation/import/mesh_conversion.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -74,9 +73,12 @@ void copyVertices(const SourceMesh& source, std::span<const VertexSkin> skins, s
 }
 
 // White changes nothing.
-bool isColored(const SourceMesh& mesh) {
-    return std::any_of(mesh.colors.begin(), mesh.colors.end(),
-                       [](const vec4& color) { return vec3(color) != vec3(1.0F); });
+void copyColors(const SourceMesh& source, SkinnedMesh& mesh) {
+    const auto isColor = [](const vec4& color) { return color != vec4(1.0F); };
+    if (std::none_of(source.colors.begin(), source.colors.end(), isColor)) return;
+    mesh.colors.reserve(source.colors.size());
+    for (const vec4& color : source.colors)
+        mesh.colors.push_back(glm::clamp(color, 0.0F, 1.0F));
 }
 
 SkinnedMesh convertMesh(const NodeTree& tree, const MeshInstance& instance, std::span<const dmat4> bind,
@@ -103,6 +105,7 @@ SkinnedMesh convertMesh(const NodeTree& tree, const MeshInstance& instance, std:
         sceneFromMesh = placements(tree, instance, bind);
     }
     copyVertices(*instance.mesh, skins, sceneFromMesh, mesh);
+    copyColors(*instance.mesh, mesh);
     copyTriangles(*instance.mesh, glm::determinant(dmat3(sceneFromMesh[guide])) < 0.0, mesh);
     return mesh;
 }
@@ -115,9 +118,7 @@ std::vector<SkinnedMesh> convertMeshes(const NodeTree& tree, std::span<const Mes
     std::vector<SkinnedMesh> meshes;
     WeightRepairs repairs;
     MeshRepairs meshRepairs;
-    int colored = 0;
     for (const MeshInstance& instance : instances) {
-        colored += isColored(*instance.mesh) ? 1 : 0;
         SkinnedMesh mesh = convertMesh(tree, instance, bindSceneFromJoint, repairs);
         repairMesh(mesh, meshRepairs);
         if (mesh.indices.empty()) continue;
@@ -126,10 +127,6 @@ std::vector<SkinnedMesh> convertMeshes(const NodeTree& tree, std::span<const Mes
                 skinWeight[mesh.joints[v][i]] += mesh.weights[v][i];
         }
         meshes.push_back(std::move(mesh));
-    }
-    if (colored > 0) {
-        warnings.push_back(
-            fmt::format("the vertex colours of {} mesh(es) are not shown; their materials' own colour is", colored));
     }
     for (std::string& sentence : repairs.sentences())
         warnings.push_back(std::move(sentence));

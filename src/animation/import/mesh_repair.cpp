@@ -27,7 +27,7 @@ bool same(const std::vector<T>& values, std::uint32_t a, std::uint32_t b) {
 
 bool sameVertex(const SkinnedMesh& m, std::uint32_t a, std::uint32_t b) {
     return same(m.positions, a, b) && same(m.normals, a, b) && same(m.tangents, a, b) && same(m.uvs, a, b) &&
-           same(m.joints, a, b) && same(m.weights, a, b);
+           same(m.colors, a, b) && same(m.joints, a, b) && same(m.weights, a, b);
 }
 
 // Importers give one vertex a corner; only what is used stays, in the order of first use of the vertex array.
@@ -42,7 +42,7 @@ void mergeVertices(SkinnedMesh& mesh) {
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
         if (!used[v]) continue;
         std::uint64_t hash = fold(mesh.positions, v, kHashStart);
-        hash = fold(mesh.uvs, v, fold(mesh.normals, v, hash));
+        hash = fold(mesh.colors, v, fold(mesh.uvs, v, fold(mesh.normals, v, hash)));
         hash = fold(mesh.weights, v, fold(mesh.joints, v, hash));
         const auto [first, last] = firstOf.equal_range(hash);
         for (auto at = first; at != last && newIndex[v] == kUnused; ++at) {

@@ -55,6 +55,7 @@ void takeVertices(SkinnedMesh& mesh, std::span<const std::uint32_t> from) {
     take(mesh.normals, from);
     take(mesh.tangents, from);
     take(mesh.uvs, from);
+    take(mesh.colors, from);
     take(mesh.joints, from);
     take(mesh.weights, from);
 }

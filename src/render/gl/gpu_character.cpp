@@ -33,7 +33,8 @@ std::string defectOf(const SkinnedMesh& mesh, const Character& character) {
     if (mesh.normals.size() != count || mesh.joints.size() != count || mesh.weights.size() != count) {
         return "its vertex arrays differ in size";
     }
-    if ((!mesh.tangents.empty() && mesh.tangents.size() != count) || (!mesh.uvs.empty() && mesh.uvs.size() != count)) {
+    const auto fits = [&](std::size_t size) { return size == 0 || size == count; };
+    if (!fits(mesh.tangents.size()) || !fits(mesh.uvs.size()) || !fits(mesh.colors.size())) {
         return "its vertex arrays differ in size";
     }
     if (mesh.indices.size() % 3 != 0) return "its indices are no triangles";
@@ -93,6 +94,18 @@ std::vector<std::uint32_t> indicesOf(const SkinnedMesh& mesh, float height,
     return indices;
 }
 
+// Into the vertex array that is bound.
+void uploadColors(const SkinnedMesh& mesh, GpuCharacter::Mesh& gpu) {
+    if (mesh.colors.empty()) return;
+    gpu.colored = true;
+    gpu.colors = GlBuffer::create();
+    glBindBuffer(GL_ARRAY_BUFFER, gpu.colors.name());
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.colors.size() * sizeof(vec4)), mesh.colors.data(),
+                 GL_STATIC_DRAW);
+    glEnableVertexAttribArray(kColorAttribute);
+    glVertexAttribPointer(kColorAttribute, 4, GL_FLOAT, GL_FALSE, sizeof(vec4), attributeOffset(0));
+}
+
 GpuCharacter::Mesh upload(const SkinnedMesh& mesh, float height) {
     GpuCharacter::Mesh gpu;
     gpu.vertexArray = GlVertexArray::create();
@@ -121,6 +134,7 @@ GpuCharacter::Mesh upload(const SkinnedMesh& mesh, float height) {
     glVertexAttribIPointer(4, animation::kMaxInfluences, GL_UNSIGNED_SHORT, sizeof(Vertex),
                            attributeOffset(offsetof(Vertex, joints)));
     floats(5, 4, offsetof(Vertex, weights));
+    uploadColors(mesh, gpu);
     glBindVertexArray(0);
     return gpu;
 }
@@ -212,7 +226,8 @@ Result<GpuCharacter> makeGpuCharacter(const Character& character, bool levelsOfD
     gpu.jointBounds = jointBounds(character);
     for (const GpuCharacter::Mesh& mesh : gpu.meshes) {
         gpu.meshBytes +=
-            static_cast<long long>(mesh.vertexCount) * static_cast<long long>(sizeof(Vertex)) +
+            static_cast<long long>(mesh.vertexCount) *
+                static_cast<long long>(sizeof(Vertex) + (mesh.colored ? sizeof(vec4) : 0)) +
             static_cast<long long>(mesh.details.back().firstByte) +
             static_cast<long long>(mesh.details.back().indexCount) * static_cast<long long>(sizeof(std::uint32_t));
     }

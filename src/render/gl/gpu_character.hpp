@@ -10,6 +10,9 @@
 
 namespace lutka::render {
 
+/// Where shaders take vertex colours; a mesh without has the constant of the context, which is set to white.
+inline constexpr GLuint kColorAttribute = 6;
+
 /// A character on the GPU: its meshes as interleaved vertices, its materials and textures.
 struct GpuCharacter {
     /// A level of detail: a range of the mesh's indices.
@@ -22,9 +25,11 @@ struct GpuCharacter {
         GlVertexArray vertexArray;
         GlBuffer vertices;
         GlBuffer indices;
+        GlBuffer colors;              ///< None without vertex colours.
         std::vector<Detail> details;  ///< The whole mesh first, then ever coarser ones.
         GLsizei vertexCount = 0;
         int material = 0;
+        bool colored = false;  ///< It has vertex colours.
 
         /// The coarsest that is off by no more than `cell` metres.
         [[nodiscard]] const Detail& detailFor(float cell) const {

@@ -9,7 +9,7 @@ namespace lutka::render {
 namespace {
 
 std::vector<std::string> definesOf(unsigned features) {
-    constexpr std::array<std::pair<unsigned, const char*>, 11> kNames = {{
+    constexpr std::array<std::pair<unsigned, const char*>, 12> kNames = {{
         {kBaseTexture, "BASE_TEXTURE"},
         {kMetallicRoughnessTexture, "METALLIC_ROUGHNESS_TEXTURE"},
         {kNormalTexture, "NORMAL_TEXTURE"},
@@ -21,6 +21,7 @@ std::vector<std::string> definesOf(unsigned features) {
         {kFastShading, "FAST"},
         {kUnoccluded, "UNOCCLUDED"},
         {kEnvironmentMap, "ENVIRONMENT_MAP"},
+        {kVertexColors, "VERTEX_COLORS"},
     }};
     std::vector<std::string> defines;
     for (const auto& [bit, name] : kNames) {

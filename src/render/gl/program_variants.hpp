@@ -22,6 +22,7 @@ enum ProgramFeature : unsigned {
     kFastShading = 1U << 8U,      ///< Fewer taps, for software rasterisers.
     kUnoccluded = 1U << 9U,       ///< There is no ambient occlusion.
     kEnvironmentMap = 1U << 10U,  ///< Light comes from an .hdr picture, not from the procedural sky.
+    kVertexColors = 1U << 11U,
 };
 
 /// The programs of one pair of shader files, one a set of features: what a program does not need is not compiled in, as

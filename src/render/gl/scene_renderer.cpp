@@ -10,8 +10,10 @@ namespace {
 
 using animation::Material;
 
-unsigned featuresOf(const Material& material) {
+unsigned featuresOf(const GpuCharacter& character, const GpuCharacter::Mesh& mesh) {
+    const Material& material = character.materials[mesh.material];
     unsigned features = 0;
+    if (mesh.colored) features |= kVertexColors;
     if (material.baseColorTexture != Material::kNoTexture) features |= kBaseTexture;
     if (material.metallicRoughnessTexture != Material::kNoTexture) features |= kMetallicRoughnessTexture;
     if (material.normalTexture != Material::kNoTexture) features |= kNormalTexture;
@@ -50,6 +52,7 @@ void setBaseState() {
     glDisable(GL_STENCIL_TEST);
     glDisable(GL_CULL_FACE);
     glDisable(GL_POLYGON_OFFSET_FILL);
+    glVertexAttrib4f(kColorAttribute, 1.0F, 1.0F, 1.0F, 1.0F);
     glDisable(GL_RASTERIZER_DISCARD);
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_MULTISAMPLE);
@@ -133,8 +136,8 @@ Result<SceneRenderer> SceneRenderer::create(const RendererOptions& options) {
 }
 
 Result<void> SceneRenderer::prepare(const GpuCharacter& character) {
-    for (const Material& material : character.materials) {
-        const Result<void> made = characterPrograms_.prepare(featuresOf(material) | always_);
+    for (const GpuCharacter::Mesh& mesh : character.meshes) {
+        const Result<void> made = characterPrograms_.prepare(featuresOf(character, mesh) | always_);
         if (!made) return made.error();
     }
     return {};
@@ -397,7 +400,8 @@ void SceneRenderer::drawCharacters(std::span<const DrawList::Batch> batches, con
             const Material& material = character.materials[mesh.material];
             const bool blended = material.alphaMode == Material::AlphaMode::blend;
             if (which != Meshes::all && blended != (which == Meshes::blended)) continue;
-            const ShaderProgram& program = characterPrograms_.at(featuresOf(material) | always_, lighting_, warnings_);
+            const ShaderProgram& program =
+                characterPrograms_.at(featuresOf(character, mesh) | always_, lighting_, warnings_);
             program.use();
             setMaterial(program, character, material);
             program.set("blended", which == Meshes::opaque ? 0.0F : 1.0F);

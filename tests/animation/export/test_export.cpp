@@ -171,6 +171,32 @@ TEST_CASE("a character comes back from its .glb as it was") {
     CHECK(read.textures[0].rgba == checker.rgba);
 }
 
+TEST_CASE("vertex colours, and channels that jump, come back from the .glb") {
+    const TemporaryFolder folder;
+    Character biped = movingBiped();
+    SkinnedMesh& mesh = biped.meshes[0];
+    for (const vec3& position : mesh.positions)
+        mesh.colors.emplace_back(std::abs(position.y) / 2.0F, 0.5F, 0.25F, 0.75F);
+    const auto elbow = static_cast<std::size_t>(findJoint(biped.skeleton, "leftLowerArm"));
+    biped.clips[0].steppedRotations.assign(biped.skeleton.parents.size(), false);
+    biped.clips[0].steppedRotations[elbow] = true;
+    REQUIRE(writeGlb(folder / "biped.glb", biped, biped.clips).ok());
+    const Character read = imported(folder / "biped.glb");
+    checkSame(biped, read, 1e-5F);
+    REQUIRE(read.meshes[0].colors.size() == read.meshes[0].positions.size());
+    for (std::size_t corner = 0; corner < mesh.indices.size(); ++corner) {
+        const vec4 written = mesh.colors[mesh.indices[corner]];
+        CHECK(glm::distance(read.meshes[0].colors[read.meshes[0].indices[corner]], written) < 1e-6F);
+    }
+    const auto clip =
+        std::find_if(read.clips.begin(), read.clips.end(), [](const Clip& c) { return c.name == "bend"; });
+    REQUIRE(clip != read.clips.end());
+    const std::size_t first = static_cast<std::size_t>(firstJointIn(read, biped));
+    REQUIRE(clip->steppedRotations.size() > first + elbow);
+    CHECK(clip->steppedRotations[first + elbow]);
+    CHECK(clip->steppedTranslations.empty());
+}
+
 TEST_CASE("the same character gives the same bytes") {
     const TemporaryFolder folder;
     const Character biped = movingBiped();

@@ -44,7 +44,8 @@ class Squares {
         return {{"index", index}};
     }
 
-    void add(const nlohmann::json& material, bool facingAway = false) {
+    /// With `colors`: those of the corners, from the lower left anticlockwise, RGBA.
+    void add(const nlohmann::json& material, bool facingAway = false, const std::vector<float>& colors = {}) {
         const float side = facingAway ? -1.0F : 1.0F;
         const std::vector<float> positions = {-kHalf, -kHalf, 0, kHalf, -kHalf, 0, kHalf, kHalf, 0, -kHalf, kHalf, 0};
         const std::vector<float> normals = {0, 0, side, 0, 0, side, 0, 0, side, 0, 0, side};
@@ -59,11 +60,10 @@ class Squares {
         const int indices = file_.addIndices(facingAway ? back : front);
         const auto number = file_.json["materials"].size();
         file_.json["materials"].push_back(material);
+        nlohmann::json attributes = {{"POSITION", position}, {"NORMAL", normal}, {"TEXCOORD_0", uv}};
+        if (!colors.empty()) attributes["COLOR_0"] = file_.addFloats(colors, "VEC4");
         file_.json["meshes"].push_back(
-            {{"primitives",
-              {{{"attributes", {{"POSITION", position}, {"NORMAL", normal}, {"TEXCOORD_0", uv}}},
-                {"indices", indices},
-                {"material", number}}}}});
+            {{"primitives", {{{"attributes", attributes}, {"indices", indices}, {"material", number}}}}});
         mat4 place(1.0F);
         place[3] = vec4(static_cast<float>(number), 0, 0, 1);
         const int node = file_.addNode("square" + std::to_string(number), root_, place);
@@ -159,6 +159,35 @@ TEST_CASE("base colour: factor and texture multiply, the picture's left is the s
     CHECK(picture.at(1, -1).g > picture.at(1, -1).r + 30);
     CHECK(picture.at(1, 1).b > picture.at(1, 1).g + 30);
     CHECK(picture.at(2, 1).r > picture.at(2, 1).b + 60);  // the factor takes the blue out
+}
+
+TEST_CASE("vertex colours multiply the base colour in linear light, and their alpha that of the material") {
+    const auto gl = GlFixture::create();
+    NEEDS_GL(gl);
+    Squares squares;
+    const std::vector<float> leftRed = {1, 0, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 1, 0, 0, 1};
+    squares.add({{"pbrMetallicRoughness", kMatte}}, false, leftRed);
+    nlohmann::json half = kMatte;
+    half["baseColorFactor"] = {0.5, 0.5, 0.5, 1.0};
+    squares.add({{"pbrMetallicRoughness", half}});
+    squares.add({{"pbrMetallicRoughness", kMatte}}, false, std::vector<float>(16, 0.5F));
+    nlohmann::json green = kMatte;
+    green["baseColorTexture"] = squares.texture({40, 220, 40, 255}, {40, 220, 40, 255});
+    const std::vector<float> blackRight = {1, 1, 1, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 1};
+    squares.add({{"pbrMetallicRoughness", green}}, false, blackRight);
+    const std::vector<float> clearLeft = {1, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0};
+    nlohmann::json dark = kMatte;
+    dark["baseColorFactor"] = {0.01, 0.01, 0.01, 1.0};
+    squares.add({{"pbrMetallicRoughness", dark}, {"alphaMode", "MASK"}, {"alphaCutoff", 0.5}}, false, clearLeft);
+    const Picture picture(*gl, squares, {1, 0, 0.8F});
+    CHECK(picture.at(0, -1).r > picture.at(0, -1).g + 20);
+    CHECK(picture.at(0, 1).g > picture.at(0, 1).r + 20);
+    INFO(describe(picture.at(1, 0)) << " and " << describe(picture.at(2, 0)));
+    CHECK(near(picture.at(1, 0), picture.at(2, 0), 2));
+    CHECK(picture.at(3, -1).g > picture.at(3, -1).r + 30);
+    CHECK(brightness(picture.at(3, 1)) < brightness(picture.at(3, -1)) - 60);
+    CHECK(brightness(picture.at(4, -1)) > 0.7 * brightness(picture.behind()));
+    CHECK(brightness(picture.at(4, 1)) < 0.55 * brightness(picture.behind()));
 }
 
 TEST_CASE("metallic and roughness: a metal has no diffuse colour and a rough one spreads the light") {

@@ -7,16 +7,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "animation/import/srgb.hpp"
 #include "animation/import/texture_loader.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {
 
 constexpr unsigned kMaxTexels = 65536;  // of a side
-
-float linearFromSrgb(float c) {
-    return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
-}
 
 float clampUnit(float value, float otherwise) {
     return std::isfinite(value) ? std::clamp(value, 0.0F, 1.0F) : otherwise;

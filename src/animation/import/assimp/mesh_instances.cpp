@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "animation/import/assimp/convert.hpp"
+#include "animation/import/srgb.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {
@@ -89,7 +90,7 @@ void copyAttributes(const aiMesh& source, SourceMesh& mesh) {
         }
         if (source.HasVertexColors(0)) {
             const aiColor4D& c = source.mColors[0][v];
-            mesh.colors.emplace_back(c.r, c.g, c.b, c.a);
+            mesh.colors.push_back(linearFromSrgb(vec4(c.r, c.g, c.b, c.a)));
         }
     }
     for (unsigned f = 0; f < source.mNumFaces; ++f) {

@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "animation/import/srgb.hpp"
+
 namespace lutka::animation::rig_import::fbx {
 namespace {
 
@@ -74,10 +76,6 @@ float unit(double value) {
     return static_cast<float>(std::clamp(value, 0.0, 1.0));
 }
 
-double linearFromSrgb(double c) {
-    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
-
 // Roughness of the microfacet distribution that falls off like a Phong lobe of that exponent (Walter et al. 2007, with
 // roughness the square root of its alpha).
 float roughnessFromShininess(double shininess) {
@@ -142,7 +140,7 @@ MaterialReader::MaterialReader(const Document& document, const Objects& objects,
 vec3 MaterialReader::color(const glm::dvec3& written) const {
     vec3 out;
     for (int i = 0; i < 3; ++i)
-        out[i] = unit(linear_ ? written[i] : linearFromSrgb(std::clamp(written[i], 0.0, 1.0)));
+        out[i] = linear_ ? unit(written[i]) : linearFromSrgb(static_cast<float>(written[i]));
     return out;
 }
 

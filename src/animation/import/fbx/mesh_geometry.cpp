@@ -12,6 +12,7 @@
 #include "animation/import/fbx/layer_element.hpp"
 #include "animation/import/fbx/triangulate.hpp"
 #include "animation/import/source_limits.hpp"
+#include "animation/import/srgb.hpp"
 
 namespace lutka::animation::rig_import::fbx {
 namespace {
@@ -111,7 +112,7 @@ class PartBuilder {
         if (!layers_.normals.empty()) mesh.normals.push_back(normalOf(attributes.normal, meshFromGeometry));
         if (uvs_ != nullptr) mesh.uvs.emplace_back(attributes.uv[0], 1.0F - attributes.uv[1]);
         const auto& c = attributes.color;
-        if (!layers_.colors.empty()) mesh.colors.emplace_back(c[0], c[1], c[2], c[3]);
+        if (!layers_.colors.empty()) mesh.colors.push_back(linearFromSrgb(vec4(c[0], c[1], c[2], c[3])));
     }
 
     static vec3 normalOf(const std::array<float, 3>& n, const dmat4& meshFromGeometry) {

@@ -169,6 +169,28 @@ TEST_CASE("an uneven scale that is not inherited becomes a helper node, and all 
     CHECK(difference(found, move({6, 4, 5}) * turn(30, 2)) < 1e-9);
 }
 
+TEST_CASE("the vertex colours of an FBX are sRGB and become linear") {
+    std::vector<FbxRecord> sections = skinnedSquare({}, dmat4(1.0), dmat4(1.0));
+    FbxRecord* geometry = nullptr;
+    for (FbxRecord& section : sections) {
+        for (FbxRecord& record : section.children)
+            geometry = record.name == "Geometry" ? &record : geometry;
+    }
+    REQUIRE(geometry != nullptr);
+    const auto word = [](const char* name, const char* value) { return FbxRecord{name, {std::string(value)}, {}}; };
+    geometry->children.push_back(
+        {"LayerElementColor",
+         {std::int64_t{0}},
+         {word("MappingInformationType", "ByPolygonVertex"), word("ReferenceInformationType", "IndexToDirect"),
+          row("Colors", {1, 0.5, 0, 1, 0, 0.25, 1, 0.5}), wholes("ColorIndex", {0, 0, 0, 1})}});
+    const SourceScene scene = readAll(sections);
+    REQUIRE(scene.meshes.size() == 1);
+    const std::vector<vec4>& colors = scene.meshes[0].colors;
+    REQUIRE(colors.size() == 4);
+    CHECK(glm::distance(colors[0], vec4(1.0F, 0.2140F, 0.0F, 1.0F)) < 1e-3F);
+    CHECK(glm::distance(colors[3], vec4(0.0F, 0.0509F, 1.0F, 0.5F)) < 1e-3F);
+}
+
 TEST_CASE("FBX clips turn about the rotation's pivot, in the node's euler angles, between pre- and post-rotation") {
     const FbxRecord curve{
         "AnimationCurve",
