@@ -1,14 +1,36 @@
 #include "animation/import/assimp/confined_files.hpp"
 
+#include <assimp/MemoryIOWrapper.h>
+
+#include <cstdint>
+#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
+#include "animation/import/assimp/collada_text.hpp"
 #include "animation/import/source_limits.hpp"
+#include "core/files.hpp"
 
 namespace lutka::animation::rig_import {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+// Empty when the file is no Collada.
+std::string tidiedText(const fs::path& file) {
+    std::string start(4096, '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.read(start.data(), static_cast<std::streamsize>(start.size()));
+    if (!isCollada(std::string_view(start).substr(0, static_cast<std::size_t>(in.gcount())))) return {};
+    const Result<std::vector<unsigned char>> bytes = readFile(file, kMaxFileBytes);
+    if (!bytes) return {};
+    return tidyCollada({reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size()});
+}
+
+}  // namespace
 
 ConfinedFiles::ConfinedFiles(fs::path model, ModelFolder folder, std::shared_ptr<std::set<std::string>> refused)
     : model_(std::move(model)), folder_(std::move(folder)), refused_(std::move(refused)) {}
@@ -29,7 +51,16 @@ bool ConfinedFiles::Exists(const char* file) const {
 
 Assimp::IOStream* ConfinedFiles::Open(const char* file, const char* mode) {
     const bool reads = std::string_view(mode).find_first_of("wa+") == std::string_view::npos;
-    return reads && mayOpen(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
+    if (!reads || !mayOpen(file)) return nullptr;
+    if (Assimp::IOStream* tidied = model_ == file ? openTidied() : nullptr) return tidied;
+    return DefaultIOSystem::Open(file, mode);
+}
+
+// The model as a text in memory when it is Collada; else nothing. Assimp opens it several times.
+Assimp::IOStream* ConfinedFiles::openTidied() {
+    if (!tidied_) tidied_ = tidiedText(model_);
+    if (tidied_->empty()) return nullptr;
+    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(tidied_->data()), tidied_->size());
 }
 
 bool ConfinedFiles::CreateDirectory(const std::string& /*path*/) {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -12,7 +13,8 @@
 namespace lutka::animation::rig_import {
 
 /// Assimp's door to the disk: opens the model and the ordinary files that its folder admits, for reading, up to
-/// kMaxFileBytes each. Whatever else a format names (a material library, an animation, a skin) is not there for it.
+/// kMaxFileBytes each; a Collada document as tidyCollada() has it. Whatever else a format names (a material library, an
+/// animation, a skin) is not there for it.
 class ConfinedFiles : public Assimp::DefaultIOSystem {
   public:
     /// `refused` takes the names of what was outside of the folder.
@@ -25,10 +27,12 @@ class ConfinedFiles : public Assimp::DefaultIOSystem {
 
   private:
     [[nodiscard]] bool mayOpen(const std::string& file) const;
+    [[nodiscard]] Assimp::IOStream* openTidied();
 
     std::filesystem::path model_;
     ModelFolder folder_;
     std::shared_ptr<std::set<std::string>> refused_;
+    std::optional<std::string> tidied_;  // of the model, once it was looked at
 };
 
 }  // namespace lutka::animation::rig_import

@@ -1,0 +1,118 @@
+#include "animation/import/assimp/collada_text.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+namespace lutka::animation::rig_import {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n";
+constexpr std::string_view kLittleEndianMark = "\xFF\xFE";
+constexpr std::string_view kBigEndianMark = "\xFE\xFF";
+
+bool isUtf16(std::string_view bytes) {
+    return bytes.starts_with(kLittleEndianMark) || bytes.starts_with(kBigEndianMark);
+}
+
+void appendUtf8(std::uint32_t code, std::string& out) {
+    const auto put = [&](std::uint32_t byte) { out += static_cast<char>(static_cast<unsigned char>(byte)); };
+    const auto tail = [&](unsigned shift) { put(0x80U | ((code >> shift) & 0x3FU)); };
+    if (code < 0x80U) {
+        put(code);
+    } else if (code < 0x800U) {
+        put(0xC0U | (code >> 6U));
+        tail(0);
+    } else if (code < 0x10000U) {
+        put(0xE0U | (code >> 12U));
+        tail(6);
+        tail(0);
+    } else {
+        put(0xF0U | (code >> 18U));
+        tail(12);
+        tail(6);
+        tail(0);
+    }
+}
+
+// Lone surrogates become question marks. The declaration goes on saying UTF-16, which readers of a string ignore.
+std::string utf8Of(std::string_view bytes) {
+    const bool little = bytes.starts_with(kLittleEndianMark);
+    const auto unit = [&](std::size_t at) {
+        const auto first = static_cast<unsigned char>(bytes[at]);
+        const auto second = static_cast<unsigned char>(bytes[at + 1]);
+        return static_cast<std::uint32_t>(little ? first | (second << 8U) : second | (first << 8U));
+    };
+    std::string out;
+    out.reserve(bytes.size() / 2);
+    for (std::size_t at = 2; at + 1 < bytes.size(); at += 2) {
+        std::uint32_t code = unit(at);
+        if (code >= 0xD800U && code < 0xE000U) {
+            const std::uint32_t low = at + 3 < bytes.size() ? unit(at + 2) : 0;
+            const bool pair = code < 0xDC00U && low >= 0xDC00U && low < 0xE000U;
+            code = pair ? 0x10000U + ((code - 0xD800U) << 10U) + (low - 0xDC00U) : std::uint32_t{'?'};
+            at += pair ? 2 : 0;
+        }
+        appendUtf8(code, out);
+    }
+    return out;
+}
+
+// Where the tag, comment or section of character data that starts at `start` ends; the end of the text when it does
+// not.
+std::size_t endOfMarkup(std::string_view text, std::size_t start) {
+    const auto after = [&](std::string_view end) {
+        const std::size_t found = text.find(end, start);
+        return found == std::string_view::npos ? text.size() : found + end.size();
+    };
+    const std::string_view rest = text.substr(start);
+    if (rest.starts_with("<!--")) return after("-->");
+    if (rest.starts_with("<![CDATA[")) return after("]]>");
+    char quote = 0;  // a value may hold '>'
+    for (std::size_t at = start; at < text.size(); ++at) {
+        const char c = text[at];
+        if (quote != 0) {
+            if (c == quote) quote = 0;
+        } else if (c == '"' || c == '\'') {
+            quote = c;
+        } else if (c == '>') {
+            return at + 1;
+        }
+    }
+    return text.size();
+}
+
+void appendTidy(std::string_view text, std::string& out) {
+    std::size_t at = text.find_first_not_of(kBlanks);
+    for (bool first = true; at != std::string_view::npos; first = false) {
+        const std::size_t end = text.find_first_of(kBlanks, at);
+        if (!first) out += ' ';
+        out += text.substr(at, end == std::string_view::npos ? end : end - at);
+        at = text.find_first_not_of(kBlanks, end);
+    }
+}
+
+std::string tidyText(std::string_view text) {
+    std::string out;
+    out.reserve(text.size());
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t markup = std::min(text.find('<', at), text.size());
+        appendTidy(text.substr(at, markup - at), out);
+        const std::size_t end = markup < text.size() ? endOfMarkup(text, markup) : markup;
+        out += text.substr(markup, end - markup);
+        at = end;
+    }
+    return out;
+}
+
+}  // namespace
+
+bool isCollada(std::string_view start) {
+    return (isUtf16(start) ? utf8Of(start) : std::string(start)).find("<COLLADA") != std::string::npos;
+}
+
+std::string tidyCollada(std::string_view bytes) {
+    return isUtf16(bytes) ? tidyText(utf8Of(bytes)) : tidyText(bytes);
+}
+
+}  // namespace lutka::animation::rig_import

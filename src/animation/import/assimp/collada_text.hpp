@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace lutka::animation::rig_import {
+
+/// Whether a file that starts with these bytes is Collada, as UTF-8 or UTF-16.
+[[nodiscard]] bool isCollada(std::string_view start);
+
+/// A Collada document as Assimp 5.2.5 takes it, which refuses numbers with blanks before them and UTF-16: UTF-8, each
+/// element's text without blanks at its ends, and blanks, tabs and line breaks within it as one blank. Tags, comments
+/// and character data stay as they are.
+[[nodiscard]] std::string tidyCollada(std::string_view bytes);
+
+}  // namespace lutka::animation::rig_import

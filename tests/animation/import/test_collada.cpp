@@ -1,0 +1,104 @@
+// Collada as exporters write it: blanks and line breaks around numbers, other encodings.
+
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <string>
+
+#include "animation/import/assimp/collada_text.hpp"
+#include "animation/import/checks.hpp"
+#include "animation/import/gltf_file.hpp"
+#include "support/catch.hpp"
+
+using namespace lutka;
+using namespace lutka::animation;
+using namespace lutka::test;
+
+namespace {
+
+// A triangle 1.8 units tall with a red material; `pad` stands around every number and reference.
+std::string triangle(const std::string& pad) {
+    const auto padded = [&](const std::string& text) { return pad + text + pad; };
+    return "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"
+           "<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">\n"
+           "<!-- 1 < 2 > 0, \"as ever -->\n"
+           "<asset><unit meter=\"1\" name=\"a > b\"/><up_axis>Y_UP</up_axis></asset>\n"
+           "<library_effects><effect id=\"fx\"><profile_COMMON><technique sid=\"t\"><lambert><diffuse><color>" +
+           padded("1.0 0.0 0.0 1.0") +
+           "</color></diffuse></lambert></technique></profile_COMMON></effect></library_effects>\n"
+           "<library_materials><material id=\"m\" name=\"m\"><instance_effect url=\"#fx\"/></material>"
+           "</library_materials>\n"
+           "<library_geometries><geometry id=\"g\" name=\"g\"><mesh><source id=\"p\"><float_array id=\"pa\" "
+           "count=\"9\">" +
+           padded("0 0 0" + pad + " 1 0 0 0 1.8 0") +
+           "</float_array><technique_common><accessor source=\"#pa\" count=\"3\" stride=\"3\">"
+           "<param name=\"X\" type=\"float\"/><param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/>"
+           "</accessor></technique_common></source><vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/>"
+           "</vertices><triangles count=\"1\" material=\"m\"><input semantic=\"VERTEX\" source=\"#v\" "
+           "offset=\"0\"/><p>" +
+           padded("0 1 2") +
+           "</p></triangles></mesh></geometry></library_geometries>\n"
+           "<library_visual_scenes><visual_scene id=\"s\"><node id=\"n\" name=\"n\"><matrix>" +
+           padded("1 0 0 0.5 0 1 0 0 0 0 1 0 0 0 0 1") +
+           "</matrix><instance_geometry url=\"#g\"><bind_material><technique_common>"
+           "<instance_material symbol=\"m\" target=\"#m\"/></technique_common></bind_material></instance_geometry>"
+           "</node></visual_scene></library_visual_scenes>\n"
+           "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>\n";
+}
+
+std::string utf16Of(const std::string& ascii, bool little) {
+    std::string out = little ? "\xFF\xFE" : "\xFE\xFF";
+    for (const char c : ascii) {
+        if (!little) out += '\0';
+        out += c;
+        if (little) out += '\0';
+    }
+    return out;
+}
+
+void checkTriangle(const std::filesystem::path& folderFile, const std::string& text) {
+    std::ofstream(folderFile, std::ios::binary) << text;
+    const Character character = imported(folderFile);
+    checkInvariants(character);
+    REQUIRE(character.meshes.size() == 1);
+    REQUIRE(character.meshes[0].positions.size() == 3);
+    float low = 9.0F;
+    float high = -9.0F;
+    for (const vec3& p : character.meshes[0].positions) {
+        low = std::min(low, p.y);
+        high = std::max(high, p.y);
+    }
+    CHECK(high - low == Approx(1.8F));
+    const Material& material = character.materials.at(character.meshes[0].material);
+    CHECK(material.baseColor.r > 0.9F);
+    CHECK(material.baseColor.g < 0.1F);
+}
+
+}  // namespace
+
+TEST_CASE("Collada's numbers may stand between blanks, tabs and line breaks") {
+    const TemporaryFolder folder;
+    for (const std::string pad : {"", "  ", "\n", "\r\n\t", " \n \n "}) {
+        INFO(pad.size());
+        checkTriangle(folder / "triangle.dae", triangle(pad));
+    }
+}
+
+TEST_CASE("Collada in UTF-16 is read as in UTF-8") {
+    const TemporaryFolder folder;
+    for (const bool little : {true, false}) {
+        std::string text = triangle("\n");
+        text.replace(text.find("utf-8"), 5, "utf-16");
+        checkTriangle(folder / "triangle.dae", utf16Of(text, little));
+    }
+}
+
+TEST_CASE("tidying leaves tags, comments and character data as they are") {
+    using rig_import::tidyCollada;
+    CHECK(tidyCollada("<a b=' > '  c=\"'>\">\n 1 \t 2 </a>") == "<a b=' > '  c=\"'>\">1 2</a>");
+    CHECK(tidyCollada("<!--  x >  y  --> <v> 1</v>") == "<!--  x >  y  --><v>1</v>");
+    CHECK(tidyCollada("<t><![CDATA[  a  > ]]> b </t>") == "<t><![CDATA[  a  > ]]>b</t>");
+    CHECK(tidyCollada("<open  1  2") == "<open  1  2");
+    CHECK(tidyCollada("").empty());
+    // A pair of surrogates, a lone one, and an odd byte at the end.
+    CHECK(tidyCollada(std::string("\xFF\xFE\x3D\xD8\x00\xDE\x3D\xD8z\0q", 11)) == "\xF0\x9F\x98\x80?z");
+}
