@@ -60,7 +60,12 @@ class FacingFinder {
     void readFeet() {
         const auto& [upper, lower, foot, toes] = legs_.pairs;
         if (foot == kNoPair) {
-            readSoles(lower != kNoPair ? lower : upper);
+            // A leg of one joint goes straight down from it, as blocks do; a shin may slope.
+            if (lower != kNoPair) {
+                readFootlessSoles(lower);
+            } else {
+                readSoles(upper);
+            }
             return;
         }
         const float ankle = pair(foot).position.z;
@@ -87,22 +92,46 @@ class FacingFinder {
             speak(sum / static_cast<float>(count) / legs_.length, 25.0F, 3.0F, "the feet's ends lie that way");
     }
 
+    // The skin below the joint between two heights above its lowest point, as shares of `scale`.
+    [[nodiscard]] Box skinBetween(int joint, float low, float high, float scale) const {
+        Box band;
+        const float floor = framed_.subtreeSkin[joint].low.y;
+        for (const RigFeatures::Vertex& vertex : rig_.vertices) {
+            if (!rig_.isAncestorOrSelf(joint, vertex.joint)) continue;
+            const float y = glm::dot(vertex.position, framed_.stance.up);
+            if (y < floor + low * scale || y >= floor + high * scale) continue;
+            band.add(vec3(0, y, glm::dot(vertex.position, framed_.stance.through())));
+        }
+        return band;
+    }
+
+    // Of the skin's height below the joint, but of no more than a share of the leg: a foot's.
+    [[nodiscard]] float footHeight(int joint) const {
+        const Box& whole = framed_.subtreeSkin[joint];
+        return std::min(whole.high.y - whole.low.y, 0.3F * legs_.length);
+    }
+
+    static float middle(const Box& band) { return 0.5F * (band.low.z + band.high.z); }
+
     // The lowest skin of the leg reaches farther to the front of the ankle than to its back.
     void readSoles(int pairIndex) {
         for (const int joint : pair(pairIndex).joints) {
-            const Box& whole = framed_.subtreeSkin[joint];
-            if (whole.count == 0) continue;
-            Box sole;
-            const float limit = whole.low.y + 0.35F * std::min(whole.high.y - whole.low.y, 0.3F * legs_.length);
-            for (const RigFeatures::Vertex& vertex : rig_.vertices) {
-                if (!rig_.isAncestorOrSelf(joint, vertex.joint)) continue;
-                const float y = glm::dot(vertex.position, framed_.stance.up);
-                if (y < limit) sole.add(vec3(0, y, glm::dot(vertex.position, framed_.stance.through())));
-            }
+            if (framed_.subtreeSkin[joint].count == 0) continue;
+            const Box sole = skinBetween(joint, 0.0F, 0.35F, footHeight(joint));
             if (sole.count == 0) continue;
-            const float ankle = framed_.positions[joint].z;
-            const float reach = 0.5F * (sole.low.z + sole.high.z) - ankle;
+            const float reach = middle(sole) - framed_.positions[joint].z;
             speak(reach / legs_.length, 20.0F, 2.0F, "the soles reach that way");
+        }
+    }
+
+    // Where no joint marks the ankle, the skin above the sole does: the knee tells only how the shin slopes.
+    void readFootlessSoles(int pairIndex) {
+        for (const int joint : pair(pairIndex).joints) {
+            if (framed_.subtreeSkin[joint].count == 0) continue;
+            const Box sole = skinBetween(joint, 0.0F, 0.35F, footHeight(joint));
+            const Box ankle = skinBetween(joint, 0.5F, 1.0F, footHeight(joint));
+            if (sole.count == 0 || ankle.count == 0) continue;
+            speak((middle(sole) - middle(ankle)) / legs_.length, 20.0F, 2.0F, "the soles reach that way");
         }
     }
 

@@ -13,7 +13,10 @@ using namespace limb_costs;
 using namespace limb_bounds;
 namespace terms = limb_terms;
 
-constexpr std::size_t kMostPairsDetached = 200;  // any pair may follow any other: time grows with the cube
+// Where any pair may follow any other, time grows with the cube: beyond these many only those whose names say a part of
+// the limb, and then none.
+constexpr std::size_t kMostPairsDetached = 48;
+constexpr std::size_t kMostPairsNamedDetached = 120;
 constexpr std::size_t kPerRoot = 3;
 constexpr std::size_t kHeldPerRoot = 64;  // before they are thinned to kPerRoot
 constexpr std::size_t kMost = 48;
@@ -149,7 +152,8 @@ class LimbFinder {
 
     // Whether `lower` may follow `upper` though it hangs elsewhere: rigs with feet under a control root, flat trees.
     [[nodiscard]] bool mayContinueDetached(int upper, int lower) const {
-        if (framed_.pairs.size() > kMostPairsDetached) return false;
+        const std::size_t pairs = framed_.pairs.size();
+        if (pairs > kMostPairsNamedDetached || (pairs > kMostPairsDetached && !saysLimb(lower))) return false;
         if (framed_.isAbove(lower, upper) || upper == lower) return false;
         const RigFeatures& rig = *framed_.rig;
         if (rig.skinned && at(lower).ownWeight <= 0.0F) return false;
@@ -207,6 +211,8 @@ class LimbFinder {
         return link(from, to) > kImpossible && framed_.segment(from, to) >= kShortestSegment * framed_.spread &&
                (rightWay(from, to) || (isNamed(from, slot - 1) && isNamed(to, slot)));
     }
+
+    [[nodiscard]] bool saysLimb(int pair) const { return isNamed(pair, 0) || isNamed(pair, 1) || isNamed(pair, 2); }
 
     [[nodiscard]] bool isNamed(int pair, int slot) const { return at(pair).names[parts_[slot]] >= kNamedPart; }
 

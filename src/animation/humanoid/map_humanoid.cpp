@@ -98,8 +98,9 @@ void addWarnings(const Figure& figure, HumanoidMap& map) {
                                       : "the figure has no skin, only rigid parts");
     }
     if (figure.facing.namesDisagree()) {
-        map.warnings.push_back(fmt::format(
-            "left and right in the names disagree with the geometry, which is followed ({})", figure.facing.reason));
+        map.warnings.push_back(
+            fmt::format("left and right in the names disagree with the geometry, which is followed ({})",
+                        figure.facing.shapeReason));
     } else if (figure.facing.shape * figure.facing.names < -kLoudShape * std::abs(figure.facing.names)) {
         map.warnings.push_back(
             fmt::format("the geometry speaks against left and right in the names, which are followed ({})",

@@ -111,17 +111,31 @@ class RoleAssembler {
         }
     }
 
-    // A role whose joint does not hang below that of the role above it, though the rig has limbs that do: the file's
-    // hierarchy does not move that part as the body would.
+    // Whether the role's joint does not hang below that of the role above it: the file's hierarchy does not move that
+    // part as the body would.
+    [[nodiscard]] bool isAstray(int index) const {
+        const std::optional<Role> above = parentRole(roleAt(index));
+        if (!map_.roles[index] || !above || !map_.roles[indexOf(*above)]) return false;
+        return !rig_.isAncestorOrSelf(map_.roles[indexOf(*above)]->joint, map_.roles[index]->joint);
+    }
+
+    // In a flat hierarchy, where joints hang on the root side by side, that says nothing about single ones.
     void distrustAstray() {
         constexpr float kAstray = 0.9F;
+        constexpr float kFlat = 0.8F;
+        std::vector<int> astray;
+        int bound = 0;
         for (int index = 0; index < kRoleCount; ++index) {
-            const std::optional<Role> above = parentRole(roleAt(index));
-            auto& binding = map_.roles[index];
-            if (!binding || !above || !map_.roles[indexOf(*above)]) continue;
-            const int parent = map_.roles[indexOf(*above)]->joint;
-            if (rig_.isAncestorOrSelf(parent, binding->joint)) continue;
-            binding->confidence *= kAstray;
+            bound += map_.roles[index] ? 1 : 0;
+            if (isAstray(index)) astray.push_back(index);
+        }
+        const bool flat = 2 * static_cast<int>(astray.size()) > bound;
+        if (flat) {
+            map_.confidence *= kFlat;
+            return;
+        }
+        for (const int index : astray) {
+            map_.roles[index]->confidence *= kAstray;
             map_.confidence *= kAstray;
         }
     }

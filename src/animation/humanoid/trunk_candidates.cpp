@@ -69,7 +69,10 @@ class TrunkFinder {
         const float low = std::max(position(trunk.hips).y, legs_.root.y) + 0.03F * length_;
         for (int joint = rig_.parents[trunk.chest]; joint != kNoJoint && joint != trunk.hips;
              joint = rig_.parents[joint]) {
-            const bool between = position(joint).y > std::min(low, position(trunk.chest).y) &&
+            // A spine that starts beside hips of their own, and not on them, starts at their height.
+            const bool beside = !rig_.isAncestorOrSelf(joint, trunk.hips) && !rig_.isAncestorOrSelf(trunk.hips, joint);
+            const float least = beside ? low - 0.06F * length_ : low;
+            const bool between = position(joint).y > std::min(least, position(trunk.chest).y) &&
                                  position(joint).y < arms_.root.y + 0.1F * length_;
             const NameEvidence& name = rig_.names[joint];
             const bool otherPart = name.meaningful && name.parts[Part::trunk] < 0.0F && name.parts[Part::chest] < 0.0F;

@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
 #include "animation/humanoid/map_humanoid.hpp"
 #include "rig_variations.hpp"
 #include "support/catch.hpp"
+#include "support/rigs.hpp"
 #include "synthetic_rigs.hpp"
 
 namespace lutka::test {
@@ -61,6 +63,22 @@ void cutOff(SyntheticRig& rig, Role role) {
         left.skinWeight.push_back(skeleton.skinWeight[joint]);
     }
     skeleton = left;
+}
+
+void eraseJoint(animation::Character& character, std::size_t gone, std::uint16_t heir) {
+    animation::Skeleton& skeleton = character.skeleton;
+    const auto at = static_cast<std::ptrdiff_t>(gone);
+    skeleton.names.erase(skeleton.names.begin() + at);
+    skeleton.parents.erase(skeleton.parents.begin() + at);
+    skeleton.bindModelFromJoint.erase(skeleton.bindModelFromJoint.begin() + at);
+    skeleton.nodeParentFromJoint.erase(skeleton.nodeParentFromJoint.begin() + at);
+    skeleton.skinWeight.erase(skeleton.skinWeight.begin() + at);
+    for (int& parent : skeleton.parents)
+        parent -= parent > static_cast<int>(gone) ? 1 : 0;
+    for (auto& joints : character.meshes[0].joints) {
+        if (joints[0] == gone) joints[0] = heir;
+        if (joints[0] > gone) --joints[0];
+    }
 }
 
 void checkWhole(const SyntheticRig& rig) {
@@ -146,6 +164,29 @@ TEST_CASE("a flat hierarchy maps by names and places", "[poses]") {
     checkWhole(rig);
 }
 
+TEST_CASE("a hierarchy that does not hang together takes the confidence down, a flat one only a little", "[poses]") {
+    const SyntheticRig rig = makeSyntheticRig(kConvention);
+    const auto confidence = [](const SyntheticRig& of, Role role) {
+        const HumanoidMap map = animation::mapHumanoid(of.character);
+        REQUIRE(map.humanoid);
+        REQUIRE(map[role]);
+        return std::pair(map.confidence, map[role]->confidence);
+    };
+    const auto [whole, foot] = confidence(rig, Role::leftFoot);
+    // The foot is driven from the root.
+    SyntheticRig driven = rig;
+    driven.character.skeleton.parents[jointOf(rig, Role::leftFoot)] = 0;
+    const auto [drivenWhole, drivenFoot] = confidence(driven, Role::leftFoot);
+    CHECK(drivenFoot < 0.95F * foot);
+    CHECK(drivenWhole < 0.95F * whole);
+    SyntheticRig flat = rig;
+    for (std::size_t joint = 1; joint < flat.character.skeleton.parents.size(); ++joint)
+        flat.character.skeleton.parents[joint] = 0;
+    const auto [flatWhole, flatFoot] = confidence(flat, Role::leftFoot);
+    CHECK(flatFoot > 0.5F);
+    CHECK(flatWhole > 0.6F * whole);
+}
+
 TEST_CASE("a figure that sits cross-legged or crouches maps by its names", "[poses]") {
     SyntheticRig crossed = makeSyntheticRig(kConvention);
     turn(crossed, Role::leftUpperLeg, -1.4F, vec3(1, 0, 0));
@@ -205,6 +246,68 @@ TEST_CASE("a foot that is its own IK target is the foot", "[poses]") {
         rig.truth.roles[indexOf(role)] = std::vector<std::string>{skeleton.names[joint]};
     }
     checkWhole(rig);
+}
+
+TEST_CASE("a spine that starts beside the pelvis, at its height, is the spine", "[poses]") {
+    // As figures made for MikuMikuDance have it: a centre below, on which the lower and the upper body hang.
+    SyntheticRig rig = makeSyntheticRig(kConvention);
+    animation::Skeleton& skeleton = rig.character.skeleton;
+    const int hips = jointOf(rig, Role::hips);
+    const int spine = animation::findJoint(skeleton, "J_Bip_C_Spine");
+    const int chest = animation::findJoint(skeleton, "J_Bip_C_Chest");
+    REQUIRE(spine != animation::kNoJoint);
+    skeleton.bindModelFromJoint[spine].translation.y = skeleton.bindModelFromJoint[hips].translation.y + 0.01F;
+    skeleton.parents[spine] = skeleton.parents[hips];
+    const HumanoidMap map = animation::mapHumanoid(rig.character);
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(Role::hips) == hips);
+    CHECK(map.jointOf(Role::spine) == spine);
+    CHECK(map.jointOf(Role::chest) == chest);
+}
+
+TEST_CASE("blades in place of feet, and shins that slope back, do not turn the figure round", "[poses]") {
+    animation::Character runner = makeBiped();
+    animation::SkinnedMesh& mesh = runner.meshes[0];
+    const int knee = animation::findJoint(runner.skeleton, "leftLowerLeg");
+    const vec3 pivot = runner.skeleton.bindModelFromJoint[knee].translation;
+    const quat back = glm::angleAxis(0.35F, vec3(1, 0, 0));
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const std::string& name = runner.skeleton.names[mesh.joints[v][0]];
+        vec3& p = mesh.positions[v];
+        if (name.ends_with("Foot")) p.z *= 0.15F;
+        const bool below = name.ends_with("Foot") || name.ends_with("LowerLeg");
+        if (below) p = vec3(p.x, 0, 0) + vec3(0, pivot.y, pivot.z) + back * vec3(0, p.y - pivot.y, p.z - pivot.z);
+    }
+    // A helmet that is finer behind.
+    const auto head = static_cast<std::uint16_t>(animation::findJoint(runner.skeleton, "head"));
+    for (int i = 0; i < 600; ++i) {
+        mesh.positions.emplace_back(0.05F * std::sin(static_cast<float>(i)), 1.66F, -0.09F);
+        mesh.normals.emplace_back(0, 0, -1);
+        mesh.uvs.emplace_back(0, 0);
+        mesh.joints.push_back({head, 0, 0, 0});
+        mesh.weights.push_back({1, 0, 0, 0});
+    }
+    eraseJoint(runner, 18, 17);
+    eraseJoint(runner, 15, 14);
+    const HumanoidMap map = animation::mapHumanoid(runner);
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(Role::leftUpperLeg) == animation::findJoint(runner.skeleton, "leftUpperLeg"));
+    CHECK(map.jointOf(Role::leftHand) == animation::findJoint(runner.skeleton, "leftHand"));
+}
+
+TEST_CASE("many joints side by side are looked through in no time", "[poses]") {
+    // Lamps of a hall: the time grew with the cube of their number.
+    animation::Character hall;
+    std::vector<JointSpec> joints{{"hall", animation::kNoJoint, vec3(0)}};
+    for (int row = 0; row < 150; ++row) {
+        for (const float side : {-1.0F, 1.0F}) {
+            const auto place = static_cast<float>(row);
+            joints.push_back({"lamp" + std::to_string(joints.size()), 0,
+                              vec3(side * (1.0F + 0.01F * place), 0.1F * place, std::fmod(0.37F * place, 3.0F))});
+        }
+    }
+    hall.skeleton = makeSkeleton(joints);
+    CHECK_FALSE(animation::mapHumanoid(hall).humanoid);
 }
 
 }  // namespace lutka::test
