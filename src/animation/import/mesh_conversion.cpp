@@ -46,10 +46,18 @@ void copyTriangles(const SourceMesh& source, bool mirrored, SkinnedMesh& mesh) {
 void copyVertices(const SourceMesh& source, std::span<const VertexSkin> skins, std::span<const dmat4> sceneFromMesh,
                   SkinnedMesh& mesh) {
     const bool hasTangents = !source.tangents.empty() && !source.normals.empty() && !source.uvs.empty();
-    for (std::size_t v = 0; v < source.positions.size(); ++v) {
+    const std::size_t count = source.positions.size();
+    mesh.positions.reserve(count);
+    mesh.normals.reserve(source.normals.size());
+    mesh.uvs.reserve(source.uvs.size());
+    mesh.tangents.reserve(hasTangents ? count : 0);
+    mesh.joints.reserve(count);
+    mesh.weights.reserve(count);
+    for (std::size_t v = 0; v < count; ++v) {
         const VertexSkin& skin = skins[v];
         dmat4 place(0.0);
-        for (int i = 0; i < kMaxInfluences; ++i)
+        // Strongest first.
+        for (int i = 0; i < kMaxInfluences && skin.weights[i] > 0.0F; ++i)
             place += static_cast<double>(skin.weights[i]) * sceneFromMesh[skin.joints[i]];
         mesh.positions.emplace_back(place * dvec4(dvec3(source.positions[v]), 1.0));
         const dmat3 turn(place);

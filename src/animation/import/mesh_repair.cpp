@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <unordered_map>
 
 #include "animation/import/vertex_order.hpp"
 #include "core/random.hpp"
@@ -30,28 +30,48 @@ bool sameVertex(const SkinnedMesh& m, std::uint32_t a, std::uint32_t b) {
            same(m.colors, a, b) && same(m.joints, a, b) && same(m.weights, a, b);
 }
 
+std::uint64_t hashOf(const SkinnedMesh& mesh, std::uint32_t v) {
+    std::uint64_t hash = fold(mesh.positions, v, kHashStart);
+    hash = fold(mesh.colors, v, fold(mesh.uvs, v, fold(mesh.normals, v, hash)));
+    return fold(mesh.weights, v, fold(mesh.joints, v, hash));
+}
+
+// Finds vertices by what they consist of: open addressing with a table that is at most half full, since a node for each
+// vertex costs more than all else of an import.
+class VertexTable {
+  public:
+    explicit VertexTable(const SkinnedMesh& mesh)
+        : mesh_(mesh), slots_(std::bit_ceil(2 * mesh.positions.size()), kNone) {}
+
+    /// The vertex that is the same, the first one that was asked for; the vertex itself when it is that.
+    std::uint32_t firstLike(std::uint32_t v) {
+        const std::size_t mask = slots_.size() - 1;
+        std::size_t at = static_cast<std::size_t>(hashOf(mesh_, v)) & mask;
+        while (slots_[at] != kNone && !sameVertex(mesh_, slots_[at], v))
+            at = (at + 1) & mask;
+        if (slots_[at] == kNone) slots_[at] = v;
+        return slots_[at];
+    }
+
+  private:
+    static constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
+    const SkinnedMesh& mesh_;
+    std::vector<std::uint32_t> slots_;
+};
+
 // Importers give one vertex a corner; only what is used stays, in the order of first use of the vertex array.
 void mergeVertices(SkinnedMesh& mesh) {
-    constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
     std::vector<bool> used(mesh.positions.size(), false);
     for (const std::uint32_t v : mesh.indices)
         used[v] = true;
-    std::unordered_multimap<std::uint64_t, std::uint32_t> firstOf;
+    VertexTable table(mesh);
     std::vector<std::uint32_t> kept;
-    std::vector<std::uint32_t> newIndex(mesh.positions.size(), kUnused);
+    std::vector<std::uint32_t> newIndex(mesh.positions.size(), 0);
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
         if (!used[v]) continue;
-        std::uint64_t hash = fold(mesh.positions, v, kHashStart);
-        hash = fold(mesh.colors, v, fold(mesh.uvs, v, fold(mesh.normals, v, hash)));
-        hash = fold(mesh.weights, v, fold(mesh.joints, v, hash));
-        const auto [first, last] = firstOf.equal_range(hash);
-        for (auto at = first; at != last && newIndex[v] == kUnused; ++at) {
-            if (sameVertex(mesh, at->second, v)) newIndex[v] = newIndex[at->second];
-        }
-        if (newIndex[v] != kUnused) continue;
-        newIndex[v] = static_cast<std::uint32_t>(kept.size());
-        firstOf.emplace(hash, v);
-        kept.push_back(v);
+        const std::uint32_t first = table.firstLike(v);
+        newIndex[v] = first == v ? static_cast<std::uint32_t>(kept.size()) : newIndex[first];
+        if (first == v) kept.push_back(v);
     }
     for (std::uint32_t& v : mesh.indices)
         v = newIndex[v];

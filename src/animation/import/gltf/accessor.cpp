@@ -198,6 +198,10 @@ Numbers readNumbers(GltfFile& file, int accessor) {
         forEachElement(file, source, layout.count, layout.elementBytes(), [](std::size_t, const std::uint8_t*) {});
     numbers.values.assign(layout.count * layout.shape.width, 0.0F);
     readElements(file, source, layout, [&](std::size_t element, const std::uint8_t* bytes) {
+        if (layout.component == Component::f32) {  // without gaps, matrices' columns too
+            std::memcpy(&numbers.values[element * layout.shape.width], bytes, layout.shape.width * sizeof(float));
+            return;
+        }
         for (std::size_t i = 0; i < layout.shape.width; ++i)
             numbers.values[element * layout.shape.width + i] =
                 numberAt(bytes + layout.offsetOf(i), layout.component, layout.normalised);

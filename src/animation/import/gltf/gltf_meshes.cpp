@@ -103,6 +103,7 @@ void takeInfluences(const std::vector<VertexSkins>& sets, SourceMesh& mesh) {
     if (sets.empty()) return;
     mesh.influenceStart.reserve(mesh.positions.size() + 1);
     mesh.influenceStart.push_back(0);
+    mesh.influences.reserve(4 * mesh.positions.size());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         for (const VertexSkins& set : sets) {
             for (std::size_t i = 4 * v; i < 4 * v + 4; ++i) {
@@ -157,6 +158,7 @@ std::optional<SourceMesh> readPrimitive(GltfFile& file, const json& primitive, c
         const std::optional<int> positions = attribute(file, primitive, "POSITION");
         if (!positions) return std::nullopt;
         const Numbers numbers = readNumbers(file, *positions, 3, "POSITION");
+        mesh.positions.reserve(numbers.count);
         for (std::size_t v = 0; v < numbers.count; ++v)
             mesh.positions.push_back(numbers.vector3(v));
         const auto three = [](const Numbers& n, std::size_t v) { return n.vector3(v); };
