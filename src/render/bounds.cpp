@@ -73,9 +73,9 @@ BoundingSphere posedBounds(std::span<const BoundingSphere> joints, std::span<con
 
 BoundingSphere boundsOf(const PropItem& prop) {
     float radius = prop.radius;
-    if (prop.kind == PropItem::Kind::capsule) radius += prop.halfLength;
-    if (prop.kind == PropItem::Kind::box) radius = glm::length(prop.halfExtents);
-    if (prop.kind == PropItem::Kind::plane) radius = glm::length(vec2(prop.halfExtents.x, prop.halfExtents.z));
+    if (prop.kind == ShapeKind::capsule) radius += prop.halfLength;
+    if (prop.kind == ShapeKind::box) radius = glm::length(prop.halfExtents);
+    if (prop.kind == ShapeKind::plane) radius = glm::length(vec2(prop.halfExtents.x, prop.halfExtents.z));
     return {prop.worldFromShape.translation, radius};
 }
 

@@ -9,6 +9,7 @@
 #include "animation/dual_quaternion_skinning.hpp"
 #include "animation/skinning.hpp"
 #include "core/rigid_transform.hpp"
+#include "core/shape_kind.hpp"
 #include "render/camera.hpp"
 #include "render/color.hpp"
 #include "render/frame_stats.hpp"
@@ -43,9 +44,8 @@ struct CharacterItem {
 
 /// A simple shape of the scene: static geometry, balls, targets.
 struct PropItem {
-    enum class Kind { box, sphere, capsule, plane };
-    Kind kind = Kind::box;
-    RigidTransform worldFromShape;       ///< Centred; a capsule's axis is local Y, a plane is local y = 0.
+    ShapeKind kind = ShapeKind::box;  ///< Any but a mesh.
+    RigidTransform worldFromShape;
     vec3 halfExtents{0.5F, 0.5F, 0.5F};  ///< Box; a plane uses x and z. Metres.
     float radius = 0.5F;                 ///< Sphere and capsule, metres.
     float halfLength = 0.5F;             ///< Capsule: half the distance of the cap centres, metres.

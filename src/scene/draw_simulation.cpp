@@ -25,21 +25,6 @@ bool isFloor(const StaticShape& shape) {
     return shape.kind == StaticShape::Kind::plane && (shape.worldFromShape.rotation * vec3(0, 1, 0)).y > 0.999F;
 }
 
-render::PropItem::Kind itemKindOf(StaticShape::Kind kind) {
-    switch (kind) {
-        case StaticShape::Kind::plane:
-            return render::PropItem::Kind::plane;
-        case StaticShape::Kind::sphere:
-            return render::PropItem::Kind::sphere;
-        case StaticShape::Kind::capsule:
-            return render::PropItem::Kind::capsule;
-        case StaticShape::Kind::box:
-        case StaticShape::Kind::mesh:
-            break;
-    }
-    return render::PropItem::Kind::box;
-}
-
 void drawMesh(const StaticShape& shape, Color color, render::LineBatch& lines) {
     const auto vertices = shape.mesh->vertices();
     for (const physics::TriangleMesh::Edge& edge : shape.mesh->edges())
@@ -67,7 +52,7 @@ void drawStatics(const Scenario& scenario, render::FrameDescription& frame) {
             continue;
         }
         render::PropItem& item = frame.props.emplace_back();
-        item.kind = itemKindOf(shape.kind);
+        item.kind = shape.kind;
         item.radius = shape.radius;
         item.halfLength = shape.halfLength;
         item.worldFromShape = shape.worldFromShape;
@@ -91,17 +76,7 @@ void drawProps(const Simulation& simulation, float alpha, render::FrameDescripti
         const Look look = lookAt(simulation.scenario().propLooks, i, kPropLook);
         if (!look.visible) continue;
         render::PropItem& item = frame.props.emplace_back();
-        switch (shape.kind) {
-            case physics::BodyShape::Kind::sphere:
-                item.kind = render::PropItem::Kind::sphere;
-                break;
-            case physics::BodyShape::Kind::box:
-                item.kind = render::PropItem::Kind::box;
-                break;
-            case physics::BodyShape::Kind::capsule:
-                item.kind = render::PropItem::Kind::capsule;
-                break;
-        }
+        item.kind = shapeKindOf(shape.kind);
         item.worldFromShape = simulation.worldFromProp(static_cast<int>(i), alpha);
         item.halfExtents = shape.halfExtents;
         item.radius = shape.radius;

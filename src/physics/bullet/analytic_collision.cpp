@@ -124,7 +124,7 @@ btCollisionAlgorithm* AnalyticCollisionFactory::CreateCollisionAlgorithm(btColli
 bool AnalyticCollisionFactory::farApart(const btCollisionObject& a, const btCollisionObject& b) const {
     const CollisionGeometry& first = geometries_.of(a);
     const CollisionGeometry& second = geometries_.of(b);
-    using Kind = CollisionGeometry::Kind;
+    using Kind = ShapeKind;
     if (first.kind == Kind::mesh || second.kind == Kind::mesh) return false;
     if (first.kind == Kind::plane) return farApart(b, a);
     const float margin = margin_ + geometries_.aheadOf(a) + geometries_.aheadOf(b);
@@ -156,11 +156,11 @@ void AnalyticCollisionFactory::collide(btBroadphasePair& pair, btCollisionDispat
 
 bool AnalyticCollisionFactory::handles(const btCollisionObject& a, const btCollisionObject& b) const {
     if (!geometries_.knows(a) || !geometries_.knows(b)) return false;
-    using Kind = CollisionGeometry::Kind;
+    using Kind = ShapeKind;
     const Kind first = geometries_.of(a).kind;
     const Kind second = geometries_.of(b).kind;
-    if (first == second) return first == Kind::round;
-    return first == Kind::round || second == Kind::round || (first != Kind::mesh && second != Kind::mesh);
+    if (first == second) return first == Kind::capsule;
+    return first == Kind::capsule || second == Kind::capsule || (first != Kind::mesh && second != Kind::mesh);
 }
 
 void AnalyticCollisionFactory::registerWith(btCollisionDispatcher& dispatcher) {

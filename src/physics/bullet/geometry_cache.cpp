@@ -28,15 +28,15 @@ bool shapeOf(const btCollisionShape& shape, CollisionGeometry& geometry, float& 
             reach = geometry.radius;
             return true;
         case BOX_SHAPE_PROXYTYPE:
-            geometry.kind = CollisionGeometry::Kind::box;
+            geometry.kind = ShapeKind::box;
             geometry.halfExtents = fromBullet(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin());
             reach = glm::length(geometry.halfExtents);
             return true;
         case STATIC_PLANE_PROXYTYPE:
-            geometry.kind = CollisionGeometry::Kind::plane;
+            geometry.kind = ShapeKind::plane;
             return true;
         case TRIANGLE_MESH_SHAPE_PROXYTYPE:
-            geometry.kind = CollisionGeometry::Kind::mesh;
+            geometry.kind = ShapeKind::mesh;
             geometry.mesh = static_cast<const TriangleMesh*>(shape.getUserPointer());
             return geometry.mesh != nullptr;
         default:
@@ -49,7 +49,7 @@ bool shapeOf(const btCollisionShape& shape, CollisionGeometry& geometry, float& 
 void GeometryCache::place(int index, const btCollisionObject& object) {
     CollisionGeometry& geometry = geometries_[index];
     geometry.worldFromShape = fromBullet(object.getWorldTransform());
-    if (geometry.kind != CollisionGeometry::Kind::plane || known_[index] == 0) return;
+    if (geometry.kind != ShapeKind::plane || known_[index] == 0) return;
     const auto& plane = static_cast<const btStaticPlaneShape&>(*object.getCollisionShape());
     const quat turn = rotationBetween({0, 1, 0}, fromBullet(plane.getPlaneNormal()));
     geometry.worldFromShape =

@@ -9,8 +9,6 @@
 namespace lutka::physics {
 namespace {
 
-using Kind = CollisionGeometry::Kind;
-
 Segment coreOf(const CollisionGeometry& round) {
     const vec3 half = round.worldFromShape.rotation * vec3(0, round.halfLength, 0);
     return {round.worldFromShape.translation - half, round.worldFromShape.translation + half};
@@ -31,8 +29,7 @@ void boxOnPlane(const CollisionGeometry& box, const CollisionGeometry& plane, fl
     const vec3 normal = plane.worldFromShape.rotation * vec3(0, 1, 0);
     std::array<SurfaceContact, 8> corners;
     for (int corner = 0; corner < 8; ++corner) {
-        const vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
-        const vec3 point = box.worldFromShape * (sign * box.halfExtents);
+        const vec3 point = box.worldFromShape * boxCorner(box.halfExtents, corner);
         const float height = glm::dot(point - plane.worldFromShape.translation, normal);
         corners[corner] = {corner, point - height * normal, normal, height};
     }
@@ -43,40 +40,29 @@ void boxOnPlane(const CollisionGeometry& box, const CollisionGeometry& plane, fl
         out.add(corners[i]);
 }
 
-// One point of a round shape's core against a box.
-void pointOnBox(const vec3& inBox, const CollisionGeometry& round, const CollisionGeometry& box, float margin,
-                int feature, ContactList& out) {
-    const SurfaceDistance surface = distanceToBox(inBox, box.halfExtents);
-    if (surface.distance - round.radius >= margin) return;
-    const vec3 onBox = inBox - surface.distance * surface.normal;
-    out.add({feature, box.worldFromShape * onBox, box.worldFromShape.rotation * surface.normal,
-             surface.distance - round.radius});
-}
-
 void roundOnBox(const CollisionGeometry& round, const CollisionGeometry& box, float margin, ContactList& out) {
     const RigidTransform boxFromWorld = inverse(box.worldFromShape);
     const Segment world = coreOf(round);
     const Segment core{boxFromWorld * world.start, boxFromWorld * world.end};
     // Most pairs that the broadphase reports don't touch.
-    const vec3 centre = core.at(0.5F);
-    const float reach = round.radius + round.halfLength + margin;
-    if (distanceToBox(centre, box.halfExtents).distance > reach) return;
-    pointOnBox(core.start, round, box, margin, 0, out);
-    if (round.halfLength <= 0.0F) return;
-    pointOnBox(core.end, round, box, margin, 1, out);
-    // An edge or corner of the box may press between the ends.
-    const float nearAnEnd = kSamePlace / (2.0F * round.halfLength);
-    const float deepest = deepestOnSegment(core, box.halfExtents);
-    if (deepest > nearAnEnd && deepest < 1.0F - nearAnEnd) pointOnBox(core.at(deepest), round, box, margin, 2, out);
+    const float reach = round.radius + margin;
+    if (distanceToBox(core.at(0.5F), box.halfExtents).distance > reach + round.halfLength) return;
+    const BoxTouches touches = touchBox(core, box.halfExtents, reach);
+    for (int i = 0; i < touches.count; ++i) {
+        const auto& [along, surface, part] = touches.points[i];
+        const vec3 onBox = core.at(along) - surface.distance * surface.normal;
+        out.add({part, box.worldFromShape * onBox, box.worldFromShape.rotation * surface.normal,
+                 surface.distance - round.radius});
+    }
 }
 
 void roundPoints(const CollisionGeometry& a, const CollisionGeometry& b, const vec3& onA, const vec3& onB, float margin,
                  int feature, ContactList& out) {
     const vec3 between = onA - onB;
-    const float centres = glm::length(between);
-    const float distance = centres - a.radius - b.radius;
+    const float distance = glm::length(between) - a.radius - b.radius;
     if (distance >= margin) return;
-    const vec3 normal = centres > 1e-5F ? between / centres : vec3(0, 1, 0);
+    const vec3 up(0, 1, 0);
+    const vec3 normal = directionBetween(between, a.worldFromShape.rotation * up, b.worldFromShape.rotation * up);
     out.add({feature, onB + b.radius * normal, normal, distance});
 }
 
@@ -134,10 +120,8 @@ void roundOnMesh(const CollisionGeometry& round, const CollisionGeometry& mesh, 
 void boxOnMesh(const CollisionGeometry& box, const CollisionGeometry& mesh, float margin, ContactList& out) {
     const RigidTransform meshFromBox = inverse(mesh.worldFromShape) * box.worldFromShape;
     MeshContactList touches;
-    for (int corner = 0; corner < 8; ++corner) {
-        const vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
-        touchMesh(*mesh.mesh, meshFromBox * (sign * box.halfExtents), corner, margin, touches);
-    }
+    for (int corner = 0; corner < 8; ++corner)
+        touchMesh(*mesh.mesh, meshFromBox * boxCorner(box.halfExtents, corner), corner, margin, touches);
     takeFromMesh(touches, mesh.worldFromShape, 0.0F, out);
     // Peaks of the mesh in a face of the box.
     const RigidTransform boxFromMesh = inverse(meshFromBox);
@@ -168,19 +152,21 @@ void flip(ContactList& list) {
 
 ContactList findContacts(const CollisionGeometry& a, const CollisionGeometry& b, float margin) {
     ContactList out;
-    // Round before box before plane; the other order is the same pair seen from the other side.
+    // Capsule before box before plane before mesh; the other order is the same pair seen from the other side.
+    using Kind = ShapeKind;
+    static_assert(Kind::capsule < Kind::box && Kind::box < Kind::plane && Kind::plane < Kind::mesh);
     if (a.kind > b.kind) {
         out = findContacts(b, a, margin);
         flip(out);
         return out;
     }
-    if (a.kind == Kind::round && b.kind == Kind::round)
+    if (a.kind == Kind::capsule && b.kind == Kind::capsule)
         roundOnRound(a, b, margin, out);
-    else if (a.kind == Kind::round && b.kind == Kind::box)
+    else if (a.kind == Kind::capsule && b.kind == Kind::box)
         roundOnBox(a, b, margin, out);
-    else if (a.kind == Kind::round && b.kind == Kind::plane)
+    else if (a.kind == Kind::capsule && b.kind == Kind::plane)
         roundOnPlane(a, b, margin, out);
-    else if (a.kind == Kind::round)
+    else if (a.kind == Kind::capsule)
         roundOnMesh(a, b, margin, out);
     else if (a.kind == Kind::box && b.kind == Kind::plane)
         boxOnPlane(a, b, margin, out);
@@ -193,7 +179,7 @@ CollisionGeometry geometryOf(const BodyShape& shape, const RigidTransform& world
     CollisionGeometry geometry;
     geometry.worldFromShape = worldFromBody;
     if (shape.kind == BodyShape::Kind::box) {
-        geometry.kind = Kind::box;
+        geometry.kind = ShapeKind::box;
         geometry.halfExtents = shape.halfExtents;
         return geometry;
     }
@@ -207,22 +193,11 @@ CollisionGeometry geometryOf(const StaticShape& shape) {
     geometry.worldFromShape = shape.worldFromShape;
     geometry.halfExtents = shape.halfExtents;
     geometry.mesh = shape.mesh.get();
-    switch (shape.kind) {
-        case StaticShape::Kind::plane:
-            geometry.kind = Kind::plane;
-            break;
-        case StaticShape::Kind::box:
-            geometry.kind = Kind::box;
-            break;
-        case StaticShape::Kind::mesh:
-            geometry.kind = Kind::mesh;
-            break;
-        case StaticShape::Kind::capsule:
-            geometry.halfLength = shape.halfLength;
-            [[fallthrough]];
-        case StaticShape::Kind::sphere:
-            geometry.radius = shape.radius;
-            break;
+    if (shape.kind == ShapeKind::capsule || shape.kind == ShapeKind::sphere) {
+        geometry.radius = shape.radius;
+        geometry.halfLength = shape.kind == ShapeKind::capsule ? shape.halfLength : 0.0F;
+    } else {
+        geometry.kind = shape.kind;
     }
     return geometry;
 }

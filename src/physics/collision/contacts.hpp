@@ -9,14 +9,13 @@
 
 namespace lutka::physics {
 
-/// What collides: a capsule or sphere (`round`: a segment along y with a radius), a box, a half-space below y = 0, or a
-/// triangle mesh.
+/// What collides: a capsule (a segment along y with a radius; a sphere is one of no length), a box, a half-space below
+/// y = 0, or a triangle mesh.
 struct CollisionGeometry {
-    enum class Kind { round, box, plane, mesh };
-    Kind kind = Kind::round;
-    float radius = 0.0F;        ///< Metres; round.
-    float halfLength = 0.0F;    ///< Metres; round, 0 for a sphere.
-    vec3 halfExtents{0, 0, 0};  ///< Metres; box.
+    ShapeKind kind = ShapeKind::capsule;  ///< Never `sphere`.
+    float radius = 0.0F;                  ///< Metres; capsule.
+    float halfLength = 0.0F;              ///< Metres; capsule, 0 for a sphere.
+    vec3 halfExtents{0, 0, 0};            ///< Metres; box.
     RigidTransform worldFromShape;
     const TriangleMesh* mesh = nullptr;  ///< Not null for a mesh.
 };

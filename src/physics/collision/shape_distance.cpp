@@ -1,6 +1,7 @@
 #include "physics/collision/shape_distance.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -50,18 +51,74 @@ SurfaceDistance distanceToBox(const vec3& point, const vec3& halfExtents) {
 
 float deepestOnSegment(const Segment& segment, const vec3& halfExtents, int halvings) {
     const vec3 along = segment.end - segment.start;
-    const auto rises = [&](float t) {
-        return glm::dot(distanceToBox(segment.at(t), halfExtents).normal, along) > 0.0F;
-    };
-    if (rises(0.0F)) return 0.0F;
-    if (!rises(1.0F)) return 1.0F;
+    const auto slopeAt = [&](float t) { return glm::dot(distanceToBox(segment.at(t), halfExtents).normal, along); };
+    float slopeLow = slopeAt(0.0F);
+    if (slopeLow > 0.0F) return 0.0F;
+    float slopeHigh = slopeAt(1.0F);
+    if (slopeHigh <= 0.0F) return 1.0F;
     float low = 0.0F;
     float high = 1.0F;
     for (int halving = 0; halving < halvings; ++halving) {
         const float middle = 0.5F * (low + high);
-        (rises(middle) ? high : low) = middle;
+        const float slope = slopeAt(middle);
+        if (slope > 0.0F) {
+            high = middle;
+            slopeHigh = slope;
+        } else {
+            low = middle;
+            slopeLow = slope;
+        }
     }
-    return 0.5F * (low + high);
+    // Where the slope is nearly straight, as beside an edge, its zero; where it jumps, inside the box, the jump is
+    // here.
+    return low + (high - low) * (-slopeLow / (slopeHigh - slopeLow));
+}
+
+vec3 boxCorner(const vec3& halfExtents, int index) {
+    return halfExtents *
+           vec3((index & 1) != 0 ? 1.0F : -1.0F, (index & 2) != 0 ? 1.0F : -1.0F, (index & 4) != 0 ? 1.0F : -1.0F);
+}
+
+namespace {
+
+// Whether some point of a segment can be nearer than `reach`, from the distances of its ends: along it the distance
+// changes by no more than the way.
+bool mayComeNear(float first, float last, const Segment& segment, float reach) {
+    return 0.5F * (first + last - glm::length(segment.end - segment.start)) < reach;
+}
+
+// Whether two normals are those of one and the same face, so that nothing between the points can be nearer.
+bool sameFace(const vec3& a, const vec3& b) {
+    return glm::dot(a, b) > 0.9999F && std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}) > 0.9999F;
+}
+
+}  // namespace
+
+BoxTouches touchBox(const Segment& core, const vec3& halfExtents, float reach) {
+    BoxTouches touches;
+    const auto add = [&](float along, const SurfaceDistance& surface, int part) {
+        if (surface.distance < reach) touches.points[touches.count++] = {along, surface, part};
+    };
+    const SurfaceDistance first = distanceToBox(core.start, halfExtents);
+    add(0.0F, first, 0);
+    if (core.start == core.end) return touches;
+    const SurfaceDistance last = distanceToBox(core.end, halfExtents);
+    add(1.0F, last, 1);
+    if (sameFace(first.normal, last.normal) || !mayComeNear(first.distance, last.distance, core, reach)) return touches;
+    constexpr int kHalvings = 7;
+    const float deepest = deepestOnSegment(core, halfExtents, kHalvings);
+    const float nearAnEnd = kSamePlace / glm::length(core.end - core.start);
+    if (deepest > nearAnEnd && deepest < 1.0F - nearAnEnd)
+        add(deepest, distanceToBox(core.at(deepest), halfExtents), 2);
+    return touches;
+}
+
+vec3 directionBetween(const vec3& between, const vec3& alongA, const vec3& alongB) {
+    const float distance = glm::length(between);
+    if (distance > 1e-6F) return between / distance;
+    const vec3 across = glm::cross(alongA, alongB);
+    const float length = glm::length(across);
+    return length > 1e-3F ? across / length : vec3(0, 1, 0);
 }
 
 float distanceBetweenBoxes(const vec3& halfExtentsA, const RigidTransform& worldFromA, const vec3& halfExtentsB,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <utility>
 
 #include "core/rigid_transform.hpp"
@@ -32,8 +33,31 @@ struct SurfaceDistance {
 };
 [[nodiscard]] SurfaceDistance distanceToBox(const vec3& point, const vec3& halfExtents);
 
+/// One of a box's eight corners in its own frame: bit 0 of `index` tells the side along x, 1 along y, 2 along z.
+[[nodiscard]] vec3 boxCorner(const vec3& halfExtents, int index);
+
+/// A point of a core near a box.
+struct BoxTouch {
+    float along = 0.0F;  ///< Fraction of the core.
+    SurfaceDistance surface;
+    int part = 0;  ///< 0: the core's start, 1: its end, 2: in between.
+};
+/// Either end of the core (in the box's frame) that is nearer to the box than `reach` metres, and the point in between
+/// that is nearest of all where an edge or corner of the box presses there: not where both ends are over the same face.
+/// A core of no length has its start alone.
+struct BoxTouches {
+    std::array<BoxTouch, 3> points;
+    int count = 0;
+};
+[[nodiscard]] BoxTouches touchBox(const Segment& core, const vec3& halfExtents, float reach);
+
+/// The unit vector along `between`, which leads from a point of one core to a point of another. Where the cores cross
+/// it is across both (unit vectors along them), or up where they are parallel.
+[[nodiscard]] vec3 directionBetween(const vec3& between, const vec3& alongA, const vec3& alongB);
+
 /// The fraction along the segment, in [0, 1], where its signed distance from the box is least. The distance is a convex
-/// function along a line, so that halving the interval by the sign of its slope finds it, to 2^-halvings of the length.
+/// function along a line: the interval is halved by the sign of its slope, to 2^-halvings of the length, and the
+/// slope's zero is taken by a straight line between the interval's ends.
 [[nodiscard]] float deepestOnSegment(const Segment& segment, const vec3& halfExtents, int halvings = 16);
 
 /// Signed distance of two boxes along the best of the 15 axes of the separating-axis test: negative, the depth of the

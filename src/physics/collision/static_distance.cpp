@@ -15,9 +15,9 @@ constexpr float kNearMesh = 0.3F;  // metres: how far from a mesh a body's dista
 // A box, sphere or capsule as what a body's shape would be.
 BodyShape solidOf(const StaticShape& geometry) {
     BodyShape solid;
-    solid.kind = geometry.kind == StaticShape::Kind::box      ? BodyShape::Kind::box
-                 : geometry.kind == StaticShape::Kind::sphere ? BodyShape::Kind::sphere
-                                                              : BodyShape::Kind::capsule;
+    solid.kind = geometry.kind == ShapeKind::box      ? BodyShape::Kind::box
+                 : geometry.kind == ShapeKind::sphere ? BodyShape::Kind::sphere
+                                                      : BodyShape::Kind::capsule;
     solid.halfExtents = geometry.halfExtents;
     solid.radius = geometry.radius;
     solid.halfLength = geometry.halfLength;

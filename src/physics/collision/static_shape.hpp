@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "core/rigid_transform.hpp"
+#include "core/shape_kind.hpp"
 #include "physics/collision/collision_filter.hpp"
 #include "physics/collision/triangle_mesh.hpp"
 
@@ -10,7 +11,7 @@ namespace lutka::physics {
 
 /// Static geometry of a scene. Its distance is known in closed form, which the quality metrics use.
 struct StaticShape {
-    enum class Kind { plane, box, sphere, capsule, mesh };
+    using Kind = ShapeKind;
     Kind kind = Kind::plane;
     RigidTransform worldFromShape;  ///< A plane is the shape's y = 0, solid below; a capsule lies along y; centred.
     vec3 halfExtents{1, 1, 1};      ///< Box, metres.

@@ -12,11 +12,6 @@ namespace {
 
 using Kind = BodyShape::Kind;
 
-vec3 corner(const vec3& halfExtents, int index) {
-    return halfExtents *
-           vec3((index & 1) != 0 ? 1.0F : -1.0F, (index & 2) != 0 ? 1.0F : -1.0F, (index & 4) != 0 ? 1.0F : -1.0F);
-}
-
 // Half the length of the core along body y: a sphere is a capsule of no length.
 float coreHalf(const BodyShape& shape) {
     return shape.kind == Kind::capsule ? shape.halfLength : 0.0F;
@@ -27,68 +22,44 @@ Segment coreOf(const PlacedShape& body) {
     return {body.position - half, body.position + half};
 }
 
-void touchPlane(const PlacedShape& body, const PlacedStatic& plane, float range, StaticTouches& out) {
-    const vec3 normal = plane.axes[1];
-    const float offset = glm::dot(normal, plane.shape.worldFromShape.translation);
-    const float height = glm::dot(normal, body.position) - offset;
-    const CorePoints points = corePoints(*body.shape);
-    for (int i = 0; i < points.count; ++i) {
-        const float separation = height + glm::dot(normal, body.axes * points.local[i]) - points.radius;
-        if (separation < range) out.add({points.local[i], points.radius, normal, offset, separation, i});
-    }
-}
-
-// One point of the core against a static box, whose nearest feature becomes a half space.
-SurfaceDistance touchPoint(const vec3& local, const vec3& inBox, float radius, const PlacedStatic& box, int feature,
-                           float range, StaticTouches& out) {
-    SurfaceDistance surface = distanceToBox(inBox, box.shape.halfExtents);
-    const float separation = surface.distance - radius;
-    if (separation < range) {
-        const vec3 normal = box.axes * surface.normal;
-        const float along =
-            glm::dot(surface.normal, inBox) - surface.distance + glm::dot(normal, box.shape.worldFromShape.translation);
-        out.add({local, radius, normal, along, separation, feature});
-    }
-    return surface;
-}
-
-// To a hundredth of a limb, of which the distance there differs by far less.
-constexpr int kHalvings = 7;
-
-// Whether some point of a segment can be nearer than `range`, from the distances of its ends: along it the distance
-// changes by no more than the way.
-bool mayComeNear(float first, float last, const Segment& segment, float range) {
-    return 0.5F * (first + last - glm::length(segment.end - segment.start)) < range;
-}
-
-// Whether two normals are those of one and the same face, so that nothing between the points can be nearer.
-bool sameFace(const vec3& a, const vec3& b) {
-    return glm::dot(a, b) > 0.9999F && std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}) > 0.9999F;
+// A point of the core against a static box, whose nearest feature becomes a half space. `feature`: which point it is.
+void addHalfSpace(const vec3& local, float radius, const vec3& inBox, const SurfaceDistance& surface,
+                  const PlacedStatic& box, int feature, StaticTouches& out) {
+    const vec3 normal = box.axes * surface.normal;
+    const float offset =
+        glm::dot(surface.normal, inBox) - surface.distance + glm::dot(normal, box.shape.worldFromShape.translation);
+    out.add({local, radius, normal, offset, surface.distance - radius, feature});
 }
 
 void touchStaticBox(const PlacedShape& body, const PlacedStatic& box, float range, StaticTouches& out) {
+    const vec3& halfExtents = box.shape.halfExtents;
     const vec3 centre = (body.position - box.shape.worldFromShape.translation) * box.axes;
     const mat3 boxFromBody = glm::transpose(box.axes) * body.axes;
     const CorePoints points = corePoints(*body.shape);
-    SurfaceDistance ends[8];
-    for (int i = 0; i < points.count; ++i) {
-        ends[i] =
-            touchPoint(points.local[i], centre + boxFromBody * points.local[i], points.radius, box, i, range, out);
+    if (body.shape->kind == Kind::box) {
+        for (int i = 0; i < points.count; ++i) {
+            const vec3 inBox = centre + boxFromBody * points.local[i];
+            const SurfaceDistance surface = distanceToBox(inBox, halfExtents);
+            if (surface.distance < range) addHalfSpace(points.local[i], 0.0F, inBox, surface, box, i, out);
+        }
+        return;
     }
-    if (points.count != 2 || sameFace(ends[0].normal, ends[1].normal)) return;
-    const Segment core{centre + boxFromBody * points.local[0], centre + boxFromBody * points.local[1]};
-    if (!mayComeNear(ends[0].distance, ends[1].distance, core, points.radius + range)) return;
-    const float t = deepestOnSegment(core, box.shape.halfExtents, kHalvings);
-    if (t < 0.02F || t > 0.98F) return;
-    const vec3 local = points.local[0] + t * (points.local[1] - points.local[0]);
-    touchPoint(local, core.at(t), points.radius, box, 2, range, out);
+    const vec3 first = points.local[0];
+    const vec3 last = points.local[points.count - 1];
+    const Segment core{centre + boxFromBody * first, centre + boxFromBody * last};
+    const BoxTouches touches = touchBox(core, halfExtents, points.radius + range);
+    for (int i = 0; i < touches.count; ++i) {
+        const auto& [along, surface, part] = touches.points[i];
+        const vec3 inBox = part == 1 ? core.end : core.at(along);
+        addHalfSpace(first + along * (last - first), points.radius, inBox, surface, box, part, out);
+    }
 }
 
 // The corners of a box on a large sphere or capsule, beside the one point that is nearest.
 void touchCornersOnRound(const PlacedShape& body, const CollisionGeometry& round, float range, StaticTouches& out) {
     const RigidTransform shapeFromWorld = inverse(round.worldFromShape);
     for (int i = 0; i < 8; ++i) {
-        const vec3 local = corner(body.shape->halfExtents, i);
+        const vec3 local = boxCorner(body.shape->halfExtents, i);
         const vec3 point = shapeFromWorld * (body.position + body.axes * local);
         const vec3 away = point - vec3(0, std::clamp(point.y, -round.halfLength, round.halfLength), 0);
         const float gap = glm::length(away);
@@ -112,7 +83,7 @@ void touchOther(const PlacedShape& body, const PlacedStatic& geometry, float ran
         out.add({(core - body.position) * body.axes, radius, contact.normal, glm::dot(contact.normal, contact.position),
                  contact.distance, contact.feature});
     }
-    if (body.shape->kind == Kind::box && geometry.geometry.kind == CollisionGeometry::Kind::round)
+    if (body.shape->kind == Kind::box && geometry.geometry.kind == ShapeKind::capsule)
         touchCornersOnRound(body, geometry.geometry, range, out);
 }
 
@@ -124,20 +95,11 @@ void touchCores(const PlacedShape& a, const PlacedShape& b, float range, Touches
     const float radius = a.shape->radius + b.shape->radius;
     const float distance2 = glm::dot(between, between);
     if (distance2 > (radius + range) * (radius + range)) return;
-    const float distance = std::sqrt(distance2);
-    vec3 normal(0, 1, 0);
-    if (distance > 1e-6F) {
-        normal = between / distance;
-    } else {  // the cores cross: apart along what is across both, or anything
-        const vec3 across = glm::cross(a.axes[1], b.axes[1]);
-        const float length = glm::length(across);
-        if (length > 1e-3F) normal = across / length;
-    }
     out.add({{0, (2 * at.s - 1) * coreHalf(*a.shape), 0},
              {0, (2 * at.t - 1) * coreHalf(*b.shape), 0},
              radius,
-             normal,
-             distance - radius});
+             directionBetween(between, a.axes[1], b.axes[1]),
+             std::sqrt(distance2) - radius});
 }
 
 // A capsule or sphere A against a box B.
@@ -145,34 +107,25 @@ void touchCoreAndBox(const PlacedShape& a, const PlacedShape& box, float range, 
     const vec3 centre = (a.position - box.position) * box.axes;
     const vec3 half = glm::transpose(box.axes) * a.axes[1] * coreHalf(*a.shape);
     const Segment core{centre - half, centre + half};
-    const auto addAt = [&](float t) {
-        const vec3 point = core.at(t);
-        SurfaceDistance surface = distanceToBox(point, box.shape->halfExtents);
-        const float separation = surface.distance - a.shape->radius;
-        if (separation >= range) return surface;
-        const vec3 onCore(0, (2 * t - 1) * coreHalf(*a.shape), 0);
-        const vec3 onBox = point - surface.normal * surface.distance;
+    const float radius = a.shape->radius;
+    const BoxTouches touches = touchBox(core, box.shape->halfExtents, radius + range);
+    for (int i = 0; i < touches.count; ++i) {
+        const auto& [along, surface, part] = touches.points[i];
+        const vec3 onCore(0, (2 * along - 1) * coreHalf(*a.shape), 0);
+        const vec3 onBox = core.at(along) - surface.normal * surface.distance;
         const vec3 normal = box.axes * surface.normal;
+        const float separation = surface.distance - radius;
         if (swapped)
-            out.add({onBox, onCore, a.shape->radius, -normal, separation});
+            out.add({onBox, onCore, radius, -normal, separation});
         else
-            out.add({onCore, onBox, a.shape->radius, normal, separation});
-        return surface;
-    };
-    const SurfaceDistance first = addAt(0.0F);
-    if (coreHalf(*a.shape) <= 0.0F) return;
-    const SurfaceDistance last = addAt(1.0F);
-    if (sameFace(first.normal, last.normal) ||
-        !mayComeNear(first.distance, last.distance, core, a.shape->radius + range))
-        return;
-    const float t = deepestOnSegment(core, box.shape->halfExtents, kHalvings);
-    if (t > 0.02F && t < 0.98F) addAt(t);
+            out.add({onCore, onBox, radius, normal, separation});
+    }
 }
 
 // The corners of A in B.
 void touchCorners(const PlacedShape& a, const PlacedShape& b, float range, bool swapped, Touches<BodyTouch>& out) {
     for (int i = 0; i < 8; ++i) {
-        const vec3 local = corner(a.shape->halfExtents, i);
+        const vec3 local = boxCorner(a.shape->halfExtents, i);
         const vec3 inB = (a.position + a.axes * local - b.position) * b.axes;
         const SurfaceDistance surface = distanceToBox(inB, b.shape->halfExtents);
         if (surface.distance >= range) continue;
@@ -192,7 +145,7 @@ CorePoints corePoints(const BodyShape& shape) {
     if (shape.kind == Kind::box) {
         points.count = 8;
         for (int i = 0; i < 8; ++i)
-            points.local[i] = corner(shape.halfExtents, i);
+            points.local[i] = boxCorner(shape.halfExtents, i);
         return points;
     }
     points.radius = shape.radius;
@@ -221,9 +174,7 @@ PlacedStatic::PlacedStatic(const StaticShape& given)
 
 StaticTouches touchStatic(const PlacedShape& body, const PlacedStatic& geometry, float range) {
     StaticTouches touches;
-    if (geometry.shape.kind == StaticShape::Kind::plane)
-        touchPlane(body, geometry, range, touches);
-    else if (geometry.shape.kind == StaticShape::Kind::box)
+    if (geometry.shape.kind == StaticShape::Kind::box)
         touchStaticBox(body, geometry, range, touches);
     else
         touchOther(body, geometry, range, touches);

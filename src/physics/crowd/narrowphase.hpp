@@ -76,8 +76,8 @@ struct PlacedStatic {
 /// Only meshes have more than four.
 using StaticTouches = Touches<StaticTouch, ContactList::kMax>;
 
-/// Points of the body nearer than `range` to the geometry: both ends of a capsule, and the place in between where it
-/// crosses an edge; the corners of a box. Other geometry: see findContacts().
+/// Points of the body nearer than `range` to the geometry. On a box: those of touchBox(), or the corners of a body that
+/// is one. Other geometry: see findContacts().
 [[nodiscard]] StaticTouches touchStatic(const PlacedShape& body, const PlacedStatic& geometry, float range);
 
 /// Points of two bodies nearer than `range`. Two boxes are told apart by their corners only; see docs/crowd.md.

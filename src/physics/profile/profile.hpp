@@ -8,6 +8,7 @@
 
 #include "animation/humanoid/roles.hpp"
 #include "core/rigid_transform.hpp"
+#include "core/shape_kind.hpp"
 
 namespace lutka::physics {
 
@@ -15,12 +16,20 @@ using animation::Role;
 
 /// The collision shape of a body, centred on the body's origin.
 struct BodyShape {
-    enum class Kind { capsule, box, sphere };
+    /// The ones that a body can be, so that the compiler sees every switch over them whole.
+    enum class Kind {
+        capsule = static_cast<int>(ShapeKind::capsule),
+        box = static_cast<int>(ShapeKind::box),
+        sphere = static_cast<int>(ShapeKind::sphere),
+    };
     Kind kind = Kind::capsule;
     float radius = 0.05F;                ///< Metres, > 0; capsule and sphere.
     float halfLength = 0.1F;             ///< Metres, >= 0; capsule: half the distance of the cap centres, along body Y.
     vec3 halfExtents{0.1F, 0.1F, 0.1F};  ///< Metres, > 0; box.
 };
+[[nodiscard]] constexpr ShapeKind shapeKindOf(BodyShape::Kind kind) {
+    return static_cast<ShapeKind>(kind);
+}
 
 /// A rigid body that stands for the part of the character that one joint moves.
 struct BodyProfile {

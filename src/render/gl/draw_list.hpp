@@ -14,7 +14,7 @@ class DrawList {
   public:
     /// Instances that one draw call a mesh draws: instances[firstInstance, firstInstance + count).
     struct Batch {
-        int what = 0;  ///< Index of the character, or PropItem::Kind as a number.
+        int what = 0;  ///< Index of the character, or ShapeKind as a number.
         int firstInstance = 0;
         int count = 0;
         float nearest = 0.0F;  ///< The least distance of its instances along the view, metres; may be negative.

@@ -97,7 +97,7 @@ InstanceTexels makeInstance(const PropItem& item) {
     setRows(texels, item.worldFromShape);
     texels.color = toLinear(item.color);
     texels.measures = vec4(item.radius, item.halfLength, item.roughness, item.checkerSize);
-    const bool capsule = item.kind == PropItem::Kind::capsule;
+    const bool capsule = item.kind == ShapeKind::capsule;
     texels.extentOrJoint =
         vec4(capsule ? vec3(0, item.halfLength, 0) : item.halfExtents, item.checkerInWorld ? 1.0F : 0.0F);
     return texels;

@@ -66,15 +66,15 @@ std::vector<PropVertex> roundVertices(bool capsule) {
     return out;
 }
 
-std::vector<PropVertex> verticesOf(PropItem::Kind kind) {
+std::vector<PropVertex> verticesOf(ShapeKind kind) {
     switch (kind) {
-        case PropItem::Kind::box:
+        case ShapeKind::box:
             return boxVertices();
-        case PropItem::Kind::sphere:
+        case ShapeKind::sphere:
             return roundVertices(false);
-        case PropItem::Kind::capsule:
+        case ShapeKind::capsule:
             return roundVertices(true);
-        case PropItem::Kind::plane:
+        default:
             break;
     }
     return planeVertices();
@@ -85,7 +85,7 @@ std::vector<PropVertex> verticesOf(PropItem::Kind kind) {
 PropMeshes::PropMeshes() {
     for (int kind = 0; kind < kKinds; ++kind) {
         Mesh& mesh = meshes_[kind];
-        const std::vector<PropVertex> vertices = verticesOf(static_cast<PropItem::Kind>(kind));
+        const std::vector<PropVertex> vertices = verticesOf(static_cast<ShapeKind>(kind));
         mesh.vertexArray = GlVertexArray::create();
         mesh.vertices = GlBuffer::create();
         mesh.vertexCount = static_cast<GLsizei>(vertices.size());
@@ -104,7 +104,7 @@ PropMeshes::PropMeshes() {
     glBindVertexArray(0);
 }
 
-void PropMeshes::draw(PropItem::Kind kind, int instances) const {
+void PropMeshes::draw(ShapeKind kind, int instances) const {
     const Mesh& mesh = meshes_[static_cast<int>(kind)];
     glBindVertexArray(mesh.vertexArray.name());
     glDrawArraysInstanced(GL_TRIANGLES, 0, mesh.vertexCount, instances);
@@ -117,7 +117,7 @@ long long PropMeshes::bytes() const {
     return sum;
 }
 
-int PropMeshes::triangleCount(PropItem::Kind kind) const {
+int PropMeshes::triangleCount(ShapeKind kind) const {
     return meshes_[static_cast<int>(kind)].vertexCount / 3;
 }
 

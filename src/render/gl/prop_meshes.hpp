@@ -10,13 +10,13 @@ namespace lutka::render {
 /// One mesh for each kind of prop, of unit measures; the vertex shader gives it its size (assets/shaders/prop.glsl).
 class PropMeshes {
   public:
-    static constexpr int kKinds = 4;
+    static constexpr int kKinds = 4;  // ShapeKind without the mesh, which is its last
 
     PropMeshes();
 
     /// Draws instances of a kind with the program in use.
-    void draw(PropItem::Kind kind, int instances) const;
-    [[nodiscard]] int triangleCount(PropItem::Kind kind) const;
+    void draw(ShapeKind kind, int instances) const;
+    [[nodiscard]] int triangleCount(ShapeKind kind) const;
     [[nodiscard]] long long bytes() const;
 
   private:

@@ -425,7 +425,7 @@ void SceneRenderer::drawLitProps(std::span<const DrawList::Batch> batches, Frame
 void SceneRenderer::drawProps(const ShaderProgram& program, std::span<const DrawList::Batch> batches,
                               FrameStats& stats) {
     for (const DrawList::Batch& batch : batches) {
-        const auto kind = static_cast<PropItem::Kind>(batch.what);
+        const auto kind = static_cast<ShapeKind>(batch.what);
         program.set("firstInstance", batch.firstInstance);
         propMeshes_.draw(kind, batch.count);
         ++stats.drawCalls;

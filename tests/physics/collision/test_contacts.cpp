@@ -10,12 +10,12 @@ using namespace lutka;
 using physics::CollisionGeometry;
 using physics::ContactList;
 using physics::findContacts;
-using Kind = CollisionGeometry::Kind;
+using Kind = ShapeKind;
 
 namespace {
 
 CollisionGeometry capsule(float radius, float halfLength, const vec3& centre, const quat& turn = quat(1, 0, 0, 0)) {
-    return {Kind::round, radius, halfLength, vec3(0), {turn, centre}};
+    return {Kind::capsule, radius, halfLength, vec3(0), {turn, centre}};
 }
 CollisionGeometry block(const vec3& halfExtents, const vec3& centre, const quat& turn = quat(1, 0, 0, 0)) {
     return {Kind::box, 0, 0, halfExtents, {turn, centre}};

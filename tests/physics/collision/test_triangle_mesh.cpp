@@ -28,7 +28,7 @@ std::shared_ptr<const TriangleMesh> boxOf(const vec3& half) {
 
 physics::CollisionGeometry meshGeometry(const TriangleMesh& mesh) {
     physics::CollisionGeometry geometry;
-    geometry.kind = physics::CollisionGeometry::Kind::mesh;
+    geometry.kind = ShapeKind::mesh;
     geometry.mesh = &mesh;
     return geometry;
 }
@@ -54,7 +54,7 @@ TEST_CASE("contacts with a box of triangles are those with a box", "[mesh]") {
     const vec3 half(0.5F, 0.3F, 0.6F);
     const auto mesh = boxOf(half);
     physics::CollisionGeometry box;
-    box.kind = physics::CollisionGeometry::Kind::box;
+    box.kind = ShapeKind::box;
     box.halfExtents = half;
     Random random(11);
     int touching = 0;

@@ -23,7 +23,7 @@ struct DarkRoom : LoneFigure {
         box.worldFromShape.translation = {-0.8F, 0.25F, -0.3F};
         box.halfExtents = vec3(0.25F);
         PropItem ball;
-        ball.kind = PropItem::Kind::sphere;
+        ball.kind = ShapeKind::sphere;
         ball.radius = 0.22F;
         ball.roughness = 0.25F;
         ball.worldFromShape.translation = {0.75F, 0.22F, 0.3F};

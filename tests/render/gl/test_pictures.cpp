@@ -55,13 +55,13 @@ TEST_CASE("picture: props, debug capsules, axes and limits over a figure") {
     box.halfExtents = vec3(0.2F);
     box.checkerSize = 0.1F;
     PropItem ball;
-    ball.kind = PropItem::Kind::sphere;
+    ball.kind = ShapeKind::sphere;
     ball.radius = 0.18F;
     ball.worldFromShape.translation = {0.7F, 0.18F, 0.3F};
     ball.color = colors::red;
     ball.roughness = 0.3F;
     PropItem glass = ball;
-    glass.kind = PropItem::Kind::capsule;
+    glass.kind = ShapeKind::capsule;
     glass.halfLength = 0.15F;
     glass.worldFromShape.translation = {0.75F, 0.33F, -0.5F};
     glass.color = withAlpha(colors::blue, 0.5F);

@@ -116,7 +116,7 @@ TEST_CASE("a lit surface does not shade itself") {
     frame.floor.visible = false;
     frame.sun.directionToLight = vec3(0.4F, 0.8F, 0.6F);
     PropItem ball;
-    ball.kind = PropItem::Kind::sphere;
+    ball.kind = ShapeKind::sphere;
     ball.radius = 0.5F;
     ball.worldFromShape.translation = vec3(-0.7F, 0, 0);
     PropItem box;
