@@ -18,7 +18,7 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
                                               {"mendGap", &tuning.mendGap},
                                               {"mendAngle", &tuning.mendAngle},
                                               {"aimGap", &tuning.aimGap},
-                                              {"letGo", &tuning.letGo},
+                                              {"releaseRate", &tuning.releaseRate},
                                               {"nearSpeed", &tuning.nearSpeed},
                                               {"contactTolerance", &tuning.contactTolerance},
                                               {"limitTolerance", &tuning.limitTolerance},

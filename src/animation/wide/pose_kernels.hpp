@@ -3,41 +3,26 @@
 /// From bodies or joint-relative frames to model-space frames and palettes, an instance a lane: what poseFromBodies(),
 /// localToModel() and skinMatrices() do for one.
 
-#include "animation/wide/lane_shuffles.hpp"
+#include "animation/wide/layout.hpp"
+#include "core/simd/lane_shuffles.hpp"
 
 namespace lutka::animation::wide::LUTKA_KERNELS {
+
+using namespace simd::LUTKA_KERNELS;
 
 static constexpr long kRigidLanes = static_cast<long>(kRigidFloats) * kLanes;  // floats of a Rigid in scratch
 
 // modelFromJoint · bindModelFromJoint⁻¹ as rows, to every lane's palette.
 LUTKA_LANES void scatterMatrix(float* to, const long* offset, const Rigid& model, const float* bind) {
     const Q q = model.turn * conjugate(allTurns(bind));
-    const F two = all(2.0F);
-    const F one = all(1.0F);
-    const F xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z;
-    const F xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z;
-    const F wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
+    const Axes axes = axesOf(q);
     const V3 at{all(bind[4]), all(bind[5]), all(bind[6])};
-    const V3 row0{one - two * (yy + zz), two * (xy - wz), two * (xz + wy)};
-    const V3 row1{two * (xy + wz), one - two * (xx + zz), two * (yz - wx)};
-    const V3 row2{two * (xz - wy), two * (yz + wx), one - two * (xx + yy)};
+    const V3 row0{axes.x.x, axes.y.x, axes.z.x};
+    const V3 row1{axes.x.y, axes.y.y, axes.z.y};
+    const V3 row2{axes.x.z, axes.y.z, axes.z.z};
     scatter4(to, offset, row0.x, row0.y, row0.z, model.at.x - dot(row0, at));
     scatter4(to + 4, offset, row1.x, row1.y, row1.z, model.at.y - dot(row1, at));
     scatter4(to + 8, offset, row2.x, row2.y, row2.z, model.at.z - dot(row2, at));
-}
-
-/// atan2 for y >= 0 and x >= 0, to 1e-6: our own least-maximum fit of atan on [0, 1].
-LUTKA_LANES F angleOf(const F& y, const F& x) {
-    const F ratio = least(y, x) / most(most(y, x), all(1e-30F));
-    const F s = ratio * ratio;
-    F p = all(0.00681179F);
-    p = p * s - all(0.03360422F);
-    p = p * s + all(0.07962367F);
-    p = p * s - all(0.13233342F);
-    p = p * s + all(0.19807816F);
-    p = p * s - all(0.33317368F);
-    p = p * s + all(0.99999611F);
-    return y > x ? all(1.57079633F) - p * ratio : p * ratio;
 }
 
 // Taylor's series, to 1e-7 on [0, π/2].

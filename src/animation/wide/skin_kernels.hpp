@@ -3,9 +3,12 @@
 /// Linear blend skinning, a vertex a lane. The sums are those of the scalar loop, term by term, so that both give the
 /// same bits.
 
-#include "animation/wide/lane_shuffles.hpp"
+#include "animation/wide/layout.hpp"
+#include "core/simd/lane_shuffles.hpp"
 
 namespace lutka::animation::wide::LUTKA_KERNELS {
+
+using namespace simd::LUTKA_KERNELS;
 
 static constexpr int kInfluences = 4;
 

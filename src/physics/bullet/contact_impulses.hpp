@@ -2,10 +2,12 @@
 
 #include <btBulletDynamicsCommon.h>
 
-#include "physics/bullet/simd4.hpp"
+#include "core/simd/vector4.hpp"
 
 /// What SubstepSolver remembers of a contact from substep to substep, in the fields of Bullet's own contact point.
 namespace lutka::physics {
+
+using simd::F4;
 
 /// Impulse against rolling and spinning, world, N m s. Bullet has no such field: it lies in those of moving surfaces
 /// and soft friction, which only Bullet's solver reads and new points have at 0.

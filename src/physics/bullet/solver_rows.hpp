@@ -2,11 +2,20 @@
 
 #include <btBulletDynamicsCommon.h>
 
-#include "physics/bullet/simd4.hpp"
+#include "core/simd/vector4.hpp"
 #include "physics/bullet/warm_started.hpp"
 
 /// What SubstepSolver sweeps over: bodies and rows as they lie in memory, and the step of each kind of row.
 namespace lutka::physics {
+
+using simd::allF4;
+using simd::cross;
+using simd::crossDifference;
+using simd::dot;
+using simd::F4;
+using simd::inverseOfSymmetric;
+using simd::M4;
+using simd::sum;
 
 /// A body's share of the solver. `shape`: nothing of it changes within a substep but the velocities.
 struct SolverBody {

@@ -17,6 +17,9 @@ constexpr int kFixed = 0;  // index of the body that never moves
 F4 toF4(const btVector3& v) {
     return F4{v.x(), v.y(), v.z(), 0.0F};
 }
+F4 toF4(const vec3& v) {
+    return F4{v.x, v.y, v.z, 0.0F};
+}
 btVector3 toBullet(const F4& v) {
     return {v[0], v[1], v[2]};
 }

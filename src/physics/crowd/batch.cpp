@@ -8,7 +8,7 @@ namespace {
 // Pair contacts find members by these; layout.hpp, which the kernels of each instruction set see, includes nothing.
 static_assert(offsetof(BodyLanes, velocity) == kVelocityOffset * sizeof(float));
 static_assert(offsetof(BodyLanes, angular) == kAngularOffset * sizeof(float));
-static_assert(offsetof(BodyLanes, inverseInertia) == kInertiaOffset * sizeof(float));
+static_assert(offsetof(BodyLanes, inverseInertia) == kInverseInertiaOffset * sizeof(float));
 static_assert(offsetof(BodyLanes, position) == kPositionOffset * sizeof(float));
 static_assert(offsetof(BodyLanes, axisX) == kAxisOffset * sizeof(float));
 

@@ -2,9 +2,9 @@
 
 /// Kernels that touch bodies only: frames, bounds, integration. kernels.hpp says what they are compiled for.
 
-#include "physics/crowd/lane_math.hpp"
+#include "physics/crowd/lane_storage.hpp"
 
-namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
+namespace lutka::physics::crowd::LUTKA_KERNELS {
 
 LUTKA_LANES Axes axesOf(const BodyLanes& body) {
     return {load(body.axisX), load(body.axisY), load(body.axisZ)};
@@ -196,4 +196,4 @@ LUTKA_LANES void advanceBody(BodyLanes& body, const BodyConstants& constants, F 
           turned * V3{inBody.x * inverseInertia.x, inBody.y * inverseInertia.y, inBody.z * inverseInertia.z});
 }
 
-}  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS
+}  // namespace lutka::physics::crowd::LUTKA_KERNELS

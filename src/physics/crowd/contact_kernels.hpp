@@ -6,7 +6,7 @@
 
 #include "physics/crowd/tree_kernels.hpp"
 
-namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
+namespace lutka::physics::crowd::LUTKA_KERNELS {
 
 using Lanes = float* const (&)[kLanes];
 
@@ -26,13 +26,13 @@ LUTKA_LANES void scatter3(Lanes body, int offset, const V3& value) {
     scatter(body, offset + kLanes, value.y);
     scatter(body, offset + 2 * kLanes, value.z);
 }
-LUTKA_LANES Symmetric gatherInertia(Lanes body) {
-    return {gather(body, kInertiaOffset),
-            gather(body, kInertiaOffset + kLanes),
-            gather(body, kInertiaOffset + 2 * kLanes),
-            gather(body, kInertiaOffset + 3 * kLanes),
-            gather(body, kInertiaOffset + 4 * kLanes),
-            gather(body, kInertiaOffset + 5 * kLanes)};
+LUTKA_LANES Symmetric gatherInverseInertia(Lanes body) {
+    return {gather(body, kInverseInertiaOffset),
+            gather(body, kInverseInertiaOffset + kLanes),
+            gather(body, kInverseInertiaOffset + 2 * kLanes),
+            gather(body, kInverseInertiaOffset + 3 * kLanes),
+            gather(body, kInverseInertiaOffset + 4 * kLanes),
+            gather(body, kInverseInertiaOffset + 5 * kLanes)};
 }
 LUTKA_LANES V3 gatherCore(Lanes body, const V3& local, int onAxisY) {
     if (onAxisY != 0) return gather3(body, kAxisOffset + 3 * kLanes) * local.y;
@@ -80,8 +80,8 @@ LUTKA_LANES void preparePair(PairContactLanes& pair, const V3& coreA, const V3& 
     const V3 armB = coreB + middle;
     store(pair.armA, armA);
     store(pair.armB, armB);
-    const Symmetric inertiaA = gatherInertia(pair.bodyA);
-    const Symmetric inertiaB = gatherInertia(pair.bodyB);
+    const Symmetric inertiaA = gatherInverseInertia(pair.bodyA);
+    const Symmetric inertiaB = gatherInverseInertia(pair.bodyB);
     const F inverseMasses = load(pair.inverseMassA) + load(pair.inverseMassB);
     for (int i = 0; i < 3; ++i) {
         const V3 leverA = cross(armA, direction[i]);
@@ -162,7 +162,7 @@ static int solvePairs(PairContactLanes* pairs, int count, const SubstepParams& p
         const F off = approach + bias;
         // A single body's mass is less than what a doll sets against a push: what pressed too much is taken back
         // faster.
-        const F change = -load(pair.normalMass) * (off > all(0.0F) ? off * all(params.letGo) : off);
+        const F change = -load(pair.normalMass) * (off > all(0.0F) ? off * all(params.releaseRate) : off);
         const F total = most(carried + change, all(0.0F));
         pressed |= (total > all(0.0F)) | (carried > all(0.0F));
         store(pair.normalImpulse, total);
@@ -190,4 +190,4 @@ static int mendPairs(PairContactLanes* pairs, int count, const SubstepParams& pa
     return bits(any) != 0 ? 1 : 0;
 }
 
-}  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS
+}  // namespace lutka::physics::crowd::LUTKA_KERNELS

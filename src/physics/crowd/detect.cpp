@@ -49,11 +49,11 @@ std::uint64_t pairKey(const Doll& a, int bodyA, const Doll& b, int bodyB, int in
 }
 
 // A body of a doll.
-struct Which {
+struct BodyRef {
     int doll;
     int body;
 };
-void addTouch(const CrowdState& state, const Which& a, const Which& b, int index, const BodyTouch& at,
+void addTouch(const CrowdState& state, const BodyRef& a, const BodyRef& b, int index, const BodyTouch& at,
               std::vector<PairTouch>& out) {
     PairTouch touch{a.doll, a.body, b.doll, b.body, at, {}};
     const std::uint64_t key = pairKey(state.dolls[a.doll], a.body, state.dolls[b.doll], b.body, index);
@@ -64,8 +64,8 @@ void addTouch(const CrowdState& state, const Which& a, const Which& b, int index
 }
 
 // Two bodies of which one is a box.
-void collideBoxes(const CrowdState& state, const Which& a, const StepBody& stepA, const Which& b, const StepBody& stepB,
-                  const TouchRange& range, std::vector<PairTouch>& out) {
+void collideBoxes(const CrowdState& state, const BodyRef& a, const StepBody& stepA, const BodyRef& b,
+                  const StepBody& stepB, const TouchRange& range, std::vector<PairTouch>& out) {
     const float distance = distanceIn(range, stepA, stepB);
     const vec3 apart = vectorOf(stepA.centre) - vectorOf(stepB.centre);
     const float reach = stepA.size + stepB.size + distance;
@@ -90,7 +90,7 @@ class TouchSearch {
     TouchSearch(const CrowdState& state, float dt, std::vector<PairTouch>& out)
         : state_(state), range_(touchRange(state, dt)), out_(out) {}
 
-    void add(const Which& a, const StepBody& stepA, const Which& b, const StepBody& stepB) {
+    void add(const BodyRef& a, const StepBody& stepA, const BodyRef& b, const StepBody& stepB) {
         a_[count_] = a;
         b_[count_] = b;
         stepA_[count_] = &stepA;
@@ -120,8 +120,8 @@ class TouchSearch {
     TouchRange range_;
     std::vector<PairTouch>& out_;
     int count_ = 0;
-    Which a_[kLanes]{};
-    Which b_[kLanes]{};
+    BodyRef a_[kLanes]{};
+    BodyRef b_[kLanes]{};
     const StepBody* stepA_[kLanes]{};
     const StepBody* stepB_[kLanes]{};
 };
@@ -171,8 +171,8 @@ void findSelfContacts(CrowdState& state, Batch& batch, const BatchView& view, co
         const unsigned near = masks[i] & (boxes ? ~0U : state.kernels->touchOwnCores(view, pairs[i], range, found));
         for (int lane = 0; lane < batch.used; ++lane) {
             if ((near >> static_cast<unsigned>(lane) & 1U) == 0) continue;
-            const Which a{batch.doll[lane], bodyA};
-            const Which b{batch.doll[lane], bodyB};
+            const BodyRef a{batch.doll[lane], bodyA};
+            const BodyRef b{batch.doll[lane], bodyB};
             const Doll& doll = state.dolls[a.doll];
             if (boxes)
                 collideBoxes(state, a, stepBody(state, doll, bodyA), b, stepBody(state, doll, bodyB), range, out);

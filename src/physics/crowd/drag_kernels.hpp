@@ -5,7 +5,7 @@
 
 #include "physics/crowd/row_kernels.hpp"
 
-namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
+namespace lutka::physics::crowd::LUTKA_KERNELS {
 
 LUTKA_LANES void aimDrag(DragLanes& drag, const BodyLanes& body, const SubstepParams& params) {
     store(drag.arm, halfWay(body, axesOf(body) * load(drag.localPoint), all(0.5F * params.dt)));
@@ -62,4 +62,4 @@ LUTKA_LANES Mask updateDrag(const BodyLanes& body, DragLanes& drag, const Pass& 
     return tooStrong | tooWeak;
 }
 
-}  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS
+}  // namespace lutka::physics::crowd::LUTKA_KERNELS

@@ -5,7 +5,7 @@
 #include "physics/crowd/body_kernels.hpp"
 #include "physics/crowd/spatial.hpp"
 
-namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
+namespace lutka::physics::crowd::LUTKA_KERNELS {
 
 // `near`: rows farther from their limit than this are left out of the substep.
 LUTKA_LANES Mask prepareLimit(JointLanes& joint, int index, const Symmetric& k, const V3& axis, F room, F side, F near,
@@ -141,14 +141,14 @@ LUTKA_LANES V3 aimJoint(JointLanes& joint, const JointConstants& constants, cons
 LUTKA_LANES void beginJoint(JointLanes& joint, const JointConstants& constants, const BodyLanes& parent,
                             const BodyLanes& child, const SubstepParams& params) {
     const V3 error = aimJoint(joint, constants, parent, child, params);
-    const Q parentFrame = load(parent.rotation) * all(constants.parentFrame);
+    const Q parentFrame = load(parent.rotation) * allTurns(constants.parentFrame);
     const V3 turning = load(child.angular) - load(parent.angular);
     const F rate = squareRoot(dot(turning, turning));
     // Static friction is greater than sliding friction (Stribeck): limbs do not swing on for ever.
     const F still = most(all(1.0F) - rate * all(1.0F / params.stictionRate), all(0.0F));
     store(joint.frictionLimit, all(constants.frictionNm * params.dt) * (all(1.0F) + all(params.jointStiction) * still));
     const JointSetting setting{load(parent.inverseInertia) + load(child.inverseInertia), axesOf(parentFrame),
-                               conjugate(parentFrame) * (load(child.rotation) * all(constants.childFrame)),
+                               conjugate(parentFrame) * (load(child.rotation) * allTurns(constants.childFrame)),
                                all(0.1F) + rate * all(2.0F * params.dt)};
     const Mask off = constants.isHinge != 0 ? prepareHinge(joint, constants, setting, params)
                                             : prepareCone(joint, constants, setting, params);
@@ -162,4 +162,4 @@ static void beginJoints(const BatchView& batch, const SubstepParams& params) {
     }
 }
 
-}  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS
+}  // namespace lutka::physics::crowd::LUTKA_KERNELS

@@ -1,12 +1,12 @@
 #pragma once
 
-/// What a translation unit that defines LUTKA_CROWD_KERNELS includes to get that instruction set's kernels.
+/// What a translation unit that defines LUTKA_KERNELS includes to get that instruction set's kernels.
 
 #include "physics/crowd/contact_kernels.hpp"
 #include "physics/crowd/momentum_kernels.hpp"
 #include "physics/crowd/touch_kernels.hpp"
 
-namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
+namespace lutka::physics::crowd::LUTKA_KERNELS {
 
 static void begin(const BatchView& batch, const SubstepParams& params) {
     applyForces(batch, params);
@@ -22,4 +22,4 @@ static constexpr Kernels kTable{&refresh,       &findBounds,    &findSelfPairs, 
                                 &solve,         &mend,          &advance,       &beginPairs,    &solvePairs,
                                 &mendPairs,     &carryPairs};
 
-}  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS
+}  // namespace lutka::physics::crowd::LUTKA_KERNELS

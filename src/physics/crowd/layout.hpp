@@ -45,7 +45,7 @@ struct BodyLanes {
 /// In floats, from the first member to the lane's own; batch.cpp holds them to the members.
 inline constexpr int kVelocityOffset = 0;
 inline constexpr int kAngularOffset = 3 * kLanes;
-inline constexpr int kInertiaOffset = 18 * kLanes;
+inline constexpr int kInverseInertiaOffset = 18 * kLanes;
 inline constexpr int kPositionOffset = 27 * kLanes;
 inline constexpr int kAxisOffset = 30 * kLanes;
 
@@ -210,10 +210,10 @@ struct PairContactLanes {
 /// What decides quality and cost within a substep; the same for all of them. The defaults are the outcome of the sweep
 /// described in docs/crowd.md.
 struct SubstepTuning {
-    int passes = 8;           ///< At most, with bias in a substep, >= 1: until the guess of what holds is right.
-    int patience = 3;         ///< Passes after which rows that will not come to rest are only added any more.
-    float aimGap = 0.0003F;   ///< Metres by which an anchor may miss in a substep before its arm is foreseen anew.
-    float letGo = 2.0F;       ///< By how much faster a contact between bodies takes back what it pressed too much.
+    int passes = 8;            ///< At most, with bias in a substep, >= 1: until the guess of what holds is right.
+    int patience = 3;          ///< Passes after which rows that will not come to rest are only added any more.
+    float aimGap = 0.0003F;    ///< Metres by which an anchor may miss in a substep before its arm is foreseen anew.
+    float releaseRate = 2.0F;  ///< By how much faster a contact between bodies takes back what it pressed too much.
     float nearSpeed = 8.0F;   ///< m/s that an approach may grow by within a substep: contacts farther off are left out.
     float mendGap = 0.0002F;  ///< Metres, and
     float mendAngle = 0.002F;       ///< rad: errors below which nothing is mended.

@@ -4,7 +4,7 @@
 
 #include "physics/crowd/tree_kernels.hpp"
 
-namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
+namespace lutka::physics::crowd::LUTKA_KERNELS {
 
 // The lanes in which nothing holds the doll that the solver of joints took into account: no static contact, no drag.
 static Mask unheld(const BatchView& batch) {
@@ -55,4 +55,4 @@ static void advance(const BatchView& batch, const SubstepParams& params) {
         advanceBody(batch.bodies[b], batch.bodyConstants[b], all(params.dt));
 }
 
-}  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS
+}  // namespace lutka::physics::crowd::LUTKA_KERNELS

@@ -4,7 +4,7 @@
 
 #include "physics/crowd/static_kernels.hpp"
 
-namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
+namespace lutka::physics::crowd::LUTKA_KERNELS {
 
 // Which pass this is.
 struct Pass {
@@ -17,8 +17,8 @@ struct Pass {
     Mask astray;  ///< Gathers the lanes in which a body turns at another rate than its arms were foreseen with.
 };
 
-// What rows of a joint ask for: a torque on the child, and a weight matrix of the relative turning.
-struct Asked {
+// What the rows of a joint add to the equations: a torque on the child, and a weight matrix of the relative turning.
+struct JointTerms {
     V3 torque;
     Symmetric weight;
 };
@@ -62,8 +62,20 @@ LUTKA_LANES F carriedPush(F impulse, F rate, float slip, const Pass& pass) {
     return pass.applied > all(0.0F) ? impulse : kept;
 }
 
-LUTKA_LANES void askLimit(LimitRow& row, const V3& relative, const Pass& pass, Asked& asked) {
+// What a one-sided row decides in a pass: where it holds, and the impulse that is added to what the velocities have.
+struct OneSided {
+    Mask holds;
+    F gain, change;
+};
+LUTKA_LANES OneSided decideOneSided(F impulse, F rate, F bias, F weight, F gain, const Pass& pass) {
     const F zero = all(0.0F);
+    const Mask reached = impulse - weight * (rate + oneSidedBias(bias, noLanes(), pass)) > zero;
+    const Mask holds = reached | (pass.late & (gain > zero));
+    const F wanted = impulse - weight * (rate + oneSidedBias(bias, holds, pass));
+    return {holds, holds ? weight : zero, (holds ? wanted : zero) - impulse * pass.applied};
+}
+
+LUTKA_LANES void askLimit(LimitRow& row, const V3& relative, const Pass& pass, JointTerms& terms) {
     const V3 axis = load(row.axis);
     const F weight = load(row.weight);
     const F bias = load(row.bias);
@@ -71,19 +83,15 @@ LUTKA_LANES void askLimit(LimitRow& row, const V3& relative, const Pass& pass, A
     const F impulse = carriedPush(load(row.impulse), rate, kLimitLeaves, pass);
     if (pass.mending) {
         const Mended mended = mendRow(rate, bias, weight, load(row.gain), noLanes());
-        asked.torque = asked.torque - axis * (mended.gain * mended.off);
-        addSquare(asked.weight, axis, mended.gain);
+        terms.torque = terms.torque - axis * (mended.gain * mended.off);
+        addSquare(terms.weight, axis, mended.gain);
         return;
     }
-    const Mask none = noLanes();
-    const Mask reached = impulse - weight * (rate + oneSidedBias(bias, none, pass)) > zero;
-    const Mask holds = reached | (pass.late & (load(row.gain) > zero));
-    const F wanted = impulse - weight * (rate + oneSidedBias(bias, holds, pass));
-    const F gain = holds ? weight : zero;
-    store(row.gain, gain);
+    const OneSided decided = decideOneSided(impulse, rate, bias, weight, load(row.gain), pass);
+    store(row.gain, decided.gain);
     store(row.impulse, impulse);
-    asked.torque = asked.torque + axis * ((holds ? wanted : zero) - impulse * pass.applied);
-    addSquare(asked.weight, axis, gain);
+    terms.torque = terms.torque + axis * decided.change;
+    addSquare(terms.weight, axis, decided.gain);
 }
 LUTKA_LANES Mask updateLimit(LimitRow& row, const V3& relative, const SubstepParams& params, const Pass& pass) {
     const F zero = all(0.0F);
@@ -110,9 +118,6 @@ LUTKA_LANES Bounded within(F squared, F limit) {
     const Mask holds = size <= limit;
     return {holds, holds ? all(1.0F) : limit / most(size, all(1e-20F))};
 }
-LUTKA_LANES V3 choose(const Mask& mask, const V3& a, const V3& b) {
-    return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
-}
 
 // What friction may carry over into this pass. Something that slides or turns already is not held: the part of the
 // impulse that would drive it on is dropped, or a hit that comes back the other way is sped up by its own friction.
@@ -123,24 +128,34 @@ LUTKA_LANES V3 opposing(const V3& carried, const V3& sliding, float slip) {
     return carried - sliding * (driving * share / most(speed2, all(1e-12F)));
 }
 
-// Friction of a cone-twist: holds while the torque that stops all turning is within the bound, else it is the bound
-// against the turning.
-LUTKA_LANES void askConeFriction(JointLanes& joint, const V3& relative, F limit, const Pass& pass, Asked& asked) {
-    const F weight = load(joint.frictionWeight);
-    const V3 before = load(joint.frictionImpulse);
-    const V3 kept = opposing(before, relative, kSlipTurn);
-    const V3 wanted = kept - relative * weight;
-    const Bounded bound = within(dot(wanted, wanted), limit);
-    const V3 target = wanted * bound.share;
-    const F gain = bound.holds ? weight : all(0.0F);
-    store(joint.frictionGain, gain);
-    store(joint.frictionImpulse, choose(bound.holds, kept, target));
-    asked.torque = asked.torque + (target - before * pass.applied);
-    asked.weight.xx += gain;
-    asked.weight.yy += gain;
-    asked.weight.zz += gain;
+// Dry friction against any motion (m/s or rad/s): holds while the impulse that stops it is within `bound`, else it is
+// the bound against the motion. Keeps both in the record; returns what is added to what the velocities have.
+struct Friction {
+    V3 change;
+    F gain;
+};
+LUTKA_LANES Friction decideFriction(Wide3& impulse, Wide& gain, const V3& motion, F weight, F bound, float slip,
+                                    const Pass& pass) {
+    const V3 before = load(impulse);
+    const V3 kept = opposing(before, motion, slip);
+    const V3 wanted = kept - motion * weight;
+    const Bounded bounded = within(dot(wanted, wanted), bound);
+    const V3 target = wanted * bounded.share;
+    const F held = bounded.holds ? weight : all(0.0F);
+    store(gain, held);
+    store(impulse, choose(bounded.holds, kept, target));
+    return {target - before * pass.applied, held};
 }
-LUTKA_LANES void askHingeFriction(JointLanes& joint, const V3& relative, F limit, const Pass& pass, Asked& asked) {
+
+LUTKA_LANES void askConeFriction(JointLanes& joint, const V3& relative, F limit, const Pass& pass, JointTerms& terms) {
+    const Friction decided = decideFriction(joint.frictionImpulse, joint.frictionGain, relative,
+                                            load(joint.frictionWeight), limit, kSlipTurn, pass);
+    terms.torque = terms.torque + decided.change;
+    terms.weight.xx += decided.gain;
+    terms.weight.yy += decided.gain;
+    terms.weight.zz += decided.gain;
+}
+LUTKA_LANES void askHingeFriction(JointLanes& joint, const V3& relative, F limit, const Pass& pass, JointTerms& terms) {
     const V3 axis = load(joint.hinge.axis);
     const F weight = load(joint.frictionWeight);
     const F before = load(joint.frictionImpulse.x);
@@ -152,41 +167,42 @@ LUTKA_LANES void askHingeFriction(JointLanes& joint, const V3& relative, F limit
     const F gain = holds ? weight : all(0.0F);
     store(joint.frictionGain, gain);
     store(joint.frictionImpulse.x, holds ? kept : target);
-    asked.torque = asked.torque + axis * (target - before * pass.applied);
-    addSquare(asked.weight, axis, gain);
+    terms.torque = terms.torque + axis * (target - before * pass.applied);
+    addSquare(terms.weight, axis, gain);
 }
 
 LUTKA_LANES V3 hingeOff(const HingeRows& rows, const V3& relative, const Pass& pass) {
     const V3 turning = across(relative, load(rows.axis));
     return pass.mending ? turning + load(rows.bias) : turning;
 }
-LUTKA_LANES void askHinge(const HingeRows& rows, const V3& relative, const Pass& pass, Asked& asked) {
+LUTKA_LANES void askHinge(const HingeRows& rows, const V3& relative, const Pass& pass, JointTerms& terms) {
     const F weight = load(rows.weight);
     const V3 axis = load(rows.axis);
-    asked.torque =
-        asked.torque + load(rows.impulse) * (all(1.0F) - pass.applied) - hingeOff(rows, relative, pass) * weight;
-    asked.weight.xx += weight;
-    asked.weight.yy += weight;
-    asked.weight.zz += weight;
-    addSquare(asked.weight, axis, -weight);
+    terms.torque =
+        terms.torque + load(rows.impulse) * (all(1.0F) - pass.applied) - hingeOff(rows, relative, pass) * weight;
+    terms.weight.xx += weight;
+    terms.weight.yy += weight;
+    terms.weight.zz += weight;
+    addSquare(terms.weight, axis, -weight);
 }
 
 // Decides which angular rows of a joint hold, and what they ask for.
-LUTKA_LANES Asked askJoint(JointLanes& joint, const JointConstants& constants, const V3& relative, const Pass& pass) {
+LUTKA_LANES JointTerms askJoint(JointLanes& joint, const JointConstants& constants, const V3& relative,
+                                const Pass& pass) {
     const F zero = all(0.0F);
-    Asked asked{{zero, zero, zero}, {zero, zero, zero, zero, zero, zero}};
+    JointTerms terms{{zero, zero, zero}, {zero, zero, zero, zero, zero, zero}};
     const bool rubs = constants.frictionNm > 0.0F && !pass.mending;
     const F frictionLimit = load(joint.frictionLimit) * pass.stiction;
     if (constants.isHinge != 0) {
-        askHinge(joint.hinge, relative, pass, asked);
-        if (rubs) askHingeFriction(joint, relative, frictionLimit, pass, asked);
+        askHinge(joint.hinge, relative, pass, terms);
+        if (rubs) askHingeFriction(joint, relative, frictionLimit, pass, terms);
     } else {
-        if (joint.limitActive[1] != 0) askLimit(joint.limit[1], relative, pass, asked);
-        if (joint.limitActive[2] != 0) askLimit(joint.limit[2], relative, pass, asked);
-        if (rubs) askConeFriction(joint, relative, frictionLimit, pass, asked);
+        if (joint.limitActive[1] != 0) askLimit(joint.limit[1], relative, pass, terms);
+        if (joint.limitActive[2] != 0) askLimit(joint.limit[2], relative, pass, terms);
+        if (rubs) askConeFriction(joint, relative, frictionLimit, pass, terms);
     }
-    if (joint.limitActive[0] != 0) askLimit(joint.limit[0], relative, pass, asked);
-    return asked;
+    if (joint.limitActive[0] != 0) askLimit(joint.limit[0], relative, pass, terms);
+    return terms;
 }
 
 // After the sweep: what the rows that held have gained. Returns the lanes whose guess was wrong.
@@ -218,95 +234,90 @@ struct Loaded {
 
 constexpr float kMendReach = 3.0F;  // m/s that mending moves a point with at most
 
+// How a body moves at a static contact.
+struct StaticMotion {
+    V3 normal, arm;
+    V3 angular;  // rad/s
+    V3 sliding;  // m/s, of the contact's point
+    F rate;      // m/s, out of the solid
+};
+LUTKA_LANES StaticMotion motionAt(const StaticContactLanes& contact, const BodyLanes& body) {
+    const V3 normal = load(contact.normal);
+    const V3 arm = load(contact.arm);
+    const V3 angular = load(body.steadyAngular);
+    const V3 sliding = load(body.steadyVelocity) + cross(angular, arm);
+    return {normal, arm, angular, sliding, dot(normal, sliding)};
+}
+
+LUTKA_LANES void mendStatic(const StaticContactLanes& contact, const StaticMotion& motion, const SubstepParams& params,
+                            Loaded& loaded) {
+    const F zero = all(0.0F);
+    const F bias = load(contact.bias);
+    // What is near and does not press keeps its speed too, or the mending of a limit pushes it in.
+    const Mask touches = motion.rate + most(bias, zero) < all(kMendReach);
+    const F firm = load(contact.normalMass) * all(params.contactStiffness);
+    const Mended mended = mendRow(motion.rate, bias, firm, load(contact.normalGain), touches);
+    if (bits(mended.gain > zero) == 0) return;
+    const V3 push = motion.normal * (-mended.gain * mended.off);
+    loaded.impulse = loaded.impulse + push;
+    loaded.torque = loaded.torque + cross(motion.arm, push);
+    Symmetric k{zero, zero, zero, zero, zero, zero};
+    addSquare(k, motion.normal, mended.gain);
+    addPoint(loaded.inertia, motion.arm, k);
+}
+
 // Decides which rows of a contact hold, and adds them. A contact that presses in no lane, and did not in the pass
 // before, is left out.
 LUTKA_LANES void askStatic(const BodyLanes& body, StaticContactLanes& contact, const SubstepParams& params,
                            const Pass& pass, Loaded& loaded) {
     const F zero = all(0.0F);
-    const V3 normal = load(contact.normal);
-    const V3 arm = load(contact.arm);
-    const V3 angular = load(body.steadyAngular);
-    const V3 sliding = load(body.steadyVelocity) + cross(angular, arm);
-    const F rate = dot(normal, sliding);
-    const F weight = load(contact.normalWeight);
-    const F bias = load(contact.bias);
-    const F impulse = load(contact.normalImpulse);
+    const StaticMotion motion = motionAt(contact, body);
     if (pass.mending) {
-        // What is near and does not press keeps its speed too, or the mending of a limit pushes it in.
-        const Mask touches = rate + most(bias, zero) < all(kMendReach);
-        const F firm = load(contact.normalMass) * all(params.contactStiffness);
-        const Mended mended = mendRow(rate, bias, firm, load(contact.normalGain), touches);
-        if (bits(mended.gain > zero) == 0) return;
-        const V3 push = normal * (-mended.gain * mended.off);
-        loaded.impulse = loaded.impulse + push;
-        loaded.torque = loaded.torque + cross(arm, push);
-        Symmetric k{zero, zero, zero, zero, zero, zero};
-        addSquare(k, normal, mended.gain);
-        addPoint(loaded.inertia, arm, k);
+        mendStatic(contact, motion, params, loaded);
         return;
     }
-    const Mask none = noLanes();
-    const Mask reached = impulse - weight * (rate + oneSidedBias(bias, none, pass)) > zero;
-    const Mask holds = reached | (pass.late & (load(contact.normalGain) > zero));
-    const int engaged = bits(holds | (impulse != zero)) != 0 ? 1 : 0;
+    const F impulse = load(contact.normalImpulse);
+    const OneSided presses = decideOneSided(impulse, motion.rate, load(contact.bias), load(contact.normalWeight),
+                                            load(contact.normalGain), pass);
+    const int engaged = bits(presses.holds | (impulse != zero)) != 0 ? 1 : 0;
     if (engaged == 0 && contact.engaged == 0) return;
     contact.engaged = engaged;
-    const F wanted = impulse - weight * (rate + oneSidedBias(bias, holds, pass));
-    const F gain = holds ? weight : zero;
-    store(contact.normalGain, gain);
+    store(contact.normalGain, presses.gain);
     store(contact.normalImpulse, impulse);
-    V3 push = normal * ((holds ? wanted : zero) - impulse * pass.applied);
 
     const F pressing = most(impulse, zero) * pass.stiction;
-    const F gripWeight = load(contact.tangentWeight);
-    const V3 before = load(contact.frictionImpulse);
-    const V3 slip = sliding - normal * rate;
-    const V3 kept = opposing(before, slip, kSlipSpeed);
-    const V3 rubbing = kept - slip * gripWeight;
-    const Bounded grips = within(dot(rubbing, rubbing), load(contact.friction) * pressing);
-    const V3 rubbed = rubbing * grips.share;
-    const F grip = grips.holds ? gripWeight : zero;
-    store(contact.tangentGain, grip);
-    store(contact.frictionImpulse, choose(grips.holds, kept, rubbed));
-    push = push + (rubbed - before * pass.applied);
-
+    const Friction grips =
+        decideFriction(contact.frictionImpulse, contact.tangentGain, motion.sliding - motion.normal * motion.rate,
+                       load(contact.tangentWeight), load(contact.friction) * pressing, kSlipSpeed, pass);
     // Rolling resistance: a torque against any turning, of at most the normal force times a lever.
-    const F rollWeight = load(contact.rollWeight);
-    const V3 rolled = load(contact.rollImpulse);
-    const V3 keptRoll = opposing(rolled, angular, kSlipTurn);
-    const V3 rolling = keptRoll - angular * rollWeight;
-    const Bounded stops = within(dot(rolling, rolling), pressing * all(params.rollingLever));
-    const V3 resisted = rolling * stops.share;
-    const F roll = stops.holds ? rollWeight : zero;
-    store(contact.rollGain, roll);
-    store(contact.rollImpulse, choose(stops.holds, keptRoll, resisted));
+    const Friction rolls =
+        decideFriction(contact.rollImpulse, contact.rollGain, motion.angular, load(contact.rollWeight),
+                       pressing * all(params.rollingLever), kSlipTurn, pass);
 
+    const V3 push = motion.normal * presses.change + grips.change;
     loaded.impulse = loaded.impulse + push;
-    loaded.torque = loaded.torque + (cross(arm, push) + (resisted - rolled * pass.applied));
-    Symmetric k{grip, grip, grip, zero, zero, zero};
-    addSquare(k, normal, gain - grip);
-    addPoint(loaded.inertia, arm, k);
-    loaded.inertia.turning.xx += roll;
-    loaded.inertia.turning.yy += roll;
-    loaded.inertia.turning.zz += roll;
+    loaded.torque = loaded.torque + (cross(motion.arm, push) + rolls.change);
+    Symmetric k{grips.gain, grips.gain, grips.gain, zero, zero, zero};
+    addSquare(k, motion.normal, presses.gain - grips.gain);
+    addPoint(loaded.inertia, motion.arm, k);
+    loaded.inertia.turning.xx += rolls.gain;
+    loaded.inertia.turning.yy += rolls.gain;
+    loaded.inertia.turning.zz += rolls.gain;
 }
 
 LUTKA_LANES Mask updateStatic(const BodyLanes& body, StaticContactLanes& contact, const SubstepParams& params,
                               const Pass& pass) {
     const F zero = all(0.0F);
-    const V3 normal = load(contact.normal);
-    const V3 angular = load(body.steadyAngular);
-    const V3 sliding = load(body.steadyVelocity) + cross(angular, load(contact.arm));
-    const F rate = dot(normal, sliding);
+    const StaticMotion motion = motionAt(contact, body);
     const F gain = load(contact.normalGain);  // 0 in all lanes of a contact that is not engaged
     const Mask held = gain > zero;
-    const F off = rate + oneSidedBias(load(contact.bias), held, pass);
+    const F off = motion.rate + oneSidedBias(load(contact.bias), held, pass);
     if (contact.engaged == 0) return off < all(-params.contactTolerance);
     const F total = load(contact.normalImpulse) - gain * off;
     store(contact.normalImpulse, held ? total : zero);
     store(contact.frictionImpulse,
-          load(contact.frictionImpulse) - (sliding - normal * rate) * load(contact.tangentGain));
-    store(contact.rollImpulse, load(contact.rollImpulse) - angular * load(contact.rollGain));
+          load(contact.frictionImpulse) - (motion.sliding - motion.normal * motion.rate) * load(contact.tangentGain));
+    store(contact.rollImpulse, load(contact.rollImpulse) - motion.angular * load(contact.rollGain));
     const F tolerance = all(-params.contactTolerance);
     // A whole doll may stand on what a body's own mass was to hold: a row that gives way becomes stiffer.
     const F weight = load(contact.normalWeight);
@@ -318,4 +329,4 @@ LUTKA_LANES Mask updateStatic(const BodyLanes& body, StaticContactLanes& contact
     return ((held ? pull : off) < tolerance) | (yields & (weight < stiffest));
 }
 
-}  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS
+}  // namespace lutka::physics::crowd::LUTKA_KERNELS

@@ -2,9 +2,9 @@
 
 /// 3 × 3 matrices in lanes, and the inertia of a body that has others hanging on it.
 
-#include "physics/crowd/lane_math.hpp"
+#include "physics/crowd/lane_storage.hpp"
 
-namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
+namespace lutka::physics::crowd::LUTKA_KERNELS {
 
 struct Matrix {
     V3 row[3];
@@ -127,4 +127,4 @@ LUTKA_LANES void addPoint(Spatial& s, const V3& arm, const Symmetric& k) {
     s.turning.zz += arm.x * c2.y - arm.y * c2.x;
 }
 
-}  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS
+}  // namespace lutka::physics::crowd::LUTKA_KERNELS

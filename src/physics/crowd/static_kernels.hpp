@@ -5,7 +5,7 @@
 
 #include "physics/crowd/joint_kernels.hpp"
 
-namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
+namespace lutka::physics::crowd::LUTKA_KERNELS {
 
 // The speed that a contact's row asks to be added to the normal speed: room to close, or overlap to mend.
 LUTKA_LANES F contactBias(F separation, const SubstepParams& params, int useBias) {
@@ -86,4 +86,4 @@ LUTKA_LANES void beginStatic(StaticContactLanes& contact, const BatchView& batch
           load(contact.normalMass) * (coming ? all(params.firstTouch) : all(params.contactStiffness)));
 }
 
-}  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS
+}  // namespace lutka::physics::crowd::LUTKA_KERNELS

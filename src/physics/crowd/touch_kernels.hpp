@@ -4,7 +4,7 @@
 
 #include "physics/crowd/body_kernels.hpp"
 
-namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
+namespace lutka::physics::crowd::LUTKA_KERNELS {
 
 // Eight bodies, one a lane: a segment with a radius around it, and how it moves.
 struct Cores {
@@ -112,4 +112,4 @@ static unsigned touchOwnCores(const BatchView& batch, const SelfPair& pair, cons
     return touch(coresOf(batch, pair.a), coresOf(batch, pair.b), range, out);
 }
 
-}  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS
+}  // namespace lutka::physics::crowd::LUTKA_KERNELS

@@ -23,7 +23,7 @@
 
 #include "physics/crowd/drag_kernels.hpp"
 
-namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS {
+namespace lutka::physics::crowd::LUTKA_KERNELS {
 
 // A body's inertia about its centre with that of everything below it, what was done to it since the last sweep
 // (`fresh`), and the contacts that hold it.
@@ -77,7 +77,7 @@ LUTKA_LANES void eliminate(const BatchView& batch, int index, const SubstepParam
     const Loaded loaded = loadBody(batch, constants.child, constants.childGathers != 0, params, pass, fresh);
     const V3 parentAngular = load(parent.steadyAngular);
     const V3 childAngular = load(child.steadyAngular);
-    const Asked asked = askJoint(joint, constants, childAngular - parentAngular, pass);
+    const JointTerms terms = askJoint(joint, constants, childAngular - parentAngular, pass);
     const V3 parentArm = load(joint.parentArm);
     const V3 childArm = load(joint.childArm);
     V3 r = (load(parent.steadyVelocity) + cross(parentAngular, parentArm)) -
@@ -86,18 +86,18 @@ LUTKA_LANES void eliminate(const BatchView& batch, int index, const SubstepParam
     if (pass.mending) r = r - load(joint.bias);
 
     const Spatial s = movedTo(loaded.inertia, childArm);
-    const Symmetric e = inverse(s.turning + asked.weight);
+    const Symmetric e = inverse(s.turning + terms.weight);
     const V3 resisting = loaded.torque - cross(childArm, loaded.impulse) - transposed(s.mixed, r);
-    const V3 turn = e * (resisting + asked.torque);
+    const V3 turn = e * (resisting + terms.torque);
     const V3 impulse = loaded.impulse - s.linear * r - s.mixed * turn;
     const V3 torque = resisting - s.turning * turn;
     const Matrix ce = s.mixed * e;               // C E
-    const Matrix ed = product(e, asked.weight);  // E D
+    const Matrix ed = product(e, terms.weight);  // E D
     // B E D, symmetric, by rows: row i of B times E D.
     const Matrix b = rowsOf(s.turning);
     const V3 row0 = transposed(ed, b.row[0]), row1 = transposed(ed, b.row[1]), row2 = transposed(ed, b.row[2]);
     const Spatial left{
-        s.linear - symmetricProduct(ce, s.mixed), ce * asked.weight, {row0.x, row1.y, row2.z, row0.y, row0.z, row1.z}};
+        s.linear - symmetricProduct(ce, s.mixed), ce * terms.weight, {row0.x, row1.y, row2.z, row0.y, row0.z, row1.z}};
     EliminatedLanes& eliminated = batch.tree[constants.child].eliminated;
     store(eliminated.fromAngular, ed);
     store(eliminated.fromLinear, ce);
@@ -234,4 +234,4 @@ static void solve(const BatchView& batch, const SubstepParams& params, int first
     }
 }
 
-}  // namespace lutka::physics::crowd::LUTKA_CROWD_KERNELS
+}  // namespace lutka::physics::crowd::LUTKA_KERNELS

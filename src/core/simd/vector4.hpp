@@ -1,19 +1,11 @@
 #pragma once
 
-#include "core/math.hpp"
-
 /// Three floats and a zero in one register, by the compiler's vector types. The fourth lane stays zero through all of
 /// these, so that sums over all four lanes are those over three.
-namespace lutka::physics {
+namespace lutka::simd {
 
 using F4 = float __attribute__((vector_size(16)));
 
-[[nodiscard]] inline F4 toF4(const vec3& v) {
-    return F4{v.x, v.y, v.z, 0.0F};
-}
-[[nodiscard]] inline vec3 fromF4(const F4& v) {
-    return {v[0], v[1], v[2]};
-}
 [[nodiscard]] inline F4 allF4(float x) {
     return F4{x, x, x, x};
 }
@@ -46,9 +38,6 @@ struct M4 {
                z * __builtin_shufflevector(v, v, 2, 2, 2, 2);
     }
 };
-[[nodiscard]] inline M4 toM4(const mat3& m) {
-    return {toF4(m[0]), toF4(m[1]), toF4(m[2])};
-}
 
 /// Of a symmetric matrix that has one.
 [[nodiscard]] inline M4 inverseOfSymmetric(const M4& m) {
@@ -57,4 +46,4 @@ struct M4 {
     return {yz * scale, cross(m.z, m.x) * scale, cross(m.x, m.y) * scale};
 }
 
-}  // namespace lutka::physics
+}  // namespace lutka::simd

@@ -4,9 +4,9 @@
 /// of eight lanes has its first four in the lower half and its last four in the upper one, and no shuffle crosses
 /// halves: such shuffles are cheap, and a register of four lanes is the same code with one half.
 
-#include "animation/wide/lanes.hpp"
+#include "core/simd/lanes.hpp"
 
-namespace lutka::animation::wide::LUTKA_KERNELS {
+namespace lutka::simd::LUTKA_KERNELS {
 
 /// Two elements of `a`, then two of `b`, in either half alike.
 template <int A0, int A1, int B0, int B1>
@@ -100,4 +100,4 @@ LUTKA_LANES void scatterRigid(float* to, const long* offset, const Rigid& t) {
     scatter4(to + 3, offset, t.turn.w, t.at.x, t.at.y, t.at.z);
 }
 
-}  // namespace lutka::animation::wide::LUTKA_KERNELS
+}  // namespace lutka::simd::LUTKA_KERNELS
