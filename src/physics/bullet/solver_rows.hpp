@@ -96,6 +96,12 @@ struct ContactRows {
     float bounceTarget = 0;  ///< Speed of parting that restitution asks for.
 };
 
+/// The impulses of many rows on one body, summed up.
+struct PushSum {
+    F4 linear{};
+    F4 angular{};
+};
+
 /// Turns an angular row's speed into one of a point, metres: about half a limb's length.
 inline constexpr float kResidualArm = 0.1F;
 
@@ -291,6 +297,82 @@ template <class... Bodies>
         solveRolling(contact, rollingArm, bodies...);
     }
     return normal.inverseEffectiveMass > 0.0F ? squareOf(change / normal.inverseEffectiveMass) : 0.0F;
+}
+
+// Warm starting, of any kind of rows: what the kept impulses do to the two bodies, the work that their targets ask of
+// them (target · impulse) and that of their softness (softness · impulse²), and the part of them that is applied.
+
+inline void gather(PushSum& a, PushSum& b, const PointRows& rows) {
+    a.linear -= rows.impulse;
+    a.angular -= cross(rows.armA, rows.impulse);
+    b.linear += rows.impulse;
+    b.angular += cross(rows.armB, rows.impulse);
+}
+inline void gather(PushSum& a, PushSum& b, const TurnFriction& friction) {
+    a.angular -= friction.impulse;
+    b.angular += friction.impulse;
+}
+inline void gather(PushSum& a, PushSum& b, const AngularRow& row) {
+    a.angular -= row.axis * allF4(row.impulse);
+    b.angular += row.axis * allF4(row.impulse);
+}
+inline void gather(PushSum& a, PushSum& b, const GeneralRow& row) {
+    a.linear += row.linearA * allF4(row.impulse);
+    a.angular += row.angularA * allF4(row.impulse);
+    b.linear += row.linearB * allF4(row.impulse);
+    b.angular += row.angularB * allF4(row.impulse);
+}
+inline void gather(PushSum& a, PushSum& b, const ContactRows& contact) {
+    for (const ContactRow* row : {&contact.normal, &contact.tangents[0], &contact.tangents[1]}) {
+        a.linear += row->direction * allF4(row->impulse);
+        a.angular += row->angularA * allF4(row->impulse);
+        b.linear -= row->direction * allF4(row->impulse);
+        b.angular -= row->angularB * allF4(row->impulse);
+    }
+    a.angular += contact.rolling;
+    b.angular -= contact.rolling;
+}
+
+template <class Rows>
+[[nodiscard]] inline float targetWork(const Rows& /*rows*/) {
+    return 0.0F;
+}
+[[nodiscard]] inline float targetWork(const AngularRow& row) {
+    return row.keepTarget * row.impulse;
+}
+[[nodiscard]] inline float targetWork(const GeneralRow& row) {
+    return row.keepTarget * row.impulse;
+}
+[[nodiscard]] inline float targetWork(const ContactRows& contact) {
+    return contact.keepTarget * contact.normal.impulse;
+}
+template <class Rows>
+[[nodiscard]] inline float softnessWork(const Rows& /*rows*/) {
+    return 0.0F;
+}
+[[nodiscard]] inline float softnessWork(const GeneralRow& row) {
+    return row.softness * row.impulse * row.impulse;
+}
+
+inline void applyShare(SolverBody& a, SolverBody& b, PointRows& rows, float share) {
+    rows.impulse *= allF4(share);
+    push(a, b, rows, rows.impulse);
+}
+inline void applyShare(SolverBody& a, SolverBody& b, TurnFriction& friction, float share) {
+    friction.impulse *= allF4(share);
+    a.turn -= a.inverseInertia * friction.impulse;
+    b.turn += b.inverseInertia * friction.impulse;
+}
+template <class Row>  // AngularRow, GeneralRow, ContactRow
+inline void applyShare(SolverBody& a, SolverBody& b, Row& row, float share) {
+    row.impulse *= share;
+    push(a, b, row, row.impulse);
+}
+inline void applyShare(SolverBody& a, SolverBody& b, ContactRows& contact, float share) {
+    for (ContactRow* row : {&contact.normal, &contact.tangents[0], &contact.tangents[1]})
+        applyShare(a, b, *row, share);
+    contact.rolling *= allF4(share);
+    pushRolling(a, b, contact.rolling);
 }
 
 }  // namespace lutka::physics

@@ -172,32 +172,44 @@ void SubstepSolver::takeRows(std::span<Island> islands, float seconds) {
     generals_.clear();
     contacts_.clear();
     for (Island& island : islands) {
-        const std::span bodies = bodiesOf(island);
-        for (std::size_t i = 0; i < bodies.size(); ++i) {
-            if (i + 1 < bodies.size()) fetchAhead(bodies[i + 1].body, sizeof(btRigidBody));
-            takeBody(bodies[i], seconds);
-        }
-        island.firstJoint = static_cast<int>(joints_.size());
-        const std::span links = std::span(links_).subspan(island.firstLink, island.links);
-        for (std::size_t i = 0; i < links.size(); ++i) {
-            const Link& link = links[i];
-            if (i + 1 < links.size()) fetchAhead(links[i + 1].what, sizeof(RagdollJoint));
-            if (link.what->getUserConstraintType() == RagdollJoint::kUserType)
-                takeRagdollJoint(static_cast<RagdollJoint&>(*link.what), link, seconds);
-            else
-                takeConstraint(link, seconds);
-        }
-        island.joints = static_cast<int>(joints_.size()) - island.firstJoint;
-        island.firstContact = static_cast<int>(contacts_.size());
-        const std::span touches = std::span(touches_).subspan(island.firstTouch, island.touches);
-        for (std::size_t k = 0; k < touches.size(); ++k) {
-            const Touch& touch = touches[k];
-            if (k + 1 < touches.size()) fetchAhead(touches[k + 1].what, 2 * sizeof(btManifoldPoint));
-            for (int i = 0; i < touch.what->getNumContacts(); ++i)
-                takeContact(touch.what->getContactPoint(i), touch.a, touch.b, seconds);
-        }
-        island.contacts = static_cast<int>(contacts_.size()) - island.firstContact;
+        takeBodiesOf(island, seconds);
+        takeLinksOf(island, seconds);
+        takeTouchesOf(island, seconds);
     }
+}
+
+void SubstepSolver::takeBodiesOf(const Island& island, float seconds) {
+    const std::span bodies = bodiesOf(island);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (i + 1 < bodies.size()) fetchAhead(bodies[i + 1].body, sizeof(btRigidBody));
+        takeBody(bodies[i], seconds);
+    }
+}
+
+void SubstepSolver::takeLinksOf(Island& island, float seconds) {
+    island.firstJoint = static_cast<int>(joints_.size());
+    const std::span links = std::span(links_).subspan(island.firstLink, island.links);
+    for (std::size_t i = 0; i < links.size(); ++i) {
+        const Link& link = links[i];
+        if (i + 1 < links.size()) fetchAhead(links[i + 1].what, sizeof(RagdollJoint));
+        if (link.what->getUserConstraintType() == RagdollJoint::kUserType)
+            takeRagdollJoint(static_cast<RagdollJoint&>(*link.what), link, seconds);
+        else
+            takeConstraint(link, seconds);
+    }
+    island.joints = static_cast<int>(joints_.size()) - island.firstJoint;
+}
+
+void SubstepSolver::takeTouchesOf(Island& island, float seconds) {
+    island.firstContact = static_cast<int>(contacts_.size());
+    const std::span touches = std::span(touches_).subspan(island.firstTouch, island.touches);
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+        const Touch& touch = touches[k];
+        if (k + 1 < touches.size()) fetchAhead(touches[k + 1].what, 2 * sizeof(btManifoldPoint));
+        for (int i = 0; i < touch.what->getNumContacts(); ++i)
+            takeContact(touch.what->getContactPoint(i), touch.a, touch.b, seconds);
+    }
+    island.contacts = static_cast<int>(contacts_.size()) - island.firstContact;
 }
 
 void SubstepSolver::takeRagdollJoint(RagdollJoint& constraint, const Link& link, float seconds) {
@@ -385,8 +397,8 @@ void SubstepSolver::takeContact(btManifoldPoint& point, int a, int b, float seco
 void SubstepSolver::storeFeedback(const Joint& joint, float seconds) const {
     btJointFeedback* feedback = joint.constraint->getJointFeedback();
     if (feedback == nullptr) return;
-    Push onA;
-    Push onB;
+    PushSum onA;
+    PushSum onB;
     const auto add = [&](const GeneralRow& row) {
         onA.linear += row.linearA * allF4(row.impulse / seconds);
         onA.angular += row.angularA * allF4(row.impulse / seconds);

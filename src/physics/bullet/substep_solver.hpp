@@ -47,11 +47,6 @@ class SubstepSolver {
         RagdollJoint* ragdoll = nullptr;  // the constraint, where it is one of ours
         WarmStarted* warm = nullptr;      // null: all rows keep, from no impulse
     };
-    // What warm starting sums up.
-    struct Push {
-        F4 linear{};
-        F4 angular{};
-    };
     struct Island {
         int firstBody = 0;  // into bodies_
         int bodies = 0;
@@ -98,6 +93,9 @@ class SubstepSolver {
     void sortByIsland(std::vector<T>& all, std::vector<T>& sorted, int Island::*first, int Island::*count);
     void solve(std::span<Island> islands, float seconds);
     void takeRows(std::span<Island> islands, float seconds);
+    void takeBodiesOf(const Island& island, float seconds);
+    void takeLinksOf(Island& island, float seconds);
+    void takeTouchesOf(Island& island, float seconds);
     void takeRagdollJoint(RagdollJoint& constraint, const Link& link, float seconds);
     void takePoint(const RagdollJoint& constraint, const Joint& joint, float rate);
     void takeFriction(const RagdollJoint& constraint, const Joint& joint, float rate);
@@ -107,6 +105,9 @@ class SubstepSolver {
     int askRows(btTypedConstraint& constraint, float seconds);
     void takeContact(btManifoldPoint& point, int a, int b, float seconds);
     void warmStart(std::span<Island> islands);
+    // Visits a joint's rows of every kind.
+    template <class Visit>
+    void forRows(const Joint& joint, const Visit& visit);
     void gatherPushes();
     void applyShares();
     void calm(Island& island, float seconds);
@@ -139,7 +140,7 @@ class SubstepSolver {
     std::vector<AngularRow> angulars_;
     std::vector<GeneralRow> generals_;
     std::vector<ContactRows> contacts_;
-    std::vector<Push> pushes_;      // one a body
+    std::vector<PushSum> pushes_;   // one a body
     std::vector<Island> islands_;   // by SolverBody::island
     std::vector<int> islandOfTag_;  // -1: none yet
     btAlignedObjectArray<btSolverConstraint> scratch_;

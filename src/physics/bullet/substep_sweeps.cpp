@@ -13,12 +13,12 @@ namespace lutka::physics {
 void SubstepSolver::warmStart(std::span<Island> islands) {
     pushes_.resize(bodies_.size());
     for (const Island& island : islands)
-        std::fill_n(pushes_.begin() + island.firstBody, island.bodies, Push{});
+        std::fill_n(pushes_.begin() + island.firstBody, island.bodies, PushSum{});
     gatherPushes();
     for (Island& island : islands) {
         for (int i = island.firstBody; i < island.firstBody + island.bodies; ++i) {
             const SolverBody& body = bodies_[i];
-            const Push& push = pushes_[i];
+            const PushSum& push = pushes_[i];
             island.gain -= dot(push.linear, body.velocity) + dot(push.angular, body.turn);
             island.square += body.inverseMass * dot(push.linear, push.linear) +
                              dot(push.angular, body.inverseInertia * push.angular);
@@ -28,94 +28,37 @@ void SubstepSolver::warmStart(std::span<Island> islands) {
     applyShares();
 }
 
+template <class Visit>
+void SubstepSolver::forRows(const Joint& joint, const Visit& visit) {
+    if (joint.point >= 0) visit(points_[joint.point]);
+    if (joint.friction >= 0) visit(frictions_[joint.friction]);
+    for (int i = 0; i < joint.angulars; ++i)
+        visit(angulars_[joint.firstAngular + i]);
+    for (int i = 0; i < joint.generals; ++i)
+        visit(generals_[joint.firstGeneral + i]);
+}
+
 void SubstepSolver::gatherPushes() {
-    for (const Joint& joint : joints_) {
-        Push& a = pushes_[joint.a];
-        Push& b = pushes_[joint.b];
-        Island& island = islandOfPair(joint.a, joint.b);
-        if (joint.point >= 0) {
-            const PointRows& rows = points_[joint.point];
-            a.linear -= rows.impulse;
-            a.angular -= cross(rows.armA, rows.impulse);
-            b.linear += rows.impulse;
-            b.angular += cross(rows.armB, rows.impulse);
-        }
-        if (joint.friction >= 0) {
-            a.angular -= frictions_[joint.friction].impulse;
-            b.angular += frictions_[joint.friction].impulse;
-        }
-        for (int i = 0; i < joint.angulars; ++i) {
-            const AngularRow& row = angulars_[joint.firstAngular + i];
-            a.angular -= row.axis * allF4(row.impulse);
-            b.angular += row.axis * allF4(row.impulse);
-            island.gain += row.keepTarget * row.impulse;
-        }
-        for (int i = 0; i < joint.generals; ++i) {
-            const GeneralRow& row = generals_[joint.firstGeneral + i];
-            a.linear += row.linearA * allF4(row.impulse);
-            a.angular += row.angularA * allF4(row.impulse);
-            b.linear += row.linearB * allF4(row.impulse);
-            b.angular += row.angularB * allF4(row.impulse);
-            island.gain += row.keepTarget * row.impulse;
-            island.square += row.softness * row.impulse * row.impulse;
-        }
-    }
-    for (const ContactRows& contact : contacts_) {
-        if (contact.normal.impulse <= 0.0F) continue;
-        Push& a = pushes_[contact.a];
-        Push& b = pushes_[contact.b];
-        const auto add = [&](const ContactRow& row) {
-            a.linear += row.direction * allF4(row.impulse);
-            a.angular += row.angularA * allF4(row.impulse);
-            b.linear -= row.direction * allF4(row.impulse);
-            b.angular -= row.angularB * allF4(row.impulse);
-        };
-        add(contact.normal);
-        add(contact.tangents[0]);
-        add(contact.tangents[1]);
-        a.angular += contact.rolling;
-        b.angular -= contact.rolling;
-        islandOfPair(contact.a, contact.b).gain += contact.keepTarget * contact.normal.impulse;
-    }
+    const auto gatherRows = [this](int a, int b, const auto& rows) {
+        Island& island = islandOfPair(a, b);
+        gather(pushes_[a], pushes_[b], rows);
+        island.gain += targetWork(rows);
+        island.square += softnessWork(rows);
+    };
+    for (const Joint& joint : joints_)
+        forRows(joint, [&](const auto& rows) { gatherRows(joint.a, joint.b, rows); });
+    for (const ContactRows& contact : contacts_)
+        if (contact.normal.impulse > 0.0F) gatherRows(contact.a, contact.b, contact);
 }
 
 void SubstepSolver::applyShares() {
-    for (const Joint& joint : joints_) {
-        SolverBody& a = bodies_[joint.a];
-        SolverBody& b = bodies_[joint.b];
-        const float share = islandOfPair(joint.a, joint.b).share;
-        if (joint.point >= 0) {
-            PointRows& rows = points_[joint.point];
-            rows.impulse *= allF4(share);
-            push(a, b, rows, rows.impulse);
-        }
-        if (joint.friction >= 0) {
-            F4& impulse = frictions_[joint.friction].impulse;
-            impulse *= allF4(share);
-            a.turn -= a.inverseInertia * impulse;
-            b.turn += b.inverseInertia * impulse;
-        }
-        for (int i = 0; i < joint.angulars; ++i) {
-            AngularRow& row = angulars_[joint.firstAngular + i];
-            row.impulse *= share;
-            push(a, b, row, row.impulse);
-        }
-        for (int i = 0; i < joint.generals; ++i) {
-            GeneralRow& row = generals_[joint.firstGeneral + i];
-            row.impulse *= share;
-            push(a, b, row, row.impulse);
-        }
-    }
-    for (ContactRows& contact : contacts_) {
-        if (contact.normal.impulse <= 0.0F) continue;
-        const float share = islandOfPair(contact.a, contact.b).share;
-        for (ContactRow* row : {&contact.normal, &contact.tangents[0], &contact.tangents[1]}) {
-            row->impulse *= share;
-            push(bodies_[contact.a], bodies_[contact.b], *row, row->impulse);
-        }
-        contact.rolling *= allF4(share);
-        pushRolling(bodies_[contact.a], bodies_[contact.b], contact.rolling);
-    }
+    const auto applyRows = [this](int a, int b, auto& rows) {
+        applyShare(bodies_[a], bodies_[b], rows, islandOfPair(a, b).share);
+    };
+    for (const Joint& joint : joints_)
+        forRows(joint, [&](auto& rows) { applyRows(joint.a, joint.b, rows); });
+    for (ContactRows& contact : contacts_)
+        if (contact.normal.impulse > 0.0F) applyRows(contact.a, contact.b, contact);
 }
 
 float SubstepSolver::solveJoint(const Joint& joint, bool mending) {
