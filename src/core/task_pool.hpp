@@ -19,7 +19,8 @@ class TaskPool {
     [[nodiscard]] int threads() const;
 
     /// Calls body(begin, end) over [0, count) in pieces of at least `grain` items and returns when all are done.
-    /// With one thread it is a plain call of body(0, count).
+    /// With one thread it is a plain call of body(0, count). An exception of a piece reaches the caller once no piece
+    /// runs any more; pieces that had not begun may be left out. The pool can be used again.
     void parallelFor(std::size_t count, std::size_t grain,
                      const std::function<void(std::size_t begin, std::size_t end)>& body) const;
 

@@ -13,7 +13,6 @@ namespace {
 
 constexpr float kLargest = 1e6F;  // of any length, mass or speed; beyond it floats in a simulation mean nothing
 constexpr float kSmallest = 1e-4F;
-constexpr std::size_t kMostEntities = 20000;
 constexpr std::uint64_t kLargestSeed = INT64_MAX;  // what every JSON reader of ours takes
 constexpr int kMostGenerations = 64;
 constexpr std::size_t kLongestName = 200;  // bytes
@@ -89,7 +88,7 @@ class Checker {
     }
 
     void checkHierarchy() {
-        if (scene_.entities.size() > kMostEntities) {
+        if (std::ssize(scene_.entities) > kMostEntities) {
             say("/entities",
                 fmt::format("expected at most {} entities, got {}", kMostEntities, scene_.entities.size()));
             return;

@@ -234,6 +234,9 @@ bool reparentEntity(EntityScene& scene, EntityId id, EntityId parent);
 /// Places an entity in the world, whatever it hangs on; gives it a Transform when it has none.
 void placeEntity(EntityScene& scene, EntityId id, const RigidTransform& worldFromEntity);
 
+/// Entities in a scene at most.
+inline constexpr int kMostEntities = 20000;
+
 /// What is wrong with a scene as a whole or in a value's range, one sentence a problem, each with the JSON pointer of
 /// its place in a file; empty: sound. Files that characters name are not looked at.
 [[nodiscard]] std::vector<std::string> validate(const EntityScene& scene);

@@ -9,7 +9,6 @@ namespace lutka::scene::scene_format {
 inline constexpr const char* kName = "lutka.scene";
 inline constexpr const char* kSchema = "scene.schema.json";
 inline constexpr const char* kExtension = ".scene.json";
-inline constexpr int kMostEntities = 20000;
 inline constexpr int kMostFigures = 10000;
 
 /// A word of the format and what it stands for.

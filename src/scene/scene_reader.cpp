@@ -324,7 +324,7 @@ Result<EntityScene> sceneFromJson(std::string_view text, std::string_view source
     take(root, "name", scene.name);
     if (root.has("simulation")) readSimulation(root["simulation"], scene.simulation);
     const JsonCursor entities = root["entities"];
-    if (root.has("entities") && entities.expectArray(0, scene_format::kMostEntities)) {
+    if (root.has("entities") && entities.expectArray(0, kMostEntities)) {
         for (std::size_t i = 0; i < entities.size(); ++i)
             readEntity(entities[i], i, folder, scene);
     }

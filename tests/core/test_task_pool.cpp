@@ -1,5 +1,6 @@
 #include <atomic>
 #include <numeric>
+#include <stdexcept>
 #include <vector>
 
 #include "core/task_pool.hpp"
@@ -24,4 +25,30 @@ TEST_CASE("parallelFor with nothing to do calls nothing") {
     std::atomic<int> calls = 0;
     TaskPool(2).parallelFor(0, 1, [&](std::size_t, std::size_t) { ++calls; });
     CHECK(calls == 0);
+}
+
+TEST_CASE("an exception in a piece of work reaches the caller once nothing runs, and the pool works on") {
+    for (const int threads : {1, 2, 5}) {
+        const TaskPool pool(threads);
+        for (int round = 0; round < 20; ++round) {
+            std::atomic<int> running = 0;
+            const auto failing = [&](std::size_t begin, std::size_t end) {
+                ++running;
+                const bool fails = begin <= 500 && 500 < end;
+                --running;
+                if (fails) throw std::runtime_error("piece with 500");
+            };
+            CHECK_THROWS_WITH(pool.parallelFor(1000, 7, failing), "piece with 500");
+            CHECK(running == 0);
+        }
+        std::atomic<std::size_t> visited = 0;
+        pool.parallelFor(1000, 7, [&](std::size_t begin, std::size_t end) { visited += end - begin; });
+        CHECK(visited == 1000);
+    }
+}
+
+TEST_CASE("when every piece throws, one exception arrives") {
+    const TaskPool pool(3);
+    CHECK_THROWS_AS(pool.parallelFor(100, 1, [](std::size_t, std::size_t) { throw std::logic_error("each"); }),
+                    std::logic_error);
 }

@@ -1,0 +1,53 @@
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "support/catch.hpp"
+#include "support/command.hpp"
+
+using namespace lutka::test;
+using Json = nlohmann::json;
+
+// Runs at the limits that the options and docs/scene.md name, and one beyond each.
+namespace {
+
+const std::string kLutka = "'" LUTKA_BINARY "' ";
+
+// A field of boxes that stand still, `count` of them.
+Json fieldOfBoxes(int count) {
+    Json entities = Json::array();
+    for (int i = 0; i < count; ++i) {
+        entities.push_back({{"id", i + 1},
+                            {"name", "box " + std::to_string(i)},
+                            {"transform", {{"translation", {i % 200, 0.5, i / 200}}}},
+                            {"collider", {{"kind", "box"}, {"halfExtents", {0.2, 0.2, 0.2}}}}});
+    }
+    return {{"format", "lutka.scene"}, {"version", 1}, {"entities", entities}};
+}
+
+}  // namespace
+
+TEST_CASE("as many dolls as --count allows fall and stay finite; one more is wrong usage") {
+    const CommandResult most =
+        runCommand(kLutka + "simulate " + kMannequinArgument + " --scene spread --count 10000 --seconds 0.05 --json");
+    REQUIRE(most.code == 0);
+    const Json report = Json::parse(most.out);
+    CHECK(report["count"] == 10000);
+    CHECK(report["quality"]["nonFinite"] == false);
+    CHECK(report["quality"]["jointSeparationM"]["max"].get<double>() < 1e-3);
+    const CommandResult more = runCommand(kLutka + "simulate " + kMannequinArgument + " --scene spread --count 10001");
+    CHECK(more.code == 2);
+    CHECK_THAT(more.err, Catch::Contains("--count") && Catch::Contains("10000"));
+}
+
+TEST_CASE("a scene of as many entities as a file may have is checked and run; one more is refused by number") {
+    const ScratchFolder folder;
+    const auto file = folder / "field.scene.json";
+    std::ofstream(file) << fieldOfBoxes(20000).dump();
+    const CommandResult most = runCommand(kLutka + "scene '" + file + "' --json");
+    CHECK(most.code == 0);
+    CHECK(Json::parse(most.out)["entities"].size() == 20000);
+    std::ofstream(file) << fieldOfBoxes(20001).dump();
+    const CommandResult more = runCommand(kLutka + "scene '" + file + "'");
+    CHECK(more.code == 3);
+    CHECK_THAT(more.err, Catch::Contains("20000"));
+}
