@@ -235,6 +235,11 @@ void BulletWorld::advance(float dt, const std::function<void()>& afterSubstep) {
     stepMs_ = 0.0;
     for (int i = 0; i < substeps; ++i) {
         const auto start = Clock::now();
+        const float remaining = dt * static_cast<float>(substeps - i) / static_cast<float>(substeps);
+        for (MotorConstraint* motor : motors_)
+            motor->setRemaining(remaining);
+        for (const PulledBody& drag : drags_)
+            drag.constraint->setRemaining(remaining);
         substep(dt / static_cast<float>(substeps));
         stepMs_ += std::chrono::duration<double, std::milli>(Clock::now() - start).count();
         if (afterSubstep) afterSubstep();

@@ -31,9 +31,11 @@ void DragConstraint::getInfo1(btConstraintInfo1* info) {
 
 void DragConstraint::getInfo2(btConstraintInfo2* info) {
     const vec3 r = arm();
-    const vec3 gap = drag_.worldTarget - fromBullet(m_rbA.getWorldTransform().getOrigin()) - r;
+    const vec3 gap =
+        drag_.worldTarget - drag_.worldVelocity * remaining_ - fromBullet(m_rbA.getWorldTransform().getOrigin()) - r;
     const float distance = glm::length(gap);
-    const vec3 target = gap * std::min(1.0F / kSeconds, distance > 0.0F ? kMaxSpeed / distance : 0.0F);
+    const vec3 target =
+        drag_.worldVelocity + gap * std::min(1.0F / kSeconds, distance > 0.0F ? kMaxSpeed / distance : 0.0F);
     // The bound holds for the whole force, so each axis gets its share.
     const float perAxis = drag_.maxForceN / (std::sqrt(3.0F) * info->fps);
     for (int i = 0; i < 3; ++i) {

@@ -15,6 +15,8 @@ class DragConstraint final : public ForceConstraint {
     DragConstraint(btRigidBody& body, const Drag& drag);
 
     void setTarget(const Drag& drag) { drag_ = drag; }
+    /// Seconds from the coming substep's start to the step's end, when the target is where the drag says.
+    void setRemaining(float seconds) { remaining_ = seconds; }
     [[nodiscard]] const Drag& drag() const { return drag_; }
 
     void getInfo1(btConstraintInfo1* info) override;
@@ -29,6 +31,7 @@ class DragConstraint final : public ForceConstraint {
     [[nodiscard]] vec3 arm() const;
 
     Drag drag_;
+    float remaining_ = 0;
     btJointFeedback feedback_{};
 };
 

@@ -16,7 +16,6 @@ void MotorConstraint::prepare(float seconds) {
     const MotorError found = motorError(profile_, motor_, fromBullet(m_rbA.getWorldTransform()).rotation,
                                         fromBullet(m_rbB.getWorldTransform()).rotation);
     axes_ = found.axes;
-    error_ = found.error;
     rows_ = found.count;
     const float firmness = motor_.damping + seconds * motor_.stiffness;
     if (firmness <= 0.0F) {
@@ -24,7 +23,8 @@ void MotorConstraint::prepare(float seconds) {
         return;
     }
     softness_ = 1.0F / (seconds * firmness);
-    rate_ = motor_.stiffness / firmness;
+    const vec3 rate = rows_ == 1 ? vec3(motor_.rate.z, 0, 0) : motor_.rate;
+    wanted_ = rate - motor_.stiffness / firmness * (found.error + rate * remaining_);
 }
 
 void MotorConstraint::getInfo1(btConstraintInfo1* info) {
@@ -42,7 +42,7 @@ void MotorConstraint::getInfo2(btConstraintInfo2* info) {
             info->m_J1angularAxis[at + k] = -axes_[i][k];
             info->m_J2angularAxis[at + k] = axes_[i][k];
         }
-        info->m_constraintError[at] = -rate_ * error_[i];
+        info->m_constraintError[at] = wanted_[i];
         info->m_lowerLimit[at] = -motor_.maxTorqueNm / info->fps;
         info->m_upperLimit[at] = motor_.maxTorqueNm / info->fps;
     }
@@ -56,7 +56,7 @@ void MotorConstraint::applyAsTorque(float seconds) {
     const float bound = motor_.maxTorqueNm * seconds;
     vec3 torque(0);
     for (int i = 0; i < rows_; ++i) {
-        const float missing = -rate_ * error_[i] - glm::dot(relativeTurn(), axes_[i]);
+        const float missing = wanted_[i] - glm::dot(relativeTurn(), axes_[i]);
         const float mass = glm::dot(axes_[i], inertia * axes_[i]) + softness_;
         impulses_[i] = std::clamp(missing / mass, -bound, bound);
         torque += axes_[i] * (impulses_[i] / seconds);

@@ -8,8 +8,9 @@
 namespace lutka::physics {
 
 /// The spring of a JointMotor as soft rows: with stiffness k, damping d and a substep h, the row
-///     J v + γ impulse = -k / (d + h k) · error,   γ = 1 / (h (d + h k))
-/// is the spring taken at the end of the substep (implicit Euler; Catto, Soft Constraints, GDC 2011).
+///     J (v - rate) + γ impulse = -k / (d + h k) · error,   γ = 1 / (h (d + h k))
+/// is the spring taken at the end of the substep (implicit Euler; Catto, Soft Constraints, GDC 2011). The error is that
+/// from where the target is at the substep's start.
 class MotorConstraint final : public ForceConstraint {
   public:
     /// `profile` must outlive the constraint.
@@ -17,6 +18,9 @@ class MotorConstraint final : public ForceConstraint {
 
     void set(const JointMotor& motor) { motor_ = motor; }
     [[nodiscard]] const JointMotor& motor() const { return motor_; }
+
+    /// Seconds from the coming substep's start to the step's end, when the target is where the motor says.
+    void setRemaining(float seconds) { remaining_ = seconds; }
 
     void getInfo1(btConstraintInfo1* info) override;
     void getInfo2(btConstraintInfo2* info) override;
@@ -40,9 +44,9 @@ class MotorConstraint final : public ForceConstraint {
     JointMotor motor_;
     int rows_ = 0;
     std::array<vec3, 3> axes_{};  // world
-    vec3 error_{0, 0, 0};         // radians about each axis: how far the child is ahead of the target
+    vec3 wanted_{0, 0, 0};        // rad/s about each axis: the target's rate and what brings the child to it
     float softness_ = 0;
-    float rate_ = 0;  // 1/s
+    float remaining_ = 0;
 };
 
 }  // namespace lutka::physics

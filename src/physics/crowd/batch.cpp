@@ -49,6 +49,7 @@ BatchView Batch::view(const Topology& topology) {
             contacts.data(),
             static_cast<int>(drags.size()),
             drags.data(),
+            motors.empty() ? nullptr : motors.data(),
             &rest};
 }
 

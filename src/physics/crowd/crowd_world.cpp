@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 
 #include "core/assert.hpp"
-#include "physics/crowd/coupling.hpp"
 #include "physics/crowd/detect.hpp"
 #include "physics/crowd/jobs.hpp"
+#include "physics/crowd/motor.hpp"
 #include "physics/crowd/reports.hpp"
 #include "physics/crowd/sleep.hpp"
 #include "physics/crowd/solve.hpp"

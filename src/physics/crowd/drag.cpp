@@ -34,6 +34,7 @@ void placeDrags(CrowdState& state, float dt) {
         lanes.body = record.drag.body;
         writeVector(lanes.localPoint, doll.lane, record.drag.bodyPoint);
         writeVector(lanes.target, doll.lane, record.drag.worldTarget);
+        writeVector(lanes.rate, doll.lane, record.drag.worldVelocity);
         const float mass = massOf(state.groupOf(doll).topology);
         const float answer = dt * omega * (dt * omega + 2.0F * kDamping);
         lanes.weight.lane[doll.lane] = mass * answer;

@@ -16,7 +16,10 @@ LUTKA_LANES void beginDrag(DragLanes& drag, const BatchView& batch, const Subste
     const F zero = all(0.0F);
     const V3 core = axesOf(body) * load(drag.localPoint);
     aimDrag(drag, body, params);
-    store(drag.bias, (load(body.position) + core - load(drag.target)) * load(drag.pull));
+    // The target moves back from where it will be at the step's end.
+    const V3 rate = load(drag.rate);
+    const V3 ahead = load(body.position) + core - load(drag.target) + rate * all(params.remaining);
+    store(drag.bias, ahead * load(drag.pull) - rate);
     store(drag.impulse, {zero, zero, zero});
 }
 

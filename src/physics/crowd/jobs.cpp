@@ -160,7 +160,6 @@ void assignBatches(CrowdState& state) {
             fresh.topologies.clear();
             fresh.touches.clear();
             fresh.drags.clear();
-            fresh.motors.clear();
             fresh.forces.clear();
         }
         Job& job = state.jobs[jobOf[root]];
@@ -182,8 +181,6 @@ void makeJobs(CrowdState& state) {
         state.jobs[state.batchOf(doll).job].drags.push_back(&record);
     }
     const auto jobOf = [&](int doll) -> Job& { return state.jobs[state.batchOf(state.dolls[doll]).job]; };
-    for (MotorRecord& record : state.motors)
-        if (!state.dolls[record.doll].asleep()) jobOf(record.doll).motors.push_back(&record);
     for (const ForceRecord& record : state.forces)
         jobOf(record.doll).forces.push_back(&record);
     Packer packer(state);

@@ -170,7 +170,8 @@ struct StaticContactLanes {
 /// A pull on a point of a body towards a place, in the lane of one doll: a damped spring whose force is bounded.
 struct DragLanes {
     Wide3 localPoint;
-    Wide3 target;   ///< World space.
+    Wide3 target;   ///< World space, at the step's end.
+    Wide3 rate;     ///< m/s: how it moves.
     Wide weight;    ///< N s per m/s: what spring and damper answer a speed with in a substep; 0: nothing pulls here.
     Wide pull;      ///< 1/s: speed towards the target over the distance from it.
     Wide bound;     ///< N s a substep.
@@ -179,6 +180,22 @@ struct DragLanes {
     Wide3 impulse;  ///< N s, of this substep.
     Wide gain;      ///< `weight` while the force is within its bound, else 0; kept between substeps.
     int body;
+};
+
+/// A motor in a joint: a damped spring towards a turning target, whose torque is bounded. Rotations are those of the
+/// child's frame in the parent's; axes are the parent frame's unless said otherwise.
+struct MotorLanes {
+    Wide4 target;   ///< Where the target is at the end of the step.
+    Wide3 rate;     ///< rad/s: how it turns.
+    Wide weight;    ///< N m s per rad/s: what spring and damper answer a speed with in a substep; 0: no motor here.
+    Wide pull;      ///< 1/s: speed towards the target over the angle from it.
+    Wide bound;     ///< N m s a substep.
+    Wide3 bias;     ///< rad/s, world: the speed that the spring wants less of.
+    Wide3 before;   ///< rad/s, world: how the joint turned at the substep's start.
+    Wide3 impulse;  ///< N m s, world, on the child, of this substep.
+    Wide work;      ///< J, of this substep.
+    Wide gain;      ///< `weight` while the torque is within its bound, else 0; kept between substeps.
+    int active;     ///< Whether any lane has one.
 };
 
 /// Eight contacts between two bodies each, of any dolls; no body comes twice, so that they are solved at once.
@@ -245,6 +262,7 @@ struct SubstepParams : SubstepTuning {
     float jointRate;       ///< 1/s: the speed over the error that it is mended with.
     float limitRate;       ///< Likewise.
     float contactRate;     ///< Likewise.
+    float remaining;       ///< Seconds from the substep's start to the step's end.
     int warmStart;         ///< The first substep of a step makes the carried friction impulses its own.
 };
 
@@ -268,6 +286,7 @@ struct BatchView {
     StaticContactLanes* contacts;
     int dragCount;
     DragLanes* drags;
+    MotorLanes* motors;  ///< One a joint, or null where no doll of the batch has any.
     const RestLanes* rest;
 };
 

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "physics/crowd/coupling.hpp"
 #include "physics/crowd/detect.hpp"
 #include "physics/crowd/drag.hpp"
+#include "physics/crowd/force.hpp"
+#include "physics/crowd/motor.hpp"
 #include "physics/crowd/reports.hpp"
 #include "physics/crowd/static_contacts.hpp"
 
@@ -90,14 +91,9 @@ class JobSubstep {
         const int pairs = static_cast<int>(job_.pairs.size());
         kernels.solvePairs(job_.pairs.data(), pairs, params_);
         kernels.carryPairs(job_.pairs.data(), pairs);
-        for (MotorRecord* motor : job_.motors)
-            job_.motorWork += beginMotor(state_, *motor, params_.dt);
         forBatches([&](const BatchView& view) { kernels.solve(view, params_, 1); });
-        if (!job_.motors.empty()) {
-            for (MotorRecord* motor : job_.motors)
-                job_.motorWork += solveMotor(state_, *motor);
-            forBatches([&](const BatchView& view) { kernels.solve(view, params_, 0); });
-        }
+        for (const Batch* batch : job_.batches)
+            job_.motorWork += workOfMotors(*batch);
         for (DragRecord* drag : job_.drags)
             job_.dragWork += endDrag(state_, *drag);
         if (mends_) {
@@ -162,6 +158,7 @@ void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSu
     SubstepParams others = first;
     first.warmStart = 1;
     placeDrags(state, first.dt);
+    placeMotors(state, first.dt);
     for (std::size_t i = 0; i < state.jobCount; ++i)
         state.jobs[i].dragWork = state.jobs[i].motorWork = 0.0;
     // In the order of the jobs, so that the sum is the same at every thread count.
@@ -174,10 +171,11 @@ void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSu
         }
     };
     const auto substep = [&](Job& job, int index) {
-        if (index > 0 && index % kRefresh == 0)
-            refreshStatics(state, job, dt * static_cast<float>(substeps - index) / static_cast<float>(substeps));
+        SubstepParams params = index == 0 ? first : others;
+        params.remaining = dt * static_cast<float>(substeps - index) / static_cast<float>(substeps);
+        if (index > 0 && index % kRefresh == 0) refreshStatics(state, job, params.remaining);
         const bool mends = (substeps - 1 - index) % state.tuning.mendEvery == 0;
-        JobSubstep(state, job, index == 0 ? first : others, mends).run();
+        JobSubstep(state, job, params, mends).run();
     };
     if (afterSubstep) {
         for (int i = 0; i < substeps; ++i) {
@@ -192,6 +190,7 @@ void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSu
         });
     }
     takeDragWork();
+    keepMotors(state);
 }
 
 void keepImpulses(CrowdState& state) {

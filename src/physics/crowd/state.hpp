@@ -104,18 +104,12 @@ struct DragRecord {
     vec3 before{0, 0, 0};   ///< m/s, of the point at the substep's start.
 };
 
-/// A motor in a joint of a doll that is no prop: what it carries and what a substep prepares.
+/// A motor in a joint of a doll that is no prop.
 struct MotorRecord {
     int doll = 0;  ///< Into CrowdState::dolls.
     int constraint = 0;
     JointMotor motor;
-    int rows = 0;
-    std::array<vec3, 3> axes{};
-    vec3 impulse{0, 0, 0};  ///< N m s of a substep, one a row.
-    vec3 target{0, 0, 0};   ///< rad/s
-    vec3 mass{0, 0, 0};
-    float softness = 0.0F;
-    float bound = 0.0F;
+    bool bounded = false;  ///< Whether its torque reached the bound at the end of the last step.
 };
 
 /// A force that acts throughout a step.
@@ -143,7 +137,6 @@ struct Job {
     std::vector<PairContactLanes> pairs;
     std::vector<std::array<int, kLanes>> touchOfLane;  ///< One a pair block; -1 where a lane is empty.
     std::vector<DragRecord*> drags;
-    std::vector<MotorRecord*> motors;
     std::vector<const ForceRecord*> forces;
     double dragWork = 0.0;
     double motorWork = 0.0;         ///< And of forces.

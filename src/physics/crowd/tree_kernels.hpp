@@ -22,6 +22,7 @@
 /// down, is done while its numbers are at hand.
 
 #include "physics/crowd/drag_kernels.hpp"
+#include "physics/crowd/motor_kernels.hpp"
 
 namespace lutka::physics::crowd::LUTKA_KERNELS {
 
@@ -77,7 +78,9 @@ LUTKA_LANES void eliminate(const BatchView& batch, int index, const SubstepParam
     const Loaded loaded = loadBody(batch, constants.child, constants.childGathers != 0, params, pass, fresh);
     const V3 parentAngular = load(parent.steadyAngular);
     const V3 childAngular = load(child.steadyAngular);
-    const JointTerms terms = askJoint(joint, constants, childAngular - parentAngular, pass);
+    JointTerms terms = askJoint(joint, constants, childAngular - parentAngular, pass);
+    if (batch.motors != nullptr && batch.motors[index].active != 0)
+        askMotor(batch.motors[index], joint, constants, childAngular - parentAngular, pass, terms);
     const V3 parentArm = load(joint.parentArm);
     const V3 childArm = load(joint.childArm);
     V3 r = (load(parent.steadyVelocity) + cross(parentAngular, parentArm)) -
@@ -161,9 +164,11 @@ LUTKA_LANES Mask substitute(const BatchView& batch, int index, const SubstepPara
     const V3 turn = load(eliminated.freeTurn) - transposed(load(eliminated.fromLinear), anchor) +
                     load(eliminated.fromAngular) * parentTurn;
     const V3 velocity = anchor + load(eliminated.anchorChange) - cross(turn, load(joint.childArm));
-    const Mask wrong = moveBody(batch, constants.child, {velocity, turn}, params, pass);
+    Mask wrong = moveBody(batch, constants.child, {velocity, turn}, params, pass);
     const V3 relative =
         load(batch.bodies[constants.child].steadyAngular) - load(batch.bodies[constants.parent].steadyAngular);
+    if (!pass.mending && batch.motors != nullptr && batch.motors[index].active != 0)
+        wrong |= updateMotor(batch.motors[index], joint, constants, relative, pass);
     return wrong | updateJoint(joint, constants, relative, params, pass);
 }
 

@@ -35,8 +35,9 @@ bool World::areSound(std::string_view call, const RagdollProfile& profile, std::
 }
 
 bool World::isSound(std::string_view call, const std::optional<JointMotor>& motor) const {
-    if (!motor || (isFinite(motor->target) && std::isfinite(motor->angle) && isAtLeastZero(motor->stiffness) &&
-                   isAtLeastZero(motor->damping) && isAtLeastZero(motor->maxTorqueNm)))
+    if (!motor ||
+        (isFinite(motor->target) && std::isfinite(motor->angle) && isFinite(motor->rate) &&
+         isAtLeastZero(motor->stiffness) && isAtLeastZero(motor->damping) && isAtLeastZero(motor->maxTorqueNm)))
         return true;
     refuse(call, "a number of the motor is not finite or below 0");
     return false;
@@ -227,8 +228,10 @@ void World::setPropFilter(PropId prop, const CollisionFilter& filter) {
 int World::checkedDoll(std::string_view call, const Drag& drag) const {
     const int doll = checked(call, drag.doll);
     if (doll < 0 || !hasBody(call, doll, drag.body)) return -1;
-    if (isFinite(drag.bodyPoint) && isFinite(drag.worldTarget) && isAtLeastZero(drag.maxForceN)) return doll;
-    refuse(call, "a point is not finite or the force not at least 0");
+    if (isFinite(drag.bodyPoint) && isFinite(drag.worldTarget) && isFinite(drag.worldVelocity) &&
+        isAtLeastZero(drag.maxForceN))
+        return doll;
+    refuse(call, "a point or velocity is not finite or the force not at least 0");
     return -1;
 }
 

@@ -15,13 +15,16 @@
 namespace lutka::physics {
 
 /// A spring with a damper and a bound in a joint, solved implicitly, so that no stiffness is too much for it. It pulls
-/// towards a pose ("hold this", powered ragdolls); without stiffness it only brakes. Limits stay what they are.
+/// towards a pose ("hold this", powered ragdolls); without stiffness it only brakes. Limits stay what they are. A
+/// target that moves has a rate: spring and damper act on the differences from both, so that a pose in motion is
+/// followed without lag.
 struct JointMotor {
-    quat target{1, 0, 0, 0};     ///< Cone-twist: the rotation of the child's frame in the parent's.
-    float angle = 0.0F;          ///< Hinge: radians about frame z.
+    quat target{1, 0, 0, 0};     ///< Cone-twist: the rotation of the child's frame in the parent's, at the step's end.
+    float angle = 0.0F;          ///< Hinge: radians about frame z, at the step's end.
     float stiffness = 0.0F;      ///< N m / rad, >= 0.
     float damping = 0.0F;        ///< N m s / rad, >= 0.
     float maxTorqueNm = 100.0F;  ///< >= 0, about each axis.
+    vec3 rate{0, 0, 0};          ///< rad/s, in the parent's frame: how the target turns in the step. Hinge: z alone.
 };
 
 /// All that a doll takes along when it is placed anew or moves to another world, but for its drags.
@@ -37,9 +40,10 @@ struct DollState {
 struct Drag {
     DollId doll;
     int body = -1;
-    vec3 bodyPoint{0, 0, 0};  ///< In body space.
-    vec3 worldTarget{0, 0, 0};
-    float maxForceN = 1500.0F;  ///< >= 0.
+    vec3 bodyPoint{0, 0, 0};      ///< In body space.
+    vec3 worldTarget{0, 0, 0};    ///< At the step's end.
+    float maxForceN = 1500.0F;    ///< >= 0.
+    vec3 worldVelocity{0, 0, 0};  ///< m/s: how the target moves in the step, so that a moving one is met without lag.
     friend bool operator==(const Drag&, const Drag&) = default;
 };
 

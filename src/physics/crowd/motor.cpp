@@ -1,0 +1,80 @@
+#include "physics/crowd/motor.hpp"
+
+#include <algorithm>
+#include <glm/gtc/quaternion.hpp>
+#include <tuple>
+
+namespace lutka::physics::crowd {
+namespace {
+
+bool before(const MotorRecord& record, std::pair<int, int> wanted) {
+    return std::pair(record.doll, record.constraint) < wanted;
+}
+
+void writeLanes(MotorLanes& lanes, int lane, const MotorRecord& record, bool isHinge, float dt) {
+    const JointMotor& motor = record.motor;
+    const float firmness = motor.damping + dt * motor.stiffness;
+    if (firmness <= 0.0F || motor.maxTorqueNm <= 0.0F) return;
+    const quat target = isHinge ? glm::angleAxis(motor.angle, vec3(0, 0, 1)) : glm::normalize(motor.target);
+    lanes.active = 1;
+    lanes.target.x.lane[lane] = target.x;
+    lanes.target.y.lane[lane] = target.y;
+    lanes.target.z.lane[lane] = target.z;
+    lanes.target.w.lane[lane] = target.w;
+    writeVector(lanes.rate, lane, isHinge ? vec3(0, 0, motor.rate.z) : motor.rate);
+    lanes.weight.lane[lane] = dt * firmness;
+    lanes.pull.lane[lane] = motor.stiffness / firmness;
+    lanes.bound.lane[lane] = motor.maxTorqueNm * dt;
+    lanes.gain.lane[lane] = record.bounded ? 0.0F : lanes.weight.lane[lane];
+}
+
+}  // namespace
+
+void placeMotors(CrowdState& state, float dt) {
+    for (Batch* batch : state.active)
+        batch->motors.clear();
+    for (const MotorRecord& record : state.motors) {
+        const Doll& doll = state.dolls[record.doll];
+        if (doll.asleep()) continue;
+        Batch& batch = state.batchOf(doll);
+        if (batch.motors.empty()) batch.motors.resize(batch.joints.size());  // of zeros
+        const bool isHinge = state.groupOf(doll).topology.joints[record.constraint].isHinge != 0;
+        writeLanes(batch.motors[record.constraint], doll.lane, record, isHinge, dt);
+    }
+}
+
+double workOfMotors(const Batch& batch) {
+    double work = 0.0;
+    for (const MotorLanes& motor : batch.motors)
+        for (int lane = 0; motor.active != 0 && lane < batch.used; ++lane)
+            work += static_cast<double>(motor.work.lane[lane]);
+    return work;
+}
+
+void keepMotors(CrowdState& state) {
+    for (MotorRecord& record : state.motors) {
+        const Doll& doll = state.dolls[record.doll];
+        if (doll.asleep()) continue;
+        const MotorLanes& lanes = state.batchOf(doll).motors[record.constraint];
+        record.bounded = lanes.weight.lane[doll.lane] > 0.0F && lanes.gain.lane[doll.lane] == 0.0F;
+    }
+}
+
+const MotorRecord* findMotor(const CrowdState& state, int doll, int constraint) {
+    const auto at = std::lower_bound(state.motors.begin(), state.motors.end(), std::pair(doll, constraint), before);
+    const bool found = at != state.motors.end() && at->doll == doll && at->constraint == constraint;
+    return found ? &*at : nullptr;
+}
+
+void setMotor(CrowdState& state, int doll, int constraint, const std::optional<JointMotor>& motor) {
+    auto at = std::lower_bound(state.motors.begin(), state.motors.end(), std::pair(doll, constraint), before);
+    const bool known = at != state.motors.end() && at->doll == doll && at->constraint == constraint;
+    if (!motor) {
+        if (known) state.motors.erase(at);
+        return;
+    }
+    if (!known) at = state.motors.insert(at, MotorRecord{doll, constraint, {}, false});
+    at->motor = *motor;
+}
+
+}  // namespace lutka::physics::crowd

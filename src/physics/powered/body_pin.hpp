@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+
+#include "physics/world/world.hpp"
+
+namespace lutka::physics {
+
+/// Holds a body of a doll to a frame in motion, position and orientation, by three pulls at points around its centre.
+/// What it adds from outside is counted in World::dragWork(). The world must outlive it.
+class BodyPin {
+  public:
+    /// `maxForceN` >= 0, of all pulls together. Refused calls leave it without effect.
+    BodyPin(World& world, DollId doll, int body, float maxForceN);
+    ~BodyPin();
+    BodyPin(const BodyPin&) = delete;
+    BodyPin& operator=(const BodyPin&) = delete;
+    BodyPin(BodyPin&& other) noexcept;
+    BodyPin& operator=(BodyPin&&) = delete;
+
+    /// For the coming step of `dt` > 0 s, in which the frame moves from `from` to `to` (world).
+    void follow(const RigidTransform& from, const RigidTransform& to, float dt);
+
+  private:
+    World* world_;
+    Drag drag_;
+    std::array<DragId, 3> ids_;
+};
+
+}  // namespace lutka::physics

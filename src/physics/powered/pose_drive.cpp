@@ -1,0 +1,133 @@
+#include "physics/powered/pose_drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace lutka::physics {
+namespace {
+
+constexpr float kUnboundedNm = 1e9F;
+constexpr float kAdultM = 1.75F;
+
+// The child's frame in the parent's.
+quat relativeOf(const ConstraintProfile& constraint, std::span<const RigidTransform> bodies) {
+    const quat parent = bodies[constraint.parent].rotation * constraint.parentFromFrame.rotation;
+    return glm::conjugate(parent) * (bodies[constraint.child].rotation * constraint.childFromFrame.rotation);
+}
+
+vec3 anchorOf(const ConstraintProfile& constraint, std::span<const BodyState> bodies) {
+    return bodies[constraint.parent].worldFromBody * constraint.parentFromFrame.translation;
+}
+
+// The mean of the two larger moments of some bodies about a point, kg m²: the trace of the tensor, less what is about
+// the axis along a limb, is nearly all of it.
+float momentAbout(const RagdollProfile& profile, std::span<const BodyState> bodies, std::span<const int> some,
+                  const vec3& point) {
+    float trace = 0.0F;
+    for (const int body : some) {
+        const vec3 arm = bodies[body].worldFromBody.translation - point;
+        const vec3& own = profile.bodies[body].inertia;
+        trace += own.x + own.y + own.z + 2.0F * profile.bodies[body].massKg * glm::dot(arm, arm);
+    }
+    return 0.5F * trace;
+}
+
+// Constraints come parents before children, so one pass finds all that hangs below one of them.
+std::vector<int> bodiesBelow(const RagdollProfile& profile, std::size_t constraint) {
+    std::vector<int> below{profile.constraints[constraint].child};
+    for (const ConstraintProfile& other : profile.constraints)
+        if (std::find(below.begin(), below.end(), other.parent) != below.end()) below.push_back(other.child);
+    return below;
+}
+
+}  // namespace
+
+PoseDrive::PoseDrive(const RagdollProfile& profile, std::span<const BodyState> bodies)
+    : profile_(profile), bodies_(bodies.begin(), bodies.end()) {
+    for (const BodyProfile& body : profile.bodies)
+        massKg_ += body.massKg;
+    for (const BodyState& a : bodies)
+        for (const BodyState& b : bodies)
+            heightM_ = std::max(heightM_, glm::distance(a.worldFromBody.translation, b.worldFromBody.translation));
+    for (std::size_t i = 0; i < profile.constraints.size(); ++i) {
+        Joint joint;
+        joint.below = bodiesBelow(profile, i);
+        std::vector<int> above;
+        for (int body = 0; body < static_cast<int>(profile.bodies.size()); ++body)
+            if (std::find(joint.below.begin(), joint.below.end(), body) == joint.below.end()) above.push_back(body);
+        const vec3 anchor = anchorOf(profile.constraints[i], bodies);
+        joint.inertia = 1.0F / (1.0F / momentAbout(profile, bodies, joint.below, anchor) +
+                                1.0F / momentAbout(profile, bodies, above, anchor));
+        joints_.push_back(std::move(joint));
+    }
+}
+
+float PoseDrive::stiffnessOf(int constraint, const MuscleSettings& muscles) const {
+    const float omega = 2.0F * kPi * muscles.frequencyHz;
+    return strengthOf(muscles, profile_, profile_.constraints[constraint].child) * joints_[constraint].inertia * omega *
+           omega;
+}
+
+float PoseDrive::torqueBoundOf(int constraint, const MuscleSettings& muscles) const {
+    if (!muscles.bounded) return kUnboundedNm;
+    const int child = profile_.constraints[constraint].child;
+    const auto group = static_cast<std::size_t>(muscleGroupOf(profile_.bodies[child]));
+    return strengthOf(muscles, profile_, child) * kTorquePerKg[group] * massKg_ * (heightM_ / kAdultM);
+}
+
+vec3 PoseDrive::gravityTorque(int constraint, const vec3& gravity) const {
+    const vec3 anchor = anchorOf(profile_.constraints[constraint], bodies_);
+    vec3 torque(0);
+    for (const int body : joints_[constraint].below)
+        torque += glm::cross(bodies_[body].worldFromBody.translation - anchor, profile_.bodies[body].massKg * gravity);
+    return torque;
+}
+
+void PoseDrive::drive(World& world, DollId doll, const MuscleSettings& muscles, std::span<const RigidTransform> from,
+                      std::span<const RigidTransform> to, float dt) {
+    const bool carries = muscles.carriedGravity != vec3(0);
+    if (carries) world.getBodies(doll, bodies_);
+    for (int i = 0; i < static_cast<int>(profile_.constraints.size()); ++i) {
+        const ConstraintProfile& constraint = profile_.constraints[i];
+        JointMotor motor;
+        motor.stiffness = stiffnessOf(i, muscles);
+        if (motor.stiffness <= 0.0F) {
+            world.setMotor(doll, i, std::nullopt);
+            continue;
+        }
+        motor.damping = 2.0F * muscles.dampingRatio * std::sqrt(motor.stiffness * joints_[i].inertia);
+        motor.maxTorqueNm = torqueBoundOf(i, muscles);
+        const quat before = relativeOf(constraint, from);
+        motor.target = relativeOf(constraint, to);
+        motor.rate = rotationVector(glm::normalize(motor.target * glm::conjugate(before))) / dt;
+        if (carries) {
+            // The spring leads the pose by the angle at which its torque is what gravity takes.
+            const quat parentFrame =
+                bodies_[constraint.parent].worldFromBody.rotation * constraint.parentFromFrame.rotation;
+            const vec3 hold = glm::conjugate(parentFrame) * -gravityTorque(i, muscles.carriedGravity);
+            const vec3 lead = hold / motor.stiffness;
+            const float angle = glm::length(lead);
+            if (angle > 1e-6F) motor.target = glm::angleAxis(std::min(angle, 1.0F), lead / angle) * motor.target;
+        }
+        motor.angle = 2.0F * std::atan2(motor.target.z, motor.target.w);
+        world.setMotor(doll, i, motor);
+    }
+}
+
+void PoseDrive::release(World& world, DollId doll) const {
+    for (int i = 0; i < static_cast<int>(profile_.constraints.size()); ++i)
+        world.setMotor(doll, i, std::nullopt);
+}
+
+void jointErrors(const RagdollProfile& profile, std::span<const RigidTransform> pose,
+                 std::span<const RigidTransform> bodies, std::span<float> radians) {
+    for (std::size_t i = 0; i < profile.constraints.size(); ++i) {
+        const ConstraintProfile& constraint = profile.constraints[i];
+        const quat off = relativeOf(constraint, bodies) * glm::conjugate(relativeOf(constraint, pose));
+        radians[i] = glm::length(rotationVector(glm::normalize(off)));
+    }
+}
+
+}  // namespace lutka::physics

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "physics/powered/muscles.hpp"
+#include "physics/world/world.hpp"
+
+namespace lutka::physics {
+
+/// Drives the joints of a doll towards a pose in motion by motors. What a joint's spring is made for is worked out
+/// once, from the bodies on either side of it, so that muscles are set by frequency and damping ratio alone.
+class PoseDrive {
+  public:
+    /// `bodies`: one a body, in any pose in which the constraints hold (the doll's start). The profile must outlive
+    /// this.
+    PoseDrive(const RagdollProfile& profile, std::span<const BodyState> bodies);
+
+    /// Sets the motors for the coming step of `dt` > 0 s, in which the pose moves from `from` to `to` (world or model
+    /// space alike, one a body): the motors have the pose's rates, so that a pose in motion is followed without lag. A
+    /// joint without strength is limp. Allocates nothing once a doll has motors.
+    void drive(World& world, DollId doll, const MuscleSettings& muscles, std::span<const RigidTransform> from,
+               std::span<const RigidTransform> to, float dt);
+    /// Takes all motors away.
+    void release(World& world, DollId doll) const;
+
+    /// The moment of inertia that a joint's motor works against, kg m²: that of all bodies below the joint and of all
+    /// above it about its anchor, as two bodies that turn each other (1 / (1/a + 1/b)); each the mean of the two larger
+    /// moments, which is a limb's about the axes across it.
+    [[nodiscard]] float inertiaOf(int constraint) const { return joints_[constraint].inertia; }
+    /// N m/rad and N m.
+    [[nodiscard]] float stiffnessOf(int constraint, const MuscleSettings& muscles) const;
+    [[nodiscard]] float torqueBoundOf(int constraint, const MuscleSettings& muscles) const;
+
+  private:
+    struct Joint {
+        float inertia = 0.0F;
+        std::vector<int> below;  // bodies
+    };
+    // What gravity does about the joint through all that hangs below it, N m, world.
+    [[nodiscard]] vec3 gravityTorque(int constraint, const vec3& gravity) const;
+
+    const RagdollProfile& profile_;
+    std::vector<Joint> joints_;      // one a constraint
+    float massKg_ = 0.0F;            // of the doll
+    float heightM_ = 0.0F;           // about
+    std::vector<BodyState> bodies_;  // where they are, while a step is prepared
+};
+
+/// How far each joint is from a pose's, radians, one a constraint: the angle of the rotation between the child's frame
+/// in the parent's here and there.
+void jointErrors(const RagdollProfile& profile, std::span<const RigidTransform> pose,
+                 std::span<const RigidTransform> bodies, std::span<float> radians);
+
+}  // namespace lutka::physics
