@@ -16,7 +16,8 @@ static void begin(const BatchView& batch, const SubstepParams& params) {
     for (int i = 0; i < batch.dragCount; ++i)
         beginDrag(batch.drags[i], batch, params);
     for (int j = 0; batch.motors != nullptr && j < batch.jointCount; ++j)
-        if (batch.motors[j].active != 0) beginMotor(batch.motors[j], batch.joints[j], batch.jointConstants[j], batch, params);
+        if (batch.motors[j].active != 0)
+            beginMotor(batch.motors[j], batch.joints[j], batch.jointConstants[j], batch, params);
 }
 
 static constexpr Kernels kTable{&refresh,       &findBounds,    &findSelfPairs, &findBodyPairs, &touchCores,

@@ -60,10 +60,13 @@ LUTKA_LANES V3 driveOf(const MotorLanes& motor, const V3& turning) {
     return (turning + load(motor.bias)) * -load(motor.weight);
 }
 
-LUTKA_LANES void askMotor(MotorLanes& motor, const JointLanes& joint, const JointConstants& constants,
-                          const V3& relative, const Pass& pass, JointTerms& terms) {
+// Not inlined, and so is updateMotor(): the sweeps of dolls without motors have their registers for themselves.
+static __attribute__((noinline)) JointTerms askMotor(MotorLanes& motor, const JointLanes& joint,
+                                                     const JointConstants& constants, const V3& relative,
+                                                     const Pass& pass) {
     const F zero = all(0.0F);
     const F gain = load(motor.gain);
+    JointTerms terms{{zero, zero, zero}, {zero, zero, zero, zero, zero, zero}};
     if (!pass.mending) {
         const V3 before = load(motor.impulse);
         const V3 wanted = driveOf(motor, drivenTurning(joint, constants, relative));
@@ -71,22 +74,22 @@ LUTKA_LANES void askMotor(MotorLanes& motor, const JointLanes& joint, const Join
         const V3 along = choose(pass.applied > zero, before, wanted);
         const V3 bounded = along * within(dot(along, along), load(motor.bound)).share;
         const V3 target = choose(gain > zero, wanted, bounded);
-        terms.torque = terms.torque + (target - before * pass.applied);
+        terms.torque = target - before * pass.applied;
         store(motor.impulse, target);
     }
     if (constants.isHinge != 0) {
         addSquare(terms.weight, load(joint.hinge.axis), gain);
-        return;
+    } else {
+        terms.weight.xx = terms.weight.yy = terms.weight.zz = gain;
     }
-    terms.weight.xx += gain;
-    terms.weight.yy += gain;
-    terms.weight.zz += gain;
+    return terms;
 }
 
 // Guesses for the next pass, and the next substep, whether the torque is within its bound; returns the lanes in which
 // it was guessed wrong.
-LUTKA_LANES Mask updateMotor(MotorLanes& motor, const JointLanes& joint, const JointConstants& constants,
-                             const V3& relative, const Pass& pass) {
+static __attribute__((noinline)) Mask updateMotor(MotorLanes& motor, const JointLanes& joint,
+                                                  const JointConstants& constants, const V3& relative,
+                                                  const Pass& pass) {
     const F zero = all(0.0F);
     const V3 wanted = driveOf(motor, drivenTurning(joint, constants, relative));
     const Mask held = load(motor.gain) > zero;

@@ -79,8 +79,10 @@ LUTKA_LANES void eliminate(const BatchView& batch, int index, const SubstepParam
     const V3 parentAngular = load(parent.steadyAngular);
     const V3 childAngular = load(child.steadyAngular);
     JointTerms terms = askJoint(joint, constants, childAngular - parentAngular, pass);
-    if (batch.motors != nullptr && batch.motors[index].active != 0)
-        askMotor(batch.motors[index], joint, constants, childAngular - parentAngular, pass, terms);
+    if (batch.motors != nullptr && batch.motors[index].active != 0) {
+        const JointTerms driven = askMotor(batch.motors[index], joint, constants, childAngular - parentAngular, pass);
+        terms = {terms.torque + driven.torque, terms.weight + driven.weight};
+    }
     const V3 parentArm = load(joint.parentArm);
     const V3 childArm = load(joint.childArm);
     V3 r = (load(parent.steadyVelocity) + cross(parentAngular, parentArm)) -
