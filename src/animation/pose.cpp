@@ -15,6 +15,15 @@ void localToModel(const Skeleton& skeleton, std::span<const RigidTransform> pare
     }
 }
 
+RigidTransform modelFrameOf(const Skeleton& skeleton, std::span<const RigidTransform> parentFromJoint, int joint) {
+    LUTKA_ASSERT(joint >= 0 && joint < skeleton.jointCount());
+    LUTKA_ASSERT(parentFromJoint.size() == skeleton.parents.size());
+    RigidTransform frame = parentFromJoint[joint];
+    for (int at = skeleton.parents[joint]; at != kNoJoint; at = skeleton.parents[at])
+        frame = parentFromJoint[at] * frame;
+    return frame;
+}
+
 void modelToLocal(const Skeleton& skeleton, std::span<const RigidTransform> modelFromJoint,
                   std::span<RigidTransform> parentFromJoint) {
     LUTKA_ASSERT(parentFromJoint.size() == skeleton.parents.size());

@@ -15,6 +15,10 @@ void localToModel(const Skeleton& skeleton, std::span<const RigidTransform> pare
 void modelToLocal(const Skeleton& skeleton, std::span<const RigidTransform> modelFromJoint,
                   std::span<RigidTransform> parentFromJoint);
 
+/// One joint's model-space frame, by its ancestors alone.
+[[nodiscard]] RigidTransform modelFrameOf(const Skeleton& skeleton, std::span<const RigidTransform> parentFromJoint,
+                                          int joint);
+
 /// The node pose in model space.
 [[nodiscard]] std::vector<RigidTransform> nodePose(const Skeleton& skeleton);
 

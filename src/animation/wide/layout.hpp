@@ -74,12 +74,32 @@ struct PropagateJob {
     float* scratch;                ///< kMostLanes × kRigidFloats × joints floats, aligned to 32 bytes.
 };
 
+inline constexpr int kMostSampleTerms = 4;
+
+/// Clips to joint-relative frames of one group of instances, an instance a lane: each term lies between two frames and
+/// covers some of what the terms before it gave.
+struct SampleJob {
+    const float* frames;           ///< Rigid transforms of all clips.
+    const unsigned char* stepped;  ///< One a clip and joint: takes `heldAlpha`; null where none does.
+    int jointCount;
+    int termCount;                              ///< [1, kMostSampleTerms]
+    long before[kMostSampleTerms][kMostLanes];  ///< Where the pose begins in `frames`, in floats.
+    long after[kMostSampleTerms][kMostLanes];
+    float alpha[kMostSampleTerms][kMostLanes];
+    float heldAlpha[kMostSampleTerms][kMostLanes];
+    long steppedRow[kMostSampleTerms][kMostLanes];
+    float cover[kMostSampleTerms][kMostLanes];  ///< 0 leaves what is there to the bit; unread of the first term.
+    const int* instances;                       ///< One a lane.
+    float* out;                                 ///< Instances × joints.
+};
+
 struct Kernels {
     int lanes;  ///< 4 or 8.
     void (*skin)(const SkinJob& job);
     void (*skinByScalars)(const SkinJob& job);  ///< The plain loop with the same flags: what bench/ compares with.
     void (*follow)(const FollowJob& job);
     void (*propagate)(const PropagateJob& job);
+    void (*sample)(const SampleJob& job);
 };
 
 }  // namespace lutka::animation::wide
