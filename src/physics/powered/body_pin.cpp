@@ -15,10 +15,10 @@ vec3 pointOf(std::size_t index) {
 
 }  // namespace
 
-BodyPin::BodyPin(World& world, DollId doll, int body, float maxForceN) : world_(&world) {
+BodyPin::BodyPin(World& world, DollId doll, int body) : world_(&world) {
     drag_.doll = doll;
     drag_.body = body;
-    drag_.maxForceN = maxForceN / static_cast<float>(ids_.size());
+    drag_.maxForceN = 0.0F;
     for (std::size_t i = 0; i < ids_.size(); ++i) {
         drag_.bodyPoint = pointOf(i);
         ids_[i] = world.addDrag(drag_);
@@ -34,7 +34,8 @@ BodyPin::~BodyPin() {
 BodyPin::BodyPin(BodyPin&& other) noexcept
     : world_(std::exchange(other.world_, nullptr)), drag_(other.drag_), ids_(other.ids_) {}
 
-void BodyPin::follow(const RigidTransform& from, const RigidTransform& to, float dt) {
+void BodyPin::follow(const RigidTransform& from, const RigidTransform& to, float dt, float maxForceN) {
+    drag_.maxForceN = maxForceN / static_cast<float>(ids_.size());
     for (std::size_t i = 0; i < ids_.size(); ++i) {
         drag_.bodyPoint = pointOf(i);
         drag_.worldTarget = to * drag_.bodyPoint;

@@ -10,16 +10,17 @@ namespace lutka::physics {
 /// What it adds from outside is counted in World::dragWork(). The world must outlive it.
 class BodyPin {
   public:
-    /// `maxForceN` >= 0, of all pulls together. Refused calls leave it without effect.
-    BodyPin(World& world, DollId doll, int body, float maxForceN);
+    /// It pulls from the first follow() on. Refused calls leave it without effect.
+    BodyPin(World& world, DollId doll, int body);
     ~BodyPin();
     BodyPin(const BodyPin&) = delete;
     BodyPin& operator=(const BodyPin&) = delete;
     BodyPin(BodyPin&& other) noexcept;
     BodyPin& operator=(BodyPin&&) = delete;
 
-    /// For the coming step of `dt` > 0 s, in which the frame moves from `from` to `to` (world).
-    void follow(const RigidTransform& from, const RigidTransform& to, float dt);
+    /// For the coming step of `dt` > 0 s, in which the frame moves from `from` to `to` (world), with at most
+    /// `maxForceN`.
+    void follow(const RigidTransform& from, const RigidTransform& to, float dt, float maxForceN);
 
   private:
     World* world_;

@@ -64,17 +64,17 @@ PoseDrive::PoseDrive(const RagdollProfile& profile, std::span<const BodyState> b
     }
 }
 
-float PoseDrive::stiffnessOf(int constraint, const MuscleSettings& muscles) const {
+float PoseDrive::stiffnessOf(int constraint, const MuscleSettings& muscles, float factor) const {
     const float omega = 2.0F * kPi * muscles.frequencyHz;
-    return strengthOf(muscles, profile_, profile_.constraints[constraint].child) * joints_[constraint].inertia * omega *
-           omega;
+    return factor * strengthOf(muscles, profile_, profile_.constraints[constraint].child) *
+           joints_[constraint].inertia * omega * omega;
 }
 
-float PoseDrive::torqueBoundOf(int constraint, const MuscleSettings& muscles) const {
+float PoseDrive::torqueBoundOf(int constraint, const MuscleSettings& muscles, float factor) const {
     if (!muscles.bounded) return kUnboundedNm;
     const int child = profile_.constraints[constraint].child;
     const auto group = static_cast<std::size_t>(muscleGroupOf(profile_.bodies[child]));
-    return strengthOf(muscles, profile_, child) * kTorquePerKg[group] * massKg_ * (heightM_ / kAdultM);
+    return factor * strengthOf(muscles, profile_, child) * kTorquePerKg[group] * massKg_ * (heightM_ / kAdultM);
 }
 
 vec3 PoseDrive::gravityTorque(int constraint, const vec3& gravity) const {
@@ -86,19 +86,20 @@ vec3 PoseDrive::gravityTorque(int constraint, const vec3& gravity) const {
 }
 
 void PoseDrive::drive(World& world, DollId doll, const MuscleSettings& muscles, std::span<const RigidTransform> from,
-                      std::span<const RigidTransform> to, float dt) {
+                      std::span<const RigidTransform> to, float dt, std::span<const float> factors) {
     const bool carries = muscles.carriedGravity != vec3(0);
     if (carries) world.getBodies(doll, bodies_);
     for (int i = 0; i < static_cast<int>(profile_.constraints.size()); ++i) {
         const ConstraintProfile& constraint = profile_.constraints[i];
         JointMotor motor;
-        motor.stiffness = stiffnessOf(i, muscles);
+        const float factor = factors.empty() ? 1.0F : factors[constraint.child];
+        motor.stiffness = stiffnessOf(i, muscles, factor);
         if (motor.stiffness <= 0.0F) {
             world.setMotor(doll, i, std::nullopt);
             continue;
         }
         motor.damping = 2.0F * muscles.dampingRatio * std::sqrt(motor.stiffness * joints_[i].inertia);
-        motor.maxTorqueNm = torqueBoundOf(i, muscles);
+        motor.maxTorqueNm = torqueBoundOf(i, muscles, factor);
         const quat before = relativeOf(constraint, from);
         motor.target = relativeOf(constraint, to);
         motor.rate = rotationVector(glm::normalize(motor.target * glm::conjugate(before))) / dt;

@@ -18,9 +18,10 @@ class PoseDrive {
 
     /// Sets the motors for the coming step of `dt` > 0 s, in which the pose moves from `from` to `to` (world or model
     /// space alike, one a body): the motors have the pose's rates, so that a pose in motion is followed without lag. A
-    /// joint without strength is limp. Allocates nothing once a doll has motors.
+    /// joint without strength is limp. `factors` on the strength of the joint above each body, one a body, or empty: 1.
+    /// Allocates nothing once a doll has motors.
     void drive(World& world, DollId doll, const MuscleSettings& muscles, std::span<const RigidTransform> from,
-               std::span<const RigidTransform> to, float dt);
+               std::span<const RigidTransform> to, float dt, std::span<const float> factors = {});
     /// Takes all motors away.
     void release(World& world, DollId doll) const;
 
@@ -28,9 +29,9 @@ class PoseDrive {
     /// above it about its anchor, as two bodies that turn each other (1 / (1/a + 1/b)); each the mean of the two larger
     /// moments, which is a limb's about the axes across it.
     [[nodiscard]] float inertiaOf(int constraint) const { return joints_[constraint].inertia; }
-    /// N m/rad and N m.
-    [[nodiscard]] float stiffnessOf(int constraint, const MuscleSettings& muscles) const;
-    [[nodiscard]] float torqueBoundOf(int constraint, const MuscleSettings& muscles) const;
+    /// N m/rad and N m; `factor` on the strength.
+    [[nodiscard]] float stiffnessOf(int constraint, const MuscleSettings& muscles, float factor = 1.0F) const;
+    [[nodiscard]] float torqueBoundOf(int constraint, const MuscleSettings& muscles, float factor = 1.0F) const;
 
   private:
     struct Joint {

@@ -78,7 +78,7 @@ Tracking track(const RagdollProfile& profile, SolverKind solver, const MuscleSet
     const Exercise exercise(profile, start);
     PoseDrive drive(profile, start);
     const int hips = physics::bodyOf(profile, Role::hips);
-    physics::BodyPin pin(*world, doll, hips, 1e5F);
+    physics::BodyPin pin(*world, doll, hips);
     physics::QualityMeter meter(*world, std::span<const physics::StaticShape>{}, {0, -9.81F, 0});
     std::vector<float> errors(profile.constraints.size());
     Tracking tracking;
@@ -89,7 +89,7 @@ Tracking track(const RagdollProfile& profile, SolverKind solver, const MuscleSet
         const auto from = exercise.at(static_cast<float>(i) * kFrame);
         const auto to = exercise.at(static_cast<float>(i + 1) * kFrame);
         drive.drive(*world, doll, muscles, from, to, kFrame);
-        pin.follow(from[hips], to[hips], kFrame);
+        pin.follow(from[hips], to[hips], kFrame, 1e5F);
         world->step(kFrame, [&] { meter.sample(static_cast<double>(i + 1) * static_cast<double>(kFrame)); });
         if (i < 30) continue;
         std::vector<RigidTransform> bodies;
@@ -206,12 +206,12 @@ TEST_CASE("a pinned body is where its frame in motion is, and is let go of with 
             return RigidTransform{turn * home.rotation, home.translation + vec3(0.7F * std::sin(2.0F * t), 0, 0)};
         };
         {
-            physics::BodyPin pin(*world, doll, hips, 1e5F);
+            physics::BodyPin pin(*world, doll, hips);
             float worst = 0.0F;
             float turned = 0.0F;
             for (int i = 0; i < 180; ++i) {
                 const float t = static_cast<float>(i) * kFrame;
-                pin.follow(frameAt(t), frameAt(t + kFrame), kFrame);
+                pin.follow(frameAt(t), frameAt(t + kFrame), kFrame, 1e5F);
                 world->step(kFrame);
                 if (i < 30) continue;
                 const RigidTransform now = bodyOfDoll(*world, 0, hips).worldFromBody;

@@ -1,0 +1,152 @@
+#include "physics/powered/puppet.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <utility>
+
+namespace lutka::physics {
+namespace {
+
+constexpr float kUnfelt = 0.01F;  // of the strength: what is still lost then is not felt
+
+float eased(float t) {
+    const float clamped = std::clamp(t, 0.0F, 1.0F);
+    return clamped * clamped * (3.0F - 2.0F * clamped);
+}
+
+// How many joints lie between any two bodies: constraints come parents before children, so a child is one joint farther
+// from all bodies that came before it than its parent is.
+std::vector<std::vector<int>> distancesOf(const RagdollProfile& profile, int root) {
+    const std::size_t count = profile.bodies.size();
+    std::vector<std::vector<int>> distance(count, std::vector<int>(count, 0));
+    std::vector<int> known{root};
+    for (const ConstraintProfile& constraint : profile.constraints) {
+        for (const int other : known) {
+            distance[constraint.child][other] = distance[constraint.parent][other] + 1;
+            distance[other][constraint.child] = distance[constraint.child][other];
+        }
+        known.push_back(constraint.child);
+    }
+    return distance;
+}
+
+int rootOf(const RagdollProfile& profile) {
+    std::vector<bool> isChild(profile.bodies.size(), false);
+    for (const ConstraintProfile& constraint : profile.constraints)
+        isChild[constraint.child] = true;
+    const auto at = std::find(isChild.begin(), isChild.end(), false);
+    return at == isChild.end() ? 0 : static_cast<int>(at - isChild.begin());
+}
+
+}  // namespace
+
+std::string_view puppetStateName(PuppetState state) {
+    constexpr std::array<std::string_view, 4> names{"animated", "reacting", "limp", "returning"};
+    return names[static_cast<std::size_t>(state)];
+}
+
+Puppet::Puppet(World& world, DollId doll, const RagdollProfile& profile, int root, std::span<const BodyState> bodies,
+               const PuppetSettings& settings)
+    : world_(world),
+      doll_(doll),
+      profile_(profile),
+      root_(root),
+      settings_(settings),
+      drive_(profile, bodies),
+      losses_(profile.bodies.size()),
+      distance_(distancesOf(profile, rootOf(profile))),
+      factors_(profile.bodies.size(), 1.0F),
+      bodies_(bodies.begin(), bodies.end()) {}
+
+void Puppet::change(PuppetState state) {
+    if (state == state_) return;
+    const PuppetState before = std::exchange(state_, state);
+    if (state == PuppetState::limp) {
+        drive_.release(world_, doll_);
+        pin_.reset();
+    }
+    if (listener_) listener_(before, state);
+}
+
+float Puppet::lossOf(int body) const {
+    const Loss& loss = losses_[body];
+    const float over = settings_.recoverySeconds > 0.0F ? loss.seconds / settings_.recoverySeconds : 1.0F;
+    return loss.amount * (1.0F - eased(over));
+}
+
+float Puppet::strengthLeft(int body) const {
+    return state_ == PuppetState::limp ? 0.0F : back_ * (1.0F - lossOf(body));
+}
+
+void Puppet::hit(int body, const vec3& point, const vec3& impulse) {
+    world_.applyImpulse(doll_, body, impulse, point);
+    if (state_ == PuppetState::limp) return;
+    const float speed = glm::length(impulse) / profile_.bodies[body].massKg;
+    const float lost = 1.0F - std::exp(-speed / settings_.hitSpeed);
+    for (std::size_t other = 0; other < losses_.size(); ++other) {
+        const float share = lost * std::pow(settings_.falloff, static_cast<float>(distance_[body][other]));
+        losses_[other] = {1.0F - (1.0F - lossOf(static_cast<int>(other))) * (1.0F - share), 0.0F};
+    }
+    if (state_ == PuppetState::animated) change(PuppetState::reacting);
+}
+
+void Puppet::goLimp() {
+    change(PuppetState::limp);
+}
+
+void Puppet::comeBack(float seconds) {
+    if (state_ != PuppetState::limp) return;
+    std::fill(losses_.begin(), losses_.end(), Loss{});
+    back_ = 0.0F;
+    backSeconds_ = std::max(seconds, 1e-3F);
+    change(PuppetState::returning);
+}
+
+void Puppet::recover(float dt) {
+    for (Loss& loss : losses_)
+        loss.seconds += dt;
+    if (state_ == PuppetState::returning) {
+        back_ = std::min(back_ + dt / backSeconds_, 1.0F);
+        if (back_ >= 1.0F) change(PuppetState::reacting);
+    }
+    if (state_ != PuppetState::reacting) return;
+    float most = 0.0F;
+    for (int body = 0; body < static_cast<int>(losses_.size()); ++body)
+        most = std::max(most, lossOf(body));
+    if (most <= kUnfelt) change(PuppetState::animated);
+}
+
+bool Puppet::isTooMuch(std::span<const RigidTransform> pose) {
+    float lost = 0.0F;
+    float weight = 0.0F;
+    for (int i = 0; i < static_cast<int>(profile_.constraints.size()); ++i) {
+        lost += drive_.inertiaOf(i) * lossOf(profile_.constraints[i].child);
+        weight += drive_.inertiaOf(i);
+    }
+    if (weight > 0.0F && lost > settings_.knockOutLoss * weight) return true;
+    world_.getBodies(doll_, bodies_);
+    const quat off = bodies_[root_].worldFromBody.rotation * glm::conjugate(pose[root_].rotation);
+    return state_ != PuppetState::returning &&
+           glm::length(rotationVector(glm::normalize(off))) > settings_.knockOutTilt;
+}
+
+void Puppet::prepare(std::span<const RigidTransform> from, std::span<const RigidTransform> to, float dt) {
+    if (state_ == PuppetState::limp) return;
+    if (isTooMuch(from)) {
+        change(PuppetState::limp);
+        return;
+    }
+    for (std::size_t body = 0; body < factors_.size(); ++body)
+        factors_[body] = strengthLeft(static_cast<int>(body));
+    drive_.drive(world_, doll_, settings_.muscles, from, to, dt, factors_);
+    const float force = settings_.pinForceN * strengthLeft(root_);
+    if (force > 0.0F && !pin_) pin_.emplace(world_, doll_, root_);
+    if (force <= 0.0F) pin_.reset();
+    if (pin_) pin_->follow(from[root_], to[root_], dt, force);
+    recover(dt);
+}
+
+}  // namespace lutka::physics

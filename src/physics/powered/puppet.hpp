@@ -1,0 +1,92 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "physics/powered/body_pin.hpp"
+#include "physics/powered/pose_drive.hpp"
+
+namespace lutka::physics {
+
+/// What a puppet is doing.
+enum class PuppetState {
+    animated,   ///< Follows its pose with all its strength.
+    reacting,   ///< Was hit: follows, some joints weaker than they were.
+    limp,       ///< Knocked out: a passive doll.
+    returning,  ///< Comes back to its pose: its strength grows.
+};
+[[nodiscard]] std::string_view puppetStateName(PuppetState state);
+
+struct PuppetSettings {
+    MuscleSettings muscles;
+    float pinForceN = 3000.0F;  ///< Holds the root body to its pose with at most so much, >= 0; 0: it stands or falls.
+    float hitSpeed = 2.0F;      ///< m/s, > 0: a hit that changes a body's speed by this leaves it 1/e of its strength.
+    float falloff = 0.4F;       ///< [0, 1]: what of a body's loss its neighbour along the tree has.
+    float recoverySeconds = 0.4F;  ///< After which a joint has its strength back, along 3t² - 2t³; >= 0.
+    float knockOutLoss = 0.75F;    ///< Mean loss of all joints, weighed by the mass that they move, above which it goes
+                                   ///< limp; 1 and more: never.
+    float knockOutTilt = radians(50.0F);  ///< Of the root body from its pose, radians, above which it goes limp.
+};
+
+/// A doll that follows a pose in motion with its muscles, reacts to hits and goes limp when one is too much. The world
+/// must outlive it.
+class Puppet {
+  public:
+    /// `root`: the body that is pinned. `bodies` as for PoseDrive. The profile must outlive the puppet.
+    Puppet(World& world, DollId doll, const RagdollProfile& profile, int root, std::span<const BodyState> bodies,
+           const PuppetSettings& settings);
+
+    /// Call before each step of the world: the pose moves from `from` to `to` (world, one frame a body) in its `dt` > 0
+    /// seconds. Limp puppets do not follow. Allocates nothing once the doll has motors.
+    void prepare(std::span<const RigidTransform> from, std::span<const RigidTransform> to, float dt);
+
+    /// An impulse in N s at a world point of a body: it acts, and the strength of that joint and, less, of its
+    /// neighbours is lost for a while. Hits add up.
+    void hit(int body, const vec3& point, const vec3& impulse);
+    /// Knocks it out.
+    void goLimp();
+    /// From limp: comes back to its pose, its strength grows over `seconds` > 0. Call it when the pose is near to where
+    /// the doll is. Ended early by goLimp() and by hits that are too much.
+    void comeBack(float seconds);
+
+    [[nodiscard]] PuppetState state() const { return state_; }
+    /// What is left of the strength of the joint above a body (of the pin: of the root), [0, 1].
+    [[nodiscard]] float strengthLeft(int body) const;
+    /// Called at each change of state, from within the call that brings it about.
+    void onChange(std::function<void(PuppetState before, PuppetState after)> listener) {
+        listener_ = std::move(listener);
+    }
+    /// To be changed at any time.
+    [[nodiscard]] PuppetSettings& settings() { return settings_; }
+    [[nodiscard]] DollId doll() const { return doll_; }
+
+  private:
+    struct Loss {
+        float amount = 0.0F;   // of the strength, when it was hit last
+        float seconds = 0.0F;  // since then
+    };
+    void change(PuppetState state);
+    [[nodiscard]] float lossOf(int body) const;
+    void recover(float dt);
+    [[nodiscard]] bool isTooMuch(std::span<const RigidTransform> pose);
+
+    World& world_;
+    DollId doll_;
+    const RagdollProfile& profile_;
+    int root_;
+    PuppetSettings settings_;
+    PoseDrive drive_;
+    std::optional<BodyPin> pin_;
+    PuppetState state_ = PuppetState::animated;
+    std::vector<Loss> losses_;                // one a body
+    std::vector<std::vector<int>> distance_;  // between bodies, in joints
+    std::vector<float> factors_;              // one a body: what is left of its strength
+    std::vector<BodyState> bodies_;           // scratch
+    float back_ = 1.0F;                       // how much of its strength it has while it returns
+    float backSeconds_ = 1.0F;
+    std::function<void(PuppetState, PuppetState)> listener_;
+};
+
+}  // namespace lutka::physics

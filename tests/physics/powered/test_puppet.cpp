@@ -1,0 +1,162 @@
+#include "physics/powered/puppet.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "physics/worlds/world_table.hpp"
+#include "support/catch.hpp"
+#include "support/dolls.hpp"
+
+using namespace lutka;
+using namespace lutka::test;
+using physics::BodyState;
+using physics::Puppet;
+using physics::PuppetSettings;
+using physics::PuppetState;
+using physics::RagdollProfile;
+using physics::Role;
+using physics::SolverKind;
+
+namespace {
+
+// A puppet that stands in its start pose on a floor.
+class Stage {
+  public:
+    Stage(SolverKind solver, const PuppetSettings& settings, const vec3& position = vec3(0))
+        : profile_(makeDoll()), world_(worldOf(solver)), start_(standingDoll(profile_, position)) {
+        world_->addStatic(physics::StaticShape{});
+        doll_ = world_->addDoll(profile_, start_);
+        for (const BodyState& body : start_)
+            pose_.push_back(body.worldFromBody);
+        puppet_ =
+            std::make_unique<Puppet>(*world_, doll_, profile_, physics::bodyOf(profile_, Role::hips), start_, settings);
+        puppet_->onChange([this](PuppetState, PuppetState after) { changes_.push_back(after); });
+    }
+
+    void step(int count = 1) {
+        for (int i = 0; i < count; ++i) {
+            puppet_->prepare(pose_, pose_, kFrame);
+            world_->step(kFrame);
+        }
+    }
+    [[nodiscard]] int body(Role role) const { return physics::bodyOf(profile_, role); }
+    // From the pose, degrees.
+    [[nodiscard]] float turned(Role role) const {
+        const quat now = bodyOfDoll(*world_, 0, body(role)).worldFromBody.rotation;
+        return degrees(glm::length(rotationVector(glm::normalize(now * glm::conjugate(pose_[body(role)].rotation)))));
+    }
+    void hit(Role role, const vec3& impulse) {
+        puppet_->hit(body(role), bodyOfDoll(*world_, 0, body(role)).worldFromBody.translation, impulse);
+    }
+    [[nodiscard]] Puppet& puppet() { return *puppet_; }
+    [[nodiscard]] physics::World& world() { return *world_; }
+    [[nodiscard]] const std::vector<PuppetState>& changes() const { return changes_; }
+    [[nodiscard]] float height(Role role) const {
+        return bodyOfDoll(*world_, 0, body(role)).worldFromBody.translation.y;
+    }
+
+  private:
+    RagdollProfile profile_;
+    std::unique_ptr<physics::World> world_;
+    std::vector<BodyState> start_;
+    std::vector<RigidTransform> pose_;
+    physics::DollId doll_;
+    std::unique_ptr<Puppet> puppet_;
+    std::vector<PuppetState> changes_;
+};
+
+}  // namespace
+
+TEST_CASE("a hit on the forearm moves the arm and not the pelvis, and the arm is back within half a second") {
+    for (const SolverKind solver : kOurSolvers) {
+        INFO(physics::solverName(solver));
+        Stage stage(solver, {});
+        stage.step(60);
+        CHECK(stage.puppet().state() == PuppetState::animated);
+        stage.hit(Role::leftLowerArm, {0, 0, 10});
+        CHECK(stage.puppet().state() == PuppetState::reacting);
+        CHECK(stage.puppet().strengthLeft(stage.body(Role::leftLowerArm)) < 0.2F);
+        CHECK(stage.puppet().strengthLeft(stage.body(Role::leftUpperArm)) < 0.8F);
+        CHECK(stage.puppet().strengthLeft(stage.body(Role::rightFoot)) > 0.95F);
+        float arm = 0.0F;
+        float pelvis = 0.0F;
+        for (int i = 0; i < 30; ++i) {
+            stage.step();
+            arm = std::max(arm, stage.turned(Role::leftLowerArm));
+            pelvis = std::max(pelvis, stage.turned(Role::hips));
+        }
+        INFO("arm " << arm << ", pelvis " << pelvis << ", after half a second " << stage.turned(Role::leftLowerArm));
+        CHECK(arm >= 15.0F);
+        CHECK(pelvis <= 3.0F);
+        CHECK(stage.turned(Role::leftLowerArm) < 6.0F);
+        stage.step(30);
+        CHECK(stage.turned(Role::leftLowerArm) < 3.0F);
+        CHECK(stage.puppet().state() == PuppetState::animated);
+        CHECK(stage.changes() == std::vector{PuppetState::reacting, PuppetState::animated});
+    }
+}
+
+TEST_CASE("hits add up, and too much of them is a knock-out: the doll falls like any other") {
+    for (const SolverKind solver : kOurSolvers) {
+        INFO(physics::solverName(solver));
+        Stage stage(solver, {});
+        stage.step(30);
+        const float hips = stage.height(Role::hips);
+        stage.hit(Role::leftLowerArm, {0, 0, 3});
+        const float once = stage.puppet().strengthLeft(stage.body(Role::leftLowerArm));
+        stage.hit(Role::leftLowerArm, {0, 0, 3});
+        CHECK(stage.puppet().strengthLeft(stage.body(Role::leftLowerArm)) == Approx(once * once));
+        stage.hit(Role::chest, {0, 0, 400});
+        stage.hit(Role::hips, {0, 0, 400});
+        stage.step(180);
+        CHECK(stage.puppet().state() == PuppetState::limp);
+        CHECK(stage.height(Role::hips) < 0.5F * hips);
+        CHECK(stage.world().drags().empty());
+        const double work = stage.world().motorWork();
+        stage.step(30);
+        CHECK(stage.world().motorWork() == work);
+    }
+}
+
+TEST_CASE("a limp puppet that comes back is led to its pose without a snap, and may be interrupted") {
+    for (const SolverKind solver : kOurSolvers) {
+        INFO(physics::solverName(solver));
+        PuppetSettings settings;
+        Stage stage(solver, settings);
+        stage.step(10);
+        stage.puppet().goLimp();
+        stage.step(12);  // sinks a little
+        stage.puppet().comeBack(0.5F);
+        CHECK(stage.puppet().state() == PuppetState::returning);
+        float jump = 0.0F;
+        float last = stage.turned(Role::leftUpperLeg);
+        for (int i = 0; i < 90; ++i) {
+            stage.step();
+            const float now = stage.turned(Role::leftUpperLeg);
+            jump = std::max(jump, std::abs(now - last));
+            last = now;
+        }
+        INFO("largest change between two frames " << jump << " degrees");
+        CHECK(jump < 10.0F);
+        CHECK(stage.puppet().state() == PuppetState::animated);
+        CHECK(stage.turned(Role::leftUpperLeg) < 3.0F);
+        stage.puppet().goLimp();
+        stage.puppet().comeBack(1.0F);
+        stage.step(5);
+        stage.puppet().goLimp();
+        CHECK(stage.puppet().state() == PuppetState::limp);
+        CHECK(stage.puppet().strengthLeft(0) == 0.0F);
+    }
+}
+
+TEST_CASE("a puppet that is pushed over goes limp by its tilt") {
+    PuppetSettings settings;
+    settings.pinForceN = 0.0F;  // nothing holds it up but its legs
+    settings.knockOutLoss = 2.0F;
+    Stage stage(SolverKind::crowd, settings);
+    stage.step(5);
+    stage.hit(Role::chest, {0, 0, 150});
+    stage.step(120);
+    CHECK(stage.puppet().state() == PuppetState::limp);
+}
