@@ -67,6 +67,35 @@ std::string castText(const Simulation& simulation) {
                        simulation.bodyCount());
 }
 
+nlohmann::ordered_json puppetJson(const Simulation& simulation) {
+    const PuppetCast& cast = *simulation.puppets();
+    const PuppetFigures figures = cast.figures();
+    return {{"clip", cast.settings().clip},
+            {"strength", cast.settings().puppet.muscles.strength},
+            {"frequencyHz", cast.settings().puppet.muscles.frequencyHz},
+            {"dampingRatio", cast.settings().puppet.muscles.dampingRatio},
+            {"pinForceN", cast.settings().puppet.pinForceN},
+            {"trackingErrorDeg", {{"rms", figures.rmsDeg}, {"max", figures.maxDeg}, {"worst", figures.worstJoint}}},
+            {"rootErrorM", figures.rootM},
+            {"motorWorkJ", simulation.world().motorWork()},
+            {"pinWorkJ", simulation.world().dragWork()},
+            {"knockOuts", figures.knockOuts},
+            {"limp", figures.limp},
+            {"recoverySeconds", figures.recoverySeconds < 0.0F ? nlohmann::ordered_json()
+                                                               : nlohmann::ordered_json(figures.recoverySeconds)}};
+}
+
+std::string puppetText(const Simulation& simulation) {
+    const PuppetFigures figures = simulation.puppets()->figures();
+    std::string text = fmt::format("  behind the pose    {:7.2f} deg RMS, {:.2f} deg at most ({}), root {:.1f} cm\n",
+                                   figures.rmsDeg, figures.maxDeg, figures.worstJoint, figures.rootM * 1e2F);
+    text += fmt::format("  work               {:7.1f} J by muscles, {:.1f} J by pins\n", simulation.world().motorWork(),
+                        simulation.world().dragWork());
+    if (figures.knockOuts > 0)
+        text += fmt::format("  knocked out        {:7} times, {} limp now\n", figures.knockOuts, figures.limp);
+    return text;
+}
+
 }  // namespace
 
 std::string reportJson(const Simulation& simulation) {
@@ -98,6 +127,7 @@ std::string reportJson(const Simulation& simulation) {
     json["fit"] = fitJson(physics::diagnose(profile, simulation.asset().character, simulation.asset().map).fit);
     // A meter that followed dolls in and out of worlds would measure the moves.
     json["quality"] = simulation.shedder() == nullptr ? qualityJson(simulation.quality()) : nlohmann::ordered_json();
+    if (simulation.puppets() != nullptr) json["puppet"] = puppetJson(simulation);
     if (const LoadShedder* shedder = simulation.shedder()) {
         const LoadShedder::Counts counts = shedder->counts();
         json["shed"] = {{"lod", counts.lod},
@@ -136,6 +166,7 @@ std::string reportText(const Simulation& simulation) {
         text += fmt::format("  into each other    {:7.2f} mm at most, {:.2f} mm p99 of those that touch\n",
                             q.dollPenetrationM.max * 1e3F, q.dollPenetrationM.p99 * 1e3F);
     }
+    if (simulation.puppets() != nullptr) text += puppetText(simulation);
     text += fmt::format("  energy growth      {:7.2f} J of {:.0f} J\n", q.energyGrowthJ, q.initialEnergyJ);
     text += q.settleSeconds ? fmt::format("  at rest            {:7.2f} s after the first contact\n", *q.settleSeconds)
                             : fmt::format("  not at rest        {:7.3f} m/s at the end\n", q.residualSpeedMps);

@@ -73,6 +73,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(std::vector<const Ragdoll
     LUTKA_ASSERT(!assets.empty());
     std::unique_ptr<Simulation> simulation(new Simulation(std::move(assets), std::move(scenario), options));
     if (auto found = simulation->findStarts(); !found) return found.error();
+    if (auto found = simulation->findPuppets(); !found) return found.error();
     simulation->build();
     return simulation;
 }
@@ -86,6 +87,9 @@ Simulation::Simulation(std::vector<const RagdollAsset*> assets, Scenario scenari
     for (int doll = 0; doll < dollCount(); ++doll)
         firstBody_.push_back(firstBody_.back() + assetOf(doll).profile.bodies.size());
     motions_.resize(scenario_.dolls.size());
+    // Puppets begin where their clip does.
+    if (options_.puppet && !options_.puppet->clip.empty() && !options_.fromClip)
+        options_.fromClip = ClipStart{options_.puppet->clip, 0.0F};
 }
 
 Result<void> Simulation::findStarts() {
@@ -105,7 +109,17 @@ Result<void> Simulation::findStarts() {
     return {};
 }
 
+Result<void> Simulation::findPuppets() {
+    if (!options_.puppet) return {};
+    LUTKA_ASSERT(!options_.shed.any());
+    auto cast = PuppetCast::create(assets_, scenario_, *options_.puppet);
+    if (!cast) return cast.error();
+    puppets_ = std::move(cast).value();
+    return {};
+}
+
 void Simulation::build() {
+    if (puppets_ != nullptr) puppets_->end();
     meter_.reset();
     shedder_.reset();
     dollIds_.clear();
@@ -119,6 +133,7 @@ void Simulation::build() {
         dollIds_.push_back(world_->addDoll(assetOf(doll).profile, scratch_));
     }
     addPins();
+    if (puppets_ != nullptr) puppets_->begin(*world_, dollIds_);
     watch();
     steps_ = 0;
     stepMs_.clear();
@@ -193,6 +208,7 @@ void Simulation::step() {
     using Clock = std::chrono::steady_clock;
     const auto before = Clock::now();
     Clock::duration measured{0};
+    if (puppets_ != nullptr) puppets_->prepare(options_.dt);
     if (shedder_ != nullptr) {
         shedder_->step(options_.dt, eye_);
     } else if (meter_ != nullptr) {
@@ -208,6 +224,7 @@ void Simulation::step() {
         world_->step(options_.dt);
     }
     noteTime(std::chrono::duration<float, std::milli>(Clock::now() - before - measured).count());
+    if (puppets_ != nullptr) puppets_->measure();
     std::swap(previous_, present_);
     remember();
     noteMotion();

@@ -12,6 +12,7 @@
 #include "physics/world/world.hpp"
 #include "scene/load_shedding.hpp"
 #include "scene/posed_skins.hpp"
+#include "scene/puppet_cast.hpp"
 #include "scene/ragdoll_asset.hpp"
 #include "scene/scenario.hpp"
 
@@ -22,9 +23,11 @@ struct SimulationOptions {
     float dt = 1.0F / 60.0F;  ///< Seconds a step, > 0.
     StartPose pose = StartPose::bind;
     std::optional<ClipStart> fromClip;  ///< Wins over `pose`.
-    bool measure = true;                ///< Takes the quality figures after every substep; not with `shed`.
-    ShedSettings shed;                  ///< What is spared on dolls far from the eye.
-    std::optional<vec3> eye;            ///< Unset: the scenario's focus. See setEye().
+    /// Set: the dolls follow a clip with their muscles, from its start. Not with `shed`.
+    std::optional<PuppetPlay> puppet;
+    bool measure = true;      ///< Takes the quality figures after every substep; not with `shed`.
+    ShedSettings shed;        ///< What is spared on dolls far from the eye.
+    std::optional<vec3> eye;  ///< Unset: the scenario's focus. See setEye().
 };
 
 /// How a scene wants to be simulated; what it says nothing of keeps its default.
@@ -95,6 +98,9 @@ class Simulation {
     [[nodiscard]] bool isAsleep(int doll) const;
     /// Where SimulationOptions::shed measures its distances from.
     void setEye(const vec3& eye) { eye_ = eye; }
+    /// Null without SimulationOptions::puppet.
+    [[nodiscard]] const PuppetCast* puppets() const { return puppets_.get(); }
+    [[nodiscard]] PuppetCast* puppets() { return puppets_.get(); }
     /// Null without SimulationOptions::shed.
     [[nodiscard]] const LoadShedder* shedder() const { return shedder_.get(); }
 
@@ -105,6 +111,7 @@ class Simulation {
   private:
     Simulation(std::vector<const RagdollAsset*> assets, Scenario scenario, const SimulationOptions& options);
     Result<void> findStarts();
+    Result<void> findPuppets();
     void build();
     void addPins();
     void watch();
@@ -124,6 +131,7 @@ class Simulation {
     std::unique_ptr<physics::World> world_;
     std::unique_ptr<physics::QualityMeter> meter_;
     std::unique_ptr<LoadShedder> shedder_;
+    std::unique_ptr<PuppetCast> puppets_;  // after the world that it pulls in
     vec3 eye_{0, 0, 0};
     int steps_ = 0;
     std::vector<float> stepMs_;

@@ -48,7 +48,7 @@ MuscleSettings musclesOf(MusclePreset preset) {
         case MusclePreset::powered:
             break;
         case MusclePreset::stiff:
-            muscles.frequencyHz = 20.0F;
+            muscles.frequencyHz = 30.0F;
             muscles.bounded = false;
             break;
     }

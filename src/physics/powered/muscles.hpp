@@ -16,7 +16,7 @@ inline constexpr int kMuscleGroupCount = 4;
 /// How strongly the joints of a doll follow a pose. Nothing here has the dimension of a stiffness: a joint's spring is
 /// that of the stated frequency with the masses that it moves, so the same numbers suit a mouse and a giant.
 struct MuscleSettings {
-    float frequencyHz = 6.0F;   ///< Of a joint's spring with all that it moves, Hz, >= 0; 0: limp.
+    float frequencyHz = 10.0F;  ///< Of a joint's spring with all that it moves, Hz, >= 0; 0: limp.
     float dampingRatio = 1.0F;  ///< >= 0; 1 is critical: the quickest approach that does not overshoot.
     float strength = 1.0F;      ///< Factor on every stiffness and torque bound, >= 0.
     std::array<float, kMuscleGroupCount> groups{1, 1, 1, 1};  ///< Factors on `strength`, >= 0, by MuscleGroup.
@@ -32,7 +32,7 @@ struct MuscleSettings {
 /// maxima of trained adults (dynamometry: trunk extension 4, hip and knee extension 3, shoulder flexion 1, neck 0.5).
 inline constexpr std::array<float, kMuscleGroupCount> kTorquePerKg{4.0F, 0.5F, 1.0F, 3.0F};
 
-/// limp: no muscles at all. weak: 1.5 Hz, a doll that sags and gives way. powered: 6 Hz. stiff: 20 Hz, unbounded.
+/// limp: no muscles at all. weak: 1.5 Hz, a doll that sags and gives way. powered: 10 Hz. stiff: 30 Hz, unbounded.
 enum class MusclePreset { limp, weak, powered, stiff };
 inline constexpr std::array<std::string_view, 4> kMusclePresetNames{"limp", "weak", "powered", "stiff"};
 [[nodiscard]] MuscleSettings musclesOf(MusclePreset preset);

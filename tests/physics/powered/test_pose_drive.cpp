@@ -177,7 +177,7 @@ TEST_CASE("muscles are set by frequency, group and body; without strength a join
     };
     const int elbow = constraintOf(Role::leftLowerArm);
     const int hip = constraintOf(Role::leftUpperLeg);
-    const float omega = 2.0F * kPi * 6.0F;
+    const float omega = 2.0F * kPi * 10.0F;
     CHECK(drive.stiffnessOf(elbow, muscles) == Approx(drive.inertiaOf(elbow) * omega * omega));
     // A forearm with its hand, 1.5 to 2 kg, a foot long.
     CHECK(drive.inertiaOf(elbow) > 0.02F);

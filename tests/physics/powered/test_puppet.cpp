@@ -89,7 +89,7 @@ TEST_CASE("a hit on the forearm moves the arm and not the pelvis, and the arm is
         INFO("arm " << arm << ", pelvis " << pelvis << ", after half a second " << stage.turned(Role::leftLowerArm));
         CHECK(arm >= 15.0F);
         CHECK(pelvis <= 3.0F);
-        CHECK(stage.turned(Role::leftLowerArm) < 6.0F);
+        CHECK(stage.turned(Role::leftLowerArm) < 3.0F);
         stage.step(30);
         CHECK(stage.turned(Role::leftLowerArm) < 3.0F);
         CHECK(stage.puppet().state() == PuppetState::animated);

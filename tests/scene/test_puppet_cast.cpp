@@ -1,0 +1,100 @@
+#include "scene/puppet_cast.hpp"
+
+#include "scene/report.hpp"
+#include "scene/simulation.hpp"
+#include "support/catch.hpp"
+#include "support/ragdolls.hpp"
+
+using namespace lutka;
+using physics::MusclePreset;
+using physics::Role;
+using physics::SolverKind;
+using scene::PuppetPlay;
+
+namespace {
+
+const scene::RagdollAsset& mannequin() {
+    static const auto asset = scene::loadRagdoll(std::filesystem::path(LUTKA_ASSETS_DIR) / "models/mannequin.glb");
+    REQUIRE(asset);
+    return *asset.value();
+}
+
+// The figure on level ground, where its clip puts it.
+scene::Scenario ground(int dolls = 1) {
+    scene::Scenario scenario;
+    scenario.statics.emplace_back();
+    for (int i = 0; i < dolls; ++i) {
+        scene::Placement& placement = scenario.dolls.emplace_back();
+        placement.worldFromModel.translation.x = 2.0F * static_cast<float>(i);
+    }
+    return scenario;
+}
+
+std::unique_ptr<scene::Simulation> simulate(const PuppetPlay& play, SolverKind solver, float seconds, int dolls = 1) {
+    scene::SimulationOptions options;
+    options.world.solver = solver;
+    options.puppet = play;
+    auto simulation = scene::Simulation::create(mannequin(), ground(dolls), options);
+    REQUIRE(simulation);
+    for (int i = 0; i < static_cast<int>(seconds * 60.0F); ++i)
+        simulation.value()->step();
+    return std::move(simulation).value();
+}
+
+}  // namespace
+
+TEST_CASE("a pinned puppet walks within two degrees of its clip, its pelvis within two centimetres") {
+    for (const SolverKind solver : {SolverKind::crowd, SolverKind::bullet}) {
+        INFO(physics::solverName(solver));
+        PuppetPlay play;
+        play.clip = "walk";
+        const auto simulation = simulate(play, solver, 4.0F);
+        const scene::PuppetFigures figures = simulation->puppets()->figures();
+        INFO(figures.rmsDeg << " rms, " << figures.maxDeg << " at most at " << figures.worstJoint << ", root "
+                            << figures.rootM << " m");
+        CHECK(figures.rmsDeg <= 2.0F);
+        CHECK(figures.rootM <= 0.02F);
+        CHECK(figures.knockOuts == 0);
+        CHECK(simulation->quality().nonFinite == 0);
+        CHECK(simulation->quality().jointSeparationM.max < 0.01F);
+    }
+}
+
+TEST_CASE("puppets run the same bits again, after a reset as well") {
+    PuppetPlay play;
+    play.clip = "walk";
+    play.hits = {{Role::chest, 0.5F, {0, 0, -15}}};
+    const auto one = simulate(play, SolverKind::crowd, 2.0F, 3);
+    const auto other = simulate(play, SolverKind::crowd, 2.0F, 3);
+    CHECK(one->stateHash() == other->stateHash());
+    other->reset();
+    for (int i = 0; i < 120; ++i)
+        other->step();
+    CHECK(one->stateHash() == other->stateHash());
+}
+
+TEST_CASE("a hit shows, passes and is told; one too much knocks the puppet out") {
+    PuppetPlay play;
+    play.clip = "idle";
+    play.hits = {{Role::leftLowerArm, 0.5F, {0, 0, 10}}};
+    const auto hit = simulate(play, SolverKind::crowd, 2.5F);
+    CHECK(hit->puppets()->figures().maxDeg > 15.0F);
+    CHECK(hit->puppets()->figures().recoverySeconds > 0.1F);
+    CHECK(hit->puppets()->figures().recoverySeconds < 1.0F);
+    CHECK(hit->puppets()->figures().knockOuts == 0);
+    play.hits = {{Role::hips, 0.5F, {0, 0, 500}}, {Role::chest, 0.5F, {0, 0, 300}}};
+    const auto out = simulate(play, SolverKind::crowd, 2.5F);
+    CHECK(out->puppets()->figures().knockOuts == 1);
+    CHECK(out->puppets()->figures().limp == 1);
+    CHECK(scene::reportText(*out).find("knocked out") != std::string::npos);
+}
+
+TEST_CASE("a clip that is not there is an error that names those that are") {
+    scene::SimulationOptions options;
+    options.puppet = PuppetPlay{"dance", {}, {}};
+    const auto refused = scene::Simulation::create(mannequin(), ground(), options);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().code == ErrorCode::usage);
+    CHECK(refused.error().message.find("dance") != std::string::npos);
+    CHECK(refused.error().mend.find("walk") != std::string::npos);
+}
