@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "animation/retarget/foot_contacts.hpp"
+#include "animation/retarget/retargeter.hpp"
+
+namespace lutka::animation {
+
+/// What the target's feet and legs do in every frame before they are kept on the floor; standard space.
+struct FootMotion {
+    std::array<FootTrack, 2> tracks;        ///< Left, right.
+    std::array<std::vector<vec3>, 2> hips;  ///< The upper legs' joints.
+    std::array<std::vector<vec3>, 2> up;    ///< Up from the sole, unit.
+    std::array<float, 2> legReach{};        ///< From hip joint to ankle when straight, metres.
+};
+
+/// How the feet are to be moved so that they stand where the source's do: a point that stands in the source is held to
+/// one place and its height on the floor for as long, a heel that comes down before its ball takes over from it without
+/// a step, and between contacts the foot comes back to its own way within `blendSeconds`. No part of a sole goes below
+/// the floor. The hips go up and down with what the standing feet need, and down where a leg is too short, smoothly
+/// over time. One shift a frame.
+[[nodiscard]] std::vector<FootShift> keepFeet(const AnatomicalRig& target, const FootMotion& motion,
+                                              const std::array<FootContact, 2>& contacts, float framesPerSecond,
+                                              float blendSeconds = 0.2F);
+
+/// How deep the lowest part of a sole (under heel and ball) is below the floor; negative above it.
+[[nodiscard]] float depthOf(const AnatomicalRig::Foot& foot, const vec3& ankle, const vec3& ball, const vec3& up,
+                            float floor);
+
+}  // namespace lutka::animation

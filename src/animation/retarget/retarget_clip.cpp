@@ -1,0 +1,120 @@
+#include "animation/retarget/retarget_clip.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "animation/retarget/foot_keeper.hpp"
+
+namespace lutka::animation {
+namespace {
+
+Result<void> checkSourceClip(const Clip& clip, std::size_t joints) {
+    const auto refuse = [&](const char* what) {
+        return Error{ErrorCode::input, fmt::format("clip '{}' {}", clip.name, what), "", "take a clip of the source"};
+    };
+    if (clip.frameCount < 1 || !(clip.framesPerSecond > 0.0F)) return refuse("has no frames");
+    if (clip.parentFromJoint.size() != joints * static_cast<std::size_t>(clip.frameCount))
+        return refuse("is none of this skeleton");
+    const auto& frames = clip.parentFromJoint.get();
+    if (!std::all_of(frames.begin(), frames.end(), [](const RigidTransform& frame) { return isFinite(frame); }))
+        return refuse("has a frame that is not finite");
+    return {};
+}
+
+void addTo(FootTrack& track, const AnatomicalRig::Foot& foot, std::span<const RigidTransform> pose) {
+    track.ankle.push_back(pose[foot.joint].translation);
+    track.ball.push_back(foot.ballIn(pose));
+}
+
+/// One clip on its way over.
+class Crossing {
+  public:
+    Crossing(Retargeter& retargeter, const Clip& clip)
+        : retargeter_(retargeter), clip_(clip), pose_(retargeter.target().standardBind.size()) {}
+
+    // Without keeping the feet: what they do in both figures.
+    void look() {
+        const AnatomicalRig& target = retargeter_.target();
+        for (int frame = 0; frame < clip_.frameCount; ++frame) {
+            retargeter_.pose(sourceFrame(frame), {}, pose_);
+            for (std::size_t side = 0; side < 2; ++side) {
+                addTo(source_[side], retargeter_.source().feet[side], retargeter_.sourcePose());
+                addTo(motion_.tracks[side], target.feet[side], retargeter_.targetPose());
+                const auto of = [&](Role left) { return target.jointOf(side == 0 ? left : mirrored(left)); };
+                const auto pose = retargeter_.targetPose();
+                motion_.hips[side].push_back(pose[of(Role::leftUpperLeg)].translation);
+                const AnatomicalRig::Foot& foot = target.feet[side];
+                motion_.up[side].push_back(pose[foot.joint].rotation * foot.upInJoint);
+                const vec3& knee = pose[of(Role::leftLowerLeg)].translation;
+                motion_.legReach[side] = glm::distance(pose[of(Role::leftUpperLeg)].translation, knee) +
+                                         glm::distance(knee, pose[foot.joint].translation);
+            }
+        }
+        setFloor(floorOfMotion(retargeter_.source(), source_));
+    }
+
+    void findContacts(const ContactSettings& settings) {
+        const AnatomicalRig& source = retargeter_.source();
+        for (std::size_t side = 0; side < 2; ++side)
+            contacts_[side] = contactsOf(source.feet[side], source_[side], placement_.sourceFloor, source.legLength,
+                                         clip_.framesPerSecond, settings);
+        setFloor(standingHeight(source, source_, contacts_).value_or(placement_.sourceFloor));
+    }
+
+    RetargetedClip take(bool keep) {
+        RetargetedClip out;
+        out.clip.name = clip_.name;
+        out.clip.framesPerSecond = clip_.framesPerSecond;
+        out.clip.frameCount = clip_.frameCount;
+        std::vector<FootShift> shifts(static_cast<std::size_t>(clip_.frameCount));
+        if (keep) shifts = keepFeet(retargeter_.target(), motion_, contacts_, clip_.framesPerSecond);
+        RetargetMeter meter(retargeter_, contacts_, placement_.sourceFloor);
+        for (int frame = 0; frame < clip_.frameCount; ++frame) {
+            retargeter_.pose(sourceFrame(frame), placement_, shifts[frame], pose_);
+            out.clip.parentFromJoint.append(pose_);
+            meter.add();
+        }
+        out.figures = meter.result();
+        return out;
+    }
+
+  private:
+    // What was seen of the target is where it stands on that floor.
+    void setFloor(float height) {
+        const vec3 sunk(0, (height - placement_.sourceFloor) * retargeter_.scale(), 0);
+        placement_.sourceFloor = height;
+        for (std::size_t side = 0; side < 2; ++side) {
+            for (std::vector<vec3>* points :
+                 {&motion_.tracks[side].ankle, &motion_.tracks[side].ball, &motion_.hips[side]}) {
+                for (vec3& point : *points)
+                    point -= sunk;
+            }
+        }
+    }
+    [[nodiscard]] std::span<const RigidTransform> sourceFrame(int frame) const {
+        const std::size_t joints = retargeter_.source().standardBind.size();
+        return std::span(clip_.parentFromJoint.get()).subspan(static_cast<std::size_t>(frame) * joints, joints);
+    }
+
+    Retargeter& retargeter_;
+    const Clip& clip_;
+    std::vector<RigidTransform> pose_;
+    RetargetPlacement placement_;
+    std::array<FootTrack, 2> source_;
+    FootMotion motion_;
+    std::array<FootContact, 2> contacts_;
+};
+
+}  // namespace
+
+Result<RetargetedClip> retargetClip(Retargeter& retargeter, const Clip& clip, const RetargetOptions& options) {
+    if (auto checked = checkSourceClip(clip, retargeter.source().standardBind.size()); !checked) return checked.error();
+    Crossing crossing(retargeter, clip);
+    crossing.look();
+    crossing.findContacts(options.contacts);
+    return crossing.take(options.keepFeet);
+}
+
+}  // namespace lutka::animation
