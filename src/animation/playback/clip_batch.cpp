@@ -54,10 +54,9 @@ void ClipBatch::placeRoots(int instance, const ClipMix& mix, std::span<RigidTran
         const ClipLibrary::Moment moment = library_->momentOf(term.clip, term.seconds);
         for (const int root : library_->rootJoints()) {
             const std::span<const unsigned char> stepped = library_->steppedJoints();
-            const bool held = !stepped.empty() && stepped[static_cast<std::size_t>(term.clip) * joints + root] != 0;
-            const RigidTransform frame = groundFromModel * interpolate(library_->frames()[moment.before + root],
-                                                                       library_->frames()[moment.after + root],
-                                                                       held ? moment.heldAlpha : moment.alpha);
+            const unsigned char held =
+                stepped.empty() ? 0 : stepped[static_cast<std::size_t>(term.clip) * joints + root];
+            const RigidTransform frame = groundFromModel * library_->jointAt(moment, root, held);
             RigidTransform& out = parentFromJoint[static_cast<std::size_t>(instance) * joints + root];
             out = i == 0 ? frame : interpolate(out, frame, term.cover);
         }

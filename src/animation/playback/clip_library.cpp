@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "animation/pose.hpp"
+#include "animation/wide/layout.hpp"
 #include "core/assert.hpp"
 
 namespace lutka::animation {
@@ -32,6 +33,12 @@ Result<void> checkClip(const Clip& clip, std::size_t joints) {
     return {};
 }
 
+unsigned char heldPartsOf(const Clip& clip, std::size_t joint) {
+    const auto marked = [&](const std::vector<bool>& marks) { return joint < marks.size() && marks[joint]; };
+    return static_cast<unsigned char>((marked(clip.steppedRotations) ? wide::kHeldTurn : 0) |
+                                      (marked(clip.steppedTranslations) ? wide::kHeldPlace : 0));
+}
+
 }  // namespace
 
 ClipLibrary::ClipLibrary(const Skeleton& skeleton, const RootMotionSettings& root)
@@ -54,7 +61,8 @@ Result<ClipLibrary> ClipLibrary::create(const Skeleton& skeleton, std::span<cons
     for (const Clip& clip : clips)
         library.add(clip);
     // Most files have none, and then nothing is looked up.
-    const bool steps = std::find(library.stepped_.begin(), library.stepped_.end(), 1) != library.stepped_.end();
+    const bool steps =
+        std::any_of(library.stepped_.begin(), library.stepped_.end(), [](auto held) { return held != 0; });
     if (!steps) library.stepped_.clear();
     return library;
 }
@@ -69,7 +77,7 @@ void ClipLibrary::add(const Clip& clip) {
     entry.firstPose = ground_.size();
     frames_.insert(frames_.end(), clip.parentFromJoint.begin(), clip.parentFromJoint.end());
     for (std::size_t joint = 0; joint < joints; ++joint)
-        stepped_.push_back(joint < clip.steppedJoints.size() && clip.steppedJoints[joint] ? 1 : 0);
+        stepped_.push_back(heldPartsOf(clip, joint));
     float firstHeight = 0.0F;
     for (int frame = 0; frame < clip.frameCount; ++frame) {
         const auto pose = std::span<const RigidTransform>(frames_).subspan(ground_.size() * joints, joints);
@@ -112,10 +120,18 @@ void ClipLibrary::sample(int clip, float seconds, std::span<RigidTransform> pare
     const Moment moment = momentOf(clip, seconds);
     const std::size_t row = static_cast<std::size_t>(clip) * parentFromJoint.size();
     for (std::size_t joint = 0; joint < parentFromJoint.size(); ++joint) {
-        const bool held = !stepped_.empty() && stepped_[row + joint] != 0;
-        parentFromJoint[joint] = interpolate(frames_[moment.before + joint], frames_[moment.after + joint],
-                                             held ? moment.heldAlpha : moment.alpha);
+        parentFromJoint[joint] = jointAt(moment, joint, stepped_.empty() ? 0 : stepped_[row + joint]);
     }
+}
+
+RigidTransform ClipLibrary::jointAt(const Moment& moment, std::size_t joint, unsigned char held) const {
+    const RigidTransform& before = frames_[moment.before + joint];
+    const RigidTransform& after = frames_[moment.after + joint];
+    RigidTransform out = interpolate(before, after, moment.alpha);
+    const RigidTransform& shown = moment.heldAlpha > 0.0F ? after : before;
+    if ((held & wide::kHeldTurn) != 0) out.rotation = shown.rotation;
+    if ((held & wide::kHeldPlace) != 0) out.translation = shown.translation;
+    return out;
 }
 
 void ClipLibrary::sampleInPlace(int clip, float seconds, std::span<RigidTransform> parentFromJoint) const {

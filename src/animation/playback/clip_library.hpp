@@ -57,9 +57,12 @@ class ClipLibrary {
         float heldAlpha = 0.0F;  ///< 0 or 1: which of them joints show that hold their frames.
     };
     [[nodiscard]] Moment momentOf(int clip, float seconds) const;
+    /// A joint between the frames of a moment; `held`: its byte of steppedJoints().
+    [[nodiscard]] RigidTransform jointAt(const Moment& moment, std::size_t joint, unsigned char held) const;
     /// All clips' poses, one after the other, jointCount() frames each.
     [[nodiscard]] std::span<const RigidTransform> frames() const { return frames_; }
-    /// A byte a clip and joint, 1 where it holds its frames; empty where none does.
+    /// A byte a clip and joint: wide::kHeldTurn and wide::kHeldPlace where its rotation or translation holds its
+    /// frames; empty where none does.
     [[nodiscard]] std::span<const unsigned char> steppedJoints() const { return stepped_; }
     /// Joints without a parent.
     [[nodiscard]] std::span<const int> rootJoints() const { return rootJoints_; }

@@ -74,13 +74,16 @@ struct PropagateJob {
     float* scratch;                ///< kMostLanes × kRigidFloats × joints floats, aligned to 32 bytes.
 };
 
+/// Bits of SampleJob::stepped.
+inline constexpr int kHeldTurn = 1;
+inline constexpr int kHeldPlace = 2;
 inline constexpr int kMostSampleTerms = 4;
 
 /// Clips to joint-relative frames of one group of instances, an instance a lane: each term lies between two frames and
 /// covers some of what the terms before it gave.
 struct SampleJob {
     const float* frames;           ///< Rigid transforms of all clips.
-    const unsigned char* stepped;  ///< One a clip and joint: takes `heldAlpha`; null where none does.
+    const unsigned char* stepped;  ///< One a clip and joint, what of it takes `heldAlpha`; null where nothing does.
     int jointCount;
     int termCount;                              ///< [1, kMostSampleTerms]
     long before[kMostSampleTerms][kMostLanes];  ///< Where the pose begins in `frames`, in floats.

@@ -18,14 +18,18 @@ LUTKA_LANES F chosen(const Mask& where, const F& yes, const F& no) {
 }
 
 LUTKA_LANES Rigid sampledTerm(const SampleJob& job, int term, long joint) {
-    F alpha = gatherFloats(job.alpha[term]);
-    if (job.stepped != nullptr) {
-        for (int lane = 0; lane < kLanes; ++lane) {
-            if (job.stepped[job.steppedRow[term][lane] + joint] != 0) alpha[lane] = job.heldAlpha[term][lane];
-        }
+    const F alpha = gatherFloats(job.alpha[term]);
+    F turn = alpha;
+    F place = alpha;
+    for (int lane = 0; job.stepped != nullptr && lane < kLanes; ++lane) {
+        const unsigned char held = job.stepped[job.steppedRow[term][lane] + joint];
+        if ((held & kHeldTurn) != 0) turn[lane] = job.heldAlpha[term][lane];
+        if ((held & kHeldPlace) != 0) place[lane] = job.heldAlpha[term][lane];
     }
     const float* frames = job.frames + joint * kRigidFloats;
-    return between(gatherRigid(frames, job.before[term]), gatherRigid(frames, job.after[term]), alpha);
+    const Rigid before = gatherRigid(frames, job.before[term]);
+    const Rigid after = gatherRigid(frames, job.after[term]);
+    return {between(before, after, turn).turn, before.at + (after.at - before.at) * place};
 }
 
 static void sample(const SampleJob& job) {

@@ -35,8 +35,10 @@ struct MarchingCrowd {
         std::vector<Clip> clips;
         for (const std::uint64_t seed : {1U, 2U, 3U})
             clips.push_back(test::makeWavingClip(skeleton, "clip", seed, vec3(0, 0, static_cast<float>(seed))));
-        clips[1].steppedJoints.assign(joints, false);
-        clips[1].steppedJoints[0] = clips[1].steppedJoints[4] = true;
+        clips[1].steppedRotations.assign(joints, false);
+        clips[1].steppedTranslations.assign(joints, false);
+        clips[1].steppedRotations[0] = clips[1].steppedRotations[4] = true;
+        clips[1].steppedTranslations[0] = clips[1].steppedTranslations[5] = true;
         RootMotionSettings root;
         root.joint = 0;
         return ClipLibrary::create(skeleton, clips, root).value();

@@ -23,8 +23,10 @@ const Skeleton& bipedSkeleton() {
 TEST_CASE("a library gives the poses that sampleClip() gives, of clips that hold joints too") {
     const Skeleton& skeleton = bipedSkeleton();
     std::vector<Clip> clips{test::makeWavingClip(skeleton, "a", 1), test::makeWavingClip(skeleton, "b", 2)};
-    clips[1].steppedJoints.assign(skeleton.parents.size(), false);
-    clips[1].steppedJoints[3] = true;
+    clips[1].steppedRotations.assign(skeleton.parents.size(), false);
+    clips[1].steppedTranslations.assign(skeleton.parents.size(), false);
+    clips[1].steppedRotations[3] = true;
+    clips[1].steppedTranslations[4] = true;
     const auto library = ClipLibrary::create(skeleton, clips);
     REQUIRE(library);
     CHECK(library.value().find("b") == 1);
