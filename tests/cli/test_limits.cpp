@@ -10,7 +10,7 @@ using Json = nlohmann::json;
 // Runs at the limits that the options and docs/scene.md name, and one beyond each.
 namespace {
 
-const std::string kLutka = "'" LUTKA_BINARY "' ";
+const std::string kProgram = "'" LUTKA_BINARY "' ";
 
 // A field of boxes that stand still, `count` of them.
 Json fieldOfBoxes(int count) {
@@ -28,13 +28,13 @@ Json fieldOfBoxes(int count) {
 
 TEST_CASE("as many dolls as --count allows fall and stay finite; one more is wrong usage") {
     const CommandResult most =
-        runCommand(kLutka + "simulate " + kMannequinArgument + " --scene spread --count 10000 --seconds 0.05 --json");
+        runCommand(kProgram + "simulate " + kMannequinArgument + " --scene spread --count 10000 --seconds 0.05 --json");
     REQUIRE(most.code == 0);
     const Json report = Json::parse(most.out);
     CHECK(report["count"] == 10000);
     CHECK(report["quality"]["nonFinite"] == 0);
     CHECK(report["quality"]["jointSeparationM"]["max"].get<double>() < 1e-3);
-    const CommandResult more = runCommand(kLutka + "simulate " + kMannequinArgument + " --scene spread --count 10001");
+    const CommandResult more = runCommand(kProgram + "simulate " + kMannequinArgument + " --scene spread --count 10001");
     CHECK(more.code == 2);
     CHECK_THAT(more.err, Catch::Contains("--count") && Catch::Contains("10000"));
 }
@@ -43,11 +43,11 @@ TEST_CASE("a scene of as many entities as a file may have is checked and run; on
     const ScratchFolder folder;
     const auto file = folder / "field.scene.json";
     std::ofstream(file) << fieldOfBoxes(20000).dump();
-    const CommandResult most = runCommand(kLutka + "scene '" + file + "' --json");
+    const CommandResult most = runCommand(kProgram + "scene '" + file + "' --json");
     CHECK(most.code == 0);
     CHECK(Json::parse(most.out)["entities"].size() == 20000);
     std::ofstream(file) << fieldOfBoxes(20001).dump();
-    const CommandResult more = runCommand(kLutka + "scene '" + file + "'");
+    const CommandResult more = runCommand(kProgram + "scene '" + file + "'");
     CHECK(more.code == 3);
     CHECK_THAT(more.err, Catch::Contains("20000"));
 }
