@@ -1,5 +1,7 @@
 #include "scene/posed_skins.hpp"
 
+#include <algorithm>
+
 #include "core/assert.hpp"
 
 namespace lutka::scene {
@@ -51,6 +53,15 @@ void PosedSkins::update(const Bodies& bodies, float alpha) {
                        palettes_, poses_);
         posed_ += static_cast<int>(between_.size() + resting_.size());
     }
+}
+
+void PosedSkins::show(int doll, const animation::Skeleton& skeleton, std::span<const RigidTransform> modelFromJoint) {
+    const auto first = static_cast<std::size_t>(firstJoint_[doll]);
+    LUTKA_ASSERT(modelFromJoint.size() == static_cast<std::size_t>(firstJoint_[doll + 1]) - first);
+    std::copy(modelFromJoint.begin(), modelFromJoint.end(), poses_.begin() + firstJoint_[doll]);
+    animation::skinMatrices(skeleton.bindModelFromJoint, modelFromJoint,
+                            std::span(palettes_).subspan(first, modelFromJoint.size()));
+    made_[doll].ever = false;
 }
 
 }  // namespace lutka::scene

@@ -35,6 +35,10 @@ class PosedSkins {
     /// that rests is posed once, at `present`. Allocates nothing with one thread.
     void update(const Bodies& bodies, float alpha);
 
+    /// Shows a doll in a pose that its bodies do not give, until its next update(). `modelFromJoint` holds a frame a
+    /// joint of `skeleton`, which is the doll's.
+    void show(int doll, const animation::Skeleton& skeleton, std::span<const RigidTransform> modelFromJoint);
+
     /// In model space, one a joint of the doll's asset. Valid and in place as long as the skins live.
     [[nodiscard]] std::span<const RigidTransform> modelFromJoint(int doll) const { return ofDoll(poses_, doll); }
     [[nodiscard]] std::span<const animation::SkinMatrix> palette(int doll) const { return ofDoll(palettes_, doll); }

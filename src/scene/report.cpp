@@ -107,7 +107,12 @@ std::string reportJson(const Simulation& simulation) {
     json["scene"] = simulation.scenario().name;
     json["solver"] = physics::solverName(options.world.solver);
     json["seed"] = simulation.scenario().seed;
-    if (options.fromClip) {
+    if (const ClipCast* cast = simulation.clipCast()) {
+        const ClipPlay& play = cast->settings();
+        json["clip"] = {{"clip", play.start.clip},   {"start", play.start.seconds}, {"length", cast->clipSeconds(0)},
+                        {"speed", play.speed},       {"loop", play.loop},           {"inPlace", play.inPlace},
+                        {"travel", cast->travelM(0)}};
+    } else if (options.fromClip) {
         json["fromClip"] = {{"clip", options.fromClip->clip}, {"seconds", options.fromClip->seconds}};
     } else {
         json["pose"] = options.pose == StartPose::bind ? "bind" : "node";
@@ -126,7 +131,9 @@ std::string reportJson(const Simulation& simulation) {
     json["wallMsPerStep"] = {{"mean", times.mean}, {"p50", times.p50}, {"p99", times.p99}};
     json["fit"] = fitJson(physics::diagnose(profile, simulation.asset().character, simulation.asset().map).fit);
     // A meter that followed dolls in and out of worlds would measure the moves.
-    json["quality"] = simulation.shedder() == nullptr ? qualityJson(simulation.quality()) : nlohmann::ordered_json();
+    json["quality"] = simulation.shedder() == nullptr && simulation.clipCast() == nullptr
+                          ? qualityJson(simulation.quality())
+                          : nlohmann::ordered_json();
     if (simulation.puppets() != nullptr) json["puppet"] = puppetJson(simulation);
     if (const LoadShedder* shedder = simulation.shedder()) {
         const LoadShedder::Counts counts = shedder->counts();
@@ -149,6 +156,12 @@ std::string reportText(const Simulation& simulation) {
     std::string text =
         fmt::format("{}, scene {}: {}, {:.1f} s in {} steps\n", simulation.asset().character.name,
                     simulation.scenario().name, castText(simulation), simulation.seconds(), simulation.steps());
+    if (const ClipCast* cast = simulation.clipCast()) {
+        const ClipPlay& play = cast->settings();
+        return text + fmt::format("  clip {} of {:.2f} s at speed {:.2g}{}, {:.2f} m of way; played without physics\n",
+                                  play.start.clip, cast->clipSeconds(0), play.speed, play.loop ? ", looped" : "",
+                                  cast->travelM(0));
+    }
     if (const LoadShedder* shedder = simulation.shedder()) {
         const LoadShedder::Counts counts = shedder->counts();
         text += fmt::format("  spared at the end: {} merged, {} apart, {} slow, {} frozen; quality is not measured\n",

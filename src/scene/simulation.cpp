@@ -74,6 +74,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(std::vector<const Ragdoll
     std::unique_ptr<Simulation> simulation(new Simulation(std::move(assets), std::move(scenario), options));
     if (auto found = simulation->findStarts(); !found) return found.error();
     if (auto found = simulation->findPuppets(); !found) return found.error();
+    if (auto found = simulation->findClips(); !found) return found.error();
     simulation->build();
     return simulation;
 }
@@ -118,6 +119,15 @@ Result<void> Simulation::findPuppets() {
     return {};
 }
 
+Result<void> Simulation::findClips() {
+    if (!options_.play) return {};
+    LUTKA_ASSERT(!options_.shed.any());
+    auto cast = ClipCast::create(assets_, *options_.play);
+    if (!cast) return cast.error();
+    clipCast_ = std::move(cast).value();
+    return {};
+}
+
 void Simulation::build() {
     if (puppets_ != nullptr) puppets_->end();
     meter_.reset();
@@ -139,6 +149,10 @@ void Simulation::build() {
     stepMs_.clear();
     stepMs_.reserve(2 * kKeptSteps);
     secondsMeasured_ = 0;
+    if (clipCast_ != nullptr) {
+        clipCast_->reset();
+        placeActors();
+    }
     remember();
     noteJump();
 }
@@ -165,8 +179,23 @@ void Simulation::watch() {
         for (int doll = 0; doll < dollCount(); ++doll)
             kinds.push_back({&assetOf(doll).profile, &assetOf(doll).rig});
         shedder_ = std::make_unique<LoadShedder>(kinds, *world_, scenario_.statics, options_.world, options_.shed);
-    } else if (options_.measure) {
+    } else if (options_.measure && clipCast_ == nullptr) {
         meter_ = std::make_unique<physics::QualityMeter>(*world_, scenario_.statics, options_.world.gravity);
+    }
+}
+
+// The dolls' bodies where the clip has them: what is placed, not simulated.
+void Simulation::placeActors() {
+    for (int doll = 0; doll < dollCount(); ++doll) {
+        scratch_.resize(assetOf(doll).profile.bodies.size());
+        clipCast_->bodies(scenario_.dolls[doll].asset, scratch_);
+        const RigidTransform& worldFromModel = scenario_.dolls[doll].worldFromModel;
+        for (BodyState& body : scratch_) {
+            body.worldFromBody = worldFromModel * body.worldFromBody;
+            body.linearVelocity = worldFromModel.rotation * body.linearVelocity;
+            body.angularVelocity = worldFromModel.rotation * body.angularVelocity;
+        }
+        world_->setBodies(dollIds_[doll], scratch_);
     }
 }
 
@@ -209,7 +238,10 @@ void Simulation::step() {
     const auto before = Clock::now();
     Clock::duration measured{0};
     if (puppets_ != nullptr) puppets_->prepare(options_.dt);
-    if (shedder_ != nullptr) {
+    if (clipCast_ != nullptr) {
+        clipCast_->advance(options_.dt);
+        placeActors();
+    } else if (shedder_ != nullptr) {
         shedder_->step(options_.dt, eye_);
     } else if (meter_ != nullptr) {
         const double substep = static_cast<double>(options_.dt) / world_->substepsPerStep();
@@ -290,6 +322,11 @@ RigidTransform Simulation::worldFromProp(int prop, float alpha) const {
 }
 
 void Simulation::pose(int doll, float alpha, std::span<RigidTransform> modelFromJoint) {
+    // The clip's own pose: bodies know nothing of fingers.
+    if (clipCast_ != nullptr) {
+        clipCast_->pose(scenario_.dolls[doll].asset, alpha, modelFromJoint);
+        return;
+    }
     const RagdollAsset& asset = assetOf(doll);
     physics::poseFromBodies(asset.rig, asset.character.skeleton, worldFromBody(doll, alpha), worldFromModel(doll),
                             modelFromJoint);
@@ -298,6 +335,11 @@ void Simulation::pose(int doll, float alpha, std::span<RigidTransform> modelFrom
 const PosedSkins& Simulation::poseSkins(float alpha) {
     if (skins_ == nullptr) skins_ = std::make_unique<PosedSkins>(assets_, scenario_, options_.world.threads);
     skins_->update({previous_, present_, motions_}, alpha);
+    for (int doll = 0; clipCast_ != nullptr && doll < dollCount(); ++doll) {
+        actorPose_.resize(assetOf(doll).character.skeleton.parents.size());
+        pose(doll, alpha, actorPose_);
+        skins_->show(doll, assetOf(doll).character.skeleton, actorPose_);
+    }
     return *skins_;
 }
 

@@ -10,6 +10,7 @@
 #include "core/result.hpp"
 #include "physics/world/quality.hpp"
 #include "physics/world/world.hpp"
+#include "scene/clip_cast.hpp"
 #include "scene/load_shedding.hpp"
 #include "scene/posed_skins.hpp"
 #include "scene/puppet_cast.hpp"
@@ -25,6 +26,8 @@ struct SimulationOptions {
     std::optional<ClipStart> fromClip;  ///< Wins over `pose`.
     /// Set: the dolls follow a clip with their muscles, from its start. Not with `shed`.
     std::optional<PuppetPlay> puppet;
+    /// Set: the dolls play this clip, without physics; nothing is measured. Not with `shed`.
+    std::optional<ClipPlay> play;
     bool measure = true;      ///< Takes the quality figures after every substep; not with `shed`.
     ShedSettings shed;        ///< What is spared on dolls far from the eye.
     std::optional<vec3> eye;  ///< Unset: the scenario's focus. See setEye().
@@ -101,6 +104,8 @@ class Simulation {
     /// Null without SimulationOptions::puppet.
     [[nodiscard]] const PuppetCast* puppets() const { return puppets_.get(); }
     [[nodiscard]] PuppetCast* puppets() { return puppets_.get(); }
+    /// Null without SimulationOptions::play.
+    [[nodiscard]] const ClipCast* clipCast() const { return clipCast_.get(); }
     /// Null without SimulationOptions::shed.
     [[nodiscard]] const LoadShedder* shedder() const { return shedder_.get(); }
 
@@ -112,10 +117,12 @@ class Simulation {
     Simulation(std::vector<const RagdollAsset*> assets, Scenario scenario, const SimulationOptions& options);
     Result<void> findStarts();
     Result<void> findPuppets();
+    Result<void> findClips();
     void build();
     void addPins();
     void watch();
     void noteTime(float milliseconds);
+    void placeActors();
     void placeAtStart(int doll);
     void remember();
     void noteMotion();
@@ -132,6 +139,8 @@ class Simulation {
     std::unique_ptr<physics::QualityMeter> meter_;
     std::unique_ptr<LoadShedder> shedder_;
     std::unique_ptr<PuppetCast> puppets_;  // after the world that it pulls in
+    std::unique_ptr<ClipCast> clipCast_;
+    std::vector<RigidTransform> actorPose_;
     vec3 eye_{0, 0, 0};
     int steps_ = 0;
     std::vector<float> stepMs_;

@@ -1,11 +1,9 @@
 #include "scene/start_pose.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cstdlib>
 
 #include "animation/pose.hpp"
+#include "scene/clip_cast.hpp"
 
 namespace lutka::scene {
 namespace {
@@ -25,31 +23,6 @@ std::vector<BodyState> bodiesAt(const RagdollAsset& asset, const animation::Clip
     return bodiesOf(asset, pose);
 }
 
-Result<const animation::Clip*> findClip(const animation::Character& character, const std::string& name) {
-    std::string known;
-    for (const animation::Clip& clip : character.clips) {
-        if (clip.name == name) return &clip;
-        known += (known.empty() ? "" : ", ") + clip.name;
-    }
-    return Error{ErrorCode::usage, fmt::format("there is no clip named '{}'", name), character.file.string(),
-                 known.empty() ? "the file has no clips" : "the clips are " + known};
-}
-
-// "a@1" may be a clip's own name, which a command line reads as one second into "a". Where no clip is called "a", it
-// is.
-ClipStart withWholeName(const animation::Character& character, const ClipStart& start) {
-    const auto isNamed = [&](const animation::Clip& clip) { return clip.name == start.clip; };
-    if (std::any_of(character.clips.begin(), character.clips.end(), isNamed)) return start;
-    for (const animation::Clip& clip : character.clips) {
-        if (!clip.name.starts_with(start.clip + "@")) continue;
-        const char* number = clip.name.c_str() + start.clip.size() + 1;
-        char* end = nullptr;
-        const float seconds = std::strtof(number, &end);
-        if (end != number && *end == '\0' && seconds == start.seconds) return {clip.name, 0.0F};
-    }
-    return start;
-}
-
 }  // namespace
 
 Result<std::vector<BodyState>> startBodies(const RagdollAsset& asset, const SimulationOptions& options,
@@ -62,22 +35,16 @@ Result<std::vector<BodyState>> startBodies(const RagdollAsset& asset, const Simu
         }
         return bodiesOf(asset, animation::nodePose(asset.character.skeleton));
     }
-    start = withWholeName(asset.character, *start);
-    const auto clip = findClip(asset.character, start->clip);
-    if (!clip) return clip.error();
-    const float length = clip.value()->seconds();
-    constexpr float kRounding = 1e-3F;  // seconds
-    if (start->seconds < 0.0F || start->seconds > length + kRounding) {
-        return Error{ErrorCode::usage, fmt::format("clip '{}' has no pose at {} s", start->clip, start->seconds),
-                     asset.character.file.string(), fmt::format("it lasts from 0 to {:.3g} s", length)};
-    }
-    const float now = std::clamp(start->seconds, 0.0F, length);
+    const auto found = findClipMoment(asset.character, *start);
+    if (!found) return found.error();
+    const animation::Clip& clip = *found.value().clip;
+    const float now = found.value().seconds;
     const float before = std::max(now - options.dt, 0.0F);
-    const float after = std::min(now + options.dt, length);
-    std::vector<BodyState> bodies = bodiesAt(asset, *clip.value(), now);
+    const float after = std::min(now + options.dt, clip.seconds());
+    std::vector<BodyState> bodies = bodiesAt(asset, clip, now);
     if (after <= before) return bodies;  // a clip of one frame stands still
-    const std::vector<BodyState> a = bodiesAt(asset, *clip.value(), before);
-    const std::vector<BodyState> b = bodiesAt(asset, *clip.value(), after);
+    const std::vector<BodyState> a = bodiesAt(asset, clip, before);
+    const std::vector<BodyState> b = bodiesAt(asset, clip, after);
     const float perSecond = 1.0F / (after - before);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const RigidTransform& from = a[i].worldFromBody;

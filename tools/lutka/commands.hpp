@@ -13,6 +13,7 @@ void addCheck(const Command& app);
 void addScene(const Command& app);
 void addSimulate(const Command& app);
 void addRender(const Command& app);
+void addRetarget(const Command& app);
 void addEdit(const Command& app);
 void addBench(const Command& app);
 

@@ -42,6 +42,7 @@ void addCommands(const lutka::cli::Command& app) {
     lutka::cli::addScene(app);
     lutka::cli::addSimulate(app);
     lutka::cli::addRender(app);
+    lutka::cli::addRetarget(app);
     lutka::cli::addExport(app);
     lutka::cli::addEdit(app);
     lutka::cli::addBench(app);

@@ -209,7 +209,16 @@ void SimulateOptions::addTo(const Command& app) {
     app.option("--seconds", seconds, "length of the run; default: what the scene needs").range(0.0, 3600.0);
     app.option("--pose", pose, "the pose to start in: the bind pose, the default, or the file's node pose")
         .oneOf({"bind", "node"});
-    app.option("--from-clip", fromClip, "start from a clip's pose and velocities: NAME or NAME@SECONDS");
+    const Option fromClipOption =
+        app.option("--from-clip", fromClip, "start from a clip's pose and velocities: NAME or NAME@SECONDS");
+    const Option clipOption =
+        app.option("--clip", clip, "play a clip instead of falling, from its start or a moment: NAME or NAME@SECONDS")
+            .excludes(fromClipOption);
+    app.option("--clip-speed", clipSpeed, "clip seconds a second; negative: backwards")
+        .range(-100.0, 100.0)
+        .needs(clipOption);
+    app.flag("--once", clipOnce, "the clip stays at its end instead of beginning anew").needs(clipOption);
+    app.flag("--in-place", clipInPlace, "the clip without its way over the ground").needs(clipOption);
     const Option shedOption =
         app.option("--shed", shed,
                    "spare dolls far from the eye, from so many metres on: lod@10,apart@15,slow@20,frozen@40 or some");
@@ -217,6 +226,7 @@ void SimulateOptions::addTo(const Command& app) {
                "X,Y,Z in metres, where --shed measures from; default: the camera of a picture, else the scene's middle")
         .commaSeparated(3)
         .needs(shedOption);
+    shedOption.excludes(clipOption);
     app.option("--out", bakedOut, "write the first doll's fall as an animation of its skin (.glb)");
     app.option("--mesh-out", meshOut, "write the first doll's skin of the last frame (.obj)");
     app.flag("--each", each, "--out and --mesh-out of every doll, as NAME_0001.glb, NAME_0002.glb …");
@@ -227,6 +237,7 @@ void SimulateOptions::addTo(const Command& app) {
     app.option("--replay", replayFrom, "play a recording instead of simulating")
         .excludes(recordOption)
         .excludes(reportOption)
+        .excludes(clipOption)
         .excludes(jsonFlag);
 }
 
@@ -235,6 +246,7 @@ scene::SimulationOptions SimulateOptions::simulation(const scene::EntityScene& e
     scene.applyTo(options.world);
     if (pose == "node") options.pose = scene::StartPose::node;
     if (!fromClip.empty()) options.fromClip = parseClipStart(fromClip);
+    if (!clip.empty()) options.play = scene::ClipPlay{parseClipStart(clip), clipSpeed, !clipOnce, clipInPlace};
     options.shed = orLeave(scene::parseShedSettings(shed));
     if (!eye.empty()) options.eye = vec3(eye[0], eye[1], eye[2]);
     return options;

@@ -86,6 +86,10 @@ struct SimulateOptions {
     std::optional<float> seconds;
     std::string pose;
     std::string fromClip;
+    std::string clip;  ///< Played instead of falling, as the next three say.
+    float clipSpeed = 1.0F;
+    bool clipOnce = false;
+    bool clipInPlace = false;
     std::string shed;
     std::vector<float> eye;
     std::filesystem::path bakedOut;

@@ -154,6 +154,25 @@ scene::EntityScene loadEverything(const SimulateOptions& options, bool fromFile,
     return entities;
 }
 
+// A figure that plays a clip begins on its feet, whatever it would be dropped from.
+void standOnFloor(scene::EntityScene& entities) {
+    for (const scene::Entity& entity : entities.entities) {
+        if (entities.find<scene::Ragdoll>(entity.id) == nullptr) continue;
+        scene::Transform& transform = *entities.find<scene::Transform>(entity.id);
+        transform.parentFromEntity.rotation = quat(1, 0, 0, 0);
+        transform.parentFromEntity.translation.y = 0.0F;
+    }
+    entities.simulation.focus = {0, 0.9F, 0};
+}
+
+// One pass of the clip, where nothing else was asked for.
+float secondsOf(const SimulateOptions& options, const Run& run, float ofScene) {
+    if (options.seconds) return *options.seconds;
+    const scene::ClipCast* cast = run.simulation->clipCast();
+    if (cast == nullptr || options.clipSpeed == 0.0F) return ofScene;
+    return cast->clipSeconds(0) / std::abs(options.clipSpeed);
+}
+
 }  // namespace
 
 Run prepare(SimulateOptions& options, const std::filesystem::path& picture) {
@@ -163,16 +182,17 @@ Run prepare(SimulateOptions& options, const std::filesystem::path& picture) {
     if (!options.replayFrom.empty()) run.replay = orLeave(scene::loadRecording(options.replayFrom));
     if (run.replay && run.replay->figure > 0 && !options.ragdoll.model.figure && !options.ragdoll.model.model.empty())
         options.ragdoll.model.figure = run.replay->figure;
-    const scene::EntityScene entities = loadEverything(options, fromFile, run);
+    scene::EntityScene entities = loadEverything(options, fromFile, run);
     for (const auto& asset : run.cast.assets) {
         printWarnings(*asset);
         warnOfHeight(*asset);
     }
+    if (!options.clip.empty() && options.scene.scene == "drop") standOnFloor(entities);
     auto scenario = orLeave(scene::compileScene(entities, run.cast.figures(), run.cast.assetOfRagdoll));
-    const float seconds = options.seconds.value_or(scenario.seconds);
+    const float sceneSeconds = scenario.seconds;
     const scene::SimulationOptions simulation = options.simulation(entities);
     run.simulation = orLeave(scene::Simulation::create(run.cast.pointers(), std::move(scenario), simulation));
-    run.steps = static_cast<int>(std::lround(seconds / simulation.dt));
+    run.steps = static_cast<int>(std::lround(secondsOf(options, run, sceneSeconds) / simulation.dt));
     if (run.replay) checkReplay(options, run);
     return run;
 }

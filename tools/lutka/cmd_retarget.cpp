@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "animation/export/write_glb.hpp"
+#include "animation/humanoid/map_humanoid.hpp"
+#include "animation/retarget/retarget_clip.hpp"
+#include "commands.hpp"
+#include "core/files.hpp"
+#include "options.hpp"
+
+namespace lutka::cli {
+namespace {
+
+using animation::MeanAndMost;
+using animation::RetargetFigures;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+    ModelOptions from;
+    std::filesystem::path to;
+    std::string clip;
+    std::filesystem::path out;
+    bool json = false;
+    bool looseFeet = false;
+};
+
+const animation::Clip& clipOf(const animation::Character& character, const std::string& name) {
+    std::string known;
+    for (const animation::Clip& clip : character.clips) {
+        if (clip.name == name || (name.empty() && character.clips.size() == 1)) return clip;
+        known += (known.empty() ? "" : ", ") + clip.name;
+    }
+    leave({ErrorCode::usage,
+           name.empty() ? fmt::format("has {} clips", character.clips.size()) : fmt::format("has no clip '{}'", name),
+           character.file.string(), known.empty() ? "take a file with a clip" : "--clip takes one of " + known});
+}
+
+Json pairJson(const MeanAndMost& figure) {
+    return {{"mean", figure.mean}, {"max", figure.most}};
+}
+
+Json figuresJson(const Options& options, const animation::Clip& clip, const RetargetFigures& figures) {
+    Json directions = Json::object();
+    for (const animation::DirectionError& error : figures.directions)
+        directions[error.part] = pairJson(error.degrees);
+    Json json;
+    json["source"] = options.from.model.string();
+    json["target"] = options.to.string();
+    json["clip"] = clip.name;
+    json["seconds"] = clip.seconds();
+    json["frames"] = clip.frameCount;
+    json["scale"] = figures.scale;
+    json["limbDirectionDeg"] = {{"mean", figures.meanLimbDeg()}, {"max", figures.mostLimbDeg()}};
+    json["directionDeg"] = std::move(directions);
+    json["contacts"] = figures.contacts;
+    json["footSlideCm"] = pairJson(figures.slideCm);
+    json["sourceFootSlideCm"] = pairJson(figures.sourceSlideCm);
+    json["floorPenetrationCm"] = pairJson(figures.penetrationCm);
+    json["sourceFloorPenetrationCm"] = pairJson(figures.sourcePenetrationCm);
+    return json;
+}
+
+void printFigures(const animation::Clip& clip, const RetargetFigures& figures) {
+    fmt::print("clip '{}', {:.2f} s in {} frames, {:.3f} target metres a source metre\n", clip.name, clip.seconds(),
+               clip.frameCount, figures.scale);
+    fmt::print("  limbs point off    {:7.2f} deg in the mean, {:.2f} deg at most\n", figures.meanLimbDeg(),
+               figures.mostLimbDeg());
+    for (const animation::DirectionError& error : figures.directions)
+        fmt::print("    {:<17}{:7.2f} deg, {:.2f} deg at most\n", error.part, error.degrees.mean, error.degrees.most);
+    fmt::print(
+        "  feet slide         {:7.2f} cm in the mean of {} contacts, {:.2f} cm at most (the source's {:.2f}, {:.2f})\n",
+        figures.slideCm.mean, figures.contacts, figures.slideCm.most, figures.sourceSlideCm.mean,
+        figures.sourceSlideCm.most);
+    fmt::print("  soles in the floor {:7.2f} cm in the mean, {:.2f} cm at most\n", figures.penetrationCm.mean,
+               figures.penetrationCm.most);
+}
+
+void run(Options& options) {
+    const animation::Character source = orLeave(animation::importCharacter(options.from.model, options.from.import()));
+    const animation::Clip& clip = clipOf(source, options.clip);
+    ModelOptions targetOptions = options.from;
+    targetOptions.model = options.to;
+    targetOptions.scale.reset();
+    targetOptions.up.clear();
+    targetOptions.textures = true;
+    const animation::Character target = orLeave(animation::importCharacter(options.to, targetOptions.import()));
+    const animation::HumanoidMap sourceMap = animation::mapHumanoid(source);
+    const animation::HumanoidMap targetMap = animation::mapHumanoid(target);
+    if (!options.json) {
+        printWarnings(source);
+        printWarnings(target);
+    }
+    auto retargeter = orLeave(animation::Retargeter::make(source, sourceMap, target, targetMap));
+    animation::RetargetOptions how;
+    how.keepFeet = !options.looseFeet;
+    const animation::RetargetedClip made = orLeave(animation::retargetClip(retargeter, clip, how));
+    orLeave(animation::writeGlb(options.out, target, std::span(&made.clip, 1)));
+    if (options.json) {
+        fmt::print("{}\n",
+                   figuresJson(options, clip, made.figures).dump(2, ' ', false, Json::error_handler_t::replace));
+        return;
+    }
+    printFigures(clip, made.figures);
+    fmt::print("  wrote {}\n", options.out.string());
+}
+
+}  // namespace
+
+void addRetarget(const Command& app) {
+    auto options = std::make_shared<Options>();
+    const Command command = app.add("retarget", "Take a clip of one character to another");
+    options->from.addTo(command);
+    command.find("MODEL").describe("file with the clip: a rigged character or motion capture");
+    command.option("--to", options->to, "the character that the clip is for").required();
+    command.option("--clip", options->clip, "the clip's name; default: the file's only one");
+    command.option("-o,--output", options->out, "the character with the clip (.glb)").required();
+    command.flag("--loose-feet", options->looseFeet, "leave the feet where the legs' turns bring them");
+    command.flag("--json", options->json, "print the figures as JSON on stdout");
+    command.onRun([options] { run(*options); });
+}
+
+}  // namespace lutka::cli
