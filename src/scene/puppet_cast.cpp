@@ -8,24 +8,18 @@
 
 #include "animation/pose.hpp"
 #include "physics/collision/shape.hpp"
+#include "scene/clip_cast.hpp"
 
 namespace lutka::scene {
 namespace {
 
 using physics::BodyState;
 
-std::string namesOfClips(const animation::Character& character) {
-    std::string names;
-    for (const animation::Clip& clip : character.clips)
-        names += (names.empty() ? "" : ", ") + clip.name;
-    return names.empty() ? "the file has no clips" : "the clips are " + names;
-}
-
 // The hips carry the figure over the ground, in the character's standard stance.
 animation::RootMotionSettings travelOf(const RagdollAsset& asset) {
     animation::RootMotionSettings settings;
-    const int hips = physics::bodyOf(asset.profile, physics::Role::hips);
-    if (hips >= 0) settings.joint = asset.rig.jointOfBody[hips];
+    settings.joint = asset.map.jointOf(animation::Role::hips);
+    settings.up = glm::conjugate(asset.map.standardFromModel) * vec3(0, 1, 0);
     return settings;
 }
 
@@ -35,14 +29,14 @@ Result<std::unique_ptr<PuppetCast>> PuppetCast::create(std::span<const RagdollAs
                                                        const Scenario& scenario, PuppetPlay play) {
     std::unique_ptr<PuppetCast> cast(new PuppetCast(assets, scenario, std::move(play)));
     for (const RagdollAsset* asset : assets) {
-        auto library =
-            animation::ClipLibrary::create(asset->character.skeleton, asset->character.clips, travelOf(*asset));
+        if (cast->play_.start.clip.empty()) continue;
+        const auto moment = findClipMoment(asset->character, cast->play_.start);
+        if (!moment) return moment.error();
+        auto library = animation::ClipLibrary::create(asset->character.skeleton, std::span(moment.value().clip, 1),
+                                                      travelOf(*asset));
         if (!library) return library.error();
-        if (!cast->play_.clip.empty() && library.value().find(cast->play_.clip) < 0) {
-            return Error{ErrorCode::usage, fmt::format("there is no clip named '{}'", cast->play_.clip),
-                         asset->character.file.string(), namesOfClips(asset->character)};
-        }
         cast->libraries_.push_back(std::make_unique<animation::ClipLibrary>(std::move(library).value()));
+        cast->startSeconds_.push_back(moment.value().seconds);
     }
     return cast;
 }
@@ -63,7 +57,7 @@ void PuppetCast::begin(physics::World& world, std::span<const physics::DollId> d
         Actor& actor = actors_.emplace_back();
         const Placement& placement = placements_[i];
         actor.asset = assets_[placement.asset];
-        actor.library = libraries_[placement.asset].get();
+        if (!libraries_.empty()) actor.library = libraries_[placement.asset].get();
         actor.worldFromModel = placement.worldFromModel;
         actor.root = std::max(physics::bodyOf(actor.asset->profile, physics::Role::hips), 0);
         bodies_.resize(actor.asset->profile.bodies.size());
@@ -72,7 +66,7 @@ void PuppetCast::begin(physics::World& world, std::span<const physics::DollId> d
             std::make_unique<physics::Puppet>(world, dolls[i], actor.asset->profile, actor.root, bodies_, play_.puppet);
         for (const BodyState& body : bodies_)
             actor.to.push_back(body.worldFromBody);
-        if (!play_.clip.empty()) startClip(actor, world, dolls[i]);
+        if (actor.library != nullptr) startClip(actor, startSeconds_[placement.asset], world, dolls[i]);
         actor.from = actor.to;
     }
     for (Actor& actor : actors_)
@@ -80,11 +74,10 @@ void PuppetCast::begin(physics::World& world, std::span<const physics::DollId> d
             [this, &actor](physics::PuppetState, physics::PuppetState after) { notice(actor, after); });
 }
 
-void PuppetCast::startClip(Actor& actor, physics::World& world, physics::DollId doll) {
-    const int clip = actor.library->find(play_.clip);
+void PuppetCast::startClip(Actor& actor, float seconds, physics::World& world, physics::DollId doll) {
     // Shapes reach a little beyond the skin, and clips put feet into the ground: a pinned doll would tread on it with
     // all the force that it has.
-    const float lift = std::max(-clearance(actor, clip), 0.0F);
+    const float lift = std::max(-clearance(actor), 0.0F);
     actor.worldFromModel.translation.y += lift;
     bodies_.resize(actor.asset->profile.bodies.size());
     world.getBodies(doll, bodies_);
@@ -93,19 +86,19 @@ void PuppetCast::startClip(Actor& actor, physics::World& world, physics::DollId 
     world.setBodies(doll, bodies_);
     actor.player = std::make_unique<animation::ClipPlayer>(*actor.library, std::vector<animation::LayerSettings>{},
                                                            animation::RootMotion::extract);
-    actor.player->play(0, clip);
+    actor.player->play(0, 0, {.start = seconds});
     pose(actor, actor.to);
 }
 
 // How far above the ground that the doll is placed on (the height of its model's origin) its lowest body stays
 // throughout the clip, metres.
-float PuppetCast::clearance(const Actor& actor, int clip) {
+float PuppetCast::clearance(const Actor& actor) {
     constexpr float kStep = 1.0F / 60.0F;
     const animation::Skeleton& skeleton = actor.asset->character.skeleton;
     float lowest = 1e9F;
     joints_.resize(skeleton.parents.size());
-    for (float seconds = 0.0F; seconds <= actor.library->seconds(clip); seconds += kStep) {
-        actor.library->sampleInPlace(clip, seconds, joints_);
+    for (float seconds = 0.0F; seconds <= actor.library->seconds(0); seconds += kStep) {
+        actor.library->sampleInPlace(0, seconds, joints_);
         animation::localToModel(skeleton, joints_, joints_);
         bodies_.resize(actor.asset->profile.bodies.size());
         physics::bodiesFromPose(actor.asset->rig, joints_, actor.worldFromModel, bodies_);
@@ -150,8 +143,9 @@ void PuppetCast::hitDue(float dt) {
             if (body < 0) continue;
             bodies_.resize(actor.asset->profile.bodies.size());
             world_->getBodies(actor.puppet->doll(), bodies_);
-            actor.puppet->hit(body, bodies_[body].worldFromBody.translation,
-                              actor.worldFromModel.rotation * hit.impulse);
+            actor.puppet->hit(
+                body, bodies_[body].worldFromBody.translation,
+                actor.worldFromModel.rotation * (glm::conjugate(actor.asset->map.standardFromModel) * hit.impulse));
             actor.sinceHit = 0.0F;
         }
     }

@@ -17,12 +17,12 @@ namespace lutka::scene {
 struct PuppetHit {
     physics::Role role = physics::Role::chest;  ///< Dolls without that body are spared.
     float seconds = 0.0F;                       ///< Since the start, >= 0.
-    vec3 impulse{0, 0, 0};                      ///< N s, in the doll's model frame; acts at the body's centre.
+    vec3 impulse{0, 0, 0};                      ///< N s, as the figure faces: Y up, +Z ahead; at the body's centre.
 };
 
 /// How the dolls of a scene follow a clip with their muscles.
 struct PuppetPlay {
-    std::string clip;  ///< Looped from its start; empty: the start pose is held.
+    ClipStart start;  ///< The clip, looped from there; without a name the start pose is held.
     physics::PuppetSettings puppet;
     std::vector<PuppetHit> hits;
 };
@@ -71,14 +71,15 @@ class PuppetCast {
         float sinceHit = -1.0F;  // seconds; -1: not reacting
     };
     PuppetCast(std::span<const RagdollAsset* const> assets, const Scenario& scenario, PuppetPlay play);
-    void startClip(Actor& actor, physics::World& world, physics::DollId doll);
-    [[nodiscard]] float clearance(const Actor& actor, int clip);
+    void startClip(Actor& actor, float seconds, physics::World& world, physics::DollId doll);
+    [[nodiscard]] float clearance(const Actor& actor);
     void pose(Actor& actor, std::vector<RigidTransform>& bodies);
     void hitDue(float dt);
     void notice(Actor& actor, physics::PuppetState after);
 
     std::vector<const RagdollAsset*> assets_;
-    std::vector<std::unique_ptr<animation::ClipLibrary>> libraries_;  // one an asset
+    std::vector<std::unique_ptr<animation::ClipLibrary>> libraries_;  // one an asset, of the one clip
+    std::vector<float> startSeconds_;                                 // likewise
     std::vector<Placement> placements_;
     PuppetPlay play_;
     physics::World* world_ = nullptr;

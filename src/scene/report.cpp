@@ -70,7 +70,7 @@ std::string castText(const Simulation& simulation) {
 nlohmann::ordered_json puppetJson(const Simulation& simulation) {
     const PuppetCast& cast = *simulation.puppets();
     const PuppetFigures figures = cast.figures();
-    return {{"clip", cast.settings().clip},
+    return {{"clip", cast.settings().start.clip},
             {"strength", cast.settings().puppet.muscles.strength},
             {"frequencyHz", cast.settings().puppet.muscles.frequencyHz},
             {"dampingRatio", cast.settings().puppet.muscles.dampingRatio},

@@ -89,8 +89,8 @@ Simulation::Simulation(std::vector<const RagdollAsset*> assets, Scenario scenari
         firstBody_.push_back(firstBody_.back() + assetOf(doll).profile.bodies.size());
     motions_.resize(scenario_.dolls.size());
     // Puppets begin where their clip does.
-    if (options_.puppet && !options_.puppet->clip.empty() && !options_.fromClip)
-        options_.fromClip = ClipStart{options_.puppet->clip, 0.0F};
+    if (options_.puppet && !options_.puppet->start.clip.empty() && !options_.fromClip)
+        options_.fromClip = options_.puppet->start;
 }
 
 Result<void> Simulation::findStarts() {

@@ -81,3 +81,23 @@ TEST_CASE("retarget says what it lacks") {
                        " -o " LUTKA_ASSETS_DIR "/models/mannequin.glb/x.glb")
               .code == 5);
 }
+
+TEST_CASE("simulate --puppet follows the clip with muscles, is hit, and reports how closely") {
+    const std::string walk = "simulate " + kMannequinArgument + " --clip walk --puppet ";
+    const CommandResult plain = lutkaCommand(walk + "powered --seconds 2 --json");
+    REQUIRE(plain.code == 0);
+    const Json report = Json::parse(plain.out)["puppet"];
+    CHECK(report["clip"] == "walk");
+    CHECK(report["trackingErrorDeg"]["rms"].get<double>() < 2.0);
+    CHECK(report["knockOuts"] == 0);
+    const CommandResult hit = lutkaCommand(walk + "powered --seconds 2 --hit leftLowerArm@0.5:8 --json");
+    REQUIRE(hit.code == 0);
+    CHECK(Json::parse(hit.out)["puppet"]["trackingErrorDeg"]["max"].get<double>() > 15.0);
+    const CommandResult out = lutkaCommand(walk + "powered --seconds 3 --hit hips@0.5:0,0,600 --hit chest@0.5:400");
+    CHECK(out.code == 0);
+    CHECK(out.out.find("knocked out") != std::string::npos);
+    CHECK(lutkaCommand(walk + "mighty").code == 2);
+    CHECK(lutkaCommand(walk + "weak --hit elbow@1:3").code == 2);
+    CHECK(lutkaCommand(walk + "weak --hit head@1").code == 2);
+    CHECK(lutkaCommand("simulate " + kMannequinArgument + " --puppet weak").code == 2);
+}

@@ -34,7 +34,8 @@ TEST_CASE("as many dolls as --count allows fall and stay finite; one more is wro
     CHECK(report["count"] == 10000);
     CHECK(report["quality"]["nonFinite"] == 0);
     CHECK(report["quality"]["jointSeparationM"]["max"].get<double>() < 1e-3);
-    const CommandResult more = runCommand(kProgram + "simulate " + kMannequinArgument + " --scene spread --count 10001");
+    const CommandResult more =
+        runCommand(kProgram + "simulate " + kMannequinArgument + " --scene spread --count 10001");
     CHECK(more.code == 2);
     CHECK_THAT(more.err, Catch::Contains("--count") && Catch::Contains("10000"));
 }

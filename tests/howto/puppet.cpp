@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
 
     scene::SimulationOptions options;
     options.puppet.emplace();
-    options.puppet->clip = "walk";
+    options.puppet->start.clip = "walk";
     options.puppet->puppet.muscles = physics::musclesOf(physics::MusclePreset::powered);
     options.puppet->hits = {{physics::Role::leftLowerArm, 1.0F, {0, 0, 8}}};  // N s, after a second
     auto simulation = scene::Simulation::create(asset, std::move(ground), options);

@@ -47,7 +47,7 @@ TEST_CASE("a pinned puppet walks within two degrees of its clip, its pelvis with
     for (const SolverKind solver : {SolverKind::crowd, SolverKind::bullet}) {
         INFO(physics::solverName(solver));
         PuppetPlay play;
-        play.clip = "walk";
+        play.start.clip = "walk";
         const auto simulation = simulate(play, solver, 4.0F);
         const scene::PuppetFigures figures = simulation->puppets()->figures();
         INFO(figures.rmsDeg << " rms, " << figures.maxDeg << " at most at " << figures.worstJoint << ", root "
@@ -62,7 +62,7 @@ TEST_CASE("a pinned puppet walks within two degrees of its clip, its pelvis with
 
 TEST_CASE("puppets run the same bits again, after a reset as well") {
     PuppetPlay play;
-    play.clip = "walk";
+    play.start.clip = "walk";
     play.hits = {{Role::chest, 0.5F, {0, 0, -15}}};
     const auto one = simulate(play, SolverKind::crowd, 2.0F, 3);
     const auto other = simulate(play, SolverKind::crowd, 2.0F, 3);
@@ -75,7 +75,7 @@ TEST_CASE("puppets run the same bits again, after a reset as well") {
 
 TEST_CASE("a hit shows, passes and is told; one too much knocks the puppet out") {
     PuppetPlay play;
-    play.clip = "idle";
+    play.start.clip = "idle";
     play.hits = {{Role::leftLowerArm, 0.5F, {0, 0, 10}}};
     const auto hit = simulate(play, SolverKind::crowd, 2.5F);
     CHECK(hit->puppets()->figures().maxDeg > 15.0F);
@@ -91,7 +91,7 @@ TEST_CASE("a hit shows, passes and is told; one too much knocks the puppet out")
 
 TEST_CASE("a clip that is not there is an error that names those that are") {
     scene::SimulationOptions options;
-    options.puppet = PuppetPlay{"dance", {}, {}};
+    options.puppet = PuppetPlay{{.clip = "dance"}, {}, {}};
     const auto refused = scene::Simulation::create(mannequin(), ground(), options);
     REQUIRE_FALSE(refused);
     CHECK(refused.error().code == ErrorCode::usage);

@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <cstdlib>
 #include <map>
 #include <utility>
 
+#include "animation/humanoid/roles.hpp"
 #include "interrupt.hpp"
 #include "scene/scene_file.hpp"
 
@@ -84,6 +87,37 @@ scene::ClipStart parseClipStart(const std::string& text) {
         }
     }
     return {text, 0.0F};
+}
+
+// The numbers of a comma-separated list; empty where something else stands there.
+std::vector<float> numbersOf(const std::string& text) {
+    std::vector<float> numbers;
+    const char* at = text.c_str();
+    while (true) {
+        char* end = nullptr;
+        numbers.push_back(std::strtof(at, &end));
+        if (end == at || !std::isfinite(numbers.back())) return {};
+        if (*end == '\0') return numbers;
+        if (*end != ',') return {};
+        at = end + 1;
+    }
+}
+
+// ROLE@SECONDS:NS, from ahead, or ROLE@SECONDS:X,Y,Z.
+scene::PuppetHit parseHit(const std::string& text) {
+    const std::size_t at = text.find('@');
+    const std::size_t colon = text.find(':', at == std::string::npos ? 0 : at);
+    const auto role = animation::roleFromName(text.substr(0, at));
+    if (at != std::string::npos && colon != std::string::npos && role) {
+        const std::vector<float> seconds = numbersOf(text.substr(at + 1, colon - at - 1));
+        const std::vector<float> impulse = numbersOf(text.substr(colon + 1));
+        if (seconds.size() == 1 && seconds[0] >= 0.0F && (impulse.size() == 1 || impulse.size() == 3)) {
+            return {*role, seconds[0],
+                    impulse.size() == 1 ? vec3(0, 0, -impulse[0]) : vec3(impulse[0], impulse[1], impulse[2])};
+        }
+    }
+    leave({ErrorCode::usage, fmt::format("'{}' is no hit", text), "--hit",
+           "give a body part, a moment and an impulse in N s, as chest@1.5:20 or leftLowerArm@0.5:0,0,10"});
 }
 
 }  // namespace
@@ -219,6 +253,18 @@ void SimulateOptions::addTo(const Command& app) {
         .needs(clipOption);
     app.flag("--once", clipOnce, "the clip stays at its end instead of beginning anew").needs(clipOption);
     app.flag("--in-place", clipInPlace, "the clip without its way over the ground").needs(clipOption);
+    const Option puppetOption =
+        app.option("--puppet", puppet,
+                   "follow the clip with muscles instead of playing it: limp, weak, powered or stiff")
+            .oneOf({physics::kMusclePresetNames.begin(), physics::kMusclePresetNames.end()})
+            .needs(clipOption);
+    app.option("--strength", strength, "factor on the muscles' strength").range(0.0, 1e6).needs(puppetOption);
+    app.option("--pin", pinForceN, "newtons that hold the hips to the clip at most; 0: it stands or falls")
+        .range(0.0, 1e6)
+        .needs(puppetOption);
+    app.option("--hit", hits, "push a body: ROLE@SECONDS:NS or ROLE@SECONDS:X,Y,Z in N s, +Z ahead; may be repeated")
+        .oneValueEach()
+        .needs(puppetOption);
     const Option shedOption =
         app.option("--shed", shed,
                    "spare dolls far from the eye, from so many metres on: lod@10,apart@15,slow@20,frozen@40 or some");
@@ -241,12 +287,28 @@ void SimulateOptions::addTo(const Command& app) {
         .excludes(jsonFlag);
 }
 
+scene::PuppetPlay SimulateOptions::puppetPlay() const {
+    scene::PuppetPlay play;
+    play.start = parseClipStart(clip);
+    const auto preset = std::find(physics::kMusclePresetNames.begin(), physics::kMusclePresetNames.end(), puppet);
+    play.puppet.muscles =
+        physics::musclesOf(static_cast<physics::MusclePreset>(preset - physics::kMusclePresetNames.begin()));
+    play.puppet.muscles.strength = strength;
+    play.puppet.pinForceN = pinForceN;
+    for (const std::string& hit : hits)
+        play.hits.push_back(parseHit(hit));
+    return play;
+}
+
 scene::SimulationOptions SimulateOptions::simulation(const scene::EntityScene& entities) const {
     scene::SimulationOptions options = scene::simulationOptionsOf(entities);
     scene.applyTo(options.world);
     if (pose == "node") options.pose = scene::StartPose::node;
     if (!fromClip.empty()) options.fromClip = parseClipStart(fromClip);
-    if (!clip.empty()) options.play = scene::ClipPlay{parseClipStart(clip), clipSpeed, !clipOnce, clipInPlace};
+    if (!puppet.empty())
+        options.puppet = puppetPlay();
+    else if (!clip.empty())
+        options.play = scene::ClipPlay{parseClipStart(clip), clipSpeed, !clipOnce, clipInPlace};
     options.shed = orLeave(scene::parseShedSettings(shed));
     if (!eye.empty()) options.eye = vec3(eye[0], eye[1], eye[2]);
     return options;

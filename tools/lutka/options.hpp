@@ -90,6 +90,10 @@ struct SimulateOptions {
     float clipSpeed = 1.0F;
     bool clipOnce = false;
     bool clipInPlace = false;
+    std::string puppet;  ///< A muscle preset: the clip is followed instead of played, as the next three say.
+    float strength = 1.0F;
+    float pinForceN = 3000.0F;
+    std::vector<std::string> hits;
     std::string shed;
     std::vector<float> eye;
     std::filesystem::path bakedOut;
@@ -102,6 +106,7 @@ struct SimulateOptions {
 
     void addTo(const Command& app);
     /// How `scene` is simulated: as it says itself, but for what was asked for.
+    [[nodiscard]] scene::PuppetPlay puppetPlay() const;
     [[nodiscard]] scene::SimulationOptions simulation(const scene::EntityScene& scene) const;
 };
 
