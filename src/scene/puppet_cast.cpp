@@ -15,6 +15,13 @@ namespace {
 
 using physics::BodyState;
 
+std::string bodiesOf(const physics::RagdollProfile& profile) {
+    std::string names;
+    for (const physics::BodyProfile& body : profile.bodies)
+        names += (names.empty() ? "" : ", ") + std::string(animation::roleName(body.role));
+    return "its bodies are " + names;
+}
+
 // The hips carry the figure over the ground, in the character's standard stance.
 animation::RootMotionSettings travelOf(const RagdollAsset& asset) {
     animation::RootMotionSettings settings;
@@ -27,6 +34,14 @@ animation::RootMotionSettings travelOf(const RagdollAsset& asset) {
 
 Result<std::unique_ptr<PuppetCast>> PuppetCast::create(std::span<const RagdollAsset* const> assets,
                                                        const Scenario& scenario, PuppetPlay play) {
+    for (const PuppetHit& hit : play.hits) {
+        const bool known = std::any_of(assets.begin(), assets.end(), [&](const RagdollAsset* asset) {
+            return physics::bodyOf(asset->profile, hit.role) >= 0;
+        });
+        if (known) continue;
+        return Error{ErrorCode::usage, fmt::format("no doll has a body for {}", animation::roleName(hit.role)),
+                     assets.front()->character.file.string(), bodiesOf(assets.front()->profile)};
+    }
     std::unique_ptr<PuppetCast> cast(new PuppetCast(assets, scenario, std::move(play)));
     for (const RagdollAsset* asset : assets) {
         if (cast->play_.start.clip.empty()) continue;

@@ -93,11 +93,15 @@ TEST_CASE("simulate --puppet follows the clip with muscles, is hit, and reports 
     const CommandResult hit = lutkaCommand(walk + "powered --seconds 2 --hit leftLowerArm@0.5:8 --json");
     REQUIRE(hit.code == 0);
     CHECK(Json::parse(hit.out)["puppet"]["trackingErrorDeg"]["max"].get<double>() > 15.0);
-    const CommandResult out = lutkaCommand(walk + "powered --seconds 3 --hit hips@0.5:0,0,600 --hit chest@0.5:400");
+    const CommandResult out =
+        lutkaCommand(walk + "powered --seconds 3 --hit hips@0.5:0,0,600 --hit upperChest@0.5:400");
     CHECK(out.code == 0);
     CHECK(out.out.find("knocked out") != std::string::npos);
     CHECK(lutkaCommand(walk + "mighty").code == 2);
     CHECK(lutkaCommand(walk + "weak --hit elbow@1:3").code == 2);
     CHECK(lutkaCommand(walk + "weak --hit head@1").code == 2);
+    const CommandResult none = lutkaCommand(walk + "weak --hit leftToes@1:5");
+    CHECK(none.code == 2);
+    CHECK(none.err.find("leftFoot") != std::string::npos);
     CHECK(lutkaCommand("simulate " + kMannequinArgument + " --puppet weak").code == 2);
 }

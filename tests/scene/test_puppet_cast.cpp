@@ -63,7 +63,7 @@ TEST_CASE("a pinned puppet walks within two degrees of its clip, its pelvis with
 TEST_CASE("puppets run the same bits again, after a reset as well") {
     PuppetPlay play;
     play.start.clip = "walk";
-    play.hits = {{Role::chest, 0.5F, {0, 0, -15}}};
+    play.hits = {{Role::upperChest, 0.5F, {0, 0, -15}}};
     const auto one = simulate(play, SolverKind::crowd, 2.0F, 3);
     const auto other = simulate(play, SolverKind::crowd, 2.0F, 3);
     CHECK(one->stateHash() == other->stateHash());
@@ -82,7 +82,7 @@ TEST_CASE("a hit shows, passes and is told; one too much knocks the puppet out")
     CHECK(hit->puppets()->figures().recoverySeconds > 0.1F);
     CHECK(hit->puppets()->figures().recoverySeconds < 1.0F);
     CHECK(hit->puppets()->figures().knockOuts == 0);
-    play.hits = {{Role::hips, 0.5F, {0, 0, 500}}, {Role::chest, 0.5F, {0, 0, 300}}};
+    play.hits = {{Role::hips, 0.5F, {0, 0, 500}}, {Role::upperChest, 0.5F, {0, 0, 300}}};
     const auto out = simulate(play, SolverKind::crowd, 2.5F);
     CHECK(out->puppets()->figures().knockOuts == 1);
     CHECK(out->puppets()->figures().limp == 1);

@@ -117,7 +117,7 @@ scene::PuppetHit parseHit(const std::string& text) {
         }
     }
     leave({ErrorCode::usage, fmt::format("'{}' is no hit", text), "--hit",
-           "give a body part, a moment and an impulse in N s, as chest@1.5:20 or leftLowerArm@0.5:0,0,10"});
+           "give a body part, a moment and an impulse in N s, as head@1.5:5 or leftLowerArm@0.5:0,0,10"});
 }
 
 }  // namespace
