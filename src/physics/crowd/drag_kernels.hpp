@@ -35,11 +35,7 @@ LUTKA_LANES void askDrag(const BodyLanes& body, DragLanes& drag, const Pass& pas
     const F gain = load(drag.gain);
     if (!pass.mending) {
         const V3 before = load(drag.impulse);
-        const V3 wanted = pullOf(body, drag);
-        // Its direction stays for the substep: what the bound itself has moved says nothing about it.
-        const V3 along = choose(pass.applied > zero, before, wanted);
-        const V3 bounded = along * within(dot(along, along), load(drag.bound)).share;
-        const V3 target = choose(gain > zero, wanted, bounded);
+        const V3 target = springTarget(before, pullOf(body, drag), load(drag.bound), gain, pass);
         const V3 push = target - before * pass.applied;
         store(drag.impulse, target);
         loaded.impulse = loaded.impulse + push;
@@ -48,21 +44,13 @@ LUTKA_LANES void askDrag(const BodyLanes& body, DragLanes& drag, const Pass& pas
     addPoint(loaded.inertia, arm, {gain, gain, gain, zero, zero, zero});
 }
 
-// Guesses for the next pass, and the next substep, whether the force is within its bound; returns the lanes in which it
-// was guessed wrong. A bound that throws a light hand past its target is one of them.
+// Returns the lanes in which it was guessed wrong whether the force is within its bound.
 LUTKA_LANES Mask updateDrag(const BodyLanes& body, DragLanes& drag, const Pass& pass) {
-    const F zero = all(0.0F);
-    const V3 wanted = pullOf(body, drag);
-    const Mask held = load(drag.gain) > zero;
-    const V3 impulse = choose(held, wanted, load(drag.impulse));
-    store(drag.impulse, impulse);
-    const F bound = load(drag.bound);
-    const F size = squareRoot(dot(impulse, impulse));
-    const Mask tooStrong = held & (size > bound * all(1.05F));
-    const Mask tooWeak =
-        ~held & (dot(wanted, impulse) < size * bound * all(0.95F)) & (load(drag.weight) > zero) & ~pass.late;
-    store(drag.gain, tooStrong ? zero : (tooWeak ? load(drag.weight) : load(drag.gain)));
-    return tooStrong | tooWeak;
+    const SpringCheck check =
+        checkSpring(load(drag.impulse), pullOf(body, drag), load(drag.bound), load(drag.weight), load(drag.gain), pass);
+    store(drag.impulse, check.impulse);
+    store(drag.gain, check.gain);
+    return check.wrong;
 }
 
 }  // namespace lutka::physics::crowd::LUTKA_KERNELS

@@ -70,10 +70,7 @@ static __attribute__((noinline)) JointTerms askMotor(MotorLanes& motor, const Jo
     if (!pass.mending) {
         const V3 before = load(motor.impulse);
         const V3 wanted = driveOf(motor, drivenTurning(joint, constants, relative));
-        // Its direction stays for the substep: what the bound itself has moved says nothing about it.
-        const V3 along = choose(pass.applied > zero, before, wanted);
-        const V3 bounded = along * within(dot(along, along), load(motor.bound)).share;
-        const V3 target = choose(gain > zero, wanted, bounded);
+        const V3 target = springTarget(before, wanted, load(motor.bound), gain, pass);
         terms.torque = target - before * pass.applied;
         store(motor.impulse, target);
     }
@@ -85,24 +82,17 @@ static __attribute__((noinline)) JointTerms askMotor(MotorLanes& motor, const Jo
     return terms;
 }
 
-// Guesses for the next pass, and the next substep, whether the torque is within its bound; returns the lanes in which
-// it was guessed wrong.
+// Returns the lanes in which it was guessed wrong whether the torque is within its bound.
 static __attribute__((noinline)) Mask updateMotor(MotorLanes& motor, const JointLanes& joint,
                                                   const JointConstants& constants, const V3& relative,
                                                   const Pass& pass) {
-    const F zero = all(0.0F);
     const V3 wanted = driveOf(motor, drivenTurning(joint, constants, relative));
-    const Mask held = load(motor.gain) > zero;
-    const V3 impulse = choose(held, wanted, load(motor.impulse));
-    store(motor.impulse, impulse);
-    store(motor.work, dot(impulse, load(motor.before) + relative) * all(0.5F));
-    const F bound = load(motor.bound);
-    const F size = squareRoot(dot(impulse, impulse));
-    const Mask tooStrong = held & (size > bound * all(1.05F));
-    const Mask tooWeak =
-        ~held & (dot(wanted, impulse) < size * bound * all(0.95F)) & (load(motor.weight) > zero) & ~pass.late;
-    store(motor.gain, tooStrong ? zero : (tooWeak ? load(motor.weight) : load(motor.gain)));
-    return tooStrong | tooWeak;
+    const SpringCheck check =
+        checkSpring(load(motor.impulse), wanted, load(motor.bound), load(motor.weight), load(motor.gain), pass);
+    store(motor.impulse, check.impulse);
+    store(motor.gain, check.gain);
+    store(motor.work, dot(check.impulse, load(motor.before) + relative) * all(0.5F));
+    return check.wrong;
 }
 
 }  // namespace lutka::physics::crowd::LUTKA_KERNELS

@@ -234,6 +234,31 @@ struct Loaded {
 
 constexpr float kMendReach = 3.0F;  // m/s that mending moves a point with at most
 
+// A spring whose impulse is bounded, of a pull or a motor: what it is to give in this pass. Its direction stays for the
+// substep, since what the bound itself has moved says nothing about it.
+LUTKA_LANES V3 springTarget(const V3& before, const V3& wanted, F bound, F gain, const Pass& pass) {
+    const F zero = all(0.0F);
+    const V3 along = choose(pass.applied > zero, before, wanted);
+    const V3 bounded = along * within(dot(along, along), bound).share;
+    return choose(gain > zero, wanted, bounded);
+}
+// The same after the sweep: what it gives, the gain for the next pass and the next substep, and the lanes in which it
+// was guessed wrong whether the impulse is within its bound. A bound that throws a light limb past its target is one.
+struct SpringCheck {
+    V3 impulse;
+    F gain;
+    Mask wrong;
+};
+LUTKA_LANES SpringCheck checkSpring(const V3& before, const V3& wanted, F bound, F weight, F gain, const Pass& pass) {
+    const F zero = all(0.0F);
+    const Mask held = gain > zero;
+    const V3 impulse = choose(held, wanted, before);
+    const F size = squareRoot(dot(impulse, impulse));
+    const Mask tooStrong = held & (size > bound * all(1.05F));
+    const Mask tooWeak = ~held & (dot(wanted, impulse) < size * bound * all(0.95F)) & (weight > zero) & ~pass.late;
+    return {impulse, tooStrong ? zero : (tooWeak ? weight : gain), tooStrong | tooWeak};
+}
+
 // How a body moves at a static contact.
 struct StaticMotion {
     V3 normal, arm;
