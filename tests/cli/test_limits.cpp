@@ -26,7 +26,7 @@ Json fieldOfBoxes(int count) {
 
 }  // namespace
 
-TEST_CASE("as many dolls as --count allows fall and stay finite; one more is wrong usage") {
+TEST_CASE("as many dolls as --count allows fall and stay finite, one more is wrong usage") {
     const CommandResult most =
         runCommand(kProgram + "simulate " + kMannequinArgument + " --scene spread --count 10000 --seconds 0.05 --json");
     REQUIRE(most.code == 0);
@@ -40,7 +40,7 @@ TEST_CASE("as many dolls as --count allows fall and stay finite; one more is wro
     CHECK_THAT(more.err, Catch::Contains("--count") && Catch::Contains("10000"));
 }
 
-TEST_CASE("a scene of as many entities as a file may have is checked and run; one more is refused by number") {
+TEST_CASE("a scene of as many entities as a file may have is checked and run, one more is refused by number") {
     const ScratchFolder folder;
     const auto file = folder / "field.scene.json";
     std::ofstream(file) << fieldOfBoxes(20000).dump();

@@ -73,7 +73,7 @@ TEST_CASE("puppets run the same bits again, after a reset as well") {
     CHECK(one->stateHash() == other->stateHash());
 }
 
-TEST_CASE("a hit shows, passes and is told; one too much knocks the puppet out") {
+TEST_CASE("a hit shows, passes and is told, one too much knocks the puppet out") {
     PuppetPlay play;
     play.start.clip = "idle";
     play.hits = {{Role::leftLowerArm, 0.5F, {0, 0, 10}}};

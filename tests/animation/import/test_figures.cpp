@@ -32,7 +32,7 @@ ImportOptions takingFigure(int number) {
 
 }  // namespace
 
-TEST_CASE("a file's figures are listed; the largest is taken unless another is asked for") {
+TEST_CASE("a file's figures are listed, the largest is taken unless another is asked for") {
     const TemporaryFolder folder;
     makePair().saveBinary(folder / "pair.glb");
     const float height = tallness(makeBiped());

@@ -164,7 +164,7 @@ TEST_CASE("joints that carry what hangs on them do not sag") {
     }
 }
 
-TEST_CASE("muscles are set by frequency, group and body; without strength a joint is limp") {
+TEST_CASE("muscles are set by frequency, group and body, without strength a joint is limp") {
     const RagdollProfile profile = makeDoll();
     const auto start = standingDoll(profile, {0, 1.0F, 0});
     const PoseDrive drive(profile, start);
