@@ -34,15 +34,9 @@ const std::vector<JointSpec>& bipedJoints() {
     return joints;
 }
 
-struct Part {
-    int joint;
-    vec3 end;  // the part runs from its joint to here
-    float radius;
-};
-
 // Half the thickness of each part, roughly a man's.
-const std::vector<Part>& bipedParts() {
-    static const std::vector<Part> parts = {
+const std::vector<TubeSpec>& bipedParts() {
+    static const std::vector<TubeSpec> parts = {
         {0, {0, 0.85F, 0}, 0.15F},           {1, {0, 1.20F, 0}, 0.13F},       {2, {0, 1.45F, 0}, 0.15F},
         {3, {0, 1.56F, 0}, 0.06F},           {4, {0, 1.75F, 0}, 0.09F},       {5, {0.18F, 1.42F, 0}, 0.06F},
         {6, {0.46F, 1.42F, 0}, 0.05F},       {7, {0.72F, 1.42F, 0}, 0.04F},   {8, {0.90F, 1.42F, 0}, 0.03F},
@@ -57,8 +51,7 @@ const std::vector<Part>& bipedParts() {
 constexpr int kRings = 9;
 constexpr int kSegments = 12;
 
-// A closed tube around the part, its end rings drawn in to half the radius.
-void addTube(animation::SkinnedMesh& mesh, const vec3& start, const Part& part) {
+void addTube(animation::SkinnedMesh& mesh, const vec3& start, const TubeSpec& part) {
     const vec3 axis = glm::normalize(part.end - start);
     const vec3 u = anyPerpendicular(axis);
     const vec3 v = glm::cross(axis, u);
@@ -101,18 +94,78 @@ animation::Skeleton makeSkeleton(const std::vector<JointSpec>& joints) {
     return skeleton;
 }
 
-animation::Character makeBiped() {
-    animation::Character biped;
-    biped.name = "biped";
-    biped.skeleton = makeSkeleton(bipedJoints());
-    biped.materials.emplace_back();
-    animation::SkinnedMesh& mesh = biped.meshes.emplace_back();
+animation::Character makeFigure(const std::string& name, const std::vector<JointSpec>& joints,
+                                const std::vector<TubeSpec>& tubes) {
+    animation::Character figure;
+    figure.name = name;
+    figure.skeleton = makeSkeleton(joints);
+    figure.materials.emplace_back();
+    animation::SkinnedMesh& mesh = figure.meshes.emplace_back();
     mesh.name = "skin";
-    for (const Part& part : bipedParts()) {
-        addTube(mesh, bipedJoints()[part.joint].position, part);
-        biped.skeleton.skinWeight[part.joint] += kRings * kSegments;
+    for (const TubeSpec& tube : tubes) {
+        addTube(mesh, joints[tube.joint].position, tube);
+        figure.skeleton.skinWeight[tube.joint] += kRings * kSegments;
     }
-    return biped;
+    return figure;
+}
+
+animation::Character makeBiped() {
+    return makeFigure("biped", bipedJoints(), bipedParts());
+}
+
+animation::Character makeQuadruped() {
+    std::vector<JointSpec> joints = {
+        {"root", -1, {0, 0, 0}},           {"pelvis", 0, {0, 0.50F, -0.30F}},   {"back", 1, {0, 0.55F, -0.08F}},
+        {"ribs", 2, {0, 0.55F, 0.14F}},    {"neck1", 3, {0, 0.60F, 0.30F}},     {"skull", 4, {0, 0.72F, 0.40F}},
+        {"jaw", 5, {0, 0.69F, 0.47F}},     {"eye_l", 5, {0.03F, 0.76F, 0.50F}}, {"eye_r", 5, {-0.03F, 0.76F, 0.50F}},
+        {"tail1", 1, {0, 0.50F, -0.36F}},  {"tail2", 9, {0, 0.47F, -0.46F}},    {"tail3", 10, {0, 0.44F, -0.56F}},
+        {"tail4", 11, {0, 0.41F, -0.66F}},
+    };
+    std::vector<TubeSpec> tubes = {
+        {1, {0, 0.55F, -0.08F}, 0.10F},    {2, {0, 0.55F, 0.14F}, 0.11F},      {3, {0, 0.60F, 0.30F}, 0.11F},
+        {4, {0, 0.72F, 0.40F}, 0.06F},     {5, {0, 0.73F, 0.58F}, 0.06F},      {6, {0, 0.66F, 0.58F}, 0.02F},
+        {7, {0.03F, 0.76F, 0.51F}, 0.01F}, {8, {-0.03F, 0.76F, 0.51F}, 0.01F}, {9, {0, 0.47F, -0.46F}, 0.03F},
+        {10, {0, 0.44F, -0.56F}, 0.025F},  {11, {0, 0.41F, -0.66F}, 0.02F},    {12, {0, 0.38F, -0.76F}, 0.015F},
+    };
+    for (const float side : {-1.0F, 1.0F}) {  // the right one first: order must not matter
+        for (const bool fore : {true, false}) {
+            const float z = fore ? 0.16F : -0.30F;
+            const std::string end = std::string(fore ? "_fore" : "_hind") + (side > 0 ? "_l" : "_r");
+            const int first = static_cast<int>(joints.size());
+            joints.push_back({"thigh" + end, fore ? 3 : 1, {side * 0.09F, 0.48F, z}});
+            joints.push_back({"shin" + end, first, {side * 0.09F, 0.26F, z}});
+            joints.push_back({"paw" + end, first + 1, {side * 0.09F, 0.06F, z}});
+            joints.push_back({"twist" + end, first, {side * 0.09F, 0.37F, z}});
+            tubes.push_back({first, {side * 0.09F, 0.26F, z}, 0.045F});
+            tubes.push_back({first + 1, {side * 0.09F, 0.06F, z}, 0.03F});
+            tubes.push_back({first + 2, {side * 0.09F, 0.03F, z + 0.09F}, 0.025F});
+            tubes.push_back({first + 3, {side * 0.09F, 0.30F, z}, 0.045F});
+        }
+    }
+    return makeFigure("quadruped", joints, tubes);
+}
+
+animation::Character makeBipedWithAppendages() {
+    std::vector<JointSpec> joints = bipedJoints();
+    std::vector<TubeSpec> tubes = bipedParts();
+    const auto add = [&](const std::string& name, int parent, const vec3& at, const vec3& end, float radius) {
+        joints.push_back({name, parent, at});
+        const int joint = static_cast<int>(joints.size()) - 1;
+        tubes.push_back({joint, end, radius});
+        return joint;
+    };
+    const int tail = add("tail_01", 0, {0, 0.93F, -0.14F}, {0, 0.85F, -0.34F}, 0.04F);
+    const int middle = add("tail_02", tail, {0, 0.85F, -0.34F}, {0, 0.78F, -0.54F}, 0.03F);
+    add("tail_03", middle, {0, 0.78F, -0.54F}, {0, 0.72F, -0.74F}, 0.02F);
+    for (const float side : {1.0F, -1.0F}) {
+        add(side > 0 ? "ear_L" : "ear_R", 4, {side * 0.06F, 1.72F, 0}, {side * 0.10F, 1.86F, 0}, 0.02F);
+        const int hand = side > 0 ? 8 : 12;
+        add(side > 0 ? "finger_L" : "finger_R", hand, {side * 0.84F, 1.42F, 0}, {side * 0.92F, 1.42F, 0}, 0.01F);
+    }
+    const int hair = add("ponytail1", 4, {0, 1.70F, -0.10F}, {0, 1.56F, -0.18F}, 0.03F);
+    add("ponytail2", hair, {0, 1.56F, -0.18F}, {0, 1.40F, -0.20F}, 0.025F);
+    add("sword", 12, {-0.80F, 1.42F, 0.02F}, {-0.80F, 1.42F, 0.90F}, 0.02F);
+    return makeFigure("biped with appendages", joints, tubes);
 }
 
 animation::HumanoidMap mapOfBiped(const animation::Character& biped) {

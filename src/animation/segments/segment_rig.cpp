@@ -1,0 +1,35 @@
+#include "animation/segments/segment_rig.hpp"
+
+#include <algorithm>
+
+#include "animation/segments/clip_hinges.hpp"
+#include "animation/segments/segment_sides.hpp"
+#include "animation/segments/segment_tree.hpp"
+#include "core/assert.hpp"
+
+namespace lutka::animation {
+
+SegmentedRig segmentRig(const Character& character, const SegmentOptions& options) {
+    constexpr float kFirstShortest = 0.04F;  // of the longest extent
+    constexpr float kCoarser = 1.2F;
+    constexpr int kMost = 256;
+    LUTKA_ASSERT(options.mostSegments >= 1 && options.mostSegments <= kMost);
+    SegmentedRig result;
+    if (character.skeleton.jointCount() == 0) return result;
+    const RigFeatures rig = readRig(character, true);
+    const RigMeasures measures = measureRig(rig);
+    float shortest = kFirstShortest * measures.size;
+    const auto most = static_cast<std::size_t>(options.mostSegments);
+    // Nothing is longer than the whole, so that this ends with one segment at the latest.
+    for (result.segments = segmentTree(rig, measures, character.skeleton.names, shortest);
+         result.segments.size() > most;
+         result.segments = segmentTree(rig, measures, character.skeleton.names, shortest)) {
+        shortest *= kCoarser;
+    }
+    result.standardFromModel = findSides(rig, measures.size, result.segments);
+    orderSegments(result.segments);
+    findClipHinges(character, result.standardFromModel, result.segments);
+    return result;
+}
+
+}  // namespace lutka::animation

@@ -1,0 +1,77 @@
+#include "animation/segments/appendages.hpp"
+
+#include <algorithm>
+
+#include "support/catch.hpp"
+#include "support/rigs.hpp"
+
+using namespace lutka;
+using namespace lutka::animation;
+
+namespace {
+
+std::vector<std::string> namesOf(const std::vector<Segment>& segments) {
+    std::vector<std::string> names;
+    for (const Segment& segment : segments)
+        names.push_back(segment.name);
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+}  // namespace
+
+TEST_CASE("tail, ears, hair and a sword are found on a humanoid, fingers are none of them") {
+    const Character figure = test::makeBipedWithAppendages();
+    const auto found = findAppendages(figure, test::mapOfBiped(figure));
+    const auto has = [&](AppendageKind kind, const char* joint, int joints, Role on) {
+        return std::any_of(found.begin(), found.end(), [&](const Appendage& one) {
+            return one.kind == kind && figure.skeleton.names[one.joint] == joint && one.joints == joints &&
+                   one.role == on;
+        });
+    };
+    CHECK(has(AppendageKind::tail, "tail_01", 3, Role::hips));
+    CHECK(has(AppendageKind::ears, "ear_L", 1, Role::head));
+    CHECK(has(AppendageKind::ears, "ear_R", 1, Role::head));
+    CHECK(has(AppendageKind::hair, "ponytail1", 2, Role::head));
+    CHECK(has(AppendageKind::weapon, "sword", 1, Role::rightHand));
+    CHECK(found.size() == 5);
+}
+
+TEST_CASE("without telling names appendages are told by where they hang and how they point") {
+    Character figure = test::makeBipedWithAppendages();
+    for (std::string& name : figure.skeleton.names)
+        if (!roleFromName(name)) name = "bone";
+    const auto found = findAppendages(figure, test::mapOfBiped(figure));
+    const auto number = [&](AppendageKind kind) {
+        return std::count_if(found.begin(), found.end(), [&](const Appendage& one) { return one.kind == kind; });
+    };
+    CHECK(number(AppendageKind::tail) == 1);
+    CHECK(number(AppendageKind::hair) == 3);  // ears look like hair
+    CHECK(number(AppendageKind::weapon) == 1);
+}
+
+TEST_CASE("only what is asked for becomes segments, pairs left first") {
+    const Character figure = test::makeBipedWithAppendages();
+    const HumanoidMap map = test::mapOfBiped(figure);
+    const std::vector<AppendageKind> tail{AppendageKind::tail};
+    CHECK(namesOf(appendageSegments(figure, map, tail, 40)) ==
+          std::vector<std::string>{"tail_01", "tail_02", "tail_03"});
+    const std::vector<AppendageKind> ears{AppendageKind::ears};
+    const auto segments = appendageSegments(figure, map, ears, 40);
+    REQUIRE(segments.size() == 2);
+    CHECK(segments[0].name == "ear_L");
+    CHECK(segments[0].mirror == 1);
+    CHECK(segments[1].mirror == 0);
+    CHECK(segments[0].parent == -1);
+    CHECK(appendageSegments(figure, map, {}, 40).empty());
+    CHECK(appendageSegments(figure, map, kAppendageKinds, 3).size() <= 3);
+}
+
+TEST_CASE("a plain figure has no appendages, and what is no humanoid is not asked") {
+    const Character biped = test::makeBiped();
+    CHECK(findAppendages(biped, test::mapOfBiped(biped)).empty());
+    CHECK(findAppendages(test::makeQuadruped(), HumanoidMap{}).empty());
+    for (const AppendageKind kind : kAppendageKinds)
+        CHECK(appendageNamed(appendageName(kind)) == kind);
+    CHECK_FALSE(appendageNamed("moustache").has_value());
+}

@@ -1,0 +1,178 @@
+#include "animation/segments/segment_rig.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "support/catch.hpp"
+#include "support/rigs.hpp"
+
+using namespace lutka;
+using namespace lutka::animation;
+
+namespace {
+
+int segmentNamed(const SegmentedRig& rig, const std::string& name) {
+    for (std::size_t i = 0; i < rig.segments.size(); ++i) {
+        if (rig.segments[i].name == name) return static_cast<int>(i);
+    }
+    return -1;
+}
+
+// A clip in which joints turn about their axes by an angle that goes through a whole swing.
+struct Swing {
+    std::string joint;
+    vec3 axis;
+    float angle;
+};
+void addClip(Character& character, const std::vector<Swing>& swings) {
+    constexpr int kFrames = 24;
+    Clip clip;
+    clip.name = "swing";
+    clip.frameCount = kFrames;
+    for (int frame = 0; frame < kFrames; ++frame) {
+        std::vector<RigidTransform> pose = character.skeleton.nodeParentFromJoint;
+        const float phase = std::sin(2.0F * kPi * static_cast<float>(frame) / kFrames);
+        for (const Swing& swing : swings) {
+            const int joint = findJoint(character.skeleton, swing.joint);
+            REQUIRE(joint != kNoJoint);
+            pose[joint].rotation = pose[joint].rotation * glm::angleAxis(swing.angle * phase, swing.axis);
+        }
+        clip.parentFromJoint.append(pose);
+    }
+    character.clips.push_back(clip);
+}
+
+}  // namespace
+
+TEST_CASE("a four-legged creature is parted into trunk, neck, head, tail and legs") {
+    const SegmentedRig rig = segmentRig(test::makeQuadruped());
+    for (const char* name : {"pelvis", "back", "ribs", "neck1", "skull", "jaw", "tail2", "tail4", "thigh_fore_l",
+                             "shin_fore_l", "paw_fore_l", "thigh_hind_r", "shin_hind_r", "paw_hind_r"}) {
+        INFO(name);
+        CHECK(segmentNamed(rig, name) >= 0);
+    }
+    for (const char* name : {"root", "eye_l", "eye_r", "twist_fore_l", "twist_hind_r"}) {
+        INFO(name);
+        CHECK(segmentNamed(rig, name) < 0);
+    }
+    CHECK(rig.segments[0].name == "pelvis");
+    CHECK(rig.segments[0].parent == -1);
+    CHECK(rig.segments[segmentNamed(rig, "thigh_fore_r")].parent == segmentNamed(rig, "ribs"));
+    CHECK(rig.standardFromModel == quat(1, 0, 0, 0));
+}
+
+TEST_CASE("legs are pairs, what lies in the mirror plane is its own counterpart, and the left one comes first") {
+    const SegmentedRig rig = segmentRig(test::makeQuadruped());
+    for (const char* limb : {"thigh_fore", "shin_fore", "paw_fore", "thigh_hind", "shin_hind", "paw_hind"}) {
+        INFO(limb);
+        const int left = segmentNamed(rig, std::string(limb) + "_l");
+        const int right = segmentNamed(rig, std::string(limb) + "_r");
+        REQUIRE(left >= 0);
+        REQUIRE(right >= 0);
+        CHECK(left < right);
+        CHECK(rig.segments[left].mirror == right);
+        CHECK(rig.segments[right].mirror == left);
+        CHECK(rig.segments[left].side == Side::left);
+        CHECK(rig.segments[right].side == Side::right);
+    }
+    for (const char* name : {"pelvis", "ribs", "skull", "tail2"}) {
+        const int own = segmentNamed(rig, name);
+        CHECK(rig.segments[own].mirror == own);
+        CHECK(rig.segments[own].side == Side::center);
+    }
+    CHECK(rig.segments[segmentNamed(rig, "pelvis")].kind == Segment::Kind::trunk);
+    CHECK(rig.segments[segmentNamed(rig, "back")].kind == Segment::Kind::trunk);
+    CHECK(rig.segments[segmentNamed(rig, "tail2")].kind == Segment::Kind::chain);
+    CHECK(rig.segments[segmentNamed(rig, "thigh_hind_l")].kind == Segment::Kind::limbRoot);
+    CHECK(rig.segments[segmentNamed(rig, "shin_hind_l")].kind == Segment::Kind::limb);
+}
+
+TEST_CASE("a creature that faces another way is told by its head and tail") {
+    Character turned = test::makeQuadruped();
+    const quat turn = glm::angleAxis(radians(90.0F), vec3(0, 1, 0));
+    for (RigidTransform& joint : turned.skeleton.bindModelFromJoint)
+        joint = {turn, turn * joint.translation};
+    for (vec3& position : turned.meshes[0].positions)
+        position = turn * position;
+    const SegmentedRig rig = segmentRig(turned);
+    CHECK(glm::distance(rig.standardFromModel * (turn * vec3(0, 0, 1)), vec3(0, 0, 1)) < 0.02F);
+    CHECK(rig.segments[segmentNamed(rig, "paw_fore_l")].side == Side::left);
+}
+
+TEST_CASE("joints too short for a body are merged, and a finer rig keeps to the number asked for") {
+    std::vector<test::JointSpec> joints{{"link 0", -1, {0, 1, 0}}};
+    std::vector<test::TubeSpec> tubes{{0, {0, 1, 0.01F}, 0.02F}};
+    for (int i = 1; i < 200; ++i) {
+        const float z = 0.01F * static_cast<float>(i);
+        joints.push_back({"link " + std::to_string(i), i - 1, {0, 1, z}});
+        tubes.push_back({i, {0, 1, z + 0.01F}, 0.02F});
+    }
+    const Character snake = test::makeFigure("snake", joints, tubes);
+    const auto lengthsOf = [&](int most) {
+        const SegmentedRig rig = segmentRig(snake, {most});
+        CHECK(static_cast<int>(rig.segments.size()) <= most);
+        float shortest = 10.0F;
+        for (const Segment& segment : rig.segments) {
+            if (segment.end == kNoJoint) continue;
+            const auto& bind = snake.skeleton.bindModelFromJoint;
+            shortest =
+                std::min(shortest, glm::distance(bind[segment.joint].translation, bind[segment.end].translation));
+        }
+        return shortest;
+    };
+    CHECK(lengthsOf(40) > 0.07F);
+    CHECK(lengthsOf(6) > 0.25F);
+    CHECK(segmentRig(snake, {1}).segments.size() == 1);
+}
+
+TEST_CASE("a joint that bends in one plane in all clips is a hinge, one that swings about is none") {
+    Character creature = test::makeQuadruped();
+    const vec3 x(1, 0, 0);
+    const vec3 z(0, 0, 1);
+    addClip(creature, {{"shin_fore_l", x, 0.6F},
+                       {"shin_fore_r", x, 0.5F},
+                       {"thigh_fore_l", x, 0.5F},
+                       {"thigh_fore_r", x, 0.5F},
+                       {"shin_hind_l", x, 0.6F}});
+    addClip(creature, {{"thigh_fore_l", z, 0.4F}, {"thigh_fore_r", z, 0.4F}, {"tail2", x, 0.05F}});
+    const SegmentedRig rig = segmentRig(creature);
+    for (const char* name : {"shin_fore_l", "shin_fore_r"}) {
+        const Segment& shin = rig.segments[segmentNamed(rig, name)];
+        REQUIRE(shin.hinge.has_value());
+        CHECK(std::abs(glm::dot(shin.hinge->axis, x)) > 0.999F);
+        CHECK(shin.hinge->low < -0.45F);
+        CHECK(shin.hinge->high > 0.45F);
+    }
+    CHECK_FALSE(rig.segments[segmentNamed(rig, "thigh_fore_l")].hinge.has_value());  // two planes
+    CHECK_FALSE(rig.segments[segmentNamed(rig, "tail2")].hinge.has_value());         // hardly moves
+    CHECK_FALSE(rig.segments[segmentNamed(rig, "shin_hind_l")].hinge.has_value());   // its counterpart does not
+}
+
+TEST_CASE("rigs of little are parted, too") {
+    CHECK(segmentRig(Character{}).segments.empty());
+    const Character one = test::makeFigure("one", {{"only", -1, {0, 1, 0}}}, {{0, {0, 2, 0}, 0.1F}});
+    REQUIRE(segmentRig(one).segments.size() == 1);
+    const Character bare =
+        test::makeFigure("bare", {{"a", -1, {0, 0, 0}}, {"b", 0, {0, 1, 0}}, {"c", 1, {0, 2, 0}}}, {});
+    const SegmentedRig rig = segmentRig(bare);
+    REQUIRE(rig.segments.size() == 2);
+    CHECK(rig.segments[1].name == "b");
+    CHECK(rig.segments[1].end == 2);
+    // Trees side by side become one ragdoll.
+    const Character trees = test::makeFigure(
+        "trees", {{"a", -1, {0, 0, 0}}, {"a2", 0, {0, 1, 0}}, {"b", -1, {2, 0, 0}}, {"b2", 2, {2, 1, 0}}},
+        {{0, {0, 1, 0}, 0.1F}, {1, {0, 2, 0}, 0.1F}, {2, {2, 1, 0}, 0.1F}, {3, {2, 2, 0}, 0.1F}});
+    CHECK(segmentRig(trees).segments.size() == 4);
+}
+
+TEST_CASE("joints of one name become bodies of different names") {
+    const Character twins =
+        test::makeFigure("twins", {{"Bone", -1, {0, 0, 0}}, {"Bone", 0, {0, 1, 0}}, {"head", 1, {0, 2, 0}}},
+                         {{0, {0, 1, 0}, 0.1F}, {1, {0, 2, 0}, 0.1F}, {2, {0, 3, 0}, 0.1F}});
+    const SegmentedRig rig = segmentRig(twins);
+    REQUIRE(rig.segments.size() == 3);
+    CHECK(rig.segments[0].name != rig.segments[1].name);
+    // A role's name is kept for bodies that have the role.
+    CHECK(rig.segments[2].name == "head 2");
+}
