@@ -15,7 +15,7 @@ public static class LutkaRagdoll
 {
     [Serializable] class Frame { public float[] rotation; public float[] translation; }
     [Serializable] class Shape { public string kind; public float radius; public float halfLength; public float[] halfExtents; }
-    [Serializable] class Body { public string role; public string joint; public Shape shape; public Frame jointFromBody; public float massKg; public float[] inertia; }
+    [Serializable] class Body { public string name; public string joint; public Shape shape; public Frame jointFromBody; public float massKg; public float[] inertia; }
     [Serializable] class Hinge { public float lower; public float upper; }
     [Serializable] class Cone { public float swingY; public float swingZ; public float twist; }
     [Serializable] class Constraint { public string child; public string parent; public string kind; public Frame parentFromFrame; public Frame childFromFrame; public Hinge hinge; public Cone cone; }
@@ -40,7 +40,7 @@ public static class LutkaRagdoll
         {
             Transform joint = Find(root.transform, body.joint);
             if (joint == null) { Debug.LogError("Lutka: no bone named " + body.joint); return; }
-            parts[body.role] = AddBody(body, joint);
+            parts[body.name] = AddBody(body, joint);
         }
         foreach (Constraint constraint in profile.constraints)
             AddJoint(constraint, parts[constraint.parent], parts[constraint.child]);
@@ -75,7 +75,7 @@ public static class LutkaRagdoll
     static Part AddBody(Body body, Transform joint)
     {
         float units = UnitsPerMetre(joint);
-        var holder = new GameObject("Body " + body.role);
+        var holder = new GameObject("Body " + body.name);
         Undo.RegisterCreatedObjectUndo(holder, "Add Ragdoll");
         holder.transform.SetParent(joint, false);
         holder.transform.localPosition = units * Position(body.jointFromBody.translation);

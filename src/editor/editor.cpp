@@ -202,8 +202,7 @@ void Editor::copyPart() {
     const std::vector<int> bodies = workspace_.selectedBodies();
     if (bodies.empty()) return;
     workspace_.clipboard = document().copyPart(bodies.back());
-    workspace_.say(Toast::Kind::info,
-                   fmt::format("Copied {}", animation::roleName(document().profile().bodies[bodies.back()].role)));
+    workspace_.say(Toast::Kind::info, fmt::format("Copied {}", document().profile().bodies[bodies.back()].name));
 }
 
 void Editor::pastePart() {
@@ -342,13 +341,13 @@ void Editor::togglePin() {
         if (doll >= 0) std::erase_if(workspace_.pulls.pins, [&](const Pull& pin) { return pin.doll == doll; });
         return;
     }
-    const animation::Role role = document().profile().bodies[active->index].role;
+    const std::string& name = document().profile().bodies[active->index].name;
     auto& pins = workspace_.pulls.pins;
-    if (const auto pin = workspace_.pulls.findPin(active->doll, role); pin != pins.end()) {
+    if (const auto pin = workspace_.pulls.findPin(active->doll, name); pin != pins.end()) {
         pins.erase(pin);
         return;
     }
-    pins.push_back({active->doll, role, vec3(0), workspace_.positionOf(*active)});
+    pins.push_back({active->doll, name, vec3(0), workspace_.positionOf(*active)});
 }
 
 void Editor::throwBall() {
@@ -409,7 +408,21 @@ void Editor::open(const std::filesystem::path& file) {
         }
         return;
     }
-    files_.afterUnsaved([this, file] { adopt(openModel(file, load_, document())); });
+    files_.takeAnyRig();
+    files_.afterUnsaved([this, file] {
+        auto opened = openModel(file, load_, document());
+        if (!opened && scene::wantsAnyRig(opened.error())) files_.offerAnyRig(file);
+        adopt(std::move(opened));
+    });
+}
+
+void Editor::answerAnyRig(bool take) {
+    const std::filesystem::path file = files_.takeAnyRig();
+    if (!take || file.empty()) return;
+    scene::LoadOptions load = load_;
+    load.fit.rig = physics::RigKind::any;
+    load.fit.weighByVolume = true;
+    files_.afterUnsaved([this, file, load] { adopt(openModel(file, load, document())); });
 }
 
 void Editor::answerOffer(bool take) {

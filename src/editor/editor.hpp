@@ -94,6 +94,8 @@ class Editor {
     [[nodiscard]] bool allowsOutside() const { return load_.import.allowOutside; }
     /// Takes the offered profile (FileFlow::offeredProfile()), or not.
     void answerOffer(bool take);
+    /// Opens the refused model (FileFlow::offeredAnyRig()) as a ragdoll of any skeleton, or not.
+    void answerAnyRig(bool take);
     /// Saving, exporting, and the questions about files.
     [[nodiscard]] FileFlow& files() { return files_; }
     [[nodiscard]] const FileFlow& files() const { return files_; }

@@ -1,9 +1,10 @@
 #include "export/doll_layout.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
-#include "animation/humanoid/roles.hpp"
 #include "physics/collision/shape.hpp"
 #include "physics/profile/constraint_frames.hpp"
 
@@ -11,6 +12,21 @@ namespace lutka::exporting {
 
 using physics::ConstraintProfile;
 using physics::RagdollProfile;
+
+namespace {
+
+// Letters, digits and single underscores of ASCII, a letter first.
+std::string identifier(const std::string& name) {
+    std::string word;
+    for (const char c : name) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+        if (plain || word.empty() || word.back() != '_') word += plain ? c : '_';
+    }
+    const bool startsWell = !word.empty() && (word[0] < '0' || word[0] > '9') && word[0] != '_';
+    return startsWell ? word : "body_" + word;
+}
+
+}  // namespace
 
 quat zUpFromStandard() {
     return {0.5F, 0.5F, 0.5F, 0.5F};  // x → y, y → z, z → x
@@ -57,7 +73,15 @@ RigidTransform standingFromModel(const ExportSource& source) {
 }
 
 std::string bodyName(const RagdollProfile& profile, int body) {
-    return std::string(animation::roleName(profile.bodies[body].role));
+    // A name of a file's joint may hold anything; the number keeps apart what becomes equal, the two underscores keep
+    // it from being another's name.
+    const std::string& name = profile.bodies[body].name;
+    std::string word = identifier(name);
+    for (std::size_t other = 0; other < profile.bodies.size(); ++other) {
+        const bool same = static_cast<int>(other) != body && identifier(profile.bodies[other].name) == word;
+        if (same) return word + fmt::format("__{}", body);
+    }
+    return word;
 }
 
 }  // namespace lutka::exporting

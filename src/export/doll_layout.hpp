@@ -30,7 +30,7 @@ namespace lutka::exporting {
 /// Turns the figure upright and puts the lowest point of its bodies in the bind pose on height 0 (Y up).
 [[nodiscard]] RigidTransform standingFromModel(const ExportSource& source);
 
-/// The role's name of a body: unique in a profile, and an identifier in every language.
+/// The name of a body as an identifier of every language, unique in the profile; of a role it is the role's.
 [[nodiscard]] std::string bodyName(const physics::RagdollProfile& profile, int body);
 
 }  // namespace lutka::exporting

@@ -28,7 +28,8 @@ using physics::ConstraintProfile;
 using physics::RagdollProfile;
 
 constexpr std::size_t kMostJsonBytes = std::size_t{32} << 20U;
-constexpr std::size_t kMostBodies = 64;
+constexpr std::size_t kMostBodies = RagdollProfile::kMostBodies;
+constexpr std::size_t kLongestName = 200;
 constexpr float kLocked = 1e-4F;       // radians: a limit that is none
 constexpr float kLeastSpan = 1e-2F;    // of a cone; narrower ones jitter
 constexpr float kMostSpan = 3.05433F;  // 175 degrees
@@ -122,7 +123,7 @@ class Reader {
         throw Unusable{fmt::format("the body '{}' is no joint of the figure", scene_[node].name)};
     }
 
-    [[nodiscard]] Role roleOf(const json& motion, int joint) const {
+    [[nodiscard]] std::optional<Role> roleOf(const json& motion, int joint) const {
         const json* extras = memberOf(motion, "extras");
         const json* named = extras == nullptr ? nullptr : memberOf(*extras, kRoleKey);
         if (named != nullptr && named->is_string()) {
@@ -130,7 +131,25 @@ class Reader {
         }
         for (int i = 0; i < animation::kRoleCount; ++i)
             if (map_.jointOf(animation::roleAt(i)) == joint) return animation::roleAt(i);
-        throw Unusable{fmt::format("the body on '{}' has no role", character_.skeleton.names[joint])};
+        return std::nullopt;
+    }
+
+    [[nodiscard]] std::string nameOf(const json& motion, std::size_t node) const {
+        const json* extras = memberOf(motion, "extras");
+        const json* named = extras == nullptr ? nullptr : memberOf(*extras, kNameKey);
+        return named != nullptr && named->is_string() ? named->get<std::string>() : scene_[node].name;
+    }
+
+    // The name, with a number where another body has it.
+    [[nodiscard]] std::string freeName(const std::string& name) const {
+        const auto taken = [&](const std::string& word) {
+            return animation::roleFromName(word) ||
+                   std::any_of(bodies_.begin(), bodies_.end(), [&](const Body& b) { return b.profile.name == word; });
+        };
+        std::string word = name.empty() ? "body" : name.substr(0, kLongestName);
+        for (int number = 2; taken(word); ++number)
+            word = fmt::format("{}_{}", name.empty() ? "body" : name.substr(0, kLongestName), number);
+        return word;
     }
 
     [[nodiscard]] BodyShape shapeOf(const json& collider, float scale) const {
@@ -177,6 +196,7 @@ class Reader {
         const int joint = jointOf(node);
         BodyProfile& profile = body.profile;
         profile.role = roleOf(motion, joint);
+        profile.name = profile.role ? std::string(roleName(*profile.role)) : freeName(nameOf(motion, node));
         profile.joint = character_.skeleton.names[joint];
         profile.jointPath = animation::jointPath(character_.skeleton, joint);
         profile.shape = shapeOf(collider, scene_[colliderNode].scale);
@@ -204,7 +224,8 @@ class Reader {
             if (partOf(i, "collider") == nullptr) continue;
             const int motion = motionAbove(i);
             if (motion < 0 || bodyOfNode_.count(motion) > 0) continue;
-            if (bodies_.size() >= kMostBodies) throw Unusable{"there are more than 64 bodies"};
+            if (bodies_.size() >= kMostBodies)
+                throw Unusable{fmt::format("there are more than {} bodies", kMostBodies)};
             addBody(static_cast<std::size_t>(motion), i);
         }
         if (bodies_.empty()) throw Unusable{"no body has a collider"};
@@ -287,7 +308,11 @@ class Reader {
         }
     }
 
-    // Parents first, else by role.
+    [[nodiscard]] static bool comesBefore(const BodyProfile& a, const BodyProfile& b) {
+        return a.role && (!b.role || *a.role < *b.role);
+    }
+
+    // Parents first, else by role, those without one last.
     void arrange(RagdollProfile& profile) {
         std::vector<int> place(bodies_.size(), -1);
         profile.bodies.clear();
@@ -297,9 +322,9 @@ class Reader {
             for (std::size_t i = 0; i < bodies_.size(); ++i) {
                 const bool hangs = bodies_[i].parent < 0 ? order_.empty() : place[bodies_[i].parent] >= 0;
                 if (place[i] >= 0 || !hangs) continue;
-                if (next < 0 || bodies_[i].profile.role < bodies_[next].profile.role) next = static_cast<int>(i);
+                if (next < 0 || comesBefore(bodies_[i].profile, bodies_[next].profile)) next = static_cast<int>(i);
             }
-            if (next < 0) throw Unusable{"the bodies do not hang on the hips as one tree"};
+            if (next < 0) throw Unusable{"the bodies do not hang on one root as one tree"};
             place[next] = static_cast<int>(order_.size());
             Body& body = bodies_[next];
             if (body.parent >= 0) {

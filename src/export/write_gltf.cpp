@@ -55,6 +55,12 @@ Json shapeJson(const BodyShape& shape) {
     return Json{{"type", "sphere"}, {"sphere", {{"radius", jsonNumber(shape.radius)}}}};
 }
 
+Json extrasOf(const physics::BodyProfile& body) {
+    Json extras{{kNameKey, body.name}};
+    if (body.role) extras[kRoleKey] = roleName(*body.role);
+    return extras;
+}
+
 class GltfPhysicsWriter {
   public:
     GltfPhysicsWriter(const ExportSource& source, Json& document)
@@ -100,7 +106,7 @@ class GltfPhysicsWriter {
                    {"centerOfMass", jsonVector(body.jointFromBody.translation)},
                    {"inertiaDiagonal", jsonVector(body.inertia)},
                    {"inertiaOrientation", rotationJson(body.jointFromBody.rotation)},
-                   {"extras", {{kRoleKey, bodyName(profile_, index)}}}}}};
+                   {"extras", extrasOf(profile_.bodies[index])}}}};
         Json collider{{"geometry", {{"shape", shapes_.size()}}}, {"physicsMaterial", 0}};
         shapes_.push_back(shapeJson(body.shape));
         if (const int filter = addFilter(index); filter >= 0) collider["collisionFilter"] = filter;

@@ -9,13 +9,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json findingJson(const physics::Finding& finding) {
-    Json roles = Json::array();
-    for (const physics::Role role : finding.roles)
-        roles.push_back(animation::roleName(role));
     return {{"severity", physics::severityName(finding.severity)},
             {"code", finding.code},
             {"place", finding.place},
-            {"roles", std::move(roles)},
+            {"bodies", finding.bodies},
             {"measure", finding.measure},
             {"mend", finding.mend},
             {"mendable", finding.mendable}};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "animation/segments/segment_rig.hpp"
 #include "export/read_gltf_physics.hpp"
 #include "physics/fit/rebind.hpp"
 #include "physics/profile/profile_io.hpp"
@@ -10,10 +11,13 @@
 namespace lutka::scene {
 namespace {
 
+constexpr const char* kNotHumanoidMend =
+    "`lutka inspect` shows the joint tree; a humanoid has a trunk, two arms and two legs. `--rig any` makes a ragdoll "
+    "of any skeleton";
+
 Error notHumanoid(const animation::Character& character, const animation::HumanoidMap& map) {
     const std::string reason = map.warnings.empty() ? "not a humanoid" : map.warnings.front();
-    return {ErrorCode::input, reason, character.file.string(),
-            "`lutka inspect` shows the joint tree; a humanoid has a trunk, two arms and two legs"};
+    return {ErrorCode::input, reason, character.file.string(), kNotHumanoidMend};
 }
 
 // Index of the figure whose joints the profile's bodies are bound to; that of `character` where none is plainly so.
@@ -32,18 +36,31 @@ int figureOf(const physics::RagdollProfile& profile, const animation::Character&
 }
 
 // The joints of a file's other figures are in the skeleton, too: a profile of one of them is another rig's.
-Result<physics::BoundProfile> bindProfile(physics::RagdollProfile profile, const RagdollAsset& asset, bool keepShapes) {
+Result<physics::BoundProfile> bindToFigure(physics::RagdollProfile profile, const RagdollAsset& asset, bool keepShapes) {
     if (figureOf(profile, asset.character) == asset.character.figure)
         return physics::bindOrRebind(std::move(profile), asset.character, asset.map, keepShapes);
-    auto rebound = physics::rebindProfile(profile, asset.character, asset.map, keepShapes);
+    auto rebound = physics::rebindToFigure(profile, asset.character, asset.map, keepShapes);
     if (!rebound) return rebound.error();
     return physics::BoundProfile{std::move(rebound).value(), true};
 }
 
-Result<void> readProfile(RagdollAsset& asset, const LoadOptions& options) {
-    auto read = physics::loadProfile(*options.profile);
-    if (!read) return read.error();
-    auto bound = bindProfile(std::move(read).value(), asset, options.keepShapes);
+// What is left of a map where nothing is asked about roles.
+animation::HumanoidMap mapOfAny(const animation::Character& character, const physics::FitOptions& fit) {
+    animation::SegmentedRig rig = animation::segmentRig(character, {fit.mostBodies});
+    animation::HumanoidMap map;
+    map.standardFromModel = rig.standardFromModel;
+    map.warnings = std::move(rig.warnings);
+    return map;
+}
+
+// A profile without roles says that its character is taken as any rig.
+physics::RigKind rigKindOf(const std::optional<physics::RagdollProfile>& given, const LoadOptions& options) {
+    if (!given) return options.fit.rig;
+    return physics::hasRoles(*given) ? physics::RigKind::humanoid : physics::RigKind::any;
+}
+
+Result<void> bindProfile(RagdollAsset& asset, physics::RagdollProfile profile, const LoadOptions& options) {
+    auto bound = bindToFigure(std::move(profile), asset, options.keepShapes);
     if (!bound) {
         Error error = bound.error();
         error.location = options.profile->string();
@@ -99,12 +116,25 @@ Result<std::unique_ptr<RagdollAsset>> loadRagdoll(const std::filesystem::path& m
     return makeRagdoll(std::move(character).value(), options);
 }
 
+bool wantsAnyRig(const Error& error) {
+    return error.code == ErrorCode::input && error.mend == kNotHumanoidMend;
+}
+
 Result<std::unique_ptr<RagdollAsset>> makeRagdoll(animation::Character character, const LoadOptions& options) {
     auto asset = std::make_unique<RagdollAsset>();
     asset->character = std::move(character);
-    asset->map = animation::mapHumanoid(asset->character, options.map);
-    if (!asset->map.humanoid) return notHumanoid(asset->character, asset->map);
-    const Result<void> profile = options.profile ? readProfile(*asset, options) : fitProfile(*asset, options);
+    std::optional<physics::RagdollProfile> given;
+    if (options.profile) {
+        auto read = physics::loadProfile(*options.profile);
+        if (!read) return read.error();
+        given = std::move(read).value();
+    }
+    LoadOptions chosen = options;
+    chosen.fit.rig = rigKindOf(given, options);
+    const bool any = chosen.fit.rig == physics::RigKind::any;
+    asset->map = any ? mapOfAny(asset->character, chosen.fit) : animation::mapHumanoid(asset->character, options.map);
+    if (!any && !asset->map.humanoid) return notHumanoid(asset->character, asset->map);
+    const Result<void> profile = given ? bindProfile(*asset, *std::move(given), chosen) : fitProfile(*asset, chosen);
     if (!profile) return profile.error();
     if (!options.profile && !options.refit && !asset->character.file.empty()) takeRagdollOfFile(*asset);
     auto rig = physics::bindRig(asset->profile, asset->character.skeleton);

@@ -33,6 +33,9 @@ struct LoadOptions {
     bool keepShapes = false;  ///< A profile of another rig keeps its shapes; otherwise they are fitted to this one.
 };
 
+/// A profile without roles, and LoadOptions::fit with rig any, take the character as any rig: no map is asked for
+/// (RagdollAsset::map is no humanoid's, and holds standardFromModel alone).
+///
 /// import → map → fit (or take the ragdoll that the file brings along; or read the profile and bind it: by joints when
 /// it was made for this rig, else by role). Of a file with several figures a profile's own is taken when none is asked
 /// for: that whose joints it names. A ragdoll in the file that is none of this figure is told as a warning.
@@ -40,6 +43,9 @@ struct LoadOptions {
 /// doesn't fit the rig.
 [[nodiscard]] Result<std::unique_ptr<RagdollAsset>> loadRagdoll(const std::filesystem::path& model,
                                                                 const LoadOptions& options = {});
+
+/// Whether loading failed because the figure is no humanoid, so that FitOptions::rig any would take it.
+[[nodiscard]] bool wantsAnyRig(const Error& error);
 
 /// map → fit → bind for a character that is there already.
 [[nodiscard]] Result<std::unique_ptr<RagdollAsset>> makeRagdoll(animation::Character character,

@@ -69,8 +69,8 @@ void checkSame(const physics::ConstraintProfile& got, const physics::ConstraintP
 std::vector<std::string> pairNames(const physics::RagdollProfile& profile) {
     std::vector<std::string> names;
     for (const auto& [a, b] : profile.filteredPairs) {
-        const std::string first(animation::roleName(profile.bodies[a].role));
-        const std::string second(animation::roleName(profile.bodies[b].role));
+        const std::string first(profile.bodies[a].name);
+        const std::string second(profile.bodies[b].name);
         names.push_back(std::min(first, second) + " " + std::max(first, second));
     }
     std::sort(names.begin(), names.end());
@@ -81,14 +81,14 @@ void checkSame(const physics::RagdollProfile& got, const physics::RagdollProfile
     REQUIRE(got.bodies.size() == wanted.bodies.size());
     CHECK(got.totalMassKg == Approx(wanted.totalMassKg).epsilon(1e-5));
     for (const physics::BodyProfile& body : wanted.bodies) {
-        INFO(animation::roleName(body.role));
+        INFO(body.name);
         const int index = physics::bodyOf(got, body.role);
         REQUIRE(index >= 0);
         checkSame(got.bodies[index], body);
     }
     for (const physics::ConstraintProfile& constraint : wanted.constraints) {
         const int child = physics::bodyOf(got, wanted.bodies[constraint.child].role);
-        INFO(animation::roleName(got.bodies[child].role));
+        INFO(got.bodies[child].name);
         const physics::ConstraintProfile& back = got.constraints.at(static_cast<std::size_t>(child) - 1);
         CHECK(got.bodies[back.parent].role == wanted.bodies[constraint.parent].role);
         checkSame(back, constraint);

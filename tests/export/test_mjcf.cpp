@@ -77,7 +77,7 @@ TEST_CASE("MJCF: the keyframe is the bind pose, standing on the floor of a z-up 
     const quat turn = quat(0.5F, 0.5F, 0.5F, 0.5F) * doll.profile.standardFromModel;
     const vec3 offset = frames.at("hips").translation - turn * doll.rig.bindModelFromBody[0].translation;
     for (std::size_t i = 0; i < doll.profile.bodies.size(); ++i) {
-        const std::string name(animation::roleName(doll.profile.bodies[i].role));
+        const std::string name(doll.profile.bodies[i].name);
         INFO(name);
         const RigidTransform wanted = RigidTransform{turn, offset} * doll.rig.bindModelFromBody[i];
         CHECK(poseDifference(frames.at(name), wanted) < 2e-5F);
@@ -99,7 +99,7 @@ TEST_CASE("MJCF: hinges have the profile's limits, cones three hinges and two su
     };
     int cones = 0;
     for (const physics::ConstraintProfile& c : doll.profile.constraints) {
-        const std::string name(animation::roleName(doll.profile.bodies[c.child].role));
+        const std::string name(doll.profile.bodies[c.child].name);
         INFO(name);
         if (c.kind == physics::ConstraintProfile::Kind::hinge) {
             REQUIRE(named(name) != tags.end());

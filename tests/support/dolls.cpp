@@ -34,7 +34,7 @@ vec3 capsuleInertia(float massKg, float radius, float halfLength) {
 BodyProfile capsuleBody(Role role, const RigidTransform& modelFromJoint, const Segment& core, float radius,
                         float massKg) {
     BodyProfile body;
-    body.role = role;
+    setRole(body, role);
     body.joint = std::string(animation::roleName(role));
     body.shape.kind = BodyShape::Kind::capsule;
     body.shape.radius = radius;

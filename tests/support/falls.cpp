@@ -63,9 +63,7 @@ class JointWatch {
             child_ = constraint.child;
         }
     }
-    [[nodiscard]] std::string worst() const {
-        return child_ < 0 ? "" : std::string(roleName(profile_.bodies[child_].role));
-    }
+    [[nodiscard]] std::string worst() const { return child_ < 0 ? "" : profile_.bodies[child_].name; }
 
   private:
     const RagdollProfile& profile_;

@@ -14,7 +14,7 @@ const out = path.join(folder, `${stem}.blender.json`);
 const drop = path.join(import.meta.dirname, 'blender_drop.py');
 execFileSync('blender', ['-b', '--factory-startup', '--python-exit-code', '1', '--python', drop, '--', script, out], { stdio: ['ignore', 'ignore', 'inherit'], timeout: 600000 });
 const { masses, steps } = JSON.parse(fs.readFileSync(out, 'utf8'));
-for (const body of profile.bodies) checks.near(masses[body.role], body.massKg, 1e-5, `mass of ${body.role}`);
+for (const body of profile.bodies) checks.near(masses[body.name], body.massKg, 1e-5, `mass of ${body.name}`);
 let start = 0;
 let separation = 0;
 const violations = [];
@@ -30,7 +30,7 @@ for (const [i, places] of steps.entries()) {
 violations.sort((a, b) => a - b);
 const deg = (x) => ((x * 180) / Math.PI).toFixed(1);
 const last = steps.at(-1);
-const rest = profile.bodies.reduce((sum, b) => sum + b.massKg * last[b.role].p[2], 0) / profile.totalMassKg;
+const rest = profile.bodies.reduce((sum, b) => sum + b.massKg * last[b.name].p[2], 0) / profile.totalMassKg;
 const ours = ourRestHeight(model, profile, folder);
 checks.that(Object.values(last).every((b) => [...b.p, ...b.q].every(Number.isFinite)), 'all numbers are finite');
 checks.that(start < 1e-3, `the start is ours: off by ${start}`);

@@ -18,11 +18,11 @@ const steps = lines.slice(1);
 checks.that(Object.keys(facts).length === profile.bodies.length, 'number of bodies');
 const partners = (role) => profile.constraints.filter((c) => c.parent === role || c.child === role).length + profile.filteredPairs.filter((p) => p.includes(role)).length;
 for (const body of profile.bodies) {
-  const fact = facts[body.role];
-  checks.near(fact.mass, body.massKg, 1e-5, `mass of ${body.role}`);
-  checks.that(fact.bone >= 0, `bone of ${body.role}`);
-  checks.near(fact.radius, body.shape.radius, 1e-5, `radius of ${body.role}`);
-  checks.near(fact.height, 2 * body.shape.halfLength, 1e-5, `height of ${body.role}`);
+  const fact = facts[body.name];
+  checks.near(fact.mass, body.massKg, 1e-5, `mass of ${body.name}`);
+  checks.that(fact.bone >= 0, `bone of ${body.name}`);
+  checks.near(fact.radius, body.shape.radius, 1e-5, `radius of ${body.name}`);
+  checks.near(fact.height, 2 * body.shape.halfLength, 1e-5, `height of ${body.name}`);
 }
 for (const c of profile.constraints) {
   const fact = facts[c.child];
@@ -33,7 +33,7 @@ for (const c of profile.constraints) {
     checks.near((got * Math.PI) / 180, span, 1e-4, `span ${axis} of ${c.child}`);
   }
 }
-const height = (places) => profile.bodies.reduce((sum, b) => sum + b.massKg * places[b.role].p[1], 0) / profile.totalMassKg;
+const height = (places) => profile.bodies.reduce((sum, b) => sum + b.massKg * places[b.name].p[1], 0) / profile.totalMassKg;
 let start = 0;
 const violations = [];
 let separation = 0;

@@ -38,7 +38,7 @@ function makeWorld() {
 
 /** Bodies in the neutral pose, from the frames alone; the first one at the origin. */
 function neutralPose() {
-  const pose = { [profile.bodies[0].role]: { p: [0, 0, 0], q: [0, 0, 0, 1] } };
+  const pose = { [profile.bodies[0].name]: { p: [0, 0, 0], q: [0, 0, 0, 1] } };
   for (const c of profile.constraints) {
     const parent = pose[c.parent];
     const q = multiply(multiply(parent.q, c.parentFromFrame.rotation), conjugate(c.childFromFrame.rotation));
@@ -93,9 +93,9 @@ function constraintOf(c) {
 function makeRagdoll(system, worldFromHips) {
   const settings = new Jolt.RagdollSettings();
   const skeleton = new Jolt.Skeleton();
-  const index = Object.fromEntries(profile.bodies.map((b, i) => [b.role, i]));
+  const index = Object.fromEntries(profile.bodies.map((b, i) => [b.name, i]));
   const filter = new Jolt.GroupFilterTable(profile.bodies.length);
-  profile.bodies.forEach((b, i) => skeleton.AddJoint(new Jolt.JPHString(b.role, b.role.length), i ? index[profile.constraints[i - 1].parent] : -1));
+  profile.bodies.forEach((b, i) => skeleton.AddJoint(new Jolt.JPHString(b.name, b.name.length), i ? index[profile.constraints[i - 1].parent] : -1));
   for (const c of profile.constraints) filter.DisableCollision(index[c.parent], index[c.child]);
   for (const [a, b] of profile.filteredPairs) filter.DisableCollision(index[a], index[b]);
   settings.mSkeleton = skeleton;
@@ -104,8 +104,8 @@ function makeRagdoll(system, worldFromHips) {
   profile.bodies.forEach((b, i) => {
     const part = settings.mParts.at(i);
     part.SetShape(shapeOf(b.shape));
-    part.mPosition = rvec3(add(worldFromHips.p, rotate(worldFromHips.q, pose[b.role].p)));
-    part.mRotation = quat(multiply(worldFromHips.q, pose[b.role].q));
+    part.mPosition = rvec3(add(worldFromHips.p, rotate(worldFromHips.q, pose[b.name].p)));
+    part.mRotation = quat(multiply(worldFromHips.q, pose[b.name].q));
     part.mMotionType = Jolt.EMotionType_Dynamic;
     part.mObjectLayer = kLayer;
     part.mFriction = 0.8;
@@ -158,7 +158,7 @@ function state(i) {
   const r = bodyInterface.GetRotation(id);
   return { p: at, q: [r.GetX(), r.GetY(), r.GetZ(), r.GetW()] };
 }
-const states = () => Object.fromEntries(profile.bodies.map((b, i) => [b.role, state(i)]));
+const states = () => Object.fromEntries(profile.bodies.map((b, i) => [b.name, state(i)]));
 
 let separation = 0;
 let violation = 0;
@@ -174,7 +174,7 @@ for (let step = 0; step < 360; step++) {
 }
 const end = states();
 checks.that(Object.values(end).every((b) => [...b.p, ...b.q].every(Number.isFinite)), 'all numbers are finite');
-const rest = profile.bodies.reduce((sum, b) => sum + b.massKg * end[b.role].p[1], 0) / profile.totalMassKg;
+const rest = profile.bodies.reduce((sum, b) => sum + b.massKg * end[b.name].p[1], 0) / profile.totalMassKg;
 checks.that(separation < 0.02, `joints stay together: ${separation} m`);
 checks.that(violation < 0.26, `limits hold: ${(violation * 180) / Math.PI} degrees past`);
 const ours = ourRestHeight(model, profile, folder);

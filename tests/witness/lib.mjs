@@ -39,11 +39,25 @@ export class Checks {
   }
 }
 
-/** The profile of a model as JSON, written to a file, too. */
+/** Names as the exporters write them (bodyName() in src/export/doll_layout.cpp). */
+function exportNames(profile) {
+  const words = profile.bodies.map(({ name }) => {
+    const word = name.replace(/[^A-Za-z0-9]+/g, '_');
+    return /^[A-Za-z]/.test(word) ? word : `body_${word}`;
+  });
+  const names = words.map((word, i) => (words.some((other, k) => k !== i && other === word) ? `${word}__${i}` : word));
+  const of = Object.fromEntries(profile.bodies.map((b, i) => [b.name, names[i]]));
+  profile.bodies.forEach((b, i) => { b.name = names[i]; });
+  for (const c of profile.constraints) Object.assign(c, { child: of[c.child], parent: of[c.parent] });
+  profile.filteredPairs = profile.filteredPairs.map((pair) => pair.map((name) => of[name]));
+}
+
+/** The profile of a model as JSON, its bodies named as in exports, written to a file as it is, too. */
 export function profileOf(model, file) {
   run('build', model, '-o', file);
   const profile = JSON.parse(fs.readFileSync(file, 'utf8'));
-  profile.byRole = Object.fromEntries(profile.bodies.map((b) => [b.role, b]));
+  exportNames(profile);
+  profile.byName = Object.fromEntries(profile.bodies.map((b) => [b.name, b]));
   return profile;
 }
 

@@ -46,11 +46,11 @@ function compare(name, read) {
   const checks = new Checks(`mjcf ${stem} by ${name}`);
   checks.that(Object.keys(read.bodies).length === profile.bodies.length, 'number of bodies');
   for (const body of profile.bodies) {
-    const got = read.bodies[body.role];
-    checks.near(got.mass, body.massKg, 1e-6, `mass of ${body.role}`);
+    const got = read.bodies[body.name];
+    checks.near(got.mass, body.massKg, 1e-6, `mass of ${body.name}`);
     // MuJoCo sorts principal axes when it must; ours come in the body's axes.
-    checks.near(sorted(got.inertia), sorted(body.inertia), 1e-6, `inertia of ${body.role}`);
-    checks.near(got.ipos, [0, 0, 0], 1e-6, `centre of mass of ${body.role}`);
+    checks.near(sorted(got.inertia), sorted(body.inertia), 1e-6, `inertia of ${body.name}`);
+    checks.near(got.ipos, [0, 0, 0], 1e-6, `centre of mass of ${body.name}`);
   }
   for (const c of profile.constraints) {
     const axes = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };

@@ -12,12 +12,12 @@ const file = path.join(folder, `${stem}.urdf`);
 run('export', model, '-o', file);
 const tree = execFileSync('check_urdf', [file], { encoding: 'utf8' });
 checks.that(tree.includes('Successfully Parsed XML'), 'check_urdf parses it');
-checks.that(tree.includes(`root Link: ${profile.bodies[0].role} has`), 'the root is the hips');
+checks.that(tree.includes(`root Link: ${profile.bodies[0].name} has`), 'the root is the hips');
 for (const c of profile.constraints) checks.that(new RegExp(`child\\(\\d+\\):\\s+${c.child}\\n`).test(tree), `${c.child} hangs in the tree`);
 const text = fs.readFileSync(file, 'utf8');
 for (const body of profile.bodies) {
-  const link = text.slice(text.indexOf(`<link name="${body.role}">`));
-  checks.near(Number(/<mass value="([^"]+)"/.exec(link)[1]), body.massKg, 1e-6, `mass of ${body.role}`);
+  const link = text.slice(text.indexOf(`<link name="${body.name}">`));
+  checks.near(Number(/<mass value="([^"]+)"/.exec(link)[1]), body.massKg, 1e-6, `mass of ${body.name}`);
 }
 for (const c of profile.constraints.filter((d) => d.kind === 'hinge')) {
   const joint = text.slice(text.indexOf(`<joint name="${c.child}_z"`));

@@ -38,7 +38,7 @@ void printChanges(const std::vector<physics::ClipLimitChange>& changes) {
     fmt::print("{:<15} {:<22} {:<22} {:<22}\n", "LIMITS (deg)", "ANATOMY", "CLIPS", "TAKEN");
     for (const physics::ClipLimitChange& change : changes) {
         const bool hinge = change.kind == physics::ConstraintProfile::Kind::hinge;
-        fmt::print("{:<15} {:<22} {:<22} {:<22}\n", animation::roleName(change.role),
+        fmt::print("{:<15} {:<22} {:<22} {:<22}\n", change.body,
                    hinge ? hingeText(change.hingeBefore) : coneText(change.coneBefore),
                    hinge ? hingeText(change.hingeUsed) : coneText(change.coneUsed),
                    hinge ? hingeText(change.hingeAfter) : coneText(change.coneAfter));
@@ -69,8 +69,8 @@ void printTable(const physics::RagdollProfile& profile) {
     fmt::print("{:<15} {:<28} {:<26} {:>8}  {}\n", "BODY", "JOINT", "SHAPE (m)", "MASS", "LIMITS");
     for (std::size_t i = 0; i < profile.bodies.size(); ++i) {
         const physics::BodyProfile& body = profile.bodies[i];
-        fmt::print("{:<15} {:<28} {:<26} {:>5.2f} kg  {}\n", animation::roleName(body.role), body.joint,
-                   shapeText(body.shape), body.massKg, i == 0 ? "" : limitText(profile.constraints[i - 1]));
+        fmt::print("{:<15} {:<28} {:<26} {:>5.2f} kg  {}\n", body.name, body.joint, shapeText(body.shape), body.massKg,
+                   i == 0 ? "" : limitText(profile.constraints[i - 1]));
     }
     fmt::print("{:.2f} m tall, {:.1f} kg, {} bodies, {} constraints, {} pairs that don't collide beside the linked\n",
                profile.heightM, profile.totalMassKg, profile.bodies.size(), profile.constraints.size(),

@@ -17,6 +17,7 @@ struct Options {
     std::filesystem::path model;
     int count = 1;
     std::uint64_t seed = 0;
+    std::string rig = "humanoid";
     std::filesystem::path out;
     bool json = false;
 };
@@ -30,7 +31,9 @@ scene::EntityScene sceneOf(const Options& options) {
         scene = orLeave(scene::loadScene(options.scene));
     } else {
         scene::FigureBounds figure = kPerson;
-        if (!options.model.empty()) figure = scene::figureOf(*orLeave(scene::loadRagdoll(options.model))).bounds;
+        scene::LoadOptions load;
+        if (options.rig == "any") load.fit.rig = physics::RigKind::any;
+        if (!options.model.empty()) figure = scene::figureOf(*orLeave(scene::loadRagdoll(options.model, load))).bounds;
         scene = orLeave(scene::makeScene(options.scene, options.count, options.seed, figure));
     }
     for (scene::Ragdoll& ragdoll : scene.all<scene::Ragdoll>()) {
@@ -84,6 +87,7 @@ void addScene(const Command& app) {
     const Command command = app.add("scene", "Check a scene file, or write a named scene as a file");
     command.option("SCENE", options->scene, "a named scene, or a file *.scene.json").required();
     command.option("--model", options->model, "model of the characters that have none");
+    addRigOption(command, options->rig);
     command.option("--count", options->count, "number of dolls of a named scene").range(1, 10000).showDefault();
     command.option("--seed", options->seed, "varies the start of a named scene; 0 stands upright").showDefault();
     command.option("-o,--output", options->out, "write the scene to this file (*.scene.json); - for stdout");

@@ -69,9 +69,15 @@ void addExtraBodies(const std::string& list, physics::FitOptions& fit) {
             fit.toeBodies = true;
         } else if (word == "trunk") {
             fit.allTrunkBodies = true;
+        } else if (word == "appendages") {
+            fit.appendages.assign(animation::kAppendageKinds.begin(), animation::kAppendageKinds.end());
+        } else if (const auto kind = animation::appendageNamed(word)) {
+            fit.appendages.push_back(*kind);
         } else if (!word.empty()) {
-            leave({ErrorCode::usage, fmt::format("there are no extra bodies named '{}'", word), "--bodies",
-                   "shoulders, neck, toes and trunk can be had"});
+            leave(
+                {ErrorCode::usage, fmt::format("there are no extra bodies named '{}'", word), "--bodies",
+                 "shoulders, neck, toes and trunk can be had, and of what hangs on the figure tail, ears, hair, cape, "
+                 "skirt, wings, weapon, other, or all of these as appendages"});
         }
     }
 }
@@ -166,7 +172,14 @@ void RagdollOptions::addTo(const Command& app, bool modelRequired) {
         .needs(profileOption);
     app.flag("--refit", refit, "fit anew although the model's own file brings a ragdoll along (glTF)")
         .excludes(profileOption);
-    app.option("--mass", massKg, "total mass in kilograms").range(0.1, 1e5).excludes(profileOption).showDefault();
+    addRigOption(app, rig).excludes(profileOption);
+    app.option("--max-bodies", maxBodies, "the most bodies of --rig any, and of what --bodies hangs on a humanoid")
+        .range(1, physics::RagdollProfile::kMostBodies)
+        .excludes(profileOption)
+        .showDefault();
+    app.option("--mass", massKg, "total mass in kilograms; default: 75, and for --rig any that of its volume in water")
+        .range(1e-3, 1e5)
+        .excludes(profileOption);
     app.option("--mass-table", massTable, "shares of the segments")
         .oneOf(wordsOf(kMassTables))
         .excludes(profileOption)
@@ -179,7 +192,10 @@ void RagdollOptions::addTo(const Command& app, bool modelRequired) {
         .oneOf(presetNames())
         .excludes(profileOption)
         .showDefault();
-    app.option("--bodies", bodies, "bodies beside the 16: shoulders,neck,toes,trunk (comma separated)")
+    app.option(
+           "--bodies", bodies,
+           "bodies beside the 16, comma separated: shoulders,neck,toes,trunk; tail,ears,hair,cape,skirt,wings,weapon,"
+           "other, or appendages for all of these")
         .excludes(profileOption);
 }
 
@@ -189,7 +205,10 @@ scene::LoadOptions RagdollOptions::load() const {
     options.profile = profile;
     options.keepShapes = keepShapes;
     options.refit = refit;
-    options.fit.totalMassKg = massKg;
+    if (rig == "any") options.fit.rig = physics::RigKind::any;
+    options.fit.mostBodies = maxBodies;
+    options.fit.weighByVolume = !massKg;
+    options.fit.totalMassKg = massKg.value_or(options.fit.totalMassKg);
     options.fit.massTable = kMassTables.at(massTable);
     options.fit.massPreset = kMassPresets.at(massPreset);
     options.fit.preset = presetFromName(preset);
@@ -312,6 +331,14 @@ scene::SimulationOptions SimulateOptions::simulation(const scene::EntityScene& e
     options.shed = orLeave(scene::parseShedSettings(shed));
     if (!eye.empty()) options.eye = vec3(eye[0], eye[1], eye[2]);
     return options;
+}
+
+Option addRigOption(const Command& app, std::string& rig) {
+    return app
+        .option("--rig", rig,
+                "humanoid: bodies by the parts of a human; any: a ragdoll of any skeleton by its topology")
+        .oneOf({"humanoid", "any"})
+        .showDefault();
 }
 
 void addSolverOption(const Command& app, std::string& solver) {

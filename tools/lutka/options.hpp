@@ -54,7 +54,9 @@ struct RagdollOptions {
     std::optional<std::filesystem::path> profile;
     bool keepShapes = false;
     bool refit = false;
-    float massKg = 75.0F;
+    std::string rig = "humanoid";
+    int maxBodies = 40;
+    std::optional<float> massKg;  ///< Unset: 75 for a humanoid, by volume for any other rig.
     std::string massTable = "de-leva-male";
     std::string massPreset = "anatomical";
     std::string preset = "anatomical";
@@ -119,6 +121,9 @@ template <class T>
         words.push_back(word);
     return words;
 }
+
+/// --rig: humanoid or any.
+Option addRigOption(const Command& app, std::string& rig);
 
 /// --solver, by the names of physics::solverName.
 void addSolverOption(const Command& app, std::string& solver);

@@ -142,7 +142,7 @@ int JsonCursor::oneOf(std::span<const char* const> choices) const {
     return -1;
 }
 
-std::vector<std::string> checkFormat(const nlohmann::json& document, const char* format, int version) {
+std::vector<std::string> checkFormat(const nlohmann::json& document, const char* format, int version, int oldest) {
     std::vector<std::string> problems;
     const JsonCursor at(document, problems);
     if (!document.is_object()) {
@@ -153,7 +153,8 @@ std::vector<std::string> checkFormat(const nlohmann::json& document, const char*
     at["format"].oneOf({format});
     const JsonCursor found = at["version"];
     const auto number = found.wholeNumber();
-    if (number && *number != version) {
+    const bool upgraded = number && oldest > 0 && *number >= oldest && *number < version;
+    if (number && *number != version && !upgraded) {
         found.report(fmt::format(
             "expected version {}, got {}: {}", version, *number,
             *number > version ? "the file is from a newer program" : "there has never been such a version"));

@@ -61,7 +61,8 @@ class JsonCursor {
 };
 
 /// What is wrong with a document's members "format" and "version", which come first: nothing else means anything
-/// without them. Empty when they are `format` and `version`.
-[[nodiscard]] std::vector<std::string> checkFormat(const nlohmann::json& document, const char* format, int version);
+/// without them. Empty when they are `format` and `version`, or one of the versions from `oldest` on; 0: no older one.
+[[nodiscard]] std::vector<std::string> checkFormat(const nlohmann::json& document, const char* format, int version,
+                                                   int oldest = 0);
 
 }  // namespace lutka

@@ -19,7 +19,7 @@ struct DocumentState {
     /// Bindings that the user chose. kNoJoint: the role shall have no joint.
     std::array<std::optional<int>, animation::kRoleCount> fixed{};
     physics::FitOptions fit;
-    AllPartEdits edits{};
+    AllPartEdits edits;
     std::vector<PairEdit> pairs;          ///< Of the collision filter.
     std::filesystem::path openedProfile;  ///< The profile's file that `base` was read from; empty: fitted.
 
@@ -29,7 +29,7 @@ struct DocumentState {
     physics::RagdollProfile profile;  ///< `base` with `edits`.
     /// What `base` changes of a plain fit (a profile that was opened, mends): taken into `edits` when a new fit takes
     /// its place, so that nobody's work is lost by mapping another joint.
-    AllPartEdits baseEdits{};
+    AllPartEdits baseEdits;
     std::vector<PairEdit> basePairs;  ///< Likewise.
 };
 

@@ -26,7 +26,7 @@ Error outOfRange(const std::vector<std::string>& problems) {
 }
 
 std::string partName(const physics::RagdollProfile& profile, int body) {
-    return std::string(animation::roleName(profile.bodies[body].role));
+    return profile.bodies[body].name;
 }
 
 // The joint nearest to the mirror image of `joint` in the standard stance; kNoJoint when none is within a tenth of the
@@ -59,6 +59,7 @@ Result<std::unique_ptr<EditorDocument>> EditorDocument::open(const std::filesyst
     if (!asset) return asset.error();
     auto document = std::make_unique<EditorDocument>(std::move(asset).value());
     document->state_.fit = options.fit;
+    if (!physics::hasRoles(document->state_.profile)) document->state_.fit.rig = physics::RigKind::any;
     document->scene_.setOrigin(options.import, options.profile.value_or(""));
     if (options.profile) {
         document->state_.openedProfile = *options.profile;
@@ -155,9 +156,15 @@ Result<void> EditorDocument::remap(DocumentState& state) const {
     fillUnset(state.pairs, state.basePairs);
     state.baseEdits = {};
     state.basePairs.clear();
-    auto map = mapWithFixed(asset_->character, state.fixed);
-    if (!map) return map.error();
-    state.map = std::move(map).value();
+    if (state.fit.rig == physics::RigKind::any) {
+        const auto isFixed = [](const std::optional<int>& joint) { return joint.has_value(); };
+        if (std::any_of(state.fixed.begin(), state.fixed.end(), isFixed))
+            return Error{ErrorCode::input, "a ragdoll of any skeleton has no roles to map", "", "open a humanoid"};
+    } else {
+        auto map = mapWithFixed(asset_->character, state.fixed);
+        if (!map) return map.error();
+        state.map = std::move(map).value();
+    }
     auto profile = physics::fitRagdoll(asset_->character, state.map, state.fit);
     if (!profile) return profile.error();
     state.base = std::move(profile).value();
@@ -215,10 +222,10 @@ Result<void> EditorDocument::mapAgain(bool forgetFixed) {
 Result<void> EditorDocument::editPart(int body, const std::string& what, const std::string& group,
                                       const std::function<void(PartEdits&)>& change) {
     LUTKA_ASSERT(body >= 0 && body < static_cast<int>(profile().bodies.size()));
-    const int role = animation::indexOf(profile().bodies[body].role);
+    const std::string& name = profile().bodies[body].name;
     return apply(fmt::format("{} of {}", what, partName(profile(), body)), group,
                  [&](DocumentState& next) -> Result<void> {
-                     change(next.edits[role]);
+                     change(next.edits[name]);
                      return {};
                  });
 }
@@ -236,7 +243,7 @@ physics::BindFrames EditorDocument::bindOf(int constraint) const {
 }
 
 std::string EditorDocument::partNames(std::span<const int> bodies) const {
-    if (bodies.size() == 1) return std::string(animation::roleName(profile().bodies[bodies.front()].role));
+    if (bodies.size() == 1) return profile().bodies[bodies.front()].name;
     return fmt::format("{} bodies", bodies.size());
 }
 
@@ -258,7 +265,7 @@ Result<void> EditorDocument::changeParts(std::span<const int> bodies, const std:
             physics::moveBody(work, body, place);
         }
         for (const int body : bodies) {
-            next.edits[animation::indexOf(work.bodies[body].role)] = partEditsBetween(next.base, body, work, body);
+            next.edits[work.bodies[body].name] = partEditsBetween(next.base, body, work, body);
         }
         return {};
     });
@@ -266,7 +273,7 @@ Result<void> EditorDocument::changeParts(std::span<const int> bodies, const std:
 
 EditorDocument::PartValues EditorDocument::copyPart(int body) const {
     const BodyProfile& from = profile().bodies[body];
-    PartValues values{animation::sideOf(from.role), from.shape, from.massKg, std::nullopt};
+    PartValues values{physics::sideOf(profile(), body), from.shape, from.massKg, std::nullopt};
     if (body > 0) {
         const ConstraintProfile& joint = profile().constraints[body - 1];
         values.joint = {joint.kind, physics::jointRange(joint, bindOf(body - 1)), joint.frictionNm};
@@ -279,7 +286,7 @@ Result<void> EditorDocument::pasteParts(std::span<const int> bodies, const PartV
         part.body.shape = values.shape;
         part.body.massKg = values.massKg;
         if (part.constraint == nullptr || !values.joint) return {};
-        const Side side = animation::sideOf(part.body.role);
+        const Side side = physics::sideOf(profile(), physics::bodyNamed(profile(), part.body.name));
         const bool across = side != values.side && side != Side::center && values.side != Side::center;
         physics::changeKind(*part.constraint, values.joint->kind, part.bind);
         physics::setJointRange(*part.constraint, across ? mirrored(values.joint->range) : values.joint->range,
@@ -291,18 +298,17 @@ Result<void> EditorDocument::pasteParts(std::span<const int> bodies, const PartV
 
 Result<void> EditorDocument::mirrorParts(std::span<const int> bodies) {
     for (const int body : bodies) {
-        const int other = physics::bodyOf(profile(), animation::mirrored(profile().bodies[body].role));
+        const int other = physics::counterpartOf(profile(), body);
         if (other >= 0 && other != body) continue;
-        return Error{ErrorCode::usage,
-                     fmt::format("{} has no other side", animation::roleName(profile().bodies[body].role)), "", ""};
+        return Error{ErrorCode::usage, fmt::format("{} has no other side", profile().bodies[body].name), "", ""};
     }
     return apply("Mirror " + partNames(bodies), "", [&](DocumentState& next) -> Result<void> {
         RagdollProfile work = next.profile;
         const auto bind = bindModelFromBody(work);
         for (const int body : bodies) {
-            const int other = physics::bodyOf(work, animation::mirrored(work.bodies[body].role));
+            const int other = physics::counterpartOf(work, body);
             mirrorBody(work, bind, body, other);
-            next.edits[animation::indexOf(work.bodies[other].role)] = partEditsBetween(next.base, other, work, other);
+            next.edits[work.bodies[other].name] = partEditsBetween(next.base, other, work, other);
         }
         return {};
     });
@@ -311,7 +317,7 @@ Result<void> EditorDocument::mirrorParts(std::span<const int> bodies) {
 Result<void> EditorDocument::resetParts(std::span<const int> bodies) {
     return apply("Reset " + partNames(bodies), "", [&](DocumentState& next) -> Result<void> {
         for (const int body : bodies)
-            next.edits[animation::indexOf(next.profile.bodies[body].role)] = {};
+            next.edits.erase(next.profile.bodies[body].name);
         return {};
     });
 }
@@ -331,16 +337,12 @@ bool EditorDocument::collides(int bodyA, int bodyB) const {
 }
 
 Result<void> EditorDocument::setCollision(int bodyA, int bodyB, bool collide) {
-    const Role a = profile().bodies[bodyA].role;
-    const Role b = profile().bodies[bodyB].role;
+    const std::string& a = profile().bodies[bodyA].name;
+    const std::string& b = profile().bodies[bodyB].name;
     if (bodyA == bodyB || linked(bodyA, bodyB)) {
-        return Error{
-            ErrorCode::usage,
-            fmt::format("{} and {} are linked and never collide", animation::roleName(a), animation::roleName(b)), "",
-            ""};
+        return Error{ErrorCode::usage, fmt::format("{} and {} are linked and never collide", a, b), "", ""};
     }
-    const std::string label = fmt::format("{} and {} {}", animation::roleName(a), animation::roleName(b),
-                                          collide ? "collide" : "pass through");
+    const std::string label = fmt::format("{} and {} {}", a, b, collide ? "collide" : "pass through");
     return apply(label, "", [&](DocumentState& next) -> Result<void> {
         setPair(next.pairs, {a, b, collide});
         return {};

@@ -82,8 +82,8 @@ bool linked(const RagdollProfile& profile, int a, int b) {
 }
 
 void applyPair(RagdollProfile& profile, const PairEdit& edit) {
-    const int a = physics::bodyOf(profile, edit.first);
-    const int b = physics::bodyOf(profile, edit.second);
+    const int a = physics::bodyNamed(profile, edit.first);
+    const int b = physics::bodyNamed(profile, edit.second);
     if (a < 0 || b < 0 || a == b || linked(profile, a, b)) return;
     const std::pair pair(std::min(a, b), std::max(a, b));
     auto& pairs = profile.filteredPairs;
@@ -118,10 +118,10 @@ PartEdits partEditsBetween(const RagdollProfile& plain, int plainBody, const Rag
 }
 
 AllPartEdits editsBetween(const RagdollProfile& fitted, const RagdollProfile& given) {
-    AllPartEdits edits{};
+    AllPartEdits edits;
     for (int i = 0; i < static_cast<int>(given.bodies.size()); ++i) {
-        const int plain = physics::bodyOf(fitted, given.bodies[i].role);
-        if (plain >= 0) edits[animation::indexOf(given.bodies[i].role)] = partEditsBetween(fitted, plain, given, i);
+        const int plain = physics::bodyNamed(fitted, given.bodies[i].name);
+        if (plain >= 0) edits[given.bodies[i].name] = partEditsBetween(fitted, plain, given, i);
     }
     return edits;
 }
@@ -131,21 +131,20 @@ std::vector<PairEdit> pairEditsBetween(const RagdollProfile& fitted, const Ragdo
     const int count = static_cast<int>(given.bodies.size());
     for (int a = 0; a < count; ++a) {
         for (int b = a + 1; b < count; ++b) {
-            const int plainA = physics::bodyOf(fitted, given.bodies[a].role);
-            const int plainB = physics::bodyOf(fitted, given.bodies[b].role);
+            const int plainA = physics::bodyNamed(fitted, given.bodies[a].name);
+            const int plainB = physics::bodyNamed(fitted, given.bodies[b].name);
             if (plainA < 0 || plainB < 0 || linked(given, a, b) || linked(fitted, plainA, plainB)) continue;
             const bool off = filtered(given, a, b);
             if (off == filtered(fitted, plainA, plainB)) continue;
-            setPair(edits, {given.bodies[a].role, given.bodies[b].role, !off});
+            setPair(edits, {given.bodies[a].name, given.bodies[b].name, !off});
         }
     }
     return edits;
 }
 
 void fillUnset(AllPartEdits& edits, const AllPartEdits& others) {
-    for (int role = 0; role < animation::kRoleCount; ++role) {
-        PartEdits& part = edits[role];
-        const PartEdits& other = others[role];
+    for (const auto& [name, other] : others) {
+        PartEdits& part = edits[name];
         takeUnset(part.shape, other.shape);
         takeUnset(part.jointFromBody, other.jointFromBody);
         takeUnset(part.massKg, other.massKg);
@@ -175,12 +174,16 @@ RagdollProfile applyEdits(const RagdollProfile& base, const AllPartEdits& edits,
     RagdollProfile profile = base;
     bool massChanged = false;
     for (int i = 0; i < static_cast<int>(profile.bodies.size()); ++i) {
-        const PartEdits& part = edits[animation::indexOf(profile.bodies[i].role)];
+        const auto found = edits.find(profile.bodies[i].name);
+        if (found == edits.end()) continue;
+        const PartEdits& part = found->second;
         massChanged = massChanged || part.massKg.has_value();
         applyTo(profile, i, part);
     }
-    for (ConstraintProfile& constraint : profile.constraints)
-        applyTo(constraint, edits[animation::indexOf(profile.bodies[constraint.child].role)]);
+    for (ConstraintProfile& constraint : profile.constraints) {
+        const auto found = edits.find(profile.bodies[constraint.child].name);
+        if (found != edits.end()) applyTo(constraint, found->second);
+    }
     for (const PairEdit& pair : pairs)
         applyPair(profile, pair);
     if (massChanged) {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <array>
+#include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "animation/humanoid/roles.hpp"
 #include "physics/profile/constraint_frames.hpp"
 #include "physics/profile/profile.hpp"
 
@@ -26,20 +26,20 @@ struct PartEdits {
         return shape || jointFromBody || massKg || kind || hinge || cone || frames || frictionNm;
     }
 };
-/// By the body's role.
-using AllPartEdits = std::array<PartEdits, animation::kRoleCount>;
+/// By the body's name. No entry: nothing was changed.
+using AllPartEdits = std::map<std::string, PartEdits>;
 
-/// Whether two parts collide, against what the fit says; `first` before `second` in the order of roles.
+/// Whether two parts collide, against what the fit says; names of bodies, `first` before `second`.
 struct PairEdit {
-    animation::Role first = animation::Role::hips;
-    animation::Role second = animation::Role::hips;
+    std::string first;
+    std::string second;
     bool collide = true;
 };
 
 /// The values of a body (and, unless it is the root, of its constraint) that differ from `plain`'s.
 [[nodiscard]] PartEdits partEditsBetween(const physics::RagdollProfile& plain, int plainBody,
                                          const physics::RagdollProfile& given, int body);
-/// The same for all bodies, by role; roles that only one of the profiles has are left out.
+/// The same for all bodies; those that only one of the profiles has are left out.
 [[nodiscard]] AllPartEdits editsBetween(const physics::RagdollProfile& fitted, const physics::RagdollProfile& given);
 [[nodiscard]] std::vector<PairEdit> pairEditsBetween(const physics::RagdollProfile& fitted,
                                                      const physics::RagdollProfile& given);

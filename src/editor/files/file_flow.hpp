@@ -59,6 +59,12 @@ class FileFlow {
     /// Ends the offer; gives what was offered.
     std::filesystem::path takeOffer() { return std::exchange(offeredProfile_, {}); }
 
+    /// A model was refused as no humanoid: it can be had as a ragdoll of any skeleton.
+    void offerAnyRig(const std::filesystem::path& model) { anyRigModel_ = model; }
+    /// That model; empty when there is none or the user has answered.
+    [[nodiscard]] const std::filesystem::path& offeredAnyRig() const { return anyRigModel_; }
+    std::filesystem::path takeAnyRig() { return std::exchange(anyRigModel_, {}); }
+
   private:
     using Write = std::function<bool()>;
     struct Replacing {
@@ -77,6 +83,7 @@ class FileFlow {
     std::optional<Replacing> replacing_;
     std::vector<std::filesystem::path> exported_;
     std::filesystem::path offeredProfile_;
+    std::filesystem::path anyRigModel_;
 };
 
 }  // namespace lutka::editor

@@ -17,7 +17,7 @@ constexpr std::size_t kMaxThrown = 24;   // each makes every step slower
 bool sameFrames(std::span<const physics::BodyProfile> a, std::span<const physics::BodyProfile> b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                       [](const physics::BodyProfile& x, const physics::BodyProfile& y) {
-                          return x.role == y.role && x.jointPath == y.jointPath &&
+                          return x.name == y.name && x.jointPath == y.jointPath &&
                                  x.jointFromBody.rotation == y.jointFromBody.rotation &&
                                  x.jointFromBody.translation == y.jointFromBody.translation;
                       });
@@ -118,7 +118,7 @@ void Player::placeByJoints(int doll, std::span<const physics::BodyProfile> oldBo
     physics::bodiesFromPose(asset.rig, modelFromJoint, worldFromModel, bodies);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const auto old = std::find_if(oldBodies.begin(), oldBodies.end(), [&](const physics::BodyProfile& body) {
-            return body.role == asset.profile.bodies[i].role;
+            return body.name == asset.profile.bodies[i].name;
         });
         if (old == oldBodies.end()) continue;
         const physics::BodyState& state = oldStates[old - oldBodies.begin()];

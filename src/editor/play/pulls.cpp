@@ -10,7 +10,7 @@ constexpr float kMaxForceN = 1500.0F;
 
 std::optional<physics::Drag> dragOf(const Pull& pull, const scene::Simulation& simulation) {
     if (pull.doll >= simulation.dollCount()) return std::nullopt;
-    const int body = physics::bodyOf(simulation.assetOf(pull.doll).profile, pull.role);
+    const int body = physics::bodyNamed(simulation.assetOf(pull.doll).profile, pull.body);
     if (body < 0) return std::nullopt;
     return physics::Drag{simulation.dollId(pull.doll), body, pull.bodyPoint, pull.target, kMaxForceN};
 }
@@ -41,9 +41,9 @@ void Pulls::applyTo(scene::Simulation& simulation) {
     appliedPins_.resize(pins.size());
 }
 
-std::vector<Pull>::iterator Pulls::findPin(int doll, animation::Role role) {
+std::vector<Pull>::iterator Pulls::findPin(int doll, std::string_view body) {
     return std::find_if(pins.begin(), pins.end(),
-                        [&](const Pull& pin) { return pin.doll == doll && pin.role == role; });
+                        [&](const Pull& pin) { return pin.doll == doll && pin.body == body; });
 }
 
 }  // namespace lutka::editor

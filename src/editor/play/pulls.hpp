@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "physics/world/world.hpp"
@@ -11,9 +13,9 @@ namespace lutka::editor {
 /// A point of a body that is drawn towards a point of the world.
 struct Pull {
     int doll = 0;
-    animation::Role role = animation::Role::hips;  ///< Of the body: it outlives a new fit.
-    vec3 bodyPoint{0, 0, 0};                       ///< In body space.
-    vec3 target{0, 0, 0};                          ///< World.
+    std::string body;         ///< Its name: it outlives a new fit.
+    vec3 bodyPoint{0, 0, 0};  ///< In body space.
+    vec3 target{0, 0, 0};     ///< World.
 };
 
 /// The pull of the mouse and the points that the user pinned. Kept apart from the world, so that both survive when the
@@ -26,7 +28,7 @@ class Pulls {
     /// Makes the world's drags these, beside the scene's own. Call before every step and when one has gone.
     void applyTo(scene::Simulation& simulation);
     /// The pin on that part of a doll; pins.end() when there is none.
-    [[nodiscard]] std::vector<Pull>::iterator findPin(int doll, animation::Role role);
+    [[nodiscard]] std::vector<Pull>::iterator findPin(int doll, std::string_view body);
 
   private:
     // A drag of the world as it was asked for last.

@@ -41,7 +41,7 @@ class HandleHandler final : public StateHandler {
     void update() override {
         if (!drag_) return;
         workspace_.hotHandle = drag_->kind();
-        const physics::Role role = workspace_.document->profile().bodies[body_].role;
+        const std::optional<physics::Role> role = workspace_.document->profile().bodies[body_].role;
         const char* ends = drag_->kind() <= Handle::Kind::twistHigh ? "   Shift: this end alone or both" : "";
         workspace_.hint =
             fmt::format("{} {}{}   release: done  Esc: cancel", handleName(drag_->kind(), role), drag_->text(), ends);
@@ -81,7 +81,7 @@ class HandleHandler final : public StateHandler {
         const physics::ConstraintProfile* constraint = scene->constraint();
         const bool hinge = constraint != nullptr && constraint->kind == physics::ConstraintProfile::Kind::hinge;
         drag_->follow(*scene, workspace_.camera, workspace_.mouse, workspace_.window, hinge == shift_);
-        const physics::Role role = workspace_.document->profile().bodies[body_].role;
+        const std::optional<physics::Role> role = workspace_.document->profile().bodies[body_].role;
         moved_ = workspace_.edit([&](EditorDocument& document) {
             return document.changeParts(std::span(&body_, 1), handleName(drag_->kind(), role), kGroup,
                                         [&](EditorDocument::Part& part) -> Result<void> {

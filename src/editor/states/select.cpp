@@ -25,7 +25,7 @@ class SelectHandler final : public StateHandler {
         const auto active = workspace_.selection.active();
         const char* last = active && active->kind == Item::Kind::body ? "P pin" : "X delete";
         if (workspace_.hotHandle && active && active->kind == Item::Kind::body) {
-            const physics::Role role = workspace_.document->profile().bodies[active->index].role;
+            const std::optional<physics::Role> role = workspace_.document->profile().bodies[active->index].role;
             workspace_.hint = "Drag: " + handleName(*workspace_.hotHandle, role);
             return;
         }

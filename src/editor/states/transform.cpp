@@ -229,8 +229,8 @@ class GrabHandler final : public TransformHandler {
     std::optional<Trigger> otherKey(Key key) override {
         if (key != Key::p || !workspace_.pulls.mouse) return TransformHandler::otherKey(key);
         workspace_.pulls.pins.push_back(*workspace_.pulls.mouse);
-        workspace_.say(Toast::Kind::info, fmt::format("Pinned {}; P on it again lets go",
-                                                      animation::roleName(workspace_.pulls.mouse->role)));
+        workspace_.say(Toast::Kind::info,
+                       fmt::format("Pinned {}; P on it again lets go", workspace_.pulls.mouse->body));
         return end(true);
     }
 
@@ -246,7 +246,7 @@ class GrabHandler final : public TransformHandler {
         const RigidTransform worldFromBody = workspace_.player->bodiesOf(pulled_->doll)[pulled_->index].worldFromBody;
         Pull pull;
         pull.doll = pulled_->doll;
-        pull.role = workspace_.player->simulation().assetOf(pulled_->doll).profile.bodies[pulled_->index].role;
+        pull.body = workspace_.player->simulation().assetOf(pulled_->doll).profile.bodies[pulled_->index].name;
         pull.bodyPoint = dragged ? workspace_.press->bodyPoint : vec3(0);
         start_ = worldFromBody * pull.bodyPoint;
         pull.target = start_;

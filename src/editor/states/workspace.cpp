@@ -82,8 +82,8 @@ std::string Workspace::nameOf(const Item& item) const {
     }
     const physics::BodyProfile& body = document->profile().bodies[item.index];
     const std::string doll = player->simulation().dollCount() > 1 ? fmt::format(" of doll {}", item.doll + 1) : "";
-    const std::string_view role = animation::roleName(body.role);
-    return fmt::format("{}{}{}", role, doll, body.joint == role ? "" : " (" + body.joint + ")");
+    const std::string& name = body.name;
+    return fmt::format("{}{}{}", name, doll, body.joint == name ? "" : " (" + body.joint + ")");
 }
 
 void Workspace::follow() {

@@ -14,13 +14,12 @@ namespace lutka::editor {
 namespace {
 
 // leftUpperArm: LUA. Columns are narrow.
-std::string initials(animation::Role role) {
-    const std::string_view name = animation::roleName(role);
+std::string initials(const std::string& name) {
     std::string text(1, static_cast<char>(std::toupper(static_cast<unsigned char>(name.front()))));
-    for (const char c : name.substr(1)) {
+    for (const char c : std::string_view(name).substr(1)) {
         if (std::isupper(static_cast<unsigned char>(c)) != 0) text += c;
     }
-    if (text.size() == 1) text += name[1];
+    if (text.size() == 1 && name.size() > 1) text += name[1];
     return text;
 }
 
@@ -51,8 +50,7 @@ void drawCell(const PanelContext& context, int row, int column) {
                        : fixed       ? "linked by a joint: never collide"
                        : collide     ? "collide; a click lets them pass through each other"
                                      : "pass through each other; a click lets them collide";
-    tooltip(fmt::format("{} and {}\n{}", animation::roleName(bodies[row].role),
-                        animation::roleName(bodies[column].role), what));
+    tooltip(fmt::format("{} and {}\n{}", bodies[row].name, bodies[column].name, what));
     ImGui::PopID();
     if (clicked) editor.edit([&](EditorDocument& one) { return one.setCollision(row, column, !collide); });
 }
@@ -79,16 +77,16 @@ void drawCollisions(const PanelContext& context) {
             ImGui::TableNextRow();
             for (int column = 0; column < count; ++column) {
                 ImGui::TableSetColumnIndex(column + 1);
-                const animation::Role role = context.editor.document().profile().bodies[column].role;
-                ImGui::TextUnformatted(initials(role).c_str());
-                tooltip(std::string(animation::roleName(role)));
+                const std::string& name = context.editor.document().profile().bodies[column].name;
+                ImGui::TextUnformatted(initials(name).c_str());
+                tooltip(name);
             }
             for (int row = 0; row < count; ++row) {
                 ImGui::TableNextRow();
                 ImGui::TableSetColumnIndex(0);
-                const animation::Role role = context.editor.document().profile().bodies[row].role;
+                const std::string& name = context.editor.document().profile().bodies[row].name;
                 ImGui::AlignTextToFramePadding();
-                ImGui::TextUnformatted(std::string(animation::roleName(role)).c_str());
+                ImGui::TextUnformatted(name.c_str());
                 for (int column = 0; column < count; ++column) {
                     ImGui::TableSetColumnIndex(column + 1);
                     drawCell(context, row, column);

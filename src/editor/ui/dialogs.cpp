@@ -127,6 +127,23 @@ void drawOffer(const PanelContext& context) {
     if (take) editor.answerOffer(*take);
 }
 
+void drawAnyRigOffer(const PanelContext& context) {
+    Editor& editor = context.editor;
+    const std::filesystem::path file = editor.files().offeredAnyRig();
+    if (file.empty()) return;
+    placeInMiddle();
+    std::optional<bool> take;
+    if (ImGui::Begin("Not a human figure", nullptr, kDialog | ImGuiWindowFlags_NoCollapse)) {
+        ImGui::Text("%s was refused as a humanoid. Its bodies can be made", file.filename().string().c_str());
+        ImGui::TextUnformatted("from the joints and the skin alone, whatever it is.");
+        if (ImGui::Button("Ragdoll of any skeleton")) take = true;
+        ImGui::SameLine();
+        if (ImGui::Button("Leave it")) take = false;
+    }
+    ImGui::End();
+    if (take) editor.answerAnyRig(*take);
+}
+
 void drawHelp(const PanelContext& context) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     placeInMiddle();

@@ -29,8 +29,8 @@ ImVec4 colorOf(Severity severity) {
 
 void show(Editor& editor, const Finding& finding) {
     bool first = true;
-    for (const physics::Role role : finding.roles) {
-        const int body = physics::bodyOf(editor.document().profile(), role);
+    for (const std::string& name : finding.bodies) {
+        const int body = physics::bodyNamed(editor.document().profile(), name);
         if (body < 0) continue;
         editor.select(Item{Item::Kind::body, 0, body}, !first);
         first = false;
@@ -46,7 +46,7 @@ bool drawFinding(const PanelContext& context, const Finding& finding) {
     if (!finding.mend.empty()) mutedText("Mend: " + finding.mend);
     bool mend = false;
     if (finding.mendable) mend = ImGui::SmallButton("Fix");
-    if (!finding.roles.empty()) {
+    if (!finding.bodies.empty()) {
         if (finding.mendable) ImGui::SameLine();
         if (ImGui::SmallButton("Show")) show(context.editor, finding);
     }

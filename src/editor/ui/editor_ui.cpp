@@ -19,6 +19,7 @@ void EditorUi::build(Editor& editor, const FrameHistory& history) {
     dragRoleOverView(context);
     if (state.showCollisions) drawCollisions(context);
     drawOffer(context);
+    drawAnyRigOffer(context);
     drawToasts(context);
     drawDialogs(context);
     if (editor.view.help) drawHelp(context);

@@ -180,7 +180,7 @@ void drawJointFields(const PartFields& fields) {
     const auto bodies = editor.player().simulation().worldFromBody(fields.doll);
     const auto state = physics::measureConstraint(constraint, bodies[constraint.parent], bodies[constraint.child]);
     const auto& parent = editor.document().profile().bodies[constraint.parent];
-    caption(fmt::format("JOINT TO {}", animation::roleName(parent.role)).c_str());
+    caption(fmt::format("JOINT TO {}", parent.name).c_str());
     kindField(fields);
     limitFields(fields, state);
     frictionField(fields);

@@ -36,6 +36,8 @@ void drawTransport(const PanelContext& context);
 void drawLeftPanel(const PanelContext& context);
 void drawRightPanel(const PanelContext& context);
 void drawToasts(const PanelContext& context);
+/// A model that was refused as a humanoid is offered as a ragdoll of any skeleton.
+void drawAnyRigOffer(const PanelContext& context);
 /// A profile beside the model is offered.
 void drawOffer(const PanelContext& context);
 /// Open, save as, export; the question about unsaved changes; the confirmation of Delete.

@@ -105,7 +105,10 @@ const physics::BodyProfile& PartFields::fitted() const {
 }
 
 const PartEdits& PartFields::edits() const {
-    return context.editor.document().state().edits[animation::indexOf(profile().role)];
+    static const PartEdits kNone;
+    const AllPartEdits& edits = context.editor.document().state().edits;
+    const auto found = edits.find(profile().name);
+    return found == edits.end() ? kNone : found->second;
 }
 
 const physics::ConstraintProfile& PartFields::constraint() const {
@@ -138,19 +141,20 @@ void PartFields::change(const std::string& what,
 }
 
 bool PartFields::across(const EditorDocument::Part& part) const {
-    const animation::Side mine = animation::sideOf(profile().role);
-    const animation::Side other = animation::sideOf(part.body.role);
+    const physics::RagdollProfile& all = context.editor.document().profile();
+    const animation::Side mine = physics::sideOf(all, body());
+    const animation::Side other = physics::sideOf(all, physics::bodyNamed(all, part.body.name));
     return mine != other && mine != animation::Side::center && other != animation::Side::center;
 }
 
 const physics::BodyProfile& PartFields::fittedOf(const EditorDocument::Part& part) const {
     const physics::RagdollProfile& base = context.editor.document().state().base;
-    return base.bodies[physics::bodyOf(base, part.body.role)];
+    return base.bodies[physics::bodyNamed(base, part.body.name)];
 }
 
 const physics::ConstraintProfile* PartFields::fittedConstraintOf(const EditorDocument::Part& part) const {
     const physics::RagdollProfile& base = context.editor.document().state().base;
-    const int index = physics::bodyOf(base, part.body.role);
+    const int index = physics::bodyNamed(base, part.body.name);
     return index > 0 ? &base.constraints[index - 1] : nullptr;
 }
 

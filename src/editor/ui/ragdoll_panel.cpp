@@ -27,12 +27,12 @@ bool wrappedButton(const char* name, const std::string& what) {
 
 void drawPartButtons(const PanelContext& context, const PartFields& fields) {
     Editor& editor = context.editor;
-    const physics::Role role = fields.profile().role;
-    const bool pinned = editor.workspace().pulls.findPin(fields.doll, role) != editor.workspace().pulls.pins.end();
+    const std::string& name = fields.profile().name;
+    const bool pinned = editor.workspace().pulls.findPin(fields.doll, name) != editor.workspace().pulls.pins.end();
     if (ImGui::Button(pinned ? "Unpin" : "Pin")) editor.perform(Action::pin);
     tooltip("P: holds the body where it is");
     if (wrappedButton("Focus", "F: brings it into the middle of the view")) editor.perform(Action::focus);
-    if (animation::sideOf(role) != animation::Side::center &&
+    if (physics::counterpartOf(editor.document().profile(), fields.body()) >= 0 &&
         wrappedButton("Mirror", "Ctrl+M: gives the other side these values")) {
         editor.perform(Action::mirrorParts);
     }
@@ -50,7 +50,7 @@ void drawBody(const PanelContext& context, const Item& item) {
     const PartFields fields{context, context.editor.workspace().selectedBodies(), item.doll};
     const physics::BodyProfile& body = fields.profile();
     ImGui::PushFont(context.fonts.heading);
-    ImGui::TextUnformatted(std::string(animation::roleName(body.role)).c_str());
+    ImGui::TextUnformatted(body.name.c_str());
     ImGui::PopFont();
     mutedText("joint " + body.joint);
     if (fields.bodies.size() > 1) {
@@ -83,7 +83,7 @@ void drawTable(const PanelContext& context) {
     for (int i = 0; i < static_cast<int>(profile.bodies.size()); ++i) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
-        const std::string name(animation::roleName(profile.bodies[i].role));
+        const std::string& name = profile.bodies[i].name;
         if (ImGui::Selectable(name.c_str(), false, ImGuiSelectableFlags_SpanAllColumns)) {
             editor.select(Item{Item::Kind::body, 0, i}, ImGui::GetIO().KeyShift);
         }

@@ -36,7 +36,10 @@ void drawFit(const PanelContext& context) {
     tooltip(std::string(physics::infoOf(fit.preset).summary));
     labelled("Total mass", sceneLabelWidth(context));
     ImGui::InputFloat("##total", &fit.totalMassKg, 0.0F, 0.0F, "%.1f kg");
-    changed |= ImGui::IsItemDeactivatedAfterEdit() && fit.totalMassKg > 0.0F;
+    if (ImGui::IsItemDeactivatedAfterEdit() && fit.totalMassKg > 0.0F) {
+        fit.weighByVolume = false;
+        changed = true;
+    }
     labelled("Masses", sceneLabelWidth(context));
     int preset = static_cast<int>(fit.massPreset);
     if (ImGui::Combo("##preset", &preset, "Anatomical\0Balanced\0Uniform\0By volume\0")) {

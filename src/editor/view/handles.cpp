@@ -208,7 +208,7 @@ void drawHandles(const HandleScene& scene, std::span<const Handle> handles, cons
     }
 }
 
-std::string handleName(HandleKind kind, physics::Role role) {
+std::string handleName(HandleKind kind, std::optional<physics::Role> role) {
     const physics::JointWords words = physics::jointWords(role);
     switch (kind) {
         case HandleKind::flexionLow:

@@ -60,7 +60,7 @@ void drawHandles(const HandleScene& scene, std::span<const Handle> handles, cons
                  const render::Camera& camera, render::LineBatch& lines);
 
 /// "flexion", "twist: inward rotation", "radius" …: what the handle changes, in words.
-[[nodiscard]] std::string handleName(Handle::Kind kind, physics::Role role);
+[[nodiscard]] std::string handleName(Handle::Kind kind, std::optional<physics::Role> role);
 
 /// The drag of one handle, from the part as it was when it began.
 class HandleDrag {

@@ -30,8 +30,9 @@ float areaOf(const PlannedBody& body) {
     return area;
 }
 
-Finding error(const char* code, std::string place, std::string measure, const char* mend, std::vector<Role> roles) {
-    return {Severity::error, code, std::move(place), std::move(measure), mend, false, std::move(roles)};
+Finding error(const char* code, std::string place, std::string measure, const char* mend,
+              std::vector<std::string> bodies) {
+    return {Severity::error, code, std::move(place), std::move(measure), mend, false, std::move(bodies)};
 }
 
 // Share of the skin's area that is far from every body.
@@ -125,11 +126,11 @@ void findBodiesBesideSkin(const BodyPlan& plan, std::span<const PlacedShape> sha
         const float distance = std::max({beyond.x, beyond.y, beyond.z});
         if (distance <= kBeside * plan.heightM) continue;
         if (touchingShare(body, shapes[i], plan.heightM) > kMostTouching) continue;
-        findings.push_back(error("body-beside-skin", std::string(roleName(body.role)),
+        findings.push_back(error("body-beside-skin", body.name,
                                  fmt::format("its middle is {:.0f} % of the height beside its skin, at most {:.0f}",
                                              100.0F * distance / plan.heightM, 100.0F * kBeside),
                                  "fit the shape anew; if it stays there, the map or the skin's weights are wrong",
-                                 {body.role}));
+                                 {body.name}));
     }
 }
 

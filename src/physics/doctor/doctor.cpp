@@ -9,6 +9,7 @@
 #include "physics/collision/shape.hpp"
 #include "physics/doctor/broken_figure.hpp"
 #include "physics/fit/anatomy.hpp"
+#include "physics/fit/profile_plan.hpp"
 #include "physics/fit/rebind.hpp"
 #include "physics/profile/constraint_state.hpp"
 
@@ -29,11 +30,24 @@ class Examination {
     Examination(const RagdollProfile& profile, const animation::Character& character, const animation::HumanoidMap& map)
         : profile_(profile),
           map_(map),
-          plan_(planBodies(character, map, rolesOf(profile))),
+          plan_(planOfProfile(profile, character, map)),
+          places_(placesInPlan(profile, plan_)),
           anatomy_(findAnatomy(plan_)),
           shapes_(shapesInBindPose(profile, character.skeleton)) {}
 
     void checkMap(Diagnosis& diagnosis) {
+        if (!hasRoles(profile_)) {
+            diagnosis.findings.push_back(
+                {Severity::info,
+                 "not-humanoid",
+                 "",
+                 "no body has a role: role-unmapped, roles-few, joint-not-below, hinge-reversed and hinge-askew do not "
+                 "apply",
+                 "",
+                 false,
+                 {}});
+            return;
+        }
         constexpr std::size_t kMostMissing = 7;  // of the 15 required roles
         if (map_.missing.size() > kMostMissing && !isWholeOfBlocks()) {
             broken_ = true;
@@ -52,7 +66,7 @@ class Examination {
                                           "a required role without a joint",
                                           "bind it by hand if the rig has such a joint",
                                           false,
-                                          {role}});
+                                          {nameOf(role)}});
         }
     }
 
@@ -60,18 +74,20 @@ class Examination {
     // move the limb as the ragdoll does (feet driven by inverse kinematics), or the role is on a wrong joint.
     void checkHierarchy(Diagnosis& diagnosis, const animation::Skeleton& skeleton) {
         for (const ConstraintProfile& c : profile_.constraints) {
-            const int parent = map_.jointOf(profile_.bodies[c.parent].role);
-            const int child = map_.jointOf(profile_.bodies[c.child].role);
+            const std::optional<Role> role = profile_.bodies[c.child].role;
+            const std::optional<Role> above = profile_.bodies[c.parent].role;
+            const int parent = above ? map_.jointOf(*above) : animation::kNoJoint;
+            const int child = role ? map_.jointOf(*role) : animation::kNoJoint;
             if (parent == animation::kNoJoint || child == animation::kNoJoint ||
                 animation::isAncestorOrSelf(skeleton, parent, child)) {
                 continue;
             }
-            const bool elsewhere = hangsElsewhere(skeleton, profile_.bodies[c.child].role);
+            const bool elsewhere = hangsElsewhere(skeleton, *role);
             astray_ += elsewhere ? 1 : 0;
             diagnosis.findings.push_back(
                 {elsewhere ? Severity::error : Severity::warning, "joint-not-below", link(c),
                  fmt::format("the joint \"{}\" is not below \"{}\"", skeleton.names[child], skeleton.names[parent]),
-                 "map a joint below it, unless the rig drives this limb by an IK root", false, childRole(c)});
+                 "map a joint below it, unless the rig drives this limb by an IK root", false, childOf(c)});
         }
     }
 
@@ -84,7 +100,7 @@ class Examination {
             if (ratio <= kHighRatio) continue;
             diagnosis.findings.push_back({ratio > kExtremeRatio ? Severity::error : Severity::warning, "mass-ratio",
                                           link(c), fmt::format("{:.1f} : 1, at most 10 : 1", ratio),
-                                          "balance the masses", true, childRole(c)});
+                                          "balance the masses", true, childOf(c)});
         }
     }
 
@@ -96,7 +112,7 @@ class Examination {
                 ++brokenLimits_;
                 diagnosis.findings.push_back({Severity::error, "bind-outside-limits", link(c),
                                               fmt::format("the bind pose is {:.1f} degrees outside", degrees(outside)),
-                                              "widen the limit to hold the bind pose", true, childRole(c)});
+                                              "widen the limit to hold the bind pose", true, childOf(c)});
             }
             const float span = c.kind == ConstraintProfile::Kind::hinge
                                    ? 0.5F * (c.hinge.upper - c.hinge.lower)
@@ -104,7 +120,7 @@ class Examination {
             if (span < radians(5.0F)) {
                 diagnosis.findings.push_back({Severity::warning, "limit-span-small", link(c),
                                               fmt::format("{:.1f} degrees either way, at least 5", degrees(span)),
-                                              "widen the limit; a narrow one jitters", false, childRole(c)});
+                                              "widen the limit; a narrow one jitters", false, childOf(c)});
             }
             checkHinge(diagnosis, c);
         }
@@ -112,12 +128,12 @@ class Examination {
 
     void checkOverlaps(Diagnosis& diagnosis) const {
         for (const BodyOverlap& overlap : findOverlaps(profile_, shapes_)) {
-            const Role first = profile_.bodies[overlap.first].role;
-            const Role second = profile_.bodies[overlap.second].role;
+            const std::string& first = profile_.bodies[overlap.first].name;
+            const std::string& second = profile_.bodies[overlap.second].name;
             const bool deep = overlap.depthM > 0.01F * profile_.heightM;
             diagnosis.findings.push_back({deep ? Severity::error : Severity::warning,
                                           "overlap",
-                                          nameOf(first) + " and " + nameOf(second),
+                                          first + " and " + second,
                                           fmt::format("{:.1f} mm deep in the bind pose", 1000.0F * overlap.depthM),
                                           "filter the pair, or shrink one of the shapes",
                                           true,
@@ -136,16 +152,17 @@ class Examination {
             if (c.parent == 0 || distance >= 0.005F * profile_.heightM) continue;
             diagnosis.findings.push_back({Severity::warning, "chain-degenerate", link(c),
                                           fmt::format("joints {:.1f} mm apart", 1000.0F * distance),
-                                          "leave one of the two roles without a body", false, childRole(c)});
+                                          "leave one of the two roles without a body", false, childOf(c)});
         }
     }
 
     void checkSides(Diagnosis& diagnosis) const {
         constexpr float kDifference = 0.1F;
         if (!plan_.symmetric) return;
-        for (const BodyProfile& left : profile_.bodies) {
-            const int other = bodyOf(profile_, mirrored(left.role));
-            if (sideOf(left.role) != animation::Side::left || other < 0) continue;
+        for (int index = 0; index < static_cast<int>(profile_.bodies.size()); ++index) {
+            const BodyProfile& left = profile_.bodies[index];
+            const int other = counterpartOf(profile_, index);
+            if (sideOf(profile_, index) != animation::Side::left || other < 0) continue;
             const BodyProfile& right = profile_.bodies[other];
             const auto differ = [](float a, float b) { return std::abs(a - b) / std::max(a, b); };
             const float size = differ(shapeVolume(left.shape), shapeVolume(right.shape));
@@ -154,11 +171,11 @@ class Examination {
             diagnosis.findings.push_back(
                 {Severity::warning,
                  "sides-differ",
-                 nameOf(left.role) + " and " + nameOf(right.role),
+                 left.name + " and " + right.name,
                  fmt::format("volume by {:.0f} %, mass by {:.0f} %, at most 10", 100.0F * size, 100.0F * mass),
                  "give both sides the mean",
                  true,
-                 {left.role, right.role}});
+                 {left.name, right.name}});
         }
     }
 
@@ -173,7 +190,7 @@ class Examination {
             diagnosis.parts.push_back({name, of * std::clamp(share, 0.0F, 1.0F), of});
         };
         constexpr float kRequiredRoles = 15.0F;
-        part("map", 15, 1.0F - static_cast<float>(map_.missing.size()) / kRequiredRoles);
+        if (hasRoles(profile_)) part("map", 15, 1.0F - static_cast<float>(map_.missing.size()) / kRequiredRoles);
         part("masses", 10, (3.0F * kHighRatio - worstRatio_) / (2.0F * kHighRatio));
         const auto count = static_cast<float>(std::max<std::size_t>(profile_.constraints.size(), 1));
         part("limits", 20, 1.0F - 3.0F * static_cast<float>(brokenLimits_) / count);
@@ -236,13 +253,13 @@ class Examination {
     }
 
     // The plan lists bodies in the order of roles, which a profile edited by hand need not keep.
-    [[nodiscard]] int indexOf(int body) const { return plan_.bodyOf(profile_.bodies[body].role); }
+    [[nodiscard]] int indexOf(int body) const { return places_[body]; }
 
     [[nodiscard]] std::string link(const ConstraintProfile& c) const {
-        return nameOf(profile_.bodies[c.child].role) + " on " + nameOf(profile_.bodies[c.parent].role);
+        return profile_.bodies[c.child].name + " on " + profile_.bodies[c.parent].name;
     }
-    [[nodiscard]] std::vector<Role> childRole(const ConstraintProfile& c) const {
-        return {profile_.bodies[c.child].role};
+    [[nodiscard]] std::vector<std::string> childOf(const ConstraintProfile& c) const {
+        return {profile_.bodies[c.child].name};
     }
     void checkHinge(Diagnosis& diagnosis, const ConstraintProfile& c) {
         const vec3& expected = anatomy_.flexionAxis[indexOf(c.child)];
@@ -255,7 +272,7 @@ class Examination {
         diagnosis.findings.push_back({reversed ? Severity::error : Severity::warning,
                                       reversed ? "hinge-reversed" : "hinge-askew", link(c),
                                       fmt::format("its axis is {:.0f} degrees off the anatomy's", angle),
-                                      "make the frames anew from the anatomy", true, childRole(c)});
+                                      "make the frames anew from the anatomy", true, childOf(c)});
     }
 
     void checkSize(Diagnosis& diagnosis, const BodyProfile& body) const {
@@ -266,11 +283,11 @@ class Examination {
         if (share >= kTiny && share <= kHuge) return;
         diagnosis.findings.push_back({Severity::warning,
                                       share < kTiny ? "body-tiny" : "body-huge",
-                                      nameOf(body.role),
+                                      body.name,
                                       fmt::format("{:.1f} % of the height thick, expected 0.8 to 32", 100.0F * share),
                                       "fit the shape anew",
                                       true,
-                                      {body.role}});
+                                      {body.name}});
     }
 
     void checkSkin(Diagnosis& diagnosis, std::size_t body) const {
@@ -291,14 +308,14 @@ class Examination {
         if (total <= 0.0F) return;
         const auto report = [&](const char* code, float share, const char* what) {
             if (share <= kShare) return;
-            const Role role = profile_.bodies[body].role;
+            const std::string& name = profile_.bodies[body].name;
             diagnosis.findings.push_back({Severity::warning,
                                           code,
-                                          nameOf(role),
+                                          name,
                                           fmt::format("{:.0f} % of its skin {}, at most 25", 100.0F * share, what),
                                           "fit the shape anew, or give it another shape",
                                           true,
-                                          {role}});
+                                          {name}});
         };
         report("capsule-outside-skin", inside / total, "lies more than 2 % of the height inside the shape");
         report("skin-not-covered", outside / total, "lies more than 4 % of the height outside the shape");
@@ -307,6 +324,7 @@ class Examination {
     const RagdollProfile& profile_;
     const animation::HumanoidMap& map_;
     BodyPlan plan_;
+    std::vector<int> places_;  // of the profile's bodies in the plan
     Anatomy anatomy_;
     std::vector<PlacedShape> shapes_;
     float worstRatio_ = 1.0F;
@@ -318,17 +336,16 @@ class Examination {
 void findMissingJoints(Diagnosis& diagnosis, const RagdollProfile& profile, const animation::Character& character,
                        const animation::HumanoidMap& map) {
     for (const BodyProfile& body : profile.bodies) {
-        const bool there = findJoint(character.skeleton, body.jointPath) != animation::kNoJoint ||
-                           findJoint(character.skeleton, body.joint) != animation::kNoJoint;
-        if (there && map.jointOf(body.role) != animation::kNoJoint) continue;
+        const bool there = jointOfBody(body, character.skeleton) != animation::kNoJoint;
+        if (there && (!body.role || map.jointOf(*body.role) != animation::kNoJoint)) continue;
         diagnosis.findings.push_back(
             {Severity::error,
              "joint-missing",
-             nameOf(body.role),
+             body.name,
              there ? "the rig has no joint of that role" : "no joint \"" + body.jointPath + "\" in the rig",
              "re-bind the profile to this rig",
              false,
-             {body.role}});
+             {body.name}});
     }
 }
 

@@ -18,12 +18,12 @@ enum class Severity { info, warning, error };
 /// What the ragdoll doctor found wrong, or worth knowing.
 struct Finding {
     Severity severity = Severity::warning;
-    std::string code;         ///< Which check, one of those listed at diagnose().
-    std::string place;        ///< Role or roles, or a JSON pointer into the profile.
-    std::string measure;      ///< The figure and the bound that it breaks, in words.
-    std::string mend;         ///< What to do about it.
-    bool mendable = false;    ///< applyMends() does it.
-    std::vector<Role> roles;  ///< The bodies concerned; a constraint is told by its child.
+    std::string code;                 ///< Which check, one of those listed at diagnose().
+    std::string place;                ///< Body or bodies, or a JSON pointer into the profile.
+    std::string measure;              ///< The figure and the bound that it breaks, in words.
+    std::string mend;                 ///< What to do about it.
+    bool mendable = false;            ///< applyMends() does it.
+    std::vector<std::string> bodies;  ///< Those concerned, by name; a constraint is told by its child.
 };
 
 /// A part of the score: `points` out of `of`.
@@ -63,6 +63,8 @@ struct Diagnosis {
 /// - `sides-differ` shape or mass of left and right differ by more than a tenth on a symmetric rig (warning)
 /// - `body-tiny`, `body-huge` radius below 0.8 % or above 32 % of the height (warning)
 /// - `chain-degenerate` two linked joints nearer than 0.5 % of the height (warning)
+/// - `not-humanoid` which of these checks do not apply to a ragdoll without roles: role-unmapped, roles-few,
+///   joint-not-below, hinge-reversed and hinge-askew (info)
 /// - `note` what the fit had to bend (info)
 [[nodiscard]] Diagnosis diagnose(const RagdollProfile& profile, const animation::Character& character,
                                  const animation::HumanoidMap& map);

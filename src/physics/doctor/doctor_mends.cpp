@@ -7,6 +7,7 @@
 #include "physics/fit/anatomy.hpp"
 #include "physics/fit/fit_shapes.hpp"
 #include "physics/fit/masses.hpp"
+#include "physics/fit/profile_plan.hpp"
 #include "physics/fit/rebind.hpp"
 
 namespace lutka::physics {
@@ -23,17 +24,19 @@ class Mender {
     Mender(const RagdollProfile& profile, const animation::Character& character, const animation::HumanoidMap& map)
         : profile_(profile),
           character_(character),
-          plan_(planBodies(character, map, rolesOf(profile))),
+          plan_(planOfProfile(profile, character, map)),
+          places_(placesInPlan(profile, plan_)),
           anatomy_(findAnatomy(plan_)) {}
 
     [[nodiscard]] bool matches() const { return plan_.bodies.size() == profile_.bodies.size(); }
 
     void mend(const Finding& finding) {
-        if (finding.code == "overlap" && finding.roles.size() == 2) filter(finding.roles[0], finding.roles[1]);
+        if (finding.code == "overlap" && finding.bodies.size() == 2) filter(finding.bodies[0], finding.bodies[1]);
         if (finding.code == "mass-ratio") balanceMasses();
-        if (finding.code == "sides-differ" && finding.roles.size() == 2) makeEqual(finding.roles[0], finding.roles[1]);
-        if (finding.roles.empty() || bodyOf(profile_, finding.roles[0]) < 0) return;
-        const int body = bodyOf(profile_, finding.roles[0]);
+        if (finding.code == "sides-differ" && finding.bodies.size() == 2)
+            makeEqual(finding.bodies[0], finding.bodies[1]);
+        const int body = finding.bodies.empty() ? -1 : bodyNamed(profile_, finding.bodies[0]);
+        if (body < 0) return;
         if (isShapeFault(finding)) refit(body);
         if (finding.code == "hinge-reversed" || finding.code == "hinge-askew") rebuildFrames(body);
         if (finding.code == "bind-outside-limits") widen(body);
@@ -44,15 +47,15 @@ class Mender {
   private:
     void note(std::string text) { profile_.notes.push_back("mended: " + std::move(text)); }
 
-    void filter(Role first, Role second) {
-        const int a = bodyOf(profile_, first);
-        const int b = bodyOf(profile_, second);
+    void filter(const std::string& first, const std::string& second) {
+        const int a = bodyNamed(profile_, first);
+        const int b = bodyNamed(profile_, second);
         if (a < 0 || b < 0 || a == b) return;
         const std::pair pair(std::min(a, b), std::max(a, b));
         auto& pairs = profile_.filteredPairs;
         if (std::find(pairs.begin(), pairs.end(), pair) != pairs.end()) return;
         pairs.insert(std::upper_bound(pairs.begin(), pairs.end(), pair), pair);
-        note(fmt::format("{} and {} no longer collide", roleName(first), roleName(second)));
+        note(fmt::format("{} and {} no longer collide", first, second));
     }
 
     void balanceMasses() {
@@ -65,9 +68,9 @@ class Mender {
         note("masses balanced");
     }
 
-    void makeEqual(Role first, Role second) {
-        const int a = bodyOf(profile_, first);
-        const int b = bodyOf(profile_, second);
+    void makeEqual(const std::string& first, const std::string& second) {
+        const int a = bodyNamed(profile_, first);
+        const int b = bodyNamed(profile_, second);
         if (a < 0 || b < 0) return;
         BodyProfile& left = profile_.bodies[a];
         BodyProfile& right = profile_.bodies[b];
@@ -80,13 +83,13 @@ class Mender {
         }
         left.shape = right.shape = mean;
         left.inertia = right.inertia = shapeInertia(mean, left.massKg);
-        note(fmt::format("{} and {} made equal", roleName(first), roleName(second)));
+        note(fmt::format("{} and {} made equal", first, second));
     }
 
     // The frames of a body's own constraint and of those that hang on it move with it.
     void refit(int body) {
         if (fitted_.empty()) fitted_ = fitShapes(plan_, anatomy_);
-        const PlacedShape& shape = fitted_[plan_.bodyOf(profile_.bodies[body].role)];
+        const PlacedShape& shape = fitted_[places_[body]];
         const RigidTransform standardFromOld = placed()[body].standardFromBody;
         BodyProfile& target = profile_.bodies[body];
         target.shape = shape.shape;
@@ -100,16 +103,15 @@ class Mender {
             c.childFromFrame.rotation = glm::normalize(c.childFromFrame.rotation);
             c.parentFromFrame.rotation = glm::normalize(c.parentFromFrame.rotation);
         }
-        note(fmt::format("shape of {} fitted anew", roleName(target.role)));
+        note(fmt::format("shape of {} fitted anew", target.name));
     }
 
     void rebuildFrames(int body) {
         const std::vector<PlacedShape> shapes = placed();
         ConstraintProfile& c = profile_.constraints[body - 1];
-        const Role role = profile_.bodies[body].role;
-        setFrames(c, jointFrames(plan_, anatomy_, plan_.bodyOf(role)), shapes[c.parent].standardFromBody,
+        setFrames(c, jointFrames(plan_, anatomy_, places_[body]), shapes[c.parent].standardFromBody,
                   shapes[c.child].standardFromBody);
-        note(fmt::format("frames of {} made anew", roleName(role)));
+        note(fmt::format("frames of {} made anew", profile_.bodies[body].name));
         widen(body);
     }
 
@@ -117,7 +119,7 @@ class Mender {
         const std::vector<PlacedShape> shapes = placed();
         ConstraintProfile& c = profile_.constraints[body - 1];
         std::string done = widenToHold(c, shapes[c.parent].standardFromBody, shapes[c.child].standardFromBody,
-                                       profile_.bodies[body].role);
+                                       profile_.bodies[body].name);
         if (!done.empty()) note(std::move(done));
     }
 
@@ -126,6 +128,7 @@ class Mender {
     RagdollProfile profile_;
     const animation::Character& character_;
     BodyPlan plan_;
+    std::vector<int> places_;  // of the profile's bodies in the plan
     Anatomy anatomy_;
     std::vector<PlacedShape> fitted_;
     bool balanced_ = false;

@@ -1,6 +1,7 @@
 #include "physics/fit/body_plan.hpp"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/assert.hpp"
@@ -84,7 +85,9 @@ void addBodies(BodyPlan& plan, const Character& character, const HumanoidMap& ma
         const Role role = animation::roleAt(index);
         if (std::find(roles.begin(), roles.end(), role) == roles.end() || map.jointOf(role) == kNoJoint) continue;
         PlannedBody body;
+        body.name = roleName(role);
         body.role = role;
+        body.side = animation::sideOf(role);
         body.joint = map.jointOf(role);
         // A joint that plays two roles carries one body, the upper role's.
         const auto taken = [&](const PlannedBody& other) { return other.joint == body.joint; };
@@ -93,6 +96,31 @@ void addBodies(BodyPlan& plan, const Character& character, const HumanoidMap& ma
         const auto above = parentRole(role);
         body.parent = above ? bodyCarrying(plan, *above) : -1;
         plan.bodies.push_back(std::move(body));
+    }
+}
+
+// Behind the bodies with roles.
+void addSegments(BodyPlan& plan, const Character& character, const HumanoidMap& map,
+                 std::span<const animation::Segment> segments) {
+    const int first = static_cast<int>(plan.bodies.size());
+    for (const animation::Segment& segment : segments) {
+        PlannedBody body;
+        body.name = segment.name;
+        body.segment = segment;
+        if (segment.hinge) body.segment->hinge->axis = map.standardFromModel * segment.hinge->axis;
+        body.joint = segment.joint;
+        body.side = segment.side;
+        body.parent = segment.parent >= 0 ? first + segment.parent : -1;
+        body.mirror = segment.mirror >= 0 ? first + segment.mirror : -1;
+        body.start = map.standardFromModel * character.skeleton.bindModelFromJoint[body.joint].translation;
+        plan.bodies.push_back(std::move(body));
+    }
+}
+
+void findCounterparts(BodyPlan& plan) {
+    for (int index = 0; index < static_cast<int>(plan.bodies.size()); ++index) {
+        PlannedBody& body = plan.bodies[index];
+        if (body.role) body.mirror = body.side == animation::Side::center ? index : plan.bodyOf(mirrored(*body.role));
     }
 }
 
@@ -130,13 +158,23 @@ void assignJoints(BodyPlan& plan, const Character& character, const HumanoidMap&
     const animation::Skeleton& skeleton = character.skeleton;
     const std::vector<int> roleOf = rolesOfJoints(character, map);
     plan.bodyOfJoint.assign(skeleton.parents.size(), -1);
+    std::vector<int> segmentOf(skeleton.parents.size(), -1);
+    for (std::size_t body = 0; body < plan.bodies.size(); ++body) {
+        if (plan.bodies[body].segment) segmentOf[plan.bodies[body].joint] = static_cast<int>(body);
+    }
     for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
-        if (roleOf[joint] >= 0) {
+        if (segmentOf[joint] >= 0) {
+            plan.bodyOfJoint[joint] = segmentOf[joint];
+        } else if (roleOf[joint] >= 0) {
             plan.bodyOfJoint[joint] = bodyCarrying(plan, animation::roleAt(roleOf[joint]));
         } else if (skeleton.parents[joint] != kNoJoint) {
             plan.bodyOfJoint[joint] = plan.bodyOfJoint[skeleton.parents[joint]];
         }
     }
+    // Of a creature all above the root belongs to the root; its controls may lie anywhere.
+    for (int joint = plan.bodies[0].role ? kNoJoint : skeleton.parents[plan.bodies[0].joint]; joint != kNoJoint;
+         joint = skeleton.parents[joint])
+        plan.bodyOfJoint[joint] = 0;
     for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
         if (plan.bodyOfJoint[joint] >= 0) continue;
         plan.bodyOfJoint[joint] =
@@ -144,9 +182,49 @@ void assignJoints(BodyPlan& plan, const Character& character, const HumanoidMap&
     }
 }
 
-bool isLeg(Role role) {
-    const Role left = sideOf(role) == animation::Side::right ? mirrored(role) : role;
-    return left == Role::leftUpperLeg || left == Role::leftLowerLeg || left == Role::leftFoot;
+bool isLeg(std::optional<Role> role) {
+    return isEitherSide(role, Role::leftUpperLeg) || isEitherSide(role, Role::leftLowerLeg) ||
+           isEitherSide(role, Role::leftFoot);
+}
+
+// The segments that hang on a part with a role, which is known only when every joint has its body.
+void hangSegments(BodyPlan& plan, const Character& character) {
+    if (plan.bodies.empty() || !plan.bodies[0].role) return;
+    for (PlannedBody& body : plan.bodies) {
+        if (!body.segment || body.parent >= 0) continue;
+        const int above = character.skeleton.parents[body.joint];
+        body.parent = above == kNoJoint ? 0 : plan.bodyOfJoint[above];
+    }
+}
+
+// The vertical extent of a creature, at least half of its longest: of its skin, else of its joints.
+float creatureSize(const BodyPlan& plan, const Character& character, const HumanoidMap& map) {
+    vec3 low(1e9F);
+    vec3 high(-1e9F);
+    for (const PlannedBody& body : plan.bodies) {
+        for (const SkinPoint& point : body.skin) {
+            low = glm::min(low, point.position);
+            high = glm::max(high, point.position);
+        }
+    }
+    if (low.x > high.x) {
+        for (const RigidTransform& joint : character.skeleton.bindModelFromJoint) {
+            low = glm::min(low, map.standardFromModel * joint.translation);
+            high = glm::max(high, map.standardFromModel * joint.translation);
+        }
+    }
+    const vec3 size = high - low;
+    return std::max({size.y, 0.5F * size.x, 0.5F * size.z, 1e-3F});
+}
+
+void findSegmentEnd(PlannedBody& body, const Character& character, const HumanoidMap& map, float shortest) {
+    const int end = body.segment->end;
+    body.end = body.start + vec3(0, shortest, 0);
+    if (end == kNoJoint) return;
+    const vec3 at = map.standardFromModel * character.skeleton.bindModelFromJoint[end].translation;
+    if (glm::distance(at, body.start) < shortest) return;
+    body.end = at;
+    body.endsAtJoint = true;
 }
 
 // Crown minus sole: from the skin of the head (or of the trunk, where there is none) and of the legs, else from the
@@ -155,7 +233,8 @@ float figureHeight(const BodyPlan& plan, float jointSpanM) {
     std::vector<SkinPoint> low;
     std::vector<SkinPoint> high;
     for (const PlannedBody& body : plan.bodies) {
-        if (body.role == Role::head || (plan.bodyOf(Role::head) < 0 && sideOf(body.role) == animation::Side::center)) {
+        if (!body.role) continue;
+        if (body.role == Role::head || (plan.bodyOf(Role::head) < 0 && body.side == animation::Side::center)) {
             high.insert(high.end(), body.skin.begin(), body.skin.end());
         }
         if (isLeg(body.role)) low.insert(low.end(), body.skin.begin(), body.skin.end());
@@ -173,6 +252,7 @@ float jointSpan(const BodyPlan& plan) {
     float low = plan.bodies[0].start.y;
     float high = low;
     for (const PlannedBody& body : plan.bodies) {
+        if (body.segment && plan.bodies[0].role) continue;
         low = std::min(low, body.start.y);
         high = std::max(high, body.start.y);
     }
@@ -181,16 +261,17 @@ float jointSpan(const BodyPlan& plan) {
 
 void findEnds(BodyPlan& plan, const Character& character, const HumanoidMap& map) {
     for (PlannedBody& body : plan.bodies) {
-        const vec3 standing = sideOf(body.role) == animation::Side::right
-                                  ? standingDirection(body.role) * vec3(-1, 1, 1)
-                                  : standingDirection(body.role);
+        if (body.segment) findSegmentEnd(body, character, map, 1e-3F * plan.heightM);
+        if (!body.role) continue;
+        const vec3 standing = body.side == animation::Side::right ? standingDirection(*body.role) * vec3(-1, 1, 1)
+                                                                  : standingDirection(*body.role);
         const int above = body.parent;
         // Without anything else a tip continues the limb.
         const bool continues = above >= 0 && plan.bodies[above].endsAtJoint && body.role != Role::leftFoot &&
                                body.role != Role::rightFoot && body.role != Role::head;
         const vec3 direction = continues ? plan.bodies[above].direction() : standing;
         body.end = body.start + direction * (0.1F * plan.heightM);
-        for (const Role role : endRoles(body.role)) {
+        for (const Role role : endRoles(*body.role)) {
             const int joint = map.jointOf(role);
             if (joint == kNoJoint || (animation::isSpine(role) && plan.bodyOf(role) < 0)) continue;
             const vec3 end = map.standardFromModel * character.skeleton.bindModelFromJoint[joint].translation;
@@ -204,8 +285,9 @@ void findEnds(BodyPlan& plan, const Character& character, const HumanoidMap& map
 
 bool isSymmetric(const BodyPlan& plan) {
     for (const PlannedBody& body : plan.bodies) {
-        if (sideOf(body.role) != animation::Side::left) continue;
-        const int other = plan.bodyOf(mirrored(body.role));
+        // What hangs on a humanoid says nothing about its symmetry.
+        if (body.side != animation::Side::left || (body.segment && (body.mirror < 0 || plan.bodies[0].role))) continue;
+        const int other = body.mirror;
         if (other < 0) return false;
         const float off = glm::distance(plan.mirror(body.start), plan.bodies[other].start);
         if (off > kSymmetryTolerance * plan.heightM) return false;
@@ -216,13 +298,23 @@ bool isSymmetric(const BodyPlan& plan) {
 void findMiddle(BodyPlan& plan) {
     float sum = 0.0F;
     int count = 0;
+    float pairSum = 0.0F;
+    int pairCount = 0;
     for (const PlannedBody& body : plan.bodies) {
-        if (sideOf(body.role) == animation::Side::center) {
+        if (body.side == animation::Side::left && body.mirror >= 0) {
+            pairSum += 0.5F * (body.start.x + plan.bodies[body.mirror].start.x);
+            ++pairCount;
+        }
+        if (body.mirror == static_cast<int>(&body - plan.bodies.data()) && (body.role || !plan.bodies[0].role)) {
             sum += body.start.x;
             ++count;
         }
     }
-    plan.middleX = sum / static_cast<float>(count);
+    if (count > 0) {
+        plan.middleX = sum / static_cast<float>(count);
+    } else {
+        plan.middleX = pairCount > 0 ? pairSum / static_cast<float>(pairCount) : plan.bodies[0].start.x;
+    }
     plan.symmetric = isSymmetric(plan);
 }
 
@@ -239,6 +331,13 @@ float PlannedBody::length() const {
 int BodyPlan::bodyOf(Role role) const {
     for (std::size_t body = 0; body < bodies.size(); ++body) {
         if (bodies[body].role == role) return static_cast<int>(body);
+    }
+    return -1;
+}
+
+int BodyPlan::bodyNamed(std::string_view name) const {
+    for (std::size_t body = 0; body < bodies.size(); ++body) {
+        if (bodies[body].name == name) return static_cast<int>(body);
     }
     return -1;
 }
@@ -269,23 +368,28 @@ int bodyCarrying(const BodyPlan& plan, Role role) {
     return 0;
 }
 
-BodyPlan planBodies(const Character& character, const HumanoidMap& map, const FitOptions& options) {
+BodyPlan planBodies(const Character& character, const HumanoidMap& map, const FitOptions& options,
+                    std::span<const animation::Segment> segments) {
     std::vector<Role> roles;
     for (int index = 0; index < animation::kRoleCount; ++index) {
         if (wantsBody(animation::roleAt(index), map, options)) roles.push_back(animation::roleAt(index));
     }
-    return planBodies(character, map, roles);
+    return planBodies(character, map, roles, segments);
 }
 
-BodyPlan planBodies(const Character& character, const HumanoidMap& map, std::span<const Role> roles) {
-    LUTKA_ASSERT(map.jointOf(Role::hips) != kNoJoint);
+BodyPlan planBodies(const Character& character, const HumanoidMap& map, std::span<const Role> roles,
+                    std::span<const animation::Segment> segments) {
+    LUTKA_ASSERT(!roles.empty() || !segments.empty());
     BodyPlan plan;
     addBodies(plan, character, map, roles);
+    addSegments(plan, character, map, segments);
+    findCounterparts(plan);
     plan.heightM = jointSpan(plan);
     findEnds(plan, character, map);
     assignJoints(plan, character, map);
+    hangSegments(plan, character);
     gatherSkin(plan, character, map.standardFromModel);
-    plan.heightM = figureHeight(plan, jointSpan(plan));
+    plan.heightM = roles.empty() ? creatureSize(plan, character, map) : figureHeight(plan, jointSpan(plan));
     findEnds(plan, character, map);
     balanceTrunk(plan);
     findTips(plan, character, map);

@@ -5,16 +5,24 @@
 
 #include "animation/character.hpp"
 #include "animation/humanoid/map_humanoid.hpp"
+#include "animation/segments/segment.hpp"
 #include "physics/fit/fit_options.hpp"
 #include "physics/fit/skin_point.hpp"
+#include "physics/profile/optional_role.hpp"
+#include "physics/profile/profile.hpp"
 
 namespace lutka::physics {
 
 /// A body to be made: whose it is and where its segment runs. Positions in the standard stance's axes.
 struct PlannedBody {
-    Role role = Role::hips;
+    std::string name;                           ///< The role's or the segment's.
+    std::optional<Role> role;                   ///< Unset: a segment.
+    std::optional<animation::Segment> segment;  ///< Its hinge axis in the standard stance's axes.
     int joint = animation::kNoJoint;
-    int parent = -1;              ///< Index of the parent body; -1 for the first.
+    int parent = -1;  ///< Index of the parent body; -1 for the first.
+    /// Index of the counterpart on the other side; its own for a body in the middle; -1: it has none.
+    int mirror = -1;
+    animation::Side side = animation::Side::center;
     vec3 start{0, 0, 0};          ///< The joint.
     vec3 end{0, 0, 0};            ///< The next joint down the limb, or the tip.
     bool endsAtJoint = false;     ///< False: `end` is a tip, from the skin or from proportions.
@@ -26,7 +34,7 @@ struct PlannedBody {
 
 /// Which bodies a ragdoll will have and which part of the character each stands for.
 struct BodyPlan {
-    std::vector<PlannedBody> bodies;  ///< Parents first; bodies[0] is the hips.
+    std::vector<PlannedBody> bodies;  ///< Parents first: those with roles, then the segments.
     std::vector<int> bodyOfJoint;     ///< One a joint of the skeleton: the body that its skin belongs to.
     float heightM = 0.0F;             ///< Of the standing figure: crown to sole.
     float middleX = 0.0F;             ///< The plane of symmetry, in the standard stance's axes.
@@ -38,6 +46,8 @@ struct BodyPlan {
     std::vector<float> trunkBounds;
 
     [[nodiscard]] int bodyOf(Role role) const;
+    /// -1 where there is none of that name.
+    [[nodiscard]] int bodyNamed(std::string_view name) const;
     [[nodiscard]] vec3 mirror(const vec3& point) const { return {2.0F * middleX - point.x, point.y, point.z}; }
 };
 inline constexpr float kSymmetryTolerance = 0.02F;
@@ -53,11 +63,13 @@ inline constexpr float kSymmetryTolerance = 0.02F;
 /// body counts for the nearest role above that has one), else, where a rig hangs limbs on control joints, to the body
 /// whose segment is nearest.
 [[nodiscard]] BodyPlan planBodies(const animation::Character& character, const animation::HumanoidMap& map,
-                                  const FitOptions& options);
+                                  const FitOptions& options, std::span<const animation::Segment> segments = {});
 
 /// The same for a given set of roles, of which those without a joint are left out.
+/// Segments get a body each; where there are roles, a segment without a parent hangs on the body that has its joint's
+/// parent. Without roles the first segment is the root, and of the map only standardFromModel counts.
 [[nodiscard]] BodyPlan planBodies(const animation::Character& character, const animation::HumanoidMap& map,
-                                  std::span<const Role> roles);
+                                  std::span<const Role> roles, std::span<const animation::Segment> segments = {});
 
 /// The body that carries a role's part: its own, else that of the nearest role above; 0 when there is none.
 [[nodiscard]] int bodyCarrying(const BodyPlan& plan, Role role);

@@ -18,7 +18,7 @@ constexpr std::size_t kFewestTipPoints = 8;
 struct TipProportions {
     float length, reach;
 };
-TipProportions proportionsOf(Role role) {
+TipProportions proportionsOf(std::optional<Role> role) {
     if (role == Role::head) return {0.12F, 0.35F};
     if (isEitherSide(role, Role::leftHand)) return {0.10F, 0.14F};
     if (isEitherSide(role, Role::leftFoot)) return {0.13F, 0.22F};
@@ -61,7 +61,7 @@ vec3 footHeading(const PlannedBody& foot, const std::vector<SkinPoint>& points, 
     constexpr float kLong = 1.3F;  // ratio of the spreads
     constexpr float kPlausible = 0.7F;
     const vec3 ahead(0, 0, 1);
-    const Role toes = sideOf(foot.role) == animation::Side::left ? Role::leftToes : Role::rightToes;
+    const Role toes = foot.side == animation::Side::left ? Role::leftToes : Role::rightToes;
     const int joint = map.jointOf(toes);
     vec3 way(0);
     if (joint != animation::kNoJoint && joint != foot.joint) {
@@ -96,6 +96,7 @@ void setFootTip(PlannedBody& foot, const std::vector<SkinPoint>& points, const v
 }  // namespace
 
 std::vector<SkinPoint> skinNearSegment(const BodyPlan& plan, const PlannedBody& body) {
+    if (body.segment) return body.skin;  // what hangs on a creature is its own
     const float reach = body.endsAtJoint ? body.length() + 0.08F * plan.heightM : reachOf(plan, body);
     std::vector<SkinPoint> near;
     for (const SkinPoint& point : body.skin) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "animation/segments/segment_rig.hpp"
+#include "physics/collision/shape.hpp"
 #include "physics/fit/anatomy.hpp"
 #include "physics/fit/body_plan.hpp"
 #include "physics/fit/fit_shapes.hpp"
@@ -18,8 +20,12 @@ Result<void> checkInput(const animation::Character& character, const animation::
     const auto fail = [&](std::string message, std::string mend) {
         return Error{ErrorCode::input, std::move(message), character.name, std::move(mend)};
     };
-    if (!map.humanoid || map.jointOf(Role::hips) == animation::kNoJoint) {
-        return fail("not a humanoid: no joint plays the hips", "look at `lutka map` and bind the roles by hand");
+    if (options.rig == RigKind::any) {
+        if (character.skeleton.jointCount() == 0)
+            return fail("there is no joint for a body to hang on", "rig the model");
+    } else if (!map.humanoid || map.jointOf(Role::hips) == animation::kNoJoint) {
+        return fail("not a humanoid: no joint plays the hips",
+                    "look at `lutka map` and bind the roles by hand, or take `--rig any`");
     }
     if (!(options.totalMassKg > 0.0F) || !std::isfinite(options.totalMassKg)) {
         return Error{ErrorCode::usage, "the total mass must be above 0 kg", {}, {}};
@@ -27,28 +33,54 @@ Result<void> checkInput(const animation::Character& character, const animation::
     return {};
 }
 
+BodyPlan planFor(const animation::Character& character, const animation::HumanoidMap& map, const FitOptions& options) {
+    if (options.rig == RigKind::humanoid) {
+        const auto segments = animation::appendageSegments(character, map, options.appendages, options.mostBodies);
+        return planBodies(character, map, options, segments);
+    }
+    const animation::SegmentedRig rig = animation::segmentRig(character, {options.mostBodies});
+    return planBodies(character, map, std::span<const Role>{}, rig.segments);
+}
+
+float waterOf(const std::vector<PlacedShape>& shapes) {
+    constexpr float kWater = 1000.0F;  // kg/m³
+    constexpr float kLeast = 1e-3F;
+    constexpr float kMost = 5e4F;
+    float volume = 0.0F;
+    for (const PlacedShape& shape : shapes)
+        volume += shapeVolume(shape.shape);
+    return std::clamp(kWater * volume, kLeast, kMost);
+}
+
+void assignAllMasses(RagdollProfile& profile, const FitOptions& options) {
+    FitOptions massOptions = options;
+    massOptions.totalMassKg = profile.totalMassKg;
+    if (infoOf(options.preset).massByVolume && options.massPreset == MassPreset::anatomical) {
+        massOptions.massPreset = MassPreset::volume;
+    }
+    assignMasses(profile.bodies, massOptions);
+}
+
 }  // namespace
 
 Result<RagdollProfile> fitRagdoll(const animation::Character& character, const animation::HumanoidMap& map,
                                   const FitOptions& options) {
     if (const Result<void> checked = checkInput(character, map, options); !checked) return checked.error();
-    const BodyPlan plan = planBodies(character, map, options);
+    const BodyPlan plan = planFor(character, map, options);
     const Anatomy anatomy = findAnatomy(plan);
     const std::vector<PlacedShape> shapes = fitShapes(plan, anatomy);
 
     RagdollProfile profile;
     profile.name = character.name;
     profile.heightM = plan.heightM;
-    profile.totalMassKg = options.totalMassKg;
+    profile.totalMassKg = options.rig == RigKind::any && options.weighByVolume ? waterOf(shapes) : options.totalMassKg;
     profile.standardFromModel = map.standardFromModel;
     profile.bodies.resize(plan.bodies.size());
     placeBodies(profile, character, plan, shapes);
-    FitOptions massOptions = options;
-    if (infoOf(options.preset).massByVolume && options.massPreset == MassPreset::anatomical) {
-        massOptions.massPreset = MassPreset::volume;
-    }
-    assignMasses(profile.bodies, massOptions);
+    assignAllMasses(profile, options);
     profile.constraints = makeConstraints(plan, anatomy, shapes, profile.notes);
+    const bool segments = std::any_of(plan.bodies.begin(), plan.bodies.end(), [](const auto& b) { return b.segment; });
+    if (segments) raiseLightSegments(profile);
     setJointFriction(profile);
     std::vector<RigidTransform> placed;
     placed.reserve(shapes.size());

@@ -21,10 +21,12 @@ constexpr float kSmallestRadius = 0.01F;  // of the height, like the next
 constexpr float kLargestRadius = 0.15F;
 constexpr float kLargestTrunkRadius = 0.2F;
 constexpr float kLargestHeadRadius = 0.3F;
+constexpr float kLargestSegmentRadius = 0.5F;
 // Skin further than this from the surface counts no more than that; of the height.
 constexpr float kCutoff = 0.04F;
 // How far a limb's cap may reach past its joint, in radii: enough to close the knee, not to look like a sausage.
 constexpr float kOvershoot = 0.5F;
+constexpr float kRadiusOfLength = 0.15F;  // of a segment without skin
 
 // Radius of a man's segment as a share of his height, and for what has no second joint its length.
 float radiusShare(Role role) {
@@ -83,8 +85,8 @@ class BodyFit {
     BodyFit(const BodyPlan& plan, const Anatomy& anatomy, int body)
         : plan_(plan), body_(plan.bodies[body]), rotation_(anatomy.standardFromAnatomy[body]) {
         points_ = skinNearSegment(plan, body_);
-        central_ = plan.symmetric && sideOf(body_.role) == Side::center;
-        if (plan.symmetric) addMirrored(body);
+        central_ = plan.symmetric && body_.mirror == body;
+        if (plan.symmetric && body_.mirror >= 0) addMirrored();
         if (points_.size() >= kFewestShapePoints) spread_ = principalAxes(points_).spread[1];
     }
 
@@ -92,13 +94,14 @@ class BodyFit {
         if (points_.size() < kFewestShapePoints) return byProportions();
         if (isEitherSide(body_.role, Role::leftFoot) || isEitherSide(body_.role, Role::leftToes)) return fitFoot();
         if (isTrunk(body_.role) || body_.role == Role::head) return fitStandingOrLying();
+        if (body_.segment) return fitSegment();
         return fitLimb();
     }
 
   private:
     // Both sides of a symmetric figure tell about one shape.
-    void addMirrored(int body) {
-        const int other = central_ ? body : plan_.bodyOf(mirrored(body_.role));
+    void addMirrored() {
+        const int other = body_.mirror;
         const vec3 shift = body_.start - plan_.mirror(plan_.bodies[other].start);
         for (const SkinPoint& point : skinNearSegment(plan_, plan_.bodies[other]))
             points_.push_back({plan_.mirror(point.position) + (central_ ? vec3(0) : shift), point.area});
@@ -106,7 +109,8 @@ class BodyFit {
 
     [[nodiscard]] CapsuleSearch searchAlong(const vec3& origin, const quat& axes) const {
         const bool head = body_.role == Role::head;
-        const float largest = head ? kLargestHeadRadius : isTrunk(body_.role) ? kLargestTrunkRadius : kLargestRadius;
+        float largest = head ? kLargestHeadRadius : isTrunk(body_.role) ? kLargestTrunkRadius : kLargestRadius;
+        if (body_.segment) largest = kLargestSegmentRadius;
         const float cutoff = std::max(kCutoff * plan_.heightM, (head ? 1.0F : 0.5F) * spread_);
         return {points_, {axes, origin}, plan_.heightM * kSmallestRadius, plan_.heightM * largest, cutoff};
     }
@@ -122,6 +126,38 @@ class BodyFit {
             t.radius = std::min(t.radius, std::max(0.6F * length, 0.02F * plan_.heightM));
             settleLimb(t, length);
         });
+    }
+
+    // Along the segment like a limb, or anywhere along it or along the skin's own length, where that is clearly nearer:
+    // a creature's trunk and head are longer and fatter than the way between their joints.
+    [[nodiscard]] Capsule fitSegment() const {
+        constexpr float kClearly = 0.85F;
+        const vec3 along = body_.direction();
+        const CapsuleSearch search = searchAlong(body_.start, axesAlong(along));
+        Capsule best = fitLimb();
+        const auto kind = body_.segment->kind;
+        const bool limb = kind == animation::Segment::Kind::limbRoot || kind == animation::Segment::Kind::limb;
+        if (limb && body_.endsAtJoint) return best;
+        float least = kClearly * search.cost(best);
+        std::vector<vec3> directions{along};
+        const vec3 longest = principalAxes(points_).axis[0];
+        // In the middle of a symmetric creature a capsule stands in the mirror plane or lies across it.
+        if (!central_) directions.push_back(longest);
+        if (central_) directions.push_back(std::abs(longest.x) > 0.7F ? vec3(1, 0, 0) : inMirrorPlane(longest));
+        for (const vec3& direction : directions) {
+            const CapsuleSearch other = searchAlong(body_.start, axesAlong(direction));
+            const Capsule capsule = fitFree(other);
+            const float cost = other.cost(capsule);
+            if (cost >= least) continue;
+            least = cost;
+            best = capsule;
+        }
+        return best;
+    }
+
+    [[nodiscard]] static vec3 inMirrorPlane(const vec3& direction) {
+        const vec3 flat(0, direction.y, direction.z);
+        return glm::length(flat) > 1e-3F ? glm::normalize(flat) : vec3(0, 0, 1);
     }
 
     // Standing or lying across: whichever lies nearer to the skin.
@@ -192,9 +228,9 @@ class BodyFit {
 
     // A man's measures, for figures without a skin and bodies without a share of it.
     [[nodiscard]] Capsule byProportions() const {
-        const Role role = body_.role;
+        const std::optional<Role> role = body_.role;
         const float length = body_.length();
-        float radius = radiusShare(role) * plan_.heightM;
+        float radius = role ? radiusShare(*role) * plan_.heightM : kRadiusOfLength * length;
         if (isTrunk(role)) return trunkByProportions(radius);
         radius = std::min(radius, std::max(0.35F * length, kSmallestRadius * plan_.heightM));
         vec3 start = body_.start;
@@ -261,8 +297,8 @@ std::vector<PlacedShape> fitShapes(const BodyPlan& plan, const Anatomy& anatomy)
     std::vector<Capsule> capsules(plan.bodies.size());
     for (int body = 0; body < static_cast<int>(plan.bodies.size()); ++body) {
         const PlannedBody& planned = plan.bodies[body];
-        if (plan.symmetric && sideOf(planned.role) == Side::right) {
-            const int left = plan.bodyOf(mirrored(planned.role));
+        if (plan.symmetric && planned.side == Side::right && planned.mirror >= 0) {
+            const int left = planned.mirror;
             capsules[body] = mirroredCapsule(plan, capsules[left], plan.bodies[left], planned);
         } else {
             capsules[body] = BodyFit(plan, anatomy, body).fit();

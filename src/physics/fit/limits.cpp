@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "physics/fit/range_of_motion.hpp"
+#include "physics/fit/segment_range.hpp"
 #include "physics/profile/swing_twist.hpp"
 
 namespace lutka::physics {
@@ -27,30 +28,30 @@ JointFrames hingeFrames(const BodyPlan& plan, const vec3& axis, int child, float
     return {glm::angleAxis(neutralFlexion - flexion, axis) * frame, frame, body.start};
 }
 
-std::string widenHinge(HingeLimits& limits, float angle, Role child) {
+std::string widenHinge(HingeLimits& limits, float angle, std::string_view child) {
     const float lower = std::max(std::min(limits.lower, angle - radians(kSpare)), -kPi);
     const float upper = std::min(std::max(limits.upper, angle + radians(kSpare)), kPi);
     if (lower == limits.lower && upper == limits.upper) return {};
     const float by = degrees(std::max(limits.lower - lower, upper - limits.upper));
     limits = {lower, upper};
-    return fmt::format("{}: hinge widened by {:.1f} degrees to hold the bind pose", roleName(child), by);
+    return fmt::format("{}: hinge widened by {:.1f} degrees to hold the bind pose", child, by);
 }
 
-std::string widenCone(ConeTwistLimits& limits, const SwingTwist& pose, Role child) {
+std::string widenCone(ConeTwistLimits& limits, const SwingTwist& pose, std::string_view child) {
     std::string note;
     const float angle = glm::length(pose.swing);
     const float filled = std::hypot(pose.swing.y / limits.swingY, pose.swing.z / limits.swingZ);
     const float factor = angle > 1e-4F ? filled * (angle + radians(kSpare)) / angle : 0.0F;
     if (factor > 1.0F) {
-        note = fmt::format("{}: cone of {:.0f} by {:.0f} degrees widened {:.2f} times to hold the bind pose",
-                           roleName(child), degrees(limits.swingY), degrees(limits.swingZ), factor);
+        note = fmt::format("{}: cone of {:.0f} by {:.0f} degrees widened {:.2f} times to hold the bind pose", child,
+                           degrees(limits.swingY), degrees(limits.swingZ), factor);
         limits.swingY = std::min(limits.swingY * factor, radians(kWidest));
         limits.swingZ = std::min(limits.swingZ * factor, radians(kWidest));
     }
     const float twist = std::min(std::abs(pose.twist) + radians(kSpare), radians(kWidest));
     if (twist > limits.twist) {
         if (!note.empty()) note += "; ";
-        note += fmt::format("{}: twist of {:.0f} degrees widened to {:.0f} to hold the bind pose", roleName(child),
+        note += fmt::format("{}: twist of {:.0f} degrees widened to {:.0f} to hold the bind pose", child,
                             degrees(limits.twist), degrees(twist));
         limits.twist = twist;
     }
@@ -61,12 +62,16 @@ std::string widenCone(ConeTwistLimits& limits, const SwingTwist& pose, Role chil
 
 JointFrames jointFrames(const BodyPlan& plan, const Anatomy& anatomy, int child) {
     const PlannedBody& body = plan.bodies[child];
-    const RangeOfMotion range = rangeOfMotion(plan, body.role);
+    if (!body.role) {
+        const quat frame = segmentFrame(plan, child);
+        return {frame, frame, body.start};
+    }
+    const RangeOfMotion range = rangeOfMotion(plan, *body.role);
     const vec3& axis = anatomy.flexionAxis[child];
     if (range.kind == ConstraintProfile::Kind::hinge && glm::length(axis) > 0.5F) {
         return hingeFrames(plan, axis, child, range.neutralFlexion);
     }
-    const quat frame = standingFrame(body.role);
+    const quat frame = standingFrame(*body.role);
     return {anatomy.standardFromAnatomy[body.parent] * range.neutral * frame,
             anatomy.standardFromAnatomy[child] * frame, body.start};
 }
@@ -79,30 +84,36 @@ void setFrames(ConstraintProfile& constraint, const JointFrames& frames, const R
     constraint.childFromFrame.rotation = glm::normalize(constraint.childFromFrame.rotation);
 }
 
+void setRange(ConstraintProfile& constraint, const BodyPlan& plan, int child) {
+    const PlannedBody& body = plan.bodies[child];
+    if (!body.role) return setSegmentRange(constraint, body);
+    const RangeOfMotion range = rangeOfMotion(plan, *body.role);
+    constraint.kind = range.kind;
+    constraint.hinge = range.hinge;
+    constraint.cone = range.cone;
+}
+
 std::vector<ConstraintProfile> makeConstraints(const BodyPlan& plan, const Anatomy& anatomy,
                                                const std::vector<PlacedShape>& shapes,
                                                std::vector<std::string>& notes) {
     std::vector<ConstraintProfile> constraints;
     for (int child = 1; child < static_cast<int>(plan.bodies.size()); ++child) {
         const PlannedBody& body = plan.bodies[child];
-        const RangeOfMotion range = rangeOfMotion(plan, body.role);
         ConstraintProfile& constraint = constraints.emplace_back();
-        constraint.kind = range.kind;
         constraint.parent = body.parent;
         constraint.child = child;
-        constraint.hinge = range.hinge;
-        constraint.cone = range.cone;
+        setRange(constraint, plan, child);
         const RigidTransform& parentBody = shapes[body.parent].standardFromBody;
         const RigidTransform& childBody = shapes[child].standardFromBody;
         setFrames(constraint, jointFrames(plan, anatomy, child), parentBody, childBody);
-        std::string note = widenToHold(constraint, parentBody, childBody, body.role);
+        std::string note = widenToHold(constraint, parentBody, childBody, body.name);
         if (!note.empty()) notes.push_back(std::move(note));
     }
     return constraints;
 }
 
 std::string widenToHold(ConstraintProfile& constraint, const RigidTransform& worldFromParent,
-                        const RigidTransform& worldFromChild, Role child) {
+                        const RigidTransform& worldFromChild, std::string_view child) {
     const quat parentFrame = worldFromParent.rotation * constraint.parentFromFrame.rotation;
     const quat childFrame = worldFromChild.rotation * constraint.childFromFrame.rotation;
     const quat relative = glm::conjugate(parentFrame) * childFrame;

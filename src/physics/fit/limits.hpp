@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "physics/fit/anatomy.hpp"
@@ -28,8 +29,12 @@ struct JointFrames {
 void setFrames(ConstraintProfile& constraint, const JointFrames& frames, const RigidTransform& standardFromParent,
                const RigidTransform& standardFromChild);
 
+/// The kind and limits that fit a planned body that hangs on another: rangeOfMotion() of its role, else
+/// segmentRange(). Frames and neutral pose are jointFrames().
+void setRange(ConstraintProfile& constraint, const BodyPlan& plan, int child);
+
 /// The constraints of a plan, constraints[i].child == i + 1: anchors at the child's joint, frames that agree in the
-/// middle of the anatomical range, limits from rangeOfMotion(). A limit that the bind pose breaks is widened to hold it
+/// middle of the anatomical range, limits as of setRange(). A limit that the bind pose breaks is widened to hold it
 /// with two degrees to spare, and `notes` gains a sentence with the figures. frictionNm stays 0 (see setJointFriction).
 [[nodiscard]] std::vector<ConstraintProfile> makeConstraints(const BodyPlan& plan, const Anatomy& anatomy,
                                                              const std::vector<PlacedShape>& shapes,
@@ -38,7 +43,7 @@ void setFrames(ConstraintProfile& constraint, const JointFrames& frames, const R
 /// Widens the limits of a constraint until they hold the pose of the two frames; a sentence with what was done, empty
 /// when nothing was.
 [[nodiscard]] std::string widenToHold(ConstraintProfile& constraint, const RigidTransform& worldFromParent,
-                                      const RigidTransform& worldFromChild, Role child);
+                                      const RigidTransform& worldFromChild, std::string_view child);
 
 /// Dry friction in every joint: a fortieth of the torque that gravity (9.81 m/s²) would exert about the joint if all
 /// that hangs below it were held out straight. Enough to calm a settling limb, too little to hold one up; it grows with

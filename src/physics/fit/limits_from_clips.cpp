@@ -100,7 +100,7 @@ std::vector<ClipLimitChange> applyClipLimits(RagdollProfile& profile, const Rig&
     for (std::size_t i = 0; i < profile.constraints.size(); ++i) {
         ConstraintProfile& constraint = profile.constraints[i];
         ClipLimitChange change;
-        change.role = profile.bodies[constraint.child].role;
+        change.body = profile.bodies[constraint.child].name;
         change.kind = constraint.kind;
         change.hingeBefore = constraint.hinge;
         change.coneBefore = constraint.cone;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "animation/character.hpp"
@@ -14,7 +15,7 @@ enum class ClipLimits { widen, fit };
 
 /// The limits of one joint before and after, and what the clips do there.
 struct ClipLimitChange {
-    Role role = Role::hips;  ///< Of the child.
+    std::string body;  ///< The child's name.
     ConstraintProfile::Kind kind = ConstraintProfile::Kind::coneTwist;
     HingeLimits hingeBefore, hingeAfter, hingeUsed;   ///< Hinge; radians.
     ConeTwistLimits coneBefore, coneAfter, coneUsed;  ///< Cone-twist; the used swings are the largest about each axis.

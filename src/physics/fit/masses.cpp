@@ -34,6 +34,21 @@ bool hasBody(Role role, std::span<const BodyProfile> bodies) {
     return std::any_of(bodies.begin(), bodies.end(), [&](const BodyProfile& body) { return body.role == role; });
 }
 
+// What no table knows (tails, hair, capes) has half the density of the parts that it does: much of it is cloth or hair.
+void addShareless(std::span<const BodyProfile> bodies, std::vector<double>& shares) {
+    constexpr double kDensity = 0.5;
+    double volume = 0.0;
+    double share = 0.0;
+    for (std::size_t body = 0; body < bodies.size(); ++body) {
+        if (bodies[body].role) volume += shapeVolume(bodies[body].shape);
+        share += shares[body];
+    }
+    for (std::size_t body = 0; body < bodies.size(); ++body) {
+        if (!bodies[body].role && volume > 0.0)
+            shares[body] = kDensity * share * shapeVolume(bodies[body].shape) / volume;
+    }
+}
+
 // Table shares gathered by the bodies that carry them.
 std::vector<double> tableShares(std::span<const BodyProfile> bodies, MassTable table) {
     std::vector<double> shares(bodies.size(), 0.0);
@@ -43,24 +58,28 @@ std::vector<double> tableShares(std::span<const BodyProfile> bodies, MassTable t
             if (bodies[body].role == carrier) shares[body] += segmentMassShare(table, animation::roleAt(index));
         }
     }
+    addShareless(bodies, shares);
+    return shares;
+}
+
+std::vector<double> rootsOf(std::vector<double> shares) {
+    for (double& share : shares)
+        share = std::sqrt(share);
     return shares;
 }
 
 std::vector<double> sharesOf(std::span<const BodyProfile> bodies, const FitOptions& options) {
     if (options.massPreset == MassPreset::uniform) return std::vector<double>(bodies.size(), 1.0);
-    if (options.massPreset == MassPreset::volume) {
+    const bool anyRole = std::any_of(bodies.begin(), bodies.end(), [](const BodyProfile& b) { return b.role; });
+    if (options.massPreset == MassPreset::volume || !anyRole) {
         std::vector<double> shares;
         shares.reserve(bodies.size());
         for (const BodyProfile& body : bodies)
             shares.push_back(shapeVolume(body.shape));
-        return shares;
+        return options.massPreset == MassPreset::balanced ? rootsOf(std::move(shares)) : shares;
     }
     std::vector<double> shares = tableShares(bodies, options.massTable);
-    if (options.massPreset == MassPreset::balanced) {
-        for (double& share : shares)
-            share = std::sqrt(share);
-    }
-    return shares;
+    return options.massPreset == MassPreset::balanced ? rootsOf(std::move(shares)) : shares;
 }
 
 // The arm or leg that a role belongs to, from the trunk outwards; empty for the trunk's roles.
@@ -157,6 +176,27 @@ void assignMasses(std::span<BodyProfile> bodies, const FitOptions& options) {
     bodies[heaviest].massKg = static_cast<float>(bodies[heaviest].massKg + rest);
     for (BodyProfile& body : bodies)
         body.inertia = shapeInertia(body.shape, body.massKg);
+}
+
+void raiseLightSegments(RagdollProfile& profile) {
+    constexpr float kLeastOfNeighbour = 0.1F;
+    const auto raise = [&](int light, int heavy) {
+        BodyProfile& body = profile.bodies[light];
+        if (!body.role) body.massKg = std::max(body.massKg, kLeastOfNeighbour * profile.bodies[heavy].massKg);
+    };
+    // Up the tree, then down: what was raised may be too heavy for what hangs on it.
+    for (auto c = profile.constraints.rbegin(); c != profile.constraints.rend(); ++c)
+        raise(c->parent, c->child);
+    for (const ConstraintProfile& constraint : profile.constraints)
+        raise(constraint.child, constraint.parent);
+    float sum = 0.0F;
+    for (const BodyProfile& body : profile.bodies)
+        sum += body.massKg;
+    const float scale = profile.totalMassKg / sum;
+    for (BodyProfile& body : profile.bodies) {
+        body.massKg *= scale;
+        body.inertia = shapeInertia(body.shape, body.massKg);
+    }
 }
 
 }  // namespace lutka::physics

@@ -18,8 +18,13 @@ namespace lutka::physics {
 
 /// Writes masses (their sum is options.totalMassKg to 1e-6 of it) and the inertia of each shape into the bodies. The
 /// segment of a role without a body is carried by another (carrierOf).
+/// Bodies without a role have half the density of those with one; where none has, shares go by volume.
 /// `balanced` takes the square root of the table's shares, which halves every ratio on the logarithmic scale.
 void assignMasses(std::span<BodyProfile> bodies, const FitOptions& options);
+
+/// Gives every body without a role at least a tenth of the mass of each neighbour (before the total is kept by
+/// scaling all): solvers hold no boulder by a thread. Inertias follow.
+void raiseLightSegments(RagdollProfile& profile);
 
 /// The role itself when it has a body, else the nearest body above it in its limb, else the nearest below it there,
 /// else the nearest above the limb; hips when there is none.

@@ -46,7 +46,7 @@ void applyPreset(RagdollProfile& profile, RagdollPreset preset, std::span<const 
         constraint.cone.twist = scaled(constraint.cone.twist, info.limitScale);
         constraint.frictionNm *= info.frictionScale;
         std::string note = widenToHold(constraint, bindFromBody[constraint.parent], bindFromBody[constraint.child],
-                                       profile.bodies[constraint.child].role);
+                                       profile.bodies[constraint.child].name);
         if (!note.empty()) profile.notes.push_back(std::move(note));
     }
 }

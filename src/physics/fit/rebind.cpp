@@ -8,6 +8,7 @@
 #include "core/assert.hpp"
 #include "physics/collision/shape.hpp"
 #include "physics/fit/fit_shapes.hpp"
+#include "physics/fit/profile_plan.hpp"
 #include "physics/fit/separate_shapes.hpp"
 #include "physics/fit/trunk_roles.hpp"
 #include "physics/rig/rig.hpp"
@@ -19,12 +20,11 @@ Result<void> checkRoles(const RagdollProfile& profile, const animation::Characte
                         const animation::HumanoidMap& map) {
     std::string lacking;
     for (const BodyProfile& body : profile.bodies) {
-        if (map.jointOf(body.role) == animation::kNoJoint) {
-            lacking += (lacking.empty() ? "" : ", ") + std::string(roleName(body.role));
-        }
+        const int joint = body.role ? map.jointOf(*body.role) : jointOfBody(body, character.skeleton);
+        if (joint == animation::kNoJoint) lacking += (lacking.empty() ? "" : ", ") + body.name;
     }
     if (lacking.empty()) return {};
-    return Error{ErrorCode::input, "the profile has bodies for roles that the rig lacks: " + lacking,
+    return Error{ErrorCode::input, "the profile has bodies for roles or joints that the rig lacks: " + lacking,
                  character.file.string(),
                  "build a profile for this rig (`lutka build`), or one with fewer bodies for both"};
 }
@@ -47,14 +47,22 @@ std::vector<PlacedShape> keptShapes(const RagdollProfile& profile, const BodyPla
     return shapes;
 }
 
+// `turns`: the rotation of each body as it lay in its joint before the shapes were made anew, in the standard stance's
+// axes.
 void rebuildConstraints(RagdollProfile& profile, const BodyPlan& plan, const Anatomy& anatomy,
-                        std::span<const PlacedShape> shapes) {
+                        std::span<const PlacedShape> shapes, std::span<const quat> turns) {
     profile.notes.clear();
     for (ConstraintProfile& constraint : profile.constraints) {
         const RigidTransform& parent = shapes[constraint.parent].standardFromBody;
         const RigidTransform& child = shapes[constraint.child].standardFromBody;
-        setFrames(constraint, jointFrames(plan, anatomy, constraint.child), parent, child);
-        std::string note = widenToHold(constraint, parent, child, profile.bodies[constraint.child].role);
+        JointFrames frames = jointFrames(plan, anatomy, constraint.child);
+        // Without a role there is no anatomy to tell the axes: they stay as they lie in the joints.
+        if (!profile.bodies[constraint.child].role) {
+            frames.parent = turns[constraint.parent] * constraint.parentFromFrame.rotation;
+            frames.child = turns[constraint.child] * constraint.childFromFrame.rotation;
+        }
+        setFrames(constraint, frames, parent, child);
+        std::string note = widenToHold(constraint, parent, child, profile.bodies[constraint.child].name);
         if (!note.empty()) profile.notes.push_back(std::move(note));
     }
 }
@@ -75,8 +83,9 @@ void addFilteredPairs(RagdollProfile& profile, std::span<const PlacedShape> shap
 RagdollProfile inPlanOrder(const RagdollProfile& profile, const BodyPlan& plan) {
     RagdollProfile ordered = profile;
     std::vector<int> newIndex(profile.bodies.size());
+    const std::vector<int> places = placesInPlan(profile, plan);
     for (std::size_t body = 0; body < profile.bodies.size(); ++body) {
-        newIndex[body] = plan.bodyOf(profile.bodies[body].role);
+        newIndex[body] = places[body];
         ordered.bodies[newIndex[body]] = profile.bodies[body];
     }
     for (const ConstraintProfile& constraint : profile.constraints) {
@@ -108,8 +117,7 @@ bool anchorsMeet(const RagdollProfile& profile, const Rig& rig) {
 
 bool sharesMostJoints(const RagdollProfile& profile, const animation::Skeleton& skeleton) {
     const auto there = std::count_if(profile.bodies.begin(), profile.bodies.end(), [&](const BodyProfile& body) {
-        return animation::findJoint(skeleton, body.jointPath) != animation::kNoJoint ||
-               animation::findJoint(skeleton, body.joint) != animation::kNoJoint;
+        return jointOfBody(body, skeleton) != animation::kNoJoint;
     });
     return 2 * there > static_cast<std::ptrdiff_t>(profile.bodies.size());
 }
@@ -120,7 +128,7 @@ std::vector<Role> rolesOf(const RagdollProfile& profile) {
     std::vector<Role> roles;
     roles.reserve(profile.bodies.size());
     for (const BodyProfile& body : profile.bodies)
-        roles.push_back(body.role);
+        if (body.role) roles.push_back(*body.role);
     return roles;
 }
 
@@ -131,6 +139,9 @@ void placeBodies(RagdollProfile& profile, const animation::Character& character,
         const PlannedBody& planned = plan.bodies[i];
         BodyProfile& body = profile.bodies[i];
         body.role = planned.role;
+        if (body.name.empty()) body.name = planned.name;
+        if (planned.segment && planned.mirror >= 0 && body.mirror.empty())
+            body.mirror = plan.bodies[planned.mirror].name;
         body.joint = character.skeleton.names[planned.joint];
         body.jointPath = jointPath(character.skeleton, planned.joint);
         body.shape = shapes[i].shape;
@@ -145,8 +156,7 @@ std::vector<PlacedShape> shapesInBindPose(const RagdollProfile& profile, const a
     std::vector<PlacedShape> shapes;
     shapes.reserve(profile.bodies.size());
     for (const BodyProfile& body : profile.bodies) {
-        int joint = findJoint(skeleton, body.jointPath);
-        if (joint == animation::kNoJoint) joint = findJoint(skeleton, body.joint);
+        const int joint = jointOfBody(body, skeleton);
         LUTKA_ASSERT(joint != animation::kNoJoint);
         shapes.push_back({body.shape, standardFromModel * skeleton.bindModelFromJoint[joint] * body.jointFromBody});
     }
@@ -157,7 +167,7 @@ Result<RagdollProfile> rebindProfile(const RagdollProfile& given, const animatio
                                      const animation::HumanoidMap& map, bool keepShapes) {
     const RagdollProfile profile = adaptTrunk(given, map);
     if (const Result<void> checked = checkRoles(profile, character, map); !checked) return checked.error();
-    const BodyPlan plan = planBodies(character, map, rolesOf(profile));
+    const BodyPlan plan = planOfProfile(profile, character, map);
     if (plan.bodies.size() != profile.bodies.size()) {
         return Error{ErrorCode::input, "two roles of the profile are on one joint of the rig", character.file.string(),
                      "build a profile for this rig (`lutka build`)"};
@@ -167,13 +177,18 @@ Result<RagdollProfile> rebindProfile(const RagdollProfile& given, const animatio
     bound.name = character.name;
     bound.heightM = plan.heightM;
     bound.standardFromModel = map.standardFromModel;
+    std::vector<quat> turns;
+    for (std::size_t i = 0; i < plan.bodies.size(); ++i) {
+        turns.push_back(map.standardFromModel * character.skeleton.bindModelFromJoint[plan.bodies[i].joint].rotation *
+                        bound.bodies[i].jointFromBody.rotation);
+    }
     const std::vector<PlacedShape> shapes = keepShapes ? keptShapes(bound, plan, anatomy) : fitShapes(plan, anatomy);
     placeBodies(bound, character, plan, shapes);
     if (!keepShapes) {
         for (BodyProfile& body : bound.bodies)
             body.inertia = shapeInertia(body.shape, body.massKg);
     }
-    rebuildConstraints(bound, plan, anatomy, shapes);
+    rebuildConstraints(bound, plan, anatomy, shapes, turns);
     addFilteredPairs(bound, shapes);
     if (const auto problems = validate(bound); !problems.empty()) {
         return Error{ErrorCode::input, "no valid ragdoll comes out: " + problems.front(), character.name, {}};

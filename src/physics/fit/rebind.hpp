@@ -42,6 +42,7 @@ void placeBodies(RagdollProfile& profile, const animation::Character& character,
                                                         const animation::Skeleton& skeleton);
 
 /// The roles of a profile's bodies, in their order.
+/// Of the bodies that have one.
 [[nodiscard]] std::vector<Role> rolesOf(const RagdollProfile& profile);
 
 }  // namespace lutka::physics

@@ -74,14 +74,18 @@ void separateShapes(const BodyPlan& plan, std::vector<PlacedShape>& shapes) {
         for (int b = a + 1; b < count; ++b) {
             const float overlap = kGap - distanceOf(shapes, a, b);
             if (linked(a, b) || overlap <= 0.0F) continue;
-            const float share = overlap / (shapes[a].shape.radius + shapes[b].shape.radius);
+            // What hangs on a humanoid gives way to it alone.
+            const bool aGives = plan.bodies[a].segment || !plan.bodies[b].segment;
+            const bool bGives = plan.bodies[b].segment || !plan.bodies[a].segment;
+            const float share =
+                overlap / ((aGives ? shapes[a].shape.radius : 0.0F) + (bGives ? shapes[b].shape.radius : 0.0F));
             if (share > kLargestShrink) continue;
-            shares[a] = std::max(shares[a], share);
-            shares[b] = std::max(shares[b], share);
+            if (aGives) shares[a] = std::max(shares[a], share);
+            if (bGives) shares[b] = std::max(shares[b], share);
         }
     }
     for (int body = 0; body < count; ++body) {
-        const int other = plan.bodyOf(mirrored(plan.bodies[body].role));
+        const int other = plan.bodies[body].mirror;
         const float share = plan.symmetric && other >= 0 ? std::max(shares[body], shares[other]) : shares[body];
         shapes[body].shape.radius *= 1.0F - share;
     }

@@ -71,7 +71,7 @@ RagdollProfile adaptTrunk(RagdollProfile profile, const animation::HumanoidMap& 
     const std::vector<Role> rig = trunkOfRig(map);
     std::vector<int> bodies = trunkBodies(profile);
     const bool fits = std::all_of(bodies.begin(), bodies.end(), [&](int body) {
-        return std::find(rig.begin(), rig.end(), profile.bodies[body].role) != rig.end();
+        return std::find(rig.begin(), rig.end(), *profile.bodies[body].role) != rig.end();
     });
     if (fits) return profile;
     while (bodies.size() > rig.size()) {
@@ -80,8 +80,8 @@ RagdollProfile adaptTrunk(RagdollProfile profile, const animation::HumanoidMap& 
         bodies = trunkBodies(profile);
     }
     for (std::size_t i = 0; i + 1 < bodies.size(); ++i)
-        profile.bodies[bodies[i]].role = rig[i];
-    if (!bodies.empty()) profile.bodies[bodies.back()].role = rig.back();
+        setRole(profile.bodies[bodies[i]], rig[i]);
+    if (!bodies.empty()) setRole(profile.bodies[bodies.back()], rig.back());
     dropLinkedPairs(profile);
     return profile;
 }

@@ -105,6 +105,13 @@ JointRange mirrored(const JointRange& range) {
     return {range.flexion, {-range.side.high, -range.side.low}, {-range.twist.high, -range.twist.low}};
 }
 
+JointWords jointWords(std::optional<Role> role) {
+    if (role) return jointWords(*role);
+    return {{"Bend", "bend back", "bend forward"},
+            {"Side bend", "right bend", "left bend"},
+            {"Twist", "right twist", "left twist"}};
+}
+
 JointWords jointWords(Role role) {
     if (animation::sideOf(role) != animation::Side::right) return leftWords(role);
     JointWords words = leftWords(animation::mirrored(role));

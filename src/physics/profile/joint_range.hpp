@@ -43,5 +43,7 @@ struct JointWords {
 };
 /// The anatomical words for the joint at the start of a role's segment.
 [[nodiscard]] JointWords jointWords(Role role);
+/// The same for a body that may have no role: plain words then.
+[[nodiscard]] JointWords jointWords(std::optional<Role> role);
 
 }  // namespace lutka::physics

@@ -116,6 +116,11 @@ void checkSize(Problems& problems, const RagdollProfile& profile, const BodyShap
                                  low, high, profile.heightM, thinnest, widest));
 }
 
+bool isName(std::string_view name) {
+    constexpr std::size_t kLongestName = 256;
+    return !name.empty() && name.size() <= kLongestName;
+}
+
 void checkBody(Problems& problems, const RagdollProfile& profile, std::size_t index) {
     const BodyProfile& body = profile.bodies[index];
     const std::string place = fmt::format("/bodies/{}", index);
@@ -126,8 +131,11 @@ void checkBody(Problems& problems, const RagdollProfile& profile, std::size_t in
                      fmt::format("expected a number in [{}, {}]", kLeastMassKg, kMostMassKg));
     checkInertia(problems, body, place + "/inertia");
     problems.require(!body.jointPath.empty(), place + "/jointPath", "expected the path of a joint");
+    problems.require(isName(body.name), place + "/name", "expected a name of 1 to 256 bytes");
     for (std::size_t other = 0; other < index; ++other) {
-        problems.require(profile.bodies[other].role != body.role, place + "/role",
+        problems.require(profile.bodies[other].name != body.name, place + "/name",
+                         fmt::format("expected a name of its own, body {} has it already", other));
+        problems.require(!body.role || profile.bodies[other].role != body.role, place + "/role",
                          fmt::format("expected a role of its own, body {} has it already", other));
         problems.require(profile.bodies[other].jointPath != body.jointPath, place + "/jointPath",
                          fmt::format("expected a joint of its own, body {} is on it already", other));
@@ -180,8 +188,10 @@ void checkWhole(Problems& problems, const RagdollProfile& profile) {
     problems.require(isUnit(profile.standardFromModel), "/standardFromModel",
                      "expected a finite quaternion of length 1");
     problems.require(!profile.bodies.empty(), "/bodies", "expected at least one body");
-    problems.require(profile.bodies.empty() || profile.bodies[0].role == Role::hips, "/bodies/0/role",
-                     "expected hips, the root of the bodies");
+    problems.require(profile.bodies.size() <= RagdollProfile::kMostBodies, "/bodies",
+                     fmt::format("expected at most {}", RagdollProfile::kMostBodies));
+    problems.require(!hasRoles(profile) || profile.bodies[0].role == Role::hips, "/bodies/0/role",
+                     "expected hips, the root of the bodies that have roles");
     problems.require(profile.constraints.size() + 1 == std::max<std::size_t>(profile.bodies.size(), 1), "/constraints",
                      "expected one for every body but the first");
     double sum = 0.0;
@@ -204,6 +214,43 @@ int bodyOf(const RagdollProfile& profile, Role role) {
         if (profile.bodies[body].role == role) return static_cast<int>(body);
     }
     return -1;
+}
+
+int bodyNamed(const RagdollProfile& profile, std::string_view name) {
+    for (std::size_t body = 0; body < profile.bodies.size(); ++body) {
+        if (profile.bodies[body].name == name) return static_cast<int>(body);
+    }
+    return -1;
+}
+
+void setRole(BodyProfile& body, Role role) {
+    body.role = role;
+    body.name = roleName(role);
+}
+
+bool hasRoles(const RagdollProfile& profile) {
+    return std::any_of(profile.bodies.begin(), profile.bodies.end(),
+                       [](const BodyProfile& body) { return body.role.has_value(); });
+}
+
+int counterpartOf(const RagdollProfile& profile, int body) {
+    const BodyProfile& own = profile.bodies[body];
+    if (own.role) return sideOf(*own.role) == animation::Side::center ? -1 : bodyOf(profile, mirrored(*own.role));
+    if (!own.mirror.empty()) {
+        const int named = bodyNamed(profile, own.mirror);
+        return named == body ? -1 : named;
+    }
+    for (std::size_t other = 0; other < profile.bodies.size(); ++other) {
+        if (static_cast<int>(other) != body && profile.bodies[other].mirror == own.name) return static_cast<int>(other);
+    }
+    return -1;
+}
+
+animation::Side sideOf(const RagdollProfile& profile, int body) {
+    if (const auto& role = profile.bodies[body].role) return sideOf(*role);
+    const int other = counterpartOf(profile, body);
+    if (other < 0) return animation::Side::center;
+    return body < other ? animation::Side::left : animation::Side::right;
 }
 
 std::vector<std::string> validate(const RagdollProfile& profile) {

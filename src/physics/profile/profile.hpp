@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -33,9 +34,11 @@ struct BodyShape {
 
 /// A rigid body that stands for the part of the character that one joint moves.
 struct BodyProfile {
-    Role role = Role::hips;
-    std::string joint;      ///< The joint's name in the rig that the profile was made for.
-    std::string jointPath;  ///< Its unique path (names from the root joined by '/').
+    std::string name;          ///< Of its own in the profile, not empty; a body with a role bears the role's name.
+    std::optional<Role> role;  ///< The part of a humanoid that it is; none: a creature's, a tail, hair, a weapon.
+    std::string mirror;        ///< The name of its counterpart on the other side where roles don't tell; or empty.
+    std::string joint;         ///< The joint's name in the rig that the profile was made for.
+    std::string jointPath;     ///< Its unique path (names from the root joined by '/').
     BodyShape shape;
     RigidTransform jointFromBody;       ///< Body origin = centre of mass; a capsule's axis is body Y.
     float massKg = 1.0F;                ///< > 0.
@@ -74,12 +77,14 @@ struct ConstraintProfile {
 };
 
 /// A checked, portable ragdoll: everything the simulation needs, nothing of a running world. Bodies come parents first;
-/// bodies[0] (the hips) is the root. Serialisable; shared by any number of instances.
+/// bodies[0] is the root (the hips, where any body has a role). Serialisable; shared by any number of instances.
 struct RagdollProfile {
-    static constexpr int kVersion = 1;
+    static constexpr int kVersion = 2;
+    static constexpr int kOldestVersion = 1;  ///< Read and upgraded.
+    static constexpr int kMostBodies = 256;
 
     std::string name;                    ///< The character's name.
-    float heightM = 1.75F;               ///< Of the standing figure, metres, > 0.
+    float heightM = 1.75F;               ///< Of the standing figure, metres, > 0; what tolerances are shares of.
     float totalMassKg = 75.0F;           ///< Sum of the bodies' masses, > 0.
     quat standardFromModel{1, 0, 0, 0};  ///< See HumanoidMap.
     std::vector<BodyProfile> bodies;
@@ -92,6 +97,18 @@ struct RagdollProfile {
 
 /// Index of the body with that role; -1 when there is none.
 [[nodiscard]] int bodyOf(const RagdollProfile& profile, Role role);
+/// Index of the body of that name; -1 when there is none.
+[[nodiscard]] int bodyNamed(const RagdollProfile& profile, std::string_view name);
+/// Gives the body a role and with it the role's name.
+void setRole(BodyProfile& body, Role role);
+/// Whether it is a humanoid's ragdoll: its bodies, or some of them, have roles.
+[[nodiscard]] bool hasRoles(const RagdollProfile& profile);
+
+/// The body on the other side: of the mirrored role, or the one that names this one or is named by it; -1 for those in
+/// the middle and those without a counterpart.
+[[nodiscard]] int counterpartOf(const RagdollProfile& profile, int body);
+/// The role's side. Without a role: of two counterparts the earlier is the left one, all others are in the middle.
+[[nodiscard]] animation::Side sideOf(const RagdollProfile& profile, int body);
 
 /// The body's inertia, no principal moment of it below that of a radius of gyration of `leastGyration` metres on a
 /// figure of 1.75 m (smaller and larger figures in proportion): what solvers condition thin bodies with. 0 changes

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "core/files.hpp"
@@ -67,23 +68,39 @@ std::optional<Role> readRole(const JsonCursor& at) {
     return role;
 }
 
-// The body of a named role; -1 (reported) when there is none.
-int readBodyRole(const JsonCursor& at, const RagdollProfile& profile) {
-    const std::optional<Role> role = readRole(at);
-    if (!role) return -1;
-    const int body = bodyOf(profile, *role);
-    if (body < 0) at.report(fmt::format("expected the role of one of the bodies, none is {}", roleName(*role)));
+// The body of that name; -1 (reported) when there is none. In version 1 the names are the roles'.
+int readBodyName(const JsonCursor& at, const RagdollProfile& profile) {
+    const std::string name = at.text();
+    if (!at.readable()) return -1;
+    const int body = bodyNamed(profile, name);
+    if (body < 0) at.report(fmt::format("expected the name of one of the bodies, none is \"{}\"", name));
     return body;
 }
 
-void readBody(const JsonCursor& at, RagdollProfile& profile) {
-    at.expectObject({"role", "joint", "jointPath", "shape", "jointFromBody", "massKg", "inertia"});
+void readName(const JsonCursor& at, const RagdollProfile& profile, BodyProfile& body) {
+    body.name = at["name"].text();
+    if (at["name"].readable() && bodyNamed(profile, body.name) >= 0)
+        at["name"].report("expected a name of its own, another body is named \"" + body.name + "\"");
+    if (at.has("mirror")) body.mirror = at["mirror"].text();
+}
+
+void readBody(const JsonCursor& at, RagdollProfile& profile, std::int64_t version) {
     BodyProfile body;
-    const std::optional<Role> role = readRole(at["role"]);
-    if (role && bodyOf(profile, *role) >= 0) {
-        at["role"].report(fmt::format("expected a role of its own, there is a body for {} before", roleName(*role)));
+    if (version == 1) {
+        at.expectObject({"role", "joint", "jointPath", "shape", "jointFromBody", "massKg", "inertia"});
+    } else {
+        at.expectObject({"name", "joint", "jointPath", "shape", "jointFromBody", "massKg", "inertia"},
+                        {"role", "mirror"});
+        readName(at, profile, body);
     }
-    body.role = role.value_or(Role::hips);
+    if (version == 1 || at.has("role")) {
+        body.role = readRole(at["role"]);
+        if (body.role && bodyOf(profile, *body.role) >= 0) {
+            at["role"].report(
+                fmt::format("expected a role of its own, there is a body for {} before", roleName(*body.role)));
+        }
+        if (version == 1 && body.role) setRole(body, *body.role);
+    }
     body.joint = at["joint"].text();
     body.jointPath = at["jointPath"].text();
     const auto sameJoint = [&](const BodyProfile& other) { return other.jointPath == body.jointPath; };
@@ -105,9 +122,9 @@ void readConstraint(const JsonCursor& at, RagdollProfile& profile) {
     at.expectObject({"child", "parent", "kind", "parentFromFrame", "childFromFrame", limits, "frictionNm"});
     ConstraintProfile c;
     c.kind = kind == 0 ? ConstraintProfile::Kind::hinge : ConstraintProfile::Kind::coneTwist;
-    c.child = readBodyRole(at["child"], profile);
-    c.parent = readBodyRole(at["parent"], profile);
-    if (c.child == 0) at["child"].report("expected a body beside hips, the root, which hangs on nothing");
+    c.child = readBodyName(at["child"], profile);
+    c.parent = readBodyName(at["parent"], profile);
+    if (c.child == 0) at["child"].report("expected a body beside the first, the root, which hangs on nothing");
     if (c.child > 0 && c.parent >= c.child) {
         at["parent"].report("expected a body listed before the child (otherwise the links form a cycle)");
     }
@@ -134,12 +151,11 @@ void readConstraint(const JsonCursor& at, RagdollProfile& profile) {
 void orderConstraints(const JsonCursor& at, RagdollProfile& profile) {
     for (std::size_t body = 1; body < profile.bodies.size(); ++body) {
         const auto isMine = [&](const ConstraintProfile& c) { return c.child == static_cast<int>(body); };
-        // A body that came out as a second hips has been reported for its role.
-        if (profile.bodies[body].role == Role::hips) continue;
-        if (std::none_of(profile.constraints.begin(), profile.constraints.end(), isMine)) {
-            at.report(fmt::format("expected a constraint whose child is {}: it has no parent",
-                                  roleName(profile.bodies[body].role)));
-        }
+        // A body without a name, or with another's, has been reported for it.
+        const std::string& name = profile.bodies[body].name;
+        if (name.empty() || bodyNamed(profile, name) != static_cast<int>(body)) continue;
+        if (std::none_of(profile.constraints.begin(), profile.constraints.end(), isMine))
+            at.report(fmt::format("expected a constraint whose child is {}: it has no parent", name));
     }
     std::stable_sort(profile.constraints.begin(), profile.constraints.end(),
                      [](const auto& a, const auto& b) { return a.child < b.child; });
@@ -147,9 +163,9 @@ void orderConstraints(const JsonCursor& at, RagdollProfile& profile) {
 
 void readPair(const JsonCursor& at, RagdollProfile& profile) {
     if (!at.expectArray(2, 2)) return;
-    const int a = readBodyRole(at[std::size_t{0}], profile);
-    const int b = readBodyRole(at[std::size_t{1}], profile);
-    if (a >= 0 && a == b) at.report("expected two different roles");
+    const int a = readBodyName(at[std::size_t{0}], profile);
+    const int b = readBodyName(at[std::size_t{1}], profile);
+    if (a >= 0 && a == b) at.report("expected two different bodies");
     profile.filteredPairs.emplace_back(std::min(a, b), std::max(a, b));
 }
 
@@ -170,15 +186,16 @@ void readHeader(const JsonCursor& at, RagdollProfile& profile) {
     profile.standardFromModel = readQuaternion(at["standardFromModel"]);
 }
 
-void readLists(const JsonCursor& at, RagdollProfile& profile) {
+void readLists(const JsonCursor& at, RagdollProfile& profile, std::int64_t version) {
     const JsonCursor bodies = at["bodies"];
-    if (bodies.expectArray(1, profile_format::kMostBodies)) {
+    if (bodies.expectArray(1, RagdollProfile::kMostBodies)) {
         for (std::size_t i = 0; i < bodies.size(); ++i)
-            readBody(bodies[i], profile);
-        if (profile.bodies[0].role != Role::hips) bodies[std::size_t{0}]["role"].report("expected hips, the root");
+            readBody(bodies[i], profile, version);
+        if (hasRoles(profile) && profile.bodies[0].role != Role::hips)
+            bodies[std::size_t{0}]["role"].report("expected hips, the root");
     }
     const JsonCursor constraints = at["constraints"];
-    if (constraints.expectArray(0, profile_format::kMostBodies)) {
+    if (constraints.expectArray(0, RagdollProfile::kMostBodies)) {
         for (std::size_t i = 0; i < constraints.size(); ++i)
             readConstraint(constraints[i], profile);
         orderConstraints(constraints, profile);
@@ -211,13 +228,14 @@ Result<RagdollProfile> profileFromJson(std::string_view text, std::string_view s
     const Result<json> parsed = parseJson(text, source, duplicates);
     if (!parsed) return parsed.error();
     const json& document = parsed.value();
-    std::vector<std::string> problems = checkFormat(document, profile_format::kName, RagdollProfile::kVersion);
+    std::vector<std::string> problems =
+        checkFormat(document, profile_format::kName, RagdollProfile::kVersion, RagdollProfile::kOldestVersion);
     if (!problems.empty()) return asError(source, problems);
     problems = duplicates;
     RagdollProfile profile;
     const JsonCursor root(document, problems);
     readHeader(root, profile);
-    readLists(root, profile);
+    readLists(root, profile, document["version"].get<std::int64_t>());
     if (problems.empty()) problems = validate(profile);
     if (!problems.empty()) return asError(source, problems);
     return profile;

@@ -28,19 +28,22 @@ Json shape(const BodyShape& s) {
 }
 
 Json body(const BodyProfile& b) {
-    return Json{{"role", roleName(b.role)},
-                {"joint", b.joint},
-                {"jointPath", b.jointPath},
-                {"shape", shape(b.shape)},
-                {"jointFromBody", frame(b.jointFromBody)},
-                {"massKg", jsonNumber(b.massKg)},
-                {"inertia", jsonVector(b.inertia)}};
+    Json out{{"name", b.name}};
+    if (b.role) out["role"] = roleName(*b.role);
+    if (!b.mirror.empty()) out["mirror"] = b.mirror;
+    out["joint"] = b.joint;
+    out["jointPath"] = b.jointPath;
+    out["shape"] = shape(b.shape);
+    out["jointFromBody"] = frame(b.jointFromBody);
+    out["massKg"] = jsonNumber(b.massKg);
+    out["inertia"] = jsonVector(b.inertia);
+    return out;
 }
 
 Json constraint(const RagdollProfile& profile, const ConstraintProfile& c) {
     const bool hinge = c.kind == ConstraintProfile::Kind::hinge;
-    Json out{{"child", roleName(profile.bodies[c.child].role)},
-             {"parent", roleName(profile.bodies[c.parent].role)},
+    Json out{{"child", profile.bodies[c.child].name},
+             {"parent", profile.bodies[c.parent].name},
              {"kind", hinge ? "hinge" : "coneTwist"},
              {"parentFromFrame", frame(c.parentFromFrame)},
              {"childFromFrame", frame(c.childFromFrame)}};
@@ -74,8 +77,7 @@ std::string profileToJson(const RagdollProfile& profile) {
         out["constraints"].push_back(constraint(profile, c));
     out["filteredPairs"] = Json::array();
     for (const auto& [first, second] : profile.filteredPairs) {
-        out["filteredPairs"].push_back(
-            Json::array({roleName(profile.bodies[first].role), roleName(profile.bodies[second].role)}));
+        out["filteredPairs"].push_back(Json::array({profile.bodies[first].name, profile.bodies[second].name}));
     }
     out["notes"] = profile.notes;
     return jsonText(out);

@@ -45,15 +45,31 @@ Role mergedInto(Role role, LodLevel level) {
     }
 }
 
+// Whether a body without a role becomes one with its parent, by the tree alone: the end of a chain with the link above
+// it, and at the coarsest level all of an unbranched chain. Nothing merges into the root or into a part with a role.
+bool joinsParent(const RagdollProfile& full, const Rig& rig, const std::vector<int>& childCount, int body,
+                 LodLevel level) {
+    const int parent = rig.parentBody[body];
+    if (parent <= 0 || full.bodies[parent].role || childCount[parent] != 1) return false;
+    return level == LodLevel::block || childCount[body] == 0;
+}
+
 // Which body of the full profile leads each body's group: the uppermost that is merged into the same role.
 std::vector<int> leadersOf(const RagdollProfile& full, const Rig& rig, LodLevel level) {
+    std::vector<int> childCount(full.bodies.size(), 0);
+    for (const ConstraintProfile& constraint : full.constraints)
+        ++childCount[constraint.parent];
     std::vector<int> leader(full.bodies.size());
     for (int body = 0; body < static_cast<int>(leader.size()); ++body) {
         leader[body] = body;
         const int parent = rig.parentBody[body];
         // Bodies come parents first, so that the parent's leader is known.
-        if (parent >= 0 && mergedInto(full.bodies[body].role, level) == mergedInto(full.bodies[parent].role, level))
-            leader[body] = leader[parent];
+        if (parent < 0) continue;
+        const std::optional<Role> own = full.bodies[body].role;
+        const std::optional<Role> above = full.bodies[parent].role;
+        const bool joins = own ? above && mergedInto(*own, level) == mergedInto(*above, level)
+                               : joinsParent(full, rig, childCount, body, level);
+        if (joins) leader[body] = leader[parent];
     }
     return leader;
 }

@@ -11,7 +11,7 @@ namespace lutka::physics {
 enum class LodLevel {
     limbs,  ///< Hands, feet and toes into the limb above them, the trunk between hips and neck into one body: 16 → 11.
     block,  ///< Also the whole trunk with neck and head into the hips, and each arm into one body: 16 → 7.
-};
+};  // Bodies without a role: `limbs` merges the end of each chain with the link above it, `block` unbranched chains.
 
 /// A cheaper ragdoll of the same character: bodies of the full one are merged, each group under its uppermost body.
 ///

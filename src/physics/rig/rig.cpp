@@ -30,14 +30,21 @@ struct Binding {
     }
 };
 
-bool isCentral(Role role) {
-    return animation::sideOf(role) == animation::Side::center;
+// Spine and neck bend as an arc.
+bool isTrunkLink(const BodyProfile& body) {
+    return body.role && animation::sideOf(*body.role) == animation::Side::center;
 }
 
-bool isLimbRoot(Role role) {
+// Whether what lies above the body's joint stays with its parent: where a limb leaves the trunk, and where a body
+// without a role is not the only one that hangs there.
+bool isLimbRoot(const RagdollProfile& profile, int body, int parent) {
     using enum Role;
-    return role == leftUpperArm || role == rightUpperArm || role == leftUpperLeg || role == rightUpperLeg ||
-           role == leftShoulder || role == rightShoulder;
+    if (const auto& role = profile.bodies[body].role) {
+        return *role == leftUpperArm || *role == rightUpperArm || *role == leftUpperLeg || *role == rightUpperLeg ||
+               *role == leftShoulder || *role == rightShoulder;
+    }
+    return std::count_if(profile.constraints.begin(), profile.constraints.end(),
+                         [&](const ConstraintProfile& c) { return c.parent == parent; }) > 1;
 }
 
 Result<void> findJoints(Binding& b) {
@@ -78,8 +85,8 @@ std::vector<int> jointsBetween(const Binding& b, int child, int parent, bool& fo
 // arc, a limb only twists. Where a limb leaves the trunk (clavicles) they stay with the trunk, because there the
 // physical anchor does.
 void makeChain(Binding& b, const std::vector<int>& between, int upperBody, int lowerBody) {
-    const Role role = b.profile.bodies[lowerBody].role;
-    if (between.empty() || isLimbRoot(role)) return;
+    if (between.empty() || isLimbRoot(b.profile, lowerBody, upperBody)) return;
+    const bool arc = isTrunkLink(b.profile.bodies[lowerBody]);
     const int upper = b.rig.jointOfBody[upperBody];
     const int lower = b.rig.jointOfBody[lowerBody];
     std::vector<float> along;  // length from the upper joint, in the order of `between` reversed
@@ -99,15 +106,14 @@ void makeChain(Binding& b, const std::vector<int>& between, int upperBody, int l
         joint.upperBody = upperBody;
         joint.body = lowerBody;
         joint.share = length > 1e-6F ? along[i] / length : byIndex;
-        if (!isCentral(role) && glm::length(axis) > 1e-6F) joint.twistAxis = glm::normalize(axis);
+        if (!arc && glm::length(axis) > 1e-6F) joint.twistAxis = glm::normalize(axis);
     }
 }
 
 // Twist helpers beside the way: a limb's unmapped child that lies on the line to the next body takes its part of the
 // twist as well.
 void makeTwistHelpers(Binding& b, int upperBody, int lowerBody) {
-    const Role role = b.profile.bodies[lowerBody].role;
-    if (isCentral(role) || isLimbRoot(role)) return;
+    if (isTrunkLink(b.profile.bodies[lowerBody]) || isLimbRoot(b.profile, lowerBody, upperBody)) return;
     const int upper = b.rig.jointOfBody[upperBody];
     const vec3 axis = b.position(b.rig.jointOfBody[lowerBody]) - b.position(upper);
     const float length = glm::length(axis);

@@ -68,9 +68,9 @@ TEST_CASE("a change that is taken back by hand is no edit any more") {
         });
     };
     REQUIRE(setMass(2.0F).ok());
-    CHECK(document->state().edits[animation::indexOf(Role::leftHand)].massKg == 2.0F);
+    CHECK(document->state().edits.at("leftHand").massKg == 2.0F);
     REQUIRE(setMass(fitted).ok());
-    CHECK_FALSE(document->state().edits[animation::indexOf(Role::leftHand)].any());
+    CHECK_FALSE(document->state().edits.at("leftHand").any());
 }
 
 TEST_CASE("a body's place in its joint is edited and its anchors stay") {
@@ -91,7 +91,7 @@ TEST_CASE("a body's place in its joint is edited and its anchors stay") {
                 .ok());
     CHECK(document->profile().bodies[shin].jointFromBody.translation.x == Approx(was.x + 0.03F));
     CHECK(glm::distance(anchor(), before) < 1e-5F);
-    const PartEdits& edits = document->state().edits[animation::indexOf(Role::leftLowerLeg)];
+    const PartEdits& edits = document->state().edits.at("leftLowerLeg");
     CHECK(edits.jointFromBody.has_value());
     CHECK_FALSE(edits.frames.has_value());
     REQUIRE(document->resetPart(shin).ok());

@@ -187,7 +187,7 @@ TEST_CASE("a character of another profile is pulled and pinned by its bodies, an
     CHECK(target.y > held.target.y + 0.2F);
     const auto miss = [&] {
         const auto& profile = editor->player().simulation().assetOf(doll).profile;
-        const auto body = static_cast<std::size_t>(physics::bodyOf(profile, held.role));
+        const auto body = static_cast<std::size_t>(physics::bodyNamed(profile, held.body));
         return glm::distance(editor->player().bodiesOf(doll)[body].worldFromBody * held.bodyPoint, target);
     };
     const float far = miss();

@@ -1,5 +1,6 @@
 /// Opening, saving and what the editor asks on the way.
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 
@@ -8,6 +9,7 @@
 #include "editor/ui/file_list.hpp"
 #include "physics/profile/profile_io.hpp"
 #include "support/command.hpp"
+#include "support/zoo.hpp"
 
 using namespace lutka;
 using namespace lutka::editor;
@@ -168,4 +170,40 @@ TEST_CASE("an export over a file that is there asks, and the next one over its o
     CHECK(test::fileText(file) != "theirs");
     editor->files().requestExport(file, 0.2F);
     CHECK_FALSE(editor->files().asking());
+}
+
+TEST_CASE("a model that is no humanoid is offered as a ragdoll of any skeleton, and edited as one") {
+    NEEDS_ZOO();
+    const auto editor = makeEditor();
+    const std::string fox = test::zooFile("fox/Fox.glb").string();
+    send(*editor, filesDropped({fox}));
+    REQUIRE(editor->files().offeredAnyRig() == fox);
+    CHECK(editor->document().character().name == "biped");  // the old one stays until then
+    editor->answerAnyRig(false);
+    CHECK(editor->files().offeredAnyRig().empty());
+    CHECK(editor->document().character().name == "biped");
+    send(*editor, filesDropped({fox}));
+    editor->answerAnyRig(true);
+    CHECK(editor->files().offeredAnyRig().empty());
+    const physics::RagdollProfile& profile = editor->document().profile();
+    CHECK(editor->document().character().file == fox);
+    CHECK_FALSE(physics::hasRoles(profile));
+    // Bodies without a role are edited, mirrored and reset by their names.
+    int left = -1;
+    for (int body = 1; body < static_cast<int>(profile.bodies.size()) && left < 0; ++body) {
+        if (physics::sideOf(profile, body) == animation::Side::left) left = body;
+    }
+    REQUIRE(left > 0);
+    const float before = profile.bodies[left].massKg;
+    REQUIRE(editor->edit([&](EditorDocument& document) { return document.setMass(left, 2.0F * before); }));
+    REQUIRE(editor->edit([&](EditorDocument& document) { return document.mirrorParts(std::array{left}); }));
+    const int right = physics::counterpartOf(profile, left);
+    REQUIRE(right >= 0);
+    CHECK(editor->document().profile().bodies[right].massKg == 2.0F * before);
+    REQUIRE(editor->edit([&](EditorDocument& document) { return document.resetParts(std::array{left, right}); }));
+    CHECK(editor->document().profile().bodies[left].massKg == before);
+    physics::FitOptions fit = editor->document().state().fit;
+    fit.mostBodies = 10;
+    REQUIRE(editor->edit([&](EditorDocument& document) { return document.setFit(fit); }));
+    CHECK(editor->document().profile().bodies.size() <= 10);
 }

@@ -201,7 +201,7 @@ TEST_CASE("one end of a capsule follows the mouse and the other stays") {
     CHECK(glm::distance(before.second, after.second) > 0.04F);
     CHECK(glm::distance(handleAt(*editor, Kind::capsuleBottom), editor->workspace().mouse) < 6.0F);
     release(*editor);
-    CHECK(editor->document().state().edits[animation::indexOf(Role::leftUpperLeg)].jointFromBody.has_value());
+    CHECK(editor->document().state().edits.at("leftUpperLeg").jointFromBody.has_value());
 }
 
 TEST_CASE("handles that are switched off take no click") {

@@ -32,6 +32,7 @@ RagdollProfile makeRod(float halfLength, float radius, float massKg) {
     profile.name = "rod";
     profile.totalMassKg = massKg;
     profile.bodies.emplace_back();
+    setRole(profile.bodies.back(), animation::Role::hips);
     profile.bodies[0].shape.halfLength = halfLength;
     profile.bodies[0].shape.radius = radius;
     profile.bodies[0].massKg = massKg;

@@ -143,7 +143,7 @@ TEST_CASE("the doctor tells of a role whose joint is not below its parent's") {
     const Finding* finding = find(diagnosis, "joint-not-below");
     REQUIRE(finding != nullptr);
     CHECK(finding->place == "leftHand on leftLowerArm");
-    CHECK(finding->roles == std::vector{Role::leftHand});
+    CHECK(finding->bodies == std::vector<std::string>{"leftHand"});
     CHECK_THAT(finding->measure, Catch::Contains("leftLowerArm"));
     CHECK(finding->severity == Severity::error);
     CHECK(diagnosis.score < 50.0F);

@@ -60,7 +60,7 @@ TEST_CASE("both sides of a symmetric figure are mirror images") {
     const auto biped = test::makeBiped();
     const RagdollProfile profile = fitBiped();
     for (const BodyProfile& body : profile.bodies) {
-        const BodyProfile& other = profile.bodies[bodyOf(profile, mirrored(body.role))];
+        const BodyProfile& other = profile.bodies[bodyOf(profile, mirrored(body.role.value()))];
         CHECK(body.shape.radius == other.shape.radius);
         CHECK(body.shape.halfLength == Approx(other.shape.halfLength).epsilon(1e-6));
         const vec3 here = modelFromBody(biped, body).translation;
@@ -105,7 +105,7 @@ TEST_CASE("a figure without a skin gets a man's proportions") {
     CHECK(profile.bodies.size() == 16);
     CHECK(profile.heightM == Approx(1.75).epsilon(0.05));
     for (const BodyProfile& body : profile.bodies) {
-        INFO(roleName(body.role));
+        INFO(body.name);
         CHECK(body.shape.radius > 0.01F * profile.heightM);
         CHECK(body.shape.radius < 0.1F * profile.heightM);
     }
@@ -138,7 +138,7 @@ TEST_CASE("a turned or scaled figure gets the same ragdoll, turned or scaled") {
         CHECK(profile.heightM == Approx(scale * expected.heightM).epsilon(1e-3));
         REQUIRE(profile.bodies.size() == expected.bodies.size());
         for (std::size_t i = 0; i < profile.bodies.size(); ++i) {
-            INFO(roleName(profile.bodies[i].role) << " at scale " << scale);
+            INFO(profile.bodies[i].name << " at scale " << scale);
             const BodyProfile& body = profile.bodies[i];
             const BodyProfile& same = expected.bodies[i];
             CHECK(body.shape.radius == Approx(scale * same.shape.radius).epsilon(0.02));

@@ -115,7 +115,7 @@ TEST_CASE("any bind pose of the biped gives the same anatomical limits and lies 
         for (std::size_t i = 0; i < profile.constraints.size(); ++i) {
             const ConstraintProfile& constraint = profile.constraints[i];
             const ConstraintProfile& same = expected.constraints[i];
-            INFO(roleName(profile.bodies[constraint.child].role));
+            INFO(profile.bodies[constraint.child].name);
             CHECK(constraint.hinge.lower == same.hinge.lower);
             CHECK(constraint.hinge.upper == same.hinge.upper);
             CHECK(constraint.cone.swingY == same.cone.swingY);

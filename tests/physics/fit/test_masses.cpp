@@ -2,6 +2,7 @@
 #include "physics/fit/masses.hpp"
 
 #include <numeric>
+#include <string>
 
 #include "physics/collision/shape.hpp"
 #include "support/catch.hpp"
@@ -149,4 +150,23 @@ TEST_CASE("distances between shapes are those of their surfaces") {
     CHECK(distanceBetween(box, aside, capsule(0.1F, 0.3F), origin) == Approx(0.3));
     CHECK(distanceBetween(box, origin, box, aside) == Approx(0.3));
     CHECK(distanceBetween(box, origin, box, {quat(1, 0, 0, 0), {0.15F, 0, 0}}) == Approx(-0.05));
+}
+
+TEST_CASE("bodies without a role are raised to a tenth of their neighbours, both ways, and the total stays") {
+    RagdollProfile chain;
+    chain.totalMassKg = 0.0F;
+    for (const float mass : {0.01F, 50.0F, 0.02F}) {
+        BodyProfile& body = chain.bodies.emplace_back();
+        body.name = "body " + std::to_string(chain.bodies.size());
+        body.massKg = mass;
+        chain.totalMassKg += mass;
+        if (chain.bodies.size() == 1) continue;
+        ConstraintProfile& joint = chain.constraints.emplace_back();
+        joint.child = static_cast<int>(chain.bodies.size()) - 1;
+        joint.parent = joint.child - 1;
+    }
+    raiseLightSegments(chain);
+    CHECK(chain.bodies[0].massKg / chain.bodies[1].massKg == Approx(0.1F));
+    CHECK(chain.bodies[2].massKg / chain.bodies[1].massKg == Approx(0.1F));
+    CHECK(chain.bodies[0].massKg + chain.bodies[1].massKg + chain.bodies[2].massKg == Approx(chain.totalMassKg));
 }

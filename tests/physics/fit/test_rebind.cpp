@@ -65,7 +65,7 @@ TEST_CASE("a profile re-bound to another rig fits it and keeps what was edited")
     CHECK(profile.heightM == fresh.heightM);
     CHECK(profile.filteredPairs == original.filteredPairs);
     for (std::size_t i = 0; i < profile.bodies.size(); ++i) {
-        INFO(roleName(profile.bodies[i].role));
+        INFO(profile.bodies[i].name);
         CHECK(profile.bodies[i].jointPath == fresh.bodies[i].jointPath);
         CHECK(profile.bodies[i].massKg == original.bodies[i].massKg);
         CHECK(profile.bodies[i].shape.radius == Approx(fresh.bodies[i].shape.radius));
@@ -87,7 +87,7 @@ TEST_CASE("re-binding to its own character changes nothing") {
     for (const bool keepShapes : {false, true}) {
         const RagdollProfile after = rebindProfile(before, biped, test::mapOfBiped(biped), keepShapes).value();
         for (std::size_t i = 0; i < before.bodies.size(); ++i) {
-            INFO(roleName(before.bodies[i].role));
+            INFO(before.bodies[i].name);
             CHECK(after.bodies[i].shape.radius == Approx(before.bodies[i].shape.radius));
             CHECK(glm::distance(after.bodies[i].jointFromBody.translation, before.bodies[i].jointFromBody.translation) <
                   1e-4F);

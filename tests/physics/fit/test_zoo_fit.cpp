@@ -101,7 +101,7 @@ TEST_CASE("the bind pose of every humanoid of the zoo lies inside all limits of 
         INFO(subject.name);
         CHECK(validate(subject.profile).empty());
         for (const ConstraintProfile& c : subject.profile.constraints) {
-            INFO(roleName(subject.profile.bodies[c.child].role));
+            INFO(subject.profile.bodies[c.child].name);
             const RigidTransform& parent = subject.bind[c.parent].standardFromBody;
             const RigidTransform& child = subject.bind[c.child].standardFromBody;
             CHECK(glm::distance(parent * c.parentFromFrame.translation, child * c.childFromFrame.translation) <

@@ -33,6 +33,8 @@ TEST_CASE("validate names every fault at once") {
         {"/standardFromModel", [](RagdollProfile& p) { p.standardFromModel = quat(2, 0, 0, 0); }},
         {"/bodies/0/role", [](RagdollProfile& p) { std::swap(p.bodies[0].role, p.bodies[1].role); }},
         {"/bodies/3/role", [](RagdollProfile& p) { p.bodies[3].role = p.bodies[2].role; }},
+        {"/bodies/2/name", [](RagdollProfile& p) { p.bodies[2].name = p.bodies[1].name; }},
+        {"/bodies/1/name", [](RagdollProfile& p) { p.bodies[1].name.clear(); }},
         {"/bodies/4/jointPath", [](RagdollProfile& p) { p.bodies[4].jointPath = p.bodies[3].jointPath; }},
         {"/bodies/5/shape/radius", [](RagdollProfile& p) { p.bodies[5].shape.radius = -0.1F; }},
         {"/bodies/6/shape/halfLength", [](RagdollProfile& p) { p.bodies[6].shape.halfLength = -1; }},

@@ -57,7 +57,9 @@ TEST_CASE("a profile comes back from its JSON to the last bit") {
     for (std::size_t i = 0; i < back.bodies.size(); ++i) {
         const BodyProfile& a = back.bodies[i];
         const BodyProfile& b = profile.bodies[i];
+        CHECK(a.name == b.name);
         CHECK(a.role == b.role);
+        CHECK(a.mirror == b.mirror);
         CHECK(a.joint == b.joint);
         CHECK(a.jointPath == b.jointPath);
         CHECK(a.shape.kind == b.shape.kind);
@@ -132,6 +134,7 @@ TEST_CASE("every planted fault is listed in one go with its place") {
     wrong["bodies"][1]["shape"]["halfLength"] = nullptr;  // what NaN is written as
     wrong["bodies"][4]["jointPath"] = wrong["bodies"][5]["jointPath"];
     wrong["bodies"][6]["role"] = "tail";
+    wrong["bodies"][10]["name"] = wrong["bodies"][2]["name"];
     wrong["bodies"][7]["inertia"] = {1, 2};
     wrong["bodies"][8]["jointFromBody"]["rotation"] = {0, 0, 1, 1};
     wrong["bodies"][9]["massKg"] = 0;
@@ -150,14 +153,15 @@ TEST_CASE("every planted fault is listed in one go with its place") {
           "/bodies/9/massKg: expected a finite number", "/constraints/0/hinge: unknown key",
           "/constraints/1/parent: expected a body listed before the child", "/constraints/2/cone/twist: expected",
           "/constraints/11/child: expected one constraint a child", "it has no parent",
-          "/filteredPairs/0/1: expected the role of one of the bodies"}) {
+          "/bodies/10/name: expected a name of its own",
+          "/filteredPairs/0/1: expected the name of one of the bodies"}) {
         CHECK(message.find(expected) != std::string::npos);
     }
 }
 
 TEST_CASE("other formats and versions are refused before anything else is read") {
     json other = bipedJson();
-    other["version"] = 2;
+    other["version"] = 3;
     CHECK(problemsOf(other).find("the file is from a newer program") != std::string::npos);
     other["version"] = 0;
     CHECK(problemsOf(other).find("there has never been such a version") != std::string::npos);
@@ -183,6 +187,75 @@ TEST_CASE("a key that stands twice and masses that do not add up are problems") 
     json heavy = bipedJson();
     heavy["totalMassKg"] = 80;
     CHECK(problemsOf(heavy).find("/totalMassKg: expected the sum of the bodies' masses") != std::string::npos);
+}
+
+TEST_CASE("a file of version 1 is upgraded: its bodies are named by their roles") {
+    const auto read = loadProfile(std::string(LUTKA_TESTS_DIR) + "/golden/profiles/biped_v1.ragdoll.json");
+    REQUIRE(read);
+    for (const BodyProfile& body : read.value().bodies) {
+        REQUIRE(body.role);
+        CHECK(body.name == roleName(*body.role));
+    }
+    const json written = json::parse(profileToJson(read.value()));
+    CHECK(written["version"] == 2);
+    CHECK(written["bodies"][0]["name"] == "hips");
+    CHECK(written["constraints"][0]["child"] == written["bodies"][1]["name"]);
+    // A key of version 2 is none of version 1.
+    std::ifstream file(std::string(LUTKA_TESTS_DIR) + "/golden/profiles/biped_v1.ragdoll.json");
+    json mixed = json::parse(file);
+    mixed["bodies"][0]["name"] = "hips";
+    CHECK(problemsOf(mixed).find("/bodies/0/name: unknown key") != std::string::npos);
+}
+
+TEST_CASE("bodies without a role come back, with names in any script, and their counterparts") {
+    RagdollProfile profile = profileToWrite();
+    for (BodyProfile& body : profile.bodies) {
+        body.name = "Knochen ä " + body.name;
+        body.role.reset();
+    }
+    profile.bodies[0].mirror = profile.bodies[0].name;
+    profile.bodies[4].mirror = profile.bodies[5].name;
+    const auto read = profileFromJson(profileToJson(profile), "memory");
+    REQUIRE(read);
+    CHECK(profileToJson(read.value()) == profileToJson(profile));
+    CHECK_FALSE(hasRoles(read.value()));
+    CHECK(counterpartOf(read.value(), 4) == 5);
+    CHECK(counterpartOf(read.value(), 5) == 4);
+    CHECK(sideOf(read.value(), 4) == animation::Side::left);
+    CHECK(sideOf(read.value(), 5) == animation::Side::right);
+    CHECK(counterpartOf(read.value(), 0) == -1);
+    CHECK(sideOf(read.value(), 0) == animation::Side::center);
+    json nameless = json::parse(profileToJson(profile));
+    nameless["bodies"][3]["name"] = "";
+    CHECK_FALSE(problemsOf(nameless).empty());
+}
+
+TEST_CASE("256 bodies are read, one more is refused") {
+    RagdollProfile chain = profileToWrite();
+    const BodyProfile link = chain.bodies[1];
+    chain.filteredPairs.clear();
+    const ConstraintProfile joint = chain.constraints[0];
+    chain.bodies = {chain.bodies[0]};
+    chain.constraints.clear();
+    chain.totalMassKg = chain.bodies[0].massKg;
+    const auto add = [&] {
+        const int index = static_cast<int>(chain.bodies.size());
+        chain.bodies.push_back(link);
+        chain.bodies.back().role.reset();
+        chain.bodies.back().name = "link " + std::to_string(index);
+        chain.bodies.back().jointPath = chain.bodies.back().name;
+        chain.constraints.push_back(joint);
+        chain.constraints.back().child = index;
+        chain.constraints.back().parent = index - 1;
+        chain.totalMassKg += link.massKg;
+    };
+    while (chain.bodies.size() < 256)
+        add();
+    CHECK(profileFromJson(profileToJson(chain), "memory"));
+    add();
+    const auto tooMany = profileFromJson(profileToJson(chain), "memory");
+    REQUIRE_FALSE(tooMany);
+    CHECK(tooMany.error().message.find("/bodies") != std::string::npos);
 }
 
 TEST_CASE("a file of version 1 is read by every later version") {

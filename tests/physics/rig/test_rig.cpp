@@ -164,7 +164,7 @@ TEST_CASE("a spine joint between two bodies takes half of the bend", "[rig]") {
     const Skeleton skeleton = test::makeSkeleton(
         {{"hips", -1, {0, 1, 0}}, {"middle", 0, {0, 1.2F, 0}}, {"chest", 1, {0, 1.4F, 0}}, {"tip", 2, {0, 1.6F, 0}}});
     RagdollProfile profile = test::makePair(physics::ConeTwistLimits{1, 1, 1});
-    profile.bodies[1].role = Role::chest;
+    setRole(profile.bodies[1], Role::chest);
     profile.bodies[1].joint = profile.bodies[1].jointPath = "chest";
     const Rig rig = boundTo(skeleton, profile);
     REQUIRE(rig.joints[1].drive == JointDrive::chain);
@@ -192,7 +192,7 @@ TEST_CASE("twist joints of a limb share the twist and not the bend", "[rig]") {
         RagdollProfile profile = test::makePair(physics::ConeTwistLimits{1, 1, 1});
         profile.bodies[0].joint = profile.bodies[0].jointPath = "arm";
         profile.bodies[1].joint = profile.bodies[1].jointPath = "hand";
-        profile.bodies[1].role = Role::leftHand;
+        setRole(profile.bodies[1], Role::leftHand);
         const Rig rig = boundTo(skeleton, profile);
         std::vector<BodyState> bodies(2);
         bodiesFromPose(rig, skeleton.bindModelFromJoint, {}, bodies);

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <chrono>
 #include <glm/geometric.hpp>
 
+#include "physics/collision/shape.hpp"
 #include "physics/profile/constraint_state.hpp"
 #include "support/catch.hpp"
 #include "support/dolls.hpp"
@@ -49,6 +51,58 @@ float angleOf(const physics::World& world, const RagdollProfile& pair) {
 }
 
 }  // namespace
+
+TEST_CASE("a doll of 256 bodies hangs together in every world") {
+    constexpr int kBodies = 256;
+    constexpr float kLink = 0.1F;  // metres
+    RagdollProfile chain = makePair(physics::ConeTwistLimits{0.7F, 0.7F, 0.5F}, 0.5F);
+    const physics::BodyProfile link = chain.bodies[1];
+    physics::ConstraintProfile joint = chain.constraints[0];
+    joint.parentFromFrame = {quat(1, 0, 0, 0), vec3(0, 0.5F * kLink, 0)};
+    joint.childFromFrame = {quat(1, 0, 0, 0), vec3(0, -0.5F * kLink, 0)};
+    chain.bodies.clear();
+    chain.constraints.clear();
+    chain.totalMassKg = 0.0F;
+    std::vector<BodyState> bodies;
+    for (int i = 0; i < kBodies; ++i) {
+        physics::BodyProfile& body = chain.bodies.emplace_back(link);
+        body.role.reset();
+        body.name = body.jointPath = "link " + std::to_string(i);
+        body.shape.radius = 0.02F;
+        body.shape.halfLength = 0.03F;
+        body.inertia = physics::shapeInertia(body.shape, body.massKg);
+        chain.totalMassKg += body.massKg;
+        // Lying half a metre above the floor.
+        bodies.push_back(
+            stateAt(vec3(kLink * static_cast<float>(i), 0.5F, 0), glm::angleAxis(-0.5F * kPi, vec3(0, 0, 1))));
+        if (i == 0) continue;
+        joint.parent = i - 1;
+        joint.child = i;
+        chain.constraints.push_back(joint);
+    }
+    REQUIRE(physics::validate(chain).empty());
+    for (const SolverKind solver : {SolverKind::bullet, SolverKind::crowd}) {
+        INFO(physics::solverName(solver));
+        const auto world = worldOf(solver);
+        world->addStatic(staticBoxAt({12, -0.5F, 0}, {20, 0.5F, 20}));
+        world->addDoll(chain, bodies);
+        stepSeconds(*world, 1.0F);
+        float separation = 0.0F;
+        const auto after = bodiesOfDoll(*world, 0);
+        REQUIRE(after.size() == kBodies);
+        for (const physics::ConstraintProfile& c : chain.constraints) {
+            const auto state =
+                physics::measureConstraint(c, after[c.parent].worldFromBody, after[c.child].worldFromBody);
+            separation = std::max(separation, state.separationM);
+        }
+        CHECK(separation < 0.002F);
+        for (const BodyState& body : after) {
+            CHECK(physics::isFinite(body));
+            CHECK(body.worldFromBody.translation.y > 0.0F);
+            CHECK(body.worldFromBody.translation.y < 0.1F);
+        }
+    }
+}
 
 TEST_CASE("a force acts for one step at its point and does its work") {
     const auto rod = rodProfile(0.2F, 0.05F, 2.0F);

@@ -31,6 +31,7 @@ RagdollProfile single(const physics::BodyShape& shape, float massKg) {
     profile.name = "single";
     profile.totalMassKg = massKg;
     profile.bodies.emplace_back();
+    setRole(profile.bodies.back(), animation::Role::hips);
     profile.bodies[0].shape = shape;
     profile.bodies[0].massKg = massKg;
     profile.bodies[0].inertia = physics::shapeInertia(shape, massKg);

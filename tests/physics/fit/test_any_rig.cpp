@@ -1,0 +1,246 @@
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+#include "animation/segments/segment_rig.hpp"
+#include "physics/collision/shape.hpp"
+#include "physics/doctor/doctor.hpp"
+#include "physics/fit/fit_ragdoll.hpp"
+#include "physics/fit/limits_from_clips.hpp"
+#include "physics/fit/profile_plan.hpp"
+#include "physics/fit/rebind.hpp"
+#include "physics/profile/constraint_state.hpp"
+#include "physics/profile/profile_io.hpp"
+#include "physics/rig/lod_profile.hpp"
+#include "physics/rig/rig.hpp"
+#include "support/catch.hpp"
+#include "support/rigs.hpp"
+
+using namespace lutka;
+using namespace lutka::physics;
+
+namespace {
+
+struct Creature {
+    animation::Character character = test::makeQuadruped();
+    animation::HumanoidMap map;
+    RagdollProfile profile;
+    Rig rig;
+
+    explicit Creature(FitOptions options = anyRig()) {
+        map.standardFromModel = animation::segmentRig(character).standardFromModel;
+        profile = fitRagdoll(character, map, options).value();
+        rig = bindRig(profile, character.skeleton).value();
+    }
+
+    static FitOptions anyRig() {
+        FitOptions options;
+        options.rig = RigKind::any;
+        options.weighByVolume = true;
+        return options;
+    }
+};
+
+float massOf(const RagdollProfile& profile, const char* name) {
+    const int body = bodyNamed(profile, name);
+    REQUIRE(body >= 0);
+    return profile.bodies[body].massKg;
+}
+
+}  // namespace
+
+TEST_CASE("any rig becomes a valid ragdoll without roles that comes back from its file") {
+    const Creature creature;
+    CHECK(validate(creature.profile).empty());
+    CHECK_FALSE(hasRoles(creature.profile));
+    const auto read = profileFromJson(profileToJson(creature.profile), "memory");
+    REQUIRE(read);
+    CHECK(profileToJson(read.value()) == profileToJson(creature.profile));
+    CHECK(creature.profile.bodies[counterpartOf(creature.profile, bodyNamed(creature.profile, "paw_fore_l"))].name ==
+          "paw_fore_r");
+}
+
+TEST_CASE("a creature's shapes lie in its skin and are alike on both sides") {
+    const Creature creature;
+    for (std::size_t i = 0; i < creature.profile.bodies.size(); ++i) {
+        const BodyProfile& body = creature.profile.bodies[i];
+        INFO(body.name);
+        // The tubes are round: no capsule is much thicker than its own, and its middle is in it.
+        CHECK(body.shape.radius < 0.16F);
+        const int other = counterpartOf(creature.profile, static_cast<int>(i));
+        if (other < 0) continue;
+        CHECK(body.shape.radius == Approx(creature.profile.bodies[other].shape.radius));
+        CHECK(body.shape.halfLength == Approx(creature.profile.bodies[other].shape.halfLength));
+        CHECK(body.massKg == Approx(creature.profile.bodies[other].massKg));
+    }
+    const Diagnosis diagnosis = diagnose(creature.profile, creature.character, creature.map);
+    CHECK(diagnosis.fit.skinNear > 0.8F);
+    CHECK(diagnosis.fit.overlapM < 0.005F);
+}
+
+TEST_CASE("the bind pose is the middle of a creature's limits, and frames of two sides are mirror images") {
+    const Creature creature;
+    for (const ConstraintProfile& c : creature.profile.constraints) {
+        INFO(creature.profile.bodies[c.child].name);
+        const ConstraintState state =
+            measureConstraint(c, creature.rig.bindModelFromBody[c.parent], creature.rig.bindModelFromBody[c.child]);
+        CHECK(state.violation == 0.0F);
+        CHECK(state.separationM < 1e-5F);
+        CHECK(glm::length(state.swing) < 1e-3F);
+        const int other = counterpartOf(creature.profile, c.child);
+        if (other <= c.child) continue;
+        const ConstraintProfile& mirrored = creature.profile.constraints[other - 1];
+        const auto axis = [&](const ConstraintProfile& one, const vec3& v) {
+            return creature.rig.bindModelFromBody[one.child].rotation * (one.childFromFrame.rotation * v);
+        };
+        const vec3 x = axis(c, {1, 0, 0});
+        const vec3 z = axis(c, {0, 0, 1});
+        CHECK(glm::distance(vec3(-x.x, x.y, x.z), axis(mirrored, {1, 0, 0})) < 1e-3F);
+        CHECK(glm::distance(vec3(z.x, -z.y, -z.z), axis(mirrored, {0, 0, 1})) < 1e-3F);
+    }
+}
+
+TEST_CASE("a creature weighs its volume in water, or what is asked for, and nothing hangs on a thread") {
+    const Creature creature;
+    float volume = 0.0F;
+    for (const BodyProfile& body : creature.profile.bodies)
+        volume += shapeVolume(body.shape);
+    CHECK(creature.profile.totalMassKg == Approx(1000.0F * volume));
+    for (const ConstraintProfile& c : creature.profile.constraints)
+        CHECK(creature.profile.bodies[c.child].massKg > 0.09F * creature.profile.bodies[c.parent].massKg);
+    FitOptions heavy = Creature::anyRig();
+    heavy.weighByVolume = false;
+    heavy.totalMassKg = 40.0F;
+    const Creature other(heavy);
+    CHECK(other.profile.totalMassKg == 40.0F);
+    CHECK(massOf(other.profile, "ribs") / massOf(creature.profile, "ribs") ==
+          Approx(40.0F / creature.profile.totalMassKg));
+    FitOptions uniform = Creature::anyRig();
+    uniform.massPreset = MassPreset::uniform;
+    const Creature equal(uniform);
+    CHECK(massOf(equal.profile, "tail4") == Approx(massOf(equal.profile, "ribs")));
+}
+
+TEST_CASE("the doctor says which checks are for humanoids only, and gives a creature no points for a map") {
+    const Creature creature;
+    const Diagnosis diagnosis = diagnose(creature.profile, creature.character, creature.map);
+    CHECK_FALSE(diagnosis.hasErrors());
+    CHECK(std::any_of(diagnosis.findings.begin(), diagnosis.findings.end(),
+                      [](const Finding& finding) { return finding.code == "not-humanoid"; }));
+    CHECK(std::none_of(diagnosis.findings.begin(), diagnosis.findings.end(),
+                       [](const Finding& finding) { return finding.code == "role-unmapped"; }));
+    CHECK(std::none_of(diagnosis.parts.begin(), diagnosis.parts.end(),
+                       [](const ScorePart& part) { return part.name == "map"; }));
+    CHECK(diagnosis.score > 80.0F);
+}
+
+TEST_CASE("the doctor finds and mends a creature's faults by the names of its bodies") {
+    Creature creature;
+    const int shin = bodyNamed(creature.profile, "shin_fore_l");
+    const int paw = bodyNamed(creature.profile, "paw_hind_r");
+    ConstraintProfile& knee = creature.profile.constraints[shin - 1];
+    knee.parentFromFrame.rotation = knee.parentFromFrame.rotation * glm::angleAxis(1.5F, vec3(0, 0, 1));
+    creature.profile.bodies[paw].shape.radius = 0.001F;
+    const Diagnosis sick = diagnose(creature.profile, creature.character, creature.map);
+    const auto has = [](const Diagnosis& diagnosis, const char* code, const char* body) {
+        return std::any_of(diagnosis.findings.begin(), diagnosis.findings.end(), [&](const Finding& finding) {
+            return finding.code == code && !finding.bodies.empty() && finding.bodies[0] == body;
+        });
+    };
+    CHECK(has(sick, "bind-outside-limits", "shin_fore_l"));
+    CHECK(has(sick, "body-tiny", "paw_hind_r"));
+    const auto mended = applyMends(creature.profile, creature.character, creature.map, sick.findings);
+    REQUIRE(mended);
+    const Diagnosis well = diagnose(mended.value(), creature.character, creature.map);
+    CHECK_FALSE(well.hasErrors());
+    CHECK_FALSE(has(well, "body-tiny", "paw_hind_r"));
+}
+
+TEST_CASE("a creature's profile is bound by its joints to the same rig in another size") {
+    const Creature creature;
+    animation::Character twice = test::makeQuadruped();
+    for (RigidTransform& joint : twice.skeleton.bindModelFromJoint)
+        joint.translation *= 2.0F;
+    for (vec3& position : twice.meshes[0].positions)
+        position *= 2.0F;
+    const auto bound = bindOrRebind(creature.profile, twice, creature.map);
+    REQUIRE(bound);
+    CHECK(bound.value().rebound);
+    const RagdollProfile& large = bound.value().profile;
+    REQUIRE(large.bodies.size() == creature.profile.bodies.size());
+    for (const BodyProfile& body : large.bodies) {
+        const int before = bodyNamed(creature.profile, body.name);
+        REQUIRE(before >= 0);
+        INFO(body.name);
+        CHECK(body.shape.radius / creature.profile.bodies[before].shape.radius == Approx(2.0F).epsilon(0.1));
+    }
+    animation::Character other = test::makeFigure("other", {{"a", -1, {0, 0, 0}}}, {{0, {0, 1, 0}, 0.1F}});
+    const auto refused = bindOrRebind(creature.profile, other, creature.map);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().message.find("paw_fore_l") != std::string::npos);
+}
+
+TEST_CASE("bodies without a role merge by the tree alone") {
+    const Creature creature;
+    const LodProfile limbs = makeLodProfile(creature.profile, creature.rig, LodLevel::limbs);
+    const LodProfile block = makeLodProfile(creature.profile, creature.rig, LodLevel::block);
+    CHECK(validate(limbs.profile).empty());
+    CHECK(validate(block.profile).empty());
+    CHECK(limbs.profile.bodies.size() < creature.profile.bodies.size());
+    CHECK(block.profile.bodies.size() < limbs.profile.bodies.size());
+    const auto together = [&](const LodProfile& lod, const char* a, const char* b) {
+        return lod.bodyOf[bodyNamed(creature.profile, a)] == lod.bodyOf[bodyNamed(creature.profile, b)];
+    };
+    CHECK(together(limbs, "paw_fore_l", "shin_fore_l"));
+    CHECK_FALSE(together(limbs, "shin_fore_l", "thigh_fore_l"));
+    CHECK(together(block, "paw_fore_l", "thigh_fore_l"));
+    CHECK_FALSE(together(block, "thigh_fore_l", "ribs"));
+    float mass = 0.0F;
+    for (const BodyProfile& body : block.profile.bodies)
+        mass += body.massKg;
+    CHECK(mass == Approx(creature.profile.totalMassKg));
+}
+
+TEST_CASE("appendages become bodies on the part that they hang on, and the humanoid stays what it is") {
+    const animation::Character figure = test::makeBipedWithAppendages();
+    const animation::HumanoidMap map = test::mapOfBiped(figure);
+    FitOptions options;
+    options.appendages = {animation::AppendageKind::tail, animation::AppendageKind::weapon};
+    const auto fitted = fitRagdoll(figure, map, options);
+    REQUIRE(fitted);
+    const RagdollProfile& profile = fitted.value();
+    CHECK(validate(profile).empty());
+    const auto parentOf = [&](const char* name) {
+        const int body = bodyNamed(profile, name);
+        REQUIRE(body > 0);
+        return profile.bodies[profile.constraints[body - 1].parent].name;
+    };
+    CHECK(parentOf("tail_01") == "hips");
+    CHECK(parentOf("tail_02") == "tail_01");
+    CHECK(parentOf("sword") == "rightHand");
+    CHECK(bodyNamed(profile, "ponytail1") < 0);
+    CHECK(profile.totalMassKg == 75.0F);
+    CHECK_FALSE(diagnose(profile, figure, map).hasErrors());
+    REQUIRE(bindRig(profile, figure.skeleton));
+    // A blade hardly moves in the hand.
+    CHECK(profile.constraints[bodyNamed(profile, "sword") - 1].cone.swingZ == Approx(radians(10.0F)));
+    const auto plain = fitRagdoll(figure, map);
+    REQUIRE(plain);
+    REQUIRE(plain.value().bodies.size() == 16);
+    for (std::size_t i = 0; i < 16; ++i) {
+        INFO(plain.value().bodies[i].name);
+        CHECK(profile.bodies[i].name == plain.value().bodies[i].name);
+        // Both hands are fitted as one, and the sword's skin was the right one's.
+        if (profile.bodies[i].role == Role::hips || isEitherSide(profile.bodies[i].role, Role::leftHand)) continue;
+        CHECK(profile.bodies[i].shape.radius == plain.value().bodies[i].shape.radius);
+    }
+}
+
+TEST_CASE("a rig without a joint and a map without roles are refused in words") {
+    const auto nothing = fitRagdoll(animation::Character{}, {}, Creature::anyRig());
+    REQUIRE_FALSE(nothing);
+    CHECK(nothing.error().code == ErrorCode::input);
+    const auto refused = fitRagdoll(test::makeQuadruped(), {});
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().mend.find("--rig any") != std::string::npos);
+}
