@@ -18,7 +18,7 @@ using physics::BodyState;
 std::string bodiesOf(const physics::RagdollProfile& profile) {
     std::string names;
     for (const physics::BodyProfile& body : profile.bodies)
-        names += (names.empty() ? "" : ", ") + std::string(animation::roleName(body.role));
+        names += (names.empty() ? "" : ", ") + body.name;
     return "its bodies are " + names;
 }
 
@@ -198,7 +198,7 @@ void PuppetCast::measure() {
             ++count_;
             if (degreesOff <= worst_.maxDeg) continue;
             worst_.maxDeg = degreesOff;
-            worst_.worstJoint = animation::roleName(profile.bodies[profile.constraints[i].child].role);
+            worst_.worstJoint = profile.bodies[profile.constraints[i].child].name;
         }
         worst_.rootM =
             std::max(worst_.rootM, glm::distance(frames_[actor.root].translation, actor.to[actor.root].translation));

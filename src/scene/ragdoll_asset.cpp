@@ -36,10 +36,11 @@ int figureOf(const physics::RagdollProfile& profile, const animation::Character&
 }
 
 // The joints of a file's other figures are in the skeleton, too: a profile of one of them is another rig's.
-Result<physics::BoundProfile> bindToFigure(physics::RagdollProfile profile, const RagdollAsset& asset, bool keepShapes) {
+Result<physics::BoundProfile> bindToFigure(physics::RagdollProfile profile, const RagdollAsset& asset,
+                                           bool keepShapes) {
     if (figureOf(profile, asset.character) == asset.character.figure)
         return physics::bindOrRebind(std::move(profile), asset.character, asset.map, keepShapes);
-    auto rebound = physics::rebindToFigure(profile, asset.character, asset.map, keepShapes);
+    auto rebound = physics::rebindProfile(profile, asset.character, asset.map, keepShapes);
     if (!rebound) return rebound.error();
     return physics::BoundProfile{std::move(rebound).value(), true};
 }

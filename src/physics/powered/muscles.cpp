@@ -3,7 +3,8 @@
 namespace lutka::physics {
 
 MuscleGroup muscleGroupOf(const BodyProfile& body) {
-    switch (body.role) {
+    if (!body.role) return MuscleGroup::trunk;
+    switch (*body.role) {
         case Role::neck:
         case Role::head:
             return MuscleGroup::head;

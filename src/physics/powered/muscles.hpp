@@ -8,7 +8,8 @@
 
 namespace lutka::physics {
 
-/// Joints whose strength is set together. A joint belongs to the group of the body that it moves: its child.
+/// Joints whose strength is set together. A joint belongs to the group of the body that it moves, its child; bodies
+/// without a role to the trunk.
 enum class MuscleGroup { trunk, head, arm, leg };
 inline constexpr int kMuscleGroupCount = 4;
 [[nodiscard]] MuscleGroup muscleGroupOf(const BodyProfile& body);
