@@ -1,6 +1,7 @@
 #include "render/camera.hpp"
 
 #include <algorithm>
+#include <array>
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -115,6 +116,58 @@ void frameSphere(Camera& camera, const vec3& center, float radius, float aspect,
         camera.orthographic ? reach / (std::tan(vertical) * std::min(1.0F, aspect)) : reach / std::sin(narrow);
     camera.target = center;
     camera.distance = std::clamp(fit, kNearestDistance, kFarthestDistance);
+}
+
+// Along one axis of the picture an eye at `e`, `d` before the middle, sees a point (x across, f farther away) between
+// the slopes `low` and `high` when low * (f + d) <= x - e <= high * (f + d). Both ends are linear in e and d: the
+// nearest eye is where the point that reaches highest and the one that reaches lowest touch their edges.
+namespace {
+
+struct AxisReach {
+    float high = -1e30F;  // max of x - high slope * f
+    float low = 1e30F;    // min of x - low slope * f
+
+    void add(float across, float farther, float lowSlope, float highSlope) {
+        high = std::max(high, across - highSlope * farther);
+        low = std::min(low, across - lowSlope * farther);
+    }
+    [[nodiscard]] float distance(float lowSlope, float highSlope) const {
+        return (high - low) / (highSlope - lowSlope);
+    }
+    [[nodiscard]] float eye(float lowSlope, float highSlope, float distance) const {
+        return 0.5F * (high + low) - 0.5F * (highSlope + lowSlope) * distance;
+    }
+};
+
+}  // namespace
+
+void framePoints(Camera& camera, std::span<const vec3> points, float aspect, const PictureInsets& insets) {
+    LUTKA_ASSERT(aspect > 0.0F && insets.left + insets.right < 1.0F && insets.top + insets.bottom < 1.0F);
+    if (points.empty()) return;
+    const mat3 axes = worldFromViewAxes(camera);
+    const float vertical = std::tan(0.5F * camera.fieldOfView);
+    const float horizontal = vertical * aspect;
+    const vec2 low(horizontal * (2.0F * insets.left - 1.0F), vertical * (2.0F * insets.bottom - 1.0F));
+    const vec2 high(horizontal * (1.0F - 2.0F * insets.right), vertical * (1.0F - 2.0F * insets.top));
+    vec3 middle(0);
+    for (const vec3& point : points)
+        middle += point / static_cast<float>(points.size());
+    std::array<AxisReach, 2> reach;
+    float nearest = 0.0F;  // towards the eye, from the middle
+    for (const vec3& point : points) {
+        const vec3 seen = glm::transpose(axes) * (point - middle);
+        // In parallel projection what is farther away is as large as what is near.
+        const float farther = camera.orthographic ? 0.0F : -seen.z;
+        nearest = std::max(nearest, seen.z);
+        for (int axis = 0; axis < 2; ++axis)
+            reach[axis].add(seen[axis], farther, low[axis], high[axis]);
+    }
+    float distance = std::max(reach[0].distance(low.x, high.x), reach[1].distance(low.y, high.y));
+    constexpr float room = 0.05F;  // metres between the eye and what is nearest
+    if (!camera.orthographic) distance = std::max(distance, nearest + room);
+    camera.distance = std::clamp(distance, kNearestDistance, kFarthestDistance);
+    camera.target = middle + axes[0] * reach[0].eye(low.x, high.x, camera.distance) +
+                    axes[1] * reach[1].eye(low.y, high.y, camera.distance);
 }
 
 }  // namespace lutka::render

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "core/math.hpp"
 #include "render/extent.hpp"
@@ -60,5 +61,17 @@ void dolly(Camera& camera, float factor);
 
 /// Aims at a sphere and takes the distance at which it just fits the picture times `margin`; the direction stays.
 void frameSphere(Camera& camera, const vec3& center, float radius, float aspect, float margin = 1.1F);
+
+/// What lies over a picture's edges, as shares of its width and height; opposite ones together below 1.
+struct PictureInsets {
+    float left = 0.0F;
+    float right = 0.0F;
+    float top = 0.0F;
+    float bottom = 0.0F;
+};
+
+/// Aims so that all points just fit the part of the picture that `insets` leave free, in its middle; the direction
+/// stays. Does nothing without a point.
+void framePoints(Camera& camera, std::span<const vec3> points, float aspect, const PictureInsets& insets);
 
 }  // namespace lutka::render

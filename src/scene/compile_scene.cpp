@@ -25,6 +25,9 @@ class Compiler {
         out_.seconds = simulation.seconds;
         out_.focus = simulation.focus;
         out_.focusRadius = simulation.focusRadius;
+        out_.focusYaw = simulation.focusYaw;
+        out_.focusPitch = simulation.focusPitch;
+        out_.focusFollows = simulation.focusFollows;
         const std::vector<RigidTransform> world = worldFromEntities(scene_);
         for (std::size_t i = 0; i < scene_.entities.size(); ++i) {
             const EntityId id = scene_.entities[i].id;

@@ -19,7 +19,6 @@ using render::FrameDescription;
 
 constexpr float kSolidAlpha = 0.55F;
 constexpr float kVelocitySeconds = 0.1F;  // an arrow is the way of this time
-const float kNearLimit = radians(5.0F);
 
 void drawWire(FrameDescription& frame, const RigidTransform& world, const BodyShape& shape, Color color) {
     switch (shape.kind) {
@@ -64,7 +63,7 @@ struct LimitColors {
 };
 
 LimitColors limitColors(float margin) {
-    if (margin < -1e-4F) return {debugColors::pastLimit, debugColors::pastLimit};
+    if (margin <= kPassedLimit) return {debugColors::pastLimit, debugColors::pastLimit};
     if (margin < kNearLimit) return {debugColors::nearLimit, debugColors::nearLimit};
     return {};
 }

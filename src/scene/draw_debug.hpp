@@ -27,6 +27,11 @@ struct DebugScratch {
     std::vector<bool> inside;  ///< At or below a joint that owns a body.
 };
 
+/// Margins between which a limit is near (yellow); what is farther past it than the second counts as passed (red): a
+/// solver holds limits softly, and angles are told in whole degrees.
+inline constexpr float kNearLimit = radians(5.0F);
+inline constexpr float kPassedLimit = radians(-1.0F);
+
 /// How far inside its limits a constraint's present angle is, radians; negative: past them. Along the swing's own
 /// direction in the elliptic cone.
 [[nodiscard]] float limitMargin(const physics::ConstraintProfile& constraint, const physics::ConstraintState& state);

@@ -74,7 +74,7 @@ void drawProps(const Simulation& simulation, float alpha, render::FrameDescripti
     for (std::size_t i = 0; i < props.size(); ++i) {
         const physics::BodyShape& shape = props[i].shape;
         const Look look = lookAt(simulation.scenario().propLooks, i, kPropLook);
-        if (!look.visible) continue;
+        if (!look.visible || !simulation.showsProp(static_cast<int>(i))) continue;
         render::PropItem& item = frame.props.emplace_back();
         item.kind = shapeKindOf(shape.kind);
         item.worldFromShape = simulation.worldFromProp(static_cast<int>(i), alpha);
@@ -115,6 +115,7 @@ void SimulationDrawer::draw(Simulation& simulation, std::span<const render::Char
     poseMs_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     posedDolls_ = skins.posed();
     for (int doll = 0; doll < simulation.dollCount(); ++doll) {
+        if (!simulation.showsDoll(doll)) continue;
         const RagdollAsset& asset = simulation.assetOf(doll);
         const Placement& placement = simulation.scenario().dolls[doll];
         const render::CharacterHandle character = characters[static_cast<std::size_t>(placement.asset)];
@@ -164,6 +165,8 @@ void SimulationDrawer::drawContacts(Simulation& simulation, render::FrameDescrip
 render::Camera cameraFor(const Scenario& scenario, float aspect) {
     if (scenario.camera) return *scenario.camera;
     render::Camera camera;
+    camera.yaw = scenario.focusYaw;
+    camera.pitch = scenario.focusPitch;
     render::frameSphere(camera, scenario.focus, scenario.focusRadius, aspect, 1.0F);
     return camera;
 }

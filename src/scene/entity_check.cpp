@@ -85,6 +85,8 @@ class Checker {
             range(fmt::format("{}focus/{}", at, axis), simulation.focus[axis], -kLargest, kLargest);
         if (simulation.seed > kLargestSeed) say(at + "seed", fmt::format("expected at most {}", kLargestSeed));
         range(at + "focusRadius", simulation.focusRadius, kSmallest, kLargest);
+        range(at + "focusYaw", simulation.focusYaw, -2.0F * kPi, 2.0F * kPi);
+        range(at + "focusPitch", simulation.focusPitch, -0.5F * kPi, 0.5F * kPi);
     }
 
     void checkHierarchy() {

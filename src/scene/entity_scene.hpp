@@ -149,11 +149,14 @@ struct Camera {
 /// How the scene is simulated.
 struct SceneSimulation {
     physics::WorldSettings world;
-    float dt = 1.0F / 60.0F;   ///< Seconds a step, [0.001, 0.1].
-    float seconds = 6.0F;      ///< Length of a run, (0, 3600].
-    std::uint64_t seed = 0;    ///< That the scene was made with; told in reports.
-    vec3 focus{0, 0.9F, 0};    ///< Where to look when there is no camera, world.
-    float focusRadius = 1.6F;  ///< And how far around, metres, > 0.
+    float dt = 1.0F / 60.0F;            ///< Seconds a step, [0.001, 0.1].
+    float seconds = 6.0F;               ///< Length of a run, (0, 3600].
+    std::uint64_t seed = 0;             ///< That the scene was made with; told in reports.
+    vec3 focus{0, 0.9F, 0};             ///< Where to look when there is no camera, world.
+    float focusRadius = 1.6F;           ///< And how far around, metres, > 0.
+    float focusYaw = radians(30.0F);    ///< From which side, as render::Camera::yaw, radians, [-2 pi, 2 pi].
+    float focusPitch = radians(12.0F);  ///< And from how high, as render::Camera::pitch, radians.
+    bool focusFollows = false;          ///< The view goes along with the characters, near enough to see them act.
 
     friend bool operator==(const SceneSimulation&, const SceneSimulation&) = default;
 };

@@ -121,7 +121,15 @@ void focusOnGrid(Context& context, float spacing) {
     context.scene.simulation.focusRadius = std::max(1.6F, static_cast<float>(gridSide(context.count)) * spacing * 0.6F);
 }
 
+// From where the action of a scene is seen best: pictures of each were looked at.
+void look(Context& context, float yawDeg, float pitchDeg) {
+    context.scene.simulation.focusYaw = radians(yawDeg);
+    context.scene.simulation.focusPitch = radians(pitchDeg);
+    context.scene.simulation.focusFollows = true;
+}
+
 void drop(Context& context) {
+    look(context, 30, 12);
     addFloor(context);
     for (int i = 0; i < context.count; ++i) {
         const vec3 foot = gridPlace(i, context.count, kSpacing) + vec3(0, 1, 0);
@@ -133,6 +141,7 @@ void drop(Context& context) {
 }
 
 void spread(Context& context) {
+    look(context, 30, 14);
     addFloor(context);
     for (int i = 0; i < context.count; ++i) {
         const vec3 centre = gridPlace(i, context.count, kSpacing) + vec3(0, 1.8F, 0);
@@ -150,6 +159,7 @@ void addPitWall(Context& context, const vec3& centre, const vec3& halfExtents) {
 }
 
 void pile(Context& context) {
+    look(context, 30, 24);
     constexpr float wall = 0.5F;
     constexpr float height = 4.0F;
     addFloor(context);
@@ -171,6 +181,7 @@ void pile(Context& context) {
 }
 
 void stairs(Context& context) {
+    look(context, 62, 12);
     Collider flight;
     flight.kind = Collider::Kind::stairs;
     flight.steps = 12;
@@ -197,6 +208,7 @@ void stairs(Context& context) {
 }
 
 void ramp(Context& context) {
+    look(context, 58, 12);
     Collider slope;
     slope.kind = Collider::Kind::ramp;
     slope.angle = 0.55F;  // radians: steep enough to slide at friction 0.5
@@ -218,6 +230,7 @@ void ramp(Context& context) {
 }
 
 void hang(Context& context) {
+    look(context, 30, 8);
     addFloor(context);
     for (int i = 0; i < context.count; ++i) {
         const vec3 foot = gridPlace(i, context.count, kSpacing) + vec3(0, 1.2F, 0);
@@ -231,6 +244,7 @@ void hang(Context& context) {
 }
 
 void throwAtWall(Context& context) {
+    look(context, 105, 12);
     const float width = 2.0F + kSpacing * 0.5F * static_cast<float>(context.count);
     addFloor(context);
     addBox(context, "Wall", {0, 1.5F, 2.0F}, {width, 1.5F, 0.025F});
@@ -255,6 +269,7 @@ void addBall(Context& context, const vec3& centre, const vec3& velocity) {
 }
 
 void balls(Context& context) {
+    look(context, 30, 14);
     addFloor(context);
     const float clearance = std::max(0.05F, dip(context, kLargestTilt));
     for (int i = 0; i < context.count; ++i) {

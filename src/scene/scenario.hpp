@@ -57,6 +57,9 @@ struct Scenario {
     float seconds = 6.0F;                  ///< Long enough for one doll to come to rest.
     vec3 focus{0, 0.9F, 0};                ///< What a camera should look at.
     float focusRadius = 1.6F;              ///< And how far around, metres.
+    float focusYaw = radians(30.0F);       ///< From this side …
+    float focusPitch = radians(12.0F);     ///< … and this high.
+    bool focusFollows = false;             ///< See FilmCamera.
     std::optional<render::Camera> camera;  ///< The scene's own; wins over the focus.
     std::optional<render::SunLight> sun;   ///< In place of the default one.
     std::vector<render::LocalLight> lights;

@@ -260,8 +260,9 @@ Camera readCamera(const JsonCursor& at) {
 }
 
 void readSimulation(const JsonCursor& at, SceneSimulation& out) {
-    at.expectObject({}, {"solver", "gravity", "step", "seconds", "threads", "sleeping", "seed", "substeps",
-                         "iterations", "linearDamping", "angularDamping", "focus", "focusRadius"});
+    at.expectObject(
+        {}, {"solver", "gravity", "step", "seconds", "threads", "sleeping", "seed", "substeps", "iterations",
+             "linearDamping", "angularDamping", "focus", "focusRadius", "focusYaw", "focusPitch", "focusFollows"});
     takeName(at, "solver", out.world.solver);
     take(at, "gravity", out.world.gravity);
     take(at, "step", out.dt);
@@ -275,6 +276,9 @@ void readSimulation(const JsonCursor& at, SceneSimulation& out) {
     takeOptional(at, "angularDamping", out.world.angularDamping);
     take(at, "focus", out.focus);
     take(at, "focusRadius", out.focusRadius);
+    take(at, "focusYaw", out.focusYaw);
+    take(at, "focusPitch", out.focusPitch);
+    take(at, "focusFollows", out.focusFollows);
 }
 
 void readEntity(const JsonCursor& at, std::size_t index, const std::filesystem::path& folder, EntityScene& scene) {

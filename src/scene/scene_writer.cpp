@@ -140,6 +140,10 @@ Json toJson(const SceneSimulation& s) {
     if (world.angularDamping) out["angularDamping"] = jsonNumber(*world.angularDamping);
     out["focus"] = jsonVector(s.focus);
     out["focusRadius"] = jsonNumber(s.focusRadius);
+    const SceneSimulation plain;
+    if (s.focusYaw != plain.focusYaw) out["focusYaw"] = jsonNumber(s.focusYaw);
+    if (s.focusPitch != plain.focusPitch) out["focusPitch"] = jsonNumber(s.focusPitch);
+    if (s.focusFollows) out["focusFollows"] = true;
     return out;
 }
 

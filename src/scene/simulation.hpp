@@ -96,6 +96,15 @@ class Simulation {
     /// by rounding; see PosedSkins. What is given lives as long as the simulation and changes with the next call.
     [[nodiscard]] const PosedSkins& poseSkins(float alpha);
 
+    /// Which dolls and props pictures leave out for now: a replay shows what was not there yet. Both as long as there
+    /// are such, or empty: all are shown.
+    void leaveOut(std::vector<bool> dolls, std::vector<bool> props) {
+        leftOutDolls_ = std::move(dolls);
+        leftOutProps_ = std::move(props);
+    }
+    [[nodiscard]] bool showsDoll(int doll) const { return leftOutDolls_.empty() || !leftOutDolls_[doll]; }
+    [[nodiscard]] bool showsProp(int prop) const { return leftOutProps_.empty() || !leftOutProps_[prop]; }
+
     /// A doll's bodies of the whole profile with velocities, and whether it sleeps, wherever it is simulated.
     void getBodies(int doll, std::span<physics::BodyState> bodies) const;
     [[nodiscard]] bool isAsleep(int doll) const;
@@ -149,6 +158,8 @@ class Simulation {
 
     std::vector<RigidTransform> previous_;  // the bodies of each doll, then the props
     std::vector<RigidTransform> present_;
+    std::vector<bool> leftOutDolls_;
+    std::vector<bool> leftOutProps_;
     std::vector<PosedSkins::Motion> motions_;  // one a doll, of previous_ and present_
     std::unique_ptr<PosedSkins> skins_;        // once something is drawn
     std::vector<RigidTransform> mixed_;        // one doll's bodies between the two

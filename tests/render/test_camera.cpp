@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/random.hpp"
@@ -134,4 +135,39 @@ TEST_CASE("points behind the eye are not projected") {
     Camera camera;
     const vec3 behind = eyeOf(camera) - forwardOf(camera);
     CHECK_FALSE(project(camera, behind, {100, 100}).has_value());
+}
+
+TEST_CASE("points are framed by the free part of the picture, whatever lies over its edges") {
+    const std::vector<vec3> points{{-1, 0, 0}, {2, 0.5F, 1}, {0, 3, -1}, {0.5F, 1, 4}};
+    const Extent size{1280, 720};
+    for (const PictureInsets& insets :
+         {PictureInsets{}, PictureInsets{0.24F, 0.27F, 0.12F, 0.04F}, PictureInsets{0.6F, 0.0F, 0.0F, 0.3F}}) {
+        for (const bool flat : {false, true}) {
+            Camera camera;
+            camera.orthographic = flat;
+            camera.yaw = 0.7F;
+            camera.pitch = 0.3F;
+            framePoints(camera, points, size.aspect(), insets);
+            vec2 low(1e9F);
+            vec2 high(-1e9F);
+            for (const vec3& point : points) {
+                const auto seen = project(camera, point, size);
+                REQUIRE(seen.has_value());
+                low = glm::min(low, vec2(*seen));
+                high = glm::max(high, vec2(*seen));
+            }
+            const float left = insets.left * 1280.0F;
+            const float right = (1.0F - insets.right) * 1280.0F;
+            const float top = insets.top * 720.0F;
+            const float bottom = (1.0F - insets.bottom) * 720.0F;
+            CHECK(low.x > left - 0.1F);
+            CHECK(high.x < right + 0.1F);
+            CHECK(low.y > top - 0.1F);
+            CHECK(high.y < bottom + 0.1F);
+            // As near as can be: one way across it reaches both edges.
+            const bool across = low.x < left + 0.5F && high.x > right - 0.5F;
+            const bool upright = low.y < top + 0.5F && high.y > bottom - 0.5F;
+            CHECK((across || upright));
+        }
+    }
 }

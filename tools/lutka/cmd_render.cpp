@@ -14,6 +14,7 @@
 #include "render/gl/renderer.hpp"
 #include "run_simulation.hpp"
 #include "scene/draw_simulation.hpp"
+#include "scene/film_camera.hpp"
 #include "scene/recording.hpp"
 #include "scene/report.hpp"
 
@@ -38,9 +39,6 @@ struct Options {
     bool skyBackground = false;
 };
 
-// The part of the way to the figure that a following camera goes in a frame: calm, yet never far behind.
-constexpr float kFollowShare = 0.15F;
-
 /// Everything that draws: made once, used a frame at a time.
 class Painter {
   public:
@@ -64,19 +62,20 @@ class Painter {
         legend_ = scene::legendOf(layers_);
         for (const auto& asset : run.cast.assets)
             characters_.push_back(orLeave(renderer_.uploadCharacter(asset->character)));
-        frame_.camera = scene::cameraFor(run.simulation->scenario(), size_.aspect());
-        if (options.yawDeg) frame_.camera.yaw = radians(*options.yawDeg);
-        if (options.pitchDeg) frame_.camera.pitch = radians(*options.pitchDeg);
-        if (options.distance) frame_.camera.distance = *options.distance;
+        view_.emplace(run.simulation->scenario(), size_.aspect());
+        if (options.follow) view_->followDoll(0);
+        if (options.yawDeg) view_->camera.yaw = radians(*options.yawDeg);
+        if (options.pitchDeg) view_->camera.pitch = radians(*options.pitchDeg);
+        if (options.distance) view_->keepDistance(*options.distance);
+        frame_.camera = view_->camera;
         watch(*run.simulation);
     }
 
     void paint(scene::Simulation& simulation, float alpha = 1.0F) {
         frame_.clear();
-        if (options_.follow) {
-            follow(simulation.worldFromBody(0, alpha));
-            watch(simulation);
-        }
+        view_->update(simulation, alpha, 1.0F / static_cast<float>(options_.framesPerSecond));
+        frame_.camera = view_->camera;
+        watch(simulation);
         drawer_.draw(simulation, characters_, layers_, alpha, options_.opacity, frame_);
         renderer_.draw(frame_, size_);
         renderer_.readPixels(image_);
@@ -101,33 +100,15 @@ class Painter {
     void watch(scene::Simulation& simulation) const {
         if (options_.simulate.eye.empty()) simulation.setEye(render::eyeOf(frame_.camera));
     }
-    // Keeps the first doll in the middle; its distance stays what the first frame needed.
-    void follow(std::span<const RigidTransform> bodies) {
-        vec3 low = bodies[0].translation;
-        vec3 high = low;
-        for (const RigidTransform& body : bodies) {
-            low = glm::min(low, body.translation);
-            high = glm::max(high, body.translation);
-        }
-        const vec3 centre = (low + high) * 0.5F;
-        if (!following_) {
-            // Bodies' centres end short of the figure's own outline.
-            const float radius = glm::distance(low, high) * 0.5F * 1.25F;
-            render::frameSphere(frame_.camera, centre, radius, size_.aspect());
-            if (options_.distance) frame_.camera.distance = *options_.distance;
-            following_ = true;
-        }
-        frame_.camera.target += (centre - frame_.camera.target) * kFollowShare;
-    }
 
     const Options& options_;
-    bool following_ = false;
     render::Extent size_;
     scene::DebugLayers layers_;
     render::GlContext context_;
     render::Renderer renderer_;
     std::vector<render::CharacterHandle> characters_;
     render::FrameDescription frame_;
+    std::optional<scene::FilmCamera> view_;
     scene::SimulationDrawer drawer_;
     render::Image image_;
     std::vector<render::LegendEntry> legend_;
@@ -202,7 +183,7 @@ void addRender(const Command& app) {
     command.option("--skinning", options->skinning, "linear, or dual: quaternions that keep a twisted limb's volume")
         .oneOf({"linear", "dual"})
         .showDefault();
-    command.flag("--follow", options->follow, "keep the first doll in the middle of the picture");
+    command.flag("--follow", options->follow, "keep the first doll in the middle of the picture and as large as fits");
     command.option("--yaw", options->yawDeg, "camera's heading in degrees; 0 looks at the front")
         .range(-3600.0, 3600.0);
     command.option("--pitch", options->pitchDeg, "camera's height in degrees").range(-89.0, 89.0);

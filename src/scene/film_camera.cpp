@@ -1,0 +1,102 @@
+#include "scene/film_camera.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "scene/draw_simulation.hpp"
+#include "scene/scene_extent.hpp"
+
+namespace lutka::scene {
+namespace {
+
+constexpr float kShareOfHeight = 0.48F;  // of the picture, that a standing figure takes
+constexpr float kTimeConstant = 0.3F;    // seconds: of the way to where the dolls are
+constexpr float kLargestLag = 0.14F;     // of the picture's height, that they are ahead at most
+constexpr float kRoomAround = 0.12F;     // of the picture, on each side of a group
+
+float tallest(const Simulation& simulation) {
+    float height = 0.0F;
+    for (int doll = 0; doll < simulation.dollCount(); ++doll)
+        height = std::max(height, simulation.assetOf(doll).profile.heightM);
+    return height;
+}
+
+// The part of the way to a goal that is gone in a time.
+float shareIn(float seconds) {
+    return 1.0F - std::exp(-seconds / kTimeConstant);
+}
+
+}  // namespace
+
+FilmCamera::FilmCamera(const Scenario& scenario, float aspect)
+    : camera(cameraFor(scenario, aspect)), aspect_(aspect), following_(!scenario.camera && scenario.focusFollows) {}
+
+void FilmCamera::followDoll(int doll) {
+    following_ = true;
+    alone_ = doll;
+}
+
+void FilmCamera::keepDistance(float distance) {
+    camera.distance = distance;
+    keepsDistance_ = true;
+}
+
+void FilmCamera::update(Simulation& simulation, float alpha, float seconds) {
+    if (alone_ && *alone_ < simulation.dollCount()) return followAlone(simulation, alpha, seconds);
+    if (following_ && simulation.dollCount() > 0) follow(simulation, alpha, seconds);
+}
+
+void FilmCamera::followAlone(Simulation& simulation, float alpha, float seconds) {
+    const auto bodies = simulation.worldFromBody(*alone_, alpha);
+    vec3 low = bodies.front().translation;
+    vec3 high = low;
+    for (const RigidTransform& body : bodies) {
+        low = glm::min(low, body.translation);
+        high = glm::max(high, body.translation);
+    }
+    const vec3 centre = (low + high) * 0.5F;
+    if (begun_) {
+        camera.target += (centre - camera.target) * shareIn(std::max(seconds, 0.0F));
+        return;
+    }
+    begun_ = true;
+    constexpr float outline = 1.25F;  // bodies' centres end short of the figure's own
+    const float distance = camera.distance;
+    render::frameSphere(camera, centre, glm::distance(low, high) * 0.5F * outline, aspect_);
+    if (keepsDistance_) camera.distance = distance;
+}
+
+void FilmCamera::follow(Simulation& simulation, float alpha, float seconds) {
+    points_.clear();
+    for (int doll = 0; doll < simulation.dollCount(); ++doll)
+        addExtentOfDoll(simulation, doll, alpha, points_);
+    vec3 low = points_.front();
+    vec3 high = low;
+    for (const vec3& point : points_) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    const vec3 centre = (low + high) * 0.5F;
+    render::Camera group = camera;
+    render::framePoints(group, points_, aspect_, {kRoomAround, kRoomAround, kRoomAround, kRoomAround});
+    const float slope = 2.0F * std::tan(0.5F * camera.fieldOfView);
+    // In a narrow picture the figure lies across its width in the end.
+    const float alone = tallest(simulation) / (kShareOfHeight * slope * std::min(1.0F, aspect_));
+    const float distance = std::max(alone, simulation.dollCount() > 1 ? group.distance : 0.0F);
+    if (!begun_) {
+        begun_ = true;
+        camera.target = centre;
+        if (!keepsDistance_) camera.distance = distance;
+        return;
+    }
+    const float share = shareIn(std::max(seconds, 0.0F));
+    camera.target += (centre - camera.target) * share;
+    if (!keepsDistance_) camera.distance += (distance - camera.distance) * share;
+    const vec3 lag = camera.target - centre;
+    const float most = kLargestLag * slope * camera.distance;
+    if (glm::length(lag) > most) camera.target = centre + glm::normalize(lag) * most;
+}
+
+}  // namespace lutka::scene
