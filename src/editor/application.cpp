@@ -3,6 +3,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
+#include <imgui.h>
 
 #include <algorithm>
 #include <chrono>
@@ -35,6 +36,7 @@ class Application {
     [[nodiscard]] bool fixedFrames() const { return scripted() || options_.headless || !options_.recordInput.empty(); }
     [[nodiscard]] int frameLimit() const;
     void collectEvents();
+    void takeInput(std::span<const InputEvent> events, double seconds);
     Result<void> record();
     Result<void> followCharacter();
     Result<void> oneFrame(double seconds);
@@ -91,7 +93,9 @@ Result<void> Application::start() {
     auto renderer = render::Renderer::create(context_, render::rendererOptions(quality, context_));
     if (!renderer) return renderer.error();
     renderer_.emplace(std::move(renderer).value());
-    const float scale = options_.uiScale > 0.0F ? options_.uiScale : monitorScale(context_);
+    if (options_.settings) settings_ = loadUserSettings(userSettingsFile());
+    const float chosen = options_.uiScale > 0.0F ? options_.uiScale : settings_.uiScale;
+    const float scale = chosen > 0.0F ? chosen : monitorScale(context_);
     host_ = std::make_unique<ImguiHost>(scale);
     if (context_.window() != nullptr) {
         window_ = std::make_unique<WindowInput>(context_.window());
@@ -101,9 +105,12 @@ Result<void> Application::start() {
     ui_ = std::make_unique<EditorUi>(*host_);
     EditorOptions editor = options_.editor;
     editor.window = windowSize_;
-    if (options_.settings) settings_ = loadUserSettings(userSettingsFile());
+    ui_->state.leftWidth = settings_.leftWidth;
+    ui_->state.rightWidth = settings_.rightWidth;
+    ui_->state.uiScale = settings_.uiScale;
     editor.load.import.allowOutside = editor.load.import.allowOutside || settings_.allowOutside;
     allowsOutside_ = editor.load.import.allowOutside;
+    editor.recovery = options_.recovery;
     if (!fixedFrames()) editor.clock = scene::steadyClock();
     auto made = Editor::create(editor);
     if (!made) return made.error();
@@ -183,9 +190,40 @@ Result<void> Application::followCharacter() {
 
 // What the command line allowed is for this run; what the user chose stays.
 void Application::rememberSettings() {
-    if (editor_->allowsOutside() == allowsOutside_) return;
-    allowsOutside_ = settings_.allowOutside = editor_->allowsOutside();
+    const UiState& ui = ui_->state;
+    if (ui.uiScale != settings_.uiScale) {
+        host_->setScale(ui.uiScale > 0.0F ? ui.uiScale : monitorScale(context_), ui.lightTheme);
+        editor_->workspace().uiScale = host_->scale();
+    }
+    const bool outside = editor_->allowsOutside() != allowsOutside_;
+    const bool dragged = ImGui::IsMouseDown(ImGuiMouseButton_Left);
+    const bool wider = !dragged && (ui.leftWidth != settings_.leftWidth || ui.rightWidth != settings_.rightWidth);
+    if (!outside && !wider && ui.uiScale == settings_.uiScale) return;
+    if (outside) allowsOutside_ = settings_.allowOutside = editor_->allowsOutside();
+    settings_.leftWidth = ui.leftWidth;
+    settings_.rightWidth = ui.rightWidth;
+    settings_.uiScale = ui.uiScale;
     if (options_.settings) saveUserSettings(userSettingsFile(), settings_);
+}
+
+void Application::takeInput(std::span<const InputEvent> events, double seconds) {
+    const bool pressed = std::any_of(events.begin(), events.end(), [](const InputEvent& event) {
+        return event.kind == InputEvent::Kind::mouseButton && event.pressed;
+    });
+    for (const InputEvent& event : events)
+        host_->feed(event);
+    host_->beginFrame(windowSize_, pixels_, seconds);
+    // A press beside a field ends it: it takes its text before the press changes what the panels show.
+    if (pressed && host_->writing()) {
+        ui_->build(*editor_, history_);
+        host_->skipDrawing();
+        host_->beginFrame(windowSize_, pixels_, 0.0);
+    }
+    editor_->handle(windowResized(windowSize_), {});
+    const UiCapture capture = host_->capture();
+    for (const InputEvent& event : events)
+        editor_->handle(event, capture);
+    ui_->build(*editor_, history_);
 }
 
 Result<void> Application::oneFrame(double seconds) {
@@ -195,14 +233,14 @@ Result<void> Application::oneFrame(double seconds) {
         glfwWaitEventsTimeout(0.05);
         return {};
     }
-    for (const InputEvent& event : events_)
-        host_->feed(event);
-    host_->beginFrame(windowSize_, pixels_, seconds);
-    editor_->handle(windowResized(windowSize_), {});
-    const UiCapture capture = host_->capture();
-    for (const InputEvent& event : events_)
-        editor_->handle(event, capture);
-    ui_->build(*editor_, history_);
+    // One press, release or key at a time, each with panels that know what the one before did: on a machine that draws
+    // twice a second nothing is lost or taken for something else. Only the last is drawn.
+    const std::vector<std::span<const InputEvent>> steps = inputSteps(events_);
+    for (const std::span<const InputEvent> step : steps) {
+        const bool last = step.data() == steps.back().data();
+        takeInput(step, last ? seconds : 0.0);
+        if (!last) host_->skipDrawing();
+    }
     if (editor_->view.vsync != vsync_) context_.setVsync(vsync_ = editor_->view.vsync);
     editor_->update(seconds);
     if (auto followed = followCharacter(); !followed) return followed;
@@ -265,6 +303,7 @@ Result<void> Application::run() {
         if (auto drawn = oneFrame(nextFrameSeconds()); !drawn) return drawn;
         ++frameIndex_;
     }
+    if (interrupted()) editor_->keepRecovery();
     return {};
 }
 

@@ -29,6 +29,7 @@ struct ApplicationOptions {
     render::RenderQuality quality = render::RenderQuality::automatic;
     /// Asked every frame: whether the process shall end. The editor then ends without a question.
     std::function<bool()> interrupted;
+    std::filesystem::path recovery;  ///< As EditorOptions::recovery.
     bool settings = true;  ///< Whether recent files are read from and kept in the user's configuration folder.
 };
 

@@ -7,6 +7,7 @@
 
 #include "core/files.hpp"
 #include "editor/document/open_document.hpp"
+#include "editor/view/select_bodies.hpp"
 #include "scene/scene_file.hpp"
 
 namespace lutka::editor {
@@ -72,6 +73,10 @@ Result<std::unique_ptr<Editor>> Editor::create(std::unique_ptr<EditorDocument> d
     editor->camera_.frameScene();
     editor->machine_ = std::make_unique<StateMachine>(makeHandlers(editor->workspace_));
     editor->files_.greet(!options.load.profile.has_value());
+    editor->listenToDocument();
+    if (options.recovery.empty()) return editor;
+    if (const auto begun = editor->recovery_.begin(options.recovery); !begun)
+        editor->workspace_.say(Toast::Kind::warning, begun.error().text());
     return editor;
 }
 
@@ -163,7 +168,7 @@ std::span<const Editor::Command> Editor::commands() {
                 [](Editor& e) { e.files_.requestSaveScene(e.document().sceneDocument().file()); }},
         Command{Action::saveSceneAs, true, [](Editor& e) { e.dialog = Dialog::saveSceneAs; }},
         Command{Action::exportBaked, true, [](Editor& e) { e.dialog = Dialog::exportBaked; }},
-        Command{Action::quit, true, [](Editor& e) { e.files_.afterUnsaved([&e] { e.quitting_ = true; }); }},
+        Command{Action::quit, true, [](Editor& e) { e.quit(); }},
         Command{Action::undo, true, [](Editor& e) { e.travel(-1); }},
         Command{Action::redo, true, [](Editor& e) { e.travel(1); }},
         Command{Action::selectNone, true, [](Editor& e) { e.select(std::nullopt); }},
@@ -172,7 +177,7 @@ std::span<const Editor::Command> Editor::commands() {
         Command{Action::mirrorParts, true, [](Editor& e) { e.mirrorParts(); }},
         Command{Action::swingLimits, true, [](Editor& e) { e.swingLimits(); }},
         Command{Action::pin, true, [](Editor& e) { e.togglePin(); }},
-        Command{Action::unpinAll, true, [](Editor& e) { e.workspace_.pulls.pins.clear(); }},
+        Command{Action::unpinAll, true, [](Editor& e) { e.unpinAll(); }},
         Command{Action::togglePlay, true, [](Editor& e) { e.player().setPlaying(!e.player().playing()); }},
         Command{Action::stepOnce, true, [](Editor& e) { e.stepOnce(); }},
         Command{Action::reset, true, [](Editor& e) { e.reset(); }},
@@ -183,6 +188,15 @@ std::span<const Editor::Command> Editor::commands() {
         Command{Action::viewFront, false, [](Editor& e) { e.camera_.lookAlong(0.0F, 0.0F); }},
         Command{Action::viewRight, false, [](Editor& e) { e.camera_.lookAlong(kPi / 2.0F, 0.0F); }},
         Command{Action::viewTop, false, [](Editor& e) { e.camera_.lookAlong(0.0F, kPi / 2.0F); }},
+        Command{Action::viewBack, false, [](Editor& e) { e.camera_.lookAlong(kPi, 0.0F); }},
+        Command{Action::viewLeft, false, [](Editor& e) { e.camera_.lookAlong(-kPi / 2.0F, 0.0F); }},
+        Command{Action::viewBottom, false, [](Editor& e) { e.camera_.lookAlong(0.0F, -kPi / 2.0F); }},
+        Command{Action::toggleParallel, false,
+                [](Editor& e) { e.workspace_.camera.orthographic = !e.workspace_.camera.orthographic; }},
+        Command{Action::selectMirror, false,
+                [](Editor& e) { selectMirror(e.workspace_.selection, e.document().profile()); }},
+        Command{Action::selectChildren, false,
+                [](Editor& e) { selectChildren(e.workspace_.selection, e.document().profile()); }},
         Command{Action::toggleDebug, false, [](Editor& e) { e.view.debug = !e.view.debug; }},
         Command{Action::toggleHandles, false, [](Editor& e) { e.toggleHandles(); }},
         Command{Action::togglePanels, false, [](Editor& e) { e.view.panels = !e.view.panels; }},
@@ -223,14 +237,49 @@ void Editor::stepOnce() {
 
 void Editor::reset() {
     endTransform();
+    document().moved("Reset", workspace_.playState());
+    restart();
+}
+
+void Editor::restart() {
+    endTransform();
     workspace_.pulls.pins.clear();
     workspace_.report(player().reset());
 }
 
 void Editor::returnToPlay() {
     endTransform();
+    if (player().canReturnToPlay()) document().moved("Back to where Play was pressed", workspace_.playState());
     player().returnToPlay();
     workspace_.pulls.applyTo(player().simulation());
+}
+
+void Editor::quit() {
+    const auto end = [this] {
+        quitting_ = true;
+        recovery_.end();
+    };
+    files_.afterUnsaved(end, true);
+}
+
+void Editor::listenToDocument() {
+    document().follow([this] { return workspace_.playState(); });
+}
+
+void Editor::answerRecovery(RecoveryDesk::Answer answer) {
+    if (answer != RecoveryDesk::Answer::restore) return recovery_.set(answer);
+    files_.afterUnsaved([this] {
+        auto opened = recovery_.restore(load_);
+        if (!adopt(std::move(opened))) return;
+        files_.takeOffer();
+        const std::string contents = recovery_.offered()->contents();
+        workspace_.say(Toast::Kind::info, "Restored " + contents + "; save it to keep it");
+        workspace_.report(recovery_.restored(document()));
+    });
+}
+
+void Editor::keepRecovery() {
+    if (!quitting_) workspace_.report(recovery_.keep(document()));
 }
 
 void Editor::toggleHandles() {
@@ -256,6 +305,8 @@ void Editor::update(double seconds) {
     for (Toast& toast : workspace_.toasts)
         toast.secondsLeft -= static_cast<float>(seconds);
     std::erase_if(workspace_.toasts, [](const Toast& toast) { return toast.secondsLeft <= 0.0F; });
+    if (const std::string news = player().deck().takeNews(); !news.empty()) workspace_.say(Toast::Kind::warning, news);
+    if (!quitting_) workspace_.report(recovery_.update(document(), seconds));
 }
 
 void Editor::swingLimits() {
@@ -301,11 +352,14 @@ bool Editor::edit(const std::function<Result<void>(EditorDocument&)>& change) {
 void Editor::travel(int changes) {
     endTransform();
     endSwing();
-    for (; changes < 0; ++changes)
-        document().undo();
-    for (; changes > 0; --changes)
-        document().redo();
+    EditorDocument::Step last;
+    bool moves = false;
+    for (; changes != 0; changes += changes < 0 ? 1 : -1) {
+        last = changes < 0 ? document().undo() : document().redo();
+        moves = moves || last.moves;
+    }
     workspace_.follow();
+    if (last.play != nullptr) workspace_.restore(*last.play, moves);
     machine_->fire(workspace_.ended());
 }
 
@@ -338,23 +392,40 @@ void Editor::togglePin() {
     if (active->kind == Item::Kind::object) {
         // A character of another model is pinned while it is dragged; here all its pins are let go.
         const int doll = player().dollOf(static_cast<scene::EntityId>(active->index));
-        if (doll >= 0) std::erase_if(workspace_.pulls.pins, [&](const Pull& pin) { return pin.doll == doll; });
+        if (doll < 0) return;
+        changePins("Let go of " + workspace_.nameOf(*active), [&](std::vector<Pull>& pins) {
+            std::erase_if(pins, [&](const Pull& pin) { return pin.doll == doll; });
+        });
         return;
     }
-    const std::string& name = document().profile().bodies[active->index].name;
-    auto& pins = workspace_.pulls.pins;
-    if (const auto pin = workspace_.pulls.findPin(active->doll, name); pin != pins.end()) {
-        pins.erase(pin);
+    const std::string name = document().profile().bodies[active->index].name;
+    if (workspace_.pulls.findPin(active->doll, name) != workspace_.pulls.pins.end()) {
+        changePins(fmt::format("Let go of {}", name),
+                   [&](std::vector<Pull>& pins) { pins.erase(workspace_.pulls.findPin(active->doll, name)); });
         return;
     }
-    pins.push_back({active->doll, name, vec3(0), workspace_.positionOf(*active)});
+    changePins(fmt::format("Pin {}", name), [&](std::vector<Pull>& pins) {
+        pins.push_back({active->doll, name, vec3(0), workspace_.positionOf(*active)});
+    });
+}
+
+void Editor::unpinAll() {
+    if (!workspace_.pulls.pins.empty()) changePins("Let go of all", [](std::vector<Pull>& pins) { pins.clear(); });
+}
+
+void Editor::changePins(const std::string& label, const std::function<void(std::vector<Pull>&)>& change) {
+    document().moved(label, workspace_.playState(), false);
+    change(workspace_.pulls.pins);
+    workspace_.pulls.applyTo(player().simulation());
 }
 
 void Editor::throwBall() {
     const render::Ray ray = workspace_.mouseRay();
     const vec3 from = ray.origin + ray.direction * std::min(0.5F, workspace_.camera.distance * 0.2F);
     // Lifted a little, so that it meets what the mouse points at in spite of gravity.
+    const auto before = workspace_.playState();
     if (workspace_.report(player().throwBall(from, ray.direction * kThrowSpeed + vec3(0, 0.8F, 0)))) return;
+    document().moved("Throw a ball", before);
     workspace_.pulls.applyTo(player().simulation());
 }
 
@@ -438,7 +509,7 @@ void Editor::openSceneNow(const std::filesystem::path& file) {
         // The character that is edited is the scene's first one: its ragdoll stays as it is.
         if (!edit([&](EditorDocument& document) { return document.useScene(file, scene.value()); })) return;
         select(std::nullopt);
-        perform(Action::reset);
+        restart();
         camera_.frameScene();
     } else if (!adopt(std::move(other))) {
         return;
@@ -458,8 +529,11 @@ bool Editor::adopt(Result<std::unique_ptr<EditorDocument>> opened) {
     player->setPlaying(workspace_.player->playing());
     player->setSpeed(workspace_.player->speed());
     player->setSparing(workspace_.player->sparing());
+    workspace_.player->endReplay();
+    player->takeOver(std::move(workspace_.player->deck()));
     workspace_.player = std::move(player);  // before the document that the old one borrows
     workspace_.document = std::move(opened).value();
+    listenToDocument();
     camera_.frameScene();
     ++characterRevision_;
     workspace_.say(Toast::Kind::info, "Opened " + document().character().file.filename().string());

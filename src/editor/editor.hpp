@@ -7,6 +7,7 @@
 #include <string>
 
 #include "editor/files/file_flow.hpp"
+#include "editor/files/recovery_desk.hpp"
 #include "editor/input/actions.hpp"
 #include "editor/play/limit_swing.hpp"
 #include "editor/states/workspace.hpp"
@@ -23,8 +24,9 @@ struct EditorOptions {
     std::function<void(physics::WorldSettings&)> applyToWorld;  ///< Set: what was asked for beside the scene.
     render::Extent window{1280, 720};
     bool playing = true;
-    bool spareSubsteps = false;     ///< While the machine is late: see Player::setSparing().
-    scene::FrameLoop::Clock clock;  ///< Times the steps; none: as scene::FrameLoop says, for scripts and tests.
+    bool spareSubsteps = false;      ///< While the machine is late: see Player::setSparing().
+    std::filesystem::path recovery;  ///< Where unsaved work is kept safe (RecoveryKeeper); empty: nowhere.
+    scene::FrameLoop::Clock clock;   ///< Times the steps; none: as scene::FrameLoop says, for scripts and tests.
 };
 
 /// What the user interface has taken for itself.
@@ -60,7 +62,7 @@ class Editor {
     /// An edit of the document on behalf of a panel: ends what is under way in the view, tells failures, and lets the
     /// simulation follow. Whether it succeeded.
     bool edit(const std::function<Result<void>(EditorDocument&)>& change);
-    /// Undoes (below 0) or redoes so many changes at once.
+    /// Undoes (below 0) or redoes so many changes at once, what moved in the scene included.
     void travel(int changes);
     /// Selects from a panel; nothing empties the selection.
     void select(std::optional<Item> item, bool add = false);
@@ -68,6 +70,10 @@ class Editor {
     /// edit() of the scene's entities. `group`: see UndoStack.
     bool editScene(const std::string& label, const std::string& group,
                    const std::function<void(scene::EntityScene&)>& change);
+    /// The scene from its start, as part of a change that undo knows already.
+    void restart();
+    /// The view shows all of the scene from its side.
+    void frameScene() { camera_.frameScene(); }
     /// Adds so many of the edited character in the air over the middle, each turned another way.
     void dropCopies(int count);
     /// The view becomes that of a camera, and back: the camera is placed where the view is.
@@ -92,6 +98,12 @@ class Editor {
     /// Whether what is opened from now on may take files from outside of its model's folder.
     void allowOutside(bool allowed) { load_.import.allowOutside = allowed; }
     [[nodiscard]] bool allowsOutside() const { return load_.import.allowOutside; }
+    /// Unsaved work of sessions that ended by force, offered one by one.
+    [[nodiscard]] const RecoveryDesk& recovery() const { return recovery_; }
+    /// Answers for the one that is offered: restored it is opened with its changes unsaved.
+    void answerRecovery(RecoveryDesk::Answer answer);
+    /// The session is cut short: what is unsaved is kept now.
+    void keepRecovery();
     /// Takes the offered profile (FileFlow::offeredProfile()), or not.
     void answerOffer(bool take);
     /// Opens the refused model (FileFlow::offeredAnyRig()) as a ragdoll of any skeleton, or not.
@@ -140,10 +152,15 @@ class Editor {
     void pastePart();
     void mirrorParts();
     void stepOnce();
+    void quit();
     void reset();
     void returnToPlay();
     void togglePin();
     void throwBall();
+    void unpinAll();
+    void changePins(const std::string& label, const std::function<void(std::vector<Pull>&)>& change);
+    /// The documents ask for what runs before they change.
+    void listenToDocument();
     void toggleHandles();
 
     Workspace workspace_;
@@ -156,6 +173,7 @@ class Editor {
     std::array<bool, kMouseButtonCount> held_{};  // pressed in the view and not released yet
     std::optional<LimitSwing> swing_;
     int swingDoll_ = 0;
+    RecoveryDesk recovery_;
     bool quitting_ = false;
     int characterRevision_ = 0;
 };

@@ -152,7 +152,7 @@ TEST_CASE("a script sets a limit by its slider, changes another value, undoes th
     if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;
     Script script;
-    script.key(Key::space).click(663, 355);       // the left lower leg
+    script.key(Key::space).click(632, 393);       // the left lower leg
     script.drag(1178, 352, 1160, 352).release();  // its flexion
     script.drag(1062, 436, 1160, 436).release();  // its friction
     script.key(Key::z, kControl).key(Key::s, kControl).wait(2);
@@ -283,7 +283,7 @@ TEST_CASE("the panels look as they did when they were looked at") {
         screenshots += " --screenshot-at " + std::to_string(script.frame()) + ":" + (scratch / name).string();
         script.wait(1);
     };
-    script.key(Key::space).click(663, 355);
+    script.key(Key::space).click(632, 393);
     script.move(640, 620);  // away from everything that lights up
     picture("body.png");
     script.click(122, 43).click(1024, 43).move(640, 620);
@@ -342,7 +342,7 @@ TEST_CASE("the log and the file dialog look as they did when they were looked at
     for (const char* file : {"alpha.glb", "beta.fbx", "gamma.ragdoll.json", "notes.txt", ".hidden.glb"})
         std::ofstream(scratch / file) << ' ';
     Script script;
-    script.key(Key::space).click(663, 355).key(Key::x).add(filesDropped({"absent.glb"})).click(1247, 43);
+    script.key(Key::space).click(632, 393).key(Key::x).add(filesDropped({"absent.glb"})).click(1247, 43);
     script.move(640, 640).wait(3);
     const int log = script.frame();
     // The caret of the path blinks: the picture of the list leaves it out.
@@ -367,7 +367,7 @@ TEST_CASE("the same script gives the same picture twice and a drag shows in it")
     if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;
     Script script;
-    script.wait(12).drag(640, 420, 640, 250).wait(20);
+    script.wait(12).drag(600, 330, 600, 200).wait(20);
     script.save(scratch / "drag.jsonl");
     const std::string last = std::to_string(script.frame());
     const auto picture = [&](const char* file, const std::string& input) {
@@ -424,6 +424,50 @@ TEST_CASE("a polite kill ends the editor within a frame, and the shell is told t
         if (outcome.code == 6) SKIP_TEST("there is no GL");
         INFO(outcome.output);
         CHECK(outcome.code == code);
+    }
+}
+
+TEST_CASE("what was not saved survives a kill by force and a polite one, and the next session is offered it") {
+    for (const char* signal : {"KILL", "TERM"}) {
+        INFO(signal);
+        const Scratch scratch;
+        const std::string kept = (scratch / "kept").string();
+        // A larger shape of the hips, by keys alone.
+        Rehearsal rehearsal(scratch.model());
+        rehearsal.key(Key::tab);
+        rehearsal.move(test::seenAt(*rehearsal.editor, animation::Role::hips)).press().release();
+        rehearsal.key(Key::s).key(Key::digit2).key(Key::enter);
+        rehearsal.script.save(scratch / "change.jsonl");
+        const std::string editor =
+            std::string(LUTKA_BINARY) + " edit " + scratch.model().string() + " --paused --headless --recovery " + kept;
+        const std::string copy = kept + "/session-*/copy.json";
+        const Outcome killed = run(scratch, "{ " + editor + " --frames 10000000 --input " +
+                                                (scratch / "change.jsonl").string() + " & child=$!; while ! ls " +
+                                                copy + " 2>/dev/null && kill -0 $child; do sleep 0.05; done; " +
+                                                "kill -" + signal + " $child; wait $child; }");
+        if (killed.code == 6) SKIP_TEST("there is no GL");
+        INFO(killed.output);
+        CHECK(killed.code == (std::string(signal) == "KILL" ? 137 : 143));
+        const auto found = findRecoveries(kept);
+        REQUIRE(found.size() == 1);
+        CHECK(found.front().contents() == "the ragdoll of mannequin.glb");
+        auto document = EditorDocument::open(found.front().model);
+        REQUIRE(document.ok());
+        REQUIRE(recoverInto(*document.value(), found.front()));
+        const auto shape = [](const EditorDocument& of) {
+            return of.profile().bodies[physics::bodyOf(of.profile(), animation::Role::hips)].shape;
+        };
+        CHECK(shape(*document.value()).radius == shape(rehearsal.editor->document()).radius);
+        // A session that ends by its user's will leaves nothing.
+        Script nothing;
+        nothing.wait(2).add(windowClosed()).wait(2);
+        nothing.save(scratch / "nothing.jsonl");
+        const std::string second = (scratch / "second").string();
+        const Outcome clean =
+            run(scratch, std::string(LUTKA_BINARY) + " edit " + scratch.model().string() + " --headless --recovery " +
+                             second + " --input " + (scratch / "nothing.jsonl").string());
+        CHECK(clean.code == 0);
+        CHECK(findRecoveries(second).empty());
     }
 }
 

@@ -18,6 +18,7 @@ struct Options {
     bool headless = false;
     std::filesystem::path input;
     std::filesystem::path recordInput;
+    std::filesystem::path recovery;
     std::vector<std::string> screenshots;
     std::optional<int> frames;
     std::string size = "1280x720";
@@ -76,6 +77,8 @@ editor::ApplicationOptions applicationOptions(Options& options) {
     application.editor.spareSubsteps = options.spareSubsteps;
     // A replay neither depends on what the user did before nor changes it.
     application.settings = !options.headless && options.input.empty();
+    application.recovery = options.recovery;
+    if (application.settings && options.recovery.empty()) application.recovery = editor::recoveryFolder();
     return application;
 }
 
@@ -102,6 +105,9 @@ void addEdit(const Command& app) {
     command.flag("--headless", options->headless, "no window: draw on an EGL context");
     command.option("--input", options->input, "replay window events from a file (*.jsonl)");
     command.option("--record-input", options->recordInput, "write the window's events to a file (*.jsonl)");
+    command.option("--recovery", options->recovery,
+                   "folder that keeps copies of unsaved work; default: one in the user's state folder, and none for "
+                   "scripts");
     command.option("--screenshot-at", options->screenshots, "FRAME:FILE.png, as often as wanted").oneValueEach();
     command.option("--frames", options->frames, "end after so many frames").range(1, 10000000);
     command.option("--size", options->size, "window size, WxH").showDefault();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "editor/document/mend_profile.hpp"
 #include "editor/document/mirror_body.hpp"
 #include "physics/profile/profile_io.hpp"
 #include "physics/rig/rig.hpp"
@@ -112,8 +113,8 @@ Result<void> EditorDocument::apply(const std::string& label, const std::string& 
     next.profile = applyEdits(next.base, next.edits, next.pairs);
     if (const auto problems = physics::validate(next.profile); !problems.empty()) return outOfRange(problems);
     if (const auto rig = physics::bindRig(next.profile, asset_->character.skeleton); !rig) return rig.error();
-    undo_.changed(snapshot(), label, group);
-    adopt({std::move(next), scene_.settings()});
+    if (!undo_.join(group)) undo_.changed(snapshot(), label, group);
+    adopt({std::move(next), scene_.settings(), nullptr});
     return {};
 }
 
@@ -123,11 +124,25 @@ Result<void> EditorDocument::startScene(SceneSettings scene) {
     return {};
 }
 
-Result<void> EditorDocument::setScene(const SceneSettings& scene, const std::string& label, const std::string& group) {
+Result<void> EditorDocument::setScene(const SceneSettings& scene, const std::string& label, const std::string& group,
+                                      bool moves) {
     auto next = scene_.prepare(scene);
     if (!next) return next.error();
-    undo_.changed(snapshot(), label, group);
-    adopt({state_, std::move(next).value()});
+    const auto moving = [](const SceneSettings& settings) {
+        return std::pair(settings.entities.all<scene::Ragdoll>().size(),
+                         settings.entities.all<scene::RigidBody>().size());
+    };
+    const bool others = moving(next.value()) != moving(scene_.settings());
+    if (!undo_.join(group)) undo_.changed(snapshot(), label, group, moves || others);
+    adopt({state_, std::move(next).value(), nullptr});
+    return {};
+}
+
+Result<void> EditorDocument::recoverScene(const SceneSettings& scene) {
+    auto next = scene_.prepareMade(scene);
+    if (!next) return next.error();
+    undo_.changed(snapshot(), "Recover the scene", "", true);
+    adopt({state_, std::move(next).value(), nullptr});
     return {};
 }
 
@@ -136,7 +151,7 @@ Result<void> EditorDocument::useScene(const std::filesystem::path& file, const s
     next.entities = scene;
     next.scenario.clear();
     next.made.clear();
-    if (auto done = setScene(next, "Open scene " + file.filename().string()); !done) return done;
+    if (auto done = setScene(next, "Open scene " + file.filename().string(), "", true); !done) return done;
     scene_.setFile(file);
     return {};
 }
@@ -404,7 +419,7 @@ const physics::Diagnosis& EditorDocument::diagnosis() const {
 }
 
 Result<void> EditorDocument::mend(std::span<const physics::Finding> findings) {
-    auto mended = physics::applyMends(state_.profile, character(), state_.map, findings);
+    auto mended = mendProfile(state_.profile, character(), state_.map, findings);
     if (!mended) return mended.error();
     return apply(findings.size() == 1 ? "Mend " + findings.front().code : "Mend all", "",
                  [&](DocumentState& next) -> Result<void> {
@@ -420,12 +435,48 @@ void EditorDocument::cancelGroup() {
     if (undo_.groupIsOpen()) adopt(undo_.cancelGroup());
 }
 
-void EditorDocument::undo() {
-    if (undo_.canUndo()) adopt(undo_.undo(snapshot()));
+EditorDocument::Snapshot EditorDocument::snapshot() const {
+    return {state_, scene_.settings(), capturePlay_ ? capturePlay_() : nullptr};
 }
 
-void EditorDocument::redo() {
-    if (undo_.canRedo()) adopt(undo_.redo(snapshot()));
+EditorDocument::Step EditorDocument::undo() {
+    if (!undo_.canUndo()) return {};
+    const bool moves = undo_.undoMoves();
+    Snapshot before = undo_.undo(snapshot());
+    const Step step{before.play, moves};
+    adopt(std::move(before));
+    return step;
+}
+
+EditorDocument::Step EditorDocument::redo() {
+    if (!undo_.canRedo()) return {};
+    const bool moves = undo_.redoMoves();
+    Snapshot after = undo_.redo(snapshot());
+    const Step step{after.play, moves};
+    adopt(std::move(after));
+    return step;
+}
+
+void EditorDocument::moved(const std::string& label, std::shared_ptr<const PlayState> before, bool moves) {
+    if (before != nullptr) undo_.changed({state_, scene_.settings(), std::move(before)}, label, "", moves);
+}
+
+Result<void> EditorDocument::recover(const std::array<std::optional<int>, animation::kRoleCount>& fixed,
+                                     const RagdollProfile& profile) {
+    return apply("Recover the ragdoll", "", [&](DocumentState& next) -> Result<void> {
+        const bool any = std::any_of(fixed.begin(), fixed.end(), [](const auto& joint) { return joint.has_value(); });
+        if (any) {
+            auto map = mapWithFixed(character(), fixed);
+            if (!map) return map.error();
+            next.map = std::move(map).value();
+            next.fixed = fixed;
+        }
+        next.base = profile;
+        next.edits = {};
+        next.pairs.clear();
+        rememberBase(next);
+        return {};
+    });
 }
 
 std::filesystem::path EditorDocument::profileFile() const {

@@ -17,6 +17,9 @@
 
 namespace lutka::editor {
 
+/// What a running scene is at a moment (editor/play/motion.hpp). The document only keeps it with its undo.
+struct PlayState;
+
 /// A character with the ragdoll that is being edited, and undo for it and for the scene it falls in. All editing goes
 /// through here: every call below makes one entry of undo (or joins its group), is checked before it takes effect, and
 /// leaves everything as it was when it fails. Knows no window, no UI and no running simulation.
@@ -107,7 +110,8 @@ class EditorDocument {
 
     /// What the ragdoll doctor says of the present profile; kept until that changes.
     [[nodiscard]] const physics::Diagnosis& diagnosis() const;
-    /// Mends these findings (those that are mendable). Fails as physics::applyMends() does.
+    /// Mends these findings (those that are mendable), and what of the same kinds comes to light by that, as one entry
+    /// of undo. Fails as physics::applyMends() does, and with ErrorCode::input when they come back every time.
     [[nodiscard]] Result<void> mend(std::span<const physics::Finding> findings);
 
     /// The scene's settings, characters and file. Its edits are these below, because undo has them.
@@ -117,8 +121,9 @@ class EditorDocument {
     /// SceneDocument::start(); not an edit.
     [[nodiscard]] Result<void> startScene(SceneSettings scene);
     /// Entities, gravity, start pose … Fails as SceneDocument::prepare() does.
+    /// `moves`: what runs begins anew with it, as it does whenever characters come or go: undo brings that back too.
     [[nodiscard]] Result<void> setScene(const SceneSettings& scene, const std::string& label,
-                                        const std::string& group = "");
+                                        const std::string& group = "", bool moves = false);
     /// A scene from a file, in place of the present one and as one entry of undo, when its first character is the one
     /// that is edited or none has a model.
     [[nodiscard]] Result<void> useScene(const std::filesystem::path& file, const scene::EntityScene& scene);
@@ -133,8 +138,30 @@ class EditorDocument {
     [[nodiscard]] std::string redoLabel() const { return undo_.redoLabel(); }
     [[nodiscard]] std::vector<std::string> undoLabels() const { return undo_.undoLabels(); }
     [[nodiscard]] std::vector<std::string> redoLabels() const { return undo_.redoLabels(); }
-    void undo();
-    void redo();
+    /// What undo() or redo() brought back beside the documents.
+    struct Step {
+        std::shared_ptr<const PlayState> play;  ///< What ran then; null: nobody kept it.
+        bool moves = false;                     ///< Whether the change was (also) one of what runs.
+    };
+    Step undo();
+    Step redo();
+
+    /// Who runs the scene: asked for its state before every change.
+    void follow(std::function<std::shared_ptr<const PlayState>()> capture) { capturePlay_ = std::move(capture); }
+    /// An entry of undo for a change of what runs alone: a pose, a ball, a pin. `before` is the state that undo goes
+    /// back to; nothing is kept when it is null. `moves` is false for what leaves everything where it is.
+    void moved(const std::string& label, std::shared_ptr<const PlayState> before, bool moves = true);
+
+    /// Whether what is edited has a file: the profile that was opened, or saved last on what was opened; empty: none.
+    [[nodiscard]] std::filesystem::path openedFile() const {
+        return saved_.fileOf(state_.openedProfile).value_or(std::filesystem::path());
+    }
+    /// The scene of a recovered session, whose named scene was made already. Fails as setScene() does.
+    [[nodiscard]] Result<void> recoverScene(const SceneSettings& scene);
+    /// What a recovered session had: the roles that the user fixed and the profile, as one entry of undo. Fails with
+    /// ErrorCode::input when they don't fit the skeleton.
+    [[nodiscard]] Result<void> recover(const std::array<std::optional<int>, animation::kRoleCount>& fixed,
+                                       const physics::RagdollProfile& profile);
 
     /// Whether the profile differs from what was loaded, fitted at opening, or saved last.
     [[nodiscard]] bool unsaved() const { return unsaved_; }
@@ -157,8 +184,9 @@ class EditorDocument {
     struct Snapshot {
         DocumentState ragdoll;
         SceneSettings scene;
+        std::shared_ptr<const PlayState> play;
     };
-    [[nodiscard]] Snapshot snapshot() const { return {state_, scene_.settings()}; }
+    [[nodiscard]] Snapshot snapshot() const;
     void adopt(Snapshot snapshot);
     void tellScene();
     void remember(const std::filesystem::path& file);
@@ -167,6 +195,7 @@ class EditorDocument {
     SceneDocument scene_;
     DocumentState state_;
     UndoStack<Snapshot> undo_;
+    std::function<std::shared_ptr<const PlayState>()> capturePlay_;
     std::uint64_t revision_ = 1;
     mutable physics::Diagnosis diagnosis_;
     mutable std::uint64_t diagnosedRevision_ = 0;

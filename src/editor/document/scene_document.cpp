@@ -31,6 +31,7 @@ void SceneDocument::setOrigin(const animation::ImportOptions& import, const fs::
 void SceneDocument::setProfileFile(const fs::path& file, bool exists) {
     profileFile_ = file;
     profileExists_ = exists;
+    compare();
 }
 
 const fs::path& SceneDocument::modelOf(const scene::Ragdoll& ragdoll) const {
@@ -123,6 +124,10 @@ Result<SceneSettings> SceneDocument::prepare(SceneSettings settings) {
         const auto figure = scene::figureBounds(edited_.profile, edited_.rig);
         if (auto made = makeNamedScene(settings, figure); !made) return made.error();
     }
+    return prepareMade(std::move(settings));
+}
+
+Result<SceneSettings> SceneDocument::prepareMade(SceneSettings settings) {
     if (auto checked = check(settings); !checked) return checked.error();
     return settings;
 }
@@ -131,14 +136,22 @@ Result<SceneSettings> SceneDocument::prepare(SceneSettings settings) {
 // nothing that could be lost.
 void SceneDocument::adopt(SceneSettings settings) {
     settings_ = std::move(settings);
+    compare();
+}
+
+// A scene whose file names no profile, or an older one, has to be saved again when the ragdoll was.
+void SceneDocument::compare() {
     const scene::EntityScene& now = settings_.entities;
     const scene::EntityScene& begun = settings_.begun;
-    unsaved_ = hasFile() ? now != saved_ : now.entities != begun.entities || now.components != begun.components;
+    const bool namesProfile = !profileExists_ || !savedProfile_ || samePath(*savedProfile_, profileFile_);
+    unsaved_ = hasFile() ? now != saved_ || !namesProfile
+                         : now.entities != begun.entities || now.components != begun.components;
 }
 
 void SceneDocument::setFile(const fs::path& file) {
     file_ = file;
     saved_ = settings_.entities;
+    savedProfile_.reset();
     unsaved_ = false;
 }
 
@@ -147,7 +160,7 @@ fs::path SceneDocument::file() const {
     return edited_.character.file.parent_path() / (scene().name + ".scene.json");
 }
 
-Result<void> SceneDocument::save(const fs::path& file) {
+Result<void> SceneDocument::write(const fs::path& file) const {
     scene::EntityScene written = scene();
     for (scene::Ragdoll& ragdoll : written.all<scene::Ragdoll>()) {
         if (!isEdited(ragdoll)) continue;
@@ -155,8 +168,13 @@ Result<void> SceneDocument::save(const fs::path& file) {
         if (edited_.character.figures.size() > 1) ragdoll.figure = edited_.character.figure + 1;
         if (ragdoll.profile.empty() && profileExists_) ragdoll.profile = profileFile_;
     }
-    if (auto saved = scene::saveScene(file, written); !saved) return saved;
+    return scene::saveScene(file, written);
+}
+
+Result<void> SceneDocument::save(const fs::path& file) {
+    if (auto saved = write(file); !saved) return saved;
     setFile(file);
+    savedProfile_ = profileExists_ ? profileFile_ : fs::path();
     return {};
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -39,6 +40,8 @@ class SceneDocument {
     /// other characters are read. Fails with ErrorCode::usage for what no scene can have, and with ErrorCode::input
     /// when a character's files can't be read.
     [[nodiscard]] Result<SceneSettings> prepare(SceneSettings settings);
+    /// The same for settings whose named scene was made before, with these entities.
+    [[nodiscard]] Result<SceneSettings> prepareMade(SceneSettings settings);
     /// `settings` must have been prepared by this document.
     void adopt(SceneSettings settings);
 
@@ -56,10 +59,13 @@ class SceneDocument {
     [[nodiscard]] bool hasFile() const { return !file_.empty(); }
     /// The scene counts as saved there (it was just read from it).
     void setFile(const std::filesystem::path& file);
+    /// Writes the scene without taking the file for its own. As save() else.
+    [[nodiscard]] Result<void> write(const std::filesystem::path& file) const;
     /// Characters that name no model are written with that of the edited one, and its profile when that is a file.
     [[nodiscard]] Result<void> save(const std::filesystem::path& file);
 
   private:
+    void compare();
     [[nodiscard]] Result<void> check(SceneSettings& settings);
     [[nodiscard]] Result<void> loadOthers(const scene::EntityScene& scene);
     [[nodiscard]] const std::filesystem::path& modelOf(const scene::Ragdoll& ragdoll) const;
@@ -75,6 +81,8 @@ class SceneDocument {
     bool profileExists_ = false;
     std::filesystem::path file_;
     scene::EntityScene saved_;
+    // The profile that the saved file names for the edited character, empty for none; unset: it was opened.
+    std::optional<std::filesystem::path> savedProfile_;
     bool unsaved_ = false;
 };
 

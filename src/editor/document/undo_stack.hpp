@@ -15,13 +15,19 @@ class UndoStack {
     static constexpr std::size_t kMaxEntries = 200;  ///< The oldest are forgotten beyond this.
 
     /// Tells of a change that turned `before` into something else. A `group` other than "" that equals the last
-    /// change's joins it, until endGroup().
-    void changed(const Snapshot& before, std::string label, const std::string& group) {
-        redo_.clear();
-        if (!group.empty() && group == openGroup_ && !undo_.empty()) return;
+    /// change's joins it, until endGroup(). `moves`: see undoMoves().
+    void changed(const Snapshot& before, std::string label, const std::string& group, bool moves = false) {
+        if (join(group)) return;
         openGroup_ = group;
-        undo_.push_back({before, std::move(label)});
+        undo_.push_back({before, std::move(label), moves});
         if (undo_.size() > kMaxEntries) undo_.erase(undo_.begin());
+    }
+
+    /// The same for a change whose state before nobody has taken yet: whether it joined the open group, so that nobody
+    /// needs to.
+    bool join(const std::string& group) {
+        redo_.clear();
+        return !group.empty() && group == openGroup_ && !undo_.empty();
     }
 
     void endGroup() { openGroup_.clear(); }
@@ -39,6 +45,10 @@ class UndoStack {
     [[nodiscard]] bool canRedo() const { return !redo_.empty(); }
     [[nodiscard]] std::string undoLabel() const { return undo_.empty() ? "" : undo_.back().label; }
     [[nodiscard]] std::string redoLabel() const { return redo_.empty() ? "" : redo_.back().label; }
+    /// Whether the last change moved what the scene simulates, beside what it did to the documents; and the next to
+    /// redo.
+    [[nodiscard]] bool undoMoves() const { return !undo_.empty() && undo_.back().moves; }
+    [[nodiscard]] bool redoMoves() const { return !redo_.empty() && redo_.back().moves; }
     [[nodiscard]] std::size_t undoCount() const { return undo_.size(); }
 
     /// Labels of all that can be undone, the latest first, and of all that can be redone, the next first.
@@ -60,6 +70,7 @@ class UndoStack {
     struct Entry {
         Snapshot snapshot;
         std::string label;
+        bool moves = false;
     };
 
     static std::vector<std::string> labels(const std::vector<Entry>& entries) {
@@ -73,7 +84,7 @@ class UndoStack {
         openGroup_.clear();
         Entry entry = std::move(from.back());
         from.pop_back();
-        to.push_back({std::move(present), entry.label});
+        to.push_back({std::move(present), entry.label, entry.moves});
         return std::move(entry.snapshot);
     }
 

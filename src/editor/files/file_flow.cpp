@@ -14,8 +14,43 @@ bool FileFlow::anythingUnsaved() const {
     return document().unsaved() || document().sceneDocument().unsaved();
 }
 
-void FileFlow::afterUnsaved(std::function<void()> then) {
-    if (!anythingUnsaved()) {
+bool FileFlow::takesUnsaved() const {
+    return workspace_.player->deck().anyUnsaved();
+}
+
+std::filesystem::path FileFlow::takeFile(const std::string& name) const {
+    const std::filesystem::path& model = document().character().file;
+    std::string file =
+        (model.empty() ? document().character().name : model.stem().string()) + "." + name + ".recording";
+    std::replace(file.begin(), file.end(), ' ', '_');
+    std::replace(file.begin(), file.end(), '/', '_');
+    return model.parent_path() / file;
+}
+
+bool FileFlow::saveTakes() {
+    RecordingDeck& deck = workspace_.player->deck();
+    workspace_.player->endReplay();
+    deck.stop();
+    const int current = deck.current();
+    for (int take = 0; take < static_cast<int>(deck.takes().size()); ++take) {
+        if (deck.takes()[static_cast<std::size_t>(take)].saved) continue;
+        deck.choose(take);
+        std::filesystem::path file = takeFile(deck.takes()[static_cast<std::size_t>(take)].name);
+        std::error_code failed;
+        // Nothing is replaced without a question: another name is found.
+        for (int number = 2; std::filesystem::exists(file, failed); ++number)
+            file = takeFile(fmt::format("{} {}", deck.takes()[static_cast<std::size_t>(take)].name, number));
+        if (workspace_.report(deck.save(file))) return false;
+        deck.markSaved();
+        workspace_.say(Toast::Kind::info, "Saved the recording " + file.string());
+    }
+    if (current >= 0) deck.choose(current);
+    return true;
+}
+
+void FileFlow::afterUnsaved(std::function<void()> then, bool endsSession) {
+    askingTakes_ = endsSession && takesUnsaved();
+    if (!anythingUnsaved() && !askingTakes_) {
         then();
         return;
     }
@@ -30,8 +65,12 @@ void FileFlow::answer(Answer answer) {
         then();
         return;
     }
-    const auto saveScene = [this, then] {
-        if (!document().sceneDocument().unsaved() || requestSaveScene(document().sceneDocument().file(), then)) then();
+    const auto saveScene = [this, whenSaved = then] {
+        const auto finish = [this, whenSaved] {
+            if (!askingTakes_ || saveTakes()) whenSaved();
+        };
+        if (!document().sceneDocument().unsaved() || requestSaveScene(document().sceneDocument().file(), finish))
+            finish();
     };
     if (!document().unsaved() || requestSave(document().profileFile(), saveScene)) saveScene();
 }
@@ -55,6 +94,8 @@ bool FileFlow::requestSave(const std::filesystem::path& file, std::function<void
     const auto write = [this, file] {
         if (workspace_.report(document().save(file))) return false;
         workspace_.say(Toast::Kind::info, "Saved " + file.string());
+        const SceneDocument& scene = document().sceneDocument();
+        if (scene.hasFile() && scene.unsaved()) offeredSave_ = OfferedSave::scene;
         return true;
     };
     return writeOrAsk(file, !document().wouldReplace(file), write, std::move(afterwards));
@@ -64,9 +105,7 @@ bool FileFlow::requestSaveScene(const std::filesystem::path& file, std::function
     const auto write = [this, file] {
         if (workspace_.report(document().sceneDocument().save(file))) return false;
         workspace_.say(Toast::Kind::info, "Saved the scene " + file.string());
-        if (document().unsaved()) {
-            workspace_.say(Toast::Kind::warning, "The ragdoll itself has unsaved changes: Ctrl+S saves its profile");
-        }
+        if (document().unsaved()) offeredSave_ = OfferedSave::profile;
         return true;
     };
     const bool ours = document().sceneDocument().hasFile() && file == document().sceneDocument().file();
@@ -76,6 +115,7 @@ bool FileFlow::requestSaveScene(const std::filesystem::path& file, std::function
 void FileFlow::requestSaveRecording(const std::filesystem::path& file) {
     writeOrAsk(file, false, [this, file] {
         if (workspace_.report(workspace_.player->deck().save(file))) return false;
+        workspace_.player->deck().markSaved();
         workspace_.say(Toast::Kind::info, "Saved the recording " + file.string());
         return true;
     });
@@ -91,9 +131,22 @@ void FileFlow::requestExport(const std::filesystem::path& file, float seconds) {
 }
 
 void FileFlow::saveAll() {
+    // The ragdoll first: the scene names its file.
+    const auto saveScene = [this] {
+        const SceneDocument& scene = document().sceneDocument();
+        if (scene.unsaved() && scene.hasFile()) requestSaveScene(scene.file());
+        offeredSave_ = OfferedSave::none;
+    };
     const bool scene = document().sceneDocument().unsaved() && document().sceneDocument().hasFile();
-    if (scene) requestSaveScene(document().sceneDocument().file());
-    if (document().unsaved() || !scene) requestSave(document().profileFile());
+    if (!document().unsaved() && scene) return saveScene();
+    if (requestSave(document().profileFile(), saveScene)) saveScene();
+}
+
+void FileFlow::answerOfferedSave(bool save) {
+    const OfferedSave offered = std::exchange(offeredSave_, OfferedSave::none);
+    if (!save) return;
+    if (offered == OfferedSave::profile) requestSave(document().profileFile());
+    if (offered == OfferedSave::scene) requestSaveScene(document().sceneDocument().file());
 }
 
 Result<void> FileFlow::exportBaked(const std::filesystem::path& file, float seconds) {

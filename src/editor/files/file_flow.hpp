@@ -23,9 +23,11 @@ class FileFlow {
 
     /// What waits for the answer about unsaved changes.
     enum class Answer { save, discard, cancel };
-    /// Does it at once, or, with unsaved changes, after the answer.
-    void afterUnsaved(std::function<void()> then);
+    /// Does it at once, or, with unsaved changes, after the answer. `endsSession`: takes would be lost as well.
+    void afterUnsaved(std::function<void()> then, bool endsSession = false);
     [[nodiscard]] bool anythingUnsaved() const;
+    /// Whether the question is about takes, too.
+    [[nodiscard]] bool askingTakes() const { return askingTakes_; }
     [[nodiscard]] bool askingUnsaved() const { return afterAnswer_ != nullptr; }
     void answer(Answer answer);
 
@@ -35,13 +37,20 @@ class FileFlow {
     bool requestSave(const std::filesystem::path& file, std::function<void()> afterwards = {});
     /// The same for the scene.
     bool requestSaveScene(const std::filesystem::path& file, std::function<void()> afterwards = {});
-    /// And for the player's recording.
+    [[nodiscard]] bool takesUnsaved() const;
+    /// Where a take is saved when the user names no file.
+    [[nodiscard]] std::filesystem::path takeFile(const std::string& name) const;
+    /// And for the player's current take.
     void requestSaveRecording(const std::filesystem::path& file);
     /// And for exportBaked().
     void requestExport(const std::filesystem::path& file, float seconds);
     /// Ctrl+S: the profile, and the scene when it has a file. One that has none is saved by its own command: a ragdoll
     /// that is edited in a named scene should not leave scene files behind.
     void saveAll();
+    /// Whoever saves one of the two is offered the other, when that has unsaved changes.
+    enum class OfferedSave { none, profile, scene };
+    [[nodiscard]] OfferedSave offeredSave() const { return offeredSave_; }
+    void answerOfferedSave(bool save);
     /// The file that the user is asked about; empty when there is no such question.
     [[nodiscard]] std::filesystem::path replacedFile() const {
         return replacing_ ? replacing_->file : std::filesystem::path();
@@ -75,15 +84,19 @@ class FileFlow {
     /// Writes now when the file is `ours` or none, else after the answer. Whether it was written now.
     bool writeOrAsk(const std::filesystem::path& file, bool ours, const Write& write,
                     std::function<void()> afterwards = {});
+    /// All takes that are in no file yet, each beside the model. Whether all could be written.
+    bool saveTakes();
     [[nodiscard]] EditorDocument& document() const { return *workspace_.document; }
 
     Workspace& workspace_;
     std::function<void()> endUnderWay_;
     std::function<void()> afterAnswer_;
+    bool askingTakes_ = false;
     std::optional<Replacing> replacing_;
     std::vector<std::filesystem::path> exported_;
     std::filesystem::path offeredProfile_;
     std::filesystem::path anyRigModel_;
+    OfferedSave offeredSave_ = OfferedSave::none;
 };
 
 }  // namespace lutka::editor

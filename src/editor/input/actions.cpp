@@ -36,6 +36,12 @@ constexpr std::array kBindings = {
     Binding{Key::digit1, kPlain, Action::viewFront},
     Binding{Key::digit3, kPlain, Action::viewRight},
     Binding{Key::digit7, kPlain, Action::viewTop},
+    Binding{Key::digit1, kControl, Action::viewBack},
+    Binding{Key::digit3, kControl, Action::viewLeft},
+    Binding{Key::digit7, kControl, Action::viewBottom},
+    Binding{Key::digit5, kPlain, Action::toggleParallel},
+    Binding{Key::m, kControlShift, Action::selectMirror},
+    Binding{Key::c, kControlShift, Action::selectChildren},
     Binding{Key::f3, kPlain, Action::toggleDebug},
     Binding{Key::h, kPlain, Action::toggleHandles},
     Binding{Key::tab, kPlain, Action::togglePanels},
@@ -129,6 +135,18 @@ std::string_view actionName(Action action) {
             return "View from the right";
         case Action::viewTop:
             return "View from above";
+        case Action::viewBack:
+            return "View from behind";
+        case Action::viewLeft:
+            return "View from the left";
+        case Action::viewBottom:
+            return "View from below";
+        case Action::toggleParallel:
+            return "Parallel projection";
+        case Action::selectMirror:
+            return "Select the other side instead";
+        case Action::selectChildren:
+            return "Select all that hangs on it as well";
         case Action::toggleDebug:
             return "Debug draw";
         case Action::toggleHandles:

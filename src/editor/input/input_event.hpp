@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -71,5 +72,9 @@ struct InputEvent {
 [[nodiscard]] InputEvent windowResized(render::Extent size);
 [[nodiscard]] InputEvent focusChanged(bool gained);
 [[nodiscard]] InputEvent windowClosed();
+
+/// A frame's events in steps of which each is one press, release or key with what belongs to it: movements before, text
+/// after. In order, all of them; one empty step for no event.
+[[nodiscard]] std::vector<std::span<const InputEvent>> inputSteps(std::span<const InputEvent> events);
 
 }  // namespace lutka::editor

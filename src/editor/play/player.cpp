@@ -23,29 +23,21 @@ bool sameFrames(std::span<const physics::BodyProfile> a, std::span<const physics
                       });
 }
 
-}  // namespace
+physics::DynamicProp ballAt(const vec3& place) {
+    physics::DynamicProp ball;
+    ball.shape.kind = physics::BodyShape::Kind::sphere;
+    ball.shape.radius = kBallRadius;
+    ball.massKg = kBallMassKg;
+    ball.state.worldFromBody.translation = place;
+    return ball;
+}
 
-/// What moves, with the joints and the roles it belongs to, so that it survives a change of the ragdoll.
-struct Player::Motion {
-    struct Doll {
-        scene::EntityId entity = scene::kNoEntity;
-        int asset = 0;
-        std::vector<physics::BodyState> bodies;
-        std::vector<RigidTransform> modelFromJoint;
-        RigidTransform worldFromModel;
-    };
-    std::vector<std::vector<physics::BodyProfile>> bodies;  // of each asset, as they were
-    std::vector<Doll> dolls;
-    std::vector<physics::BodyState> props;
-    std::vector<scene::EntityId> propEntities;  // of the scene's own, which come first
-};
+}  // namespace
 
 Player::Player(EditorDocument& document, scene::FrameLoop::Clock clock)
     : document_(document), loop_({}, std::move(clock)) {}
 
-Player::~Player() = default;
-
-Player::Motion Player::capture() const {
+Motion Player::capture() const {
     Motion motion;
     scene::Simulation& simulation = *simulation_;
     for (const scene::RagdollAsset* asset : simulation.assets())
@@ -86,7 +78,7 @@ bool Player::startsAsBefore(scene::EntityId id) const {
     return oldDoll == nullptr || *oldDoll == *newDoll;
 }
 
-void Player::restore(const Motion& motion) {
+void Player::restore(const Motion& motion, bool all) {
     scene::Simulation& simulation = *simulation_;
     std::map<scene::EntityId, const Motion::Doll*> before;
     for (const Motion::Doll& doll : motion.dolls)
@@ -94,7 +86,7 @@ void Player::restore(const Motion& motion) {
     std::vector<physics::BodyState> bodies;
     for (int doll = 0; doll < simulation.dollCount(); ++doll) {
         const auto was = before.find(entityOfDoll(doll));
-        if (was == before.end() || !startsAsBefore(was->first)) continue;
+        if (was == before.end() || (!all && !startsAsBefore(was->first))) continue;
         const scene::RagdollAsset& asset = simulation.assetOf(doll);
         const std::vector<physics::BodyProfile>& oldBodies = motion.bodies[was->second->asset];
         if (asset.character.skeleton.parents.size() != was->second->modelFromJoint.size()) continue;
@@ -143,11 +135,11 @@ Result<scene::Scenario> Player::makeScenario() {
 }
 
 // Props go on where they are. What the user moved since, or what is new, starts where the document has it.
-void Player::keepProps(const Motion& motion, scene::Scenario& scenario) const {
+void Player::keepProps(const Motion& motion, bool all, scene::Scenario& scenario) const {
     for (std::size_t i = 0; i < scenario.propEntities.size(); ++i) {
         const scene::EntityId id = scenario.propEntities[i];
         const auto was = std::find(motion.propEntities.begin(), motion.propEntities.end(), id);
-        if (was == motion.propEntities.end() || !startsAsBefore(id)) continue;
+        if (was == motion.propEntities.end() || (!all && !startsAsBefore(id))) continue;
         scenario.props[i].state = motion.props[static_cast<std::size_t>(was - motion.propEntities.begin())];
     }
     const std::size_t firstOld = motion.propEntities.size();
@@ -156,25 +148,13 @@ void Player::keepProps(const Motion& motion, scene::Scenario& scenario) const {
         scenario.props[firstNew + i].state = motion.props[firstOld + i];
 }
 
-Result<void> Player::rebuild(Keep keep) {
-    deck_.endReplay();
-    if (keep == Keep::nothing) deck_.stop();
-    if (keep == Keep::nothing) {
-        atPlay_.reset();
-        thrown_.clear();
-        posing_ = false;
-        secondsBefore_ = 0.0;
-    } else if (simulation_ != nullptr) {
-        secondsBefore_ = seconds();
-    }
-    std::optional<Motion> motion;
-    if (keep == Keep::motion && simulation_ != nullptr) motion = capture();
+Result<void> Player::build(const Motion* motion, bool all) {
     simulation_.reset();  // it borrows the asset that changes now
     document_.commitAsset();
     revision_ = document_.revision();
     auto scenario = makeScenario();
     if (!scenario) return scenario.error();
-    if (motion) keepProps(*motion, scenario.value());
+    if (motion != nullptr) keepProps(*motion, all, scenario.value());
     scene::SimulationOptions options = scene::simulationOptionsOf(document_.scene());
     if (posing_) {
         options.world.gravity = vec3(0);
@@ -186,10 +166,69 @@ Result<void> Player::rebuild(Keep keep) {
     if (!simulation) return simulation.error();
     simulation_ = std::move(simulation).value();
     governor_.emplace(simulation_->world().substepsPerStep());
-    if (motion) restore(*motion);
+    if (motion != nullptr) restore(*motion, all);
     built_ = document_.scene();
     loop_.setStepSeconds(options.dt);
     loop_.restart();
+    return {};
+}
+
+Result<void> Player::rebuild(Keep keep) {
+    if (deck_.replaying()) deck_.endReplay(*simulation_);
+    thrown_.resize(thrown_.size() - std::min(thrown_.size(), std::exchange(thrownForReplay_, 0)));
+    std::optional<Motion> motion;
+    if (keep == Keep::motion && simulation_ != nullptr) motion = capture();
+    if (keep == Keep::nothing) {
+        deck_.stop("the scene begins anew");
+        atPlay_.reset();
+        thrown_.clear();
+        posing_ = false;
+        secondsBefore_ = 0.0;
+        somethingMoved();
+    } else if (simulation_ != nullptr) {
+        secondsBefore_ = seconds();
+    }
+    // Bodies of another cut can't go on as they were; when the old ones come back before anything moved, they do.
+    if (motion && !suits(*motion)) {
+        remember(*motion);
+        if (const Motion* old = remembered(); old != nullptr) motion = *old;
+    }
+    return build(motion ? &*motion : nullptr, false);
+}
+
+// Whether the edited ragdoll's bodies are those of the motion.
+bool Player::suits(const Motion& motion) const {
+    return motion.bodies.empty() || sameFrames(motion.bodies.front(), document_.profile().bodies);
+}
+
+void Player::remember(const Motion& motion) {
+    constexpr std::size_t most = 8;
+    std::erase_if(memories_, [&](const Memory& memory) { return memory.moment != moment_; });
+    const bool known = std::any_of(memories_.begin(), memories_.end(), [&](const Memory& memory) {
+        return sameFrames(memory.motion.bodies.front(), motion.bodies.front());
+    });
+    if (known) return;
+    if (memories_.size() >= most) memories_.erase(memories_.begin() + 1);
+    memories_.push_back({moment_, motion});
+}
+
+const Motion* Player::remembered() const {
+    const auto memory = std::find_if(memories_.begin(), memories_.end(),
+                                     [&](const Memory& one) { return one.moment == moment_ && suits(one.motion); });
+    return memory != memories_.end() ? &memory->motion : nullptr;
+}
+
+PlayState Player::state() const {
+    return {capture(), thrown_, {}, seconds(), moment_};
+}
+
+Result<void> Player::restore(const PlayState& state) {
+    endReplay();
+    thrown_ = state.thrown;
+    posing_ = false;
+    if (auto built = build(&state.motion, true); !built) return built;
+    secondsBefore_ = state.seconds;
+    moment_ = state.moment;
     return {};
 }
 
@@ -202,6 +241,7 @@ void Player::dampDolls(float share) {
         }
         simulation_->world().setBodies(simulation_->dollId(doll), bodies);
     }
+    somethingMoved();
 }
 
 Result<void> Player::setPosing(bool posing) {
@@ -216,30 +256,20 @@ Result<void> Player::setPosing(bool posing) {
 }
 
 void Player::setPlaying(bool playing) {
-    if (playing && !playing_ && !deck_.replaying() && simulation_ != nullptr)
-        atPlay_ = std::make_unique<Motion>(capture());
+    if (playing && !playing_ && !deck_.replaying() && simulation_ != nullptr) atPlay_ = capture();
     if (playing && deck_.replaying() && deck_.atEnd()) scrubTo(0.0);
     playing_ = playing;
 }
 
 void Player::returnToPlay() {
-    if (atPlay_ == nullptr) return;
+    if (!atPlay_) return;
     endReplay();
     playing_ = false;
     // As a rebuild would, but for the time: what was thrown since stays thrown.
-    const std::unique_ptr<Motion> motion = std::move(atPlay_);
-    simulation_.reset();
-    auto scenario = makeScenario();
-    if (!scenario) return;
-    keepProps(*motion, scenario.value());
-    scene::SimulationOptions options = scene::simulationOptionsOf(document_.scene());
-    options.pose = document_.sceneDocument().settings().pose;
-    auto simulation =
-        scene::Simulation::create(document_.sceneDocument().assets(), std::move(scenario).value(), options);
-    if (!simulation) return;
-    simulation_ = std::move(simulation).value();
-    restore(*motion);
-    loop_.restart();
+    const Motion motion = *std::exchange(atPlay_, std::nullopt);
+    somethingMoved();
+    [[maybe_unused]] const bool built = build(&motion, false).ok();
+    LUTKA_ASSERT(built);  // the document is as it was
 }
 
 void Player::advance(double seconds) {
@@ -248,6 +278,7 @@ void Player::advance(double seconds) {
     loop_.setSpeed(posing_ ? 1.0 : speed_);
     loop_.advance(seconds, [&] {
         simulation_->step();
+        somethingMoved();
         if (posing_) dampDolls(kPosingDamping);
         deck_.keepStep(*simulation_);
     });
@@ -259,6 +290,7 @@ void Player::stepOnce() {
     if (deck_.replaying()) return deck_.showNextStep(*simulation_);
     loop_.restart();
     simulation_->step();
+    somethingMoved();
     deck_.keepStep(*simulation_);
 }
 
@@ -322,6 +354,7 @@ std::vector<physics::BodyState> Player::bodiesOf(int doll) const {
 void Player::placeBodies(int doll, std::span<const physics::BodyState> bodies) {
     simulation_->world().setBodies(simulation_->dollId(doll), bodies);
     simulation_->refresh();
+    somethingMoved();
 }
 
 void Player::preview(int doll, std::span<const RigidTransform> worldFromBody) {
@@ -340,14 +373,11 @@ void Player::preview(int doll, std::span<const RigidTransform> worldFromBody) {
 }
 
 Result<void> Player::throwBall(const vec3& from, const vec3& velocity) {
-    physics::DynamicProp ball;
-    ball.shape.kind = physics::BodyShape::Kind::sphere;
-    ball.shape.radius = kBallRadius;
-    ball.massKg = kBallMassKg;
-    ball.state.worldFromBody.translation = from;
+    physics::DynamicProp ball = ballAt(from);
     ball.state.linearVelocity = velocity;
     if (thrown_.size() >= kMaxThrown) return Error{ErrorCode::usage, "enough balls are in play: reset first", "", ""};
     thrown_.push_back(ball);
+    somethingMoved();
     return rebuild(Keep::motion);
 }
 
@@ -356,18 +386,37 @@ void Player::startRecording() {
     deck_.start(*simulation_);
 }
 
+// Balls that a reset took away are in play again while their take is shown.
 Result<void> Player::replay() {
+    endReplay();
+    const int take = deck_.current();
+    const std::size_t wanted = take < 0 ? 0 : deck_.takes()[static_cast<std::size_t>(take)].cast.thrown;
+    if (wanted > thrown_.size()) {
+        const std::size_t missing = wanted - thrown_.size();
+        thrown_.resize(wanted, ballAt(vec3(0, -1.0F, 0)));
+        deck_.stop("it is shown now");
+        if (auto rebuilt = rebuild(Keep::motion); !rebuilt) return rebuilt;
+        thrownForReplay_ = missing;
+    }
     auto shown = deck_.replay(*simulation_);
     if (shown) playing_ = true;
+    if (!shown) takeReplayBallsAway();
     return shown;
+}
+
+void Player::takeReplayBallsAway() {
+    if (thrownForReplay_ == 0) return;
+    [[maybe_unused]] const bool rebuilt = rebuild(Keep::motion).ok();
+    LUTKA_ASSERT(rebuilt);  // the document is as it was
 }
 
 void Player::endReplay() {
     if (!deck_.replaying()) return;
-    deck_.endReplay();
+    deck_.endReplay(*simulation_);
     playing_ = false;
     loop_.restart();
     simulation_->refresh();
+    takeReplayBallsAway();
 }
 
 void Player::advanceReplay(double seconds) {
@@ -380,6 +429,7 @@ void Player::advanceReplay(double seconds) {
 }
 
 Result<void> Player::openRecording(const std::filesystem::path& file) {
+    endReplay();
     auto shown = deck_.open(file, *simulation_);
     if (shown) playing_ = true;
     return shown;

@@ -7,6 +7,7 @@
 
 #include "core/result.hpp"
 #include "editor/document/editor_document.hpp"
+#include "editor/play/motion.hpp"
 #include "editor/play/recording_deck.hpp"
 #include "editor/view/picking.hpp"
 #include "scene/frame_loop.hpp"
@@ -43,9 +44,17 @@ class Player {
     [[nodiscard]] Result<void> reset();
 
     [[nodiscard]] bool playing() const { return playing_; }
+    /// Grows whenever something moved by itself or was put elsewhere: the same number is the same motion.
+    [[nodiscard]] std::uint64_t moment() const { return moment_; }
+    /// What runs now, without the pins, which are not the player's. For undo; see restore().
+    [[nodiscard]] PlayState state() const;
+    /// Goes back to a state; the document should be as it was then, and who has gone since is left out. Fails as
+    /// rebuild() does.
+    [[nodiscard]] Result<void> restore(const PlayState& state);
+
     /// From pause to play: the present state is what returnToPlay() goes back to.
     void setPlaying(bool playing);
-    [[nodiscard]] bool canReturnToPlay() const { return atPlay_ != nullptr; }
+    [[nodiscard]] bool canReturnToPlay() const { return atPlay_.has_value(); }
     /// Every doll and prop where it was when Play was pressed last, and pauses.
     void returnToPlay();
     /// Simulated time since the scene's start, edits in between included.
@@ -93,33 +102,54 @@ class Player {
     [[nodiscard]] const RecordingDeck& deck() const { return deck_; }
     void startRecording();
     void stopRecording() { deck_.stop(); }
-    /// Fails as RecordingDeck::replay() does.
+    /// The takes themselves: their names, which of them is meant, what is removed.
+    [[nodiscard]] RecordingDeck& deck() { return deck_; }
+    /// Takes of a player that gives way to this one.
+    void takeOver(RecordingDeck&& deck) {
+        deck.stop("another character was opened");
+        deck_ = std::move(deck);
+    }
+    /// Shows the current take with the balls that were thrown in it. Fails as RecordingDeck::replay() does.
     [[nodiscard]] Result<void> replay();
     void endReplay();
     void scrubTo(double seconds) { deck_.scrubTo(seconds, *simulation_); }
     /// Opens and replays it; fails as RecordingDeck::open() does.
     [[nodiscard]] Result<void> openRecording(const std::filesystem::path& file);
 
-    ~Player();
-
   private:
-    struct Motion;
+    /// A motion that the ragdoll's present bodies could not take over as it was, for when they can again.
+    struct Memory {
+        std::uint64_t moment = 0;
+        Motion motion;
+    };
     void advanceReplay(double seconds);
     [[nodiscard]] Motion capture() const;
     void dampDolls(float share);
-    void restore(const Motion& motion);
-    void keepProps(const Motion& motion, scene::Scenario& scenario) const;
+    /// The simulation anew from the document, its dolls and props where `motion` has them, if any: those that start as
+    /// before, or, with `all`, every one.
+    [[nodiscard]] Result<void> build(const Motion* motion, bool all);
+    void restore(const Motion& motion, bool all);
+    void keepProps(const Motion& motion, bool all, scene::Scenario& scenario) const;
     [[nodiscard]] bool startsAsBefore(scene::EntityId id) const;
     void placeByJoints(int doll, std::span<const physics::BodyProfile> oldBodies,
                        std::span<const physics::BodyState> oldStates, std::span<const RigidTransform> modelFromJoint,
                        const RigidTransform& worldFromModel, std::span<physics::BodyState> bodies) const;
+    [[nodiscard]] bool suits(const Motion& motion) const;
+    void remember(const Motion& motion);
+    void takeReplayBallsAway();
+    [[nodiscard]] const Motion* remembered() const;
     [[nodiscard]] Result<scene::Scenario> makeScenario();
+    void somethingMoved() { moment_ = ++lastMoment_; }
 
     EditorDocument& document_;
     std::unique_ptr<scene::Simulation> simulation_;
     scene::EntityScene built_;                  ///< The document's scene as of the last rebuild.
     std::vector<physics::DynamicProp> thrown_;  ///< After the scene's own props.
-    std::unique_ptr<Motion> atPlay_;
+    std::size_t thrownForReplay_ = 0;           ///< The last of these, which are in play during a replay only.
+    std::optional<Motion> atPlay_;
+    std::vector<Memory> memories_;
+    std::uint64_t moment_ = 0;
+    std::uint64_t lastMoment_ = 0;
     RecordingDeck deck_;
     std::uint64_t revision_ = 0;
     bool playing_ = true;

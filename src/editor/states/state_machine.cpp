@@ -68,6 +68,13 @@ std::string_view stateName(State state) {
     return kStateNames[static_cast<std::size_t>(state)];
 }
 
+std::string_view stateWords(State state) {
+    constexpr std::array<std::string_view, kStateCount> words = {
+        "ready",    "selected", "grabbing",         "turning",           "resizing",       "panning",
+        "orbiting", "adding",   "asking to delete", "dragging a handle", "picking a joint"};
+    return words[static_cast<std::size_t>(state)];
+}
+
 std::string_view triggerName(Trigger trigger) {
     return kTriggerNames[static_cast<std::size_t>(trigger)];
 }

@@ -55,6 +55,8 @@ inline constexpr int kTriggerCount = 15;
     return static_cast<Trigger>(index);
 }
 [[nodiscard]] std::string_view stateName(State state);
+/// What the user is doing in it: "orbiting".
+[[nodiscard]] std::string_view stateWords(State state);
 [[nodiscard]] std::string_view triggerName(Trigger trigger);
 
 /// The transition table: where `trigger` leads from `state`; `state` itself where it changes nothing.

@@ -222,12 +222,21 @@ class GrabHandler final : public TransformHandler {
     void finish(bool confirmed) override {
         if (!pulled_) return keepOrCancelEdits(confirmed);
         workspace_.pose(false);
-        if (!confirmed && !workspace_.player->playing()) putBack();
-        posedFrom_.clear();
+        const auto before = std::exchange(posedFrom_, nullptr);
+        const bool gone = pulled_->doll >= workspace_.player->simulation().dollCount();
+        if (before == nullptr || gone || workspace_.player->moment() == before->moment) return;
+        if (confirmed) {
+            workspace_.document->moved(fmt::format("Pose {}", nameOfPulled()), before);
+        } else {
+            workspace_.restore(*before, true);
+        }
     }
 
     std::optional<Trigger> otherKey(Key key) override {
         if (key != Key::p || !workspace_.pulls.mouse) return TransformHandler::otherKey(key);
+        // In a paused scene the pose keeps the pin as well.
+        if (posedFrom_ == nullptr)
+            workspace_.document->moved(fmt::format("Pin {}", nameOfPulled()), workspace_.playState(), false);
         workspace_.pulls.pins.push_back(*workspace_.pulls.mouse);
         workspace_.say(Toast::Kind::info,
                        fmt::format("Pinned {}; P on it again lets go", workspace_.pulls.mouse->body));
@@ -251,28 +260,21 @@ class GrabHandler final : public TransformHandler {
         start_ = worldFromBody * pull.bodyPoint;
         pull.target = start_;
         workspace_.pulls.mouse = pull;
-        posedFrom_.clear();
-        if (workspace_.player->playing()) return;
-        for (int doll = 0; doll < workspace_.player->simulation().dollCount(); ++doll)
-            posedFrom_.push_back(workspace_.player->bodiesOf(doll));
+        posedFrom_ = workspace_.player->playing() ? nullptr : workspace_.playState();
     }
 
-    // A pose that was cancelled: all dolls, because the pulled one may have pushed others.
-    void putBack() {
-        Player& player = *workspace_.player;
-        if (player.simulation().dollCount() != static_cast<int>(posedFrom_.size())) return;  // others by now
-        for (int doll = 0; doll < player.simulation().dollCount(); ++doll) {
-            const std::vector<physics::BodyState>& bodies = posedFrom_[static_cast<std::size_t>(doll)];
-            if (bodies.size() == player.bodiesOf(doll).size()) player.placeBodies(doll, bodies);
-        }
+    [[nodiscard]] std::string nameOfPulled() const {
+        const physics::BodyProfile& body =
+            workspace_.player->simulation().assetOf(pulled_->doll).profile.bodies[pulled_->index];
+        return std::string(animation::roleName(body.role));
     }
 
     [[nodiscard]] std::optional<vec3> mousePoint() const {
         return dragTarget(workspace_.mouseRay(), start_, render::forwardOf(workspace_.camera), lock_, depth_);
     }
 
-    std::optional<Item> pulled_;                              // the body that is held; else the entity is moved
-    std::vector<std::vector<physics::BodyState>> posedFrom_;  // of each doll, before it was posed; else empty
+    std::optional<Item> pulled_;                  // the body that is held; else the entity is moved
+    std::shared_ptr<const PlayState> posedFrom_;  // before a pose; null while the scene plays
     vec3 start_{0, 0, 0};
     vec3 grabbedAt_{0, 0, 0};
     vec3 target_{0, 0, 0};
@@ -288,6 +290,7 @@ class RotateHandler final : public TransformHandler {
         angle_ = 0;
         startAngle_ = mouseAngle().value_or(0.0F);
         if (!onBody()) return;
+        turnedFrom_ = workspace_.playState();
         bodies_ = workspace_.player->bodiesOf(item_->doll);
         pivot_ = bodies_.front().worldFromBody.translation;
         startAngle_ = mouseAngle().value_or(0.0F);
@@ -317,7 +320,9 @@ class RotateHandler final : public TransformHandler {
             keepOrCancelEdits(confirmed);
         } else if (item_->doll < workspace_.player->simulation().dollCount()) {
             workspace_.player->placeBodies(item_->doll, confirmed ? turned(rotation()) : bodies_);
+            if (confirmed) workspace_.document->moved("Turn the doll", turnedFrom_);
         }
+        turnedFrom_.reset();
     }
 
     [[nodiscard]] std::string describe() const override {
@@ -350,6 +355,7 @@ class RotateHandler final : public TransformHandler {
     }
 
     std::vector<physics::BodyState> bodies_;  // as they were
+    std::shared_ptr<const PlayState> turnedFrom_;
     float startAngle_ = 0;
     float angle_ = 0;
 };

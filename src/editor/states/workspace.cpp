@@ -105,6 +105,20 @@ void Workspace::pose(bool on) {
     pulls.applyTo(player->simulation());
 }
 
+std::shared_ptr<const PlayState> Workspace::playState() const {
+    constexpr int mostDolls = 200;
+    if (player->simulation().dollCount() > mostDolls) return nullptr;
+    auto state = std::make_shared<PlayState>(player->state());
+    state->pins = pulls.pins;
+    return state;
+}
+
+void Workspace::restore(const PlayState& state, bool motion) {
+    if (motion) report(player->restore(state));
+    pulls.pins = state.pins;
+    pulls.applyTo(player->simulation());
+}
+
 bool Workspace::report(const Result<void>& result) {
     if (result) return false;
     say(Toast::Kind::error, result.error().text());

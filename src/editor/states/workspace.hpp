@@ -38,7 +38,8 @@ struct Workspace {
     std::unique_ptr<EditorDocument> document;
     std::unique_ptr<Player> player;
     render::Camera camera;
-    render::Extent window;  ///< In window coordinates, like the mouse.
+    render::Extent window;          ///< In window coordinates, like the mouse.
+    render::PictureInsets covered;  ///< What bars and panels lie over.
     Selection selection;
     Pulls pulls;
 
@@ -87,6 +88,10 @@ struct Workspace {
     void follow();
     /// Begins or ends posing in a paused scene; pulls stay.
     void pose(bool on);
+    /// What runs now with its pins, for undo; null while a crowd is too large to be kept with every change.
+    [[nodiscard]] std::shared_ptr<const PlayState> playState() const;
+    /// Goes back to such a state: its pins, and, with `motion`, where everything was.
+    void restore(const PlayState& state, bool motion);
     /// Tells the user about a failure; nothing for success. Whether it was one.
     bool report(const Result<void>& result);
     void say(Toast::Kind kind, std::string text);

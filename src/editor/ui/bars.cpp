@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "editor/ui/panels.hpp"
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"
@@ -12,6 +14,8 @@ namespace {
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+void scaleMenu(const PanelContext& context);
 
 float statusHeight() {
     return ImGui::GetFrameHeight() + 4.0F;
@@ -93,6 +97,9 @@ void editMenu(const PanelContext& context) {
     }
     const bool selected = !context.editor.workspace().selection.empty();
     if (ImGui::MenuItem("Select none", "Esc", false, selected)) context.editor.perform(Action::selectNone);
+    const bool body = !context.editor.workspace().selectedBodies().empty();
+    item(context, Action::selectMirror, body);
+    item(context, Action::selectChildren, body);
     ImGui::Separator();
     const bool anyBody = !context.editor.workspace().selectedBodies().empty();
     item(context, Action::copyPart, anyBody);
@@ -126,12 +133,15 @@ void viewMenu(const PanelContext& context) {
     item(context, Action::viewFront);
     item(context, Action::viewRight);
     item(context, Action::viewTop);
+    item(context, Action::viewBack);
+    item(context, Action::viewLeft);
+    item(context, Action::viewBottom);
     if (ImGui::MenuItem("Light theme", nullptr, context.state.lightTheme)) {
         context.state.lightTheme = !context.state.lightTheme;
         applyStyle(context.scale, context.state.lightTheme);
     }
-    bool& flat = context.editor.workspace().camera.orthographic;
-    if (ImGui::MenuItem("Parallel projection", nullptr, flat)) flat = !flat;
+    scaleMenu(context);
+    item(context, Action::toggleParallel, true, context.editor.workspace().camera.orthographic);
     ImGui::EndMenu();
 }
 
@@ -145,25 +155,97 @@ void simulateMenu(const PanelContext& context) {
     ImGui::EndMenu();
 }
 
-// At most that share of the window.
-float panelWidth(const PanelContext& context, float full, float share) {
-    return std::min(context.px(full), ImGui::GetIO().DisplaySize.x * share);
+constexpr float kLeftWidth = 310.0F;
+constexpr float kRightWidth = 344.0F;
+
+// Its own width at most that share of the window; one that the user dragged at most what leaves the view some room.
+float panelWidth(const PanelContext& context, float chosen, float own, float share) {
+    const float window = ImGui::GetIO().DisplaySize.x;
+    if (chosen <= 0.0F) return std::min(context.px(own), window * share);
+    constexpr float most = 0.45F;
+    return std::clamp(context.px(chosen), std::min(context.px(180), window * share), window * most);
+}
+
+// A panel's inner edge, which widens it; `x` is where it lies. A double click gives the panel its own width back.
+void drawEdge(const PanelContext& context, const char* id, float x, float top, float& width, float sign, float now) {
+    const float thick = context.px(5);
+    ImGui::SetNextWindowPos({x - thick * 0.5F, top});
+    ImGui::SetNextWindowSize({thick, ImGui::GetIO().DisplaySize.y - top - statusHeight()});
+    ImGui::SetNextWindowBgAlpha(0.0F);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0F);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+    constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                                       ImGuiWindowFlags_NoNav;
+    ImGui::Begin(id, nullptr, flags);
+    ImGui::InvisibleButton("##edge", ImGui::GetContentRegionAvail());
+    if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
+        ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+        const float middle = x;
+        ImGui::GetWindowDrawList()->AddLine({middle, top}, {middle, ImGui::GetIO().DisplaySize.y},
+                                            ImGui::GetColorU32(accentColor()), context.px(2));
+    }
+    if (ImGui::IsItemActive() && ImGui::GetIO().MouseDelta.x != 0.0F)
+        width = std::max((now + sign * ImGui::GetIO().MouseDelta.x) / context.scale, 100.0F);
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) width = 0.0F;
+    ImGui::End();
+    ImGui::PopStyleVar(3);
+}
+
+int doctorErrors(const PanelContext& context) {
+    const auto& findings = context.editor.document().diagnosis().findings;
+    return static_cast<int>(std::count_if(findings.begin(), findings.end(), [](const physics::Finding& finding) {
+        return finding.severity == physics::Severity::error;
+    }));
+}
+
+// The tab with the number of the doctor's errors behind its name.
+std::string doctorTitle(const PanelContext& context) {
+    // A drag changes the ragdoll every frame: the doctor is asked at its end.
+    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) context.state.doctorErrors = doctorErrors(context);
+    const int errors = context.state.doctorErrors;
+    return errors == 0 ? "Doctor###Doctor" : fmt::format("Doctor {}###Doctor", errors);
+}
+
+void scaleMenu(const PanelContext& context) {
+    if (!ImGui::BeginMenu("Size of the panels")) return;
+    float& chosen = context.state.uiScale;
+    if (ImGui::MenuItem("The monitor's", nullptr, chosen <= 0.0F)) chosen = 0.0F;
+    for (const float scale : {0.75F, 1.0F, 1.25F, 1.5F, 1.75F, 2.0F, 2.5F, 3.0F}) {
+        if (ImGui::MenuItem(fmt::format("{:.0f} %", scale * 100.0F).c_str(), nullptr, chosen == scale)) chosen = scale;
+    }
+    ImGui::EndMenu();
 }
 
 }  // namespace
 
 float leftPanelWidth(const PanelContext& context) {
-    return panelWidth(context, 310.0F, 0.29F);
+    return panelWidth(context, context.state.leftWidth, kLeftWidth, 0.29F);
 }
 
 float rightPanelWidth(const PanelContext& context) {
-    return panelWidth(context, 344.0F, 0.33F);
+    return panelWidth(context, context.state.rightWidth, kRightWidth, 0.33F);
 }
 
 ViewSpan viewSpan(const PanelContext& context) {
     const float width = ImGui::GetIO().DisplaySize.x;
     if (!context.editor.view.panels) return {0.0F, width};
     return {leftPanelWidth(context), width - rightPanelWidth(context)};
+}
+
+render::PictureInsets coveredBy(const PanelContext& context) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const auto [left, right] = viewSpan(context);
+    const float top = context.state.transportBottom + context.px(4);
+    constexpr float most = 0.9F;  // a tiny window still shows something
+    const auto clamped = [](float low, float high) {
+        const float scale = std::min(1.0F, most / std::max(low + high, 1e-3F));
+        return std::pair(low * scale, high * scale);
+    };
+    const auto [l, r] = clamped(left / size.x, 1.0F - right / size.x);
+    const auto [t, b] = clamped(top / size.y, statusHeight() / size.y);
+    return {l, r, t, b};
 }
 
 void drawMenuBar(const PanelContext& context) {
@@ -201,7 +283,7 @@ void drawStatusBar(const PanelContext& context) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg));
     ImGui::Begin("##status", nullptr, kFixed | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar);
-    chip(std::string(stateName(context.editor.state())), ImGui::GetColorU32(accentColor()));
+    chip(std::string(stateWords(context.editor.state())), ImGui::GetColorU32(accentColor()));
     ImGui::SameLine();
     ImGui::TextUnformatted(context.editor.workspace().hint.c_str());
     const Player& player = context.editor.player();
@@ -238,6 +320,7 @@ void drawTransport(const PanelContext& context) {
     ImGui::SetNextItemWidth(narrow ? -1.0F : context.px(96));
     if (ImGui::SliderFloat("##speed", &speed, 0.05F, 1.0F, "speed %.2f")) editor.player().setSpeed(speed);
     tooltip("Slow motion: simulated seconds a second");
+    context.state.transportBottom = ImGui::GetWindowPos().y + ImGui::GetWindowSize().y;
     ImGui::End();
     ImGui::PopStyleVar();
 }
@@ -266,6 +349,8 @@ void drawLeftPanel(const PanelContext& context) {
     }
     ImGui::End();
     ImGui::PopStyleVar();
+    const float width = leftPanelWidth(context);
+    drawEdge(context, "##leftEdge", width, top, context.state.leftWidth, 1.0F, width);
 }
 
 void drawRightPanel(const PanelContext& context) {
@@ -277,12 +362,15 @@ void drawRightPanel(const PanelContext& context) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
     ImGui::Begin("##right", nullptr, kFixed | ImGuiWindowFlags_NoTitleBar);
     const bool narrow = width < context.px(330);
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(context.px(narrow ? 2 : 6), context.px(4)));
+    // The doctor's number needs some of the room between the names.
+    const std::string doctor = doctorTitle(context);
+    const float padding = narrow ? 2.0F : context.state.doctorErrors > 0 ? 3.0F : 6.0F;
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(context.px(padding), context.px(4)));
     if (ImGui::BeginTabBar("##rightTabs")) {
         using Draw = void (*)(const PanelContext&);
-        constexpr std::pair<const char*, Draw> tabs[] = {{"Body", drawRagdollTab}, {"Physics", drawSimulationTab},
-                                                         {"View", drawViewTab},    {"Doctor", drawDoctorTab},
-                                                         {"Stats", drawStatsTab},  {"Log", drawLogTab}};
+        const std::pair<const char*, Draw> tabs[] = {{"Body", drawRagdollTab}, {"Physics", drawSimulationTab},
+                                                     {"View", drawViewTab},    {doctor.c_str(), drawDoctorTab},
+                                                     {"Stats", drawStatsTab},  {"Log", drawLogTab}};
         for (const auto& [name, draw] : tabs) {
             if (!ImGui::BeginTabItem(name)) continue;
             ImGui::PushStyleColor(ImGuiCol_ChildBg, 0U);
@@ -297,6 +385,7 @@ void drawRightPanel(const PanelContext& context) {
     ImGui::PopStyleVar();
     ImGui::End();
     ImGui::PopStyleVar();
+    drawEdge(context, "##rightEdge", size.x - width, top, context.state.rightWidth, -1.0F, width);
 }
 
 }  // namespace lutka::editor

@@ -70,10 +70,10 @@ class Fields {
         value = {channel(shown.r), channel(shown.g), channel(shown.b), 255};
         change(label);
     }
-    /// A text that counts when Enter is pressed; whether it was.
+    /// A text that counts at Enter or when it is left; whether it was changed.
     bool text(const char* label, std::string& value) {
         labelled(label, width_);
-        const bool entered = ImGui::InputText(id(label), &value, ImGuiInputTextFlags_EnterReturnsTrue);
+        const bool entered = textLine(id(label), value);
         if (entered) change(label);
         return entered;
     }

@@ -2,6 +2,8 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include <functional>
+
 #include "editor/ui/panels.hpp"
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"
@@ -31,6 +33,12 @@ void drawQuestion(const PanelContext& context) {
     if (document.sceneDocument().unsaved()) {
         ImGui::Text("The scene %s has changes that are not saved.", document.scene().name.c_str());
         mutedText("Save writes " + document.sceneDocument().file().string());
+    }
+    if (editor.files().askingTakes()) {
+        for (const Take& take : editor.player().deck().takes()) {
+            if (!take.saved) ImGui::Text("%s (%.1f s) is in no file.", take.name.c_str(), take.seconds());
+        }
+        mutedText("Save writes such takes beside the model.");
     }
     ImGui::Spacing();
     const ImVec2 button(context.px(110), 0);
@@ -105,8 +113,65 @@ void drawDialogs(const PanelContext& context) {
     drawReplaceQuestion(context);
 }
 
+namespace {
+
+// Work of a session that ended by force. Before it is answered nothing else is asked.
+void drawRecoveryOffer(const PanelContext& context) {
+    Editor& editor = context.editor;
+    const RecoveryCopy copy = *editor.recovery().offered();
+    const auto [left, right] = viewSpan(context);
+    const float top = ImGui::GetFrameHeight() + context.px(56);
+    ImGui::SetNextWindowPos({(left + right) * 0.5F, top}, ImGuiCond_Always, {0.5F, 0.0F});
+    ImGui::SetNextWindowBgAlpha(0.94F);
+    ImGui::PushStyleColor(ImGuiCol_Border, warningColor());
+    ImGui::Begin("##recovery", nullptr, kDialog | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::PushTextWrapPos((right - left) * 0.9F);
+    ImGui::Text("Unsaved work of %s was found:", copy.when.c_str());
+    ImGui::TextUnformatted((copy.contents() + ".").c_str());
+    mutedText("That session ended without saving it. " + copy.model.string());
+    ImGui::PopTextWrapPos();
+    std::optional<RecoveryDesk::Answer> answer;
+    if (ImGui::Button("Restore it")) answer = RecoveryDesk::Answer::restore;
+    ImGui::SameLine();
+    if (ImGui::Button("Later")) answer = RecoveryDesk::Answer::later;
+    tooltip("It is offered again at the next start");
+    ImGui::SameLine();
+    if (ImGui::Button("Throw it away")) answer = RecoveryDesk::Answer::remove;
+    ImGui::End();
+    ImGui::PopStyleColor();
+    if (answer) editor.answerRecovery(*answer);
+}
+
+// The scene was saved and the ragdoll has changes, or the other way round.
+void drawSaveOffer(const PanelContext& context) {
+    FileFlow& files = context.editor.files();
+    const EditorDocument& document = context.editor.document();
+    const bool profile = files.offeredSave() == FileFlow::OfferedSave::profile;
+    if (profile ? !document.unsaved() : !document.sceneDocument().unsaved()) return files.answerOfferedSave(false);
+    const auto [left, right] = viewSpan(context);
+    const float top = ImGui::GetFrameHeight() + context.px(56);
+    ImGui::SetNextWindowPos({(left + right) * 0.5F, top}, ImGuiCond_Always, {0.5F, 0.0F});
+    ImGui::SetNextWindowBgAlpha(0.94F);
+    ImGui::PushStyleColor(ImGuiCol_Border, accentColor());
+    ImGui::Begin("##saveOffer", nullptr, kDialog | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::TextUnformatted(profile ? "The ragdoll of the scene has unsaved changes."
+                                   : "The scene does not name what was saved yet.");
+    mutedText((profile ? document.profileFile() : document.sceneDocument().file()).filename().string());
+    std::optional<bool> save;
+    if (ImGui::Button(profile ? "Save the ragdoll too" : "Save the scene too")) save = true;
+    ImGui::SameLine();
+    if (ImGui::Button("Not now")) save = false;
+    ImGui::End();
+    ImGui::PopStyleColor();
+    if (save) files.answerOfferedSave(*save);
+}
+
+}  // namespace
+
 void drawOffer(const PanelContext& context) {
     Editor& editor = context.editor;
+    if (editor.recovery().offered() != nullptr) return drawRecoveryOffer(context);
+    if (editor.files().offeredSave() != FileFlow::OfferedSave::none) return drawSaveOffer(context);
     const std::filesystem::path file = editor.files().offeredProfile();
     if (file.empty()) return;
     const auto [left, right] = viewSpan(context);
@@ -193,7 +258,8 @@ void drawToasts(const PanelContext& context) {
                              : toast.kind == Toast::Kind::warning ? warningColor()
                                                                   : goodColor();
         ImGui::PushStyleColor(ImGuiCol_Border, color);
-        ImGui::Begin(fmt::format("##toast{}", i).c_str(), nullptr,
+        // A window of its own for each text, or it would have the size of the one before.
+        ImGui::Begin(fmt::format("##toast{}", std::hash<std::string>{}(toast.text)).c_str(), nullptr,
                      kDialog | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoFocusOnAppearing);
         ImGui::PushTextWrapPos(std::min(context.px(460), (right - left) * 0.9F));
         ImGui::TextUnformatted(toast.text.c_str());

@@ -16,6 +16,7 @@ void EditorUi::build(Editor& editor, const FrameHistory& history) {
         drawRightPanel(context);
     }
     drawTransport(context);
+    editor.workspace().covered = coveredBy(context);
     dragRoleOverView(context);
     if (state.showCollisions) drawCollisions(context);
     drawOffer(context);

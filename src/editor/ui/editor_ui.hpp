@@ -30,6 +30,10 @@ struct UiState {
     std::string newFolder;
     float exportSeconds = 4.0F;
     bool lightTheme = false;
+    float uiScale = 0.0F;  ///< As UserSettings has it, and these two.
+    float leftWidth = 0.0F;
+    float rightWidth = 0.0F;
+    int doctorErrors = 0;  ///< That the doctor's tab tells.
     bool showCollisions = false;
     bool draggingOverView = false;  ///< A role is dragged, and not over a panel.
     std::vector<std::filesystem::path> recent;
@@ -44,6 +48,7 @@ struct UiState {
         vec3 degrees{0, 0, 0};
     };
     ShownAngles angles;
+    float transportBottom = 0.0F;   ///< Window units: where the view begins below it.
     int copies = 8;                 ///< Of "Drop copies".
     std::optional<Item> shownItem;  ///< What panels showed last, to notice a new selection.
 };

@@ -187,7 +187,7 @@ void drawSceneName(const PanelContext& context) {
     Editor& editor = context.editor;
     std::string name = editor.document().scene().name;
     labelled("Scene", context.px(52));
-    if (ImGui::InputText("##sceneName", &name, ImGuiInputTextFlags_EnterReturnsTrue)) {
+    if (textLine("##sceneName", name)) {
         editor.editScene("Rename the scene", "", [&](EntityScene& scene) { scene.name = name; });
     }
     tooltip(editor.document().sceneDocument().unsaved()

@@ -35,7 +35,7 @@ fs::path suggestedPath(const PanelContext& context, Editor::Dialog dialog) {
         case Editor::Dialog::saveSceneAs:
             return fs::absolute(document.sceneDocument().file(), failed);
         case Editor::Dialog::saveRecording:
-            return fs::absolute(document.profileFile().parent_path() / (document.scene().name + ".recording"), failed);
+            return fs::absolute(context.editor.files().takeFile(context.editor.player().deck().currentName()), failed);
         case Editor::Dialog::openRecording:
         case Editor::Dialog::openModel:
         case Editor::Dialog::none:

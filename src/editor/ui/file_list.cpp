@@ -20,6 +20,12 @@ std::string lower(std::string text) {
     return text;
 }
 
+// A profile or a scene; other JSON is none of ours.
+bool isOurs(const std::filesystem::path& file) {
+    const std::string name = lower(file.filename().string());
+    return name.ends_with(".ragdoll.json") || name.ends_with(".scene.json");
+}
+
 }  // namespace
 
 const char* filterName(FileFilter filter) {
@@ -40,7 +46,7 @@ bool passes(FileFilter filter, const std::filesystem::path& file) {
     const std::string end = lower(file.extension().string());
     switch (filter) {
         case FileFilter::models:
-            return end == ".json" || std::find(kModelEnds.begin(), kModelEnds.end(), end) != kModelEnds.end();
+            return isOurs(file) || std::find(kModelEnds.begin(), kModelEnds.end(), end) != kModelEnds.end();
         case FileFilter::profiles:
             return end == ".json";
         case FileFilter::baked:

@@ -3,6 +3,8 @@
 #include <imgui.h>
 #include <imgui_impl_opengl3.h>
 
+#include <utility>
+
 #include "editor/ui/fonts.hpp"
 #include "editor/ui/style.hpp"
 
@@ -122,6 +124,12 @@ void ImguiHost::beginFrame(render::Extent window, render::Extent framebuffer, do
     for (std::size_t button = 0; button < down_.size(); ++button)
         io.MouseDown[button] = down_[button] || clicked_[button];
     clicked_ = {};
+    if (std::exchange(fontsStale_, false)) {
+        io.Fonts->Clear();
+        fonts_ = loadFonts(scale_);
+        ImGui_ImplOpenGL3_DestroyFontsTexture();
+        ImGui_ImplOpenGL3_CreateFontsTexture();
+    }
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
     begun_ = true;
@@ -129,15 +137,32 @@ void ImguiHost::beginFrame(render::Extent window, render::Extent framebuffer, do
 
 UiCapture ImguiHost::capture() const {
     const ImGuiIO& io = ImGui::GetIO();
-    return {io.WantCaptureMouse, io.WantCaptureKeyboard};
+    return {io.WantCaptureMouse, io.WantCaptureKeyboard || popup_};
+}
+
+bool ImguiHost::writing() const {
+    return ImGui::GetIO().WantTextInput;
+}
+
+void ImguiHost::setScale(float scale, bool light) {
+    scale_ = scale;
+    applyStyle(scale, light);
+    fontsStale_ = true;
 }
 
 void ImguiHost::skipDrawing() {
+    notePopup();
     ImGui::EndFrame();
     begun_ = false;
 }
 
+// A menu or a list that is open has the keyboard, though Dear ImGui claims it for text fields only.
+void ImguiHost::notePopup() {
+    popup_ = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+
 void ImguiHost::draw() {
+    notePopup();
     ImGui::Render();
     begun_ = false;
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

@@ -44,9 +44,14 @@ class ImguiHost {
 
     [[nodiscard]] const UiFonts& fonts() const { return fonts_; }
     [[nodiscard]] float scale() const { return scale_; }
+    /// Between frames: everything in another size, with the theme that is shown.
+    void setScale(float scale, bool light);
+    /// Whether a text field has the keyboard.
+    [[nodiscard]] bool writing() const;
 
   private:
     void setModifiers(const InputEvent& event);
+    void notePopup();
 
     UiFonts fonts_;
     float scale_;
@@ -55,6 +60,8 @@ class ImguiHost {
     std::array<bool, kMouseButtonCount> down_{};
     std::array<bool, kMouseButtonCount> clicked_{};  // pressed since the last frame, perhaps released again
     bool begun_ = false;
+    bool fontsStale_ = false;  // made for another scale
+    bool popup_ = false;       // one was open when the last frame ended
 };
 
 }  // namespace lutka::editor

@@ -9,6 +9,7 @@
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"
 #include "physics/profile/constraint_state.hpp"
+#include "scene/draw_debug.hpp"
 
 namespace lutka::editor {
 namespace {
@@ -17,7 +18,6 @@ using physics::AngleSpan;
 using physics::ConstraintProfile;
 using physics::JointRange;
 
-constexpr float kNearLimit = radians(5.0F);
 constexpr float kMostDeg = 175.0F;
 constexpr const char* kConstraintKinds[] = {"Hinge", "Cone and twist"};
 
@@ -82,7 +82,7 @@ void endField(const PartFields& fields, const Turn& turn, bool high, const Joint
     const std::string label = capital(word);
     fieldRow(fields, label.c_str());
     const std::string id = fmt::format("##{}", word);
-    if (ImGui::SliderFloat(id.c_str(), &shown, -kMostDeg, kMostDeg, "%.0f°")) {
+    if (slider(id.c_str(), shown, -kMostDeg, kMostDeg, "%.0f°")) {
         const float angle = radians(std::clamp(shown, -kMostDeg, kMostDeg)) * (high ? 1.0F : -1.0F);
         setEnd(
             fields, turn, high, [angle](EditorDocument::Part&) { return angle; }, word);
@@ -112,7 +112,9 @@ void presentBar(const PartFields& fields, std::string_view name, const Present& 
     ImDrawList* list = ImGui::GetWindowDrawList();
     const float middle = at.y + height * 0.6F;
     const float past = std::max(present.low - present.angle, present.angle - present.high);
-    const ImVec4 color = past > 0.0F ? errorColor() : past > -kNearLimit ? warningColor() : goodColor();
+    const ImVec4 color = -past <= scene::kPassedLimit ? errorColor()
+                         : -past < scene::kNearLimit  ? warningColor()
+                                                      : goodColor();
     list->AddRectFilled({at.x, middle - 3}, {at.x + width, middle + 3}, ImGui::GetColorU32(ImGuiCol_FrameBg), 3.0F);
     const float span = std::max(present.high - present.low, 1e-4F);
     const float along = std::clamp((present.angle - present.low) / span, 0.0F, 1.0F);
@@ -157,7 +159,7 @@ void frictionField(const PartFields& fields) {
     float friction = fields.constraint().frictionNm;
     const float was = fields.fittedConstraint().frictionNm;
     fieldRow(fields, "Friction");
-    if (ImGui::SliderFloat("##friction", &friction, 0.0F, 20.0F, "%.2f N m")) {
+    if (slider("##friction", friction, 0.0F, 20.0F, "%.2f N m")) {
         fields.change("Friction", [&](EditorDocument::Part& part) -> Result<void> {
             if (part.constraint != nullptr) part.constraint->frictionNm = std::max(friction, 0.0F);
             return {};

@@ -32,7 +32,8 @@ void jointCombo(const PanelContext& context, Role role, int joint, bool fixed) {
     }
     ImGui::SetNextItemWidth(-1.0F);
     ImGui::InputTextWithHint("##filter", "type to search", &filter);
-    if (ImGui::Selectable("(none)", joint < 0)) {
+    // Without a joint for such a role there is no ragdoll.
+    if (!animation::isRequired(role) && ImGui::Selectable("(none)", joint < 0)) {
         editor.edit([&](EditorDocument& document) { return document.unmapRole(role); });
     }
     for (int i = 0; i < skeleton.jointCount(); ++i) {

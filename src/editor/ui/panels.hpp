@@ -30,6 +30,9 @@ struct ViewSpan {
 };
 [[nodiscard]] ViewSpan viewSpan(const PanelContext& context);
 
+/// What bars and panels lie over, as shares of the window; after drawTransport().
+[[nodiscard]] render::PictureInsets coveredBy(const PanelContext& context);
+
 void drawMenuBar(const PanelContext& context);
 void drawStatusBar(const PanelContext& context);
 void drawTransport(const PanelContext& context);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "editor/document/body_shape.hpp"
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"
 
@@ -22,7 +23,7 @@ const DocumentState& stateOf(const PartFields& fields) {
 // A length as centimetres; whether it was changed.
 bool slideCm(const char* id, float& metres, float least, float most) {
     float cm = metres * 100.0F;
-    if (!ImGui::SliderFloat(id, &cm, least * 100.0F, most * 100.0F, "%.1f cm")) return false;
+    if (!slider(id, cm, least * 100.0F, most * 100.0F, "%.1f cm")) return false;
     metres = std::max(cm * 0.01F, least);
     return true;
 }
@@ -39,7 +40,7 @@ struct Measure {
 };
 
 constexpr Measure kRadius{"Radius", [](const physics::BodyShape& s) { return s.radius; },
-                          [](physics::BodyShape& s, float value) { s.radius = value; }};
+                          [](physics::BodyShape& s, float value) { setRadius(s, value); }};
 // Of a capsule from end to end, as one sees it.
 constexpr Measure kLength{
     "Length", [](const physics::BodyShape& s) { return (s.halfLength + s.radius) * 2.0F; },
@@ -77,8 +78,7 @@ void massField(const PartFields& fields) {
     float mass = fields.profile().massKg;
     const float was = fields.fitted().massKg;
     fieldRow(fields, "Mass");
-    if (ImGui::SliderFloat("##mass", &mass, least, stateOf(fields).base.totalMassKg * 0.5F, "%.2f kg",
-                           ImGuiSliderFlags_Logarithmic)) {
+    if (slider("##mass", mass, least, stateOf(fields).base.totalMassKg * 0.5F, "%.2f kg", true)) {
         fields.change("Mass", [&](EditorDocument::Part& part) -> Result<void> {
             part.body.massKg = std::max(mass, least);
             return {};
@@ -183,9 +183,11 @@ void drawShapeFields(const PartFields& fields) {
     using Kind = physics::BodyShape::Kind;
     fieldRow(fields, "Shape");
     int kind = static_cast<int>(shape.kind);
+    // As the fit has it where it is of that kind; else as large as the old one.
     const auto setKind = [&](Kind wanted) {
-        fields.change("Shape", [wanted](EditorDocument::Part& part) -> Result<void> {
-            part.body.shape.kind = wanted;
+        fields.change("Shape", [&, wanted](EditorDocument::Part& part) -> Result<void> {
+            const physics::BodyShape& fitted = fields.fittedOf(part).shape;
+            part.body.shape = fitted.kind == wanted ? fitted : shapeOfKind(part.body.shape, wanted);
             return {};
         });
     };

@@ -41,6 +41,14 @@ void drawPartButtons(const PanelContext& context, const PartFields& fields) {
         wrappedButton("Paste", "Ctrl+V: gives what was copied to all selected bodies")) {
         editor.perform(Action::pastePart);
     }
+    if ((fields.edits().shape || fields.edits().jointFromBody) &&
+        wrappedButton("Refit", "Fits the shapes of the selected bodies to the skin again; limits and masses stay")) {
+        fields.change("Refit", [&](EditorDocument::Part& part) -> Result<void> {
+            part.body.shape = fields.fittedOf(part).shape;
+            part.body.jointFromBody = fields.fittedOf(part).jointFromBody;
+            return {};
+        });
+    }
     if (fields.edits().any() && wrappedButton("As fitted", "Forgets your changes of these bodies and their joints")) {
         editor.edit([&](EditorDocument& document) { return document.resetParts(fields.bodies); });
     }

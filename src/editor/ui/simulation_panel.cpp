@@ -23,7 +23,8 @@ float simulationLabelWidth(const PanelContext& context) {
 struct Told {
     const char* label;
     const char* group = "";  ///< As in UndoStack.
-    bool restart = false;    ///< Whether the scene begins anew.
+    bool restart = false;    ///< Whether the scene begins anew …
+    bool reframe = false;    ///< … and is another one, to be looked at as a whole.
 };
 
 // The settings hold the whole scene: they are copied when something is changed, not to be looked at.
@@ -31,9 +32,10 @@ template <class Change>
 void change(Editor& editor, const Told& told, const Change& change) {
     SceneSettings scene = editor.document().sceneDocument().settings();
     change(scene);
-    const bool done =
-        editor.edit([&](EditorDocument& document) { return document.setScene(scene, told.label, told.group); });
-    if (done && told.restart) editor.perform(Action::reset);
+    const bool done = editor.edit(
+        [&](EditorDocument& document) { return document.setScene(scene, told.label, told.group, told.restart); });
+    if (done && told.restart) editor.restart();
+    if (done && told.reframe) editor.frameScene();
 }
 
 template <class Change>
@@ -77,13 +79,13 @@ void drawNamedScene(const PanelContext& context) {
     }
     tooltip("Takes the place of the present scene's entities, but for those that you added");
     if (!chosen.empty()) {
-        change(editor, {"Choose the scene", "", true}, [&](SceneSettings& next) { next.scenario = chosen; });
+        change(editor, {"Choose the scene", "", true, true}, [&](SceneSettings& next) { next.scenario = chosen; });
     }
     ImGui::BeginDisabled(scene.scenario.empty());
     labelled("Dolls", simulationLabelWidth(context));
     int count = scene.count;
     if (ImGui::SliderInt("##count", &count, 1, 100, "%d", ImGuiSliderFlags_Logarithmic)) {
-        change(editor, {"Number of dolls", "count", true},
+        change(editor, {"Number of dolls", "count", true, true},
                [&](SceneSettings& next) { next.count = std::max(count, 1); });
     }
     labelled("Seed", simulationLabelWidth(context));
@@ -273,23 +275,70 @@ void drawReplay(const PanelContext& context) {
     if (ImGui::Button("End the replay", {-1.0F, 0})) player.endReplay();
 }
 
+void drawTakeName(const PanelContext& context, int index) {
+    RecordingDeck& deck = context.editor.player().deck();
+    std::string& name = context.state.newName;
+    ImGui::SetNextItemWidth(-1.0F);
+    if (ImGui::IsWindowAppearing()) {
+        name = deck.takes()[static_cast<std::size_t>(index)].name;
+        ImGui::SetKeyboardFocusHere();
+    }
+    if (ImGui::InputText("##takeName", &name, ImGuiInputTextFlags_EnterReturnsTrue)) {
+        deck.rename(index, name);
+        ImGui::CloseCurrentPopup();
+    }
+}
+
+// Every take with its name and length; a click means it, a right click renames or removes it.
+void drawTakes(const PanelContext& context) {
+    Player& player = context.editor.player();
+    RecordingDeck& deck = player.deck();
+    std::optional<int> removed;
+    for (int index = 0; index < static_cast<int>(deck.takes().size()); ++index) {
+        const Take& take = deck.takes()[static_cast<std::size_t>(index)];
+        ImGui::PushID(index);
+        const bool chosen = index == deck.current();
+        const std::string line =
+            fmt::format("{}  {:.1f} s{}###take", take.name, take.seconds(), take.saved ? "" : " ●");
+        if (ImGui::Selectable(line.c_str(), chosen)) {
+            if (deck.replaying()) player.endReplay();
+            deck.choose(index);
+        }
+        tooltip(take.saved ? "A right click renames or removes it"
+                           : "In no file yet. A right click renames or removes it");
+        if (ImGui::BeginPopupContextItem("##of")) {
+            drawTakeName(context, index);
+            if (ImGui::MenuItem("Remove this take", nullptr, false, !deck.recording() && !deck.replaying()))
+                removed = index;
+            ImGui::EndPopup();
+        }
+        ImGui::PopID();
+    }
+    if (removed) deck.remove(*removed);
+}
+
 void drawRecording(const PanelContext& context) {
     Editor& editor = context.editor;
     Player& player = editor.player();
-    const bool has = player.deck().steps() > 0;
-    if (player.deck().recording()) {
-        if (ImGui::Button(fmt::format("Stop ({:.1f} s)###record", player.deck().seconds()).c_str(), {-1.0F, 0})) {
+    const RecordingDeck& deck = player.deck();
+    const bool has = deck.steps() > 0;
+    if (deck.recording()) {
+        if (ImGui::Button(fmt::format("Stop ({:.1f} s)###record", deck.seconds()).c_str(), {-1.0F, 0})) {
             player.stopRecording();
         }
     } else {
-        ImGui::BeginDisabled(player.deck().replaying());
+        ImGui::BeginDisabled(deck.replaying());
         if (ImGui::Button("Record###record", {-1.0F, 0})) player.startRecording();
         ImGui::EndDisabled();
-        tooltip("Keeps the bodies of every step from now on");
+        tooltip("Keeps the bodies of every step from now on, as another take");
     }
+    drawTakes(context);
     const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) * 0.5F;
-    ImGui::BeginDisabled(player.deck().recording() || !has || player.deck().replaying());
-    if (ImGui::Button("Replay", {half, 0})) editor.workspace().report(player.replay());
+    ImGui::BeginDisabled(deck.recording() || !has || deck.replaying());
+    if (ImGui::Button("Replay", {half, 0}) && !editor.workspace().report(player.replay()) && deck.missing() > 0) {
+        editor.workspace().say(Toast::Kind::warning,
+                               fmt::format("{} of what the take shows are not in the scene now", deck.missing()));
+    }
     ImGui::EndDisabled();
     ImGui::SameLine();
     ImGui::BeginDisabled(!has);
@@ -297,9 +346,6 @@ void drawRecording(const PanelContext& context) {
     ImGui::EndDisabled();
     if (ImGui::Button("Open a recording…", {-1.0F, 0})) editor.dialog = Editor::Dialog::openRecording;
     drawReplay(context);
-    if (has && !player.deck().recording() && !player.deck().replaying()) {
-        mutedText(fmt::format("{} steps, {:.1f} s are kept.", player.deck().steps(), player.deck().seconds()));
-    }
 }
 
 }  // namespace

@@ -73,7 +73,10 @@ void drawJoint(const PanelContext& context, const Tree& tree, int joint) {
     const int body = bodyOfJoint(rig, joint);
     const auto role = roleOfJoint(editor.document().state().map, joint);
     const bool filtering = !context.state.jointFilter.empty();
-    const bool selected = active && active->kind == Item::Kind::body && body >= 0 && active->index == body;
+    const std::vector<Item>& items = editor.workspace().selection.items();
+    const bool selected = body >= 0 && std::any_of(items.begin(), items.end(), [&](const Item& item) {
+                              return item.kind == Item::Kind::body && item.index == body;
+                          });
 
     ImGuiTreeNodeFlags flags =
         ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_SpanAvailWidth | ImGuiTreeNodeFlags_DefaultOpen;

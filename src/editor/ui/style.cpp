@@ -58,8 +58,9 @@ void setColors(ImVec4* colors, const Palette& p) {
         {ImGuiCol_ScrollbarGrabHovered, p.active},
         {ImGuiCol_ScrollbarGrabActive, p.muted},
         {ImGuiCol_CheckMark, accent},
-        {ImGuiCol_SliderGrab, rgb(214, 132, 50, 0.85F)},
-        {ImGuiCol_SliderGrabActive, accent},
+        // Digits are read through it.
+        {ImGuiCol_SliderGrab, rgb(214, 132, 50, 0.55F)},
+        {ImGuiCol_SliderGrabActive, rgb(255, 150, 46, 0.7F)},
         {ImGuiCol_Button, p.button},
         {ImGuiCol_ButtonHovered, p.hovered},
         {ImGuiCol_ButtonActive, p.active},
@@ -116,7 +117,7 @@ void applyStyle(float scale, bool light) {
     style.TabRounding = 3.0F;
     style.ScrollbarRounding = 6.0F;
     style.ScrollbarSize = 11.0F;
-    style.GrabMinSize = 8.0F;
+    style.GrabMinSize = 6.0F;
     style.WindowPadding = {10.0F, 9.0F};
     style.FramePadding = {7.0F, 4.0F};
     style.ItemSpacing = {7.0F, 5.0F};

@@ -37,6 +37,14 @@ UserSettings loadUserSettings(const std::filesystem::path& file) {
     if (!json.is_object()) return settings;
     if (json.contains("allowOutside") && json["allowOutside"].is_boolean())
         settings.allowOutside = json["allowOutside"].get<bool>();
+    const auto number = [&](const char* key, float low, float high, float& value) {
+        if (!json.contains(key) || !json[key].is_number()) return;
+        const auto read = json[key].get<float>();
+        if (read >= low && read <= high) value = read;
+    };
+    number("uiScale", 0.5F, 4.0F, settings.uiScale);
+    number("leftWidth", 100.0F, 4000.0F, settings.leftWidth);
+    number("rightWidth", 100.0F, 4000.0F, settings.rightWidth);
     if (!json.contains("recent") || !json["recent"].is_array()) return settings;
     for (const auto& one : json["recent"]) {
         if (one.is_string() && settings.recent.size() < UserSettings::kMaxRecent) {
@@ -50,6 +58,9 @@ void saveUserSettings(const std::filesystem::path& file, const UserSettings& set
     if (file.empty()) return;
     nlohmann::ordered_json json = {
         {"version", 1}, {"allowOutside", settings.allowOutside}, {"recent", nlohmann::ordered_json::array()}};
+    if (settings.uiScale > 0.0F) json["uiScale"] = settings.uiScale;
+    if (settings.leftWidth > 0.0F) json["leftWidth"] = settings.leftWidth;
+    if (settings.rightWidth > 0.0F) json["rightWidth"] = settings.rightWidth;
     for (const std::filesystem::path& one : settings.recent)
         json["recent"].push_back(one.string());
     using Handler = nlohmann::ordered_json::error_handler_t;

@@ -9,7 +9,10 @@ namespace lutka::editor {
 struct UserSettings {
     static constexpr std::size_t kMaxRecent = 8;
     std::vector<std::filesystem::path> recent;  ///< Models, the last one first.
-    bool allowOutside = false;                  ///< animation::ImportOptions::allowOutside.
+    float uiScale = 0.0F;                       ///< Of the panels; 0: the monitor's.
+    float leftWidth = 0.0F;                     ///< Of the side panels, in 96 dpi pixels; 0: their own.
+    float rightWidth = 0.0F;
+    bool allowOutside = false;  ///< animation::ImportOptions::allowOutside.
 
     /// Puts a file in front.
     void remember(const std::filesystem::path& file);

@@ -1,6 +1,7 @@
 #include "editor/ui/widgets.hpp"
 
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cctype>
@@ -54,6 +55,23 @@ void chip(const std::string& text, unsigned int color) {
     list->AddRectFilled(at, end, (color & 0x00FFFFFFU) | 0x38000000U, ImGui::GetStyle().FrameRounding);
     list->AddText({at.x + padding.x, at.y + padding.y}, color, text.c_str());
     ImGui::Dummy({end.x - at.x, end.y - at.y});
+}
+
+// Dear ImGui types on a click with Ctrl.
+bool slider(const char* id, float& value, float low, float high, const char* format, bool logarithmic) {
+    ImGuiIO& io = ImGui::GetIO();
+    const bool control = io.KeyCtrl;
+    io.KeyCtrl = control || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+    const bool changed = ImGui::SliderFloat(id, &value, low, high, format,
+                                            logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+    io.KeyCtrl = control;
+    return changed;
+}
+
+bool textLine(const char* id, std::string& value) {
+    const std::string before = value;
+    const bool entered = ImGui::InputText(id, &value, ImGuiInputTextFlags_EnterReturnsTrue);
+    return (entered || ImGui::IsItemDeactivatedAfterEdit()) && value != before;
 }
 
 }  // namespace lutka::editor

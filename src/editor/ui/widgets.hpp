@@ -18,4 +18,10 @@ void tooltip(const std::string& text);
 /// A small coloured word in a rounded box.
 void chip(const std::string& text, unsigned int color);
 
+/// A slider on which a double click types the value.
+[[nodiscard]] bool slider(const char* id, float& value, float low, float high, const char* format,
+                          bool logarithmic = false);
+/// A line of text that counts at Enter or when it is left, and not at Esc; whether it was changed for good.
+[[nodiscard]] bool textLine(const char* id, std::string& value);
+
 }  // namespace lutka::editor

@@ -3,35 +3,66 @@
 #include <glm/geometric.hpp>
 
 #include "scene/draw_simulation.hpp"
+#include "scene/scene_extent.hpp"
 
 namespace lutka::editor {
 
+namespace {
+
+// Room around what is framed, as a share of the free part of the picture on each side.
+constexpr float kRoom = 0.05F;
+
+render::PictureInsets withRoom(const render::PictureInsets& covered) {
+    const float across = (1.0F - covered.left - covered.right) * kRoom;
+    const float up = (1.0F - covered.top - covered.bottom) * kRoom;
+    return {covered.left + across, covered.right + across, covered.top + up, covered.bottom + up};
+}
+
+bool sameInsets(const render::PictureInsets& a, const render::PictureInsets& b) {
+    return a.left == b.left && a.right == b.right && a.top == b.top && a.bottom == b.bottom;
+}
+
+bool sameView(const render::Camera& a, const render::Camera& b) {
+    return a.target == b.target && a.distance == b.distance && a.yaw == b.yaw && a.pitch == b.pitch &&
+           a.fieldOfView == b.fieldOfView && a.orthographic == b.orthographic;
+}
+
+}  // namespace
+
+std::vector<vec3> ViewCamera::pointsOfAll() const {
+    std::vector<vec3> points;
+    scene::addExtentOfScene(workspace_.player->simulation(), 1.0F, points);
+    return points;
+}
+
+void ViewCamera::frame(std::vector<vec3> points) {
+    if (points.empty()) return;
+    framed_ = Framed{std::move(points), workspace_.camera, {}, {}};
+    frameAgain();
+}
+
+void ViewCamera::frameAgain() {
+    framed_->window = workspace_.window;
+    framed_->covered = workspace_.covered;
+    render::framePoints(workspace_.camera, framed_->points, workspace_.window.aspect(), withRoom(workspace_.covered));
+    framed_->camera = workspace_.camera;
+}
+
 void ViewCamera::frameScene() {
-    constexpr float room = 1.15F;
     const scene::Scenario& scenario = workspace_.player->simulation().scenario();
     workspace_.camera = scene::cameraFor(scenario, workspace_.window.aspect());
-    if (!scenario.camera) render::dolly(workspace_.camera, room);
+    framed_.reset();
+    if (!scenario.camera) frame(pointsOfAll());
 }
 
 void ViewCamera::focus() {
-    const Player& player = *workspace_.player;
-    const float aspect = workspace_.window.aspect();
-    if (const auto active = workspace_.selection.active()) {
-        constexpr float bodyRadius = 0.45F;
-        render::frameSphere(workspace_.camera, workspace_.positionOf(*active), bodyRadius, aspect);
-        return;
-    }
-    if (player.simulation().dollCount() == 0) return;
-    const auto bodies = player.bodiesOf(0);
-    vec3 low = bodies.front().worldFromBody.translation;
-    vec3 high = low;
-    for (const physics::BodyState& body : bodies) {
-        low = glm::min(low, body.worldFromBody.translation);
-        high = glm::max(high, body.worldFromBody.translation);
-    }
-    constexpr float around = 0.25F;  // metres of flesh beyond the outermost centres
-    const float radius = glm::distance(low, high) * 0.5F + around;
-    render::frameSphere(workspace_.camera, (low + high) * 0.5F, radius, aspect);
+    const auto active = workspace_.selection.active();
+    if (!active) return frame(pointsOfAll());
+    constexpr float around = 0.45F;  // metres
+    const vec3 centre = workspace_.positionOf(*active);
+    const vec3 up = render::upOf(workspace_.camera) * around;
+    const vec3 right = render::rightOf(workspace_.camera) * around;
+    frame({centre + up, centre - up, centre + right, centre - right});
 }
 
 void ViewCamera::lookAlong(float yaw, float pitch) {
@@ -53,6 +84,12 @@ void ViewCamera::toggleFollow() {
 }
 
 void ViewCamera::follow() {
+    if (framed_ && !sameView(framed_->camera, workspace_.camera)) framed_.reset();
+    const bool covered = framed_ && !sameInsets(framed_->covered, workspace_.covered);
+    if (framed_ && (covered || framed_->window.width != workspace_.window.width ||
+                    framed_->window.height != workspace_.window.height)) {
+        frameAgain();
+    }
     if (!workspace_.followed) return;
     Player& player = *workspace_.player;
     if (*workspace_.followed >= player.simulation().dollCount()) {

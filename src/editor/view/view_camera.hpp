@@ -10,9 +10,10 @@ class ViewCamera {
   public:
     explicit ViewCamera(Workspace& workspace) : workspace_(workspace) {}
 
-    /// The scene's own view, a little farther off: bars lie over the picture's edges.
+    /// The scene's own camera; without one all of the scene from its side. Framed like that the view goes along with
+    /// the size of the window and what covers it, until the user moves it.
     void frameScene();
-    /// The active item; without one the first doll.
+    /// The active item; without one all of the scene.
     void focus();
     /// Looks that way at what it looks at; radians.
     void lookAlong(float yaw, float pitch);
@@ -23,7 +24,19 @@ class ViewCamera {
     void lookThrough(scene::EntityId camera);
 
   private:
+    /// What a view was made to show.
+    struct Framed {
+        std::vector<vec3> points;
+        render::Camera camera;
+        render::Extent window;
+        render::PictureInsets covered;
+    };
+    void frame(std::vector<vec3> points);
+    void frameAgain();
+    [[nodiscard]] std::vector<vec3> pointsOfAll() const;
+
     Workspace& workspace_;
+    std::optional<Framed> framed_;
     vec3 followedAt_{0, 0, 0};  // where the followed doll's hips were when the camera last moved
 };
 

@@ -299,88 +299,80 @@ TEST_CASE("a recording replays what was simulated, can be scrubbed, saved and op
     CHECK_FALSE(player.openRecording(folder / "nowhere"));
 }
 
-TEST_CASE("a recording ends when the scene gets other bodies, and is refused by a scene with others") {
+TEST_CASE("a take goes on when copies and balls come in, shows them from then on, and is replayed after a reset") {
     const auto editor = test::makeEditor();
     Player& player = editor->player();
     player.startRecording();
-    editor->update(1.0 / 60.0);
-    CHECK(player.deck().recording());
+    test::pass(*editor, 10);
     editor->dropCopies(1);
-    editor->update(1.0 / 60.0);
-    CHECK_FALSE(player.deck().recording());
-    const auto refused = player.replay();
-    REQUIRE_FALSE(refused);
-    CHECK(refused.error().message.find("moving things") != std::string::npos);
-}
-
-TEST_CASE("the dolls go back to where they were when Play was pressed") {
-    const auto editor = test::makeEditor();
-    for (int frame = 0; frame < 25; ++frame)
-        editor->update(1.0 / 60.0);
-    editor->perform(Action::togglePlay);
-    const vec3 paused = test::placeOf(*editor, animation::Role::hips);
-    editor->perform(Action::togglePlay);
-    REQUIRE(editor->player().canReturnToPlay());
-    for (int frame = 0; frame < 25; ++frame)
-        editor->update(1.0 / 60.0);
-    CHECK(glm::distance(test::placeOf(*editor, animation::Role::hips), paused) > 0.05F);
-    editor->perform(Action::returnToPlay);
-    CHECK(glm::distance(test::placeOf(*editor, animation::Role::hips), paused) < 1e-4F);
-    CHECK_FALSE(editor->player().playing());
-}
-
-TEST_CASE("step, substeps, iterations and damping reach the simulation") {
-    const auto editor = test::makeEditor();
-    SceneSettings settings = editor->document().sceneDocument().settings();
-    settings.entities.simulation.dt = 1.0F / 120.0F;
-    settings.entities.simulation.world.substeps = 3;
-    settings.entities.simulation.world.linearDamping = 0.9F;
-    settings.entities.simulation.world.gravity = vec3(0);
-    for (const auto solver : {physics::SolverKind::bullet, physics::SolverKind::crowd}) {
-        settings.entities.simulation.world.solver = solver;
-        for (auto& doll : settings.entities.all<scene::Ragdoll>())
-            doll.linearVelocity = {1, 0, 0};
-        REQUIRE(editor->edit([&](EditorDocument& document) { return document.setScene(settings, "Physics"); }));
-        editor->perform(Action::reset);
-        CHECK(editor->player().simulation().world().substepsPerStep() == 3);
-        for (int frame = 0; frame < 60; ++frame)
-            editor->update(1.0 / 60.0);
-        CHECK(editor->player().simulation().steps() == 120);
-        const vec3 speed = editor->player().bodiesOf(0).front().linearVelocity;
-        CHECK(speed.x == Approx(0.1F).margin(0.03));  // a tenth is left after a second
-    }
-}
-
-TEST_CASE("a scene without characters goes on, and takes one again") {
-    const auto editor = test::makeEditor();
-    REQUIRE(editor->editScene("Delete", "", [](EntityScene& scene) {
-        scene::removeEntity(scene, scene.all<scene::Ragdoll>().front().entity);
-    }));
-    test::pass(*editor, 3);
-    editor->perform(Action::focus);
-    editor->perform(Action::reset);
+    test::pass(*editor, 10);
     editor->perform(Action::throwBall);
-    test::pass(*editor, 3);
-    CHECK(editor->player().simulation().dollCount() == 0);
-    CHECK_FALSE(editor->files().exportBaked("nothing.glb", 0.1F));
-    add(*editor, EntityKind::character, {0, 1, 0});
-    test::pass(*editor, 3);
-    CHECK(editor->player().simulation().dollCount() == 1);
+    test::pass(*editor, 10);
+    REQUIRE(player.deck().recording());
+    const vec3 ball = player.simulation().worldFromProp(0).translation;
+    player.stopRecording();
+    editor->perform(Action::reset);  // the ball is gone
+    REQUIRE(player.deck().takes().size() == 1);
+    CHECK(player.deck().takes()[0].name == "Take 1");
+    CHECK(player.deck().seconds() == Approx(0.5).margin(0.001));
+    REQUIRE(player.replay());
+    CHECK(player.deck().missing() == 0);
+    player.setPlaying(false);
+    player.scrubTo(5.0 / 60.0);
+    CHECK_FALSE(player.simulation().showsDoll(1));
+    CHECK_FALSE(player.simulation().showsProp(0));
+    player.scrubTo(15.0 / 60.0);
+    CHECK(player.simulation().showsDoll(1));
+    CHECK_FALSE(player.simulation().showsProp(0));
+    player.scrubTo(1.0);
+    CHECK(player.simulation().showsProp(0));
+    CHECK(glm::distance(player.simulation().worldFromProp(0).translation, ball) < 1e-4F);
+    player.endReplay();
+    CHECK(player.simulation().showsDoll(1));
+    CHECK(player.simulation().world().props().size() == 0);
 }
 
-TEST_CASE("the fall starts from a clip at a time, with its velocities") {
-    EditorOptions options;
-    options.model = LUTKA_ASSETS_DIR "/models/mannequin.glb";
-    auto made = Editor::create(options);
-    REQUIRE(made);
-    Editor& editor = *made.value();
-    SceneSettings settings = editor.document().sceneDocument().settings();
-    settings.clip = scene::ClipStart{"walk", 0.4F};
-    REQUIRE(editor.edit([&](EditorDocument& document) { return document.setScene(settings, "Start"); }));
-    editor.perform(Action::reset);
-    const auto bodies = editor.player().bodiesOf(0);
-    const bool moves = std::any_of(bodies.begin(), bodies.end(), [](const physics::BodyState& body) {
-        return glm::length(body.linearVelocity) > 0.2F;
-    });
-    CHECK(moves);
+TEST_CASE("no take is lost: a second Record begins another, and what ends one by itself is told") {
+    const auto editor = test::makeEditor();
+    Player& player = editor->player();
+    player.startRecording();
+    test::pass(*editor, 20);
+    editor->perform(Action::reset);
+    test::pass(*editor, 1);
+    CHECK_FALSE(player.deck().recording());
+    REQUIRE_FALSE(editor->workspace().toasts.empty());
+    CHECK(editor->workspace().toasts.back().text.find("Take 1 (0.3 s) ended") != std::string::npos);
+    player.startRecording();
+    test::pass(*editor, 30);
+    player.stopRecording();
+    REQUIRE(player.deck().takes().size() == 2);
+    CHECK(player.deck().current() == 1);
+    player.deck().choose(0);
+    CHECK(player.deck().seconds() == Approx(20.0 / 60.0).margin(0.001));
+    // Another model has takes of its own beside these.
+    test::send(*editor, filesDropped({LUTKA_ASSETS_DIR "/models/mannequin.glb"}));
+    CHECK(editor->document().character().name == "mannequin");
+    CHECK(editor->player().deck().takes().size() == 2);
+    CHECK_FALSE(editor->player().replay());
+}
+
+TEST_CASE("takes that are in no file are part of the question at the end, and Save writes each") {
+    const test::ScratchFolder folder;
+    std::filesystem::copy_file(LUTKA_ASSETS_DIR "/models/mannequin.glb", folder / "doll.glb");
+    const auto editor = test::makeEditor();
+    test::send(*editor, filesDropped({std::filesystem::path(folder / "doll.glb").string()}));
+    Player& player = editor->player();
+    for (int take = 0; take < 2; ++take) {
+        player.startRecording();
+        test::pass(*editor, 10);
+        player.stopRecording();
+    }
+    test::send(*editor, windowClosed());
+    REQUIRE(editor->files().askingUnsaved());
+    CHECK(editor->files().askingTakes());
+    editor->files().answer(FileFlow::Answer::save);
+    CHECK(editor->quitting());
+    CHECK(std::filesystem::exists(folder / "doll.Take_1.recording"));
+    CHECK(std::filesystem::exists(folder / "doll.Take_2.recording"));
+    CHECK_FALSE(player.deck().anyUnsaved());
 }

@@ -207,3 +207,54 @@ TEST_CASE("a model that is no humanoid is offered as a ragdoll of any skeleton, 
     REQUIRE(editor->edit([&](EditorDocument& document) { return document.setFit(fit); }));
     CHECK(editor->document().profile().bodies.size() <= 10);
 }
+
+TEST_CASE("whoever saves the scene is offered the ragdoll, and the scene names the profile that was saved after it") {
+    const Neighbours files;
+    fs::remove(files.profile);
+    EditorOptions options;
+    options.model = files.model;
+    options.playing = false;
+    auto made = Editor::create(options);
+    REQUIRE(made.ok());
+    Editor& editor = *made.value();
+    const fs::path scene = files.folder / "own.scene.json";
+    editKnee(editor);
+    REQUIRE(editor.files().requestSaveScene(scene));
+    CHECK(editor.files().offeredSave() == FileFlow::OfferedSave::profile);
+    CHECK(test::fileText(scene).find("mannequin.ragdoll.json") == std::string::npos);
+    editor.files().answerOfferedSave(true);
+    CHECK_FALSE(editor.document().unsaved());
+    // The ragdoll has a file now, which the scene's does not name.
+    CHECK(editor.document().sceneDocument().unsaved());
+    REQUIRE(editor.files().offeredSave() == FileFlow::OfferedSave::scene);
+    editor.files().answerOfferedSave(true);
+    CHECK_FALSE(editor.document().sceneDocument().unsaved());
+    CHECK(test::fileText(scene).find("mannequin.ragdoll.json") != std::string::npos);
+    CHECK(editor.files().offeredSave() == FileFlow::OfferedSave::none);
+}
+
+TEST_CASE("Ctrl+S saves the ragdoll before the scene, so that the scene names it") {
+    const Neighbours files;
+    fs::remove(files.profile);
+    EditorOptions options;
+    options.model = files.model;
+    auto made = Editor::create(options);
+    REQUIRE(made.ok());
+    Editor& editor = *made.value();
+    const fs::path scene = files.folder / "own.scene.json";
+    REQUIRE(editor.files().requestSaveScene(scene));
+    editKnee(editor);
+    send(editor, keyPressed(Key::s, {false, true, false}));
+    CHECK_FALSE(editor.document().unsaved());
+    CHECK_FALSE(editor.document().sceneDocument().unsaved());
+    CHECK(test::fileText(scene).find("mannequin.ragdoll.json") != std::string::npos);
+    CHECK(editor.files().offeredSave() == FileFlow::OfferedSave::none);
+}
+
+TEST_CASE("the list for opening shows models, profiles and scenes, and no other JSON") {
+    CHECK(passes(FileFilter::models, "a/knight.FBX"));
+    CHECK(passes(FileFilter::models, "knight.ragdoll.json"));
+    CHECK(passes(FileFilter::models, "hall.Scene.json"));
+    CHECK_FALSE(passes(FileFilter::models, "package.json"));
+    CHECK_FALSE(passes(FileFilter::models, "notes.txt"));
+}

@@ -110,3 +110,31 @@ TEST_CASE("no key does two things and every action has a name") {
     CHECK(shortcutText(Action::redo) == "Ctrl+Shift+Z");
     CHECK_FALSE(actionFor(keyPressed(Key::z)).has_value());
 }
+
+TEST_CASE("a frame's events are taken a press, a release or a key at a time, in order and without losing one") {
+    const std::vector<InputEvent> events{mouseMoved({1, 1}),
+                                         mouseMoved({2, 2}),
+                                         mouseButton(MouseButton::left, true),
+                                         mouseMoved({3, 3}),
+                                         mouseButton(MouseButton::left, false),
+                                         keyPressed(Key::a),
+                                         textTyped('a'),
+                                         keyReleased(Key::a),
+                                         keyPressed(Key::b),
+                                         textTyped('b'),
+                                         wheelTurned(1)};
+    const auto steps = inputSteps(events);
+    REQUIRE(steps.size() == 5);
+    CHECK(steps[0].size() == 3);  // the way there and the press
+    CHECK(steps[1].size() == 2);  // the drag and the release
+    CHECK(steps[2].size() == 2);  // a key with its text
+    CHECK(steps[3].size() == 3);
+    CHECK(steps[4].size() == 1);
+    std::size_t count = 0;
+    for (const auto& step : steps) {
+        CHECK(step.data() == events.data() + count);
+        count += step.size();
+    }
+    CHECK(count == events.size());
+    CHECK(inputSteps({}).size() == 1);
+}

@@ -12,14 +12,20 @@ TEST_CASE("what the user chose is there in the next run, and a file that is not 
     CHECK_FALSE(loadUserSettings(file).allowOutside);
     UserSettings settings;
     settings.allowOutside = true;
+    settings.uiScale = 1.5F;
+    settings.leftWidth = 420.0F;
     settings.remember(folder.path / "hero.glb");
     saveUserSettings(file, settings);
     CHECK(loadUserSettings(file).allowOutside);
     CHECK(loadUserSettings(file).recent == settings.recent);
-    for (const char* text : {"{", "[1]", R"({"allowOutside": "yes", "recent": 3})"}) {
+    CHECK(loadUserSettings(file).uiScale == 1.5F);
+    CHECK(loadUserSettings(file).leftWidth == 420.0F);
+    CHECK(loadUserSettings(file).rightWidth == 0.0F);
+    for (const char* text : {"{", "[1]", R"({"allowOutside": "yes", "recent": 3, "uiScale": 99})"}) {
         INFO(text);
         std::ofstream(file) << text;
         CHECK_FALSE(loadUserSettings(file).allowOutside);
         CHECK(loadUserSettings(file).recent.empty());
+        CHECK(loadUserSettings(file).uiScale == 0.0F);
     }
 }

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "editor/play/pulls.hpp"
+#include "physics/profile/profile.hpp"
+#include "scene/entity_scene.hpp"
+
+namespace lutka::editor {
+
+/// What moves in a scene at a moment, with the joints and the roles that it belongs to, so that it survives a change of
+/// the ragdoll.
+struct Motion {
+    struct Doll {
+        scene::EntityId entity = scene::kNoEntity;
+        int asset = 0;
+        std::vector<physics::BodyState> bodies;
+        std::vector<RigidTransform> modelFromJoint;
+        RigidTransform worldFromModel;
+    };
+    std::vector<std::vector<physics::BodyProfile>> bodies;  ///< Of each asset, as they were.
+    std::vector<Doll> dolls;
+    std::vector<physics::BodyState> props;
+    std::vector<scene::EntityId> propEntities;  ///< Of the scene's own, which come first.
+};
+
+/// All that a running scene is at a moment beside the document: what undo brings back.
+struct PlayState {
+    Motion motion;
+    std::vector<physics::DynamicProp> thrown;  ///< Balls in play; their motion follows the scene's props'.
+    std::vector<Pull> pins;
+    double seconds = 0.0;      ///< Simulated, since the scene's start.
+    std::uint64_t moment = 0;  ///< Player::moment() then.
+};
+
+}  // namespace lutka::editor

@@ -1,0 +1,44 @@
+#include "editor/document/body_shape.hpp"
+
+#include "support/catch.hpp"
+
+using namespace lutka;
+using namespace lutka::editor;
+using physics::BodyShape;
+
+namespace {
+
+BodyShape thigh() {
+    BodyShape shape;
+    shape.kind = BodyShape::Kind::capsule;
+    shape.radius = 0.08F;
+    shape.halfLength = 0.16F;
+    return shape;
+}
+
+}  // namespace
+
+TEST_CASE("a shape of another kind has the old one's measures") {
+    const BodyShape box = shapeOfKind(thigh(), BodyShape::Kind::box);
+    CHECK(box.halfExtents.x == Approx(0.08F));
+    CHECK(box.halfExtents.y == Approx(0.24F));
+    CHECK(box.halfExtents.z == Approx(0.08F));
+    const BodyShape back = shapeOfKind(box, BodyShape::Kind::capsule);
+    CHECK(back.radius == Approx(0.08F));
+    CHECK(back.halfLength == Approx(0.16F));
+    const BodyShape ball = shapeOfKind(thigh(), BodyShape::Kind::sphere);
+    CHECK(ball.radius > 0.08F);
+    CHECK(ball.radius < 0.24F);
+    BodyShape flat = box;
+    flat.halfExtents = {0.2F, 0.05F, 0.2F};
+    CHECK(shapeOfKind(flat, BodyShape::Kind::capsule).halfLength == Approx(0.0F).margin(1e-6));
+}
+
+TEST_CASE("a capsule's radius leaves its length alone, as far as it can") {
+    BodyShape shape = thigh();
+    setRadius(shape, 0.1F);
+    CHECK(shape.halfLength + shape.radius == Approx(0.24F));
+    setRadius(shape, 0.3F);
+    CHECK(shape.halfLength == 0.0F);
+    CHECK(shape.radius == 0.3F);
+}
