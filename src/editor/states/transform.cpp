@@ -266,7 +266,7 @@ class GrabHandler final : public TransformHandler {
     [[nodiscard]] std::string nameOfPulled() const {
         const physics::BodyProfile& body =
             workspace_.player->simulation().assetOf(pulled_->doll).profile.bodies[pulled_->index];
-        return std::string(animation::roleName(body.role));
+        return body.name;
     }
 
     [[nodiscard]] std::optional<vec3> mousePoint() const {

@@ -9,7 +9,7 @@ void selectMirror(Selection& selection, const physics::RagdollProfile& profile) 
     selection.clear();
     for (Item item : items) {
         if (item.kind == Item::Kind::body) {
-            const int other = physics::bodyOf(profile, animation::mirrored(profile.bodies[item.index].role));
+            const int other = physics::counterpartOf(profile, item.index);
             if (other >= 0) item.index = other;
         }
         if (!selection.contains(item)) selection.toggle(item);
