@@ -82,15 +82,15 @@ void checkSame(const physics::RagdollProfile& got, const physics::RagdollProfile
     CHECK(got.totalMassKg == Approx(wanted.totalMassKg).epsilon(1e-5));
     for (const physics::BodyProfile& body : wanted.bodies) {
         INFO(body.name);
-        const int index = physics::bodyOf(got, body.role);
+        const int index = physics::bodyNamed(got, body.name);
         REQUIRE(index >= 0);
         checkSame(got.bodies[index], body);
     }
     for (const physics::ConstraintProfile& constraint : wanted.constraints) {
-        const int child = physics::bodyOf(got, wanted.bodies[constraint.child].role);
+        const int child = physics::bodyNamed(got, wanted.bodies[constraint.child].name);
         INFO(got.bodies[child].name);
         const physics::ConstraintProfile& back = got.constraints.at(static_cast<std::size_t>(child) - 1);
-        CHECK(got.bodies[back.parent].role == wanted.bodies[constraint.parent].role);
+        CHECK(got.bodies[back.parent].name == wanted.bodies[constraint.parent].name);
         checkSame(back, constraint);
     }
     CHECK(pairNames(got) == pairNames(wanted));
