@@ -238,7 +238,7 @@ TEST_CASE("a script gives a role to another joint by the mapping's list and save
         script.add(textTyped(static_cast<std::uint32_t>(letter)));
     script.wait(2);
     const int list = script.frame();
-    script.click(190, 226).wait(2);  // "chest", the second line of what is left
+    script.click(190, 198).wait(2);  // "chest", the first line of what is left
     script.key(Key::s, kControl).wait(2);
     script.save(scratch / "script.jsonl");
     const Outcome outcome =
@@ -259,7 +259,7 @@ TEST_CASE("a role that a script drags from its panel onto a joint in the view ta
     const Scratch scratch;
     Script script;
     script.key(Key::space).click(122, 43).wait(2);     // the tab Mapping
-    script.drag(40, 331, 712, 188).wait(2).release();  // leftHand to the left elbow
+    script.drag(40, 331, 683, 213).wait(2).release();  // leftHand to the left elbow
     script.move(640, 600).key(Key::s, kControl).wait(2);
     script.save(scratch / "script.jsonl");
     const Outcome outcome = edit(scratch, "--headless --input " + (scratch / "script.jsonl").string());

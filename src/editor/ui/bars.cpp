@@ -235,6 +235,7 @@ ViewSpan viewSpan(const PanelContext& context) {
 }
 
 render::PictureInsets coveredBy(const PanelContext& context) {
+    if (!context.editor.view.panels) return {};  // then the picture is the whole window, with bars over its margin
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const auto [left, right] = viewSpan(context);
     const float top = context.state.transportBottom + context.px(4);

@@ -30,7 +30,7 @@ struct ViewSpan {
 };
 [[nodiscard]] ViewSpan viewSpan(const PanelContext& context);
 
-/// What bars and panels lie over, as shares of the window; after drawTransport().
+/// What bars and panels lie over, as shares of the window, nothing while the panels are hidden; after drawTransport().
 [[nodiscard]] render::PictureInsets coveredBy(const PanelContext& context);
 
 void drawMenuBar(const PanelContext& context);
