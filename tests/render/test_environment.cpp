@@ -8,6 +8,7 @@
 
 #include "core/random.hpp"
 #include "support/catch.hpp"
+#include "support/command.hpp"
 
 using namespace lutka;
 using namespace lutka::render;
@@ -18,11 +19,9 @@ namespace fs = std::filesystem;
 
 /// A file that is gone with the test.
 struct HdrFile {
-    fs::path path = fs::temp_directory_path() / ("lutka-" + std::to_string(std::rand()) + ".hdr");
+    test::ScratchFolder folder;  // of its own: tests run side by side
+    fs::path path = folder / "sky.hdr";
     explicit HdrFile(const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
-    HdrFile(const HdrFile&) = delete;
-    HdrFile& operator=(const HdrFile&) = delete;
-    ~HdrFile() { fs::remove(path); }
 };
 
 std::string header(int width, int height) {

@@ -164,6 +164,7 @@ FigureChoice figuresOf(const SourceScene& scene) {
     const std::vector<Armature> armatures = armaturesOf(scene);
     const std::vector<glm::dmat4> sceneFromNode = posed(scene);
     std::vector<JointBounds> bounds;
+    bounds.reserve(armatures.size());
     for (const Armature& armature : armatures)
         bounds.push_back(boundsOf(sceneFromNode, armature));
     FigureChoice choice;

@@ -4,6 +4,7 @@
 
 #include "lone_figure.hpp"
 #include "render/gl/pixels.hpp"
+#include "support/command.hpp"
 #include "support/rigs.hpp"
 
 using namespace lutka;
@@ -316,14 +317,13 @@ TEST_CASE("a shader that does not compile is told with its file and line") {
     const auto gl = GlFixture::create();
     NEEDS_GL(gl);
     namespace fs = std::filesystem;
-    const fs::path folder = fs::temp_directory_path() / ("lutka-shaders-" + std::to_string(std::rand()));
-    fs::create_directories(folder);
+    const test::ScratchFolder scratch;
+    const fs::path& folder = scratch.path;
     fs::copy(fs::path(LUTKA_ASSETS_DIR) / "shaders", folder / "shaders");
     std::ofstream(folder / "shaders" / "noise.glsl") << "float pixelNoise() {\n    return nothing;\n}\n";
     ::setenv("LUTKA_ASSETS", folder.c_str(), 1);
     const Result<Renderer> broken = Renderer::create(gl->context);
     ::unsetenv("LUTKA_ASSETS");
-    fs::remove_all(folder);
     REQUIRE_FALSE(broken.ok());
     CHECK(broken.error().code == ErrorCode::internal);
     CHECK(broken.error().location == "noise.glsl:2");
