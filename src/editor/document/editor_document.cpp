@@ -443,7 +443,7 @@ EditorDocument::Step EditorDocument::undo() {
     if (!undo_.canUndo()) return {};
     const bool moves = undo_.undoMoves();
     Snapshot before = undo_.undo(snapshot());
-    const Step step{before.play, moves};
+    Step step{before.play, moves};
     adopt(std::move(before));
     return step;
 }
@@ -452,7 +452,7 @@ EditorDocument::Step EditorDocument::redo() {
     if (!undo_.canRedo()) return {};
     const bool moves = undo_.redoMoves();
     Snapshot after = undo_.redo(snapshot());
-    const Step step{after.play, moves};
+    Step step{after.play, moves};
     adopt(std::move(after));
     return step;
 }

@@ -51,6 +51,7 @@ int sinceOf(const std::vector<int>& since, int item) {
 // Of all in a new order, when they came in; who is new comes in at `step`.
 std::vector<int> sinceIn(const std::vector<int>& since, const std::vector<int>& places, int step) {
     std::vector<int> all;
+    all.reserve(places.size());
     for (const int place : places)
         all.push_back(place >= 0 ? sinceOf(since, place) : step);
     return all;

@@ -133,7 +133,7 @@ class Examination {
             const bool deep = overlap.depthM > 0.01F * profile_.heightM;
             diagnosis.findings.push_back({deep ? Severity::error : Severity::warning,
                                           "overlap",
-                                          first + " and " + second,
+                                          fmt::format("{} and {}", first, second),
                                           fmt::format("{:.1f} mm deep in the bind pose", 1000.0F * overlap.depthM),
                                           "filter the pair, or shrink one of the shapes",
                                           true,

@@ -1,7 +1,6 @@
 #include "physics/powered/body_pin.hpp"
 
 #include <cmath>
-#include <utility>
 
 namespace lutka::physics {
 namespace {
@@ -15,7 +14,7 @@ vec3 pointOf(std::size_t index) {
 
 }  // namespace
 
-BodyPin::BodyPin(World& world, DollId doll, int body) : world_(&world) {
+BodyPin::BodyPin(World& world, DollId doll, int body) : world_(world) {
     drag_.doll = doll;
     drag_.body = body;
     drag_.maxForceN = 0.0F;
@@ -26,13 +25,9 @@ BodyPin::BodyPin(World& world, DollId doll, int body) : world_(&world) {
 }
 
 BodyPin::~BodyPin() {
-    if (world_ == nullptr) return;
     for (const DragId id : ids_)
-        if (world_->has(id)) world_->removeDrag(id);
+        if (world_.has(id)) world_.removeDrag(id);
 }
-
-BodyPin::BodyPin(BodyPin&& other) noexcept
-    : world_(std::exchange(other.world_, nullptr)), drag_(other.drag_), ids_(other.ids_) {}
 
 void BodyPin::follow(const RigidTransform& from, const RigidTransform& to, float dt, float maxForceN) {
     drag_.maxForceN = maxForceN / static_cast<float>(ids_.size());
@@ -40,7 +35,7 @@ void BodyPin::follow(const RigidTransform& from, const RigidTransform& to, float
         drag_.bodyPoint = pointOf(i);
         drag_.worldTarget = to * drag_.bodyPoint;
         drag_.worldVelocity = (drag_.worldTarget - from * drag_.bodyPoint) / dt;
-        if (world_->has(ids_[i])) world_->setDrag(ids_[i], drag_);
+        if (world_.has(ids_[i])) world_.setDrag(ids_[i], drag_);
     }
 }
 

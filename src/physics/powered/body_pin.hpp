@@ -15,15 +15,13 @@ class BodyPin {
     ~BodyPin();
     BodyPin(const BodyPin&) = delete;
     BodyPin& operator=(const BodyPin&) = delete;
-    BodyPin(BodyPin&& other) noexcept;
-    BodyPin& operator=(BodyPin&&) = delete;
 
     /// For the coming step of `dt` > 0 s, in which the frame moves from `from` to `to` (world), with at most
     /// `maxForceN`.
     void follow(const RigidTransform& from, const RigidTransform& to, float dt, float maxForceN);
 
   private:
-    World* world_;
+    World& world_;
     Drag drag_;
     std::array<DragId, 3> ids_;
 };
