@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "physics/profile/swing_twist.hpp"
+#include "core/swing_twist.hpp"
 
 namespace lutka::exporting {
 namespace {
@@ -20,19 +20,19 @@ float angleOfSample(int i) {
 // The swing angles (first, second) of a point on the limit's ellipse.
 vec2 onEllipse(const ConeTwistLimits& limits, float at, bool yFirst) {
     const vec3 swing(0, limits.swingY * std::cos(at), limits.swingZ * std::sin(at));
-    const auto angles = hingeAngles(physics::rotationOf({swing, 0.0F}), yFirst);
+    const auto angles = hingeAngles(rotationOf({swing, 0.0F}), yFirst);
     return {angles[0], angles[1]};
 }
 
 // Radians past the ellipse.
 float excessOf(const ConeTwistLimits& limits, const vec2& angles, bool yFirst) {
-    const vec3 swing = physics::swingTwist(rotationOfHinges({angles.x, angles.y, 0.0F}, yFirst)).swing;
+    const vec3 swing = swingTwist(rotationOfHinges({angles.x, angles.y, 0.0F}, yFirst)).swing;
     const float filled = std::hypot(swing.y / limits.swingY, swing.z / limits.swingZ);
     return filled > 1.0F ? glm::length(swing) * (1.0F - 1.0F / filled) : 0.0F;
 }
 
 float twistOf(const vec2& angles, bool yFirst) {
-    return std::abs(physics::swingTwist(rotationOfHinges({angles.x, angles.y, 0.0F}, yFirst)).twist);
+    return std::abs(swingTwist(rotationOfHinges({angles.x, angles.y, 0.0F}, yFirst)).twist);
 }
 
 void measure(const ConeTwistLimits& limits, ThreeHinges& hinges) {

@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "physics/profile/swing_twist.hpp"
+#include "core/swing_twist.hpp"
 #include "support/catch.hpp"
 
 using namespace lutka;
@@ -47,7 +47,7 @@ TEST_CASE("the octagon holds the whole ellipse and is much nearer to it than the
         for (int i = 0; i < 100; ++i) {
             const float at = 0.0628F * static_cast<float>(i);
             const vec3 swing(0, limits.swingY * std::cos(at), limits.swingZ * std::sin(at));
-            const auto angles = hingeAngles(physics::rotationOf({swing, 0.0F}), three.yFirst);
+            const auto angles = hingeAngles(rotationOf({swing, 0.0F}), three.yFirst);
             CHECK(std::abs(angles[0]) <= three.firstMax + 1e-4F);
             CHECK(std::abs(angles[1]) <= three.secondMax + 1e-4F);
             CHECK(std::abs(angles[0] * three.sumFirst) + std::abs(angles[1] * three.sumSecond) <= 1.0F + 1e-3F);

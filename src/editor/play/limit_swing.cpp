@@ -4,7 +4,7 @@
 #include <glm/common.hpp>
 
 #include "core/assert.hpp"
-#include "physics/profile/swing_twist.hpp"
+#include "core/swing_twist.hpp"
 
 namespace lutka::editor {
 namespace {
@@ -31,7 +31,7 @@ LimitSwing::LimitSwing(const physics::RagdollProfile& profile, int child, std::v
                   {0, now, 0, "back"}};
         return;
     }
-    const physics::SwingTwist now = physics::swingTwist(relative);
+    const SwingTwist now = swingTwist(relative);
     const physics::ConeTwistLimits& cone = constraint_.cone;
     stops_ = {{now.swing.y, now.swing.z, now.twist, ""},
               {0, -cone.swingZ, 0, named(words.flexion.low)},
@@ -63,9 +63,9 @@ void LimitSwing::advance(float seconds) {
     const float share = glm::smoothstep(0.0F, 1.0F, at - static_cast<float>(index));
     const Stop& from = stops_[index];
     const Stop& to = stops_[index + 1];
-    const physics::SwingTwist pose{{0, glm::mix(from.side, to.side, share), glm::mix(from.flexion, to.flexion, share)},
-                                   glm::mix(from.twist, to.twist, share)};
-    const RigidTransform turn{physics::rotationOf(pose), vec3(0)};
+    const SwingTwist pose{{0, glm::mix(from.side, to.side, share), glm::mix(from.flexion, to.flexion, share)},
+                          glm::mix(from.twist, to.twist, share)};
+    const RigidTransform turn{rotationOf(pose), vec3(0)};
     const RigidTransform child =
         start_[constraint_.parent] * constraint_.parentFromFrame * turn * inverse(constraint_.childFromFrame);
     const RigidTransform moved = child * inverse(start_[constraint_.child]);

@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 
 #include "core/assert.hpp"
+#include "core/swing_twist.hpp"
 #include "physics/bullet/convert.hpp"
-#include "physics/profile/swing_twist.hpp"
 
 namespace lutka::physics {
 namespace {

@@ -6,9 +6,9 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "core/swing_twist.hpp"
 #include "physics/fit/range_of_motion.hpp"
 #include "physics/fit/segment_range.hpp"
-#include "physics/profile/swing_twist.hpp"
 
 namespace lutka::physics {
 namespace {

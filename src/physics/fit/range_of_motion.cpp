@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "core/swing_twist.hpp"
 #include "physics/fit/anatomy.hpp"
-#include "physics/profile/swing_twist.hpp"
 
 namespace lutka::physics {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "core/swing_twist.hpp"
 #include "physics/collision/shape.hpp"
-#include "physics/profile/swing_twist.hpp"
 
 namespace lutka::physics {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "physics/profile/swing_twist.hpp"
+#include "core/swing_twist.hpp"
 
 namespace lutka::physics {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "physics/profile/swing_twist.hpp"
+#include "core/swing_twist.hpp"
 
 namespace lutka::physics {
 

@@ -4,7 +4,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <utility>
 
-#include "physics/profile/swing_twist.hpp"
+#include "core/swing_twist.hpp"
 
 namespace lutka::physics {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "animation/pose.hpp"
 #include "core/random.hpp"
+#include "core/swing_twist.hpp"
 #include "physics/fit/fit_ragdoll.hpp"
-#include "physics/profile/swing_twist.hpp"
 #include "support/catch.hpp"
 #include "support/rigs.hpp"
 

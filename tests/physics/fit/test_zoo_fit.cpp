@@ -7,10 +7,10 @@
 
 #include "animation/humanoid/map_humanoid.hpp"
 #include "animation/import/import_character.hpp"
+#include "core/swing_twist.hpp"
 #include "physics/doctor/doctor.hpp"
 #include "physics/fit/fit_ragdoll.hpp"
 #include "physics/fit/rebind.hpp"
-#include "physics/profile/swing_twist.hpp"
 #include "support/catch.hpp"
 #include "support/zoo.hpp"
 

@@ -3,9 +3,9 @@
 #include <glm/geometric.hpp>
 
 #include "animation/humanoid/map_humanoid.hpp"
+#include "core/swing_twist.hpp"
 #include "physics/fit/fit_ragdoll.hpp"
 #include "physics/profile/constraint_state.hpp"
-#include "physics/profile/swing_twist.hpp"
 #include "physics/rig/rig.hpp"
 #include "support/catch.hpp"
 #include "support/rigs.hpp"

@@ -1,8 +1,8 @@
-#include "physics/profile/swing_twist.hpp"
+#include "core/swing_twist.hpp"
 
 #include <glm/geometric.hpp>
 
-namespace lutka::physics {
+namespace lutka {
 
 SwingTwist swingTwist(const quat& rotation) {
     const quat q = rotation.w < 0.0F ? -rotation : rotation;
@@ -19,4 +19,4 @@ quat rotationOf(const SwingTwist& parts) {
     return swing * glm::angleAxis(parts.twist, vec3(1, 0, 0));
 }
 
-}  // namespace lutka::physics
+}  // namespace lutka

@@ -2,7 +2,7 @@
 
 #include "core/math.hpp"
 
-namespace lutka::physics {
+namespace lutka {
 
 /// A rotation taken apart as swing · twist: the twist about x first, then the swing, whose axis lies across x.
 struct SwingTwist {
@@ -10,9 +10,9 @@ struct SwingTwist {
     float twist = 0.0F;   ///< Radians about x, in [-pi, pi].
 };
 
-/// `rotation` = R_parentFrame⁻¹ · R_childFrame of a constraint. At a swing of half a turn the twist is undetermined and
+/// `rotation`: of a child frame in its parent frame. At a swing of half a turn the twist is undetermined and
 /// comes back as 0.
 [[nodiscard]] SwingTwist swingTwist(const quat& rotation);
 [[nodiscard]] quat rotationOf(const SwingTwist& parts);
 
-}  // namespace lutka::physics
+}  // namespace lutka
