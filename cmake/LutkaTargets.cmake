@@ -47,9 +47,9 @@ endfunction()
 
 # lutka_library(NAME SOURCES … LINK … [PRIVATE_LINK …]): a static library `lutka_NAME`, alias `Lutka::NAME`.
 # LINK holds the layers that its headers use; a third party that only its sources include goes to PRIVATE_LINK.
-# INTERNAL keeps a library out of the installed package.
+# INTERNAL keeps a library out of the installed package. HOT: what it does each frame is worth the optimiser's longest work.
 function(lutka_library name)
-  cmake_parse_arguments(ARG "INTERNAL" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  cmake_parse_arguments(ARG "INTERNAL;HOT" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
   add_library(lutka_${name} STATIC ${ARG_SOURCES})
   add_library(Lutka::${name} ALIAS lutka_${name})
   set_target_properties(lutka_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
@@ -58,6 +58,9 @@ function(lutka_library name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include/lutka>)
   target_link_libraries(lutka_${name} PUBLIC ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
   lutka_common(lutka_${name})
+  if(ARG_HOT)
+    target_compile_options(lutka_${name} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>:-O3>)
+  endif()
   if(NOT ARG_INTERNAL)
     install(TARGETS lutka_${name} EXPORT LutkaTargets)
   endif()
