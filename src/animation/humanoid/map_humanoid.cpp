@@ -61,6 +61,38 @@ void bindFixed(const FixedJoints& fixed, std::string_view reason, HumanoidMap& m
     }
 }
 
+// The nearest role above that has a joint.
+std::optional<Role> boundAbove(const HumanoidMap& map, Role role) {
+    std::optional<Role> above = parentRole(role);
+    while (above && !map[*above])
+        above = parentRole(*above);
+    return above;
+}
+
+// What the user fixed is kept, but not believed where a limb would hang on what it carries: a thigh at the joint of the
+// foot. Feet beside their legs are how some rigs drive them, and other limbs are the doctor's affair.
+void questionFixed(const FixedJoints& fixed, const Skeleton& skeleton, HumanoidMap& map) {
+    constexpr float kReversed = 0.1F;
+    for (int index = 0; index < kRoleCount; ++index) {
+        const Role role = roleAt(index);
+        const std::optional<Role> above = map.roles[index] ? boundAbove(map, role) : std::nullopt;
+        if (!above || (!fixed[index] && !fixed[indexOf(*above)])) continue;
+        const int joint = map.jointOf(role);
+        const int parent = map.jointOf(*above);
+        if (joint == parent || !isAncestorOrSelf(skeleton, joint, parent)) continue;
+        const std::string text =
+            fmt::format("{} at \"{}\" lies above {} at \"{}\", which it should hang on", roleName(role),
+                        skeleton.names[joint], roleName(*above), skeleton.names[parent]);
+        for (const Role one : {role, *above}) {
+            if (!fixed[indexOf(one)]) continue;
+            map.roles[indexOf(one)]->confidence = kReversed;
+            map.roles[indexOf(one)]->reason = "fixed by the user, but " + text;
+        }
+        map.confidence = std::min(map.confidence, kReversed);
+        map.warnings.push_back("is this right? " + text);
+    }
+}
+
 FixedJoints jointsOfFile(const Character& character) {
     FixedJoints joints;
     for (const auto& [name, joint] : character.vrmHumanoid) {
@@ -150,6 +182,7 @@ HumanoidMap mapHumanoid(const Character& character, const MapOptions& options) {
     if (wholeFile) map.roles.fill(std::nullopt);  // roles that the file leaves out it has none for
     bindFixed(ofFile, "the file's own VRM humanoid block", map);
     bindFixed(options.fixed, "fixed by the user", map);
+    questionFixed(options.fixed, skeleton, map);
     listMissing(map);
     const auto missing = static_cast<int>(map.missing.size());
     if (missing > kMostMissing) {

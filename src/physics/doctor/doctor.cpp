@@ -12,6 +12,7 @@
 #include "physics/fit/profile_plan.hpp"
 #include "physics/fit/rebind.hpp"
 #include "physics/profile/constraint_state.hpp"
+#include "physics/profile/joint_range.hpp"
 
 namespace lutka::physics {
 namespace {
@@ -82,12 +83,14 @@ class Examination {
                 animation::isAncestorOrSelf(skeleton, parent, child)) {
                 continue;
             }
-            const bool elsewhere = hangsElsewhere(skeleton, *role);
+            const bool reversed = animation::isAncestorOrSelf(skeleton, child, parent);
+            const bool elsewhere = reversed || hangsElsewhere(skeleton, *role);
             astray_ += elsewhere ? 1 : 0;
-            diagnosis.findings.push_back(
-                {elsewhere ? Severity::error : Severity::warning, "joint-not-below", link(c),
-                 fmt::format("the joint \"{}\" is not below \"{}\"", skeleton.names[child], skeleton.names[parent]),
-                 "map a joint below it, unless the rig drives this limb by an IK root", false, childOf(c)});
+            diagnosis.findings.push_back({elsewhere ? Severity::error : Severity::warning, "joint-not-below", link(c),
+                                          fmt::format("the joint \"{}\" is {} \"{}\"", skeleton.names[child],
+                                                      reversed ? "above" : "not below", skeleton.names[parent]),
+                                          "map a joint below it, unless the rig drives this limb by an IK root", false,
+                                          childOf(c)});
         }
     }
 
@@ -122,6 +125,7 @@ class Examination {
                                               fmt::format("{:.1f} degrees either way, at least 5", degrees(span)),
                                               "widen the limit; a narrow one jitters", false, childOf(c)});
             }
+            checkReach(diagnosis, c);
             checkHinge(diagnosis, c);
         }
     }
@@ -261,6 +265,25 @@ class Examination {
     [[nodiscard]] std::vector<std::string> childOf(const ConstraintProfile& c) const {
         return {profile_.bodies[c.child].name};
     }
+    // No joint of a body turns by more than half a circle either way from its bind pose.
+    void checkReach(Diagnosis& diagnosis, const ConstraintProfile& c) {
+        constexpr float kMost = radians(190.0F);
+        const JointRange range = jointRange(c, {shapes_[c.parent].standardFromBody, shapes_[c.child].standardFromBody});
+        const JointWords words = jointWords(profile_.bodies[c.child].role);
+        const auto furthest = [](const AngleSpan& span) { return std::max(-span.low, span.high); };
+        const auto check = [&](const AngleSpan& span, const MotionWords& motion) {
+            if (furthest(span) <= kMost) return false;
+            ++brokenLimits_;
+            const std::string_view word = -span.low > span.high ? motion.low : motion.high;
+            diagnosis.findings.push_back({Severity::error, "limit-impossible", link(c),
+                                          fmt::format("{} of {:.0f} degrees", word, degrees(furthest(span))),
+                                          "make frames and limits anew from the anatomy", true, childOf(c)});
+            return true;
+        };
+        if (check(range.flexion, words.flexion) || c.kind == ConstraintProfile::Kind::hinge) return;
+        if (!check(range.side, words.side)) check(range.twist, words.twist);
+    }
+
     void checkHinge(Diagnosis& diagnosis, const ConstraintProfile& c) {
         const vec3& expected = anatomy_.flexionAxis[indexOf(c.child)];
         if (c.kind != ConstraintProfile::Kind::hinge || glm::length(expected) < 0.5F) return;

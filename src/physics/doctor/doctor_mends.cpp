@@ -39,6 +39,10 @@ class Mender {
         if (body < 0) return;
         if (isShapeFault(finding)) refit(body);
         if (finding.code == "hinge-reversed" || finding.code == "hinge-askew") rebuildFrames(body);
+        if (finding.code == "limit-impossible" && body > 0) {
+            setRange(profile_.constraints[body - 1], plan_, places_[body]);
+            rebuildFrames(body);
+        }
         if (finding.code == "bind-outside-limits") widen(body);
     }
 

@@ -5,6 +5,7 @@
 #include "physics/collision/shape.hpp"
 #include "physics/fit/fit_ragdoll.hpp"
 #include "physics/fit/rebind.hpp"
+#include "physics/profile/joint_range.hpp"
 #include "support/catch.hpp"
 #include "support/rigs.hpp"
 
@@ -47,6 +48,15 @@ struct Illness {
 
 const std::vector<Illness>& mendableIllnesses() {
     static const std::vector<Illness> illnesses = {
+        {"limit-impossible", Severity::error, "leftLowerLeg on leftUpperLeg",
+         [](Patient& p) {
+             ConstraintProfile& knee = p.constraint(Role::leftLowerLeg);
+             const auto shapes = shapesInBindPose(p.profile, p.character.skeleton);
+             const BindFrames bind{shapes[knee.parent].standardFromBody, shapes[knee.child].standardFromBody};
+             JointRange range = jointRange(knee, bind);
+             range.flexion.low = radians(-271.0F);
+             setJointRange(knee, range, bind);
+         }},
         {"mass-ratio", Severity::error, "leftHand on leftLowerArm",
          [](Patient& p) {
              p.body(Role::hips).massKg += p.body(Role::leftHand).massKg - 0.01F;
