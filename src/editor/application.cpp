@@ -4,15 +4,20 @@
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <imgui.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
 
+#include "editor/files/model_pictures.hpp"
 #include "editor/input/window_input.hpp"
 #include "editor/ui/editor_ui.hpp"
 #include "editor/ui/frame_history.hpp"
 #include "editor/ui/imgui_host.hpp"
+#include "editor/ui/ui_scale.hpp"
 #include "editor/ui/user_settings.hpp"
+#include "editor/view/quality_governor.hpp"
+#include "render/environment.hpp"
 #include "render/gl/renderer.hpp"
 
 namespace lutka::editor {
@@ -40,6 +45,9 @@ class Application {
     Result<void> record();
     Result<void> followCharacter();
     Result<void> oneFrame(double seconds);
+    Result<void> drawPicture();
+    void followSky();
+    void keepModelPicture();
     void rememberSettings();
     [[nodiscard]] bool isSeen() const;
     Result<void> takeScreenshots();
@@ -60,7 +68,11 @@ class Application {
     std::vector<const scene::RagdollAsset*> uploaded_;  // whose characters `characters_` are
     std::vector<render::CharacterHandle> characters_;
     int characterRevision_ = -1;
+    QualityGovernor governor_;
+    std::filesystem::path sky_;  // whose light the renderer has
     bool vsync_ = true;
+    int pictured_ = -1;  // the revision of the character whose picture was kept
+    int framesOfModel_ = 0;
     bool allowsOutside_ = false;  // as the editor had it in the last frame
     render::FrameDescription frame_;
     FrameHistory history_;
@@ -72,19 +84,37 @@ class Application {
     std::string title_;
 };
 
+MonitorMeasures measuresOf(GLFWwindow* window) {
+    MonitorMeasures measures;
+    float x = 1.0F;
+    float y = 1.0F;
+    glfwGetWindowContentScale(window, &x, &y);
+    measures.contentScale = std::max(x, y);
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    if (monitor == nullptr) return measures;
+    if (const GLFWvidmode* mode = glfwGetVideoMode(monitor); mode != nullptr) measures.heightPixels = mode->height;
+    int width = 0;
+    int height = 0;
+    glfwGetMonitorPhysicalSize(monitor, &width, &height);
+    measures.heightMm = static_cast<float>(height);
+    return measures;
+}
+
 // What the monitor wants, less what the window system does already by giving a window more pixels than its size.
 float monitorScale(const render::GlContext& context) {
     GLFWwindow* window = context.window();
     if (window == nullptr) return 1.0F;
-    float x = 1.0F;
-    float y = 1.0F;
-    glfwGetWindowContentScale(window, &x, &y);
     int width = 0;
     int height = 0;
     glfwGetWindowSize(window, &width, &height);
     const float done =
         width > 0 ? static_cast<float>(context.framebufferSize().width) / static_cast<float>(width) : 1.0F;
-    return std::clamp(std::max(x, y) / std::max(done, 1.0F), 0.75F, 4.0F);
+    return std::max(uiScaleFor(measuresOf(window)) / std::max(done, 1.0F), 0.75F);
+}
+
+render::Extent shareOf(render::Extent pixels, float share) {
+    const auto part = [&](int length) { return std::max(static_cast<int>(static_cast<float>(length) * share), 1); };
+    return {part(pixels.width), part(pixels.height)};
 }
 
 Result<void> Application::start() {
@@ -107,6 +137,9 @@ Result<void> Application::start() {
     editor.window = windowSize_;
     ui_->state.leftWidth = settings_.leftWidth;
     ui_->state.rightWidth = settings_.rightWidth;
+    ui_->state.bottomHeight = settings_.bottomHeight;
+    ui_->state.tabSides = settings_.tabSides;
+    if (options_.settings) ui_->state.pictureFolder = modelPictureFolder();
     ui_->state.uiScale = settings_.uiScale;
     editor.load.import.allowOutside = editor.load.import.allowOutside || settings_.allowOutside;
     allowsOutside_ = editor.load.import.allowOutside;
@@ -197,11 +230,14 @@ void Application::rememberSettings() {
     }
     const bool outside = editor_->allowsOutside() != allowsOutside_;
     const bool dragged = ImGui::IsMouseDown(ImGuiMouseButton_Left);
-    const bool wider = !dragged && (ui.leftWidth != settings_.leftWidth || ui.rightWidth != settings_.rightWidth);
+    const bool wider = !dragged && (ui.leftWidth != settings_.leftWidth || ui.rightWidth != settings_.rightWidth ||
+                                    ui.bottomHeight != settings_.bottomHeight || ui.tabSides != settings_.tabSides);
     if (!outside && !wider && ui.uiScale == settings_.uiScale) return;
     if (outside) allowsOutside_ = settings_.allowOutside = editor_->allowsOutside();
     settings_.leftWidth = ui.leftWidth;
     settings_.rightWidth = ui.rightWidth;
+    settings_.bottomHeight = ui.bottomHeight;
+    settings_.tabSides = ui.tabSides;
     settings_.uiScale = ui.uiScale;
     if (options_.settings) saveUserSettings(userSettingsFile(), settings_);
 }
@@ -245,22 +281,73 @@ Result<void> Application::oneFrame(double seconds) {
     editor_->update(seconds);
     if (auto followed = followCharacter(); !followed) return followed;
     rememberSettings();
+    followSky();
     editor_->describe(characters_, frame_);
     if (!isSeen()) {
         host_->skipDrawing();
         return {};
     }
-    renderer_->draw(frame_, pixels_);
+    return drawPicture();
+}
+
+// Scripts and pictures to keep have the quality that was asked for; only a user waits for a slow machine.
+Result<void> Application::drawPicture() {
+    const auto begun = Clock::now();
+    const bool governed = window_ && !fixedFrames() && options_.quality == render::RenderQuality::automatic;
+    const PictureQuality quality = governed ? governor_.quality() : PictureQuality{};
+    const bool coarse = quality.share < 1.0F && options_.screenshots.empty();
+    frame_.ambientOcclusion = quality.ambientOcclusion;
+    history_.pictureShare = coarse ? quality.share : 1.0F;
+    renderer_->draw(frame_, coarse ? shareOf(pixels_, quality.share) : pixels_);
     history_.stats = renderer_->stats();
-    renderer_->bindResolvedTarget();
+    keepModelPicture();
+    // Panels are drawn over the coarse picture as sharp as ever.
+    coarse ? renderer_->present(pixels_) : renderer_->bindResolvedTarget();
     host_->draw();
     if (auto taken = takeScreenshots(); !taken) return taken;
-    if (window_) {
-        renderer_->present(pixels_);
-        context_.swapBuffers();
-        updateTitle();
-    }
+    if (!window_) return {};
+    if (!coarse) renderer_->present(pixels_);
+    context_.swapBuffers();
+    updateTitle();
+    if (governed) governor_.update(std::chrono::duration<double>(Clock::now() - begun).count());
     return {};
+}
+
+// Of a model that has been in the view for a moment, for the gallery; before panels are drawn over it.
+void Application::keepModelPicture() {
+    constexpr int moment = 40;
+    if (!options_.settings || pictured_ == characterRevision_ || ++framesOfModel_ < moment) return;
+    pictured_ = characterRevision_;
+    framesOfModel_ = 0;
+    constexpr render::Extent size{320, 200};
+    const std::filesystem::path& folder = ui_->state.pictureFolder;
+    if (folder.empty()) return;
+    const auto file = modelPictureFile(folder, editor_->document().character().file);
+    const auto picture = smallPicture(renderer_->readPixels(), editor_->workspace().covered, size);
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    // A model without a picture is no loss.
+    if (const auto saved = render::savePng(picture, file); !saved) spdlog::warn("{}", saved.error().text());
+    ui_->state.pictures.forget(file);
+}
+
+// The panorama that the view wants; one that can't be read is told, and the light stays as it was.
+void Application::followSky() {
+    if (editor_->view.sky != sky_) {
+        const std::filesystem::path wanted = editor_->view.sky;
+        if (wanted.empty()) {
+            renderer_->setEnvironment(nullptr);
+            sky_.clear();
+        } else if (const auto sky = render::loadHdr(wanted); sky) {
+            renderer_->setEnvironment(&sky.value());
+            sky_ = wanted;
+        } else {
+            editor_->workspace().say(Toast::Kind::error, sky.error().text());
+            editor_->view.sky = sky_;
+        }
+    }
+    frame_.sky.environment = !sky_.empty();
+    frame_.sky.environmentBackground = frame_.sky.environment && editor_->view.skyBackground;
 }
 
 // Without a window only the pictures that are kept are seen, and the one before each: its cost is in their panels.

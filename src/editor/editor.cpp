@@ -5,40 +5,16 @@
 #include <array>
 #include <glm/geometric.hpp>
 
-#include "core/files.hpp"
 #include "editor/document/open_document.hpp"
+#include "editor/files/folder_files.hpp"
 #include "editor/view/select_bodies.hpp"
 #include "scene/scene_file.hpp"
 
 namespace lutka::editor {
 namespace {
 
-constexpr float kThrowSpeed = 9.0F;  // m/s
-
 bool isProfile(const std::filesystem::path& file) {
     return file.extension() == ".json";
-}
-
-// The options with the scene's file read: its first character is the model, unless another was asked for.
-Result<EditorOptions> withSceneRead(const EditorOptions& options) {
-    const auto scene = scene::loadScene(options.sceneFile);
-    if (!scene) return scene.error();
-    EditorOptions all = options;
-    for (const scene::Entity& entity : scene.value().entities) {
-        const auto* ragdoll = scene.value().find<scene::Ragdoll>(entity.id);
-        if (ragdoll == nullptr || ragdoll->model.empty() || !options.model.empty()) continue;
-        all.model = ragdoll->model;
-        if (!ragdoll->profile.empty()) all.load.profile = ragdoll->profile;
-        break;
-    }
-    if (all.model.empty()) {
-        auto own = findAsset("models/mannequin.glb");
-        if (!own) return own.error();
-        all.model = own.value();
-    }
-    all.scene.entities = scene.value();
-    all.scene.scenario.clear();
-    return all;
 }
 
 }  // namespace
@@ -66,6 +42,7 @@ Result<std::unique_ptr<Editor>> Editor::create(std::unique_ptr<EditorDocument> d
     if (auto built = player->rebuild(Player::Keep::nothing); !built) return built.error();
     editor->workspace_.document = std::move(document);
     editor->workspace_.player = std::move(player);
+    editor->workspace_.rememberBodies();
     editor->player().setPlaying(options.playing);
     editor->player().setSparing(options.spareSubsteps);
     editor->view.layers.capsules = true;
@@ -73,7 +50,8 @@ Result<std::unique_ptr<Editor>> Editor::create(std::unique_ptr<EditorDocument> d
     editor->camera_.frameScene();
     editor->machine_ = std::make_unique<StateMachine>(makeHandlers(editor->workspace_));
     editor->files_.greet(!options.load.profile.has_value());
-    editor->listenToDocument();
+    editor->motion_.listen();
+    editor->watch_.watch(editor->document().character().file);
     if (options.recovery.empty()) return editor;
     if (const auto begun = editor->recovery_.begin(options.recovery); !begun)
         editor->workspace_.say(Toast::Kind::warning, begun.error().text());
@@ -162,6 +140,10 @@ void Editor::handleKey(const InputEvent& event, const UiCapture& capture) {
 std::span<const Editor::Command> Editor::commands() {
     static constexpr std::array kCommands{
         Command{Action::openModel, true, [](Editor& e) { e.dialog = Dialog::openModel; }},
+        Command{Action::openRecent, true, [](Editor& e) { e.view.gallery = !e.view.gallery; }},
+        Command{Action::nextFile, true, [](Editor& e) { e.openBeside(1); }},
+        Command{Action::previousFile, true, [](Editor& e) { e.openBeside(-1); }},
+        Command{Action::reload, true, [](Editor& e) { e.reload(); }},
         Command{Action::saveProfile, true, [](Editor& e) { e.files_.saveAll(); }},
         Command{Action::saveProfileAs, true, [](Editor& e) { e.dialog = Dialog::saveAs; }},
         Command{Action::saveScene, true,
@@ -172,17 +154,32 @@ std::span<const Editor::Command> Editor::commands() {
         Command{Action::undo, true, [](Editor& e) { e.travel(-1); }},
         Command{Action::redo, true, [](Editor& e) { e.travel(1); }},
         Command{Action::selectNone, true, [](Editor& e) { e.select(std::nullopt); }},
-        Command{Action::copyPart, true, [](Editor& e) { e.copyPart(); }},
-        Command{Action::pastePart, true, [](Editor& e) { e.pastePart(); }},
-        Command{Action::mirrorParts, true, [](Editor& e) { e.mirrorParts(); }},
+        Command{Action::copyPart, true, [](Editor& e) { e.onBodies(&BodyCommands::copy); }},
+        Command{Action::pastePart, true, [](Editor& e) { e.onBodies(&BodyCommands::paste); }},
+        Command{Action::mirrorParts, true, [](Editor& e) { e.onBodies(&BodyCommands::mirror); }},
+        Command{Action::addBody, true, [](Editor& e) { e.beginPickJoint(std::nullopt); }},
+        Command{Action::removeBodies, true, [](Editor& e) { e.onBodies(&BodyCommands::remove); }},
+        Command{Action::mergeBodies, true, [](Editor& e) { e.onBodies(&BodyCommands::merge); }},
+        Command{Action::splitBodies, true, [](Editor& e) { e.onBodies(&BodyCommands::split); }},
+        Command{Action::toggleSymmetric, false, [](Editor& e) { e.onBodies(&BodyCommands::toggleSymmetric); }},
+        Command{Action::nextTool, false, [](Editor& e) { e.nextTool(); }},
+        Command{Action::toggleLocalAxes, false, [](Editor& e) { e.workspace_.localAxes = !e.workspace_.localAxes; }},
         Command{Action::swingLimits, true, [](Editor& e) { e.swingLimits(); }},
-        Command{Action::pin, true, [](Editor& e) { e.togglePin(); }},
-        Command{Action::unpinAll, true, [](Editor& e) { e.unpinAll(); }},
+        Command{Action::pin, true, [](Editor& e) { e.pins_.toggle(); }},
+        Command{Action::unpinAll, true, [](Editor& e) { e.pins_.letAllGo(); }},
         Command{Action::togglePlay, true, [](Editor& e) { e.player().setPlaying(!e.player().playing()); }},
-        Command{Action::stepOnce, true, [](Editor& e) { e.stepOnce(); }},
-        Command{Action::reset, true, [](Editor& e) { e.reset(); }},
-        Command{Action::throwBall, true, [](Editor& e) { e.throwBall(); }},
-        Command{Action::returnToPlay, true, [](Editor& e) { e.returnToPlay(); }},
+        Command{Action::stepOnce, true, [](Editor& e) { e.motion_.stepOnce(); }},
+        Command{Action::reset, true,
+                [](Editor& e) {
+                    e.endTransform();
+                    e.motion_.reset();
+                }},
+        Command{Action::throwBall, true, [](Editor& e) { e.motion_.throwBall(); }},
+        Command{Action::returnToPlay, true,
+                [](Editor& e) {
+                    e.endTransform();
+                    e.motion_.returnToPlay();
+                }},
         Command{Action::focus, false, [](Editor& e) { e.camera_.focus(); }},
         Command{Action::followDoll, false, [](Editor& e) { e.camera_.toggleFollow(); }},
         Command{Action::viewFront, false, [](Editor& e) { e.camera_.lookAlong(0.0F, 0.0F); }},
@@ -212,46 +209,28 @@ void Editor::perform(Action action) {
     command.run(*this);
 }
 
-void Editor::copyPart() {
-    const std::vector<int> bodies = workspace_.selectedBodies();
-    if (bodies.empty()) return;
-    workspace_.clipboard = document().copyPart(bodies.back());
-    workspace_.say(Toast::Kind::info, fmt::format("Copied {}", document().profile().bodies[bodies.back()].name));
-}
-
-void Editor::pastePart() {
-    const std::vector<int> bodies = workspace_.selectedBodies();
-    if (!workspace_.clipboard || bodies.empty()) return;
-    edit([&](EditorDocument& one) { return one.pasteParts(bodies, *workspace_.clipboard); });
-}
-
-void Editor::mirrorParts() {
-    const std::vector<int> bodies = workspace_.selectedBodies();
-    if (!bodies.empty()) edit([&](EditorDocument& one) { return one.mirrorParts(bodies); });
-}
-
-void Editor::stepOnce() {
-    workspace_.pulls.applyTo(player().simulation());
-    player().stepOnce();
-}
-
-void Editor::reset() {
+void Editor::onBodies(void (BodyCommands::*command)()) {
     endTransform();
-    document().moved("Reset", workspace_.playState());
-    restart();
+    (bodies_.*command)();
+    machine_->fire(workspace_.ended());
+}
+
+void Editor::addBody(int joint) {
+    endTransform();
+    endSwing();
+    bodies_.add(joint);
+    machine_->fire(workspace_.ended());
+}
+
+void Editor::nextTool() {
+    constexpr int tools = 4;
+    workspace_.tool = static_cast<Tool>((static_cast<int>(workspace_.tool) + 1) % tools);
+    workspace_.hotGizmo.reset();
 }
 
 void Editor::restart() {
     endTransform();
-    workspace_.pulls.pins.clear();
-    workspace_.report(player().reset());
-}
-
-void Editor::returnToPlay() {
-    endTransform();
-    if (player().canReturnToPlay()) document().moved("Back to where Play was pressed", workspace_.playState());
-    player().returnToPlay();
-    workspace_.pulls.applyTo(player().simulation());
+    motion_.restart();
 }
 
 void Editor::quit() {
@@ -260,10 +239,6 @@ void Editor::quit() {
         recovery_.end();
     };
     files_.afterUnsaved(end, true);
-}
-
-void Editor::listenToDocument() {
-    document().follow([this] { return workspace_.playState(); });
 }
 
 void Editor::answerRecovery(RecoveryDesk::Answer answer) {
@@ -307,6 +282,7 @@ void Editor::update(double seconds) {
     std::erase_if(workspace_.toasts, [](const Toast& toast) { return toast.secondsLeft <= 0.0F; });
     if (const std::string news = player().deck().takeNews(); !news.empty()) workspace_.say(Toast::Kind::warning, news);
     if (!quitting_) workspace_.report(recovery_.update(document(), seconds));
+    if (watching && !busy() && !files_.asking() && watch_.changed(seconds)) reload();
 }
 
 void Editor::swingLimits() {
@@ -327,7 +303,7 @@ void Editor::endSwing() {
     player().endPreview();
 }
 
-void Editor::beginPickJoint(animation::Role role) {
+void Editor::beginPickJoint(std::optional<animation::Role> role) {
     endTransform();
     endSwing();
     workspace_.pickRole = role;
@@ -352,14 +328,7 @@ bool Editor::edit(const std::function<Result<void>(EditorDocument&)>& change) {
 void Editor::travel(int changes) {
     endTransform();
     endSwing();
-    EditorDocument::Step last;
-    bool moves = false;
-    for (; changes != 0; changes += changes < 0 ? 1 : -1) {
-        last = changes < 0 ? document().undo() : document().redo();
-        moves = moves || last.moves;
-    }
-    workspace_.follow();
-    if (last.play != nullptr) workspace_.restore(*last.play, moves);
+    motion_.travel(changes);
     machine_->fire(workspace_.ended());
 }
 
@@ -384,49 +353,6 @@ void Editor::beginAdd(scene::EntityKind kind) {
     endTransform();
     workspace_.addKind = kind;
     machine_->fire(Trigger::addKey);
-}
-
-void Editor::togglePin() {
-    const auto active = workspace_.selection.active();
-    if (!active) return;
-    if (active->kind == Item::Kind::object) {
-        // A character of another model is pinned while it is dragged; here all its pins are let go.
-        const int doll = player().dollOf(static_cast<scene::EntityId>(active->index));
-        if (doll < 0) return;
-        changePins("Let go of " + workspace_.nameOf(*active), [&](std::vector<Pull>& pins) {
-            std::erase_if(pins, [&](const Pull& pin) { return pin.doll == doll; });
-        });
-        return;
-    }
-    const std::string name = document().profile().bodies[active->index].name;
-    if (workspace_.pulls.findPin(active->doll, name) != workspace_.pulls.pins.end()) {
-        changePins(fmt::format("Let go of {}", name),
-                   [&](std::vector<Pull>& pins) { pins.erase(workspace_.pulls.findPin(active->doll, name)); });
-        return;
-    }
-    changePins(fmt::format("Pin {}", name), [&](std::vector<Pull>& pins) {
-        pins.push_back({active->doll, name, vec3(0), workspace_.positionOf(*active)});
-    });
-}
-
-void Editor::unpinAll() {
-    if (!workspace_.pulls.pins.empty()) changePins("Let go of all", [](std::vector<Pull>& pins) { pins.clear(); });
-}
-
-void Editor::changePins(const std::string& label, const std::function<void(std::vector<Pull>&)>& change) {
-    document().moved(label, workspace_.playState(), false);
-    change(workspace_.pulls.pins);
-    workspace_.pulls.applyTo(player().simulation());
-}
-
-void Editor::throwBall() {
-    const render::Ray ray = workspace_.mouseRay();
-    const vec3 from = ray.origin + ray.direction * std::min(0.5F, workspace_.camera.distance * 0.2F);
-    // Lifted a little, so that it meets what the mouse points at in spite of gravity.
-    const auto before = workspace_.playState();
-    if (workspace_.report(player().throwBall(from, ray.direction * kThrowSpeed + vec3(0, 0.8F, 0)))) return;
-    document().moved("Throw a ball", before);
-    workspace_.pulls.applyTo(player().simulation());
 }
 
 bool Editor::editScene(const std::string& label, const std::string& group,
@@ -487,18 +413,41 @@ void Editor::open(const std::filesystem::path& file) {
     });
 }
 
-void Editor::answerAnyRig(bool take) {
+void Editor::answerAnyRig(AnyRig answer) {
     const std::filesystem::path file = files_.takeAnyRig();
-    if (!take || file.empty()) return;
+    if (answer == AnyRig::leave || file.empty()) return;
     scene::LoadOptions load = load_;
     load.fit.rig = physics::RigKind::any;
     load.fit.weighByVolume = true;
-    files_.afterUnsaved([this, file, load] { adopt(openModel(file, load, document())); });
+    files_.afterUnsaved([this, file, load, answer] {
+        if (adopt(openModel(file, load, document())) && answer == AnyRig::byHand) onBodies(&BodyCommands::beginByHand);
+    });
 }
 
 void Editor::answerOffer(bool take) {
     const std::filesystem::path file = files_.takeOffer();
     if (take && !file.empty()) open(file);
+}
+
+void Editor::openBeside(int step) {
+    const std::filesystem::path file = fileBeside(document().character().file, step);
+    if (file.empty()) {
+        workspace_.say(Toast::Kind::info, "No other model lies in this folder");
+        return;
+    }
+    open(file);
+}
+
+void Editor::reload() {
+    const render::Camera seen = workspace_.camera;
+    endTransform();
+    auto again = reopenModel(load_, document());
+    const std::string name = document().character().file.filename().string();
+    if (!again) {
+        workspace_.say(Toast::Kind::error, name + " can't be read again; the old one goes on. " + again.error().text());
+    } else if (adopt(std::move(again), "Read again: " + name)) {
+        workspace_.camera = seen;
+    }
 }
 
 void Editor::openSceneNow(const std::filesystem::path& file) {
@@ -517,7 +466,7 @@ void Editor::openSceneNow(const std::filesystem::path& file) {
     workspace_.say(Toast::Kind::info, "Opened the scene " + file.filename().string());
 }
 
-bool Editor::adopt(Result<std::unique_ptr<EditorDocument>> opened) {
+bool Editor::adopt(Result<std::unique_ptr<EditorDocument>> opened, const std::string& told) {
     if (!opened) {
         workspace_.say(Toast::Kind::error, opened.error().text());
         return false;
@@ -533,11 +482,14 @@ bool Editor::adopt(Result<std::unique_ptr<EditorDocument>> opened) {
     player->takeOver(std::move(workspace_.player->deck()));
     workspace_.player = std::move(player);  // before the document that the old one borrows
     workspace_.document = std::move(opened).value();
-    listenToDocument();
+    workspace_.rememberBodies();
+    motion_.listen();
     camera_.frameScene();
     ++characterRevision_;
-    workspace_.say(Toast::Kind::info, "Opened " + document().character().file.filename().string());
-    files_.greet(true);
+    const std::filesystem::path& model = document().character().file;
+    watch_.watch(model);
+    workspace_.say(Toast::Kind::info, told.empty() ? "Opened " + model.filename().string() : told);
+    files_.greet(told.empty());
     return true;
 }
 

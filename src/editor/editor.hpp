@@ -6,28 +6,20 @@
 #include <optional>
 #include <string>
 
+#include "editor/editor_options.hpp"
 #include "editor/files/file_flow.hpp"
+#include "editor/files/file_watch.hpp"
 #include "editor/files/recovery_desk.hpp"
 #include "editor/input/actions.hpp"
 #include "editor/play/limit_swing.hpp"
+#include "editor/play/motion_commands.hpp"
+#include "editor/play/pin_commands.hpp"
+#include "editor/states/body_commands.hpp"
 #include "editor/states/workspace.hpp"
 #include "editor/view/describe_frame.hpp"
 #include "editor/view/view_camera.hpp"
 
 namespace lutka::editor {
-
-struct EditorOptions {
-    std::filesystem::path model;
-    scene::LoadOptions load;
-    SceneSettings scene;
-    std::filesystem::path sceneFile;  ///< *.scene.json in place of `scene`; `model` may be empty then.
-    std::function<void(physics::WorldSettings&)> applyToWorld;  ///< Set: what was asked for beside the scene.
-    render::Extent window{1280, 720};
-    bool playing = true;
-    bool spareSubsteps = false;      ///< While the machine is late: see Player::setSparing().
-    std::filesystem::path recovery;  ///< Where unsaved work is kept safe (RecoveryKeeper); empty: nowhere.
-    scene::FrameLoop::Clock clock;   ///< Times the steps; none: as scene::FrameLoop says, for scripts and tests.
-};
 
 /// What the user interface has taken for itself.
 struct UiCapture {
@@ -66,6 +58,8 @@ class Editor {
     void travel(int changes);
     /// Selects from a panel; nothing empties the selection.
     void select(std::optional<Item> item, bool add = false);
+    /// A body on a joint, selected.
+    void addBody(int joint);
     void beginAdd(scene::EntityKind kind);
     /// edit() of the scene's entities. `group`: see UndoStack.
     bool editScene(const std::string& label, const std::string& group,
@@ -82,8 +76,8 @@ class Editor {
     /// Makes this character, whose model or profile are others, the one that the panels edit. Asks first when there are
     /// unsaved changes of the ragdoll.
     void editCharacter(scene::EntityId character);
-    /// Asks for the joint of a role by a click in the view.
-    void beginPickJoint(animation::Role role);
+    /// Asks for the joint of a role, or of a new body, by a click in the view.
+    void beginPickJoint(std::optional<animation::Role> role);
     /// Ends that: takes the joint under the mouse, or none.
     void endPickJoint(bool take);
     /// Swings the joint of the active body through its limits while the simulation stands still; anything that the
@@ -95,6 +89,12 @@ class Editor {
     /// Opens a model (*.ragdoll.json: a profile for the present one; *.scene.json: a scene); the old scene stays when
     /// that fails. Asks first when there are unsaved changes.
     void open(const std::filesystem::path& file);
+    /// The model before (below 0) or after the present one in its folder, by name; the first follows the last.
+    void openBeside(int step);
+    /// Reads the model's file again, as another program has written it; the user's edits stay. Undo begins anew.
+    void reload();
+    /// Whether reload() is called by itself when the file changes.
+    bool watching = true;
     /// Whether what is opened from now on may take files from outside of its model's folder.
     void allowOutside(bool allowed) { load_.import.allowOutside = allowed; }
     [[nodiscard]] bool allowsOutside() const { return load_.import.allowOutside; }
@@ -106,14 +106,27 @@ class Editor {
     void keepRecovery();
     /// Takes the offered profile (FileFlow::offeredProfile()), or not.
     void answerOffer(bool take);
-    /// Opens the refused model (FileFlow::offeredAnyRig()) as a ragdoll of any skeleton, or not.
-    void answerAnyRig(bool take);
+    /// What becomes of the refused model (FileFlow::offeredAnyRig()): a ragdoll of any skeleton, one body to begin with
+    /// by hand, or nothing.
+    enum class AnyRig { whole, byHand, leave };
+    void answerAnyRig(AnyRig answer);
     /// Saving, exporting, and the questions about files.
     [[nodiscard]] FileFlow& files() { return files_; }
     [[nodiscard]] const FileFlow& files() const { return files_; }
 
     /// A dialog that the UI should show; the UI clears it.
-    enum class Dialog { none, openModel, saveAs, exportBaked, saveSceneAs, saveRecording, openRecording };
+    enum class Dialog {
+        none,
+        openModel,
+        saveAs,
+        exportBaked,
+        saveSceneAs,
+        saveRecording,
+        openRecording,
+        chooseModel,    ///< Of a character of the scene …
+        chooseProfile,  ///< … and its profile: UiState::browsing has what for.
+        chooseSky,
+    };
     Dialog dialog = Dialog::none;
 
     [[nodiscard]] EditorDocument& document() { return *workspace_.document; }
@@ -147,24 +160,19 @@ class Editor {
     void endTransform();
     void openSceneNow(const std::filesystem::path& file);
     /// Takes an opened document in the place of the present one; tells a failure. Whether it did.
-    bool adopt(Result<std::unique_ptr<EditorDocument>> opened);
-    void copyPart();
-    void pastePart();
-    void mirrorParts();
-    void stepOnce();
+    /// `told`: what to say in place of that it was opened.
+    bool adopt(Result<std::unique_ptr<EditorDocument>> opened, const std::string& told = "");
+    /// One of them, after what is under way in the view has ended.
+    void onBodies(void (BodyCommands::*command)());
+    void nextTool();
     void quit();
-    void reset();
-    void returnToPlay();
-    void togglePin();
-    void throwBall();
-    void unpinAll();
-    void changePins(const std::string& label, const std::function<void(std::vector<Pull>&)>& change);
-    /// The documents ask for what runs before they change.
-    void listenToDocument();
     void toggleHandles();
 
     Workspace workspace_;
     ViewCamera camera_{workspace_};
+    PinCommands pins_{workspace_};
+    BodyCommands bodies_{workspace_};
+    MotionCommands motion_{workspace_};
     FileFlow files_;
     std::unique_ptr<StateMachine> machine_;
     scene::SimulationDrawer drawer_;
@@ -174,6 +182,7 @@ class Editor {
     std::optional<LimitSwing> swing_;
     int swingDoll_ = 0;
     RecoveryDesk recovery_;
+    FileWatch watch_;
     bool quitting_ = false;
     int characterRevision_ = 0;
 };

@@ -231,3 +231,41 @@ TEST_CASE("a limit is coloured within five degrees of it and past it, and so is 
     hinge.hinge.upper = now - radians(1.1F);
     CHECK(draws(doll.draw(layers), debugColors::pastLimit));
 }
+
+TEST_CASE("every debug layer of a doll is drawn at the moment that its skin shows") {
+    const auto asset = test::bipedRagdoll();
+    auto scenario = makeScenario({.name = "drop", .count = 1}, *asset);
+    REQUIRE(scenario);
+    const auto created = Simulation::create(*asset, std::move(scenario).value(), {});
+    REQUIRE(created);
+    Simulation& simulation = *created.value();
+    for (int step = 0; step < 20; ++step)
+        simulation.step();
+    SimulationDrawer drawer;
+    // Contacts and Bullet's own drawing are the world's: they are of its last step, whatever the picture shows.
+    for (const DebugLayerInfo& layer : debugLayerInfos()) {
+        const std::string name(layer.name);
+        if (name == "contacts" || name == "bullet" || name == "sleep") continue;
+        INFO(name);
+        DebugLayers layers;
+        layers.*layer.member = true;
+        // How far what is drawn falls with the skin from one moment to the next: as far as the hips do.
+        const auto lowest = [&](float alpha) {
+            render::FrameDescription frame;
+            drawer.draw(simulation, render::CharacterHandle{0}, layers, alpha, 1.0F, frame);
+            float y = 100.0F;
+            for (const auto& vertex : frame.lines.vertices)
+                y = std::min(y, vertex.position.y);
+            for (const auto& vertex : frame.solids.vertices)
+                y = std::min(y, vertex.position.y);
+            REQUIRE(y < 100.0F);
+            return y;
+        };
+        const auto hips = [&](float alpha) { return simulation.worldFromBody(0, alpha)[0].translation.y; };
+        const float fall = hips(0.0F) - hips(1.0F);
+        REQUIRE(fall > 0.01F);
+        for (const float alpha : {0.25F, 0.5F, 0.75F}) {
+            CHECK(lowest(0.0F) - lowest(alpha) == Approx(hips(0.0F) - hips(alpha)).margin(0.2F * fall));
+        }
+    }
+}

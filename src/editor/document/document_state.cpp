@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "physics/fit/edit_bodies.hpp"
+
 namespace lutka::editor {
 namespace {
 
@@ -26,6 +28,41 @@ std::optional<Error> checkTwice(const animation::Character& character, const Fix
 }
 
 }  // namespace
+
+BodySet bodySetBetween(const physics::RagdollProfile& fitted, const physics::RagdollProfile& given) {
+    BodySet set;
+    for (const physics::BodyProfile& body : given.bodies) {
+        if (physics::bodyNamed(fitted, body.name) < 0 && !body.role) set.addedJoints.push_back(body.jointPath);
+    }
+    for (const physics::BodyProfile& body : fitted.bodies) {
+        if (physics::bodyNamed(given, body.name) < 0) set.removed.push_back(body.name);
+    }
+    return set;
+}
+
+physics::RagdollProfile withBodySet(physics::RagdollProfile fitted, const animation::Character& character,
+                                    const HumanoidMap& map, const BodySet& bodies) {
+    const auto take = [&](Result<physics::RagdollProfile> changed) {
+        if (changed) fitted = std::move(changed).value();
+    };
+    for (const std::string& path : bodies.addedJoints) {
+        const int joint = animation::findJoint(character.skeleton, path);
+        if (joint != animation::kNoJoint) take(physics::addBody(fitted, character, map, joint));
+    }
+    for (const std::string& name : bodies.removed) {
+        const int body = physics::bodyNamed(fitted, name);
+        if (body > 0) take(physics::removeBody(fitted, character, body));
+    }
+    return fitted;
+}
+
+void takeFixedTo(DocumentState& state, const animation::Skeleton& from, const animation::Skeleton& to) {
+    for (std::optional<int>& joint : state.fixed) {
+        if (!joint || *joint == animation::kNoJoint) continue;
+        const int found = animation::findJoint(to, animation::jointPath(from, *joint));
+        joint = found != animation::kNoJoint ? std::optional(found) : std::nullopt;
+    }
+}
 
 Result<HumanoidMap> mapWithFixed(const animation::Character& character, const Fixed& fixed) {
     if (const auto twice = checkTwice(character, fixed)) return *twice;

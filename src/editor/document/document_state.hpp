@@ -14,6 +14,21 @@
 
 namespace lutka::editor {
 
+/// Which bodies a ragdoll has beside those of a plain fit, and which it lacks.
+struct BodySet {
+    std::vector<std::string> addedJoints;  ///< Paths of the joints that the further bodies hang on.
+    std::vector<std::string> removed;      ///< By name.
+};
+[[nodiscard]] BodySet bodySetBetween(const physics::RagdollProfile& fitted, const physics::RagdollProfile& given);
+/// The fit with these bodies added and removed, as far as the character has their joints.
+[[nodiscard]] physics::RagdollProfile withBodySet(physics::RagdollProfile fitted, const animation::Character& character,
+                                                  const animation::HumanoidMap& map, const BodySet& bodies);
+
+struct DocumentState;
+/// What the user fixed by the joints of one skeleton, told by those of another with the same paths; who has none is
+/// free.
+void takeFixedTo(DocumentState& state, const animation::Skeleton& from, const animation::Skeleton& to);
+
 /// Everything that editing changes of the ragdoll; undo keeps whole ones.
 struct DocumentState {
     /// Bindings that the user chose. kNoJoint: the role shall have no joint.
@@ -31,6 +46,7 @@ struct DocumentState {
     /// its place, so that nobody's work is lost by mapping another joint.
     AllPartEdits baseEdits;
     std::vector<PairEdit> basePairs;  ///< Likewise.
+    BodySet baseBodies;               ///< Likewise; it stays from one fit to the next.
 };
 
 /// The map with what the user fixed. Fails with ErrorCode::input, in the mapper's words, when that is no humanoid.

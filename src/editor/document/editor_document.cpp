@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <glm/geometric.hpp>
 
 #include "editor/document/mend_profile.hpp"
 #include "editor/document/mirror_body.hpp"
+#include "editor/document/mirror_roles.hpp"
 #include "physics/profile/profile_io.hpp"
 #include "physics/rig/rig.hpp"
 
@@ -28,28 +28,6 @@ Error outOfRange(const std::vector<std::string>& problems) {
 
 std::string partName(const physics::RagdollProfile& profile, int body) {
     return profile.bodies[body].name;
-}
-
-// The joint nearest to the mirror image of `joint` in the standard stance; kNoJoint when none is within a tenth of the
-// figure's height.
-int mirroredJoint(const animation::Character& character, const DocumentState& state, int joint) {
-    const auto& frames = character.skeleton.bindModelFromJoint;
-    const quat& standard = state.map.standardFromModel;
-    const float middle = (standard * frames[state.map.jointOf(Role::hips)].translation).x;
-    vec3 wanted = standard * frames[joint].translation;
-    wanted.x = 2.0F * middle - wanted.x;
-    int best = animation::kNoJoint;
-    float bestDistance = state.profile.heightM * 0.1F;
-    for (int other = 0; other < character.skeleton.jointCount(); ++other) {
-        const float distance = glm::distance(standard * frames[other].translation, wanted);
-        // Helpers often share a place with the joint that deforms; the skin tells them apart.
-        const bool deforms =
-            character.skeleton.skinWeight[other] > 0.0F || character.skeleton.skinWeight[joint] <= 0.0F;
-        if (other == joint || !deforms || distance >= bestDistance) continue;
-        best = other;
-        bestDistance = distance;
-    }
-    return best;
 }
 
 }  // namespace
@@ -160,10 +138,20 @@ Result<void> EditorDocument::useScene(const std::filesystem::path& file, const s
 void EditorDocument::rememberBase(DocumentState& state) const {
     state.baseEdits = {};
     state.basePairs.clear();
-    const auto fitted = physics::fitRagdoll(asset_->character, state.map, state.fit);
-    if (!fitted) return;
-    state.baseEdits = editsBetween(fitted.value(), state.base);
-    state.basePairs = pairEditsBetween(fitted.value(), state.base);
+    state.baseBodies = {};
+    const auto plain = physics::fitRagdoll(asset_->character, state.map, state.fit);
+    if (!plain) return;
+    state.baseBodies = bodySetBetween(plain.value(), state.base);
+    const RagdollProfile fitted = withBodySet(plain.value(), asset_->character, state.map, state.baseBodies);
+    state.baseEdits = editsBetween(fitted, state.base);
+    state.basePairs = pairEditsBetween(fitted, state.base);
+}
+
+void EditorDocument::takeAsBase(DocumentState& state, RagdollProfile profile) const {
+    state.base = std::move(profile);
+    state.edits = {};
+    state.pairs.clear();
+    rememberBase(state);
 }
 
 Result<void> EditorDocument::remap(DocumentState& state) const {
@@ -182,7 +170,7 @@ Result<void> EditorDocument::remap(DocumentState& state) const {
     }
     auto profile = physics::fitRagdoll(asset_->character, state.map, state.fit);
     if (!profile) return profile.error();
-    state.base = std::move(profile).value();
+    state.base = withBodySet(std::move(profile).value(), asset_->character, state.map, state.baseBodies);
     return {};
 }
 
@@ -209,20 +197,7 @@ Result<void> EditorDocument::unmapRole(Role role) {
 Result<void> EditorDocument::mirrorRoles(Side from) {
     return apply(from == Side::left ? "Mirror mapping left to right" : "Mirror mapping right to left", "",
                  [&](DocumentState& next) -> Result<void> {
-                     for (int i = 0; i < animation::kRoleCount; ++i) {
-                         const Role role = animation::roleAt(i);
-                         const int joint = next.map.jointOf(role);
-                         if (animation::sideOf(role) != from || joint == animation::kNoJoint) continue;
-                         const int other = mirroredJoint(character(), next, joint);
-                         if (other == animation::kNoJoint) {
-                             return Error{
-                                 ErrorCode::input,
-                                 fmt::format("\"{}\" has no joint opposite to it", character().skeleton.names[joint]),
-                                 "", "assign the role by hand"};
-                         }
-                         next.fixed[i] = joint;
-                         next.fixed[animation::indexOf(animation::mirrored(role))] = other;
-                     }
+                     if (auto done = mirrorFixed(next, character(), from); !done) return done;
                      return remap(next);
                  });
 }
@@ -241,6 +216,7 @@ Result<void> EditorDocument::editPart(int body, const std::string& what, const s
     return apply(fmt::format("{} of {}", what, partName(profile(), body)), group,
                  [&](DocumentState& next) -> Result<void> {
                      change(next.edits[name]);
+                     if (symmetric_) mirrorOnto(next, std::span(&body, 1));
                      return {};
                  });
 }
@@ -282,6 +258,7 @@ Result<void> EditorDocument::changeParts(std::span<const int> bodies, const std:
         for (const int body : bodies) {
             next.edits[work.bodies[body].name] = partEditsBetween(next.base, body, work, body);
         }
+        if (symmetric_) mirrorOnto(next, bodies);
         return {};
     });
 }
@@ -318,13 +295,22 @@ Result<void> EditorDocument::mirrorParts(std::span<const int> bodies) {
         return Error{ErrorCode::usage, fmt::format("{} has no other side", profile().bodies[body].name), "", ""};
     }
     return apply("Mirror " + partNames(bodies), "", [&](DocumentState& next) -> Result<void> {
-        RagdollProfile work = next.profile;
-        const auto bind = bindModelFromBody(work);
-        for (const int body : bodies) {
-            const int other = physics::counterpartOf(work, body);
-            mirrorBody(work, bind, body, other);
-            next.edits[work.bodies[other].name] = partEditsBetween(next.base, other, work, other);
-        }
+        mirrorOnto(next, bodies);
+        return {};
+    });
+}
+
+void EditorDocument::mirrorOnto(DocumentState& state, std::span<const int> bodies) const {
+    const RagdollProfile work = applyEdits(state.base, state.edits, state.pairs);
+    mirrorEdits(state, work, bindModelFromBody(work), bodies);
+}
+
+Result<void> EditorDocument::changeBodies(const std::string& label,
+                                          const std::function<Result<RagdollProfile>(const RagdollProfile&)>& change) {
+    return apply(label, "", [&](DocumentState& next) -> Result<void> {
+        auto changed = change(next.profile);
+        if (!changed) return changed.error();
+        takeAsBase(next, std::move(changed).value());
         return {};
     });
 }
@@ -333,6 +319,7 @@ Result<void> EditorDocument::resetParts(std::span<const int> bodies) {
     return apply("Reset " + partNames(bodies), "", [&](DocumentState& next) -> Result<void> {
         for (const int body : bodies)
             next.edits.erase(next.profile.bodies[body].name);
+        if (symmetric_) mirrorOnto(next, bodies);
         return {};
     });
 }
@@ -398,11 +385,8 @@ Result<void> EditorDocument::useProfile(const std::filesystem::path& file) {
     auto profile = physics::loadProfile(file);
     if (!profile) return profile.error();
     auto done = apply("Open profile " + file.filename().string(), "", [&](DocumentState& next) -> Result<void> {
-        next.base = std::move(profile).value();
-        next.edits = {};
-        next.pairs.clear();
         next.openedProfile = file;
-        rememberBase(next);
+        takeAsBase(next, std::move(profile).value());
         return {};
     });
     if (!done) return done;
@@ -418,17 +402,25 @@ const physics::Diagnosis& EditorDocument::diagnosis() const {
     return diagnosis_;
 }
 
+bool EditorDocument::canMend(const physics::Finding& finding) const {
+    return finding.mendable || !fixedToBlame(state_, diagnosis().findings, std::span(&finding, 1)).empty();
+}
+
 Result<void> EditorDocument::mend(std::span<const physics::Finding> findings) {
-    auto mended = mendProfile(state_.profile, character(), state_.map, findings);
-    if (!mended) return mended.error();
-    return apply(findings.size() == 1 ? "Mend " + findings.front().code : "Mend all", "",
-                 [&](DocumentState& next) -> Result<void> {
-                     next.base = std::move(mended).value();  // the edits are in it
-                     next.edits = {};
-                     next.pairs.clear();
-                     rememberBase(next);
-                     return {};
-                 });
+    const std::string label = findings.size() == 1 ? "Mend " + findings.front().code : "Mend all";
+    return apply(label, "", [&](DocumentState& next) -> Result<void> {
+        const std::vector<Role> wrong = fixedToBlame(next, diagnosis().findings, findings);
+        for (const Role role : wrong)
+            next.fixed[animation::indexOf(role)].reset();
+        if (!wrong.empty()) {
+            if (auto mapped = remap(next); !mapped) return mapped;
+            next.profile = applyEdits(next.base, next.edits, next.pairs);
+        }
+        auto mended = mendProfile(next.profile, character(), next.map, findings, !wrong.empty());
+        if (!mended) return mended.error();
+        takeAsBase(next, std::move(mended).value());
+        return {};
+    });
 }
 
 void EditorDocument::cancelGroup() {
@@ -471,11 +463,20 @@ Result<void> EditorDocument::recover(const std::array<std::optional<int>, animat
             next.map = std::move(map).value();
             next.fixed = fixed;
         }
-        next.base = profile;
-        next.edits = {};
-        next.pairs.clear();
-        rememberBase(next);
+        takeAsBase(next, profile);
         return {};
+    });
+}
+
+Result<void> EditorDocument::takeEditsOf(const EditorDocument& old) {
+    symmetric_ = old.symmetric_;
+    if (!old.state_.openedProfile.empty()) saved_ = old.saved_;
+    return apply("Read the model again", "", [&](DocumentState& next) {
+        DocumentState edited = old.state_;
+        takeFixedTo(edited, old.character().skeleton, character().skeleton);
+        edited.map = next.map;
+        next = std::move(edited);
+        return remap(next);
     });
 }
 

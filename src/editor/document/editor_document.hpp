@@ -83,6 +83,14 @@ class EditorDocument {
     /// Gives the bodies on the other side the shapes, places, masses, kinds, limits and axes of these. Fails with
     /// ErrorCode::usage when one of them has no other side.
     [[nodiscard]] Result<void> mirrorParts(std::span<const int> bodies);
+    /// Whether every change of a body goes to the body on the other side as well, as mirrorParts() would do it.
+    [[nodiscard]] bool symmetric() const { return symmetric_; }
+    void setSymmetric(bool symmetric) { symmetric_ = symmetric; }
+    /// Other bodies than before (physics/fit/edit_bodies.hpp): what `change` makes of the profile takes its place, and
+    /// the same bodies come and go with every new fit. Fails with what `change` fails with.
+    [[nodiscard]] Result<void> changeBodies(
+        const std::string& label,
+        const std::function<Result<physics::RagdollProfile>(const physics::RagdollProfile&)>& change);
     /// Forgets the user's edits of these bodies and their constraints.
     [[nodiscard]] Result<void> resetParts(std::span<const int> bodies);
     /// Whether two bodies collide (in the ragdoll that has them both). Linked bodies never do: ErrorCode::usage.
@@ -110,8 +118,11 @@ class EditorDocument {
 
     /// What the ragdoll doctor says of the present profile; kept until that changes.
     [[nodiscard]] const physics::Diagnosis& diagnosis() const;
+    /// Whether mend() can do something about it.
+    [[nodiscard]] bool canMend(const physics::Finding& finding) const;
     /// Mends these findings (those that are mendable), and what of the same kinds comes to light by that, as one entry
-    /// of undo. Fails as physics::applyMends() does, and with ErrorCode::input when they come back every time.
+    /// of undo. What comes of a role on a wrong joint is mended there: the role is free again. Fails as
+    /// physics::applyMends() does, and with ErrorCode::input when they come back every time.
     [[nodiscard]] Result<void> mend(std::span<const physics::Finding> findings);
 
     /// The scene's settings, characters and file. Its edits are these below, because undo has them.
@@ -163,6 +174,10 @@ class EditorDocument {
     [[nodiscard]] Result<void> recover(const std::array<std::optional<int>, animation::kRoleCount>& fixed,
                                        const physics::RagdollProfile& profile);
 
+    /// The edits of a document whose model was read again, as this one; joints are found by their paths. One entry of
+    /// undo. Fails with ErrorCode::input when what the user fixed makes no humanoid any more.
+    [[nodiscard]] Result<void> takeEditsOf(const EditorDocument& old);
+
     /// Whether the profile differs from what was loaded, fitted at opening, or saved last.
     [[nodiscard]] bool unsaved() const { return unsaved_; }
     /// Where save() writes: the profile that was loaded or saved last; beside the model else. Undoing the opening of a
@@ -180,6 +195,10 @@ class EditorDocument {
     [[nodiscard]] std::string partNames(std::span<const int> bodies) const;
     [[nodiscard]] std::vector<RigidTransform> bindModelFromBody(const physics::RagdollProfile& profile) const;
     void rememberBase(DocumentState& state) const;
+    /// A profile with all edits in it takes the place of the fit.
+    void takeAsBase(DocumentState& state, physics::RagdollProfile profile) const;
+    /// Gives the bodies on the other side what these have in `state`, which asks for no more than valid joints.
+    void mirrorOnto(DocumentState& state, std::span<const int> bodies) const;
     [[nodiscard]] Result<void> remap(DocumentState& state) const;
     struct Snapshot {
         DocumentState ragdoll;
@@ -201,6 +220,7 @@ class EditorDocument {
     mutable std::uint64_t diagnosedRevision_ = 0;
     SavedProfiles saved_;
     bool unsaved_ = false;
+    bool symmetric_ = false;
 };
 
 }  // namespace lutka::editor

@@ -1,16 +1,26 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
+#include "editor/document/document_state.hpp"
 #include "physics/doctor/doctor.hpp"
 
 namespace lutka::editor {
 
-/// physics::applyMends() until what was asked for is mended: one mend can bring the next of its kind to light. Fails as
-/// that does, and with ErrorCode::input when a finding comes back every time.
+/// The roles that the user fixed on joints that can't be theirs, as far as they bring about `asked`: `all` findings
+/// tell of a joint that is not below that of the role above, of the same body or of one that it is linked to.
+[[nodiscard]] std::vector<animation::Role> fixedToBlame(const DocumentState& state,
+                                                        std::span<const physics::Finding> all,
+                                                        std::span<const physics::Finding> asked);
+
+/// physics::applyMends() until what was asked for is mended: one mend can bring the next of its kind to light.
+/// `remapped`: the findings are of before another mapping, and those that went with it need no mend. Fails as
+/// applyMends() does, and with ErrorCode::input when a finding comes back every time.
 [[nodiscard]] Result<physics::RagdollProfile> mendProfile(const physics::RagdollProfile& profile,
                                                           const animation::Character& character,
                                                           const animation::HumanoidMap& map,
-                                                          std::span<const physics::Finding> findings);
+                                                          std::span<const physics::Finding> findings,
+                                                          bool remapped = false);
 
 }  // namespace lutka::editor

@@ -1,5 +1,6 @@
 #include "editor/document/mirror_body.hpp"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "physics/fit/anatomy.hpp"
@@ -59,6 +60,17 @@ void mirrorBody(RagdollProfile& profile, std::span<const RigidTransform> bindMod
     target.cone = source.cone;
     target.frictionNm = source.frictionNm;
     mirrorPlace(profile, bindModelFromBody, from, to);
+}
+
+void mirrorEdits(DocumentState& state, RagdollProfile profile, std::span<const RigidTransform> bindModelFromBody,
+                 std::span<const int> bodies) {
+    for (const int body : bodies) {
+        const int other = physics::counterpartOf(profile, body);
+        const bool given = std::find(bodies.begin(), bodies.end(), other) != bodies.end();
+        if (body == 0 || other <= 0 || other == body || given) continue;
+        mirrorBody(profile, bindModelFromBody, body, other);
+        state.edits[profile.bodies[other].name] = partEditsBetween(state.base, other, profile, other);
+    }
 }
 
 }  // namespace lutka::editor

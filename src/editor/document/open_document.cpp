@@ -35,6 +35,19 @@ Opened openModel(const std::filesystem::path& file, const scene::LoadOptions& lo
     return started(EditorDocument::open(file, plain), settings);
 }
 
+Opened reopenModel(const scene::LoadOptions& load, const EditorDocument& present) {
+    scene::LoadOptions plain = load;
+    plain.profile.reset();
+    plain.fit = present.state().fit;
+    plain.import.figure.reset();
+    if (present.character().figures.size() > 1) plain.import.figure = present.character().figure + 1;
+    auto opened = started(EditorDocument::open(present.character().file, plain), present.sceneDocument().settings());
+    if (!opened) return opened;
+    if (auto taken = opened.value()->takeEditsOf(present); !taken) return taken.error();
+    opened.value()->sceneDocument().takeFileOf(present.sceneDocument());
+    return opened;
+}
+
 Opened openCharacter(const scene::Ragdoll& character, const scene::LoadOptions& load, const EditorDocument& present) {
     SceneSettings settings = present.sceneDocument().settings();
     // Who had no model had that of the document, which is another one from now on.

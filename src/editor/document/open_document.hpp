@@ -15,6 +15,9 @@ namespace lutka::editor {
 [[nodiscard]] Result<std::unique_ptr<EditorDocument>> openModel(const std::filesystem::path& file,
                                                                 const scene::LoadOptions& load,
                                                                 const EditorDocument& present);
+/// The same model read again, with the present one's edits, scene and files.
+[[nodiscard]] Result<std::unique_ptr<EditorDocument>> reopenModel(const scene::LoadOptions& load,
+                                                                  const EditorDocument& present);
 /// Another character of the present scene, to be edited in it.
 [[nodiscard]] Result<std::unique_ptr<EditorDocument>> openCharacter(const scene::Ragdoll& character,
                                                                     const scene::LoadOptions& load,

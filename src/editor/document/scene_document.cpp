@@ -155,6 +155,14 @@ void SceneDocument::setFile(const fs::path& file) {
     unsaved_ = false;
 }
 
+void SceneDocument::takeFileOf(const SceneDocument& old) {
+    file_ = old.file_;
+    saved_ = old.saved_;
+    savedProfile_ = old.savedProfile_;
+    settings_.begun = old.settings_.begun;
+    compare();
+}
+
 fs::path SceneDocument::file() const {
     if (!file_.empty()) return file_;
     return edited_.character.file.parent_path() / (scene().name + ".scene.json");

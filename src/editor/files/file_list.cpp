@@ -1,4 +1,4 @@
-#include "editor/ui/file_list.hpp"
+#include "editor/files/file_list.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,6 +13,8 @@ namespace {
 constexpr std::array<std::string_view, 18> kModelEnds = {".glb", ".gltf", ".vrm",     ".fbx", ".dae", ".bvh",
                                                          ".x",   ".b3d",  ".md5mesh", ".md2", ".md3", ".mdl",
                                                          ".smd", ".ms3d", ".iqm",     ".cob", ".lwo", ".blend"};
+
+constexpr std::string_view kRecordingEnd = ".recording";
 
 std::string lower(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -36,21 +38,34 @@ const char* filterName(FileFilter filter) {
             return "Profiles (*.json)";
         case FileFilter::baked:
             return "Baked models (*.glb)";
+        case FileFilter::skies:
+            return "Panoramas (*.hdr)";
+        case FileFilter::recordings:
+            return "Recordings (*.recording)";
         case FileFilter::all:
             break;
     }
     return "All files";
 }
 
+bool isModel(const std::filesystem::path& file) {
+    const std::string end = lower(file.extension().string());
+    return std::find(kModelEnds.begin(), kModelEnds.end(), end) != kModelEnds.end();
+}
+
 bool passes(FileFilter filter, const std::filesystem::path& file) {
     const std::string end = lower(file.extension().string());
     switch (filter) {
         case FileFilter::models:
-            return isOurs(file) || std::find(kModelEnds.begin(), kModelEnds.end(), end) != kModelEnds.end();
+            return isOurs(file) || isModel(file);
         case FileFilter::profiles:
             return end == ".json";
         case FileFilter::baked:
             return end == ".glb";
+        case FileFilter::skies:
+            return end == ".hdr";
+        case FileFilter::recordings:
+            return end == kRecordingEnd;
         case FileFilter::all:
             break;
     }

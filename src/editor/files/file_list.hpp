@@ -11,11 +11,16 @@ enum class FileFilter {
     models,    ///< Rigged characters, profiles and scenes.
     profiles,  ///< *.json
     baked,     ///< *.glb
+    skies,     ///< *.hdr
+    recordings,
     all,
 };
 [[nodiscard]] const char* filterName(FileFilter filter);
 /// By the end of the name, whatever its case. Folders always pass.
 [[nodiscard]] bool passes(FileFilter filter, const std::filesystem::path& file);
+
+/// Whether its name is that of a rigged character.
+[[nodiscard]] bool isModel(const std::filesystem::path& file);
 
 struct FileEntry {
     std::string name;

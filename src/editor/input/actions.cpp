@@ -13,6 +13,10 @@ constexpr Modifiers kControlAlt{false, true, true};
 
 constexpr std::array kBindings = {
     Binding{Key::o, kControl, Action::openModel},
+    Binding{Key::o, kControlShift, Action::openRecent},
+    Binding{Key::pageDown, kPlain, Action::nextFile},
+    Binding{Key::pageUp, kPlain, Action::previousFile},
+    Binding{Key::f5, kPlain, Action::reload},
     Binding{Key::s, kControl, Action::saveProfile},
     Binding{Key::s, kControlShift, Action::saveProfileAs},
     Binding{Key::s, kControlAlt, Action::saveScene},
@@ -24,6 +28,12 @@ constexpr std::array kBindings = {
     Binding{Key::c, kControl, Action::copyPart},
     Binding{Key::v, kControl, Action::pastePart},
     Binding{Key::m, kControl, Action::mirrorParts},
+    Binding{Key::b, kControl, Action::addBody},
+    Binding{Key::j, kControl, Action::mergeBodies},
+    Binding{Key::k, kControl, Action::splitBodies},
+    Binding{Key::m, kShift, Action::toggleSymmetric},
+    Binding{Key::t, kPlain, Action::nextTool},
+    Binding{Key::t, kShift, Action::toggleLocalAxes},
     Binding{Key::l, kPlain, Action::swingLimits},
     Binding{Key::p, kPlain, Action::pin},
     Binding{Key::p, kShift, Action::unpinAll},
@@ -57,12 +67,13 @@ constexpr std::array kMouseHelp = {
     HelpLine{"W A S D Q E", "while orbiting: fly, with Shift faster"},
     HelpLine{"Wheel", "zoom; while pulling: depth"},
     HelpLine{"G  R  S", "grab, rotate, scale the selection"},
-    HelpLine{"X  Y  Z", "during these: along that axis; with Shift across it"},
+    HelpLine{"Ctrl+drag", "select by a box; with Shift add"},
+    HelpLine{"X  Y  Z", "during these: along that axis, again: its own; Shift: across"},
     HelpLine{"0-9 . -", "during these: type the value"},
     HelpLine{"P", "while pulling: pin the body there"},
     HelpLine{"Enter, click / Esc, right", "done / cancel"},
     HelpLine{"Shift+A", "add an entity: box, sphere, light …"},
-    HelpLine{"X, Delete", "delete the selected entities"},
+    HelpLine{"X, Delete", "delete the selected bodies or entities"},
     HelpLine{"Drop a file", "open a model, a profile or a scene"},
     HelpLine{"?", "this sheet"},
 };
@@ -85,6 +96,14 @@ std::string_view actionName(Action action) {
     switch (action) {
         case Action::openModel:
             return "Open model";
+        case Action::openRecent:
+            return "Recent models";
+        case Action::nextFile:
+            return "Next model of the folder";
+        case Action::previousFile:
+            return "Previous model of the folder";
+        case Action::reload:
+            return "Read the model again, with your changes";
         case Action::saveProfile:
             return "Save profile";
         case Action::saveProfileAs:
@@ -109,6 +128,20 @@ std::string_view actionName(Action action) {
             return "Paste values to the selected bodies";
         case Action::mirrorParts:
             return "Mirror the selected bodies";
+        case Action::addBody:
+            return "Add a body on a joint";
+        case Action::removeBodies:
+            return "Remove the selected bodies";
+        case Action::mergeBodies:
+            return "Merge the selected bodies into those above";
+        case Action::splitBodies:
+            return "Split the selected bodies";
+        case Action::toggleSymmetric:
+            return "Change both sides at once";
+        case Action::nextTool:
+            return "Next tool: select, move, turn, size";
+        case Action::toggleLocalAxes:
+            return "The tool's axes: the world's or its own";
         case Action::swingLimits:
             return "Swing the joint through its limits";
         case Action::pin:

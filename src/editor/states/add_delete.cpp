@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "editor/states/body_commands.hpp"
 #include "editor/states/states.hpp"
 
 namespace lutka::editor {
@@ -129,8 +130,9 @@ class DeleteHandler final : public StateHandler {
     void exit() override { workspace_.hint.clear(); }
     void update() override {
         if (const auto active = workspace_.selection.active()) {
-            workspace_.hint =
-                fmt::format("Delete {}? Enter or X deletes, Esc or a click keeps", workspace_.nameOf(*active));
+            const std::size_t count = workspace_.selection.items().size();
+            const std::string what = count > 1 ? fmt::format("{} things", count) : workspace_.nameOf(*active);
+            workspace_.hint = fmt::format("Delete {}? Enter or X deletes, Esc or a click keeps", what);
         }
     }
 
@@ -143,14 +145,17 @@ class DeleteHandler final : public StateHandler {
         if (!event.pressed) return std::nullopt;
         if (event.key == Key::escape) return workspace_.ended();
         if (event.key != Key::enter && event.key != Key::x && event.key != Key::del) return std::nullopt;
+        if (!workspace_.selectedBodies().empty()) BodyCommands(workspace_).remove();
         SceneSettings settings = workspace_.document->sceneDocument().settings();
+        bool objects = false;
         for (const Item& item : workspace_.selection.items()) {
             if (item.kind == Item::Kind::object) {
                 scene::removeEntity(settings.entities, static_cast<scene::EntityId>(item.index));
+                objects = true;
             }
         }
         workspace_.selection.clear();
-        workspace_.report(workspace_.document->setScene(settings, "Delete"));
+        if (objects) workspace_.report(workspace_.document->setScene(settings, "Delete"));
         workspace_.follow();
         return Trigger::endedWithNothing;
     }

@@ -34,7 +34,7 @@ class CameraHandler final : public StateHandler {
     }
 
     std::optional<Trigger> wheel(float notches) override {
-        render::dolly(workspace_.camera, std::pow(kDollyPerNotch, notches));
+        workspace_.zoom(notches);
         return std::nullopt;
     }
 

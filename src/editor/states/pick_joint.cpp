@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "editor/states/body_commands.hpp"
 #include "editor/states/states.hpp"
 #include "editor/view/joint_pick.hpp"
 
@@ -9,7 +10,8 @@ namespace {
 constexpr render::Color kJoint{120, 200, 255, 255};
 constexpr render::Color kHotJoint{255, 90, 30, 255};
 
-/// PickJoint: every joint is shown, and a click gives the one under the mouse to the role that asked.
+/// PickJoint: every joint is shown, and a click gives the one under the mouse to the role that asked, or a body of its
+/// own.
 class PickJointHandler final : public StateHandler {
   public:
     explicit PickJointHandler(Workspace& workspace) : workspace_(workspace) {}
@@ -22,7 +24,6 @@ class PickJointHandler final : public StateHandler {
     }
 
     void update() override {
-        if (!workspace_.pickRole) return;
         const std::vector<vec3> places = workspace_.worldOfJoints(0);
         const animation::Skeleton& skeleton = workspace_.document->character().skeleton;
         workspace_.hotJoint = underMouse(places);
@@ -30,29 +31,33 @@ class PickJointHandler final : public StateHandler {
         const float size = workspace_.camera.distance * 0.008F;
         for (int joint = 0; joint < skeleton.jointCount(); ++joint)
             render::addCross(workspace_.overlay, places[joint], joint == workspace_.hotJoint ? size * 2 : size, kJoint);
-        const std::string_view role = animation::roleName(*workspace_.pickRole);
+        const auto wanted = workspace_.pickRole;
+        const std::string_view what = wanted ? animation::roleName(*wanted) : "a new body";
         if (workspace_.hotJoint == animation::kNoJoint) {
-            workspace_.hint = fmt::format("Click the joint of {}   Esc: cancel", role);
+            workspace_.hint = fmt::format("Click the joint of {}   Esc: cancel", what);
             return;
         }
         render::addSphere(workspace_.overlay, places[workspace_.hotJoint], size, kHotJoint);
         workspace_.hint =
-            fmt::format("{}: click takes \"{}\"   Esc: cancel", role, skeleton.names[workspace_.hotJoint]);
+            fmt::format("{}: click takes \"{}\"   Esc: cancel", what, skeleton.names[workspace_.hotJoint]);
     }
 
     std::optional<Trigger> mouseButton(const InputEvent& event) override {
         if (event.button == MouseButton::right && event.pressed) return workspace_.ended();
-        if (event.button != MouseButton::left || event.pressed || !workspace_.pickRole) return std::nullopt;
+        if (event.button != MouseButton::left || event.pressed) return std::nullopt;
         const std::vector<vec3> places = workspace_.worldOfJoints(0);
         const int joint = underMouse(places);
         if (joint == animation::kNoJoint) return std::nullopt;  // beside: the user may try again
-        workspace_.edit([&](EditorDocument& document) { return document.assignRole(*workspace_.pickRole, joint); });
+        if (const auto role = workspace_.pickRole) {
+            workspace_.edit([&](EditorDocument& document) { return document.assignRole(*role, joint); });
+        } else {
+            BodyCommands(workspace_).add(joint);
+        }
         return workspace_.ended();
     }
 
     std::optional<Trigger> wheel(float notches) override {
-        constexpr float perNotch = 0.89F;
-        render::dolly(workspace_.camera, std::pow(perNotch, notches));
+        workspace_.zoom(notches);
         return std::nullopt;
     }
 

@@ -19,11 +19,14 @@ class SelectHandler final : public StateHandler {
     void exit() override {
         workspace_.hint.clear();
         workspace_.hotHandle.reset();
+        workspace_.hotGizmo.reset();
     }
 
     void update() override {
+        if (const auto gizmo = workspace_.gizmo())
+            drawGizmo(*gizmo, workspace_.hotGizmo, workspace_.camera, workspace_.overlay);
         const auto active = workspace_.selection.active();
-        const char* last = active && active->kind == Item::Kind::body ? "P pin" : "X delete";
+        const char* last = active && active->kind == Item::Kind::body ? "P pin  X remove" : "X delete";
         if (workspace_.hotHandle && active && active->kind == Item::Kind::body) {
             const std::optional<physics::Role> role = workspace_.document->profile().bodies[active->index].role;
             workspace_.hint = "Drag: " + handleName(*workspace_.hotHandle, role);
@@ -51,7 +54,9 @@ class SelectHandler final : public StateHandler {
             workspace_.press.reset();
             return std::nullopt;
         }
+        if (event.modifiers.control) return Trigger::boxPressed;
         if (!event.modifiers.shift && workspace_.handleUnderMouse()) return Trigger::handlePressed;
+        if (const auto part = workspace_.gizmoUnderMouse(); part && !event.modifiers.shift) return dragGizmo(*part);
         workspace_.press = Workspace::Press{workspace_.mouse, workspace_.pickUnderMouse(), false, vec3(0)};
         if (const auto& pick = workspace_.press->pick) {
             workspace_.press->wasSelected = workspace_.selection.contains(pick->item);
@@ -64,7 +69,7 @@ class SelectHandler final : public StateHandler {
     }
 
     std::optional<Trigger> wheel(float notches) override {
-        render::dolly(workspace_.camera, std::pow(kDollyPerNotch, notches));
+        workspace_.zoom(notches);
         return std::nullopt;
     }
 
@@ -104,6 +109,14 @@ class SelectHandler final : public StateHandler {
     void hover() {
         const auto handle = workspace_.press ? std::nullopt : workspace_.handleUnderMouse();
         workspace_.hotHandle = handle ? std::optional(handle->kind) : std::nullopt;
+        workspace_.hotGizmo = workspace_.press || handle ? std::nullopt : workspace_.gizmoUnderMouse();
+    }
+
+    Trigger dragGizmo(const AxisLock& part) {
+        workspace_.press = Workspace::Press{workspace_.mouse, std::nullopt, true, vec3(0)};
+        workspace_.gizmoLock = part;
+        const Tool tool = workspace_.gizmo()->tool;
+        return tool == Tool::rotate ? Trigger::rotateKey : tool == Tool::scale ? Trigger::scaleKey : Trigger::grabKey;
     }
 
     std::optional<Trigger> select(const std::optional<Pick>& pick, bool add) {
@@ -120,9 +133,8 @@ class SelectHandler final : public StateHandler {
     std::optional<Trigger> deleteAsked() {
         const auto active = workspace_.selection.active();
         if (!active) return std::nullopt;
-        if (active->kind == Item::Kind::object) return Trigger::deleteKey;
-        workspace_.say(Toast::Kind::info,
-                       "A body belongs to its ragdoll: unmap its role under Skeleton and mapping instead");
+        if (active->kind == Item::Kind::object || active->index > 0) return Trigger::deleteKey;
+        workspace_.say(Toast::Kind::info, workspace_.nameOf(*active) + " is the root: all other bodies hang on it");
         return std::nullopt;
     }
 

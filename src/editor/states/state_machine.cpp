@@ -22,20 +22,22 @@ constexpr std::array<Transitions, kStateCount> makeTable() {
     constexpr State del = State::remove;
     constexpr State hand = State::handle;
     constexpr State pick = State::pickJoint;
+    constexpr State box = State::box;
     // clang-format off
     return {{
-        //        picked nothing dragSel dragBg  G     R     S     orbit pan   add   delete handle pickJoint ended… …nothing
-        /*idle*/ {sel,   idle,   idle,   orb,    idle, idle, idle, orb,  move, add,  idle,  idle,  pick,     sel,   idle},
-        /*sel */ {sel,   idle,   grab,   orb,    grab, rot,  scal, orb,  move, add,  del,   hand,  pick,     sel,   idle},
-        /*grab*/ {sel,   idle,   grab,   grab,   grab, rot,  scal, grab, grab, grab, grab,  grab,  grab,     sel,   idle},
-        /*rot */ {sel,   idle,   rot,    rot,    grab, rot,  scal, rot,  rot,  rot,  rot,   rot,   rot,      sel,   idle},
-        /*scal*/ {sel,   idle,   scal,   scal,   grab, rot,  scal, scal, scal, scal, scal,  scal,  scal,     sel,   idle},
-        /*move*/ {sel,   idle,   move,   move,   move, move, move, move, move, move, move,  move,  move,     sel,   idle},
-        /*orb */ {sel,   idle,   orb,    orb,    orb,  orb,  orb,  orb,  orb,  orb,  orb,   orb,   orb,      sel,   idle},
-        /*add */ {sel,   idle,   add,    add,    add,  add,  add,  add,  add,  add,  add,   add,   add,      sel,   idle},
-        /*del */ {sel,   idle,   del,    del,    del,  del,  del,  del,  del,  del,  del,   del,   del,      sel,   idle},
-        /*hand*/ {sel,   idle,   hand,   hand,   hand, hand, hand, hand, hand, hand, hand,  hand,  hand,     sel,   idle},
-        /*pick*/ {sel,   idle,   pick,   pick,   pick, pick, pick, pick, pick, pick, pick,  pick,  pick,     sel,   idle},
+        //        picked nothing dragSel dragBg  G     R     S     orbit pan   add   delete handle pickJoint box   ended… …nothing
+        /*idle*/ {sel,   idle,   idle,   orb,    idle, idle, idle, orb,  move, add,  idle,  idle,  pick,     box,  sel,   idle},
+        /*sel */ {sel,   idle,   grab,   orb,    grab, rot,  scal, orb,  move, add,  del,   hand,  pick,     box,  sel,   idle},
+        /*grab*/ {sel,   idle,   grab,   grab,   grab, rot,  scal, grab, grab, grab, grab,  grab,  grab,     grab, sel,   idle},
+        /*rot */ {sel,   idle,   rot,    rot,    grab, rot,  scal, rot,  rot,  rot,  rot,   rot,   rot,      rot,  sel,   idle},
+        /*scal*/ {sel,   idle,   scal,   scal,   grab, rot,  scal, scal, scal, scal, scal,  scal,  scal,     scal, sel,   idle},
+        /*move*/ {sel,   idle,   move,   move,   move, move, move, move, move, move, move,  move,  move,     move, sel,   idle},
+        /*orb */ {sel,   idle,   orb,    orb,    orb,  orb,  orb,  orb,  orb,  orb,  orb,   orb,   orb,      orb,  sel,   idle},
+        /*add */ {sel,   idle,   add,    add,    add,  add,  add,  add,  add,  add,  add,   add,   add,      add,  sel,   idle},
+        /*del */ {sel,   idle,   del,    del,    del,  del,  del,  del,  del,  del,  del,   del,   del,      del,  sel,   idle},
+        /*hand*/ {sel,   idle,   hand,   hand,   hand, hand, hand, hand, hand, hand, hand,  hand,  hand,     hand, sel,   idle},
+        /*pick*/ {sel,   idle,   pick,   pick,   pick, pick, pick, pick, pick, pick, pick,  pick,  pick,     pick, sel,   idle},
+        /*box */ {sel,   idle,   box,    box,    box,  box,  box,  box,  box,  box,  box,   box,   box,      box,  sel,   idle},
     }};
     // clang-format on
 }
@@ -43,7 +45,7 @@ constexpr std::array<Transitions, kStateCount> kTable = makeTable();
 
 constexpr std::array<std::string_view, kStateCount> kStateNames = {"Default", "Selected",   "Grab",         "Rotate",
                                                                    "Scale",   "CameraMove", "CameraRotate", "Add",
-                                                                   "Delete",  "Handle",     "PickJoint"};
+                                                                   "Delete",  "Handle",     "PickJoint",    "Box"};
 constexpr std::array<std::string_view, kTriggerCount> kTriggerNames = {
     "picked",
     "picked nothing",
@@ -57,7 +59,8 @@ constexpr std::array<std::string_view, kTriggerCount> kTriggerNames = {
     "Shift+A",
     "X or Delete",
     "left press on a handle",
-    "a role asks for its joint",
+    "a joint is asked for",
+    "Ctrl + left press",
     "ended, something selected",
     "ended, nothing selected",
 };
@@ -70,8 +73,8 @@ std::string_view stateName(State state) {
 
 std::string_view stateWords(State state) {
     constexpr std::array<std::string_view, kStateCount> words = {
-        "ready",    "selected", "grabbing",         "turning",           "resizing",       "panning",
-        "orbiting", "adding",   "asking to delete", "dragging a handle", "picking a joint"};
+        "ready",    "selected", "grabbing",         "turning",           "resizing",        "panning",
+        "orbiting", "adding",   "asking to delete", "dragging a handle", "picking a joint", "selecting"};
     return words[static_cast<std::size_t>(state)];
 }
 

@@ -24,9 +24,10 @@ enum class State {
     add,           ///< Places a new object where the mouse points.
     remove,        ///< "Delete": asks whether to delete the selected object.
     handle,        ///< Drags an end of the active body's limits or shape.
-    pickJoint,     ///< Asks for the joint of a role, by a click.
+    pickJoint,     ///< Asks for the joint of a role or of a new body, by a click.
+    box,           ///< Selects by a rectangle.
 };
-inline constexpr int kStateCount = 11;
+inline constexpr int kStateCount = 12;
 
 /// What can make a state give way to another. Handlers turn raw input into these.
 enum class Trigger {
@@ -42,11 +43,12 @@ enum class Trigger {
     addKey,              ///< Shift+A
     deleteKey,           ///< X or Delete, on what can be deleted.
     handlePressed,       ///< The left button went down on a handle of the active body.
-    pickJointAsked,      ///< A panel asks for the joint of a role.
+    pickJointAsked,      ///< A panel asks for a joint.
+    boxPressed,          ///< The left button went down with Ctrl.
     endedWithSelection,  ///< The state's work is done or cancelled, and something is selected …
     endedWithNothing,    ///< … or nothing is.
 };
-inline constexpr int kTriggerCount = 15;
+inline constexpr int kTriggerCount = 16;
 
 [[nodiscard]] constexpr State stateAt(int index) {
     return static_cast<State>(index);

@@ -5,9 +5,6 @@
 /// The handlers of the states; workspace.hpp's makeHandlers() puts them together.
 namespace lutka::editor {
 
-/// One notch of the wheel leaves this share of the camera's distance.
-inline constexpr float kDollyPerNotch = 0.89F;
-
 [[nodiscard]] std::unique_ptr<StateHandler> makeSelectHandler(Workspace& workspace);
 [[nodiscard]] std::unique_ptr<StateHandler> makeGrabHandler(Workspace& workspace);
 [[nodiscard]] std::unique_ptr<StateHandler> makeRotateHandler(Workspace& workspace);
@@ -18,5 +15,6 @@ inline constexpr float kDollyPerNotch = 0.89F;
 [[nodiscard]] std::unique_ptr<StateHandler> makeDeleteHandler(Workspace& workspace);
 [[nodiscard]] std::unique_ptr<StateHandler> makeHandleHandler(Workspace& workspace);
 [[nodiscard]] std::unique_ptr<StateHandler> makePickJointHandler(Workspace& workspace);
+[[nodiscard]] std::unique_ptr<StateHandler> makeBoxHandler(Workspace& workspace);
 
 }  // namespace lutka::editor

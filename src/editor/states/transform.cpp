@@ -1,6 +1,7 @@
 /// Grab, Rotate and Scale. On a body, Grab pulls it through the physics, Rotate turns its whole doll, and Scale resizes
 /// its shape; on an object of the scene all three edit the document, as one entry of undo. A character of another model
-/// is such an object, but a drag on it pulls the body under the mouse.
+/// is such an object, but a drag on it pulls the body under the mouse. By its gizmo a body's shape is moved, turned and
+/// resized in its joint instead.
 
 #include <fmt/format.h>
 
@@ -9,13 +10,12 @@
 #include <glm/geometric.hpp>
 
 #include "editor/states/states.hpp"
-#include "editor/view/axis_lock.hpp"
+#include "editor/view/gizmo.hpp"
 
 namespace lutka::editor {
 namespace {
 
 constexpr render::Color kPullColor{255, 196, 64, 255};
-constexpr std::array<render::Color, 3> kAxisColors = {render::colors::red, render::colors::green, render::colors::blue};
 constexpr float kGuideLength = 50.0F;    // metres; an axis guide crosses the picture
 constexpr float kDepthPerNotch = 0.06F;  // of the distance to the eye
 constexpr const char* kTransformGroup = "transform";
@@ -27,7 +27,9 @@ class TransformHandler : public StateHandler {
     explicit TransformHandler(Workspace& workspace) : workspace_(workspace) {}
 
     void enter() override {
-        lock_ = {};
+        byGizmo_ = workspace_.gizmoLock.has_value();
+        lock_ = std::exchange(workspace_.gizmoLock, std::nullopt).value_or(AxisLock{});
+        moved_ = false;
         number_.clear();
         confirmed_ = false;
         byDrag_ = workspace_.press.has_value();
@@ -35,12 +37,17 @@ class TransformHandler : public StateHandler {
         startMouse_ = byDrag_ ? workspace_.press->position : workspace_.mouse;
         if (!item_) return;
         pivot_ = workspace_.positionOf(*item_);
+        own_ = workspace_.frameOf(*item_).rotation;
         if (item_->kind == Item::Kind::object) {
             before_ = workspace_.document->scene();
             // A character is moved by where it starts, anything else from where it is now.
             const bool character = before_.find<scene::Ragdoll>(entity()) != nullptr;
             world_ =
                 character ? scene::worldFromEntity(before_, entity()) : workspace_.player->worldFromEntity(entity());
+        }
+        if (onBody()) {
+            body_ = workspace_.document->profile().bodies[item_->index];
+            worldFromJoint_ = workspace_.frameOf(*item_) * inverse(body_.jointFromBody);
         }
         begin();
         change();
@@ -70,6 +77,7 @@ class TransformHandler : public StateHandler {
     }
 
     std::optional<Trigger> mouseMove(const vec2& /*position*/, const vec2& /*movement*/) override {
+        moved_ = true;
         if (item_) change();
         return std::nullopt;
     }
@@ -89,6 +97,7 @@ class TransformHandler : public StateHandler {
         } else if (!typeNumber(event.key)) {
             return otherKey(event.key);
         }
+        moved_ = true;
         if (item_) change();
         return std::nullopt;
     }
@@ -113,6 +122,11 @@ class TransformHandler : public StateHandler {
         return workspace_.ended();
     }
     [[nodiscard]] bool onBody() const { return item_->kind == Item::Kind::body; }
+    /// Whether the shape is edited in its joint, and no doll pulled or turned.
+    [[nodiscard]] bool onShape() const { return onBody() && byGizmo_; }
+    /// The rotation of the axes that the lock means.
+    [[nodiscard]] quat axes() const { return lock_.local ? own_ : quat(1, 0, 0, 0); }
+    [[nodiscard]] vec3 axisOf(int axis) const { return axes() * axisVector(axis); }
 
     [[nodiscard]] scene::EntityId entity() const { return static_cast<scene::EntityId>(item_->index); }
 
@@ -129,8 +143,22 @@ class TransformHandler : public StateHandler {
         setEntity(what, [&](scene::EntityScene& scene) { scene::placeEntity(scene, entity(), world); });
     }
 
+    /// The body is as it was when the state began, but for what `change` does to it.
+    void setBody(const char* what, const std::function<void(physics::BodyProfile&)>& change) {
+        workspace_.edit([&](EditorDocument& document) {
+            return document.changeParts(std::span(&item_->index, 1), what, kTransformGroup,
+                                        [&](EditorDocument::Part& part) -> Result<void> {
+                                            part.body.shape = body_.shape;
+                                            part.body.jointFromBody = body_.jointFromBody;
+                                            change(part.body);
+                                            return {};
+                                        });
+        });
+    }
+
+    // What was not moved is no change.
     void keepOrCancelEdits(bool confirmed) {
-        if (confirmed) return;
+        if (confirmed && moved_) return;
         workspace_.document->cancelGroup();
         workspace_.follow();
     }
@@ -145,11 +173,16 @@ class TransformHandler : public StateHandler {
     std::optional<Item> item_;
     scene::EntityScene before_;  // as it was
     RigidTransform world_;       // where the entity was
+    physics::BodyProfile body_;  // as it was
+    RigidTransform worldFromJoint_;
+    quat own_{1, 0, 0, 0};  // the item's own axes
     vec3 pivot_{0, 0, 0};
     vec2 startMouse_{0, 0};
     AxisLock lock_;
     NumberEntry number_;
     bool byDrag_ = false;
+    bool byGizmo_ = false;
+    bool moved_ = false;  // since it began
     bool confirmed_ = false;
 
   private:
@@ -169,8 +202,8 @@ class TransformHandler : public StateHandler {
     }
 
     void guide(int axis) {
-        const vec3 along = axisVector(axis) * kGuideLength;
-        workspace_.overlay.add(pivot_ - along, pivot_ + along, kAxisColors[axis]);
+        const vec3 along = axisOf(axis) * kGuideLength;
+        workspace_.overlay.add(pivot_ - along, pivot_ + along, axisColor(axis));
     }
 };
 
@@ -191,7 +224,7 @@ class GrabHandler final : public TransformHandler {
         const bool dragged = byDrag_ && workspace_.press->pick;
         start_ = dragged ? workspace_.press->pick->position : pivot_;
         pulled_ = dragged ? workspace_.press->pick->body : std::nullopt;
-        if (onBody()) pulled_ = item_;
+        if (onBody() && !byGizmo_) pulled_ = item_;
         if (pulled_) startPull(dragged);
         grabbedAt_ = dragged ? start_ : mousePoint().value_or(start_);
         target_ = start_;
@@ -199,13 +232,18 @@ class GrabHandler final : public TransformHandler {
 
     void change() override {
         if (const auto number = number_.value()) {
-            target_ = start_ + axisVector(lock_.kind == AxisLock::Kind::axis ? lock_.axis : 0) * *number;
+            target_ = start_ + axisOf(lock_.kind == AxisLock::Kind::axis ? lock_.axis : 0) * *number;
         } else if (const auto point = mousePoint()) {
-            target_ = lock_.kind == AxisLock::Kind::axis ? *point : start_ + (*point - grabbedAt_);
+            const bool toAxis = lock_.kind == AxisLock::Kind::axis && !byGizmo_;
+            target_ = toAxis ? *point : start_ + (*point - grabbedAt_);
         }
         if (pulled_) {
             if (workspace_.pulls.mouse) workspace_.pulls.mouse->target = target_;
             return;
+        }
+        if (onShape()) {
+            const vec3 moved = glm::conjugate(worldFromJoint_.rotation) * (target_ - start_);
+            return setBody("Offset", [&](physics::BodyProfile& body) { body.jointFromBody.translation += moved; });
         }
         placeEntity("Move", {world_.rotation, world_.translation + target_ - start_});
     }
@@ -270,7 +308,7 @@ class GrabHandler final : public TransformHandler {
     }
 
     [[nodiscard]] std::optional<vec3> mousePoint() const {
-        return dragTarget(workspace_.mouseRay(), start_, render::forwardOf(workspace_.camera), lock_, depth_);
+        return dragTarget(workspace_.mouseRay(), start_, render::forwardOf(workspace_.camera), lock_, depth_, axes());
     }
 
     std::optional<Item> pulled_;                  // the body that is held; else the entity is moved
@@ -289,7 +327,7 @@ class RotateHandler final : public TransformHandler {
     void begin() override {
         angle_ = 0;
         startAngle_ = mouseAngle().value_or(0.0F);
-        if (!onBody()) return;
+        if (!onBody() || byGizmo_) return;
         turnedFrom_ = workspace_.playState();
         bodies_ = workspace_.player->bodiesOf(item_->doll);
         pivot_ = bodies_.front().worldFromBody.translation;
@@ -306,17 +344,23 @@ class RotateHandler final : public TransformHandler {
                 angle_ = -angle_;
             }
         }
+        if (onShape()) {
+            return setBody("Turn", [&](physics::BodyProfile& body) {
+                const quat world = rotation() * worldFromJoint_.rotation * body.jointFromBody.rotation;
+                body.jointFromBody.rotation = glm::normalize(glm::conjugate(worldFromJoint_.rotation) * world);
+            });
+        }
         if (onBody()) return;
         placeEntity("Rotate", {glm::normalize(rotation() * world_.rotation), world_.translation});
     }
 
     // While it is turned the doll keeps still, whatever gravity wants.
     void hold() override {
-        if (onBody()) workspace_.player->placeBodies(item_->doll, turned(rotation()));
+        if (onBody() && !byGizmo_) workspace_.player->placeBodies(item_->doll, turned(rotation()));
     }
 
     void finish(bool confirmed) override {
-        if (!onBody()) {
+        if (!onBody() || byGizmo_) {
             keepOrCancelEdits(confirmed);
         } else if (item_->doll < workspace_.player->simulation().dollCount()) {
             workspace_.player->placeBodies(item_->doll, confirmed ? turned(rotation()) : bodies_);
@@ -331,7 +375,7 @@ class RotateHandler final : public TransformHandler {
 
   private:
     [[nodiscard]] vec3 axis() const {
-        return lock_.kind == AxisLock::Kind::free ? -render::forwardOf(workspace_.camera) : axisVector(lock_.axis);
+        return lock_.kind == AxisLock::Kind::free ? -render::forwardOf(workspace_.camera) : axisOf(lock_.axis);
     }
     [[nodiscard]] quat rotation() const { return glm::angleAxis(angle_, axis()); }
 
@@ -368,7 +412,6 @@ class ScaleHandler final : public TransformHandler {
     void begin() override {
         factor_ = 1;
         startDistance_ = mouseDistance();
-        if (onBody()) shape_ = workspace_.document->profile().bodies[item_->index].shape;
     }
 
     void change() override {
@@ -376,15 +419,7 @@ class ScaleHandler final : public TransformHandler {
         constexpr float largest = 20.0F;
         const float wanted = number_.value().value_or(mouseDistance() / std::max(startDistance_, 1.0F));
         factor_ = std::clamp(wanted, smallest, largest);
-        if (onBody()) {
-            physics::BodyShape shape = shape_;
-            shape.radius *= factor_;
-            shape.halfLength *= factor_;
-            shape.halfExtents *= factor_;
-            workspace_.report(workspace_.document->setShape(item_->index, shape, kTransformGroup));
-            workspace_.follow();
-            return;
-        }
+        if (onBody()) return setBody("Shape", [&](physics::BodyProfile& body) { scale(body.shape); });
         setEntity("Scale", [&](scene::EntityScene& scene) { scale(scene); });
     }
 
@@ -393,6 +428,20 @@ class ScaleHandler final : public TransformHandler {
     [[nodiscard]] std::string describe() const override { return fmt::format("Scale x{:.3f}{}", factor_, suffix()); }
 
   private:
+    [[nodiscard]] bool scales(int axis) const {
+        const bool along = (axis == lock_.axis) == (lock_.kind == AxisLock::Kind::axis);
+        return lock_.kind == AxisLock::Kind::free || along;
+    }
+
+    // A capsule's axis is its y.
+    void scale(physics::BodyShape& shape) const {
+        if (scales(0) || scales(2)) shape.radius *= factor_;
+        if (scales(1)) shape.halfLength *= factor_;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (scales(axis)) shape.halfExtents[axis] *= factor_;
+        }
+    }
+
     // A shape by its measures, a light by how strong it is, a camera by how far it sees.
     void scale(scene::EntityScene& scene) const {
         if (auto* collider = scene.find<scene::Collider>(entity())) {
@@ -401,8 +450,7 @@ class ScaleHandler final : public TransformHandler {
                 *length *= factor_;
             }
             for (int axis = 0; axis < 3; ++axis) {
-                const bool along = (axis == lock_.axis) == (lock_.kind == AxisLock::Kind::axis);
-                if (lock_.kind == AxisLock::Kind::free || along) collider->halfExtents[axis] *= factor_;
+                if (scales(axis)) collider->halfExtents[axis] *= factor_;
             }
         }
         if (auto* light = scene.find<scene::Light>(entity())) light->intensity *= factor_;
@@ -414,7 +462,6 @@ class ScaleHandler final : public TransformHandler {
         return centre ? glm::distance(vec2(*centre), workspace_.mouse) : 1.0F;
     }
 
-    physics::BodyShape shape_;  // as it was
     float startDistance_ = 1;
     float factor_ = 1;
 };

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 
 namespace lutka::editor {
 
@@ -41,6 +43,36 @@ std::optional<Handle> Workspace::handleUnderMouse() const {
     return handleUnder(handlesOf(*scene, camera), camera, mouse, window, reach * uiScale);
 }
 
+std::optional<Gizmo> Workspace::gizmo() const {
+    const auto active = selection.active();
+    if (!active || player->stale()) return std::nullopt;
+    const bool body = active->kind == Item::Kind::body;
+    if (body && tool == Tool::select) return std::nullopt;  // a drag pulls it, and its limits have handles
+    const Tool shown = tool == Tool::select ? Tool::move : tool;
+    RigidTransform frame = frameOf(*active);
+    const bool own = localAxes || shown == Tool::scale;
+    if (!own) frame.rotation = quat(1, 0, 0, 0);
+    constexpr float arm = 84.0F;
+    return gizmoAt(shown, frame, own, camera, window, arm * uiScale);
+}
+
+std::optional<AxisLock> Workspace::gizmoUnderMouse() const {
+    constexpr float reach = 9.0F;
+    const auto shown = gizmo();
+    return shown ? gizmoPartUnder(*shown, camera, mouse, window, reach * uiScale) : std::nullopt;
+}
+
+void Workspace::zoom(float notches) {
+    constexpr float perNotch = 0.89F;  // of the distance is left
+    const render::Ray ray = mouseRay();
+    const float facing = glm::dot(ray.direction, render::forwardOf(camera));
+    const float before = camera.distance;
+    const float along = glm::dot(camera.target - ray.origin, render::forwardOf(camera)) / std::max(facing, 0.1F);
+    render::dolly(camera, std::pow(perNotch, notches));
+    const vec3 held = ray.origin + ray.direction * along;
+    camera.target = held + (camera.target - held) * (camera.distance / before);
+}
+
 std::vector<vec3> Workspace::worldOfJoints(int doll) const {
     scene::Simulation& simulation = player->simulation();
     std::vector<RigidTransform> pose(simulation.assetOf(doll).character.skeleton.parents.size());
@@ -75,6 +107,11 @@ vec3 Workspace::positionOf(const Item& item) const {
     return player->bodiesOf(item.doll)[static_cast<std::size_t>(item.index)].worldFromBody.translation;
 }
 
+RigidTransform Workspace::frameOf(const Item& item) const {
+    if (item.kind == Item::Kind::object) return player->worldFromEntity(static_cast<scene::EntityId>(item.index));
+    return player->bodiesOf(item.doll)[static_cast<std::size_t>(item.index)].worldFromBody;
+}
+
 std::string Workspace::nameOf(const Item& item) const {
     if (item.kind == Item::Kind::object) {
         const scene::Entity* entity = scene::findEntity(document->scene(), static_cast<scene::EntityId>(item.index));
@@ -88,6 +125,7 @@ std::string Workspace::nameOf(const Item& item) const {
 
 void Workspace::follow() {
     if (!player->stale()) return;
+    followBodies();
     report(player->rebuild(Player::Keep::motion));
     pulls.applyTo(player->simulation());
     const physics::RagdollProfile& profile = document->profile();
@@ -98,6 +136,30 @@ void Workspace::follow() {
         return item.doll < player->simulation().dollCount() && player->isEditedDoll(item.doll) &&
                item.index < static_cast<int>(profile.bodies.size());
     });
+}
+
+void Workspace::rememberBodies() {
+    bodyNames_.clear();
+    for (const physics::BodyProfile& body : document->profile().bodies)
+        bodyNames_.push_back(body.name);
+}
+
+void Workspace::followBodies() {
+    const physics::RagdollProfile& profile = document->profile();
+    const std::vector<std::string> before = bodyNames_;
+    rememberBodies();
+    if (before == bodyNames_) return;
+    const std::vector<Item> items = selection.items();
+    selection.clear();
+    for (Item item : items) {
+        if (item.kind == Item::Kind::body) {
+            item.index = item.index < static_cast<int>(before.size())
+                             ? physics::bodyNamed(profile, before[static_cast<std::size_t>(item.index)])
+                             : -1;
+            if (item.index < 0) continue;
+        }
+        selection.toggle(item);
+    }
 }
 
 void Workspace::pose(bool on) {

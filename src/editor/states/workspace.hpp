@@ -12,6 +12,7 @@
 #include "editor/play/player.hpp"
 #include "editor/play/pulls.hpp"
 #include "editor/states/state_machine.hpp"
+#include "editor/view/gizmo.hpp"
 #include "editor/view/handles.hpp"
 #include "editor/view/picking.hpp"
 #include "editor/view/selection.hpp"
@@ -54,11 +55,22 @@ struct Workspace {
     std::optional<Press> press;
     MouseButton cameraButton = MouseButton::middle;  ///< What drags the camera.
 
+    Tool tool = Tool::select;
+    bool localAxes = false;             ///< Of the gizmo: the item's own instead of the world's.
+    std::optional<AxisLock> hotGizmo;   ///< The part of the gizmo under the mouse.
+    std::optional<AxisLock> gizmoLock;  ///< What a transform that begins now is locked to by the gizmo.
+    /// What State::box selects, window coordinates.
+    struct Box {
+        vec2 low{0, 0};
+        vec2 high{0, 0};
+    };
+    std::optional<Box> box;
+
     float uiScale = 1.0F;         ///< What a finger's breadth is: reach of handles and joints under the mouse.
     std::optional<int> followed;  ///< The doll that the camera goes along with.
     bool showHandles = true;      ///< Of the active body's limits and shape.
     std::optional<Handle::Kind> hotHandle;    ///< Hovered or held.
-    std::optional<animation::Role> pickRole;  ///< What State::pickJoint asks for …
+    std::optional<animation::Role> pickRole;  ///< What State::pickJoint asks the joint of; none: a new body's …
     int hotJoint = animation::kNoJoint;       ///< … and the joint under the mouse then.
     std::optional<EditorDocument::PartValues> clipboard;
 
@@ -75,6 +87,11 @@ struct Workspace {
     /// The active body as its handles see it, at the pose that is shown; nothing when no body is active.
     [[nodiscard]] std::optional<HandleScene> handleScene() const;
     [[nodiscard]] std::optional<Handle> handleUnderMouse() const;
+    /// Of the active item, as the tool has it.
+    [[nodiscard]] std::optional<Gizmo> gizmo() const;
+    [[nodiscard]] std::optional<AxisLock> gizmoUnderMouse() const;
+    /// Zooms to what is under the mouse: that stays where it is seen.
+    void zoom(float notches);
     /// Where a doll's joints are shown, world; jointCount() long.
     [[nodiscard]] std::vector<vec3> worldOfJoints(int doll) const;
     /// The bodies of the profile that are selected in any doll, each once, the active one last.
@@ -83,6 +100,8 @@ struct Workspace {
     bool edit(const std::function<Result<void>(EditorDocument&)>& change);
     /// Where an item's origin is now, world; a body's is its centre of mass.
     [[nodiscard]] vec3 positionOf(const Item& item) const;
+    /// An item's own frame, world.
+    [[nodiscard]] RigidTransform frameOf(const Item& item) const;
     [[nodiscard]] std::string nameOf(const Item& item) const;
     /// Makes the simulation follow the document, when that has changed.
     void follow();
@@ -100,6 +119,15 @@ struct Workspace {
     [[nodiscard]] Trigger ended() const {
         return selection.empty() ? Trigger::endedWithNothing : Trigger::endedWithSelection;
     }
+
+    /// What the selection's indices mean from now on, after another document was opened.
+    void rememberBodies();
+
+  private:
+    /// Selected bodies keep their names when others come or go.
+    void followBodies();
+
+    std::vector<std::string> bodyNames_;  // that the selection's indices mean
 };
 
 /// One handler for each state, all working on `workspace`, which must outlive them.

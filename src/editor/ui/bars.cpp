@@ -1,4 +1,4 @@
-/// What frames the picture: menu bar, status bar, the transport over the view, and the panels' frames.
+/// What frames the picture: menu bar, status bar, the transport over the view.
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "editor/ui/panels.hpp"
+#include "editor/ui/side_panels.hpp"
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"
 
@@ -17,10 +18,6 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_N
 
 void scaleMenu(const PanelContext& context);
 
-float statusHeight() {
-    return ImGui::GetFrameHeight() + 4.0F;
-}
-
 void item(const PanelContext& context, Action action, bool enabled = true, bool checked = false) {
     const std::string name(actionName(action));
     if (ImGui::MenuItem(name.c_str(), shortcutText(action).c_str(), checked, enabled)) context.editor.perform(action);
@@ -29,6 +26,12 @@ void item(const PanelContext& context, Action action, bool enabled = true, bool 
 void fileMenu(const PanelContext& context) {
     if (!ImGui::BeginMenu("File")) return;
     item(context, Action::openModel);
+    item(context, Action::nextFile);
+    item(context, Action::previousFile);
+    item(context, Action::reload);
+    if (ImGui::MenuItem("Read it again whenever it changes", nullptr, context.editor.watching))
+        context.editor.watching = !context.editor.watching;
+    item(context, Action::openRecent, true, context.editor.view.gallery);
     if (ImGui::BeginMenu("Open recent", !context.state.recent.empty())) {
         std::optional<std::filesystem::path> chosen;
         for (const std::filesystem::path& file : context.state.recent) {
@@ -105,6 +108,11 @@ void editMenu(const PanelContext& context) {
     item(context, Action::copyPart, anyBody);
     item(context, Action::pastePart, anyBody && context.editor.workspace().clipboard.has_value());
     item(context, Action::mirrorParts, anyBody);
+    item(context, Action::toggleSymmetric, true, context.editor.document().symmetric());
+    item(context, Action::addBody);
+    item(context, Action::splitBodies, anyBody);
+    item(context, Action::mergeBodies, anyBody);
+    item(context, Action::removeBodies, anyBody);
     item(context, Action::swingLimits, anyBody);
     if (ImGui::MenuItem("Collisions between bodies …")) context.state.showCollisions = true;
     ImGui::Separator();
@@ -130,6 +138,8 @@ void viewMenu(const PanelContext& context) {
     ImGui::Separator();
     item(context, Action::focus);
     item(context, Action::followDoll, true, context.editor.workspace().followed.has_value());
+    item(context, Action::nextTool);
+    item(context, Action::toggleLocalAxes, true, context.editor.workspace().localAxes);
     item(context, Action::viewFront);
     item(context, Action::viewRight);
     item(context, Action::viewTop);
@@ -155,59 +165,6 @@ void simulateMenu(const PanelContext& context) {
     ImGui::EndMenu();
 }
 
-constexpr float kLeftWidth = 310.0F;
-constexpr float kRightWidth = 344.0F;
-
-// Its own width at most that share of the window; one that the user dragged at most what leaves the view some room.
-float panelWidth(const PanelContext& context, float chosen, float own, float share) {
-    const float window = ImGui::GetIO().DisplaySize.x;
-    if (chosen <= 0.0F) return std::min(context.px(own), window * share);
-    constexpr float most = 0.45F;
-    return std::clamp(context.px(chosen), std::min(context.px(180), window * share), window * most);
-}
-
-// A panel's inner edge, which widens it; `x` is where it lies. A double click gives the panel its own width back.
-void drawEdge(const PanelContext& context, const char* id, float x, float top, float& width, float sign, float now) {
-    const float thick = context.px(5);
-    ImGui::SetNextWindowPos({x - thick * 0.5F, top});
-    ImGui::SetNextWindowSize({thick, ImGui::GetIO().DisplaySize.y - top - statusHeight()});
-    ImGui::SetNextWindowBgAlpha(0.0F);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0F);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
-    constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
-                                       ImGuiWindowFlags_NoNav;
-    ImGui::Begin(id, nullptr, flags);
-    ImGui::InvisibleButton("##edge", ImGui::GetContentRegionAvail());
-    if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
-        ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-        const float middle = x;
-        ImGui::GetWindowDrawList()->AddLine({middle, top}, {middle, ImGui::GetIO().DisplaySize.y},
-                                            ImGui::GetColorU32(accentColor()), context.px(2));
-    }
-    if (ImGui::IsItemActive() && ImGui::GetIO().MouseDelta.x != 0.0F)
-        width = std::max((now + sign * ImGui::GetIO().MouseDelta.x) / context.scale, 100.0F);
-    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) width = 0.0F;
-    ImGui::End();
-    ImGui::PopStyleVar(3);
-}
-
-int doctorErrors(const PanelContext& context) {
-    const auto& findings = context.editor.document().diagnosis().findings;
-    return static_cast<int>(std::count_if(findings.begin(), findings.end(), [](const physics::Finding& finding) {
-        return finding.severity == physics::Severity::error;
-    }));
-}
-
-// The tab with the number of the doctor's errors behind its name.
-std::string doctorTitle(const PanelContext& context) {
-    // A drag changes the ragdoll every frame: the doctor is asked at its end.
-    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) context.state.doctorErrors = doctorErrors(context);
-    const int errors = context.state.doctorErrors;
-    return errors == 0 ? "Doctor###Doctor" : fmt::format("Doctor {}###Doctor", errors);
-}
-
 void scaleMenu(const PanelContext& context) {
     if (!ImGui::BeginMenu("Size of the panels")) return;
     float& chosen = context.state.uiScale;
@@ -219,35 +176,6 @@ void scaleMenu(const PanelContext& context) {
 }
 
 }  // namespace
-
-float leftPanelWidth(const PanelContext& context) {
-    return panelWidth(context, context.state.leftWidth, kLeftWidth, 0.29F);
-}
-
-float rightPanelWidth(const PanelContext& context) {
-    return panelWidth(context, context.state.rightWidth, kRightWidth, 0.33F);
-}
-
-ViewSpan viewSpan(const PanelContext& context) {
-    const float width = ImGui::GetIO().DisplaySize.x;
-    if (!context.editor.view.panels) return {0.0F, width};
-    return {leftPanelWidth(context), width - rightPanelWidth(context)};
-}
-
-render::PictureInsets coveredBy(const PanelContext& context) {
-    if (!context.editor.view.panels) return {};  // then the picture is the whole window, with bars over its margin
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const auto [left, right] = viewSpan(context);
-    const float top = context.state.transportBottom + context.px(4);
-    constexpr float most = 0.9F;  // a tiny window still shows something
-    const auto clamped = [](float low, float high) {
-        const float scale = std::min(1.0F, most / std::max(low + high, 1e-3F));
-        return std::pair(low * scale, high * scale);
-    };
-    const auto [l, r] = clamped(left / size.x, 1.0F - right / size.x);
-    const auto [t, b] = clamped(top / size.y, statusHeight() / size.y);
-    return {l, r, t, b};
-}
 
 void drawMenuBar(const PanelContext& context) {
     if (!ImGui::BeginMainMenuBar()) return;
@@ -290,7 +218,10 @@ void drawStatusBar(const PanelContext& context) {
     const Player& player = context.editor.player();
     const bool late = player.playing() && !player.loop().keepsUp();
     const std::string slow = late ? fmt::format("slowed to {:.0f} %   ", 100.0 * player.loop().share()) : "";
-    const std::string right = fmt::format("{}{:.2f} s   {:.0f} fps", slow, player.seconds(), context.history.fps());
+    const float share = context.history.pictureShare;
+    const std::string coarse = share < 1.0F ? fmt::format("picture at {:.0f} %   ", share * 100.0F) : "";
+    const std::string right =
+        fmt::format("{}{}{:.2f} s   {:.0f} fps", coarse, slow, player.seconds(), context.history.fps());
     ImGui::SameLine(size.x - ImGui::CalcTextSize(right.c_str()).x - context.px(14));
     ImGui::TextColored(late ? warningColor() : mutedColor(), "%s", right.c_str());
     ImGui::End();
@@ -319,74 +250,11 @@ void drawTransport(const PanelContext& context) {
     if (!narrow) ImGui::SameLine();
     auto speed = static_cast<float>(editor.player().speed());
     ImGui::SetNextItemWidth(narrow ? -1.0F : context.px(96));
-    if (ImGui::SliderFloat("##speed", &speed, 0.05F, 1.0F, "speed %.2f")) editor.player().setSpeed(speed);
+    if (slider("##speed", speed, 0.05F, 1.0F, "speed %.2f")) editor.player().setSpeed(speed);
     tooltip("Slow motion: simulated seconds a second");
     context.state.transportBottom = ImGui::GetWindowPos().y + ImGui::GetWindowSize().y;
     ImGui::End();
     ImGui::PopStyleVar();
-}
-
-void drawLeftPanel(const PanelContext& context) {
-    const float top = ImGui::GetFrameHeight();
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({0, top});
-    ImGui::SetNextWindowSize({leftPanelWidth(context), size.y - top - statusHeight()});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
-    ImGui::Begin("##left", nullptr, kFixed | ImGuiWindowFlags_NoTitleBar);
-    if (ImGui::BeginTabBar("##leftTabs")) {
-        if (ImGui::BeginTabItem("Skeleton")) {
-            drawSkeletonTab(context);
-            ImGui::EndTabItem();
-        }
-        if (ImGui::BeginTabItem("Mapping")) {
-            drawMappingTab(context);
-            ImGui::EndTabItem();
-        }
-        if (ImGui::BeginTabItem("Scene")) {
-            drawEntityTab(context);
-            ImGui::EndTabItem();
-        }
-        ImGui::EndTabBar();
-    }
-    ImGui::End();
-    ImGui::PopStyleVar();
-    const float width = leftPanelWidth(context);
-    drawEdge(context, "##leftEdge", width, top, context.state.leftWidth, 1.0F, width);
-}
-
-void drawRightPanel(const PanelContext& context) {
-    const float top = ImGui::GetFrameHeight();
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const float width = rightPanelWidth(context);
-    ImGui::SetNextWindowPos({size.x - width, top});
-    ImGui::SetNextWindowSize({width, size.y - top - statusHeight()});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
-    ImGui::Begin("##right", nullptr, kFixed | ImGuiWindowFlags_NoTitleBar);
-    const bool narrow = width < context.px(330);
-    // The doctor's number needs some of the room between the names.
-    const std::string doctor = doctorTitle(context);
-    const float padding = narrow ? 2.0F : context.state.doctorErrors > 0 ? 3.0F : 6.0F;
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(context.px(padding), context.px(4)));
-    if (ImGui::BeginTabBar("##rightTabs")) {
-        using Draw = void (*)(const PanelContext&);
-        const std::pair<const char*, Draw> tabs[] = {{"Body", drawRagdollTab}, {"Physics", drawSimulationTab},
-                                                     {"View", drawViewTab},    {doctor.c_str(), drawDoctorTab},
-                                                     {"Stats", drawStatsTab},  {"Log", drawLogTab}};
-        for (const auto& [name, draw] : tabs) {
-            if (!ImGui::BeginTabItem(name)) continue;
-            ImGui::PushStyleColor(ImGuiCol_ChildBg, 0U);
-            ImGui::BeginChild("##tab");
-            ImGui::PopStyleColor();
-            draw(context);
-            ImGui::EndChild();
-            ImGui::EndTabItem();
-        }
-        ImGui::EndTabBar();
-    }
-    ImGui::PopStyleVar();
-    ImGui::End();
-    ImGui::PopStyleVar();
-    drawEdge(context, "##rightEdge", size.x - width, top, context.state.rightWidth, -1.0F, width);
 }
 
 }  // namespace lutka::editor

@@ -70,12 +70,18 @@ class Fields {
         value = {channel(shown.r), channel(shown.g), channel(shown.b), 255};
         change(label);
     }
-    /// A text that counts at Enter or when it is left; whether it was changed.
-    bool text(const char* label, std::string& value) {
+    /// A path that counts at Enter or when it is left; whether the user wants to choose it in a dialog. `empty` says
+    /// what no path means.
+    bool path(const char* label, std::filesystem::path& value, const char* empty) {
         labelled(label, width_);
-        const bool entered = textLine(id(label), value);
-        if (entered) change(label);
-        return entered;
+        std::string text = value.string();
+        bool browse = false;
+        if (pathLine(id(label), text, browse)) {
+            value = text;
+            change(label);
+        }
+        if (text.empty()) tooltip(std::string("None: ") + empty);
+        return browse;
     }
 
     void change(const char* what) { changed_ = what; }
@@ -203,12 +209,13 @@ void drawPins(Fields& fields, scene::Ragdoll& ragdoll) {
 
 void draw(const PanelContext& context, Fields& fields, scene::Ragdoll& ragdoll) {
     Editor& editor = context.editor;
-    std::string model = ragdoll.model.string();
-    if (fields.text("Model", model)) ragdoll.model = model;
-    tooltip("A model file, then Enter; empty: the character that is being edited");
-    std::string profile = ragdoll.profile.string();
-    if (fields.text("Profile", profile)) ragdoll.profile = profile;
-    tooltip("A *.ragdoll.json, then Enter; empty: fitted, or the one that is being edited");
+    const auto browse = [&](Editor::Dialog dialog) {
+        context.state.browsing = ragdoll.entity;
+        editor.dialog = dialog;
+    };
+    if (fields.path("Model", ragdoll.model, "the character that is being edited")) browse(Editor::Dialog::chooseModel);
+    if (fields.path("Profile", ragdoll.profile, "fitted, or the one that is being edited"))
+        browse(Editor::Dialog::chooseProfile);
     int pose = ragdoll.pose ? 1 + static_cast<int>(*ragdoll.pose) : 0;
     fields.choice("Pose", pose, "As the simulation\0Bind pose\0File's node pose\0");
     if (pose == 0) {
@@ -264,6 +271,7 @@ template <class T>
 void drawComponent(const PanelContext& context, EntityId id, const char* name) {
     const T* component = context.editor.document().scene().find<T>(id);
     if (component == nullptr) return;
+    ImGui::PushID(static_cast<int>(id));
     ImGui::PushID(name);
     bool kept = true;
     const bool open = ImGui::CollapsingHeader(name, std::is_same_v<T, scene::Transform> ? nullptr : &kept,
@@ -280,6 +288,7 @@ void drawComponent(const PanelContext& context, EntityId id, const char* name) {
                                      [&](EntityScene& scene) { scene.add(id, std::move(copy)); });
         }
     }
+    ImGui::PopID();
     ImGui::PopID();
 }
 

@@ -197,16 +197,19 @@ void drawAnyRigOffer(const PanelContext& context) {
     const std::filesystem::path file = editor.files().offeredAnyRig();
     if (file.empty()) return;
     placeInMiddle();
-    std::optional<bool> take;
+    std::optional<Editor::AnyRig> answer;
     if (ImGui::Begin("Not a human figure", nullptr, kDialog | ImGuiWindowFlags_NoCollapse)) {
         ImGui::Text("%s was refused as a humanoid. Its bodies can be made", file.filename().string().c_str());
         ImGui::TextUnformatted("from the joints and the skin alone, whatever it is.");
-        if (ImGui::Button("Ragdoll of any skeleton")) take = true;
+        if (ImGui::Button("Ragdoll of any skeleton")) answer = Editor::AnyRig::whole;
         ImGui::SameLine();
-        if (ImGui::Button("Leave it")) take = false;
+        if (ImGui::Button("By hand")) answer = Editor::AnyRig::byHand;
+        tooltip("Begins with one body for all; you add the others");
+        ImGui::SameLine();
+        if (ImGui::Button("Leave it")) answer = Editor::AnyRig::leave;
     }
     ImGui::End();
-    if (take) editor.answerAnyRig(*take);
+    if (answer) editor.answerAnyRig(*answer);
 }
 
 void drawHelp(const PanelContext& context) {

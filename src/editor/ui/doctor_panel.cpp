@@ -44,10 +44,11 @@ bool drawFinding(const PanelContext& context, const Finding& finding) {
     ImGui::TextUnformatted(finding.place.c_str());
     mutedText(finding.measure);
     if (!finding.mend.empty()) mutedText("Mend: " + finding.mend);
+    const bool mendable = context.editor.document().canMend(finding);
     bool mend = false;
-    if (finding.mendable) mend = ImGui::SmallButton("Fix");
+    if (mendable) mend = ImGui::SmallButton("Fix");
     if (!finding.bodies.empty()) {
-        if (finding.mendable) ImGui::SameLine();
+        if (mendable) ImGui::SameLine();
         if (ImGui::SmallButton("Show")) show(context.editor, finding);
     }
     ImGui::Separator();
@@ -73,7 +74,7 @@ void drawDoctorTab(const PanelContext& context) {
     const physics::Diagnosis diagnosis = editor.document().diagnosis();  // a copy: a fix replaces it
     drawScore(context, diagnosis);
     const auto mendable = std::count_if(diagnosis.findings.begin(), diagnosis.findings.end(),
-                                        [](const Finding& finding) { return finding.mendable; });
+                                        [&](const Finding& finding) { return editor.document().canMend(finding); });
     if (diagnosis.findings.empty()) mutedText("Nothing to complain about.");
     if (mendable > 1 && ImGui::Button(fmt::format("Fix all {}", mendable).c_str())) {
         editor.edit([&](EditorDocument& document) { return document.mend(diagnosis.findings); });

@@ -12,10 +12,11 @@ void EditorUi::build(Editor& editor, const FrameHistory& history) {
     drawMenuBar(context);
     drawStatusBar(context);
     if (editor.view.panels) {
-        drawLeftPanel(context);
-        drawRightPanel(context);
+        drawSidePanels(context);
     }
     drawTransport(context);
+    drawTools(context);
+    drawSelectionBox(context);
     editor.workspace().covered = coveredBy(context);
     dragRoleOverView(context);
     if (state.showCollisions) drawCollisions(context);
@@ -24,6 +25,7 @@ void EditorUi::build(Editor& editor, const FrameHistory& history) {
     drawToasts(context);
     drawDialogs(context);
     if (editor.view.help) drawHelp(context);
+    if (editor.view.gallery) drawGallery(context);
     if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && editor.state() != State::grab &&
         editor.state() != State::rotate && editor.state() != State::scale && editor.state() != State::handle) {
         editor.document().endGroup();

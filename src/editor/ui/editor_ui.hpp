@@ -1,15 +1,18 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "editor/editor.hpp"
-#include "editor/ui/file_list.hpp"
+#include "editor/files/file_list.hpp"
 #include "editor/ui/frame_history.hpp"
+#include "editor/ui/gallery.hpp"
 #include "editor/ui/imgui_host.hpp"
+#include "editor/ui/side_panels.hpp"
 
 namespace lutka::editor {
 
@@ -33,12 +36,17 @@ struct UiState {
     float uiScale = 0.0F;  ///< As UserSettings has it, and these two.
     float leftWidth = 0.0F;
     float rightWidth = 0.0F;
-    int doctorErrors = 0;  ///< That the doctor's tab tells.
+    float bottomHeight = 0.0F;
+    std::map<std::string, PanelSide> tabSides;  ///< Of tabs that the user has moved.
+    int doctorErrors = 0;                       ///< That the doctor's tab tells.
     bool showCollisions = false;
     bool draggingOverView = false;  ///< A role is dragged, and not over a panel.
     std::vector<std::filesystem::path> recent;
+    std::filesystem::path pictureFolder;  ///< Where the pictures of these are; empty: nowhere.
+    PictureShelf pictures;
     // Of the Scene tab.
-    std::set<scene::EntityId> closedEntities;  ///< Whose children are folded away.
+    std::set<scene::EntityId> closedEntities;     ///< Whose children are folded away.
+    scene::EntityId browsing = scene::kNoEntity;  ///< Whose file is chosen in the dialog.
     scene::EntityId renaming = scene::kNoEntity;
     std::string newName;
     /// The angles that a rotation is shown as: several mean the same.

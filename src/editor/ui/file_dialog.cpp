@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "editor/ui/file_list.hpp"
+#include "editor/files/file_list.hpp"
 #include "editor/ui/panels.hpp"
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"
@@ -20,7 +20,9 @@ constexpr ImGuiWindowFlags kFileDialog = ImGuiWindowFlags_AlwaysAutoResize | ImG
                                          ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize;
 
 bool opens(Editor::Dialog dialog) {
-    return dialog == Editor::Dialog::openModel || dialog == Editor::Dialog::openRecording;
+    return dialog == Editor::Dialog::openModel || dialog == Editor::Dialog::openRecording ||
+           dialog == Editor::Dialog::chooseModel || dialog == Editor::Dialog::chooseProfile ||
+           dialog == Editor::Dialog::chooseSky;
 }
 
 fs::path suggestedPath(const PanelContext& context, Editor::Dialog dialog) {
@@ -38,6 +40,9 @@ fs::path suggestedPath(const PanelContext& context, Editor::Dialog dialog) {
             return fs::absolute(context.editor.files().takeFile(context.editor.player().deck().currentName()), failed);
         case Editor::Dialog::openRecording:
         case Editor::Dialog::openModel:
+        case Editor::Dialog::chooseModel:
+        case Editor::Dialog::chooseProfile:
+        case Editor::Dialog::chooseSky:
         case Editor::Dialog::none:
             break;
     }
@@ -58,6 +63,12 @@ const char* titleOf(Editor::Dialog dialog) {
             return "Save the recording as";
         case Editor::Dialog::openRecording:
             return "Open a recording";
+        case Editor::Dialog::chooseModel:
+            return "Choose the model";
+        case Editor::Dialog::chooseProfile:
+            return "Choose the profile";
+        case Editor::Dialog::chooseSky:
+            return "Choose a panorama for the light";
         case Editor::Dialog::none:
             break;
     }
@@ -65,9 +76,24 @@ const char* titleOf(Editor::Dialog dialog) {
 }
 
 FileFilter filterOf(Editor::Dialog dialog) {
-    if (dialog == Editor::Dialog::saveAs || dialog == Editor::Dialog::saveSceneAs) return FileFilter::profiles;
-    if (dialog == Editor::Dialog::saveRecording || dialog == Editor::Dialog::openRecording) return FileFilter::all;
-    return dialog == Editor::Dialog::exportBaked ? FileFilter::baked : FileFilter::models;
+    switch (dialog) {
+        case Editor::Dialog::saveAs:
+        case Editor::Dialog::saveSceneAs:
+        case Editor::Dialog::chooseProfile:
+            return FileFilter::profiles;
+        case Editor::Dialog::saveRecording:
+        case Editor::Dialog::openRecording:
+            return FileFilter::recordings;
+        case Editor::Dialog::exportBaked:
+            return FileFilter::baked;
+        case Editor::Dialog::chooseSky:
+            return FileFilter::skies;
+        case Editor::Dialog::openModel:
+        case Editor::Dialog::chooseModel:
+        case Editor::Dialog::none:
+            break;
+    }
+    return FileFilter::models;
 }
 
 // The folder that is shown: the typed one, or that of the typed file.
@@ -173,6 +199,17 @@ void drawNewFolder(const PanelContext& context, const fs::path& folder) {
     ImGui::EndPopup();
 }
 
+// Of the character whose field asked for it.
+void setCharacterFile(const PanelContext& context, Editor::Dialog dialog, const fs::path& file) {
+    const scene::EntityId id = std::exchange(context.state.browsing, scene::kNoEntity);
+    if (context.editor.document().scene().find<scene::Ragdoll>(id) == nullptr) return;
+    const bool model = dialog == Editor::Dialog::chooseModel;
+    context.editor.editScene(model ? "Ragdoll: Model" : "Ragdoll: Profile", "", [&](scene::EntityScene& scene) {
+        auto& ragdoll = *scene.find<scene::Ragdoll>(id);
+        (model ? ragdoll.model : ragdoll.profile) = file;
+    });
+}
+
 void finish(const PanelContext& context, Editor::Dialog dialog) {
     Editor& editor = context.editor;
     fs::path file(context.state.path);
@@ -197,6 +234,13 @@ void finish(const PanelContext& context, Editor::Dialog dialog) {
             break;
         case Editor::Dialog::openRecording:
             editor.workspace().report(editor.player().openRecording(file));
+            break;
+        case Editor::Dialog::chooseModel:
+        case Editor::Dialog::chooseProfile:
+            setCharacterFile(context, dialog, file);
+            break;
+        case Editor::Dialog::chooseSky:
+            editor.view.sky = file;
             break;
         case Editor::Dialog::none:
             break;
@@ -223,7 +267,8 @@ bool enter(UiState& state) {
 }
 
 void drawFilter(UiState& state) {
-    constexpr FileFilter filters[] = {FileFilter::models, FileFilter::profiles, FileFilter::baked, FileFilter::all};
+    constexpr FileFilter filters[] = {FileFilter::models, FileFilter::profiles,   FileFilter::baked,
+                                      FileFilter::skies,  FileFilter::recordings, FileFilter::all};
     if (!ImGui::BeginCombo("##filter", filterName(state.fileFilter))) return;
     for (const FileFilter filter : filters) {
         if (ImGui::Selectable(filterName(filter), filter == state.fileFilter)) {
@@ -262,7 +307,7 @@ void drawFileDialog(const PanelContext& context) {
     }
     if (editor.dialog == Editor::Dialog::exportBaked) {
         ImGui::SetNextItemWidth(context.px(220));
-        ImGui::SliderFloat("seconds", &state.exportSeconds, 0.5F, 20.0F, "%.1f");
+        static_cast<void>(slider("##seconds", state.exportSeconds, 0.5F, 20.0F, "%.1f seconds"));
         mutedText("The first doll's motion from the start of the scene, as an animation of its skin.");
     }
     ImGui::Spacing();

@@ -48,7 +48,8 @@ class FrameHistory {
         return sum > 0 ? 1000.0F * static_cast<float>(frameMs_.size()) / sum : 0.0F;
     }
 
-    render::FrameStats stats;  ///< Of the last picture.
+    render::FrameStats stats;   ///< Of the last picture.
+    float pictureShare = 1.0F;  ///< Of the window's width and height that the last picture was drawn with.
 
   private:
     std::vector<float> frameMs_;

@@ -44,7 +44,8 @@ void mapKeys(ImGuiIO& io) {
 ImguiHost::ImguiHost(float scale) : scale_(scale) {
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;  // the layout is fixed
+    io.IniFilename = nullptr;  // the layout is our own
+    io.UserData = &widgets_;
     io.BackendPlatformName = "lutka";
     mapKeys(io);
     applyStyle(scale);

@@ -6,6 +6,7 @@
 
 #include "editor/editor.hpp"
 #include "editor/input/input_event.hpp"
+#include "editor/ui/widgets.hpp"
 
 struct ImFont;
 
@@ -54,6 +55,7 @@ class ImguiHost {
     void notePopup();
 
     UiFonts fonts_;
+    WidgetMemory widgets_;
     float scale_;
     std::function<const char*()> readClipboard_;
     std::function<void(const char*)> writeClipboard_;

@@ -102,10 +102,41 @@ struct Present {
     float angle, low, high;
 };
 
-// The present angle as a mark between the limits.
-void presentBar(const PartFields& fields, std::string_view name, const Present& present) {
-    const std::string label = fmt::format("{} now", name);
-    fieldRow(fields, label.c_str());
+// Free, limited as fitted, or locked at the bind pose.
+void lockMenu(const PartFields& fields, const Turn& turn, const AngleSpan& now, const AngleSpan& fitted) {
+    constexpr float most = radians(kMostDeg);
+    constexpr float lock = radians(2.5F);  // less than this jitters
+    const std::string name(turn.words.name);
+    const auto same = [&](const AngleSpan& span) {
+        constexpr float tolerance = radians(0.5F);
+        return std::abs(span.low - now.low) < tolerance && std::abs(span.high - now.high) < tolerance;
+    };
+    const std::pair<const char*, AngleSpan> choices[] = {
+        {"Free", {-most, most}}, {"Limited, as fitted", fitted}, {"Locked", {-lock, lock}}};
+    if (ImGui::SmallButton((name + " ▾").c_str())) ImGui::OpenPopup("##lock");
+    tooltip("Free, limited or locked. The mark shows where the joint is now");
+    if (!ImGui::BeginPopup("##lock")) return;
+    for (const auto& [label, span] : choices) {
+        if (!ImGui::MenuItem(label, nullptr, same(span))) continue;
+        fields.change(name, [&, wanted = span](EditorDocument::Part& part) -> Result<void> {
+            if (part.constraint == nullptr) return {};
+            const AngleSpan own = turn.flips && fields.across(part) ? AngleSpan{-wanted.high, -wanted.low} : wanted;
+            JointRange range = physics::jointRange(*part.constraint, part.bind);
+            range.*turn.span = own;
+            physics::setJointRange(*part.constraint, range, part.bind);
+            return {};
+        });
+    }
+    ImGui::EndPopup();
+}
+
+// The present angle as a mark between the limits, behind the turn's name with its menu.
+void presentBar(const PartFields& fields, const Turn& turn, const Present& present, const AngleSpan& fitted) {
+    ImGui::PushID(turn.words.name.data());
+    lockMenu(fields, turn, {present.low, present.high}, fitted);
+    ImGui::PopID();
+    ImGui::SameLine(fields.labelWidth());
+    ImGui::SetNextItemWidth(fields.fieldWidth());
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::CalcItemWidth();
     const float height = ImGui::GetFrameHeight() * 0.72F;
@@ -143,16 +174,16 @@ void limitFields(const PartFields& fields, const physics::ConstraintState& state
     endField(fields, flexion, true, now, was);
     endField(fields, flexion, false, now, was);
     if (hinge) {
-        presentBar(fields, words.flexion.name, present(state.hingeAngle, -constraint.hinge.lower, now.flexion));
+        presentBar(fields, flexion, present(state.hingeAngle, -constraint.hinge.lower, now.flexion), was.flexion);
         return;
     }
-    presentBar(fields, words.flexion.name, present(state.swing.z, constraint.cone.swingZ, now.flexion));
+    presentBar(fields, flexion, present(state.swing.z, constraint.cone.swingZ, now.flexion), was.flexion);
     endField(fields, side, true, now, was);
     endField(fields, side, false, now, was);
-    presentBar(fields, words.side.name, present(state.swing.y, constraint.cone.swingY, now.side));
+    presentBar(fields, side, present(state.swing.y, constraint.cone.swingY, now.side), was.side);
     endField(fields, twist, true, now, was);
     endField(fields, twist, false, now, was);
-    presentBar(fields, words.twist.name, present(state.twist, constraint.cone.twist, now.twist));
+    presentBar(fields, twist, present(state.twist, constraint.cone.twist, now.twist), was.twist);
 }
 
 void frictionField(const PartFields& fields) {
@@ -184,7 +215,6 @@ void drawJointFields(const PartFields& fields) {
     const auto& parent = editor.document().profile().bodies[constraint.parent];
     caption(fmt::format("JOINT TO {}", parent.name).c_str());
     kindField(fields);
-    limitFields(fields, state);
     frictionField(fields);
     const bool swinging = editor.swing() != nullptr;
     if (ImGui::Button(swinging ? "Stop" : "Swing through the limits")) {
@@ -202,6 +232,8 @@ void drawJointFields(const PartFields& fields) {
     } else {
         ImGui::TextColored(color, "apart %.1f mm", static_cast<double>(state.separationM * 1000.0F));
     }
+    // Last, since a hinge has fewer lines: what stands above keeps its place.
+    limitFields(fields, state);
 }
 
 }  // namespace lutka::editor

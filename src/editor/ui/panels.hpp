@@ -36,8 +36,12 @@ struct ViewSpan {
 void drawMenuBar(const PanelContext& context);
 void drawStatusBar(const PanelContext& context);
 void drawTransport(const PanelContext& context);
-void drawLeftPanel(const PanelContext& context);
-void drawRightPanel(const PanelContext& context);
+/// Tools at the view's left edge.
+void drawTools(const PanelContext& context);
+/// While State::box selects.
+void drawSelectionBox(const PanelContext& context);
+/// At the left, at the right, and below the view where a tab was moved there.
+void drawSidePanels(const PanelContext& context);
 void drawToasts(const PanelContext& context);
 /// A model that was refused as a humanoid is offered as a ragdoll of any skeleton.
 void drawAnyRigOffer(const PanelContext& context);
@@ -47,6 +51,8 @@ void drawOffer(const PanelContext& context);
 void drawDialogs(const PanelContext& context);
 void drawFileDialog(const PanelContext& context);
 void drawHelp(const PanelContext& context);
+/// Recent models with their pictures.
+void drawGallery(const PanelContext& context);
 /// The collision filter as a matrix, in a window of its own.
 void drawCollisions(const PanelContext& context);
 

@@ -158,9 +158,17 @@ const physics::ConstraintProfile* PartFields::fittedConstraintOf(const EditorDoc
     return index > 0 ? &base.constraints[index - 1] : nullptr;
 }
 
+float PartFields::labelWidth() const {
+    return context.px(kLabelWidth);
+}
+
+float PartFields::fieldWidth() const {
+    return ImGui::GetContentRegionAvail().x - context.px(kWasWidth);
+}
+
 void fieldRow(const PartFields& fields, const char* label) {
-    labelled(label, fields.context.px(kLabelWidth));
-    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - fields.context.px(kWasWidth));
+    labelled(label, fields.labelWidth());
+    ImGui::SetNextItemWidth(fields.fieldWidth());
 }
 
 bool wasText(const PartFields& fields, const char* id, bool changed, const std::string& was) {
@@ -193,14 +201,23 @@ void drawShapeFields(const PartFields& fields) {
     };
     if (ImGui::Combo("##kind", &kind, kShapeKinds, 3)) setKind(static_cast<Kind>(kind));
     if (wasText(fields, "kind", shape.kind != was.kind, kShapeKinds[static_cast<int>(was.kind)])) setKind(was.kind);
-    if (shape.kind != Kind::box) measureField(fields, kRadius, kLeast, most);
-    if (shape.kind == Kind::capsule) measureField(fields, kLength, shape.radius * 2.0F, most * 3.0F);
+    massField(fields);
+    // Every kind takes the lines of a box, so that what follows stays in its place.
+    constexpr int lines = 3;
+    int used = 1;
     if (shape.kind == Kind::box) {
         measureField(fields, kWidth, kLeast, most);
         measureField(fields, kHeight, kLeast, most);
         measureField(fields, kDepth, kLeast, most);
+        return;
     }
-    massField(fields);
+    measureField(fields, kRadius, kLeast, most);
+    if (shape.kind == Kind::capsule) {
+        measureField(fields, kLength, shape.radius * 2.0F, most * 3.0F);
+        ++used;
+    }
+    for (; used < lines; ++used)
+        ImGui::Dummy({1.0F, ImGui::GetFrameHeight()});
 }
 
 }  // namespace lutka::editor

@@ -26,6 +26,10 @@ struct PartFields {
     [[nodiscard]] physics::BindFrames bind() const;
     [[nodiscard]] physics::BindFrames fittedBind() const;
 
+    /// Of every row: what labels take, and the field behind them.
+    [[nodiscard]] float labelWidth() const;
+    [[nodiscard]] float fieldWidth() const;
+
     /// Changes all of them; `what` names it in undo, a drag of the field is one entry.
     void change(const std::string& what, const std::function<Result<void>(EditorDocument::Part&)>& change) const;
     /// Whether a part lies across the figure from the active one.

@@ -14,43 +14,56 @@ namespace {
 
 using physics::ConstraintProfile;
 
-// Centimetres read better than metres on a body's scale.
-// Buttons that break the line when the panel is full.
-bool wrappedButton(const char* name, const std::string& what) {
+// Buttons that break the line when the panel is full. What can't be done now stays where it is, without its colour.
+bool wrappedButton(const char* name, const std::string& what, bool enabled = true) {
     const float width = ImGui::CalcTextSize(name).x + 2.0F * ImGui::GetStyle().FramePadding.x;
     const float end = ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width;
     if (end < ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
+    ImGui::BeginDisabled(!enabled);
     const bool clicked = ImGui::Button(name);
+    ImGui::EndDisabled();
     tooltip(what);
     return clicked;
 }
 
-void drawPartButtons(const PanelContext& context, const PartFields& fields) {
+void drawValueButtons(const PanelContext& context, const PartFields& fields) {
     Editor& editor = context.editor;
     const std::string& name = fields.profile().name;
     const bool pinned = editor.workspace().pulls.findPin(fields.doll, name) != editor.workspace().pulls.pins.end();
-    if (ImGui::Button(pinned ? "Unpin" : "Pin")) editor.perform(Action::pin);
+    const float pin = ImGui::CalcTextSize("Unpin").x + 2.0F * ImGui::GetStyle().FramePadding.x;
+    if (ImGui::Button(pinned ? "Unpin###pin" : "Pin###pin", {pin, 0})) editor.perform(Action::pin);
     tooltip("P: holds the body where it is");
     if (wrappedButton("Focus", "F: brings it into the middle of the view")) editor.perform(Action::focus);
-    if (physics::counterpartOf(editor.document().profile(), fields.body()) >= 0 &&
-        wrappedButton("Mirror", "Ctrl+M: gives the other side these values")) {
+    const bool sided = physics::counterpartOf(editor.document().profile(), fields.body()) >= 0;
+    if (wrappedButton("Mirror", "Ctrl+M: gives the other side these values", sided))
         editor.perform(Action::mirrorParts);
-    }
     if (wrappedButton("Copy", "Ctrl+C: takes shape, mass, limits and friction")) editor.perform(Action::copyPart);
-    if (editor.workspace().clipboard &&
-        wrappedButton("Paste", "Ctrl+V: gives what was copied to all selected bodies")) {
+    if (wrappedButton("Paste", "Ctrl+V: gives what was copied to all selected bodies",
+                      editor.workspace().clipboard.has_value())) {
         editor.perform(Action::pastePart);
     }
-    if ((fields.edits().shape || fields.edits().jointFromBody) &&
-        wrappedButton("Refit", "Fits the shapes of the selected bodies to the skin again; limits and masses stay")) {
+    if (wrappedButton("Refit", "Fits the shapes of the selected bodies to the skin again; limits and masses stay",
+                      fields.edits().shape || fields.edits().jointFromBody)) {
         fields.change("Refit", [&](EditorDocument::Part& part) -> Result<void> {
             part.body.shape = fields.fittedOf(part).shape;
             part.body.jointFromBody = fields.fittedOf(part).jointFromBody;
             return {};
         });
     }
-    if (fields.edits().any() && wrappedButton("As fitted", "Forgets your changes of these bodies and their joints")) {
+    if (wrappedButton("As fitted", "Forgets your changes of these bodies and their joints", fields.edits().any()))
         editor.edit([&](EditorDocument& document) { return document.resetParts(fields.bodies); });
+}
+
+// Which bodies there are.
+void drawSetButtons(const PanelContext& context, const PartFields& fields) {
+    Editor& editor = context.editor;
+    const bool root = fields.body() == 0;
+    if (wrappedButton("Split", "Ctrl+K: parts it at the joint nearest to its middle")) {
+        editor.perform(Action::splitBodies);
+    } else if (wrappedButton("Merge up", "Ctrl+J: makes one body of it and the one it hangs on", !root)) {
+        editor.perform(Action::mergeBodies);
+    } else if (wrappedButton("Remove", "X: takes the body away; its part follows the one above", !root)) {
+        editor.perform(Action::removeBodies);
     }
 }
 
@@ -60,12 +73,21 @@ void drawBody(const PanelContext& context, const Item& item) {
     ImGui::PushFont(context.fonts.heading);
     ImGui::TextUnformatted(body.name.c_str());
     ImGui::PopFont();
-    mutedText("joint " + body.joint);
-    if (fields.bodies.size() > 1) {
-        ImGui::TextColored(accentColor(), "Changes go to all %d selected bodies",
-                           static_cast<int>(fields.bodies.size()));
+    // One line whatever is selected, so that nothing below moves.
+    const auto count = static_cast<int>(fields.bodies.size());
+    const bool both = context.editor.document().symmetric();
+    if (count > 1) {
+        ImGui::TextColored(accentColor(), "Changes go to all %d selected bodies", count);
+    } else if (both) {
+        ImGui::TextColored(accentColor(), "Changes go to both sides (Shift+M)");
+    } else {
+        ImGui::TextColored(mutedColor(), "joint %s", body.joint.c_str());
     }
-    drawPartButtons(context, fields);
+    tooltip(body.jointPath);
+    drawValueButtons(context, fields);
+    const std::uint64_t shown = context.editor.document().revision();
+    drawSetButtons(context, fields);
+    if (context.editor.document().revision() != shown) return;  // other bodies: what is told below may be gone
     caption("BODY");
     drawShapeFields(fields);
     drawPlaceFields(fields);

@@ -74,6 +74,27 @@ void drawLegend(const scene::DebugLayerInfo& layer) {
 
 }  // namespace
 
+namespace {
+
+// The plain sky, or a panorama that gives the light.
+void drawSky(const PanelContext& context) {
+    ViewSettings& view = context.editor.view;
+    caption("LIGHT");
+    labelled("Sky", sceneLabelWidth(context));
+    std::string file = view.sky.string();
+    bool browse = false;
+    if (pathLine("##sky", file, browse)) view.sky = file;
+    if (file.empty()) tooltip("A panorama (*.hdr) that lights the scene; none: the plain sky");
+    if (browse) context.editor.dialog = Editor::Dialog::chooseSky;
+    ImGui::BeginDisabled(view.sky.empty());
+    ImGui::Checkbox("Show it behind the scene", &view.skyBackground);
+    ImGui::SameLine();
+    if (ImGui::SmallButton("Plain sky")) view.sky.clear();
+    ImGui::EndDisabled();
+}
+
+}  // namespace
+
 void drawViewTab(const PanelContext& context) {
     ViewSettings& view = context.editor.view;
     scene::DebugLayers& layers = view.layers;
@@ -89,14 +110,15 @@ void drawViewTab(const PanelContext& context) {
     ImGui::EndDisabled();
     caption("PICTURE");
     labelled("Skin", sceneLabelWidth(context));
-    ImGui::SliderFloat("##skin", &view.skinOpacity, 0.0F, 1.0F, "opacity %.2f");
+    static_cast<void>(slider("##skin", view.skinOpacity, 0.0F, 1.0F, "opacity %.2f"));
     ImGui::Checkbox("Dual quaternion skin", &view.dualQuaternions);
     tooltip("Keeps the volume of twisted limbs; bends bulge a little");
     labelled("Lens", sceneLabelWidth(context));
     render::Camera& camera = context.editor.workspace().camera;
     float lens = degrees(camera.fieldOfView);
-    if (ImGui::SliderFloat("##lens", &lens, 15.0F, 90.0F, "%.0f°")) camera.fieldOfView = radians(lens);
+    if (slider("##lens", lens, 15.0F, 90.0F, "%.0f°")) camera.fieldOfView = radians(lens);
     ImGui::Checkbox("Parallel projection", &camera.orthographic);
+    drawSky(context);
 }
 
 }  // namespace lutka::editor

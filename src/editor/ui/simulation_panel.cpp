@@ -61,7 +61,7 @@ void drawTime(const PanelContext& context) {
     ImGui::EndDisabled();
     labelled("Speed", simulationLabelWidth(context));
     auto speed = static_cast<float>(player.speed());
-    if (ImGui::SliderFloat("##slow", &speed, 0.05F, 1.0F, "%.2f of real time")) player.setSpeed(speed);
+    if (slider("##slow", speed, 0.05F, 1.0F, "%.2f of real time")) player.setSpeed(speed);
 }
 
 void drawNamedScene(const PanelContext& context) {
@@ -84,7 +84,7 @@ void drawNamedScene(const PanelContext& context) {
     ImGui::BeginDisabled(scene.scenario.empty());
     labelled("Dolls", simulationLabelWidth(context));
     int count = scene.count;
-    if (ImGui::SliderInt("##count", &count, 1, 100, "%d", ImGuiSliderFlags_Logarithmic)) {
+    if (slider("##count", count, 1, 100, "%d", true)) {
         change(editor, {"Number of dolls", "count", true, true},
                [&](SceneSettings& next) { next.count = std::max(count, 1); });
     }
@@ -108,7 +108,7 @@ void drawClipTime(const PanelContext& context) {
     labelled("At", simulationLabelWidth(context));
     const float length = clip != clips.end() ? clip->seconds() : 1.0F;
     float seconds = start.seconds;
-    if (ImGui::SliderFloat("##clipTime", &seconds, 0.0F, length, "%.2f s of the clip")) {
+    if (slider("##clipTime", seconds, 0.0F, length, "%.2f s of the clip")) {
         change(editor, {"Start time", "clipTime", true}, [&](SceneSettings& next) { next.clip->seconds = seconds; });
     }
     tooltip("The fall begins with the pose and the velocities that the clip has there");
@@ -157,7 +157,7 @@ bool dragValue(int& value, const Override<int>& one) {
 }
 
 bool dragValue(float& value, const Override<float>& one) {
-    return ImGui::SliderFloat("##value", &value, one.least, one.most, "%.2f a second");
+    return slider("##value", value, one.least, one.most, "%.2f a second");
 }
 
 // Ticked it begins with the solver's own value, so that ticking alone changes nothing.
@@ -230,7 +230,7 @@ void drawPhysics(const PanelContext& context) {
     tooltip("m/s², in world space");
     labelled("Step", simulationLabelWidth(context));
     int rate = static_cast<int>(std::lround(1.0F / simulation.dt));
-    if (ImGui::SliderInt("##step", &rate, 15, 480, "1/%d s", ImGuiSliderFlags_Logarithmic)) {
+    if (slider("##step", rate, 15, 480, "1/%d s", true)) {
         change(editor, {"Step", "step"}, [&](SceneSettings& next) {
             next.entities.simulation.dt = 1.0F / static_cast<float>(std::clamp(rate, 15, 480));
         });
@@ -239,7 +239,7 @@ void drawPhysics(const PanelContext& context) {
     drawOverrides(context);
     labelled("Threads", simulationLabelWidth(context));
     int threads = simulation.world.threads;
-    if (ImGui::SliderInt("##threads", &threads, 1, 16)) {
+    if (slider("##threads", threads, 1, 16)) {
         changeWorld(editor, {"Threads", "threads"},
                     [&](physics::WorldSettings& world) { world.threads = std::clamp(threads, 1, 256); });
     }
@@ -267,7 +267,7 @@ void drawReplay(const PanelContext& context) {
     float seconds = static_cast<float>(player.deck().position());
     ImGui::SetNextItemWidth(-1.0F);
     const auto length = static_cast<float>(player.deck().seconds());
-    if (ImGui::SliderFloat("##scrub", &seconds, 0.0F, length, "%.2f s")) {
+    if (slider("##scrub", seconds, 0.0F, length, "%.2f s")) {
         player.setPlaying(false);
         player.scrubTo(static_cast<double>(seconds));
     }

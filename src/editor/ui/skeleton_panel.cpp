@@ -28,6 +28,25 @@ int bodyOfJoint(const physics::Rig& rig, int joint) {
     return found == rig.jointOfBody.end() ? -1 : static_cast<int>(found - rig.jointOfBody.begin());
 }
 
+// What bodies the joint has or could have.
+void bodyMenu(const PanelContext& context, int joint, int body) {
+    Editor& editor = context.editor;
+    const auto onBody = [&](const char* name, Action action) {
+        if (!ImGui::MenuItem(name, shortcutText(action).c_str(), false, body > 0 || action == Action::splitBodies))
+            return;
+        editor.select(Item{Item::Kind::body, 0, body});
+        editor.perform(action);
+    };
+    if (body < 0) {
+        if (ImGui::MenuItem("Add a body here")) editor.addBody(joint);
+    } else {
+        onBody("Split its body", Action::splitBodies);
+        onBody("Merge its body into the one above", Action::mergeBodies);
+        onBody("Remove its body", Action::removeBodies);
+    }
+    ImGui::Separator();
+}
+
 void assignMenu(const PanelContext& context, int joint) {
     const animation::HumanoidMap& map = context.editor.document().state().map;
     ImGui::TextColored(mutedColor(), "This joint is the figure's …");
@@ -103,7 +122,8 @@ void drawJoint(const PanelContext& context, const Tree& tree, int joint) {
         editor.edit([&](EditorDocument& document) { return document.assignRole(*dropped, joint); });
     }
     if (ImGui::BeginPopupContextItem("##assign")) {
-        assignMenu(context, joint);
+        bodyMenu(context, joint, body);
+        if (physics::hasRoles(editor.document().profile())) assignMenu(context, joint);
         ImGui::EndPopup();
     }
     if (role) roleTag(*role, skeleton.names[joint]);

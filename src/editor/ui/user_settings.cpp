@@ -10,6 +10,24 @@
 
 namespace lutka::editor {
 
+namespace {
+
+constexpr PanelSide kSides[] = {PanelSide::left, PanelSide::right, PanelSide::bottom};
+
+// Tabs that there are, at sides that there are; others are of another version.
+void readTabs(const nlohmann::json& json, UserSettings& settings) {
+    if (!json.contains("tabs") || !json["tabs"].is_object()) return;
+    for (const PanelTab& tab : panelTabs()) {
+        const auto moved = json["tabs"].find(tab.name);
+        if (moved == json["tabs"].end() || !moved->is_string()) continue;
+        for (const PanelSide side : kSides) {
+            if (moved->get<std::string>() == panelSideName(side)) settings.tabSides[tab.name] = side;
+        }
+    }
+}
+
+}  // namespace
+
 void UserSettings::remember(const std::filesystem::path& file) {
     std::error_code failed;
     const std::filesystem::path whole = std::filesystem::absolute(file, failed);
@@ -45,6 +63,8 @@ UserSettings loadUserSettings(const std::filesystem::path& file) {
     number("uiScale", 0.5F, 4.0F, settings.uiScale);
     number("leftWidth", 100.0F, 4000.0F, settings.leftWidth);
     number("rightWidth", 100.0F, 4000.0F, settings.rightWidth);
+    number("bottomHeight", 50.0F, 4000.0F, settings.bottomHeight);
+    readTabs(json, settings);
     if (!json.contains("recent") || !json["recent"].is_array()) return settings;
     for (const auto& one : json["recent"]) {
         if (one.is_string() && settings.recent.size() < UserSettings::kMaxRecent) {
@@ -61,6 +81,9 @@ void saveUserSettings(const std::filesystem::path& file, const UserSettings& set
     if (settings.uiScale > 0.0F) json["uiScale"] = settings.uiScale;
     if (settings.leftWidth > 0.0F) json["leftWidth"] = settings.leftWidth;
     if (settings.rightWidth > 0.0F) json["rightWidth"] = settings.rightWidth;
+    if (settings.bottomHeight > 0.0F) json["bottomHeight"] = settings.bottomHeight;
+    for (const auto& [name, side] : settings.tabSides)
+        json["tabs"][name] = panelSideName(side);
     for (const std::filesystem::path& one : settings.recent)
         json["recent"].push_back(one.string());
     using Handler = nlohmann::ordered_json::error_handler_t;

@@ -1,18 +1,24 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
+
+#include "editor/ui/side_panels.hpp"
 
 namespace lutka::editor {
 
 /// What the editor remembers between runs.
 struct UserSettings {
-    static constexpr std::size_t kMaxRecent = 8;
+    static constexpr std::size_t kMaxRecent = 24;
     std::vector<std::filesystem::path> recent;  ///< Models, the last one first.
     float uiScale = 0.0F;                       ///< Of the panels; 0: the monitor's.
     float leftWidth = 0.0F;                     ///< Of the side panels, in 96 dpi pixels; 0: their own.
     float rightWidth = 0.0F;
-    bool allowOutside = false;  ///< animation::ImportOptions::allowOutside.
+    float bottomHeight = 0.0F;
+    std::map<std::string, PanelSide> tabSides;  ///< Of tabs that were moved, by their names.
+    bool allowOutside = false;                  ///< animation::ImportOptions::allowOutside.
 
     /// Puts a file in front.
     void remember(const std::filesystem::path& file);

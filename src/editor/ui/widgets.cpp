@@ -1,10 +1,13 @@
 #include "editor/ui/widgets.hpp"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cmath>
 
 #include "editor/ui/style.hpp"
 
@@ -57,21 +60,120 @@ void chip(const std::string& text, unsigned int color) {
     ImGui::Dummy({end.x - at.x, end.y - at.y});
 }
 
-// Dear ImGui types on a click with Ctrl.
-bool slider(const char* id, float& value, float low, float high, const char* format, bool logarithmic) {
+namespace {
+
+constexpr float kGrabPadding = 2.0F;  // Dear ImGui's own, around a slider's knob
+
+// Draws the slider by `draw` without its text, and the text beside the knob. Dear ImGui types on a click with Ctrl.
+template <class Draw, class Format>
+bool sliderBesideText(const char* id, const Draw& draw, const Format& textAndShare) {
     ImGuiIO& io = ImGui::GetIO();
+    const float width = ImGui::CalcItemWidth();
+    const ImGuiID item = ImGui::GetID(id);
+    const bool typing = ImGui::TempInputIsActive(item);
     const bool control = io.KeyCtrl;
+    const unsigned int color = ImGui::GetColorU32(ImGuiCol_Text);
     io.KeyCtrl = control || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
-    const bool changed = ImGui::SliderFloat(id, &value, low, high, format,
-                                            logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+    if (!typing) ImGui::PushStyleColor(ImGuiCol_Text, 0U);
+    const bool changed = draw();
+    if (!typing) ImGui::PopStyleColor();
     io.KeyCtrl = control;
+    if (typing || ImGui::TempInputIsActive(item)) return changed;
+    const auto [text, share, knob] = textAndShare(width - 2.0F * kGrabPadding);
+    const ImVec2 low = ImGui::GetItemRectMin();
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x * 0.5F;
+    const float at = sliderTextAt(width, size.x, knob + 2.0F * kGrabPadding, share, gap);
+    ImGui::GetWindowDrawList()->AddText({low.x + at, low.y + ImGui::GetStyle().FramePadding.y}, color, text.c_str());
     return changed;
 }
 
+struct SliderText {
+    std::string text;
+    float share = 0.0F;  // of the way from low to high
+    float knob = 0.0F;   // its width
+};
+
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+    std::array<char, 64> text{};
+    ImFormatString(text.data(), text.size(), format, values...);
+    return text.data();
+}
+
+float shareOf(float value, float low, float high, bool logarithmic) {
+    const float clamped = std::clamp(value, low, high);
+    if (!logarithmic || low <= 0.0F) return high > low ? (clamped - low) / (high - low) : 0.0F;
+    return std::log(clamped / low) / std::log(high / low);
+}
+
+}  // namespace
+
+float sliderTextAt(float width, float textWidth, float knobWidth, float share, float gap) {
+    const float middle = 0.5F * (width - textWidth);
+    const float knob = share * (width - knobWidth);  // its left edge
+    if (knob + knobWidth + gap <= middle || knob - gap >= middle + textWidth) return middle;
+    const float left = knob - gap - textWidth;
+    const float right = knob + knobWidth + gap;
+    return knob > width - knob - knobWidth ? std::max(left, 0.0F) : std::min(right, width - textWidth);
+}
+
+bool slider(const char* id, float& value, float low, float high, const char* format, bool logarithmic) {
+    return sliderBesideText(
+        id,
+        [&] {
+            return ImGui::SliderFloat(id, &value, low, high, format,
+                                      logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+        },
+        [&](float /*room*/) {
+            return SliderText{formatted(format, static_cast<double>(value)), shareOf(value, low, high, logarithmic),
+                              ImGui::GetStyle().GrabMinSize};
+        });
+}
+
+bool slider(const char* id, int& value, int low, int high, const char* format, bool logarithmic) {
+    return sliderBesideText(
+        id,
+        [&] {
+            return ImGui::SliderInt(id, &value, low, high, format,
+                                    logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+        },
+        [&](float room) {
+            const float share =
+                shareOf(static_cast<float>(value), static_cast<float>(low), static_cast<float>(high), logarithmic);
+            const float knob = std::max(room / static_cast<float>(high - low + 1), ImGui::GetStyle().GrabMinSize);
+            return SliderText{formatted(format, value), share, knob};
+        });
+}
+
+// Another widget that takes the mouse ends the field before it is drawn: what stood in it is kept until then.
 bool textLine(const char* id, std::string& value) {
-    const std::string before = value;
-    const bool entered = ImGui::InputText(id, &value, ImGuiInputTextFlags_EnterReturnsTrue);
-    return (entered || ImGui::IsItemDeactivatedAfterEdit()) && value != before;
+    auto& memory = *static_cast<WidgetMemory*>(ImGui::GetIO().UserData);
+    const ImGuiID item = ImGui::GetID(id);
+    std::string text = memory.field == item ? memory.text : value;
+    const bool entered = ImGui::InputText(id, &text, ImGuiInputTextFlags_EnterReturnsTrue);
+    if (ImGui::IsItemActive()) {
+        memory = {item, text};
+        return false;
+    }
+    const bool left = memory.field == item && !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+    if (memory.field == item) memory = {};
+    if ((!entered && !left) || text == value) return false;
+    value = std::move(text);
+    return true;
+}
+
+bool pathLine(const char* id, std::string& value, bool& browse) {
+    const float button = ImGui::CalcTextSize("…").x + 2.0F * ImGui::GetStyle().FramePadding.x;
+    ImGui::SetNextItemWidth(-button - ImGui::GetStyle().ItemInnerSpacing.x);
+    const bool changed = textLine(id, value);
+    if (!value.empty()) tooltip(value);
+    ImGui::SameLine(0.0F, ImGui::GetStyle().ItemInnerSpacing.x);
+    ImGui::PushID(id);
+    browse = ImGui::Button("…");
+    tooltip("Choose the file");
+    ImGui::PopID();
+    return changed;
 }
 
 }  // namespace lutka::editor

@@ -18,10 +18,24 @@ void tooltip(const std::string& text);
 /// A small coloured word in a rounded box.
 void chip(const std::string& text, unsigned int color);
 
-/// A slider on which a double click types the value.
+/// What widgets keep from one frame to the next: Dear ImGui's UserData while there is an ImguiHost.
+struct WidgetMemory {
+    unsigned int field = 0;  ///< The text field that is written in, 0: none …
+    std::string text;        ///< … and what stands in it.
+};
+
+/// A slider on which a double click types the value; its knob never lies over the digits.
 [[nodiscard]] bool slider(const char* id, float& value, float low, float high, const char* format,
+                          bool logarithmic = false);
+[[nodiscard]] bool slider(const char* id, int& value, int low, int high, const char* format = "%d",
                           bool logarithmic = false);
 /// A line of text that counts at Enter or when it is left, and not at Esc; whether it was changed for good.
 [[nodiscard]] bool textLine(const char* id, std::string& value);
+/// The same for a path, with a button behind it; `browse` is set when that was pressed.
+[[nodiscard]] bool pathLine(const char* id, std::string& value, bool& browse);
+
+/// Where the text of a slider of that width stands, from its left edge, beside a knob whose middle is at `share` of the
+/// way: in the middle where there is room, else at the side that has more.
+[[nodiscard]] float sliderTextAt(float width, float textWidth, float knobWidth, float share, float gap);
 
 }  // namespace lutka::editor

@@ -32,8 +32,12 @@ std::optional<vec3> onAxis(const render::Ray& ray, const vec3& point, const vec3
 }  // namespace
 
 AxisLock pressAxis(const AxisLock& lock, int axis, bool shift) {
-    const AxisLock pressed{shift ? AxisLock::Kind::plane : AxisLock::Kind::axis, axis};
-    return pressed == lock ? AxisLock{} : pressed;
+    AxisLock pressed{shift ? AxisLock::Kind::plane : AxisLock::Kind::axis, axis, false};
+    if (pressed == lock) return {pressed.kind, axis, true};
+    pressed.local = true;
+    if (pressed == lock) return {};
+    pressed.local = false;
+    return pressed;
 }
 
 vec3 axisVector(int axis) {
@@ -43,30 +47,31 @@ vec3 axisVector(int axis) {
 }
 
 std::string lockText(const AxisLock& lock) {
-    constexpr const char* along[] = {"along X", "along Y", "along Z"};
-    constexpr const char* across[] = {"in the YZ plane", "in the XZ plane", "in the XY plane"};
+    constexpr const char* along[] = {"X", "Y", "Z"};
+    constexpr const char* across[] = {"YZ", "XZ", "XY"};
+    const std::string own = lock.local ? "its own " : "";
     switch (lock.kind) {
         case AxisLock::Kind::free:
             return "";
         case AxisLock::Kind::axis:
-            return along[lock.axis];
+            return "along " + own + along[lock.axis];
         case AxisLock::Kind::plane:
             break;
     }
-    return across[lock.axis];
+    return "in " + (lock.local ? own : "the ") + across[lock.axis] + " plane";
 }
 
 std::optional<vec3> dragTarget(const render::Ray& ray, const vec3& start, const vec3& cameraForward,
-                               const AxisLock& lock, float depth) {
+                               const AxisLock& lock, float depth, const quat& axes) {
     switch (lock.kind) {
         case AxisLock::Kind::free:
             return onPlane(ray, start + cameraForward * depth, cameraForward);
         case AxisLock::Kind::axis:
-            return onAxis(ray, start, axisVector(lock.axis));
+            return onAxis(ray, start, axes * axisVector(lock.axis));
         case AxisLock::Kind::plane:
             break;
     }
-    return onPlane(ray, start, axisVector(lock.axis));
+    return onPlane(ray, start, axes * axisVector(lock.axis));
 }
 
 void NumberEntry::type(int symbol) {

@@ -8,28 +8,31 @@
 
 namespace lutka::editor {
 
-/// What X, Y, Z (along that world axis) and Shift+X, Y, Z (across it) restrict a movement to.
+/// What X, Y, Z (along that axis of the world, pressed again of the item itself) and Shift+X, Y, Z (across it) restrict
+/// a movement to.
 struct AxisLock {
     enum class Kind { free, axis, plane };
     Kind kind = Kind::free;
-    int axis = 0;  ///< 0, 1, 2: x, y, z; the plane is the one across it.
+    int axis = 0;        ///< 0, 1, 2: x, y, z; the plane is the one across it.
+    bool local = false;  ///< Of the item's own axes instead of the world's.
 
     friend bool operator==(const AxisLock&, const AxisLock&) = default;
 };
 
-/// The lock after one of the keys: the same one again frees it.
+/// The lock after one of the keys: the same one again takes the item's own axis, and a third time frees it.
 [[nodiscard]] AxisLock pressAxis(const AxisLock& lock, int axis, bool shift);
 [[nodiscard]] vec3 axisVector(int axis);
-/// "", "along X", "in the YZ plane".
+/// "", "along X", "along its own X", "in the YZ plane".
 [[nodiscard]] std::string lockText(const AxisLock& lock);
 
 /// Where the mouse's ray takes a point that started at `start` (world).
 ///
 /// Free: the plane through `start` that faces the camera, so that the depth stays, moved `depth` metres away from the
 /// eye. Axis: the point of the axis line through `start` that is nearest to the ray. Plane: where the ray meets the
-/// world plane through `start`. Rays that run (nearly) along the plane or the axis give nothing: the target stays.
+/// plane through `start`. Rays that run (nearly) along the plane or the axis give nothing: the target stays.
+/// `axes`: the rotation of the axes that the lock means.
 [[nodiscard]] std::optional<vec3> dragTarget(const render::Ray& ray, const vec3& start, const vec3& cameraForward,
-                                             const AxisLock& lock, float depth = 0.0F);
+                                             const AxisLock& lock, float depth = 0.0F, const quat& axes = {1, 0, 0, 0});
 
 /// Digits, minus and point typed during a transform ("1.5"); empty text means no number.
 class NumberEntry {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <span>
 
 #include "editor/states/workspace.hpp"
@@ -17,6 +18,9 @@ struct ViewSettings {
     bool dualQuaternions = false;  ///< Skinning that keeps the volume of twisted limbs.
     bool panels = true;
     bool help = false;
+    bool gallery = false;        ///< Of recent models.
+    std::filesystem::path sky;   ///< A panorama (*.hdr) that lights the scene; empty: the plain sky.
+    bool skyBackground = false;  ///< And is seen behind it.
 };
 
 /// Fills in what the editor's view shows: camera, dolls, objects, debug layers, the selection and its handles, pins.

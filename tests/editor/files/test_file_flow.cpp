@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "editor/files/file_list.hpp"
 #include "editor/input/input_script.hpp"
 #include "editor/sessions.hpp"
-#include "editor/ui/file_list.hpp"
 #include "physics/profile/profile_io.hpp"
 #include "support/command.hpp"
 #include "support/zoo.hpp"
@@ -179,11 +179,11 @@ TEST_CASE("a model that is no humanoid is offered as a ragdoll of any skeleton, 
     send(*editor, filesDropped({fox}));
     REQUIRE(editor->files().offeredAnyRig() == fox);
     CHECK(editor->document().character().name == "biped");  // the old one stays until then
-    editor->answerAnyRig(false);
+    editor->answerAnyRig(Editor::AnyRig::leave);
     CHECK(editor->files().offeredAnyRig().empty());
     CHECK(editor->document().character().name == "biped");
     send(*editor, filesDropped({fox}));
-    editor->answerAnyRig(true);
+    editor->answerAnyRig(Editor::AnyRig::whole);
     CHECK(editor->files().offeredAnyRig().empty());
     const physics::RagdollProfile& profile = editor->document().profile();
     CHECK(editor->document().character().file == fox);

@@ -59,6 +59,7 @@ struct Machine {
             {State::remove, {Trigger::picked, Trigger::deleteKey}},
             {State::handle, {Trigger::picked, Trigger::handlePressed}},
             {State::pickJoint, {Trigger::pickJointAsked}},
+            {State::box, {Trigger::boxPressed}},
         };
         for (const Trigger trigger : ways[static_cast<int>(state)].second)
             machine.fire(trigger);
@@ -81,6 +82,7 @@ State expected(State from, Trigger trigger) {
     if (from == selected && trigger == deleteKey) return remove;
     if (from == selected && trigger == handlePressed) return handle;
     if (resting && trigger == pickJointAsked) return pickJoint;
+    if (resting && trigger == boxPressed) return box;
     if (from == selected || transforming) {
         if (trigger == grabKey) return grab;
         if (trigger == rotateKey) return rotate;

@@ -49,7 +49,7 @@ std::vector<NamedEvent> events() {
 constexpr std::array<const char*, kStateCount> kExpected = {
     //           move Ld   Lu   Rd   Ru   Md   Mu   W    G    R    S    X    Esc  Ent  Del  A    3    focus
     /*idle*/ "   idle idle idle orb  idle orb  idle idle idle idle idle idle idle idle idle add  idle idle",
-    /*sel */ "   sel  idle sel  orb  sel  orb  sel  sel  grab rot  scal sel  idle sel  sel  add  sel  sel",
+    /*sel */ "   sel  idle sel  orb  sel  orb  sel  sel  grab rot  scal del  idle sel  del  add  sel  sel",
     /*grab*/ "   grab sel  grab sel  grab grab grab grab grab rot  scal grab sel  sel  grab grab grab sel",
     /*rot */ "   rot  sel  rot  sel  rot  rot  rot  rot  grab rot  scal rot  sel  sel  rot  rot  rot  sel",
     /*scal*/ "   scal sel  scal sel  scal scal scal scal grab rot  scal scal sel  sel  scal scal scal sel",
@@ -59,11 +59,12 @@ constexpr std::array<const char*, kStateCount> kExpected = {
     /*del */ "   del  sel  del  sel  del  sel  del  del  del  del  del  idle sel  idle idle del  del  sel",
     /*hand*/ "   hand hand sel  sel  hand hand hand hand hand hand hand hand sel  sel  hand hand hand sel",
     /*pick*/ "   pick pick pick idle pick pick pick pick pick pick pick pick idle pick pick pick pick idle",
+    /*box */ "   box  box  idle idle box  box  box  box  box  box  box  box  idle box  box  box  box  idle",
 };
 
 State stateFromWord(const std::string& word) {
     constexpr std::array<const char*, kStateCount> words = {"idle", "sel", "grab", "rot",  "scal", "move",
-                                                            "orb",  "add", "del",  "hand", "pick"};
+                                                            "orb",  "add", "del",  "hand", "pick", "box"};
     for (int i = 0; i < kStateCount; ++i) {
         if (word == words[static_cast<std::size_t>(i)]) return stateAt(i);
     }
@@ -108,6 +109,7 @@ std::unique_ptr<Editor> editorIn(State state) {
     if (state == State::cameraRotate) send(*editor, mouseButton(MouseButton::middle, true));
     if (state == State::handle) pressHandle(*editor);
     if (state == State::pickJoint) editor->beginPickJoint(Role::spine);
+    if (state == State::box) send(*editor, mouseButton(MouseButton::left, true, {false, true, false}));
     if (state == State::add) {
         send(*editor, mouseMoved(kFloor));
         send(*editor, keyPressed(Key::a, {true, false, false}));

@@ -110,10 +110,11 @@ TEST_CASE("a ray along the axis or the plane moves nothing") {
     CHECK_FALSE(dragTarget(ray, vec3(0, 0, 0), {0, 0, -1}, {AxisLock::Kind::plane, 1}).has_value());
 }
 
-TEST_CASE("an axis key locks, the same again frees, another changes") {
+TEST_CASE("an axis key locks, the same again takes the own axis and then frees, another changes") {
     AxisLock lock = pressAxis({}, 0, false);
     CHECK(lock == AxisLock{AxisLock::Kind::axis, 0});
-    CHECK(pressAxis(lock, 0, false) == AxisLock{});
+    CHECK(pressAxis(lock, 0, false) == AxisLock{AxisLock::Kind::axis, 0, true});
+    CHECK(pressAxis(pressAxis(lock, 0, false), 0, false) == AxisLock{});
     CHECK(pressAxis(lock, 1, true) == AxisLock{AxisLock::Kind::plane, 1});
     CHECK(lockText(pressAxis({}, 1, true)) == "in the XZ plane");
 }

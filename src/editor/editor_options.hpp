@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "core/result.hpp"
+#include "editor/document/scene_settings.hpp"
+#include "render/extent.hpp"
+#include "scene/frame_loop.hpp"
+#include "scene/ragdoll_asset.hpp"
+
+namespace lutka::editor {
+
+struct EditorOptions {
+    std::filesystem::path model;
+    scene::LoadOptions load;
+    SceneSettings scene;
+    std::filesystem::path sceneFile;  ///< *.scene.json in place of `scene`; `model` may be empty then.
+    std::function<void(physics::WorldSettings&)> applyToWorld;  ///< Set: what was asked for beside the scene.
+    render::Extent window{1280, 720};
+    bool playing = true;
+    bool spareSubsteps = false;      ///< While the machine is late: see Player::setSparing().
+    std::filesystem::path recovery;  ///< Where unsaved work is kept safe (RecoveryKeeper); empty: nowhere.
+    scene::FrameLoop::Clock clock;   ///< Times the steps; none: as scene::FrameLoop says, for scripts and tests.
+};
+/// The options with the scene's file read: its first character is the model, unless another was asked for. Fails as
+/// scene::loadScene() does.
+[[nodiscard]] Result<EditorOptions> withSceneRead(const EditorOptions& options);
+
+}  // namespace lutka::editor

@@ -1,0 +1,69 @@
+/// The column of tools at the view's left edge, and the box that selects.
+
+#include <imgui.h>
+
+#include "editor/ui/panels.hpp"
+#include "editor/ui/style.hpp"
+#include "editor/ui/widgets.hpp"
+
+namespace lutka::editor {
+namespace {
+
+// Whether it was pressed; the chosen one stands out.
+bool toolButton(const PanelContext& context, const char* name, bool chosen, const char* what) {
+    if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_Header));
+    const bool pressed = ImGui::Button(name, {context.px(58), 0});
+    if (chosen) ImGui::PopStyleColor();
+    tooltip(what);
+    return pressed;
+}
+
+}  // namespace
+
+void drawTools(const PanelContext& context) {
+    Editor& editor = context.editor;
+    Workspace& workspace = editor.workspace();
+    const auto [left, right] = viewSpan(context);
+    if (right - left < context.px(240)) return;  // a tiny window is for looking; keys choose the tool there
+    ImGui::SetNextWindowPos({left + context.px(8), ImGui::GetFrameHeight() + context.px(8)});
+    ImGui::SetNextWindowBgAlpha(0.88F);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(context.px(5), context.px(5)));
+    ImGui::Begin("##tools", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                     ImGuiWindowFlags_NoFocusOnAppearing);
+    constexpr const char* what[] = {"A drag pulls bodies; objects have arrows. T: the next tool",
+                                    "Arrows move an object, or a body's shape in its joint. G: grab at once",
+                                    "Rings turn an object, or a body's shape in its joint. R: turn at once",
+                                    "Arms resize an object, or a body's shape. S: at once"};
+    for (int index = 0; index < 4; ++index) {
+        const auto tool = static_cast<Tool>(index);
+        if (toolButton(context, toolName(tool), workspace.tool == tool, what[index])) {
+            workspace.tool = tool;
+            workspace.hotGizmo.reset();
+        }
+    }
+    ImGui::Separator();
+    if (toolButton(context, workspace.localAxes ? "Own###axes" : "World###axes", workspace.localAxes,
+                   "Shift+T: the tool's axes are the world's or the selection's own")) {
+        editor.perform(Action::toggleLocalAxes);
+    }
+    if (toolButton(context, "Both", editor.document().symmetric(),
+                   "Shift+M: changes of a body go to the other side as well")) {
+        editor.perform(Action::toggleSymmetric);
+    }
+    ImGui::End();
+    ImGui::PopStyleVar();
+}
+
+void drawSelectionBox(const PanelContext& context) {
+    const auto& box = context.editor.workspace().box;
+    if (!box) return;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    ImVec4 inside = accentColor();
+    inside.w = 0.12F;
+    list.AddRectFilled({box->low.x, box->low.y}, {box->high.x, box->high.y}, ImGui::GetColorU32(inside));
+    list.AddRect({box->low.x, box->low.y}, {box->high.x, box->high.y}, ImGui::GetColorU32(accentColor()));
+}
+
+}  // namespace lutka::editor
