@@ -48,7 +48,7 @@ void drawTools(const PanelContext& context) {
                    "Shift+T: the tool's axes are the world's or the selection's own")) {
         editor.perform(Action::toggleLocalAxes);
     }
-    if (toolButton(context, "Both", editor.document().symmetric(),
+    if (toolButton(context, "L = R", editor.document().symmetric(),
                    "Shift+M: changes of a body go to the other side as well")) {
         editor.perform(Action::toggleSymmetric);
     }

@@ -65,26 +65,38 @@ namespace {
 constexpr float kGrabPadding = 2.0F;  // Dear ImGui's own, around a slider's knob
 
 // Draws the slider by `draw` without its text, and the text beside the knob. Dear ImGui types on a click with Ctrl.
-template <class Draw, class Format>
-bool sliderBesideText(const char* id, const Draw& draw, const Format& textAndShare) {
+template <class Value, class Draw, class Format>
+bool sliderBesideText(const char* id, Value& value, const Draw& draw, const Format& textAndShare) {
     ImGuiIO& io = ImGui::GetIO();
+    auto& memory = *static_cast<WidgetMemory*>(io.UserData);
     const float width = ImGui::CalcItemWidth();
     const ImGuiID item = ImGui::GetID(id);
     const bool typing = ImGui::TempInputIsActive(item);
     const bool control = io.KeyCtrl;
     const unsigned int color = ImGui::GetColorU32(ImGuiCol_Text);
-    io.KeyCtrl = control || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+    const bool twice = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const bool under = ImGui::IsMouseHoveringRect(at, {at.x + width, at.y + ImGui::GetFrameHeight()});
+    // The first of two clicks has moved the knob.
+    const bool back = twice && under && memory.slider == item && value != static_cast<Value>(memory.before);
+    if (back) value = static_cast<Value>(memory.before);
+    const Value before = value;
+    io.KeyCtrl = control || twice;
     if (!typing) ImGui::PushStyleColor(ImGuiCol_Text, 0U);
-    const bool changed = draw();
+    const bool changed = draw() || back;
     if (!typing) ImGui::PopStyleColor();
     io.KeyCtrl = control;
+    if (ImGui::IsItemActivated() && !twice) {
+        memory.slider = item;
+        memory.before = static_cast<double>(before);
+    }
     if (typing || ImGui::TempInputIsActive(item)) return changed;
     const auto [text, share, knob] = textAndShare(width - 2.0F * kGrabPadding);
     const ImVec2 low = ImGui::GetItemRectMin();
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     const float gap = ImGui::GetStyle().ItemInnerSpacing.x * 0.5F;
-    const float at = sliderTextAt(width, size.x, knob + 2.0F * kGrabPadding, share, gap);
-    ImGui::GetWindowDrawList()->AddText({low.x + at, low.y + ImGui::GetStyle().FramePadding.y}, color, text.c_str());
+    const float left = sliderTextAt(width, size.x, knob + 2.0F * kGrabPadding, share, gap);
+    ImGui::GetWindowDrawList()->AddText({low.x + left, low.y + ImGui::GetStyle().FramePadding.y}, color, text.c_str());
     return changed;
 }
 
@@ -120,7 +132,7 @@ float sliderTextAt(float width, float textWidth, float knobWidth, float share, f
 
 bool slider(const char* id, float& value, float low, float high, const char* format, bool logarithmic) {
     return sliderBesideText(
-        id,
+        id, value,
         [&] {
             return ImGui::SliderFloat(id, &value, low, high, format,
                                       logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
@@ -133,7 +145,7 @@ bool slider(const char* id, float& value, float low, float high, const char* for
 
 bool slider(const char* id, int& value, int low, int high, const char* format, bool logarithmic) {
     return sliderBesideText(
-        id,
+        id, value,
         [&] {
             return ImGui::SliderInt(id, &value, low, high, format,
                                     logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);

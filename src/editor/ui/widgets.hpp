@@ -20,8 +20,10 @@ void chip(const std::string& text, unsigned int color);
 
 /// What widgets keep from one frame to the next: Dear ImGui's UserData while there is an ImguiHost.
 struct WidgetMemory {
-    unsigned int field = 0;  ///< The text field that is written in, 0: none …
-    std::string text;        ///< … and what stands in it.
+    unsigned int field = 0;   ///< The text field that is written in, 0: none …
+    std::string text;         ///< … and what stands in it.
+    unsigned int slider = 0;  ///< The slider that was pressed last …
+    double before = 0.0;      ///< … and its value before that: a double click types, and does not drag.
 };
 
 /// A slider on which a double click types the value; its knob never lies over the digits.

@@ -265,9 +265,10 @@ class Examination {
     [[nodiscard]] std::vector<std::string> childOf(const ConstraintProfile& c) const {
         return {profile_.bodies[c.child].name};
     }
-    // No joint of a body turns by more than half a circle either way from its bind pose.
+    // No joint turns that far from its bind pose. (A cone that was widened on one side to hold the bind pose reaches
+    // beyond half a circle on the other.)
     void checkReach(Diagnosis& diagnosis, const ConstraintProfile& c) {
-        constexpr float kMost = radians(190.0F);
+        constexpr float kMost = radians(230.0F);
         const JointRange range = jointRange(c, {shapes_[c.parent].standardFromBody, shapes_[c.child].standardFromBody});
         const JointWords words = jointWords(profile_.bodies[c.child].role);
         const auto furthest = [](const AngleSpan& span) { return std::max(-span.low, span.high); };

@@ -55,7 +55,7 @@ struct Diagnosis {
 /// - `body-beside-skin` a body lies beside all the skin that follows it and hardly touches any (error)
 /// - `mass-ratio` above 10 : 1 across a constraint (warning; above 20 : 1 error)
 /// - `bind-outside-limits` a limit excludes the bind pose: energy appears at the first step (error)
-/// - `limit-impossible` a limit more than 190 degrees from the bind pose (error)
+/// - `limit-impossible` a limit more than 230 degrees from the bind pose (error)
 /// - `limit-span-small` a span below 5 degrees either way, known to jitter (warning)
 /// - `hinge-reversed` a knee or elbow that would bend the wrong way (error)
 /// - `hinge-askew` a hinge axis more than 45 degrees off the anatomy's (warning)

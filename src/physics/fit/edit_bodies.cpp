@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <glm/geometric.hpp>
 
 #include "physics/collision/shape.hpp"
@@ -64,9 +65,23 @@ void rehang(ConstraintProfile& constraint, int parent, const Placed& placed) {
     constraint.parent = parent;
 }
 
+// The map without the limb roles that the body stands for beside its own: an arm without a forearm reaches to the hand.
+HumanoidMap mapOfBody(const RagdollProfile& profile, const HumanoidMap& map, int body) {
+    HumanoidMap own = map;
+    for (int index = 0; index < animation::kRoleCount; ++index) {
+        const Role role = animation::roleAt(index);
+        if (animation::sideOf(role) == animation::Side::center || bodyOf(profile, role) >= 0) continue;
+        std::optional<Role> above = animation::parentRole(role);
+        while (above && bodyOf(profile, *above) < 0)
+            above = animation::parentRole(*above);
+        if (above && bodyOf(profile, *above) == body) own.roles[static_cast<std::size_t>(index)].reset();
+    }
+    return own;
+}
+
 // The shape that the skin asks for, and its place in the body's joint.
 void fitBody(RagdollProfile& profile, const Character& character, const HumanoidMap& map, int body) {
-    const BodyPlan plan = planOfProfile(profile, character, map);
+    const BodyPlan plan = planOfProfile(profile, character, mapOfBody(profile, map, body));
     const int place = placesInPlan(profile, plan)[body];
     if (place < 0) return;
     const PlacedShape fitted = fitShapes(plan, findAnatomy(plan))[place];

@@ -1,0 +1,101 @@
+#pragma once
+
+/// Scripts that the shipped program plays, and what comes of them.
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "editor/input/input_script.hpp"
+#include "editor/sessions.hpp"
+#include "render/gl/golden.hpp"
+#include "render/image.hpp"
+#include "support/catch.hpp"
+#include "support/command.hpp"
+
+namespace lutka::test {
+
+namespace fs = std::filesystem;
+
+// A copy of the mannequin in a folder of its own, so that what is saved lands there.
+class Scratch {
+  public:
+    Scratch() { fs::copy_file(LUTKA_ASSETS_DIR "/models/mannequin.glb", model()); }
+
+    [[nodiscard]] fs::path model() const { return folder_.path / "mannequin.glb"; }
+    [[nodiscard]] fs::path operator/(const char* name) const { return folder_.path / name; }
+
+  private:
+    ScratchFolder folder_;
+};
+
+struct Outcome {
+    int code = -1;
+    std::string output;
+};
+
+inline Outcome run(const Scratch& scratch, const std::string& command) {
+    const fs::path log = scratch / "log.txt";
+    const int status = std::system((command + " >" + log.string() + " 2>&1").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, fileText(log)};
+}
+
+inline Outcome edit(const Scratch& scratch, const std::string& arguments) {
+    return run(scratch, std::string(LUTKA_BINARY) + " edit " + scratch.model().string() + " " + arguments);
+}
+
+// Places in a 1280 × 720 window follow from the fonts that the layout was made with.
+inline bool layoutIsKnown() {
+    return fs::exists("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf");
+}
+
+/// Writes a script step by step; each call takes its frames.
+class Script {
+  public:
+    Script& move(float x, float y) { return add(editor::mouseMoved({x, y})); }
+    Script& press() { return add(editor::mouseButton(editor::MouseButton::left, true)); }
+    Script& release() { return add(editor::mouseButton(editor::MouseButton::left, false)); }
+    Script& key(editor::Key key, editor::Modifiers modifiers = {}) {
+        return add(editor::keyPressed(key, modifiers)).add(editor::keyReleased(key));
+    }
+    Script& click(float x, float y) { return move(x, y).press().release(); }
+    Script& drag(float x, float y, float toX, float toY) {
+        move(x, y).press();
+        constexpr int steps = 6;
+        for (int i = 1; i <= steps; ++i) {
+            const float share = static_cast<float>(i) / steps;
+            move(x + (toX - x) * share, y + (toY - y) * share);
+        }
+        return *this;
+    }
+    Script& add(const editor::InputEvent& event) {
+        script_.entries.push_back({frame_++, event});
+        return *this;
+    }
+    Script& wait(int frames) {
+        frame_ += frames;
+        return *this;
+    }
+    void setSize(render::Extent size) { script_.size = size; }
+    [[nodiscard]] int frame() const { return frame_; }
+    void save(const fs::path& file) const { REQUIRE(editor::saveScript(file, script_).ok()); }
+
+  private:
+    editor::InputScript script_;
+    int frame_ = 1;
+};
+
+inline render::Image cropped(const render::Image& image, int x, int y, int width, int height) {
+    render::Image part({width, height}, {});
+    for (int row = 0; row < height; ++row) {
+        for (int column = 0; column < width; ++column)
+            part.set(column, row, image.at(x + column, y + row));
+    }
+    return part;
+}
+
+inline constexpr editor::Modifiers kControl{false, true, false};
+// Panels are words: one that changes is a few hundred pixels.
+inline constexpr GoldenTolerance kPanel{10, 0.001, 0.5};
+
+}  // namespace lutka::test
