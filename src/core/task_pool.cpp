@@ -1,10 +1,5 @@
 #include "core/task_pool.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
@@ -12,6 +7,8 @@
 #include <system_error>
 #include <thread>
 #include <vector>
+
+#include "core/task_arena.hpp"
 
 namespace lutka {
 namespace {
@@ -51,17 +48,19 @@ int threadsToBeHad(int wanted) {
 }  // namespace
 
 struct TaskPool::Arena {
-    explicit Arena(int threads)
-        : limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)), arena(threads) {}
-    tbb::global_control limit;  // without it TBB caps the arena at the number of processors
-    tbb::task_arena arena;
+    std::unique_ptr<TaskArena> threads;
 };
 
 TaskPool::TaskPool(int threads) {
     const int wanted = threads == 0 ? static_cast<int>(std::thread::hardware_concurrency()) : threads;
     threads_ = std::clamp(wanted, 1, 256);
     if (threads_ > 1) threads_ = 1 + threadsToBeHad(threads_ - 1);
-    if (threads_ > 1) arena_ = std::make_unique<Arena>(threads_);
+    if (threads_ == 1) return;
+#ifdef LUTKA_FORK_JOIN
+    arena_ = std::make_unique<Arena>(Arena{makeForkJoinArena(threads_)});
+#else
+    arena_ = std::make_unique<Arena>(Arena{makeTbbArena(threads_)});
+#endif
 }
 
 TaskPool::~TaskPool() = default;
@@ -79,10 +78,7 @@ void TaskPool::parallelFor(std::size_t count, std::size_t grain,
         body(0, count);
         return;
     }
-    arena_->arena.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, std::max<std::size_t>(grain, 1)),
-                          [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
-    });
+    arena_->threads->run(count, grain, body);
 }
 
 }  // namespace lutka

@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <atomic>
 #include <numeric>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
+#include "core/task_arena.hpp"
 #include "core/task_pool.hpp"
 #include "support/catch.hpp"
 
@@ -51,4 +54,39 @@ TEST_CASE("when every piece throws, one exception arrives") {
     const TaskPool pool(3);
     CHECK_THROWS_AS(pool.parallelFor(100, 1, [](std::size_t, std::size_t) { throw std::logic_error("each"); }),
                     std::logic_error);
+}
+
+TEST_CASE("either kind of threads does every piece once, hands on what a piece throws, and takes a call from a piece") {
+    const bool forkJoin = GENERATE(false, true);
+    const auto arena = forkJoin ? lutka::makeForkJoinArena(4) : lutka::makeTbbArena(4);
+    for (const std::size_t count : {std::size_t{1}, std::size_t{3}, std::size_t{1000}}) {
+        std::vector<int> visits(count, 0);
+        for (int round = 0; round < 50; ++round)
+            arena->run(count, 2, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i)
+                    ++visits[i];
+            });
+        CHECK(std::count(visits.begin(), visits.end(), 50) == static_cast<std::ptrdiff_t>(count));
+    }
+    CHECK_THROWS_WITH(arena->run(100, 1, [](std::size_t, std::size_t) { throw std::runtime_error("a piece"); }),
+                      "a piece");
+    std::atomic<std::size_t> inner = 0;
+    arena->run(8, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            arena->run(10, 1, [&](std::size_t first, std::size_t last) { inner += last - first; });
+    });
+    CHECK(inner == 80);
+}
+
+TEST_CASE("two threads may give one team work at a time") {
+    const auto arena = lutka::makeForkJoinArena(3);
+    std::atomic<std::size_t> done = 0;
+    const auto give = [&] {
+        for (int round = 0; round < 100; ++round)
+            arena->run(50, 1, [&](std::size_t begin, std::size_t end) { done += end - begin; });
+    };
+    std::thread other(give);
+    give();
+    other.join();
+    CHECK(done == 2 * 100 * 50);
 }
