@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "animation/segments/segment_rig.hpp"
+#include "core/assert.hpp"
 #include "export/read_gltf_physics.hpp"
 #include "physics/fit/rebind.hpp"
 #include "physics/profile/profile_io.hpp"
@@ -60,11 +61,11 @@ physics::RigKind rigKindOf(const std::optional<physics::RagdollProfile>& given, 
     return physics::hasRoles(*given) ? physics::RigKind::humanoid : physics::RigKind::any;
 }
 
-Result<void> bindProfile(RagdollAsset& asset, physics::RagdollProfile profile, const LoadOptions& options) {
-    auto bound = bindToFigure(std::move(profile), asset, options.keepShapes);
+Result<void> bindProfile(RagdollAsset& asset, const physics::RagdollProfile& profile, const LoadOptions& options) {
+    auto bound = bindToFigure(profile, asset, options.keepShapes);
     if (!bound) {
         Error error = bound.error();
-        error.location = options.profile->string();
+        error.location = options.profile ? options.profile->string() : profile.name;
         return error;
     }
     asset.rebound = bound.value().rebound;
@@ -72,12 +73,22 @@ Result<void> bindProfile(RagdollAsset& asset, physics::RagdollProfile profile, c
     return {};
 }
 
+// The profile that was asked for in place of a fitted one, if any was.
+Result<std::optional<physics::RagdollProfile>> givenProfile(const LoadOptions& options) {
+    LUTKA_ASSERT(!options.profile || !options.given);
+    if (!options.profile) return options.given;
+    auto read = physics::loadProfile(*options.profile);
+    if (!read) return read.error();
+    return std::optional(std::move(read).value());
+}
+
 // Whose joints the profile's bodies are bound to, counted from 1, when that is another figure of the file than the one
 // that was taken. What is wrong with the profile is told later.
 std::optional<int> figureOfProfile(const animation::Character& character, const LoadOptions& options) {
-    if (!options.profile || options.import.figure || character.figures.size() < 2) return std::nullopt;
-    const auto profile = physics::loadProfile(*options.profile);
-    const int figure = profile ? figureOf(profile.value(), character) : character.figure;
+    if (options.import.figure || character.figures.size() < 2) return std::nullopt;
+    const auto profile = givenProfile(options);
+    if (!profile || !profile.value()) return std::nullopt;
+    const int figure = figureOf(*profile.value(), character);
     return figure == character.figure ? std::nullopt : std::optional<int>(figure + 1);
 }
 
@@ -124,20 +135,17 @@ bool wantsAnyRig(const Error& error) {
 Result<std::unique_ptr<RagdollAsset>> makeRagdoll(animation::Character character, const LoadOptions& options) {
     auto asset = std::make_unique<RagdollAsset>();
     asset->character = std::move(character);
-    std::optional<physics::RagdollProfile> given;
-    if (options.profile) {
-        auto read = physics::loadProfile(*options.profile);
-        if (!read) return read.error();
-        given = std::move(read).value();
-    }
+    auto read = givenProfile(options);
+    if (!read) return read.error();
+    const std::optional<physics::RagdollProfile> given = std::move(read).value();
     LoadOptions chosen = options;
     chosen.fit.rig = rigKindOf(given, options);
     const bool any = chosen.fit.rig == physics::RigKind::any;
     asset->map = any ? mapOfAny(asset->character, chosen.fit) : animation::mapHumanoid(asset->character, options.map);
     if (!any && !asset->map.humanoid) return notHumanoid(asset->character, asset->map);
-    const Result<void> profile = given ? bindProfile(*asset, *std::move(given), chosen) : fitProfile(*asset, chosen);
+    const Result<void> profile = given ? bindProfile(*asset, *given, chosen) : fitProfile(*asset, chosen);
     if (!profile) return profile.error();
-    if (!options.profile && !options.refit && !asset->character.file.empty()) takeRagdollOfFile(*asset);
+    if (!given && !options.refit && !asset->character.file.empty()) takeRagdollOfFile(*asset);
     auto rig = physics::bindRig(asset->profile, asset->character.skeleton);
     if (!rig) return rig.error();
     asset->rig = std::move(rig).value();

@@ -29,6 +29,7 @@ struct LoadOptions {
     animation::MapOptions map;
     physics::FitOptions fit;
     std::optional<std::filesystem::path> profile;  ///< Set: this file's profile instead of a fitted one.
+    std::optional<physics::RagdollProfile> given;  ///< Likewise, one that is there already; not with `profile`.
     bool refit = false;       ///< A ragdoll that the model's own file brings along (glTF) is not taken.
     bool keepShapes = false;  ///< A profile of another rig keeps its shapes; otherwise they are fitted to this one.
 };

@@ -257,7 +257,7 @@ void Simulation::step() {
     }
     noteTime(std::chrono::duration<float, std::milli>(Clock::now() - before - measured).count());
     if (puppets_ != nullptr) puppets_->measure();
-    std::swap(previous_, present_);
+    previous_ = present_;  // not swapped: what is given to callers stays in its place
     remember();
     noteMotion();
 }
@@ -294,7 +294,7 @@ void Simulation::noteJump() {
 
 void Simulation::show(std::span<const RigidTransform> frame) {
     LUTKA_ASSERT(frame.size() == present_.size());
-    std::swap(previous_, present_);
+    previous_ = present_;  // not swapped: what is given to callers stays in its place
     std::copy(frame.begin(), frame.end(), present_.begin());
     noteMotion();
     noteTime(0.0F);

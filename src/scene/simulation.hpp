@@ -84,7 +84,8 @@ class Simulation {
     /// Wall time of the steps so far, of the last kKeptSteps at least, milliseconds, without the measuring.
     [[nodiscard]] std::span<const float> stepMs() const { return stepMs_; }
 
-    /// The bodies of a doll `alpha` of the way from the state before the last step to the present one.
+    /// The bodies of a doll `alpha` of the way from the state before the last step to the present one. With `alpha` 1
+    /// they stay in their place for the simulation's life, those of all dolls one after the other.
     [[nodiscard]] std::span<const RigidTransform> worldFromBody(int doll, float alpha = 1.0F);
     /// A prop's frame, likewise.
     [[nodiscard]] RigidTransform worldFromProp(int prop, float alpha = 1.0F) const;

@@ -16,6 +16,7 @@ LUTKA_BUILD_PACKAGES=(
 )
 LUTKA_RUN_PACKAGES=(ffmpeg fonts-dejavu-core)
 LUTKA_TEST_PACKAGES=(clang-format-14 clang-tidy-14 xvfb xauth xdotool python3 python3-numpy python3-jsonschema)
+LUTKA_TEST_PACKAGES+=(pybind11-dev python3-dev python3-pytest)
 
 LUTKA_PACKAGE_PACKAGES=(dpkg-dev help2man)
 # Readers of what is exported (tests/witness). npm comes with the nodejs of other sources than Debian.

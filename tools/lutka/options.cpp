@@ -8,29 +8,15 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
-#include <map>
 #include <utility>
 
 #include "animation/humanoid/roles.hpp"
 #include "interrupt.hpp"
+#include "scene/load_words.hpp"
 #include "scene/scene_file.hpp"
 
 namespace lutka::cli {
 namespace {
-
-const std::map<std::string, animation::UpAxis> kUpAxes = {
-    {"+x", animation::UpAxis::positiveX}, {"-x", animation::UpAxis::negativeX}, {"+y", animation::UpAxis::positiveY},
-    {"-y", animation::UpAxis::negativeY}, {"+z", animation::UpAxis::positiveZ}, {"-z", animation::UpAxis::negativeZ},
-    {"x", animation::UpAxis::positiveX},  {"y", animation::UpAxis::positiveY},  {"z", animation::UpAxis::positiveZ}};
-
-const std::map<std::string, physics::MassTable> kMassTables = {{"de-leva-male", physics::MassTable::deLevaMale},
-                                                               {"de-leva-female", physics::MassTable::deLevaFemale},
-                                                               {"winter", physics::MassTable::winter}};
-
-const std::map<std::string, physics::MassPreset> kMassPresets = {{"anatomical", physics::MassPreset::anatomical},
-                                                                 {"balanced", physics::MassPreset::balanced},
-                                                                 {"uniform", physics::MassPreset::uniform},
-                                                                 {"volume", physics::MassPreset::volume}};
 
 std::vector<std::string> solverNames() {
     std::vector<std::string> names;
@@ -45,13 +31,6 @@ std::string lower(std::string text) {
     return text;
 }
 
-physics::RagdollPreset presetFromName(const std::string& name) {
-    for (const physics::PresetInfo& info : physics::presetInfos()) {
-        if (info.name == name) return info.preset;
-    }
-    return physics::RagdollPreset::anatomical;  // the option lets no other word through
-}
-
 std::vector<std::string> presetNames() {
     std::vector<std::string> names;
     for (const physics::PresetInfo& info : physics::presetInfos())
@@ -59,27 +38,9 @@ std::vector<std::string> presetNames() {
     return names;
 }
 
-void addExtraBodies(const std::string& list, physics::FitOptions& fit) {
-    for (const std::string& word : splitList(list)) {
-        if (word == "shoulders") {
-            fit.shoulderBodies = true;
-        } else if (word == "neck") {
-            fit.neckBody = true;
-        } else if (word == "toes") {
-            fit.toeBodies = true;
-        } else if (word == "trunk") {
-            fit.allTrunkBodies = true;
-        } else if (word == "appendages") {
-            fit.appendages.assign(animation::kAppendageKinds.begin(), animation::kAppendageKinds.end());
-        } else if (const auto kind = animation::appendageNamed(word)) {
-            fit.appendages.push_back(*kind);
-        } else if (!word.empty()) {
-            leave(
-                {ErrorCode::usage, fmt::format("there are no extra bodies named '{}'", word), "--bodies",
-                 "shoulders, neck, toes and trunk can be had, and of what hangs on the figure tail, ears, hair, cape, "
-                 "skirt, wings, weapon, other, or all of these as appendages"});
-        }
-    }
+void addExtraBodyList(const std::string& list, physics::FitOptions& fit) {
+    for (const std::string& word : splitList(list))
+        orLeave(scene::addExtraBodies(word, fit));
 }
 
 // NAME or NAME@SECONDS; a name may hold '@' when what follows the last one isn't a number.
@@ -137,7 +98,8 @@ void ModelOptions::addTo(const Command& app, bool required) {
     app.option("MODEL", model, "rigged character in any format that Assimp reads").required(required);
     app.option("--scale", scale, "metres a file unit, instead of what the file or the figure's height says")
         .range(1e-6, 1e6);
-    app.option("--up", up, "the file's up axis: x, y, z, -x, -y or -z").oneOf(wordsOf(kUpAxes), true);
+    app.option("--up", up, "the file's up axis: x, y, z, -x, -y or -z")
+        .oneOf(scene::wordsOf(scene::kUpAxisWords), true);
     app.option("--figure", figure, "which figure of a file with several, counted from 1; default: the largest")
         .range(1, 10000);
     const Option memory = app.option("--import-memory", importMemoryMiB, "MiB that reading the model may take")
@@ -152,7 +114,7 @@ void ModelOptions::addTo(const Command& app, bool required) {
 animation::ImportOptions ModelOptions::import() const {
     animation::ImportOptions options;
     options.metresPerFileUnit = scale;
-    if (!up.empty()) options.up = kUpAxes.at(lower(up));
+    if (!up.empty()) options.up = scene::meaningOf(scene::kUpAxisWords, lower(up));
     options.figure = figure;
     options.loadTextures = textures;
     options.allowOutside = allowOutside;
@@ -181,11 +143,11 @@ void RagdollOptions::addTo(const Command& app, bool modelRequired) {
         .range(1e-3, 1e5)
         .excludes(profileOption);
     app.option("--mass-table", massTable, "shares of the segments")
-        .oneOf(wordsOf(kMassTables))
+        .oneOf(scene::wordsOf(scene::kMassTableWords))
         .excludes(profileOption)
         .showDefault();
     app.option("--masses", massPreset, "how the total is split")
-        .oneOf(wordsOf(kMassPresets))
+        .oneOf(scene::wordsOf(scene::kMassPresetWords))
         .excludes(profileOption)
         .showDefault();
     app.option("--preset", preset, "character of the joints: their limits, friction and masses")
@@ -209,10 +171,11 @@ scene::LoadOptions RagdollOptions::load() const {
     options.fit.mostBodies = maxBodies;
     options.fit.weighByVolume = !massKg;
     options.fit.totalMassKg = massKg.value_or(options.fit.totalMassKg);
-    options.fit.massTable = kMassTables.at(massTable);
-    options.fit.massPreset = kMassPresets.at(massPreset);
-    options.fit.preset = presetFromName(preset);
-    addExtraBodies(bodies, options.fit);
+    // oneOf() lets no other words through.
+    options.fit.massTable = scene::meaningOf(scene::kMassTableWords, massTable).value_or(options.fit.massTable);
+    options.fit.massPreset = scene::meaningOf(scene::kMassPresetWords, massPreset).value_or(options.fit.massPreset);
+    options.fit.preset = scene::presetNamed(preset).value_or(options.fit.preset);
+    addExtraBodyList(bodies, options.fit);
     return options;
 }
 
