@@ -12,8 +12,9 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"  # sums in one order: the file must not
 
 import numpy as np  # noqa: E402
 
-from mannequin import clips, fields, paint, parts, remesh, surface, unwrap  # noqa: E402
+from mannequin import clips, fields, moves, paint, parts, remesh, surface, unwrap  # noqa: E402
 from mannequin.figure import Figure  # noqa: E402
+from mannequin import skeleton as sk  # noqa: E402
 from mannequin.glb import Document  # noqa: E402
 from mannequin.skeleton import joints as make_joints  # noqa: E402
 from mannequin.skin import skin_weights  # noqa: E402
@@ -110,12 +111,41 @@ def add_skeleton(document, joints):
                                "inverseBindMatrices": document.accessor(np.array(inverse, dtype="float32"))}]
 
 
-def add_clips(document, joints):
-    for name, pose_at, seconds, frames in (("idle", clips.idle_pose, clips.IDLE_SECONDS, clips.IDLE_FRAMES),
-                                           ("walk", clips.walk_pose, clips.WALK_SECONDS, clips.WALK_FRAMES)):
-        times, rotations, hips = clips.sample(joints, pose_at, seconds, frames)
+def lowest_point(joints, vertices, weights):
+    """The function that moves.sample_moves() wants: over the skin of all but hands and feet, with a thousandth of the weights."""
+    ends = [k for k, j in enumerate(joints) if any(part in j.name for part in ("Hand", "Foot", "Toes", "Thumb", *sk.FINGERS))]
+    pick = np.flatnonzero(weights[:, ends].sum(axis=1) < .3)[::4]
+    points, share = np.column_stack([vertices[pick], np.ones(len(pick))]), weights[pick]
+    index = {j.name: k for k, j in enumerate(joints)}
+
+    def lowest(quaternions, hips):
+        frames, heights = [], np.zeros(len(pick))
+        for k, j in enumerate(joints):
+            parent = joints[index[j.parent]] if j.parent else None
+            local = np.eye(4)
+            local[:3, :3] = clips.matrix(quaternions[k])
+            local[:3, 3] = parent.rotation.T @ (j.position - parent.position) if parent else hips
+            frames.append(frames[index[j.parent]] @ local if parent else local)
+            bind = np.eye(4)
+            bind[:3, :3], bind[:3, 3] = j.rotation.T, -j.rotation.T @ j.position
+            heights += share[:, k] * (points @ (frames[k] @ bind)[1])
+        return heights.min()
+
+    return lowest
+
+
+def add_clips(document, joints, vertices, weights):
+    def add(name, times, rotations, hips):
         channels = [(2, "translation", hips)] + [(2 + k, "rotation", rotations[:, k]) for k in range(len(joints))]
         document.clip(name, times, channels)
+
+    for name, pose_at, seconds, frames in (("idle", clips.idle_pose, clips.IDLE_SECONDS, clips.IDLE_FRAMES),
+                                           ("walk", clips.walk_pose, clips.WALK_SECONDS, clips.WALK_FRAMES),
+                                           ("run", clips.run_pose, clips.RUN_SECONDS, clips.RUN_FRAMES)):
+        add(name, *clips.sample(joints, pose_at, seconds, frames))
+    lowest = lowest_point(joints, vertices, weights)
+    for name, make in moves.MOVES:
+        add(name, *moves.sample_moves(joints, make(joints), lowest))
 
 
 def build(path):
@@ -138,7 +168,7 @@ def build(path):
                                                                       "roughnessFactor": r}} for n, c, r in MATERIALS]
     add_mesh(document, material, whole, uv, weights, normals, triangles_of)
     add_skeleton(document, joints)
-    add_clips(document, joints)
+    add_clips(document, joints, whole, weights)
     document.write(path)
     print(f"{os.path.relpath(path)}: {len(triangles)} triangles, {len(whole)} vertices, {len(joints)} joints, "
           f"{chart.max() + 1} charts a side")

@@ -247,6 +247,8 @@ void SimulateOptions::addTo(const Command& app) {
     app.option("--hit", hits, "push a body: ROLE@SECONDS:NS or ROLE@SECONDS:X,Y,Z in N s, +Z ahead; may be repeated")
         .oneValueEach()
         .needs(puppetOption);
+    const Option getUpFlag =
+        app.flag("--getup", getUp, "limp dolls that have come to rest get up; without --puppet they fall first");
     const Option shedOption =
         app.option("--shed", shed,
                    "spare dolls far from the eye, from so many metres on: lod@10,apart@15,slow@20,frozen@40 or some");
@@ -254,7 +256,7 @@ void SimulateOptions::addTo(const Command& app) {
                "X,Y,Z in metres, where --shed measures from; default: the camera of a picture, else the scene's middle")
         .commaSeparated(3)
         .needs(shedOption);
-    shedOption.excludes(clipOption);
+    shedOption.excludes(clipOption).excludes(getUpFlag);
     app.option("--out", bakedOut, "write the first doll's fall as an animation of its skin (.glb)");
     app.option("--mesh-out", meshOut, "write the first doll's skin of the last frame (.obj)");
     app.flag("--each", each, "--out and --mesh-out of every doll, as NAME_0001.glb, NAME_0002.glb …");
@@ -271,12 +273,15 @@ void SimulateOptions::addTo(const Command& app) {
 
 scene::PuppetPlay SimulateOptions::puppetPlay() const {
     scene::PuppetPlay play;
-    play.start = parseClipStart(clip);
-    const auto preset = std::find(physics::kMusclePresetNames.begin(), physics::kMusclePresetNames.end(), puppet);
+    if (!clip.empty()) play.start = parseClipStart(clip);
+    const std::string_view muscles = puppet.empty() ? "powered" : std::string_view(puppet);
+    const auto preset = std::find(physics::kMusclePresetNames.begin(), physics::kMusclePresetNames.end(), muscles);
     play.puppet.muscles =
         physics::musclesOf(static_cast<physics::MusclePreset>(preset - physics::kMusclePresetNames.begin()));
     play.puppet.muscles.strength = strength;
     play.puppet.pinForceN = pinForceN;
+    play.getUp = getUp;
+    play.limp = puppet.empty();
     for (const std::string& hit : hits)
         play.hits.push_back(parseHit(hit));
     return play;
@@ -287,7 +292,7 @@ scene::SimulationOptions SimulateOptions::simulation(const scene::EntityScene& e
     scene.applyTo(options.world);
     if (pose == "node") options.pose = scene::StartPose::node;
     if (!fromClip.empty()) options.fromClip = parseClipStart(fromClip);
-    if (!puppet.empty())
+    if (!puppet.empty() || getUp)
         options.puppet = puppetPlay();
     else if (!clip.empty())
         options.play = scene::ClipPlay{parseClipStart(clip), clipSpeed, !clipOnce, clipInPlace};

@@ -96,6 +96,7 @@ struct SimulateOptions {
     float strength = 1.0F;
     float pinForceN = 3000.0F;
     std::vector<std::string> hits;
+    bool getUp = false;
     std::string shed;
     std::vector<float> eye;
     std::filesystem::path bakedOut;

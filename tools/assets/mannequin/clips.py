@@ -1,14 +1,16 @@
-"""The clips: `idle` and `walk`, worked out from gait figures, the legs by inverse kinematics so that the feet hold the floor.
+"""The clips `idle`, `walk` and `run`, worked out from gait figures, the legs by inverse kinematics so that the feet hold the floor.
 
-Angles are in degrees. Phase runs from 0 to 1 over a clip; in `walk` the left heel strikes at phase 0.
+Angles are in degrees. Phase runs from 0 to 1 over a clip; in `walk` and `run` the left foot strikes at phase 0.
 """
 import numpy as np
 
 from . import skeleton as sk
 
 WALK_SECONDS, WALK_FRAMES = 32 / 30, 32
+RUN_SECONDS, RUN_FRAMES = 22 / 30, 22
 IDLE_SECONDS, IDLE_FRAMES = 4.0, 60
 WALK_SPEED = 0.95        # m/s of the floor under the figure
+RUN_SPEED, RUN_STANCE, RUN_STRIKE_AHEAD = 2.5, .35, .21
 STANCE = 0.62            # share of the cycle that a foot is on the floor
 STRIKE_AHEAD = 0.285     # m, of the flat foot's ankle ahead of the hips at heel strike
 HEEL = np.array([0, -.082, -.060])   # pivots of the foot, from the ankle, foot flat
@@ -44,6 +46,14 @@ def quaternion(m):
         axis = vectors[:, 2]
         q = np.array([*axis, 0.0])
     return q / np.linalg.norm(q)
+
+
+def matrix(q):
+    """The rotation matrix of a unit quaternion (x, y, z, w)."""
+    x, y, z, w = q
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
 
 
 class Pose:
@@ -126,8 +136,8 @@ def _walk_foot(phase):
     return np.array([0, y, z]), pitch, pitch * t * (1 - t) + max(pitch, 0) * t
 
 
-def _arms_down(pose, swing, elbow):
-    """Arms hanging at the sides; `swing` (left, right) is degrees forward."""
+def _arms_down(pose, swing, elbow, curl=1.0):
+    """Arms hanging at the sides; `swing` (left, right) is degrees forward; `curl`: of the fingers, times the relaxed hand's."""
     for side, sign, ahead, bend in (("left", -1, swing[0], elbow[0]), ("right", 1, swing[1], elbow[1])):
         pose.turn[side + "Shoulder"] = about_z(sign * 4) @ about_y(-sign * .12 * ahead)
         pose.turn[side + "UpperArm"] = about_x(-ahead) @ about_z(sign * 29)
@@ -135,7 +145,7 @@ def _arms_down(pose, swing, elbow):
         pose.turn[side + "Hand"] = about_z(-sign * 4)
         for finger in sk.FINGERS:
             for part, degrees in (("Proximal", 12), ("Intermediate", 16), ("Distal", 10)):
-                pose.flex[side + finger + part] = degrees
+                pose.flex[side + finger + part] = curl * degrees
 
 
 def walk_pose(joints, phase):
@@ -153,6 +163,49 @@ def walk_pose(joints, phase):
         pose.plant(side, ankle, pitch, toes)
     swing = -20 * np.cos(turn)
     _arms_down(pose, (swing - 2, -swing - 2), (16 + .4 * swing, 16 - .4 * swing))
+    return pose
+
+
+RUN_PITCH = [(0, 4), (.07, 0), (.20, 0), (RUN_STANCE, -48), (.48, -72), (.68, -50), (.90, 6), (1, 4)]
+
+
+def _run_foot(phase):
+    """As _walk_foot; the heel comes up behind while the leg swings."""
+    phase %= 1.0
+    pitch = _blend(phase, RUN_PITCH)
+    travel = RUN_SPEED * RUN_SECONDS
+
+    def stance(at, tip):
+        flat = np.array([0, sk.ANKLE[1], RUN_STRIKE_AHEAD - travel * at])
+        pivot = HEEL if tip > 0 else BALL
+        return flat + pivot - about_x(-tip) @ pivot
+
+    if phase <= RUN_STANCE:
+        return stance(phase, pitch), pitch, max(pitch, 0.0)
+    start, end = stance(RUN_STANCE, RUN_PITCH[3][1]), stance(0.0, RUN_PITCH[0][1])
+    t = (phase - RUN_STANCE) / (1 - RUN_STANCE)
+    drag = -travel * (1 - RUN_STANCE)
+    z = (start[2] * (1 + 2 * t) * (1 - t) ** 2 + drag * t * (1 - t) ** 2 + end[2] * t * t * (3 - 2 * t) + drag * t * t * (t - 1))
+    hump = np.sin(np.pi * min(t / .9, 1)) ** 2
+    y = start[1] + (end[1] - start[1]) * t * t * (3 - 2 * t) + .17 * hump + .05 * np.sin(np.pi * t) ** 2
+    return np.array([0, y, z]), pitch, 0.0
+
+
+def run_pose(joints, phase):
+    pose, turn = Pose(joints), 2 * np.pi * phase
+    # Lowest in the middle of each stance, highest in flight.
+    bob = np.cos(2 * (turn - np.pi * RUN_STANCE))
+    pose.hips = np.array([.008 * np.sin(turn), -.050 - .035 * bob, 0])
+    yaw, drop = -8 * np.cos(turn), 4 * np.sin(turn)
+    pose.turn["hips"] = about_y(yaw) @ about_z(-drop) @ about_x(9)
+    for name, share in (("spine", .6), ("chest", .7), ("upperChest", .7)):
+        pose.turn[name] = about_y(-yaw * share) @ about_z(drop * share * .6) @ about_x(1.5)
+    pose.turn["neck"], pose.turn["head"] = about_y(yaw * .5) @ about_x(-4), about_y(yaw * .5) @ about_x(-6)
+    for side, sign, lag in (("left", 1, 0.0), ("right", -1, .5)):
+        ankle, pitch, toes = _run_foot(phase + lag)
+        pose.plant(side, ankle + [sign * (sk.ANKLE[0] - .045), 0, 0], pitch, toes)
+    swing = -40 * np.cos(turn - .3)
+    _arms_down(pose, (swing - 12, -swing - 12), (84 + .45 * swing, 84 - .45 * swing), curl=2.2)
     return pose
 
 
