@@ -297,6 +297,7 @@ Result<void> Application::drawPicture() {
     const PictureQuality quality = governed ? governor_.quality() : PictureQuality{};
     const bool coarse = quality.share < 1.0F && options_.screenshots.empty();
     frame_.ambientOcclusion = quality.ambientOcclusion;
+    frame_.lineWidth = std::max(render::FrameDescription().lineWidth * (coarse ? quality.share : 1.0F), 1.0F);
     history_.pictureShare = coarse ? quality.share : 1.0F;
     renderer_->draw(frame_, coarse ? shareOf(pixels_, quality.share) : pixels_);
     history_.stats = renderer_->stats();
@@ -313,9 +314,9 @@ Result<void> Application::drawPicture() {
     return {};
 }
 
-// Of a model that has been in the view for a moment, for the gallery; before panels are drawn over it.
+// Of a model that has just come into the view, for the gallery; before panels are drawn over it, and before it lies.
 void Application::keepModelPicture() {
-    constexpr int moment = 40;
+    constexpr int moment = 4;
     if (!options_.settings || pictured_ == characterRevision_ || ++framesOfModel_ < moment) return;
     pictured_ = characterRevision_;
     framesOfModel_ = 0;

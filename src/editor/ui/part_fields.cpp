@@ -53,8 +53,8 @@ constexpr Measure kDepth{"Half depth", [](const physics::BodyShape& s) { return 
                          [](physics::BodyShape& s, float value) { s.halfExtents.z = value; }};
 
 void measureField(const PartFields& fields, const Measure& measure, float least, float most) {
-    const physics::BodyShape& now = fields.profile().shape;
-    const physics::BodyShape& was = fields.fitted().shape;
+    const physics::BodyShape now = fields.profile().shape;  // copies: an edit takes the profile away
+    const physics::BodyShape was = fields.fitted().shape;
     float value = measure.get(now);
     fieldRow(fields, measure.label);
     const std::string id = fmt::format("##{}", measure.label);
@@ -185,8 +185,8 @@ bool wasText(const PartFields& fields, const char* id, bool changed, const std::
 }
 
 void drawShapeFields(const PartFields& fields) {
-    const physics::BodyShape& shape = fields.profile().shape;
-    const physics::BodyShape& was = fields.fitted().shape;
+    physics::BodyShape shape = fields.profile().shape;  // copies: an edit takes the profile away
+    const physics::BodyShape was = fields.fitted().shape;
     const float most = stateOf(fields).profile.heightM * 0.25F;
     using Kind = physics::BodyShape::Kind;
     fieldRow(fields, "Shape");
@@ -201,6 +201,7 @@ void drawShapeFields(const PartFields& fields) {
     };
     if (ImGui::Combo("##kind", &kind, kShapeKinds, 3)) setKind(static_cast<Kind>(kind));
     if (wasText(fields, "kind", shape.kind != was.kind, kShapeKinds[static_cast<int>(was.kind)])) setKind(was.kind);
+    shape = fields.profile().shape;  // as it is from now on
     massField(fields);
     // Every kind takes the lines of a box, so that what follows stays in its place.
     constexpr int lines = 3;

@@ -101,8 +101,8 @@ void drawBody(const PanelContext& context, const Item& item) {
 void drawTable(const PanelContext& context) {
     Editor& editor = context.editor;
     const physics::RagdollProfile& profile = editor.document().profile();
-    mutedText(fmt::format("{:.2f} m, {:.1f} kg, {} bodies. Click one to edit it.", profile.heightM, profile.totalMassKg,
-                          profile.bodies.size()));
+    mutedText(fmt::format("{:.2f} m, {:.1f} kg, {} {}. Click one to edit it.", profile.heightM, profile.totalMassKg,
+                          profile.bodies.size(), profile.bodies.size() == 1 ? "body" : "bodies"));
     if (ImGui::Button("Collisions …")) context.state.showCollisions = true;
     tooltip("Which bodies collide with which");
     if (!ImGui::BeginTable("##bodies", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;

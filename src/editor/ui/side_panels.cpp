@@ -151,7 +151,7 @@ void drawTabs(const PanelContext& context, PanelSide side, const char* id) {
 
 // Names of tabs closer together where there is little room.
 float tabPadding(const PanelContext& context, float width) {
-    if (width < context.px(330)) return 2.0F;
+    if (width < context.px(kRightWidth - 1.0F)) return 2.0F;
     return context.state.doctorErrors > 0 ? 3.0F : 6.0F;
 }
 

@@ -62,16 +62,23 @@ void assignMenu(const PanelContext& context, int joint) {
 // What all rows of the tree share.
 struct Tree {
     std::vector<std::vector<int>> children;
-    std::vector<bool> leads;  // to a joint with a role, or has one itself: shown unfolded
+    std::vector<bool> leads;  // to a joint with a role or a body, or has one itself: shown unfolded
 };
 
 Tree makeTree(const EditorDocument& document) {
     const animation::Skeleton& skeleton = document.character().skeleton;
     Tree tree{animation::childrenOf(skeleton), std::vector<bool>(skeleton.parents.size())};
-    for (const auto& binding : document.state().map.roles) {
-        for (int joint = binding ? binding->joint : animation::kNoJoint; joint >= 0; joint = skeleton.parents[joint])
+    const auto leadTo = [&](int wanted) {
+        for (int joint = wanted; joint >= 0; joint = skeleton.parents[joint])
             tree.leads[joint] = true;
+    };
+    for (const auto& binding : document.state().map.roles) {
+        if (binding) leadTo(binding->joint);
     }
+    for (const physics::BodyProfile& body : document.profile().bodies)
+        leadTo(animation::findJoint(skeleton, body.jointPath));
+    // Who makes a ragdoll of a creature by hand looks for joints.
+    if (!physics::hasRoles(document.profile())) tree.leads.assign(tree.leads.size(), true);
     return tree;
 }
 
@@ -108,9 +115,10 @@ void drawJoint(const PanelContext& context, const Tree& tree, int joint) {
         ImGui::SetNextItemOpen(true);
     }
     ImGui::PushID(joint);
-    if (!role) ImGui::PushStyleColor(ImGuiCol_Text, mutedColor());
+    const bool plain = !role && body < 0;
+    if (plain) ImGui::PushStyleColor(ImGuiCol_Text, mutedColor());
     const bool open = ImGui::TreeNodeEx("##joint", flags, "%s", skeleton.names[joint].c_str());
-    if (!role) ImGui::PopStyleColor();
+    if (plain) ImGui::PopStyleColor();
     if (context.state.scrollToJoint == joint) {
         ImGui::SetScrollHereY();
         context.state.scrollToJoint = -1;
@@ -126,7 +134,13 @@ void drawJoint(const PanelContext& context, const Tree& tree, int joint) {
         if (physics::hasRoles(editor.document().profile())) assignMenu(context, joint);
         ImGui::EndPopup();
     }
-    if (role) roleTag(*role, skeleton.names[joint]);
+    if (role) {
+        roleTag(*role, skeleton.names[joint]);
+    } else if (body >= 0) {
+        ImGui::SameLine();
+        ImGui::TextColored(accentColor(), "○");
+        tooltip("It has a body of its own");
+    }
     if (open) {
         if (!filtering) {
             for (const int child : tree.children[joint])
@@ -169,6 +183,7 @@ void drawSkeletonTab(const PanelContext& context) {
     ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, context.px(11));
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(context.px(6), context.px(3)));
     const Tree tree = makeTree(context.editor.document());
+    ImGui::PushID(context.editor.characterRevision());  // what is folded is another model's affair
     bool found = context.state.jointFilter.empty();
     for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
         if (!context.state.jointFilter.empty()) {
@@ -179,6 +194,7 @@ void drawSkeletonTab(const PanelContext& context) {
             drawJoint(context, tree, joint);
         }
     }
+    ImGui::PopID();
     ImGui::PopStyleVar(2);
     if (!found) mutedText("No joint's name has that in it. Empty the field to see all.");
     ImGui::EndChild();

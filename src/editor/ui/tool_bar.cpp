@@ -25,7 +25,10 @@ void drawTools(const PanelContext& context) {
     Workspace& workspace = editor.workspace();
     const auto [left, right] = viewSpan(context);
     if (right - left < context.px(240)) return;  // a tiny window is for looking; keys choose the tool there
-    ImGui::SetNextWindowPos({left + context.px(8), ImGui::GetFrameHeight() + context.px(8)});
+    // Beside the transport where there is room, else below it.
+    const bool beside = right - left > context.px(490);
+    const float top = beside ? ImGui::GetFrameHeight() + context.px(8) : context.state.transportBottom + context.px(6);
+    ImGui::SetNextWindowPos({left + context.px(8), top});
     ImGui::SetNextWindowBgAlpha(0.88F);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(context.px(5), context.px(5)));
     ImGui::Begin("##tools", nullptr,

@@ -6,8 +6,8 @@
 namespace lutka::editor {
 namespace {
 
-constexpr std::array<PictureQuality, 5> kLevels = {
-    PictureQuality{1.0F, true}, {1.0F, false}, {0.7F, false}, {0.5F, false}, {0.35F, false}};
+constexpr std::array<PictureQuality, 4> kLevels = {
+    PictureQuality{1.0F, true}, {0.7F, false}, {0.5F, false}, {0.35F, false}};
 
 // What the better picture costs, as a multiple of the one that is drawn.
 double costOfBetter(int level) {
@@ -24,11 +24,26 @@ const PictureQuality& QualityGovernor::quality() const {
     return kLevels[static_cast<std::size_t>(level_)];
 }
 
+void QualityGovernor::takeBack() {
+    lowest_ = --level_;
+    sinceLimit_ = 0;
+    costBefore_ = 0.0;
+}
+
 const PictureQuality& QualityGovernor::update(double drawSeconds) {
+    if (++sinceLimit_ > kForgetFrames) lowest_ = kNoLimit;
     const bool late = drawSeconds > kLateSeconds;
     lateFor_ = late ? lateFor_ + 1 : 0;
-    if ((lateFor_ >= kLateFrames || drawSeconds > kHaltSeconds) && level_ + 1 < static_cast<int>(kLevels.size())) {
-        ++level_;
+    if (lateFor_ >= kLateFrames || drawSeconds > kHaltSeconds) {
+        const bool inVain = level_ > 0 && costBefore_ > 0.0 && drawSeconds > kHelps * costBefore_;
+        if (inVain) {
+            takeBack();
+        } else if (level_ + 1 < static_cast<int>(kLevels.size()) && level_ < lowest_) {
+            ++level_;
+            costBefore_ = drawSeconds;
+        } else {
+            return quality();
+        }
         lateFor_ = easyFor_ = 0;
         return quality();
     }
@@ -37,6 +52,7 @@ const PictureQuality& QualityGovernor::update(double drawSeconds) {
     if (easyFor_ < kEasyFrames) return quality();
     --level_;
     easyFor_ = 0;
+    costBefore_ = 0.0;
     return quality();
 }
 
