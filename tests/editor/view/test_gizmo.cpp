@@ -12,7 +12,7 @@ using test::send;
 
 namespace {
 
-EditorOptions pausedScene() {
+EditorOptions pausedForGizmos() {
     EditorOptions options;
     options.playing = false;
     return options;
@@ -52,7 +52,7 @@ void dragFrom(Editor& editor, const vec2& from, const vec2& by) {
 }  // namespace
 
 TEST_CASE("an arrow moves an object along its axis alone, as one entry of undo") {
-    const auto editor = makeEditor(pausedScene());
+    const auto editor = makeEditor(pausedForGizmos());
     const scene::EntityId box = addTurnedBox(*editor, {1, 0.25F, 0});
     const auto place = [&] { return scene::worldFromEntity(editor->document().scene(), box).translation; };
     const vec2 arm = armAt(*editor, 1);
@@ -71,7 +71,7 @@ TEST_CASE("an arrow moves an object along its axis alone, as one entry of undo")
 }
 
 TEST_CASE("a click on an arrow that moves nothing is no entry of undo") {
-    const auto editor = makeEditor(pausedScene());
+    const auto editor = makeEditor(pausedForGizmos());
     addTurnedBox(*editor, {1, 0.25F, 0});
     const std::size_t before = editor->document().undoLabels().size();
     test::click(*editor, armAt(*editor, 0));
@@ -79,7 +79,7 @@ TEST_CASE("a click on an arrow that moves nothing is no entry of undo") {
 }
 
 TEST_CASE("X twice moves along the object's own axis, and a third time frees") {
-    const auto editor = makeEditor(pausedScene());
+    const auto editor = makeEditor(pausedForGizmos());
     const scene::EntityId box = addTurnedBox(*editor, {1, 0.25F, 0});
     for (const Key key : {Key::g, Key::x, Key::x, Key::digit1, Key::enter})
         send(*editor, keyPressed(key));
@@ -91,7 +91,7 @@ TEST_CASE("X twice moves along the object's own axis, and a third time frees") {
 }
 
 TEST_CASE("own axes turn the arrows with the object") {
-    const auto editor = makeEditor(pausedScene());
+    const auto editor = makeEditor(pausedForGizmos());
     addTurnedBox(*editor, {1, 0.25F, 0});
     send(*editor, keyPressed(Key::t, {true, false, false}));
     const auto gizmo = editor->workspace().gizmo();
@@ -100,7 +100,7 @@ TEST_CASE("own axes turn the arrows with the object") {
 }
 
 TEST_CASE("the gizmo of a body edits its shape in its joint: place, turn and size, and no doll moves") {
-    const auto editor = makeEditor(pausedScene());
+    const auto editor = makeEditor(pausedForGizmos());
     const int body = physics::bodyOf(editor->document().profile(), Role::leftUpperLeg);
     editor->select(Item{Item::Kind::body, 0, body});
     CHECK_FALSE(editor->workspace().gizmo().has_value());  // the tool Select pulls bodies
@@ -129,7 +129,7 @@ TEST_CASE("the gizmo of a body edits its shape in its joint: place, turn and siz
 }
 
 TEST_CASE("a box drawn with Ctrl selects the bodies in it, with Shift adds, and Esc leaves the selection") {
-    const auto editor = makeEditor(pausedScene());
+    const auto editor = makeEditor(pausedForGizmos());
     const auto draw = [&](const vec2& from, const vec2& to, Modifiers modifiers) {
         send(*editor, mouseMoved(from));
         send(*editor, mouseButton(MouseButton::left, true, modifiers));
@@ -164,7 +164,7 @@ TEST_CASE("a box drawn with Ctrl selects the bodies in it, with Shift adds, and 
 }
 
 TEST_CASE("what is under the mouse stays there while the wheel zooms, in perspective and in parallel") {
-    const auto editor = makeEditor(pausedScene());
+    const auto editor = makeEditor(pausedForGizmos());
     for (const bool parallel : {false, true}) {
         INFO(parallel);
         editor->workspace().camera.orthographic = parallel;
