@@ -28,23 +28,23 @@ def stood(joints, ahead=0.0):
 
 # On hands and knees, and what follows: the right foot comes forward, the left one pushes and steps up to it.
 ALL_FOURS = {"hips": (0, .49, -.40), "turn": about_x(88), "bend": (6, 0, 0), "look": (-30, 0),
-             **both(foot=(.116, .09, -.84), sole=about_x(150), knee=(.1, -.74, .67), toes=0, shrug=(0, 0), curl=3, palm=DOWN,
+             **both(foot=(.116, .155, -.82), sole=about_x(112), knee=(.1, -.74, .67), toes=72, shrug=(0, 0), curl=3, palm=DOWN,
                     fingers=(-.15, 0, 1), elbow=(.5, .1, -.8), hand=(.27, .035, .18))}
 
 
 def from_all_fours(joints):
     """(seconds, key) from ALL_FOURS on."""
     return [
-        (.20, {"hips": (.03, .51, -.37), "turn": about_z(-5) @ about_x(81), "bend": (12, 0, 0), "right_foot": (-.17, .25, -.44),
-               "right_sole": about_x(75), "right_knee": (-.55, .3, .8), "left_sole": about_x(125), "left_foot": (.116, .145, -.83), "left_toes": 60}),
-        (.42, {"hips": (.01, .53, -.34), "turn": about_z(-3) @ about_x(64), "bend": (14, 0, 0), "right_foot": (-.116, .082, -.026),
+        (.22, {"hips": (.03, .515, -.38), "turn": about_z(-4) @ about_x(57), "bend": (24, 0, 0), "right_foot": (-.14, .26, -.47),
+               "right_sole": about_x(22), "right_toes": 0, **both(hand=(.26, .16, .12)), "right_knee": (-.28, .35, .9), "left_sole": about_x(106), "left_foot": (.116, .160, -.81), "left_toes": 72}),
+        (.46, {"hips": (.01, .53, -.34), "turn": about_z(-2) @ about_x(29), "bend": (28, 0, 0), "right_foot": (-.116, .082, -.026),
                "right_sole": FLAT, "right_knee": (-.25, .5, .8), "left_sole": about_x(98), "left_foot": (.116, .150, -.79),
-               "left_toes": 68, "look": (-18, 0), **both(hand=(.26, .20, .13))}),
-        (.72, {"hips": (-.01, .56, -.28), "turn": about_x(40), "bend": (14, 0, 0), "look": (-12, 0), "left_sole": about_x(78),
+               "left_toes": 68, "look": (-18, 0), **both(hand=(.25, .42, .08))}),
+        (.74, {"hips": (-.01, .56, -.28), "turn": about_x(27), "bend": (22, 0, 0), "look": (-12, 0), "left_sole": about_x(78),
                "left_foot": (.116, .170, -.84), "left_toes": 62, "right_hand": (-.17, .53, .04), "right_fingers": (.3, -.2, 1),
-               "right_palm": (0, -1, -.3), "right_elbow": (-1, .2, -.3), "left_hand": (.25, .40, .10), "left_fingers": (0, -.8, .6),
+               "right_palm": (0, -1, -.3), "right_elbow": (-1, .2, -.3), "left_hand": (.25, .47, .08), "left_fingers": (0, -.8, .6),
                "left_palm": (-1, 0, 0), "left_elbow": (.6, .1, -1), "left_curl": 10}),
-        (1.02, {"hips": (-.04, .68, -.17), "turn": about_x(36), "bend": (14, 0, 0), "left_sole": about_x(58), "left_toes": 45,
+        (1.02, {"hips": (-.04, .68, -.17), "turn": about_x(28), "bend": (14, 0, 0), "left_sole": about_x(58), "left_toes": 45,
                 "left_foot": (.116, .180, -.82), "left_knee": (.1, -.2, .9), "right_hand": (-.17, .55, .06), "left_hand": (.27, .52, .14)}),
         (1.30, {"hips": (-.03, .81, -.07), "turn": about_x(24), "bend": (10, 0, 0), "look": (-6, 0), "left_foot": (.13, .23, -.42),
                 "left_sole": about_x(48), "left_toes": 5, "left_knee": (.1, .2, .9), "right_hand": (-.25, .70, .08),
@@ -67,10 +67,11 @@ def _then(start, rows):
 
 def get_up_prone(joints):
     lie = {**ALL_FOURS, "hips": (0, .115, .03), "turn": about_x(90), "bend": (0, 0, 0), "look": (-22, 25),
-           **both(hand=(.27, .035, .18), elbow=(.6, .8, -.2), shrug=(6, 0), fingers=(-.1, 0, 1), knee=(.2, -1, 0))}
+           **both(hand=(.27, .035, .18), elbow=(.6, .8, -.2), shrug=(6, 0), fingers=(-.1, 0, 1), knee=(.2, -1, 0),
+                    foot=(.116, .09, -.84), sole=about_x(150), toes=0)}
     push = {"hips": (0, .205, .0), "turn": about_x(74), "bend": (-14, 0, 0), "look": (-30, 0),
             **both(elbow=(.6, .4, -.7), shrug=(0, 0), knee=(.1, -.9, .3))}
-    rise = {"hips": (0, .388, -.125), "turn": about_x(82), "bend": (-4, 0, 0)}
+    rise = {"hips": (0, .388, -.125), "turn": about_x(82), "bend": (-4, 0, 0), **both(foot=(.116, .115, -.83), sole=about_x(132), toes=0)}
     return _moves([(0, lie), (.15, {"look": (-30, 5)}), (.45, push), (.66, rise), (.92, ALL_FOURS)]
                   + _then(.92, from_all_fours(joints)))
 
@@ -93,9 +94,9 @@ def get_up_left(joints):
             "right_foot": (-.08, .16, -.82), "right_knee": (-.7, -.3, .6), "right_sole": about_z(-50) @ about_x(140)}
     up = {"hips": (.05, .40, -.28), "turn": about_z(-22) @ about_x(84), "bend": (2, 0, 0), "look": (-25, 0),
           "left_hand": (.14, .04, .24), "left_fingers": (-.4, 0, 1), "left_elbow": (.7, .2, -.6), "left_shrug": (0, 4),
-          "left_foot": (.116, .09, -.84), "left_knee": (-.2, -.74, .6), "left_sole": about_z(-15) @ about_x(150),
-          "right_hand": (-.20, .035, .18), "right_foot": (-.116, .10, -.84), "right_knee": (-.4, -.74, .6),
-          "right_sole": about_z(-20) @ about_x(150), "right_fingers": (0, 0, 1), "right_elbow": (-.5, .2, -.8), "right_shrug": (0, 0)}
+          "left_foot": (.116, .115, -.83), "left_knee": (-.2, -.74, .6), "left_sole": about_z(-10) @ about_x(130), "left_toes": 0,
+          "right_hand": (-.20, .035, .18), "right_foot": (-.116, .13, -.83), "right_knee": (-.3, -.74, .6),
+          "right_sole": about_z(-10) @ about_x(130), "right_toes": 0, "right_fingers": (0, 0, 1), "right_elbow": (-.5, .2, -.8), "right_shrug": (0, 0)}
     return _moves([(0, _on_left_side()), (.38, roll), (.70, up), (.95, {**ALL_FOURS, "right_hand": (-.22, .035, .18)})]
                   + _then(.95, from_all_fours(joints)))
 
@@ -115,11 +116,11 @@ def get_up_supine(joints):
     sit = {"hips": (.01, .125, -.46), "turn": about_x(-34), "bend": (34, 5, 0), "look": (6, 0), "left_hand": (.27, .035, -.43),
            "left_fingers": (.5, 0, 1), "left_elbow": (.7, .2, -1), "right_hand": (-.20, .46, -.22), "right_fingers": (.1, .1, 1),
            "right_palm": (.6, -.8, 0), "right_elbow": (-.7, -.7, -.2), "left_curl": 3}
-    rock = {"hips": (.01, .17, -.41), "turn": about_x(-4), "bend": (44, 6, 0), "look": (-8, 0), "right_hand": (-.20, .44, .06)}
-    squat = {"hips": (0, .29, -.29), "turn": about_x(28), "bend": (38, 0, 0), "look": (-24, 0), "left_hand": (.24, .26, -.02),
+    rock = {"hips": (.01, .17, -.41), "turn": about_x(-20), "bend": (50, 6, 0), "look": (-8, 0), "right_hand": (-.20, .44, .06)}
+    squat = {"hips": (0, .29, -.29), "turn": about_x(2), "bend": (52, 0, 0), "look": (-24, 0), "left_hand": (.24, .26, -.02),
              "left_fingers": (0, -.5, 1), "left_palm": (-.6, -.6, 0), "left_elbow": (.8, -.2, -.6), "right_hand": (-.20, .38, .24),
              **both(knee=(.2, .8, .6))}
-    half = {"hips": (0, .54, -.20), "turn": about_x(44), "bend": (26, 0, 0), "look": (-24, 0), "left_hand": (.22, .42, .22),
+    half = {"hips": (0, .54, -.20), "turn": about_x(34), "bend": (34, 0, 0), "look": (-24, 0), "left_hand": (.22, .42, .22),
             "left_fingers": (0, -.4, 1), "right_hand": (-.20, .43, .26), "right_fingers": (.1, -.4, 1), **both(knee=(.1, .5, .9))}
     high = {"hips": (0, .80, -.09), "turn": about_x(26), "bend": (14, 0, 0), "look": (-10, 0), "left_curl": 10,
             **both(hand=(.25, .64, .16), fingers=(0, -.8, .6), palm=(-1, 0, 0), elbow=(.6, 0, -1), knee=(.05, .1, 1))}
