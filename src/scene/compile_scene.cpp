@@ -123,6 +123,9 @@ class Compiler {
         placement.pose = ragdoll.pose;
         placement.clip = ragdoll.clip;
         placement.look = lookOf(id);
+        placement.strength = ragdoll.strength;
+        for (const RagdollHit& hit : ragdoll.hits)
+            out_.hits.push_back({hit.body, hit.seconds, hit.impulse, static_cast<int>(out_.dolls.size())});
         for (const animation::Role role : ragdoll.pins)
             out_.pins.push_back({static_cast<int>(out_.dolls.size()), role});
         out_.dolls.push_back(placement);

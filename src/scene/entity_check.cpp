@@ -87,6 +87,11 @@ class Checker {
         range(at + "focusRadius", simulation.focusRadius, kSmallest, kLargest);
         range(at + "focusYaw", simulation.focusYaw, -2.0F * kPi, 2.0F * kPi);
         range(at + "focusPitch", simulation.focusPitch, -0.5F * kPi, 0.5F * kPi);
+        if (simulation.puppets) {
+            range(at + "puppets/strength", simulation.puppets->strength, 0, kLargest);
+            range(at + "puppets/pinForceN", simulation.puppets->pinForceN, 0, kLargest);
+            range(at + "puppets/pace", simulation.puppets->pace, -20, 20);
+        }
     }
 
     void checkHierarchy() {
@@ -187,6 +192,12 @@ class Checker {
         range(one.entity, "ragdoll/linearVelocity", one.linearVelocity, -1000, 1000);
         range(one.entity, "ragdoll/angularVelocity", one.angularVelocity, -1000, 1000);
         if (one.clip) range(one.entity, "ragdoll/clip/seconds", one.clip->seconds, 0, kLargest);
+        range(one.entity, "ragdoll/strength", one.strength, 0, kLargest);
+        for (std::size_t i = 0; i < one.hits.size(); ++i) {
+            const std::string at = fmt::format("ragdoll/hits/{}/", i);
+            range(one.entity, (at + "seconds").c_str(), one.hits[i].seconds, 0, 3600);
+            range(one.entity, (at + "impulse").c_str(), one.hits[i].impulse, -kLargest, kLargest);
+        }
         if (scene_.find<Collider>(one.entity) != nullptr) {
             say(pointer(one.entity, "collider"), "expected none beside a ragdoll, whose bodies collide themselves");
         }

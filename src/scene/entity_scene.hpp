@@ -15,6 +15,7 @@
 
 #include "animation/humanoid/roles.hpp"
 #include "core/rigid_transform.hpp"
+#include "physics/powered/muscles.hpp"
 #include "physics/world/world.hpp"
 #include "render/color.hpp"
 
@@ -101,6 +102,29 @@ struct ClipStart {
     friend bool operator==(const ClipStart&, const ClipStart&) = default;
 };
 
+/// A push on a character at a moment, with ScenePuppets.
+struct RagdollHit {
+    animation::Role body = animation::Role::chest;
+    float seconds = 0.0F;   ///< Since the start, [0, 3600].
+    vec3 impulse{0, 0, 0};  ///< N s, as the figure faces: Y up, +Z ahead; at the body's centre.
+
+    friend bool operator==(const RagdollHit&, const RagdollHit&) = default;
+};
+
+/// How all characters of a scene follow a clip with their muscles. A clip that a character lacks is the mannequin's,
+/// retargeted.
+struct ScenePuppets {
+    std::string clip;  ///< Looped; empty: the start pose is held.
+    physics::MusclePreset muscles = physics::MusclePreset::powered;
+    float strength = 1.0F;      ///< Factor on the preset's, [0, 1e6].
+    float pinForceN = 3000.0F;  ///< PuppetSettings::pinForceN, [0, 1e6].
+    bool getUp = false;         ///< Limp ones that have come to rest get up.
+    bool limp = false;          ///< They begin limp.
+    float pace = 0.0F;          ///< m/s ahead, [-20, 20]: what a clip in place walks at.
+
+    friend bool operator==(const ScenePuppets&, const ScenePuppets&) = default;
+};
+
 /// A character that falls.
 struct Ragdoll {
     EntityId entity = kNoEntity;
@@ -114,6 +138,8 @@ struct Ragdoll {
     std::vector<animation::Role> pins;  ///< Bodies held at their tips where they start.
     vec3 linearVelocity{0, 0, 0};       ///< Of the whole doll at the start, m/s, world.
     vec3 angularVelocity{0, 0, 0};      ///< Likewise, rad/s about its centre of mass.
+    float strength = 1.0F;              ///< Factor on ScenePuppets::strength, [0, 1e6].
+    std::vector<RagdollHit> hits;
 
     friend bool operator==(const Ragdoll&, const Ragdoll&) = default;
 };
@@ -149,14 +175,15 @@ struct Camera {
 /// How the scene is simulated.
 struct SceneSimulation {
     physics::WorldSettings world;
-    float dt = 1.0F / 60.0F;            ///< Seconds a step, [0.001, 0.1].
-    float seconds = 6.0F;               ///< Length of a run, (0, 3600].
-    std::uint64_t seed = 0;             ///< That the scene was made with; told in reports.
-    vec3 focus{0, 0.9F, 0};             ///< Where to look when there is no camera, world.
-    float focusRadius = 1.6F;           ///< And how far around, metres, > 0.
-    float focusYaw = radians(30.0F);    ///< From which side, as render::Camera::yaw, radians, [-2 pi, 2 pi].
-    float focusPitch = radians(12.0F);  ///< And from how high, as render::Camera::pitch, radians.
-    bool focusFollows = false;          ///< The view goes along with the characters, near enough to see them act.
+    float dt = 1.0F / 60.0F;              ///< Seconds a step, [0.001, 0.1].
+    float seconds = 6.0F;                 ///< Length of a run, (0, 3600].
+    std::uint64_t seed = 0;               ///< That the scene was made with; told in reports.
+    vec3 focus{0, 0.9F, 0};               ///< Where to look when there is no camera, world.
+    float focusRadius = 1.6F;             ///< And how far around, metres, > 0.
+    float focusYaw = radians(30.0F);      ///< From which side, as render::Camera::yaw, radians, [-2 pi, 2 pi].
+    float focusPitch = radians(12.0F);    ///< And from how high, as render::Camera::pitch, radians.
+    bool focusFollows = false;            ///< The view goes along with the characters, near enough to see them act.
+    std::optional<ScenePuppets> puppets;  ///< Unset: the characters fall.
 
     friend bool operator==(const SceneSimulation&, const SceneSimulation&) = default;
 };

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "animation/pose.hpp"
+#include "core/files.hpp"
 #include "physics/collision/shape.hpp"
 #include "scene/clip_cast.hpp"
 
@@ -14,6 +15,10 @@ namespace lutka::scene {
 namespace {
 
 using physics::BodyState;
+using physics::PuppetState;
+
+constexpr float kFeltNs = 1.0F;                              // in a step: less is a touch
+constexpr std::string_view kDonor = "models/mannequin.glb";  // of clips that a character lacks
 
 std::string bodiesOf(const physics::RagdollProfile& profile) {
     std::string names;
@@ -43,21 +48,58 @@ Result<std::unique_ptr<PuppetCast>> PuppetCast::create(std::span<const RagdollAs
                      assets.front()->character.file.string(), bodiesOf(assets.front()->profile)};
     }
     std::unique_ptr<PuppetCast> cast(new PuppetCast(assets, scenario, std::move(play)));
-    for (const RagdollAsset* asset : assets) {
-        if (cast->play_.start.clip.empty()) continue;
-        const auto moment = findClipMoment(asset->character, cast->play_.start);
-        if (!moment) return moment.error();
-        auto library = animation::ClipLibrary::create(asset->character.skeleton, std::span(moment.value().clip, 1),
-                                                      travelOf(*asset));
-        if (!library) return library.error();
-        cast->libraries_.push_back(std::make_unique<animation::ClipLibrary>(std::move(library).value()));
-        cast->startSeconds_.push_back(moment.value().seconds);
+    const bool wantsIdle = cast->play_.getUp && cast->play_.start.clip.empty();
+    if (wantsIdle) cast->play_.start.clip = "idle";
+    std::unique_ptr<RagdollAsset> donor;
+    cast->play_.borrows = cast->play_.borrows || cast->play_.getUp;
+    const std::string& clip = cast->play_.start.clip;
+    const auto lacks = [&](const RagdollAsset* asset) {
+        return (cast->play_.getUp && !GetUpClips::hasOwn(*asset)) || (!clip.empty() && !clipOf(*asset, nullptr, clip));
+    };
+    if (cast->play_.borrows && std::any_of(assets.begin(), assets.end(), lacks)) {
+        const auto file = findAsset(kDonor);
+        if (!file) return file.error();
+        auto loaded = loadRagdoll(file.value());
+        if (!loaded) return loaded.error();
+        donor = std::move(loaded).value();
     }
+    for (const RagdollAsset* asset : assets)
+        if (auto found = cast->findClips(*asset, donor.get()); !found) return found.error();
     return cast;
+}
+
+// The clip that is played, and the ways to get up.
+Result<void> PuppetCast::findClips(const RagdollAsset& asset, const RagdollAsset* donor) {
+    floors_.push_back(std::make_unique<FloorKeeper>(asset));
+    if (play_.getUp) {
+        auto clips = GetUpClips::create(asset, donor);
+        if (!clips) return clips.error();
+        getUps_.push_back(std::make_unique<GetUpClips>(std::move(clips).value()));
+    }
+    if (play_.start.clip.empty()) return {};
+    float seconds = 0.0F;
+    animation::Clip clip;
+    if (auto borrowed = clipOf(asset, donor, play_.start.clip); donor != nullptr && borrowed) {
+        clip = std::move(borrowed).value();
+        seconds = std::clamp(play_.start.seconds, 0.0F, clip.seconds());
+    } else {
+        const auto moment = findClipMoment(asset.character, play_.start);
+        if (!moment) return moment.error();
+        clip = *moment.value().clip;
+        seconds = moment.value().seconds;
+    }
+    auto library = animation::ClipLibrary::create(asset.character.skeleton, std::span(&clip, 1), travelOf(asset));
+    if (!library) return library.error();
+    libraries_.push_back(std::make_unique<animation::ClipLibrary>(std::move(library).value()));
+    startSeconds_.push_back(seconds);
+    return {};
 }
 
 PuppetCast::PuppetCast(std::span<const RagdollAsset* const> assets, const Scenario& scenario, PuppetPlay play)
     : assets_(assets.begin(), assets.end()), placements_(scenario.dolls), play_(std::move(play)) {
+    isLevel_ = std::all_of(scenario.statics.begin(), scenario.statics.end(), [](const physics::StaticShape& shape) {
+        return shape.kind == physics::StaticShape::Kind::plane;
+    });
     std::stable_sort(play_.hits.begin(), play_.hits.end(),
                      [](const PuppetHit& a, const PuppetHit& b) { return a.seconds < b.seconds; });
 }
@@ -68,11 +110,15 @@ void PuppetCast::begin(physics::World& world, std::span<const physics::DollId> d
     seconds_ = squares_ = 0.0;
     count_ = 0;
     worst_ = {};
+    risen_ = {};
+    risenSeconds_ = matchedM_ = 0.0;
     for (std::size_t i = 0; i < dolls.size(); ++i) {
         Actor& actor = actors_.emplace_back();
         const Placement& placement = placements_[i];
         actor.asset = assets_[placement.asset];
         if (!libraries_.empty()) actor.library = libraries_[placement.asset].get();
+        actor.assetIndex = placement.asset;
+        actor.floor = floors_[placement.asset].get();
         actor.worldFromModel = placement.worldFromModel;
         actor.root = std::max(physics::bodyOf(actor.asset->profile, physics::Role::hips), 0);
         bodies_.resize(actor.asset->profile.bodies.size());
@@ -81,8 +127,16 @@ void PuppetCast::begin(physics::World& world, std::span<const physics::DollId> d
             std::make_unique<physics::Puppet>(world, dolls[i], actor.asset->profile, actor.root, bodies_, play_.puppet);
         for (const BodyState& body : bodies_)
             actor.to.push_back(body.worldFromBody);
-        if (actor.library != nullptr) startClip(actor, startSeconds_[placement.asset], world, dolls[i]);
-        actor.from = actor.to;
+        actor.puppet->settings().muscles.strength *= placement.strength;
+        const float seconds = placement.clip ? placement.clip->seconds : 0.0F;
+        if (actor.library != nullptr)
+            startClip(actor,
+                      seconds > 0.0F ? std::min(seconds, actor.library->seconds(0)) : startSeconds_[placement.asset],
+                      world, dolls[i]);
+        actor.from = actor.raw = actor.to;
+        actor.feet[0].body = physics::bodyOf(actor.asset->profile, physics::Role::leftFoot);
+        actor.feet[1].body = physics::bodyOf(actor.asset->profile, physics::Role::rightFoot);
+        if (play_.limp) actor.puppet->goLimp();
     }
     for (Actor& actor : actors_)
         actor.puppet->onChange(
@@ -92,17 +146,21 @@ void PuppetCast::begin(physics::World& world, std::span<const physics::DollId> d
 void PuppetCast::startClip(Actor& actor, float seconds, physics::World& world, physics::DollId doll) {
     // Shapes reach a little beyond the skin, and clips put feet into the ground: a pinned doll would tread on it with
     // all the force that it has.
-    const float lift = std::max(-clearance(actor), 0.0F);
-    actor.worldFromModel.translation.y += lift;
-    bodies_.resize(actor.asset->profile.bodies.size());
-    world.getBodies(doll, bodies_);
-    for (BodyState& body : bodies_)
-        body.worldFromBody.translation.y += lift;
-    world.setBodies(doll, bodies_);
+    actor.lift = std::max(-clearance(actor), 0.0F);
+    if (!play_.limp) actor.worldFromModel.translation.y += actor.lift;
     actor.player = std::make_unique<animation::ClipPlayer>(*actor.library, std::vector<animation::LayerSettings>{},
                                                            animation::RootMotion::extract);
     actor.player->play(0, 0, {.start = seconds});
     pose(actor, actor.to);
+    if (play_.limp) return;
+    bodies_.resize(actor.to.size());
+    world.getBodies(doll, bodies_);
+    const bool isElsewhere = play_.borrows || seconds != startSeconds_[actor.assetIndex];
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        bodies_[i].worldFromBody.translation.y += actor.lift;
+        if (isElsewhere) bodies_[i] = {actor.to[i], vec3(0), vec3(0)};
+    }
+    world.setBodies(doll, bodies_);
 }
 
 // How far above the ground that the doll is placed on (the height of its model's origin) its lowest body stays
@@ -110,21 +168,18 @@ void PuppetCast::startClip(Actor& actor, float seconds, physics::World& world, p
 float PuppetCast::clearance(const Actor& actor) {
     constexpr float kStep = 1.0F / 60.0F;
     const animation::Skeleton& skeleton = actor.asset->character.skeleton;
+    const RigidTransform standing{actor.asset->map.standardFromModel, vec3(0)};
     float lowest = 1e9F;
     joints_.resize(skeleton.parents.size());
     for (float seconds = 0.0F; seconds <= actor.library->seconds(0); seconds += kStep) {
         actor.library->sampleInPlace(0, seconds, joints_);
         animation::localToModel(skeleton, joints_, joints_);
         bodies_.resize(actor.asset->profile.bodies.size());
-        physics::bodiesFromPose(actor.asset->rig, joints_, actor.worldFromModel, bodies_);
-        for (std::size_t i = 0; i < bodies_.size(); ++i) {
-            const RigidTransform& at = bodies_[i].worldFromBody;
-            const vec3 up = glm::conjugate(at.rotation) * vec3(0, 1, 0);
-            lowest =
-                std::min(lowest, at.translation.y - physics::supportExtent(actor.asset->profile.bodies[i].shape, up));
-        }
+        physics::bodiesFromPose(actor.asset->rig, joints_, standing, bodies_);
+        for (std::size_t i = 0; i < bodies_.size(); ++i)
+            lowest = std::min(lowest, actor.floor->lowestOf(static_cast<int>(i), bodies_[i].worldFromBody));
     }
-    return lowest - actor.worldFromModel.translation.y;
+    return lowest;
 }
 
 void PuppetCast::notice(Actor& actor, physics::PuppetState after) {
@@ -155,7 +210,7 @@ void PuppetCast::hitDue(float dt) {
         if (at < seconds_ || at >= seconds_ + static_cast<double>(dt)) continue;
         for (Actor& actor : actors_) {
             const int body = physics::bodyOf(actor.asset->profile, hit.role);
-            if (body < 0) continue;
+            if (body < 0 || (hit.doll >= 0 && &actor != &actors_[hit.doll])) continue;
             bodies_.resize(actor.asset->profile.bodies.size());
             world_->getBodies(actor.puppet->doll(), bodies_);
             actor.puppet->hit(
@@ -168,20 +223,49 @@ void PuppetCast::hitDue(float dt) {
 
 void PuppetCast::prepare(float dt) {
     hitDue(dt);
+    dt_ = dt;
     for (Actor& actor : actors_) {
-        if (actor.player != nullptr) {
-            std::swap(actor.from, actor.to);
-            actor.player->advance(dt);
-            actor.worldFromModel = actor.worldFromModel * actor.player->rootDelta();
-            pose(actor, actor.to);
-        }
+        if (play_.getUp) watchRest(actor, dt);
+        if (actor.rising)
+            rise(actor, dt);
+        else if (actor.player != nullptr)
+            playOn(actor, dt);
         if (actor.sinceHit >= 0.0F) actor.sinceHit += dt;
         actor.puppet->prepare(actor.from, actor.to, dt);
     }
     seconds_ += static_cast<double>(dt);
 }
 
+// One step of the clip.
+void PuppetCast::playOn(Actor& actor, float dt) {
+    actor.player->advance(dt);
+    actor.worldFromModel = actor.worldFromModel * actor.player->rootDelta();
+    const vec3 ahead =
+        actor.worldFromModel.rotation * (glm::conjugate(actor.asset->map.standardFromModel) * vec3(0, 0, 1));
+    actor.worldFromModel.translation += ahead * (play_.pace * dt);
+    pose(actor, actor.raw);
+    show(actor, dt);
+}
+
+// What flies against a puppet weakens it as a hit does.
+void PuppetCast::feelContacts() {
+    using Side = physics::ContactReport::Side;
+    const auto feel = [&](const Side& own, const Side& other, float impulse) {
+        if (own.kind != Side::Kind::doll || other.kind != Side::Kind::prop || impulse < kFeltNs) return;
+        for (Actor& actor : actors_) {
+            if (actor.puppet->doll() != own.doll) continue;
+            actor.puppet->feel(own.body, impulse);
+            if (actor.puppet->state() == PuppetState::reacting) actor.sinceHit = 0.0F;
+        }
+    };
+    for (const physics::ContactReport& report : world_->contactReports()) {
+        feel(report.a, report.b, report.impulse);
+        feel(report.b, report.a, report.impulse);
+    }
+}
+
 void PuppetCast::measure() {
+    feelContacts();
     for (Actor& actor : actors_) {
         if (actor.puppet->state() == physics::PuppetState::limp) continue;
         const physics::RagdollProfile& profile = actor.asset->profile;
@@ -191,6 +275,7 @@ void PuppetCast::measure() {
         for (const BodyState& body : bodies_)
             frames_.push_back(body.worldFromBody);
         errors_.resize(profile.constraints.size());
+        if (actor.rising) measureRising(actor);
         physics::jointErrors(profile, actor.to, frames_, errors_);
         for (std::size_t i = 0; i < errors_.size(); ++i) {
             const float degreesOff = degrees(errors_[i]);

@@ -1,30 +1,44 @@
 #pragma once
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "animation/playback/clip_player.hpp"
+#include "animation/playback/inertial_blend.hpp"
 #include "core/result.hpp"
 #include "physics/powered/puppet.hpp"
+#include "scene/floor_keeper.hpp"
+#include "scene/get_up_clips.hpp"
 #include "scene/ragdoll_asset.hpp"
 #include "scene/scenario.hpp"
 
 namespace lutka::scene {
 
-/// A push on every doll of a scene at a moment.
-struct PuppetHit {
-    physics::Role role = physics::Role::chest;  ///< Dolls without that body are spared.
-    float seconds = 0.0F;                       ///< Since the start, >= 0.
-    vec3 impulse{0, 0, 0};                      ///< N s, as the figure faces: Y up, +Z ahead; at the body's centre.
-};
-
 /// How the dolls of a scene follow a clip with their muscles.
 struct PuppetPlay {
-    ClipStart start;  ///< The clip, looped from there; without a name the start pose is held.
+    ClipStart start;  ///< The clip, looped from there; without a name the start pose is held, or, with getUp, `idle`.
     physics::PuppetSettings puppet;
     std::vector<PuppetHit> hits;
+    bool getUp = false;    ///< Limp dolls that have come to rest get up and go on with the clip.
+    bool limp = false;     ///< They begin limp.
+    float pace = 0.0F;     ///< m/s ahead, for clips that walk in place.
+    bool borrows = false;  ///< Clips that a character lacks are the mannequin's, retargeted; with getUp always.
+};
+
+/// Of dolls that got up.
+struct GetUpFigures {
+    int begun = 0;
+    int stood = 0;             ///< How often one came to stand again.
+    float mostSeconds = 0.0F;  ///< From coming to rest until it stood.
+    float meanSeconds = 0.0F;
+    float mostStepDeg = 0.0F;    ///< That a joint turned by in one step on the way.
+    std::string stepJoint;       ///< The body below it.
+    float mostSlideM = 0.0F;     ///< Of a foot that stood flat in the pose, from where it came to stand.
+    float meanDistanceM = 0.0F;  ///< Of the pose lain in from the frame that it went on from.
 };
 
 /// How well the dolls kept to their poses, over all of them and all steps in which they were not limp.
@@ -54,6 +68,9 @@ class PuppetCast {
     void measure();
 
     [[nodiscard]] PuppetFigures figures() const;
+    [[nodiscard]] GetUpFigures getUpFigures() const;
+    /// For how long a limp doll has been at rest, seconds; 0 while it moves or is not limp.
+    [[nodiscard]] float restSeconds(int doll) const { return actors_[doll].rest; }
     [[nodiscard]] physics::Puppet& puppet(int doll) { return *actors_[doll].puppet; }
     /// The pose that a doll is to have at the end of the last step, one frame a body, world.
     [[nodiscard]] std::span<const RigidTransform> pose(int doll) const { return actors_[doll].to; }
@@ -62,6 +79,7 @@ class PuppetCast {
   private:
     struct Actor {
         const RagdollAsset* asset = nullptr;
+        int assetIndex = 0;
         const animation::ClipLibrary* library = nullptr;
         RigidTransform worldFromModel;  // moves with the clip's travel
         std::unique_ptr<animation::ClipPlayer> player;
@@ -69,6 +87,24 @@ class PuppetCast {
         int root = 0;
         std::vector<RigidTransform> from, to;
         float sinceHit = -1.0F;  // seconds; -1: not reacting
+        float lift = 0.0F;       // of the clip, so that no shape is in the ground
+        float ground = 0.0F;     // height where it got up last
+
+        const FloorKeeper* floor = nullptr;
+        float rest = 0.0F;                        // seconds that it has been limp and at rest
+        std::optional<GetUpClips::Match> rising;  // the clip in which it gets up
+        bool isHeldBack = false;                  // some joint could not turn as fast as it should
+        float risen = 0.0F;                       // seconds into that clip
+        float risingSeconds = 0.0F;               // since it came to rest
+        animation::InertialBlend blend;           // into what it does now
+        std::vector<RigidTransform> raw;          // what it would do without the blend, at the last step's end
+        std::vector<quat> joints;                 // relative rotations after the last step
+        struct Foot {
+            int body = -1;
+            bool stands = false;
+            vec3 at{0, 0, 0};
+        };
+        std::array<Foot, 2> feet;
     };
     PuppetCast(std::span<const RagdollAsset* const> assets, const Scenario& scenario, PuppetPlay play);
     void startClip(Actor& actor, float seconds, physics::World& world, physics::DollId doll);
@@ -76,15 +112,32 @@ class PuppetCast {
     void pose(Actor& actor, std::vector<RigidTransform>& bodies);
     void hitDue(float dt);
     void notice(Actor& actor, physics::PuppetState after);
+    void feelContacts();
+    Result<void> findClips(const RagdollAsset& asset, const RagdollAsset* donor);
+    void playOn(Actor& actor, float dt);
+    void watchRest(Actor& actor, float dt);
+    void beginRising(Actor& actor, float dt);
+    void rise(Actor& actor, float dt);
+    void standUp(Actor& actor, float dt);
+    void blendInto(Actor& actor, std::span<const RigidTransform> rawBefore, std::span<const RigidTransform> raw,
+                   float dt);
+    void show(Actor& actor, float dt);
+    bool holdBack(Actor& actor, float dt);
+    void measureRising(Actor& actor);
+    [[nodiscard]] float groundBelow(const vec3& point) const;
 
     std::vector<const RagdollAsset*> assets_;
     std::vector<std::unique_ptr<animation::ClipLibrary>> libraries_;  // one an asset, of the one clip
     std::vector<float> startSeconds_;                                 // likewise
+    std::vector<std::unique_ptr<GetUpClips>> getUps_;                 // likewise, with PuppetPlay::getUp
+    std::vector<std::unique_ptr<FloorKeeper>> floors_;                // likewise
+    bool isLevel_ = true;                                             // the ground is planes alone
     std::vector<Placement> placements_;
     PuppetPlay play_;
     physics::World* world_ = nullptr;
     std::vector<Actor> actors_;
     double seconds_ = 0.0;
+    float dt_ = 0.0F;  // of the last step
 
     std::vector<RigidTransform> joints_;  // scratch
     std::vector<physics::BodyState> bodies_;
@@ -93,6 +146,10 @@ class PuppetCast {
     double squares_ = 0.0;
     long long count_ = 0;
     PuppetFigures worst_;
+    GetUpFigures risen_;
+    double risenSeconds_ = 0.0;
+    double matchedM_ = 0.0;
+    std::vector<RigidTransform> before_, now_, relative_;  // scratch
 };
 
 }  // namespace lutka::scene

@@ -70,19 +70,31 @@ std::string castText(const Simulation& simulation) {
 nlohmann::ordered_json puppetJson(const Simulation& simulation) {
     const PuppetCast& cast = *simulation.puppets();
     const PuppetFigures figures = cast.figures();
-    return {{"clip", cast.settings().start.clip},
-            {"strength", cast.settings().puppet.muscles.strength},
-            {"frequencyHz", cast.settings().puppet.muscles.frequencyHz},
-            {"dampingRatio", cast.settings().puppet.muscles.dampingRatio},
-            {"pinForceN", cast.settings().puppet.pinForceN},
-            {"trackingErrorDeg", {{"rms", figures.rmsDeg}, {"max", figures.maxDeg}, {"worst", figures.worstJoint}}},
-            {"rootErrorM", figures.rootM},
-            {"motorWorkJ", simulation.world().motorWork()},
-            {"pinWorkJ", simulation.world().dragWork()},
-            {"knockOuts", figures.knockOuts},
-            {"limp", figures.limp},
-            {"recoverySeconds", figures.recoverySeconds < 0.0F ? nlohmann::ordered_json()
-                                                               : nlohmann::ordered_json(figures.recoverySeconds)}};
+    nlohmann::ordered_json json = {
+        {"clip", cast.settings().start.clip},
+        {"strength", cast.settings().puppet.muscles.strength},
+        {"frequencyHz", cast.settings().puppet.muscles.frequencyHz},
+        {"dampingRatio", cast.settings().puppet.muscles.dampingRatio},
+        {"pinForceN", cast.settings().puppet.pinForceN},
+        {"trackingErrorDeg", {{"rms", figures.rmsDeg}, {"max", figures.maxDeg}, {"worst", figures.worstJoint}}},
+        {"rootErrorM", figures.rootM},
+        {"motorWorkJ", simulation.world().motorWork()},
+        {"pinWorkJ", simulation.world().dragWork()},
+        {"knockOuts", figures.knockOuts},
+        {"limp", figures.limp},
+        {"recoverySeconds",
+         figures.recoverySeconds < 0.0F ? nlohmann::ordered_json() : nlohmann::ordered_json(figures.recoverySeconds)}};
+    if (cast.settings().getUp) {
+        const GetUpFigures up = cast.getUpFigures();
+        json["getUp"] = {{"begun", up.begun},
+                         {"stood", up.stood},
+                         {"seconds", {{"mean", up.meanSeconds}, {"max", up.mostSeconds}}},
+                         {"largestStepDeg", up.mostStepDeg},
+                         {"largestStepJoint", up.stepJoint},
+                         {"footSlideM", up.mostSlideM},
+                         {"poseDistanceM", up.meanDistanceM}};
+    }
+    return json;
 }
 
 std::string puppetText(const Simulation& simulation) {
@@ -93,6 +105,13 @@ std::string puppetText(const Simulation& simulation) {
                         simulation.world().dragWork());
     if (figures.knockOuts > 0)
         text += fmt::format("  knocked out        {:7} times, {} limp now\n", figures.knockOuts, figures.limp);
+    if (simulation.puppets()->settings().getUp) {
+        const GetUpFigures up = simulation.puppets()->getUpFigures();
+        text += fmt::format("  got up             {:7} of {} times, in {:.2f} s, {:.2f} s at most\n", up.stood,
+                            up.begun, up.meanSeconds, up.mostSeconds);
+        text += fmt::format("  on the way         {:7.1f} deg in a step at most ({}), feet slid {:.1f} cm\n",
+                            up.mostStepDeg, up.stepJoint, up.mostSlideM * 1e2F);
+    }
     return text;
 }
 

@@ -286,12 +286,105 @@ void balls(Context& context) {
     context.scene.simulation.focusRadius = std::max(context.scene.simulation.focusRadius, 2.2F);
 }
 
+// Characters that follow a clip and get up when they were knocked down.
+ScenePuppets& actors(Context& context, const char* clip) {
+    ScenePuppets& puppets = context.scene.simulation.puppets.emplace();
+    puppets.clip = clip;
+    puppets.getUp = true;
+    return puppets;
+}
+
+// Where one stands, a hair above the floor; seeds but 0 shift it a little.
+vec3 standAt(Context& context, const vec3& place) {
+    return place + vec3(0, 0.002F, 0) + nudge(context, 0.1F);
+}
+
+constexpr float kWalkSpeed = 0.95F;  // m/s, of the mannequin's clip
+
+// A ball that meets a point at a moment.
+void throwBall(Context& context, const vec3& target, const vec3& from, float seconds) {
+    const vec3 gravity(0, -9.81F, 0);
+    addBall(context, from, (target - from) / seconds - 0.5F * gravity * seconds);
+}
+
+void walk(Context& context) {
+    look(context, 58, 10);
+    addFloor(context);
+    actors(context, "walk").pace = kWalkSpeed;
+    constexpr float start = -2.0F;
+    for (int i = 0; i < context.count; ++i) {
+        const float across = (static_cast<float>(i) - static_cast<float>(context.count - 1) * 0.5F) * kSpacing;
+        const vec3 foot = standAt(context, {across, 0, start});
+        placeFeet(context, foot, kUpright);
+        // One at the shoulder, one from ahead, and two at once that are too much.
+        const auto at = [&](float seconds, float height) { return foot + vec3(0, height, kWalkSpeed * seconds); };
+        const float side = context.isSeedZero || context.random.uniform(-1, 1) > 0 ? 1.0F : -1.0F;
+        throwBall(context, at(0.9F, 1.35F), at(0.9F, 1.3F) + vec3(4.0F * side, 0, 0.4F), 0.9F);
+        throwBall(context, at(1.6F, 1.25F), at(1.6F, 1.2F) + vec3(0.6F * side, 0, 8.0F), 1.6F);
+        throwBall(context, at(2.3F, 1.40F), at(2.3F, 1.2F) + vec3(-25.0F * side, 0, 2.0F), 2.3F);
+        throwBall(context, at(2.32F, 1.15F), at(2.32F, 1.2F) + vec3(-26.0F * side, 0, 1.0F), 2.32F);
+        throwBall(context, at(2.36F, 1.25F), at(2.36F, 1.2F) + vec3(-27.0F * side, 0, 1.6F), 2.36F);
+    }
+    context.scene.simulation.focus = {0, 0.9F, 0.0F};
+    focusOnGrid(context, kSpacing);
+    context.scene.simulation.seconds = 10.0F;
+}
+
+void push(Context& context) {
+    look(context, 25, 12);
+    addFloor(context);
+    actors(context, "idle");
+    constexpr int directions = 8;
+    for (int i = 0; i < context.count; ++i) {
+        Ragdoll& doll = placeFeet(context, standAt(context, gridPlace(i, context.count, kSpacing)), kUpright);
+        const float first = context.isSeedZero ? 0.0F : context.random.uniform(0, 2 * kPi);
+        for (int k = 0; k < directions; ++k) {
+            const float angle = first + 2 * kPi * static_cast<float>(k) / static_cast<float>(directions);
+            doll.hits.push_back({physics::Role::upperChest, 0.6F + 1.1F * static_cast<float>(k),
+                                 70.0F * vec3(std::sin(angle), 0, std::cos(angle))});
+        }
+        doll.hits.push_back({physics::Role::upperChest, 9.8F, {20, 0, -160}});
+        doll.hits.push_back({physics::Role::hips, 9.8F, {40, 30, -260}});
+    }
+    focusOnGrid(context, kSpacing);
+    context.scene.simulation.seconds = 16.0F;
+}
+
+void getUp(Context& context) {
+    look(context, 30, 16);
+    addFloor(context);
+    actors(context, "idle").limp = true;
+    for (int i = 0; i < context.count; ++i)
+        placeCentre(context, gridPlace(i, context.count, kSpacing) + vec3(0, 1.5F, 0), anyTurn(context));
+    focusOnGrid(context, kSpacing);
+    context.scene.simulation.seconds = 9.0F;
+}
+
+void march(Context& context) {
+    look(context, 40, 18);
+    addFloor(context);
+    actors(context, "walk").pace = kWalkSpeed;
+    for (int i = 0; i < context.count; ++i) {
+        Ragdoll& doll =
+            placeFeet(context, standAt(context, gridPlace(i, context.count, 1.8F) + vec3(0, 0, -3.0F)), kUpright);
+        doll.clip = ClipStart{"walk", context.random.uniform(0.02F, 1.0F)};
+        const float angle = context.random.uniform(0, 2 * kPi);
+        const bool hard = context.random.uniform(0, 1) < 0.35F;
+        const float seconds = context.random.uniform(0.5F, 4.0F);
+        const vec3 way(std::sin(angle), 0.1F, std::cos(angle));
+        doll.hits.push_back({physics::Role::upperChest, seconds, (hard ? 150.0F : 35.0F) * way});
+        if (hard) doll.hits.push_back({physics::Role::hips, seconds, 250.0F * way});
+    }
+    focusOnGrid(context, 1.8F);
+    context.scene.simulation.seconds = 10.0F;
+}
+
 struct Entry {
     ScenarioInfo info;
     void (*build)(Context&);
 };
 
-constexpr std::array<Entry, 8> kEntries{{
+constexpr std::array<Entry, 12> kEntries{{
     {{"drop", "from 1 m, upright, onto a floor"}, &drop},
     {{"spread", "on a grid over a floor, in any orientation"}, &spread},
     {{"pile", "into a pit of 6 by 6 metres"}, &pile},
@@ -300,6 +393,10 @@ constexpr std::array<Entry, 8> kEntries{{
     {{"hang", "by the left hand, 1.2 m above a floor"}, &hang},
     {{"throw", "into a wall of 5 cm at 8 m/s"}, &throwAtWall},
     {{"balls", "hit by six balls of 4 kg"}, &balls},
+    {{"walk", "walking, hit by balls, and on again"}, &walk},
+    {{"push", "standing, pushed from eight directions and over"}, &push},
+    {{"getup", "falling limp and getting up"}, &getUp},
+    {{"march", "walking side by side, hit at random"}, &march},
 }};
 
 constexpr auto kRegistry = [] {

@@ -31,7 +31,16 @@ struct Placement {
     int asset = 0;                     ///< Which of the simulation's assets it is.
     std::optional<StartPose> pose;     ///< Unset: the simulation's.
     std::optional<ClipStart> clip;     ///< Likewise; wins over `pose`.
+    float strength = 1.0F;             ///< Factor on the muscles' strength.
     Look look{render::colors::white};  ///< The colour multiplies the skin.
+};
+
+/// A push on the dolls of a scene at a moment.
+struct PuppetHit {
+    physics::Role role = physics::Role::chest;  ///< Dolls without that body are spared.
+    float seconds = 0.0F;                       ///< Since the start, >= 0.
+    vec3 impulse{0, 0, 0};                      ///< N s, as the figure faces: Y up, +Z ahead; at the body's centre.
+    int doll = -1;                              ///< Which one; -1: all.
 };
 
 /// A body of a doll held at a world point from the start (the scene `hang`).
@@ -49,6 +58,7 @@ struct Scenario {
     std::vector<physics::DynamicProp> props;
     std::vector<Placement> dolls;
     std::vector<Pin> pins;
+    std::vector<PuppetHit> hits;
     std::vector<Look> staticLooks;
     std::vector<Look> propLooks;
     std::vector<EntityId> staticEntities;  ///< Which entity each comes from.
@@ -70,7 +80,7 @@ struct ScenarioInfo {
     std::string_view summary;
 };
 
-/// drop, spread, pile, stairs, ramp, hang, throw, balls.
+/// drop, spread, pile, stairs, ramp, hang, throw, balls, walk, push, getup, march.
 [[nodiscard]] std::span<const ScenarioInfo> scenarioRegistry();
 
 /// The standing figure's extent in its standard stance (Y up, facing +Z), relative to the rotated model's origin.

@@ -10,6 +10,7 @@ inline constexpr const char* kName = "lutka.scene";
 inline constexpr const char* kSchema = "scene.schema.json";
 inline constexpr const char* kExtension = ".scene.json";
 inline constexpr int kMostFigures = 10000;
+inline constexpr int kMostHits = 1000;  // of a character
 
 /// A word of the format and what it stands for.
 template <class Enum>
@@ -32,6 +33,12 @@ inline constexpr std::array<Named<Light::Kind>, 3> kLightKinds{{
     {"spot", Light::Kind::spot},
 }};
 inline constexpr std::array<Named<StartPose>, 2> kPoses{{{"bind", StartPose::bind}, {"node", StartPose::node}}};
+inline constexpr std::array<Named<physics::MusclePreset>, 4> kMuscles{{
+    {"limp", physics::MusclePreset::limp},
+    {"weak", physics::MusclePreset::weak},
+    {"powered", physics::MusclePreset::powered},
+    {"stiff", physics::MusclePreset::stiff},
+}};
 // Solvers: physics::kSolvers.
 
 }  // namespace lutka::scene::scene_format

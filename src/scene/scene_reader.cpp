@@ -192,8 +192,22 @@ Collider readCollider(const JsonCursor& at) {
     return out;
 }
 
+RagdollHit readHit(const JsonCursor& at) {
+    at.expectObject({"body", "seconds", "impulse"});
+    RagdollHit out;
+    const std::string name = at["body"].text();
+    const auto role = animation::roleFromName(name);
+    if (role) out.body = *role;
+    if (at["body"].readable() && !role)
+        at["body"].report("expected a role of the VRM 1.0 humanoid, got \"" + name + "\"");
+    take(at, "seconds", out.seconds);
+    take(at, "impulse", out.impulse);
+    return out;
+}
+
 Ragdoll readRagdoll(const JsonCursor& at, const std::filesystem::path& folder) {
-    at.expectObject({}, {"model", "figure", "profile", "pose", "clip", "pins", "linearVelocity", "angularVelocity"});
+    at.expectObject({}, {"model", "figure", "profile", "pose", "clip", "pins", "linearVelocity", "angularVelocity",
+                         "strength", "hits"});
     Ragdoll out;
     takePath(at, "model", folder, out.model);
     if (at.has("figure")) takeWhole(at, "figure", out.figure.emplace(1), 1, scene_format::kMostFigures);
@@ -222,7 +236,24 @@ Ragdoll readRagdoll(const JsonCursor& at, const std::filesystem::path& folder) {
     }
     take(at, "linearVelocity", out.linearVelocity);
     take(at, "angularVelocity", out.angularVelocity);
+    take(at, "strength", out.strength);
+    if (at.has("hits") && at["hits"].expectArray(0, scene_format::kMostHits)) {
+        const JsonCursor hits = at["hits"];
+        for (std::size_t i = 0; i < hits.size(); ++i)
+            out.hits.push_back(readHit(hits[i]));
+    }
     return out;
+}
+
+void readPuppets(const JsonCursor& at, ScenePuppets& out) {
+    at.expectObject({}, {"clip", "muscles", "strength", "pinForceN", "getUp", "limp", "pace"});
+    take(at, "clip", out.clip);
+    takeName(at, "muscles", scene_format::kMuscles, out.muscles);
+    take(at, "strength", out.strength);
+    take(at, "pinForceN", out.pinForceN);
+    take(at, "getUp", out.getUp);
+    take(at, "limp", out.limp);
+    take(at, "pace", out.pace);
 }
 
 Light readLight(const JsonCursor& at) {
@@ -260,9 +291,9 @@ Camera readCamera(const JsonCursor& at) {
 }
 
 void readSimulation(const JsonCursor& at, SceneSimulation& out) {
-    at.expectObject(
-        {}, {"solver", "gravity", "step", "seconds", "threads", "sleeping", "seed", "substeps", "iterations",
-             "linearDamping", "angularDamping", "focus", "focusRadius", "focusYaw", "focusPitch", "focusFollows"});
+    at.expectObject({}, {"solver", "gravity", "step", "seconds", "threads", "sleeping", "seed", "substeps",
+                         "iterations", "linearDamping", "angularDamping", "focus", "focusRadius", "focusYaw",
+                         "focusPitch", "focusFollows", "puppets"});
     takeName(at, "solver", out.world.solver);
     take(at, "gravity", out.world.gravity);
     take(at, "step", out.dt);
@@ -279,6 +310,7 @@ void readSimulation(const JsonCursor& at, SceneSimulation& out) {
     take(at, "focusYaw", out.focusYaw);
     take(at, "focusPitch", out.focusPitch);
     take(at, "focusFollows", out.focusFollows);
+    if (at.has("puppets")) readPuppets(at["puppets"], out.puppets.emplace());
 }
 
 void readEntity(const JsonCursor& at, std::size_t index, const std::filesystem::path& folder, EntityScene& scene) {

@@ -98,7 +98,23 @@ Json toJson(const Ragdoll& r, const std::filesystem::path& folder) {
     }
     out["linearVelocity"] = jsonVector(r.linearVelocity);
     out["angularVelocity"] = jsonVector(r.angularVelocity);
+    if (r.strength != 1.0F) out["strength"] = jsonNumber(r.strength);
+    for (const RagdollHit& hit : r.hits) {
+        out["hits"].push_back(Json{{"body", animation::roleName(hit.body)},
+                                   {"seconds", jsonNumber(hit.seconds)},
+                                   {"impulse", jsonVector(hit.impulse)}});
+    }
     return out;
+}
+
+Json toJson(const ScenePuppets& p) {
+    return Json{{"clip", p.clip},
+                {"muscles", nameOf(scene_format::kMuscles, p.muscles)},
+                {"strength", jsonNumber(p.strength)},
+                {"pinForceN", jsonNumber(p.pinForceN)},
+                {"getUp", p.getUp},
+                {"limp", p.limp},
+                {"pace", jsonNumber(p.pace)}};
 }
 
 Json toJson(const Light& l) {
@@ -144,6 +160,7 @@ Json toJson(const SceneSimulation& s) {
     if (s.focusYaw != plain.focusYaw) out["focusYaw"] = jsonNumber(s.focusYaw);
     if (s.focusPitch != plain.focusPitch) out["focusPitch"] = jsonNumber(s.focusPitch);
     if (s.focusFollows) out["focusFollows"] = true;
+    if (s.puppets) out["puppets"] = toJson(*s.puppets);
     return out;
 }
 

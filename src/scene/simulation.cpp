@@ -60,6 +60,18 @@ SimulationOptions simulationOptionsOf(const EntityScene& scene) {
     SimulationOptions options;
     options.world = scene.simulation.world;
     options.dt = scene.simulation.dt;
+    if (scene.simulation.puppets) {
+        const ScenePuppets& puppets = *scene.simulation.puppets;
+        PuppetPlay& play = options.puppet.emplace();
+        play.start.clip = puppets.clip;
+        play.puppet.muscles = physics::musclesOf(puppets.muscles);
+        play.puppet.muscles.strength = puppets.strength;
+        play.puppet.pinForceN = puppets.pinForceN;
+        play.getUp = puppets.getUp;
+        play.limp = puppets.limp;
+        play.pace = puppets.pace;
+        play.borrows = true;
+    }
     return options;
 }
 
@@ -88,9 +100,14 @@ Simulation::Simulation(std::vector<const RagdollAsset*> assets, Scenario scenari
     for (int doll = 0; doll < dollCount(); ++doll)
         firstBody_.push_back(firstBody_.back() + assetOf(doll).profile.bodies.size());
     motions_.resize(scenario_.dolls.size());
-    // Puppets begin where their clip does.
-    if (options_.puppet && !options_.puppet->start.clip.empty() && !options_.fromClip)
+    if (!options_.puppet) return;
+    // Puppets begin where their clip does; one that is borrowed is known to the cast alone.
+    if (!options_.puppet->start.clip.empty() && !options_.fromClip && !options_.puppet->borrows &&
+        !options_.puppet->limp)
         options_.fromClip = options_.puppet->start;
+    PuppetPlay& play = *options_.puppet;
+    play.hits.insert(play.hits.end(), scenario_.hits.begin(), scenario_.hits.end());
+    options_.world.contactReports = true;  // what flies against a puppet weakens it
 }
 
 Result<void> Simulation::findStarts() {
@@ -102,7 +119,10 @@ Result<void> Simulation::findStarts() {
         });
         startOfDoll_.push_back(static_cast<std::size_t>(same - known.begin()));
         if (same != known.end()) continue;
-        auto start = startBodies(assetOf(doll), options_, placement);
+        // Puppets with borrowed clips are placed by their cast.
+        Placement from = placement;
+        if (options_.puppet && options_.puppet->borrows) from.clip.reset();
+        auto start = startBodies(assetOf(doll), options_, from);
         if (!start) return start.error();
         starts_.push_back(std::move(start).value());
         known.push_back(&placement);

@@ -35,6 +35,9 @@ EntityScene richScene() {
         ragdoll.pins = {animation::Role::leftHand, animation::Role::head};
         ragdoll.linearVelocity = {some(), some(), some()};
         ragdoll.angularVelocity = {some(), some(), some()};
+        ragdoll.strength = some();
+        ragdoll.hits = {{animation::Role::head, some(), {some(), some(), some()}},
+                        {animation::Role::leftLowerArm, some(), {some(), some(), some()}}};
     }
     for (MeshRenderer& mesh : scene.all<MeshRenderer>()) {
         mesh.color = {1, 200, 33, 255};
@@ -62,6 +65,7 @@ EntityScene richScene() {
     scene.simulation.world.threads = 2;
     scene.simulation.dt = 1.0F / 120.0F;
     scene.simulation.seed = 42;
+    scene.simulation.puppets = ScenePuppets{"run", physics::MusclePreset::weak, some(), 1234.0F, true, true, some()};
     return scene;
 }
 
@@ -155,6 +159,27 @@ TEST_CASE("every planted fault of a scene is listed in one go with its place") {
           "/entities/3/parent: expected the id of another entity", "/entities/4/transform/rotation: expected a quat",
           "/entities/5/collider/steps: expected a whole number", "/entities/7/light/castsShadow: expected true"}) {
         INFO(problems);
+        CHECK(problems.find(place) != std::string::npos);
+    }
+}
+
+TEST_CASE("faults of clips, strengths and hits are named with their places") {
+    Json wrong = Json::parse(sceneToJson(richScene()));
+    wrong["simulation"]["puppets"]["muscles"] = "iron";
+    wrong["simulation"]["puppets"]["strength"] = -1;
+    wrong["simulation"]["puppets"]["colour"] = "red";
+    for (Json& entity : wrong["entities"]) {
+        if (!entity.contains("ragdoll")) continue;
+        entity["ragdoll"]["hits"][0]["body"] = "tail";
+        entity["ragdoll"]["hits"][1]["seconds"] = -2;
+        entity["ragdoll"]["hits"][1]["impulse"] = {1, 2};
+        entity["ragdoll"]["strength"] = -3;
+    }
+    const std::string problems = problemsOf(wrong);
+    for (const char* place :
+         {"/simulation/puppets/muscles", "/simulation/puppets/strength", "colour", "/ragdoll/hits/0/body",
+          "/ragdoll/hits/1/seconds", "/ragdoll/hits/1/impulse", "/ragdoll/strength"}) {
+        INFO(place);
         CHECK(problems.find(place) != std::string::npos);
     }
 }

@@ -274,6 +274,7 @@ void SimulateOptions::addTo(const Command& app) {
 scene::PuppetPlay SimulateOptions::puppetPlay() const {
     scene::PuppetPlay play;
     if (!clip.empty()) play.start = parseClipStart(clip);
+    play.borrows = getUp;
     const std::string_view muscles = puppet.empty() ? "powered" : std::string_view(puppet);
     const auto preset = std::find(physics::kMusclePresetNames.begin(), physics::kMusclePresetNames.end(), muscles);
     play.puppet.muscles =
@@ -296,7 +297,12 @@ scene::SimulationOptions SimulateOptions::simulation(const scene::EntityScene& e
         options.puppet = puppetPlay();
     else if (!clip.empty())
         options.play = scene::ClipPlay{parseClipStart(clip), clipSpeed, !clipOnce, clipInPlace};
+    if (options.play) options.puppet.reset();
     options.shed = orLeave(scene::parseShedSettings(shed));
+    if (options.shed.any() && options.puppet) {
+        leave({ErrorCode::usage, "dolls with muscles can't be spared", "--shed",
+               "leave it out, or take a scene whose characters fall"});
+    }
     if (!eye.empty()) options.eye = vec3(eye[0], eye[1], eye[2]);
     return options;
 }

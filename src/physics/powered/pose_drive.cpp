@@ -85,10 +85,20 @@ vec3 PoseDrive::gravityTorque(int constraint, const vec3& gravity) const {
     return torque;
 }
 
+// The target no farther than mostLead_ from where the joint is.
+void PoseDrive::leashTo(const ConstraintProfile& constraint, JointMotor& motor) const {
+    const quat parent = bodies_[constraint.parent].worldFromBody.rotation * constraint.parentFromFrame.rotation;
+    const quat now = glm::conjugate(parent) *
+                     (bodies_[constraint.child].worldFromBody.rotation * constraint.childFromFrame.rotation);
+    const vec3 lead = rotationVector(glm::normalize(motor.target * glm::conjugate(now)));
+    const float angle = glm::length(lead);
+    if (angle > mostLead_) motor.target = glm::normalize(glm::angleAxis(mostLead_, lead / angle) * now);
+}
+
 void PoseDrive::drive(World& world, DollId doll, const MuscleSettings& muscles, std::span<const RigidTransform> from,
                       std::span<const RigidTransform> to, float dt, std::span<const float> factors) {
     const bool carries = muscles.carriedGravity != vec3(0);
-    if (carries) world.getBodies(doll, bodies_);
+    if (carries || mostLead_ < kPi) world.getBodies(doll, bodies_);
     for (int i = 0; i < static_cast<int>(profile_.constraints.size()); ++i) {
         const ConstraintProfile& constraint = profile_.constraints[i];
         JointMotor motor;
@@ -103,6 +113,7 @@ void PoseDrive::drive(World& world, DollId doll, const MuscleSettings& muscles, 
         const quat before = relativeOf(constraint, from);
         motor.target = relativeOf(constraint, to);
         motor.rate = rotationVector(glm::normalize(motor.target * glm::conjugate(before))) / dt;
+        if (mostLead_ < kPi) leashTo(constraint, motor);
         if (carries) {
             // The spring leads the pose by the angle at which its torque is what gravity takes.
             const quat parentFrame =

@@ -22,6 +22,9 @@ class PoseDrive {
     /// Allocates nothing once a doll has motors.
     void drive(World& world, DollId doll, const MuscleSettings& muscles, std::span<const RigidTransform> from,
                std::span<const RigidTransform> to, float dt, std::span<const float> factors = {});
+    /// From the next drive() on no motor's target is farther than this from where its joint is, radians, > 0; kPi, as
+    /// it is at first: never changed. What is held back by force then comes along gently once it is let go.
+    void setMostLead(float lead) { mostLead_ = lead; }
     /// Takes all motors away.
     void release(World& world, DollId doll) const;
 
@@ -41,7 +44,10 @@ class PoseDrive {
     // What gravity does about the joint through all that hangs below it, N m, world.
     [[nodiscard]] vec3 gravityTorque(int constraint, const vec3& gravity) const;
 
+    void leashTo(const ConstraintProfile& constraint, JointMotor& motor) const;
+
     const RagdollProfile& profile_;
+    float mostLead_ = kPi;
     std::vector<Joint> joints_;      // one a constraint
     float massKg_ = 0.0F;            // of the doll
     float heightM_ = 0.0F;           // about

@@ -44,7 +44,7 @@ int rootOf(const RagdollProfile& profile) {
 }  // namespace
 
 std::string_view puppetStateName(PuppetState state) {
-    constexpr std::array<std::string_view, 4> names{"animated", "reacting", "limp", "returning"};
+    constexpr std::array<std::string_view, 4> names{"animated", "reacting", "limp", "gettingUp"};
     return names[static_cast<std::size_t>(state)];
 }
 
@@ -83,8 +83,12 @@ float Puppet::strengthLeft(int body) const {
 
 void Puppet::hit(int body, const vec3& point, const vec3& impulse) {
     world_.applyImpulse(doll_, body, impulse, point);
+    feel(body, glm::length(impulse));
+}
+
+void Puppet::feel(int body, float impulse) {
     if (state_ == PuppetState::limp) return;
-    const float speed = glm::length(impulse) / profile_.bodies[body].massKg;
+    const float speed = impulse / profile_.bodies[body].massKg;
     const float lost = 1.0F - std::exp(-speed / settings_.hitSpeed);
     for (std::size_t other = 0; other < losses_.size(); ++other) {
         const float share = lost * std::pow(settings_.falloff, static_cast<float>(distance_[body][other]));
@@ -97,20 +101,35 @@ void Puppet::goLimp() {
     change(PuppetState::limp);
 }
 
-void Puppet::comeBack(float seconds) {
+void Puppet::beginReturn(float seconds, bool standsByItself) {
     if (state_ != PuppetState::limp) return;
     std::fill(losses_.begin(), losses_.end(), Loss{});
     back_ = 0.0F;
     backSeconds_ = std::max(seconds, 1e-3F);
-    change(PuppetState::returning);
+    standsByItself_ = standsByItself;
+    change(PuppetState::gettingUp);
+}
+
+void Puppet::comeBack(float seconds) {
+    beginReturn(seconds, true);
+}
+
+void Puppet::getUp(float seconds) {
+    beginReturn(seconds, false);
+}
+
+void Puppet::stand() {
+    if (state_ != PuppetState::gettingUp) return;
+    back_ = 1.0F;
+    change(PuppetState::reacting);
 }
 
 void Puppet::recover(float dt) {
     for (Loss& loss : losses_)
         loss.seconds += dt;
-    if (state_ == PuppetState::returning) {
+    if (state_ == PuppetState::gettingUp) {
         back_ = std::min(back_ + dt / backSeconds_, 1.0F);
-        if (back_ >= 1.0F) change(PuppetState::reacting);
+        if (back_ >= 1.0F && standsByItself_) change(PuppetState::reacting);
     }
     if (state_ != PuppetState::reacting) return;
     float most = 0.0F;
@@ -129,8 +148,8 @@ bool Puppet::isTooMuch(std::span<const RigidTransform> pose) {
     if (weight > 0.0F && lost > settings_.knockOutLoss * weight) return true;
     world_.getBodies(doll_, bodies_);
     const quat off = bodies_[root_].worldFromBody.rotation * glm::conjugate(pose[root_].rotation);
-    return state_ != PuppetState::returning &&
-           glm::length(rotationVector(glm::normalize(off))) > settings_.knockOutTilt;
+    const bool comesFromAfar = state_ == PuppetState::gettingUp && standsByItself_;
+    return !comesFromAfar && glm::length(rotationVector(glm::normalize(off))) > settings_.knockOutTilt;
 }
 
 void Puppet::prepare(std::span<const RigidTransform> from, std::span<const RigidTransform> to, float dt) {
@@ -141,8 +160,10 @@ void Puppet::prepare(std::span<const RigidTransform> from, std::span<const Rigid
     }
     for (std::size_t body = 0; body < factors_.size(); ++body)
         factors_[body] = strengthLeft(static_cast<int>(body));
+    const bool getsUp = state_ == PuppetState::gettingUp && !standsByItself_;
+    drive_.setMostLead(getsUp ? settings_.getUpLead : kPi);
     drive_.drive(world_, doll_, settings_.muscles, from, to, dt, factors_);
-    const float force = settings_.pinForceN * strengthLeft(root_);
+    const float force = (getsUp ? settings_.getUpForceN : settings_.pinForceN) * strengthLeft(root_);
     if (force > 0.0F && !pin_) pin_.emplace(world_, doll_, root_);
     if (force <= 0.0F) pin_.reset();
     if (pin_) pin_->follow(from[root_], to[root_], dt, force);

@@ -15,7 +15,7 @@ enum class PuppetState {
     animated,   ///< Follows its pose with all its strength.
     reacting,   ///< Was hit: follows, some joints weaker than they were.
     limp,       ///< Knocked out: a passive doll.
-    returning,  ///< Comes back to its pose: its strength grows.
+    gettingUp,  ///< Comes back to its pose: its strength grows, and it is on its way to stand.
 };
 [[nodiscard]] std::string_view puppetStateName(PuppetState state);
 
@@ -28,6 +28,9 @@ struct PuppetSettings {
     float knockOutLoss = 0.75F;    ///< Mean loss of all joints, weighed by the mass that they move, above which it goes
                                    ///< limp; 1 and more: never.
     float knockOutTilt = radians(50.0F);  ///< Of the root body from its pose, radians, above which it goes limp.
+    float getUpForceN = 2000.0F;          ///< In place of `pinForceN` while it gets up, >= 0.
+    float getUpLead = radians(15.0F);     ///< While it gets up no joint is drawn to more than this ahead of where it
+                                          ///< is: what was held by the floor does not snap back; radians, > 0.
 };
 
 /// A doll that follows a pose in motion with its muscles, reacts to hits and goes limp when one is too much. The world
@@ -45,11 +48,16 @@ class Puppet {
     /// An impulse in N s at a world point of a body: it acts, and the strength of that joint and, less, of its
     /// neighbours is lost for a while. Hits add up.
     void hit(int body, const vec3& point, const vec3& impulse);
+    /// The same of an impulse of so many N s, >= 0, that acts by itself, such as what flew against it.
+    void feel(int body, float impulse);
     /// Knocks it out.
     void goLimp();
     /// From limp: comes back to its pose, its strength grows over `seconds` > 0. Call it when the pose is near to where
     /// the doll is. Ended early by goLimp() and by hits that are too much.
     void comeBack(float seconds);
+    /// The same for a way to its feet: it is gettingUp until stand() is called.
+    void getUp(float seconds);
+    void stand();
 
     [[nodiscard]] PuppetState state() const { return state_; }
     /// What is left of the strength of the joint above a body (of the pin: of the root), [0, 1].
@@ -69,6 +77,7 @@ class Puppet {
     };
     void change(PuppetState state);
     [[nodiscard]] float lossOf(int body) const;
+    void beginReturn(float seconds, bool standsByItself);
     void recover(float dt);
     [[nodiscard]] bool isTooMuch(std::span<const RigidTransform> pose);
 
@@ -86,6 +95,7 @@ class Puppet {
     std::vector<BodyState> bodies_;           // scratch
     float back_ = 1.0F;                       // how much of its strength it has while it returns
     float backSeconds_ = 1.0F;
+    bool standsByItself_ = true;  // gettingUp ends when its strength is back
     std::function<void(PuppetState, PuppetState)> listener_;
 };
 

@@ -119,6 +119,45 @@ TEST_CASE("hits add up, and too much of them is a knock-out: the doll falls like
     }
 }
 
+TEST_CASE("a puppet that gets up does so until it stands, and a hit that is too much ends it") {
+    for (const SolverKind solver : kOurSolvers) {
+        INFO(physics::solverName(solver));
+        Stage stage(solver, {});
+        stage.step(10);
+        stage.puppet().stand();  // means nothing to one that stands
+        CHECK(stage.puppet().state() == PuppetState::animated);
+        stage.puppet().goLimp();
+        stage.step(6);
+        stage.puppet().getUp(0.2F);
+        stage.step(60);
+        CHECK(stage.puppet().state() == PuppetState::gettingUp);
+        stage.hit(Role::hips, {0, 0, 300});
+        stage.hit(Role::chest, {0, 0, 300});
+        stage.step();
+        CHECK(stage.puppet().state() == PuppetState::limp);
+        Stage other(solver, {});
+        other.puppet().goLimp();
+        other.step(3);
+        other.puppet().getUp(0.2F);
+        other.step(30);
+        other.puppet().stand();
+        other.step(2);
+        CHECK(other.puppet().state() == PuppetState::animated);
+        CHECK(other.changes() == std::vector<PuppetState>{PuppetState::limp, PuppetState::gettingUp,
+                                                          PuppetState::reacting, PuppetState::animated});
+    }
+}
+
+TEST_CASE("what acts by itself weakens a puppet as a hit does, and pushes it no further") {
+    Stage stage(SolverKind::crowd, {});
+    stage.step(30);
+    const float height = stage.height(Role::leftLowerArm);
+    stage.puppet().feel(stage.body(Role::leftLowerArm), 10.0F);
+    CHECK(stage.puppet().state() == PuppetState::reacting);
+    CHECK(stage.puppet().strengthLeft(stage.body(Role::leftLowerArm)) < 0.2F);
+    CHECK(stage.height(Role::leftLowerArm) == height);
+}
+
 TEST_CASE("a limp puppet that comes back is led to its pose without a snap, and may be interrupted") {
     for (const SolverKind solver : kOurSolvers) {
         INFO(physics::solverName(solver));
@@ -128,7 +167,7 @@ TEST_CASE("a limp puppet that comes back is led to its pose without a snap, and 
         stage.puppet().goLimp();
         stage.step(12);  // sinks a little
         stage.puppet().comeBack(0.5F);
-        CHECK(stage.puppet().state() == PuppetState::returning);
+        CHECK(stage.puppet().state() == PuppetState::gettingUp);
         float jump = 0.0F;
         float last = stage.turned(Role::leftUpperLeg);
         for (int i = 0; i < 90; ++i) {

@@ -1,0 +1,83 @@
+#include "scene/floor_keeper.hpp"
+
+#include <algorithm>
+#include <array>
+#include <glm/gtc/quaternion.hpp>
+
+#include "animation/ik/two_bone.hpp"
+#include "physics/collision/shape.hpp"
+
+namespace lutka::scene {
+namespace {
+
+using physics::Role;
+
+struct LimbRoles {
+    Role upper, lower, end;
+    float ahead;  // where the middle joint sticks out, standard space: +1 ahead, -1 behind
+};
+constexpr std::array<LimbRoles, 4> kLimbs{{{Role::leftUpperArm, Role::leftLowerArm, Role::leftHand, -1.0F},
+                                           {Role::rightUpperArm, Role::rightLowerArm, Role::rightHand, -1.0F},
+                                           {Role::leftUpperLeg, Role::leftLowerLeg, Role::leftFoot, 1.0F},
+                                           {Role::rightUpperLeg, Role::rightLowerLeg, Role::rightFoot, 1.0F}}};
+
+}  // namespace
+
+FloorKeeper::FloorKeeper(const RagdollAsset& asset) : asset_(&asset) {
+    for (const LimbRoles& roles : kLimbs) {
+        Limb limb;
+        limb.upper = physics::bodyOf(asset.profile, roles.upper);
+        limb.lower = physics::bodyOf(asset.profile, roles.lower);
+        limb.end = physics::bodyOf(asset.profile, roles.end);
+        const bool isChain = limb.upper >= 0 && limb.lower >= 0 && limb.end >= 0 &&
+                             asset.rig.parentBody[limb.lower] == limb.upper &&
+                             asset.rig.parentBody[limb.end] == limb.lower;
+        if (!isChain) continue;
+        limb.bendInUpper = glm::conjugate(asset.rig.bindModelFromBody[limb.upper].rotation) *
+                           (glm::conjugate(asset.profile.standardFromModel) * vec3(0, 0, roles.ahead));
+        limbs_.push_back(limb);
+    }
+}
+
+float FloorKeeper::lowestOf(int body, const RigidTransform& worldFromBody) const {
+    const vec3 up = glm::conjugate(worldFromBody.rotation) * vec3(0, 1, 0);
+    return worldFromBody.translation.y - physics::supportExtent(asset_->profile.bodies[body].shape, up);
+}
+
+void FloorKeeper::closeJoints(std::span<RigidTransform> worldFromBody) const {
+    for (std::size_t body = 1; body < worldFromBody.size(); ++body) {
+        const physics::Rig::Anchor& anchor = asset_->rig.anchors[body];
+        RigidTransform& placed = worldFromBody[body];
+        placed.translation =
+            worldFromBody[asset_->rig.parentBody[body]] * anchor.inParent - placed.rotation * anchor.inChild;
+    }
+}
+
+void FloorKeeper::liftEnd(const Limb& limb, const GroundHeight& ground, std::span<RigidTransform> worldFromBody) const {
+    const RigidTransform& end = worldFromBody[limb.end];
+    const float depth = ground(end.translation) - lowestOf(limb.end, end);
+    if (depth <= 0.0F) return;
+    const auto anchor = [&](int body) { return worldFromBody[body] * asset_->rig.anchors[body].inChild; };
+    const animation::BonePoints points{anchor(limb.upper), anchor(limb.lower), anchor(limb.end)};
+    animation::TwoBoneGoal goal;
+    goal.target = points.end + vec3(0, depth, 0);
+    const vec3 bend = worldFromBody[limb.upper].rotation * limb.bendInUpper;
+    const animation::BoneTurns turns = animation::turnsToReach(points, {}, bend, goal);
+    worldFromBody[limb.upper].rotation = glm::normalize(turns.upper * worldFromBody[limb.upper].rotation);
+    worldFromBody[limb.lower].rotation = glm::normalize(turns.lower * worldFromBody[limb.lower].rotation);
+}
+
+void FloorKeeper::keep(const GroundHeight& ground, std::span<RigidTransform> worldFromBody) const {
+    for (const Limb& limb : limbs_)
+        liftEnd(limb, ground, worldFromBody);
+    closeJoints(worldFromBody);
+    float lift = 0.0F;
+    for (int body = 0; body < static_cast<int>(worldFromBody.size()); ++body) {
+        const RigidTransform& at = worldFromBody[body];
+        lift = std::max(lift, ground(at.translation) - lowestOf(body, at));
+    }
+    for (RigidTransform& body : worldFromBody)
+        body.translation.y += lift;
+}
+
+}  // namespace lutka::scene

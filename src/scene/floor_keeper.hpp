@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "scene/ragdoll_asset.hpp"
+
+namespace lutka::scene {
+
+/// Height of the ground below a point, world, Y up.
+using GroundHeight = std::function<float(const vec3& worldPoint)>;
+
+/// Keeps a pose of bodies out of the floor: hands and feet are lifted by two bones each, and what of the rest is in the
+/// ground lifts the whole figure. Joints stay closed. The asset must outlive this.
+class FloorKeeper {
+  public:
+    explicit FloorKeeper(const RagdollAsset& asset);
+
+    /// In place, one frame a body, world. Continuous in the pose where the ground's height is. Allocates nothing.
+    void keep(const GroundHeight& ground, std::span<RigidTransform> worldFromBody) const;
+    /// Places all bodies but the root from their rotations, so that the joints are closed.
+    void closeJoints(std::span<RigidTransform> worldFromBody) const;
+    /// The height of a body's lowest point.
+    [[nodiscard]] float lowestOf(int body, const RigidTransform& worldFromBody) const;
+
+  private:
+    struct Limb {
+        int upper = -1, lower = -1, end = -1;  // bodies
+        vec3 bendInUpper{0, 0, 1};             // where elbow or knee sticks out
+    };
+    void liftEnd(const Limb& limb, const GroundHeight& ground, std::span<RigidTransform> worldFromBody) const;
+
+    const RagdollAsset* asset_;
+    std::vector<Limb> limbs_;
+};
+
+}  // namespace lutka::scene

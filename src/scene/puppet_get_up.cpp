@@ -1,0 +1,234 @@
+/// PuppetCast: from lying limp to standing.
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "scene/puppet_cast.hpp"
+
+namespace lutka::scene {
+namespace {
+
+using physics::BodyState;
+using physics::PuppetState;
+
+constexpr float kRestSpeed = 0.12F;           // m/s, root of the mean square by mass: slower is at rest
+constexpr float kRestSeconds = 0.3F;          // for so long, before it gets up
+constexpr float kStrengthSeconds = 0.3F;      // in which its strength comes
+constexpr float kSlowStart = 0.4F;            // of the clip's speed, while the doll is still on its way into it
+constexpr float kMostTurn = radians(330.0F);  // rad/s of a joint on the way
+constexpr int kMostThrough = 8;               // bodies that a ray to the ground goes through
+constexpr float kRayM = 10.0F;
+constexpr float kFootStillMps = 0.06F;  // a foot of the pose that is slower stands
+constexpr float kFootLowM = 0.03F;      // and is lower over the ground
+constexpr float kFootFlat = radians(20.0F);
+
+// Frames relative to the parent bodies'; the root's stays in the world.
+void relativeOf(const physics::Rig& rig, std::span<const RigidTransform> world, std::vector<RigidTransform>& relative) {
+    relative.resize(world.size());
+    relative[0] = world[0];
+    for (std::size_t body = 1; body < world.size(); ++body)
+        relative[body] = inverse(world[rig.parentBody[body]]) * world[body];
+}
+
+// Where a body was `dt` seconds ago.
+RigidTransform before(const BodyState& body, float dt) {
+    const vec3 turn = body.angularVelocity * -dt;
+    const float angle = glm::length(turn);
+    const quat back = angle > 1e-7F ? glm::angleAxis(angle, turn / angle) : quat(1, 0, 0, 0);
+    return {glm::normalize(back * body.worldFromBody.rotation),
+            body.worldFromBody.translation - body.linearVelocity * dt};
+}
+
+// The turn about the vertical that is in a rotation.
+quat headingOf(const quat& turn) {
+    const float length = std::hypot(turn.w, turn.y);
+    return length > 1e-4F ? quat(turn.w / length, 0, turn.y / length, 0) : quat(1, 0, 0, 0);
+}
+
+}  // namespace
+
+// Bodies of dolls are gone through; far below there is ground in any case.
+float PuppetCast::groundBelow(const vec3& point) const {
+    vec3 from = point;
+    for (int i = 0; i < kMostThrough; ++i) {
+        const auto hit = world_->rayTest(from, from - vec3(0, kRayM, 0));
+        if (!hit) break;
+        if (!hit->doll.isSet()) return hit->position.y;
+        from = hit->position - vec3(0, 1e-3F, 0);
+    }
+    return point.y - kRayM;
+}
+
+void PuppetCast::watchRest(Actor& actor, float dt) {
+    if (actor.puppet->state() != PuppetState::limp) {
+        actor.rest = 0.0F;
+        return;
+    }
+    actor.rising.reset();
+    bodies_.resize(actor.asset->profile.bodies.size());
+    world_->getBodies(actor.puppet->doll(), bodies_);
+    float energy = 0.0F;
+    float mass = 0.0F;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const float m = actor.asset->profile.bodies[i].massKg;
+        energy += m * glm::dot(bodies_[i].linearVelocity, bodies_[i].linearVelocity);
+        mass += m;
+    }
+    const bool rests = world_->isAsleep(actor.puppet->doll()) || energy < mass * kRestSpeed * kRestSpeed;
+    actor.rest = rests ? actor.rest + dt : 0.0F;
+    if (actor.rest >= kRestSeconds) beginRising(actor, dt);
+}
+
+// From where the doll lies, bodies_, into the frame that is most like it.
+void PuppetCast::beginRising(Actor& actor, float dt) {
+    GetUpClips& clips = *getUps_[actor.assetIndex];
+    now_.resize(bodies_.size());
+    before_.resize(bodies_.size());
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        now_[i] = bodies_[i].worldFromBody;
+        before_[i] = before(bodies_[i], dt);
+    }
+    actor.ground = groundBelow(now_[actor.root].translation);
+    actor.rising = clips.match(now_, actor.ground);
+    actor.risen = actor.rising->seconds;
+    actor.risingSeconds = actor.rest;
+    actor.from = before_;
+    actor.to = now_;
+    actor.raw.resize(now_.size());
+    clips.sample(*actor.rising, actor.risen, actor.raw);
+    blendInto(actor, actor.raw, actor.raw, dt);
+    actor.puppet->getUp(kStrengthSeconds);
+    actor.joints.clear();
+    ++risen_.begun;
+    matchedM_ += static_cast<double>(actor.rising->distanceM);
+}
+
+// From what is shown into a motion that went from `rawBefore` to `raw` in a step.
+void PuppetCast::blendInto(Actor& actor, std::span<const RigidTransform> rawBefore, std::span<const RigidTransform> raw,
+                           float dt) {
+    std::vector<RigidTransform> shownBefore, shown, aimBefore, aim;
+    const physics::Rig& rig = actor.asset->rig;
+    relativeOf(rig, actor.from, shownBefore);
+    relativeOf(rig, actor.to, shown);
+    relativeOf(rig, rawBefore, aimBefore);
+    relativeOf(rig, raw, aim);
+    actor.blend.begin(shownBefore, shown, aimBefore, aim, dt);
+}
+
+// What the doll is to do: the raw motion, blended into, and out of the floor while that is not sure.
+void PuppetCast::show(Actor& actor, float dt) {
+    std::swap(actor.from, actor.to);
+    actor.to = actor.raw;
+    actor.blend.advance(dt);
+    const bool blends = !actor.blend.isOver();
+    if (blends) {
+        relativeOf(actor.asset->rig, actor.to, relative_);
+        actor.blend.apply(relative_);
+        actor.to[0] = relative_[0];
+        for (std::size_t body = 1; body < relative_.size(); ++body)
+            actor.to[body] = actor.to[actor.asset->rig.parentBody[body]] * relative_[body];
+    }
+    if (!blends && !actor.rising && !actor.isHeldBack) return;
+    actor.floor->closeJoints(actor.to);
+    const float level = actor.ground;
+    if (blends || actor.rising)
+        actor.floor->keep([&](const vec3& point) { return isLevel_ ? level : groundBelow(point); }, actor.to);
+    actor.isHeldBack = holdBack(actor, dt);
+}
+
+// No joint of what is shown turns faster than kMostTurn: limbs that the floor bends and hasty clips come after.
+bool PuppetCast::holdBack(Actor& actor, float dt) {
+    relativeOf(actor.asset->rig, actor.from, before_);
+    relativeOf(actor.asset->rig, actor.to, relative_);
+    bool held = false;
+    for (std::size_t body = 1; body < relative_.size(); ++body) {
+        const vec3 turn =
+            rotationVector(glm::normalize(relative_[body].rotation * glm::conjugate(before_[body].rotation)));
+        const float angle = glm::length(turn);
+        if (angle > kMostTurn * dt) {
+            held = true;
+            relative_[body].rotation =
+                glm::normalize(glm::angleAxis(kMostTurn * dt, turn / angle) * before_[body].rotation);
+        }
+        actor.to[body].rotation =
+            glm::normalize(actor.to[actor.asset->rig.parentBody[body]].rotation * relative_[body].rotation);
+    }
+    if (held) actor.floor->closeJoints(actor.to);
+    return held;
+}
+
+void PuppetCast::rise(Actor& actor, float dt) {
+    GetUpClips& clips = *getUps_[actor.assetIndex];
+    actor.risingSeconds += dt;
+    actor.risen += dt * (kSlowStart + (1.0F - kSlowStart) * actor.blend.share());
+    clips.sample(*actor.rising, actor.risen, actor.raw);
+    if (actor.risen >= clips.seconds(actor.rising->clip)) {
+        standUp(actor, dt);
+        return;
+    }
+    show(actor, dt);
+}
+
+// On with the clip, over the place where it stands and as it heads.
+void PuppetCast::standUp(Actor& actor, float dt) {
+    actor.rising.reset();
+    actor.puppet->stand();
+    ++risen_.stood;
+    risenSeconds_ += static_cast<double>(actor.risingSeconds);
+    risen_.mostSeconds = std::max(risen_.mostSeconds, actor.risingSeconds);
+    for (Actor::Foot& foot : actor.feet)
+        foot.stands = false;
+    const RigidTransform stands = actor.to[actor.root];
+    actor.player->play(0, 0, {});
+    actor.worldFromModel = {actor.asset->map.standardFromModel, {0, actor.ground + actor.lift, 0}};
+    pose(actor, now_);
+    const quat heading = headingOf(glm::normalize(stands.rotation * glm::conjugate(now_[actor.root].rotation)));
+    actor.worldFromModel.rotation = glm::normalize(heading * actor.worldFromModel.rotation);
+    const vec3 shift = stands.translation - heading * now_[actor.root].translation;
+    actor.worldFromModel.translation = heading * actor.worldFromModel.translation + vec3(shift.x, 0, shift.z);
+    pose(actor, actor.raw);
+    blendInto(actor, actor.raw, actor.raw, dt);
+    playOn(actor, dt);
+}
+
+// Bodies are in frames_ after a step.
+void PuppetCast::measureRising(Actor& actor) {
+    const physics::RagdollProfile& profile = actor.asset->profile;
+    const bool hadJoints = !actor.joints.empty();
+    actor.joints.resize(profile.constraints.size());
+    for (std::size_t i = 0; i < profile.constraints.size(); ++i) {
+        const physics::ConstraintProfile& joint = profile.constraints[i];
+        const quat now = glm::conjugate(frames_[joint.parent].rotation) * frames_[joint.child].rotation;
+        const quat step = glm::normalize(now * glm::conjugate(actor.joints[i]));
+        actor.joints[i] = now;
+        const float turned = hadJoints ? degrees(glm::length(rotationVector(step))) : 0.0F;
+        if (turned <= risen_.mostStepDeg) continue;
+        risen_.mostStepDeg = turned;
+        risen_.stepJoint = profile.bodies[joint.child].name;
+    }
+    for (Actor::Foot& foot : actor.feet) {
+        if (foot.body < 0) continue;
+        const RigidTransform& aim = actor.to[foot.body];
+        const quat off = aim.rotation * glm::conjugate(actor.asset->rig.bindModelFromBody[foot.body].rotation) *
+                         glm::conjugate(actor.asset->map.standardFromModel);
+        const vec3 up = off * vec3(0, 1, 0);
+        const bool stands = glm::distance(aim.translation, actor.from[foot.body].translation) < kFootStillMps * dt_ &&
+                            actor.floor->lowestOf(foot.body, aim) < actor.ground + kFootLowM &&
+                            up.y > std::cos(kFootFlat);
+        const vec3 at = frames_[foot.body].translation;
+        if (stands && !foot.stands) foot.at = at;
+        foot.stands = stands;
+        if (stands) risen_.mostSlideM = std::max(risen_.mostSlideM, std::hypot(at.x - foot.at.x, at.z - foot.at.z));
+    }
+}
+
+GetUpFigures PuppetCast::getUpFigures() const {
+    GetUpFigures figures = risen_;
+    if (risen_.stood > 0) figures.meanSeconds = static_cast<float>(risenSeconds_ / risen_.stood);
+    if (risen_.begun > 0) figures.meanDistanceM = static_cast<float>(matchedM_ / risen_.begun);
+    return figures;
+}
+
+}  // namespace lutka::scene

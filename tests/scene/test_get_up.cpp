@@ -1,0 +1,133 @@
+#include <glm/gtc/quaternion.hpp>
+
+#include "scene/floor_keeper.hpp"
+#include "scene/get_up_clips.hpp"
+#include "scene/report.hpp"
+#include "scene/simulation.hpp"
+#include "support/catch.hpp"
+#include "support/ragdolls.hpp"
+
+using namespace lutka;
+using physics::PuppetState;
+using physics::Role;
+using physics::SolverKind;
+using scene::GetUpClips;
+using scene::Lying;
+
+namespace {
+
+const scene::RagdollAsset& getUpMannequin() {
+    static const auto asset = scene::loadRagdoll(std::filesystem::path(LUTKA_ASSETS_DIR) / "models/mannequin.glb");
+    REQUIRE(asset);
+    return *asset.value();
+}
+
+// The bodies of a clip's frame, standing on the world's ground with the figure turned by `yaw`.
+std::vector<RigidTransform> frameOf(const scene::RagdollAsset& asset, const char* clip, float seconds, float yaw,
+                                    const vec3& place) {
+    auto clips = GetUpClips::create(asset, nullptr);
+    REQUIRE(clips);
+    std::vector<RigidTransform> bodies(asset.profile.bodies.size());
+    for (int i = 0; i < clips.value().clipCount(); ++i) {
+        if (clips.value().name(i) != clip) continue;
+        clips.value().sample({i, seconds, {glm::angleAxis(yaw, vec3(0, 1, 0)), place}, 0.0F}, seconds, bodies);
+        return bodies;
+    }
+    FAIL("there is no such clip");
+    return bodies;
+}
+
+std::unique_ptr<scene::Simulation> falls(SolverKind solver, int dolls, float seconds,
+                                         std::vector<scene::PuppetHit> hits = {}) {
+    auto scenario = scene::makeScenario({.name = "spread", .count = dolls, .seed = 3}, getUpMannequin());
+    REQUIRE(scenario);
+    scene::SimulationOptions options;
+    options.world.solver = solver;
+    scene::PuppetPlay play;
+    play.getUp = true;
+    play.limp = true;
+    play.hits = std::move(hits);
+    options.puppet = play;
+    auto simulation = scene::Simulation::create(getUpMannequin(), std::move(scenario).value(), options);
+    REQUIRE(simulation);
+    for (int i = 0; i < static_cast<int>(seconds * 60.0F); ++i)
+        simulation.value()->step();
+    return std::move(simulation).value();
+}
+
+}  // namespace
+
+TEST_CASE(
+    "how a figure lies is told from its trunk, and the frame that it lies like is found with its place and heading") {
+    const scene::RagdollAsset& asset = getUpMannequin();
+    auto clips = GetUpClips::create(asset, nullptr);
+    REQUIRE(clips);
+    CHECK(clips.value().clipCount() == 4);
+    const std::pair<const char*, Lying> ways[] = {{"get_up_prone", Lying::prone},
+                                                  {"get_up_supine", Lying::supine},
+                                                  {"get_up_left", Lying::leftSide},
+                                                  {"get_up_right", Lying::rightSide}};
+    for (const auto& [name, lying] : ways) {
+        INFO(name);
+        const auto bodies = frameOf(asset, name, 0.0F, 1.3F, {3, 0.5F, -2});
+        CHECK(scene::lyingOf(asset, bodies) == lying);
+        const GetUpClips::Match match = clips.value().match(bodies, 0.5F);
+        CHECK(clips.value().name(match.clip) == name);
+        CHECK(match.seconds == 0.0F);
+        CHECK(match.distanceM < 1e-3F);
+        std::vector<RigidTransform> again(bodies.size());
+        clips.value().sample(match, match.seconds, again);
+        CHECK(glm::distance(again[0].translation, bodies[0].translation) < 1e-3F);
+    }
+}
+
+TEST_CASE("limp dolls fall, get up, and go on standing in both solvers, no joint snaps and feet stay") {
+    for (const SolverKind solver : {SolverKind::crowd, SolverKind::bullet}) {
+        INFO(physics::solverName(solver));
+        const auto simulation = falls(solver, 9, 9.0F);
+        const scene::GetUpFigures up = simulation->puppets()->getUpFigures();
+        INFO(up.mostStepDeg << " degrees in a step at " << up.stepJoint << ", feet slid " << up.mostSlideM << " m");
+        CHECK(up.stood == 9);
+        CHECK(up.mostSeconds <= 4.0F);
+        CHECK(up.mostStepDeg <= 15.0F);
+        CHECK(up.mostSlideM <= (solver == SolverKind::crowd ? 0.05F : 0.15F));
+        for (int doll = 0; doll < simulation->dollCount(); ++doll) {
+            CHECK(simulation->puppets()->puppet(doll).state() == PuppetState::animated);
+            CHECK(simulation->worldFromBody(doll).front().translation.y > 0.85F);
+        }
+        CHECK(simulation->quality().nonFinite == 0);
+        CHECK(scene::reportText(*simulation).find("got up") != std::string::npos);
+    }
+}
+
+TEST_CASE("a doll that is struck down on its way up lies, and gets up again") {
+    const auto once = falls(SolverKind::crowd, 1, 3.5F);
+    REQUIRE(once->puppets()->puppet(0).state() == PuppetState::gettingUp);
+    const auto twice =
+        falls(SolverKind::crowd, 1, 12.0F, {{Role::hips, 3.5F, {0, 0, 400}}, {Role::upperChest, 3.5F, {0, 0, 400}}});
+    CHECK(twice->puppets()->getUpFigures().begun >= 2);
+    CHECK(twice->puppets()->figures().knockOuts >= 1);
+    CHECK(twice->puppets()->puppet(0).state() == PuppetState::animated);
+}
+
+TEST_CASE("hands and feet in the floor are lifted by their limbs, the rest with the whole figure") {
+    const scene::RagdollAsset& asset = getUpMannequin();
+    const scene::FloorKeeper keeper(asset);
+    const auto level = [](const vec3&) { return 0.0F; };
+    auto bodies = frameOf(asset, "get_up_prone", 1.0F, 0.4F, vec3(0));
+    keeper.keep(level, bodies);
+    const auto before = bodies;
+    for (RigidTransform& body : bodies)
+        body.translation.y -= 0.08F;
+    keeper.keep(level, bodies);
+    for (int body = 0; body < static_cast<int>(bodies.size()); ++body)
+        CHECK(keeper.lowestOf(body, bodies[body]) > -1e-3F);
+    // What is out of the floor stays as it is.
+    auto high = before;
+    for (RigidTransform& body : high)
+        body.translation.y += 0.5F;
+    const auto kept = high;
+    keeper.keep(level, high);
+    for (std::size_t body = 0; body < high.size(); ++body)
+        CHECK(glm::distance(high[body].translation, kept[body].translation) < 1e-3F);
+}
