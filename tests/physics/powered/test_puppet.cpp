@@ -122,7 +122,9 @@ TEST_CASE("hits add up, and too much of them is a knock-out: the doll falls like
 TEST_CASE("a puppet that gets up does so until it stands, and a hit that is too much ends it") {
     for (const SolverKind solver : kOurSolvers) {
         INFO(physics::solverName(solver));
-        Stage stage(solver, {});
+        PuppetSettings settings;
+        settings.knockOutLoss = 0.4F;
+        Stage stage(solver, settings);
         stage.step(10);
         stage.puppet().stand();  // means nothing to one that stands
         CHECK(stage.puppet().state() == PuppetState::animated);
