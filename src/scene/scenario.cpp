@@ -367,7 +367,6 @@ void march(Context& context) {
     for (int i = 0; i < context.count; ++i) {
         Ragdoll& doll =
             placeFeet(context, standAt(context, gridPlace(i, context.count, 1.8F) + vec3(0, 0, -3.0F)), kUpright);
-        doll.clip = ClipStart{"walk", context.random.uniform(0.02F, 1.0F)};
         const float angle = context.random.uniform(0, 2 * kPi);
         const bool hard = context.random.uniform(0, 1) < 0.35F;
         const float seconds = context.random.uniform(0.5F, 4.0F);
