@@ -21,6 +21,7 @@ LUTKA_TEST_PACKAGES+=(pybind11-dev python3-dev python3-pytest)
 LUTKA_PACKAGE_PACKAGES=(dpkg-dev help2man)
 # Readers of what is exported (tests/witness). npm comes with the nodejs of other sources than Debian.
 LUTKA_WITNESS_PACKAGES=(libmujoco-dev godot3-server blender liburdfdom-tools)
+LUTKA_WITNESS_PACKAGES+=(parallel slurm-wlm munge)  # ways to run a batch
 command -v npm >/dev/null || LUTKA_WITNESS_PACKAGES+=(nodejs npm)
 LUTKA_FUZZ_PACKAGES=(clang-14 libclang-rt-14-dev)
 

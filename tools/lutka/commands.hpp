@@ -16,5 +16,6 @@ void addRender(const Command& app);
 void addRetarget(const Command& app);
 void addEdit(const Command& app);
 void addBench(const Command& app);
+void addBatch(const Command& app);
 
 }  // namespace lutka::cli

@@ -46,6 +46,7 @@ void addCommands(const lutka::cli::Command& app) {
     lutka::cli::addExport(app);
     lutka::cli::addEdit(app);
     lutka::cli::addBench(app);
+    lutka::cli::addBatch(app);
 }
 
 // The exit code; whatever was thrown ends here.
