@@ -76,3 +76,36 @@ TEST_CASE("wrong lists and shards are refused by name") {
     CHECK_THAT(result.err, Catch::Contains("format"));
     CHECK(lutkaCommand("batch nowhere.json --out " + (folder / "out")).code == 3);
 }
+
+TEST_CASE("a sweep of frames measures each case in a process of its own and writes a CSV") {
+    const ScratchFolder folder;
+    const std::string csv = folder / "sweep.csv";
+    const CommandResult result = lutkaCommand(
+        "bench --mode headless --count 1,3 --scene spread --threads 1,2 --vsync off,on --steps 10 --warm-up 2 --size "
+        "64x64 --json --csv " +
+        csv + " " + kMannequinArgument);
+    NEEDS_DISPLAY_OF(result);
+    REQUIRE(result.code == 0);
+    const Json cases = Json::parse(result.out)["cases"];
+    REQUIRE(cases.size() == 4);  // without a window there is no VSync
+    for (const Json& one : cases) {
+        CHECK(one["frames"] == 10);
+        CHECK(one["fps"].get<double>() > 0.0);
+        const double parts = one["simulate_ms"].get<double>() + one["pose_ms"].get<double>() +
+                             one["draw_ms"].get<double>() + one["show_ms"].get<double>();
+        CHECK(parts == Approx(one["frame_ms"].get<double>()).epsilon(0.01));
+        CHECK(one["error"] == "");
+    }
+    CHECK((cases[1]["count"] == 3 && cases[2]["threads"] == 2));
+    const std::string text = fileText(csv);
+    CHECK(std::count(text.begin(), text.end(), '\n') == 5);
+}
+
+TEST_CASE("a sweep tells what can't be measured") {
+    const CommandResult window = lutkaCommand("bench --mode window --count 1 --steps 10");
+    CHECK(window.code == 6);  // no display
+    const CommandResult nothing = lutkaCommand("bench --mode headless --vsync on --count 1");
+    CHECK(nothing.code == 2);
+    CHECK_THAT(nothing.err, Catch::Contains("--vsync"));
+    CHECK(lutkaCommand("bench --mode compare,headless --count 1").code == 2);
+}
