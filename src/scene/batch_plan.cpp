@@ -15,7 +15,7 @@ namespace lutka::scene {
 namespace {
 
 constexpr int kMostItems = 100'000;
-constexpr long long kLargestSeed = 999'999'999'999'999'999;  // as on the command line
+constexpr long long kLargestBatchSeed = 999'999'999'999'999'999;  // as on the command line
 
 void readModel(const JsonCursor& item, const std::filesystem::path& folder, const nlohmann::json& value,
                BatchModel& model) {
@@ -54,7 +54,7 @@ void readSeeds(const JsonCursor& seeds, const nlohmann::json& value, std::vector
     list.clear();
     if (value.is_object()) {
         seeds.expectObject({"from", "count"});
-        const auto from = seeds["from"].wholeNumber(0, kLargestSeed - kMostItems);
+        const auto from = seeds["from"].wholeNumber(0, kLargestBatchSeed - kMostItems);
         const auto count = seeds["count"].wholeNumber(1, kMostItems);
         for (long long i = 0; from && count && i < *count; ++i)
             list.push_back(static_cast<std::uint64_t>(*from + i));
@@ -62,7 +62,8 @@ void readSeeds(const JsonCursor& seeds, const nlohmann::json& value, std::vector
     }
     if (!seeds.expectArray(1, kMostItems)) return;
     for (std::size_t i = 0; i < seeds.size(); ++i)
-        if (const auto seed = seeds[i].wholeNumber(0, kLargestSeed)) list.push_back(static_cast<std::uint64_t>(*seed));
+        if (const auto seed = seeds[i].wholeNumber(0, kLargestBatchSeed))
+            list.push_back(static_cast<std::uint64_t>(*seed));
 }
 
 void readOptions(const JsonCursor& root, BatchPlan& plan) {
