@@ -72,9 +72,14 @@ bool cover(const std::vector<vec3>& points, const std::vector<vec3>& joints) {
     return static_cast<double>(inside) >= kLeastShare * static_cast<double>(joints.size());
 }
 
+struct FigurePoints {
+    std::vector<vec3> points;
+    bool meshesCover = true;  // the meshes lie about the skeleton: they tell which of its joints are the figure's
+};
+
 // What the height of the figure is measured on: skins and their joints, else rigid meshes; the joints, too, where these
 // cover few of them or are not there.
-std::vector<vec3> pointsOfFigure(Character& character, std::span<const dmat4> bind) {
+FigurePoints pointsOfFigure(Character& character, std::span<const dmat4> bind) {
     std::vector<vec3> points;
     const int root = rootOfFigure(character.skeleton);
     bool skinned = false;
@@ -89,13 +94,13 @@ std::vector<vec3> pointsOfFigure(Character& character, std::span<const dmat4> bi
         if (deforms) points.emplace_back(bind[joint][3]);
         if (isAncestorOrSelf(character.skeleton, root, joint)) joints.emplace_back(bind[joint][3]);
     }
-    if (!points.empty() && (joints.size() < kFewestJointsOfFigure || cover(points, joints))) return points;
+    if (!points.empty() && (joints.size() < kFewestJointsOfFigure || cover(points, joints))) return {points, true};
     if (!points.empty()) {
         character.warnings.emplace_back(
             "the meshes lie about hardly any of the skeleton's joints: the figure's height is that of the joints");
     }
     points.insert(points.end(), joints.begin(), joints.end());
-    return points;
+    return {points, false};
 }
 
 void settleMeshes(const UnitsAndAxes& units, std::vector<SkinnedMesh>& meshes) {
@@ -112,14 +117,14 @@ void settleMeshes(const UnitsAndAxes& units, std::vector<SkinnedMesh>& meshes) {
 }
 
 // Joints that move no skin and stand far from all that do (the root of an armature that was moved) would make the
-// figure as large as the way there: they stand at the origin instead. Of a file without a skin all joints below the
-// figure's root count as its own.
-void bringAlong(const UnitsAndAxes& units, const Skeleton& skeleton, std::span<dmat4> bind) {
+// figure as large as the way there: they stand at the origin instead. Of a file without a skin, or with one that covers
+// hardly any joints (a plane beside an armature), all joints below the figure's root count as its own.
+void bringAlong(const UnitsAndAxes& units, const Skeleton& skeleton, bool skinCovers, std::span<dmat4> bind) {
     constexpr double kFar = 4.0;  // reaches of the skin's joints
     const dmat4 modelFromScene = units.modelFromScene();
     const auto away = [&](std::size_t joint) { return glm::length(dvec3(modelFromScene * bind[joint][3])); };
     const auto weighs = [](float weight) { return weight > 0.0F; };
-    const bool skinned = std::any_of(skeleton.skinWeight.begin(), skeleton.skinWeight.end(), weighs);
+    const bool skinned = skinCovers && std::any_of(skeleton.skinWeight.begin(), skeleton.skinWeight.end(), weighs);
     const int root = rootOfFigure(skeleton);
     const auto isOfFigure = [&](std::size_t joint) {
         return skinned ? weighs(skeleton.skinWeight[joint]) : isAncestorOrSelf(skeleton, root, static_cast<int>(joint));
@@ -218,10 +223,10 @@ Result<Character> buildCharacter(SourceScene source, const std::filesystem::path
     std::vector<dmat4> bind = solveBindPose(tree, instances);
     character.meshes = convertMeshes(tree, instances, bind, character.skeleton.skinWeight, character.warnings);
     turnOutwards(character.meshes, character.warnings);
-    const UnitsAndAxes units =
-        settleUnits(source.convention, pointsOfFigure(character, bind), options, character.warnings);
+    const FigurePoints figure = pointsOfFigure(character, bind);
+    const UnitsAndAxes units = settleUnits(source.convention, figure.points, options, character.warnings);
     character.units = units.info;
-    bringAlong(units, character.skeleton, bind);
+    bringAlong(units, character.skeleton, figure.meshesCover, bind);
     settleMeshes(units, character.meshes);
     for (SkinnedMesh& mesh : character.meshes)
         orderForSkinning(mesh);

@@ -92,6 +92,17 @@ TEST_CASE("Collada in UTF-16 is read as in UTF-8") {
     }
 }
 
+TEST_CASE("a polylist's count is that of its polygons, and colours have four numbers") {
+    using rig_import::tidyCollada;
+    CHECK(tidyCollada("<polylist material=\"a\" count=\"4\"><input offset=\"0\"/><vcount>4 3</vcount></polylist>") ==
+          "<polylist material=\"a\" count=\"2\"><input offset=\"0\"/><vcount>4 3</vcount></polylist>");
+    CHECK(tidyCollada("<vertex_weights count=\"3\"><vcount>1 1</vcount>") ==
+          "<vertex_weights count=\"3\"><vcount>1 1</vcount>");
+    CHECK(tidyCollada("<color> 0.1 0.2  0.3 </color><color>1 1 1 0.5</color>") ==
+          "<color>0.1 0.2 0.3 1</color><color>1 1 1 0.5</color>");
+    CHECK(tidyCollada("<polylist><vcount>3</vcount>") == "<polylist><vcount>3</vcount>");
+}
+
 TEST_CASE("tidying leaves tags, comments and character data as they are") {
     using rig_import::tidyCollada;
     CHECK(tidyCollada("<a b=' > '  c=\"'>\">\n 1 \t 2 </a>") == "<a b=' > '  c=\"'>\">1 2</a>");

@@ -239,6 +239,32 @@ TEST_CASE("a shared node, a ring of nodes and a deep chain are refused by name o
     refusedFor(chain, "4096");
 }
 
+TEST_CASE("a small skinned mesh at one end of an armature does not draw the other joints to the origin") {
+    const TemporaryFolder folder;
+    GltfFile file;
+    std::vector<int> nodes;
+    std::vector<mat4> inverseBinds;
+    for (int i = 0; i < 12; ++i) {
+        const float height = 0.15F * static_cast<float>(i);
+        nodes.push_back(file.addNode("joint" + std::to_string(i), i == 0 ? -1 : nodes.back(),
+                                     glm::translate(mat4(1.0F), vec3(0, i == 0 ? 0.0F : 0.15F, 0))));
+        inverseBinds.push_back(glm::translate(mat4(1.0F), vec3(0, -height, 0)));
+    }
+    Post plane = makePost();
+    for (std::size_t v = 0; v < plane.positions.size(); ++v) {
+        plane.positions[v] *= 0.1F;
+        plane.skin[v].joints[0] = 1;
+    }
+    const int body = file.addNode("Plane", -1);
+    file.json["nodes"][body]["mesh"] = addPostMesh(file, plane);
+    file.json["nodes"][body]["skin"] = addSkin(file, nodes, inverseBinds);
+    file.saveBinary(folder / "helper.glb");
+    const Character character = imported(folder / "helper.glb");
+    const int top = findJoint(character.skeleton, "joint11");
+    REQUIRE(top >= 0);
+    CHECK(std::abs(character.skeleton.bindModelFromJoint[top].translation.y - 1.65F) < 1e-4F);
+}
+
 TEST_CASE("a figure far from the origin is brought to it with a word, and things beside it are left out") {
     const TemporaryFolder folder;
     GltfFile far = makePostRig(glm::translate(mat4(1.0F), vec3(100, 0, -40)));

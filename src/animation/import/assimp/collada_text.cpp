@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace lutka::animation::rig_import {
 namespace {
@@ -92,17 +93,60 @@ void appendTidy(std::string_view text, std::string& out) {
     }
 }
 
+std::size_t wordsIn(std::string_view text) {
+    std::size_t words = 0;
+    for (std::size_t at = text.find_first_not_of(kBlanks); at != std::string_view::npos; ++words)
+        at = text.find_first_not_of(kBlanks, text.find_first_of(kBlanks, at));
+    return words;
+}
+
+// Some exporters join triangles to polygons and leave the count of the triangles.
+void setCount(std::string& out, std::size_t tag, std::size_t count) {
+    constexpr std::string_view kCount = " count=\"";
+    const std::size_t found = std::min(out.find(kCount, tag), out.size());
+    const std::size_t value = found + kCount.size();
+    const std::size_t end = out.find('"', std::min(value, out.size()));
+    if (found >= out.find('>', tag) || end == std::string::npos) return;
+    out.replace(value, end - value, std::to_string(count));
+}
+
+// Writes the text of elements and their tags, and knows in which element it is.
+class TidyWriter {
+  public:
+    explicit TidyWriter(std::size_t size) { out_.reserve(size); }
+
+    void text(std::string_view text) {
+        appendTidy(text, out_);
+        if (tag_ == "<vcount" && polygons_ != std::string::npos) setCount(out_, polygons_, wordsIn(text));
+        // One exporter leaves the opacity out.
+        if (tag_ == "<color" && wordsIn(text) == 3) out_ += " 1";
+    }
+
+    void markup(std::string_view markup) {
+        tag_ = markup.substr(0, markup.find_first_of(" \t\r\n/>", 1));
+        if (tag_ == "<polylist") polygons_ = out_.size();
+        if (markup == "</polylist>") polygons_ = std::string::npos;
+        out_ += markup;
+    }
+
+    [[nodiscard]] std::string take() { return std::move(out_); }
+
+  private:
+    std::string out_;
+    std::string_view tag_;
+    std::size_t polygons_ = std::string::npos;  // where the tag of the polygons begins that the text is in
+};
+
 std::string tidyText(std::string_view text) {
-    std::string out;
-    out.reserve(text.size());
+    TidyWriter out(text.size());
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t markup = std::min(text.find('<', at), text.size());
-        appendTidy(text.substr(at, markup - at), out);
+        out.text(text.substr(at, markup - at));
         const std::size_t end = markup < text.size() ? endOfMarkup(text, markup) : markup;
-        out += text.substr(markup, end - markup);
+        out.markup(text.substr(markup, end - markup));
         at = end;
     }
-    return out;
+    return out.take();
 }
 
 }  // namespace
