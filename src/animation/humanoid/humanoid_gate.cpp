@@ -17,6 +17,9 @@ constexpr float kLeastHandHeight = 0.16F;       // above the feet, as a share of
 constexpr float kNamedBlock = 2.0F;
 constexpr float kBlocksShape = 1.0F;
 constexpr float kBlocksWhole = 5.0F;
+// Names of every joint of all four limbs, of hips and head carry a figure of any proportions whose trunk is upright.
+constexpr float kToldTrunk = 8.0F;
+constexpr float kToldShape = 12.0F;
 constexpr float kLeastRise = 0.10F;  // of the arms' roots above the legs', as a share of the legs' length
 
 float angleTo(const vec3& direction, const vec3& axis) {
@@ -114,8 +117,11 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     // Names alone never make a humanoid, but they carry one that is put together oddly.
     const float names = figure.legs.names + figure.arms.names + figure.trunk.names;
     const bool blocks = figure.isBlocky() && figure.legs.names > kNamedBlock && figure.arms.names > kNamedBlock;
-    const float helpShape = std::clamp(0.2F * names, -6.0F, 4.0F) + (blocks ? kBlocksShape : 0.0F);
-    const float helpWhole = std::clamp(0.6F * names, -10.0F, 10.0F) + (blocks ? kBlocksWhole : 0.0F);
+    const bool told = figure.legs.told && figure.arms.told && figure.trunk.names >= kToldTrunk;
+    const float helpShape =
+        std::clamp(0.2F * names, -6.0F, 4.0F) + (blocks ? kBlocksShape : 0.0F) + (told ? kToldShape : 0.0F);
+    const float helpWhole =
+        std::clamp(0.6F * names, -10.0F, 10.0F) + (blocks ? kBlocksWhole : 0.0F) + (told ? kToldShape : 0.0F);
     if (figure.shapeScore() + helpShape < kLeastShapeScore ||
         figure.score - figure.prior - names + helpWhole < kLeastWholeScore) {
         return fmt::format("the limbs have not the proportions of a human figure (score {:.1f})", figure.shapeScore());

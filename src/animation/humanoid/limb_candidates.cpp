@@ -168,7 +168,9 @@ class LimbFinder {
     [[nodiscard]] float linkTerm(int upper, int lower) const {
         if (framed_.isAbove(upper, lower)) return skipped(upper, lower) + mainBranchTerm(upper, lower);
         if (!mayContinueDetached(upper, lower)) return kImpossible;
-        return endsThere_[upper] ? kDetached : kDetachedFromMore;
+        if (areNamedInOrder(upper, lower)) return kDetachedNamed;
+        // A hand or foot by its name may hang on a control, though helpers hang on the limb.
+        return endsThere_[upper] || isSurelyEnd(lower) ? kDetached : kDetachedFromMore;
     }
 
     // All readings that start at a pair: of one joint, two and three; the best few are kept.
@@ -214,6 +216,12 @@ class LimbFinder {
 
     [[nodiscard]] bool saysLimb(int pair) const { return isNamed(pair, 0) || isNamed(pair, 1) || isNamed(pair, 2); }
 
+    [[nodiscard]] bool areNamedInOrder(int upper, int lower) const {
+        return (isNamed(upper, 0) && isNamed(lower, 1)) || (isNamed(upper, 1) && isNamed(lower, 2));
+    }
+
+    [[nodiscard]] bool isSurelyEnd(int pair) const { return at(pair).names[parts_[2]] >= kSurelyNamed; }
+
     [[nodiscard]] bool isNamed(int pair, int slot) const { return at(pair).names[parts_[slot]] >= kNamedPart; }
 
     // Legs go down but for those of seated and kneeling figures, which their names tell; arms may go anywhere.
@@ -225,8 +233,10 @@ class LimbFinder {
     void consider(LimbCandidate candidate, float links) {
         candidate.score = links + candidate.missing;
         candidate.names = 0.0F;
-        candidate.named = candidate.pairs[2] != kNoPair && isNamed(candidate.pairs[0], 0) &&
-                          isNamed(candidate.pairs[1], 1) && isNamed(candidate.pairs[2], 2);
+        const auto& [upper, lower, end, extra] = candidate.pairs;
+        candidate.told =
+            lower != kNoPair && isNamed(upper, 0) && isNamed(lower, 1) && (end == kNoPair || isNamed(end, 2));
+        candidate.named = candidate.told && end != kNoPair;
         if (kind_ == LimbKind::leg) {
             scoreLeg(candidate);
         } else {
@@ -308,7 +318,7 @@ class LimbFinder {
             return;
         }
         float pose = angleTerm(leg.tip - leg.root, kDown, terms::kLegDown);
-        leg.score += terms::kThighAside.near(leg.root.x / length, slackOf(leg));
+        float proportions = terms::kThighAside.near(leg.root.x / length, slackOf(leg));
         if (leg.root.x < kMiddle * length) leg.score += kInMiddle;
         const float height = std::max(leg.root.y - framed_.floor, kLeastHipHeight * length);
         const float heightOfTip = (leg.tip.y - framed_.floor) / height;
@@ -317,20 +327,25 @@ class LimbFinder {
             pose += angleTerm(at(lower).position - leg.root, kDown, terms::kThighDown);
         }
         if (foot != kNoPair) {
-            leg.score +=
+            proportions +=
                 terms::kThighToShin.near(std::log(framed_.segment(upper, lower) / framed_.segment(lower, foot)));
             pose += angleTerm(at(foot).position - at(lower).position, kDown, terms::kShinDown);
             addToes(leg, height);
         } else if (lower != kNoPair) {
             const float thigh = framed_.segment(upper, lower);
-            leg.score += terms::kThighToRest.near(std::log(thigh / (length - thigh + 1e-6F)));
+            proportions += terms::kThighToRest.near(std::log(thigh / (length - thigh + 1e-6F)));
         }
-        leg.score += poseOf(leg, pose) + unusedAbove(upper, length);
+        leg.score += poseOf(leg, pose) + proportionsOf(leg, proportions) + unusedAbove(upper, length);
     }
 
     // A limb whose names are clear may be posed in any way.
     [[nodiscard]] static float poseOf(const LimbCandidate& limb, float pose) {
         return limb.named ? std::max(pose, kNamedPose) : pose;
+    }
+
+    // Chibis and giants have limbs of any proportions.
+    [[nodiscard]] static float proportionsOf(const LimbCandidate& limb, float proportions) {
+        return limb.named ? std::max(proportions, kNamedProportions) : proportions;
     }
 
     void addToes(LimbCandidate& leg, float height) const {
@@ -361,19 +376,20 @@ class LimbFinder {
         }
         const vec3 along = (arm.tip - arm.root) / (glm::distance(arm.tip, arm.root) + 1e-6F);
         float pose = terms::kArmOut.atLeast(along.x) + terms::kArmRaised.atMost(along.y);
+        float proportions = terms::kShoulderAside.near(arm.root.x / length, slackOf(arm));
         if (arm.root.x < kMiddle * length) arm.score += kInMiddle;
         if (hand != kNoPair) {
             const vec3 first = at(lower).position - arm.root;
             const vec3 second = at(hand).position - at(lower).position;
-            arm.score +=
+            proportions +=
                 terms::kUpperToFore.near(std::log(framed_.segment(upper, lower) / framed_.segment(lower, hand)));
             pose += angleTerm(first, second, terms::kElbowStraight);
-            arm.score += beyondTerm(hand, length);
+            proportions += beyondTerm(hand, length);
         } else if (lower != kNoPair) {
             const float first = framed_.segment(upper, lower);
-            arm.score += terms::kUpperToRest.near(std::log(first / (length - first + 1e-6F)));
+            proportions += terms::kUpperToRest.near(std::log(first / (length - first + 1e-6F)));
         }
-        arm.score += poseOf(arm, pose);
+        arm.score += poseOf(arm, pose) + proportionsOf(arm, proportions);
         addClavicle(arm);
     }
 
@@ -411,8 +427,7 @@ class LimbFinder {
             best = score;
             arm.pairs[3] = pair;
         }
-        const float base = terms::kShoulderAside.near(arm.root.x / arm.length, slackOf(arm));
-        arm.score += base + best;
+        arm.score += best;
         if (arm.pairs[3] != kNoPair) arm.names += nameTerm(arm.pairs[3], 3);
     }
 
@@ -421,9 +436,11 @@ class LimbFinder {
         const bool beside = areSiblings(pair, upper);
         const float length = framed_.segment(pair, upper) / arm.length;
         if ((!framed_.isAbove(pair, upper) && !beside) || length < kShortestClavicle) return kImpossible;
-        return kClavicle + placing(pair, 3) + terms::kClavicleLength.near(length) +
-               terms::kClavicleAside.near(at(pair).position.x / arm.length) + skipped(pair, upper, false) +
-               unusedAbove(pair, arm.length) + (beside ? kDetached : 0.0F);
+        const float shape =
+            terms::kClavicleLength.near(length) + terms::kClavicleAside.near(at(pair).position.x / arm.length);
+        const bool named = isNamed(pair, 3) && isNamed(upper, 0);
+        return kClavicle + placing(pair, 3) + (named ? std::max(shape, kNamedProportions) : shape) +
+               skipped(pair, upper, false) + unusedAbove(pair, arm.length) + (beside ? kDetached : 0.0F);
     }
 
     // A clavicle may hang beside the upper arm instead of above it.

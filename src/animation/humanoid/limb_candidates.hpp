@@ -24,7 +24,8 @@ struct LimbCandidate {
     vec3 root{0};          ///< Position of the first pair, in the stance.
     vec3 tip{0};           ///< Foot or hand, or the end of what there is.
 
-    bool named = false;  ///< All three joints are there and named as those parts: their pose proves little.
+    bool told = false;   ///< Two or three joints, all named as the parts that they are.
+    bool named = false;  ///< As `told`, with all three there: their pose and proportions prove little.
     /// Joints that only one side has (the other limb is a stump), by side ([0] at +x) and slot; kNoJoint elsewhere.
     std::array<std::array<int, 4>, 2> lone{
         {{kNoJoint, kNoJoint, kNoJoint, kNoJoint}, {kNoJoint, kNoJoint, kNoJoint, kNoJoint}}};

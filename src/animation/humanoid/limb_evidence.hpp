@@ -72,8 +72,10 @@ inline constexpr float kUnusedAbove = -0.8F;      // a skinned pair above the li
 inline constexpr float kLeftOverAfterTwo = -1.0F;  // a limb that is read as shorter than its chain
 inline constexpr float kLeftOverAfterOne = -4.0F;
 inline constexpr float kNothingBeyondHand = -0.3F;
-inline constexpr float kNamedPose = -3.0F;    // the most that the pose of a limb with clear names may cost
-inline constexpr float kNoDirection = -1.0F;  // joints of one place
+inline constexpr float kNamedPose = -3.0F;         // the most that the pose of a limb with clear names may cost
+inline constexpr float kNamedProportions = -1.5F;  // … and its proportions
+inline constexpr float kDetachedNamed = -0.2F;     // as kDetached, where the names say which joints follow each other
+inline constexpr float kNoDirection = -1.0F;       // joints of one place
 
 }  // namespace limb_costs
 
@@ -91,6 +93,7 @@ inline constexpr float kHighestToes = 0.04F;    // above the ankle
 inline constexpr float kShortestClavicle = 0.04F;
 inline constexpr float kSlackOfOneJoint = 3.0F;  // a limb of one joint may start anywhere along it
 inline constexpr float kNamedPart = 1.5F;        // a name's score from which it says which part of the limb this is
+inline constexpr float kSurelyNamed = 4.0F;      // … and from which it says nothing else
 inline constexpr float kEndWordLead = 2.0F;      // by how much a name must speak for the hand or foot to make it one
 
 }  // namespace limb_bounds

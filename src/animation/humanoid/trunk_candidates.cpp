@@ -1,6 +1,7 @@
 #include "animation/humanoid/trunk_candidates.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "animation/humanoid/evidence_terms.hpp"
@@ -16,6 +17,7 @@ constexpr float kOneJointTrunk = -1.5F;   // hips and chest in one
 constexpr float kUnskinnedTrunk = -4.0F;  // … that moves no skin
 constexpr float kHeadless = -3.0F;
 constexpr float kNamedChest = 2.0F;
+constexpr float kNamedTrunk = 3.0F;  // a name's score from which it says which part of the trunk this is
 constexpr float kNamedHead = 4.0F;   // a name's score from which it says head and nothing else
 constexpr float kNamedPose = -2.0F;  // the most that the place of a head so named may cost
 constexpr std::size_t kHeadsTried = 6;
@@ -115,7 +117,9 @@ class TrunkFinder {
     [[nodiscard]] bool isCentral(int joint) const {
         const int pair = framed_.pairOf[joint];
         if (pair >= 0 && (legs_.uses(pair) || arms_.uses(pair))) return false;
-        return std::abs(position(joint).x) < 0.12F * length_ && pair < 0;
+        // A dancer's or fallen figure's trunk may lie to the side; its names tell.
+        const float aside = !isNamedTrunk(joint) ? 0.12F : framed_.stance.byNames ? 2.0F : 0.4F;
+        return std::abs(position(joint).x) < aside * length_ && pair < 0;
     }
 
     // Share of the skin that a joint moves itself, or by leaves in the middle (rigid parts, collision volumes).
@@ -133,7 +137,9 @@ class TrunkFinder {
         return shadow + (ownSkin(joint) > 0.0F ? 0.0F : kNoOwnSkin) +
                (rig_.subtreeWeight[joint] > 0.0F ? 0.0F : kNoSkinBelow);
     }
-    [[nodiscard]] float centralTerm(int joint) const { return near(position(joint).x / length_, 0.0F, 0.05F, 3.0F); }
+    [[nodiscard]] float centralTerm(int joint) const {
+        return near(position(joint).x / length_, 0.0F, 0.05F, framed_.stance.byNames ? 1.0F : 3.0F);
+    }
 
     [[nodiscard]] std::vector<Scored> likelyHips(int banned) const {
         std::vector<Scored> hips;
@@ -163,7 +169,7 @@ class TrunkFinder {
         bool anyAbove = false;  // a figure with joints where its head would be is not headless
         std::vector<int> joints;
         for (const int joint : central_) {
-            const float lowest = isNamedHead(joint) ? 0.5F : 0.15F;
+            const float lowest = !isNamedHead(joint) ? 0.15F : framed_.stance.byNames ? 1.0F : 0.5F;
             if (position(joint).y < arms_.root.y - lowest * length_ || joint == banned) continue;
             joints.push_back(joint);
             if (rig_.isAncestorOrSelf(joint, armRoot())) continue;
@@ -178,12 +184,20 @@ class TrunkFinder {
             float score = name(joint, Part::head) + skinTerm(joint) + centralTerm(joint) +
                           (isNamedHead(joint) ? std::max(pose, kNamedPose) : pose);
             if (skinAbove > 0.0F) score += 2.0F * std::min(retainedSkin(joint) / (0.4F * skinAbove), 1.0F);
-            if (rig_.isAncestorOrSelf(joint, armRoot())) score -= 6.0F;
+            // Arms on the head: a head that is the trunk, too, has that name.
+            if (rig_.isAncestorOrSelf(joint, armRoot())) score -= isNamedHead(joint) ? 1.0F : 6.0F;
             heads.push_back({joint, score});
         }
         keepBest(heads, kHeadsTried);
         heads.push_back({kNoJoint, anyAbove ? 2.0F * kHeadless : kHeadless});
         return heads;
+    }
+
+    [[nodiscard]] bool isNamedTrunk(int joint) const {
+        constexpr std::array<Part, 5> kTrunk{Part::hips, Part::trunk, Part::chest, Part::neck, Part::head};
+        const NameEvidence& said = rig_.names[joint];
+        const auto tells = [&](Part part) { return said.parts[part] >= kNamedTrunk; };
+        return said.side == Side::center && !said.helper && std::any_of(kTrunk.begin(), kTrunk.end(), tells);
     }
 
     // A head that is thrust forward is still one by its name.

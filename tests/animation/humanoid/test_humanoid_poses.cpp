@@ -156,6 +156,64 @@ TEST_CASE("a head thrust forward is the head by its name", "[poses]") {
     checkWhole(rig);
 }
 
+TEST_CASE("short arms with long fingers keep their forearms", "[poses]") {
+    SyntheticRig rig = makeSyntheticRig(kConvention);
+    animation::Skeleton& skeleton = rig.character.skeleton;
+    const auto stretch = [&](Role from, float factor) {
+        const int top = jointOf(rig, from);
+        const vec3 pivot = skeleton.bindModelFromJoint[top].translation;
+        for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
+            vec3& place = skeleton.bindModelFromJoint[joint].translation;
+            if (isBelow(skeleton, top, joint)) place = pivot + factor * (place - pivot);
+        }
+    };
+    for (const Role side : {Role::leftUpperArm, Role::rightUpperArm}) {
+        stretch(side, 0.6F);
+        stretch(side == Role::leftUpperArm ? Role::leftHand : Role::rightHand, 4.0F);
+    }
+    checkWhole(rig);
+}
+
+TEST_CASE("a flat hierarchy of a squat figure without feet keeps what its names tell", "[poses]") {
+    SyntheticRig rig = makeSyntheticRig(kConvention, {.arms = 0.5F, .legs = 1.2F, .shoulders = 1.9F});
+    cutOff(rig, Role::leftFoot);
+    cutOff(rig, Role::rightFoot);
+    animation::Skeleton& skeleton = rig.character.skeleton;
+    for (int joint = 1; joint < skeleton.jointCount(); ++joint)
+        skeleton.parents[joint] = 0;
+    const HumanoidMap map = animation::mapHumanoid(rig.character);
+    REQUIRE(map.humanoid);
+    for (const Role role : {Role::hips, Role::head, Role::leftUpperArm, Role::leftLowerArm, Role::rightHand,
+                            Role::leftUpperLeg, Role::rightLowerLeg})
+        CHECK(map.jointOf(role) == jointOf(rig, role));
+    CHECK_FALSE(map.roles[indexOf(Role::leftFoot)]);
+}
+
+TEST_CASE("hands that hang on controls are the hands, though helpers hang on the forearms", "[poses]") {
+    SyntheticRig rig = makeSyntheticRig(kConvention);
+    animation::Skeleton& skeleton = rig.character.skeleton;
+    for (const Role role : {Role::leftHand, Role::rightHand}) {
+        const int hand = jointOf(rig, role);
+        const int forearm = skeleton.parents[hand];
+        skeleton.names.push_back(role == Role::leftHand ? "Bone.008" : "Bone.009");
+        skeleton.parents.push_back(forearm);
+        skeleton.bindModelFromJoint.push_back(skeleton.bindModelFromJoint[hand]);
+        skeleton.bindModelFromJoint.back().translation +=
+            0.6F * (skeleton.bindModelFromJoint[forearm].translation - skeleton.bindModelFromJoint[hand].translation);
+        skeleton.nodeParentFromJoint.emplace_back();
+        skeleton.skinWeight.push_back(60.0F);
+        skeleton.parents[hand] = 0;
+    }
+    checkWhole(rig);
+}
+
+TEST_CASE("hips that a dancer carries to the side are the hips by their name", "[poses]") {
+    SyntheticRig rig = makeSyntheticRig(kConvention);
+    animation::Skeleton& skeleton = rig.character.skeleton;
+    skeleton.bindModelFromJoint[jointOf(rig, Role::hips)].translation.x += 0.09F;
+    checkWhole(rig);
+}
+
 TEST_CASE("a flat hierarchy maps by names and places", "[poses]") {
     SyntheticRig rig = makeSyntheticRig(kConvention);
     animation::Skeleton& skeleton = rig.character.skeleton;
@@ -208,6 +266,7 @@ TEST_CASE("a figure that lies in some pose maps by its names", "[poses]") {
     turn(rig, Role::leftUpperLeg, -1.2F, vec3(1, 0, 0));
     turn(rig, Role::leftLowerLeg, 1.6F, vec3(1, 0, 0));
     turn(rig, Role::rightUpperArm, 1.1F, vec3(0, 1, 0));
+    turn(rig, Role::neck, 0.9F, vec3(0, 0, 1));
     rig.character = rotated(rig.character, glm::angleAxis(radians(-75.0F), vec3(1, 0, 0)));
     checkWhole(rig);
 }

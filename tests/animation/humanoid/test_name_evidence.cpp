@@ -51,6 +51,11 @@ TEST_CASE("names of every spelling give side and part", "[names]") {
         {"mano_der", Side::right, Part::hand},
         {"L3", Side::center, Part::trunk},
         {"LowerTorso", Side::center, Part::hips},
+        {"L_Ueude", Side::left, Part::upperArm},
+        {"R_Sitaude", Side::right, Part::lowerArm},
+        {"R_momo", Side::right, Part::upperLeg},
+        {"L_Sune", Side::left, Part::lowerLeg},
+        {"Kosi", Side::center, Part::hips},
         {"CC_Base_NeckTwist01", Side::center, Part::neck},
     };
     for (const Reading& reading : readings) {
