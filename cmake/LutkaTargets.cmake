@@ -84,5 +84,5 @@ function(lutka_test name)
   set_source_files_properties("${PROJECT_SOURCE_DIR}/tests/support/counting_new.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   # `-w NoTests`: a name that matches nothing fails instead of passing without having run.
   catch_discover_tests(test_${name} TEST_PREFIX "${name}: " EXTRA_ARGS -w NoTests
-                       PROPERTIES TIMEOUT 600 SKIP_REGULAR_EXPRESSION "lutka-test-skipped: ")
+                       PROPERTIES TIMEOUT 600 ENVIRONMENT "LUTKA_GL_DEBUG=1" SKIP_REGULAR_EXPRESSION "lutka-test-skipped: ")
 endfunction()

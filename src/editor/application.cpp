@@ -266,7 +266,9 @@ Result<void> Application::oneFrame(double seconds) {
     collectEvents();
     if (auto recorded = record(); !recorded) return recorded;
     if (pixels_.width <= 0 || pixels_.height <= 0) {  // minimised
-        glfwWaitEventsTimeout(0.05);
+        for (const InputEvent& event : events_)
+            if (event.kind == InputEvent::Kind::close) editor_->handle(event, {});
+        if (window_) glfwWaitEventsTimeout(0.05);
         return {};
     }
     // One press, release or key at a time, each with panels that know what the one before did: on a machine that draws
@@ -286,6 +288,10 @@ Result<void> Application::oneFrame(double seconds) {
     if (!isSeen()) {
         host_->skipDrawing();
         return {};
+    }
+    if (context_.lost()) {
+        editor_->keepRecovery();
+        return render::GlContext::lostError();
     }
     return drawPicture();
 }

@@ -132,3 +132,45 @@ TEST_CASE("what is far from the camera that draws is spared unless an eye is giv
     CHECK(frozen("--distance 60 --eye 0,1,0") == 0);
     CHECK(frozen("--distance 6 --eye 0,1,90") == 4);
 }
+
+TEST_CASE("a driver that gives up in the middle of a film ends the command with its reason and leaves no film") {
+    NEEDS_DRAWING();
+    NEEDS_PROGRAM("ffmpeg");
+    const ScratchFolder folder;
+    const CommandResult result = runCommand("LUTKA_GL_LOSE=3 '" LUTKA_BINARY "' render " + kMannequinArgument +
+                                            " --seconds 0.2 --size 64x64 -o " + (folder / "film.mp4"));
+    CHECK(result.code == kNoDisplay);
+    CHECK_THAT(result.err, Catch::Contains("gave up"));
+    CHECK(filesIn(folder.path) == 0);
+}
+
+TEST_CASE("a picture that no memory holds is refused before the fall") {
+    NEEDS_DRAWING();
+    const ScratchFolder folder;
+    const CommandResult result =
+        lutkaCommand("render " + kMannequinArgument + " --size 16384x16384 -o " + (folder / "large.png"));
+    CHECK(result.code == 2);
+    CHECK_THAT(result.err, Catch::Contains("million pixels"));
+    CHECK(filesIn(folder.path) == 0);
+}
+
+TEST_CASE("a driver that has OpenGL 3.3 and nothing beyond draws the same picture") {
+    NEEDS_DRAWING();
+    const ScratchFolder folder;
+    const auto picture = [&](const std::string& name, const std::string& environment) {
+        const CommandResult result =
+            runCommand(environment + " '" LUTKA_BINARY "' render " + kMannequinArgument +
+                       " --seconds 0.5 --size 160x120 --debug joints,limits -o " + (folder / name));
+        INFO(result.err);
+        REQUIRE(result.code == 0);
+        const Result<render::Image> image = render::loadPng(folder / name);
+        REQUIRE(image);
+        return image.value();
+    };
+    // Mesa leaves out what came after, and the extensions that are named.
+    const render::Image least =
+        picture("least.png",
+                "MESA_GL_VERSION_OVERRIDE=3.3 MESA_GLSL_VERSION_OVERRIDE=330 MESA_EXTENSION_OVERRIDE='-GL_KHR_debug "
+                "-GL_ARB_buffer_storage -GL_ARB_texture_storage -GL_ARB_direct_state_access -GL_KHR_robustness'");
+    CHECK(render::compareImages(least, picture("all.png", ""), 2).differingShare < 0.001);
+}

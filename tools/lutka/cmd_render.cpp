@@ -48,6 +48,7 @@ class Painter {
           layers_(orLeave(scene::parseDebugLayers(options.debug))),
           context_(orLeave(render::GlContext::createHeadless())),
           renderer_(orLeave(render::Renderer::create(context_))) {
+        orLeave(render::Renderer::checkSize(size_));
         drawer_.skinning =
             options.skinning == "dual" ? animation::SkinningMethod::dualQuaternion : animation::SkinningMethod::linear;
         if (!options.sky.empty()) {
@@ -79,6 +80,7 @@ class Painter {
         drawer_.draw(simulation, characters_, layers_, alpha, options_.opacity, frame_);
         renderer_.draw(frame_, size_);
         renderer_.readPixels(image_);
+        if (context_.lost()) leave(render::GlContext::lostError());
         if (options_.legend) render::drawLegend(image_, legend_);
     }
 

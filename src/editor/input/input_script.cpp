@@ -102,12 +102,20 @@ Modifiers readModifiers(const JsonCursor& at) {
     return modifiers;
 }
 
-render::Extent readSize(const JsonCursor& at) {
+render::Extent readSize(const JsonCursor& at, int least = 1) {
     if (!at.expectArray(2, 2)) return {1, 1};
     const auto side = [&](std::size_t index) {
-        return static_cast<int>(at[index].wholeNumber(1, kMaxWindowSide).value_or(1));
+        return static_cast<int>(at[index].wholeNumber(least, kMaxWindowSide).value_or(1));
     };
     return {side(0), side(1)};
+}
+
+// Of a window; 0 times 0 is a minimised one's.
+render::Extent readResize(const JsonCursor& at) {
+    const render::Extent size = readSize(at, 0);
+    if ((size.width == 0) != (size.height == 0))
+        at[size.width == 0 ? 0 : 1].report("expected a whole number above 0, or both of them 0");
+    return size;
 }
 
 float readNumber(const JsonCursor& at, const char* key) {
@@ -173,7 +181,7 @@ void readMembers(const JsonCursor& at, InputEvent& event) {
             break;
         case EventKind::resize:
             at.expectObject({"frame", "event", "size"});
-            event.size = readSize(at["size"]);
+            event.size = readResize(at["size"]);
             break;
         case EventKind::focus:
             at.expectObject({"frame", "event", "gained"});

@@ -61,6 +61,16 @@ constexpr EGLint kConfigAttributes[] = {EGL_SURFACE_TYPE,
 constexpr EGLint kContextAttributes[] = {
     EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+// The same, and it says so when the GPU was reset: not every driver has such contexts.
+constexpr EGLint kTellingAttributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                         3,
+                                         EGL_CONTEXT_MINOR_VERSION,
+                                         3,
+                                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                         EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                                         EGL_LOSE_CONTEXT_ON_RESET,
+                                         EGL_NONE};
 // Nothing is drawn into it; some drivers only refuse to be current without one.
 constexpr EGLint kSurfaceAttributes[] = {EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
 
@@ -87,7 +97,9 @@ std::unique_ptr<EglContext> EglContext::open(void* display, std::string& why) {
     }
     std::unique_ptr<EglContext> egl(new EglContext());
     egl->display_ = display;
-    egl->context_ = eglCreateContext(display, config, EGL_NO_CONTEXT, kContextAttributes);
+    egl->context_ = eglCreateContext(display, config, EGL_NO_CONTEXT, kTellingAttributes);
+    if (egl->context_ == EGL_NO_CONTEXT)
+        egl->context_ = eglCreateContext(display, config, EGL_NO_CONTEXT, kContextAttributes);
     if (egl->context_ == EGL_NO_CONTEXT) return fail("eglCreateContext");
     egl->surface_ = eglCreatePbufferSurface(display, config, kSurfaceAttributes);
     if (eglMakeCurrent(display, egl->surface_, egl->surface_, egl->context_) != EGL_TRUE) return fail("eglMakeCurrent");

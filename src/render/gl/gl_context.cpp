@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <string_view>
 #include <utility>
 
+#include "render/gl/driver_messages.hpp"
 #include "render/gl/egl_context.hpp"
 
 namespace lutka::render {
@@ -29,6 +31,21 @@ std::string textOf(GLenum what) {
     return text != nullptr ? reinterpret_cast<const char*>(text) : "unknown";
 }
 
+// Of GL 4.5, KHR_robustness and ARB_robustness.
+using ResetStatus = GLenum(GLAD_API_PTR*)();
+
+ResetStatus resetStatusOf(GLADloadfunc loader) {
+    const bool khr = hasGlExtension("GL_KHR_robustness");
+    if (!khr && !hasGlExtension("GL_ARB_robustness")) return nullptr;
+    return reinterpret_cast<ResetStatus>(loader(khr ? "glGetGraphicsResetStatus" : "glGetGraphicsResetStatusARB"));
+}
+
+// A whole number of the environment; 0 where there is none.
+int numberOfEnvironment(const char* name) {
+    const char* text = std::getenv(name);
+    return text != nullptr ? std::atoi(text) : 0;
+}
+
 Error noDisplay(const std::string& message) {
     return {ErrorCode::noDisplay, message, "", kMend};
 }
@@ -46,10 +63,18 @@ struct GlContext::State {
     std::unique_ptr<EglContext> egl;
     std::unique_ptr<GLFWwindow, DestroyWindow> window;
     std::string description;
+    GLADloadfunc loader = nullptr;
+    ResetStatus resetStatus = nullptr;
+    int asksUntilLost = numberOfEnvironment("LUTKA_GL_LOSE");  // 0: never
+    bool lost = false;
+    std::unique_ptr<DriverMessages> messages;
 
     // Loads GL's functions for the current context.
-    Result<void> load(GLADloadfunc loader) {
-        if (gladLoadGL(loader) == 0) return noDisplay("the functions of OpenGL 3.3 can't be loaded");
+    Result<void> load(GLADloadfunc from) {
+        loader = from;
+        if (gladLoadGL(from) == 0) return noDisplay("the functions of OpenGL 3.3 can't be loaded");
+        resetStatus = resetStatusOf(from);
+        if (numberOfEnvironment("LUTKA_GL_DEBUG") != 0) messages = DriverMessages::listen(from, true);
         description = textOf(GL_VENDOR) + ", " + textOf(GL_RENDERER) + ", " + textOf(GL_VERSION);
         return {};
     }
@@ -83,8 +108,15 @@ Result<GlContext> GlContext::createWindow(const WindowOptions& options) {
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     EglContext::releaseCurrent();  // GLFW makes the window's context current to look at it
-    GLFWwindow* window =
-        glfwCreateWindow(options.size.width, options.size.height, options.title.c_str(), nullptr, nullptr);
+    const auto create = [&] {
+        return glfwCreateWindow(options.size.width, options.size.height, options.title.c_str(), nullptr, nullptr);
+    };
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
+    GLFWwindow* window = create();
+    if (window == nullptr) {  // a driver that knows no such contexts
+        glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_NO_ROBUSTNESS);
+        window = create();
+    }
     if (window == nullptr) {
         const Error error = noDisplay("no window with OpenGL 3.3: " + glfwWords());
         glfwTerminate();
@@ -97,6 +129,26 @@ Result<GlContext> GlContext::createWindow(const WindowOptions& options) {
     if (!loaded) return loaded.error();
     glfwSwapInterval(options.vsync ? 1 : 0);
     return GlContext(std::move(state));
+}
+
+bool GlContext::lost() {
+    if (state_->asksUntilLost > 0 && --state_->asksUntilLost == 0) state_->lost = true;
+    if (state_->resetStatus != nullptr && state_->resetStatus() != GL_NO_ERROR) state_->lost = true;
+    return state_->lost;
+}
+
+Error GlContext::lostError() {
+    return {ErrorCode::noDisplay, "the graphics driver gave up: its context is lost", "",
+            "start again; if it happens again, update the driver or take another GPU"};
+}
+
+bool GlContext::keepMessages() {
+    if (state_->messages == nullptr) state_->messages = DriverMessages::listen(state_->loader, false);
+    return state_->messages != nullptr;
+}
+
+std::vector<std::string> GlContext::messages() const {
+    return state_->messages != nullptr ? state_->messages->all() : std::vector<std::string>{};
 }
 
 void GlContext::makeCurrent() {

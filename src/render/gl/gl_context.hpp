@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/result.hpp"
 #include "render/extent.hpp"
@@ -20,6 +21,9 @@ struct WindowOptions {
 
 /// An OpenGL 3.3 core context with its functions loaded, current on the thread that made it. It owns its display
 /// connection or window; Renderer and every other GL object must die before it.
+///
+/// For tests and debugging, of the environment: LUTKA_GL_DEBUG=1 ends the program with the first thing that the driver
+/// says against a call, LUTKA_GL_LOSE=N makes lost() answer yes from the Nth time on that it is asked.
 class GlContext {
   public:
     /// Without a display or window, by EGL: Mesa's surfaceless platform first, then the GPUs that EGL enumerates, then
@@ -44,6 +48,17 @@ class GlContext {
     /// Shows what was drawn; nothing when headless.
     void swapBuffers();
     void setVsync(bool on);
+
+    /// Whether the driver gave the context up (a reset of the GPU, its removal): nothing is drawn from then on, and
+    /// what was uploaded is gone. Never where the driver can't tell. Cheap; ask once a frame.
+    [[nodiscard]] bool lost();
+    /// What to say then.
+    [[nodiscard]] static Error lostError();
+
+    /// From now on the driver's complaints (see DriverMessages) are kept. False where it can't.
+    bool keepMessages();
+    /// Those so far.
+    [[nodiscard]] std::vector<std::string> messages() const;
 
     /// The driver's own words, for reports: "vendor, renderer, version".
     [[nodiscard]] const std::string& description() const;

@@ -156,11 +156,15 @@ GlTexture upload(const Texture& texture, bool srgb) {
 
 // Rows start at the picture's top, as UVs do in glTF, so nothing is flipped.
 bool isWhole(const Texture& texture) {
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    return texture.width > 0 && texture.height > 0 && texture.width <= most && texture.height <= most &&
+    return texture.width > 0 && texture.height > 0 &&
            texture.rgba.size() ==
                static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height) * 4;
+}
+
+bool isTooLarge(const Texture& texture) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    return std::max(texture.width, texture.height) > most;
 }
 
 // Uploads each texture once for each colour space that materials use it in.
@@ -177,6 +181,12 @@ class TextureUploader {
     int operator()(int texture, bool srgb, const std::string& material) {
         if (texture == Material::kNoTexture) return Material::kNoTexture;
         const bool exists = texture >= 0 && texture < static_cast<int>(character_.textures.size());
+        if (exists && isTooLarge(character_.textures[texture])) {
+            warnings_.push_back(fmt::format(
+                "{}: a texture of material '{}' has {} x {} pixels, more than this driver takes; it is drawn without",
+                character_.name, material, character_.textures[texture].width, character_.textures[texture].height));
+            return Material::kNoTexture;
+        }
         if (!exists || !isWhole(character_.textures[texture])) {
             warnings_.push_back(fmt::format("{}: a texture of material '{}' is missing; it is drawn without",
                                             character_.name, material));

@@ -1,5 +1,7 @@
 #include "render/gl/renderer.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -90,6 +92,29 @@ void Renderer::setEnvironment(const Environment* environment) {
 
 std::span<const std::string> Renderer::warnings() const {
     return state_->warnings;
+}
+
+Result<void> Renderer::checkSize(Extent size) {
+    GLint renderbuffer = 0;
+    GLint texture = 0;
+    std::array<GLint, 2> viewport{};
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &renderbuffer);
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
+    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
+    const int most = std::min({renderbuffer, texture, viewport[0], viewport[1]});
+    if (std::max(size.width, size.height) > most) {
+        return Error{ErrorCode::usage,
+                     fmt::format("a picture of {} x {} is larger than this driver's {} pixels a side", size.width,
+                                 size.height, most),
+                     "", "take a smaller picture"};
+    }
+    if (static_cast<long long>(size.width) * size.height > kMostPixels) {
+        return Error{ErrorCode::usage,
+                     fmt::format("a picture of {} x {} has more than {} million pixels", size.width, size.height,
+                                 kMostPixels / 1000000),
+                     "", "take a smaller picture"};
+    }
+    return {};
 }
 
 void Renderer::draw(const FrameDescription& frame, Extent size) {

@@ -52,6 +52,11 @@ class Renderer {
     /// What was odd about uploaded materials (a texture index without a texture …), a sentence each.
     [[nodiscard]] std::span<const std::string> warnings() const;
 
+    /// Whether the current context can draw frames of that size: no side above what its driver takes, and no more than
+    /// kMostPixels, which take 2.4 GB at four samples. Fails with ErrorCode::usage.
+    [[nodiscard]] static Result<void> checkSize(Extent size);
+    static constexpr long long kMostPixels = 1LL << 26;
+
     /// Draws a frame of that size into the offscreen target. All palettes of a frame go into one texture buffer, which
     /// holds at least 21,845 joints on any driver (tens of millions on most); characters beyond are left out and
     /// counted in stats().droppedInstances. Items with an invalid handle or a palette of the wrong size are a caller's

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glad/gl.h>
+
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <memory>
@@ -13,7 +15,8 @@
 
 namespace lutka::test {
 
-/// A headless context with a renderer; null where none can be had (NEEDS_GL).
+/// A headless context with a renderer; null where none can be had (NEEDS_GL). Whatever a test does with it, the driver
+/// must have nothing to say against it in the end.
 struct GlFixture {
     render::GlContext context;
     render::Renderer renderer;
@@ -24,9 +27,20 @@ struct GlFixture {
             std::fprintf(stderr, "%s\n", context.error().text().c_str());
             return nullptr;
         }
+        static_cast<void>(context.value().keepMessages());
         Result<render::Renderer> renderer = render::Renderer::create(context.value(), options);
         if (!renderer) FAIL(renderer.error().text());
-        return std::unique_ptr<GlFixture>(new GlFixture{std::move(context).value(), std::move(renderer).value()});
+        return std::unique_ptr<GlFixture>(new GlFixture(std::move(context).value(), std::move(renderer).value()));
+    }
+
+    GlFixture(render::GlContext own, render::Renderer made) : context(std::move(own)), renderer(std::move(made)) {}
+    GlFixture(const GlFixture&) = delete;
+    GlFixture& operator=(const GlFixture&) = delete;
+    ~GlFixture() {
+        context.makeCurrent();
+        CHECK(glGetError() == GL_NO_ERROR);
+        for (const std::string& message : context.messages())
+            FAIL_CHECK(message);
     }
 
     [[nodiscard]] render::CharacterHandle upload(const animation::Character& character) {

@@ -1,3 +1,6 @@
+// glad first: GLFW must not bring in the system's GL header.
+#include <glad/gl.h>
+
 #include <GLFW/glfw3.h>
 
 #include <cstdlib>
@@ -62,4 +65,30 @@ TEST_CASE("a window shows the same picture as the headless context") {
     gl->context.makeCurrent();
     CHECK(gl->picture(frame, size).rgba == expected.rgba);
     window.value().makeCurrent();
+}
+
+TEST_CASE("a wrong call is told by the driver, where it can") {
+    ::unsetenv("LUTKA_GL_DEBUG");  // it would end here
+    auto context = GlContext::createHeadless();
+    if (!context) SKIP_TEST("no headless OpenGL context");
+    CHECK(context.value().messages().empty());
+    if (!context.value().keepMessages()) return;  // a driver without KHR_debug
+    glEnable(GL_RGBA8);                           // nothing that can be enabled
+    CHECK(context.value().messages().size() == 1);
+    CHECK(glGetError() == GL_INVALID_ENUM);
+}
+
+TEST_CASE("a context is not lost until its driver says so") {
+    auto sound = GlContext::createHeadless();
+    if (!sound) SKIP_TEST("no headless OpenGL context");
+    for (int i = 0; i < 3; ++i)
+        CHECK_FALSE(sound.value().lost());
+    ::setenv("LUTKA_GL_LOSE", "2", 1);
+    auto context = GlContext::createHeadless();
+    ::unsetenv("LUTKA_GL_LOSE");
+    REQUIRE(context.ok());
+    CHECK_FALSE(context.value().lost());
+    CHECK(context.value().lost());
+    CHECK(context.value().lost());
+    CHECK(GlContext::lostError().code == ErrorCode::noDisplay);
 }

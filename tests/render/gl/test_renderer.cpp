@@ -284,6 +284,38 @@ TEST_CASE("a material that names a missing texture is drawn without it and told 
     CHECK(gl->renderer.warnings()[0].find("cloth") != std::string::npos);
 }
 
+TEST_CASE("a texture of 16384 pixels is drawn, and one larger than the driver takes is left out with its size") {
+    const auto gl = GlFixture::create();
+    NEEDS_GL(gl);
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    animation::Character biped = makeBiped();
+    for (const int width : {std::min(most, 16384), most + 1}) {
+        animation::Texture texture;
+        texture.width = width;
+        texture.height = 1;
+        texture.rgba.assign(static_cast<std::size_t>(width) * 4, 200);
+        biped.textures.push_back(std::move(texture));
+    }
+    biped.materials[0].baseColorTexture = 0;
+    biped.materials[0].emissiveTexture = 1;
+    static_cast<void>(gl->upload(biped));
+    REQUIRE(gl->renderer.warnings().size() == 1);
+    CHECK(gl->renderer.warnings()[0].find(std::to_string(most + 1) + " x 1") != std::string::npos);
+}
+
+TEST_CASE("a picture larger than driver or memory is refused before it is drawn, the smallest is drawn") {
+    const auto gl = GlFixture::create();
+    NEEDS_GL(gl);
+    CHECK(Renderer::checkSize({1, 1}).ok());
+    CHECK(Renderer::checkSize({8192, 8192}).ok());
+    CHECK_FALSE(Renderer::checkSize({1 << 20, 16}).ok());
+    const auto large = Renderer::checkSize({16384, 16384});
+    REQUIRE_FALSE(large.ok());
+    CHECK(large.error().code == ErrorCode::usage);
+    CHECK(gl->picture({}, {1, 1}).size() == Extent{1, 1});
+}
+
 TEST_CASE("meshes whose arrays do not fit together are refused") {
     const auto gl = GlFixture::create();
     NEEDS_GL(gl);
