@@ -16,6 +16,10 @@ void run(SimulateOptions& options) {
         fmt::print("replayed {} steps of {}\n", run.steps, run.replay->model);
         return;
     }
+    if (run.inputs) {
+        fmt::print("{} steps: the same as recorded at all {} checks\n", run.steps, run.inputs->checks.size());
+        return;
+    }
     fmt::print("{}", options.json ? scene::reportJson(*run.simulation) : scene::reportText(*run.simulation));
     if (run.simulation->quality().nonFinite > 0) {
         leave({ErrorCode::internal, "the simulation gave numbers that are not finite",

@@ -261,10 +261,12 @@ void SimulateOptions::addTo(const Command& app) {
     app.option("--mesh-out", meshOut, "write the first doll's skin of the last frame (.obj)");
     app.flag("--each", each, "--out and --mesh-out of every doll, as NAME_0001.glb, NAME_0002.glb …");
     const Option reportOption = app.option("--report", report, "write the figures of the run (.json)");
-    const Option recordOption = app.option("--record", recordTo, "write the bodies of every step");
+    const Option recordOption =
+        app.option("--record", recordTo,
+                   "write the bodies of every step; to *.inputs.json: what the run was made of, with hashes");
     const Option jsonFlag = app.flag("--json", json, "print the report as JSON on stdout");
     // A replay measures nothing, so it has no report.
-    app.option("--replay", replayFrom, "play a recording instead of simulating")
+    app.option("--replay", replayFrom, "play a recording; of inputs: simulate again and tell the first difference")
         .excludes(recordOption)
         .excludes(reportOption)
         .excludes(clipOption)

@@ -12,6 +12,7 @@
 #include "animation/export/write_obj.hpp"
 #include "animation/skinning.hpp"
 #include "core/files.hpp"
+#include "input_settings.hpp"
 #include "interrupt.hpp"
 #include "scene/bake.hpp"
 #include "scene/recording.hpp"
@@ -91,6 +92,26 @@ void checkReplay(const SimulateOptions& options, Run& run) {
     }
     run.steps = recording.steps() - 1;
     run.simulation->show(recording.frame(0));
+}
+
+// A run from the same inputs has to give the same bits.
+void checkInputs(const SimulateOptions& options, const Run& run) {
+    const auto difference = scene::differenceFrom(*run.simulation, *run.inputs);
+    if (!difference) return;
+    std::string what = fmt::format("prop {}", difference->body + 1);
+    if (difference->doll >= 0) {
+        const physics::RagdollProfile& profile = run.simulation->assetOf(difference->doll).profile;
+        what = fmt::format("{} of doll {}", profile.bodies[difference->body].name, difference->doll + 1);
+    }
+    const std::string when = difference->step == 0 ? "before the first step"
+                                                   : fmt::format("after step {}, within the last {}", difference->step,
+                                                                 scene::RunInputs::kStepsACheck);
+    const std::string whose = scene::profilesHash(*run.simulation) == run.inputs->profile
+                                  ? fmt::format("it was made by {}", run.inputs->program)
+                                  : "it was made with another profile";
+    leave({ErrorCode::input,
+           fmt::format("the run differs {}: {} first, {} bodies in all; {}", when, what, difference->differing, whose),
+           options.replayFrom.string(), "replay it with the model, profile, scene and build that made it"});
 }
 
 void advance(Run& run, int step) {
@@ -176,12 +197,17 @@ float secondsOf(const SimulateOptions& options, const Run& run, float ofScene) {
 }  // namespace
 
 Run prepare(SimulateOptions& options, const std::filesystem::path& picture) {
-    const bool fromFile = options.scene.takeFile(options.ragdoll.model.model);
     checkOutputs(options, picture);
     Run run;
-    if (!options.replayFrom.empty()) run.replay = orLeave(scene::loadRecording(options.replayFrom));
+    if (scene::isInputsFile(options.replayFrom)) {
+        run.inputs = orLeave(scene::loadInputs(options.replayFrom));
+        takeSettings(run.inputs->settings, options.replayFrom, options);
+    } else if (!options.replayFrom.empty()) {
+        run.replay = orLeave(scene::loadRecording(options.replayFrom));
+    }
     if (run.replay && run.replay->figure > 0 && !options.ragdoll.model.figure && !options.ragdoll.model.model.empty())
         options.ragdoll.model.figure = run.replay->figure;
+    const bool fromFile = options.scene.takeFile(options.ragdoll.model.model);
     scene::EntityScene entities = loadEverything(options, fromFile, run);
     for (const auto& asset : run.cast.assets) {
         printWarnings(*asset);
@@ -194,6 +220,10 @@ Run prepare(SimulateOptions& options, const std::filesystem::path& picture) {
     run.simulation = orLeave(scene::Simulation::create(run.cast.pointers(), std::move(scenario), simulation));
     run.steps = static_cast<int>(std::lround(secondsOf(options, run, sceneSeconds) / simulation.dt));
     if (run.replay) checkReplay(options, run);
+    if (run.inputs) {
+        run.steps = run.inputs->steps;
+        checkInputs(options, run);
+    }
     return run;
 }
 
@@ -203,7 +233,15 @@ void execute(const SimulateOptions& options, Run& run, const std::function<void(
     const int written = options.each ? simulation.dollCount() : 1;
     scene::Recording recording = scene::beginRecording(simulation);
     const bool bake = !options.bakedOut.empty();
-    const bool recordSteps = !options.recordTo.empty();
+    const bool recordInputs = scene::isInputsFile(options.recordTo);
+    const bool recordSteps = !options.recordTo.empty() && !recordInputs;
+    scene::RunInputs inputs;
+    if (recordInputs) {
+        inputs = scene::beginInputs(simulation, "lutka " LUTKA_VERSION);
+        inputs.settings = inputSettings(options);
+    }
+    std::optional<scene::InputPlayer> player;
+    if (run.inputs) player.emplace(*run.inputs, simulation);
     const auto sample = [&] {
         for (scene::ClipBaker& baker : bakers)
             baker.sample(simulation);
@@ -215,7 +253,10 @@ void execute(const SimulateOptions& options, Run& run, const std::function<void(
     Progress progress(run.replay ? "replaying" : "simulating", run.steps);
     for (int step = 0; step < run.steps; ++step) {
         leaveIfInterrupted();
+        if (player) player->beforeStep();
         advance(run, step);
+        if (run.inputs) checkInputs(options, run);
+        if (recordInputs) scene::noteStep(simulation, step + 1 == run.steps, inputs);
         sample();
         if (recordSteps) scene::record(simulation, recording);
         if (afterStep) afterStep(simulation);
@@ -228,6 +269,7 @@ void execute(const SimulateOptions& options, Run& run, const std::function<void(
     for (int doll = 0; !options.meshOut.empty() && doll < written; ++doll)
         writeLastMesh(fileOf(options.meshOut, options, doll), run, doll);
     if (recordSteps) orLeave(scene::saveRecording(options.recordTo, recording));
+    if (recordInputs) orLeave(scene::saveInputs(options.recordTo, inputs));
     if (!options.report.empty()) orLeave(writeFileAtomically(options.report, scene::reportJson(simulation)));
 }
 

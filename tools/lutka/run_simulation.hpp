@@ -6,6 +6,7 @@
 
 #include "options.hpp"
 #include "scene/recording.hpp"
+#include "scene/run_inputs.hpp"
 #include "scene/scene_cast.hpp"
 #include "scene/simulation.hpp"
 
@@ -17,6 +18,7 @@ struct Run {
     std::unique_ptr<scene::Simulation> simulation;
     int steps = 0;                           ///< What --seconds, the scene or the recording asks for.
     std::optional<scene::Recording> replay;  ///< Set: shown instead of simulating.
+    std::optional<scene::RunInputs> inputs;  ///< Set: simulated again, and held against what came of it then.
 };
 
 /// Loads the characters and sets the scene up. Leaves on errors, first of all when an output has the wrong extension,
