@@ -13,7 +13,7 @@
 namespace lutka::cli {
 namespace {
 
-struct Options {
+struct BatchCommandOptions {
     std::filesystem::path list;
     std::filesystem::path out;
     std::string shard;
@@ -53,7 +53,7 @@ Tally runRows(scene::Batch& batch, const std::vector<std::size_t>& rows) {
     return tally;
 }
 
-void print(const Options& options, const scene::BatchPlan& plan, std::size_t rows, const Tally& tally) {
+void print(const BatchCommandOptions& options, const scene::BatchPlan& plan, std::size_t rows, const Tally& tally) {
     for (const auto& [row, reason] : tally.failed)
         spdlog::error("{}: {}", nameOf(plan, row), reason);
     if (!options.json) {
@@ -72,7 +72,7 @@ void print(const Options& options, const scene::BatchPlan& plan, std::size_t row
     fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-void run(const Options& options) {
+void runBatch(const BatchCommandOptions& options) {
     const scene::BatchShard shard =
         options.shard.empty() ? scene::BatchShard{} : orLeave(scene::parseBatchShard(options.shard));
     scene::Batch::Settings settings;
@@ -94,7 +94,7 @@ void run(const Options& options) {
 }  // namespace
 
 void addBatch(const Command& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BatchCommandOptions>();
     const Command command = app.add(
         "batch", "Run models x scenes x seeds of a list, resumable; without --shard a summary is written at the end");
     command.option("LIST", options->list, "the list (*.json, see docs/howto.md)").required();
@@ -105,7 +105,7 @@ void addBatch(const Command& app) {
         .range(64, 1 << 20)
         .showDefault();
     command.flag("--json", options->json, "print the tally as JSON on stdout");
-    command.onRun([options] { run(*options); });
+    command.onRun([options] { runBatch(*options); });
 }
 
 }  // namespace lutka::cli

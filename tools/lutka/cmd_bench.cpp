@@ -16,7 +16,7 @@
 namespace lutka::cli {
 namespace {
 
-struct Options {
+struct BenchCommandOptions {
     RagdollOptions ragdoll;
     std::vector<int> counts{1, 10, 100};
     std::vector<std::string> scenes{"spread", "pile"};
@@ -41,7 +41,7 @@ void printRow(const scene::BenchResult& r) {
     std::fflush(stdout);
 }
 
-void printHeader(const Options& options) {
+void printHeader(const BenchCommandOptions& options) {
     fmt::print("{} beside stock Bullet; median ms a step, sleeping {}\n", options.solver,
                options.sleeping ? "on" : "off");
     fmt::print("{:<8} {:>6} {:>7} {:>10} {:>10} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "SCENE", "DOLLS", "THREADS",
@@ -51,7 +51,7 @@ void printHeader(const Options& options) {
 /// Runs the cases of the scenes, the named ones with the model, and takes their results.
 class Bench {
   public:
-    explicit Bench(const Options& options) : options_(options) {}
+    explicit Bench(const BenchCommandOptions& options) : options_(options) {}
 
     void run(const std::string& name) { scene::isSceneFile(name) ? runFile(name) : runNamed(name); }
     std::vector<scene::BenchResult> results;
@@ -92,11 +92,11 @@ class Bench {
         if (!options_.json) printRow(results.back());
     }
 
-    const Options& options_;
+    const BenchCommandOptions& options_;
     std::unique_ptr<scene::RagdollAsset> asset_;
 };
 
-void compare(const Options& options) {
+void compare(const BenchCommandOptions& options) {
     if (!options.json) printHeader(options);
     Bench bench(options);
     for (const std::string& name : options.scenes)
@@ -106,7 +106,7 @@ void compare(const Options& options) {
 }
 
 // All of them, in the order of the lists. Without a window there is no display to wait for.
-std::vector<FrameCase> casesOf(const Options& options) {
+std::vector<FrameCase> casesOf(const BenchCommandOptions& options) {
     FrameCase one;
     one.solver = solverFromName(options.solver);
     one.sleeping = options.sleeping;
@@ -153,7 +153,7 @@ std::string csvLine(const std::vector<std::string>& cells) {
 }
 
 // The cells as the process of its own gives them, one a line.
-std::vector<std::string> measureApart(const Options& options, const std::filesystem::path& model,
+std::vector<std::string> measureApart(const BenchCommandOptions& options, const std::filesystem::path& model,
                                       const FrameCase& what) {
     const auto text = inOwnProcess([&] {
         const auto asset = scene::loadRagdoll(model, options.ragdoll.load());
@@ -199,7 +199,7 @@ std::string sweepJson(const std::vector<std::vector<std::string>>& rows) {
            "\n";
 }
 
-void sweep(const Options& options) {
+void sweep(const BenchCommandOptions& options) {
     std::filesystem::path model = options.ragdoll.model.model;
     if (model.empty()) model = orLeave(findAsset("models/mannequin.glb"));
     const std::vector<FrameCase> cases = casesOf(options);
@@ -223,7 +223,7 @@ void sweep(const Options& options) {
         leave({ErrorCode::noDisplay, "no case could be measured: " + rows.front().back(), {}, {}});
 }
 
-void run(const Options& options) {
+void runBench(const BenchCommandOptions& options) {
     const bool compares = options.modes == std::vector<std::string>{"compare"};
     if (!compares && std::find(options.modes.begin(), options.modes.end(), "compare") != options.modes.end()) {
         leave({ErrorCode::usage, "compare goes with no other mode", "--mode",
@@ -235,7 +235,7 @@ void run(const Options& options) {
 }  // namespace
 
 void addBench(const Command& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BenchCommandOptions>();
     const Command command =
         app.add("bench", "Time our solver beside stock Bullet, or whole frames over numbers of dolls");
     options->ragdoll.addTo(command, false);
@@ -276,7 +276,7 @@ void addBench(const Command& app) {
     command.flag("--sleeping", options->sleeping, "let dolls at rest sleep");
     command.option("--csv", options->csv, "write the figures as CSV");
     command.flag("--json", options->json, "print the figures as JSON on stdout");
-    command.onRun([options] { run(*options); });
+    command.onRun([options] { runBench(*options); });
 }
 
 }  // namespace lutka::cli

@@ -14,7 +14,7 @@
 namespace lutka::cli {
 namespace {
 
-struct Options {
+struct BuildCommandOptions {
     RagdollOptions ragdoll;
     std::filesystem::path out;
     std::string limitsFromClips;  // empty: limits are the anatomy's
@@ -77,7 +77,7 @@ void printTable(const physics::RagdollProfile& profile) {
                profile.filteredPairs.size());
 }
 
-void run(const Options& options) {
+void runBuild(const BuildCommandOptions& options) {
     const auto asset = orLeave(scene::loadRagdoll(options.ragdoll.model.model, options.ragdoll.load()));
     printWarnings(*asset);
     std::vector<physics::ClipLimitChange> changes;
@@ -100,7 +100,7 @@ void run(const Options& options) {
 }  // namespace
 
 void addBuild(const Command& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BuildCommandOptions>();
     const Command command = app.add("build", "Make the whole ragdoll profile: map, fit, masses, limits, filter");
     options->ragdoll.addTo(command);
     command.option("-o,--output", options->out, "write the profile (*.ragdoll.json); - for stdout");
@@ -109,7 +109,7 @@ void addBuild(const Command& app) {
                 "widen: make room for what the model's own animations do; fit: allow just that")
         .oneOf(wordsOf(kClipLimits));
     command.flag("--json", options->json, "print the profile as JSON on stdout");
-    command.onRun([options] { run(*options); });
+    command.onRun([options] { runBuild(*options); });
 }
 
 }  // namespace lutka::cli

@@ -11,14 +11,14 @@
 namespace lutka::cli {
 namespace {
 
-struct Options {
+struct CheckCommandOptions {
     RagdollOptions ragdoll;
     std::filesystem::path fixTo;
     bool json = false;
 };
 
 // Mends what can be mended, writes the profile, and looks again.
-void mend(const Options& options, scene::RagdollAsset& asset, scene::Checkup& checkup) {
+void mend(const CheckCommandOptions& options, scene::RagdollAsset& asset, scene::Checkup& checkup) {
     auto mended = orLeave(physics::applyMends(asset.profile, asset.character, asset.map, checkup.diagnosis.findings));
     orLeave(physics::saveProfile(options.fixTo, mended));
     asset.rig = orLeave(physics::bindRig(mended, asset.character.skeleton));
@@ -26,7 +26,7 @@ void mend(const Options& options, scene::RagdollAsset& asset, scene::Checkup& ch
     checkup = scene::examine(asset);
 }
 
-void run(const Options& options) {
+void runCheck(const CheckCommandOptions& options) {
     const auto asset = orLeave(scene::loadRagdoll(options.ragdoll.model.model, options.ragdoll.load()));
     scene::Checkup checkup = scene::examine(*asset);
     if (!options.fixTo.empty()) mend(options, *asset, checkup);
@@ -37,13 +37,13 @@ void run(const Options& options) {
 }  // namespace
 
 void addCheck(const Command& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CheckCommandOptions>();
     const Command command =
         app.add("check", "Examine a ragdoll: findings with measures and mends, three drops, one score");
     options->ragdoll.addTo(command);
     command.option("--fix", options->fixTo, "write the profile with what can be mended to this file, and judge that");
     command.flag("--json", options->json, "print the findings as JSON on stdout");
-    command.onRun([options] { run(*options); });
+    command.onRun([options] { runCheck(*options); });
 }
 
 }  // namespace lutka::cli

@@ -11,7 +11,7 @@
 namespace lutka::cli {
 namespace {
 
-struct Options {
+struct EditCommandOptions {
     RagdollOptions ragdoll;
     SceneOptions scene;
     bool paused = false;
@@ -45,7 +45,7 @@ render::RenderQuality qualityFromName(const std::string& name) {
     return name == "fast" ? render::RenderQuality::fast : render::RenderQuality::automatic;
 }
 
-editor::ApplicationOptions applicationOptions(Options& options) {
+editor::ApplicationOptions applicationOptions(EditCommandOptions& options) {
     editor::ApplicationOptions application;
     editor::EditorOptions& edit = application.editor;
     const bool fromFile = options.scene.takeFile(options.ragdoll.model.model);
@@ -82,7 +82,7 @@ editor::ApplicationOptions applicationOptions(Options& options) {
     return application;
 }
 
-void run(Options& options) {
+void runEdit(EditCommandOptions& options) {
     if (options.states) {
         fmt::print("{}", editor::stateDiagram());
         return;
@@ -96,7 +96,7 @@ void run(Options& options) {
 }  // namespace
 
 void addEdit(const Command& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<EditCommandOptions>();
     const Command command = app.add("edit", "Open the editor: watch, drag and edit the ragdoll");
     options->ragdoll.addTo(command);
     command.find("MODEL").required(false).describe("model file, or a scene (*.scene.json); default: our own mannequin");
@@ -119,7 +119,7 @@ void addEdit(const Command& app) {
     command.flag("--spare-substeps", options->spareSubsteps,
                  "while the machine is late, take fewer substeps before the simulation slows down");
     command.flag("--states", options->states, "print the state machine as a Mermaid diagram and end");
-    command.onRun([options] { run(*options); });
+    command.onRun([options] { runEdit(*options); });
 }
 
 }  // namespace lutka::cli

@@ -12,7 +12,7 @@
 namespace lutka::cli {
 namespace {
 
-struct Options {
+struct ExportCommandOptions {
     RagdollOptions ragdoll;
     std::filesystem::path out;
     std::string format;  // empty: by the ending of `out`
@@ -25,7 +25,7 @@ std::vector<std::string> formatNames() {
     return names;
 }
 
-exporting::ExportFormat formatOf(const Options& options) {
+exporting::ExportFormat formatOf(const ExportCommandOptions& options) {
     const auto format =
         options.format.empty() ? exporting::exportFormatOf(options.out) : exporting::exportFormatNamed(options.format);
     if (format) return *format;
@@ -33,7 +33,7 @@ exporting::ExportFormat formatOf(const Options& options) {
            "add --format, or end the name as `lutka export --help` says"});
 }
 
-void run(Options& options) {
+void runExport(ExportCommandOptions& options) {
     const exporting::ExportFormat format = formatOf(options);
     options.ragdoll.model.textures = format == exporting::ExportFormat::glb || format == exporting::ExportFormat::gltf;
     const auto asset = orLeave(scene::loadRagdoll(options.ragdoll.model.model, options.ragdoll.load()));
@@ -55,12 +55,12 @@ std::string formatHelp() {
 }  // namespace
 
 void addExport(const Command& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ExportCommandOptions>();
     const Command command = app.add("export", "Write the ragdoll in another engine's format");
     options->ragdoll.addTo(command);
     command.option("-o,--output", options->out, "the file; its ending chooses the format; - for stdout").required();
     command.option("--format", options->format, formatHelp()).oneOf(formatNames());
-    command.onRun([options] { run(*options); });
+    command.onRun([options] { runExport(*options); });
 }
 
 }  // namespace lutka::cli

@@ -14,7 +14,7 @@ using animation::Character;
 using animation::Skeleton;
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct InspectCommandOptions {
     ModelOptions model;
     bool json = false;
 };
@@ -122,7 +122,7 @@ void printText(const Character& character) {
         fmt::print("  {}\n", warning);
 }
 
-void run(const Options& options) {
+void runInspect(const InspectCommandOptions& options) {
     const Character character = orLeave(animation::importCharacter(options.model.model, options.model.import()));
     if (options.json) {
         fmt::print("{}\n", inspectJson(character).dump(2, ' ', false, Json::error_handler_t::replace));
@@ -134,12 +134,12 @@ void run(const Options& options) {
 }  // namespace
 
 void addInspect(const Command& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<InspectCommandOptions>();
     const Command command = app.add("inspect", "Show the skeleton, meshes, clips, units and what was repaired");
     options->model.addTo(command);
     options->model.textures = true;
     command.flag("--json", options->json, "print it as JSON on stdout");
-    command.onRun([options] { run(*options); });
+    command.onRun([options] { runInspect(*options); });
 }
 
 }  // namespace lutka::cli

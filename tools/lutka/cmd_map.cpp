@@ -17,7 +17,7 @@ using animation::Character;
 using animation::HumanoidMap;
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct MapCommandOptions {
     ModelOptions model;
     std::filesystem::path out;
     bool json = false;
@@ -139,7 +139,7 @@ void printTable(const Character& character, const HumanoidMap& map) {
     fmt::print("bodies for them: --bodies with the words of the first column\n");
 }
 
-void runAnyRig(const Options& options, const Character& character) {
+void runAnyRig(const MapCommandOptions& options, const Character& character) {
     const animation::SegmentedRig rig = animation::segmentRig(character);
     const Json json = segmentsJson(character, rig);
     if (!options.out.empty()) orLeave(writeFileAtomically(options.out, dump(json)));
@@ -152,7 +152,7 @@ void runAnyRig(const Options& options, const Character& character) {
     }
 }
 
-void run(const Options& options) {
+void runMap(const MapCommandOptions& options) {
     auto character = animation::importCharacter(options.model.model, options.model.import());
     if (!character) {
         if (options.json) fmt::print("{}", dump(refusalJson(options.model.model, character.error())));
@@ -180,14 +180,14 @@ void run(const Options& options) {
 }  // namespace
 
 void addMap(const Command& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<MapCommandOptions>();
     const Command command = app.add("map", "Bind the joints to body parts: role, joint, confidence and reason");
     options->model.addTo(command);
     command.option("-o,--output", options->out, "write the map as JSON; - for stdout");
     command.flag("--json", options->json, "print the map as JSON on stdout");
     command.flag("--ignore-names", options->ignoreNames, "map by topology, geometry and weights alone");
     addRigOption(command, options->rig);
-    command.onRun([options] { run(*options); });
+    command.onRun([options] { runMap(*options); });
 }
 
 }  // namespace lutka::cli

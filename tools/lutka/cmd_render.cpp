@@ -21,7 +21,7 @@
 namespace lutka::cli {
 namespace {
 
-struct Options {
+struct RenderCommandOptions {
     SimulateOptions simulate;
     std::filesystem::path out;
     std::string size = "960x540";
@@ -42,7 +42,7 @@ struct Options {
 /// Everything that draws: made once, used a frame at a time.
 class Painter {
   public:
-    Painter(const Options& options, Run& run)
+    Painter(const RenderCommandOptions& options, Run& run)
         : options_(options),
           size_(parseSize(options.size)),
           layers_(orLeave(scene::parseDebugLayers(options.debug))),
@@ -103,7 +103,7 @@ class Painter {
         if (options_.simulate.eye.empty()) simulation.setEye(render::eyeOf(frame_.camera));
     }
 
-    const Options& options_;
+    const RenderCommandOptions& options_;
     render::Extent size_;
     scene::DebugLayers layers_;
     render::GlContext context_;
@@ -116,14 +116,14 @@ class Painter {
     std::vector<render::LegendEntry> legend_;
 };
 
-void renderPicture(const Options& options, Run& run, Painter& painter) {
+void renderPicture(const RenderCommandOptions& options, Run& run, Painter& painter) {
     execute(options.simulate, run);
     painter.paint(*run.simulation);
     orLeave(render::savePng(painter.image(), options.out));
 }
 
 // Frames come at their own rate, between the steps' states.
-void renderFrames(const Options& options, Run& run, Painter& painter) {
+void renderFrames(const RenderCommandOptions& options, Run& run, Painter& painter) {
     auto writer = orLeave(render::FrameWriter::open(options.out, painter.size(), options.framesPerSecond));
     painter.paint(*run.simulation);
     orLeave(writer.add(painter.image()));
@@ -139,7 +139,7 @@ void renderFrames(const Options& options, Run& run, Painter& painter) {
     orLeave(writer.finish());
 }
 
-void run(Options& options) {
+void runRender(RenderCommandOptions& options) {
     options.simulate.ragdoll.model.textures = true;
     if (!render::FrameWriter::isVideo(options.out) && options.out.extension() != ".png") {
         leave({ErrorCode::usage, fmt::format("'{}' is neither .png, .mp4 nor .gif", options.out.string()), "--output",
@@ -169,7 +169,7 @@ void run(Options& options) {
 }  // namespace
 
 void addRender(const Command& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RenderCommandOptions>();
     const Command command = app.add("render", "Draw the fall to a picture or a video, without a display");
     options->simulate.addTo(command);
     const Option sky =
@@ -190,7 +190,7 @@ void addRender(const Command& app) {
         .range(-3600.0, 3600.0);
     command.option("--pitch", options->pitchDeg, "camera's height in degrees").range(-89.0, 89.0);
     command.option("--distance", options->distance, "camera's distance in metres").range(0.01, 1000.0);
-    command.onRun([options] { run(*options); });
+    command.onRun([options] { runRender(*options); });
 }
 
 }  // namespace lutka::cli

@@ -17,7 +17,7 @@ using animation::MeanAndMost;
 using animation::RetargetFigures;
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct RetargetCommandOptions {
     ModelOptions from;
     std::filesystem::path to;
     std::string clip;
@@ -41,7 +41,7 @@ Json pairJson(const MeanAndMost& figure) {
     return {{"mean", figure.mean}, {"max", figure.most}};
 }
 
-Json figuresJson(const Options& options, const animation::Clip& clip, const RetargetFigures& figures) {
+Json figuresJson(const RetargetCommandOptions& options, const animation::Clip& clip, const RetargetFigures& figures) {
     Json directions = Json::object();
     for (const animation::DirectionError& error : figures.directions)
         directions[error.part] = pairJson(error.degrees);
@@ -77,7 +77,7 @@ void printFigures(const animation::Clip& clip, const RetargetFigures& figures) {
                figures.penetrationCm.most);
 }
 
-void run(Options& options) {
+void runRetarget(RetargetCommandOptions& options) {
     const animation::Character source = orLeave(animation::importCharacter(options.from.model, options.from.import()));
     const animation::Clip& clip = clipOf(source, options.clip);
     ModelOptions targetOptions = options.from;
@@ -109,7 +109,7 @@ void run(Options& options) {
 }  // namespace
 
 void addRetarget(const Command& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RetargetCommandOptions>();
     const Command command = app.add("retarget", "Take a clip of one character to another");
     options->from.addTo(command);
     command.find("MODEL").describe("file with the clip: a rigged character or motion capture");
@@ -118,7 +118,7 @@ void addRetarget(const Command& app) {
     command.option("-o,--output", options->out, "the character with the clip (.glb)").required();
     command.flag("--loose-feet", options->looseFeet, "leave the feet where the legs' turns bring them");
     command.flag("--json", options->json, "print the figures as JSON on stdout");
-    command.onRun([options] { run(*options); });
+    command.onRun([options] { runRetarget(*options); });
 }
 
 }  // namespace lutka::cli

@@ -12,7 +12,7 @@
 namespace lutka::cli {
 namespace {
 
-struct Options {
+struct SceneCommandOptions {
     std::string scene;
     std::filesystem::path model;
     int count = 1;
@@ -25,7 +25,7 @@ struct Options {
 // A figure of common size, where no model says better.
 constexpr scene::FigureBounds kPerson{{-0.85F, 0.0F, -0.15F}, {0.85F, 1.75F, 0.15F}};
 
-scene::EntityScene sceneOf(const Options& options) {
+scene::EntityScene sceneOf(const SceneCommandOptions& options) {
     scene::EntityScene scene;
     if (scene::isSceneFile(options.scene)) {
         scene = orLeave(scene::loadScene(options.scene));
@@ -64,7 +64,7 @@ void print(const scene::EntityScene& scene) {
     if (scene.entities.size() > most) fmt::print("  and {} more\n", scene.entities.size() - most);
 }
 
-void run(const Options& options) {
+void runScene(const SceneCommandOptions& options) {
     const scene::EntityScene scene = sceneOf(options);
     // Paths in what goes to stdout are relative to the working folder, as they are with --json.
     if (options.json || isStandardOutput(options.out)) {
@@ -83,7 +83,7 @@ void run(const Options& options) {
 }  // namespace
 
 void addScene(const Command& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<SceneCommandOptions>();
     const Command command = app.add("scene", "Check a scene file, or write a named scene as a file");
     command.option("SCENE", options->scene, "a named scene, or a file *.scene.json").required();
     command.option("--model", options->model, "model of the characters that have none");
@@ -92,7 +92,7 @@ void addScene(const Command& app) {
     command.option("--seed", options->seed, "varies the start of a named scene; 0 stands upright").showDefault();
     command.option("-o,--output", options->out, "write the scene to this file (*.scene.json); - for stdout");
     command.flag("--json", options->json, "print the scene as a document on stdout");
-    command.onRun([options] { run(*options); });
+    command.onRun([options] { runScene(*options); });
 }
 
 }  // namespace lutka::cli

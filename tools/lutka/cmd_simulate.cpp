@@ -9,7 +9,7 @@
 namespace lutka::cli {
 namespace {
 
-void run(SimulateOptions& options) {
+void runSimulate(SimulateOptions& options) {
     Run run = prepare(options);
     execute(options, run);
     if (run.replay) {
@@ -33,7 +33,7 @@ void addSimulate(const Command& app) {
     auto options = std::make_shared<SimulateOptions>();
     const Command command = app.add("simulate", "Let the character fall without a window and measure it");
     options->addTo(command);
-    command.onRun([options] { run(*options); });
+    command.onRun([options] { runSimulate(*options); });
 }
 
 }  // namespace lutka::cli
