@@ -11,6 +11,7 @@
 #include "crowd_settings.hpp"
 #include "physics/bullet/bullet_world.hpp"
 #include "physics/crowd/crowd_world.hpp"
+#include "physics/world/doll_overlap.hpp"
 #include "physics/world/quality.hpp"
 #include "scene/scenario.hpp"
 #include "trial.hpp"
@@ -32,6 +33,7 @@ struct Arguments {
     int seeds = 1;
     int steps = 300;
     int threads = 1;
+    int trace = 0;  // steps between two lines of how dolls overlap at that moment; 0: none
     bool sleeping = false;
     bool measure = true;
 };
@@ -81,6 +83,38 @@ void fill(physics::World& world, const scene::RagdollAsset& figure, const scene:
     }
 }
 
+// How deep bodies of different dolls lie in each other now, in millimetres; shares over those that nearly touch.
+struct Overlaps {
+    float max = 0.0F, p99 = 0.0F, p50 = 0.0F;
+    std::size_t pairs = 0;
+};
+Overlaps overlapsOf(const physics::World& world) {
+    physics::DollOverlap overlap;
+    std::vector<physics::BodyState> bodies;
+    int index = 0;
+    for (const physics::DollId doll : world.dolls()) {
+        const physics::RagdollProfile& profile = world.profileOf(doll);
+        bodies.resize(profile.bodies.size());
+        world.getBodies(doll, bodies);
+        overlap.add(index++, profile, bodies);
+    }
+    const std::span<const float> found = overlap.depths();
+    std::vector<float> depths(found.begin(), found.end());
+    std::sort(depths.begin(), depths.end());
+    const auto at = [&](double share) {
+        const auto i = static_cast<std::size_t>(share * static_cast<double>(depths.size()));
+        return depths.empty() ? 0.0F : 1e3F * depths[std::min(i, depths.size() - 1)];
+    };
+    return {at(1.0), at(0.99), at(0.5), depths.size()};
+}
+
+void printTrace(const Run& run, int step) {
+    const Overlaps now = overlapsOf(*run.world);
+    fmt::print("# {} {:.2f} s: {} near pairs, p50 {:.1f} p99 {:.1f} max {:.1f} mm, {:.2f} ms\n", run.solver,
+               static_cast<float>(step) * kDt, now.pairs, now.p50, now.p99, now.max, run.ms.back());
+    std::fflush(stdout);
+}
+
 void step(Run& run, bool measure) {
     double measuring = 0;
     const double before = cpuMs();
@@ -116,13 +150,14 @@ void print(const Run& run, const Run& first, const std::string& scene, int seed,
     for (std::size_t i = 0; i < run.ms.size(); ++i)
         ratios.push_back(first.ms[i] / run.ms[i]);
     std::sort(ratios.begin(), ratios.end());
+    const Overlaps atEnd = overlapsOf(*run.world);
     int asleep = 0;
     for (const physics::DollId doll : run.world->dolls())
         asleep += run.world->isAsleep(doll) ? 1 : 0;
     fmt::print(
         "{},{},{},{},{:.4f},{:.2f},{:.2f},{:.2f},{:.2f},{:.3f},{:.2f},{:.2f},{:.1f},{:.1f},{:.2f},{:.2f},{:.2f},{},{},{"
         "},"
-        "{:.2f},{:.1f},{:.1f}\n",
+        "{:.2f},{:.1f},{:.1f},{:.1f},{:.1f}\n",
         run.solver, scene, arguments.count, seed, mean(run.ms), mean(first.ms) / mean(run.ms),
         ratios[ratios.size() / 2], quality.jointSeparationM.max * 1e3F, quality.jointSeparationM.p99 * 1e3F,
         quality.jointSeparationM.mean * 1e3F, quality.limitViolationDeg.max, quality.limitViolationDeg.p99,
@@ -130,7 +165,7 @@ void print(const Run& run, const Run& first, const std::string& scene, int seed,
         100.0F * quality.energyGrowthJ / std::max(quality.initialEnergyJ, 1e-3F), quality.settleSeconds.value_or(-1.0F),
         quality.residualSpeedMps * 1e3F, quality.nonFinite, asleep,
         run.contacts / std::max<std::size_t>(run.ms.size(), 1), quality.limitViolationDeg.lasting,
-        quality.dollPenetrationM.max * 1e3F, quality.dollPenetrationM.p99 * 1e3F);
+        quality.dollPenetrationM.max * 1e3F, quality.dollPenetrationM.p99 * 1e3F, atEnd.max, atEnd.p99);
     std::fflush(stdout);
 }
 
@@ -153,8 +188,10 @@ void runScene(const scene::RagdollAsset& figure, const std::string& scene, int s
         runs.push_back(std::move(run));
     }
     for (int i = 0; i < arguments.steps; ++i) {
-        for (Run& run : runs)
+        for (Run& run : runs) {
             step(run, arguments.measure);
+            if (arguments.trace > 0 && (i + 1) % arguments.trace == 0) printTrace(run, i + 1);
+        }
     }
     for (const Run& run : runs)
         print(run, runs.front(), scene, seed, arguments);
@@ -175,6 +212,7 @@ int main(int argc, char** argv) {
     app.add_option("--seeds", arguments.seeds);
     app.add_option("--steps", arguments.steps);
     app.add_option("--threads", arguments.threads);
+    app.add_option("--trace", arguments.trace, "a line every so many steps: how dolls overlap then");
     app.add_flag("--sleeping", arguments.sleeping);
     app.add_flag("!--no-measure", arguments.measure);
     CLI11_PARSE(app, argc, argv);
@@ -192,7 +230,9 @@ int main(int argc, char** argv) {
     }
     fmt::print(
         "solver,scene,count,seed,ms,meanRatio,medianRatio,sepMaxMm,sepP99Mm,sepMeanMm,limitMaxDeg,limitP99Deg,floorMm,"
-        "selfMm,energyPercent,settleS,residualMmps,nonFinite,asleep,contacts,limitLastingDeg,dollMaxMm,dollP99Mm\n");
+        "selfMm,energyPercent,settleS,residualMmps,nonFinite,asleep,contacts,limitLastingDeg,dollMaxMm,dollP99Mm,"
+        "endMaxMm,"
+        "endP99Mm\n");
     for (const std::string& scene : arguments.scenes) {
         for (int seed = arguments.firstSeed; seed < arguments.firstSeed + arguments.seeds; ++seed)
             runScene(*figure, scene, seed, arguments);
