@@ -30,6 +30,11 @@ struct BenchResult {
     physics::Quality stockQuality;
     std::uint64_t contacts = 0;     ///< Of our world at the last step.
     std::uint64_t memoryBytes = 0;  ///< Heap that our world holds at the end.
+
+    /// How many steps of 1/60 s of one doll ours makes in a second; 0 for a case without time.
+    [[nodiscard]] double dollStepsPerSecond() const;
+    /// How many dolls one core carries in real time, at the cost that a doll has in this case.
+    [[nodiscard]] double realTimeDollsPerCore() const;
 };
 
 /// Runs one case. Fails as makeScenario and Simulation::create do.

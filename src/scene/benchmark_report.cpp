@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <thread>
 
@@ -38,6 +39,8 @@ Json caseJson(const BenchResult& result) {
     json["msPerStep"] = timesJson(result.ours);
     json["stockMsPerStep"] = timesJson(result.stock);
     json["speedup"] = result.speedup;
+    json["dollStepsPerSecond"] = result.dollStepsPerSecond();
+    json["realTimeDollsPerCore"] = result.realTimeDollsPerCore();
     json["quality"] = qualityJson(result.quality);
     json["stockQuality"] = qualityJson(result.stockQuality);
     json["contacts"] = result.contacts;
@@ -46,6 +49,16 @@ Json caseJson(const BenchResult& result) {
 }
 
 }  // namespace
+
+double BenchResult::dollStepsPerSecond() const {
+    const auto mean = static_cast<double>(ours.mean);
+    return mean > 0.0 ? 1e3 * what.count / mean : 0.0;
+}
+
+double BenchResult::realTimeDollsPerCore() const {
+    constexpr double kStepsPerSecond = 60.0;
+    return dollStepsPerSecond() / kStepsPerSecond / std::max(what.threads, 1);
+}
 
 std::string benchmarkJson(std::span<const BenchResult> results) {
     Json json;

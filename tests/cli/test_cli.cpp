@@ -219,6 +219,7 @@ TEST_CASE("bench prints our time beside stock Bullet's, with the quality of both
     REQUIRE(json["cases"].size() == 2);
     for (const Json& one : json["cases"]) {
         CHECK(one["speedup"].get<double>() > 0);
+        CHECK(one["realTimeDollsPerCore"].get<double>() == Approx(one["dollStepsPerSecond"].get<double>() / 60.0));
         CHECK(one["stockMsPerStep"]["p50"].get<double>() > 0);
         CHECK(one["quality"].contains("jointSeparationM"));
         CHECK(one["stockQuality"].contains("jointSeparationM"));

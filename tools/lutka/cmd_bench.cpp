@@ -34,18 +34,21 @@ struct BenchCommandOptions {
 };
 
 void printRow(const scene::BenchResult& r) {
-    fmt::print("{:<8} {:>6} {:>7} {:>10.3f} {:>10.3f} {:>8.2f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f} {:>8}\n",
-               r.what.scene, r.what.count, r.what.threads, r.ours.p50, r.stock.p50, r.speedup,
-               r.quality.jointSeparationM.max * 1e3F, r.stockQuality.jointSeparationM.max * 1e3F,
-               r.quality.floorPenetrationM * 1e3F, r.stockQuality.floorPenetrationM * 1e3F, r.contacts);
+    fmt::print(
+        "{:<8} {:>6} {:>7} {:>10.3f} {:>10.3f} {:>8.2f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f} {:>8} {:>10.0f} {:>9.0f}\n",
+        r.what.scene, r.what.count, r.what.threads, r.ours.p50, r.stock.p50, r.speedup,
+        r.quality.jointSeparationM.max * 1e3F, r.stockQuality.jointSeparationM.max * 1e3F,
+        r.quality.floorPenetrationM * 1e3F, r.stockQuality.floorPenetrationM * 1e3F, r.contacts, r.dollStepsPerSecond(),
+        r.realTimeDollsPerCore());
     std::fflush(stdout);
 }
 
 void printHeader(const BenchCommandOptions& options) {
     fmt::print("{} beside stock Bullet; median ms a step, sleeping {}\n", options.solver,
                options.sleeping ? "on" : "off");
-    fmt::print("{:<8} {:>6} {:>7} {:>10} {:>10} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8}\n", "SCENE", "DOLLS", "THREADS",
-               "OURS", "STOCK", "RATIO", "SEP mm", "(stock)", "PEN mm", "(stock)", "CONTACTS");
+    fmt::print("{:<8} {:>6} {:>7} {:>10} {:>10} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8} {:>10} {:>9}\n", "SCENE", "DOLLS",
+               "THREADS", "OURS", "STOCK", "RATIO", "SEP mm", "(stock)", "PEN mm", "(stock)", "CONTACTS", "DOLLSTEP/s",
+               "REAL/CORE");
 }
 
 /// Runs the cases of the scenes, the named ones with the model, and takes their results.
