@@ -113,6 +113,7 @@ void checkTumbling(const scene::RagdollAsset& asset) {
         physics::bodiesFromPose(asset.rig, asset.character.skeleton.bindModelFromJoint, {}, bodies);
         const vec3 rate = 7.0F * glm::normalize(axis);
         CAPTURE(asset.character.name, axis.x, axis.y, axis.z);
+        CHECK(tumble(asset.profile, *emptySpace(), bodies, rate).angularMomentum < 0.003);
         CHECK(tumble(withoutContacts(asset.profile), *emptySpace(), bodies, rate).angularMomentum < 0.003);
         const Loss free = tumble(withoutLosses(asset.profile), *emptySpace(), bodies, rate);
         CHECK(free.angularMomentum < 0.003);

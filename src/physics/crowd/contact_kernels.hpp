@@ -4,6 +4,7 @@
 /// comes before the normal row, so that overlap has the last word; both tangents are solved at once and share one
 /// circular bound.
 
+#include "physics/crowd/touch_kernels.hpp"
 #include "physics/crowd/tree_kernels.hpp"
 
 namespace lutka::physics::crowd::LUTKA_KERNELS {
@@ -64,22 +65,20 @@ LUTKA_LANES V3 slidingOf(const PairContactLanes& pair, const PairVelocities& v) 
     return v.velocityA + cross(v.angularA, load(pair.armA)) - (v.velocityB + cross(v.angularB, load(pair.armB)));
 }
 
-// Once a step: arms, directions and masses, which a step's few degrees of turning change little.
-LUTKA_LANES void preparePair(PairContactLanes& pair, const V3& coreA, const V3& coreB) {
-    const V3 normal = load(pair.normal);
+// Directions and masses. What friction carries is turned into the new directions.
+LUTKA_LANES void preparePair(PairContactLanes& pair, bool isFirst) {
     V3 direction[3];
-    direction[0] = normal;
-    tangentsOf(normal, direction[1], direction[2]);
+    direction[0] = load(pair.normal);
+    tangentsOf(direction[0], direction[1], direction[2]);
+    const V3 kept = isFirst ? load(pair.frictionImpulse)
+                            : load(pair.tangent[0]) * load(pair.tangentImpulse[0]) +
+                                  load(pair.tangent[1]) * load(pair.tangentImpulse[1]);
     store(pair.tangent[0], direction[1]);
     store(pair.tangent[1], direction[2]);
-    const V3 kept = load(pair.frictionImpulse);
     store(pair.tangentImpulse[0], dot(kept, direction[1]));
     store(pair.tangentImpulse[1], dot(kept, direction[2]));
-    const V3 middle = normal * (load(pair.radius) * all(0.5F));
-    const V3 armA = coreA - middle;
-    const V3 armB = coreB + middle;
-    store(pair.armA, armA);
-    store(pair.armB, armB);
+    const V3 armA = load(pair.armA);
+    const V3 armB = load(pair.armB);
     const Symmetric inertiaA = gatherInverseInertia(pair.bodyA);
     const Symmetric inertiaB = gatherInverseInertia(pair.bodyB);
     const F inverseMasses = load(pair.inverseMassA) + load(pair.inverseMassB);
@@ -96,19 +95,56 @@ LUTKA_LANES void preparePair(PairContactLanes& pair, const V3& coreA, const V3& 
     }
 }
 
+// Places a contact where its bodies are now: the touching points, how far apart the surfaces are, the arms. Both bodies
+// are pushed at one point, so that no torque comes from nowhere.
+LUTKA_LANES void placePair(PairContactLanes& pair, bool isFirst) {
+    const F radius = load(pair.radius);
+    V3 coreA, coreB;
+    const V3 between = gather3(pair.bodyA, kPositionOffset) - gather3(pair.bodyB, kPositionOffset);
+    if (pair.follows != 0 && !isFirst) {
+        const F one = all(1.0F), two = all(2.0F), zero = all(0.0F);
+        const V3 axisA = gather3(pair.bodyA, kAxisOffset + 3 * kLanes);
+        const V3 axisB = gather3(pair.bodyB, kAxisOffset + 3 * kLanes);
+        const F halfA = load(pair.halfA);
+        const F halfB = load(pair.halfB);
+        const NearestPoints at = nearestPoints(between, axisA * halfA, {zero, zero, zero}, axisB * halfB);
+        // Cores that have passed through each other go back where they came from.
+        const V3 before = load(pair.normal);
+        const Mask through = (dot(at.normal, before) < zero) & (at.distance < radius);
+        const F side = through ? -one : one;
+        const F alongA = (two * at.s - one) * halfA;
+        const F alongB = (two * at.t - one) * halfB;
+        const Mask used = load(pair.active) > zero;
+        store(pair.normal, choose(used, at.normal * side, before));
+        store(pair.localA.y, alongA);
+        store(pair.localB.y, alongB);
+        coreA = axisA * alongA;
+        coreB = axisB * alongB;
+    } else {
+        coreA = gatherCore(pair.bodyA, load(pair.localA), pair.onAxisY);
+        coreB = gatherCore(pair.bodyB, load(pair.localB), pair.onAxisY);
+    }
+    const V3 apart = between + (coreA - coreB);
+    store(pair.separation, dot(load(pair.normal), apart) - radius);
+    const V3 middle = apart * all(0.5F);
+    store(pair.armA, coreA - middle);
+    store(pair.armB, coreB + middle);
+}
+
+constexpr float kComing = 1.0F;  // m/s by which pushes of others may speed up an approach within a sweep
+
 static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& params) {
+    const bool isFirst = params.warmStart != 0;
     for (int i = 0; i < count; ++i) {
         PairContactLanes& pair = pairs[i];
-        const V3 coreA = gatherCore(pair.bodyA, load(pair.localA), pair.onAxisY);
-        const V3 coreB = gatherCore(pair.bodyB, load(pair.localB), pair.onAxisY);
+        placePair(pair, isFirst);
         const V3 normal = load(pair.normal);
-        const V3 apart =
-            (gather3(pair.bodyA, kPositionOffset) - gather3(pair.bodyB, kPositionOffset)) + (coreA - coreB);
-        store(pair.separation, dot(normal, apart) - load(pair.radius));
-        if (params.warmStart != 0) preparePair(pair, coreA, coreB);
-        // What changed the bodies' speeds was a hit and is over; what held them against a load goes on.
         const F start = dot(normal, slidingOf(pair, velocitiesOf(pair)));
         const F pressed = load(pair.normalImpulse);
+        const Mask meets =
+            (pressed > all(0.0F)) | (start + contactBias(load(pair.separation), params, 0) < all(kComing));
+        if (isFirst || bits(meets) != 0) preparePair(pair, isFirst);
+        // What changed the bodies' speeds was a hit and is over; what held them against a load goes on.
         const F steady = pressed - load(pair.normalMass) * (start - load(pair.approach));
         // Bodies that part already bear no load either: pushing on would speed them up.
         const F held = least(most(steady, all(0.0F)), pressed) * stays(start, kSlipSpeed);

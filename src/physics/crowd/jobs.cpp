@@ -19,6 +19,11 @@ void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTou
     pair.bodyB[lane] = state.batchOf(b).bodyLane(touch.bodyB, b.lane);
     writeVector(pair.localA, lane, touch.touch.localA);
     writeVector(pair.localB, lane, touch.touch.localB);
+    const BodyShape& shapeA = state.groupOf(a).topology.shapes[touch.bodyA];
+    const BodyShape& shapeB = state.groupOf(b).topology.shapes[touch.bodyB];
+    pair.halfA.lane[lane] = coreHalf(shapeA);
+    pair.halfB.lane[lane] = coreHalf(shapeB);
+    if (shapeA.kind == BodyShape::Kind::box || shapeB.kind == BodyShape::Kind::box) pair.follows = 0;
     pair.radius.lane[lane] = touch.touch.radius;
     writeVector(pair.normal, lane, touch.touch.normal);
     pair.inverseMassA.lane[lane] = state.groupOf(a).topology.bodies[touch.bodyA].inverseMass;
@@ -35,7 +40,7 @@ void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTou
 // A block of empty lanes: they point to bodies of zeros and push nothing.
 void emptyBlock(PairContactLanes& pair, Batch& batch) {
     pair = {};
-    pair.onAxisY = 1;
+    pair.onAxisY = pair.follows = 1;
     for (int lane = 0; lane < kLanes; ++lane) {
         pair.bodyA[lane] = pair.bodyB[lane] = batch.emptyLane(lane);
         pair.normal.y.lane[lane] = 1.0F;

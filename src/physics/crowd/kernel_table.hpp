@@ -4,7 +4,6 @@
 
 #include "physics/crowd/contact_kernels.hpp"
 #include "physics/crowd/momentum_kernels.hpp"
-#include "physics/crowd/touch_kernels.hpp"
 
 namespace lutka::physics::crowd::LUTKA_KERNELS {
 

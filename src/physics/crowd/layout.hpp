@@ -203,6 +203,7 @@ struct PairContactLanes {
     float* bodyA[kLanes];  ///< First member of the lane in its BodyLanes.
     float* bodyB[kLanes];
     Wide3 localA, localB;  ///< The touching points of the cores.
+    Wide halfA, halfB;     ///< Half lengths of the cores along the bodies' y, where `follows`.
     Wide radius;           ///< Sum of both.
     Wide3 normal;          ///< From B to A.
     Wide inverseMassA, inverseMassB;
@@ -215,6 +216,7 @@ struct PairContactLanes {
     Wide carriedTangent[2];
     Wide active;  ///< 1, or 0 where the lane is empty.
     int onAxisY;  ///< Whether all touching points lie on the bodies' y, as those of capsules do.
+    int follows;  ///< Whether all are of capsules and spheres: points and normal are found anew in every substep.
 
     Wide3 armA, armB;
     Wide3 tangent[2];

@@ -12,11 +12,6 @@ namespace {
 
 using Kind = BodyShape::Kind;
 
-// Half the length of the core along body y: a sphere is a capsule of no length.
-float coreHalf(const BodyShape& shape) {
-    return shape.kind == Kind::capsule ? shape.halfLength : 0.0F;
-}
-
 Segment coreOf(const PlacedShape& body) {
     const vec3 half = body.axes[1] * coreHalf(*body.shape);
     return {body.position - half, body.position + half};
@@ -139,6 +134,10 @@ void touchCorners(const PlacedShape& a, const PlacedShape& b, float range, bool 
 }
 
 }  // namespace
+
+float coreHalf(const BodyShape& shape) {
+    return shape.kind == Kind::capsule ? shape.halfLength : 0.0F;
+}
 
 CorePoints corePoints(const BodyShape& shape) {
     CorePoints points;

@@ -21,6 +21,8 @@ struct CorePoints {
     int count = 0;
     float radius = 0.0F;
 };
+/// Half the length of the core along the body's y: a sphere is a capsule of no length.
+[[nodiscard]] float coreHalf(const BodyShape& shape);
 [[nodiscard]] CorePoints corePoints(const BodyShape& shape);
 
 /// Where a shape's core (a point of it, in body space) with `radius` around it meets the half space n · p <= offset.

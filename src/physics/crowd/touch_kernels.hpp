@@ -16,12 +16,19 @@ LUTKA_LANES F clampedUnit(const F& value) {
     return clampLanes(value, all(0.0F), all(1.0F));
 }
 
+// Where two segments are nearest: how far along each from its start, the way from B's point to A's.
+struct NearestPoints {
+    F s, t;  // 0 to 1
+    V3 normal;
+    F distance;
+};
+
 // Ericson, Real-Time Collision Detection, 5.1.9, on all lanes; a sphere is a segment of no length.
-LUTKA_LANES unsigned touch(const Cores& a, const Cores& b, const TouchRange& range, CoreTouchLanes& out) {
+LUTKA_LANES NearestPoints nearestPoints(const V3& centreA, const V3& halfA, const V3& centreB, const V3& halfB) {
     const F zero = all(0.0F), one = all(1.0F), two = all(2.0F), tiny = all(1e-10F);
-    const V3 da = a.half * two;
-    const V3 db = b.half * two;
-    const V3 r = (a.centre - a.half) - (b.centre - b.half);
+    const V3 da = halfA * two;
+    const V3 db = halfB * two;
+    const V3 r = (centreA - halfA) - (centreB - halfB);
     const F aa = dot(da, da), bb = dot(db, db), ab = dot(da, db);
     const F aR = dot(da, r), bR = dot(db, r);
     const F perA = one / most(aa, tiny), perB = one / most(bb, tiny);
@@ -35,9 +42,6 @@ LUTKA_LANES unsigned touch(const Cores& a, const Cores& b, const TouchRange& ran
 
     const V3 between = r + da * s - db * t;
     const F distance = squareRoot(dot(between, between));
-    const F radius = a.radius + b.radius;
-    const V3 relative = a.velocity - b.velocity;
-    const F speed = squareRoot(dot(relative, relative)) + (a.swing + b.swing);
     // Where the cores cross: apart along what is across both, or anything.
     const V3 crossed = cross(da, db);
     const F across2 = dot(crossed, crossed);
@@ -47,13 +51,25 @@ LUTKA_LANES unsigned touch(const Cores& a, const Cores& b, const TouchRange& ran
                    skew ? crossed.z * perAcross : zero};
     const Mask apart = distance > all(1e-6F);
     const F scale = one / most(distance, all(1e-6F));
-    store(out.normal, {apart ? between.x * scale : other.x, apart ? between.y * scale : other.y,
-                       apart ? between.z * scale : other.z});
-    store(out.alongA, (two * s - one) * a.halfLength);
-    store(out.alongB, (two * t - one) * b.halfLength);
+    return {
+        s,
+        t,
+        {apart ? between.x * scale : other.x, apart ? between.y * scale : other.y, apart ? between.z * scale : other.z},
+        distance};
+}
+
+LUTKA_LANES unsigned touch(const Cores& a, const Cores& b, const TouchRange& range, CoreTouchLanes& out) {
+    const F one = all(1.0F), two = all(2.0F);
+    const NearestPoints at = nearestPoints(a.centre, a.half, b.centre, b.half);
+    const F radius = a.radius + b.radius;
+    const V3 relative = a.velocity - b.velocity;
+    const F speed = squareRoot(dot(relative, relative)) + (a.swing + b.swing);
+    store(out.normal, at.normal);
+    store(out.alongA, (two * at.s - one) * a.halfLength);
+    store(out.alongB, (two * at.t - one) * b.halfLength);
     store(out.radius, radius);
-    store(out.separation, distance - radius);
-    return bits(distance - radius < all(range.margin) + speed * all(range.seconds));
+    store(out.separation, at.distance - radius);
+    return bits(at.distance - radius < all(range.margin) + speed * all(range.seconds));
 }
 
 // Rows of eight floats into columns.
