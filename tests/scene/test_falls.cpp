@@ -56,6 +56,16 @@ TEST_CASE("joints of real models hold their limits in every scene") {
     }
 }
 
+// A limb that slid over an edge went 10 mm into the next stair until the contact was found anew.
+TEST_CASE("nobody sinks into the edges of stairs") {
+    const auto figure = mannequin();
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+        const test::Fall fall = fallOf(*figure, physics::SolverKind::crowd, "stairs", seed, 4.0F);
+        CAPTURE(seed);
+        CHECK(fall.quality.floorPenetrationM < 0.006F);
+    }
+}
+
 // From seed 0 it sat on its knees, and figures with legs of one piece stood, each in exact balance.
 TEST_CASE("a figure that nothing holds up does not stay upright") {
     NEEDS_ZOO();

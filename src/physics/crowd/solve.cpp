@@ -16,9 +16,6 @@ namespace {
 
 // Jobs with this many batches are split over the threads phase by phase; below it the hand-over costs more.
 constexpr std::size_t kSplitJob = 16;
-// Substeps after which contacts with static geometry other than planes are found anew: a body may have slid over an
-// edge.
-constexpr int kRefresh = 2;
 
 SubstepParams paramsOf(const CrowdState& state, float dt) {
     const CrowdTuning& tuning = state.tuning;
@@ -59,7 +56,7 @@ void keepStatics(CrowdState& state, Batch& batch) {
     }
 }
 
-// The faces and edges that bodies are near now.
+// The faces and edges that bodies are near now: a body may have slid over an edge.
 void refreshStatics(CrowdState& state, Job& job, float seconds) {
     for (std::size_t i = 0; i < job.batches.size(); ++i) {
         Batch& batch = *job.batches[i];
@@ -146,6 +143,9 @@ void keepPairs(CrowdState& state, const Job& job) {
             touch.carried.friction = readVector(pair.tangent[0], lane) * pair.tangentImpulse[0].lane[lane] +
                                      readVector(pair.tangent[1], lane) * pair.tangentImpulse[1].lane[lane];
             touch.touch.separation = pair.separation.lane[lane];
+            touch.touch.normal = readVector(pair.normal, lane);
+            touch.touch.localA = readVector(pair.localA, lane);
+            touch.touch.localB = readVector(pair.localB, lane);
         }
     }
 }
@@ -173,7 +173,7 @@ void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSu
     const auto substep = [&](Job& job, int index) {
         SubstepParams params = index == 0 ? first : others;
         params.remaining = dt * static_cast<float>(substeps - index) / static_cast<float>(substeps);
-        if (index > 0 && index % kRefresh == 0) refreshStatics(state, job, params.remaining);
+        if (index > 0) refreshStatics(state, job, params.remaining);
         const bool mends = (substeps - 1 - index) % state.tuning.mendEvery == 0;
         JobSubstep(state, job, params, mends).run();
     };
