@@ -126,8 +126,8 @@ class Compiler {
         placement.strength = ragdoll.strength;
         for (const RagdollHit& hit : ragdoll.hits)
             out_.hits.push_back({hit.body, hit.seconds, hit.impulse, static_cast<int>(out_.dolls.size())});
-        for (const animation::Role role : ragdoll.pins)
-            out_.pins.push_back({static_cast<int>(out_.dolls.size()), role});
+        for (const std::string& body : ragdoll.pins)
+            out_.pins.push_back({static_cast<int>(out_.dolls.size()), body});
         out_.dolls.push_back(placement);
         out_.dollEntities.push_back(id);
     }

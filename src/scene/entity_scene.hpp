@@ -15,6 +15,7 @@
 
 #include "animation/humanoid/roles.hpp"
 #include "core/rigid_transform.hpp"
+#include "physics/fit/fit_options.hpp"
 #include "physics/powered/muscles.hpp"
 #include "physics/world/world.hpp"
 #include "render/color.hpp"
@@ -132,13 +133,15 @@ struct Ragdoll {
     std::filesystem::path model;
     /// ImportOptions::figure for `model`.
     std::optional<int> figure;
-    std::filesystem::path profile;      ///< *.ragdoll.json; empty: fitted.
-    std::optional<StartPose> pose;      ///< Unset: what the simulation is started with, the bind pose as a rule.
-    std::optional<ClipStart> clip;      ///< Wins over `pose`.
-    std::vector<animation::Role> pins;  ///< Bodies held at their tips where they start.
-    vec3 linearVelocity{0, 0, 0};       ///< Of the whole doll at the start, m/s, world.
-    vec3 angularVelocity{0, 0, 0};      ///< Likewise, rad/s about its centre of mass.
-    float strength = 1.0F;              ///< Factor on ScenePuppets::strength, [0, 1e6].
+    std::filesystem::path profile;        ///< *.ragdoll.json; empty: fitted.
+    std::optional<StartPose> pose;        ///< Unset: what the simulation is started with, the bind pose as a rule.
+    std::optional<ClipStart> clip;        ///< Wins over `pose`.
+    std::optional<physics::RigKind> rig;  ///< What `model` is taken as; unset: as the scene is opened with.
+    /// Names of bodies (of a humanoid those of its roles) held at their tips where they start.
+    std::vector<std::string> pins;
+    vec3 linearVelocity{0, 0, 0};   ///< Of the whole doll at the start, m/s, world.
+    vec3 angularVelocity{0, 0, 0};  ///< Likewise, rad/s about its centre of mass.
+    float strength = 1.0F;          ///< Factor on ScenePuppets::strength, [0, 1e6].
     std::vector<RagdollHit> hits;
 
     friend bool operator==(const Ragdoll&, const Ragdoll&) = default;

@@ -234,7 +234,7 @@ void hang(Context& context) {
     addFloor(context);
     for (int i = 0; i < context.count; ++i) {
         const vec3 foot = gridPlace(i, context.count, kSpacing) + vec3(0, 1.2F, 0);
-        placeFeet(context, foot, smallTurn(context)).pins.push_back(physics::Role::leftHand);
+        placeFeet(context, foot, smallTurn(context)).pins.emplace_back(animation::roleName(animation::Role::leftHand));
     }
     SceneSimulation& simulation = context.scene.simulation;
     simulation.focus = {0, 1.7F, 0};

@@ -46,7 +46,7 @@ struct PuppetHit {
 /// A body of a doll held at a world point from the start (the scene `hang`).
 struct Pin {
     int doll = 0;
-    physics::Role role = physics::Role::leftHand;
+    std::string body;  ///< Its name; a doll without one of that name falls.
 };
 
 /// A deterministic set-up shared by tests, benchmarks, CLI and editor: what a Simulation runs and pictures show. Made

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <optional>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -10,7 +12,17 @@ namespace lutka::scene {
 namespace {
 
 // What makes two dolls share an asset.
-using Key = std::tuple<std::filesystem::path, int, std::filesystem::path>;
+using Key = std::tuple<std::filesystem::path, int, std::filesystem::path, physics::RigKind>;
+
+// A pin on a role that the figure lacks is let go; any other name that no body has is a mistake.
+std::optional<Error> unknownPin(const Ragdoll& ragdoll, const RagdollAsset& asset, const std::string& scene) {
+    for (const std::string& name : ragdoll.pins) {
+        if (physics::bodyNamed(asset.profile, name) >= 0 || animation::roleFromName(name)) continue;
+        return Error{ErrorCode::usage, fmt::format("a pin holds \"{}\", and no body has that name", name), scene,
+                     "`lutka build MODEL` lists the bodies"};
+    }
+    return std::nullopt;
+}
 
 }  // namespace
 
@@ -47,7 +59,9 @@ Result<SceneCast> loadCast(const EntityScene& scene, const std::filesystem::path
         if (named) load.profile.reset();
         if (named || ragdoll->figure) load.import.figure = ragdoll->figure;
         if (!ragdoll->profile.empty()) load.profile = ragdoll->profile;
-        const Key key{named ? ragdoll->model : model, load.import.figure.value_or(0), load.profile.value_or("")};
+        if (ragdoll->rig) load.fit.rig = *ragdoll->rig;
+        const Key key{named ? ragdoll->model : model, load.import.figure.value_or(0), load.profile.value_or(""),
+                      load.fit.rig};
         auto at = known.find(key);
         if (at == known.end()) {
             auto asset = loadRagdoll(std::get<0>(key), load);
@@ -55,6 +69,8 @@ Result<SceneCast> loadCast(const EntityScene& scene, const std::filesystem::path
             at = known.emplace(key, static_cast<int>(cast.assets.size())).first;
             cast.assets.push_back(std::move(asset).value());
         }
+        const RagdollAsset& asset = *cast.assets[static_cast<std::size_t>(at->second)];
+        if (std::optional<Error> error = unknownPin(*ragdoll, asset, scene.name)) return *std::move(error);
         cast.assetOfRagdoll[static_cast<std::size_t>(ragdoll - ragdolls.data())] = at->second;
     }
     if (cast.assets.empty()) {

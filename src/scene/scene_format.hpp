@@ -39,6 +39,8 @@ inline constexpr std::array<Named<physics::MusclePreset>, 4> kMuscles{{
     {"powered", physics::MusclePreset::powered},
     {"stiff", physics::MusclePreset::stiff},
 }};
+inline constexpr std::array<Named<physics::RigKind>, 2> kRigs{
+    {{"humanoid", physics::RigKind::humanoid}, {"any", physics::RigKind::any}}};
 // Solvers: physics::kSolvers.
 
 }  // namespace lutka::scene::scene_format

@@ -206,12 +206,17 @@ RagdollHit readHit(const JsonCursor& at) {
 }
 
 Ragdoll readRagdoll(const JsonCursor& at, const std::filesystem::path& folder) {
-    at.expectObject({}, {"model", "figure", "profile", "pose", "clip", "pins", "linearVelocity", "angularVelocity",
-                         "strength", "hits"});
+    at.expectObject({}, {"model", "figure", "profile", "rig", "pose", "clip", "pins", "linearVelocity",
+                         "angularVelocity", "strength", "hits"});
     Ragdoll out;
     takePath(at, "model", folder, out.model);
     if (at.has("figure")) takeWhole(at, "figure", out.figure.emplace(1), 1, scene_format::kMostFigures);
     takePath(at, "profile", folder, out.profile);
+    if (at.has("rig")) {
+        physics::RigKind rig = physics::RigKind::humanoid;
+        takeName(at, "rig", scene_format::kRigs, rig);
+        out.rig = rig;
+    }
     if (at.has("pose")) {
         StartPose pose = StartPose::bind;
         takeName(at, "pose", scene_format::kPoses, pose);
@@ -224,15 +229,10 @@ Ragdoll readRagdoll(const JsonCursor& at, const std::filesystem::path& folder) {
         take(clip, "name", out.clip->clip);
         take(clip, "seconds", out.clip->seconds);
     }
-    if (at.has("pins") && at["pins"].expectArray(0, animation::kRoleCount)) {
+    if (at.has("pins") && at["pins"].expectArray(0, physics::RagdollProfile::kMostBodies)) {
         const JsonCursor pins = at["pins"];
-        for (std::size_t i = 0; i < pins.size(); ++i) {
-            const JsonCursor pin = pins[i];
-            const std::string name = pin.text();
-            const auto role = animation::roleFromName(name);
-            if (role) out.pins.push_back(*role);
-            if (pin.readable() && !role) pin.report("expected a role of the VRM 1.0 humanoid, got \"" + name + "\"");
-        }
+        for (std::size_t i = 0; i < pins.size(); ++i)
+            out.pins.push_back(pins[i].text());
     }
     take(at, "linearVelocity", out.linearVelocity);
     take(at, "angularVelocity", out.angularVelocity);

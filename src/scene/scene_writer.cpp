@@ -89,13 +89,10 @@ Json toJson(const Ragdoll& r, const std::filesystem::path& folder) {
     if (!r.model.empty()) out["model"] = pathFrom(r.model, folder);
     if (r.figure) out["figure"] = *r.figure;
     if (!r.profile.empty()) out["profile"] = pathFrom(r.profile, folder);
+    if (r.rig) out["rig"] = nameOf(scene_format::kRigs, *r.rig);
     if (r.pose) out["pose"] = nameOf(scene_format::kPoses, *r.pose);
     if (r.clip) out["clip"] = Json{{"name", r.clip->clip}, {"seconds", jsonNumber(r.clip->seconds)}};
-    if (!r.pins.empty()) {
-        out["pins"] = Json::array();
-        for (const animation::Role role : r.pins)
-            out["pins"].push_back(animation::roleName(role));
-    }
+    if (!r.pins.empty()) out["pins"] = r.pins;
     out["linearVelocity"] = jsonVector(r.linearVelocity);
     out["angularVelocity"] = jsonVector(r.angularVelocity);
     if (r.strength != 1.0F) out["strength"] = jsonNumber(r.strength);

@@ -177,11 +177,11 @@ void Simulation::build() {
     noteJump();
 }
 
-// Pulls on the hands that the scene holds, towards where they start.
+// Pulls on the bodies that the scene holds, towards where they start.
 void Simulation::addPins() {
     for (const Pin& pin : scenario_.pins) {
         const RagdollAsset& asset = assetOf(pin.doll);
-        const int body = physics::bodyOf(asset.profile, pin.role);
+        const int body = physics::bodyNamed(asset.profile, pin.body);
         if (body < 0) continue;  // a figure without hands falls
         placeAtStart(pin.doll);
         const RigidTransform& worldFromBody = scratch_[body].worldFromBody;

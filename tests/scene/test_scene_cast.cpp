@@ -103,6 +103,31 @@ TEST_CASE("two figures of one file stand side by side in a scene") {
     CHECK(refused.error().code == ErrorCode::usage);
 }
 
+TEST_CASE("a character is taken as any rig where the scene says so, and held by bodies of its own names") {
+    EntityScene scene;
+    const EntityId human = addCharacter(scene, 0, kMannequin);
+    const EntityId any = addCharacter(scene, 3, kMannequin);
+    scene.find<Ragdoll>(any)->rig = physics::RigKind::any;
+    scene.find<Ragdoll>(human)->pins = {"leftHand", "jaw"};
+    const auto wrong = loadCast(scene, {}, {});
+    REQUIRE_FALSE(wrong);
+    CHECK(wrong.error().code == ErrorCode::usage);
+    CHECK(wrong.error().message.find("\"jaw\"") != std::string::npos);
+    scene.find<Ragdoll>(human)->pins = {"leftHand"};
+    const auto loaded = loadCast(scene, {}, {});
+    REQUIRE(loaded);
+    REQUIRE(loaded.value().assets.size() == 2);
+    const physics::RagdollProfile& profile = loaded.value().assets[1]->profile;
+    CHECK_FALSE(physics::hasRoles(profile));
+    const std::string last = profile.bodies.back().name;
+    scene.find<Ragdoll>(any)->pins = {last};
+    const auto scenario = compileScene(scene, loaded.value().figures(), loaded.value().assetOfRagdoll);
+    REQUIRE(scenario);
+    REQUIRE(scenario.value().pins.size() == 2);
+    CHECK(scenario.value().pins[1].doll == 1);
+    CHECK(scenario.value().pins[1].body == last);
+}
+
 TEST_CASE("a missing model, one too many and a scene without characters are usage errors") {
     EntityScene scene;
     const auto refusal = [&](const std::filesystem::path& model) {

@@ -32,7 +32,8 @@ EntityScene richScene() {
         ragdoll.profile = "profiles/a.ragdoll.json";
         ragdoll.pose = StartPose::node;
         ragdoll.clip = ClipStart{"run", some()};
-        ragdoll.pins = {animation::Role::leftHand, animation::Role::head};
+        ragdoll.rig = physics::RigKind::any;
+        ragdoll.pins = {"leftHand", "Tail3"};
         ragdoll.linearVelocity = {some(), some(), some()};
         ragdoll.angularVelocity = {some(), some(), some()};
         ragdoll.strength = some();
@@ -141,7 +142,8 @@ TEST_CASE("every planted fault of a scene is listed in one go with its place") {
     wrong["simulation"]["solver"] = "magic";
     wrong["simulation"]["step"] = "fast";
     wrong["entities"][0].erase("name");
-    wrong["entities"][0]["ragdoll"]["pins"][0] = "tail";
+    wrong["entities"][0]["ragdoll"]["pins"][0] = 7;
+    wrong["entities"][0]["ragdoll"]["rig"] = "spider";
     wrong["entities"][1]["collider"]["halfExtents"][2] = 0;
     wrong["entities"][1]["collider"]["radius"] = 1;
     wrong["entities"][1]["meshRenderer"]["color"] = "grey";
@@ -153,11 +155,12 @@ TEST_CASE("every planted fault of a scene is listed in one go with its place") {
     const std::string problems = problemsOf(wrong);
     for (const char* place :
          {"/colour: unknown key", "/simulation/solver: expected one of", "/simulation/step: expected a number",
-          "/entities/0: expected a member \"name\"", "/entities/0/ragdoll/pins/0: expected a role",
-          "/entities/1/collider/halfExtents/2: expected a number in", "/entities/1/collider/radius: unknown key",
-          "/entities/1/meshRenderer/color: expected a colour", "/entities/2/id: expected an id of its own",
-          "/entities/3/parent: expected the id of another entity", "/entities/4/transform/rotation: expected a quat",
-          "/entities/5/collider/steps: expected a whole number", "/entities/7/light/castsShadow: expected true"}) {
+          "/entities/0: expected a member \"name\"", "/entities/0/ragdoll/pins/0: expected",
+          "/entities/0/ragdoll/rig: expected one of", "/entities/1/collider/halfExtents/2: expected a number in",
+          "/entities/1/collider/radius: unknown key", "/entities/1/meshRenderer/color: expected a colour",
+          "/entities/2/id: expected an id of its own", "/entities/3/parent: expected the id of another entity",
+          "/entities/4/transform/rotation: expected a quat", "/entities/5/collider/steps: expected a whole number",
+          "/entities/7/light/castsShadow: expected true"}) {
         INFO(problems);
         CHECK(problems.find(place) != std::string::npos);
     }

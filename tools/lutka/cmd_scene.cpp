@@ -38,6 +38,7 @@ scene::EntityScene sceneOf(const SceneCommandOptions& options) {
     }
     for (scene::Ragdoll& ragdoll : scene.all<scene::Ragdoll>()) {
         if (ragdoll.model.empty()) ragdoll.model = options.model;
+        if (options.rig == "any") ragdoll.rig = physics::RigKind::any;
     }
     return scene;
 }

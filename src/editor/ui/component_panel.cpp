@@ -191,17 +191,16 @@ void drawClip(const PanelContext& context, Fields& fields, scene::Ragdoll& ragdo
     fields.number("At", ragdoll.clip->seconds, 0, clip != clips.end() ? clip->seconds() : 60.0F, "%.2f s");
 }
 
-void drawPins(Fields& fields, scene::Ragdoll& ragdoll) {
+void drawPins(const PanelContext& context, Fields& fields, scene::Ragdoll& ragdoll) {
     std::string names;
-    for (const animation::Role role : ragdoll.pins)
-        names += (names.empty() ? "" : ", ") + std::string(animation::roleName(role));
+    for (const std::string& name : ragdoll.pins)
+        names += (names.empty() ? "" : ", ") + name;
     labelled("Held by", fields.labelWidth());
     if (!ImGui::BeginCombo("##pins", names.empty() ? "nothing" : names.c_str())) return;
-    for (int index = 0; index < animation::kRoleCount; ++index) {
-        const animation::Role role = animation::roleAt(index);
-        bool held = std::find(ragdoll.pins.begin(), ragdoll.pins.end(), role) != ragdoll.pins.end();
-        if (!ImGui::Checkbox(std::string(animation::roleName(role)).c_str(), &held)) continue;
-        held ? ragdoll.pins.push_back(role) : static_cast<void>(std::erase(ragdoll.pins, role));
+    for (const auto& body : context.editor.document().sceneDocument().assetOf(ragdoll).profile.bodies) {
+        bool held = std::find(ragdoll.pins.begin(), ragdoll.pins.end(), body.name) != ragdoll.pins.end();
+        if (!ImGui::Checkbox(body.name.c_str(), &held)) continue;
+        held ? ragdoll.pins.push_back(body.name) : static_cast<void>(std::erase(ragdoll.pins, body.name));
         fields.change("Pins");
     }
     ImGui::EndCombo();
@@ -224,7 +223,7 @@ void draw(const PanelContext& context, Fields& fields, scene::Ragdoll& ragdoll) 
         ragdoll.pose = static_cast<scene::StartPose>(pose - 1);
     }
     drawClip(context, fields, ragdoll);
-    drawPins(fields, ragdoll);
+    drawPins(context, fields, ragdoll);
     fields.vector("Velocity", ragdoll.linearVelocity, -100, 100, "%.1f m/s", 0.05F);
     fields.vector("Spin", ragdoll.angularVelocity, -100, 100, "%.1f rad/s", 0.05F);
     if (editor.document().sceneDocument().isEdited(ragdoll)) {

@@ -55,7 +55,7 @@ void addDolls(World& world, const scene::Scenario& scenario, const RagdollProfil
         world.addDoll(profile, bodies);
     }
     for (const scene::Pin& pin : scenario.pins) {
-        const int body = physics::bodyOf(profile, pin.role);
+        const int body = physics::bodyNamed(profile, pin.body);
         world.addDrag({world.dolls()[pin.doll], body, vec3(0),
                        bodyOfDoll(world, pin.doll, body).worldFromBody.translation, 5000.0F});
     }
