@@ -179,16 +179,17 @@ void assignMasses(std::span<BodyProfile> bodies, const FitOptions& options) {
 }
 
 void raiseLightSegments(RagdollProfile& profile) {
-    constexpr float kLeastOfNeighbour = 0.1F;
-    const auto raise = [&](int light, int heavy) {
+    constexpr float kLeastOfChild = 0.7F;
+    constexpr float kLeastOfParent = 0.2F;
+    const auto raise = [&](int light, float massKg) {
         BodyProfile& body = profile.bodies[light];
-        if (!body.role) body.massKg = std::max(body.massKg, kLeastOfNeighbour * profile.bodies[heavy].massKg);
+        if (!body.role) body.massKg = std::max(body.massKg, massKg);
     };
     // Up the tree, then down: what was raised may be too heavy for what hangs on it.
     for (auto c = profile.constraints.rbegin(); c != profile.constraints.rend(); ++c)
-        raise(c->parent, c->child);
+        raise(c->parent, kLeastOfChild * profile.bodies[c->child].massKg);
     for (const ConstraintProfile& constraint : profile.constraints)
-        raise(constraint.child, constraint.parent);
+        raise(constraint.child, kLeastOfParent * profile.bodies[constraint.parent].massKg);
     float sum = 0.0F;
     for (const BodyProfile& body : profile.bodies)
         sum += body.massKg;

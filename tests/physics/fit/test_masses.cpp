@@ -152,7 +152,8 @@ TEST_CASE("distances between shapes are those of their surfaces") {
     CHECK(distanceBetween(box, origin, box, {quat(1, 0, 0, 0), {0.15F, 0, 0}}) == Approx(-0.05));
 }
 
-TEST_CASE("bodies without a role are raised to a tenth of their neighbours, both ways, and the total stays") {
+TEST_CASE(
+    "bodies without a role are raised to shares of their neighbours, more above than below, and the total stays") {
     RagdollProfile chain;
     chain.totalMassKg = 0.0F;
     for (const float mass : {0.01F, 50.0F, 0.02F}) {
@@ -166,7 +167,7 @@ TEST_CASE("bodies without a role are raised to a tenth of their neighbours, both
         joint.parent = joint.child - 1;
     }
     raiseLightSegments(chain);
-    CHECK(chain.bodies[0].massKg / chain.bodies[1].massKg == Approx(0.1F));
-    CHECK(chain.bodies[2].massKg / chain.bodies[1].massKg == Approx(0.1F));
+    CHECK(chain.bodies[0].massKg / chain.bodies[1].massKg == Approx(0.7F));
+    CHECK(chain.bodies[2].massKg / chain.bodies[1].massKg == Approx(0.2F));
     CHECK(chain.bodies[0].massKg + chain.bodies[1].massKg + chain.bodies[2].massKg == Approx(chain.totalMassKg));
 }
