@@ -7,6 +7,7 @@
 #include "core/assert.hpp"
 #include "core/quantile.hpp"
 #include "physics/fit/body_tips.hpp"
+#include "physics/fit/head_skin.hpp"
 #include "physics/fit/skin_regions.hpp"
 
 namespace lutka::physics {
@@ -388,8 +389,11 @@ BodyPlan planBodies(const Character& character, const HumanoidMap& map, std::spa
     findEnds(plan, character, map);
     assignJoints(plan, character, map);
     hangSegments(plan, character);
-    gatherSkin(plan, character, map.standardFromModel);
+    const std::vector<SkinPoint> hanging =
+        gatherSkin(plan, character, map.standardFromModel, jointsHangingOnHead(plan, character, map));
+    hangOnHead(plan, hanging);
     plan.heightM = roles.empty() ? creatureSize(plan, character, map) : figureHeight(plan, jointSpan(plan));
+    settleHeadSkin(plan, hanging);
     findEnds(plan, character, map);
     balanceTrunk(plan);
     findTips(plan, character, map);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace lutka::physics {
 namespace {
@@ -108,20 +109,29 @@ std::vector<int> bodiesOfVertices(const SkinnedMesh& mesh, const std::vector<int
     return owners;
 }
 
-void gatherSkin(BodyPlan& plan, const animation::Character& character, const quat& standardFromModel) {
+std::vector<SkinPoint> gatherSkin(BodyPlan& plan, const animation::Character& character, const quat& standardFromModel,
+                                  const std::vector<bool>& hanging) {
     constexpr std::size_t kCoarse = 5000;
     const mat3 toStandard = glm::mat3_cast(standardFromModel);
     std::size_t vertices = 0;
     for (const SkinnedMesh& mesh : character.meshes)
         vertices += mesh.positions.size();
+    const auto aside = static_cast<int>(plan.bodies.size());
+    plan.bodies.emplace_back();
     for (const SkinnedMesh& mesh : character.meshes) {
-        const std::vector<int> owners = bodiesOfVertices(mesh, plan.bodyOfJoint);
+        std::vector<int> owners = bodiesOfVertices(mesh, plan.bodyOfJoint);
+        for (std::size_t vertex = 0; vertex < owners.size(); ++vertex) {
+            if (hanging[mesh.joints[vertex][0]]) owners[vertex] = aside;
+        }
         if (vertices < kCoarse && !mesh.indices.empty()) {
             addTrianglePoints(plan, mesh, owners, toStandard);
         } else {
             addVertices(plan, mesh, owners, toStandard);
         }
     }
+    std::vector<SkinPoint> hung = std::move(plan.bodies.back().skin);
+    plan.bodies.pop_back();
+    return hung;
 }
 
 void balanceTrunk(BodyPlan& plan) {

@@ -1,6 +1,8 @@
 #include "physics/fit/fit_ragdoll.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -77,6 +79,67 @@ TEST_CASE("options add bodies for clavicles, neck and the whole trunk") {
     CHECK(bodyOf(profile, Role::neck) >= 0);
     const int arm = bodyOf(profile, Role::rightUpperArm);
     CHECK(profile.bodies[profile.constraints[arm - 1].parent].role == Role::rightShoulder);
+}
+
+TEST_CASE("the head's shape is that of the skull, with or without tails of hair") {
+    animation::Character biped = test::makeBiped();
+    const auto radiusOfHead = [&] {
+        const auto fitted = fitRagdoll(biped, test::mapOfBiped(biped), {});
+        REQUIRE(fitted);
+        const BodyShape& shape = fitted.value().bodies[bodyOf(fitted.value(), Role::head)].shape;
+        return vec2(shape.radius, shape.halfLength);
+    };
+    const vec2 bare = radiusOfHead();
+    animation::Skeleton& skeleton = biped.skeleton;
+    const int head = findJoint(skeleton, biped.skeleton.names[test::mapOfBiped(biped).jointOf(Role::head)]);
+    animation::SkinnedMesh& mesh = biped.meshes[0];
+    for (const float side : {1.0F, -1.0F}) {
+        const vec3 root = skeleton.bindModelFromJoint[head].translation + vec3(0.12F * side, 0.1F, 0);
+        skeleton.names.emplace_back(side > 0 ? "hair.L" : "hair.R");
+        skeleton.parents.push_back(head);
+        skeleton.bindModelFromJoint.push_back({quat(1, 0, 0, 0), root});
+        skeleton.nodeParentFromJoint.emplace_back();
+        skeleton.skinWeight.push_back(400.0F);
+        for (int ring = 0; ring < 40; ++ring) {
+            const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+            for (int corner = 0; corner < 8; ++corner) {
+                const float angle = 0.25F * kPi * static_cast<float>(corner);
+                mesh.positions.push_back(root + vec3(0.2F * side + 0.04F * std::cos(angle),
+                                                     -0.02F * static_cast<float>(ring), 0.04F * std::sin(angle)));
+                mesh.normals.emplace_back(std::cos(angle), 0, std::sin(angle));
+                mesh.joints.push_back({static_cast<std::uint16_t>(skeleton.jointCount() - 1)});
+                mesh.weights.push_back({1.0F});
+            }
+            for (std::uint32_t corner = 0; corner < 8 && ring > 0; ++corner) {
+                const std::uint32_t next = (corner + 1) % 8;
+                for (const std::uint32_t index : {corner, next, next - 8U, corner, next - 8U, corner - 8U})
+                    mesh.indices.push_back(first + index);
+            }
+        }
+    }
+    if (!mesh.uvs.empty()) mesh.uvs.resize(mesh.positions.size());
+    mesh.fileOrder.clear();
+    const vec2 tailed = radiusOfHead();
+    CHECK(tailed.x == Approx(bare.x).epsilon(0.02));
+    CHECK(tailed.y == Approx(bare.y).margin(0.01));
+}
+
+TEST_CASE("a head whose skin hangs on the neck's joint is as large as that skin") {
+    animation::Character biped = test::makeBiped();
+    const animation::HumanoidMap map = test::mapOfBiped(biped);
+    const auto radiusOfHead = [&] {
+        const auto fitted = fitRagdoll(biped, map, {});
+        REQUIRE(fitted);
+        return fitted.value().bodies[bodyOf(fitted.value(), Role::head)].shape.radius;
+    };
+    const float bare = radiusOfHead();
+    const auto head = static_cast<std::uint16_t>(map.jointOf(Role::head));
+    const auto neck = static_cast<std::uint16_t>(map.jointOf(Role::neck));
+    animation::SkinnedMesh& mesh = biped.meshes[0];
+    for (std::size_t vertex = 0; vertex < mesh.joints.size(); ++vertex) {
+        if (vertex % 6 != 0 && mesh.joints[vertex][0] == head) mesh.joints[vertex][0] = neck;
+    }
+    CHECK(radiusOfHead() == Approx(bare).epsilon(0.05));
 }
 
 TEST_CASE("missing roles give fewer bodies, hung on the nearest body above") {
