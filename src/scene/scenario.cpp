@@ -248,11 +248,15 @@ void throwAtWall(Context& context) {
     const float width = 2.0F + kSpacing * 0.5F * static_cast<float>(context.count);
     addFloor(context);
     addBox(context, "Wall", {0, 1.5F, 2.0F}, {width, 1.5F, 0.025F});
+    // However it is turned, a figure larger than a person starts clear of floor and wall, too.
+    const float reach = 0.5F * glm::distance(context.figure.low, context.figure.high) + 0.05F;
+    const float height = std::max(1.6F, reach);
+    const float ahead = std::min(-0.6F, 1.95F - reach);
     for (int i = 0; i < context.count; ++i) {
         const float across = (static_cast<float>(i) - static_cast<float>(context.count - 1) * 0.5F) * kSpacing;
         const quat turn =
             context.isSeedZero ? kSeedZeroLean * glm::angleAxis(radians(70), vec3(1, 0, 0)) : anyTurn(context);
-        placeCentre(context, {across, 1.6F, -0.6F}, turn).linearVelocity = {0, 0, 8};
+        placeCentre(context, {across, height, ahead}, turn).linearVelocity = {0, 0, 8};
     }
     context.scene.simulation.focus = {0, 1.0F, 0.9F};
     context.scene.simulation.focusRadius = 2.4F;

@@ -114,3 +114,18 @@ TEST_CASE("an unknown scene and an absurd count are usage errors that list what 
     CHECK_FALSE(makeScenario({.name = "drop", .count = 0}, Figure{figure}));
     CHECK_FALSE(makeScenario({.name = "drop", .count = 10001}, Figure{figure}));
 }
+
+TEST_CASE("a creature four metres long is thrown clear of floor and wall, however it is turned") {
+    const Figure figure{{{-0.4F, 0, -2}, {0.4F, 2, 2}}};
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        const auto scenario = makeScenario({.name = "throw", .seed = seed}, figure);
+        REQUIRE(scenario);
+        const RigidTransform& world = scenario.value().dolls.front().worldFromModel;
+        for (int corner = 0; corner < 8; ++corner) {
+            const vec3 at = world * vec3((corner & 1) != 0 ? 0.4F : -0.4F, (corner & 2) != 0 ? 2.0F : 0.0F,
+                                         (corner & 4) != 0 ? 2.0F : -2.0F);
+            CHECK(at.y > 0.0F);
+            CHECK(at.z < 1.975F);
+        }
+    }
+}
