@@ -27,6 +27,15 @@ std::string bodiesOf(const physics::RagdollProfile& profile) {
     return "its bodies are " + names;
 }
 
+// The body that a blow to a role's part meets: its own, or that of the nearest role above it (a chest that is one body
+// has no upper chest). -1: none, as in a ragdoll of any skeleton.
+int bodyMet(const physics::RagdollProfile& profile, animation::Role role) {
+    int body = physics::bodyOf(profile, role);
+    for (auto above = animation::parentRole(role); body < 0 && above; above = animation::parentRole(*above))
+        body = physics::bodyOf(profile, *above);
+    return body;
+}
+
 // The hips carry the figure over the ground, in the character's standard stance.
 animation::RootMotionSettings travelOf(const RagdollAsset& asset) {
     animation::RootMotionSettings settings;
@@ -41,7 +50,7 @@ Result<std::unique_ptr<PuppetCast>> PuppetCast::create(std::span<const RagdollAs
                                                        const Scenario& scenario, PuppetPlay play) {
     for (const PuppetHit& hit : play.hits) {
         const bool known = std::any_of(assets.begin(), assets.end(), [&](const RagdollAsset* asset) {
-            return physics::bodyOf(asset->profile, hit.role) >= 0;
+            return bodyMet(asset->profile, hit.role) >= 0;
         });
         if (known) continue;
         return Error{ErrorCode::usage, fmt::format("no doll has a body for {}", animation::roleName(hit.role)),
@@ -209,7 +218,7 @@ void PuppetCast::hitDue(float dt) {
         const auto at = static_cast<double>(hit.seconds);
         if (at < seconds_ || at >= seconds_ + static_cast<double>(dt)) continue;
         for (Actor& actor : actors_) {
-            const int body = physics::bodyOf(actor.asset->profile, hit.role);
+            const int body = bodyMet(actor.asset->profile, hit.role);
             if (body < 0 || (hit.doll >= 0 && &actor != &actors_[hit.doll])) continue;
             bodies_.resize(actor.asset->profile.bodies.size());
             world_->getBodies(actor.puppet->doll(), bodies_);

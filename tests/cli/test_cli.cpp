@@ -67,7 +67,7 @@ TEST_CASE("inspect shows the mannequin's joints, meshes and clips") {
     const Json json = Json::parse(lutkaCommand("inspect --json " + kMannequinArgument).out);
     CHECK(json["joints"].size() >= 45);
     CHECK(json["meshes"].size() >= 1);
-    CHECK(json["clips"].size() == 2);
+    CHECK(json["clips"].size() == 9);
     CHECK(json["units"]["metresPerFileUnit"] == 1.0);
 }
 

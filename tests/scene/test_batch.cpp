@@ -42,7 +42,7 @@ const std::string kSmall =
 
 }  // namespace
 
-TEST_CASE("a batch's rows are models, within them scenes, within them seeds; a scene file is one row a model") {
+TEST_CASE("a batch has a row for every model and scene and seed in this order, and a scene file is one row a model") {
     const BatchPlan plan = planOf(R"("models": ["a.glb", {"model": "b.fbx", "profile": "b.json", "rig": "any"}],
         "scenes": ["drop", "hall.scene.json"], "seeds": {"from": 7, "count": 3}, "count": 2, "bake": true)");
     REQUIRE(plan.rows.size() == 8);

@@ -89,6 +89,18 @@ TEST_CASE("a hit shows, passes and is told, one too much knocks the puppet out")
     CHECK(scene::reportText(*out).find("knocked out") != std::string::npos);
 }
 
+TEST_CASE("a hit on a part without a body meets the nearest body above it") {
+    PuppetPlay play;
+    play.start.clip = "idle";
+    play.hits = {{Role::upperChest, 0.2F, {0, 0, -40}}};
+    const auto body = simulate(play, SolverKind::crowd, 0.5F);
+    play.hits.front().role = Role::leftShoulder;
+    const auto none = simulate(play, SolverKind::crowd, 0.5F);
+    CHECK(none->stateHash() == body->stateHash());
+    play.hits.clear();
+    CHECK(simulate(play, SolverKind::crowd, 0.5F)->stateHash() != body->stateHash());
+}
+
 TEST_CASE("a clip that is not there is an error that names those that are") {
     scene::SimulationOptions options;
     options.puppet = PuppetPlay{{.clip = "dance"}, {}, {}};
