@@ -41,7 +41,7 @@ if(LUTKA_HELP2MAN AND LUTKA_GZIP)
 endif()
 
 # `cpack -G DEB`: lutka_VERSION_ARCHITECTURE.deb, whose libraries are found by dpkg-shlibdeps. What is only started or opened
-# at run time is named here: ffmpeg writes films, Mesa draws where there is no driver, the fonts are the editor's.
+# at run time is named here: ffmpeg writes films, Mesa draws where there is no driver, the fonts are the editor's, three.js goes into reports.
 set(CPACK_PACKAGE_NAME lutka)
 set(CPACK_PACKAGE_CONTACT "The Lutka developers <lutka@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
@@ -51,7 +51,7 @@ set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "ffmpeg, fonts-dejavu-core, libgl1-mesa-dri")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "ffmpeg, fonts-dejavu-core, libgl1-mesa-dri, libjs-three")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 include(CPack)

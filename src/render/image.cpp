@@ -11,6 +11,7 @@
 
 #include "core/assert.hpp"
 #include "core/files.hpp"
+#include "render/png_bytes.hpp"
 
 namespace lutka::render {
 namespace {
@@ -62,12 +63,18 @@ void Image::set(int x, int y, Color color) {
     rgba[at + 3] = color.a;
 }
 
-Result<void> savePng(const Image& image, const std::filesystem::path& file) {
+Result<std::string> pngBytes(const Image& image) {
     std::string bytes;
     const int written = stbi_write_png_to_func(appendBytes, &bytes, image.width, image.height, kChannels,
                                                image.rgba.data(), image.width * kChannels);
-    if (written == 0) return Error{ErrorCode::output, "the picture can't be encoded as PNG", file.string(), ""};
-    return writeFileAtomically(file, std::string_view(bytes));
+    if (written == 0) return Error{ErrorCode::internal, "the picture can't be encoded as PNG", "", ""};
+    return bytes;
+}
+
+Result<void> savePng(const Image& image, const std::filesystem::path& file) {
+    const auto bytes = pngBytes(image);
+    if (!bytes) return Error{ErrorCode::output, bytes.error().message, file.string(), ""};
+    return writeFileAtomically(file, std::string_view(bytes.value()));
 }
 
 Result<Image> loadPng(const std::filesystem::path& file) {

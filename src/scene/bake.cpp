@@ -9,11 +9,11 @@ ClipBaker::ClipBaker(int doll, float framesPerSecond, std::string name) : doll_(
     clip_.framesPerSecond = framesPerSecond;
 }
 
-void ClipBaker::sample(Simulation& simulation) {
+void ClipBaker::sample(Simulation& simulation, float alpha) {
     const animation::Skeleton& skeleton = simulation.assetOf(doll_).character.skeleton;
     model_.resize(skeleton.parents.size());
     local_.resize(skeleton.parents.size());
-    simulation.pose(doll_, 1.0F, model_);
+    simulation.pose(doll_, alpha, model_);
     animation::modelToLocal(skeleton, model_, local_);
     clip_.parentFromJoint.append(local_);
     ++clip_.frameCount;

@@ -13,8 +13,8 @@ class ClipBaker {
     /// `framesPerSecond`: the rate at which `sample` will be called.
     ClipBaker(int doll, float framesPerSecond, std::string name);
 
-    /// Takes the present pose.
-    void sample(Simulation& simulation);
+    /// Takes the pose `alpha` of the way from the state before the last step to the present one.
+    void sample(Simulation& simulation, float alpha = 1.0F);
     [[nodiscard]] const animation::Clip& clip() const { return clip_; }
 
   private:

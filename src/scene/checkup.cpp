@@ -48,15 +48,19 @@ constexpr Measure kMeasures[] = {
      "look for bodies that press on each other at rest: filter the pair or shrink them"},
 };
 
-std::vector<Quality> dropThrice(const RagdollAsset& asset) {
+std::vector<Quality> dropThrice(const RagdollAsset& asset, const DropObserver& observe) {
     std::vector<Quality> drops;
     for (std::uint64_t seed = 0; seed < kDrops; ++seed) {
         auto scenario = makeScenario({.name = "drop", .seed = seed}, asset);
         if (!scenario) return drops;
         auto simulation = Simulation::create(asset, std::move(scenario).value(), {});
         if (!simulation) return drops;
-        for (int step = 0; step < kSteps; ++step)
+        const int drop = static_cast<int>(seed);
+        if (observe) observe(drop, *simulation.value());
+        for (int step = 0; step < kSteps; ++step) {
             simulation.value()->step();
+            if (observe) observe(drop, *simulation.value());
+        }
         drops.push_back(simulation.value()->quality());
     }
     return drops;
@@ -102,12 +106,12 @@ void judgeDrops(Checkup& checkup) {
 
 }  // namespace
 
-Checkup examine(const RagdollAsset& asset) {
+Checkup examine(const RagdollAsset& asset, const DropObserver& observe) {
     Checkup checkup;
     checkup.diagnosis = physics::diagnose(asset.profile, asset.character, asset.map);
     checkup.score = kStaticShare * checkup.diagnosis.score;
     if (checkup.diagnosis.hasErrors()) return checkup;
-    checkup.drops = dropThrice(asset);
+    checkup.drops = dropThrice(asset, observe);
     judgeDrops(checkup);
     return checkup;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -9,6 +9,8 @@
 #include "scene/ragdoll_asset.hpp"
 
 namespace lutka::scene {
+
+class Simulation;
 
 /// What a bound of the measured section says, and where a drop stood to it.
 struct MeasuredBound {
@@ -26,9 +28,12 @@ struct Checkup {
     float score = 0;  ///< [0, 100]: four fifths the diagnosis', one fifth the drops'.
 };
 
-/// Diagnoses the profile and lets it fall three times for four seconds in the scene `drop`. When the static findings
+/// Called at the start of a drop (0, 1, 2) and after each of its steps.
+using DropObserver = std::function<void(int drop, Simulation& simulation)>;
+
+/// Diagnoses the profile and lets it fall three times for six seconds in the scene `drop`. When the static findings
 /// hold errors there are no drops: a profile that isn't sound isn't simulated.
-[[nodiscard]] Checkup examine(const RagdollAsset& asset);
+[[nodiscard]] Checkup examine(const RagdollAsset& asset, const DropObserver& observe = {});
 
 [[nodiscard]] std::string checkupJson(const RagdollAsset& asset, const Checkup& checkup);
 [[nodiscard]] std::string checkupText(const RagdollAsset& asset, const Checkup& checkup);

@@ -14,13 +14,13 @@ LUTKA_BUILD_PACKAGES=(
   libglm-dev libimgui-dev nlohmann-json3-dev libcli11-dev libtinygltf-dev libstb-dev
   libspdlog-dev libfmt-dev libtbb-dev catch2
 )
-LUTKA_RUN_PACKAGES=(ffmpeg fonts-dejavu-core)
+LUTKA_RUN_PACKAGES=(ffmpeg fonts-dejavu-core libjs-three)
 LUTKA_TEST_PACKAGES=(clang-format-14 clang-tidy-14 xvfb xauth xdotool python3 python3-numpy python3-jsonschema)
 LUTKA_TEST_PACKAGES+=(pybind11-dev python3-dev python3-pytest)
 
 LUTKA_PACKAGE_PACKAGES=(dpkg-dev help2man)
 # Readers of what is exported (tests/witness). npm comes with the nodejs of other sources than Debian.
-LUTKA_WITNESS_PACKAGES=(libmujoco-dev godot3-server blender liburdfdom-tools)
+LUTKA_WITNESS_PACKAGES=(libmujoco-dev godot3-server blender liburdfdom-tools chromium)
 LUTKA_WITNESS_PACKAGES+=(parallel slurm-wlm munge)  # ways to run a batch
 command -v npm >/dev/null || LUTKA_WITNESS_PACKAGES+=(nodejs npm)
 LUTKA_FUZZ_PACKAGES=(clang-14 libclang-rt-14-dev)

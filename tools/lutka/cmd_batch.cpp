@@ -57,8 +57,8 @@ void print(const BatchCommandOptions& options, const scene::BatchPlan& plan, std
     for (const auto& [row, reason] : tally.failed)
         spdlog::error("{}: {}", nameOf(plan, row), reason);
     if (!options.json) {
-        fmt::print("{} of {} rows: {} done before, {} now, {} failed\n", rows, plan.rows.size(), tally.before,
-                   tally.now, tally.failed.size());
+        tell("{} of {} rows: {} done before, {} now, {} failed\n", rows, plan.rows.size(), tally.before, tally.now,
+             tally.failed.size());
         return;
     }
     nlohmann::ordered_json failed = nlohmann::ordered_json::array();

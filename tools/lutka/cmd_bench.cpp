@@ -34,7 +34,7 @@ struct BenchCommandOptions {
 };
 
 void printRow(const scene::BenchResult& r) {
-    fmt::print(
+    tell(
         "{:<8} {:>6} {:>7} {:>10.3f} {:>10.3f} {:>8.2f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f} {:>8} {:>10.0f} {:>9.0f}\n",
         r.what.scene, r.what.count, r.what.threads, r.ours.p50, r.stock.p50, r.speedup,
         r.quality.jointSeparationM.max * 1e3F, r.stockQuality.jointSeparationM.max * 1e3F,
@@ -44,11 +44,10 @@ void printRow(const scene::BenchResult& r) {
 }
 
 void printHeader(const BenchCommandOptions& options) {
-    fmt::print("{} beside stock Bullet; median ms a step, sleeping {}\n", options.solver,
-               options.sleeping ? "on" : "off");
-    fmt::print("{:<8} {:>6} {:>7} {:>10} {:>10} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8} {:>10} {:>9}\n", "SCENE", "DOLLS",
-               "THREADS", "OURS", "STOCK", "RATIO", "SEP mm", "(stock)", "PEN mm", "(stock)", "CONTACTS", "DOLLSTEP/s",
-               "REAL/CORE");
+    tell("{} beside stock Bullet; median ms a step, sleeping {}\n", options.solver, options.sleeping ? "on" : "off");
+    tell("{:<8} {:>6} {:>7} {:>10} {:>10} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8} {:>10} {:>9}\n", "SCENE", "DOLLS",
+         "THREADS", "OURS", "STOCK", "RATIO", "SEP mm", "(stock)", "PEN mm", "(stock)", "CONTACTS", "DOLLSTEP/s",
+         "REAL/CORE");
 }
 
 /// Runs the cases of the scenes, the named ones with the model, and takes their results.
@@ -92,7 +91,7 @@ class Bench {
 
     void add(scene::BenchResult result) {
         results.push_back(std::move(result));
-        if (!options_.json) printRow(results.back());
+        if (!options_.json && !isStandardOutput(options_.csv)) printRow(results.back());
     }
 
     const BenchCommandOptions& options_;
@@ -100,11 +99,12 @@ class Bench {
 };
 
 void compare(const BenchCommandOptions& options) {
-    if (!options.json) printHeader(options);
+    const bool printed = isStandardOutput(options.csv);
+    if (!options.json && !printed) printHeader(options);
     Bench bench(options);
     for (const std::string& name : options.scenes)
         bench.run(name);
-    if (options.json) fmt::print("{}", scene::benchmarkJson(bench.results));
+    if (options.json && !printed) fmt::print("{}", scene::benchmarkJson(bench.results));
     if (!options.csv.empty()) orLeave(writeFileAtomically(options.csv, scene::benchmarkCsv(bench.results)));
 }
 
@@ -181,9 +181,9 @@ void printCells(const std::vector<std::string>& cells) {
     const auto cell = [&](const char* name) {
         return cells[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
     };
-    fmt::print("{:<8} {:<8} {:>6} {:>7} {:>5} {:>8} {:>9} {:>9} {:>9} {:>9}  {}\n", cell("mode"), cell("scene"),
-               cell("count"), cell("threads"), cell("vsync"), cell("fps"), cell("simulate_ms"), cell("pose_ms"),
-               cell("draw_ms"), cell("show_ms"), cell("error"));
+    tell("{:<8} {:<8} {:>6} {:>7} {:>5} {:>8} {:>9} {:>9} {:>9} {:>9}  {}\n", cell("mode"), cell("scene"),
+         cell("count"), cell("threads"), cell("vsync"), cell("fps"), cell("simulate_ms"), cell("pose_ms"),
+         cell("draw_ms"), cell("show_ms"), cell("error"));
     std::fflush(stdout);
 }
 
@@ -277,7 +277,7 @@ void addBench(const Command& app) {
         .showDefault();
     addSolverOption(command, options->solver);
     command.flag("--sleeping", options->sleeping, "let dolls at rest sleep");
-    command.option("--csv", options->csv, "write the figures as CSV");
+    command.option("--csv", options->csv, "write the figures as CSV; - for stdout");
     command.flag("--json", options->json, "print the figures as JSON on stdout");
     command.onRun([options] { runBench(*options); });
 }

@@ -35,13 +35,13 @@ std::string coneText(const physics::ConeTwistLimits& cone) {
 
 // Before, what the clips do, and after: in degrees.
 void printChanges(const std::vector<physics::ClipLimitChange>& changes) {
-    fmt::print("{:<15} {:<22} {:<22} {:<22}\n", "LIMITS (deg)", "ANATOMY", "CLIPS", "TAKEN");
+    tell("{:<15} {:<22} {:<22} {:<22}\n", "LIMITS (deg)", "ANATOMY", "CLIPS", "TAKEN");
     for (const physics::ClipLimitChange& change : changes) {
         const bool hinge = change.kind == physics::ConstraintProfile::Kind::hinge;
-        fmt::print("{:<15} {:<22} {:<22} {:<22}\n", change.body,
-                   hinge ? hingeText(change.hingeBefore) : coneText(change.coneBefore),
-                   hinge ? hingeText(change.hingeUsed) : coneText(change.coneUsed),
-                   hinge ? hingeText(change.hingeAfter) : coneText(change.coneAfter));
+        tell("{:<15} {:<22} {:<22} {:<22}\n", change.body,
+             hinge ? hingeText(change.hingeBefore) : coneText(change.coneBefore),
+             hinge ? hingeText(change.hingeUsed) : coneText(change.coneUsed),
+             hinge ? hingeText(change.hingeAfter) : coneText(change.coneAfter));
     }
 }
 
@@ -66,19 +66,19 @@ std::string limitText(const physics::ConstraintProfile& c) {
 }
 
 void printTable(const physics::RagdollProfile& profile) {
-    fmt::print("{:<15} {:<28} {:<26} {:>8}  {}\n", "BODY", "JOINT", "SHAPE (m)", "MASS", "LIMITS");
+    tell("{:<15} {:<28} {:<26} {:>8}  {}\n", "BODY", "JOINT", "SHAPE (m)", "MASS", "LIMITS");
     for (std::size_t i = 0; i < profile.bodies.size(); ++i) {
         const physics::BodyProfile& body = profile.bodies[i];
-        fmt::print("{:<15} {:<28} {:<26} {:>5.2f} kg  {}\n", body.name, body.joint, shapeText(body.shape), body.massKg,
-                   i == 0 ? "" : limitText(profile.constraints[i - 1]));
+        tell("{:<15} {:<28} {:<26} {:>5.2f} kg  {}\n", body.name, body.joint, shapeText(body.shape), body.massKg,
+             i == 0 ? "" : limitText(profile.constraints[i - 1]));
     }
-    fmt::print("{:.2f} m tall, {:.1f} kg, {} bodies, {} constraints, {} pairs that don't collide beside the linked\n",
-               profile.heightM, profile.totalMassKg, profile.bodies.size(), profile.constraints.size(),
-               profile.filteredPairs.size());
+    tell("{:.2f} m tall, {:.1f} kg, {} bodies, {} constraints, {} pairs that don't collide beside the linked\n",
+         profile.heightM, profile.totalMassKg, profile.bodies.size(), profile.constraints.size(),
+         profile.filteredPairs.size());
 }
 
 void runBuild(const BuildCommandOptions& options) {
-    const auto asset = orLeave(scene::loadRagdoll(options.ragdoll.model.model, options.ragdoll.load()));
+    const auto asset = loadAsset(options.ragdoll);
     printWarnings(*asset);
     std::vector<physics::ClipLimitChange> changes;
     if (!options.limitsFromClips.empty()) {

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "core/files.hpp"
 #include "options.hpp"
 #include "physics/doctor/doctor.hpp"
 #include "physics/profile/profile_io.hpp"
@@ -27,10 +28,15 @@ void mend(const CheckCommandOptions& options, scene::RagdollAsset& asset, scene:
 }
 
 void runCheck(const CheckCommandOptions& options) {
-    const auto asset = orLeave(scene::loadRagdoll(options.ragdoll.model.model, options.ragdoll.load()));
-    scene::Checkup checkup = scene::examine(*asset);
+    const auto asset = loadAsset(options.ragdoll);
+    scene::Checkup checkup = [&] {
+        const Stopwatch stopwatch("examining");
+        return scene::examine(*asset);
+    }();
     if (!options.fixTo.empty()) mend(options, *asset, checkup);
-    fmt::print("{}", options.json ? scene::checkupJson(*asset, checkup) : scene::checkupText(*asset, checkup));
+    const bool printed = isStandardOutput(options.fixTo);
+    if (options.json && !printed) fmt::print("{}", scene::checkupJson(*asset, checkup));
+    if (!options.json && !printed) tell("{}", scene::checkupText(*asset, checkup));
     if (checkup.diagnosis.hasErrors()) throw Exit{static_cast<int>(ErrorCode::findings)};
 }
 
@@ -41,7 +47,8 @@ void addCheck(const Command& app) {
     const Command command =
         app.add("check", "Examine a ragdoll: findings with measures and mends, three drops, one score");
     options->ragdoll.addTo(command);
-    command.option("--fix", options->fixTo, "write the profile with what can be mended to this file, and judge that");
+    command.option("--fix", options->fixTo,
+                   "write the profile with what can be mended to this file, and judge that; - for stdout");
     command.flag("--json", options->json, "print the findings as JSON on stdout");
     command.onRun([options] { runCheck(*options); });
 }

@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "commands.hpp"
@@ -16,6 +17,7 @@ struct ExportCommandOptions {
     RagdollOptions ragdoll;
     std::filesystem::path out;
     std::string format;  // empty: by the ending of `out`
+    bool json = false;
 };
 
 std::vector<std::string> formatNames() {
@@ -33,16 +35,34 @@ exporting::ExportFormat formatOf(const ExportCommandOptions& options) {
            "add --format, or end the name as `lutka export --help` says"});
 }
 
+std::string factsJson(const ExportCommandOptions& options, exporting::ExportFormat format,
+                      const exporting::Exported& exported) {
+    nlohmann::ordered_json json;
+    json["model"] = options.ragdoll.model.model.string();
+    for (const exporting::ExportFormatInfo& info : exporting::exportFormats()) {
+        if (info.format == format) json["format"] = info.name;
+    }
+    json["file"] = options.out.string();
+    json["bytes"] = exported.bytes.size();
+    json["warnings"] = exported.warnings;
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
 void runExport(ExportCommandOptions& options) {
     const exporting::ExportFormat format = formatOf(options);
     options.ragdoll.model.textures = format == exporting::ExportFormat::glb || format == exporting::ExportFormat::gltf;
-    const auto asset = orLeave(scene::loadRagdoll(options.ragdoll.model.model, options.ragdoll.load()));
+    const auto asset = loadAsset(options.ragdoll);
     printWarnings(*asset);
     const auto exported = orLeave(exporting::exportRagdoll(format, {asset->character, asset->profile, asset->rig}));
     for (const std::string& warning : exported.warnings)
         spdlog::warn("{}", warning);
     orLeave(writeFileAtomically(options.out, exported.bytes));
-    if (!isStandardOutput(options.out)) fmt::print("  wrote {}\n", options.out.string());
+    if (isStandardOutput(options.out)) return;
+    if (options.json) {
+        fmt::print("{}", factsJson(options, format, exported));
+    } else {
+        tell("  wrote {}\n", options.out.string());
+    }
 }
 
 std::string formatHelp() {
@@ -60,6 +80,7 @@ void addExport(const Command& app) {
     options->ragdoll.addTo(command);
     command.option("-o,--output", options->out, "the file; its ending chooses the format; - for stdout").required();
     command.option("--format", options->format, formatHelp()).oneOf(formatNames());
+    command.flag("--json", options->json, "print what was written, and its warnings, as JSON on stdout");
     command.onRun([options] { runExport(*options); });
 }
 

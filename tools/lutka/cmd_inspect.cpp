@@ -38,11 +38,11 @@ Json figuresJson(const Character& character) {
 // A file with one figure has nothing to choose.
 void printFigures(const Character& character) {
     if (character.figures.size() < 2) return;
-    fmt::print("figures    {}: --figure N takes another\n", character.figures.size());
+    tell("figures    {}: --figure N takes another\n", character.figures.size());
     for (std::size_t i = 0; i < character.figures.size(); ++i) {
         const animation::FigureInfo& figure = character.figures[i];
-        fmt::print("  {:>3} {:<44} {:>7} vertices {:>7} joints{}\n", i + 1, figure.name, figure.vertices,
-                   figure.joints.size(), static_cast<int>(i) == character.figure ? ", taken" : "");
+        tell("  {:>3} {:<44} {:>7} vertices {:>7} joints{}\n", i + 1, figure.name, figure.vertices,
+             figure.joints.size(), static_cast<int>(i) == character.figure ? ", taken" : "");
     }
 }
 
@@ -89,37 +89,37 @@ Json inspectJson(const Character& character) {
 
 void printTree(const Skeleton& skeleton, const std::vector<std::vector<int>>& children, int joint, int depth) {
     const vec3& p = skeleton.bindModelFromJoint[joint].translation;
-    fmt::print("  {:{}}{:<{}} {:8.3f} {:8.3f} {:8.3f} {:9.1f}\n", "", depth * 2, skeleton.names[joint],
-               std::max(1, 48 - depth * 2), p.x, p.y, p.z, skeleton.skinWeight[joint]);
+    tell("  {:{}}{:<{}} {:8.3f} {:8.3f} {:8.3f} {:9.1f}\n", "", depth * 2, skeleton.names[joint],
+         std::max(1, 48 - depth * 2), p.x, p.y, p.z, skeleton.skinWeight[joint]);
     for (const int child : children[joint])
         printTree(skeleton, children, child, depth + 1);
 }
 
 void printText(const Character& character) {
     const Skeleton& skeleton = character.skeleton;
-    fmt::print("{}\n", character.file.string());
-    fmt::print("units      1 file unit = {} m ({}), up {} ({})\n", character.units.metresPerFileUnit,
-               character.units.unitSource, character.units.upAxis, character.units.upSource);
+    tell("{}\n", character.file.string());
+    tell("units      1 file unit = {} m ({}), up {} ({})\n", character.units.metresPerFileUnit,
+         character.units.unitSource, character.units.upAxis, character.units.upSource);
     printFigures(character);
-    fmt::print("joints     {}: bind position in metres, and the skin weight each carries in vertices\n",
-               skeleton.jointCount());
+    tell("joints     {}: bind position in metres, and the skin weight each carries in vertices\n",
+         skeleton.jointCount());
     const auto children = animation::childrenOf(skeleton);
     for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
         if (skeleton.parents[joint] == animation::kNoJoint) printTree(skeleton, children, joint, 0);
     }
-    fmt::print("meshes     {}\n", character.meshes.size());
+    tell("meshes     {}\n", character.meshes.size());
     for (const animation::SkinnedMesh& mesh : character.meshes) {
-        fmt::print("  {:<48} {:>7} vertices {:>7} triangles{}\n", mesh.name, mesh.positions.size(),
-                   mesh.indices.size() / 3, mesh.rigid ? ", rigid" : "");
+        tell("  {:<48} {:>7} vertices {:>7} triangles{}\n", mesh.name, mesh.positions.size(), mesh.indices.size() / 3,
+             mesh.rigid ? ", rigid" : "");
     }
-    fmt::print("clips      {}\n", character.clips.size());
+    tell("clips      {}\n", character.clips.size());
     for (const animation::Clip& clip : character.clips) {
-        fmt::print("  {:<48} {:7.2f} s, {} frames\n", clip.name, clip.seconds(), clip.frameCount);
+        tell("  {:<48} {:7.2f} s, {} frames\n", clip.name, clip.seconds(), clip.frameCount);
     }
-    fmt::print("materials  {}, textures {}\n", character.materials.size(), character.textures.size());
-    if (!character.warnings.empty()) fmt::print("repaired or noticed\n");
+    tell("materials  {}, textures {}\n", character.materials.size(), character.textures.size());
+    if (!character.warnings.empty()) tell("repaired or noticed\n");
     for (const std::string& warning : character.warnings)
-        fmt::print("  {}\n", warning);
+        tell("  {}\n", warning);
 }
 
 void runInspect(const InspectCommandOptions& options) {

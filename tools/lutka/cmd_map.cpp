@@ -92,16 +92,16 @@ Json segmentsJson(const Character& character, const animation::SegmentedRig& rig
 }
 
 void printSegments(const animation::SegmentedRig& rig) {
-    fmt::print("{:<28} {:<28} {:<9} {:<7} {}\n", "SEGMENT", "ON", "KIND", "SIDE", "HINGE");
+    tell("{:<28} {:<28} {:<9} {:<7} {}\n", "SEGMENT", "ON", "KIND", "SIDE", "HINGE");
     for (const animation::Segment& segment : rig.segments) {
         const std::string hinge =
             segment.hinge ? fmt::format("{:.0f}..{:.0f}", degrees(segment.hinge->low), degrees(segment.hinge->high))
                           : "";
-        fmt::print("{:<28} {:<28} {:<9} {:<7} {}\n", segment.name,
-                   segment.parent < 0 ? "-" : rig.segments[segment.parent].name, kindName(segment.kind),
-                   sideName(segment.side), hinge);
+        tell("{:<28} {:<28} {:<9} {:<7} {}\n", segment.name,
+             segment.parent < 0 ? "-" : rig.segments[segment.parent].name, kindName(segment.kind),
+             sideName(segment.side), hinge);
     }
-    fmt::print("{} segments\n", rig.segments.size());
+    tell("{} segments\n", rig.segments.size());
 }
 
 // The document of a file that could not even be loaded: the same keys, so that a reader needs one path.
@@ -117,26 +117,26 @@ std::string dump(const Json& json) {
 }
 
 void printTable(const Character& character, const HumanoidMap& map) {
-    fmt::print("{:<15} {:<28} {:>5}  {}\n", "ROLE", "JOINT", "SURE", "WHY");
+    tell("{:<15} {:<28} {:>5}  {}\n", "ROLE", "JOINT", "SURE", "WHY");
     for (int index = 0; index < animation::kRoleCount; ++index) {
         const animation::Role role = animation::roleAt(index);
         const auto& binding = map.roles[index];
         if (binding) {
-            fmt::print("{:<15} {:<28} {:>4.0f}%  {}\n", animation::roleName(role),
-                       character.skeleton.names[binding->joint], binding->confidence * 100.0F, binding->reason);
+            tell("{:<15} {:<28} {:>4.0f}%  {}\n", animation::roleName(role), character.skeleton.names[binding->joint],
+                 binding->confidence * 100.0F, binding->reason);
         } else if (animation::isRequired(role)) {
-            fmt::print("{:<15} {:<28}        required, not found\n", animation::roleName(role), "-");
+            tell("{:<15} {:<28}        required, not found\n", animation::roleName(role), "-");
         }
     }
-    fmt::print("a humanoid, {:.0f}% sure of the whole\n", map.confidence * 100.0F);
+    tell("a humanoid, {:.0f}% sure of the whole\n", map.confidence * 100.0F);
     const auto appendages = animation::findAppendages(character, map);
     if (appendages.empty()) return;
-    fmt::print("\n{:<15} {:<28} {:>6}  {}\n", "APPENDAGE", "JOINT", "JOINTS", "ON");
+    tell("\n{:<15} {:<28} {:>6}  {}\n", "APPENDAGE", "JOINT", "JOINTS", "ON");
     for (const animation::Appendage& appendage : appendages) {
-        fmt::print("{:<15} {:<28} {:>6}  {}\n", animation::appendageName(appendage.kind),
-                   character.skeleton.names[appendage.joint], appendage.joints, animation::roleName(appendage.role));
+        tell("{:<15} {:<28} {:>6}  {}\n", animation::appendageName(appendage.kind),
+             character.skeleton.names[appendage.joint], appendage.joints, animation::roleName(appendage.role));
     }
-    fmt::print("bodies for them: --bodies with the words of the first column\n");
+    tell("bodies for them: --bodies with the words of the first column\n");
 }
 
 void runAnyRig(const MapCommandOptions& options, const Character& character) {

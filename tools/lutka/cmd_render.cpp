@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "core/files.hpp"
 #include "render/frame_writer.hpp"
 #include "render/gl/gl_context.hpp"
 #include "render/gl/renderer.hpp"
@@ -141,9 +142,13 @@ void renderFrames(const RenderCommandOptions& options, Run& run, Painter& painte
 
 void runRender(RenderCommandOptions& options) {
     options.simulate.ragdoll.model.textures = true;
-    if (!render::FrameWriter::isVideo(options.out) && options.out.extension() != ".png") {
+    const bool printed = isStandardOutput(options.out);
+    if (!printed && !render::FrameWriter::isVideo(options.out) && options.out.extension() != ".png") {
         leave({ErrorCode::usage, fmt::format("'{}' is neither .png, .mp4 nor .gif", options.out.string()), "--output",
                "the extension chooses the format"});
+    }
+    if (printed && options.frames) {
+        leave({ErrorCode::usage, "frames are files of their own, and stdout is one", "--frames", "name a .png"});
     }
     const bool sequence = options.frames || render::FrameWriter::isVideo(options.out);
     Run run = prepare(options.simulate, options.out);
@@ -153,16 +158,19 @@ void runRender(RenderCommandOptions& options) {
     } else {
         renderPicture(options, run, painter);
     }
-    if (run.replay) {
-        fmt::print("replayed {} steps of {}\n", run.steps, run.replay->model);
-    } else {
-        fmt::print("{}",
-                   options.simulate.json ? scene::reportJson(*run.simulation) : scene::reportText(*run.simulation));
+    if (printed || options.simulate.fillsStandardOutput()) return;
+    if (options.simulate.json) {
+        fmt::print("{}", scene::reportJson(*run.simulation));
+        return;
     }
-    if (options.simulate.json) return;
+    if (run.replay) {
+        tell("replayed {} steps of {}\n", run.steps, run.replay->model);
+    } else {
+        tell("{}", scene::reportText(*run.simulation));
+    }
     for (const auto& file : {options.out, options.simulate.bakedOut, options.simulate.meshOut, options.simulate.report,
                              options.simulate.recordTo}) {
-        if (!file.empty()) fmt::print("  wrote {}\n", file.string());
+        if (!file.empty()) tell("  wrote {}\n", file.string());
     }
 }
 
@@ -175,7 +183,9 @@ void addRender(const Command& app) {
     const Option sky =
         command.option("--sky", options->sky, "light from a panorama (*.hdr) in place of the default sky");
     command.flag("--sky-background", options->skyBackground, "show the panorama behind the scene").needs(sky);
-    command.option("-o,--output", options->out, "FILE.png (the last moment), FILE.mp4 or FILE.gif").required();
+    command
+        .option("-o,--output", options->out, "FILE.png (the last moment), FILE.mp4 or FILE.gif; - for a PNG on stdout")
+        .required();
     command.option("--size", options->size, "WIDTHxHEIGHT in pixels").showDefault();
     command.option("--fps", options->framesPerSecond, "frames a second of a video").range(1.0, 240.0).showDefault();
     command.flag("--frames", options->frames, "with a .png: the whole fall as FILE_0000.png, FILE_0001.png …");

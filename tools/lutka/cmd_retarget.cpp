@@ -63,18 +63,18 @@ Json figuresJson(const RetargetCommandOptions& options, const animation::Clip& c
 }
 
 void printFigures(const animation::Clip& clip, const RetargetFigures& figures) {
-    fmt::print("clip '{}', {:.2f} s in {} frames, {:.3f} target metres a source metre\n", clip.name, clip.seconds(),
-               clip.frameCount, figures.scale);
-    fmt::print("  limbs point off    {:7.2f} deg in the mean, {:.2f} deg at most\n", figures.meanLimbDeg(),
-               figures.mostLimbDeg());
+    tell("clip '{}', {:.2f} s in {} frames, {:.3f} target metres a source metre\n", clip.name, clip.seconds(),
+         clip.frameCount, figures.scale);
+    tell("  limbs point off    {:7.2f} deg in the mean, {:.2f} deg at most\n", figures.meanLimbDeg(),
+         figures.mostLimbDeg());
     for (const animation::DirectionError& error : figures.directions)
-        fmt::print("    {:<17}{:7.2f} deg, {:.2f} deg at most\n", error.part, error.degrees.mean, error.degrees.most);
-    fmt::print(
+        tell("    {:<17}{:7.2f} deg, {:.2f} deg at most\n", error.part, error.degrees.mean, error.degrees.most);
+    tell(
         "  feet slide         {:7.2f} cm in the mean of {} contacts, {:.2f} cm at most (the source's {:.2f}, {:.2f})\n",
         figures.slideCm.mean, figures.contacts, figures.slideCm.most, figures.sourceSlideCm.mean,
         figures.sourceSlideCm.most);
-    fmt::print("  soles in the floor {:7.2f} cm in the mean, {:.2f} cm at most\n", figures.penetrationCm.mean,
-               figures.penetrationCm.most);
+    tell("  soles in the floor {:7.2f} cm in the mean, {:.2f} cm at most\n", figures.penetrationCm.mean,
+         figures.penetrationCm.most);
 }
 
 void runRetarget(RetargetCommandOptions& options) {
@@ -97,13 +97,14 @@ void runRetarget(RetargetCommandOptions& options) {
     how.keepFeet = !options.looseFeet;
     const animation::RetargetedClip made = orLeave(animation::retargetClip(retargeter, clip, how));
     orLeave(animation::writeGlb(options.out, target, std::span(&made.clip, 1)));
-    if (options.json) {
+    if (options.json && !isStandardOutput(options.out)) {
         fmt::print("{}\n",
                    figuresJson(options, clip, made.figures).dump(2, ' ', false, Json::error_handler_t::replace));
         return;
     }
+    if (isStandardOutput(options.out)) return;
     printFigures(clip, made.figures);
-    fmt::print("  wrote {}\n", options.out.string());
+    tell("  wrote {}\n", options.out.string());
 }
 
 }  // namespace
@@ -115,7 +116,7 @@ void addRetarget(const Command& app) {
     command.find("MODEL").describe("file with the clip: a rigged character or motion capture");
     command.option("--to", options->to, "the character that the clip is for").required();
     command.option("--clip", options->clip, "the clip's name; default: the file's only one");
-    command.option("-o,--output", options->out, "the character with the clip (.glb)").required();
+    command.option("-o,--output", options->out, "the character with the clip (.glb); - for stdout").required();
     command.flag("--loose-feet", options->looseFeet, "leave the feet where the legs' turns bring them");
     command.flag("--json", options->json, "print the figures as JSON on stdout");
     command.onRun([options] { runRetarget(*options); });

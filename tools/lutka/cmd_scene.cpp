@@ -49,20 +49,18 @@ std::string mark(const scene::EntityScene& scene, scene::EntityId id, const char
 }
 
 void print(const scene::EntityScene& scene) {
-    fmt::print("{}: {} entities, {} characters\n", scene.name, scene.entities.size(),
-               scene.all<scene::Ragdoll>().size());
+    tell("{}: {} entities, {} characters\n", scene.name, scene.entities.size(), scene.all<scene::Ragdoll>().size());
     constexpr std::size_t most = 60;
     for (std::size_t i = 0; i < std::min(scene.entities.size(), most); ++i) {
         const scene::Entity& entity = scene.entities[i];
         const vec3 at = scene::worldFromEntity(scene, entity.id).translation;
-        fmt::print("  {:>5}  {:<24} {:>7.2f} {:>7.2f} {:>7.2f} {}{}{}{}{}{}\n", entity.id, entity.name, at.x, at.y,
-                   at.z, mark<scene::Collider>(scene, entity.id, "collider"),
-                   mark<scene::RigidBody>(scene, entity.id, "rigidBody"),
-                   mark<scene::Ragdoll>(scene, entity.id, "ragdoll"), mark<scene::Light>(scene, entity.id, "light"),
-                   mark<scene::Camera>(scene, entity.id, "camera"),
-                   mark<scene::MeshRenderer>(scene, entity.id, "meshRenderer"));
+        tell("  {:>5}  {:<24} {:>7.2f} {:>7.2f} {:>7.2f} {}{}{}{}{}{}\n", entity.id, entity.name, at.x, at.y, at.z,
+             mark<scene::Collider>(scene, entity.id, "collider"), mark<scene::RigidBody>(scene, entity.id, "rigidBody"),
+             mark<scene::Ragdoll>(scene, entity.id, "ragdoll"), mark<scene::Light>(scene, entity.id, "light"),
+             mark<scene::Camera>(scene, entity.id, "camera"),
+             mark<scene::MeshRenderer>(scene, entity.id, "meshRenderer"));
     }
-    if (scene.entities.size() > most) fmt::print("  and {} more\n", scene.entities.size() - most);
+    if (scene.entities.size() > most) tell("  and {} more\n", scene.entities.size() - most);
 }
 
 void runScene(const SceneCommandOptions& options) {

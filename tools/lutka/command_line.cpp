@@ -121,6 +121,11 @@ int parseCommandLine(int argc, char** argv, const ProgramFacts& facts,
     app.add_flag_callback(
         "--licenses", [&facts] { throw CLI::CallForVersion(facts.licenses, 0); },
         "Print what the program is made of, with versions and licences, and exit");
+    // These stand before or after the command.
+    app.fallthrough();
+    CLI::Option* quiet =
+        app.add_flag_callback("-q,--quiet", facts.onQuiet, "Tell nothing but errors, and what --json or -o - asks for");
+    app.add_flag_callback("-v,--verbose", facts.onVerbose, "Tell what is done and how long it takes")->excludes(quiet);
     app.footer(facts.footer);
     app.require_subcommand(1);
     addCommands(Command(&app));

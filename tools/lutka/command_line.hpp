@@ -68,6 +68,8 @@ struct ProgramFacts {
     std::function<std::string()> version;  ///< Asked only when it is to be printed.
     std::string licenses;                  ///< A line a part.
     std::string footer;                    ///< Of the help.
+    std::function<void()> onQuiet;         ///< --quiet was given; called before the command runs.
+    std::function<void()> onVerbose;       ///< --verbose.
 };
 
 /// Builds the commands with `addCommands`, reads the arguments and runs what they ask for. Returns the exit code: 0,

@@ -10,6 +10,7 @@ void addInspect(const Command& app);
 void addMap(const Command& app);
 void addBuild(const Command& app);
 void addCheck(const Command& app);
+void addReport(const Command& app);
 void addScene(const Command& app);
 void addSimulate(const Command& app);
 void addRender(const Command& app);

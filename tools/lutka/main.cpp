@@ -3,10 +3,13 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "animation/import/import_character.hpp"
@@ -39,6 +42,7 @@ void addCommands(const lutka::cli::Command& app) {
     lutka::cli::addMap(app);
     lutka::cli::addBuild(app);
     lutka::cli::addCheck(app);
+    lutka::cli::addReport(app);
     lutka::cli::addScene(app);
     lutka::cli::addSimulate(app);
     lutka::cli::addRender(app);
@@ -52,7 +56,11 @@ void addCommands(const lutka::cli::Command& app) {
 // The exit code; whatever was thrown ends here.
 int runCommands(int argc, char** argv) {
     try {
-        return lutka::cli::parseCommandLine(argc, argv, {versions, kLicenses, kExitCodes}, addCommands);
+        return lutka::cli::parseCommandLine(
+            argc, argv,
+            {versions, kLicenses, kExitCodes, [] { spdlog::set_level(spdlog::level::err); },
+             [] { spdlog::set_level(spdlog::level::debug); }},
+            addCommands);
     } catch (const lutka::cli::Exit& exit) {
         return exit.code;
     } catch (const std::system_error& refused) {
@@ -74,7 +82,12 @@ int main(int argc, char** argv) {
         return lutka::animation::serveImport(std::vector<std::string>(argv + 1, argv + argc));
     lutka::cli::openStandardStreams();
     // Facts go to stdout, everything else to stderr, so that `--json` can be piped.
-    spdlog::set_default_logger(spdlog::stderr_color_mt("lutka"));
+    // Colours only on a terminal, and not where NO_COLOR (https://no-color.org) forbids them.
+    const char* noColor = std::getenv("NO_COLOR");
+    const bool plain = noColor != nullptr && *noColor != '\0';
+    auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>(plain ? spdlog::color_mode::never
+                                                                            : spdlog::color_mode::automatic);
+    spdlog::set_default_logger(std::make_shared<spdlog::logger>("lutka", std::move(sink)));
     spdlog::set_pattern("lutka: %^%l%$: %v");
     lutka::cli::installInterruptHandler();
     const int code = runCommands(argc, argv);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "animation/humanoid/roles.hpp"
+#include "core/files.hpp"
 #include "interrupt.hpp"
 #include "scene/load_words.hpp"
 #include "scene/scene_file.hpp"
@@ -257,9 +258,20 @@ void SimulateOptions::addTo(const Command& app) {
         .commaSeparated(3)
         .needs(shedOption);
     shedOption.excludes(clipOption).excludes(getUpFlag);
-    app.option("--out", bakedOut, "write the first doll's fall as an animation of its skin (.glb)");
-    app.option("--mesh-out", meshOut, "write the first doll's skin of the last frame (.obj)");
-    app.flag("--each", each, "--out and --mesh-out of every doll, as NAME_0001.glb, NAME_0002.glb …");
+    const Option outOption =
+        app.option("--out", bakedOut,
+                   "write the first doll's fall: an animation of its skin (.glb), or its joints' motion (.bvh)");
+    const Option meshOption = app.option("--mesh-out", meshOut, "write the first doll's skin of the last frame (.obj)");
+    const Option eachFlag =
+        app.flag("--each", each, "--out and --mesh-out of every doll, as NAME_0001.glb, NAME_0002.glb …");
+    app.flag("--together", together, "--out (.glb) holds every doll; their skins share their meshes")
+        .needs(outOption)
+        .excludes(eachFlag);
+    app.flag("--no-reduce", allKeys,
+             "--out keeps every key; else those are left out without which no joint is off by 0.1 mm or 0.05 degrees")
+        .needs(outOption);
+    app.flag("--mesh-sequence", meshSequence, "--mesh-out of every frame, as NAME_0000.obj, NAME_0001.obj …")
+        .needs(meshOption);
     const Option reportOption = app.option("--report", report, "write the figures of the run (.json)");
     const Option recordOption =
         app.option("--record", recordTo,
@@ -341,8 +353,35 @@ render::Extent parseSize(const std::string& text) {
     return {width, height};
 }
 
+bool SimulateOptions::fillsStandardOutput() const {
+    return isStandardOutput(bakedOut) || isStandardOutput(meshOut) || isStandardOutput(report) ||
+           isStandardOutput(recordTo);
+}
+
+bool isQuiet() {
+    return !spdlog::should_log(spdlog::level::warn);
+}
+
+Stopwatch::Stopwatch(std::string what) : what_(std::move(what)), begun_(std::chrono::steady_clock::now()) {}
+
+Stopwatch::~Stopwatch() {
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begun_;
+    spdlog::debug("{}: {:.2f} s", what_, taken.count());
+}
+
+std::unique_ptr<scene::RagdollAsset> loadAsset(const RagdollOptions& options) {
+    const Stopwatch stopwatch("reading and fitting " + options.model.model.string());
+    auto asset = orLeave(scene::loadRagdoll(options.model.model, options.load()));
+    spdlog::debug("{} joints, {} meshes, {} bodies, {:.2f} m tall", asset->character.skeleton.jointCount(),
+                  asset->character.meshes.size(), asset->profile.bodies.size(), asset->profile.heightM);
+    return asset;
+}
+
 Progress::Progress(std::string what, int total)
-    : what_(std::move(what)), total_(std::max(total, 1)), terminal_(::isatty(STDERR_FILENO) == 1) {}
+    : what_(std::move(what)),
+      total_(std::max(total, 1)),
+      terminal_(::isatty(STDERR_FILENO) == 1 && !isQuiet()),
+      begun_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() {
     if (terminal_) fmt::print(stderr, "\r\033[K");
@@ -356,7 +395,12 @@ void Progress::at(int done) {
     drawn_ = now;
     constexpr int width = 30;
     const int filled = width * done / total_;
-    fmt::print(stderr, "\r\033[K{} [{:#<{}}{:.<{}}] {}/{}", what_, "", filled, "", width - filled, done, total_);
+    // A guess of the first second would jump about.
+    const std::chrono::duration<double> taken = now - begun_;
+    std::string left;
+    if (taken > 1s && done > 0) left = fmt::format(", {:.0f} s left", taken.count() * (total_ - done) / done);
+    fmt::print(stderr, "\r\033[K{} [{:#<{}}{:.<{}}] {}/{}{}", what_, "", filled, "", width - filled, done, total_,
+               left);
     std::fflush(stderr);
 }
 

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "command_line.hpp"
 #include "core/result.hpp"
@@ -101,16 +104,22 @@ struct SimulateOptions {
     std::vector<float> eye;
     std::filesystem::path bakedOut;
     std::filesystem::path meshOut;
-    bool each = false;  ///< bakedOut and meshOut of every doll instead of the first.
+    bool each = false;           ///< bakedOut and meshOut of every doll instead of the first.
+    bool together = false;       ///< bakedOut holds every doll.
+    bool allKeys = false;        ///< bakedOut keeps every key.
+    bool meshSequence = false;   ///< meshOut of every frame instead of the last.
+    std::optional<int> bakeFps;  ///< Of bakedOut and meshSequence; unset: the steps'.
     std::filesystem::path report;
     std::filesystem::path recordTo;
     std::filesystem::path replayFrom;
     bool json = false;
 
     void addTo(const Command& app);
-    /// How `scene` is simulated: as it says itself, but for what was asked for.
     [[nodiscard]] scene::PuppetPlay puppetPlay() const;
+    /// How `scene` is simulated: as it says itself, but for what was asked for.
     [[nodiscard]] scene::SimulationOptions simulation(const scene::EntityScene& scene) const;
+    /// Whether one of the outputs is stdout, which then holds nothing else.
+    [[nodiscard]] bool fillsStandardOutput() const;
 };
 
 /// The words that an option of named choices takes.
@@ -133,7 +142,32 @@ void addSolverOption(const Command& app, std::string& solver);
 /// WIDTHxHEIGHT in pixels, each in [16, 16384]; leaves with wrong usage otherwise.
 [[nodiscard]] render::Extent parseSize(const std::string& text);
 
-/// A bar on stderr while it is a terminal; silent otherwise.
+/// Whether --quiet was given.
+[[nodiscard]] bool isQuiet();
+
+/// Prints what is for people to stdout, but not with --quiet.
+template <class... Args>
+void tell(fmt::format_string<Args...> format, Args&&... args) {
+    if (!isQuiet()) fmt::print(format, std::forward<Args>(args)...);
+}
+
+/// With --verbose: tells on stderr how long its life took.
+class Stopwatch {
+  public:
+    explicit Stopwatch(std::string what);
+    ~Stopwatch();
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+  private:
+    std::string what_;
+    std::chrono::steady_clock::time_point begun_;
+};
+
+/// Reads the model and makes its ragdoll; leaves on errors.
+[[nodiscard]] std::unique_ptr<scene::RagdollAsset> loadAsset(const RagdollOptions& options);
+
+/// A bar on stderr, with the time left, while that is a terminal; silent otherwise and with --quiet.
 class Progress {
   public:
     Progress(std::string what, int total);
@@ -146,6 +180,7 @@ class Progress {
     std::string what_;
     int total_;
     bool terminal_;
+    std::chrono::steady_clock::time_point begun_;
     std::chrono::steady_clock::time_point drawn_;
 };
 

@@ -8,13 +8,10 @@
 #include <cmath>
 #include <optional>
 
-#include "animation/export/write_glb.hpp"
-#include "animation/export/write_obj.hpp"
-#include "animation/skinning.hpp"
+#include "bake_outputs.hpp"
 #include "core/files.hpp"
 #include "input_settings.hpp"
 #include "interrupt.hpp"
-#include "scene/bake.hpp"
 #include "scene/recording.hpp"
 #include "scene/report.hpp"
 #include "scene/scene_file.hpp"
@@ -26,25 +23,9 @@ namespace {
 constexpr float kLeastHeightM = 0.3F;
 constexpr float kMostHeightM = 5.0F;
 
-void writeLastMesh(const std::filesystem::path& file, Run& run, int doll) {
-    const animation::Character& character = run.simulation->assetOf(doll).character;
-    std::vector<RigidTransform> pose(character.skeleton.parents.size());
-    std::vector<animation::SkinMatrix> palette(pose.size());
-    run.simulation->pose(doll, 1.0F, pose);
-    animation::skinMatrices(character.skeleton.bindModelFromJoint, pose, palette);
-    orLeave(animation::writeObj(file, character, palette, run.simulation->worldFromModel(doll)));
-}
-
-// NAME_0001.glb for the first doll when each has a file of its own.
-std::filesystem::path fileOf(const std::filesystem::path& file, const SimulateOptions& options, int doll) {
-    if (!options.each) return file;
-    std::filesystem::path own = file;
-    own.replace_filename(fmt::format("{}_{:04}{}", file.stem().string(), doll + 1, file.extension().string()));
-    return own;
-}
-
 // Writing is the last thing of a long run: what can't be written is better known before it.
 void checkWritable(const std::filesystem::path& file) {
+    if (isStandardOutput(file)) return;
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
     std::error_code failed;
     std::filesystem::create_directories(folder, failed);
@@ -61,10 +42,13 @@ void checkWritable(const std::filesystem::path& file) {
     }
 }
 
-void checkExtension(const char* option, const std::filesystem::path& file, const char* extension) {
-    if (file.empty() || file.extension() == extension) return;
-    leave({ErrorCode::usage, fmt::format("'{}' doesn't end in {}", file.string(), extension), option,
-           fmt::format("this output is always {}: name it so", extension)});
+void checkExtension(const char* option, const std::filesystem::path& file, std::string_view extension,
+                    std::string_view other = "") {
+    if (file.empty() || isStandardOutput(file) || file.extension() == extension) return;
+    if (!other.empty() && file.extension() == other) return;
+    const std::string endings = other.empty() ? std::string(extension) : fmt::format("{} or {}", extension, other);
+    leave({ErrorCode::usage, fmt::format("'{}' doesn't end in {}", file.string(), endings), option,
+           fmt::format("this output is always {}: name it so", endings)});
 }
 
 bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
@@ -123,7 +107,7 @@ void advance(Run& run, int step) {
 }
 
 void checkOutputs(const SimulateOptions& options, const std::filesystem::path& picture) {
-    checkExtension("--out", options.bakedOut, ".glb");
+    checkExtension("--out", options.bakedOut, ".glb", options.together ? "" : ".bvh");
     checkExtension("--mesh-out", options.meshOut, ".obj");
     std::vector<std::filesystem::path> taken;
     if (!options.ragdoll.model.model.empty()) taken.push_back(options.ragdoll.model.model);
@@ -198,6 +182,7 @@ float secondsOf(const SimulateOptions& options, const Run& run, float ofScene) {
 
 Run prepare(SimulateOptions& options, const std::filesystem::path& picture) {
     checkOutputs(options, picture);
+    const Stopwatch stopwatch("model and scene");
     Run run;
     if (scene::isInputsFile(options.replayFrom)) {
         run.inputs = orLeave(scene::loadInputs(options.replayFrom));
@@ -229,10 +214,9 @@ Run prepare(SimulateOptions& options, const std::filesystem::path& picture) {
 
 void execute(const SimulateOptions& options, Run& run, const std::function<void(scene::Simulation&)>& afterStep) {
     scene::Simulation& simulation = *run.simulation;
-    std::vector<scene::ClipBaker> bakers;
-    const int written = options.each ? simulation.dollCount() : 1;
+    const Stopwatch stopwatch(fmt::format("{} steps of {} dolls", run.steps, simulation.dollCount()));
+    BakeOutputs baked(options, simulation);
     scene::Recording recording = scene::beginRecording(simulation);
-    const bool bake = !options.bakedOut.empty();
     const bool recordInputs = scene::isInputsFile(options.recordTo);
     const bool recordSteps = !options.recordTo.empty() && !recordInputs;
     scene::RunInputs inputs;
@@ -242,13 +226,6 @@ void execute(const SimulateOptions& options, Run& run, const std::function<void(
     }
     std::optional<scene::InputPlayer> player;
     if (run.inputs) player.emplace(*run.inputs, simulation);
-    const auto sample = [&] {
-        for (scene::ClipBaker& baker : bakers)
-            baker.sample(simulation);
-    };
-    for (int doll = 0; bake && doll < written; ++doll)
-        bakers.emplace_back(doll, 1.0F / simulation.options().dt, "lutka_" + simulation.scenario().name);
-    sample();
     if (recordSteps) scene::record(simulation, recording);
     Progress progress(run.replay ? "replaying" : "simulating", run.steps);
     for (int step = 0; step < run.steps; ++step) {
@@ -257,17 +234,12 @@ void execute(const SimulateOptions& options, Run& run, const std::function<void(
         advance(run, step);
         if (run.inputs) checkInputs(options, run);
         if (recordInputs) scene::noteStep(simulation, step + 1 == run.steps, inputs);
-        sample();
+        baked.afterStep();
         if (recordSteps) scene::record(simulation, recording);
         if (afterStep) afterStep(simulation);
         progress.at(step + 1);
     }
-    for (int doll = 0; doll < static_cast<int>(bakers.size()); ++doll) {
-        orLeave(animation::writeGlb(fileOf(options.bakedOut, options, doll), simulation.assetOf(doll).character,
-                                    std::span(&bakers[doll].clip(), 1), simulation.worldFromModel(doll)));
-    }
-    for (int doll = 0; !options.meshOut.empty() && doll < written; ++doll)
-        writeLastMesh(fileOf(options.meshOut, options, doll), run, doll);
+    baked.write();
     if (recordSteps) orLeave(scene::saveRecording(options.recordTo, recording));
     if (recordInputs) orLeave(scene::saveInputs(options.recordTo, inputs));
     if (!options.report.empty()) orLeave(writeFileAtomically(options.report, scene::reportJson(simulation)));

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -27,85 +28,95 @@ bool isMarked(const std::vector<bool>& marks, std::size_t joint) {
     return joint < marks.size() && marks[joint];
 }
 
-class AnimationBuilder {
-  public:
-    AnimationBuilder(const Clip& clip, int firstJoint, BufferBuilder& buffer, tinygltf::Model& model)
-        : clip_(clip), firstJoint_(firstJoint), buffer_(buffer), model_(model) {
-        animation_.name = utf8(clip.name);
-    }
+template <class Value>
+std::vector<Value> kept(const std::vector<Value>& values, const std::vector<int>& frames) {
+    std::vector<Value> out;
+    for (const int frame : frames)
+        out.push_back(values[static_cast<std::size_t>(frame)]);
+    return out;
+}
 
-    // Writes the channel when its values leave `rest`; one key is enough for values that stay equal.
-    template <class Value>
-    void addChannel(std::size_t joint, std::vector<Value> values, const Value& rest, const char* path, int type,
-                    bool stepped) {
-        bool moves = false;
-        bool leaves = false;
-        for (const Value& value : values) {
-            moves = moves || differs(value, values.front());
-            leaves = leaves || differs(value, rest);
-        }
-        if (!leaves) return;
-        if (!moves) values.resize(1);
-        tinygltf::AnimationSampler sampler;
-        sampler.input = moves ? times() : startTime();
-        sampler.output = buffer_.add(std::span<const Value>(values), TINYGLTF_COMPONENT_TYPE_FLOAT, type, 0);
-        sampler.interpolation = stepped ? "STEP" : "LINEAR";
-        animation_.samplers.push_back(std::move(sampler));
-        tinygltf::AnimationChannel channel;
-        channel.sampler = static_cast<int>(animation_.samplers.size()) - 1;
-        channel.target_node = firstJoint_ + static_cast<int>(joint);
-        channel.target_path = path;
-        animation_.channels.push_back(std::move(channel));
+// Neighbouring keys on one side of the sphere, for viewers that blend without looking.
+void alignSigns(std::vector<vec4>& rotations) {
+    for (std::size_t i = 1; i < rotations.size(); ++i) {
+        if (glm::dot(rotations[i], rotations[i - 1]) < 0.0F) rotations[i] = -rotations[i];
     }
-
-    void finish() {
-        if (!animation_.channels.empty()) model_.animations.push_back(std::move(animation_));
-    }
-
-  private:
-    int addTimes(int count) {
-        std::vector<float> seconds(static_cast<std::size_t>(count));
-        for (int frame = 0; frame < count; ++frame)
-            seconds[static_cast<std::size_t>(frame)] = static_cast<float>(frame) / clip_.framesPerSecond;
-        return buffer_.addBounded(std::span<const float>(seconds), TINYGLTF_TYPE_SCALAR, 0);
-    }
-    int times() { return times_ < 0 ? times_ = addTimes(clip_.frameCount) : times_; }
-    int startTime() { return startTime_ < 0 ? startTime_ = addTimes(1) : startTime_; }
-
-    const Clip& clip_;
-    int firstJoint_;
-    BufferBuilder& buffer_;
-    tinygltf::Model& model_;
-    tinygltf::Animation animation_;
-    int times_ = -1;
-    int startTime_ = -1;
-};
+}
 
 }  // namespace
 
-void addAnimation(const Clip& clip, std::span<const RigidTransform> parentFromJoint, int firstJoint,
-                  BufferBuilder& buffer, tinygltf::Model& model) {
+AnimationBuilder::AnimationBuilder(const std::string& name, BufferBuilder& buffer, tinygltf::Model& model)
+    : buffer_(buffer), model_(model) {
+    animation_.name = utf8(name);
+}
+
+AnimationBuilder::~AnimationBuilder() = default;
+
+int AnimationBuilder::timesOf(const std::vector<int>& frames, float framesPerSecond) {
+    const auto known = times_.find({frames, framesPerSecond});
+    if (known != times_.end()) return known->second;
+    std::vector<float> seconds;
+    for (const int frame : frames)
+        seconds.push_back(static_cast<float>(frame) / framesPerSecond);
+    const int index = buffer_.addBounded(std::span<const float>(seconds), TINYGLTF_TYPE_SCALAR, 0);
+    return times_[{frames, framesPerSecond}] = index;
+}
+
+template <class Value>
+void AnimationBuilder::addChannel(int node, const char* path, const std::vector<Value>& values, int type,
+                                  const std::vector<int>& frames, float framesPerSecond, bool stepped) {
+    tinygltf::AnimationSampler sampler;
+    sampler.input = timesOf(frames, framesPerSecond);
+    sampler.output = buffer_.add(std::span<const Value>(values), TINYGLTF_COMPONENT_TYPE_FLOAT, type, 0);
+    sampler.interpolation = stepped ? "STEP" : "LINEAR";
+    animation_.samplers.push_back(std::move(sampler));
+    tinygltf::AnimationChannel channel;
+    channel.sampler = static_cast<int>(animation_.samplers.size()) - 1;
+    channel.target_node = node;
+    channel.target_path = path;
+    animation_.channels.push_back(std::move(channel));
+}
+
+// Writes the channel when its values leave `rest`; one key is enough for values that stay equal.
+template <class Value>
+void AnimationBuilder::addValues(int node, const char* path, const std::vector<Value>& values, const Value& rest,
+                                 int type, const std::vector<int>& frames, float framesPerSecond, bool stepped) {
+    const auto all = std::span(values);
+    const bool leaves = std::any_of(all.begin(), all.end(), [&](const Value& value) { return differs(value, rest); });
+    const bool moves =
+        std::any_of(all.begin(), all.end(), [&](const Value& value) { return differs(value, values.front()); });
+    if (!leaves) return;
+    static const std::vector<int> kStart{0};
+    addChannel(node, path, moves ? values : std::vector<Value>{values.front()}, type, moves ? frames : kStart,
+               framesPerSecond, stepped);
+}
+
+void AnimationBuilder::add(const Clip& clip, const KeptKeys& keys, std::span<const RigidTransform> parentFromJoint,
+                           int firstJoint) {
     const std::size_t joints = parentFromJoint.size();
     LUTKA_ASSERT(clip.parentFromJoint.size() == joints * static_cast<std::size_t>(clip.frameCount));
-    AnimationBuilder animation(clip, firstJoint, buffer, model);
     for (std::size_t joint = 0; joint < joints; ++joint) {
         std::vector<vec4> rotations;
         std::vector<vec3> translations;
         for (int frame = 0; frame < clip.frameCount; ++frame) {
             const RigidTransform& pose = clip.parentFromJoint[static_cast<std::size_t>(frame) * joints + joint];
-            vec4 rotation = components(pose.rotation);
-            // Neighbouring keys on one side of the sphere, for viewers that blend without looking.
-            if (!rotations.empty() && glm::dot(rotation, rotations.back()) < 0.0F) rotation = -rotation;
-            rotations.push_back(rotation);
+            rotations.push_back(components(pose.rotation));
             translations.push_back(pose.translation);
         }
+        rotations = kept(rotations, keys.rotations[joint]);
+        alignSigns(rotations);
+        const int node = firstJoint + static_cast<int>(joint);
         const RigidTransform& rest = parentFromJoint[joint];
-        animation.addChannel(joint, std::move(rotations), components(rest.rotation), "rotation", TINYGLTF_TYPE_VEC4,
-                             isMarked(clip.steppedRotations, joint));
-        animation.addChannel(joint, std::move(translations), rest.translation, "translation", TINYGLTF_TYPE_VEC3,
-                             isMarked(clip.steppedTranslations, joint));
+        addValues(node, "rotation", rotations, components(rest.rotation), TINYGLTF_TYPE_VEC4, keys.rotations[joint],
+                  clip.framesPerSecond, isMarked(clip.steppedRotations, joint));
+        addValues(node, "translation", kept(translations, keys.translations[joint]), rest.translation,
+                  TINYGLTF_TYPE_VEC3, keys.translations[joint], clip.framesPerSecond,
+                  isMarked(clip.steppedTranslations, joint));
     }
-    animation.finish();
+}
+
+void AnimationBuilder::finish() {
+    if (!animation_.channels.empty()) model_.animations.push_back(std::move(animation_));
 }
 
 }  // namespace lutka::animation::glb

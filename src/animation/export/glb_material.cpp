@@ -37,7 +37,8 @@ const char* nameOf(Material::AlphaMode mode) {
     return "OPAQUE";
 }
 
-tinygltf::Material convert(const Material& material) {
+tinygltf::Material convert(const Material& material, int firstTexture) {
+    const auto placed = [&](int texture) { return texture < 0 ? texture : firstTexture + texture; };
     tinygltf::Material out;
     out.name = utf8(material.name);
     tinygltf::PbrMetallicRoughness& pbr = out.pbrMetallicRoughness;
@@ -45,11 +46,11 @@ tinygltf::Material convert(const Material& material) {
     pbr.baseColorFactor = {color.r, color.g, color.b, color.a};
     pbr.metallicFactor = material.metallic;
     pbr.roughnessFactor = material.roughness;
-    pbr.baseColorTexture.index = material.baseColorTexture;
-    pbr.metallicRoughnessTexture.index = material.metallicRoughnessTexture;
-    out.normalTexture.index = material.normalTexture;
-    out.occlusionTexture.index = material.occlusionTexture;
-    out.emissiveTexture.index = material.emissiveTexture;
+    pbr.baseColorTexture.index = placed(material.baseColorTexture);
+    pbr.metallicRoughnessTexture.index = placed(material.metallicRoughnessTexture);
+    out.normalTexture.index = placed(material.normalTexture);
+    out.occlusionTexture.index = placed(material.occlusionTexture);
+    out.emissiveTexture.index = placed(material.emissiveTexture);
     out.emissiveFactor = {material.emissive.r, material.emissive.g, material.emissive.b};
     out.alphaMode = nameOf(material.alphaMode);
     if (material.alphaMode == Material::AlphaMode::mask) out.alphaCutoff = material.alphaCutoff;
@@ -60,7 +61,8 @@ tinygltf::Material convert(const Material& material) {
 }  // namespace
 
 void addMaterials(const Character& character, BufferBuilder& buffer, tinygltf::Model& model) {
-    if (!character.textures.empty()) {
+    const int firstTexture = static_cast<int>(model.textures.size());
+    if (!character.textures.empty() && model.samplers.empty()) {
         tinygltf::Sampler sampler;
         sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
         sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
@@ -69,7 +71,7 @@ void addMaterials(const Character& character, BufferBuilder& buffer, tinygltf::M
     for (const Texture& texture : character.textures)
         addTexture(texture, buffer, model);
     for (const Material& material : character.materials)
-        model.materials.push_back(convert(material));
+        model.materials.push_back(convert(material, firstTexture));
 }
 
 }  // namespace lutka::animation::glb

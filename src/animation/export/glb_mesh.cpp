@@ -29,13 +29,13 @@ int addJoints(const SkinnedMesh& mesh, int jointCount, BufferBuilder& buffer) {
 
 }  // namespace
 
-int addMesh(const SkinnedMesh& mesh, int jointCount, BufferBuilder& buffer, tinygltf::Model& model) {
+int addMesh(const SkinnedMesh& mesh, int firstMaterial, int jointCount, BufferBuilder& buffer, tinygltf::Model& model) {
     const auto floats = [&](auto values, int type) {
         return buffer.add(values, TINYGLTF_COMPONENT_TYPE_FLOAT, type, TINYGLTF_TARGET_ARRAY_BUFFER);
     };
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.material = mesh.material;
+    primitive.material = firstMaterial + mesh.material;
     primitive.attributes["POSITION"] =
         buffer.addBounded(view(mesh.positions), TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
     if (!mesh.normals.empty()) primitive.attributes["NORMAL"] = floats(view(mesh.normals), TINYGLTF_TYPE_VEC3);

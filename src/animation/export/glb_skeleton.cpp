@@ -28,12 +28,19 @@ std::array<float, 16> columns(const mat4& m) {
 
 }  // namespace
 
+int addInverseBinds(const Skeleton& skeleton, BufferBuilder& buffer) {
+    std::vector<std::array<float, 16>> inverseBinds;
+    for (const RigidTransform& bind : skeleton.bindModelFromJoint)
+        inverseBinds.push_back(columns(toMatrix(inverse(bind))));
+    return buffer.add(std::span<const std::array<float, 16>>(inverseBinds), TINYGLTF_COMPONENT_TYPE_FLOAT,
+                      TINYGLTF_TYPE_MAT4, 0);
+}
+
 int addSkeleton(const Skeleton& skeleton, std::span<const RigidTransform> parentFromJoint, int wrapper,
-                BufferBuilder& buffer, tinygltf::Model& model) {
+                int inverseBinds, tinygltf::Model& model) {
     const int first = static_cast<int>(model.nodes.size());
     tinygltf::Skin skin;
     skin.skeleton = wrapper;
-    std::vector<std::array<float, 16>> inverseBinds;
     for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
         tinygltf::Node node;
         node.name = utf8(skeleton.names[joint]);
@@ -43,10 +50,8 @@ int addSkeleton(const Skeleton& skeleton, std::span<const RigidTransform> parent
         const int parent = skeleton.parents[joint];
         model.nodes[parent == kNoJoint ? wrapper : first + parent].children.push_back(first + joint);
         skin.joints.push_back(first + joint);
-        inverseBinds.push_back(columns(toMatrix(inverse(skeleton.bindModelFromJoint[joint]))));
     }
-    skin.inverseBindMatrices = buffer.add(std::span<const std::array<float, 16>>(inverseBinds),
-                                          TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_MAT4, 0);
+    skin.inverseBindMatrices = inverseBinds;
     model.skins.push_back(std::move(skin));
     return static_cast<int>(model.skins.size()) - 1;
 }

@@ -1,6 +1,7 @@
 #include "animation/export/write_glb.hpp"
 
 #include <exception>
+#include <map>
 #include <sstream>
 
 #include "animation/export/glb_parts.hpp"
@@ -13,6 +14,35 @@ namespace {
 // A .glb states its length in 32 bits.
 constexpr std::size_t kMaxBytes = 0xFFFF'0000ULL;
 
+/// Builds the file: what figures of one character share is in it once.
+class GlbBuilder {
+  public:
+    GlbBuilder() : buffer_(model_) {
+        model_.asset.version = "2.0";
+        model_.asset.generator = "Lutka";
+    }
+
+    /// Adds a figure in its bind pose and returns the node of its first joint.
+    int addFigure(const Character& character, const RigidTransform& worldFromModel);
+    /// Adds one animation of figures, given by the nodes of their first joints; the clips belong to `characters`.
+    void addAnimation(const std::string& name, std::span<const GlbFigure> figures, std::span<const int> firstJoints,
+                      const std::optional<KeyTolerance>& tolerance);
+    tinygltf::Model take();
+
+  private:
+    struct Shared {
+        std::vector<int> meshes;
+        int inverseBinds = -1;
+        std::vector<RigidTransform> parentFromJoint;  // of the bind pose
+    };
+    const Shared& sharedOf(const Character& character);
+
+    tinygltf::Model model_;
+    glb::BufferBuilder buffer_;
+    tinygltf::Scene scene_;
+    std::map<const Character*, Shared> shared_;
+};
+
 tinygltf::Node wrapperNode(const Character& character, const RigidTransform& worldFromModel) {
     tinygltf::Node node;
     node.name = glb::utf8(character.name.empty() ? "character" : character.name);
@@ -23,38 +53,59 @@ tinygltf::Node wrapperNode(const Character& character, const RigidTransform& wor
     return node;
 }
 
-tinygltf::Model buildModel(const Character& character, std::span<const Clip> clips,
-                           const RigidTransform& worldFromModel) {
-    constexpr int kWrapper = 0;
-    constexpr int kFirstJoint = 1;
-    tinygltf::Model model;
-    model.asset.version = "2.0";
-    model.asset.generator = "Lutka";
-    glb::BufferBuilder buffer(model);
-    model.nodes.push_back(wrapperNode(character, worldFromModel));
+const GlbBuilder::Shared& GlbBuilder::sharedOf(const Character& character) {
+    const auto known = shared_.find(&character);
+    if (known != shared_.end()) return known->second;
     const Skeleton& skeleton = character.skeleton;
-    std::vector<RigidTransform> parentFromJoint(skeleton.parents.size());
-    modelToLocal(skeleton, skeleton.bindModelFromJoint, parentFromJoint);
-    tinygltf::Scene scene;
-    scene.nodes.push_back(kWrapper);
-    const int skin =
-        skeleton.jointCount() > 0 ? glb::addSkeleton(skeleton, parentFromJoint, kWrapper, buffer, model) : -1;
-    for (const SkinnedMesh& mesh : character.meshes) {
+    Shared& shared = shared_[&character];
+    shared.parentFromJoint.resize(skeleton.parents.size());
+    modelToLocal(skeleton, skeleton.bindModelFromJoint, shared.parentFromJoint);
+    if (skeleton.jointCount() > 0) shared.inverseBinds = glb::addInverseBinds(skeleton, buffer_);
+    const int firstMaterial = static_cast<int>(model_.materials.size());
+    for (const SkinnedMesh& mesh : character.meshes)
+        shared.meshes.push_back(glb::addMesh(mesh, firstMaterial, skeleton.jointCount(), buffer_, model_));
+    glb::addMaterials(character, buffer_, model_);
+    return shared;
+}
+
+int GlbBuilder::addFigure(const Character& character, const RigidTransform& worldFromModel) {
+    const Shared& shared = sharedOf(character);
+    const Skeleton& skeleton = character.skeleton;
+    const int wrapper = static_cast<int>(model_.nodes.size());
+    model_.nodes.push_back(wrapperNode(character, worldFromModel));
+    scene_.nodes.push_back(wrapper);
+    const int skin = skeleton.jointCount() > 0
+                         ? glb::addSkeleton(skeleton, shared.parentFromJoint, wrapper, shared.inverseBinds, model_)
+                         : -1;
+    for (std::size_t i = 0; i < shared.meshes.size(); ++i) {
         tinygltf::Node node;
-        node.name = glb::utf8(mesh.name);
+        node.name = glb::utf8(character.meshes[i].name);
         node.skin = skin;
-        node.mesh = glb::addMesh(mesh, skeleton.jointCount(), buffer, model);
+        node.mesh = shared.meshes[i];
         // A skinned mesh follows its joints only; at the root nothing else can seem to move it.
-        scene.nodes.push_back(static_cast<int>(model.nodes.size()));
-        model.nodes.push_back(std::move(node));
+        scene_.nodes.push_back(static_cast<int>(model_.nodes.size()));
+        model_.nodes.push_back(std::move(node));
     }
-    glb::addMaterials(character, buffer, model);
-    for (const Clip& clip : clips)
-        glb::addAnimation(clip, parentFromJoint, kFirstJoint, buffer, model);
-    model.scenes.push_back(std::move(scene));
-    model.defaultScene = 0;
-    if (buffer.size() == 0) model.buffers.clear();
-    return model;
+    return wrapper + 1;
+}
+
+void GlbBuilder::addAnimation(const std::string& name, std::span<const GlbFigure> figures,
+                              std::span<const int> firstJoints, const std::optional<KeyTolerance>& tolerance) {
+    glb::AnimationBuilder animation(name, buffer_, model_);
+    for (std::size_t i = 0; i < figures.size(); ++i) {
+        const Skeleton& skeleton = figures[i].character->skeleton;
+        const Clip& clip = *figures[i].clip;
+        animation.add(clip, tolerance ? reduceKeys(skeleton, clip, *tolerance) : allKeys(skeleton, clip),
+                      sharedOf(*figures[i].character).parentFromJoint, firstJoints[i]);
+    }
+    animation.finish();
+}
+
+tinygltf::Model GlbBuilder::take() {
+    model_.scenes.push_back(std::move(scene_));
+    model_.defaultScene = 0;
+    if (buffer_.size() == 0) model_.buffers.clear();
+    return std::move(model_);
 }
 
 Result<std::string> serialise(tinygltf::Model& model) {
@@ -69,11 +120,7 @@ Result<std::string> serialise(tinygltf::Model& model) {
     }
 }
 
-}  // namespace
-
-Result<std::string> glbBytes(const std::filesystem::path& name, const Character& character, std::span<const Clip> clips,
-                             const RigidTransform& worldFromModel) {
-    tinygltf::Model model = buildModel(character, clips, worldFromModel);
+Result<std::string> bytesOf(const std::filesystem::path& name, tinygltf::Model model) {
     if (!model.buffers.empty() && model.buffers[0].data.size() > kMaxBytes) {
         return Error{ErrorCode::output, "a .glb file can't hold more than 4 GiB", name.string(),
                      "write fewer or shorter clips"};
@@ -81,9 +128,34 @@ Result<std::string> glbBytes(const std::filesystem::path& name, const Character&
     return serialise(model);
 }
 
+}  // namespace
+
+Result<std::string> glbBytes(const std::filesystem::path& name, const Character& character, std::span<const Clip> clips,
+                             const RigidTransform& worldFromModel, const std::optional<KeyTolerance>& tolerance) {
+    GlbBuilder builder;
+    const int firstJoint = builder.addFigure(character, worldFromModel);
+    for (const Clip& clip : clips) {
+        const GlbFigure figure{&character, &clip, worldFromModel};
+        builder.addAnimation(clip.name, std::span(&figure, 1), std::span(&firstJoint, 1), tolerance);
+    }
+    return bytesOf(name, builder.take());
+}
+
 Result<void> writeGlb(const std::filesystem::path& file, const Character& character, std::span<const Clip> clips,
-                      const RigidTransform& worldFromModel) {
-    const Result<std::string> bytes = glbBytes(file, character, clips, worldFromModel);
+                      const RigidTransform& worldFromModel, const std::optional<KeyTolerance>& tolerance) {
+    const Result<std::string> bytes = glbBytes(file, character, clips, worldFromModel, tolerance);
+    if (!bytes) return bytes.error();
+    return writeFileAtomically(file, bytes.value());
+}
+
+Result<void> writeGlbCrowd(const std::filesystem::path& file, const std::string& clipName,
+                           std::span<const GlbFigure> figures, const std::optional<KeyTolerance>& tolerance) {
+    GlbBuilder builder;
+    std::vector<int> firstJoints;
+    for (const GlbFigure& figure : figures)
+        firstJoints.push_back(builder.addFigure(*figure.character, figure.worldFromModel));
+    builder.addAnimation(clipName, figures, firstJoints, tolerance);
+    const Result<std::string> bytes = bytesOf(file, builder.take());
     if (!bytes) return bytes.error();
     return writeFileAtomically(file, bytes.value());
 }

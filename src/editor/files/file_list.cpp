@@ -1,18 +1,13 @@
 #include "editor/files/file_list.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstdlib>
-#include <string_view>
+
+#include "animation/import/model_ending.hpp"
 
 namespace lutka::editor {
 namespace {
-
-// Of what Assimp reads those that hold skeletons; anything else is shown by FileFilter::all.
-constexpr std::array<std::string_view, 18> kModelEnds = {".glb", ".gltf", ".vrm",     ".fbx", ".dae", ".bvh",
-                                                         ".x",   ".b3d",  ".md5mesh", ".md2", ".md3", ".mdl",
-                                                         ".smd", ".ms3d", ".iqm",     ".cob", ".lwo", ".blend"};
 
 constexpr std::string_view kRecordingEnd = ".recording";
 
@@ -49,8 +44,7 @@ const char* filterName(FileFilter filter) {
 }
 
 bool isModel(const std::filesystem::path& file) {
-    const std::string end = lower(file.extension().string());
-    return std::find(kModelEnds.begin(), kModelEnds.end(), end) != kModelEnds.end();
+    return animation::hasModelEnding(file);
 }
 
 bool passes(FileFilter filter, const std::filesystem::path& file) {

@@ -10,6 +10,7 @@
 #include "physics/collision/shape.hpp"
 #include "physics/collision/static_distance.hpp"
 #include "physics/profile/constraint_state.hpp"
+#include "physics/world/body_energy.hpp"
 #include "physics/world/doll_overlap.hpp"
 #include "physics/world/histogram.hpp"
 #include "physics/world/lasting_peak.hpp"
@@ -22,13 +23,6 @@ constexpr float kTouching = 0.002F;           // metres: nearer than this is con
 constexpr float kSettledSpeed = 0.01F;        // m/s
 constexpr double kFrame = 0.999 / 60.0;       // seconds, but for the rounding of the samples' times
 constexpr double kLasting = 1.999 / 60.0;     // two frames
-
-// Half m v² plus half I w² (I in the body's principal axes).
-double kineticEnergy(const BodyState& state, float massKg, const vec3& inertia) {
-    const vec3 turn = glm::conjugate(state.worldFromBody.rotation) * state.angularVelocity;
-    return 0.5 * static_cast<double>(massKg * glm::dot(state.linearVelocity, state.linearVelocity) +
-                                     glm::dot(inertia, turn * turn));
-}
 
 }  // namespace
 

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "animation/clip.hpp"
+#include "animation/skeleton.hpp"
+#include "core/math.hpp"
+
+namespace lutka::animation {
+
+/// How far a joint may be from where the clip has it, in model space: what is off at the hips is off at the hands, too.
+struct KeyTolerance {
+    float metres = 1e-4F;
+    float radians = lutka::radians(0.05F);
+};
+
+/// The frames of a clip whose keys are kept, ascending, one list a joint; a list begins with the first frame and ends
+/// with the last.
+struct KeptKeys {
+    std::vector<std::vector<int>> rotations;
+    std::vector<std::vector<int>> translations;
+};
+
+/// Few keys such that at every frame every joint is within the tolerance, blended as glTF's LINEAR has it (translations
+/// linearly, rotations along the shorter arc). Channels that hold each frame (Clip::steppedRotations) are kept whole.
+/// Both tolerances > 0.
+[[nodiscard]] KeptKeys reduceKeys(const Skeleton& skeleton, const Clip& clip, const KeyTolerance& tolerance);
+
+/// All frames of every channel.
+[[nodiscard]] KeptKeys allKeys(const Skeleton& skeleton, const Clip& clip);
+
+}  // namespace lutka::animation

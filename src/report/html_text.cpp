@@ -1,0 +1,71 @@
+#include "report/html_text.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "core/utf8.hpp"
+
+namespace lutka::reporting {
+namespace {
+
+constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
+
+bool startsClosingTag(std::string_view text) {
+    constexpr std::string_view kTag = "</script";
+    if (text.size() < kTag.size()) return false;
+    for (std::size_t i = 0; i < kTag.size(); ++i) {
+        const char c = text[i];
+        const bool upper = c >= 'A' && c <= 'Z';
+        if ((upper ? static_cast<char>(c - 'A' + 'a') : c) != kTag[i]) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+std::string htmlEscaped(std::string_view text) {
+    std::string out;
+    for (const char c : wellFormedUtf8(text, kReplacement)) {
+        switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            case '\'':
+                out += "&#39;";
+                break;
+            default: {
+                const auto byte = static_cast<unsigned char>(c);
+                const bool control = (byte < 0x20 && c != '\t' && c != '\n') || byte == 0x7F;
+                control ? out += kReplacement : out += c;
+            }
+        }
+    }
+    return out;
+}
+
+std::string scriptJson(const nlohmann::ordered_json& json) {
+    std::string out;
+    for (const char c : json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace))
+        c == '<' ? out += "\\u003c" : out += c;
+    return out;
+}
+
+std::string scriptSource(std::string_view source) {
+    std::string out;
+    out.reserve(source.size());
+    for (std::size_t at = 0; at < source.size(); ++at) {
+        out += source[at];
+        if (startsClosingTag(source.substr(at))) out += '\\';
+    }
+    return out;
+}
+
+}  // namespace lutka::reporting

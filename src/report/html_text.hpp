@@ -1,0 +1,21 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+
+namespace lutka::reporting {
+
+/// Any bytes as text of an HTML element or of a quoted attribute: markup is escaped, what is no UTF-8 and control
+/// characters other than tab and newline become U+FFFD.
+[[nodiscard]] std::string htmlEscaped(std::string_view text);
+
+/// JSON for the content of a script element: nothing in it can end the element or begin a comment, since every '<' is
+/// written as an escape.
+[[nodiscard]] std::string scriptJson(const nlohmann::ordered_json& json);
+
+/// The source of a script for the content of a script element. In strings, where alone it can stand, "</script" means
+/// the same with a backslash.
+[[nodiscard]] std::string scriptSource(std::string_view source);
+
+}  // namespace lutka::reporting

@@ -1,0 +1,47 @@
+#include "report/html_text.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "core/base64.hpp"
+#include "core/utf8.hpp"
+#include "support/catch.hpp"
+
+using namespace lutka;
+using namespace lutka::reporting;
+
+TEST_CASE("text of files can't be markup in a page") {
+    CHECK(htmlEscaped("<b>\"a\" & 'b'</b>") == "&lt;b&gt;&quot;a&quot; &amp; &#39;b&#39;&lt;/b&gt;");
+    CHECK(htmlEscaped("Šime\ttab") == "Šime\ttab");
+}
+
+TEST_CASE("what is no UTF-8 and control characters become the replacement character") {
+    const std::string bad = "\xEF\xBF\xBD";
+    CHECK(htmlEscaped("a\xFF z") == "a" + bad + " z");
+    CHECK(htmlEscaped(std::string("a\0b", 3)) == "a" + bad + "b");
+    CHECK(htmlEscaped("\x1B[1m") == bad + "[1m");
+    CHECK(wellFormedUtf8("\xC3\xA9\xC3", "?") == "\xC3\xA9?");
+}
+
+TEST_CASE("JSON in a script element holds nothing that could end it, and reads back the same") {
+    const nlohmann::ordered_json json = {{"name", "</script><!--<script>"}, {"bytes", "\xFF"}};
+    const std::string text = scriptJson(json);
+    CHECK(text.find('<') == std::string::npos);
+    CHECK(nlohmann::json::parse(text)["name"] == "</script><!--<script>");
+}
+
+TEST_CASE("a closing tag in a script's own strings is written so that it closes nothing") {
+    CHECK(scriptSource("a = '</script>' + '</ScRiPt >' + '</b>'") == "a = '<\\/script>' + '<\\/ScRiPt >' + '</b>'");
+}
+
+TEST_CASE("base64 gives the vectors of RFC 4648") {
+    const std::pair<const char*, const char*> vectors[] = {{"", ""},
+                                                           {"f", "Zg=="},
+                                                           {"fo", "Zm8="},
+                                                           {"foo", "Zm9v"},
+                                                           {"foob", "Zm9vYg=="},
+                                                           {"fooba", "Zm9vYmE="},
+                                                           {"foobar", "Zm9vYmFy"}};
+    for (const auto& [bytes, text] : vectors)
+        CHECK(base64(bytes) == text);
+    CHECK(base64("\xFF\xFE\xFD") == "//79");
+}
