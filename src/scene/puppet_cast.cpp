@@ -27,12 +27,14 @@ std::string bodiesOf(const physics::RagdollProfile& profile) {
     return "its bodies are " + names;
 }
 
-// The body that a blow to a role's part meets: its own, or that of the nearest role above it (a chest that is one body
-// has no upper chest). -1: none, as in a ragdoll of any skeleton.
+// The body that a blow to a role's part meets; rigs divide the trunk into one to three, so that a part of it that has
+// no body of its own is in the next one below. -1: none.
 int bodyMet(const physics::RagdollProfile& profile, animation::Role role) {
     int body = physics::bodyOf(profile, role);
-    for (auto above = animation::parentRole(role); body < 0 && above; above = animation::parentRole(*above))
-        body = physics::bodyOf(profile, *above);
+    for (auto part = std::optional(role); body < 0 && part && animation::isTrunk(*part);) {
+        part = animation::parentRole(*part);
+        if (part) body = physics::bodyOf(profile, *part);
+    }
     return body;
 }
 

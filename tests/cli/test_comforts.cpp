@@ -18,7 +18,7 @@ bool coloured(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("--quiet leaves the exit code, the files and the errors, before and after the command") {
+TEST_CASE("the option --quiet leaves the exit code, the files and the errors, before and after the command") {
     const ScratchFolder folder;
     for (const std::string& command :
          {"inspect " + kMannequinArgument, "map " + kMannequinArgument, "build " + kMannequinArgument,
@@ -38,12 +38,12 @@ TEST_CASE("--quiet leaves the exit code, the files and the errors, before and af
     CHECK_THAT(failed.err, Catch::Contains("/nowhere/model.glb"));
 }
 
-TEST_CASE("--quiet keeps what --json and -o - ask for") {
+TEST_CASE("the option --quiet keeps what --json and -o - ask for") {
     CHECK(Json::parse(lutkaCommand("-q map --json " + kMannequinArgument).out)["humanoid"] == true);
     CHECK(Json::parse(lutkaCommand("-q build -o - " + kMannequinArgument).out)["format"] == "lutka-ragdoll");
 }
 
-TEST_CASE("--verbose tells on stderr what takes how long, and goes not with --quiet") {
+TEST_CASE("the option --verbose tells on stderr what takes how long, and goes not with --quiet") {
     const CommandResult result = lutkaCommand("check --verbose " + kMannequinArgument);
     CHECK(result.code == 0);
     CHECK_THAT(result.err,
@@ -93,7 +93,7 @@ TEST_CASE("colours are for terminals, and NO_COLOR forbids them there") {
     CHECK_FALSE(coloured(onTerminal("NO_COLOR=1")));
 }
 
-TEST_CASE("--licenses names every part with an SPDX identifier") {
+TEST_CASE("the option --licenses names every part with an SPDX identifier") {
     const CommandResult result = lutkaCommand("--licenses");
     CHECK(result.code == 0);
     for (const char* part : {"Bullet Physics", "Assimp", "three.js", "Zlib", "BSD-3-Clause", "MIT"})

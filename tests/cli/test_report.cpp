@@ -65,7 +65,7 @@ TEST_CASE("report: another ending than .html, a folder with a profile and a refu
     CHECK_FALSE(fs::exists(folder / "page.html"));
 }
 
-TEST_CASE("report: a folder gives one table; what can't be read is in it with its reason and stops nothing") {
+TEST_CASE("report: a folder gives one table and what can't be read is in it with its reason and stops nothing") {
     const ScratchFolder folder;
     fs::create_directory(folder.path / "sub");
     fs::copy_file(kModel, folder.path / "sub" / "man & <b>.glb");

@@ -31,6 +31,7 @@ bool isMarked(const std::vector<bool>& marks, std::size_t joint) {
 template <class Value>
 std::vector<Value> kept(const std::vector<Value>& values, const std::vector<int>& frames) {
     std::vector<Value> out;
+    out.reserve(frames.size());
     for (const int frame : frames)
         out.push_back(values[static_cast<std::size_t>(frame)]);
     return out;
@@ -56,6 +57,7 @@ int AnimationBuilder::timesOf(const std::vector<int>& frames, float framesPerSec
     const auto known = times_.find({frames, framesPerSecond});
     if (known != times_.end()) return known->second;
     std::vector<float> seconds;
+    seconds.reserve(frames.size());
     for (const int frame : frames)
         seconds.push_back(static_cast<float>(frame) / framesPerSecond);
     const int index = buffer_.addBounded(std::span<const float>(seconds), TINYGLTF_TYPE_SCALAR, 0);
