@@ -18,6 +18,7 @@ constexpr double kPlaceTolerance = 0.75;  // mesh sizes
 // How near two placings are that say the same, in mesh sizes, and the share of the weight that must.
 constexpr double kAlike = 0.01;
 constexpr double kMostVotes = 0.9;
+constexpr double kInScene = 1e-4;  // in mesh sizes: what single precision leaves
 // The medoid compares every joint with every other; beyond this many only the heaviest ones are asked.
 constexpr std::size_t kMaxVoters = 200;
 
@@ -86,6 +87,12 @@ bool agree(const MeshExtent& box, std::vector<Vote>& votes) {
         if (disagreement(box, middle, vote.sceneFromMesh) < kAlike) alike += vote.weight;
     }
     return alike > kMostVotes * all;
+}
+
+// Whether the vertices are in scene space, the nodes being in the bind pose. A mesh node with a frame of its own
+// (Blender's exporter hangs the mesh below the armature's object) would turn and move such a mesh a second time.
+bool isInScene(const MeshExtent& box, std::vector<Vote>& votes) {
+    return disagreement(box, medoid(box, votes), dmat4(1.0)) < kInScene && agree(box, votes);
 }
 
 // The mesh node's frame, brought to the size that the joints give the mesh, when it points and lies about where they
@@ -179,6 +186,7 @@ class BindSolver {
             return *mesh.sceneFromMesh;
         const dmat4& meshNode = tree_.nodes[mesh.node].sceneFromNode;
         if (votes.empty() || !tree_.nodesArePosed) return isInvertible(meshNode) ? meshNode : dmat4(1.0);
+        if (isInScene(box, votes)) return dmat4(1.0);
         return chooseFrame(box, meshNode, medoid(box, votes));
     }
 

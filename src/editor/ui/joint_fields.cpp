@@ -158,7 +158,8 @@ void presentBar(const PartFields& fields, const Turn& turn, const Present& prese
 }
 
 void limitFields(const PartFields& fields, const physics::ConstraintState& state) {
-    const ConstraintProfile constraint = fields.constraint();  // a copy: an edit takes the profile away
+    // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): an edit takes the profile away
+    const ConstraintProfile constraint = fields.constraint();
     const JointRange now = physics::jointRange(constraint, fields.bind());
     const bool sameKind = constraint.kind == fields.fittedConstraint().kind;
     const JointRange was = sameKind ? physics::jointRange(fields.fittedConstraint(), fields.fittedBind()) : now;

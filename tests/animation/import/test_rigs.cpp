@@ -95,6 +95,34 @@ TEST_CASE("every scale of the armature is baked") {
     }
 }
 
+TEST_CASE("vertices in scene space stay there, though their mesh's node hangs below a turned and moved armature") {
+    // Blender's exporter writes an object that was turned and moved in this way.
+    const mat4 sceneFromArmature =
+        glm::rotate(glm::translate(mat4(1.0F), vec3(1, 0, -2)), glm::radians(40.0F), vec3(0, 1, 0));
+    GltfFile file = makePostRig();
+    file.json["nodes"][0] = {{"name", "Armature"}, {"children", file.json["nodes"][0]["children"]}};
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row)
+            file.json["nodes"][0]["matrix"].push_back(sceneFromArmature[column][row]);
+    }
+    std::vector<mat4> jointFromScene;
+    for (int i = 0; i < 3; ++i)
+        jointFromScene.push_back(
+            glm::inverse(sceneFromArmature * glm::translate(mat4(1.0F), vec3(0, 0.6F * static_cast<float>(i), 0))));
+    file.json["skins"].clear();
+    addSkin(file, {1, 2, 3}, jointFromScene);
+    file.json["nodes"][4]["mesh"] = addPostMesh(file, makePost(), sceneFromArmature);
+
+    const Character character = importedRig(file);
+    const Post post = makePost();
+    const std::vector<vec3> vertices = bindVertices(character);
+    REQUIRE(vertices.size() == post.positions.size());
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+        CHECK(glm::distance(vertices[v], vec3(sceneFromArmature * vec4(post.positions[v], 1))) < 1e-4F);
+    const vec3 high = character.skeleton.bindModelFromJoint[joint(character, "high")].translation;
+    CHECK(glm::distance(high, vec3(1, 1.2F, -2)) < 1e-4F);
+}
+
 TEST_CASE("the node pose bends the skin as the file says") {
     GltfFile file = makePostRig(glm::scale(mat4(1.0F), vec3(0.01F)));
     // Turns the joint 'high' by 90 degrees about z: what is above it falls to -x.
