@@ -31,9 +31,9 @@ std::string bodiesOf(const physics::RagdollProfile& profile) {
 // no body of its own is in the next one below. -1: none.
 int bodyMet(const physics::RagdollProfile& profile, animation::Role role) {
     int body = physics::bodyOf(profile, role);
-    for (auto part = std::optional(role); body < 0 && part && animation::isTrunk(*part);) {
-        part = animation::parentRole(*part);
-        if (part) body = physics::bodyOf(profile, *part);
+    while (body < 0 && animation::isSpine(role)) {
+        role = *animation::parentRole(role);
+        body = physics::bodyOf(profile, role);
     }
     return body;
 }

@@ -77,9 +77,8 @@ const dmat4& medoid(const MeshExtent& box, std::vector<Vote>& votes) {
     return votes[best].sceneFromMesh;
 }
 
-// Whether nearly all votes place the mesh alike: then the nodes are in the bind pose.
-bool agree(const MeshExtent& box, std::vector<Vote>& votes) {
-    const dmat4 middle = medoid(box, votes);
+// Whether nearly all votes place the mesh as their medoid does: then the nodes are in the bind pose.
+bool agree(const MeshExtent& box, const std::vector<Vote>& votes, const dmat4& middle) {
     double all = 0.0;
     double alike = 0.0;
     for (const Vote& vote : votes) {
@@ -87,12 +86,6 @@ bool agree(const MeshExtent& box, std::vector<Vote>& votes) {
         if (disagreement(box, middle, vote.sceneFromMesh) < kAlike) alike += vote.weight;
     }
     return alike > kMostVotes * all;
-}
-
-// Whether the vertices are in scene space, the nodes being in the bind pose. A mesh node with a frame of its own
-// (Blender's exporter hangs the mesh below the armature's object) would turn and move such a mesh a second time.
-bool isInScene(const MeshExtent& box, std::vector<Vote>& votes) {
-    return disagreement(box, medoid(box, votes), dmat4(1.0)) < kInScene && agree(box, votes);
 }
 
 // The mesh node's frame, brought to the size that the joints give the mesh, when it points and lies about where they
@@ -182,12 +175,18 @@ class BindSolver {
             const dmat4 frame = tree_.sceneFromJoint(joint.joint) * joint.jointFromMesh;
             if (isInvertible(frame)) votes.push_back({carried(joint.joint, frame), joint.weight});
         }
-        if (mesh.sceneFromMesh && isInvertible(*mesh.sceneFromMesh) && (votes.empty() || !agree(box, votes)))
-            return *mesh.sceneFromMesh;
+        const bool stated = mesh.sceneFromMesh && isInvertible(*mesh.sceneFromMesh);
         const dmat4& meshNode = tree_.nodes[mesh.node].sceneFromNode;
-        if (votes.empty() || !tree_.nodesArePosed) return isInvertible(meshNode) ? meshNode : dmat4(1.0);
-        if (isInScene(box, votes)) return dmat4(1.0);
-        return chooseFrame(box, meshNode, medoid(box, votes));
+        dmat4 unposed = isInvertible(meshNode) ? meshNode : dmat4(1.0);
+        if (votes.empty()) return stated ? *mesh.sceneFromMesh : unposed;
+        const dmat4 middle = medoid(box, votes);
+        const bool alike = agree(box, votes, middle);
+        if (stated && !alike) return *mesh.sceneFromMesh;
+        if (!tree_.nodesArePosed) return unposed;
+        // Vertices in scene space stay there: a mesh node with a frame of its own (Blender's exporter hangs the mesh
+        // below the armature's object) would turn and move them a second time.
+        if (alike && disagreement(box, middle, dmat4(1.0)) < kInScene) return dmat4(1.0);
+        return chooseFrame(box, meshNode, middle);
     }
 
     // A mesh that shares no joint with a settled one moves along with the settled joint above it.
