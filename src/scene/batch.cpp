@@ -175,8 +175,9 @@ Result<std::string> Batch::fall(std::size_t row) {
     if (simulation.quality().nonFinite > 0)
         return Error{ErrorCode::internal, "the simulation gave numbers that are not finite", {}, {}};
     if (!bake) return figuresOf(simulation);
-    const auto written = animation::writeGlb(fileOf("clips", row, ".glb"), simulation.assetOf(0).character,
-                                             std::span(&baker.clip(), 1), simulation.worldFromModel(0));
+    const auto written =
+        animation::writeGlb(fileOf("clips", row, ".glb"), simulation.assetOf(0).character, std::span(&baker.clip(), 1),
+                            simulation.worldFromModel(0), animation::KeyTolerance{});
     if (!written) return written.error();
     return figuresOf(simulation);
 }

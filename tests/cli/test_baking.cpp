@@ -52,6 +52,27 @@ TEST_CASE("baking: --fps sets the rate of clips, and 60 is that of the steps, bi
     CHECK(simulate("--fps 25 --out " + folder / "d.glb").code == 2);
 }
 
+TEST_CASE("baking: render takes --fps for the clip, too, and without it the steps' rate") {
+    const ScratchFolder folder;
+    const auto render = [&](const std::string& options) {
+        return lutkaCommand("render " + kMannequinArgument + " --seconds 0.5 --size 64x64 -o " + (folder / "p.png") +
+                            " --no-reduce " + options);
+    };
+    const CommandResult result = render("--fps 24 --out " + folder / "a.glb");
+    NEEDS_DISPLAY_OF(result);
+    CHECK(mostKeys(folder / "a.glb") == 13);
+    REQUIRE(render("--out " + folder / "b.glb").code == 0);
+    CHECK(mostKeys(folder / "b.glb") == 31);
+}
+
+TEST_CASE("baking: a retargeted clip leaves needless keys out as well") {
+    const ScratchFolder folder;
+    const std::string retarget = "retarget " + kMannequinArgument + " --clip walk --to " + kMannequinArgument + " -o ";
+    REQUIRE(lutkaCommand(retarget + folder / "few.glb").code == 0);
+    REQUIRE(lutkaCommand(retarget + folder / "all.glb" + " --no-reduce").code == 0);
+    CHECK(fs::file_size(folder / "few.glb") < fs::file_size(folder / "all.glb"));
+}
+
 TEST_CASE("baking: a crowd goes into one file, its skins over one set of meshes") {
     const ScratchFolder folder;
     const std::string file = folder / "crowd.glb";

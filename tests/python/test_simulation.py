@@ -200,10 +200,14 @@ def test_scene_files(tmp_path):
         lutka.Simulation.load(file)
 
 
-def test_bake_writes_an_animation(simulation, tmp_path):
+def test_bake_writes_an_animation(simulation, ragdoll, tmp_path):
     assert lutka.bake(simulation, tmp_path / "fall.glb", seconds=0.5, name="tumble") == 31
     assert simulation.steps == 30
     assert b"tumble" in (tmp_path / "fall.glb").read_bytes()
+    for reduce in (True, False):
+        again = lutka.Simulation(ragdoll, measure=False)
+        lutka.bake(again, tmp_path / f"{reduce}.glb", seconds=0.5, reduce=reduce)
+    assert (tmp_path / "True.glb").stat().st_size < (tmp_path / "False.glb").stat().st_size
     with pytest.raises(lutka.OutputError):
         lutka.bake(simulation, "/dev/null/fall.glb", seconds=0.1)
 

@@ -72,8 +72,7 @@ std::filesystem::path BakeOutputs::fileOf(const std::filesystem::path& file, int
 }
 
 void BakeOutputs::writeClips() const {
-    const std::optional<animation::KeyTolerance> tolerance =
-        options_.allKeys ? std::nullopt : std::optional(animation::KeyTolerance{});
+    const std::optional<animation::KeyTolerance> tolerance = animation::keysKept(options_.allKeys);
     if (options_.together) {
         std::vector<animation::GlbFigure> figures;
         for (int doll = 0; doll < dolls_; ++doll)

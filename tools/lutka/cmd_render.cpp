@@ -28,7 +28,7 @@ struct RenderCommandOptions {
     std::string size = "960x540";
     std::string debug;
     std::string skinning = "linear";
-    double framesPerSecond = 30.0;
+    std::optional<double> fps;
     float opacity = 1.0F;
     std::optional<float> yawDeg;
     std::optional<float> pitchDeg;
@@ -38,6 +38,8 @@ struct RenderCommandOptions {
     bool legend = true;
     std::filesystem::path sky;
     bool skyBackground = false;
+
+    [[nodiscard]] double framesPerSecond() const { return fps.value_or(30.0); }
 };
 
 /// Everything that draws: made once, used a frame at a time.
@@ -75,7 +77,7 @@ class Painter {
 
     void paint(scene::Simulation& simulation, float alpha = 1.0F) {
         frame_.clear();
-        view_->update(simulation, alpha, 1.0F / static_cast<float>(options_.framesPerSecond));
+        view_->update(simulation, alpha, 1.0F / static_cast<float>(options_.framesPerSecond()));
         frame_.camera = view_->camera;
         watch(simulation);
         drawer_.draw(simulation, characters_, layers_, alpha, options_.opacity, frame_);
@@ -125,14 +127,14 @@ void renderPicture(const RenderCommandOptions& options, Run& run, Painter& paint
 
 // Frames come at their own rate, between the steps' states.
 void renderFrames(const RenderCommandOptions& options, Run& run, Painter& painter) {
-    auto writer = orLeave(render::FrameWriter::open(options.out, painter.size(), options.framesPerSecond));
+    auto writer = orLeave(render::FrameWriter::open(options.out, painter.size(), options.framesPerSecond()));
     painter.paint(*run.simulation);
     orLeave(writer.add(painter.image()));
-    double next = 1.0 / options.framesPerSecond;
+    double next = 1.0 / options.framesPerSecond();
     execute(options.simulate, run, [&](scene::Simulation& simulation) {
         const double dt = static_cast<double>(simulation.options().dt);
         const double now = simulation.seconds();
-        for (; next <= now + 1e-9; next += 1.0 / options.framesPerSecond) {
+        for (; next <= now + 1e-9; next += 1.0 / options.framesPerSecond()) {
             painter.paint(simulation, static_cast<float>(1.0 - (now - next) / dt));
             orLeave(writer.add(painter.image()));
         }
@@ -151,6 +153,7 @@ void runRender(RenderCommandOptions& options) {
         leave({ErrorCode::usage, "frames are files of their own, and stdout is one", "--frames", "name a .png"});
     }
     const bool sequence = options.frames || render::FrameWriter::isVideo(options.out);
+    options.simulate.bakeFps = options.fps;
     Run run = prepare(options.simulate, options.out);
     Painter painter(options, run);
     if (sequence) {
@@ -187,7 +190,8 @@ void addRender(const Command& app) {
         .option("-o,--output", options->out, "FILE.png (the last moment), FILE.mp4 or FILE.gif; - for a PNG on stdout")
         .required();
     command.option("--size", options->size, "WIDTHxHEIGHT in pixels").showDefault();
-    command.option("--fps", options->framesPerSecond, "frames a second of a video").range(1.0, 240.0).showDefault();
+    command.option("--fps", options->fps, "frames a second of a video (default: 30) and, when given, of --out")
+        .range(1.0, 240.0);
     command.flag("--frames", options->frames, "with a .png: the whole fall as FILE_0000.png, FILE_0001.png …");
     command.option("--debug", options->debug, "layers over the picture, joined by commas: " + scene::debugLayerNames());
     command.flag("!--no-legend", options->legend, "leave the colours' meaning out of the picture");

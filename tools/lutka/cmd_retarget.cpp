@@ -24,6 +24,7 @@ struct RetargetCommandOptions {
     std::filesystem::path out;
     bool json = false;
     bool looseFeet = false;
+    bool allKeys = false;
 };
 
 const animation::Clip& clipOf(const animation::Character& character, const std::string& name) {
@@ -96,7 +97,8 @@ void runRetarget(RetargetCommandOptions& options) {
     animation::RetargetOptions how;
     how.keepFeet = !options.looseFeet;
     const animation::RetargetedClip made = orLeave(animation::retargetClip(retargeter, clip, how));
-    orLeave(animation::writeGlb(options.out, target, std::span(&made.clip, 1)));
+    orLeave(
+        animation::writeGlb(options.out, target, std::span(&made.clip, 1), {}, animation::keysKept(options.allKeys)));
     if (options.json && !isStandardOutput(options.out)) {
         fmt::print("{}\n",
                    figuresJson(options, clip, made.figures).dump(2, ' ', false, Json::error_handler_t::replace));
@@ -118,6 +120,8 @@ void addRetarget(const Command& app) {
     command.option("--clip", options->clip, "the clip's name; default: the file's only one");
     command.option("-o,--output", options->out, "the character with the clip (.glb); - for stdout").required();
     command.flag("--loose-feet", options->looseFeet, "leave the feet where the legs' turns bring them");
+    command.flag("--no-reduce", options->allKeys,
+                 "keep every key; else those are left out without which no joint is off by 0.1 mm or 0.05 degrees");
     command.flag("--json", options->json, "print the figures as JSON on stdout");
     command.onRun([options] { runRetarget(*options); });
 }

@@ -104,11 +104,11 @@ struct SimulateOptions {
     std::vector<float> eye;
     std::filesystem::path bakedOut;
     std::filesystem::path meshOut;
-    bool each = false;           ///< bakedOut and meshOut of every doll instead of the first.
-    bool together = false;       ///< bakedOut holds every doll.
-    bool allKeys = false;        ///< bakedOut keeps every key.
-    bool meshSequence = false;   ///< meshOut of every frame instead of the last.
-    std::optional<int> bakeFps;  ///< Of bakedOut and meshSequence; unset: the steps'.
+    bool each = false;              ///< bakedOut and meshOut of every doll instead of the first.
+    bool together = false;          ///< bakedOut holds every doll.
+    bool allKeys = false;           ///< bakedOut keeps every key.
+    bool meshSequence = false;      ///< meshOut of every frame instead of the last.
+    std::optional<double> bakeFps;  ///< Of bakedOut and meshSequence; unset: the steps'.
     std::filesystem::path report;
     std::filesystem::path recordTo;
     std::filesystem::path replayFrom;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "animation/clip.hpp"
@@ -13,6 +14,11 @@ struct KeyTolerance {
     float metres = 1e-4F;
     float radians = lutka::radians(0.05F);
 };
+
+/// What a writer takes to keep every key, or only those that the usual tolerance needs.
+[[nodiscard]] inline std::optional<KeyTolerance> keysKept(bool all) {
+    return all ? std::nullopt : std::optional(KeyTolerance{});
+}
 
 /// The frames of a clip whose keys are kept, ascending, one list a joint; a list begins with the first frame and ends
 /// with the last.

@@ -167,8 +167,8 @@ Result<void> FileFlow::exportBaked(const std::filesystem::path& file, float seco
         simulation.step();
         baker.sample(simulation);
     }
-    auto written =
-        animation::writeGlb(file, document().character(), std::span(&baker.clip(), 1), simulation.worldFromModel(0));
+    auto written = animation::writeGlb(file, document().character(), std::span(&baker.clip(), 1),
+                                       simulation.worldFromModel(0), animation::KeyTolerance{});
     player.setPlaying(wasPlaying);
     if (written) workspace_.say(Toast::Kind::info, fmt::format("Exported {:.1f} s to {}", seconds, file.string()));
     return written;
