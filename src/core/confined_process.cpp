@@ -36,17 +36,42 @@ constexpr std::size_t kPiece = std::size_t{1} << 16U;
 /// A handle that closes itself.
 class Handle {
   public:
-    explicit Handle(int number) : number_(number) {}
+    Handle() = default;
     Handle(const Handle&) = delete;
     Handle& operator=(const Handle&) = delete;
     ~Handle() { close(); }
+    void take(int number) {
+        close();
+        number_ = number;
+    }
     void close() {
         if (number_ >= 0) ::close(std::exchange(number_, -1));
     }
     [[nodiscard]] int get() const { return number_; }
 
   private:
-    int number_;
+    int number_ = -1;
+};
+
+/// A pipe from a program that is started.
+struct Pipe {
+    Handle ours, theirs;
+
+    /// 0, or what was wrong (errno). `flags` are those of its ends.
+    int open(int flags) {
+        std::array<int, 2> ends{-1, -1};
+        if (::pipe2(ends.data(), O_CLOEXEC | flags) != 0) return errno;
+        ours.take(ends[0]);
+        theirs.take(ends[1]);
+        // Where our standard streams are closed a pipe gets their numbers, which are to be the program's own.
+        for (Handle* end : {&ours, &theirs}) {
+            if (end->get() > kConfinedOutput) continue;
+            const int above = ::fcntl(end->get(), F_DUPFD_CLOEXEC, kConfinedOutput + 1);
+            if (above < 0) return errno;
+            end->take(above);
+        }
+        return 0;
+    }
 };
 
 /// A child that is killed and waited for when it is dropped.
@@ -77,13 +102,14 @@ Error cannotStart(const std::string& program, int why) {
     return {ErrorCode::internal, std::string("can't be started: ") + std::strerror(why), program, ""};
 }
 
-int spawn(const std::vector<std::string>& arguments, int output, pid_t& pid) {
+int spawn(const std::vector<std::string>& arguments, int output, int printed, pid_t& pid) {
     const std::vector<char*> argv = spawnArguments(arguments);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    // What third parties print is no fact of ours: it goes where the log goes.
-    posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+    // Not our own streams: a limit on written files ends a process that prints to one.
+    posix_spawn_file_actions_adddup2(&actions, printed, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, printed, STDERR_FILENO);
     posix_spawn_file_actions_adddup2(&actions, output, kConfinedOutput);
     const int failed = ::posix_spawn(&pid, argv[0], &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
@@ -99,37 +125,61 @@ bool readSome(int handle, std::string& out) {
     return got > 0 || (got < 0 && (errno == EINTR || errno == EAGAIN));
 }
 
-ProcessEnd endOf(int status, std::string output) {
-    ProcessEnd end;
-    end.output = std::move(output);
+// Keeps the last of what is printed; false at the end of the stream.
+bool readPrinted(int handle, std::string& printed) {
+    const bool open = readSome(handle, printed);
+    if (printed.size() > kMostPrinted) printed.erase(0, printed.size() - kMostPrinted);
+    return open;
+}
+
+void setStatus(int status, ProcessEnd& end) {
     if (WIFEXITED(status)) {
         end.exitCode = WEXITSTATUS(status);
-        return end;
+        return;
     }
     end.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     end.kind = end.signal == SIGXCPU ? ProcessEnd::Kind::outOfTime : ProcessEnd::Kind::crashed;
-    return end;
 }
 
-// Until the child has closed its end and ended, or has to be ended.
-ProcessEnd attend(Child& child, const Handle& output, const ProcessLimits& limits, const std::function<bool()>& stop) {
+// Whether it must not go on, and as what that counts.
+bool hasToEnd(const ProcessLimits& limits, Clock::time_point deadline, const std::function<bool()>& stop,
+              ProcessEnd& end) {
+    using Kind = ProcessEnd::Kind;
+    if (stop && stop())
+        end.kind = Kind::stopped;
+    else if (Clock::now() >= deadline)
+        end.kind = Kind::outOfTime;
+    else if (end.output.size() > limits.memoryBytes)
+        end.kind = Kind::tooMuchSaid;
+    else
+        return false;
+    end.output.clear();
+    return true;
+}
+
+// Until the child has closed its result's end and ended, or has to be ended.
+ProcessEnd attend(Child& child, const Handle& output, const Handle& printed, const ProcessLimits& limits,
+                  const std::function<bool()>& stop) {
     const Clock::time_point deadline = Clock::now() + std::chrono::seconds(limits.seconds);
-    std::string said;
-    bool open = true;
-    int status = 0;
-    for (int wait = 1;;) {
-        if (stop && stop()) return {ProcessEnd::Kind::stopped, 0, 0, {}};
-        if (Clock::now() >= deadline) return {ProcessEnd::Kind::outOfTime, 0, 0, {}};
-        if (said.size() > limits.memoryBytes) return {ProcessEnd::Kind::tooMuchSaid, 0, 0, {}};
-        if (open) {
-            pollfd handle{output.get(), POLLIN, 0};
-            if (::poll(&handle, 1, kPollMs) > 0) open = readSome(output.get(), said);
-            continue;
+    ProcessEnd end;
+    std::array<pollfd, 2> handles{{{output.get(), POLLIN, 0}, {printed.get(), POLLIN, 0}}};
+    int wait = 1;
+    while (!hasToEnd(limits, deadline, stop, end)) {
+        const bool open = handles[0].fd >= 0;
+        int status = 0;
+        if (!open && child.ended(status)) {
+            setStatus(status, end);
+            if (handles[1].fd >= 0) readPrinted(handles[1].fd, end.printed);  // the pipe doesn't wait for more
+            break;
         }
-        if (child.ended(status)) return endOf(status, std::move(said));
-        ::poll(nullptr, 0, wait);  // it has closed its end and is about to go
-        wait = std::min(wait * 2, kPollMs);
+        // Once it has closed its end it is about to go.
+        const int ms = open ? kPollMs : std::exchange(wait, std::min(wait * 2, kPollMs));
+        if (::poll(handles.data(), handles.size(), ms) <= 0) continue;
+        // A handle below zero is left alone from then on.
+        if (handles[0].revents != 0 && !readSome(handles[0].fd, end.output)) handles[0].fd = -1;
+        if (handles[1].revents != 0 && !readPrinted(handles[1].fd, end.printed)) handles[1].fd = -1;
     }
+    return end;
 }
 
 void limit(__rlimit_resource resource, std::size_t soft, std::size_t hard) {
@@ -144,15 +194,17 @@ void limit(__rlimit_resource resource, std::size_t soft, std::size_t hard) {
 
 Result<ProcessEnd> runConfined(const std::vector<std::string>& arguments, const ProcessLimits& limits,
                                const std::function<bool()>& stop) {
-    std::array<int, 2> ends{-1, -1};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0) return cannotStart(arguments[0], errno);
-    const Handle ours(ends[0]);
-    Handle theirs(ends[1]);
+    Pipe output;
+    Pipe printed;
+    int failed = output.open(0);
+    if (failed == 0) failed = printed.open(O_NONBLOCK);
     pid_t pid = -1;
-    if (const int failed = spawn(arguments, theirs.get(), pid); failed != 0) return cannotStart(arguments[0], failed);
-    theirs.close();
+    if (failed == 0) failed = spawn(arguments, output.theirs.get(), printed.theirs.get(), pid);
+    if (failed != 0) return cannotStart(arguments[0], failed);
+    output.theirs.close();
+    printed.theirs.close();
     Child child(pid);
-    return attend(child, ours, limits, stop);
+    return attend(child, output.ours, printed.ours, limits, stop);
 }
 
 void confineThisProcess(const ProcessLimits& limits) {
@@ -164,6 +216,7 @@ void confineThisProcess(const ProcessLimits& limits) {
     if (!kShadowed) limit(RLIMIT_AS, limits.memoryBytes, limits.memoryBytes);
     limit(RLIMIT_STACK, limits.stackBytes, limits.stackBytes);
     limit(RLIMIT_NOFILE, static_cast<std::size_t>(limits.openFiles), static_cast<std::size_t>(limits.openFiles));
+    ::signal(SIGXFSZ, SIG_IGN);  // started by hand it may print to a file: that fails then, and no more
     limit(RLIMIT_FSIZE, 0, 0);
     limit(RLIMIT_CORE, 0, 0);
     forbidSideEffects();

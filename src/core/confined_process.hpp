@@ -29,15 +29,20 @@ struct ProcessEnd {
     Kind kind = Kind::finished;
     int exitCode = 0;
     int signal = 0;
-    std::string output;  ///< What it wrote to its handle kConfinedOutput.
+    std::string output;   ///< What it wrote to its handle kConfinedOutput; empty when it was killed.
+    std::string printed;  ///< What it printed, on standard output and error alike: the last kMostPrinted bytes.
 };
 
 /// The handle that a confined process writes its result to.
 inline constexpr int kConfinedOutput = 3;
 
-/// Runs a program that calls confineThisProcess() first thing, with its standard output going to our standard error,
-/// and collects what it writes to kConfinedOutput. `arguments[0]` is the program's path. `stop` is asked ten times a
-/// second. Fails with ErrorCode::internal when the program can't be started.
+/// So many bytes of what a confined process prints are kept.
+inline constexpr std::size_t kMostPrinted = std::size_t{16} << 10U;
+
+/// Runs a program that calls confineThisProcess() first thing, and collects what it writes to kConfinedOutput and what
+/// it prints. Neither depends on our own standard streams, which may be files, full or closed: it may write no file,
+/// and is never held up by what it prints (what can't be taken at once is lost). `arguments[0]` is the program's path.
+/// `stop` is asked ten times a second. Fails with ErrorCode::internal when the program can't be started.
 [[nodiscard]] Result<ProcessEnd> runConfined(const std::vector<std::string>& arguments, const ProcessLimits& limits,
                                              const std::function<bool()>& stop = {});
 

@@ -5,8 +5,10 @@
 
 #include <cerrno>
 #include <csignal>
+#include <filesystem>
 #include <functional>
 #include <new>
+#include <string>
 #include <vector>
 
 #include "core/confined_process.hpp"
@@ -40,6 +42,7 @@ TEST_CASE("what a process writes to its result handle is collected, and what it 
     CHECK(end.kind == ProcessEnd::Kind::finished);
     CHECK(end.exitCode == 7);
     CHECK(end.output == "result");
+    CHECK(end.printed == "chatter\n");
     CHECK(shell("head -c 3000000 /dev/zero >&3").output.size() == 3'000'000);
 }
 
@@ -57,6 +60,49 @@ TEST_CASE("a process that crashes, hangs or talks without end is told apart") {
     const auto stopped = runConfined({"/bin/sh", "-c", "exec sleep 60"}, {}, [] { return true; });
     REQUIRE(stopped);
     CHECK(stopped.value().kind == ProcessEnd::Kind::stopped);
+}
+
+TEST_CASE("both standard streams are collected, whatever becomes of the process, and the last of them is kept") {
+    CHECK(shell("echo one; echo two >&2; printf result >&3").printed == "one\ntwo\n");
+    CHECK(shell("exec 3>&-; echo late").printed == "late\n");
+    const ProcessEnd crashed = shell("echo assertion >&2; kill -ABRT $$");
+    CHECK(crashed.signal == SIGABRT);
+    CHECK(crashed.printed == "assertion\n");
+    ProcessLimits brief;
+    brief.seconds = 1;
+    CHECK(shell("echo waiting; exec sleep 60", brief).printed == "waiting\n");
+    const ProcessEnd loud = shell("head -c 3000000 /dev/zero; printf result >&3");
+    CHECK(loud.output == "result");
+    CHECK(loud.printed.size() <= kMostPrinted);
+}
+
+TEST_CASE("a process that prints is not held up by a parent that doesn't listen") {
+    // Never asked for what it prints before it ended: the parent is held up in `stop`, until the other has gone
+    // through.
+    const test::ScratchFolder folder;
+    const std::string done = folder / "done";
+    const auto end = runConfined(
+        {"/bin/sh", "-c", "head -c 3000000 /dev/zero 2>&-; echo >'" + done + "'; printf result >&3"}, {}, [&] {
+            while (!std::filesystem::exists(done))
+                ::usleep(1000);
+            return false;
+        });
+    REQUIRE(end);
+    CHECK(end.value().output == "result");
+}
+
+TEST_CASE("a confined process has its own streams where ours are closed") {
+    const std::string script = "echo chatter; cat; printf result >&3";
+    for (int closed = 1; closed < 16; ++closed) {
+        INFO("closed streams: " << closed);
+        CHECK(codeOfChild([&] {
+                  for (int stream = 0; stream < 4; ++stream)
+                      if ((closed & (1 << stream)) != 0) ::close(stream);
+                  const auto end = runConfined({"/bin/sh", "-c", script}, {});
+                  if (!end) return 1;
+                  return end.value().output == "result" && end.value().printed == "chatter\n" ? 0 : 2;
+              }) == 0);
+    }
 }
 
 TEST_CASE("a program that isn't there can't be started") {

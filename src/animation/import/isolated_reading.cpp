@@ -6,13 +6,16 @@
 #include <cerrno>
 #include <charconv>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <new>
 #include <optional>
+#include <sstream>
 #include <system_error>
 
 #include "animation/import/scene_blob.hpp"
+#include "core/utf8.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {
@@ -76,6 +79,21 @@ Error errorOf(const ProcessEnd& end, const std::filesystem::path& file, const Pr
             "--in-process may tell more"};
 }
 
+// Passes on what the readers printed, which may hold whatever the file does: fit for a terminal.
+void tellPrinted(const std::string& printed, const std::function<void(const std::string& line)>& tell) {
+    std::istringstream lines(printed);
+    for (std::string line; std::getline(lines, line);) {
+        line = wellFormedUtf8(line, "?");
+        for (char& letter : line)
+            if ((letter >= '\0' && letter < ' ') || letter == '\x7f') letter = ' ';
+        if (line.find_first_not_of(' ') == std::string::npos) continue;
+        if (tell)
+            tell(line);
+        else
+            std::fprintf(stderr, "%s\n", line.c_str());
+    }
+}
+
 bool writeAll(std::string_view bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(kConfinedOutput, bytes.data(), bytes.size());
@@ -106,6 +124,7 @@ Result<SourceScene> readIsolated(const std::filesystem::path& file, const Import
     const Result<ProcessEnd> ended = runConfined(callOf(file, options, isolation), isolation.limits, isolation.stop);
     if (!ended) return ended.error();
     const ProcessEnd& end = ended.value();
+    tellPrinted(end.printed, isolation.printed);
     if (end.kind != ProcessEnd::Kind::finished || end.exitCode != 0) return errorOf(end, file, isolation.limits);
     return unpackScene(end.output, file.string());
 }

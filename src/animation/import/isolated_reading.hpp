@@ -14,6 +14,8 @@ struct Isolation {
     std::filesystem::path program;  ///< Calls serveReading() when its first argument is kReadingCommand.
     ProcessLimits limits;
     std::function<bool()> stop;  ///< Asked ten times a second; true gives the reading up.
+    /// Told each line that readers print; unset: to standard error.
+    std::function<void(const std::string& line)> printed;
 };
 
 /// What reads a file in the end, in the process that serves.
@@ -22,8 +24,8 @@ using Reader = std::function<Result<SourceScene>(const std::filesystem::path& fi
 inline constexpr const char* kReadingCommand = "import-worker";
 
 /// Reads the file in a process of its own, which can crash, hang or run out of memory without harm: each is an error
-/// like any other (ErrorCode::input, what happened, the limit, the mend). Only ordinary files are read. What the
-/// readers print goes to standard error. Of the options those of reading count (pictures, files outside).
+/// like any other (ErrorCode::input, what happened, the limit, the mend). Only ordinary files are read. Of the options
+/// those of reading count (pictures, files outside).
 [[nodiscard]] Result<SourceScene> readIsolated(const std::filesystem::path& file, const ImportOptions& options,
                                                const Isolation& isolation);
 

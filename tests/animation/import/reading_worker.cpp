@@ -40,7 +40,12 @@ Result<SourceScene> behave(const std::filesystem::path& file, const ImportOption
     std::vector<std::vector<char>> bomb;
     while (text == "bomb")
         bomb.emplace_back(std::size_t{64} << 20U, 'x');
-    if (text == "print") std::puts("a third party's chatter");
+    if (text == "print" || text == "print and crash") {
+        std::puts("a third party's chatter");
+        std::fputs("in \x1b[31mcolour\xff\n\n", stderr);
+        std::fflush(stdout);
+    }
+    if (text == "print and crash") std::raise(SIGSEGV);
     if (text == "write" && std::ofstream(file.string() + ".out")) scene.format = "wrote";
     if (text == "throw") throw std::runtime_error("thrown");
     if (text == "error") return Error{ErrorCode::input, "is not to my taste", file.string(), "cook again"};
