@@ -76,7 +76,8 @@ void fill(physics::World& world, const scene::RagdollAsset& figure, const scene:
         world.addDoll(figure.profile, bench::placedBodies(figure, placement));
     std::vector<physics::BodyState> bodies(figure.profile.bodies.size());
     for (const scene::Pin& pin : scenario.pins) {
-        const int body = physics::bodyOf(figure.profile, pin.role);
+        const int body = physics::bodyNamed(figure.profile, pin.body);
+        if (body < 0) continue;
         const physics::DollId doll = world.dolls()[pin.doll];
         world.getBodies(doll, bodies);
         world.addDrag({doll, body, vec3(0), bodies[body].worldFromBody.translation, 5000.0F});

@@ -59,7 +59,7 @@ Trial::Trial(const scene::RagdollAsset& asset, const TrialSettings& settings)
     for (const scene::Placement& placement : scenario_.dolls)
         world_->addDoll(asset.profile, placedBodies(asset, placement));
     for (const scene::Pin& pin : scenario_.pins) {
-        const int body = physics::bodyOf(asset.profile, pin.role);
+        const int body = physics::bodyNamed(asset.profile, pin.body);
         if (body < 0) continue;
         const RigidTransform worldFromBody = placedBodies(asset, scenario_.dolls[pin.doll])[body].worldFromBody;
         world_->addDrag({world_->dolls()[pin.doll], body, vec3(0), worldFromBody.translation, 5000.0F});
