@@ -16,6 +16,7 @@ constexpr std::size_t kCombinationsTried = 14;
 constexpr float kSnapCosine = 0.9990F;  // 2.5 degrees
 constexpr float kAgreement = 10.0F;     // log-odds of a plane that mirrors all joints against one that mirrors none
 constexpr float kRefusedLoss = 4.0F;
+constexpr float kCrossedLoss = 12.0F;
 constexpr float kMoreLimbs = -3.0F;
 constexpr float kMostOfPosed = 3.0F;    // the most that shape says of the front of a figure in any pose
 constexpr float kUnknownMargin = 6.0F;  // no other reading at all
@@ -121,9 +122,34 @@ void findMargins(Figure& figure, const std::vector<LimbCandidate>& legs, const s
 // The better of two readings: one that is not refused, unless a refused one is likelier by far (a raptor reads as a
 // standing figure once its thighs are left out); then the likelier.
 bool better(const Figure& a, const Figure& b) {
-    const float refusedA = a.refusal.empty() ? 0.0F : kRefusedLoss;
-    const float refusedB = b.refusal.empty() ? 0.0F : kRefusedLoss;
-    return a.score - refusedA > b.score - refusedB;
+    const auto loss = [](const Figure& figure) {
+        return (figure.refusal.empty() ? 0.0F : kRefusedLoss) + (figure.crossed ? kCrossedLoss : 0.0F);
+    };
+    return a.score - loss(a) > b.score - loss(b);
+}
+
+// Whether a joint that is named head and nothing else has no place in a reading that has no head.
+bool losesItsHead(const RigFeatures& rig, const Figure& figure) {
+    constexpr float kNamedHead = 4.0F;
+    return figure.trunk.head == kNoJoint &&
+           std::any_of(rig.names.begin(), rig.names.end(),
+                       [](const NameEvidence& name) { return !name.helper && name.parts[Part::head] >= kNamedHead; });
+}
+
+// Which side the names give the joints of the +x half: +1 left, -1 right, 0 where they disagree or are too few.
+int sideByNames(const FramedRig& framed, const LimbCandidate& limb) {
+    constexpr int kFewest = 2;
+    int sum = 0;
+    int counted = 0;
+    for (const int index : limb.pairs) {
+        if (index == kNoPair) continue;
+        const Side plus = framed.rig->names[framed.pairs[index].joints[0]].side;
+        const Side minus = framed.rig->names[framed.pairs[index].joints[1]].side;
+        if (plus == Side::center || minus == Side::center || plus == minus) continue;
+        sum += plus == Side::left ? 1 : -1;
+        ++counted;
+    }
+    return counted >= kFewest && std::abs(sum) == counted ? sum / counted : 0;
 }
 
 struct UpAxis {
@@ -153,6 +179,7 @@ Figure readInStance(const RigFeatures& rig, const Stance& stance, const UpAxis& 
         figure.score += moreLimbs(framed, figure);
         figure.score += atMost(trunkTilt(figure, framed), radians(20.0F), radians(10.0F));
         figure.refusal = refusalOf(figure, framed);
+        figure.crossed = sideByNames(framed, figure.legs) * sideByNames(framed, figure.arms) < 0;
         if (better(figure, best)) best = std::move(figure);
     }
     best.framed = framed;
@@ -225,7 +252,7 @@ Figure findFigure(const RigFeatures& rig) {
         readUpright(rig, plane, agreement(plane), upright, best);
     // Where the likeliest plane leans, an upright reading is made of skirts and hair in another one.
     const bool leans = !planes.empty() && std::abs(glm::dot(planes.front().normal, upright.axis)) > kMostLean;
-    if (best.refusal.empty() && !leans) return best;
+    if (best.refusal.empty() && !leans && !best.crossed && !losesItsHead(rig, best)) return best;
     for (const MirrorPlane& plane : planes) {
         for (const UpAxis& up : leaningUps(plane))
             readUpright(rig, plane, agreement(plane), up, best);

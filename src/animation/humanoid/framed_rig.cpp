@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <map>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -49,6 +50,7 @@ class PairFinder {
         if (framed_.stance.byNames) pairByNames();
         pairByPosition();
         pairByStructure();
+        keepToSides();
         std::sort(framed_.pairs.begin(), framed_.pairs.end(), [this](const JointPair& a, const JointPair& b) {
             return rig_.enter[a.joints[0]] < rig_.enter[b.joints[0]];
         });
@@ -177,6 +179,32 @@ class PairFinder {
             }
         }
         addCheapest(candidates);
+    }
+
+    // The pair that a joint hangs on, -1 without, and which of its two joints that is.
+    [[nodiscard]] std::pair<int, int> pairAbove(int joint) const {
+        for (int above = rig_.parents[joint]; above != kNoJoint; above = rig_.parents[above]) {
+            const int pair = framed_.pairOf[above];
+            if (pair >= 0) return {pair, framed_.pairs[pair].joints[0] == above ? 0 : 1};
+        }
+        return {-1, 0};
+    }
+
+    // Feet that cross belong to the sides of their legs, whichever half they stand in.
+    void keepToSides() {
+        std::vector<int> order(framed_.pairs.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::stable_sort(order.begin(), order.end(), [this](int a, int b) {
+            return rig_.depth[framed_.pairs[a].joints[0]] < rig_.depth[framed_.pairs[b].joints[0]];
+        });
+        for (const int index : order) {
+            JointPair& pair = framed_.pairs[index];
+            const auto [first, sideOfFirst] = pairAbove(pair.joints[0]);
+            const auto [second, sideOfSecond] = pairAbove(pair.joints[1]);
+            if (first < 0 || first != second || sideOfFirst != 1 || sideOfSecond != 0) continue;
+            std::swap(pair.joints[0], pair.joints[1]);
+            pair.position = 0.5F * (framed_.positions[pair.joints[0]] + mirrored(framed_.positions[pair.joints[1]]));
+        }
     }
 
     [[nodiscard]] bool isOnlyChild(int parent) const { return rig_.children[parent].size() == 1; }

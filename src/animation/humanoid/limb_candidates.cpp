@@ -41,6 +41,7 @@ class LimbFinder {
         findRelations();
         findEnds();
         findLinks();
+        if (kind == LimbKind::arm) findClavicles();
     }
 
     std::vector<LimbCandidate> find() {
@@ -93,9 +94,12 @@ class LimbFinder {
 
     void findLinks() {
         const int count = static_cast<int>(framed_.pairs.size());
+        next_.resize(framed_.pairs.size());
         for (int upper = 0; upper < count; ++upper) {
-            for (int lower = 0; lower < count; ++lower)
+            for (int lower = 0; lower < count; ++lower) {
                 links_.push_back(linkTerm(upper, lower));
+                if (links_.back() > kImpossible) next_[upper].push_back(lower);
+            }
         }
     }
     [[nodiscard]] float link(int upper, int lower) const {
@@ -117,6 +121,7 @@ class LimbFinder {
     // straight line between them, an elbow or a knee does not.
     [[nodiscard]] float skipped(int upper, int lower, bool straight = true) const {
         float total = 0.0F;
+        int passed = 0;
         const RigFeatures& rig = *framed_.rig;
         const vec3& start = framed_.positions[at(upper).joints[0]];
         const vec3 along = framed_.positions[at(lower).joints[0]] - start;
@@ -127,6 +132,7 @@ class LimbFinder {
             if (pair < 0 || at(pair).helper || (rig.skinned && at(pair).ownWeight <= 0.0F)) continue;
             const vec3 away = framed_.positions[joint] - start;
             const vec3 off = away - glm::dot(away, along) / square * along;
+            if (++passed > kMostSkipped) return kImpossible;
             total += kSkippedJoint;
             if (straight) total += terms::kStraightTwist.near(glm::length(off) / std::sqrt(square));
         }
@@ -166,7 +172,10 @@ class LimbFinder {
 
     // 0 below it in the tree, a loss where detached, kImpossible otherwise.
     [[nodiscard]] float linkTerm(int upper, int lower) const {
-        if (framed_.isAbove(upper, lower)) return skipped(upper, lower) + mainBranchTerm(upper, lower);
+        if (framed_.isAbove(upper, lower)) {
+            const float passedOver = skipped(upper, lower);
+            return passedOver > kImpossible ? passedOver + mainBranchTerm(upper, lower) : kImpossible;
+        }
         if (!mayContinueDetached(upper, lower)) return kImpossible;
         if (areNamedInOrder(upper, lower)) return kDetachedNamed;
         // A hand or foot by its name may hang on a control, though helpers hang on the limb.
@@ -183,7 +192,7 @@ class LimbFinder {
         candidate.pairs = {root, kNoPair, kNoPair, kNoPair};
         candidate.missing = kMissingEnd + kMissingMiddle;
         consider(candidate, 0.0F);
-        for (int middle = 0; middle < static_cast<int>(framed_.pairs.size()); ++middle) {
+        for (const int middle : next_[root]) {
             if (!mayFollow(root, middle, 1)) continue;
             candidate.pairs = {root, middle, kNoPair, kNoPair};
             candidate.missing = kMissingEnd;
@@ -200,7 +209,7 @@ class LimbFinder {
         const int root = candidate.pairs[0];
         const int middle = candidate.pairs[1];
         candidate.missing = 0.0F;
-        for (int end = 0; end < static_cast<int>(framed_.pairs.size()); ++end) {
+        for (const int end : next_[middle]) {
             if (end == root || !mayFollow(middle, end, 2)) continue;
             const float ratio = framed_.segment(root, middle) / framed_.segment(middle, end);
             if (ratio < kLeastRatio || ratio > kMostRatio) continue;
@@ -210,7 +219,7 @@ class LimbFinder {
     }
 
     [[nodiscard]] bool mayFollow(int from, int to, int slot) const {
-        return link(from, to) > kImpossible && framed_.segment(from, to) >= kShortestSegment * framed_.spread &&
+        return framed_.segment(from, to) >= kShortestSegment * framed_.spread &&
                (rightWay(from, to) || (isNamed(from, slot - 1) && isNamed(to, slot)));
     }
 
@@ -421,7 +430,7 @@ class LimbFinder {
     void addClavicle(LimbCandidate& arm) const {
         const int upper = arm.pairs[0];
         float best = unusedAbove(upper, arm.length);
-        for (int pair = 0; pair < static_cast<int>(framed_.pairs.size()); ++pair) {
+        for (const int pair : clavicles_[upper]) {
             const float score = clavicleTerm(arm, pair);
             if (score <= best) continue;
             best = score;
@@ -431,11 +440,23 @@ class LimbFinder {
         if (arm.pairs[3] != kNoPair) arm.names += nameTerm(arm.pairs[3], 3);
     }
 
+    // Per pair the pairs above or beside it that may be its clavicle.
+    void findClavicles() {
+        const int count = static_cast<int>(framed_.pairs.size());
+        clavicles_.resize(framed_.pairs.size());
+        for (int upper = 0; upper < count; ++upper) {
+            for (int pair = 0; pair < count; ++pair) {
+                const bool may = framed_.isAbove(pair, upper) || areSiblings(pair, upper);
+                if (may && skipped(pair, upper, false) > kImpossible) clavicles_[upper].push_back(pair);
+            }
+        }
+    }
+
     [[nodiscard]] float clavicleTerm(const LimbCandidate& arm, int pair) const {
         const int upper = arm.pairs[0];
         const bool beside = areSiblings(pair, upper);
         const float length = framed_.segment(pair, upper) / arm.length;
-        if ((!framed_.isAbove(pair, upper) && !beside) || length < kShortestClavicle) return kImpossible;
+        if (length < kShortestClavicle) return kImpossible;
         const float shape =
             terms::kClavicleLength.near(length) + terms::kClavicleAside.near(at(pair).position.x / arm.length);
         const bool named = isNamed(pair, 3) && isNamed(upper, 0);
@@ -468,7 +489,9 @@ class LimbFinder {
     std::vector<float> place_;
     std::vector<std::vector<int>> above_;  // per pair: the pairs above it in the tree
     std::vector<std::vector<int>> below_;
-    std::vector<float> links_;          // linkTerm() of every two pairs
+    std::vector<float> links_;            // linkTerm() of every two pairs
+    std::vector<std::vector<int>> next_;  // per pair: those that may follow it in a limb
+    std::vector<std::vector<int>> clavicles_;
     mutable std::vector<float> reach_;  // reachBeyond() of every pair once asked for, -1 before
     std::vector<bool> endsThere_;       // per pair: no skinned pair below it
     std::vector<LimbCandidate> best_;

@@ -91,6 +91,7 @@ inline constexpr float kLeastHipHeight = 0.3F;  // of the leg's length: heights 
 inline constexpr float kShortestToes = 0.03F;   // of the hip's height
 inline constexpr float kHighestToes = 0.04F;    // above the ankle
 inline constexpr float kShortestClavicle = 0.04F;
+inline constexpr int kMostSkipped = 24;  // skinned joints between two placed ones: no limb beyond, and no search either
 inline constexpr float kSlackOfOneJoint = 3.0F;  // a limb of one joint may start anywhere along it
 inline constexpr float kNamedPart = 1.5F;        // a name's score from which it says which part of the limb this is
 inline constexpr float kSurelyNamed = 4.0F;      // … and from which it says nothing else

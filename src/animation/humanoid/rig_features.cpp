@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace lutka::animation {
 namespace {
@@ -68,6 +70,28 @@ void readRigidParts(const Character& character, RigFeatures& rig) {
         }
     }
     if (onlyRigid) rig.skinned = false;
+}
+
+// A rigid part's node may lie anywhere: at the origin of the file, or on the other side, where the part was mirrored in
+// the modelling program. Its place is then that of its mesh. Pivots that lie at their part are left alone.
+void placeParts(const Character& character, RigFeatures& rig) {
+    constexpr float kBeside = 0.5F;  // of the part's extent, beyond its box
+    for (const SkinnedMesh& mesh : character.meshes) {
+        if (!mesh.rigid || mesh.joints.empty() || mesh.positions.empty()) continue;
+        const std::size_t node = mesh.joints[0][0];
+        if (node >= rig.positions.size() || !rig.children[node].empty()) continue;
+        vec3 low = mesh.positions[0];
+        vec3 high = low;
+        for (const vec3& position : mesh.positions) {
+            low = glm::min(low, position);
+            high = glm::max(high, position);
+        }
+        const vec3 margin(kBeside * glm::distance(low, high));
+        vec3& place = rig.positions[node];
+        const bool away =
+            glm::any(glm::lessThan(place, low - margin)) || glm::any(glm::greaterThan(place, high + margin));
+        if (away) place = 0.5F * (low + high);
+    }
 }
 
 void readVertices(const Character& character, RigFeatures& rig) {
@@ -230,6 +254,7 @@ RigFeatures readRig(const Character& character, bool useNames) {
     walkTree(rig);
     readWeights(skeleton, rig);
     readRigidParts(character, rig);
+    placeParts(character, rig);
     readVertices(character, rig);
     rig.names.resize(rig.positions.size());
     if (useNames) std::transform(skeleton.names.begin(), skeleton.names.end(), rig.names.begin(), nameEvidence);

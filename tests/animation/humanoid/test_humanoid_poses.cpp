@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
@@ -367,6 +368,125 @@ TEST_CASE("many joints side by side are looked through in no time", "[poses]") {
     }
     hall.skeleton = makeSkeleton(joints);
     CHECK_FALSE(animation::mapHumanoid(hall).humanoid);
+}
+
+TEST_CASE("a runner's left arm and right leg, both in front, do not make a figure that goes sideways", "[poses]") {
+    SyntheticRig rig = makeSyntheticRig(kConvention, {.armsDown = 1.3F});
+    animation::Skeleton& skeleton = rig.character.skeleton;
+    std::fill(skeleton.skinWeight.begin(), skeleton.skinWeight.end(), 0.0F);
+    rig.character.meshes.clear();
+    turn(rig, Role::hips, 0.5F, vec3(1, 0, 0));
+    turn(rig, Role::leftUpperLeg, 0.4F, vec3(1, 0, 0));
+    turn(rig, Role::rightUpperLeg, -1.4F, vec3(1, 0, 0));
+    turn(rig, Role::leftLowerLeg, 0.3F, vec3(1, 0, 0));
+    turn(rig, Role::rightLowerLeg, 1.5F, vec3(1, 0, 0));
+    turn(rig, Role::leftUpperArm, -0.9F, vec3(1, 0, 0));
+    turn(rig, Role::rightUpperArm, 0.8F, vec3(1, 0, 0));
+    checkWhole(rig);
+}
+
+TEST_CASE("a sprinter who leans far forward keeps head and neck", "[poses]") {
+    SyntheticRig rig = makeSyntheticRig(kConvention, {.armsDown = 1.3F});
+    turn(rig, Role::hips, 0.75F, vec3(1, 0, 0));
+    turn(rig, Role::leftUpperLeg, -0.2F, vec3(1, 0, 0));
+    turn(rig, Role::rightUpperLeg, -1.5F, vec3(1, 0, 0));
+    turn(rig, Role::rightLowerLeg, 1.2F, vec3(1, 0, 0));
+    turn(rig, Role::neck, 0.3F, vec3(1, 0, 0));
+    checkWhole(rig);
+}
+
+TEST_CASE("feet that cross stay on the sides of their legs", "[poses]") {
+    SyntheticRig rig = makeSyntheticRig(kConvention);
+    turn(rig, Role::leftUpperLeg, -0.18F, vec3(0, 0, 1));
+    turn(rig, Role::rightUpperLeg, 0.18F, vec3(0, 0, 1));
+    checkWhole(rig);
+    rig.character = withoutNames(rig.character);
+    const SyntheticRig named = makeSyntheticRig(kConvention);
+    const HumanoidMap map = animation::mapHumanoid(rig.character);
+    REQUIRE(map.humanoid);
+    for (const Role role : {Role::leftUpperLeg, Role::leftFoot, Role::rightLowerLeg, Role::rightFoot})
+        CHECK(map.jointOf(role) == jointOf(named, role));
+}
+
+TEST_CASE("rigid parts whose nodes lie on the other side do not draw their limbs there", "[poses]") {
+    // As a modelling program leaves them that mirrored the parts of one half.
+    const SyntheticRig named = makeSyntheticRig(kConvention, {.armsDown = 1.1F});
+    SyntheticRig rig = named;
+    rig.character = withoutNames(rig.character);
+    animation::Skeleton& skeleton = rig.character.skeleton;
+    std::fill(skeleton.skinWeight.begin(), skeleton.skinWeight.end(), 0.0F);
+    rig.character.meshes.clear();
+    const std::array<Role, 12> limbs{Role::leftUpperArm,  Role::leftLowerArm,  Role::leftHand,      Role::rightUpperArm,
+                                     Role::rightLowerArm, Role::rightHand,     Role::leftUpperLeg,  Role::leftLowerLeg,
+                                     Role::leftFoot,      Role::rightUpperLeg, Role::rightLowerLeg, Role::rightFoot};
+    for (const Role role : limbs) {
+        const int joint = jointOf(named, role);
+        const vec3 place = skeleton.bindModelFromJoint[joint].translation;
+        animation::SkinnedMesh part;
+        part.rigid = true;
+        for (const vec3& corner : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 1), vec3(0, -1, -1)})
+            part.positions.push_back(place + vec3(0, -0.05F, 0) + 0.03F * corner);
+        const auto node = static_cast<std::uint16_t>(skeleton.jointCount());
+        part.joints.assign(part.positions.size(), std::array<std::uint16_t, 4>{node, 0, 0, 0});
+        part.weights.assign(part.positions.size(), std::array<float, 4>{1, 0, 0, 0});
+        part.indices = {0, 1, 2, 0, 1, 3};
+        skeleton.names.push_back("part_" + std::to_string(node));
+        skeleton.parents.push_back(joint);
+        skeleton.bindModelFromJoint.push_back({quat(1, 0, 0, 0), vec3(std::abs(place.x) + 0.3F, place.y, place.z)});
+        skeleton.nodeParentFromJoint.emplace_back();
+        skeleton.skinWeight.push_back(4.0F);
+        rig.character.meshes.push_back(std::move(part));
+    }
+    const HumanoidMap map = animation::mapHumanoid(rig.character);
+    REQUIRE(map.humanoid);
+    for (const Role role : limbs)
+        CHECK(map.jointOf(role) == jointOf(named, role));
+    CHECK(map.jointOf(Role::head) == jointOf(named, Role::head));
+}
+
+TEST_CASE("a head that carries the arms is the head, as a plush figure's", "[poses]") {
+    std::vector<JointSpec> joints{{"Rig", -1, {0, 0, 0}}, {"DEF-hips", 0, {0, 0.8F, 0}}, {"DEF-head", 1, {0, 0.8F, 0}}};
+    std::vector<TubeSpec> tubes{{1, {0, 0.6F, 0}, 0.3F}, {2, {0, 1.4F, 0}, 0.45F}};
+    const auto add = [&](const std::string& name, int parent, const vec3& place, const vec3& end, float radius) {
+        joints.push_back({name, parent, place});
+        tubes.push_back({static_cast<int>(joints.size()) - 1, end, radius});
+        return static_cast<int>(joints.size()) - 1;
+    };
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string end = side > 0.0F ? ".L" : ".R";
+        const auto at = [&](float x, float y, float z = 0.0F) { return vec3(side * x, y, z); };
+        const int arm = add("DEF-upper_arm" + end, 2, at(0.52F, 0.82F), at(0.64F, 0.73F), 0.05F);
+        const int forearm = add("DEF-forearm" + end, arm, at(0.65F, 0.73F), at(0.75F, 0.65F), 0.05F);
+        add("DEF-hand" + end, forearm, at(0.76F, 0.65F), at(0.9F, 0.55F), 0.1F);
+        const int thigh = add("DEF-thigh" + end, 1, at(0.19F, 0.54F), at(0.19F, 0.39F), 0.08F);
+        const int shin = add("DEF-shin" + end, thigh, at(0.19F, 0.38F), at(0.19F, 0.19F), 0.08F);
+        add("DEF-foot" + end, shin, at(0.19F, 0.18F, -0.01F), at(0.19F, 0.02F, 0.15F), 0.1F);
+    }
+    const animation::Character plush = makeFigure("plush", joints, tubes);
+    const HumanoidMap map = animation::mapHumanoid(plush);
+    REQUIRE(map.humanoid);
+    CHECK(map.missing.empty());
+    CHECK(plush.skeleton.names[map.jointOf(Role::hips)] == "DEF-hips");
+    CHECK(plush.skeleton.names[map.jointOf(Role::head)] == "DEF-head");
+    CHECK(plush.skeleton.names[map.jointOf(Role::leftLowerArm)] == "DEF-forearm.L");
+    CHECK(plush.skeleton.names[map.jointOf(Role::rightHand)] == "DEF-hand.R");
+}
+
+TEST_CASE("tentacles of hundreds of joints are looked through in no time", "[poses]") {
+    std::vector<JointSpec> joints{{"root", -1, {0, 0, 0}}};
+    for (int arm = 0; arm < 8; ++arm) {
+        const float angle = static_cast<float>(arm) * kPi / 4.0F;
+        int parent = 0;
+        for (int link = 1; link <= 100; ++link) {
+            const float out = 0.02F * static_cast<float>(link);
+            joints.push_back({"link_" + std::to_string(joints.size()), parent,
+                              vec3(out * std::cos(angle), out, out * std::sin(angle))});
+            parent = static_cast<int>(joints.size()) - 1;
+        }
+    }
+    animation::Character tentacles;
+    tentacles.skeleton = makeSkeleton(joints);
+    CHECK_FALSE(animation::mapHumanoid(tentacles).humanoid);
 }
 
 }  // namespace lutka::test
