@@ -105,4 +105,27 @@ double angleBetween(const dmat3& a, const dmat3& b) {
     return std::acos(std::clamp((trace - 1.0) / 2.0, -1.0, 1.0));
 }
 
+std::optional<dmat4> affineBetween(std::span<const dvec3> from, std::span<const dvec3> to) {
+    constexpr std::size_t kFewest = 4;
+    if (from.size() < kFewest || from.size() != to.size()) return std::nullopt;
+    const double count = static_cast<double>(from.size());
+    dvec3 middleFrom(0);
+    dvec3 middleTo(0);
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        middleFrom += from[i] / count;
+        middleTo += to[i] / count;
+    }
+    dmat3 spread(0);
+    dmat3 moved(0);
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        spread += glm::outerProduct(from[i] - middleFrom, from[i] - middleFrom);
+        moved += glm::outerProduct(to[i] - middleTo, from[i] - middleFrom);
+    }
+    if (!isInvertible(dmat4(spread))) return std::nullopt;
+    const dmat3 linear = moved * glm::inverse(spread);
+    dmat4 out(linear);
+    out[3] = dvec4(middleTo - linear * middleFrom, 1.0);
+    return out;
+}
+
 }  // namespace lutka::animation::rig_import

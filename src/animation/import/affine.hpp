@@ -1,6 +1,8 @@
 #pragma once
 
 #include <glm/mat4x4.hpp>
+#include <optional>
+#include <span>
 
 #include "core/rigid_transform.hpp"
 
@@ -30,5 +32,9 @@ using glm::dvec4;
 
 /// Angle of the rotation between two rotations, [0, pi].
 [[nodiscard]] double angleBetween(const dmat3& a, const dmat3& b);
+
+/// The affine map of least squares that takes the points `from` to the points `to`, of equal number; nothing where they
+/// lie in a plane or are fewer than four.
+[[nodiscard]] std::optional<dmat4> affineBetween(std::span<const dvec3> from, std::span<const dvec3> to);
 
 }  // namespace lutka::animation::rig_import

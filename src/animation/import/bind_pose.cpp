@@ -18,7 +18,10 @@ constexpr double kPlaceTolerance = 0.75;  // mesh sizes
 // How near two placings are that say the same, in mesh sizes, and the share of the weight that must.
 constexpr double kAlike = 0.01;
 constexpr double kMostVotes = 0.9;
-constexpr double kInScene = 1e-4;  // in mesh sizes: what single precision leaves
+constexpr double kOneSize = 0.05;  // ratio, and the share of the weight that must keep it
+constexpr double kMostOfOneSize = 0.9;
+constexpr double kAtTheirPlace = 0.05;  // in mesh sizes
+constexpr double kInScene = 1e-4;       // in mesh sizes: what single precision leaves
 // The medoid compares every joint with every other; beyond this many only the heaviest ones are asked.
 constexpr std::size_t kMaxVoters = 200;
 
@@ -77,6 +80,18 @@ const dmat4& medoid(const MeshExtent& box, std::vector<Vote>& votes) {
     return votes[best].sceneFromMesh;
 }
 
+// Whether the votes give the mesh no one size: joints whose bind frames are scaled while their nodes are not, as the
+// collision volumes of Second Life's figures.
+bool differInSize(const std::vector<Vote>& votes, const dmat4& middle) {
+    double all = 0.0;
+    double alike = 0.0;
+    for (const Vote& vote : votes) {
+        all += vote.weight;
+        if (std::abs(meanScale(vote.sceneFromMesh) / meanScale(middle) - 1.0) < kOneSize) alike += vote.weight;
+    }
+    return alike < kMostOfOneSize * all;
+}
+
 // Whether nearly all votes place the mesh as their medoid does: then the nodes are in the bind pose.
 bool agree(const MeshExtent& box, const std::vector<Vote>& votes, const dmat4& middle) {
     double all = 0.0;
@@ -108,7 +123,11 @@ dmat4 chooseFrame(const MeshExtent& box, const dmat4& meshNode, const dmat4& joi
 class BindSolver {
   public:
     BindSolver(const NodeTree& tree, std::span<const MeshInstance> meshes)
-        : tree_(tree), meshes_(meshes), settled_(meshes.size(), false), bind_(tree.nodeOfJoint.size()) {}
+        : tree_(tree),
+          meshes_(meshes),
+          settled_(meshes.size(), false),
+          bind_(tree.nodeOfJoint.size()),
+          atNodes_(tree.nodeOfJoint.size(), false) {}
 
     // The heaviest mesh first; from there through shared joints; then the next heaviest that is left.
     std::vector<dmat4> solve() {
@@ -168,7 +187,7 @@ class BindSolver {
         return joint;
     }
 
-    dmat4 frameOfFirst(const MeshInstance& mesh) const {
+    dmat4 frameOfFirst(const MeshInstance& mesh) {
         const MeshExtent box = extentOf(*mesh.mesh);
         std::vector<Vote> votes;
         for (const SkinJoint& joint : mesh.joints) {
@@ -183,10 +202,34 @@ class BindSolver {
         const bool alike = agree(box, votes, middle);
         if (stated && !alike) return *mesh.sceneFromMesh;
         if (!tree_.nodesArePosed) return unposed;
+        if (differInSize(votes, middle)) {
+            if (const std::optional<dmat4> frame = frameByPlaces(mesh, box)) {
+                for (const SkinJoint& joint : mesh.joints)
+                    atNodes_[joint.joint] = true;
+                return *frame;
+            }
+        }
         // Vertices in scene space stay there: a mesh node with a frame of its own (Blender's exporter hangs the mesh
         // below the armature's object) would turn and move them a second time.
         if (alike && disagreement(box, middle, dmat4(1.0)) < kInScene) return dmat4(1.0);
         return chooseFrame(box, meshNode, middle);
+    }
+
+    // The frame that takes the joints' places in the mesh to where their nodes are, whatever sizes their frames have.
+    std::optional<dmat4> frameByPlaces(const MeshInstance& mesh, const MeshExtent& box) const {
+        std::vector<dvec3> inMesh;
+        std::vector<dvec3> inScene;
+        for (const SkinJoint& joint : mesh.joints) {
+            if (!isInvertible(joint.jointFromMesh)) continue;
+            inMesh.emplace_back(glm::inverse(joint.jointFromMesh)[3]);
+            inScene.emplace_back(tree_.sceneFromJoint(joint.joint)[3]);
+        }
+        const std::optional<dmat4> frame = affineBetween(inMesh, inScene);
+        if (!frame || !isInvertible(*frame)) return std::nullopt;
+        double worst = 0.0;
+        for (std::size_t i = 0; i < inMesh.size(); ++i)
+            worst = std::max(worst, glm::distance(dvec3(*frame * dvec4(inMesh[i], 1.0)), inScene[i]));
+        return worst < kAtTheirPlace * box.size * meanScale(*frame) ? frame : std::nullopt;
     }
 
     // A mesh that shares no joint with a settled one moves along with the settled joint above it.
@@ -218,7 +261,7 @@ class BindSolver {
     dmat4 carry(const dmat4& bindOfFrom, int from, int to) const {
         const dmat4& start = tree_.sceneFromJoint(from);
         const dmat4 end = tree_.sceneFromJoint(to);
-        const dmat4 moved = isInvertible(start) ? bindOfFrom * glm::inverse(start) * end : end;
+        const dmat4 moved = isInvertible(start) && !atNodes_[from] ? bindOfFrom * glm::inverse(start) * end : end;
         return isInvertible(moved) ? moved : dmat4(toMatrix(rigidPart(moved)));
     }
 
@@ -263,6 +306,7 @@ class BindSolver {
     std::span<const MeshInstance> meshes_;
     std::vector<bool> settled_;
     std::vector<std::optional<dmat4>> bind_;
+    std::vector<bool> atNodes_;  // bound where its node is, in a frame of a size of its own
 };
 
 }  // namespace

@@ -102,7 +102,10 @@ void settleUp(const SourceConvention& convention, const Extents& box, const Impo
     out.rotation = yFrom(up);
 }
 
-// The usual unit under which the figure is as tall as a person, in metres.
+// An animal on four legs is longer than it is tall, which no figure is, arms stretched out or not.
+constexpr double kAnimalLength = 1.6;
+
+// The usual unit under which the figure is as tall as a person, or an animal as long, in metres.
 std::optional<double> usualUnit(double height) {
     constexpr double kCmu = 0.0254 / 0.45;  // of the CMU motion capture database: inches, divided by 0.45
     constexpr std::array<double, 9> kUnits = {1.0, 0.01, 0.1, 0.0254, 0.001, kCmu, 10.0, 100.0, 1000.0};
@@ -137,7 +140,8 @@ void settleScale(const SourceConvention& convention, const Extents& box, const I
         out.info.unitSource = stated ? source : "assumed";
         return;
     }
-    const std::optional<double> usual = usualUnit(height);
+    const bool animal = longest > kAnimalLength * height;
+    const std::optional<double> usual = usualUnit(animal ? longest : height);
     out.scale = usual.value_or(kUsualHeight / height);
     out.info.unitSource = "height of the figure";
     const std::string why = stated

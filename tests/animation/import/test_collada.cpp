@@ -113,3 +113,20 @@ TEST_CASE("tidying leaves tags, comments and character data as they are") {
     // A pair of surrogates, a lone one, and an odd byte at the end.
     CHECK(tidyCollada(std::string("\xFF\xFE\x3D\xD8\x00\xDE\x3D\xD8z\0q", 11)) == "\xF0\x9F\x98\x80?z");
 }
+
+TEST_CASE("Collada's nodes have their names where the ids were made by a program") {
+    using rig_import::colladaNodeNames;
+    const auto names = colladaNodeNames(
+        "<node id=\"id-bone-4\" sid=\"s\" name=\"pelvis\"><node name=\"upper arm.L\" id=\"Armature_upper_arm_L\"/>"
+        "<node id=\"id-5\" name=\"twin\"/><node id=\"id-6\" name=\"twin\"/><node id=\"id-7\" name=\"a &amp; b\"/>"
+        "<!-- <node id=\"id-8\" name=\"comment\"/> --><node id=\"id-9\"/></node>");
+    CHECK(names == std::map<std::string, std::string>{{"id-bone-4", "pelvis"}});
+
+    const TemporaryFolder folder;
+    std::string text = triangle("");
+    text.replace(text.find("<node id=\"n\" name=\"n\">"), 22, "<node id=\"id-1\" name=\"head\">");
+    std::ofstream(folder / "named.dae", std::ios::binary) << text;
+    const Character character = imported(folder / "named.dae");
+    CHECK(findJoint(character.skeleton, "head") != kNoJoint);
+    CHECK(findJoint(character.skeleton, "id-1") == kNoJoint);
+}

@@ -1,5 +1,6 @@
 // Rigs made by hand, each with the oddity that its name says, and answers known from how they were made.
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -121,6 +122,53 @@ TEST_CASE("vertices in scene space stay there, though their mesh's node hangs be
         CHECK(glm::distance(vertices[v], vec3(sceneFromArmature * vec4(post.positions[v], 1))) < 1e-4F);
     const vec3 high = character.skeleton.bindModelFromJoint[joint(character, "high")].translation;
     CHECK(glm::distance(high, vec3(1, 1.2F, -2)) < 1e-4F);
+}
+
+TEST_CASE("joints whose bind frames have sizes of their own do not stretch the figure") {
+    // As the collision volumes of Second Life's figures: their nodes are not scaled, their inverse bind matrices are.
+    Post post = makePost();
+    for (std::size_t v = 0; v < post.skin.size(); ++v)
+        post.skin[v].joints[0] = static_cast<std::uint8_t>(v % 5);
+    GltfFile file;
+    const int root = file.addNode("root", -1);
+    const std::vector<vec3> places = {vec3(0, 0, 0), vec3(0.1F, 0.6F, 0), vec3(-0.1F, 1.2F, 0.1F), vec3(0, 1.5F, -0.1F),
+                                      vec3(0.2F, 1.1F, -0.05F)};
+    const std::vector<vec3> sizes = {vec3(8, 6, 5), vec3(11, 7, 6), vec3(20, 20, 20), vec3(9, 7, 5), vec3(10, 9, 10)};
+    const mat4 sceneFromMesh = glm::scale(mat4(1.0F), vec3(0.5F, 2.0F, 1.0F));
+    std::vector<int> nodes;
+    std::vector<mat4> jointFromMesh;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const mat4 sceneFromJoint = glm::translate(mat4(1.0F), places[i]);
+        nodes.push_back(file.addNode("volume" + std::to_string(i), root, sceneFromJoint));
+        jointFromMesh.push_back(glm::scale(mat4(1.0F), sizes[i]) * glm::inverse(sceneFromJoint) * sceneFromMesh);
+    }
+    const int bone = file.addNode("bone", nodes[1], glm::translate(mat4(1.0F), vec3(0, 0.3F, 0)));
+    const int mesh = file.addNode("post", -1);
+    file.json["nodes"][mesh]["mesh"] = addPostMesh(file, post, glm::inverse(sceneFromMesh));
+    file.json["nodes"][mesh]["skin"] = addSkin(file, nodes, jointFromMesh);
+    const Character character = importedRig(file);
+    const std::vector<vec3> vertices = bindVertices(character);  // in another order than the file's
+    REQUIRE(vertices.size() == post.positions.size());
+    for (const vec3& position : post.positions) {
+        CHECK(std::any_of(vertices.begin(), vertices.end(),
+                          [&](const vec3& vertex) { return glm::distance(vertex, position) < 1e-4F; }));
+    }
+    const auto placeOf = [&](int node) {
+        const std::string name = file.json["nodes"][node]["name"];
+        return character.skeleton.bindModelFromJoint[joint(character, name)].translation;
+    };
+    CHECK(glm::distance(placeOf(nodes[2]), places[2]) < 1e-4F);
+    CHECK(glm::distance(placeOf(bone), places[1] + vec3(0, 0.3F, 0)) < 1e-4F);
+}
+
+TEST_CASE("an animal's unit makes it as long as one, not as tall as a person") {
+    // 79 units tall and 154 long, as a fox in centimetres.
+    GltfFile file;
+    const int node = file.addNode("fox", -1);
+    file.json["nodes"][node]["mesh"] =
+        addPostMesh(file, makePost(), glm::scale(mat4(1.0F), vec3(40, 43.9F, 385)), false);
+    const Character character = importedRig(file);
+    CHECK(character.units.metresPerFileUnit == Approx(0.01F));
 }
 
 TEST_CASE("the node pose bends the skin as the file says") {

@@ -149,6 +149,44 @@ std::string tidyText(std::string_view text) {
     return out.take();
 }
 
+// The value of an attribute in a tag; empty where it has none, or one with entities.
+std::string_view attributeOf(std::string_view tag, std::string_view name) {
+    const std::string start = " " + std::string(name) + "=\"";
+    const std::size_t found = tag.find(start);
+    if (found == std::string_view::npos) return {};
+    const std::string_view value = tag.substr(found + start.size());
+    const std::string_view text = value.substr(0, value.find('"'));
+    return text.find('&') == std::string_view::npos ? text : std::string_view{};
+}
+
+std::string lettersOf(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        if (c >= 'A' && c <= 'Z') out += static_cast<char>(c - 'A' + 'a');
+        const bool other = static_cast<unsigned char>(c) >= 0x80U || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+        if (other) out += c;
+    }
+    return out;
+}
+
+std::map<std::string, std::string> nodeNames(std::string_view text) {
+    std::map<std::string, std::string> names;
+    std::map<std::string, int> uses;
+    for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
+        const std::size_t end = endOfMarkup(text, at);
+        const std::string_view tag = text.substr(at, end - at);
+        at = end;
+        if (!tag.starts_with("<node ")) continue;
+        const std::string id(attributeOf(tag, "id"));
+        const std::string name(attributeOf(tag, "name"));
+        ++uses[name];
+        if (id.empty() || lettersOf(name).empty()) continue;
+        if (lettersOf(id).find(lettersOf(name)) == std::string::npos) names[id] = name;
+    }
+    std::erase_if(names, [&](const auto& entry) { return uses[entry.second] > 1; });
+    return names;
+}
+
 }  // namespace
 
 bool isCollada(std::string_view start) {
@@ -157,6 +195,10 @@ bool isCollada(std::string_view start) {
 
 std::string tidyCollada(std::string_view bytes) {
     return isUtf16(bytes) ? tidyText(utf8Of(bytes)) : tidyText(bytes);
+}
+
+std::map<std::string, std::string> colladaNodeNames(std::string_view bytes) {
+    return isUtf16(bytes) ? nodeNames(utf8Of(bytes)) : nodeNames(bytes);
 }
 
 }  // namespace lutka::animation::rig_import

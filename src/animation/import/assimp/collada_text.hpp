@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -13,5 +14,9 @@ namespace lutka::animation::rig_import {
 /// polylist's count is that of its vcount, and a colour of three numbers gets its fourth. Other tags, comments and
 /// character data stay as they are.
 [[nodiscard]] std::string tidyCollada(std::string_view bytes);
+
+/// The names of a document's nodes by their ids, of those whose id was made by a program and says nothing of the name
+/// ("id-bone-4" for "pelvis", as Godot writes it). Names that two nodes share are left out.
+[[nodiscard]] std::map<std::string, std::string> colladaNodeNames(std::string_view bytes);
 
 }  // namespace lutka::animation::rig_import

@@ -7,12 +7,14 @@
 #include <utility>
 
 #include "animation/import/assimp/clip_conversion.hpp"
+#include "animation/import/assimp/collada_text.hpp"
 #include "animation/import/assimp/flat_hierarchy.hpp"
 #include "animation/import/assimp/material_conversion.hpp"
 #include "animation/import/assimp/mesh_instances.hpp"
 #include "animation/import/assimp/scene_file.hpp"
 #include "animation/import/assimp/scene_nodes.hpp"
 #include "animation/import/uri.hpp"
+#include "core/files.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {
@@ -57,6 +59,21 @@ SourceConvention conventionOf(const aiScene& scene, const std::filesystem::path&
     return convention;
 }
 
+// Assimp calls nodes by the ids of the document.
+void nameByDocument(const std::filesystem::path& file, SourceScene& out) {
+    if (lowerCased(file.extension().string()) != ".dae") return;
+    const Result<std::vector<unsigned char>> bytes = readFile(file);
+    if (!bytes) return;
+    const auto names = colladaNodeNames({reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size()});
+    std::set<std::string> taken;
+    for (const SourceNode& node : out.nodes)
+        taken.insert(node.name);
+    for (SourceNode& node : out.nodes) {
+        const auto found = names.find(node.name);
+        if (found != names.end() && taken.count(found->second) == 0) node.name = found->second;
+    }
+}
+
 }  // namespace
 
 Result<SourceScene> readWithAssimp(const std::filesystem::path& file, const ImportOptions& options) {
@@ -73,6 +90,7 @@ Result<SourceScene> readWithAssimp(const std::filesystem::path& file, const Impo
     addMeshes(scene, nodes, out);
     addClips(scene, nodes, out);
     convertMaterials(scene, folder, options.loadTextures, out);
+    nameByDocument(file, out);
     if (const std::set<std::string>& refused = *opened.value().refused; !refused.empty()) {
         out.warnings.push_back(fmt::format(
             "{} files that the model names lie outside of its folder and were left out: {}; --allow-outside takes them",

@@ -20,16 +20,30 @@ double bezier(double a, double b, double t) {
     return 3.0 * u * u * t * a + 3.0 * u * t * t * b + t * t * t;
 }
 
+// The Bezier's slope over its parameter.
+double bezierSlope(double a, double b, double t) {
+    const double u = 1.0 - t;
+    return 3.0 * u * u * a + 6.0 * u * t * (b - a) + 3.0 * t * t * (1.0 - b);
+}
+
 // The parameter at which the Bezier's first coordinate is x; it grows with the parameter for a, 1 - b in [0, 1].
+// Newton's steps inside a shrinking bracket, halved where a step would leave it.
 double parameterAt(double x, double a, double b) {
+    constexpr int kMostSteps = 60;
+    constexpr double kExact = 1e-15;
     if (std::abs(a - 1.0 / 3.0) < 1e-6 && std::abs(b - 2.0 / 3.0) < 1e-6) return x;
     double low = 0.0;
     double high = 1.0;
-    for (int i = 0; i < 50; ++i) {
-        const double middle = 0.5 * (low + high);
-        (bezier(a, b, middle) < x ? low : high) = middle;
+    double t = x;
+    for (int i = 0; i < kMostSteps && high - low > kExact; ++i) {
+        const double error = bezier(a, b, t) - x;
+        if (std::abs(error) <= kExact) break;
+        (error < 0.0 ? low : high) = t;
+        const double slope = bezierSlope(a, b, t);
+        const double next = slope > 0.0 ? t - error / slope : low;
+        t = next > low && next < high ? next : 0.5 * (low + high);
     }
-    return 0.5 * (low + high);
+    return t;
 }
 
 double between(const Key& from, const Key& to, double seconds) {
