@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <map>
 
 namespace lutka::animation {
 namespace {
@@ -73,24 +74,30 @@ void readRigidParts(const Character& character, RigFeatures& rig) {
 }
 
 // A rigid part's node may lie anywhere: at the origin of the file, or on the other side, where the part was mirrored in
-// the modelling program. Its place is then that of its mesh. Pivots that lie at their part are left alone.
+// the modelling program. Its place is then that of its meshes. Pivots that lie at their part are left alone.
 void placeParts(const Character& character, RigFeatures& rig) {
     constexpr float kBeside = 0.5F;  // of the part's extent, beyond its box
+    struct Part {
+        vec3 low{1e30F};
+        vec3 high{-1e30F};
+    };
+    std::map<std::size_t, Part> parts;  // by their node, which may carry several meshes
     for (const SkinnedMesh& mesh : character.meshes) {
         if (!mesh.rigid || mesh.joints.empty() || mesh.positions.empty()) continue;
         const std::size_t node = mesh.joints[0][0];
         if (node >= rig.positions.size() || !rig.children[node].empty()) continue;
-        vec3 low = mesh.positions[0];
-        vec3 high = low;
+        Part& part = parts[node];
         for (const vec3& position : mesh.positions) {
-            low = glm::min(low, position);
-            high = glm::max(high, position);
+            part.low = glm::min(part.low, position);
+            part.high = glm::max(part.high, position);
         }
-        const vec3 margin(kBeside * glm::distance(low, high));
+    }
+    for (const auto& [node, part] : parts) {
+        const vec3 margin(kBeside * glm::distance(part.low, part.high));
         vec3& place = rig.positions[node];
         const bool away =
-            glm::any(glm::lessThan(place, low - margin)) || glm::any(glm::greaterThan(place, high + margin));
-        if (away) place = 0.5F * (low + high);
+            glm::any(glm::lessThan(place, part.low - margin)) || glm::any(glm::greaterThan(place, part.high + margin));
+        if (away) place = 0.5F * (part.low + part.high);
     }
 }
 

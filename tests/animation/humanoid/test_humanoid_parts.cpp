@@ -1,0 +1,150 @@
+// Figures of rigid parts, and trees of joints that no usual figure has.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "animation/humanoid/map_humanoid.hpp"
+#include "rig_variations.hpp"
+#include "support/catch.hpp"
+#include "support/rigs.hpp"
+#include "synthetic_rigs.hpp"
+
+namespace lutka::test {
+namespace {
+
+using animation::HumanoidMap;
+using animation::Role;
+
+int jointPlaying(const SyntheticRig& rig, Role role) {
+    return animation::findJoint(rig.character.skeleton, rig.truth.roles[indexOf(role)]->front());
+}
+
+}  // namespace
+
+TEST_CASE("rigid parts whose nodes lie on the other side do not draw their limbs there", "[poses]") {
+    // As a modelling program leaves them that mirrored the parts of one half.
+    const SyntheticRig named = makeSyntheticRig("vroid", {.armsDown = 1.1F});
+    SyntheticRig rig = named;
+    rig.character = withoutNames(rig.character);
+    animation::Skeleton& skeleton = rig.character.skeleton;
+    std::fill(skeleton.skinWeight.begin(), skeleton.skinWeight.end(), 0.0F);
+    rig.character.meshes.clear();
+    const std::array<Role, 12> limbs{Role::leftUpperArm,  Role::leftLowerArm,  Role::leftHand,      Role::rightUpperArm,
+                                     Role::rightLowerArm, Role::rightHand,     Role::leftUpperLeg,  Role::leftLowerLeg,
+                                     Role::leftFoot,      Role::rightUpperLeg, Role::rightLowerLeg, Role::rightFoot};
+    for (const Role role : limbs) {
+        const int joint = jointPlaying(named, role);
+        const vec3 place = skeleton.bindModelFromJoint[joint].translation;
+        animation::SkinnedMesh part;
+        part.rigid = true;
+        for (const vec3& corner : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 1), vec3(0, -1, -1)})
+            part.positions.push_back(place + vec3(0, -0.05F, 0) + 0.03F * corner);
+        const auto node = static_cast<std::uint16_t>(skeleton.jointCount());
+        part.joints.assign(part.positions.size(), std::array<std::uint16_t, 4>{node, 0, 0, 0});
+        part.weights.assign(part.positions.size(), std::array<float, 4>{1, 0, 0, 0});
+        part.indices = {0, 1, 2, 0, 1, 3};
+        skeleton.names.push_back("part_" + std::to_string(node));
+        skeleton.parents.push_back(joint);
+        skeleton.bindModelFromJoint.push_back({quat(1, 0, 0, 0), vec3(std::abs(place.x) + 0.3F, place.y, place.z)});
+        skeleton.nodeParentFromJoint.emplace_back();
+        skeleton.skinWeight.push_back(4.0F);
+        rig.character.meshes.push_back(std::move(part));
+    }
+    const HumanoidMap map = animation::mapHumanoid(rig.character);
+    REQUIRE(map.humanoid);
+    for (const Role role : limbs)
+        CHECK(map.jointOf(role) == jointPlaying(named, role));
+    CHECK(map.jointOf(Role::head) == jointPlaying(named, Role::head));
+}
+
+TEST_CASE("a part of several meshes is where its node is, wherever the smallest of them lies", "[blocks]") {
+    animation::Character figure;
+    figure.skeleton = makeSkeleton({{"figure", -1, {0, 0, 0}},
+                                    {"body", 0, {0, 0.4F, 0}},
+                                    {"head", 0, {0, 0.78F, 0}},
+                                    {"armLeft", 0, {-0.17F, 0.7F, 0}},
+                                    {"armRight", 0, {0.17F, 0.7F, 0}},
+                                    {"legLeft", 0, {-0.15F, 0.4F, 0}},
+                                    {"legRight", 0, {0.15F, 0.4F, 0}}});
+    const auto add = [&](int node, const vec3& low, const vec3& high) {
+        animation::SkinnedMesh mesh;
+        mesh.rigid = true;
+        for (int corner = 0; corner < 8; ++corner)
+            mesh.positions.emplace_back((corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
+                                        (corner & 4) != 0 ? high.z : low.z);
+        mesh.joints.assign(8, std::array<std::uint16_t, 4>{static_cast<std::uint16_t>(node), 0, 0, 0});
+        mesh.weights.assign(8, std::array<float, 4>{1, 0, 0, 0});
+        mesh.indices = {0, 1, 3, 4, 5, 7};
+        figure.skeleton.skinWeight[static_cast<std::size_t>(node)] += 8.0F;
+        figure.meshes.push_back(std::move(mesh));
+    };
+    add(1, {-0.15F, 0.38F, -0.1F}, {0.15F, 0.75F, 0.1F});
+    add(2, {-0.2F, 0.78F, -0.2F}, {0.2F, 1.15F, 0.2F});
+    for (const float side : {-1.0F, 1.0F}) {
+        const auto addBox = [&](int node, float x, float low, float high) {
+            add(node, vec3(side * x - 0.05F, low, -0.06F), vec3(side * x + 0.05F, high, 0.06F));
+        };
+        addBox(side < 0.0F ? 3 : 4, 0.24F, 0.4F, 0.72F);
+        addBox(side < 0.0F ? 3 : 4, 0.24F, 0.36F, 0.4F);  // a hand
+        addBox(side < 0.0F ? 5 : 6, 0.12F, 0.04F, 0.4F);
+        addBox(side < 0.0F ? 5 : 6, 0.12F, 0.0F, 0.04F);  // a shoe, far from the hip
+    }
+    const HumanoidMap map = animation::mapHumanoid(figure);
+    INFO((map.warnings.empty() ? std::string() : map.warnings.front()));
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(Role::head) == 2);
+    CHECK(map.jointOf(Role::hips) == 1);
+    for (const Role role : {Role::leftUpperArm, Role::leftUpperLeg, Role::rightUpperArm, Role::rightUpperLeg})
+        CHECK(map.jointOf(role) >= 3);
+}
+
+TEST_CASE("a head that carries the arms is the head, as a plush figure's", "[poses]") {
+    std::vector<JointSpec> joints{{"Rig", -1, {0, 0, 0}}, {"DEF-hips", 0, {0, 0.8F, 0}}, {"DEF-head", 1, {0, 0.8F, 0}}};
+    std::vector<TubeSpec> tubes{{1, {0, 0.6F, 0}, 0.3F}, {2, {0, 1.4F, 0}, 0.45F}};
+    const auto add = [&](const std::string& name, int parent, const vec3& place, const vec3& end, float radius) {
+        joints.push_back({name, parent, place});
+        tubes.push_back({static_cast<int>(joints.size()) - 1, end, radius});
+        return static_cast<int>(joints.size()) - 1;
+    };
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string end = side > 0.0F ? ".L" : ".R";
+        const auto at = [&](float x, float y, float z = 0.0F) { return vec3(side * x, y, z); };
+        const int arm = add("DEF-upper_arm" + end, 2, at(0.52F, 0.82F), at(0.64F, 0.73F), 0.05F);
+        const int forearm = add("DEF-forearm" + end, arm, at(0.65F, 0.73F), at(0.75F, 0.65F), 0.05F);
+        add("DEF-hand" + end, forearm, at(0.76F, 0.65F), at(0.9F, 0.55F), 0.1F);
+        const int thigh = add("DEF-thigh" + end, 1, at(0.19F, 0.54F), at(0.19F, 0.39F), 0.08F);
+        const int shin = add("DEF-shin" + end, thigh, at(0.19F, 0.38F), at(0.19F, 0.19F), 0.08F);
+        add("DEF-foot" + end, shin, at(0.19F, 0.18F, -0.01F), at(0.19F, 0.02F, 0.15F), 0.1F);
+    }
+    const animation::Character plush = makeFigure("plush", joints, tubes);
+    const HumanoidMap map = animation::mapHumanoid(plush);
+    REQUIRE(map.humanoid);
+    CHECK(map.missing.empty());
+    CHECK(plush.skeleton.names[map.jointOf(Role::hips)] == "DEF-hips");
+    CHECK(plush.skeleton.names[map.jointOf(Role::head)] == "DEF-head");
+    CHECK(plush.skeleton.names[map.jointOf(Role::leftLowerArm)] == "DEF-forearm.L");
+    CHECK(plush.skeleton.names[map.jointOf(Role::rightHand)] == "DEF-hand.R");
+}
+
+TEST_CASE("tentacles of hundreds of joints are looked through in no time", "[poses]") {
+    std::vector<JointSpec> joints{{"root", -1, {0, 0, 0}}};
+    for (int arm = 0; arm < 8; ++arm) {
+        const float angle = static_cast<float>(arm) * kPi / 4.0F;
+        int parent = 0;
+        for (int link = 1; link <= 100; ++link) {
+            const float out = 0.02F * static_cast<float>(link);
+            joints.push_back({"link_" + std::to_string(joints.size()), parent,
+                              vec3(out * std::cos(angle), out, out * std::sin(angle))});
+            parent = static_cast<int>(joints.size()) - 1;
+        }
+    }
+    animation::Character tentacles;
+    tentacles.skeleton = makeSkeleton(joints);
+    CHECK_FALSE(animation::mapHumanoid(tentacles).humanoid);
+}
+
+}  // namespace lutka::test
