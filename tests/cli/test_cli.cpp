@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <csignal>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "support/catch.hpp"
 #include "support/command.hpp"
@@ -121,6 +123,30 @@ TEST_CASE("simulate writes the baked clip, the last mesh and the report") {
     CHECK(fileText(folder / "last.obj").substr(0, 200).find("v ") != std::string::npos);
     const Json baked = Json::parse(lutkaCommand("inspect --json " + (folder / "fall.glb")).out);
     CHECK(baked["clips"][0]["seconds"].get<double>() == Approx(1.0).margin(0.02));
+}
+
+TEST_CASE("bodies are held by their names, and an unknown one is wrong usage that lists them") {
+    const ScratchFolder folder;
+    const std::string common = "simulate " + kMannequinArgument + " --seconds 3 --out " + (folder / "fall.glb");
+    const auto highestVertex = [&](const std::string& options) {
+        REQUIRE(lutkaCommand(common + " --mesh-out " + (folder / "last.obj") + options).code == 0);
+        std::istringstream in(fileText(folder / "last.obj"));
+        float highest = 0.0F;
+        for (std::string line; std::getline(in, line);) {
+            std::istringstream words(line);
+            std::string kind;
+            float x = 0.0F;
+            float y = 0.0F;
+            if (words >> kind >> x >> y && kind == "v") highest = std::max(highest, y);
+        }
+        return highest;
+    };
+    CHECK(highestVertex(" --hold head,rightHand") > 1.2F);
+    CHECK(highestVertex("") < 1.0F);
+    const CommandResult unknown = lutkaCommand(common + " --hold tail");
+    CHECK(unknown.code == 2);
+    CHECK(contains(unknown.err, "'tail'"));
+    CHECK(contains(unknown.err, "rightHand"));
 }
 
 TEST_CASE("an output that can't be written ends with 5 and leaves nothing") {

@@ -69,6 +69,7 @@ void visitSettings(Options& options, const Visit& visit) {
     visit("count", options.scene.count);
     visit("seed", options.scene.seed);
     visit("solver", options.scene.solver);
+    visit("hold", options.hold);
     visit("pose", options.pose);
     visit("from-clip", options.fromClip);
     visit("clip", options.clip);

@@ -1,12 +1,15 @@
 #include "run_simulation.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <sstream>
 
 #include "bake_outputs.hpp"
 #include "core/files.hpp"
@@ -170,6 +173,34 @@ void standOnFloor(scene::EntityScene& entities) {
     entities.simulation.focus = {0, 0.9F, 0};
 }
 
+std::vector<std::string> namesIn(const std::string& list) {
+    std::vector<std::string> names;
+    std::istringstream in(list);
+    for (std::string name; std::getline(in, name, ',');) {
+        if (!name.empty()) names.push_back(name);
+    }
+    return names;
+}
+
+// --hold: in place of the pins that the scene has itself.
+void holdBodies(const SimulateOptions& options, const scene::SceneCast& cast, scene::EntityScene& entities) {
+    if (options.hold.empty()) return;
+    const std::vector<std::string> names = namesIn(options.hold);
+    for (const std::string& name : names) {
+        const bool known = std::any_of(cast.assets.begin(), cast.assets.end(), [&](const auto& asset) {
+            return physics::bodyNamed(asset->profile, name) >= 0;
+        });
+        if (known) continue;
+        std::vector<std::string> bodies;
+        for (const physics::BodyProfile& body : cast.assets.front()->profile.bodies)
+            bodies.push_back(body.name);
+        leave({ErrorCode::usage, fmt::format("no body has the name '{}'", name), "--hold",
+               fmt::format("the bodies are {}", fmt::join(bodies, ", "))});
+    }
+    for (scene::Ragdoll& ragdoll : entities.all<scene::Ragdoll>())
+        ragdoll.pins = names;
+}
+
 // One pass of the clip, where nothing else was asked for.
 float secondsOf(const SimulateOptions& options, const Run& run, float ofScene) {
     if (options.seconds) return *options.seconds;
@@ -199,6 +230,7 @@ Run prepare(SimulateOptions& options, const std::filesystem::path& picture) {
         warnOfHeight(*asset);
     }
     if (!options.clip.empty() && options.scene.scene == "drop") standOnFloor(entities);
+    holdBodies(options, run.cast, entities);
     auto scenario = orLeave(scene::compileScene(entities, run.cast.figures(), run.cast.assetOfRagdoll));
     const float sceneSeconds = scenario.seconds;
     const scene::SimulationOptions simulation = options.simulation(entities);
