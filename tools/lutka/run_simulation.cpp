@@ -185,6 +185,7 @@ std::vector<std::string> namesIn(const std::string& list) {
 // --hold: in place of the pins that the scene has itself.
 void holdBodies(const SimulateOptions& options, const scene::SceneCast& cast, scene::EntityScene& entities) {
     if (options.hold.empty()) return;
+    if (cast.assets.empty()) leave({ErrorCode::usage, "the scene has no character", "--hold", "name a MODEL"});
     const std::vector<std::string> names = namesIn(options.hold);
     for (const std::string& name : names) {
         const bool known = std::any_of(cast.assets.begin(), cast.assets.end(), [&](const auto& asset) {
