@@ -68,9 +68,13 @@ TEST_CASE("both standard streams are collected, whatever becomes of the process,
     const ProcessEnd crashed = shell("echo assertion >&2; kill -ABRT $$");
     CHECK(crashed.signal == SIGABRT);
     CHECK(crashed.printed == "assertion\n");
-    ProcessLimits brief;
-    brief.seconds = 1;
-    CHECK(shell("echo waiting; exec sleep 60", brief).printed == "waiting\n");
+    const test::ScratchFolder folder;
+    const std::string said = folder / "said";
+    const auto stopped = runConfined({"/bin/sh", "-c", "echo waiting; echo >'" + said + "'; exec sleep 60"}, {},
+                                     [&] { return std::filesystem::exists(said); });
+    REQUIRE(stopped);
+    CHECK(stopped.value().kind == ProcessEnd::Kind::stopped);
+    CHECK(stopped.value().printed == "waiting\n");
     const ProcessEnd loud = shell("head -c 3000000 /dev/zero; printf result >&3");
     CHECK(loud.output == "result");
     CHECK(loud.printed.size() <= kMostPrinted);
