@@ -36,26 +36,17 @@ bool endsWith(const std::string& text, std::string_view ending) {
     return text.size() > ending.size() && text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-}  // namespace
-
-std::span<const ExportFormatInfo> exportFormats() {
-    return kFormats;
+// A capsule without a length is a sphere: MuJoCo refuses it otherwise, and others have no cylinder of length 0.
+physics::RagdollProfile withSpheres(physics::RagdollProfile profile) {
+    constexpr float kNoLength = 1e-5F;  // metres
+    for (physics::BodyProfile& body : profile.bodies) {
+        const bool round = body.shape.kind == physics::BodyShape::Kind::capsule && body.shape.halfLength < kNoLength;
+        if (round) body.shape.kind = physics::BodyShape::Kind::sphere;
+    }
+    return profile;
 }
 
-std::optional<ExportFormat> exportFormatNamed(std::string_view name) {
-    for (const ExportFormatInfo& info : kFormats)
-        if (info.name == name) return info.format;
-    return std::nullopt;
-}
-
-std::optional<ExportFormat> exportFormatOf(const std::filesystem::path& file) {
-    const std::string name = lower(file.filename().string());
-    for (const ExportFormatInfo& info : kFormats)
-        if (endsWith(name, info.ending)) return info.format;
-    return std::nullopt;
-}
-
-Result<Exported> exportRagdoll(ExportFormat format, const ExportSource& source) {
+Result<Exported> writeAs(ExportFormat format, const ExportSource& source) {
     switch (format) {
         case ExportFormat::mjcf:
             return writeMjcf(source);
@@ -77,6 +68,30 @@ Result<Exported> exportRagdoll(ExportFormat format, const ExportSource& source) 
             return writeUsd(source);
     }
     return Error{ErrorCode::internal, "there is no writer for this format", "", ""};
+}
+
+}  // namespace
+
+std::span<const ExportFormatInfo> exportFormats() {
+    return kFormats;
+}
+
+std::optional<ExportFormat> exportFormatNamed(std::string_view name) {
+    for (const ExportFormatInfo& info : kFormats)
+        if (info.name == name) return info.format;
+    return std::nullopt;
+}
+
+std::optional<ExportFormat> exportFormatOf(const std::filesystem::path& file) {
+    const std::string name = lower(file.filename().string());
+    for (const ExportFormatInfo& info : kFormats)
+        if (endsWith(name, info.ending)) return info.format;
+    return std::nullopt;
+}
+
+Result<Exported> exportRagdoll(ExportFormat format, const ExportSource& source) {
+    const physics::RagdollProfile profile = withSpheres(source.profile);
+    return writeAs(format, {source.character, profile, source.rig});
 }
 
 }  // namespace lutka::exporting

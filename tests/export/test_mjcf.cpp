@@ -70,6 +70,22 @@ TEST_CASE("MJCF: bodies carry the profile's masses, moments and shapes") {
     CHECK(bodies == doll.profile.bodies.size());
 }
 
+TEST_CASE("MJCF: a capsule without a length is a sphere, which MuJoCo takes") {
+    physics::RagdollProfile profile = DollSource().profile;
+    profile.bodies[0].shape.kind = physics::BodyShape::Kind::capsule;
+    profile.bodies[0].shape.halfLength = 0.0F;
+    const DollSource doll(profile);
+    std::size_t spheres = 0;
+    for (const XmlTag& tag : xmlTags(mjcfOf(doll))) {
+        if (tag.name != "geom" || tag.attributes.count("type") == 0) continue;
+        if (tag["type"] == "capsule") CHECK(tag.numbers("size").at(1) > 0.0F);
+        if (tag["type"] != "sphere") continue;
+        ++spheres;
+        CHECK(tag.numbers("size") == std::vector<float>{profile.bodies[0].shape.radius});
+    }
+    CHECK(spheres == 1);
+}
+
 TEST_CASE("MJCF: the keyframe is the bind pose, standing on the floor of a z-up world") {
     const DollSource doll;
     const auto frames = posed(xmlTags(mjcfOf(doll)));

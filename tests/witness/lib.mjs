@@ -5,9 +5,13 @@ import path from 'node:path';
 
 export const lutka = process.env.LUTKA ?? path.resolve(import.meta.dirname, '../../build/lutka');
 
+// LUTKA_RIG=any: the models are creatures.
+const ofAnyRig = new Set(['build', 'export', 'simulate', 'report']);
+const rig = (command) => (process.env.LUTKA_RIG && ofAnyRig.has(command) ? ['--rig', process.env.LUTKA_RIG] : []);
+
 /** Runs lutka; what it prints to stdout. */
-export function run(...args) {
-  return execFileSync(lutka, args, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'], maxBuffer: 1 << 28 });
+export function run(command, ...args) {
+  return execFileSync(lutka, [command, ...args, ...rig(command)], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'], maxBuffer: 1 << 28 });
 }
 
 /** Collects what does not hold; `end()` prints a line and sets the exit code. */
