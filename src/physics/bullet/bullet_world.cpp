@@ -64,6 +64,7 @@ class BulletWorld final : public World {
     void applyImpulseAt(int doll, int body, const vec3& impulse, const vec3& worldPoint) override;
     void applyForceAt(int doll, int body, const vec3& force, const vec3& worldPoint) override;
     void setMotorAt(int doll, int constraint, const std::optional<JointMotor>& motor) override;
+    void setBodyTargetAt(int doll, int body, const std::optional<BodyTarget>& target) override;
     void setDollFilterAt(int doll, const CollisionFilter& filter) override;
     [[nodiscard]] CollisionFilter dollFilterAt(int doll) const override { return dolls_[doll]->filter(); }
     void setPropFilterAt(int prop, const CollisionFilter& filter) override;
@@ -205,6 +206,8 @@ void BulletWorld::addWork(float dt) {
     };
     for (const PulledBody& drag : drags_)
         dragWork_ += work(drag.constraint->force() * dt);
+    for (const auto& doll : dolls_)
+        if (doll->led().any()) dragWork_ += doll->led().work();
     for (const MotorConstraint* motor : motors_)
         motorWork_ += work(motor->impulse());
     for (const Force& force : forces_)
@@ -232,6 +235,8 @@ void BulletWorld::advance(float dt, const std::function<void()>& afterSubstep) {
     const int substeps = substepsPerStep();
     gatherer_.clear();
     parts_.world->clearTimes();
+    for (const auto& doll : dolls_)
+        if (doll->led().any()) doll->wake();
     stepMs_ = 0.0;
     for (int i = 0; i < substeps; ++i) {
         const auto start = Clock::now();
@@ -240,6 +245,8 @@ void BulletWorld::advance(float dt, const std::function<void()>& afterSubstep) {
             motor->setRemaining(remaining);
         for (const PulledBody& drag : drags_)
             drag.constraint->setRemaining(remaining);
+        for (const auto& doll : dolls_)
+            if (doll->led().any()) doll->led().lead(dt / static_cast<float>(substeps), remaining);
         substep(dt / static_cast<float>(substeps));
         stepMs_ += std::chrono::duration<double, std::milli>(Clock::now() - start).count();
         if (afterSubstep) afterSubstep();
@@ -268,6 +275,15 @@ void BulletWorld::setMotorAt(int doll, int constraint, const std::optional<Joint
     dolls_[doll]->wake();
     dolls_[doll]->setMotor(constraint, motor);
     listMotors();
+}
+
+void BulletWorld::setBodyTargetAt(int doll, int body, const std::optional<BodyTarget>& target) {
+    if (isStock()) {
+        refuse("setBodyTarget", "Bullet's own solver leads no bodies");
+        return;
+    }
+    dolls_[doll]->wake();
+    dolls_[doll]->setTarget(body, target);
 }
 
 void BulletWorld::listMotors() {

@@ -12,6 +12,11 @@
 namespace lutka::physics {
 namespace {
 
+bool isKinematicBody(const btCollisionObject& object) {
+    const btRigidBody* body = btRigidBody::upcast(&object);
+    return body != nullptr && LedBodies::isHeavy(*body);
+}
+
 // Pairs that never collide don't even become pairs of the broadphase.
 struct PairFilter final : btOverlapFilterCallback {
     bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
@@ -20,6 +25,9 @@ struct PairFilter final : btOverlapFilterCallback {
             return false;
         const auto* first = static_cast<const btCollisionObject*>(a->m_clientObject);
         const auto* second = static_cast<const btCollisionObject*>(b->m_clientObject);
+        // What follows its target exactly is stopped by nothing.
+        const bool isFirstFixed = first->isStaticObject() || isKinematicBody(*first);
+        if (isFirstFixed && (second->isStaticObject() || isKinematicBody(*second))) return false;
         const auto* doll = static_cast<const Ragdoll*>(first->getUserPointer());
         if (doll == nullptr || doll != second->getUserPointer()) return true;
         return doll->mayCollide(sideOf(*first).body, sideOf(*second).body);

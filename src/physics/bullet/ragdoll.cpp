@@ -87,16 +87,21 @@ Ragdoll::~Ragdoll() {
 
 void Ragdoll::addBodies(DollId id, std::span<const BodyState> states, const BulletTuning& tuning, bool stock,
                         bool sleeping) {
+    std::vector<btRigidBody*> all;
+    std::vector<vec3> inertias;
     for (std::size_t i = 0; i < states.size(); ++i) {
         const BodyProfile& body = profile_.bodies[i];
         const vec3 inertia = conditionedInertia(profile_, body, stock ? 0.0F : tuning.leastGyration);
+        inertias.push_back(inertia);
         bodies_.push_back(makeBody(body.shape, body.massKg, inertia, states[i]));
         btRigidBody& made = *bodies_.back().body;
         name(made, id, static_cast<int>(i));
         made.setUserPointer(this);
         if (!stock) made.setDamping(tuning.linearDamping, tuning.angularDamping);
         if (!sleeping) made.setActivationState(DISABLE_DEACTIVATION);
+        all.push_back(&made);
     }
+    led_ = std::make_unique<LedBodies>(std::move(all), profile_, std::move(inertias), fromBullet(world_.getGravity()));
     // Only now, for the pair filter asks for all of them.
     for (const BodyInWorld& made : bodies_)
         world_.addRigidBody(made.body.get(), static_cast<int>(filter_.layers), static_cast<int>(filter_.mask));
@@ -193,6 +198,17 @@ void Ragdoll::setMotor(int constraint, const std::optional<JointMotor>& motor) {
         if (!stock_) world_.addConstraint(slot.get(), true);
     }
     slot->set(*motor);
+}
+
+void Ragdoll::setTarget(int body, const std::optional<BodyTarget>& target) {
+    if (!led_->set(body, target)) return;
+    world_.refreshBroadphaseProxy(bodies_[body].body.get());  // what it collides with has changed
+    for (std::size_t i = 0; i < constraints_.size(); ++i) {
+        const ConstraintProfile& joint = profile_.constraints[i];
+        const bool held = led_->isKinematic(joint.parent) && led_->isKinematic(joint.child);
+        if (constraints_[i]->isEnabled() == held && i < joints_.size()) joints_[i]->forgetImpulses();
+        constraints_[i]->setEnabled(!held);
+    }
 }
 
 void Ragdoll::setFilter(const CollisionFilter& filter) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "physics/bullet/bullet_world.hpp"
+#include "physics/bullet/led_bodies.hpp"
 #include "physics/bullet/motor_constraint.hpp"
 #include "physics/bullet/ragdoll_joint.hpp"
 #include "physics/world/world.hpp"
@@ -60,6 +61,9 @@ class Ragdoll {
     void setState(const DollState& state, bool maySleep);
 
     void setMotor(int constraint, const std::optional<JointMotor>& motor);
+    void setTarget(int body, const std::optional<BodyTarget>& target);
+    [[nodiscard]] LedBodies& led() { return *led_; }
+    [[nodiscard]] const LedBodies& led() const { return *led_; }
     /// One a constraint, null where there is none.
     [[nodiscard]] std::span<const std::unique_ptr<MotorConstraint>> motors() const { return motors_; }
 
@@ -71,6 +75,7 @@ class Ragdoll {
     btDiscreteDynamicsWorld& world_;
     const RagdollProfile& profile_;
     std::vector<BodyInWorld> bodies_;
+    std::unique_ptr<LedBodies> led_;
     std::vector<std::unique_ptr<btTypedConstraint>> constraints_;
     std::vector<RagdollJoint*> joints_;  // the constraints that are ours
     std::vector<std::unique_ptr<MotorConstraint>> motors_;

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "physics/bullet/led_bodies.hpp"
 #include "physics/bullet/substep_solver.hpp"
 
 namespace lutka::physics {
@@ -131,6 +132,7 @@ void SubstepSolver::iterate(std::span<const Island> islands, bool mending) {
 // of an island but a foot or a hand rests, that one is calmed as well: it would swing from its joint for seconds.
 void SubstepSolver::calm(Island& island, float seconds) {
     for (const SolverBody& body : bodiesOf(island)) {
+        if (LedBodies::isHeavy(*body.body)) continue;
         const float mass = 1.0F / body.inverseMass;
         island.mass += mass;
         island.motion += mass * dot(body.velocity, body.velocity);
@@ -141,7 +143,7 @@ void SubstepSolver::calm(Island& island, float seconds) {
     for (SolverBody& body : bodiesOf(island)) {
         const bool slow = dot(body.velocity, body.velocity) < tuning_.restSpeed * tuning_.restSpeed &&
                           dot(body.turn, body.turn) < tuning_.restTurn * tuning_.restTurn;
-        if (!slow && !amongResting) continue;
+        if ((!slow && !amongResting) || LedBodies::isHeavy(*body.body)) continue;
         body.velocity *= keep;
         body.turn *= keep;
     }

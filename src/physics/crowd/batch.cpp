@@ -50,6 +50,7 @@ BatchView Batch::view(const Topology& topology) {
             static_cast<int>(drags.size()),
             drags.data(),
             motors.empty() ? nullptr : motors.data(),
+            targets.empty() ? nullptr : targets.data(),
             &rest};
 }
 

@@ -37,6 +37,7 @@ struct Batch {
     bool nearShapes = false;               ///< Whether some of its dolls are near static geometry other than planes.
     std::vector<DragLanes> drags;          ///< Of this step, one a pull.
     std::vector<MotorLanes> motors;        ///< Of this step, one a joint, or none at all.
+    std::vector<TargetLanes> targets;      ///< Of this step, one a body, or none at all.
     RestLanes rest{};
     int doll[kLanes]{};  ///< Which doll is in which lane.
     int used = 0;

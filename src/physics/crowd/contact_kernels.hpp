@@ -81,16 +81,20 @@ LUTKA_LANES void preparePair(PairContactLanes& pair, bool isFirst) {
     const V3 armB = load(pair.armB);
     const Symmetric inertiaA = gatherInverseInertia(pair.bodyA);
     const Symmetric inertiaB = gatherInverseInertia(pair.bodyB);
-    const F inverseMasses = load(pair.inverseMassA) + load(pair.inverseMassB);
+    const F inverseMassA = load(pair.inverseMassA);
+    const F inverseMassB = load(pair.inverseMassB);
+    const F zero = all(0.0F);
     for (int i = 0; i < 3; ++i) {
         const V3 leverA = cross(armA, direction[i]);
         const V3 leverB = cross(armB, direction[i]);
-        const V3 turnA = inertiaA * leverA;
-        const V3 turnB = inertiaB * leverB;
+        // Kinematic bodies have no inverse mass, and none of their inertia counts either.
+        const V3 turnA = choose(inverseMassA > zero, inertiaA * leverA, {zero, zero, zero});
+        const V3 turnB = choose(inverseMassB > zero, inertiaB * leverB, {zero, zero, zero});
         store(pair.turnA[i], turnA);
         store(pair.turnB[i], turnB);
-        const F k = inverseMasses + dot(leverA, turnA) + dot(leverB, turnB);
-        const F mass = load(pair.active) > all(0.0F) ? all(1.0F) / most(k, all(1e-12F)) : all(0.0F);
+        const F k = inverseMassA + inverseMassB + dot(leverA, turnA) + dot(leverB, turnB);
+        const Mask moves = (load(pair.active) > zero) & (k > zero);
+        const F mass = moves ? all(1.0F) / most(k, all(1e-12F)) : zero;
         store(i == 0 ? pair.normalMass : pair.tangentMass[i - 1], mass);
     }
 }

@@ -14,6 +14,7 @@
 #include "physics/crowd/sleep.hpp"
 #include "physics/crowd/solve.hpp"
 #include "physics/crowd/state.hpp"
+#include "physics/crowd/target.hpp"
 
 namespace lutka::physics {
 namespace crowd {
@@ -78,6 +79,10 @@ class CrowdWorld final : public World {
     void setMotorAt(int doll, int constraint, const std::optional<JointMotor>& motor) override {
         wakeAt(doll);
         crowd::setMotor(state_, state_.ragdolls[doll], constraint, motor);
+    }
+    void setBodyTargetAt(int doll, int body, const std::optional<BodyTarget>& target) override {
+        wakeAt(doll);
+        crowd::setTarget(state_, state_.ragdolls[doll], body, target);
     }
     void setDollFilterAt(int doll, const CollisionFilter& filter) override;
     [[nodiscard]] CollisionFilter dollFilterAt(int doll) const override { return dollOf(doll).filter; }
@@ -159,7 +164,10 @@ void CrowdWorld::addDollAs(DollId id, const RagdollProfile& profile, std::span<c
 void CrowdWorld::advance(float dt, const std::function<void()>& afterSubstep) {
     for (const DragRecord& record : state_.drags)
         wakeDoll(record.doll);
+    for (const TargetRecord& record : state_.targets)
+        wakeDoll(record.doll);
     gatherActive(state_);
+    placeTargets(state_, dt / static_cast<float>(substepsPerStep()));
     state_.reports.clear();
     if (state_.active.empty()) {  // all asleep: nothing can change
         times_ = {};

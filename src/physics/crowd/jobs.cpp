@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "physics/crowd/target.hpp"
+
 namespace lutka::physics::crowd {
 namespace {
 
@@ -26,8 +28,13 @@ void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTou
     if (shapeA.kind == BodyShape::Kind::box || shapeB.kind == BodyShape::Kind::box) pair.follows = 0;
     pair.radius.lane[lane] = touch.touch.radius;
     writeVector(pair.normal, lane, touch.touch.normal);
-    pair.inverseMassA.lane[lane] = state.groupOf(a).topology.bodies[touch.bodyA].inverseMass;
-    pair.inverseMassB.lane[lane] = state.groupOf(b).topology.bodies[touch.bodyB].inverseMass;
+    const auto inverseMassOf = [&](const Doll& doll, int body) {
+        return isKinematic(state.batchOf(doll), body, doll.lane)
+                   ? 0.0F
+                   : state.groupOf(doll).topology.bodies[body].inverseMass;
+    };
+    pair.inverseMassA.lane[lane] = inverseMassOf(a, touch.bodyA);
+    pair.inverseMassB.lane[lane] = inverseMassOf(b, touch.bodyB);
     pair.friction.lane[lane] = kFriction;
     pair.normalImpulse.lane[lane] = touch.carried.normal;
     pair.approach.lane[lane] = touch.carried.approach;

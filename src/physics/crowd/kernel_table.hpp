@@ -17,6 +17,8 @@ static void begin(const BatchView& batch, const SubstepParams& params) {
     for (int j = 0; batch.motors != nullptr && j < batch.jointCount; ++j)
         if (batch.motors[j].active != 0)
             beginMotor(batch.motors[j], batch.joints[j], batch.jointConstants[j], batch, params);
+    for (int b = 0; batch.targets != nullptr && b < batch.bodyCount; ++b)
+        if (batch.targets[b].active != 0) beginTarget(batch.targets[b], batch.bodies[b], params);
 }
 
 static constexpr Kernels kTable{&refresh,       &findBounds,    &findSelfPairs, &findBodyPairs, &touchCores,

@@ -198,6 +198,26 @@ struct MotorLanes {
     int active;     ///< Whether any lane has one.
 };
 
+/// A frame in motion that a body is led to, one a lane; all of zeros where there is none. World axes.
+struct TargetLanes {
+    Wide3 goal;       ///< m/s: the body's velocity in this substep, were it alone with the spring.
+    Wide3 turnGoal;   ///< rad/s
+    Wide weight;      ///< N s per m/s: what the row answers a speed with.
+    Wide turnWeight;  ///< N m s per rad/s
+    Wide kinematic;   ///< 1 where the body follows exactly, else 0.
+    Wide3 impulse;    ///< N s, of this substep.
+    Wide3 torque;     ///< N m s, likewise.
+    Wide3 position;   ///< Of the frame at the step's end.
+    Wide4 rotation;
+    Wide3 rate;        ///< m/s: how the frame moves.
+    Wide3 turnRate;    ///< rad/s
+    Wide pull;         ///< 1/s: speed towards the frame over the distance from it.
+    Wide3 before;      ///< m/s: of the body at the substep's start.
+    Wide3 turnBefore;  ///< rad/s
+    Wide work;         ///< J, of this substep.
+    int active;        ///< Whether any lane has one.
+};
+
 /// Eight contacts between two bodies each, of any dolls; no body comes twice, so that they are solved at once.
 struct PairContactLanes {
     float* bodyA[kLanes];  ///< First member of the lane in its BodyLanes.
@@ -288,7 +308,8 @@ struct BatchView {
     StaticContactLanes* contacts;
     int dragCount;
     DragLanes* drags;
-    MotorLanes* motors;  ///< One a joint, or null where no doll of the batch has any.
+    MotorLanes* motors;    ///< One a joint, or null where no doll of the batch has any.
+    TargetLanes* targets;  ///< One a body, likewise.
     const RestLanes* rest;
 };
 

@@ -6,7 +6,8 @@
 
 namespace lutka::physics::crowd::LUTKA_KERNELS {
 
-// The lanes in which nothing holds the doll that the solver of joints took into account: no static contact, no drag.
+// The lanes in which nothing holds the doll that the solver of joints took into account: no static contact, no drag, no
+// target.
 static Mask unheld(const BatchView& batch) {
     Mask held = noLanes();
     for (int i = 0; i < batch.contactCount; ++i) {
@@ -14,6 +15,8 @@ static Mask unheld(const BatchView& batch) {
     }
     for (int i = 0; i < batch.dragCount; ++i)
         held |= load(batch.drags[i].weight) > all(0.0F);
+    for (int b = 0; batch.targets != nullptr && b < batch.bodyCount; ++b)
+        held |= load(batch.targets[b].weight) > all(0.0F);
     return ~held;
 }
 

@@ -48,6 +48,8 @@ void settle(CrowdState& state, float dt) {
     restless.assign(state.dolls.size(), 0);
     for (const DragRecord& record : state.drags)
         restless[islands.find(record.doll)] = 1;
+    for (const TargetRecord& record : state.targets)
+        restless[islands.find(record.doll)] = 1;
     for (int i = 0; i < static_cast<int>(state.dolls.size()); ++i) {
         const Doll& doll = state.dolls[i];
         if (!doll.asleep() && doll.restSeconds < state.tuning.sleepSeconds) restless[islands.find(i)] = 1;

@@ -10,6 +10,7 @@
 #include "physics/crowd/motor.hpp"
 #include "physics/crowd/reports.hpp"
 #include "physics/crowd/static_contacts.hpp"
+#include "physics/crowd/target.hpp"
 
 namespace lutka::physics::crowd {
 namespace {
@@ -91,6 +92,8 @@ class JobSubstep {
         forBatches([&](const BatchView& view) { kernels.solve(view, params_, 1); });
         for (const Batch* batch : job_.batches)
             job_.motorWork += workOfMotors(*batch);
+        for (const Batch* batch : job_.batches)
+            job_.dragWork += workOfTargets(*batch);
         for (DragRecord* drag : job_.drags)
             job_.dragWork += endDrag(state_, *drag);
         if (mends_) {

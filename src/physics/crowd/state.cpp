@@ -187,6 +187,7 @@ void removeDoll(CrowdState& state, int index) {
     state.carried.assign(state.touches);  // a doll in the same place must not inherit them
     std::erase(state.sweep, index);
     std::erase_if(state.motors, [&](const MotorRecord& record) { return record.doll == index; });
+    std::erase_if(state.targets, [&](const TargetRecord& record) { return record.doll == index; });
     std::erase_if(state.forces, [&](const ForceRecord& record) { return record.doll == index; });
     Doll& doll = state.dolls[index];
     doll.profile = nullptr;

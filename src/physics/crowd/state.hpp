@@ -112,6 +112,13 @@ struct MotorRecord {
     bool bounded = false;  ///< Whether its torque reached the bound at the end of the last step.
 };
 
+/// A frame that a body of a doll is led to.
+struct TargetRecord {
+    int doll = 0;  ///< Into CrowdState::dolls.
+    int body = 0;
+    BodyTarget target;
+};
+
 /// A force that acts throughout a step.
 struct ForceRecord {
     int doll = 0;  ///< Into CrowdState::dolls.
@@ -194,9 +201,10 @@ struct CrowdState {
     std::vector<DynamicProp> propSettings;  ///< One a prop, as it was added.
     std::vector<DragRecord> drags;          ///< In the order of the world's drags.
     double dragWork = 0.0;
-    std::vector<MotorRecord> motors;  ///< By doll and constraint.
-    std::vector<ForceRecord> forces;  ///< Of the coming step.
-    double motorWork = 0.0;           ///< And of forces.
+    std::vector<MotorRecord> motors;    ///< By doll and constraint.
+    std::vector<TargetRecord> targets;  ///< By doll and body.
+    std::vector<ForceRecord> forces;    ///< Of the coming step.
+    double motorWork = 0.0;             ///< And of forces.
     std::vector<ContactReport> reports;
     int bodyTotal = 0;
     int boxTotal = 0;  ///< BoxLanes.

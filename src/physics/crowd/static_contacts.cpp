@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "physics/crowd/detect.hpp"
+#include "physics/crowd/target.hpp"
 
 namespace lutka::physics::crowd {
 namespace {
@@ -127,6 +128,7 @@ class StaticContacts {
             const int from = lane < batch_.used ? lane : 0;
             const Doll& doll = state_.dolls[batch_.doll[from]];
             if ((lanes >> static_cast<unsigned>(from) & 1U) == 0 || !plane.filter.collidesWith(doll.filter)) continue;
+            if (isKinematic(batch_, body, from)) continue;
             contact.offset.lane[lane] = touch.offset;
             contact.key[lane] = key;
             const CarriedStatic* carried = carriedStatic(doll, key, cursor_[from]);
@@ -135,7 +137,7 @@ class StaticContacts {
     }
 
     void findOf(int body, int lane) {
-        if (batch_.nearStatics[lane].empty()) return;
+        if (batch_.nearStatics[lane].empty() || isKinematic(batch_, body, lane)) return;
         const Doll& doll = state_.dolls[batch_.doll[lane]];
         const BodyLanes& lanes = batch_.bodies[body];
         const vec3 moved = glm::abs(doll.rootVelocity) * (kForesight * dt_) + farther_;

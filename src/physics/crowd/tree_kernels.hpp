@@ -22,7 +22,7 @@
 /// down, is done while its numbers are at hand.
 
 #include "physics/crowd/drag_kernels.hpp"
-#include "physics/crowd/motor_kernels.hpp"
+#include "physics/crowd/target_kernels.hpp"
 
 namespace lutka::physics::crowd::LUTKA_KERNELS {
 
@@ -52,6 +52,8 @@ LUTKA_LANES Loaded loadBody(const BatchView& batch, int index, bool gathers, con
     for (int i = 0; i < batch.dragCount; ++i) {
         if (batch.drags[i].body == index) askDrag(body, batch.drags[i], pass, loaded);
     }
+    if (batch.targets != nullptr && batch.targets[index].active != 0)
+        addTarget(askTarget(body, batch.targets[index], pass), loaded);
     return loaded;
 }
 
@@ -83,6 +85,7 @@ LUTKA_LANES void eliminate(const BatchView& batch, int index, const SubstepParam
         const JointTerms driven = askMotor(batch.motors[index], joint, constants, childAngular - parentAngular, pass);
         terms = {terms.torque + driven.torque, terms.weight + driven.weight};
     }
+    if (batch.targets != nullptr) terms = scaled(terms, freeToTurn(batch, constants));
     const V3 parentArm = load(joint.parentArm);
     const V3 childArm = load(joint.childArm);
     V3 r = (load(parent.steadyVelocity) + cross(parentAngular, parentArm)) -
@@ -152,6 +155,7 @@ LUTKA_LANES Mask moveBody(const BatchView& batch, int index, const Motion& chang
     for (int i = 0; i < batch.dragCount; ++i) {
         if (batch.drags[i].body == index) wrong |= updateDrag(body, batch.drags[i], pass);
     }
+    if (batch.targets != nullptr && batch.targets[index].active != 0) updateTarget(body, batch.targets[index]);
     return wrong;
 }
 
@@ -171,7 +175,13 @@ LUTKA_LANES Mask substitute(const BatchView& batch, int index, const SubstepPara
         load(batch.bodies[constants.child].steadyAngular) - load(batch.bodies[constants.parent].steadyAngular);
     if (!pass.mending && batch.motors != nullptr && batch.motors[index].active != 0)
         wrong |= updateMotor(batch.motors[index], joint, constants, relative, pass);
-    return wrong | updateJoint(joint, constants, relative, params, pass);
+    Mask off = updateJoint(joint, constants, relative, params, pass);
+    if (batch.targets != nullptr) {
+        const F free = freeToTurn(batch, constants);
+        forgetHeld(joint, constants, free);
+        off &= free > all(0.0F);
+    }
+    return wrong | off;
 }
 
 // One Newton pass; returns the lanes whose guess was wrong.

@@ -209,6 +209,19 @@ void World::setMotor(DollId doll, int constraint, const std::optional<JointMotor
         refuse(call, fmt::format("constraint {} of a doll with {}", constraint, count));
 }
 
+void World::setBodyTarget(DollId doll, int body, const std::optional<BodyTarget>& target) {
+    constexpr std::string_view call = "setBodyTarget";
+    const int place = checked(call, doll);
+    if (place < 0 || !hasBody(call, place, body)) return;
+    const bool sound =
+        !target || (isFinite(target->worldFromBody) && isFinite(target->linearVelocity) &&
+                    isFinite(target->angularVelocity) && target->weight > 0.0F && target->weight <= 1.0F);
+    if (sound)
+        setBodyTargetAt(place, body, target);
+    else
+        refuse(call, "the target's frame is not finite or its weight not in (0, 1]");
+}
+
 void World::setDollFilter(DollId doll, const CollisionFilter& filter) {
     const int place = checked("setDollFilter", doll);
     if (place >= 0) setDollFilterAt(place, filter);

@@ -27,7 +27,24 @@ struct JointMotor {
     vec3 rate{0, 0, 0};          ///< rad/s, in the parent's frame: how the target turns in the step. Hinge: z alone.
 };
 
-/// All that a doll takes along when it is placed anew or moves to another world, but for its drags.
+/// A frame in motion that a body of a doll is led to.
+///
+/// With weight 1 the body is kinematic: it follows the frame exactly, whatever acts on it, and others feel an infinite
+/// mass. It does not touch static geometry, two kinematic bodies do not push each other, and the joint between two has
+/// no limits. With less it is simulated, and drawn to the frame by a critically damped spring that its own mass feels
+/// with frequencyOf(weight); solved implicitly, so that every weight is stable. Let go of, it goes on as it moves.
+struct BodyTarget {
+    RigidTransform worldFromBody;   ///< At the step's end.
+    vec3 linearVelocity{0, 0, 0};   ///< m/s: how the frame moves in the step, so that it is followed without lag.
+    vec3 angularVelocity{0, 0, 0};  ///< rad/s
+    float weight = 1.0F;            ///< (0, 1]
+};
+/// Hz of the spring of a BodyTarget, weight in (0, 1): 4 at 0.5, growing without bound towards 1.
+[[nodiscard]] constexpr float frequencyOf(float weight) {
+    return 4.0F * weight / (1.0F - weight);
+}
+
+/// All that a doll takes along when it is placed anew or moves to another world, but for its drags and targets.
 struct DollState {
     std::vector<BodyState> bodies;  ///< One a body.
     CollisionFilter filter;
@@ -88,6 +105,10 @@ class World : public WorldView {
     /// Turns a motor in a joint on, changes it or, unset, turns it off; wakes the doll. Off by default.
     void setMotor(DollId doll, int constraint, const std::optional<JointMotor>& motor);
 
+    /// Leads a body to a frame, or, unset, lets go of it; wakes the doll. Holds until it is set again: a frame in
+    /// motion is set before every step. Its work is in dragWork(). The stock world has none and refuses.
+    void setBodyTarget(DollId doll, int body, const std::optional<BodyTarget>& target);
+
     /// What a doll or prop collides with from the next step on; it is woken. Statics and new props bring their own, new
     /// dolls start with the default, which collides with everything.
     void setDollFilter(DollId doll, const CollisionFilter& filter);
@@ -127,6 +148,7 @@ class World : public WorldView {
     virtual void applyImpulseAt(int doll, int body, const vec3& impulse, const vec3& worldPoint) = 0;
     virtual void applyForceAt(int doll, int body, const vec3& force, const vec3& worldPoint) = 0;
     virtual void setMotorAt(int doll, int constraint, const std::optional<JointMotor>& motor) = 0;
+    virtual void setBodyTargetAt(int doll, int body, const std::optional<BodyTarget>& target) = 0;
     virtual void setDollFilterAt(int doll, const CollisionFilter& filter) = 0;
     [[nodiscard]] virtual CollisionFilter dollFilterAt(int doll) const = 0;
     virtual void setPropFilterAt(int prop, const CollisionFilter& filter) = 0;
