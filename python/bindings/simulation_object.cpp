@@ -106,12 +106,16 @@ void takeMuscles(Keywords& keywords, const std::string& preset, const scene::Cli
                  scene::SimulationOptions& options) {
     const auto& names = physics::kMusclePresetNames;
     const auto known = std::find(names.begin(), names.end(), preset);
-    if (known == names.end()) keywords.refuseWord("muscles", preset, {names.begin(), names.end()});
     scene::PuppetPlay puppet;
+    puppet.ownMuscles = preset == "profile";
+    if (known == names.end() && !puppet.ownMuscles)
+        keywords.refuseWord("muscles", preset, {"limp", "weak", "powered", "stiff", "profile"});
     puppet.start = play.start;
-    puppet.puppet.muscles = physics::musclesOf(static_cast<physics::MusclePreset>(known - names.begin()));
+    if (!puppet.ownMuscles)
+        puppet.puppet.muscles = physics::musclesOf(static_cast<physics::MusclePreset>(known - names.begin()));
     keywords.take("strength", puppet.puppet.muscles.strength, 0.0, 1e6);
-    keywords.take("pin", puppet.puppet.pinForceN, 0.0, 1e6);
+    float pin = 0.0F;
+    if (keywords.take("pin", pin, 0.0, 1e6)) puppet.pinForceN = pin;
     options.puppet = puppet;
 }
 

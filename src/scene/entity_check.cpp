@@ -89,7 +89,10 @@ class Checker {
         range(at + "focusPitch", simulation.focusPitch, -0.5F * kPi, 0.5F * kPi);
         if (simulation.puppets) {
             range(at + "puppets/strength", simulation.puppets->strength, 0, kLargest);
-            range(at + "puppets/pinForceN", simulation.puppets->pinForceN, 0, kLargest);
+            range(at + "puppets/pinForceN", simulation.puppets->pinForceN.value_or(0.0F), 0, kLargest);
+            for (std::size_t i = 0; i < simulation.puppets->kinematic.size(); ++i)
+                range(fmt::format("{}puppets/kinematic/{}/weight", at, i), simulation.puppets->kinematic[i].weight, 0,
+                      1);
             range(at + "puppets/pace", simulation.puppets->pace, -20, 20);
         }
     }

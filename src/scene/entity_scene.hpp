@@ -112,16 +112,24 @@ struct RagdollHit {
     friend bool operator==(const RagdollHit&, const RagdollHit&) = default;
 };
 
+/// Bodies that follow a clip themselves: see physics::BodyTarget.
+struct LedPart {
+    std::string name;     ///< Of a body, of a physics::MuscleGroup (trunk, head, arm, leg), or all.
+    float weight = 1.0F;  ///< [0, 1]; 1: kinematic. Where several name a body the last one counts.
+    friend bool operator==(const LedPart&, const LedPart&) = default;
+};
+
 /// How all characters of a scene follow a clip with their muscles. A clip that a character lacks is the mannequin's,
 /// retargeted.
 struct ScenePuppets {
-    std::string clip;  ///< Looped; empty: the start pose is held.
-    physics::MusclePreset muscles = physics::MusclePreset::powered;
-    float strength = 1.0F;      ///< Factor on the preset's, [0, 1e6].
-    float pinForceN = 3000.0F;  ///< PuppetSettings::pinForceN, [0, 1e6].
-    bool getUp = false;         ///< Limp ones that have come to rest get up.
-    bool limp = false;          ///< They begin limp.
-    float pace = 0.0F;          ///< m/s ahead, [-20, 20]: what a clip in place walks at.
+    std::string clip;                              ///< Looped; empty: the start pose is held.
+    std::optional<physics::MusclePreset> muscles;  ///< Unset: each profile's own, powered where it has none.
+    float strength = 1.0F;                         ///< Factor on theirs, [0, 1e6].
+    std::optional<float> pinForceN;  ///< PuppetSettings::pinForceN, [0, 1e6]; unset: each profile's, else its default.
+    std::vector<LedPart> kinematic;  ///< Bodies that follow the clip themselves.
+    bool getUp = false;              ///< Limp ones that have come to rest get up.
+    bool limp = false;               ///< They begin limp.
+    float pace = 0.0F;               ///< m/s ahead, [-20, 20]: what a clip in place walks at.
 
     friend bool operator==(const ScenePuppets&, const ScenePuppets&) = default;
 };

@@ -9,6 +9,7 @@
 #include "animation/pose.hpp"
 #include "core/files.hpp"
 #include "physics/collision/shape.hpp"
+#include "physics/collision/static_distance.hpp"
 #include "scene/clip_cast.hpp"
 
 namespace lutka::scene {
@@ -38,6 +39,27 @@ int bodyMet(const physics::RagdollProfile& profile, animation::Role role) {
     return body;
 }
 
+// Whether a part of that name holds the body.
+bool holds(std::string_view name, const physics::BodyProfile& body) {
+    const auto group = static_cast<std::size_t>(physics::muscleGroupOf(body));
+    return name == "all" || name == body.name || name == physics::kMuscleGroupNames[group];
+}
+
+// Every part names a body of some doll.
+Result<void> checkLed(std::span<const RagdollAsset* const> assets, std::span<const LedPart> led) {
+    for (const LedPart& part : led) {
+        const bool known = std::any_of(assets.begin(), assets.end(), [&](const RagdollAsset* asset) {
+            const auto& bodies = asset->profile.bodies;
+            return std::any_of(bodies.begin(), bodies.end(), [&](const auto& body) { return holds(part.name, body); });
+        });
+        if (known) continue;
+        return Error{ErrorCode::usage, fmt::format("no doll has a body or group named '{}'", part.name),
+                     assets.front()->character.file.string(),
+                     bodiesOf(assets.front()->profile) + "; its groups are trunk, head, arm and leg, or say all"};
+    }
+    return {};
+}
+
 // The hips carry the figure over the ground, in the character's standard stance.
 animation::RootMotionSettings travelOf(const RagdollAsset& asset) {
     animation::RootMotionSettings settings;
@@ -58,6 +80,7 @@ Result<std::unique_ptr<PuppetCast>> PuppetCast::create(std::span<const RagdollAs
         return Error{ErrorCode::usage, fmt::format("no doll has a body for {}", animation::roleName(hit.role)),
                      assets.front()->character.file.string(), bodiesOf(assets.front()->profile)};
     }
+    if (auto known = checkLed(assets, play.led); !known) return known.error();
     std::unique_ptr<PuppetCast> cast(new PuppetCast(assets, scenario, std::move(play)));
     const bool wantsIdle = cast->play_.getUp && cast->play_.start.clip.empty();
     if (wantsIdle) cast->play_.start.clip = "idle";
@@ -109,8 +132,10 @@ Result<void> PuppetCast::findClips(const RagdollAsset& asset, const RagdollAsset
 PuppetCast::PuppetCast(std::span<const RagdollAsset* const> assets, const Scenario& scenario, PuppetPlay play)
     : assets_(assets.begin(), assets.end()), placements_(scenario.dolls), play_(std::move(play)) {
     isLevel_ = std::all_of(scenario.statics.begin(), scenario.statics.end(), [](const physics::StaticShape& shape) {
-        return shape.kind == physics::StaticShape::Kind::plane;
+        const vec3 up = shape.worldFromShape.rotation * vec3(0, 1, 0);
+        return shape.kind == physics::StaticShape::Kind::plane && up.y > 1.0F - 1e-4F;
     });
+    if (!isLevel_) statics_ = scenario.statics;
     std::stable_sort(play_.hits.begin(), play_.hits.end(),
                      [](const PuppetHit& a, const PuppetHit& b) { return a.seconds < b.seconds; });
 }
@@ -118,8 +143,8 @@ PuppetCast::PuppetCast(std::span<const RagdollAsset* const> assets, const Scenar
 void PuppetCast::begin(physics::World& world, std::span<const physics::DollId> dolls) {
     end();
     world_ = &world;
-    seconds_ = squares_ = 0.0;
-    count_ = 0;
+    seconds_ = squares_ = gapsM_ = 0.0;
+    count_ = standing_ = 0;
     worst_ = {};
     risen_ = {};
     risenSeconds_ = matchedM_ = 0.0;
@@ -131,11 +156,13 @@ void PuppetCast::begin(physics::World& world, std::span<const physics::DollId> d
         actor.assetIndex = placement.asset;
         actor.floor = floors_[placement.asset].get();
         actor.worldFromModel = placement.worldFromModel;
+        actor.base = placement.worldFromModel.translation.y;
+        if (!isLevel_) actor.terrain = TerrainWalk::of(*actor.asset);
         actor.root = std::max(physics::bodyOf(actor.asset->profile, physics::Role::hips), 0);
         bodies_.resize(actor.asset->profile.bodies.size());
         world.getBodies(dolls[i], bodies_);
-        actor.puppet =
-            std::make_unique<physics::Puppet>(world, dolls[i], actor.asset->profile, actor.root, bodies_, play_.puppet);
+        actor.puppet = std::make_unique<physics::Puppet>(world, dolls[i], actor.asset->profile, actor.root, bodies_,
+                                                         settingsOf(*actor.asset, actor.root));
         for (const BodyState& body : bodies_)
             actor.to.push_back(body.worldFromBody);
         actor.puppet->settings().muscles.strength *= placement.strength;
@@ -152,6 +179,26 @@ void PuppetCast::begin(physics::World& world, std::span<const physics::DollId> d
     for (Actor& actor : actors_)
         actor.puppet->onChange(
             [this, &actor](physics::PuppetState, physics::PuppetState after) { notice(actor, after); });
+}
+
+// What the play asks for, and the profile where it asks for nothing.
+physics::PuppetSettings PuppetCast::settingsOf(const RagdollAsset& asset, int root) const {
+    const physics::RagdollProfile& profile = asset.profile;
+    physics::PuppetSettings settings = play_.puppet;
+    if (const auto own = physics::musclesOf(profile, play_.gravity); own && play_.ownMuscles) {
+        settings.muscles = *own;
+        settings.muscles.strength *= play_.puppet.muscles.strength;
+    }
+    settings.gravity = std::max(-play_.gravity.y, 0.1F);
+    settings.pinForceN = play_.pinForceN.value_or(profile.bodies[root].pinForceN.value_or(settings.pinForceN));
+    for (const physics::BodyProfile& body : profile.bodies)
+        settings.pins.push_back(body.pinForceN.value_or(0.0F));
+    if (play_.led.empty()) return settings;
+    settings.led.assign(profile.bodies.size(), 0.0F);
+    for (const LedPart& part : play_.led)
+        for (std::size_t body = 0; body < settings.led.size(); ++body)
+            if (holds(part.name, profile.bodies[body])) settings.led[body] = part.weight;
+    return settings;
 }
 
 void PuppetCast::startClip(Actor& actor, float seconds, physics::World& world, physics::DollId doll) {
@@ -202,13 +249,24 @@ void PuppetCast::notice(Actor& actor, physics::PuppetState after) {
 }
 
 // The bodies of the player's pose now, in the world.
-void PuppetCast::pose(Actor& actor, std::vector<RigidTransform>& bodies) {
+void PuppetCast::pose(Actor& actor, std::vector<RigidTransform>& bodies, float dt) {
     const animation::Skeleton& skeleton = actor.asset->character.skeleton;
     joints_.resize(skeleton.parents.size());
     actor.player->pose(joints_);
+    RigidTransform worldFromModel = actor.worldFromModel;
+    if (actor.terrain) {
+        // Which feet stand is measured by it in any case.
+        fitted_ = joints_;
+        const auto ground = [this](const vec3& point) { return footing(point); };
+        const RigidTransform lifted = actor.terrain->fit(ground, dt, actor.base + actor.lift, worldFromModel, fitted_);
+        if (play_.meetsGround) {
+            worldFromModel = lifted;
+            std::swap(joints_, fitted_);
+        }
+    }
     animation::localToModel(skeleton, joints_, joints_);
     bodies_.resize(actor.asset->profile.bodies.size());
-    physics::bodiesFromPose(actor.asset->rig, joints_, actor.worldFromModel, bodies_);
+    physics::bodiesFromPose(actor.asset->rig, joints_, worldFromModel, bodies_);
     bodies.resize(bodies_.size());
     for (std::size_t i = 0; i < bodies.size(); ++i)
         bodies[i] = bodies_[i].worldFromBody;
@@ -254,8 +312,40 @@ void PuppetCast::playOn(Actor& actor, float dt) {
     const vec3 ahead =
         actor.worldFromModel.rotation * (glm::conjugate(actor.asset->map.standardFromModel) * vec3(0, 0, 1));
     actor.worldFromModel.translation += ahead * (play_.pace * dt);
-    pose(actor, actor.raw);
+    pose(actor, actor.raw, dt);
     show(actor, dt);
+}
+
+// The ground at a point: the highest that is no more than a tall step above it.
+std::optional<animation::GroundHit> PuppetCast::footing(const vec3& point) const {
+    constexpr float kAboveM = 0.8F;
+    constexpr float kBelowM = 2.0F;
+    constexpr int kMostDollsAbove = 8;
+    vec3 from = point + vec3(0, kAboveM, 0);
+    for (int i = 0; i < kMostDollsAbove; ++i) {
+        const auto hit = world_->rayTest(from, point - vec3(0, kBelowM, 0));
+        if (!hit) return std::nullopt;
+        if (!hit->doll.isSet() && hit->normal.y > 0.1F) return animation::GroundHit{hit->position.y, hit->normal};
+        from = hit->position - vec3(0, 1e-3F, 0);
+    }
+    return std::nullopt;
+}
+
+// How near feet that stand in the clip are to the ground. Bodies are in frames_ after a step.
+void PuppetCast::measureFooting(const Actor& actor) {
+    if (!actor.terrain || actor.rising || actor.puppet->state() != PuppetState::animated) return;
+    for (int leg = 0; leg < 2; ++leg) {
+        const int foot = actor.feet[leg].body;
+        if (foot < 0 || !actor.terrain->stands(leg)) continue;
+        float nearest = 1e9F;
+        for (const physics::StaticShape& shape : statics_)
+            nearest = std::min(
+                nearest, physics::distanceToStatic(actor.asset->profile.bodies[foot].shape, frames_[foot], shape));
+        worst_.footGapM = std::max(worst_.footGapM, nearest);
+        worst_.footDepthM = std::max(worst_.footDepthM, -nearest);
+        gapsM_ += static_cast<double>(std::max(nearest, 0.0F));
+        ++standing_;
+    }
 }
 
 // What flies against a puppet weakens it as a hit does.
@@ -273,6 +363,24 @@ void PuppetCast::feelContacts() {
         feel(report.a, report.b, report.impulse);
         feel(report.b, report.a, report.impulse);
     }
+    // Only who holds itself up asks for the ground.
+    for (Actor& actor : actors_)
+        if (actor.puppet->settings().pinForceN <= 0.0F) feelGround(actor);
+}
+
+// Which feet have something under them.
+void PuppetCast::feelGround(Actor& actor) {
+    std::array<bool, 2> grounded{false, false};
+    for (const physics::ContactReport& report : world_->contactReports()) {
+        for (std::size_t side = 0; side < grounded.size(); ++side) {
+            const auto isFoot = [&](const physics::ContactReport::Side& one) {
+                return one.kind == physics::ContactReport::Side::Kind::doll && one.doll == actor.puppet->doll() &&
+                       one.body == actor.puppet->feet()[side];
+            };
+            grounded[side] = grounded[side] || isFoot(report.a) || isFoot(report.b);
+        }
+    }
+    actor.puppet->setGrounded(grounded);
 }
 
 void PuppetCast::measure() {
@@ -287,6 +395,11 @@ void PuppetCast::measure() {
             frames_.push_back(body.worldFromBody);
         errors_.resize(profile.constraints.size());
         if (actor.rising) measureRising(actor);
+        measureFeet(actor);
+        measureFooting(actor);
+        for (std::size_t i = 0; i < frames_.size(); ++i)
+            if (actor.puppet->weightOf(static_cast<int>(i)) >= 1.0F)
+                worst_.ledM = std::max(worst_.ledM, glm::distance(frames_[i].translation, actor.to[i].translation));
         physics::jointErrors(profile, actor.to, frames_, errors_);
         for (std::size_t i = 0; i < errors_.size(); ++i) {
             const float degreesOff = degrees(errors_[i]);
@@ -304,6 +417,7 @@ void PuppetCast::measure() {
 PuppetFigures PuppetCast::figures() const {
     PuppetFigures figures = worst_;
     figures.rmsDeg = count_ > 0 ? static_cast<float>(std::sqrt(squares_ / static_cast<double>(count_))) : 0.0F;
+    figures.footGapMeanM = standing_ > 0 ? static_cast<float>(gapsM_ / static_cast<double>(standing_)) : 0.0F;
     figures.limp = static_cast<int>(std::count_if(actors_.begin(), actors_.end(), [](const Actor& actor) {
         return actor.puppet->state() == physics::PuppetState::limp;
     }));

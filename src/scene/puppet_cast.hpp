@@ -15,6 +15,7 @@
 #include "scene/get_up_clips.hpp"
 #include "scene/ragdoll_asset.hpp"
 #include "scene/scenario.hpp"
+#include "scene/terrain_walk.hpp"
 
 namespace lutka::scene {
 
@@ -23,10 +24,17 @@ struct PuppetPlay {
     ClipStart start;  ///< The clip, looped from there; without a name the start pose is held, or, with getUp, `idle`.
     physics::PuppetSettings puppet;
     std::vector<PuppetHit> hits;
-    bool getUp = false;    ///< Limp dolls that have come to rest get up and go on with the clip.
-    bool limp = false;     ///< They begin limp.
-    float pace = 0.0F;     ///< m/s ahead, for clips that walk in place.
-    bool borrows = false;  ///< Clips that a character lacks are the mannequin's, retargeted; with getUp always.
+    bool getUp = false;  ///< Limp dolls that have come to rest get up and go on with the clip.
+    bool limp = false;   ///< They begin limp.
+    float pace = 0.0F;   ///< m/s ahead, for clips that walk in place.
+    /// The muscles are each profile's own where it has some; `puppet.muscles.strength` is a factor on them.
+    bool ownMuscles = false;
+    /// N, of the hips' pin; unset: the profile's, else `puppet.pinForceN`.
+    std::optional<float> pinForceN;
+    std::vector<LedPart> led;    ///< Bodies that follow the clip themselves; the others by their muscles.
+    vec3 gravity{0, -9.81F, 0};  ///< Of the world: what muscles that carry it work against.
+    bool meetsGround = true;     ///< On ground that is not level the clip's feet are fitted to it (TerrainWalk).
+    bool borrows = false;        ///< Clips that a character lacks are the mannequin's, retargeted; with getUp always.
 };
 
 /// Of dolls that got up.
@@ -45,8 +53,15 @@ struct GetUpFigures {
 struct PuppetFigures {
     float rmsDeg = 0.0F;  ///< Of all joints' angles from the pose's.
     float maxDeg = 0.0F;
-    std::string worstJoint;         ///< The body below the joint of `maxDeg`.
-    float rootM = 0.0F;             ///< Farthest that a pinned root body was from its pose.
+    std::string worstJoint;  ///< The body below the joint of `maxDeg`.
+    float rootM = 0.0F;      ///< Farthest that a pinned root body was from its pose.
+    float ledM = 0.0F;       ///< And any kinematic body.
+    /// On ground that is not level, of feet that stand in the clip: the mean and the most that they were above it, and
+    /// the deepest in it.
+    float footGapMeanM = 0.0F;
+    float footGapM = 0.0F;
+    float footDepthM = 0.0F;
+    float footSlideM = 0.0F;        ///< Farthest that a foot which stands flat in the pose slid while it stood.
     int limp = 0;                   ///< Dolls that are limp now.
     int knockOuts = 0;              ///< How often any became so.
     float recoverySeconds = -1.0F;  ///< The longest time from a hit until its doll was animated again; -1: none was.
@@ -75,6 +90,10 @@ class PuppetCast {
     /// The pose that a doll is to have at the end of the last step, one frame a body, world.
     [[nodiscard]] std::span<const RigidTransform> pose(int doll) const { return actors_[doll].to; }
     [[nodiscard]] const PuppetPlay& settings() const { return play_; }
+    /// What the first doll's puppet is made with.
+    [[nodiscard]] physics::PuppetSettings settingsOfFirst() const {
+        return actors_.empty() ? play_.puppet : actors_.front().puppet->settings();
+    }
 
   private:
     struct Actor {
@@ -89,12 +108,16 @@ class PuppetCast {
         float sinceHit = -1.0F;  // seconds; -1: not reacting
         float lift = 0.0F;       // of the clip, so that no shape is in the ground
         float ground = 0.0F;     // height where it got up last
+        float base = 0.0F;       // height of the level floor that its clip is played on
+        std::optional<TerrainWalk> terrain;
 
         const FloorKeeper* floor = nullptr;
         float rest = 0.0F;                        // seconds that it has been limp and at rest
         std::optional<GetUpClips::Match> rising;  // the clip in which it gets up
         bool isHeldBack = false;                  // some joint could not turn as fast as it should
         float risen = 0.0F;                       // seconds into that clip
+        float waited = 0.0F;                      // seconds that it has waited for its feet
+        float pace = 1.0F;                        // of the clip in the last step, over its own
         float risingSeconds = 0.0F;               // since it came to rest
         animation::InertialBlend blend;           // into what it does now
         std::vector<RigidTransform> raw;          // what it would do without the blend, at the last step's end
@@ -107,30 +130,37 @@ class PuppetCast {
         std::array<Foot, 2> feet;
     };
     PuppetCast(std::span<const RagdollAsset* const> assets, const Scenario& scenario, PuppetPlay play);
+    [[nodiscard]] physics::PuppetSettings settingsOf(const RagdollAsset& asset, int root) const;
     void startClip(Actor& actor, float seconds, physics::World& world, physics::DollId doll);
     [[nodiscard]] float clearance(const Actor& actor);
-    void pose(Actor& actor, std::vector<RigidTransform>& bodies);
+    void pose(Actor& actor, std::vector<RigidTransform>& bodies, float dt = 0.0F);
     void hitDue(float dt);
     void notice(Actor& actor, physics::PuppetState after);
     void feelContacts();
+    void feelGround(Actor& actor);
     Result<void> findClips(const RagdollAsset& asset, const RagdollAsset* donor);
     void playOn(Actor& actor, float dt);
     void watchRest(Actor& actor, float dt);
     void beginRising(Actor& actor, float dt);
     void rise(Actor& actor, float dt);
+    [[nodiscard]] float paceOf(Actor& actor);
     void standUp(Actor& actor, float dt);
     void blendInto(Actor& actor, std::span<const RigidTransform> rawBefore, std::span<const RigidTransform> raw,
                    float dt);
     void show(Actor& actor, float dt);
     bool holdBack(Actor& actor, float dt);
     void measureRising(Actor& actor);
+    void measureFeet(Actor& actor);
     [[nodiscard]] float groundBelow(const vec3& point) const;
+    [[nodiscard]] std::optional<animation::GroundHit> footing(const vec3& point) const;
+    void measureFooting(const Actor& actor);
 
     std::vector<const RagdollAsset*> assets_;
     std::vector<std::unique_ptr<animation::ClipLibrary>> libraries_;  // one an asset, of the one clip
     std::vector<float> startSeconds_;                                 // likewise
     std::vector<std::unique_ptr<GetUpClips>> getUps_;                 // likewise, with PuppetPlay::getUp
     std::vector<std::unique_ptr<FloorKeeper>> floors_;                // likewise
+    std::vector<physics::StaticShape> statics_;                       // of ground that is not level
     bool isLevel_ = true;                                             // the ground is planes alone
     std::vector<Placement> placements_;
     PuppetPlay play_;
@@ -139,11 +169,13 @@ class PuppetCast {
     double seconds_ = 0.0;
     float dt_ = 0.0F;  // of the last step
 
-    std::vector<RigidTransform> joints_;  // scratch
+    std::vector<RigidTransform> joints_, fitted_;  // scratch
     std::vector<physics::BodyState> bodies_;
     std::vector<RigidTransform> frames_;
     std::vector<float> errors_;
     double squares_ = 0.0;
+    double gapsM_ = 0.0;
+    long long standing_ = 0;  // feet, in all steps
     long long count_ = 0;
     PuppetFigures worst_;
     GetUpFigures risen_;

@@ -20,6 +20,10 @@ constexpr float kSlowStart = 0.4F;            // of the clip's speed, while the 
 constexpr float kMostTurn = radians(330.0F);  // rad/s of a joint on the way
 constexpr int kMostThrough = 8;               // bodies that a ray to the ground goes through
 constexpr float kRayM = 10.0F;
+constexpr float kLagM = 0.06F;      // a foot that is farther behind its aim slows the clip down,
+constexpr float kMostLagM = 0.16F;  // so much that it hardly goes on
+constexpr float kMostWaitSeconds = 0.5F;
+constexpr float kLeastPace = 0.06F;     // of the clip's speed
 constexpr float kFootStillMps = 0.06F;  // a foot of the pose that is slower stands
 constexpr float kFootLowM = 0.03F;      // and is lower over the ground
 constexpr float kFootFlat = radians(20.0F);
@@ -93,6 +97,7 @@ void PuppetCast::beginRising(Actor& actor, float dt) {
     actor.ground = groundBelow(now_[actor.root].translation);
     actor.rising = clips.match(now_, actor.ground);
     actor.risen = actor.rising->seconds;
+    actor.waited = 0.0F;
     actor.risingSeconds = actor.rest;
     actor.from = before_;
     actor.to = now_;
@@ -159,10 +164,28 @@ bool PuppetCast::holdBack(Actor& actor, float dt) {
     return held;
 }
 
+// The clip begins slowly and waits for feet that are behind: one that is caught on the floor or on the other leg would
+// be dragged to where it is to stand.
+float PuppetCast::paceOf(Actor& actor) {
+    bodies_.resize(actor.asset->profile.bodies.size());
+    world_->getBodies(actor.puppet->doll(), bodies_);
+    float lag = 0.0F;
+    for (const Actor::Foot& foot : actor.feet)
+        if (foot.body >= 0)
+            lag = std::max(
+                lag, glm::distance(bodies_[foot.body].worldFromBody.translation, actor.to[foot.body].translation));
+    // Some never come: it waits for less and less.
+    const float least = std::max(kLeastPace, actor.waited / kMostWaitSeconds);
+    const float keepsUp = std::clamp((kMostLagM - lag) / (kMostLagM - kLagM), std::min(least, 1.0F), 1.0F);
+    actor.waited += dt_ * (1.0F - keepsUp);
+    return keepsUp * (kSlowStart + (1.0F - kSlowStart) * actor.blend.share());
+}
+
 void PuppetCast::rise(Actor& actor, float dt) {
     GetUpClips& clips = *getUps_[actor.assetIndex];
     actor.risingSeconds += dt;
-    actor.risen += dt * (kSlowStart + (1.0F - kSlowStart) * actor.blend.share());
+    actor.pace = paceOf(actor);
+    actor.risen += dt * actor.pace;
     clips.sample(*actor.rising, actor.risen, actor.raw);
     if (actor.risen >= clips.seconds(actor.rising->clip)) {
         standUp(actor, dt);
@@ -183,6 +206,7 @@ void PuppetCast::standUp(Actor& actor, float dt) {
     const RigidTransform stands = actor.to[actor.root];
     actor.player->play(0, 0, {});
     actor.worldFromModel = {actor.asset->map.standardFromModel, {0, actor.ground + actor.lift, 0}};
+    actor.base = actor.ground;
     pose(actor, now_);
     const quat heading = headingOf(glm::normalize(stands.rotation * glm::conjugate(now_[actor.root].rotation)));
     actor.worldFromModel.rotation = glm::normalize(heading * actor.worldFromModel.rotation);
@@ -208,19 +232,27 @@ void PuppetCast::measureRising(Actor& actor) {
         risen_.mostStepDeg = turned;
         risen_.stepJoint = profile.bodies[joint.child].name;
     }
+}
+
+// How far feet slide that stand flat and still in the pose. Bodies are in frames_ after a step.
+void PuppetCast::measureFeet(Actor& actor) {
+    const float ground = actor.rising ? actor.ground : actor.worldFromModel.translation.y - actor.lift;
     for (Actor::Foot& foot : actor.feet) {
         if (foot.body < 0) continue;
         const RigidTransform& aim = actor.to[foot.body];
         const quat off = aim.rotation * glm::conjugate(actor.asset->rig.bindModelFromBody[foot.body].rotation) *
                          glm::conjugate(actor.asset->map.standardFromModel);
         const vec3 up = off * vec3(0, 1, 0);
-        const bool stands = glm::distance(aim.translation, actor.from[foot.body].translation) < kFootStillMps * dt_ &&
-                            actor.floor->lowestOf(foot.body, aim) < actor.ground + kFootLowM &&
-                            up.y > std::cos(kFootFlat);
+        const float still = kFootStillMps * dt_ * (actor.rising ? actor.pace : 1.0F);
+        const bool stands = glm::distance(aim.translation, actor.from[foot.body].translation) < still &&
+                            actor.floor->lowestOf(foot.body, aim) < ground + kFootLowM && up.y > std::cos(kFootFlat);
         const vec3 at = frames_[foot.body].translation;
         if (stands && !foot.stands) foot.at = at;
         foot.stands = stands;
-        if (stands) risen_.mostSlideM = std::max(risen_.mostSlideM, std::hypot(at.x - foot.at.x, at.z - foot.at.z));
+        if (!stands) continue;
+        const float slid = std::hypot(at.x - foot.at.x, at.z - foot.at.z);
+        worst_.footSlideM = std::max(worst_.footSlideM, slid);
+        if (actor.rising) risen_.mostSlideM = std::max(risen_.mostSlideM, slid);
     }
 }
 

@@ -70,14 +70,19 @@ std::string castText(const Simulation& simulation) {
 nlohmann::ordered_json puppetJson(const Simulation& simulation) {
     const PuppetCast& cast = *simulation.puppets();
     const PuppetFigures figures = cast.figures();
+    const physics::PuppetSettings first = cast.settingsOfFirst();
     nlohmann::ordered_json json = {
         {"clip", cast.settings().start.clip},
-        {"strength", cast.settings().puppet.muscles.strength},
-        {"frequencyHz", cast.settings().puppet.muscles.frequencyHz},
-        {"dampingRatio", cast.settings().puppet.muscles.dampingRatio},
-        {"pinForceN", cast.settings().puppet.pinForceN},
+        {"strength", first.muscles.strength},
+        {"frequencyHz", first.muscles.frequencyHz},
+        {"dampingRatio", first.muscles.dampingRatio},
+        {"pinForceN", first.pinForceN},
+        {"kinematicBodies", std::count_if(first.led.begin(), first.led.end(), [](float w) { return w >= 1.0F; })},
         {"trackingErrorDeg", {{"rms", figures.rmsDeg}, {"max", figures.maxDeg}, {"worst", figures.worstJoint}}},
         {"rootErrorM", figures.rootM},
+        {"ledErrorM", figures.ledM},
+        {"footSlideM", figures.footSlideM},
+        {"footing", {{"gapMeanM", figures.footGapMeanM}, {"gapM", figures.footGapM}, {"depthM", figures.footDepthM}}},
         {"motorWorkJ", simulation.world().motorWork()},
         {"pinWorkJ", simulation.world().dragWork()},
         {"knockOuts", figures.knockOuts},
@@ -101,6 +106,7 @@ std::string puppetText(const Simulation& simulation) {
     const PuppetFigures figures = simulation.puppets()->figures();
     std::string text = fmt::format("  behind the pose    {:7.2f} deg RMS, {:.2f} deg at most ({}), root {:.1f} cm\n",
                                    figures.rmsDeg, figures.maxDeg, figures.worstJoint, figures.rootM * 1e2F);
+    text += fmt::format("  feet slid          {:7.1f} cm at most while they stood\n", figures.footSlideM * 1e2F);
     text += fmt::format("  work               {:7.1f} J by muscles, {:.1f} J by pins\n", simulation.world().motorWork(),
                         simulation.world().dragWork());
     if (figures.knockOuts > 0)

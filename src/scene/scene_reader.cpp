@@ -245,12 +245,24 @@ Ragdoll readRagdoll(const JsonCursor& at, const std::filesystem::path& folder) {
     return out;
 }
 
+// A list, for of parts that overlap the last one counts.
+void readLed(const JsonCursor& at, std::vector<LedPart>& out) {
+    if (!at.expectArray(0, physics::RagdollProfile::kMostBodies)) return;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        at[i].expectObject({"part"}, {"weight"});
+        LedPart& part = out.emplace_back();
+        take(at[i], "part", part.name);
+        take(at[i], "weight", part.weight);
+    }
+}
+
 void readPuppets(const JsonCursor& at, ScenePuppets& out) {
-    at.expectObject({}, {"clip", "muscles", "strength", "pinForceN", "getUp", "limp", "pace"});
+    at.expectObject({}, {"clip", "muscles", "strength", "pinForceN", "kinematic", "getUp", "limp", "pace"});
     take(at, "clip", out.clip);
-    takeName(at, "muscles", scene_format::kMuscles, out.muscles);
+    if (at.has("muscles")) takeName(at, "muscles", scene_format::kMuscles, out.muscles.emplace());
     take(at, "strength", out.strength);
-    take(at, "pinForceN", out.pinForceN);
+    takeOptional(at, "pinForceN", out.pinForceN);
+    if (at.has("kinematic")) readLed(at["kinematic"], out.kinematic);
     take(at, "getUp", out.getUp);
     take(at, "limp", out.limp);
     take(at, "pace", out.pace);

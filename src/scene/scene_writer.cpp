@@ -105,13 +105,19 @@ Json toJson(const Ragdoll& r, const std::filesystem::path& folder) {
 }
 
 Json toJson(const ScenePuppets& p) {
-    return Json{{"clip", p.clip},
-                {"muscles", nameOf(scene_format::kMuscles, p.muscles)},
-                {"strength", jsonNumber(p.strength)},
-                {"pinForceN", jsonNumber(p.pinForceN)},
-                {"getUp", p.getUp},
-                {"limp", p.limp},
-                {"pace", jsonNumber(p.pace)}};
+    Json out{{"clip", p.clip}};
+    if (p.muscles) out["muscles"] = nameOf(scene_format::kMuscles, *p.muscles);
+    out["strength"] = jsonNumber(p.strength);
+    if (p.pinForceN) out["pinForceN"] = jsonNumber(*p.pinForceN);
+    if (!p.kinematic.empty()) {
+        out["kinematic"] = Json::array();
+        for (const LedPart& part : p.kinematic)
+            out["kinematic"].push_back(Json{{"part", part.name}, {"weight", jsonNumber(part.weight)}});
+    }
+    out["getUp"] = p.getUp;
+    out["limp"] = p.limp;
+    out["pace"] = jsonNumber(p.pace);
+    return out;
 }
 
 Json toJson(const Light& l) {

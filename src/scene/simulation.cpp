@@ -64,9 +64,11 @@ SimulationOptions simulationOptionsOf(const EntityScene& scene) {
         const ScenePuppets& puppets = *scene.simulation.puppets;
         PuppetPlay& play = options.puppet.emplace();
         play.start.clip = puppets.clip;
-        play.puppet.muscles = physics::musclesOf(puppets.muscles);
+        play.ownMuscles = !puppets.muscles;
+        play.puppet.muscles = physics::musclesOf(puppets.muscles.value_or(physics::MusclePreset::powered));
         play.puppet.muscles.strength = puppets.strength;
-        play.puppet.pinForceN = puppets.pinForceN;
+        play.pinForceN = puppets.pinForceN;
+        play.led = puppets.kinematic;
         play.getUp = puppets.getUp;
         play.limp = puppets.limp;
         play.pace = puppets.pace;
@@ -107,6 +109,7 @@ Simulation::Simulation(std::vector<const RagdollAsset*> assets, Scenario scenari
         options_.fromClip = options_.puppet->start;
     PuppetPlay& play = *options_.puppet;
     play.hits.insert(play.hits.end(), scenario_.hits.begin(), scenario_.hits.end());
+    play.gravity = options_.world.gravity;
     options_.world.contactReports = true;  // what flies against a puppet weakens it
 }
 

@@ -97,6 +97,14 @@ TEST_CASE("simulate --puppet follows the clip with muscles, is hit, and reports 
         lutkaCommand(walk + "powered --seconds 3 --hit hips@0.5:0,0,600 --hit upperChest@0.5:400");
     CHECK(out.code == 0);
     CHECK(out.out.find("knocked out") != std::string::npos);
+    CHECK(report["footSlideM"].get<double>() < 0.05);
+    const CommandResult legs = lutkaCommand(walk + "limp --kinematic hips,leg --seconds 2 --json");
+    REQUIRE(legs.code == 0);
+    CHECK(Json::parse(legs.out)["puppet"]["kinematicBodies"].get<int>() == 7);
+    CHECK(Json::parse(legs.out)["puppet"]["ledErrorM"].get<double>() < 0.002);
+    CHECK(lutkaCommand(walk + "weak --kinematic tentacle").code == 2);
+    CHECK(lutkaCommand(walk + "weak --kinematic leg:2").code == 2);
+    CHECK(lutkaCommand(walk + "profile --seconds 0.1").code == 0);
     CHECK(lutkaCommand(walk + "mighty").code == 2);
     CHECK(lutkaCommand(walk + "weak --hit elbow@1:3").code == 2);
     CHECK(lutkaCommand(walk + "weak --hit head@1").code == 2);

@@ -101,6 +101,53 @@ TEST_CASE("a hit on a part of the trunk without a body meets the next body below
     CHECK(simulate(play, SolverKind::crowd, 0.5F)->stateHash() != spine->stateHash());
 }
 
+TEST_CASE("kinematic legs walk as the clip does while the limp upper body hangs") {
+    for (const SolverKind solver : {SolverKind::crowd, SolverKind::bullet}) {
+        INFO(physics::solverName(solver));
+        PuppetPlay play;
+        play.start.clip = "walk";
+        play.puppet.muscles = physics::musclesOf(MusclePreset::limp);
+        play.led = {{"hips", 1.0F}, {"leg", 1.0F}};
+        const auto simulation = simulate(play, solver, 3.0F);
+        const scene::PuppetFigures figures = simulation->puppets()->figures();
+        INFO("led bodies off by " << figures.ledM << " m, joints by " << figures.maxDeg << " degrees");
+        CHECK(figures.ledM < 0.002F);
+        CHECK(figures.maxDeg > 30.0F);  // the upper body does as it likes
+        CHECK(figures.limp == 0);
+        CHECK(simulation->quality().nonFinite == 0);
+        CHECK(simulation->world().caught().empty());
+    }
+    PuppetPlay wrong;
+    wrong.start.clip = "walk";
+    wrong.led = {{"tentacle", 1.0F}};
+    scene::SimulationOptions options;
+    options.puppet = wrong;
+    const auto refused = scene::Simulation::create(mannequin(), ground(), options);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().message.find("tentacle") != std::string::npos);
+}
+
+TEST_CASE("a profile's own muscles and pins are used where nothing else is asked for") {
+    auto asset = scene::loadRagdoll(std::filesystem::path(LUTKA_ASSETS_DIR) / "models/mannequin.glb");
+    REQUIRE(asset);
+    scene::RagdollAsset& own = *asset.value();
+    own.profile.muscles = physics::muscleProfileOf(MusclePreset::weak);
+    own.profile.bodies[0].pinForceN = 500.0F;
+    scene::SimulationOptions options;
+    options.puppet.emplace().start.clip = "walk";
+    const auto settingsOf = [&](bool ownMuscles, std::optional<float> pin) {
+        options.puppet->ownMuscles = ownMuscles;
+        options.puppet->pinForceN = pin;
+        const auto simulation = scene::Simulation::create(own, ground(), options);
+        REQUIRE(simulation);
+        return simulation.value()->puppets()->settingsOfFirst();
+    };
+    CHECK(settingsOf(true, {}).muscles.frequencyHz == 1.5F);
+    CHECK(settingsOf(true, {}).pinForceN == 500.0F);
+    CHECK(settingsOf(false, {}).muscles.frequencyHz == 10.0F);
+    CHECK(settingsOf(false, 50.0F).pinForceN == 50.0F);
+}
+
 TEST_CASE("a clip that is not there is an error that names those that are") {
     scene::SimulationOptions options;
     options.puppet = PuppetPlay{{.clip = "dance"}, {}, {}};

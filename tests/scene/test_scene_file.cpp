@@ -66,7 +66,8 @@ EntityScene richScene() {
     scene.simulation.world.threads = 2;
     scene.simulation.dt = 1.0F / 120.0F;
     scene.simulation.seed = 42;
-    scene.simulation.puppets = ScenePuppets{"run", physics::MusclePreset::weak, some(), 1234.0F, true, true, some()};
+    scene.simulation.puppets = ScenePuppets{
+        "run", physics::MusclePreset::weak, some(), 1234.0F, {{"leg", 1.0F}, {"leftFoot", 0.25F}}, true, true, some()};
     return scene;
 }
 

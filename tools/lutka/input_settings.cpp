@@ -79,6 +79,7 @@ void visitSettings(Options& options, const Visit& visit) {
     visit("puppet", options.puppet);
     visit("strength", options.strength);
     visit("pin", options.pinForceN);
+    visit("kinematic", options.kinematic);
     visit("hit", options.hits);
     visit("shed", options.shed);
     visit("eye", options.eye);

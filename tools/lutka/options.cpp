@@ -88,6 +88,16 @@ scene::PuppetHit parseHit(const std::string& text) {
            "give a body part, a moment and an impulse in N s, as head@1.5:5 or leftLowerArm@0.5:0,0,10"});
 }
 
+// PART or PART:WEIGHT.
+scene::LedPart parseLed(const std::string& text) {
+    const std::size_t colon = text.rfind(':');
+    if (colon == std::string::npos) return {text, 1.0F};
+    const std::vector<float> weight = numbersOf(text.substr(colon + 1));
+    if (weight.size() == 1 && weight[0] >= 0.0F && weight[0] <= 1.0F) return {text.substr(0, colon), weight[0]};
+    leave({ErrorCode::usage, fmt::format("'{}' is no part with a weight", text), "--kinematic",
+           "give a weight from 0 to 1, as leg or leg:0.5"});
+}
+
 }  // namespace
 
 void leave(const Error& error) {
@@ -240,13 +250,20 @@ void SimulateOptions::addTo(const Command& app) {
     app.flag("--once", clipOnce, "the clip stays at its end instead of beginning anew").needs(clipOption);
     app.flag("--in-place", clipInPlace, "the clip without its way over the ground").needs(clipOption);
     const Option puppetOption =
-        app.option("--puppet", puppet,
-                   "follow the clip with muscles instead of playing it: limp, weak, powered or stiff")
-            .oneOf({physics::kMusclePresetNames.begin(), physics::kMusclePresetNames.end()})
+        app.option(
+               "--puppet", puppet,
+               "follow the clip with muscles instead of playing it: limp, weak, powered or stiff; profile: those of "
+               "the ragdoll profile, powered where it has none")
+            .oneOf({"limp", "weak", "powered", "stiff", "profile"})
             .needs(clipOption);
     app.option("--strength", strength, "factor on the muscles' strength").range(0.0, 1e6).needs(puppetOption);
     app.option("--pin", pinForceN, "newtons that hold the hips to the clip at most; 0: it stands or falls")
         .range(0.0, 1e6)
+        .needs(puppetOption);
+    app.option("--kinematic", kinematic,
+               "bodies that follow the clip themselves, whatever acts on them: names, trunk, head, arm, leg or all; "
+               "NAME:WEIGHT below 1 draws them there")
+        .commaSeparated(0)
         .needs(puppetOption);
     app.option("--hit", hits, "push a body: ROLE@SECONDS:NS or ROLE@SECONDS:X,Y,Z in N s, +Z ahead; may be repeated")
         .oneValueEach()
@@ -292,12 +309,15 @@ scene::PuppetPlay SimulateOptions::puppetPlay() const {
     scene::PuppetPlay play;
     if (!clip.empty()) play.start = parseClipStart(clip);
     play.borrows = getUp;
-    const std::string_view muscles = puppet.empty() ? "powered" : std::string_view(puppet);
+    play.ownMuscles = puppet.empty() || puppet == "profile";
+    const std::string_view muscles = play.ownMuscles ? "powered" : std::string_view(puppet);
     const auto preset = std::find(physics::kMusclePresetNames.begin(), physics::kMusclePresetNames.end(), muscles);
     play.puppet.muscles =
         physics::musclesOf(static_cast<physics::MusclePreset>(preset - physics::kMusclePresetNames.begin()));
     play.puppet.muscles.strength = strength;
-    play.puppet.pinForceN = pinForceN;
+    play.pinForceN = pinForceN;
+    for (const std::string& part : kinematic)
+        play.led.push_back(parseLed(part));
     play.getUp = getUp;
     play.limp = puppet.empty();
     for (const std::string& hit : hits)

@@ -96,9 +96,11 @@ struct SimulateOptions {
     float clipSpeed = 1.0F;
     bool clipOnce = false;
     bool clipInPlace = false;
-    std::string puppet;  ///< A muscle preset: the clip is followed instead of played, as the next three say.
+    std::string
+        puppet;  ///< A muscle preset or `profile`: the clip is followed instead of played, as the next three say.
     float strength = 1.0F;
-    float pinForceN = 3000.0F;
+    std::optional<float> pinForceN;
+    std::vector<std::string> kinematic;
     std::vector<std::string> hits;
     bool getUp = false;
     std::string shed;

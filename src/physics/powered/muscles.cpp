@@ -31,28 +31,30 @@ MuscleGroup muscleGroupOf(const BodyProfile& body) {
     }
 }
 
-float strengthOf(const MuscleSettings& muscles, const RagdollProfile& profile, int body) {
-    const auto group = static_cast<std::size_t>(muscleGroupOf(profile.bodies[body]));
+MuscleFactors factorsOf(const MuscleSettings& muscles, const RagdollProfile& profile, int body) {
+    MuscleFactors factors = muscles.groups[static_cast<std::size_t>(muscleGroupOf(profile.bodies[body]))];
     const auto at = static_cast<std::size_t>(body);
-    return muscles.strength * muscles.groups[group] * (at < muscles.bodies.size() ? muscles.bodies[at] : 1.0F);
+    if (at >= muscles.bodies.size()) return factors;
+    factors.strength *= muscles.bodies[at].strength;
+    factors.damping *= muscles.bodies[at].damping;
+    factors.torque *= muscles.bodies[at].torque;
+    return factors;
+}
+
+float strengthOf(const MuscleSettings& muscles, const RagdollProfile& profile, int body) {
+    return muscles.strength * factorsOf(muscles, profile, body).strength;
 }
 
 MuscleSettings musclesOf(MusclePreset preset) {
-    MuscleSettings muscles;
-    switch (preset) {
-        case MusclePreset::limp:
-            muscles.frequencyHz = 0.0F;
-            break;
-        case MusclePreset::weak:
-            muscles.frequencyHz = 1.5F;
-            break;
-        case MusclePreset::powered:
-            break;
-        case MusclePreset::stiff:
-            muscles.frequencyHz = 30.0F;
-            muscles.bounded = false;
-            break;
-    }
+    return {muscleProfileOf(preset), {}, vec3(0)};
+}
+
+std::optional<MuscleSettings> musclesOf(const RagdollProfile& profile, const vec3& gravity) {
+    if (!profile.muscles) return std::nullopt;
+    MuscleSettings muscles{*profile.muscles, {}, profile.muscles->carriesGravity ? gravity : vec3(0)};
+    muscles.bodies.reserve(profile.bodies.size());
+    for (const BodyProfile& body : profile.bodies)
+        muscles.bodies.push_back(body.muscle);
     return muscles;
 }
 

@@ -10,6 +10,8 @@ namespace {
 
 constexpr float kUnboundedNm = 1e9F;
 constexpr float kAdultM = 1.75F;
+constexpr float kFar = radians(40.0F);
+constexpr float kLost = radians(90.0F);
 
 // The child's frame in the parent's.
 quat relativeOf(const ConstraintProfile& constraint, std::span<const RigidTransform> bodies) {
@@ -58,8 +60,8 @@ PoseDrive::PoseDrive(const RagdollProfile& profile, std::span<const BodyState> b
         for (int body = 0; body < static_cast<int>(profile.bodies.size()); ++body)
             if (std::find(joint.below.begin(), joint.below.end(), body) == joint.below.end()) above.push_back(body);
         const vec3 anchor = anchorOf(profile.constraints[i], bodies);
-        joint.inertia = 1.0F / (1.0F / momentAbout(profile, bodies, joint.below, anchor) +
-                                1.0F / momentAbout(profile, bodies, above, anchor));
+        joint.above = momentAbout(profile, bodies, above, anchor);
+        joint.inertia = 1.0F / (1.0F / momentAbout(profile, bodies, joint.below, anchor) + 1.0F / joint.above);
         joints_.push_back(std::move(joint));
     }
 }
@@ -74,7 +76,8 @@ float PoseDrive::torqueBoundOf(int constraint, const MuscleSettings& muscles, fl
     if (!muscles.bounded) return kUnboundedNm;
     const int child = profile_.constraints[constraint].child;
     const auto group = static_cast<std::size_t>(muscleGroupOf(profile_.bodies[child]));
-    return factor * strengthOf(muscles, profile_, child) * kTorquePerKg[group] * massKg_ * (heightM_ / kAdultM);
+    const float share = factor * strengthOf(muscles, profile_, child) * muscles.torque;
+    return share * factorsOf(muscles, profile_, child).torque * kTorquePerKg[group] * massKg_ * (heightM_ / kAdultM);
 }
 
 vec3 PoseDrive::gravityTorque(int constraint, const vec3& gravity) const {
@@ -85,20 +88,31 @@ vec3 PoseDrive::gravityTorque(int constraint, const vec3& gravity) const {
     return torque;
 }
 
-// The target no farther than mostLead_ from where the joint is.
+// The target no farther than mostLead_ from where the joint is, nor farther and faster than drives it at mostSpeed_:
+// with a spring k, a damper d and a rate v of the target the joint comes to v + k / d times the lead.
 void PoseDrive::leashTo(const ConstraintProfile& constraint, JointMotor& motor) const {
     const quat parent = bodies_[constraint.parent].worldFromBody.rotation * constraint.parentFromFrame.rotation;
     const quat now = glm::conjugate(parent) *
                      (bodies_[constraint.child].worldFromBody.rotation * constraint.childFromFrame.rotation);
     const vec3 lead = rotationVector(glm::normalize(motor.target * glm::conjugate(now)));
     const float angle = glm::length(lead);
-    if (angle > mostLead_) motor.target = glm::normalize(glm::angleAxis(mostLead_, lead / angle) * now);
+    if (angle < 1e-6F) return;
+    // What is very far off does not follow but is held, most often by its own limits, and would be driven along them.
+    const float follows = std::clamp((kLost - angle) / (kLost - kFar), 0.0F, 1.0F);
+    const float kept = follows * std::min(angle, mostLead_);
+    const vec3 drawn = lead * (kept / angle) * (motor.stiffness / std::max(motor.damping, 1e-9F));
+    motor.rate *= follows;
+    const float share = std::min(1.0F, mostSpeed_ / std::max(glm::length(motor.rate + drawn), 1e-9F));
+    motor.rate *= share;
+    if (kept * share < angle) motor.target = glm::normalize(glm::angleAxis(kept * share, lead / angle) * now);
 }
 
 void PoseDrive::drive(World& world, DollId doll, const MuscleSettings& muscles, std::span<const RigidTransform> from,
-                      std::span<const RigidTransform> to, float dt, std::span<const float> factors) {
+                      std::span<const RigidTransform> to, float dt, std::span<const float> factors,
+                      const Stance* stance) {
     const bool carries = muscles.carriedGravity != vec3(0);
-    if (carries || mostLead_ < kPi) world.getBodies(doll, bodies_);
+    const bool leashes = mostLead_ < kPi || mostSpeed_ < kUnbounded;
+    if (carries || leashes || stance != nullptr) world.getBodies(doll, bodies_);
     for (int i = 0; i < static_cast<int>(profile_.constraints.size()); ++i) {
         const ConstraintProfile& constraint = profile_.constraints[i];
         JointMotor motor;
@@ -108,13 +122,29 @@ void PoseDrive::drive(World& world, DollId doll, const MuscleSettings& muscles, 
             world.setMotor(doll, i, std::nullopt);
             continue;
         }
-        motor.damping = 2.0F * muscles.dampingRatio * std::sqrt(motor.stiffness * joints_[i].inertia);
+        float inertia = joints_[i].inertia;
+        const bool carriesDoll = stance != nullptr && stance->share[i] > 0.0F;
+        if (carriesDoll) {
+            // Softer than a limb in the air: its spring has a whole doll to bring to rest, and feet to keep flat.
+            constexpr float kStanceShare = 0.08F;  // of the frequency
+            const float carried = stance->share[i] * joints_[i].above * kStanceShare * kStanceShare;
+            motor.stiffness *= std::max(carried, inertia) / inertia;
+            inertia = std::max(carried, inertia);
+        }
+        const float ratio = muscles.dampingRatio * factorsOf(muscles, profile_, constraint.child).damping;
+        motor.damping = 2.0F * ratio * std::sqrt(motor.stiffness * inertia);
         motor.maxTorqueNm = torqueBoundOf(i, muscles, factor);
         const quat before = relativeOf(constraint, from);
         motor.target = relativeOf(constraint, to);
         motor.rate = rotationVector(glm::normalize(motor.target * glm::conjugate(before))) / dt;
-        if (mostLead_ < kPi) leashTo(constraint, motor);
-        if (carries) {
+        if (leashes) leashTo(constraint, motor);
+        if (carriesDoll) {
+            const quat parentFrame =
+                bodies_[constraint.parent].worldFromBody.rotation * constraint.parentFromFrame.rotation;
+            const vec3 lead = glm::conjugate(parentFrame) * stance->torque[i] / motor.stiffness;
+            const float angle = glm::length(lead);
+            if (angle > 1e-6F) motor.target = glm::angleAxis(std::min(angle, 0.5F), lead / angle) * motor.target;
+        } else if (carries) {
             // The spring leads the pose by the angle at which its torque is what gravity takes.
             const quat parentFrame =
                 bodies_[constraint.parent].worldFromBody.rotation * constraint.parentFromFrame.rotation;

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/powered/balance.hpp"
 #include "physics/powered/muscles.hpp"
 #include "physics/world/world.hpp"
 
@@ -19,12 +20,18 @@ class PoseDrive {
     /// Sets the motors for the coming step of `dt` > 0 s, in which the pose moves from `from` to `to` (world or model
     /// space alike, one a body): the motors have the pose's rates, so that a pose in motion is followed without lag. A
     /// joint without strength is limp. `factors` on the strength of the joint above each body, one a body, or empty: 1.
-    /// Allocates nothing once a doll has motors.
+    /// Joints that `stance` lets carry the doll are as stiff as what they carry asks for: a foot on the ground is not
+    /// moved by its ankle, all else is. Allocates nothing once a doll has motors.
     void drive(World& world, DollId doll, const MuscleSettings& muscles, std::span<const RigidTransform> from,
-               std::span<const RigidTransform> to, float dt, std::span<const float> factors = {});
+               std::span<const RigidTransform> to, float dt, std::span<const float> factors = {},
+               const Stance* stance = nullptr);
     /// From the next drive() on no motor's target is farther than this from where its joint is, radians, > 0; kPi, as
     /// it is at first: never changed. What is held back by force then comes along gently once it is let go.
     void setMostLead(float lead) { mostLead_ = lead; }
+    /// Likewise of the speed that a motor drives its joint to while nothing else holds it: the target's rate and the
+    /// spring's pull over the damper together, rad/s, > 0; unbounded at first.
+    void setMostSpeed(float speed) { mostSpeed_ = speed; }
+    static constexpr float kUnbounded = 1e9F;
     /// Takes all motors away.
     void release(World& world, DollId doll) const;
 
@@ -39,6 +46,7 @@ class PoseDrive {
   private:
     struct Joint {
         float inertia = 0.0F;
+        float above = 0.0F;      // moment of all that is not below
         std::vector<int> below;  // bodies
     };
     // What gravity does about the joint through all that hangs below it, N m, world.
@@ -48,6 +56,7 @@ class PoseDrive {
 
     const RagdollProfile& profile_;
     float mostLead_ = kPi;
+    float mostSpeed_ = kUnbounded;
     std::vector<Joint> joints_;      // one a constraint
     float massKg_ = 0.0F;            // of the doll
     float heightM_ = 0.0F;           // about

@@ -56,6 +56,10 @@ Puppet::Puppet(World& world, DollId doll, const RagdollProfile& profile, int roo
       root_(root),
       settings_(settings),
       drive_(profile, bodies),
+      balance_(profile),
+      pins_(profile.bodies.size()),
+      weights_(settings.led.empty() ? std::vector<float>(profile.bodies.size(), 0.0F) : settings.led),
+      isThere_(profile.bodies.size(), true),
       losses_(profile.bodies.size()),
       distance_(distancesOf(profile, rootOf(profile))),
       factors_(profile.bodies.size(), 1.0F),
@@ -66,7 +70,7 @@ void Puppet::change(PuppetState state) {
     const PuppetState before = std::exchange(state_, state);
     if (state == PuppetState::limp) {
         drive_.release(world_, doll_);
-        pin_.reset();
+        letGo();
     }
     if (listener_) listener_(before, state);
 }
@@ -139,6 +143,7 @@ void Puppet::recover(float dt) {
 }
 
 bool Puppet::isTooMuch(std::span<const RigidTransform> pose) {
+    world_.getBodies(doll_, bodies_);
     float lost = 0.0F;
     float weight = 0.0F;
     for (int i = 0; i < static_cast<int>(profile_.constraints.size()); ++i) {
@@ -146,10 +151,84 @@ bool Puppet::isTooMuch(std::span<const RigidTransform> pose) {
         weight += drive_.inertiaOf(i);
     }
     if (weight > 0.0F && lost > settings_.knockOutLoss * weight) return true;
-    world_.getBodies(doll_, bodies_);
     const quat off = bodies_[root_].worldFromBody.rotation * glm::conjugate(pose[root_].rotation);
     const bool comesFromAfar = state_ == PuppetState::gettingUp && standsByItself_;
     return !comesFromAfar && glm::length(rotationVector(glm::normalize(off))) > settings_.knockOutTilt;
+}
+
+// Bodies that are led themselves. On the way to its feet none is: the pose comes to the doll then.
+void Puppet::lead(std::span<const RigidTransform> from, std::span<const RigidTransform> to, float dt) {
+    const bool getsUp = state_ == PuppetState::gettingUp && !standsByItself_;
+    const float most = settings_.leadSeconds > 0.0F ? dt / settings_.leadSeconds : 1.0F;
+    for (int body = 0; body < static_cast<int>(weights_.size()); ++body) {
+        const float wanted = getsUp || settings_.led.empty() ? 0.0F : settings_.led[body];
+        float& weight = weights_[body];
+        const bool wasLed = weight > 0.0F;
+        weight = std::min(wanted, weight + most);
+        if (weight < wanted) isThere_[body] = false;
+        if (weight <= 0.0F) {
+            if (wasLed) world_.setBodyTarget(doll_, body, std::nullopt);
+            continue;
+        }
+        BodyTarget target;
+        target.worldFromBody = to[body];
+        target.linearVelocity = (to[body].translation - from[body].translation) / dt;
+        target.angularVelocity =
+            rotationVector(glm::normalize(to[body].rotation * glm::conjugate(from[body].rotation))) / dt;
+        target.weight = weight;
+        if (!isThere_[body]) draw(body, target);
+        weight = target.weight;
+        world_.setBodyTarget(doll_, body, target);
+    }
+}
+
+// A body on its way to its pose is drawn no faster than it may be, and is not kinematic before it is near.
+void Puppet::draw(int body, BodyTarget& target) {
+    constexpr float kNearlyKinematic = 0.95F;
+    constexpr float kNearM = 0.002F;
+    constexpr float kNearTurn = radians(0.5F);
+    // bodies_ are those of now: isTooMuch() has asked for them.
+    const RigidTransform& at = bodies_[body].worldFromBody;
+    const vec3 way = target.worldFromBody.translation - at.translation;
+    const vec3 turn = rotationVector(glm::normalize(target.worldFromBody.rotation * glm::conjugate(at.rotation)));
+    if (glm::length(way) < kNearM && glm::length(turn) < kNearTurn) {
+        isThere_[body] = true;
+        return;
+    }
+    target.weight = std::min(target.weight, kNearlyKinematic);
+    // A critically damped spring comes to half its frequency times the distance.
+    const float pull = kPi * frequencyOf(target.weight);
+    const float share = std::min(1.0F, settings_.leadSpeed / std::max(pull * glm::length(way), 1e-6F));
+    const float angle = glm::length(turn);
+    const float turnShare = std::min(1.0F, settings_.leadTurn / std::max(pull * angle, 1e-6F));
+    target.worldFromBody.translation = at.translation + way * share;
+    if (angle > 1e-6F)
+        target.worldFromBody.rotation = glm::normalize(glm::angleAxis(angle * turnShare, turn / angle) * at.rotation);
+}
+
+// Pins: of the root, and of the bodies that settings name.
+void Puppet::pull(std::span<const RigidTransform> from, std::span<const RigidTransform> to, float dt) {
+    const bool getsUp = state_ == PuppetState::gettingUp && !standsByItself_;
+    for (int body = 0; body < static_cast<int>(pins_.size()); ++body) {
+        const auto at = static_cast<std::size_t>(body);
+        float force = at < settings_.pins.size() && !getsUp ? settings_.pins[at] : 0.0F;
+        if (body == root_) force = getsUp ? settings_.getUpForceN : settings_.pinForceN;
+        force *= strengthLeft(body);
+        std::unique_ptr<BodyPin>& pin = pins_[at];
+        if (force <= 0.0F || weights_[at] > 0.0F) {
+            pin.reset();
+            continue;
+        }
+        if (pin == nullptr) pin = std::make_unique<BodyPin>(world_, doll_, body);
+        pin->follow(from[at], to[at], dt, force);
+    }
+}
+
+void Puppet::letGo() {
+    for (std::unique_ptr<BodyPin>& pin : pins_)
+        pin.reset();
+    for (int body = 0; body < static_cast<int>(weights_.size()); ++body)
+        if (std::exchange(weights_[body], 0.0F) > 0.0F) world_.setBodyTarget(doll_, body, std::nullopt);
 }
 
 void Puppet::prepare(std::span<const RigidTransform> from, std::span<const RigidTransform> to, float dt) {
@@ -162,11 +241,15 @@ void Puppet::prepare(std::span<const RigidTransform> from, std::span<const Rigid
         factors_[body] = strengthLeft(static_cast<int>(body));
     const bool getsUp = state_ == PuppetState::gettingUp && !standsByItself_;
     drive_.setMostLead(getsUp ? settings_.getUpLead : kPi);
-    drive_.drive(world_, doll_, settings_.muscles, from, to, dt, factors_);
-    const float force = (getsUp ? settings_.getUpForceN : settings_.pinForceN) * strengthLeft(root_);
-    if (force > 0.0F && !pin_) pin_.emplace(world_, doll_, root_);
-    if (force <= 0.0F) pin_.reset();
-    if (pin_) pin_->follow(from[root_], to[root_], dt, force);
+    drive_.setMostSpeed(getsUp ? settings_.getUpSpeed : PoseDrive::kUnbounded);
+    lead(from, to, dt);
+    for (const ConstraintProfile& joint : profile_.constraints)
+        if (weights_[joint.parent] >= 1.0F && weights_[joint.child] >= 1.0F) factors_[joint.child] = 0.0F;
+    const bool standsFreely = settings_.balances && !getsUp && settings_.pinForceN <= 0.0F && weights_[root_] <= 0.0F;
+    // bodies_ are those of now: isTooMuch() has asked for them.
+    const Stance* stance = standsFreely ? balance_.stanceOf(bodies_, grounded_, settings_.gravity) : nullptr;
+    drive_.drive(world_, doll_, settings_.muscles, from, to, dt, factors_, stance);
+    pull(from, to, dt);
     recover(dt);
 }
 

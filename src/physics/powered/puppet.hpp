@@ -1,7 +1,8 @@
 #pragma once
 
+#include <array>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -22,8 +23,18 @@ enum class PuppetState {
 struct PuppetSettings {
     MuscleSettings muscles;
     float pinForceN = 3000.0F;  ///< Holds the root body to its pose with at most so much, >= 0; 0: it stands or falls.
-    float hitSpeed = 2.0F;      ///< m/s, > 0: a hit that changes a body's speed by this leaves it 1/e of its strength.
-    float falloff = 0.4F;       ///< [0, 1]: what of a body's loss its neighbour along the tree has.
+    std::vector<float> pins;    ///< The same of other bodies, N, one a body (the root's means nothing); empty: none.
+    /// With what weight each body is led to its pose itself, [0, 1], one a body; see BodyTarget. 1: kinematic; 0: by
+    /// the muscles alone. Empty: all 0. A pinned body that is led has no pin. None is led while the puppet is limp.
+    std::vector<float> led;
+    bool balances = true;      ///< A doll that stands and whose root is neither pinned nor led keeps its balance.
+    float gravity = 9.81F;     ///< m/s² down, > 0: what it balances against.
+    float leadSpeed = 1.5F;    ///< m/s, > 0: while a weight grows no body is drawn to its pose faster than this,
+    float leadTurn = 3.5F;     ///< nor turned, rad/s, > 0; only one that is near becomes kinematic.
+    float leadSeconds = 0.5F;  ///< A weight grows by 1 in so long, >= 0; one that falls does so at once, and the body
+                               ///< goes on as it moves.
+    float hitSpeed = 2.0F;     ///< m/s, > 0: a hit that changes a body's speed by this leaves it 1/e of its strength.
+    float falloff = 0.4F;      ///< [0, 1]: what of a body's loss its neighbour along the tree has.
     float recoverySeconds = 0.4F;  ///< After which a joint has its strength back, along 3t² - 2t³; >= 0.
     float knockOutLoss = 0.75F;    ///< Mean loss of all joints, weighed by the mass that they move, above which it goes
                                    ///< limp; 1 and more: never.
@@ -31,6 +42,7 @@ struct PuppetSettings {
     float getUpForceN = 2000.0F;          ///< In place of `pinForceN` while it gets up, >= 0.
     float getUpLead = radians(15.0F);     ///< While it gets up no joint is drawn to more than this ahead of where it
                                           ///< is: what was held by the floor does not snap back; radians, > 0.
+    float getUpSpeed = radians(450.0F);   ///< Nor driven faster than this, rad/s, > 0.
 };
 
 /// A doll that follows a pose in motion with its muscles, reacts to hits and goes limp when one is too much. The world
@@ -66,9 +78,15 @@ class Puppet {
     void onChange(std::function<void(PuppetState before, PuppetState after)> listener) {
         listener_ = std::move(listener);
     }
+    /// With what weight a body is led now, [0, 1].
+    [[nodiscard]] float weightOf(int body) const { return weights_[body]; }
     /// To be changed at any time.
     [[nodiscard]] PuppetSettings& settings() { return settings_; }
     [[nodiscard]] DollId doll() const { return doll_; }
+    /// Says which of left and right foot are on the ground: nobody balances in the air. Call it before prepare().
+    void setGrounded(const std::array<bool, 2>& feet) { grounded_ = feet; }
+    /// The bodies of left and right foot; -1: none.
+    [[nodiscard]] const std::array<int, 2>& feet() const { return balance_.feet(); }
 
   private:
     struct Loss {
@@ -79,6 +97,10 @@ class Puppet {
     [[nodiscard]] float lossOf(int body) const;
     void beginReturn(float seconds, bool standsByItself);
     void recover(float dt);
+    void lead(std::span<const RigidTransform> from, std::span<const RigidTransform> to, float dt);
+    void draw(int body, BodyTarget& target);
+    void pull(std::span<const RigidTransform> from, std::span<const RigidTransform> to, float dt);
+    void letGo();
     [[nodiscard]] bool isTooMuch(std::span<const RigidTransform> pose);
 
     World& world_;
@@ -87,8 +109,12 @@ class Puppet {
     int root_;
     PuppetSettings settings_;
     PoseDrive drive_;
-    std::optional<BodyPin> pin_;
+    Balance balance_;
+    std::array<bool, 2> grounded_{false, false};
+    std::vector<std::unique_ptr<BodyPin>> pins_;  // one a body, null where nothing pulls
+    std::vector<float> weights_;                  // one a body: with which it is led now
     PuppetState state_ = PuppetState::animated;
+    std::vector<bool> isThere_;               // likewise: whether it has come to its pose since its weight grew
     std::vector<Loss> losses_;                // one a body
     std::vector<std::vector<int>> distance_;  // between bodies, in joints
     std::vector<float> factors_;              // one a body: what is left of its strength

@@ -62,6 +62,7 @@ constexpr float kThinnestShare = 1e-5F;  // of the figure's height
 constexpr float kWidestShare = 10.0F;
 constexpr float kMostFrictionShare = 100.0F;  // of the figure's weight times its height
 constexpr float kGravity = 9.81F;
+constexpr float kMostPinN = 1e6F;
 
 bool isWithin(float value, float low, float high) {
     return std::isfinite(value) && value >= low && value <= high;
@@ -140,6 +141,36 @@ void checkBody(Problems& problems, const RagdollProfile& profile, std::size_t in
         problems.require(profile.bodies[other].jointPath != body.jointPath, place + "/jointPath",
                          fmt::format("expected a joint of its own, body {} is on it already", other));
     }
+}
+
+void checkFactors(Problems& problems, const MuscleFactors& factors, const std::string& place) {
+    const auto check = [&](float factor, const char* name) {
+        problems.require(isWithin(factor, 0.0F, MuscleFactors::kMost), place + name, "expected a number in [0, 1e6]");
+    };
+    check(factors.strength, "/strength");
+    check(factors.damping, "/damping");
+    check(factors.torque, "/torque");
+}
+
+void checkMuscles(Problems& problems, const RagdollProfile& profile) {
+    for (std::size_t i = 0; i < profile.bodies.size(); ++i) {
+        const BodyProfile& body = profile.bodies[i];
+        const std::string place = fmt::format("/bodies/{}", i);
+        checkFactors(problems, body.muscle, place + "/muscle");
+        problems.require(profile.muscles || body.muscle == MuscleFactors{}, place + "/muscle",
+                         "expected muscles of the whole doll, which these are factors on");
+        problems.require(!body.pinForceN || isWithin(*body.pinForceN, 0.0F, kMostPinN), place + "/pinForceN",
+                         "expected newtons in [0, 1e6]");
+    }
+    if (!profile.muscles) return;
+    const MuscleProfile& muscles = *profile.muscles;
+    problems.require(isWithin(muscles.frequencyHz, 0.0F, MuscleProfile::kMostHz), "/muscles/frequencyHz",
+                     "expected a number in [0, 1000]");
+    problems.require(isWithin(muscles.dampingRatio, 0.0F, MuscleFactors::kMost), "/muscles/dampingRatio",
+                     "expected a number in [0, 1e6]");
+    checkFactors(problems, {muscles.strength, 1.0F, muscles.torque}, "/muscles");
+    for (std::size_t group = 0; group < muscles.groups.size(); ++group)
+        checkFactors(problems, muscles.groups[group], fmt::format("/muscles/groups/{}", kMuscleGroupNames[group]));
 }
 
 bool isAngle(float angle, float low, float high) {
@@ -260,6 +291,7 @@ std::vector<std::string> validate(const RagdollProfile& profile) {
         checkBody(problems, profile, body);
     for (std::size_t constraint = 0; constraint < profile.constraints.size(); ++constraint)
         checkConstraint(problems, profile, constraint);
+    checkMuscles(problems, profile);
     const int bodies = static_cast<int>(profile.bodies.size());
     for (std::size_t i = 0; i < profile.filteredPairs.size(); ++i) {
         const auto& [first, second] = profile.filteredPairs[i];

@@ -10,6 +10,7 @@
 #include "animation/humanoid/roles.hpp"
 #include "core/rigid_transform.hpp"
 #include "core/shape_kind.hpp"
+#include "physics/profile/muscle_profile.hpp"
 
 namespace lutka::physics {
 
@@ -43,6 +44,9 @@ struct BodyProfile {
     RigidTransform jointFromBody;       ///< Body origin = centre of mass; a capsule's axis is body Y.
     float massKg = 1.0F;                ///< > 0.
     vec3 inertia{0.01F, 0.01F, 0.01F};  ///< Principal moments about the body's axes, kg m², > 0.
+    MuscleFactors muscle;               ///< Of the joint above it, on RagdollProfile::muscles.
+    std::optional<float> pinForceN;     ///< A powered doll holds it to its pose with at most so much, N, [0, 1e6];
+                                        ///< unset: the root as PuppetSettings says, others not at all.
 };
 
 /// The limits of a hinge: rotation of the child about frame z, positive by the right-hand rule, 0 in the neutral pose.
@@ -90,7 +94,8 @@ struct RagdollProfile {
     std::vector<BodyProfile> bodies;
     std::vector<ConstraintProfile> constraints;  ///< constraints[i].child == i + 1.
     std::vector<std::pair<int, int>>
-        filteredPairs;  ///< Bodies that never collide, beside the linked ones; first < second.
+        filteredPairs;                     ///< Bodies that never collide, beside the linked ones; first < second.
+    std::optional<MuscleProfile> muscles;  ///< Of a powered doll; unset: as it is powered, nothing of its own.
     /// What the fit had to bend, a sentence each with its figures (a limit widened to hold the bind pose). For people.
     std::vector<std::string> notes;
 };

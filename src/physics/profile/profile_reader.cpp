@@ -84,14 +84,54 @@ void readName(const JsonCursor& at, const RagdollProfile& profile, BodyProfile& 
     if (at.has("mirror")) body.mirror = at["mirror"].text();
 }
 
+void takeNumber(const JsonCursor& at, const char* key, float most, float& out) {
+    if (at.has(key)) out = at[key].number(0.0F, most);
+}
+
+MuscleFactors readFactors(const JsonCursor& at) {
+    at.expectObject({}, {"strength", "damping", "torque"});
+    MuscleFactors factors;
+    takeNumber(at, "strength", MuscleFactors::kMost, factors.strength);
+    takeNumber(at, "damping", MuscleFactors::kMost, factors.damping);
+    takeNumber(at, "torque", MuscleFactors::kMost, factors.torque);
+    return factors;
+}
+
+// What is not said is the preset's, and without one the powered doll's.
+MuscleProfile readMuscles(const JsonCursor& at) {
+    at.expectObject(
+        {}, {"preset", "frequencyHz", "dampingRatio", "strength", "torque", "bounded", "carriesGravity", "groups"});
+    MuscleProfile muscles;
+    if (at.has("preset")) {
+        const int preset = at["preset"].oneOf({"limp", "weak", "powered", "stiff"});
+        if (preset >= 0) muscles = muscleProfileOf(static_cast<MusclePreset>(preset));
+    }
+    takeNumber(at, "frequencyHz", MuscleProfile::kMostHz, muscles.frequencyHz);
+    takeNumber(at, "dampingRatio", MuscleFactors::kMost, muscles.dampingRatio);
+    takeNumber(at, "strength", MuscleFactors::kMost, muscles.strength);
+    takeNumber(at, "torque", MuscleFactors::kMost, muscles.torque);
+    if (at.has("bounded")) muscles.bounded = at["bounded"].truth().value_or(muscles.bounded);
+    if (at.has("carriesGravity")) muscles.carriesGravity = at["carriesGravity"].truth().value_or(false);
+    if (!at.has("groups")) return muscles;
+    const JsonCursor groups = at["groups"];
+    groups.expectObject({}, {"trunk", "head", "arm", "leg"});
+    for (std::size_t group = 0; group < muscles.groups.size(); ++group) {
+        const std::string name(kMuscleGroupNames[group]);
+        if (groups.has(name.c_str())) muscles.groups[group] = readFactors(groups[name.c_str()]);
+    }
+    return muscles;
+}
+
 void readBody(const JsonCursor& at, RagdollProfile& profile, std::int64_t version) {
     BodyProfile body;
     if (version == 1) {
         at.expectObject({"role", "joint", "jointPath", "shape", "jointFromBody", "massKg", "inertia"});
     } else {
         at.expectObject({"name", "joint", "jointPath", "shape", "jointFromBody", "massKg", "inertia"},
-                        {"role", "mirror"});
+                        {"role", "mirror", "muscle", "pinForceN"});
         readName(at, profile, body);
+        if (at.has("muscle")) body.muscle = readFactors(at["muscle"]);
+        if (at.has("pinForceN")) body.pinForceN = at["pinForceN"].number(0.0F, kLargest);
     }
     if (version == 1 || at.has("role")) {
         body.role = readRole(at["role"]);
@@ -169,10 +209,18 @@ void readPair(const JsonCursor& at, RagdollProfile& profile) {
     profile.filteredPairs.emplace_back(std::min(a, b), std::max(a, b));
 }
 
-void readHeader(const JsonCursor& at, RagdollProfile& profile) {
-    at.expectObject({"format", "version", "units", "name", "heightM", "totalMassKg", "standardFromModel", "bodies",
-                     "constraints", "filteredPairs", "notes"},
-                    {"$schema"});
+void readHeader(const JsonCursor& at, RagdollProfile& profile, std::int64_t version) {
+    const auto expect = [&](std::initializer_list<const char*> optional) {
+        at.expectObject({"format", "version", "units", "name", "heightM", "totalMassKg", "standardFromModel", "bodies",
+                         "constraints", "filteredPairs", "notes"},
+                        optional);
+    };
+    if (version == 1) {
+        expect({"$schema"});
+    } else {
+        expect({"$schema", "muscles"});
+        if (at.has("muscles")) profile.muscles = readMuscles(at["muscles"]);
+    }
     if (at.has("$schema")) static_cast<void>(at["$schema"].text());
     const JsonCursor units = at["units"];
     units.expectObject({"length", "mass", "angle", "torque"});
@@ -234,8 +282,9 @@ Result<RagdollProfile> profileFromJson(std::string_view text, std::string_view s
     problems = duplicates;
     RagdollProfile profile;
     const JsonCursor root(document, problems);
-    readHeader(root, profile);
-    readLists(root, profile, document["version"].get<std::int64_t>());
+    const auto version = document["version"].get<std::int64_t>();
+    readHeader(root, profile, version);
+    readLists(root, profile, version);
     if (problems.empty()) problems = validate(profile);
     if (!problems.empty()) return asError(source, problems);
     return profile;

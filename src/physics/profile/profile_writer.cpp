@@ -27,6 +27,24 @@ Json shape(const BodyShape& s) {
     return Json{{"kind", "box"}, {"halfExtents", jsonVector(s.halfExtents)}};
 }
 
+Json factors(const MuscleFactors& f) {
+    return Json{
+        {"strength", jsonNumber(f.strength)}, {"damping", jsonNumber(f.damping)}, {"torque", jsonNumber(f.torque)}};
+}
+
+Json muscles(const MuscleProfile& m) {
+    Json out{{"frequencyHz", jsonNumber(m.frequencyHz)},
+             {"dampingRatio", jsonNumber(m.dampingRatio)},
+             {"strength", jsonNumber(m.strength)},
+             {"torque", jsonNumber(m.torque)},
+             {"bounded", m.bounded},
+             {"carriesGravity", m.carriesGravity},
+             {"groups", Json::object()}};
+    for (std::size_t group = 0; group < m.groups.size(); ++group)
+        out["groups"][std::string(kMuscleGroupNames[group])] = factors(m.groups[group]);
+    return out;
+}
+
 Json body(const BodyProfile& b) {
     Json out{{"name", b.name}};
     if (b.role) out["role"] = roleName(*b.role);
@@ -37,6 +55,8 @@ Json body(const BodyProfile& b) {
     out["jointFromBody"] = frame(b.jointFromBody);
     out["massKg"] = jsonNumber(b.massKg);
     out["inertia"] = jsonVector(b.inertia);
+    if (!(b.muscle == MuscleFactors{})) out["muscle"] = factors(b.muscle);
+    if (b.pinForceN) out["pinForceN"] = jsonNumber(*b.pinForceN);
     return out;
 }
 
@@ -69,6 +89,7 @@ std::string profileToJson(const RagdollProfile& profile) {
              {"heightM", jsonNumber(profile.heightM)},
              {"totalMassKg", jsonNumber(profile.totalMassKg)},
              {"standardFromModel", jsonQuaternion(profile.standardFromModel)}};
+    if (profile.muscles) out["muscles"] = muscles(*profile.muscles);
     out["bodies"] = Json::array();
     for (const BodyProfile& b : profile.bodies)
         out["bodies"].push_back(body(b));

@@ -184,10 +184,16 @@ TEST_CASE("muscles are set by frequency, group and body, without strength a join
     CHECK(drive.inertiaOf(elbow) < 0.2F);
     CHECK(drive.inertiaOf(hip) > 5.0F * drive.inertiaOf(elbow));
     CHECK(drive.torqueBoundOf(hip, muscles) == Approx(3.0F * drive.torqueBoundOf(elbow, muscles)));
-    muscles.groups[static_cast<std::size_t>(physics::MuscleGroup::arm)] = 0.5F;
+    physics::MuscleFactors& arm = muscles.groups[static_cast<std::size_t>(physics::MuscleGroup::arm)];
+    arm.strength = 0.5F;
     CHECK(drive.stiffnessOf(elbow, muscles) == Approx(0.5F * drive.inertiaOf(elbow) * omega * omega));
-    muscles.bodies.assign(profile.bodies.size(), 1.0F);
-    muscles.bodies[profile.constraints[elbow].child] = 0.0F;
+    const float bound = drive.torqueBoundOf(elbow, muscles);
+    arm.torque = 3.0F;
+    muscles.torque = 2.0F;
+    CHECK(drive.torqueBoundOf(elbow, muscles) == Approx(6.0F * bound));
+    CHECK(drive.stiffnessOf(elbow, muscles) == Approx(0.5F * drive.inertiaOf(elbow) * omega * omega));
+    muscles.bodies.resize(profile.bodies.size());
+    muscles.bodies[profile.constraints[elbow].child].strength = 0.0F;
     CHECK(drive.stiffnessOf(elbow, muscles) == 0.0F);
     CHECK(drive.stiffnessOf(hip, muscles) > 0.0F);
 }

@@ -207,6 +207,70 @@ TEST_CASE("a file of version 1 is upgraded: its bodies are named by their roles"
     CHECK(problemsOf(mixed).find("/bodies/0/name: unknown key") != std::string::npos);
 }
 
+TEST_CASE("muscles and pins come back to the last bit, and a file without them stays as it was") {
+    RagdollProfile profile = profileToWrite();
+    const std::string plain = profileToJson(profile);
+    CHECK(plain.find("muscle") == std::string::npos);
+    CHECK(plain.find("pinForceN") == std::string::npos);
+    CHECK_FALSE(profileFromJson(plain, "memory").value().muscles);
+    profile.muscles = MuscleProfile{7.3F, 0.9F, 1.7F, 0.31F, false, true, {}};
+    profile.muscles->groups[static_cast<std::size_t>(MuscleGroup::arm)] = {0.1F, 1.3F, 2.7F};
+    profile.bodies[4].muscle = {0.7F, 1.0F, 0.3F};
+    profile.bodies[0].pinForceN = 1234.5F;
+    const std::string text = profileToJson(profile);
+    const auto read = profileFromJson(text, "memory");
+    REQUIRE(read);
+    CHECK(read.value().muscles == profile.muscles);
+    CHECK(read.value().bodies[4].muscle == profile.bodies[4].muscle);
+    CHECK(read.value().bodies[5].muscle == MuscleFactors{});
+    CHECK(read.value().bodies[0].pinForceN == 1234.5F);
+    CHECK_FALSE(read.value().bodies[1].pinForceN);
+    CHECK(profileToJson(read.value()) == text);
+    std::ifstream file(std::string(LUTKA_ASSETS_DIR) + "/profiles/ragdoll.schema.json");
+    CHECK(test::checkSchema(json::parse(file), json::parse(text)).empty());
+}
+
+TEST_CASE("what is not said of muscles is the preset's, and what is wrong with them is told with its place") {
+    json document = bipedJson();
+    document["muscles"] = {{"preset", "stiff"}, {"strength", 2}, {"groups", {{"leg", {{"torque", 3}}}}}};
+    const auto read = profileFromJson(document.dump(), "memory");
+    REQUIRE(read);
+    MuscleProfile expected = muscleProfileOf(MusclePreset::stiff);
+    expected.strength = 2.0F;
+    expected.groups[static_cast<std::size_t>(MuscleGroup::leg)].torque = 3.0F;
+    CHECK(read.value().muscles == expected);
+    document["muscles"] = {{"preset", "mighty"},      {"frequencyHz", 5000}, {"bounded", 1},
+                           {"groups", {{"tail", 1}}}, {"colour", "red"},     {"dampingRatio", -1}};
+    document["bodies"][2]["muscle"] = {{"strength", "much"}, {"speed", 1}};
+    document["bodies"][3]["pinForceN"] = -4;
+    const std::string message = problemsOf(document);
+    INFO(message);
+    for (const char* place :
+         {"/muscles/preset", "/muscles/frequencyHz", "/muscles/bounded", "/muscles/groups/tail", "/muscles/colour",
+          "/muscles/dampingRatio", "/bodies/2/muscle/strength", "/bodies/2/muscle/speed", "/bodies/3/pinForceN"})
+        CHECK(message.find(place) != std::string::npos);
+    // Factors on muscles that are not there mean nothing.
+    json lone = bipedJson();
+    lone["bodies"][2]["muscle"] = {{"strength", 0.5}};
+    CHECK(problemsOf(lone).find("/bodies/2/muscle: expected muscles") != std::string::npos);
+    // Version 1 knew none.
+    std::ifstream file(std::string(LUTKA_TESTS_DIR) + "/golden/profiles/biped_v1.ragdoll.json");
+    json old = json::parse(file);
+    old["muscles"] = json::object();
+    CHECK(problemsOf(old).find("/muscles: unknown key") != std::string::npos);
+}
+
+TEST_CASE("a file of version 2 with muscles is read by every later version") {
+    const auto read = loadProfile(std::string(LUTKA_TESTS_DIR) + "/golden/profiles/muscles_v2.ragdoll.json");
+    REQUIRE(read);
+    REQUIRE(read.value().muscles);
+    CHECK(read.value().muscles->frequencyHz == 6.0F);
+    CHECK(read.value().muscles->bounded);
+    CHECK(read.value().muscles->groups[static_cast<std::size_t>(MuscleGroup::arm)].strength == 0.5F);
+    CHECK(read.value().bodies[0].pinForceN == 1500.0F);
+    CHECK(read.value().bodies[bodyOf(read.value(), Role::leftHand)].muscle.damping == 2.0F);
+}
+
 TEST_CASE("bodies without a role come back, with names in any script, and their counterparts") {
     RagdollProfile profile = profileToWrite();
     for (BodyProfile& body : profile.bodies) {

@@ -1,0 +1,98 @@
+#include "physics/powered/balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "physics/powered/puppet.hpp"
+#include "physics/worlds/world_table.hpp"
+#include "support/catch.hpp"
+#include "support/dolls.hpp"
+
+using namespace lutka;
+using namespace lutka::test;
+using physics::BodyState;
+using physics::Puppet;
+using physics::PuppetSettings;
+using physics::Role;
+using physics::SolverKind;
+
+namespace {
+
+// Whether a doll that nothing pins stands for `seconds`, with a push of so many N s on its chest after one second.
+bool standsFor(SolverKind solver, float seconds, const vec3& impulse, bool balances = true) {
+    const physics::RagdollProfile profile = makeDoll();
+    physics::WorldSettings world;
+    world.contactReports = true;
+    const auto made = worldOf(solver, world);
+    made->addStatic(physics::StaticShape{});
+    const auto start = standingDoll(profile, {0, 0.001F, 0});
+    const physics::DollId doll = made->addDoll(profile, start);
+    PuppetSettings settings;
+    settings.pinForceN = 0.0F;
+    settings.balances = balances;
+    settings.knockOutLoss = 2.0F;
+    const int chest = physics::bodyOf(profile, Role::chest);
+    const int hips = physics::bodyOf(profile, Role::hips);
+    Puppet puppet(*made, doll, profile, hips, start, settings);
+    std::vector<RigidTransform> pose;
+    for (const BodyState& body : start)
+        pose.push_back(body.worldFromBody);
+    const int steps = static_cast<int>(seconds / kFrame);
+    for (int i = 0; i < steps; ++i) {
+        if (i == 60 && impulse != vec3(0))
+            puppet.hit(chest, bodyOfDoll(*made, 0, chest).worldFromBody.translation, impulse);
+        puppet.prepare(pose, pose, kFrame);
+        made->step(kFrame);
+        std::array<bool, 2> grounded{false, false};
+        for (const physics::ContactReport& report : made->contactReports())
+            for (std::size_t side = 0; side < grounded.size(); ++side)
+                grounded[side] =
+                    grounded[side] || report.a.body == puppet.feet()[side] || report.b.body == puppet.feet()[side];
+        puppet.setGrounded(grounded);
+    }
+    return puppet.state() != physics::PuppetState::limp &&
+           bodyOfDoll(*made, 0, hips).worldFromBody.translation.y > 0.9F * start[hips].worldFromBody.translation.y;
+}
+
+}  // namespace
+
+TEST_CASE("a powered doll that nothing pins stands by its ankles") {
+    for (const SolverKind solver : kOurSolvers) {
+        INFO(physics::solverName(solver));
+        CHECK(standsFor(solver, 10.0F, vec3(0)));
+    }
+}
+
+TEST_CASE("balance takes pushes from eight directions that knock over a doll without it") {
+    // N s from behind, …, the lesser of both solvers; a heel is short, so least can be taken from ahead.
+    constexpr float kTaken[8] = {20, 20, 20, 8, 5, 8, 20, 20};
+    for (const SolverKind solver : kOurSolvers) {
+        int fallen = 0;
+        for (int way = 0; way < 8; ++way) {
+            const float angle = kPi / 4.0F * static_cast<float>(way);
+            INFO(physics::solverName(solver) << ", " << way * 45 << " degrees from ahead");
+            const vec3 push = kTaken[way] * vec3(std::sin(angle), 0, std::cos(angle));
+            CHECK(standsFor(solver, 6.0F, push));
+            fallen += standsFor(solver, 6.0F, push, false) ? 0 : 1;
+        }
+        CHECK(fallen >= 4);
+    }
+}
+
+TEST_CASE("nobody balances without a foot on the ground") {
+    const physics::RagdollProfile profile = makeDoll();
+    physics::Balance balance(profile);
+    const auto start = standingDoll(profile, vec3(0));
+    CHECK(balance.stanceOf(start, {false, false}, 9.81F) == nullptr);
+    const physics::Stance* stance = balance.stanceOf(start, {true, false}, 9.81F);
+    REQUIRE(stance != nullptr);
+    const int left = physics::bodyOf(profile, Role::leftFoot) - 1;
+    const int right = physics::bodyOf(profile, Role::rightFoot) - 1;
+    CHECK(stance->share[left] == 1.0F);
+    CHECK(stance->share[right] == 0.0F);
+    // The centre of mass is to the right of the left foot: the ankle turns the foot that way, which leans the doll
+    // back.
+    CHECK(std::abs(stance->torque[left].z) > 1.0F);
+    CHECK(glm::length(stance->torque[right]) == 0.0F);
+}

@@ -1,0 +1,122 @@
+#include "scene/terrain_walk.hpp"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "scene/simulation.hpp"
+#include "support/catch.hpp"
+#include "support/ragdolls.hpp"
+
+using namespace lutka;
+using physics::StaticShape;
+using scene::PuppetPlay;
+
+namespace {
+
+const scene::RagdollAsset& walker() {
+    static const auto asset = scene::loadRagdoll(std::filesystem::path(LUTKA_ASSETS_DIR) / "models/mannequin.glb");
+    REQUIRE(asset);
+    return *asset.value();
+}
+
+StaticShape slab(const vec3& centre, const vec3& halfExtents, const quat& turn = quat(1, 0, 0, 0)) {
+    StaticShape shape;
+    shape.kind = StaticShape::Kind::box;
+    shape.halfExtents = halfExtents;
+    shape.worldFromShape = {turn, centre};
+    return shape;
+}
+
+// A floor, and along +z from z = 1 on a ramp of 12 degrees up, or stairs.
+std::vector<StaticShape> rampUp() {
+    const quat tilt = glm::angleAxis(-radians(12.0F), vec3(1, 0, 0));
+    const vec3 half(1.0F, 0.1F, 3.0F);
+    const vec3 foot(0, 0, 1);
+    return {StaticShape{}, slab(foot + tilt * vec3(0, -half.y, half.z), half, tilt)};
+}
+std::vector<StaticShape> stairsUp() {
+    std::vector<StaticShape> shapes{StaticShape{}};
+    for (int i = 0; i < 8; ++i) {
+        const float top = 0.14F * static_cast<float>(i + 1);
+        shapes.push_back(slab({0, 0.5F * top, 1.0F + 0.45F * static_cast<float>(i) + 1.5F}, {1.0F, 0.5F * top, 1.5F}));
+    }
+    return shapes;
+}
+
+struct Walked {
+    scene::PuppetFigures figures;
+    float hipsRise = 0.0F;
+    float mostHipsStep = 0.0F;  // m in a step, up or down
+    bool sound = false;
+};
+
+Walked walkOn(const std::vector<StaticShape>& statics, bool meets, bool kinematic, float seconds) {
+    scene::Scenario scenario;
+    scenario.statics = statics;
+    scenario.dolls.emplace_back();
+    PuppetPlay play;
+    play.start.clip = "walk";
+    play.pace = 0.95F;
+    play.meetsGround = meets;
+    if (kinematic) play.led = {{"all", 1.0F}};
+    scene::SimulationOptions options;
+    options.puppet = play;
+    auto made = scene::Simulation::create(walker(), scenario, options);
+    REQUIRE(made);
+    scene::Simulation& simulation = *made.value();
+    Walked walked;
+    const float start = simulation.worldFromBody(0)[0].translation.y;
+    float last = start;
+    for (int i = 0; i < static_cast<int>(seconds * 60.0F); ++i) {
+        simulation.step();
+        const float now = simulation.worldFromBody(0)[0].translation.y;
+        walked.mostHipsStep = std::max(walked.mostHipsStep, std::abs(now - last));
+        last = now;
+    }
+    walked.figures = simulation.puppets()->figures();
+    walked.hipsRise = last - start;
+    walked.sound = simulation.quality().nonFinite == 0 && simulation.world().caught().empty();
+    return walked;
+}
+
+}  // namespace
+
+TEST_CASE("a clip's feet meet a ramp and stairs, which they go through without being fitted") {
+    for (const bool isRamp : {true, false}) {
+        const auto statics = isRamp ? rampUp() : stairsUp();
+        const Walked with = walkOn(statics, true, true, 3.6F);
+        const Walked without = walkOn(statics, false, true, 3.6F);
+        INFO((isRamp ? "ramp" : "stairs")
+             << ", fitted: mean gap " << with.figures.footGapMeanM << ", most " << with.figures.footGapM << ", depth "
+             << with.figures.footDepthM << "; not: " << without.figures.footGapMeanM << ", "
+             << without.figures.footDepthM << "; hips rose " << with.hipsRise << ", in a step " << with.mostHipsStep);
+        CHECK(with.figures.footDepthM < 0.04F);
+        CHECK(with.figures.footGapMeanM < 0.03F);
+        CHECK(without.figures.footDepthM > 0.2F);
+        CHECK(with.hipsRise > 0.35F);
+        CHECK(without.hipsRise < 0.1F);
+        CHECK(with.mostHipsStep < 0.02F);
+        CHECK(with.sound);
+    }
+}
+
+TEST_CASE("a powered walk goes up a ramp and stairs without being knocked out") {
+    for (const bool isRamp : {true, false}) {
+        const Walked walked = walkOn(isRamp ? rampUp() : stairsUp(), true, false, 3.6F);
+        INFO((isRamp ? "ramp" : "stairs")
+             << ": gap " << walked.figures.footGapM << ", depth " << walked.figures.footDepthM << ", behind "
+             << walked.figures.rmsDeg << " degrees, root " << walked.figures.rootM << " m");
+        CHECK(walked.figures.knockOuts == 0);
+        CHECK(walked.figures.limp == 0);
+        CHECK(walked.hipsRise > 0.35F);
+        CHECK(walked.figures.footDepthM < 0.02F);
+        CHECK(walked.figures.rmsDeg < 6.0F);
+        CHECK(walked.sound);
+    }
+}
+
+TEST_CASE("level ground changes nothing of a clip") {
+    const Walked plain = walkOn({StaticShape{}}, true, false, 1.0F);
+    const Walked other = walkOn({StaticShape{}}, false, false, 1.0F);
+    CHECK(plain.hipsRise == other.hipsRise);
+    CHECK(plain.figures.rmsDeg == other.figures.rmsDeg);
+}
