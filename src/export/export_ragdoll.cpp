@@ -1,5 +1,7 @@
 #include "export/export_ragdoll.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -91,7 +93,15 @@ std::optional<ExportFormat> exportFormatOf(const std::filesystem::path& file) {
 
 Result<Exported> exportRagdoll(ExportFormat format, const ExportSource& source) {
     const physics::RagdollProfile profile = withSpheres(source.profile);
-    return writeAs(format, {source.character, profile, source.rig});
+    auto written = writeAs(format, {source.character, profile, source.rig});
+    const auto& constraints = profile.constraints;
+    const auto springs = std::count_if(constraints.begin(), constraints.end(),
+                                       [](const physics::ConstraintProfile& c) { return c.spring.works(); });
+    if (written && springs > 0) {
+        written.value().warnings.push_back(fmt::format("the springs (stiffness and damping) of {} joint{} are left out",
+                                                       springs, springs == 1 ? "" : "s"));
+    }
+    return written;
 }
 
 }  // namespace lutka::exporting

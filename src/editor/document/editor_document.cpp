@@ -268,7 +268,9 @@ EditorDocument::PartValues EditorDocument::copyPart(int body) const {
     PartValues values{physics::sideOf(profile(), body), from.shape, from.massKg, std::nullopt};
     if (body > 0) {
         const ConstraintProfile& joint = profile().constraints[body - 1];
-        values.joint = {joint.kind, physics::jointRange(joint, bindOf(body - 1)), joint.frictionNm};
+        const physics::BindFrames bind = bindOf(body - 1);
+        values.joint = {joint.kind, physics::jointRange(joint, bind), joint.frictionNm,
+                        physics::springFromBind(joint, bind)};
     }
     return values;
 }
@@ -284,6 +286,8 @@ Result<void> EditorDocument::pasteParts(std::span<const int> bodies, const PartV
         physics::setJointRange(*part.constraint, across ? mirrored(values.joint->range) : values.joint->range,
                                part.bind);
         part.constraint->frictionNm = values.joint->frictionNm;
+        const physics::JointSpring& spring = values.joint->spring;
+        physics::setSpringFromBind(*part.constraint, across ? mirrored(spring) : spring, part.bind);
         return {};
     });
 }

@@ -74,6 +74,7 @@ class EditorDocument {
             physics::ConstraintProfile::Kind kind = physics::ConstraintProfile::Kind::coneTwist;
             physics::JointRange range;
             float frictionNm = 0.0F;
+            physics::JointSpring spring;  ///< Its rest as a turn from the bind pose.
         };
         std::optional<Joint> joint;  ///< Unless it was the root.
     };

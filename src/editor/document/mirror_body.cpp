@@ -59,6 +59,7 @@ void mirrorBody(RagdollProfile& profile, std::span<const RigidTransform> bindMod
     target.hinge = source.hinge;
     target.cone = source.cone;
     target.frictionNm = source.frictionNm;
+    target.spring = physics::mirrored(source.spring);
     mirrorPlace(profile, bindModelFromBody, from, to);
 }
 

@@ -42,6 +42,13 @@ bool same(const physics::ConeTwistLimits& a, const physics::ConeTwistLimits& b) 
     return a.swingY == b.swingY && a.swingZ == b.swingZ && a.twist == b.twist;
 }
 
+// Where a spring that does nothing would rest is of no account.
+bool same(const physics::JointSpring& a, const physics::JointSpring& b) {
+    if (!a.works() && !b.works()) return true;
+    return a.stiffness == b.stiffness && a.damping == b.damping &&
+           same(RigidTransform{a.rest, vec3(0)}, RigidTransform{b.rest, vec3(0)});
+}
+
 template <class T>
 void takeUnset(std::optional<T>& edit, const std::optional<T>& other) {
     if (!edit) edit = other;
@@ -61,6 +68,7 @@ void applyTo(ConstraintProfile& constraint, const PartEdits& edits) {
     if (edits.cone) constraint.cone = *edits.cone;
     if (edits.frames) physics::applyFrameEdit(constraint, *edits.frames);
     if (edits.frictionNm) constraint.frictionNm = *edits.frictionNm;
+    if (edits.spring) constraint.spring = *edits.spring;
 }
 
 void compareConstraints(PartEdits& edits, const ConstraintProfile& plain, const ConstraintProfile& given) {
@@ -108,12 +116,17 @@ PartEdits partEditsBetween(const RagdollProfile& plain, int plainBody, const Rag
     const int plainParent = plain.constraints[plainBody - 1].parent;
     const BodyProfile& parentFrom = plain.bodies[plainParent];
     const BodyProfile& parentTo = given.bodies[joint.parent];
-    if (!comparable || parentFrom.jointPath != parentTo.jointPath) return edits;
     ConstraintProfile moved = plain.constraints[plainBody - 1];
+    if (!comparable || parentFrom.jointPath != parentTo.jointPath) {
+        if (!same(moved.spring, joint.spring)) edits.spring = joint.spring;
+        return edits;
+    }
     moved.childFromFrame = inverse(to.jointFromBody) * from.jointFromBody * moved.childFromFrame;
     moved.parentFromFrame = inverse(parentTo.jointFromBody) * parentFrom.jointFromBody * moved.parentFromFrame;
     const physics::FrameEdit frames = physics::frameEditBetween(moved, joint);
     if (!physics::isNone(frames)) edits.frames = frames;
+    physics::applyFrameEdit(moved, frames);
+    if (!same(moved.spring, joint.spring)) edits.spring = joint.spring;
     return edits;
 }
 
@@ -153,6 +166,7 @@ void fillUnset(AllPartEdits& edits, const AllPartEdits& others) {
         takeUnset(part.cone, other.cone);
         takeUnset(part.frames, other.frames);
         takeUnset(part.frictionNm, other.frictionNm);
+        takeUnset(part.spring, other.spring);
     }
 }
 

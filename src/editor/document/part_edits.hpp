@@ -21,9 +21,10 @@ struct PartEdits {
     std::optional<physics::ConeTwistLimits> cone;
     std::optional<physics::FrameEdit> frames;  ///< Against the frames of the fit, told from the body as edited.
     std::optional<float> frictionNm;
+    std::optional<physics::JointSpring> spring;  ///< Its rest told in the frames as edited.
 
     [[nodiscard]] bool any() const {
-        return shape || jointFromBody || massKg || kind || hinge || cone || frames || frictionNm;
+        return shape || jointFromBody || massKg || kind || hinge || cone || frames || frictionNm || spring;
     }
 };
 /// By the body's name. No entry: nothing was changed.

@@ -1,4 +1,5 @@
-/// The Body tab's joint: kind, limits in anatomical words, present angles, friction, and the swing that shows them.
+/// The Body tab's joint: kind, limits in anatomical words, present angles, friction, spring, and the swing that shows
+/// them.
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -17,6 +18,7 @@ namespace {
 using physics::AngleSpan;
 using physics::ConstraintProfile;
 using physics::JointRange;
+using physics::JointSpring;
 
 constexpr float kMostDeg = 175.0F;
 constexpr const char* kConstraintKinds[] = {"Hinge", "Cone and twist"};
@@ -187,10 +189,78 @@ void limitFields(const PartFields& fields, const physics::ConstraintState& state
     presentBar(fields, twist, present(state.twist, constraint.cone.twist, now.twist), was.twist);
 }
 
+// How far each selected joint is turned now: where its spring is to rest.
+void restNow(const PartFields& fields) {
+    const auto bodies = fields.context.editor.player().simulation().worldFromBody(fields.doll);
+    fields.change("Spring's rest", [&](EditorDocument::Part& part) -> Result<void> {
+        if (part.constraint == nullptr) return {};
+        const ConstraintProfile& c = *part.constraint;
+        part.constraint->spring.rest = physics::relativeFrame(c, {bodies[c.parent], bodies[c.child]});
+        return {};
+    });
+}
+
+void springValue(const PartFields& fields, const char* label, const char* format, float JointSpring::*member,
+                 float most) {
+    float value = fields.constraint().spring.*member;
+    const std::string id = fmt::format("##{}", label);
+    labelled(label, fields.labelWidth());
+    if (!slider(id.c_str(), value, 0.0F, most, format)) return;
+    fields.change(label, [&](EditorDocument::Part& part) -> Result<void> {
+        if (part.constraint == nullptr) return {};
+        JointSpring& spring = part.constraint->spring;
+        if (!spring.works()) spring.rest = physics::relativeFrame(*part.constraint, part.bind);
+        spring.*member = std::max(value, 0.0F);
+        return {};
+    });
+}
+
+void springRest(const PartFields& fields) {
+    if (ImGui::MenuItem("Rests in the bind pose")) {
+        fields.change("Spring's rest", [](EditorDocument::Part& part) -> Result<void> {
+            if (part.constraint == nullptr) return {};
+            part.constraint->spring.rest = physics::relativeFrame(*part.constraint, part.bind);
+            return {};
+        });
+    }
+    if (ImGui::MenuItem("Rests as it is now")) restNow(fields);
+    if (!ImGui::MenuItem("As fitted")) return;
+    fields.change("Spring", [&](EditorDocument::Part& part) -> Result<void> {
+        const auto* fitted = fields.fittedConstraintOf(part);
+        if (fitted != nullptr) part.constraint->spring = fitted->spring;
+        return {};
+    });
+}
+
+// Behind the friction's name, which stands out where there is a spring.
+void springMenu(const PartFields& fields) {
+    const bool works = fields.constraint().spring.works();
+    if (works) ImGui::PushStyleColor(ImGuiCol_Text, accentColor());
+    if (ImGui::SmallButton("Friction ▾")) ImGui::OpenPopup("##spring");
+    if (works) ImGui::PopStyleColor();
+    tooltip("The joint's spring: stiffness, damping, and the pose in which it rests");
+    ImGui::SetNextWindowSize({fields.context.px(300), 0.0F});
+    if (!ImGui::BeginPopup("##spring")) return;
+    caption("SPRING");
+    const physics::RagdollProfile& profile = fields.context.editor.document().profile();
+    constexpr float gravity = 9.81F;
+    const float weight = profile.totalMassKg * gravity * profile.heightM;  // N m, what its torques are measured by
+    constexpr float mostStiffness = 0.25F;
+    constexpr float mostDamping = 0.02F;
+    springValue(fields, "Stiffness", "%.1f N m / rad", &JointSpring::stiffness, mostStiffness * weight);
+    springValue(fields, "Damping", "%.2f N m s / rad", &JointSpring::damping, mostDamping * weight);
+    ImGui::BeginDisabled(!fields.constraint().spring.works());
+    springRest(fields);
+    ImGui::EndDisabled();
+    ImGui::EndPopup();
+}
+
 void frictionField(const PartFields& fields) {
     float friction = fields.constraint().frictionNm;
     const float was = fields.fittedConstraint().frictionNm;
-    fieldRow(fields, "Friction");
+    springMenu(fields);
+    ImGui::SameLine(fields.labelWidth());
+    ImGui::SetNextItemWidth(fields.fieldWidth());
     if (slider("##friction", friction, 0.0F, 20.0F, "%.2f N m")) {
         fields.change("Friction", [&](EditorDocument::Part& part) -> Result<void> {
             if (part.constraint != nullptr) part.constraint->frictionNm = std::max(friction, 0.0F);

@@ -53,10 +53,12 @@ quat relativeFrame(const ConstraintProfile& constraint, const BindFrames& pose) 
 void turnFrames(ConstraintProfile& constraint, const quat& turn) {
     constraint.parentFromFrame.rotation = glm::normalize(constraint.parentFromFrame.rotation * turn);
     constraint.childFromFrame.rotation = glm::normalize(constraint.childFromFrame.rotation * turn);
+    constraint.spring.rest = glm::normalize(glm::conjugate(turn) * constraint.spring.rest * turn);
 }
 
 void shiftNeutral(ConstraintProfile& constraint, const quat& turn) {
     constraint.parentFromFrame.rotation = glm::normalize(constraint.parentFromFrame.rotation * turn);
+    constraint.spring.rest = glm::normalize(glm::conjugate(turn) * constraint.spring.rest);
 }
 
 void changeKind(ConstraintProfile& constraint, ConstraintProfile::Kind kind, const BindFrames& bind) {
@@ -104,6 +106,21 @@ bool isNone(const FrameEdit& edit) {
 
 FrameEdit mirrored(const FrameEdit& edit) {
     return {mirroredInFrame(edit.turn), mirroredInFrame(edit.neutral)};
+}
+
+JointSpring mirrored(const JointSpring& spring) {
+    return {spring.stiffness, spring.damping, mirroredInFrame(spring.rest)};
+}
+
+JointSpring springFromBind(const ConstraintProfile& constraint, const BindFrames& bind) {
+    JointSpring told = constraint.spring;
+    told.rest = glm::normalize(glm::conjugate(relativeFrame(constraint, bind)) * told.rest);
+    return told;
+}
+
+void setSpringFromBind(ConstraintProfile& constraint, const JointSpring& told, const BindFrames& bind) {
+    constraint.spring = told;
+    constraint.spring.rest = glm::normalize(relativeFrame(constraint, bind) * told.rest);
 }
 
 }  // namespace lutka::physics

@@ -13,12 +13,12 @@ struct BindFrames {
 /// Orientation of the child's constraint frame in the parent's: R_parentFrame⁻¹ · R_childFrame in that pose.
 [[nodiscard]] quat relativeFrame(const ConstraintProfile& constraint, const BindFrames& pose);
 
-/// Turns the axes of both frames by the same rotation, told in the frame's own axes: the neutral pose stays, but
-/// flexion, side and twist are about other axes of the limb.
+/// Turns the axes of both frames by the same rotation, told in the frame's own axes: the neutral pose and that in which
+/// the spring rests stay, but flexion, side and twist are about other axes of the limb.
 void turnFrames(ConstraintProfile& constraint, const quat& turn);
 
 /// Moves the neutral pose, the middle of the range: the child's frame agrees with the parent's where the parent's
-/// turned by `turn` (in its own axes) was. The axes on the child stay.
+/// turned by `turn` (in its own axes) was. The axes on the child stay, and the pose in which the spring rests.
 void shiftNeutral(ConstraintProfile& constraint, const quat& turn);
 
 /// Makes a cone-twist of a hinge, or a hinge of a cone-twist. The range of flexion, told from the bind pose, stays.
@@ -43,5 +43,9 @@ void applyFrameEdit(ConstraintProfile& constraint, const FrameEdit& edit);
 [[nodiscard]] bool isNone(const FrameEdit& edit);
 /// The same for the limb on the other side.
 [[nodiscard]] FrameEdit mirrored(const FrameEdit& edit);
+[[nodiscard]] JointSpring mirrored(const JointSpring& spring);
+/// The constraint's spring with its rest as a turn from the bind pose, which means the same in other joints, and back.
+[[nodiscard]] JointSpring springFromBind(const ConstraintProfile& constraint, const BindFrames& bind);
+void setSpringFromBind(ConstraintProfile& constraint, const JointSpring& told, const BindFrames& bind);
 
 }  // namespace lutka::physics

@@ -194,6 +194,17 @@ void checkLimits(Problems& problems, const ConstraintProfile& constraint, const 
     check(constraint.cone.twist, "twist");
 }
 
+// `most`: of a torque for this figure, N m, and so of both a radian and a radian a second.
+void checkSpring(Problems& problems, const JointSpring& spring, float most, const std::string& place) {
+    const auto check = [&](float value, const char* name) {
+        problems.require(isWithin(value, 0.0F, most), place + "/" + name,
+                         fmt::format("expected a number in [0, {:.3g}] for this figure, got {}", most, value));
+    };
+    check(spring.stiffness, "stiffness");
+    check(spring.damping, "damping");
+    problems.require(isUnit(spring.rest), place + "/rest", "expected a finite quaternion of length 1");
+}
+
 void checkConstraint(Problems& problems, const RagdollProfile& profile, std::size_t index) {
     const ConstraintProfile& constraint = profile.constraints[index];
     const std::string place = fmt::format("/constraints/{}", index);
@@ -210,6 +221,7 @@ void checkConstraint(Problems& problems, const RagdollProfile& profile, std::siz
     problems.require(
         isWithin(constraint.frictionNm, 0.0F, mostFriction), place + "/frictionNm",
         fmt::format("expected a number in [0, {:.3g}] for this figure, got {}", mostFriction, constraint.frictionNm));
+    checkSpring(problems, constraint.spring, mostFriction, place + "/spring");
 }
 
 void checkWhole(Problems& problems, const RagdollProfile& profile) {

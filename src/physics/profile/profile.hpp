@@ -65,6 +65,16 @@ struct ConeTwistLimits {
     float twist = 0.0F;   ///< Radians, (0, pi): twist stays in [-twist, twist].
 };
 
+/// A spring with a damper in a joint, which pulls it to where it rests: tails, hair, what stands up by itself. Solved
+/// implicitly, so that no stiffness is too much; a motor in the joint takes its place while it is on.
+struct JointSpring {
+    float stiffness = 0.0F;  ///< N m/rad, >= 0; 0: the damper alone brakes.
+    float damping = 0.0F;    ///< N m s/rad, >= 0.
+    quat rest{1, 0, 0, 0};   ///< The child's frame in the parent's at rest, of length 1. Hinge: its turn about z.
+
+    [[nodiscard]] bool works() const { return stiffness > 0.0F || damping > 0.0F; }
+};
+
 /// What links two bodies. The anchors are the same point in the bind pose; frame orientations are equal in the
 /// constraint's neutral pose (the middle of its range), not in the bind pose:
 /// R_worldFromParent · parentFromFrame.rotation == R_worldFromChild · childFromFrame.rotation.
@@ -78,6 +88,7 @@ struct ConstraintProfile {
     HingeLimits hinge;        ///< Used when kind is hinge.
     ConeTwistLimits cone;     ///< Used when kind is coneTwist.
     float frictionNm = 0.0F;  ///< Largest torque of dry friction in the joint, N m, >= 0. More: stiffer, calmer.
+    JointSpring spring;       ///< Does nothing by default.
 };
 
 /// A checked, portable ragdoll: everything the simulation needs, nothing of a running world. Bodies come parents first;

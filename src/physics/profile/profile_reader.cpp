@@ -154,12 +154,21 @@ void readBody(const JsonCursor& at, RagdollProfile& profile, std::int64_t versio
     profile.bodies.push_back(std::move(body));
 }
 
+JointSpring readSpring(const JsonCursor& at) {
+    at.expectObject({"stiffness", "damping", "rest"});
+    JointSpring spring;
+    spring.stiffness = at["stiffness"].number(0.0F, kLargest);
+    spring.damping = at["damping"].number(0.0F, kLargest);
+    spring.rest = readQuaternion(at["rest"]);
+    return spring;
+}
+
 void readConstraint(const JsonCursor& at, RagdollProfile& profile) {
     constexpr float kAlmostPi = kPi - 1e-4F;
     constexpr float kTinyAngle = 1e-4F;
     const int kind = at["kind"].oneOf({"hinge", "coneTwist"});
     const char* limits = kind == 0 ? "hinge" : "cone";
-    at.expectObject({"child", "parent", "kind", "parentFromFrame", "childFromFrame", limits, "frictionNm"});
+    at.expectObject({"child", "parent", "kind", "parentFromFrame", "childFromFrame", limits, "frictionNm"}, {"spring"});
     ConstraintProfile c;
     c.kind = kind == 0 ? ConstraintProfile::Kind::hinge : ConstraintProfile::Kind::coneTwist;
     c.child = readBodyName(at["child"], profile);
@@ -184,6 +193,7 @@ void readConstraint(const JsonCursor& at, RagdollProfile& profile) {
                   range["twist"].number(kTinyAngle, kAlmostPi)};
     }
     c.frictionNm = at["frictionNm"].number(0.0F, kLargest);
+    if (at.has("spring")) c.spring = readSpring(at["spring"]);
     profile.constraints.push_back(c);
 }
 

@@ -75,6 +75,11 @@ Json constraint(const RagdollProfile& profile, const ConstraintProfile& c) {
                            {"twist", jsonNumber(c.cone.twist)}};
     }
     out["frictionNm"] = jsonNumber(c.frictionNm);
+    if (c.spring.works()) {
+        out["spring"] = Json{{"stiffness", jsonNumber(c.spring.stiffness)},
+                             {"damping", jsonNumber(c.spring.damping)},
+                             {"rest", jsonQuaternion(c.spring.rest)}};
+    }
     return out;
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/world/joint_spring.hpp"
+
 namespace lutka::physics {
 namespace {
 
@@ -71,6 +73,9 @@ DollId World::addDoll(const RagdollProfile& profile, std::span<const BodyState> 
     if (!areSound("addDoll", profile, bodies)) return {};
     const DollId id = dollIds_.add();
     addDollAs(id, profile, bodies);
+    const int place = dollIds_.placeOf(id);
+    for (std::size_t i = 0; i < profile.constraints.size(); ++i)
+        if (const auto spring = motorOf(profile.constraints[i].spring)) setMotorAt(place, static_cast<int>(i), spring);
     guard_.add(id, profile, bodies);
     return id;
 }
@@ -172,7 +177,10 @@ void World::setDollState(DollId doll, const DollState& state) {
         refuse(call, "the time at rest is not finite or below 0");
         return;
     }
-    setDollStateAt(place, state);
+    if (const auto sprung = withSprings(profileOf(doll), state))
+        setDollStateAt(place, *sprung);
+    else
+        setDollStateAt(place, state);
     guard_.touch(place);
 }
 
@@ -204,7 +212,7 @@ void World::setMotor(DollId doll, int constraint, const std::optional<JointMotor
     if (place < 0 || !isSound(call, motor)) return;
     const int count = static_cast<int>(profileOf(doll).constraints.size());
     if (constraint >= 0 && constraint < count)
-        setMotorAt(place, constraint, motor);
+        setMotorAt(place, constraint, motor ? motor : motorOf(profileOf(doll).constraints[constraint].spring));
     else
         refuse(call, fmt::format("constraint {} of a doll with {}", constraint, count));
 }

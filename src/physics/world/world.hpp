@@ -102,7 +102,8 @@ class World : public WorldView {
     /// Force in N at a world point of a body, which acts throughout the next step and moves with the body; wakes the
     /// doll.
     void applyForce(DollId doll, int body, const vec3& force, const vec3& worldPoint);
-    /// Turns a motor in a joint on, changes it or, unset, turns it off; wakes the doll. Off by default.
+    /// Turns a motor in a joint on, changes it or, unset, turns it off; wakes the doll. Off by default. A joint with a
+    /// spring (ConstraintProfile::spring) has that for its motor where none is set; dollState() tells it as one.
     void setMotor(DollId doll, int constraint, const std::optional<JointMotor>& motor);
 
     /// Leads a body to a frame, or, unset, lets go of it; wakes the doll. Holds until it is set again: a frame in

@@ -181,6 +181,54 @@ TEST_CASE("limits that are copied to the other side mean the same there") {
     CHECK(document->profile().bodies[0].massKg == values.massKg);
 }
 
+TEST_CASE("a joint's spring is an edit that is undone, copied, mirrored, saved and kept through new limits") {
+    const auto document = makeDocument();
+    const int left = bodyOf(*document, Role::leftUpperLeg);
+    const int right = bodyOf(*document, Role::rightUpperLeg);
+    const auto spring = [&](Role role) { return constraintOf(*document, role).spring; };
+    const auto set = [&](float stiffness) {
+        return document->changeParts(std::array{left}, "Stiffness", "", [&](Part& part) -> Result<void> {
+            part.constraint->spring = {stiffness, 2.0F, physics::relativeFrame(*part.constraint, part.bind)};
+            return {};
+        });
+    };
+    REQUIRE(set(40.0F).ok());
+    CHECK(spring(Role::leftUpperLeg).stiffness == 40.0F);
+    document->undo();
+    CHECK_FALSE(spring(Role::leftUpperLeg).works());
+    document->redo();
+    CHECK(spring(Role::leftUpperLeg).damping == 2.0F);
+    // Another range moves what the joint calls 0; the spring rests in the bind pose all the same.
+    REQUIRE(document
+                ->changeParts(std::array{left}, "Flexion", "",
+                              [](Part& part) -> Result<void> {
+                                  physics::JointRange range = physics::jointRange(*part.constraint, part.bind);
+                                  range.flexion = {radians(-5.0F), radians(90.0F)};
+                                  physics::setJointRange(*part.constraint, range, part.bind);
+                                  return {};
+                              })
+                .ok());
+    const auto isBind = [&](int body) {
+        const quat rest =
+            physics::springFromBind(document->profile().constraints[body - 1], document->bindOf(body - 1)).rest;
+        return std::abs(rest.w) > 0.99999F;
+    };
+    CHECK(isBind(left));
+    REQUIRE(document->mirrorPart(left).ok());
+    CHECK(spring(Role::rightUpperLeg).stiffness == 40.0F);
+    CHECK(isBind(right));
+    REQUIRE(document->pasteParts(std::array{bodyOf(*document, Role::leftLowerLeg)}, document->copyPart(left)).ok());
+    CHECK(spring(Role::leftLowerLeg).stiffness == 40.0F);
+    CHECK(isBind(bodyOf(*document, Role::leftLowerLeg)));
+    const auto saved = physics::profileFromJson(physics::profileToJson(document->profile()), "saved");
+    REQUIRE(saved.ok());
+    CHECK(saved.value().constraints[left - 1].spring.stiffness == 40.0F);
+    CHECK_FALSE(set(-1.0F).ok());
+    CHECK_FALSE(set(std::numeric_limits<float>::quiet_NaN()).ok());
+    REQUIRE(document->resetPart(left).ok());
+    CHECK_FALSE(spring(Role::leftUpperLeg).works());
+}
+
 TEST_CASE("mirroring takes range, axes and place across the figure") {
     const auto document = makeDocument();
     const int left = bodyOf(*document, Role::leftUpperLeg);

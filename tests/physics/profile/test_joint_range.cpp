@@ -193,3 +193,33 @@ TEST_CASE("the two sides of the figure have mirrored ranges and swapped words") 
     CHECK(left.side.high > -left.side.low);
     CHECK(-right.side.low > right.side.high);
 }
+
+TEST_CASE("a spring rests in the same pose whatever becomes of its joint's limits, axes and kind") {
+    Fitted fitted;
+    ConstraintProfile& knee = fitted.constraint(Role::leftLowerLeg);
+    ConstraintProfile& hip = fitted.constraint(Role::leftUpperLeg);
+    const auto restOf = [](const ConstraintProfile& c) {  // the child's body in the parent's
+        return c.parentFromFrame.rotation * c.spring.rest * glm::conjugate(c.childFromFrame.rotation);
+    };
+    const BindFrames kneeBind = fitted.bind(Role::leftLowerLeg);
+    const BindFrames hipBind = fitted.bind(Role::leftUpperLeg);
+    knee.spring = {5.0F, 1.0F, glm::angleAxis(radians(20.0F), vec3(0, 0, 1))};
+    hip.spring = {5.0F, 1.0F, relativeFrame(hip, hipBind)};
+    const quat kneeRest = restOf(knee);
+    const quat hipRest = restOf(hip);
+    changeKind(knee, ConstraintProfile::Kind::coneTwist, kneeBind);
+    CHECK(near(restOf(knee), kneeRest));
+    JointRange range = jointRange(hip, hipBind);
+    range.flexion = {radians(-70.0F), radians(20.0F)};
+    range.side = {radians(-5.0F), radians(60.0F)};
+    setJointRange(hip, range, hipBind);
+    turnFrames(hip, glm::angleAxis(radians(30.0F), glm::normalize(vec3(1, 2, 3))));
+    CHECK(near(restOf(hip), hipRest));
+    // Told from the bind pose it is no turn at all, and comes back from that.
+    CHECK(near(springFromBind(hip, hipBind).rest, quat(1, 0, 0, 0)));
+    ConstraintProfile other = fitted.constraint(Role::head);
+    const JointSpring bent{3.0F, 2.0F, glm::angleAxis(radians(25.0F), vec3(0, 0, 1))};
+    setSpringFromBind(other, bent, fitted.bind(Role::head));
+    CHECK(near(springFromBind(other, fitted.bind(Role::head)).rest, bent.rest));
+    CHECK(other.spring.damping == 2.0F);
+}

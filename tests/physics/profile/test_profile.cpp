@@ -47,6 +47,10 @@ TEST_CASE("validate names every fault at once") {
         {"/constraints/3/cone/swingY", [](RagdollProfile& p) { p.constraints[3].cone.swingY = 0; }},
         {"/constraints/4/hinge/lower", [](RagdollProfile& p) { p.constraints[4].hinge.lower = 0.1F; }},
         {"/constraints/5/frictionNm", [](RagdollProfile& p) { p.constraints[5].frictionNm = -1; }},
+        {"/constraints/6/spring/stiffness", [](RagdollProfile& p) { p.constraints[6].spring.stiffness = -1; }},
+        {"/constraints/7/spring/damping",
+         [](RagdollProfile& p) { p.constraints[7].spring.damping = std::numeric_limits<float>::infinity(); }},
+        {"/constraints/8/spring/rest", [](RagdollProfile& p) { p.constraints[8].spring.rest = quat(2, 0, 0, 0); }},
         {"/filteredPairs/0", [](RagdollProfile& p) { p.filteredPairs.emplace_back(3, 3); }},
     };
     RagdollProfile all = soundProfile();

@@ -23,6 +23,7 @@ RagdollProfile profileToWrite() {
     profile.notes = {"a \"note\" with ümlauts"};
     profile.bodies[2].shape.kind = BodyShape::Kind::box;
     profile.bodies[3].shape.kind = BodyShape::Kind::sphere;
+    profile.constraints[2].spring = {4.5F, 0.25F, glm::angleAxis(0.5F, vec3(0, 0, 1))};
     return profile;
 }
 
@@ -80,6 +81,9 @@ TEST_CASE("a profile comes back from its JSON to the last bit") {
         checkSame(a.parentFromFrame, b.parentFromFrame);
         checkSame(a.childFromFrame, b.childFromFrame);
         CHECK(a.frictionNm == b.frictionNm);
+        CHECK(a.spring.stiffness == b.spring.stiffness);
+        CHECK(a.spring.damping == b.spring.damping);
+        CHECK(a.spring.rest == b.spring.rest);
         if (a.kind == ConstraintProfile::Kind::hinge) {
             CHECK(a.hinge.lower == b.hinge.lower);
             CHECK(a.hinge.upper == b.hinge.upper);

@@ -192,6 +192,61 @@ TEST_CASE("a motor holds a joint against gravity where its spring says") {
     }
 }
 
+TEST_CASE("a joint's own spring pulls it to its rest, gives way to a motor and comes back after it") {
+    RagdollProfile hinge = withHeavyParent(makePair(physics::HingeLimits{radians(-120), radians(120)}));
+    RagdollProfile cone = withHeavyParent(makePair(physics::ConeTwistLimits{radians(120), radians(120), radians(60)}));
+    for (RagdollProfile* pair : {&hinge, &cone})
+        pair->constraints[0].spring = {60.0F, 6.0F, glm::angleAxis(radians(30), vec3(0, 0, 1))};
+    for (const SolverKind solver : kAllSolvers) {
+        for (const RagdollProfile* pair : {&hinge, &cone}) {
+            INFO(physics::solverName(solver) << (pair == &hinge ? " hinge" : " cone"));
+            const auto world = worldOf(solver, weightless());
+            const physics::DollId doll = world->addDoll(*pair, pairBodies(*pair));
+            stepSeconds(*world, 2.0F);
+            CHECK(degrees(angleOf(*world, *pair)) == Approx(30.0F).margin(0.6));
+            JointMotor motor;
+            motor.angle = radians(60);
+            motor.target = glm::angleAxis(radians(60), vec3(0, 0, 1));
+            motor.stiffness = 60.0F;
+            motor.damping = 6.0F;
+            world->setMotor(doll, 0, motor);
+            stepSeconds(*world, 2.0F);
+            CHECK(degrees(angleOf(*world, *pair)) == Approx(60.0F).margin(0.6));
+            world->setMotor(doll, 0, std::nullopt);
+            stepSeconds(*world, 2.0F);
+            CHECK(degrees(angleOf(*world, *pair)) == Approx(30.0F).margin(0.6));
+            // A state without motors leaves the spring in the joint.
+            world->setDollState(doll, {pairBodies(*pair), {}, {std::nullopt}, 0.0F, false});
+            stepSeconds(*world, 2.0F);
+            CHECK(degrees(angleOf(*world, *pair)) == Approx(30.0F).margin(0.6));
+        }
+    }
+}
+
+TEST_CASE("a joint's damper slows a swing and adds no energy, however strong it is") {
+    for (const SolverKind solver : kOurSolvers) {
+        for (const float damping : {0.5F, 5000.0F}) {
+            INFO(physics::solverName(solver) << ", " << damping << " N m s");
+            RagdollProfile pair = withHeavyParent(makePair(physics::HingeLimits{radians(-170), radians(170)}));
+            const auto speedAfter = [&](const physics::JointSpring& spring) {
+                pair.constraints[0].spring = spring;
+                const auto world = worldOf(solver, weightless());
+                std::vector<BodyState> bodies = pairBodies(pair);
+                const vec3 spin(0, 0, 2.0F);
+                bodies[1].angularVelocity = spin;
+                bodies[1].linearVelocity = glm::cross(spin, bodies[1].worldFromBody.translation);
+                world->addDoll(pair, bodies);
+                stepSeconds(*world, 0.5F);
+                return std::abs(bodyOfDoll(*world, 0, 1).angularVelocity.z);
+            };
+            const float free = speedAfter({});
+            const float braked = speedAfter({0.0F, damping});
+            CHECK(free > 1.5F);
+            CHECK(braked < (damping > 1.0F ? 0.01F : 0.6F * free));
+        }
+    }
+}
+
 TEST_CASE("a motor's torque has its bound") {
     const RagdollProfile hinge = withHeavyParent(makePair(physics::HingeLimits{radians(-150), radians(150)}));
     for (const SolverKind solver : kAllSolvers) {
