@@ -201,6 +201,31 @@ physics::PuppetSettings PuppetCast::settingsOf(const RagdollAsset& asset, int ro
     return settings;
 }
 
+PuppetMemory PuppetCast::memoryOf(int doll) const {
+    const Actor& actor = actors_[doll];
+    const PuppetState state = actor.puppet->state();
+    return {actor.worldFromModel, actor.player != nullptr ? actor.player->seconds(0) : 0.0F, actor.ground,
+            state == PuppetState::limp || state == PuppetState::gettingUp, seconds_};
+}
+
+void PuppetCast::resume(int doll, const PuppetMemory& memory) {
+    Actor& actor = actors_[doll];
+    seconds_ = memory.seconds;
+    actor.worldFromModel = memory.worldFromModel;
+    actor.ground = memory.ground;
+    actor.rising.reset();
+    if (actor.player != nullptr) {
+        actor.player->seek(0, memory.clipSeconds);
+        pose(actor, actor.to);
+        actor.from = actor.raw = actor.to;
+    }
+    constexpr float atOnce = 1e-3F;  // seconds
+    if (memory.limp)
+        actor.puppet->goLimp();
+    else
+        actor.puppet->comeBack(atOnce);
+}
+
 void PuppetCast::startClip(Actor& actor, float seconds, physics::World& world, physics::DollId doll) {
     // Shapes reach a little beyond the skin, and clips put feet into the ground: a pinned doll would tread on it with
     // all the force that it has.

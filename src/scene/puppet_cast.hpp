@@ -37,6 +37,15 @@ struct PuppetPlay {
     bool borrows = false;        ///< Clips that a character lacks are the mannequin's, retargeted; with getUp always.
 };
 
+/// Where a doll is in what it follows: a cast in its place goes on from there.
+struct PuppetMemory {
+    RigidTransform worldFromModel;
+    float clipSeconds = 0.0F;
+    float ground = 0.0F;   ///< Height where it got up last, metres.
+    bool limp = false;     ///< Or on its way to its feet.
+    double seconds = 0.0;  ///< Since the start, for timed hits.
+};
+
 /// Of dolls that got up.
 struct GetUpFigures {
     int begun = 0;
@@ -78,6 +87,9 @@ class PuppetCast {
     void begin(physics::World& world, std::span<const physics::DollId> dolls);
     /// Lets go of the dolls: call it before their world ends.
     void end() { actors_.clear(); }
+    [[nodiscard]] PuppetMemory memoryOf(int doll) const;
+    /// After begin(), once the doll's bodies are where they were then.
+    void resume(int doll, const PuppetMemory& memory);
     /// Call before and after each step of the world by `dt` > 0 s.
     void prepare(float dt);
     void measure();
