@@ -133,6 +133,7 @@ Result<void> Application::start() {
                             [window = context_.window()](const char* text) { glfwSetClipboardString(window, text); });
     }
     ui_ = std::make_unique<EditorUi>(*host_);
+    ui_->state.amendStats = options_.amendStats;
     EditorOptions editor = options_.editor;
     editor.window = windowSize_;
     ui_->state.leftWidth = settings_.leftWidth;

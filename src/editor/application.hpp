@@ -8,6 +8,7 @@
 #include "core/result.hpp"
 #include "editor/editor.hpp"
 #include "editor/input/input_script.hpp"
+#include "editor/ui/stats_readings.hpp"
 #include "render/gl/renderer_options.hpp"
 
 namespace lutka::editor {
@@ -30,6 +31,7 @@ struct ApplicationOptions {
     /// Asked every frame: whether the process shall end. The editor then ends without a question.
     std::function<bool()> interrupted;
     std::filesystem::path recovery;  ///< As EditorOptions::recovery.
+    AmendStats amendStats;           ///< As UiState has it.
     bool settings = true;  ///< Whether recent files are read from and kept in the user's configuration folder.
 };
 

@@ -122,7 +122,7 @@ void Editor::handleKey(const InputEvent& event, const UiCapture& capture) {
         view.help = false;
         return;
     }
-    if (swing_ && event.pressed && event.key == Key::escape) {
+    if (swing() != nullptr && event.pressed && event.key == Key::escape) {
         endSwing();
         return;
     }
@@ -180,6 +180,10 @@ std::span<const Editor::Command> Editor::commands() {
                     e.endTransform();
                     e.motion_.returnToPlay();
                 }},
+        Command{Action::selectedOnly, true, [](Editor& e) { e.motion_.toggleSelectedOnly(); }},
+        Command{Action::fallFromClip, true, [](Editor& e) { e.motion_.fallFromClip(); }},
+        Command{Action::goLimp, true, [](Editor& e) { e.setPuppets(std::nullopt); }},
+        Command{Action::getUp, true, [](Editor& e) { e.setPuppets(e.motion_.gettingUp()); }},
         Command{Action::focus, false, [](Editor& e) { e.camera_.focus(); }},
         Command{Action::followDoll, false, [](Editor& e) { e.camera_.toggleFollow(); }},
         Command{Action::viewFront, false, [](Editor& e) { e.camera_.lookAlong(0.0F, 0.0F); }},
@@ -194,6 +198,7 @@ std::span<const Editor::Command> Editor::commands() {
                 [](Editor& e) { selectMirror(e.workspace_.selection, e.document().profile()); }},
         Command{Action::selectChildren, false,
                 [](Editor& e) { selectChildren(e.workspace_.selection, e.document().profile()); }},
+        Command{Action::toggleClips, false, [](Editor& e) { e.motion_.toggleClips(e.view.clips); }},
         Command{Action::toggleDebug, false, [](Editor& e) { e.view.debug = !e.view.debug; }},
         Command{Action::toggleHandles, false, [](Editor& e) { e.toggleHandles(); }},
         Command{Action::togglePanels, false, [](Editor& e) { e.view.panels = !e.view.panels; }},
@@ -223,8 +228,7 @@ void Editor::addBody(int joint) {
 }
 
 void Editor::nextTool() {
-    constexpr int tools = 4;
-    workspace_.tool = static_cast<Tool>((static_cast<int>(workspace_.tool) + 1) % tools);
+    workspace_.tool = static_cast<Tool>((static_cast<int>(workspace_.tool) + 1) % kToolCount);
     workspace_.hotGizmo.reset();
 }
 
@@ -268,39 +272,21 @@ void Editor::update(double seconds) {
     machine_->update();
     workspace_.follow();
     workspace_.pulls.applyTo(workspace_.player->simulation());
-    if (swing_) {
-        swing_->advance(static_cast<float>(seconds));
-        player().preview(swingDoll_, swing_->worldFromBody());
-        workspace_.hint = "Within its limits: " + swing_->text() + "   Esc: stop";
-        if (swing_->done()) endSwing();
-    } else {
-        player().advance(seconds);
-    }
+    if (workspace_.pulls.mouse) motion_.fallFromClip();
+    if (const auto hit = std::exchange(workspace_.hit, std::nullopt)) motion_.hit(*hit);
+    if (!motion_.advanceSwing(seconds)) player().advance(seconds);
     camera_.follow();
     for (Toast& toast : workspace_.toasts)
         toast.secondsLeft -= static_cast<float>(seconds);
     std::erase_if(workspace_.toasts, [](const Toast& toast) { return toast.secondsLeft <= 0.0F; });
-    if (const std::string news = player().deck().takeNews(); !news.empty()) workspace_.say(Toast::Kind::warning, news);
+    if (const std::string news = player().takeNews(); !news.empty()) workspace_.say(Toast::Kind::warning, news);
     if (!quitting_) workspace_.report(recovery_.update(document(), seconds));
     if (watching && !busy() && !files_.asking() && watch_.changed(seconds)) reload();
 }
 
 void Editor::swingLimits() {
     endTransform();
-    endSwing();
-    const auto active = workspace_.selection.active();
-    if (!active || active->kind != Item::Kind::body || active->index == 0) return;
-    std::vector<RigidTransform> bodies;
-    for (const physics::BodyState& body : player().bodiesOf(active->doll))
-        bodies.push_back(body.worldFromBody);
-    swing_.emplace(document().profile(), active->index, std::move(bodies));
-    swingDoll_ = active->doll;
-}
-
-void Editor::endSwing() {
-    if (!swing_) return;
-    swing_.reset();
-    player().endPreview();
+    motion_.swingLimits();
 }
 
 void Editor::beginPickJoint(std::optional<animation::Role> role) {
@@ -364,6 +350,11 @@ bool Editor::editScene(const std::string& label, const std::string& group,
 
 void Editor::dropCopies(int count) {
     editScene(fmt::format("Drop {} copies", count), "", [&](scene::EntityScene& scene) { addCopies(scene, count); });
+}
+
+void Editor::setPuppets(const std::optional<scene::ScenePuppets>& puppets) {
+    editScene(puppets ? "Muscles on" : "Go limp", "",
+              [&](scene::EntityScene& scene) { scene.simulation.puppets = puppets; });
 }
 
 void Editor::placeCamera(scene::EntityId id) {

@@ -11,7 +11,6 @@
 #include "editor/files/file_watch.hpp"
 #include "editor/files/recovery_desk.hpp"
 #include "editor/input/actions.hpp"
-#include "editor/play/limit_swing.hpp"
 #include "editor/play/motion_commands.hpp"
 #include "editor/play/pin_commands.hpp"
 #include "editor/states/body_commands.hpp"
@@ -70,6 +69,10 @@ class Editor {
     void frameScene() { camera_.frameScene(); }
     /// Adds so many of the edited character in the air over the middle, each turned another way.
     void dropCopies(int count);
+    /// Shows another clip of the file (Action::toggleClips).
+    void showClip(const std::string& clip) { motion_.showClip(clip); }
+    /// What the characters follow with their muscles; unset: they fall.
+    void setPuppets(const std::optional<scene::ScenePuppets>& puppets);
     /// The view becomes that of a camera, and back: the camera is placed where the view is.
     void lookThrough(scene::EntityId camera) { camera_.lookThrough(camera); }
     void placeCamera(scene::EntityId camera);
@@ -83,8 +86,8 @@ class Editor {
     /// Swings the joint of the active body through its limits while the simulation stands still; anything that the
     /// user does ends it, with the doll where it was.
     void swingLimits();
-    void endSwing();
-    [[nodiscard]] const LimitSwing* swing() const { return swing_ ? &*swing_ : nullptr; }
+    void endSwing() { motion_.endSwing(); }
+    [[nodiscard]] const LimitSwing* swing() const { return motion_.swing(); }
 
     /// Opens a model (*.ragdoll.json: a profile for the present one; *.scene.json: a scene); the old scene stays when
     /// that fails. Asks first when there are unsaved changes.
@@ -179,8 +182,6 @@ class Editor {
     scene::LoadOptions load_;
     scene::FrameLoop::Clock clock_;
     std::array<bool, kMouseButtonCount> held_{};  // pressed in the view and not released yet
-    std::optional<LimitSwing> swing_;
-    int swingDoll_ = 0;
     RecoveryDesk recovery_;
     FileWatch watch_;
     bool quitting_ = false;

@@ -68,6 +68,41 @@ TEST_CASE("a script makes a box of a capsule and types a mass by a double click,
     CHECK(now.bodies[leg].massKg == Approx(7.5F));
 }
 
+TEST_CASE("a value typed after a double click is one entry of undo, whatever its first click did to the knob") {
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
+    const Scratch scratch;
+    Script script;
+    script.key(Key::space).click(632, 393);
+    script.click(1130, 195).wait(2).click(1080, 243).wait(2);  // its shape: Box
+    script.click(1070, 224).press().release().wait(40);        // its mass, far from the knob; some time goes by
+    type(script, "7.5").key(Key::enter).wait(40);
+    script.move(640, 640).key(Key::z, kControl).key(Key::z, kControl).wait(2).key(Key::s, kControl).wait(2);
+    const Outcome outcome = play(scratch, script);
+    NEEDS_DISPLAY_OF(outcome);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    const physics::RagdollProfile now = saved(scratch);
+    const int leg = physics::bodyOf(now, Role::leftLowerLeg);
+    CHECK(now.bodies[leg].massKg == Approx(fitted(scratch).bodies[leg].massKg));
+    CHECK(now.bodies[leg].shape.kind == physics::BodyShape::Kind::capsule);
+}
+
+TEST_CASE("a script locks a knee by the menu of its turn") {
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
+    const Scratch scratch;
+    Script script;
+    script.key(Key::space).click(632, 393);                   // the left lower leg
+    script.click(980, 517).wait(2).click(1010, 573).wait(2);  // Flexion: Locked
+    script.move(640, 640).key(Key::s, kControl).wait(2);
+    const Outcome outcome = play(scratch, script);
+    NEEDS_DISPLAY_OF(outcome);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    const physics::RagdollProfile now = saved(scratch);
+    const physics::ConstraintProfile& knee = now.constraints[physics::bodyOf(now, Role::leftLowerLeg) - 1];
+    CHECK(degrees(knee.hinge.upper - knee.hinge.lower) < 6.0F);
+}
+
 TEST_CASE("a script adds a body to a finger by the tree's menu, splits it, and Esc closes a menu without losing it") {
     if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;

@@ -38,6 +38,7 @@ constexpr std::array kBindings = {
     Binding{Key::p, kPlain, Action::pin},
     Binding{Key::p, kShift, Action::unpinAll},
     Binding{Key::space, kPlain, Action::togglePlay},
+    Binding{Key::space, kControl, Action::selectedOnly},
     Binding{Key::right, kPlain, Action::stepOnce},
     Binding{Key::r, kControl, Action::reset},
     Binding{Key::b, kPlain, Action::throwBall},
@@ -52,6 +53,7 @@ constexpr std::array kBindings = {
     Binding{Key::digit5, kPlain, Action::toggleParallel},
     Binding{Key::m, kControlShift, Action::selectMirror},
     Binding{Key::c, kControlShift, Action::selectChildren},
+    Binding{Key::f4, kPlain, Action::toggleClips},
     Binding{Key::f3, kPlain, Action::toggleDebug},
     Binding{Key::h, kPlain, Action::toggleHandles},
     Binding{Key::tab, kPlain, Action::togglePanels},
@@ -156,6 +158,14 @@ std::string_view actionName(Action action) {
             return "Reset";
         case Action::returnToPlay:
             return "Back to where Play was pressed";
+        case Action::selectedOnly:
+            return "Only the selected bodies move";
+        case Action::fallFromClip:
+            return "Fall from here in the clip";
+        case Action::goLimp:
+            return "Go limp: muscles off";
+        case Action::getUp:
+            return "Get up: muscles on";
         case Action::throwBall:
             return "Throw a ball where the mouse points";
         case Action::focus:
@@ -180,6 +190,8 @@ std::string_view actionName(Action action) {
             return "Select the other side instead";
         case Action::selectChildren:
             return "Select all that hangs on it as well";
+        case Action::toggleClips:
+            return "The file's clips, with a timeline";
         case Action::toggleDebug:
             return "Debug draw";
         case Action::toggleHandles:

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "editor/play/pulls.hpp"
 #include "physics/profile/profile.hpp"
 #include "scene/entity_scene.hpp"
+#include "scene/puppet_cast.hpp"
 
 namespace lutka::editor {
 
@@ -18,6 +20,7 @@ struct Motion {
         std::vector<physics::BodyState> bodies;
         std::vector<RigidTransform> modelFromJoint;
         RigidTransform worldFromModel;
+        std::optional<scene::PuppetMemory> puppet;  ///< Of one that follows a clip.
     };
     std::vector<std::vector<physics::BodyProfile>> bodies;  ///< Of each asset, as they were.
     std::vector<Doll> dolls;

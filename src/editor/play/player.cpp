@@ -50,6 +50,7 @@ Motion Player::capture() const {
         one.bodies.resize(asset.profile.bodies.size());
         one.modelFromJoint.resize(asset.character.skeleton.parents.size());
         one.worldFromModel = simulation.worldFromModel(doll);
+        if (simulation.puppets() != nullptr) one.puppet = simulation.puppets()->memoryOf(doll);
         simulation.getBodies(doll, one.bodies);
         simulation.pose(doll, 1.0F, one.modelFromJoint);
     }
@@ -97,6 +98,8 @@ void Player::restore(const Motion& motion, bool all) {
                           was->second->worldFromModel, bodies);
         }
         simulation.world().setBodies(simulation.dollId(doll), same ? was->second->bodies : bodies);
+        if (simulation.puppets() != nullptr && was->second->puppet)
+            simulation.puppets()->resume(doll, *was->second->puppet);
     }
     simulation.refresh();
 }
@@ -149,6 +152,7 @@ void Player::keepProps(const Motion& motion, bool all, scene::Scenario& scenario
 }
 
 Result<void> Player::build(const Motion* motion, bool all) {
+    held_.detach();
     simulation_.reset();  // it borrows the asset that changes now
     document_.commitAsset();
     revision_ = document_.revision();
@@ -161,12 +165,19 @@ Result<void> Player::build(const Motion* motion, bool all) {
         options.world.sleeping = false;
     }
     options.pose = document_.sceneDocument().settings().pose;
-    auto simulation =
-        scene::Simulation::create(document_.sceneDocument().assets(), std::move(scenario).value(), options);
+    auto simulation = scene::Simulation::create(document_.sceneDocument().assets(), scenario.value(), options);
+    if (!simulation && options.puppet) {
+        // A figure that can't follow the clip falls.
+        refusal_ = "The characters fall: " + simulation.error().text();
+        options.puppet.reset();
+        simulation = scene::Simulation::create(document_.sceneDocument().assets(), scenario.value(), options);
+    }
     if (!simulation) return simulation.error();
     simulation_ = std::move(simulation).value();
     governor_.emplace(simulation_->world().substepsPerStep());
     if (motion != nullptr) restore(*motion, all);
+    held_.attach(*simulation_,
+                 [&](int doll) { return motion == nullptr || all || !startsAsBefore(entityOfDoll(doll)); });
     built_ = document_.scene();
     loop_.setStepSeconds(options.dt);
     loop_.restart();
@@ -174,6 +185,7 @@ Result<void> Player::build(const Motion* motion, bool all) {
 }
 
 Result<void> Player::rebuild(Keep keep) {
+    if (keep == Keep::nothing) stage_.reset();
     if (deck_.replaying()) deck_.endReplay(*simulation_);
     thrown_.resize(thrown_.size() - std::min(thrown_.size(), std::exchange(thrownForReplay_, 0)));
     std::optional<Motion> motion;
@@ -224,6 +236,7 @@ PlayState Player::state() const {
 
 Result<void> Player::restore(const PlayState& state) {
     endReplay();
+    stage_.reset();
     thrown_ = state.thrown;
     posing_ = false;
     if (auto built = build(&state.motion, true); !built) return built;
@@ -256,7 +269,8 @@ Result<void> Player::setPosing(bool posing) {
 }
 
 void Player::setPlaying(bool playing) {
-    if (playing && !playing_ && !deck_.replaying() && simulation_ != nullptr) atPlay_ = capture();
+    if (playing && !playing_ && !deck_.replaying() && !stage_ && simulation_ != nullptr) atPlay_ = capture();
+    if (playing && stage_ && stage_->atEnd()) seekClip(0.0F);
     if (playing && deck_.replaying() && deck_.atEnd()) scrubTo(0.0);
     playing_ = playing;
 }
@@ -274,11 +288,11 @@ void Player::returnToPlay() {
 
 void Player::advance(double seconds) {
     if (deck_.replaying()) return advanceReplay(seconds);
+    if (stage_) return moveClip(playing_ ? static_cast<float>(std::min(seconds, 0.1) * speed_) : 0.0F);
     if (!playing_ && !posing_) return;
     loop_.setSpeed(posing_ ? 1.0 : speed_);
     loop_.advance(seconds, [&] {
-        simulation_->step();
-        somethingMoved();
+        step();
         if (posing_) dampDolls(kPosingDamping);
         deck_.keepStep(*simulation_);
     });
@@ -288,10 +302,65 @@ void Player::advance(double seconds) {
 void Player::stepOnce() {
     playing_ = false;
     if (deck_.replaying()) return deck_.showNextStep(*simulation_);
+    if (stage_) return moveClip(simulation_->options().dt);
     loop_.restart();
+    step();
+    deck_.keepStep(*simulation_);
+}
+
+void Player::step() {
+    held_.prepare(simulation_->options().dt);
     simulation_->step();
     somethingMoved();
-    deck_.keepStep(*simulation_);
+}
+
+void Player::simulateOnly(std::span<const Item> bodies) {
+    std::vector<int> dolls;
+    for (int doll = 0; doll < simulation_->dollCount(); ++doll)
+        if (isEditedDoll(doll)) dolls.push_back(doll);
+    held_.holdAllBut(bodies, dolls, *simulation_);
+}
+
+Result<void> Player::showClip(const std::string& clip, int doll) {
+    endReplay();
+    if (stage_ && stage_->doll() != doll) endClip(true);
+    auto stage = ClipStage::create(*simulation_, doll, clip);
+    if (!stage) return stage.error();
+    if (stage_) stage.value().takeOver(*stage_);
+    stage_ = std::move(stage).value();
+    moveClip(0.0F);
+    return {};
+}
+
+void Player::moveClip(float seconds) {
+    stage_->advance(seconds);
+    stage_->place(*simulation_);
+    if (seconds > 0.0F) somethingMoved();
+    if (stage_->atEnd()) playing_ = false;
+}
+
+void Player::seekClip(float seconds) {
+    if (!stage_) return;
+    stage_->seek(seconds);
+    moveClip(0.0F);
+    somethingMoved();
+}
+
+void Player::endClip(bool back) {
+    if (!stage_) return;
+    if (back) stage_->placeBack(*simulation_);
+    stage_.reset();
+    loop_.restart();
+    somethingMoved();
+}
+
+void Player::hit(const Item& body, const vec3& point, const vec3& impulse) {
+    endClip(false);
+    if (scene::PuppetCast* puppets = simulation_->puppets())
+        puppets->puppet(body.doll).hit(body.index, point, impulse);
+    else
+        simulation_->world().applyImpulse(simulation_->dollId(body.doll), body.index, impulse, point);
+    somethingMoved();
 }
 
 Result<void> Player::reset() {
@@ -317,34 +386,6 @@ RigidTransform Player::worldFromEntity(scene::EntityId id) const {
     return start;
 }
 
-std::vector<PickTarget> Player::pickTargets() const {
-    std::vector<PickTarget> targets;
-    const scene::EntityScene& scene = document_.scene();
-    const auto add = [&](scene::EntityId id, const RigidTransform& world, const vec3& half, bool marker) {
-        targets.push_back({static_cast<int>(id), world, half, marker});
-    };
-    for (const scene::Collider& collider : scene.all<scene::Collider>()) {
-        const auto* mesh = scene.find<scene::MeshRenderer>(collider.entity);
-        // What is see-through must not hide what is behind it.
-        if (mesh == nullptr || !mesh->visible || mesh->opacity < 0.5F) continue;
-        const RigidTransform world = worldFromEntity(collider.entity);
-        const std::vector<scene::ColliderBox> boxes = scene::boxesOf(collider);
-        for (const scene::ColliderBox& box : boxes)
-            add(collider.entity, world * box.entityFromBox, box.halfExtents, false);
-        const auto box = scene::boxOf(scene, collider.entity);
-        if (boxes.empty() && box) add(collider.entity, world, box->half, false);
-    }
-    const auto addMarker = [&](scene::EntityId id) {
-        if (scene.find<scene::Collider>(id) != nullptr) return;
-        if (const auto box = scene::boxOf(scene, id)) add(id, worldFromEntity(id), box->half, true);
-    };
-    for (const scene::Light& light : scene.all<scene::Light>())
-        addMarker(light.entity);
-    for (const scene::Camera& camera : scene.all<scene::Camera>())
-        addMarker(camera.entity);
-    return targets;
-}
-
 std::vector<physics::BodyState> Player::bodiesOf(int doll) const {
     std::vector<physics::BodyState> bodies(simulation_->assetOf(doll).profile.bodies.size());
     simulation_->getBodies(doll, bodies);
@@ -354,6 +395,7 @@ std::vector<physics::BodyState> Player::bodiesOf(int doll) const {
 void Player::placeBodies(int doll, std::span<const physics::BodyState> bodies) {
     simulation_->world().setBodies(simulation_->dollId(doll), bodies);
     simulation_->refresh();
+    held_.attach(*simulation_, [](int) { return true; });
     somethingMoved();
 }
 
@@ -383,12 +425,14 @@ Result<void> Player::throwBall(const vec3& from, const vec3& velocity) {
 
 void Player::startRecording() {
     endReplay();
+    endClip(false);
     deck_.start(*simulation_);
 }
 
 // Balls that a reset took away are in play again while their take is shown.
 Result<void> Player::replay() {
     endReplay();
+    endClip(true);
     const int take = deck_.current();
     const std::size_t wanted = take < 0 ? 0 : deck_.takes()[static_cast<std::size_t>(take)].cast.thrown;
     if (wanted > thrown_.size()) {
@@ -430,6 +474,7 @@ void Player::advanceReplay(double seconds) {
 
 Result<void> Player::openRecording(const std::filesystem::path& file) {
     endReplay();
+    endClip(true);
     auto shown = deck_.open(file, *simulation_);
     if (shown) playing_ = true;
     return shown;

@@ -3,10 +3,14 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/result.hpp"
 #include "editor/document/editor_document.hpp"
+#include "editor/play/clip_stage.hpp"
+#include "editor/play/held_bodies.hpp"
 #include "editor/play/motion.hpp"
 #include "editor/play/recording_deck.hpp"
 #include "editor/view/picking.hpp"
@@ -62,6 +66,21 @@ class Player {
     /// Posing: the dolls move without gravity and heavily damped, so that pulls pose them through their constraints
     /// while the scene's time stands still. They rest where they are when it ends.
     [[nodiscard]] Result<void> setPosing(bool posing);
+    /// Only these bodies move; all others of the dolls that the panels edit are held where they are, through edits and
+    /// a reset as well. Who comes in later moves.
+    void simulateOnly(std::span<const Item> bodies);
+    void simulateAll() { held_.letGo(); }
+    [[nodiscard]] const HeldBodies& held() const { return held_; }
+    /// Shows a clip on a doll in place of the simulation; playing plays it, and a step is one of its own. Fails as
+    /// ClipStage does.
+    [[nodiscard]] Result<void> showClip(const std::string& clip, int doll);
+    [[nodiscard]] const ClipStage* clip() const { return stage_ ? &*stage_ : nullptr; }
+    void seekClip(float seconds);
+    void setClipLoop(bool loop) { stage_->loop = loop; }  ///< While a clip is shown.
+    /// Physics goes on from the clip's pose and velocities, or, with `back`, from where the doll was before.
+    void endClip(bool back);
+    /// An impulse, N s, at a world point of a body; a puppet reacts to it.
+    void hit(const Item& body, const vec3& point, const vec3& impulse);
     /// Simulated seconds a second, (0, 1].
     [[nodiscard]] double speed() const { return speed_; }
     void setSpeed(double speed) { speed_ = speed; }
@@ -80,8 +99,6 @@ class Player {
     /// Where an entity is now: what rolls or falls is where the simulation has it (a character: its first body's middle
     /// with the start's rotation), everything else stands where the document has it.
     [[nodiscard]] RigidTransform worldFromEntity(scene::EntityId id) const;
-    /// What can be picked by its box, each where it is now.
-    [[nodiscard]] std::vector<PickTarget> pickTargets() const;
     /// The doll of a character; -1: none.
     [[nodiscard]] int dollOf(scene::EntityId id) const;
     /// The entity that a doll is.
@@ -100,6 +117,10 @@ class Player {
 
     /// What is recorded and replayed; during a replay the physics stands still. A change of the scene ends both.
     [[nodiscard]] const RecordingDeck& deck() const { return deck_; }
+    /// What the user has to be told since the last call; empty: nothing.
+    [[nodiscard]] std::string takeNews() {
+        return refusal_.empty() ? deck_.takeNews() : std::exchange(refusal_, std::string());
+    }
     void startRecording();
     void stopRecording() { deck_.stop(); }
     /// The takes themselves: their names, which of them is meant, what is removed.
@@ -137,12 +158,16 @@ class Player {
     [[nodiscard]] bool suits(const Motion& motion) const;
     void remember(const Motion& motion);
     void takeReplayBallsAway();
+    void step();
+    void moveClip(float seconds);
     [[nodiscard]] const Motion* remembered() const;
     [[nodiscard]] Result<scene::Scenario> makeScenario();
     void somethingMoved() { moment_ = ++lastMoment_; }
 
     EditorDocument& document_;
     std::unique_ptr<scene::Simulation> simulation_;
+    HeldBodies held_;  ///< After the simulation that it pulls in.
+    std::optional<ClipStage> stage_;
     scene::EntityScene built_;                  ///< The document's scene as of the last rebuild.
     std::vector<physics::DynamicProp> thrown_;  ///< After the scene's own props.
     std::size_t thrownForReplay_ = 0;           ///< The last of these, which are in play during a replay only.
@@ -151,6 +176,7 @@ class Player {
     std::uint64_t moment_ = 0;
     std::uint64_t lastMoment_ = 0;
     RecordingDeck deck_;
+    std::string refusal_;  ///< Why the characters don't follow their clip.
     std::uint64_t revision_ = 0;
     bool playing_ = true;
     double speed_ = 1.0;

@@ -2,6 +2,7 @@
 #include <glm/geometric.hpp>
 
 #include "editor/states/states.hpp"
+#include "editor/view/pick_targets.hpp"
 
 namespace lutka::editor {
 namespace {
@@ -61,7 +62,7 @@ class BoxHandler final : public StateHandler {
             for (int body = 0; body < static_cast<int>(workspace_.document->profile().bodies.size()); ++body)
                 takeItem({Item::Kind::body, doll, body});
         }
-        for (const PickTarget& target : player.pickTargets())
+        for (const PickTarget& target : pickTargets(*workspace_.document, player))
             takeItem({Item::Kind::object, 0, target.entity});
     }
 

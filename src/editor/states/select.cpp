@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 
@@ -10,6 +11,10 @@ namespace lutka::editor {
 namespace {
 
 constexpr float kDragPixels = 4.0F;  // a click may tremble this much
+constexpr float kLeastHitNs = 1.0F;
+constexpr float kMostHitNs = 1000.0F;
+constexpr float kPerNotch = 1.15F;  // of the hit's impulse
+constexpr render::Color kHitColor{255, 90, 60, 255};
 
 /// Default and Selected: what waits for the user. Clicks select; drags and keys lead on.
 class SelectHandler final : public StateHandler {
@@ -25,6 +30,7 @@ class SelectHandler final : public StateHandler {
     void update() override {
         if (const auto gizmo = workspace_.gizmo())
             drawGizmo(*gizmo, workspace_.hotGizmo, workspace_.camera, workspace_.overlay);
+        if (workspace_.tool == Tool::hit && showHit()) return;
         const auto active = workspace_.selection.active();
         const char* last = active && active->kind == Item::Kind::body ? "P pin  X remove" : "X delete";
         if (workspace_.hotHandle && active && active->kind == Item::Kind::body) {
@@ -55,6 +61,11 @@ class SelectHandler final : public StateHandler {
             return std::nullopt;
         }
         if (event.modifiers.control) return Trigger::boxPressed;
+        if (workspace_.tool == Tool::hit && !event.modifiers.shift) {
+            workspace_.hit = workspace_.pickUnderMouse();
+            if (workspace_.hit && workspace_.hit->body) return std::nullopt;
+            workspace_.hit.reset();
+        }
         if (!event.modifiers.shift && workspace_.handleUnderMouse()) return Trigger::handlePressed;
         if (const auto part = workspace_.gizmoUnderMouse(); part && !event.modifiers.shift) return dragGizmo(*part);
         workspace_.press = Workspace::Press{workspace_.mouse, workspace_.pickUnderMouse(), false, vec3(0)};
@@ -69,6 +80,10 @@ class SelectHandler final : public StateHandler {
     }
 
     std::optional<Trigger> wheel(float notches) override {
+        if (workspace_.tool == Tool::hit && bodyUnderMouse()) {
+            workspace_.hitNs = std::clamp(workspace_.hitNs * std::pow(kPerNotch, notches), kLeastHitNs, kMostHitNs);
+            return std::nullopt;
+        }
         workspace_.zoom(notches);
         return std::nullopt;
     }
@@ -97,6 +112,24 @@ class SelectHandler final : public StateHandler {
     }
 
   private:
+    [[nodiscard]] std::optional<Pick> bodyUnderMouse() const {
+        auto pick = workspace_.pickUnderMouse();
+        return pick && pick->body ? pick : std::nullopt;
+    }
+
+    // A ball where a click would hit; whether there is something to hit.
+    bool showHit() {
+        const auto pick = bodyUnderMouse();
+        if (!pick) return false;
+        // Seen along its own direction an arrow is a point: the harder, the larger the ball.
+        const float radius = 0.012F * std::cbrt(workspace_.hitNs);
+        render::addSphere(workspace_.overlay, pick->position, radius, kHitColor);
+        render::addCross(workspace_.overlay, pick->position, 2.0F * radius, kHitColor);
+        workspace_.hint = fmt::format("A click hits {} with {:.0f} N s   wheel: more or less   T: the next tool",
+                                      workspace_.nameOf(*pick->body), workspace_.hitNs);
+        return true;
+    }
+
     // The stairs and walls of a named scene fill the picture: a drag on them orbits, unless they were chosen before.
     [[nodiscard]] bool movable(const Workspace::Press& press) const {
         if (press.pick->body || press.wasSelected) return true;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "editor/view/pick_targets.hpp"
+
 namespace lutka::editor {
 
 std::optional<Pick> Workspace::pickUnderMouse() const {
@@ -14,7 +16,7 @@ std::optional<Pick> Workspace::pickUnderMouse() const {
     constexpr int solid = 128;
     const bool seeThrough =
         std::any_of(looks.begin(), looks.end(), [](const scene::Look& look) { return look.color.a < solid; });
-    auto picked = pick(mouseRay(), player->simulation(), player->pickTargets(), seeThrough);
+    auto picked = pick(mouseRay(), player->simulation(), pickTargets(*document, *player), seeThrough);
     // The panels edit no bodies of the other characters: these are picked as a whole, and pulled by their bodies.
     if (picked && picked->item.kind == Item::Kind::body && !player->isEditedDoll(picked->item.doll)) {
         picked->item = {Item::Kind::object, 0, static_cast<int>(player->entityOfDoll(picked->item.doll))};
@@ -45,7 +47,7 @@ std::optional<Handle> Workspace::handleUnderMouse() const {
 
 std::optional<Gizmo> Workspace::gizmo() const {
     const auto active = selection.active();
-    if (!active || player->stale()) return std::nullopt;
+    if (!active || player->stale() || tool == Tool::hit) return std::nullopt;
     const bool body = active->kind == Item::Kind::body;
     if (body && tool == Tool::select) return std::nullopt;  // a drag pulls it, and its limits have handles
     const Tool shown = tool == Tool::select ? Tool::move : tool;
@@ -117,7 +119,9 @@ std::string Workspace::nameOf(const Item& item) const {
         const scene::Entity* entity = scene::findEntity(document->scene(), static_cast<scene::EntityId>(item.index));
         return entity != nullptr ? entity->name : "";
     }
-    const physics::BodyProfile& body = document->profile().bodies[item.index];
+    const physics::RagdollProfile& profile =
+        player->isEditedDoll(item.doll) ? document->profile() : player->simulation().assetOf(item.doll).profile;
+    const physics::BodyProfile& body = profile.bodies[item.index];
     const std::string doll = player->simulation().dollCount() > 1 ? fmt::format(" of doll {}", item.doll + 1) : "";
     const std::string& name = body.name;
     return fmt::format("{}{}{}", name, doll, body.joint == name ? "" : " (" + body.joint + ")");

@@ -56,6 +56,8 @@ struct Workspace {
     MouseButton cameraButton = MouseButton::middle;  ///< What drags the camera.
 
     Tool tool = Tool::select;
+    float hitNs = 30.0F;                ///< What Tool::hit hits with, N s …
+    std::optional<Pick> hit;            ///< … and what a click has hit, until the editor lets it act.
     bool localAxes = false;             ///< Of the gizmo: the item's own instead of the world's.
     std::optional<AxisLock> hotGizmo;   ///< The part of the gizmo under the mouse.
     std::optional<AxisLock> gizmoLock;  ///< What a transform that begins now is locked to by the gizmo.

@@ -125,6 +125,7 @@ void viewMenu(const PanelContext& context) {
     if (!ImGui::BeginMenu("View")) return;
     item(context, Action::toggleDebug, true, context.editor.view.debug);
     item(context, Action::toggleHandles, true, context.editor.workspace().showHandles);
+    item(context, Action::toggleClips, true, context.editor.view.clips);
     item(context, Action::togglePanels, true, context.editor.view.panels);
     if (ImGui::BeginMenu("Layers")) {
         for (const scene::DebugLayerInfo& layer : scene::debugLayerInfos()) {
@@ -162,6 +163,11 @@ void simulateMenu(const PanelContext& context) {
     item(context, Action::reset);
     item(context, Action::returnToPlay, context.editor.player().canReturnToPlay());
     item(context, Action::throwBall);
+    item(context, Action::goLimp, context.editor.document().scene().simulation.puppets.has_value());
+    item(context, Action::getUp);
+    item(context, Action::fallFromClip, context.editor.player().clip() != nullptr);
+    const bool holds = context.editor.player().held().any();
+    item(context, Action::selectedOnly, holds || !context.editor.workspace().selectedBodies().empty(), holds);
     ImGui::EndMenu();
 }
 
@@ -220,8 +226,10 @@ void drawStatusBar(const PanelContext& context) {
     const std::string slow = late ? fmt::format("slowed to {:.0f} %   ", 100.0 * player.loop().share()) : "";
     const float share = context.history.pictureShare;
     const std::string coarse = share < 1.0F ? fmt::format("picture at {:.0f} %   ", share * 100.0F) : "";
+    const int held = player.held().count();
+    const std::string still = held > 0 ? fmt::format("{} bodies held   ", held) : "";
     const std::string right =
-        fmt::format("{}{}{:.2f} s   {:.0f} fps", coarse, slow, player.seconds(), context.history.fps());
+        fmt::format("{}{}{}{:.2f} s   {:.0f} fps", still, coarse, slow, player.seconds(), context.history.fps());
     ImGui::SameLine(size.x - ImGui::CalcTextSize(right.c_str()).x - context.px(14));
     ImGui::TextColored(late ? warningColor() : mutedColor(), "%s", right.c_str());
     ImGui::End();

@@ -14,9 +14,11 @@ namespace {
 constexpr ImGuiWindowFlags kDialog = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
                                      ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize;
 
+constexpr float kMiddle = 0.45F;  // of the window's height
+
 void placeInMiddle() {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({size.x * 0.5F, size.y * 0.45F}, ImGuiCond_Always, {0.5F, 0.5F});
+    ImGui::SetNextWindowPos({size.x * 0.5F, size.y * kMiddle}, ImGuiCond_Always, {0.5F, 0.5F});
 }
 
 void drawQuestion(const PanelContext& context) {
@@ -216,7 +218,9 @@ void drawHelp(const PanelContext& context) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     placeInMiddle();
     const float width = std::min(context.px(900), size.x - 20);
-    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, size.y * 0.86F});
+    // Below the menu bar, about the middle that dialogs have.
+    const float height = 2.0F * (size.y * kMiddle - ImGui::GetFrameHeight() - context.px(4));
+    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, height});
     bool open = true;
     std::string& filter = context.state.helpFilter;
     if (ImGui::Begin("Keys", &open, kDialog | ImGuiWindowFlags_NoCollapse)) {

@@ -20,6 +20,23 @@ void closePopupByEscape() {
     ImGui::ClosePopupToLevel(open - 1, true);
 }
 
+// What a drag changes is one entry of undo. A click may be the first of two, after which a value is typed: all of that
+// is one entry as well.
+void endGroups(Editor& editor, UiState& state) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool transforms = editor.state() == State::grab || editor.state() == State::rotate ||
+                            editor.state() == State::scale || editor.state() == State::handle;
+    if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !transforms)
+        state.groupEnds = ImGui::GetTime() + static_cast<double>(io.MouseDoubleClickTime);
+    const bool another =
+        ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+    const bool over = another || ImGui::GetTime() >= state.groupEnds;
+    if (state.groupEnds <= 0.0 || ImGui::IsAnyItemActive() || !over)
+        return;  // a field is active while it is written in
+    editor.document().endGroup();
+    state.groupEnds = 0.0;
+}
+
 }  // namespace
 
 void EditorUi::build(Editor& editor, const FrameHistory& history) {
@@ -33,6 +50,7 @@ void EditorUi::build(Editor& editor, const FrameHistory& history) {
     drawTransport(context);
     drawTools(context);
     drawSelectionBox(context);
+    if (editor.view.clips) drawTimeline(context);
     editor.workspace().covered = coveredBy(context);
     dragRoleOverView(context);
     if (state.showCollisions) drawCollisions(context);
@@ -42,10 +60,7 @@ void EditorUi::build(Editor& editor, const FrameHistory& history) {
     drawDialogs(context);
     if (editor.view.help) drawHelp(context);
     if (editor.view.gallery) drawGallery(context);
-    if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && editor.state() != State::grab &&
-        editor.state() != State::rotate && editor.state() != State::scale && editor.state() != State::handle) {
-        editor.document().endGroup();
-    }
+    endGroups(editor, state);
 }
 
 }  // namespace lutka::editor

@@ -13,6 +13,7 @@
 #include "editor/ui/gallery.hpp"
 #include "editor/ui/imgui_host.hpp"
 #include "editor/ui/side_panels.hpp"
+#include "editor/ui/stats_readings.hpp"
 
 namespace lutka::editor {
 
@@ -56,7 +57,10 @@ struct UiState {
         vec3 degrees{0, 0, 0};
     };
     ShownAngles angles;
+    double groupEnds = 0.0;         ///< When what one drag changes is over, Dear ImGui's seconds; 0: it is.
+    float toolsRight = 0.0F;        ///< Where the view begins beside the tools, in a narrow one; else 0.
     float transportBottom = 0.0F;   ///< Window units: where the view begins below it.
+    AmendStats amendStats;          ///< May be empty.
     int copies = 8;                 ///< Of "Drop copies".
     std::optional<Item> shownItem;  ///< What panels showed last, to notice a new selection.
 };

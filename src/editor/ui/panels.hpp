@@ -30,6 +30,8 @@ struct ViewSpan {
 };
 [[nodiscard]] ViewSpan viewSpan(const PanelContext& context);
 
+/// Height of the panel below the view, window units; 0: there is none.
+[[nodiscard]] float panelBelowHeight(const PanelContext& context);
 /// What bars and panels lie over, as shares of the window, nothing while the panels are hidden; after drawTransport().
 [[nodiscard]] render::PictureInsets coveredBy(const PanelContext& context);
 
@@ -43,6 +45,8 @@ void drawSelectionBox(const PanelContext& context);
 /// At the left, at the right, and below the view where a tab was moved there.
 void drawSidePanels(const PanelContext& context);
 void drawToasts(const PanelContext& context);
+/// The file's clips, below the view; see ViewSettings::clips.
+void drawTimeline(const PanelContext& context);
 /// A model that was refused as a humanoid is offered as a ragdoll of any skeleton.
 void drawAnyRigOffer(const PanelContext& context);
 /// A profile beside the model is offered.
@@ -66,7 +70,8 @@ void drawInspector(const PanelContext& context);
 /// Tabs of the right panel.
 void drawRagdollTab(const PanelContext& context);
 void drawSimulationTab(const PanelContext& context);
-/// Its last section.
+/// Two of its sections.
+void drawMuscles(const PanelContext& context);
 void drawFit(const PanelContext& context);
 void drawViewTab(const PanelContext& context);
 void drawStatsTab(const PanelContext& context);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtx/euler_angles.hpp>
 
@@ -16,7 +17,12 @@ namespace {
 vec3 degreesOf(const quat& rotation) {
     vec3 angles(0);
     glm::extractEulerAngleXYZ(glm::mat4_cast(rotation), angles.x, angles.y, angles.z);
-    return {degrees(angles.x), degrees(angles.y), degrees(angles.z)};
+    // Rounding may leave a hair below 0, which would be shown as -0.
+    const auto shown = [](float radiansOf) {
+        const float value = degrees(radiansOf);
+        return std::abs(value) < 0.05F ? 0.0F : value;
+    };
+    return {shown(angles.x), shown(angles.y), shown(angles.z)};
 }
 
 quat rotationFromDegrees(const vec3& angles) {

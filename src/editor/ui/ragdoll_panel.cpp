@@ -118,7 +118,9 @@ void drawTable(const PanelContext& context) {
             editor.select(Item{Item::Kind::body, 0, i}, ImGui::GetIO().KeyShift);
         }
         ImGui::TableNextColumn();
-        ImGui::Text("%.2f kg", static_cast<double>(profile.bodies[i].massKg));
+        // As many digits as the column has room for.
+        const float mass = profile.bodies[i].massKg;
+        ImGui::TextUnformatted(fmt::format("{:.{}f} kg", mass, mass < 100.0F ? 2 : mass < 1000.0F ? 1 : 0).c_str());
         ImGui::TableNextColumn();
         if (i == 0) continue;
         const ConstraintProfile& c = profile.constraints[i - 1];

@@ -202,10 +202,15 @@ ViewSpan viewSpan(const PanelContext& context) {
     return {leftPanelWidth(context), width - rightPanelWidth(context)};
 }
 
+float panelBelowHeight(const PanelContext& context) {
+    return context.editor.view.panels ? bottomHeight(context) : 0.0F;
+}
+
 render::PictureInsets coveredBy(const PanelContext& context) {
     if (!context.editor.view.panels) return {};  // then the picture is the whole window, with bars over its margin
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const auto [left, right] = viewSpan(context);
+    const auto [begin, right] = viewSpan(context);
+    const float left = std::max(begin, context.state.toolsRight);
     const float top = context.state.transportBottom + context.px(4);
     constexpr float most = 0.9F;  // a tiny window still shows something
     const auto clamped = [](float low, float high) {

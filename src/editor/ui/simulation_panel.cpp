@@ -59,6 +59,13 @@ void drawTime(const PanelContext& context) {
     ImGui::BeginDisabled(!player.canReturnToPlay());
     if (ImGui::Button("Back to where Play was pressed", {-1.0F, 0})) editor.perform(Action::returnToPlay);
     ImGui::EndDisabled();
+    const int held = player.held().count();
+    const bool canHold = held > 0 || !editor.workspace().selectedBodies().empty();
+    ImGui::BeginDisabled(!canHold);
+    if (ImGui::Button(held > 0 ? "Let all bodies move###only" : "Only the selected bodies move###only", {-1.0F, 0}))
+        editor.perform(Action::selectedOnly);
+    ImGui::EndDisabled();
+    tooltip("Ctrl+Space: all other bodies are held where they are");
     labelled("Speed", simulationLabelWidth(context));
     auto speed = static_cast<float>(player.speed());
     if (slider("##slow", speed, 0.05F, 1.0F, "%.2f of real time")) player.setSpeed(speed);
@@ -69,7 +76,8 @@ void drawNamedScene(const PanelContext& context) {
     const SceneSettings& scene = editor.document().sceneDocument().settings();
     std::string_view chosen;
     labelled("Scene", simulationLabelWidth(context));
-    if (ImGui::BeginCombo("##scenario", scene.scenario.empty() ? "from a file" : scene.scenario.c_str())) {
+    if (ImGui::BeginCombo("##scenario", scene.scenario.empty() ? "from a file" : scene.scenario.c_str(),
+                          ImGuiComboFlags_HeightLarge)) {
         for (const scene::ScenarioInfo& info : scene::scenarioRegistry()) {
             const std::string name(info.name);
             if (ImGui::Selectable(name.c_str(), name == scene.scenario)) chosen = info.name;
@@ -123,7 +131,7 @@ void drawStart(const PanelContext& context) {
     std::optional<scene::ClipStart> clip;
     labelled("Start pose", simulationLabelWidth(context));
     const std::string shown = scene.clip ? "Clip " + scene.clip->clip : poses[static_cast<int>(scene.pose)];
-    if (ImGui::BeginCombo("##pose", shown.c_str())) {
+    if (ImGui::BeginCombo("##pose", shown.c_str(), ImGuiComboFlags_HeightLarge)) {
         for (int one = 0; one < 2; ++one) {
             if (ImGui::Selectable(poses[one], !scene.clip && static_cast<int>(scene.pose) == one)) pose = one;
         }
@@ -356,6 +364,8 @@ void drawSimulationTab(const PanelContext& context) {
     drawNamedScene(context);
     drawStart(context);
     drawThings(context);
+    caption("MUSCLES");
+    drawMuscles(context);
     caption("RECORDING");
     drawRecording(context);
     caption("PHYSICS");

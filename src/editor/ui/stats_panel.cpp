@@ -39,33 +39,43 @@ std::string megabytes(double bytes) {
     return fmt::format("{:.1f} MB", bytes / (1024.0 * 1024.0));
 }
 
-void drawFrames(const PanelContext& context) {
-    const auto frames = context.history.frameMs();
+StatsReadings readStats(const PanelContext& context) {
+    const scene::Simulation& simulation = context.editor.player().simulation();
+    const auto steps = simulation.stepMs();
+    const auto last = steps.last(std::min(steps.size(), FrameHistory::kLength));
+    StatsReadings readings{context.history, std::vector<float>(last.begin(), last.end()),
+                           simulation.world().stepTimes(), context.editor.poseMs(),
+                           static_cast<double>(residentBytes())};
+    if (context.state.amendStats) context.state.amendStats(readings);
+    return readings;
+}
+
+void drawFrames(const PanelContext& context, const FrameHistory& history) {
+    const auto frames = history.frameMs();
     const Percentiles ms = percentilesOf(frames);
     caption("FRAME");
     plot(context, "##frames", frames, "ms");
     mutedText(fmt::format("p50 {:.1f} ms, p95 {:.1f}, p99 {:.1f}", ms.p50, ms.p95, ms.p99));
-    const std::vector<float> fps = context.history.framesPerSecond();
+    const std::vector<float> fps = history.framesPerSecond();
     const Percentiles rate = percentilesOf(fps);
     plot(context, "##fps", fps, "fps");
     // The worst frames are those of few a second: the share that is told is of frames that were slower.
-    mutedText(fmt::format("{:.0f} fps; p50 {:.0f}, slowest 5 % below {:.0f}, slowest 1 % below {:.0f}",
-                          context.history.fps(), rate.p50, percentilesOf(fps, true).p95, percentilesOf(fps, true).p99));
+    mutedText(fmt::format("{:.0f} fps; p50 {:.0f}, slowest 5 % below {:.0f}, slowest 1 % below {:.0f}", history.fps(),
+                          rate.p50, percentilesOf(fps, true).p95, percentilesOf(fps, true).p99));
     ImGui::Checkbox("VSync", &context.editor.view.vsync);
     tooltip("Waits for the monitor. Off: as many frames as the machine can draw");
 }
 
-void drawParts(const PanelContext& context) {
-    const scene::Simulation& simulation = context.editor.player().simulation();
-    const physics::StepTimes times = simulation.world().stepTimes();
-    const render::FrameStats& stats = context.history.stats;
+void drawParts(const PanelContext& context, const StatsReadings& readings) {
+    const physics::StepTimes& times = readings.parts;
+    const render::FrameStats& stats = readings.history.stats;
     caption("WHERE THE TIME GOES");
     if (!beginRows(context, "##parts")) return;
     const auto ms = [](double value) { return fmt::format("{:.3f} ms", value); };
     row("Broadphase", ms(times.broadphaseMs));
     row("Narrowphase", ms(times.narrowphaseMs));
     row("Solver", ms(times.solverMs));
-    row("Pose", ms(context.editor.poseMs()));
+    row("Pose", ms(readings.poseMs));
     row("Upload, culling", ms(stats.cpu[render::RenderPass::prepare]));
     row("Draw, processor", ms(stats.cpuMs));
     row("Draw, GPU", stats.gpu.known ? ms(stats.gpu.total()) : "not measured yet");
@@ -77,10 +87,10 @@ void drawParts(const PanelContext& context) {
     ImGui::EndTable();
 }
 
-void drawCounts(const PanelContext& context) {
+void drawCounts(const PanelContext& context, const StatsReadings& readings) {
     const scene::Simulation& simulation = context.editor.player().simulation();
     const physics::WorldView& world = simulation.world();
-    const render::FrameStats& stats = context.history.stats;
+    const render::FrameStats& stats = readings.history.stats;
     const auto bodies = static_cast<int>(simulation.asset().profile.bodies.size());
     const auto constraints = static_cast<int>(simulation.asset().profile.constraints.size());
     int asleep = 0;
@@ -94,11 +104,11 @@ void drawCounts(const PanelContext& context) {
     row("Bodies", fmt::format("{} and {} props", bodies * simulation.dollCount(), world.props().size()));
     row("Constraints", fmt::format("{}", constraints * simulation.dollCount()));
     row("Contacts", fmt::format("{}", contacts.size()));
-    row("Islands awake", fmt::format("{}", world.stepTimes().islands));
+    row("Islands awake", fmt::format("{}", readings.parts.islands));
     row("Draw calls", fmt::format("{} ({} skinned)", stats.drawCalls, stats.characterDrawCalls));
     row("Triangles", fmt::format("{}", stats.triangles));
     row("Uploaded", fmt::format("{} kB a frame", stats.uploadedBytes / 1024));
-    row("Memory", megabytes(static_cast<double>(residentBytes())));
+    row("Memory", megabytes(readings.residentBytes));
     row("GPU memory", megabytes(static_cast<double>(stats.memory.total())));
     row("", fmt::format("meshes {}, textures {}", megabytes(static_cast<double>(stats.memory.meshes)),
                         megabytes(static_cast<double>(stats.memory.textures))));
@@ -127,16 +137,14 @@ void drawQuality(const PanelContext& context) {
 }  // namespace
 
 void drawStatsTab(const PanelContext& context) {
-    const scene::Simulation& simulation = context.editor.player().simulation();
-    drawFrames(context);
+    const StatsReadings readings = readStats(context);
+    drawFrames(context, readings.history);
     caption("SIMULATION STEP");
-    const auto steps = simulation.stepMs();
-    const auto last = steps.last(std::min(steps.size(), FrameHistory::kLength));
-    plot(context, "##steps", last, "ms");
-    const Percentiles ms = percentilesOf(last);
+    plot(context, "##steps", readings.stepMs, "ms");
+    const Percentiles ms = percentilesOf(readings.stepMs);
     mutedText(fmt::format("p50 {:.2f} ms, p95 {:.2f}, p99 {:.2f}", ms.p50, ms.p95, ms.p99));
-    drawParts(context);
-    drawCounts(context);
+    drawParts(context, readings);
+    drawCounts(context, readings);
     drawQuality(context);
 }
 

@@ -24,6 +24,7 @@ void drawTools(const PanelContext& context) {
     Editor& editor = context.editor;
     Workspace& workspace = editor.workspace();
     const auto [left, right] = viewSpan(context);
+    context.state.toolsRight = 0.0F;
     if (right - left < context.px(240)) return;  // a tiny window is for looking; keys choose the tool there
     // Beside the transport where there is room, else below it.
     const bool beside = right - left > context.px(490);
@@ -38,8 +39,9 @@ void drawTools(const PanelContext& context) {
     constexpr const char* what[] = {"A drag pulls bodies; objects have arrows. T: the next tool",
                                     "Arrows move an object, or a body's shape in its joint. G: grab at once",
                                     "Rings turn an object, or a body's shape in its joint. R: turn at once",
-                                    "Arms resize an object, or a body's shape. S: at once"};
-    for (int index = 0; index < 4; ++index) {
+                                    "Arms resize an object, or a body's shape. S: at once",
+                                    "A click hits the body that it points at; the wheel sets the impulse"};
+    for (int index = 0; index < kToolCount; ++index) {
         const auto tool = static_cast<Tool>(index);
         if (toolButton(context, toolName(tool), workspace.tool == tool, what[index])) {
             workspace.tool = tool;
@@ -55,6 +57,9 @@ void drawTools(const PanelContext& context) {
                    "Shift+M: changes of a body go to the other side as well")) {
         editor.perform(Action::toggleSymmetric);
     }
+    if (toolButton(context, "Clips", editor.view.clips, "F4: the file's clips with a timeline"))
+        editor.perform(Action::toggleClips);
+    if (!beside) context.state.toolsRight = ImGui::GetWindowPos().x + ImGui::GetWindowSize().x;
     ImGui::End();
     ImGui::PopStyleVar();
 }

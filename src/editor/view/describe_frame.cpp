@@ -96,13 +96,62 @@ void drawLightsAndCameras(const Workspace& workspace, render::LineBatch& lines) 
     }
 }
 
-void drawBody(const physics::BodyShape& shape, const RigidTransform& worldFromBody, render::LineBatch& lines) {
+void drawBody(const physics::BodyShape& shape, const RigidTransform& worldFromBody, render::Color color,
+              render::LineBatch& lines) {
     if (shape.kind == physics::BodyShape::Kind::capsule) {
-        render::addCapsule(lines, worldFromBody, shape.radius, shape.halfLength, kSelectionLine);
+        render::addCapsule(lines, worldFromBody, shape.radius, shape.halfLength, color);
     } else if (shape.kind == physics::BodyShape::Kind::sphere) {
-        render::addSphere(lines, worldFromBody.translation, shape.radius, kSelectionLine);
+        render::addSphere(lines, worldFromBody.translation, shape.radius, color);
     } else {
-        render::addBox(lines, worldFromBody, shape.halfExtents, kSelectionLine);
+        render::addBox(lines, worldFromBody, shape.halfExtents, color);
+    }
+}
+
+// Blue at 0, green in the middle, red at 1.
+render::Color heat(float share, unsigned char opacity) {
+    const float hot = std::clamp(share * 2.0F - 1.0F, 0.0F, 1.0F);
+    const float cold = std::clamp(1.0F - share * 2.0F, 0.0F, 1.0F);
+    const auto byte = [](float value) { return static_cast<unsigned char>(std::lround(value * 255.0F)); };
+    return {byte(0.15F + 0.85F * hot), byte(0.25F + 0.6F * (1.0F - hot) * (1.0F - cold)), byte(0.15F + 0.85F * cold),
+            opacity};
+}
+
+// The pose that a puppet follows, each body by how far its joint is from it.
+void drawGhost(const scene::Simulation& simulation, int doll, std::span<const RigidTransform> bodies,
+               render::LineBatch& lines) {
+    constexpr float most = radians(30.0F);  // and more: red
+    constexpr unsigned char opacity = 150;
+    const physics::RagdollProfile& profile = simulation.assetOf(doll).profile;
+    const std::span<const RigidTransform> pose = simulation.puppets()->pose(doll);
+    std::vector<float> errors(profile.constraints.size());
+    physics::jointErrors(profile, pose, bodies, errors);
+    for (std::size_t body = 0; body < pose.size(); ++body) {
+        const float error = body > 0 ? errors[body - 1] : 0.0F;
+        drawBody(profile.bodies[body].shape, pose[body], heat(0.5F + 0.5F * std::min(error / most, 1.0F), opacity),
+                 lines);
+    }
+}
+
+// Each body's shape in the colour of the strength that its joint has now: red full, blue none.
+void drawStrength(scene::Simulation& simulation, int doll, std::span<const RigidTransform> bodies,
+                  render::LineBatch& lines) {
+    const physics::RagdollProfile& profile = simulation.assetOf(doll).profile;
+    physics::Puppet& puppet = simulation.puppets()->puppet(doll);
+    for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
+        const float own = physics::strengthOf(puppet.settings().muscles, profile, body);
+        drawBody(profile.bodies[body].shape, bodies[body], heat(std::min(own * puppet.strengthLeft(body), 1.0F), 255),
+                 lines);
+    }
+}
+
+void drawPuppets(const Workspace& workspace, const ViewSettings& view, render::LineBatch& lines) {
+    scene::Simulation& simulation = workspace.player->simulation();
+    if (simulation.puppets() == nullptr) return;
+    for (int doll = 0; doll < simulation.dollCount(); ++doll) {
+        const auto bodies = simulation.worldFromBody(doll, workspace.player->alpha());
+        const bool limp = simulation.puppets()->puppet(doll).state() == physics::PuppetState::limp;
+        if (view.ghost && !limp) drawGhost(simulation, doll, bodies, lines);
+        if (view.strength) drawStrength(simulation, doll, bodies, lines);
     }
 }
 
@@ -119,7 +168,7 @@ void drawSelection(const Workspace& workspace, render::LineBatch& lines) {
     for (const Item& item : workspace.selection.items()) {
         if (item.kind != Item::Kind::body) continue;
         drawBody(workspace.document->profile().bodies[item.index].shape,
-                 player.simulation().worldFromBody(item.doll, player.alpha())[item.index], lines);
+                 player.simulation().worldFromBody(item.doll, player.alpha())[item.index], kSelectionLine, lines);
     }
 }
 
@@ -150,6 +199,7 @@ void describeFrame(const Workspace& workspace, const ViewSettings& view, scene::
                 workspace.player->alpha(), view.skinOpacity, frame);
     highlight(workspace, drawer, frame);
     drawLightsAndCameras(workspace, frame.lines);
+    drawPuppets(workspace, view, frame.lines);
     drawSelection(workspace, frame.lines);
     drawActivePart(workspace, frame.lines);
     drawPins(workspace, frame.lines);

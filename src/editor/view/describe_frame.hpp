@@ -19,6 +19,9 @@ struct ViewSettings {
     bool panels = true;
     bool help = false;
     bool gallery = false;        ///< Of recent models.
+    bool clips = false;          ///< The timeline of the file's clips.
+    bool ghost = false;          ///< The pose that puppets follow, coloured by how far they are from it.
+    bool strength = false;       ///< What is left of puppets' strength, as a colour.
     std::filesystem::path sky;   ///< A panorama (*.hdr) that lights the scene; empty: the plain sky.
     bool skyBackground = false;  ///< And is seen behind it.
 };

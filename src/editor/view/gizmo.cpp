@@ -108,7 +108,7 @@ void drawArm(const Gizmo& gizmo, int axis, render::Color color, render::LineBatc
 }  // namespace
 
 const char* toolName(Tool tool) {
-    constexpr std::array names = {"Select", "Move", "Turn", "Size"};
+    constexpr std::array names = {"Select", "Move", "Turn", "Size", "Hit"};
     return names[static_cast<std::size_t>(tool)];
 }
 

@@ -13,7 +13,9 @@ enum class Tool {
     move,
     rotate,
     scale,
+    hit,  ///< No gizmo: a click hits what it points at.
 };
+inline constexpr int kToolCount = 5;
 [[nodiscard]] const char* toolName(Tool tool);
 
 /// The arrows, rings or arms around what is selected.

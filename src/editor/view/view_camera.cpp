@@ -53,6 +53,10 @@ void ViewCamera::frameScene() {
     workspace_.camera = scene::cameraFor(scenario, workspace_.window.aspect());
     framed_.reset();
     if (!scenario.camera) frame(pointsOfAll());
+    workspace_.followed.reset();
+    const auto& puppets = workspace_.document->scene().simulation.puppets;
+    const bool walks = puppets && !puppets->clip.empty() && scenario.dolls.size() == 1;
+    if (walks && scenario.focusFollows && !scenario.camera) toggleFollow();
 }
 
 void ViewCamera::focus() {

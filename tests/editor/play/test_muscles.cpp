@@ -1,0 +1,89 @@
+/// Characters with muscles in the editor: switched on and off, through edits and undo, limp and up again.
+
+#include <glm/geometric.hpp>
+
+#include "editor/document/open_document.hpp"
+#include "editor/sessions.hpp"
+
+using namespace lutka;
+using namespace lutka::editor;
+using animation::Role;
+using test::placeOf;
+
+namespace {
+
+std::unique_ptr<Editor> mannequinIn(const char* scenario) {
+    EditorOptions options;
+    options.model = LUTKA_ASSETS_DIR "/models/mannequin.glb";
+    options.scene.scenario = scenario;
+    auto editor = Editor::create(options);
+    if (!editor.ok()) FAIL(editor.error().text());
+    return std::move(editor).value();
+}
+
+physics::PuppetState stateOf(Editor& editor) {
+    return editor.player().simulation().puppets()->puppet(0).state();
+}
+
+}  // namespace
+
+TEST_CASE("a walker goes on through edits: neither its place nor its time nor its strength begins anew") {
+    const auto editor = mannequinIn("walk");
+    test::pass(*editor, 50);
+    REQUIRE(editor->player().simulation().puppets() != nullptr);
+    REQUIRE(stateOf(*editor) == physics::PuppetState::animated);
+    const vec3 before = placeOf(*editor, Role::hips);
+    const int hand = physics::bodyOf(editor->document().profile(), Role::leftHand);
+    for (int i = 0; i < 10; ++i) {
+        REQUIRE(editor->edit([&](EditorDocument& document) {
+            return document.setMass(hand, 0.5F + 0.01F * static_cast<float>(i), "mass");
+        }));
+        test::pass(*editor, 1);
+        CHECK(stateOf(*editor) != physics::PuppetState::limp);
+    }
+    const vec3 after = placeOf(*editor, Role::hips);
+    CHECK(glm::distance(before, after) < 0.5F);
+    const auto pose = editor->player().simulation().puppets()->pose(0);
+    CHECK(glm::distance(pose[0].translation, after) < 0.05F);
+    // The view goes along with it.
+    CHECK(editor->workspace().followed == 0);
+}
+
+TEST_CASE("who goes limp falls, and gets up again when asked; undo goes both ways") {
+    const auto editor = mannequinIn("drop");
+    test::pass(*editor, 240);
+    const float lying = placeOf(*editor, Role::hips).y;
+    editor->perform(Action::getUp);
+    REQUIRE(editor->player().simulation().puppets() != nullptr);
+    CHECK(stateOf(*editor) == physics::PuppetState::limp);
+    CHECK(placeOf(*editor, Role::hips).y == Approx(lying).margin(0.02));
+    for (int i = 0; i < 900 && stateOf(*editor) != physics::PuppetState::animated; ++i)
+        test::pass(*editor, 1);
+    REQUIRE(stateOf(*editor) == physics::PuppetState::animated);
+    const float standing = placeOf(*editor, Role::hips).y;
+    CHECK(standing > lying + 0.4F);
+    // An edit leaves it on its feet.
+    const int hand = physics::bodyOf(editor->document().profile(), Role::leftHand);
+    REQUIRE(editor->edit([&](EditorDocument& document) { return document.setMass(hand, 0.6F); }));
+    test::pass(*editor, 60);
+    CHECK(placeOf(*editor, Role::hips).y == Approx(standing).margin(0.1));
+    editor->perform(Action::goLimp);
+    CHECK(editor->player().simulation().puppets() == nullptr);
+    test::pass(*editor, 180);
+    CHECK(placeOf(*editor, Role::hips).y < standing - 0.4F);
+    editor->perform(Action::undo);
+    CHECK(editor->player().simulation().puppets() != nullptr);
+    editor->perform(Action::redo);
+    CHECK(editor->player().simulation().puppets() == nullptr);
+}
+
+TEST_CASE("muscles that a figure cannot have are refused with the reason, and it falls") {
+    const auto editor = test::makeEditor();
+    scene::ScenePuppets puppets;
+    puppets.clip = "no clip of this name";
+    editor->setPuppets(puppets);
+    test::pass(*editor, 2);
+    CHECK(editor->player().simulation().puppets() == nullptr);
+    REQUIRE_FALSE(editor->workspace().toasts.empty());
+    CHECK_THAT(editor->workspace().toasts.back().text, Catch::Contains("The characters fall"));
+}
