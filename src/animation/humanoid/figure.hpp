@@ -23,7 +23,8 @@ struct Figure {
     float prior = 0.0F;   ///< The part of the score that speaks for the up axis, before anything is read.
     bool leans = false;   ///< Read in a stance that is not upright: it leans as a whole.
     bool posed = false;   ///< Read in the stance that its names give, whatever its pose.
-    /// By all names the left arm is on the side of the right leg: a walking figure seen from its side mirrors so.
+    /// By all names, which say the parts, too, the left arm is on the side of the right leg: a walking figure seen from
+    /// its side mirrors so.
     bool crossed = false;
     float score = -1e9F;  ///< Sum of all terms: what readings are compared by.
     FramedRig framed;

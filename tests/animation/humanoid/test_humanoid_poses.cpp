@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <string>
 
 #include "animation/humanoid/map_humanoid.hpp"
 #include "rig_variations.hpp"
@@ -405,6 +406,26 @@ TEST_CASE("feet that cross stay on the sides of their legs", "[poses]") {
     const HumanoidMap map = animation::mapHumanoid(rig.character);
     REQUIRE(map.humanoid);
     for (const Role role : {Role::leftUpperLeg, Role::leftFoot, Role::rightLowerLeg, Role::rightFoot})
+        CHECK(map.jointOf(role) == jointOf(named, role));
+}
+
+TEST_CASE("arms and legs that are called left on different sides are read by their shape", "[poses]") {
+    // Numbered bones of a modelling program, the arms' sides exchanged.
+    const SyntheticRig named = makeSyntheticRig(kConvention);
+    animation::Character character = named.character;
+    for (std::size_t joint = 0; joint < character.skeleton.names.size(); ++joint)
+        character.skeleton.names[joint] = "Bone." + std::to_string(joint);
+    for (const Role role : {Role::leftUpperArm, Role::leftLowerArm, Role::leftHand, Role::leftUpperLeg,
+                            Role::leftLowerLeg, Role::leftFoot}) {
+        const bool arm = role == Role::leftUpperArm || role == Role::leftLowerArm || role == Role::leftHand;
+        const std::string number = "." + std::to_string(indexOf(role));
+        character.skeleton.names[jointOf(named, role)] = (arm ? "Bone_R" : "Bone_L") + number;
+        character.skeleton.names[jointOf(named, animation::mirrored(role))] = (arm ? "Bone_L" : "Bone_R") + number;
+    }
+    const HumanoidMap map = animation::mapHumanoid(character);
+    REQUIRE(map.humanoid);
+    for (const Role role :
+         {Role::leftUpperLeg, Role::leftLowerLeg, Role::leftFoot, Role::leftUpperArm, Role::rightHand})
         CHECK(map.jointOf(role) == jointOf(named, role));
 }
 
