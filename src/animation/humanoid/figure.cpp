@@ -179,7 +179,7 @@ Figure readInStance(const RigFeatures& rig, const Stance& stance, const UpAxis& 
         figure.score += moreLimbs(framed, figure);
         figure.score += atMost(trunkTilt(figure, framed), radians(20.0F), radians(10.0F));
         figure.refusal = refusalOf(figure, framed);
-        figure.crossed = figure.legs.named && figure.arms.named &&
+        figure.crossed = figure.legs.names > 0.0F && figure.arms.names > 0.0F &&
                          sideByNames(framed, figure.legs) * sideByNames(framed, figure.arms) < 0;
         if (better(figure, best)) best = std::move(figure);
     }

@@ -384,6 +384,15 @@ TEST_CASE("a runner's left arm and right leg, both in front, do not make a figur
     turn(rig, Role::leftUpperArm, -0.9F, vec3(1, 0, 0));
     turn(rig, Role::rightUpperArm, 0.8F, vec3(1, 0, 0));
     checkWhole(rig);
+    // As exported for one game: the forearms are the last joints of the arms.
+    const int foot = jointOf(rig, Role::leftFoot);
+    const std::string name = rig.character.skeleton.names[foot];
+    cutOff(rig, Role::leftHand);
+    cutOff(rig, Role::rightHand);
+    const HumanoidMap map = animation::mapHumanoid(rig.character);
+    REQUIRE(map.humanoid);
+    REQUIRE(map[Role::leftFoot]);
+    CHECK(rig.character.skeleton.names[map.jointOf(Role::leftFoot)] == name);
 }
 
 TEST_CASE("a sprinter who leans far forward keeps head and neck", "[poses]") {
