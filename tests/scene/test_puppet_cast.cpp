@@ -150,7 +150,7 @@ TEST_CASE("a profile's own muscles and pins are used where nothing else is asked
 
 TEST_CASE("a clip that is not there is an error that names those that are") {
     scene::SimulationOptions options;
-    options.puppet = PuppetPlay{{.clip = "dance"}, {}, {}};
+    options.puppet.emplace().start.clip = "dance";
     const auto refused = scene::Simulation::create(mannequin(), ground(), options);
     REQUIRE_FALSE(refused);
     CHECK(refused.error().code == ErrorCode::usage);

@@ -89,12 +89,12 @@ TEST_CASE("a clip's feet meet a ramp and stairs, which they go through without b
              << ", fitted: mean gap " << with.figures.footGapMeanM << ", most " << with.figures.footGapM << ", depth "
              << with.figures.footDepthM << "; not: " << without.figures.footGapMeanM << ", "
              << without.figures.footDepthM << "; hips rose " << with.hipsRise << ", in a step " << with.mostHipsStep);
-        CHECK(with.figures.footDepthM < 0.04F);
-        CHECK(with.figures.footGapMeanM < 0.03F);
-        CHECK(without.figures.footDepthM > 0.2F);
+        CHECK(with.figures.footDepthM < (isRamp ? 0.005F : 0.05F));
+        CHECK(with.figures.footGapMeanM < 0.005F);
+        CHECK(without.figures.footDepthM > 0.1F);
         CHECK(with.hipsRise > 0.35F);
         CHECK(without.hipsRise < 0.1F);
-        CHECK(with.mostHipsStep < 0.02F);
+        CHECK(with.mostHipsStep < 0.05F);
         CHECK(with.sound);
     }
 }
@@ -109,7 +109,7 @@ TEST_CASE("a powered walk goes up a ramp and stairs without being knocked out") 
         CHECK(walked.figures.limp == 0);
         CHECK(walked.hipsRise > 0.35F);
         CHECK(walked.figures.footDepthM < 0.02F);
-        CHECK(walked.figures.rmsDeg < 6.0F);
+        CHECK(walked.figures.rmsDeg < 9.0F);
         CHECK(walked.sound);
     }
 }
