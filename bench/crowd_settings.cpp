@@ -19,6 +19,11 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
                                               {"mendAngle", &tuning.mendAngle},
                                               {"aimGap", &tuning.aimGap},
                                               {"releaseRate", &tuning.releaseRate},
+                                              {"pressRate", &tuning.pressRate},
+                                              {"mendRate", &tuning.mendRate},
+                                              {"mendHaste", &tuning.mendHaste},
+                                              {"supportPassed", &tuning.supportPassed},
+                                              {"supportKept", &tuning.supportKept},
                                               {"nearSpeed", &tuning.nearSpeed},
                                               {"contactTolerance", &tuning.contactTolerance},
                                               {"limitTolerance", &tuning.limitTolerance},
@@ -46,7 +51,8 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
     const std::map<std::string, int*> whole{{"substeps", &tuning.substeps},
                                             {"passes", &tuning.passes},
                                             {"patience", &tuning.patience},
-                                            {"mendEvery", &tuning.mendEvery}};
+                                            {"mendEvery", &tuning.mendEvery},
+                                            {"mendSweeps", &tuning.mendSweeps}};
     if (const auto real = reals.find(name); real != reals.end())
         *real->second = value;
     else if (const auto number = whole.find(name); number != whole.end())

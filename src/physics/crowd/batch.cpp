@@ -11,6 +11,7 @@ static_assert(offsetof(BodyLanes, angular) == kAngularOffset * sizeof(float));
 static_assert(offsetof(BodyLanes, inverseInertia) == kInverseInertiaOffset * sizeof(float));
 static_assert(offsetof(BodyLanes, position) == kPositionOffset * sizeof(float));
 static_assert(offsetof(BodyLanes, axisX) == kAxisOffset * sizeof(float));
+static_assert(offsetof(BodyLanes, support) == kSupportOffset * sizeof(float));
 
 // Copies one lane of every Wide in `from`, which is made of nothing else.
 template <class Lanes>
@@ -71,6 +72,7 @@ void writeLane(Batch& batch, int lane, std::span<const BodyState> bodies) {
         writeVector(to.position, lane, bodies[b].worldFromBody.translation);
         writeVector(to.velocity, lane, bodies[b].linearVelocity);
         writeVector(to.angular, lane, bodies[b].angularVelocity);
+        writeVector(to.support, lane, vec3(0));
         to.rotation.x.lane[lane] = q.x;
         to.rotation.y.lane[lane] = q.y;
         to.rotation.z.lane[lane] = q.z;

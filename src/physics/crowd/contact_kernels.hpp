@@ -54,8 +54,15 @@ LUTKA_LANES void storeVelocities(const PairContactLanes& pair, const PairVelocit
     scatter3(pair.bodyB, kVelocityOffset, v.velocityB);
     scatter3(pair.bodyB, kAngularOffset, v.angularB);
 }
-// An impulse of size `size` along direction `index` (0: normal, 1 and 2: tangents), on A.
-LUTKA_LANES void applyPair(const PairContactLanes& pair, PairVelocities& v, int index, const V3& direction, F size) {
+// An impulse of size `size` along the normal, without what supports hold against.
+LUTKA_LANES void pressPair(const PairContactLanes& pair, PairVelocities& v, F size) {
+    v.velocityA = v.velocityA + load(pair.pushA) * (size * load(pair.inverseMassA));
+    v.velocityB = v.velocityB - load(pair.pushB) * (size * load(pair.inverseMassB));
+    v.angularA = v.angularA + load(pair.turnA[0]) * size;
+    v.angularB = v.angularB - load(pair.turnB[0]) * size;
+}
+// An impulse of size `size` on A along tangent `index`, 1 or 2.
+LUTKA_LANES void rubPair(const PairContactLanes& pair, PairVelocities& v, int index, const V3& direction, F size) {
     v.velocityA = v.velocityA + direction * (size * load(pair.inverseMassA));
     v.velocityB = v.velocityB - direction * (size * load(pair.inverseMassB));
     v.angularA = v.angularA + load(pair.turnA[index]) * size;
@@ -64,6 +71,23 @@ LUTKA_LANES void applyPair(const PairContactLanes& pair, PairVelocities& v, int 
 LUTKA_LANES V3 slidingOf(const PairContactLanes& pair, const PairVelocities& v) {
     return v.velocityA + cross(v.angularA, load(pair.armA)) - (v.velocityB + cross(v.angularB, load(pair.armB)));
 }
+
+// What is left of a push along `direction` where a support holds against it.
+LUTKA_LANES V3 leftOf(const V3& direction, const V3& support) {
+    const F firmness = squareRoot(dot(support, support));
+    const F into = least(dot(direction, support), all(0.0F));
+    return direction - support * (into / most(firmness, all(1e-6F)));
+}
+
+// What a contact presses harder by than the masses of its two bodies ask.
+LUTKA_LANES F eagerness(const PairContactLanes& pair, float rate) {
+    return all(1.0F) + load(pair.eager) * all(rate - 1.0F);
+}
+
+// What a support holds back is a guess, and a push that counts on too much of it is never taken back in time: a pair
+// that stands free in truth answers it with more than it was meant to stop, and so on. Hence a bound, of what the two
+// bodies yield when they are free.
+constexpr float kLeastYield = 0.35F;
 
 // Directions and masses. What friction carries is turned into the new directions.
 LUTKA_LANES void preparePair(PairContactLanes& pair, bool isFirst) {
@@ -81,20 +105,31 @@ LUTKA_LANES void preparePair(PairContactLanes& pair, bool isFirst) {
     const V3 armB = load(pair.armB);
     const Symmetric inertiaA = gatherInverseInertia(pair.bodyA);
     const Symmetric inertiaB = gatherInverseInertia(pair.bodyB);
-    const F inverseMassA = load(pair.inverseMassA);
-    const F inverseMassB = load(pair.inverseMassB);
+    const V3 pushA = leftOf(direction[0], gather3(pair.bodyA, kSupportOffset));
+    const V3 pushB = -leftOf(-direction[0], gather3(pair.bodyB, kSupportOffset));
+    store(pair.pushA, pushA);
+    store(pair.pushB, pushB);
+    const F massA = load(pair.inverseMassA);
+    const F massB = load(pair.inverseMassB);
     const F zero = all(0.0F);
+    // Kinematic bodies have no inverse mass, and none of their inertia counts either.
+    const auto turnedA = [&](const V3& lever) { return choose(massA > zero, inertiaA * lever, {zero, zero, zero}); };
+    const auto turnedB = [&](const V3& lever) { return choose(massB > zero, inertiaB * lever, {zero, zero, zero}); };
+    const V3 leverA = cross(armA, direction[0]);
+    const V3 leverB = cross(armB, direction[0]);
+    const F free = massA + massB + dot(leverA, turnedA(leverA)) + dot(leverB, turnedB(leverB));
+    const Mask moves = (load(pair.active) > zero) & (free > zero);
+    const F leastYield = most(free * all(kLeastYield), all(1e-12F));
     for (int i = 0; i < 3; ++i) {
-        const V3 leverA = cross(armA, direction[i]);
-        const V3 leverB = cross(armB, direction[i]);
-        // Kinematic bodies have no inverse mass, and none of their inertia counts either.
-        const V3 turnA = choose(inverseMassA > zero, inertiaA * leverA, {zero, zero, zero});
-        const V3 turnB = choose(inverseMassB > zero, inertiaB * leverB, {zero, zero, zero});
+        const V3& onA = i == 0 ? pushA : direction[i];
+        const V3& onB = i == 0 ? pushB : direction[i];
+        const V3 turnA = turnedA(cross(armA, onA));
+        const V3 turnB = turnedB(cross(armB, onB));
         store(pair.turnA[i], turnA);
         store(pair.turnB[i], turnB);
-        const F k = inverseMassA + inverseMassB + dot(leverA, turnA) + dot(leverB, turnB);
-        const Mask moves = (load(pair.active) > zero) & (k > zero);
-        const F mass = moves ? all(1.0F) / most(k, all(1e-12F)) : zero;
+        const F k = massA * dot(onA, direction[i]) + massB * dot(onB, direction[i]) +
+                    dot(cross(armA, direction[i]), turnA) + dot(cross(armB, direction[i]), turnB);
+        const F mass = moves ? all(1.0F) / most(k, leastYield) : zero;
         store(i == 0 ? pair.normalMass : pair.tangentMass[i - 1], mass);
     }
 }
@@ -135,6 +170,21 @@ LUTKA_LANES void placePair(PairContactLanes& pair, bool isFirst) {
     store(pair.armB, coreB + middle);
 }
 
+// What rests on something that is held is held itself, less firmly.
+LUTKA_LANES void passSupport(const PairContactLanes& pair, const Mask& presses, const SubstepParams& params) {
+    const F zero = all(0.0F);
+    const V3 normal = load(pair.normal);
+    const V3 a = gather3(pair.bodyA, kSupportOffset);
+    const V3 b = gather3(pair.bodyB, kSupportOffset);
+    const F firmA = -dot(normal, a) * all(params.supportPassed);
+    const F firmB = dot(normal, b) * all(params.supportPassed);
+    const Mask liftsA = presses & (firmB > zero) & (firmB * firmB > dot(a, a));
+    const Mask liftsB = presses & (firmA > zero) & (firmA * firmA > dot(b, b)) & ~liftsA;
+    if (bits(liftsA | liftsB) == 0) return;
+    scatter3(pair.bodyA, kSupportOffset, choose(liftsA, normal * firmB, a));
+    scatter3(pair.bodyB, kSupportOffset, choose(liftsB, -normal * firmA, b));
+}
+
 constexpr float kComing = 1.0F;  // m/s by which pushes of others may speed up an approach within a sweep
 
 static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& params) {
@@ -155,6 +205,8 @@ static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& 
         store(pair.approach, start);
         store(pair.normalImpulse, held);
         store(pair.carriedNormal, held);
+        const Mask presses = held > all(0.0F);
+        if (bits(presses) != 0) passSupport(pair, presses, params);
         for (int k = 0; k < 2; ++k) {  // friction ends with the load
             const F rubbed = held > all(0.0F) ? load(pair.tangentImpulse[k]) : all(0.0F);
             store(pair.tangentImpulse[k], rubbed);
@@ -163,15 +215,24 @@ static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& 
     }
 }
 
+// Pushes with what the substep before left, and gives the supports what the sweep held back from them.
 static void carryPairs(PairContactLanes* pairs, int count) {
     for (int i = 0; i < count; ++i) {
         const PairContactLanes& pair = pairs[i];
         const F pressed = load(pair.carriedNormal);
-        if (bits(pressed > all(0.0F)) == 0) continue;
+        const F total = load(pair.normalImpulse);
+        if (bits((pressed > all(0.0F)) | (total > all(0.0F))) == 0) continue;
         PairVelocities v = velocitiesOf(pair);
-        applyPair(pair, v, 0, load(pair.normal), pressed);
-        applyPair(pair, v, 1, load(pair.tangent[0]), load(pair.carriedTangent[0]));
-        applyPair(pair, v, 2, load(pair.tangent[1]), load(pair.carriedTangent[1]));
+        const V3 whole = load(pair.normal) * total;
+        const F swept = total - pressed;
+        const V3 toA = whole - load(pair.pushA) * swept;
+        const V3 toB = whole - load(pair.pushB) * swept;
+        v.velocityA = v.velocityA + toA * load(pair.inverseMassA);
+        v.velocityB = v.velocityB - toB * load(pair.inverseMassB);
+        v.angularA = v.angularA + gatherInverseInertia(pair.bodyA) * cross(load(pair.armA), toA);
+        v.angularB = v.angularB - gatherInverseInertia(pair.bodyB) * cross(load(pair.armB), toB);
+        rubPair(pair, v, 1, load(pair.tangent[0]), load(pair.carriedTangent[0]));
+        rubPair(pair, v, 2, load(pair.tangent[1]), load(pair.carriedTangent[1]));
         storeVelocities(pair, v);
     }
 }
@@ -195,18 +256,19 @@ static int solvePairs(PairContactLanes* pairs, int count, const SubstepParams& p
                          before2 - load(pair.tangentMass[1]) * dot(t2, sliding), load(pair.friction) * carried);
         store(pair.tangentImpulse[0], after.first);
         store(pair.tangentImpulse[1], after.second);
-        applyPair(pair, v, 1, t1, after.first - before1);
-        applyPair(pair, v, 2, t2, after.second - before2);
+        rubPair(pair, v, 1, t1, after.first - before1);
+        rubPair(pair, v, 2, t2, after.second - before2);
 
         const F approach = dot(normal, slidingOf(pair, v));
         const F off = approach + bias;
         // A single body's mass is less than what a doll sets against a push: what pressed too much is taken back
         // faster.
-        const F change = -load(pair.normalMass) * (off > all(0.0F) ? off * all(params.releaseRate) : off);
+        const F change = -load(pair.normalMass) *
+                         (off > all(0.0F) ? off * all(params.releaseRate) : off * eagerness(pair, params.pressRate));
         const F total = most(carried + change, all(0.0F));
         pressed |= (total > all(0.0F)) | (carried > all(0.0F));
         store(pair.normalImpulse, total);
-        applyPair(pair, v, 0, normal, total - carried);
+        pressPair(pair, v, total - carried);
         storeVelocities(pair, v);
     }
     return bits(pressed) != 0 ? 1 : 0;
@@ -222,9 +284,10 @@ static int mendPairs(PairContactLanes* pairs, int count, const SubstepParams& pa
         any |= overlaps;
         PairVelocities v = velocitiesOf(pair);
         const V3 normal = load(pair.normal);
-        const F off = dot(normal, slidingOf(pair, v)) + contactBias(load(pair.separation), params, 1);
-        const F push = most(load(pair.normalMass) * -off, zero);
-        applyPair(pair, v, 0, normal, overlaps ? push : zero);
+        const F off = dot(normal, slidingOf(pair, v)) +
+                      contactBias(load(pair.separation), params, 1) * eagerness(pair, params.mendHaste);
+        const F push = most(load(pair.normalMass) * -off * eagerness(pair, params.mendRate), zero);
+        pressPair(pair, v, overlaps ? push : zero);
         storeVelocities(pair, v);
     }
     return bits(any) != 0 ? 1 : 0;

@@ -12,6 +12,7 @@ static void begin(const BatchView& batch, const SubstepParams& params) {
     beginJoints(batch, params);
     for (int i = 0; i < batch.contactCount; ++i)
         beginStatic(batch.contacts[i], batch, params);
+    findSupports(batch, params);
     for (int i = 0; i < batch.dragCount; ++i)
         beginDrag(batch.drags[i], batch, params);
     for (int j = 0; batch.motors != nullptr && j < batch.jointCount; ++j)

@@ -41,6 +41,7 @@ struct BodyLanes {
     Wide3 loose;      ///< The velocity before the joints were solved: what it changes by is their doing.
     Wide3 spin;       ///< What half a substep of free motion adds to the turning rate.
     Wide3 low, high;  ///< Bounds for the coming step as seen from the doll's root: see `findBounds`.
+    Wide3 support;    ///< Out of what it rests on; its length says how firmly that holds, 0 to 1.
 };
 /// In floats, from the first member to the lane's own; batch.cpp holds them to the members.
 inline constexpr int kVelocityOffset = 0;
@@ -48,6 +49,7 @@ inline constexpr int kAngularOffset = 3 * kLanes;
 inline constexpr int kInverseInertiaOffset = 18 * kLanes;
 inline constexpr int kPositionOffset = 27 * kLanes;
 inline constexpr int kAxisOffset = 30 * kLanes;
+inline constexpr int kSupportOffset = 55 * kLanes;
 
 /// What is constant of a body, from the profile.
 struct BodyConstants {
@@ -235,11 +237,13 @@ struct PairContactLanes {
     Wide carriedNormal;  ///< What the substep before left of the impulses.
     Wide carriedTangent[2];
     Wide active;  ///< 1, or 0 where the lane is empty.
+    Wide eager;   ///< 1 where both bodies have others jointed to them, which lag behind a push; else 0.
     int onAxisY;  ///< Whether all touching points lie on the bodies' y, as those of capsules do.
     int follows;  ///< Whether all are of capsules and spheres: points and normal are found anew in every substep.
 
     Wide3 armA, armB;
     Wide3 tangent[2];
+    Wide3 pushA, pushB;        ///< The normal without the part that is held against by what a body rests on.
     Wide3 turnA[3], turnB[3];  ///< Inverse inertia times (arm × direction), for the normal and the tangents.
     Wide separation;
     Wide normalMass;
@@ -253,6 +257,12 @@ struct SubstepTuning {
     int patience = 3;          ///< Passes after which rows that will not come to rest are only added any more.
     float aimGap = 0.0003F;    ///< Metres by which an anchor may miss in a substep before its arm is foreseen anew.
     float releaseRate = 2.0F;  ///< By how much faster a contact between bodies takes back what it pressed too much.
+    float pressRate = 1.1F;    ///< By how much more it presses than the two bodies' masses ask, [1, 2): dolls follow.
+    float mendRate = 1.6F;     ///< The same of the sweeps that mend overlap.
+    float mendHaste = 3.0F;    ///< Factor on the speed with which overlap of jointed bodies is mended.
+    int mendSweeps = 2;        ///< Over the contacts between bodies, in each mending.
+    float supportPassed = 0.97F;  ///< How firmly what rests on a body is held, of how firmly that body is, [0, 1).
+    float supportKept = 0.95F;    ///< What is left of it a substep later once nothing presses.
     float nearSpeed = 8.0F;   ///< m/s that an approach may grow by within a substep: contacts farther off are left out.
     float mendGap = 0.0002F;  ///< Metres, and
     float mendAngle = 0.002F;       ///< rad: errors below which nothing is mended.

@@ -108,6 +108,22 @@ LUTKA_LANES Mask updateLimit(LimitRow& row, const V3& relative, const SubstepPar
     return ((held ? pull : off) < tolerance) | yields;
 }
 
+// Limits that mending would run through hold in its next pass. Returns the lanes that have any.
+LUTKA_LANES Mask holdPassed(JointLanes& joint, const V3& relative, const SubstepParams& params) {
+    const F zero = all(0.0F);
+    Mask wrong = noLanes();
+    for (int i = 0; i < kLimitRows; ++i) {
+        if (joint.limitActive[i] == 0) continue;
+        LimitRow& row = joint.limit[i];
+        const F gain = load(row.gain);
+        const F left = dot(load(row.axis), relative) + most(load(row.bias), zero);
+        const Mask passed = (left < all(-params.limitTolerance)) & ~(gain > zero);
+        store(row.gain, passed ? load(row.weight) : gain);
+        wrong |= passed;
+    }
+    return wrong;
+}
+
 // What is left of an impulse within a bound: 1 inside it.
 struct Bounded {
     Mask holds;

@@ -98,6 +98,8 @@ class JobSubstep {
             job_.dragWork += endDrag(state_, *drag);
         if (mends_) {
             const int pushed = kernels.mendPairs(job_.pairs.data(), pairs, params_);
+            for (int i = 1; i < params_.mendSweeps && pushed != 0; ++i)
+                kernels.mendPairs(job_.pairs.data(), pairs, params_);
             forBatches([&](const BatchView& view) { kernels.mend(view, params_, pushed); });
         }
         forBatches([&](const BatchView& view) { kernels.advance(view, params_); });

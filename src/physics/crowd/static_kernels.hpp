@@ -86,4 +86,20 @@ LUTKA_LANES void beginStatic(StaticContactLanes& contact, const BatchView& batch
           load(contact.normalMass) * (coming ? all(params.firstTouch) : all(params.contactStiffness)));
 }
 
+// What each body rests on: the static contact that presses most, or what is left of other bodies (passSupport).
+LUTKA_LANES void findSupports(const BatchView& batch, const SubstepParams& params) {
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        V3 support = load(batch.bodies[b].support) * all(params.supportKept);
+        F strongest = all(0.0F);
+        for (int i = batch.firstContact[b]; i < batch.firstContact[b + 1]; ++i) {
+            const StaticContactLanes& contact = batch.contacts[i];
+            if (contact.near == 0) continue;
+            const F impulse = load(contact.normalImpulse);
+            support = choose(impulse > strongest, load(contact.normal), support);
+            strongest = most(strongest, impulse);
+        }
+        store(batch.bodies[b].support, support);
+    }
+}
+
 }  // namespace lutka::physics::crowd::LUTKA_KERNELS

@@ -142,12 +142,12 @@ LUTKA_LANES Mask moveBody(const BatchView& batch, int index, const Motion& chang
     store(tree.angularChange, change.angular);
     store(body.velocity, velocity);
     store(body.angular, angular);
-    if (pass.mending) return noLanes();
-    store(body.steadyVelocity, velocity);
-    store(body.steadyAngular, angular);
     const V3 off = angular - load(body.aim);
     const F gap = all(params.aimGap / (0.5F * params.dt * params.dt * batch.bodyConstants[index].armReach + 1e-12F));
     pass.astray |= dot(off, off) * dot(angular, angular) > gap * gap;
+    if (pass.mending) return noLanes();
+    store(body.steadyVelocity, velocity);
+    store(body.steadyAngular, angular);
     Mask wrong = noLanes();
     for (int i = batch.firstContact[index]; i < batch.firstContact[index + 1]; ++i) {
         if (batch.contacts[i].near != 0) wrong |= updateStatic(body, batch.contacts[i], params, pass);
@@ -171,9 +171,13 @@ LUTKA_LANES Mask substitute(const BatchView& batch, int index, const SubstepPara
                     load(eliminated.fromAngular) * parentTurn;
     const V3 velocity = anchor + load(eliminated.anchorChange) - cross(turn, load(joint.childArm));
     Mask wrong = moveBody(batch, constants.child, {velocity, turn}, params, pass);
+    if (pass.mending) {
+        return holdPassed(
+            joint, load(batch.bodies[constants.child].angular) - load(batch.bodies[constants.parent].angular), params);
+    }
     const V3 relative =
         load(batch.bodies[constants.child].steadyAngular) - load(batch.bodies[constants.parent].steadyAngular);
-    if (!pass.mending && batch.motors != nullptr && batch.motors[index].active != 0)
+    if (batch.motors != nullptr && batch.motors[index].active != 0)
         wrong |= updateMotor(batch.motors[index], joint, constants, relative, pass);
     Mask off = updateJoint(joint, constants, relative, params, pass);
     if (batch.targets != nullptr) {
@@ -208,19 +212,13 @@ static bool needsMending(const BatchView& batch, const SubstepParams& params) {
     return bits(off) != 0;
 }
 
-static void mend(const BatchView& batch, const SubstepParams& params, int pushed) {
-    if (pushed == 0 && !needsMending(batch, params)) return;
-    Pass pass{true, all(1.0F), noLanes(), all(1.0F), noLanes()};
-    sweep(batch, params, pass, true);
-}
-
-// Foresees all arms anew.
-static void aim(const BatchView& batch, const SubstepParams& params) {
+// Foresees the arms anew in some lanes.
+static void aim(const BatchView& batch, const SubstepParams& params, const Mask& lanes) {
     for (int b = 0; b < batch.bodyCount; ++b) {
         BodyLanes& body = batch.bodies[b];
-        const V3 angular = load(body.angular);
+        const V3 angular = choose(lanes, load(body.angular), load(body.aim));
         store(body.aim, angular);
-        store(body.spin, spinOf(body, batch.bodyConstants[b], angular, all(0.5F * params.dt)));
+        store(body.spin, spinOf(body, batch.bodyConstants[b], load(body.steadyAngular), all(0.5F * params.dt)));
     }
     for (int j = 0; j < batch.jointCount; ++j) {
         const JointConstants& constants = batch.jointConstants[j];
@@ -236,6 +234,29 @@ static void aim(const BatchView& batch, const SubstepParams& params) {
         aimDrag(batch.drags[i], batch.bodies[batch.drags[i].body], params);
 }
 
+// Takes back all mending in some lanes.
+static void leaveSteady(const BatchView& batch, const Mask& lanes) {
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        BodyLanes& body = batch.bodies[b];
+        store(body.velocity, choose(lanes, load(body.steadyVelocity), load(body.velocity)));
+        store(body.angular, choose(lanes, load(body.steadyAngular), load(body.angular)));
+    }
+}
+
+static void mend(const BatchView& batch, const SubstepParams& params, int pushed) {
+    if (pushed == 0 && !needsMending(batch, params)) return;
+    Pass pass{true, all(1.0F), noLanes(), all(1.0F), noLanes()};
+    constexpr int kPasses = 4;
+    Mask unsolved = noLanes();
+    for (int i = 0; i < kPasses; ++i) {
+        pass.astray = noLanes();
+        unsolved = sweep(batch, params, pass, true) | pass.astray;
+        if (bits(unsolved) == 0) return;
+        if (i + 1 < kPasses && bits(pass.astray) != 0) aim(batch, params, pass.astray);
+    }
+    leaveSteady(batch, unsolved);
+}
+
 static void solve(const BatchView& batch, const SubstepParams& params, int first) {
     for (int b = 0; first != 0 && b < batch.bodyCount; ++b)
         batch.bodies[b].loose = batch.bodies[b].velocity;
@@ -245,7 +266,7 @@ static void solve(const BatchView& batch, const SubstepParams& params, int first
         const Mask wrong = sweep(batch, params, pass, i == 0);
         const bool astray = bits(pass.astray) != 0;
         if (bits(wrong) == 0 && !astray) return;
-        if (astray) aim(batch, params);
+        if (astray) aim(batch, params, ~noLanes());
         pass.applied = all(1.0F);
         if (i + 1 >= params.patience) pass.late |= wrong;
     }

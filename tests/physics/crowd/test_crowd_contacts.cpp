@@ -193,3 +193,16 @@ TEST_CASE("a ball that hits another of its mass goes on with it at half the spee
     CHECK(world->propState(world->props()[0]).linearVelocity.x == Approx(2.0F).margin(0.1F));
     CHECK(world->propState(world->props()[1]).linearVelocity.x == Approx(2.0F).margin(0.1F));
 }
+
+TEST_CASE("dolls that fall on one another in a pit stay out of each other") {
+    const physics::RagdollProfile profile = makeDoll();
+    const auto world = createCrowdWorld(WorldSettings{});
+    std::vector<physics::StaticShape> statics;
+    fillPit(*world, profile, 64, statics);
+    const physics::Quality quality = stepAndMeasure(*world, statics, 2.5F);
+    CHECK(quality.dollPenetrationM.p99 < 0.020F);  // 32 mm in such a pit without supports
+    CHECK(quality.jointSeparationM.p99 < 0.001F);
+    CHECK(quality.limitViolationDeg.lasting < 15.0F);
+    CHECK(quality.energyGrowthJ < 0.01F * quality.initialEnergyJ);
+    CHECK(quality.nonFinite == 0);
+}
