@@ -42,10 +42,11 @@ void drawClip(const PanelContext& context, const ScenePuppets& puppets) {
 void drawStrengths(const PanelContext& context, const ScenePuppets& puppets) {
     Editor& editor = context.editor;
     labelled("Muscles", context.px(92));
-    int preset = static_cast<int>(puppets.muscles);
-    if (ImGui::Combo("##muscles", &preset, "limp\0weak\0powered\0stiff\0")) {
-        changePuppets(editor, "Muscles", "",
-                      [&](ScenePuppets& next) { next.muscles = static_cast<physics::MusclePreset>(preset); });
+    int chosen = puppets.muscles ? 1 + static_cast<int>(*puppets.muscles) : 0;
+    if (ImGui::Combo("##muscles", &chosen, "the profile's own\0limp\0weak\0powered\0stiff\0")) {
+        changePuppets(editor, "Muscles", "", [&](ScenePuppets& next) {
+            next.muscles = chosen > 0 ? std::optional(static_cast<physics::MusclePreset>(chosen - 1)) : std::nullopt;
+        });
     }
     labelled("Strength", context.px(92));
     float strength = puppets.strength;
@@ -54,7 +55,10 @@ void drawStrengths(const PanelContext& context, const ScenePuppets& puppets) {
                       [&](ScenePuppets& next) { next.strength = std::max(strength, 0.0F); });
     }
     labelled("Pin", context.px(92));
-    float pin = puppets.pinForceN;
+    const physics::RagdollProfile& profile = editor.document().profile();
+    const int hips = std::max(physics::bodyOf(profile, animation::Role::hips), 0);
+    const std::optional<float> own = profile.bodies.empty() ? std::nullopt : profile.bodies[hips].pinForceN;
+    float pin = puppets.pinForceN.value_or(own.value_or(physics::PuppetSettings{}.pinForceN));
     if (slider("##pin", pin, 0.0F, 10000.0F, "%.0f N")) {
         changePuppets(editor, "Pin", "pin", [&](ScenePuppets& next) { next.pinForceN = std::max(pin, 0.0F); });
     }
