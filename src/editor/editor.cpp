@@ -449,6 +449,7 @@ void Editor::openSceneNow(const std::filesystem::path& file) {
         // The character that is edited is the scene's first one: its ragdoll stays as it is.
         if (!edit([&](EditorDocument& document) { return document.useScene(file, scene.value()); })) return;
         select(std::nullopt);
+        player().simulateAll();
         restart();
         camera_.frameScene();
     } else if (!adopt(std::move(other))) {

@@ -190,7 +190,9 @@ void addRender(const Command& app) {
         .option("-o,--output", options->out, "FILE.png (the last moment), FILE.mp4 or FILE.gif; - for a PNG on stdout")
         .required();
     command.option("--size", options->size, "WIDTHxHEIGHT in pixels").showDefault();
-    command.option("--fps", options->fps, "frames a second of a video (default: 30) and, when given, of --out")
+    command
+        .option("--fps", options->fps,
+                "frames a second of a video (default: 30) and, when given, of --out and --mesh-sequence")
         .range(1.0, 240.0);
     command.flag("--frames", options->frames, "with a .png: the whole fall as FILE_0000.png, FILE_0001.png …");
     command.option("--debug", options->debug, "layers over the picture, joined by commas: " + scene::debugLayerNames());

@@ -96,6 +96,7 @@ template Option Command::option(const std::string&, std::optional<std::string>&,
 template Option Command::option(const std::string&, std::optional<std::filesystem::path>&, const std::string&) const;
 template Option Command::option(const std::string&, std::optional<int>&, const std::string&) const;
 template Option Command::option(const std::string&, std::optional<float>&, const std::string&) const;
+template Option Command::option(const std::string&, std::optional<double>&, const std::string&) const;
 template Option Command::option(const std::string&, std::optional<std::uint64_t>&, const std::string&) const;
 template Option Command::option(const std::string&, std::vector<std::string>&, const std::string&) const;
 template Option Command::option(const std::string&, std::vector<int>&, const std::string&) const;

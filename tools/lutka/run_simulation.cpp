@@ -187,6 +187,7 @@ void holdBodies(const SimulateOptions& options, const scene::SceneCast& cast, sc
     if (options.hold.empty()) return;
     if (cast.assets.empty()) leave({ErrorCode::usage, "the scene has no character", "--hold", "name a MODEL"});
     const std::vector<std::string> names = namesIn(options.hold);
+    if (names.empty()) leave({ErrorCode::usage, "names no body", "--hold", "leftHand,head"});
     for (const std::string& name : names) {
         const bool known = std::any_of(cast.assets.begin(), cast.assets.end(), [&](const auto& asset) {
             return physics::bodyNamed(asset->profile, name) >= 0;

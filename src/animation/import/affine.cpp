@@ -106,7 +106,7 @@ double angleBetween(const dmat3& a, const dmat3& b) {
 }
 
 std::optional<dmat4> affineBetween(std::span<const dvec3> from, std::span<const dvec3> to) {
-    constexpr std::size_t kFewest = 4;
+    constexpr std::size_t kFewest = 8;  // with fewer almost any points are taken to almost any others
     if (from.size() < kFewest || from.size() != to.size()) return std::nullopt;
     const double count = static_cast<double>(from.size());
     dvec3 middleFrom(0);
@@ -123,6 +123,7 @@ std::optional<dmat4> affineBetween(std::span<const dvec3> from, std::span<const 
     }
     if (!isInvertible(dmat4(spread))) return std::nullopt;
     const dmat3 linear = moved * glm::inverse(spread);
+    if (!(glm::determinant(linear) > 0.0)) return std::nullopt;
     dmat4 out(linear);
     out[3] = dvec4(middleTo - linear * middleFrom, 1.0);
     return out;

@@ -34,7 +34,7 @@ using glm::dvec4;
 [[nodiscard]] double angleBetween(const dmat3& a, const dmat3& b);
 
 /// The affine map of least squares that takes the points `from` to the points `to`, of equal number; nothing where they
-/// lie in a plane or are fewer than four.
+/// lie in a plane or are fewer than eight, and none that mirrors.
 [[nodiscard]] std::optional<dmat4> affineBetween(std::span<const dvec3> from, std::span<const dvec3> to);
 
 }  // namespace lutka::animation::rig_import

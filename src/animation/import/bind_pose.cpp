@@ -235,7 +235,7 @@ class BindSolver {
     // A mesh that shares no joint with a settled one moves along with the settled joint above it.
     dmat4 carried(int joint, const dmat4& frame) const {
         const int ancestor = boundAncestor(joint);
-        if (ancestor < 0 || !isInvertible(tree_.sceneFromJoint(ancestor))) return frame;
+        if (ancestor < 0 || atNodes_[ancestor] || !isInvertible(tree_.sceneFromJoint(ancestor))) return frame;
         return *bind_[ancestor] * glm::inverse(tree_.sceneFromJoint(ancestor)) * frame;
     }
 

@@ -141,7 +141,8 @@ void settleScale(const SourceConvention& convention, const Extents& box, const I
         return;
     }
     const bool animal = longest > kAnimalLength * height;
-    const std::optional<double> usual = usualUnit(animal ? longest : height);
+    std::optional<double> usual = usualUnit(animal ? longest : height);
+    if (!usual && animal) usual = usualUnit(height);  // a person with wings or a staff
     out.scale = usual.value_or(kUsualHeight / height);
     out.info.unitSource = "height of the figure";
     const std::string why = stated

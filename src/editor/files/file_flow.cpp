@@ -164,7 +164,7 @@ Result<void> FileFlow::exportBaked(const std::filesystem::path& file, float seco
     scene::ClipBaker baker(0, rate, "lutka_" + document().scene().name);
     baker.sample(simulation);
     for (int step = 0; step < static_cast<int>(std::lround(seconds * rate)); ++step) {
-        simulation.step();
+        player.stepOnce();
         baker.sample(simulation);
     }
     auto written = animation::writeGlb(file, document().character(), std::span(&baker.clip(), 1),

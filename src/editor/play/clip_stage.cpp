@@ -11,13 +11,22 @@ Result<ClipStage> ClipStage::create(const scene::Simulation& simulation, int dol
     ClipStage stage;
     stage.start_.clip = clip;
     stage.doll_ = doll;
+    stage.entity_ = simulation.scenario().dollEntities[doll];
     const scene::RagdollAsset& asset = simulation.assetOf(doll);
     const auto found = scene::findClipMoment(asset.character, stage.start_);
     if (!found) return found.error();
     stage.length_ = found.value().clip->seconds();
-    stage.before_.resize(asset.profile.bodies.size());
+    stage.bodies_ = asset.profile.bodies;
+    stage.before_.resize(stage.bodies_.size());
     simulation.getBodies(doll, stage.before_);
     return stage;
+}
+
+bool ClipStage::follow(const scene::Simulation& simulation) {
+    const auto& dolls = simulation.scenario().dollEntities;
+    const auto found = std::find(dolls.begin(), dolls.end(), entity_);
+    doll_ = static_cast<int>(found - dolls.begin());
+    return found != dolls.end();
 }
 
 void ClipStage::seek(float seconds) {
@@ -45,9 +54,26 @@ void ClipStage::place(scene::Simulation& simulation) const {
 }
 
 void ClipStage::placeBack(scene::Simulation& simulation) const {
-    if (doll_ >= simulation.dollCount() || before_.size() != simulation.assetOf(doll_).profile.bodies.size()) return;
-    simulation.world().setBodies(simulation.dollId(doll_), before_);
+    const auto states = before(simulation);
+    if (!states) return;
+    simulation.world().setBodies(simulation.dollId(doll_), *states);
     simulation.refresh();
+}
+
+std::optional<std::vector<physics::BodyState>> ClipStage::before(const scene::Simulation& simulation) const {
+    std::vector<physics::BodyState> states;
+    for (const physics::BodyProfile& body : simulation.assetOf(doll_).profile.bodies) {
+        const auto was = std::find_if(bodies_.begin(), bodies_.end(), [&](const physics::BodyProfile& one) {
+            return one.name == body.name && one.jointPath == body.jointPath;
+        });
+        if (was == bodies_.end()) return std::nullopt;
+        physics::BodyState& state = states.emplace_back(before_[was - bodies_.begin()]);
+        // The joint stays where it was, also where the shape was moved in it.
+        const RigidTransform& old = was->jointFromBody;
+        if (old.rotation == body.jointFromBody.rotation && old.translation == body.jointFromBody.translation) continue;
+        state.worldFromBody = state.worldFromBody * inverse(old) * body.jointFromBody;
+    }
+    return states;
 }
 
 }  // namespace lutka::editor

@@ -35,7 +35,7 @@ bool HeldBodies::holds(const scene::Simulation& simulation, int doll, int body) 
 
 void HeldBodies::attach(scene::Simulation& simulation, const std::function<bool(int)>& anew) {
     detach();
-    for (int doll = 0; doll < simulation.dollCount() && any(); ++doll) {
+    for (int doll = 0; doll < simulation.dollCount() && !places_.empty(); ++doll) {
         const scene::EntityId entity = simulation.scenario().dollEntities[doll];
         const auto& bodies = simulation.assetOf(doll).profile.bodies;
         const auto present = simulation.worldFromBody(doll);

@@ -21,8 +21,9 @@ class HeldBodies {
     /// All bodies of these dolls, but for `moving`, are held where they are.
     void holdAllBut(std::span<const Item> moving, std::span<const int> dolls, scene::Simulation& simulation);
     void letGo();
-    [[nodiscard]] bool any() const { return !places_.empty(); }
-    [[nodiscard]] int count() const { return static_cast<int>(places_.size()); }
+    /// In the present simulation: a character that is gone, and may come back, holds nothing.
+    [[nodiscard]] bool any() const { return !pins_.empty(); }
+    [[nodiscard]] int count() const { return static_cast<int>(pins_.size()); }
     [[nodiscard]] bool holds(const scene::Simulation& simulation, int doll, int body) const;
 
     /// Before the simulation ends.

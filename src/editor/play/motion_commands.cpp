@@ -111,7 +111,7 @@ void MotionCommands::fallFromClip() {
 }
 
 scene::ScenePuppets MotionCommands::gettingUp() const {
-    scene::ScenePuppets puppets;
+    auto puppets = workspace_.document->scene().simulation.puppets.value_or(scene::ScenePuppets{});
     if (const ClipStage* clip = workspace_.player->clip()) puppets.clip = clip->clip();
     puppets.getUp = true;
     puppets.limp = true;
@@ -119,6 +119,14 @@ scene::ScenePuppets MotionCommands::gettingUp() const {
 }
 
 void MotionCommands::hit(const Pick& pick) {
+    if (workspace_.player->deck().replaying())
+        return workspace_.say(Toast::Kind::info, "A take is shown: end the replay first");
+    // What was clicked may be gone by another event of the same frame.
+    const scene::Simulation& simulation = workspace_.player->simulation();
+    const Item& item = *pick.body;
+    if (item.doll >= simulation.dollCount() ||
+        item.index >= static_cast<int>(simulation.assetOf(item.doll).profile.bodies.size()))
+        return;
     const auto before = workspace_.playState();
     const vec3 impulse = workspace_.mouseRay().direction * workspace_.hitNs;
     workspace_.player->hit(*pick.body, pick.position, impulse);

@@ -176,6 +176,7 @@ Result<void> Player::build(const Motion* motion, bool all) {
     simulation_ = std::move(simulation).value();
     governor_.emplace(simulation_->world().substepsPerStep());
     if (motion != nullptr) restore(*motion, all);
+    if (stage_ && !stage_->follow(*simulation_)) stage_.reset();
     held_.attach(*simulation_,
                  [&](int doll) { return motion == nullptr || all || !startsAsBefore(entityOfDoll(doll)); });
     built_ = document_.scene();
@@ -231,7 +232,11 @@ const Motion* Player::remembered() const {
 }
 
 PlayState Player::state() const {
-    return {capture(), thrown_, {}, seconds(), moment_};
+    PlayState now{capture(), thrown_, {}, seconds(), moment_};
+    // A clip is only shown: to go back is to go back to where the doll was before it.
+    if (const auto before = stage_ ? stage_->before(*simulation_) : std::nullopt)
+        now.motion.dolls[stage_->doll()].bodies = *before;
+    return now;
 }
 
 Result<void> Player::restore(const PlayState& state) {
@@ -278,12 +283,19 @@ void Player::setPlaying(bool playing) {
 void Player::returnToPlay() {
     if (!atPlay_) return;
     endReplay();
+    stage_.reset();
     playing_ = false;
     // As a rebuild would, but for the time: what was thrown since stays thrown.
     const Motion motion = *std::exchange(atPlay_, std::nullopt);
     somethingMoved();
     [[maybe_unused]] const bool built = build(&motion, false).ok();
     LUTKA_ASSERT(built);  // the document is as it was
+    holdHere();
+}
+
+// Held bodies stay where they have been put.
+void Player::holdHere() {
+    held_.attach(*simulation_, [](int) { return true; });
 }
 
 void Player::advance(double seconds) {
@@ -350,6 +362,7 @@ void Player::endClip(bool back) {
     if (!stage_) return;
     if (back) stage_->placeBack(*simulation_);
     stage_.reset();
+    holdHere();
     loop_.restart();
     somethingMoved();
 }
@@ -395,7 +408,7 @@ std::vector<physics::BodyState> Player::bodiesOf(int doll) const {
 void Player::placeBodies(int doll, std::span<const physics::BodyState> bodies) {
     simulation_->world().setBodies(simulation_->dollId(doll), bodies);
     simulation_->refresh();
-    held_.attach(*simulation_, [](int) { return true; });
+    holdHere();
     somethingMoved();
 }
 
@@ -425,7 +438,7 @@ Result<void> Player::throwBall(const vec3& from, const vec3& velocity) {
 
 void Player::startRecording() {
     endReplay();
-    endClip(false);
+    endClip(true);
     deck_.start(*simulation_);
 }
 

@@ -79,7 +79,7 @@ class Player {
     void setClipLoop(bool loop) { stage_->loop = loop; }  ///< While a clip is shown.
     /// Physics goes on from the clip's pose and velocities, or, with `back`, from where the doll was before.
     void endClip(bool back);
-    /// An impulse, N s, at a world point of a body; a puppet reacts to it.
+    /// An impulse, N s, at a world point of a body that there is; a puppet reacts to it. Not during a replay.
     void hit(const Item& body, const vec3& point, const vec3& impulse);
     /// Simulated seconds a second, (0, 1].
     [[nodiscard]] double speed() const { return speed_; }
@@ -159,6 +159,7 @@ class Player {
     void remember(const Motion& motion);
     void takeReplayBallsAway();
     void step();
+    void holdHere();
     void moveClip(float seconds);
     [[nodiscard]] const Motion* remembered() const;
     [[nodiscard]] Result<scene::Scenario> makeScenario();

@@ -42,7 +42,10 @@ Result<SourceScene> behave(const std::filesystem::path& file, const ImportOption
         bomb.emplace_back(std::size_t{64} << 20U, 'x');
     if (text == "print" || text == "print and crash") {
         std::puts("a third party's chatter");
-        std::fputs("in \x1b[31mcolour\xff\n\n", stderr);
+        std::fputs(
+            "in \x1b[31mcolour\xff \xc2\x9b"
+            "31m\n\n",
+            stderr);
         std::fflush(stdout);
     }
     if (text == "print and crash") std::raise(SIGSEGV);

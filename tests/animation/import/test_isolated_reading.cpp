@@ -90,7 +90,7 @@ TEST_CASE("what readers print is told line by line, fit for a terminal, and is n
     std::vector<std::string> lines;
     Isolation isolation = smallIsolation();
     isolation.printed = [&](const std::string& line) { lines.push_back(line); };
-    const std::vector<std::string> told = {"in  [31mcolour?", "a third party's chatter"};
+    const std::vector<std::string> told = {"in  [31mcolour?   31m", "a third party's chatter"};
     // The reading process may write no file: where ours is one it must not print there.
     for (const char* stream : {"", "/dev/full", "a file"}) {
         INFO("standard output and error: " << (*stream == '\0' ? "closed" : stream));

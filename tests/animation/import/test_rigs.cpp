@@ -128,12 +128,14 @@ TEST_CASE("joints whose bind frames have sizes of their own do not stretch the f
     // As the collision volumes of Second Life's figures: their nodes are not scaled, their inverse bind matrices are.
     Post post = makePost();
     for (std::size_t v = 0; v < post.skin.size(); ++v)
-        post.skin[v].joints[0] = static_cast<std::uint8_t>(v % 5);
+        post.skin[v].joints[0] = static_cast<std::uint8_t>(v % 9);
     GltfFile file;
     const int root = file.addNode("root", -1);
-    const std::vector<vec3> places = {vec3(0, 0, 0), vec3(0.1F, 0.6F, 0), vec3(-0.1F, 1.2F, 0.1F), vec3(0, 1.5F, -0.1F),
-                                      vec3(0.2F, 1.1F, -0.05F)};
-    const std::vector<vec3> sizes = {vec3(8, 6, 5), vec3(11, 7, 6), vec3(20, 20, 20), vec3(9, 7, 5), vec3(10, 9, 10)};
+    const std::vector<vec3> places = {vec3(0, 0, 0),          vec3(0.1F, 0.6F, 0),      vec3(-0.1F, 1.2F, 0.1F),
+                                      vec3(0, 1.5F, -0.1F),   vec3(0.2F, 1.1F, -0.05F), vec3(-0.2F, 0.9F, 0),
+                                      vec3(0.1F, 1.4F, 0.1F), vec3(-0.1F, 0.3F, -0.1F), vec3(0, 0.8F, 0.15F)};
+    const std::vector<vec3> sizes = {vec3(8, 6, 5), vec3(11, 7, 6), vec3(20, 20, 20), vec3(9, 7, 5), vec3(10, 9, 10),
+                                     vec3(8, 6, 5), vec3(11, 7, 6), vec3(20, 20, 20), vec3(9, 7, 5)};
     const mat4 sceneFromMesh = glm::scale(mat4(1.0F), vec3(0.5F, 2.0F, 1.0F));
     std::vector<int> nodes;
     std::vector<mat4> jointFromMesh;

@@ -110,6 +110,45 @@ TEST_CASE("physics goes on from a clip's pose and speed, and undo brings the dol
     CHECK(glm::distance(placeOf(*editor, Role::hips), before) < 1e-4F);
 }
 
+TEST_CASE("undo of what happens while a clip is shown brings the doll back to where it was before the clip") {
+    const auto editor = editorWithClip(stillScene());
+    const vec3 before = placeOf(*editor, Role::hips);
+    editor->perform(Action::toggleClips);
+    editor->player().seekClip(0.5F);
+    REQUIRE(glm::distance(placeOf(*editor, Role::hips), before) > 0.2F);
+    editor->perform(Action::throwBall);
+    REQUIRE(editor->document().canUndo());
+    editor->perform(Action::undo);
+    CHECK(glm::distance(placeOf(*editor, Role::hips), before) < 1e-4F);
+    // A recording begins where the doll was, too.
+    editor->perform(Action::toggleClips);
+    editor->perform(Action::toggleClips);
+    editor->player().seekClip(0.5F);
+    editor->player().startRecording();
+    CHECK(editor->player().clip() == nullptr);
+    CHECK(glm::distance(placeOf(*editor, Role::hips), before) < 1e-4F);
+}
+
+TEST_CASE("a clip stays with its character when others go, and ends with it") {
+    const auto editor = editorWithClip(stillScene());
+    editor->dropCopies(2);
+    REQUIRE(editor->player().simulation().dollCount() == 3);
+    const auto entities = editor->player().simulation().scenario().dollEntities;
+    const auto take = [&](scene::EntityId entity) {
+        REQUIRE(editor->editScene("Delete", "", [&](scene::EntityScene& scene) { removeEntity(scene, entity); }));
+        test::pass(*editor, 2);
+    };
+    editor->select(Item{Item::Kind::body, 2, 0});
+    editor->perform(Action::toggleClips);
+    REQUIRE(editor->player().clip() != nullptr);
+    REQUIRE(editor->player().clip()->doll() == 2);
+    take(entities[1]);
+    REQUIRE(editor->player().clip() != nullptr);
+    CHECK(editor->player().clip()->doll() == 1);
+    take(entities[2]);
+    CHECK(editor->player().clip() == nullptr);
+}
+
 TEST_CASE("a drag takes the doll out of its clip, an edit leaves it there, a reset ends it") {
     const auto editor = editorWithClip();
     editor->perform(Action::toggleClips);
@@ -165,6 +204,29 @@ TEST_CASE("the hit tool hits the body under the mouse, harder by the wheel, and 
     send(*editor, mouseMoved({20, 60}));
     send(*editor, wheelTurned(1));
     CHECK(editor->workspace().camera.distance != distance);
+}
+
+TEST_CASE("a hit on what is gone by the same frame, or on a take that is shown, does nothing") {
+    const auto editor = test::makeEditor();
+    test::pass(*editor, 3);
+    const int last = static_cast<int>(editor->document().profile().bodies.size()) - 1;
+    Pick pick;
+    pick.body = Item{Item::Kind::body, 1, 0};
+    editor->workspace().hit = pick;
+    test::pass(*editor, 1);
+    pick.body = Item{Item::Kind::body, 0, last + 1};
+    editor->workspace().hit = pick;
+    test::pass(*editor, 1);
+    CHECK_FALSE(editor->document().canUndo());
+    editor->player().startRecording();
+    test::pass(*editor, 10);
+    editor->player().stopRecording();
+    REQUIRE(editor->player().replay().ok());
+    pick.body = Item{Item::Kind::body, 0, 0};
+    editor->workspace().hit = pick;
+    test::pass(*editor, 1);
+    CHECK_FALSE(editor->document().canUndo());
+    CHECK(editor->player().deck().replaying());
 }
 
 TEST_CASE("T goes through all tools and comes back to the first") {

@@ -80,6 +80,21 @@ TEST_CASE("what is held stays held through an edit, and where a reset has put it
     CHECK(glm::distance(placeOf(*editor, Role::hips), hips) < 0.004F);
 }
 
+TEST_CASE("who goes back to where Play was pressed is held there") {
+    const auto editor = test::makeEditor();
+    editor->player().setPlaying(false);
+    editor->player().setPlaying(true);
+    const vec3 start = placeOf(*editor, Role::hips);
+    test::pass(*editor, 60);
+    selectArm(*editor);
+    editor->perform(Action::selectedOnly);
+    REQUIRE(glm::distance(placeOf(*editor, Role::hips), start) > 0.1F);
+    editor->perform(Action::returnToPlay);
+    editor->player().setPlaying(true);
+    test::pass(*editor, 60);
+    CHECK(glm::distance(placeOf(*editor, Role::hips), start) < 0.002F);
+}
+
 TEST_CASE("with nothing selected nothing is held, and the reason is told") {
     const auto editor = test::makeEditor();
     editor->perform(Action::selectedOnly);

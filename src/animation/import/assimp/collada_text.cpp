@@ -170,6 +170,7 @@ std::string lettersOf(std::string_view text) {
 }
 
 std::map<std::string, std::string> nodeNames(std::string_view text) {
+    constexpr std::size_t kLongestName = 256;  // bytes
     std::map<std::string, std::string> names;
     std::map<std::string, int> uses;
     for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
@@ -180,7 +181,7 @@ std::map<std::string, std::string> nodeNames(std::string_view text) {
         const std::string id(attributeOf(tag, "id"));
         const std::string name(attributeOf(tag, "name"));
         ++uses[name];
-        if (id.empty() || lettersOf(name).empty()) continue;
+        if (id.empty() || id.size() > kLongestName || name.size() > kLongestName || lettersOf(name).empty()) continue;
         if (lettersOf(id).find(lettersOf(name)) == std::string::npos) names[id] = name;
     }
     std::erase_if(names, [&](const auto& entry) { return uses[entry.second] > 1; });
