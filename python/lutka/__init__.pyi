@@ -198,7 +198,7 @@ class Simulation:
         clip_speed: float = ...,
         loop: bool = ...,
         in_place: bool = ...,
-        muscles: Literal["limp", "weak", "powered", "stiff"] = ...,
+        muscles: Literal["limp", "weak", "powered", "stiff", "profile"] = ...,
         strength: float = ...,
         pin: float = ...,
     ) -> None: ...

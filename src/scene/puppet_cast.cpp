@@ -204,8 +204,8 @@ physics::PuppetSettings PuppetCast::settingsOf(const RagdollAsset& asset, int ro
 PuppetMemory PuppetCast::memoryOf(int doll) const {
     const Actor& actor = actors_[doll];
     const PuppetState state = actor.puppet->state();
-    return {actor.worldFromModel, actor.player != nullptr ? actor.player->seconds(0) : 0.0F, actor.ground,
-            state == PuppetState::limp || state == PuppetState::gettingUp, seconds_};
+    return {actor.worldFromModel, actor.player != nullptr ? actor.player->seconds(0) : 0.0F,     actor.ground,
+            actor.base,           state == PuppetState::limp || state == PuppetState::gettingUp, seconds_};
 }
 
 void PuppetCast::resume(int doll, const PuppetMemory& memory) {
@@ -213,7 +213,9 @@ void PuppetCast::resume(int doll, const PuppetMemory& memory) {
     seconds_ = memory.seconds;
     actor.worldFromModel = memory.worldFromModel;
     actor.ground = memory.ground;
+    actor.base = memory.base;
     actor.rising.reset();
+    actor.puppet->approach();
     if (actor.player != nullptr) {
         actor.player->seek(0, memory.clipSeconds);
         pose(actor, actor.to);

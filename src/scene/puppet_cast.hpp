@@ -42,6 +42,7 @@ struct PuppetMemory {
     RigidTransform worldFromModel;
     float clipSeconds = 0.0F;
     float ground = 0.0F;   ///< Height where it got up last, metres.
+    float base = 0.0F;     ///< Of the level floor that its clip is played on.
     bool limp = false;     ///< Or on its way to its feet.
     double seconds = 0.0;  ///< Since the start, for timed hits.
 };

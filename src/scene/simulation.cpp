@@ -136,6 +136,9 @@ Result<void> Simulation::findStarts() {
 Result<void> Simulation::findPuppets() {
     if (!options_.puppet) return {};
     LUTKA_ASSERT(!options_.shed.any());
+    if (!options_.puppet->led.empty() && options_.world.solver == physics::SolverKind::stock)
+        return Error{ErrorCode::usage, "the solver 'stock' can't lead bodies to a clip", "kinematic",
+                     "take 'crowd' or 'bullet'"};
     auto cast = PuppetCast::create(assets_, scenario_, *options_.puppet);
     if (!cast) return cast.error();
     puppets_ = std::move(cast).value();

@@ -90,6 +90,12 @@ void TerrainWalk::look(Leg& leg, const animation::GroundQuery& ground, float dt,
 RigidTransform TerrainWalk::fit(const animation::GroundQuery& ground, float dt, float floor,
                                 const RigidTransform& worldFromModel, std::span<RigidTransform> parentFromJoint) {
     const animation::Skeleton& skeleton = asset_->character.skeleton;
+    if (dt <= 0.0F) {
+        // At another place what was known of the ground says nothing.
+        isKnown_ = false;
+        for (Leg& leg : legs_)
+            leg.isKnown = false;
+    }
     float mean = 0.0F;
     for (Leg& leg : legs_) {
         const vec3 ankle =

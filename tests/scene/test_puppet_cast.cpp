@@ -125,6 +125,11 @@ TEST_CASE("kinematic legs walk as the clip does while the limp upper body hangs"
     const auto refused = scene::Simulation::create(mannequin(), ground(), options);
     REQUIRE_FALSE(refused);
     CHECK(refused.error().message.find("tentacle") != std::string::npos);
+    options.puppet->led = {{"hips", 1.0F}};
+    options.world.solver = SolverKind::stock;
+    const auto stock = scene::Simulation::create(mannequin(), ground(), options);
+    REQUIRE_FALSE(stock);
+    CHECK(stock.error().message.find("can't lead bodies") != std::string::npos);
 }
 
 TEST_CASE("a profile's own muscles and pins are used where nothing else is asked for") {

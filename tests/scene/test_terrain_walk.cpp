@@ -2,6 +2,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 
+#include "animation/pose.hpp"
 #include "scene/simulation.hpp"
 #include "support/catch.hpp"
 #include "support/ragdolls.hpp"
@@ -114,9 +115,27 @@ TEST_CASE("a powered walk goes up a ramp and stairs without being knocked out") 
     }
 }
 
-TEST_CASE("level ground changes nothing of a clip") {
-    const Walked plain = walkOn({StaticShape{}}, true, false, 1.0F);
-    const Walked other = walkOn({StaticShape{}}, false, false, 1.0F);
-    CHECK(plain.hipsRise == other.hipsRise);
-    CHECK(plain.figures.rmsDeg == other.figures.rmsDeg);
+TEST_CASE("level ground that is no plane changes little of a clip") {
+    // Soles are put onto it one by one, where a plane lifts the whole figure by its lowest body.
+    const Walked fitted = walkOn({slab({0, -0.5F, 0}, {20, 0.5F, 20})}, true, false, 1.0F);
+    const Walked plain = walkOn({StaticShape{}}, false, false, 1.0F);
+    CHECK(fitted.hipsRise == Approx(plain.hipsRise).margin(0.025));
+    CHECK(fitted.figures.rmsDeg == Approx(plain.figures.rmsDeg).margin(1.0));
+}
+
+TEST_CASE("a pose that is fitted at once somewhere else forgets the ground where it was") {
+    auto walk = scene::TerrainWalk::of(walker());
+    REQUIRE(walk);
+    // A terrace of 2 m beyond z = 5.
+    const animation::GroundQuery ground = [](const vec3& point) {
+        return animation::GroundHit{point.z > 5.0F ? 2.0F : 0.0F, vec3(0, 1, 0)};
+    };
+    const animation::Skeleton& skeleton = walker().character.skeleton;
+    std::vector<RigidTransform> pose(skeleton.parents.size());
+    const RigidTransform standing{walker().map.standardFromModel, vec3(0)};
+    animation::modelToLocal(skeleton, skeleton.bindModelFromJoint, pose);
+    CHECK(walk->fit(ground, 0.0F, 0.0F, standing, pose).translation.y == Approx(0.0F).margin(1e-4));
+    const RigidTransform above{standing.rotation, vec3(0, 2, 8)};
+    animation::modelToLocal(skeleton, skeleton.bindModelFromJoint, pose);
+    CHECK(walk->fit(ground, 0.0F, 2.0F, above, pose).translation.y == Approx(2.0F).margin(1e-4));
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 
 #include "animation/export/glb_parts.hpp"
 #include "core/assert.hpp"
@@ -35,6 +36,15 @@ std::vector<Value> kept(const std::vector<Value>& values, const std::vector<int>
     for (const int frame : frames)
         out.push_back(values[static_cast<std::size_t>(frame)]);
     return out;
+}
+
+// Kept keys have times of their own, with a place in the file and its JSON: where all keys, whose times every channel
+// shares, are no more than that, all are kept.
+template <class Value>
+const std::vector<int>& smaller(const std::vector<int>& kept, const std::vector<int>& all) {
+    constexpr std::size_t kOwnTimes = 200;  // bytes of JSON
+    const std::size_t ofKept = kept.size() * (sizeof(Value) + sizeof(float)) + kOwnTimes;
+    return ofKept < all.size() * sizeof(Value) ? kept : all;
 }
 
 // Neighbouring keys on one side of the sphere, for viewers that blend without looking.
@@ -97,7 +107,11 @@ void AnimationBuilder::add(const Clip& clip, const KeptKeys& keys, std::span<con
                            int firstJoint) {
     const std::size_t joints = parentFromJoint.size();
     LUTKA_ASSERT(clip.parentFromJoint.size() == joints * static_cast<std::size_t>(clip.frameCount));
+    std::vector<int> all(static_cast<std::size_t>(clip.frameCount));
+    std::iota(all.begin(), all.end(), 0);
     for (std::size_t joint = 0; joint < joints; ++joint) {
+        const std::vector<int>& turns = smaller<vec4>(keys.rotations[joint], all);
+        const std::vector<int>& moves = smaller<vec3>(keys.translations[joint], all);
         std::vector<vec4> rotations;
         std::vector<vec3> translations;
         for (int frame = 0; frame < clip.frameCount; ++frame) {
@@ -105,15 +119,14 @@ void AnimationBuilder::add(const Clip& clip, const KeptKeys& keys, std::span<con
             rotations.push_back(components(pose.rotation));
             translations.push_back(pose.translation);
         }
-        rotations = kept(rotations, keys.rotations[joint]);
+        rotations = kept(rotations, turns);
         alignSigns(rotations);
         const int node = firstJoint + static_cast<int>(joint);
         const RigidTransform& rest = parentFromJoint[joint];
-        addValues(node, "rotation", rotations, components(rest.rotation), TINYGLTF_TYPE_VEC4, keys.rotations[joint],
+        addValues(node, "rotation", rotations, components(rest.rotation), TINYGLTF_TYPE_VEC4, turns,
                   clip.framesPerSecond, isMarked(clip.steppedRotations, joint));
-        addValues(node, "translation", kept(translations, keys.translations[joint]), rest.translation,
-                  TINYGLTF_TYPE_VEC3, keys.translations[joint], clip.framesPerSecond,
-                  isMarked(clip.steppedTranslations, joint));
+        addValues(node, "translation", kept(translations, moves), rest.translation, TINYGLTF_TYPE_VEC3, moves,
+                  clip.framesPerSecond, isMarked(clip.steppedTranslations, joint));
     }
 }
 

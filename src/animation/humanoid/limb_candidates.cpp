@@ -13,13 +13,6 @@ using namespace limb_costs;
 using namespace limb_bounds;
 namespace terms = limb_terms;
 
-// Where any pair may follow any other, time grows with the cube: beyond these many only those whose names say a part of
-// the limb, and then none.
-constexpr std::size_t kMostPairsDetached = 48;
-constexpr std::size_t kMostPairsNamedDetached = 120;
-constexpr std::size_t kPerRoot = 3;
-constexpr std::size_t kHeldPerRoot = 64;  // before they are thinned to kPerRoot
-constexpr std::size_t kMost = 48;
 constexpr vec3 kDown{0, -1, 0};
 
 float angleTerm(const vec3& a, const vec3& b, const LimbTerm& term) {
@@ -499,19 +492,6 @@ class LimbFinder {
 };
 
 }  // namespace
-
-bool LimbCandidate::uses(int pair) const {
-    return std::find(pairs.begin(), pairs.end(), pair) != pairs.end();
-}
-
-int LimbCandidate::jointCount() const {
-    return static_cast<int>(std::count_if(pairs.begin(), pairs.begin() + 3, [](int pair) { return pair != kNoPair; }));
-}
-
-std::array<Part, 4> partsOf(LimbKind kind) {
-    if (kind == LimbKind::leg) return {Part::upperLeg, Part::lowerLeg, Part::foot, Part::toes};
-    return {Part::upperArm, Part::lowerArm, Part::hand, Part::clavicle};
-}
 
 std::vector<LimbCandidate> findLimbs(const FramedRig& framed, LimbKind kind) {
     return LimbFinder(framed, kind).find();

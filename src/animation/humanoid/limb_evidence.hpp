@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 
 #include "animation/humanoid/evidence_terms.hpp"
 
@@ -91,6 +92,13 @@ inline constexpr float kLeastHipHeight = 0.3F;  // of the leg's length: heights 
 inline constexpr float kShortestToes = 0.03F;   // of the hip's height
 inline constexpr float kHighestToes = 0.04F;    // above the ankle
 inline constexpr float kShortestClavicle = 0.04F;
+// Where any pair may follow any other, time grows with the cube: beyond these many only those whose names say a part of
+// the limb, and then none.
+inline constexpr std::size_t kMostPairsDetached = 48;
+inline constexpr std::size_t kMostPairsNamedDetached = 120;
+inline constexpr std::size_t kPerRoot = 3;
+inline constexpr std::size_t kHeldPerRoot = 64;  // before they are thinned to kPerRoot
+inline constexpr std::size_t kMost = 48;
 inline constexpr int kMostSkipped = 24;  // skinned joints between two placed ones: no limb beyond, and no search either
 inline constexpr float kSlackOfOneJoint = 3.0F;  // a limb of one joint may start anywhere along it
 inline constexpr float kNamedPart = 1.5F;        // a name's score from which it says which part of the limb this is

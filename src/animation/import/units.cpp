@@ -105,12 +105,14 @@ void settleUp(const SourceConvention& convention, const Extents& box, const Impo
 // An animal on four legs is longer than it is tall, which no figure is, arms stretched out or not.
 constexpr double kAnimalLength = 1.6;
 
-// The usual unit under which the figure is as tall as a person, or an animal as long, in metres.
-std::optional<double> usualUnit(double height) {
+// The usual unit under which the figure is as tall as a person, or an animal as long, in metres. Only people come in
+// inches, from motion capture.
+std::optional<double> usualUnit(double height, bool metric = false) {
     constexpr double kCmu = 0.0254 / 0.45;  // of the CMU motion capture database: inches, divided by 0.45
     constexpr std::array<double, 9> kUnits = {1.0, 0.01, 0.1, 0.0254, 0.001, kCmu, 10.0, 100.0, 1000.0};
     for (const auto& [least, most] : {std::pair{1.4, 2.1}, std::pair{0.8, 2.5}}) {
         for (const double unit : kUnits) {
+            if (metric && (unit == kCmu || unit == 0.0254)) continue;
             if (height * unit >= least && height * unit <= most) return unit;
         }
     }
@@ -141,7 +143,7 @@ void settleScale(const SourceConvention& convention, const Extents& box, const I
         return;
     }
     const bool animal = longest > kAnimalLength * height;
-    std::optional<double> usual = usualUnit(animal ? longest : height);
+    std::optional<double> usual = animal ? usualUnit(longest, true) : usualUnit(height);
     if (!usual && animal) usual = usualUnit(height);  // a person with wings or a staff
     out.scale = usual.value_or(kUsualHeight / height);
     out.info.unitSource = "height of the figure";

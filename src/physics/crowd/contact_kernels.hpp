@@ -229,8 +229,11 @@ static void carryPairs(PairContactLanes* pairs, int count) {
         const V3 toB = whole - load(pair.pushB) * swept;
         v.velocityA = v.velocityA + toA * load(pair.inverseMassA);
         v.velocityB = v.velocityB - toB * load(pair.inverseMassB);
-        v.angularA = v.angularA + gatherInverseInertia(pair.bodyA) * cross(load(pair.armA), toA);
-        v.angularB = v.angularB - gatherInverseInertia(pair.bodyB) * cross(load(pair.armB), toB);
+        const F zero = all(0.0F);
+        const V3 turnA = gatherInverseInertia(pair.bodyA) * cross(load(pair.armA), toA);
+        const V3 turnB = gatherInverseInertia(pair.bodyB) * cross(load(pair.armB), toB);
+        v.angularA = v.angularA + choose(load(pair.inverseMassA) > zero, turnA, {zero, zero, zero});
+        v.angularB = v.angularB - choose(load(pair.inverseMassB) > zero, turnB, {zero, zero, zero});
         rubPair(pair, v, 1, load(pair.tangent[0]), load(pair.carriedTangent[0]));
         rubPair(pair, v, 2, load(pair.tangent[1]), load(pair.carriedTangent[1]));
         storeVelocities(pair, v);

@@ -9,6 +9,7 @@
 #include "physics/fit/masses.hpp"
 #include "physics/fit/profile_plan.hpp"
 #include "physics/fit/rebind.hpp"
+#include "physics/profile/constraint_frames.hpp"
 
 namespace lutka::physics {
 namespace {
@@ -113,8 +114,12 @@ class Mender {
     void rebuildFrames(int body) {
         const std::vector<PlacedShape> shapes = placed();
         ConstraintProfile& c = profile_.constraints[body - 1];
+        // The spring rests in the pose in which it did.
+        const BindFrames bind{shapes[c.parent].standardFromBody, shapes[c.child].standardFromBody};
+        const JointSpring spring = springFromBind(c, bind);
         setFrames(c, jointFrames(plan_, anatomy_, places_[body]), shapes[c.parent].standardFromBody,
                   shapes[c.child].standardFromBody);
+        setSpringFromBind(c, spring, bind);
         note(fmt::format("frames of {} made anew", profile_.bodies[body].name));
         widen(body);
     }

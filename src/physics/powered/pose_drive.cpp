@@ -90,7 +90,7 @@ vec3 PoseDrive::gravityTorque(int constraint, const vec3& gravity) const {
 
 // The target no farther than mostLead_ from where the joint is, nor farther and faster than drives it at mostSpeed_:
 // with a spring k, a damper d and a rate v of the target the joint comes to v + k / d times the lead.
-void PoseDrive::leashTo(const ConstraintProfile& constraint, JointMotor& motor) const {
+void PoseDrive::leashTo(const ConstraintProfile& constraint, float inertia, JointMotor& motor) const {
     const quat parent = bodies_[constraint.parent].worldFromBody.rotation * constraint.parentFromFrame.rotation;
     const quat now = glm::conjugate(parent) *
                      (bodies_[constraint.child].worldFromBody.rotation * constraint.childFromFrame.rotation);
@@ -100,7 +100,9 @@ void PoseDrive::leashTo(const ConstraintProfile& constraint, JointMotor& motor) 
     // What is very far off does not follow but is held, most often by its own limits, and would be driven along them.
     const float follows = std::clamp((kLost - angle) / (kLost - kFar), 0.0F, 1.0F);
     const float kept = follows * std::min(angle, mostLead_);
-    const vec3 drawn = lead * (kept / angle) * (motor.stiffness / std::max(motor.damping, 1e-9F));
+    // A spring that is damped less is no faster than its own swing.
+    const float damping = std::max(motor.damping, 2.0F * std::sqrt(motor.stiffness * inertia));
+    const vec3 drawn = lead * (kept / angle) * (motor.stiffness / std::max(damping, 1e-9F));
     motor.rate *= follows;
     const float share = std::min(1.0F, mostSpeed_ / std::max(glm::length(motor.rate + drawn), 1e-9F));
     motor.rate *= share;
@@ -137,7 +139,7 @@ void PoseDrive::drive(World& world, DollId doll, const MuscleSettings& muscles, 
         const quat before = relativeOf(constraint, from);
         motor.target = relativeOf(constraint, to);
         motor.rate = rotationVector(glm::normalize(motor.target * glm::conjugate(before))) / dt;
-        if (leashes) leashTo(constraint, motor);
+        if (leashes) leashTo(constraint, inertia, motor);
         if (carriesDoll) {
             const quat parentFrame =
                 bodies_[constraint.parent].worldFromBody.rotation * constraint.parentFromFrame.rotation;

@@ -52,7 +52,7 @@ class PoseDrive {
     // What gravity does about the joint through all that hangs below it, N m, world.
     [[nodiscard]] vec3 gravityTorque(int constraint, const vec3& gravity) const;
 
-    void leashTo(const ConstraintProfile& constraint, JointMotor& motor) const;
+    void leashTo(const ConstraintProfile& constraint, float inertia, JointMotor& motor) const;
 
     const RagdollProfile& profile_;
     float mostLead_ = kPi;

@@ -128,6 +128,10 @@ void Puppet::stand() {
     change(PuppetState::reacting);
 }
 
+void Puppet::approach() {
+    isThere_.assign(isThere_.size(), false);
+}
+
 void Puppet::recover(float dt) {
     for (Loss& loss : losses_)
         loss.seconds += dt;
@@ -165,7 +169,7 @@ void Puppet::lead(std::span<const RigidTransform> from, std::span<const RigidTra
         float& weight = weights_[body];
         const bool wasLed = weight > 0.0F;
         weight = std::min(wanted, weight + most);
-        if (weight < wanted) isThere_[body] = false;
+        if (weight < wanted || !wasLed) isThere_[body] = false;
         if (weight <= 0.0F) {
             if (wasLed) world_.setBodyTarget(doll_, body, std::nullopt);
             continue;

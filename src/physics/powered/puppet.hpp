@@ -70,6 +70,8 @@ class Puppet {
     /// The same for a way to its feet: it is gettingUp until stand() is called.
     void getUp(float seconds);
     void stand();
+    /// Led bodies may be away from their pose: they are drawn to it, at leadSpeed and leadTurn at most.
+    void approach();
 
     [[nodiscard]] PuppetState state() const { return state_; }
     /// What is left of the strength of the joint above a body (of the pin: of the root), [0, 1].

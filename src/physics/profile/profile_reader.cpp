@@ -163,12 +163,16 @@ JointSpring readSpring(const JsonCursor& at) {
     return spring;
 }
 
-void readConstraint(const JsonCursor& at, RagdollProfile& profile) {
+void readConstraint(const JsonCursor& at, RagdollProfile& profile, std::int64_t version) {
     constexpr float kAlmostPi = kPi - 1e-4F;
     constexpr float kTinyAngle = 1e-4F;
     const int kind = at["kind"].oneOf({"hinge", "coneTwist"});
     const char* limits = kind == 0 ? "hinge" : "cone";
-    at.expectObject({"child", "parent", "kind", "parentFromFrame", "childFromFrame", limits, "frictionNm"}, {"spring"});
+    if (version == 1)
+        at.expectObject({"child", "parent", "kind", "parentFromFrame", "childFromFrame", limits, "frictionNm"});
+    else
+        at.expectObject({"child", "parent", "kind", "parentFromFrame", "childFromFrame", limits, "frictionNm"},
+                        {"spring"});
     ConstraintProfile c;
     c.kind = kind == 0 ? ConstraintProfile::Kind::hinge : ConstraintProfile::Kind::coneTwist;
     c.child = readBodyName(at["child"], profile);
@@ -255,7 +259,7 @@ void readLists(const JsonCursor& at, RagdollProfile& profile, std::int64_t versi
     const JsonCursor constraints = at["constraints"];
     if (constraints.expectArray(0, RagdollProfile::kMostBodies)) {
         for (std::size_t i = 0; i < constraints.size(); ++i)
-            readConstraint(constraints[i], profile);
+            readConstraint(constraints[i], profile, version);
         orderConstraints(constraints, profile);
     }
     const JsonCursor pairs = at["filteredPairs"];

@@ -49,7 +49,7 @@ TEST_CASE("a walker goes on through edits: neither its place nor its time nor it
     CHECK(editor->workspace().followed == 0);
 }
 
-TEST_CASE("who goes limp falls, and gets up again when asked; undo goes both ways") {
+TEST_CASE("who goes limp falls, and gets up again when asked, and undo goes both ways") {
     const auto editor = mannequinIn("drop");
     test::pass(*editor, 240);
     const float lying = placeOf(*editor, Role::hips).y;
