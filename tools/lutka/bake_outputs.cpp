@@ -75,6 +75,7 @@ void BakeOutputs::writeClips() const {
     const std::optional<animation::KeyTolerance> tolerance = animation::keysKept(options_.allKeys);
     if (options_.together) {
         std::vector<animation::GlbFigure> figures;
+        figures.reserve(static_cast<std::size_t>(dolls_));
         for (int doll = 0; doll < dolls_; ++doll)
             figures.push_back(
                 {&simulation_.assetOf(doll).character, &bakers_[doll].clip(), simulation_.worldFromModel(doll)});
