@@ -33,7 +33,7 @@ class MotionCommands {
     void showClip(const std::string& clip);
     /// Physics goes on from the clip that is shown, as an entry of undo; nothing without one.
     void fallFromClip();
-    /// Muscles for who lies to get up, and then to follow the clip that was shown last.
+    /// Muscles for who lies to get up, and then to follow the clip that is shown.
     [[nodiscard]] scene::ScenePuppets gettingUp() const;
     /// What the hit tool does at the body under the mouse.
     void hit(const Pick& pick);

@@ -79,6 +79,13 @@ LUTKA_LANES V3 leftOf(const V3& direction, const V3& support) {
     return direction - support * (into / most(firmness, all(1e-6F)));
 }
 
+// What a body's angular velocity gains by a push with that lever, per unit of impulse. Kinematic bodies have no inverse
+// mass, and none of their inertia counts either.
+LUTKA_LANES V3 turnBy(const V3& lever, const Symmetric& inverseInertia, const F& inverseMass) {
+    const F zero = all(0.0F);
+    return choose(inverseMass > zero, inverseInertia * lever, {zero, zero, zero});
+}
+
 // What a contact presses harder by than the masses of its two bodies ask.
 LUTKA_LANES F eagerness(const PairContactLanes& pair, float rate) {
     return all(1.0F) + load(pair.eager) * all(rate - 1.0F);
@@ -112,19 +119,17 @@ LUTKA_LANES void preparePair(PairContactLanes& pair, bool isFirst) {
     const F massA = load(pair.inverseMassA);
     const F massB = load(pair.inverseMassB);
     const F zero = all(0.0F);
-    // Kinematic bodies have no inverse mass, and none of their inertia counts either.
-    const auto turnedA = [&](const V3& lever) { return choose(massA > zero, inertiaA * lever, {zero, zero, zero}); };
-    const auto turnedB = [&](const V3& lever) { return choose(massB > zero, inertiaB * lever, {zero, zero, zero}); };
     const V3 leverA = cross(armA, direction[0]);
     const V3 leverB = cross(armB, direction[0]);
-    const F free = massA + massB + dot(leverA, turnedA(leverA)) + dot(leverB, turnedB(leverB));
+    const F free =
+        massA + massB + dot(leverA, turnBy(leverA, inertiaA, massA)) + dot(leverB, turnBy(leverB, inertiaB, massB));
     const Mask moves = (load(pair.active) > zero) & (free > zero);
     const F leastYield = most(free * all(kLeastYield), all(1e-12F));
     for (int i = 0; i < 3; ++i) {
         const V3& onA = i == 0 ? pushA : direction[i];
         const V3& onB = i == 0 ? pushB : direction[i];
-        const V3 turnA = turnedA(cross(armA, onA));
-        const V3 turnB = turnedB(cross(armB, onB));
+        const V3 turnA = turnBy(cross(armA, onA), inertiaA, massA);
+        const V3 turnB = turnBy(cross(armB, onB), inertiaB, massB);
         store(pair.turnA[i], turnA);
         store(pair.turnB[i], turnB);
         const F k = massA * dot(onA, direction[i]) + massB * dot(onB, direction[i]) +
@@ -227,13 +232,12 @@ static void carryPairs(PairContactLanes* pairs, int count) {
         const F swept = total - pressed;
         const V3 toA = whole - load(pair.pushA) * swept;
         const V3 toB = whole - load(pair.pushB) * swept;
-        v.velocityA = v.velocityA + toA * load(pair.inverseMassA);
-        v.velocityB = v.velocityB - toB * load(pair.inverseMassB);
-        const F zero = all(0.0F);
-        const V3 turnA = gatherInverseInertia(pair.bodyA) * cross(load(pair.armA), toA);
-        const V3 turnB = gatherInverseInertia(pair.bodyB) * cross(load(pair.armB), toB);
-        v.angularA = v.angularA + choose(load(pair.inverseMassA) > zero, turnA, {zero, zero, zero});
-        v.angularB = v.angularB - choose(load(pair.inverseMassB) > zero, turnB, {zero, zero, zero});
+        const F massA = load(pair.inverseMassA);
+        const F massB = load(pair.inverseMassB);
+        v.velocityA = v.velocityA + toA * massA;
+        v.velocityB = v.velocityB - toB * massB;
+        v.angularA = v.angularA + turnBy(cross(load(pair.armA), toA), gatherInverseInertia(pair.bodyA), massA);
+        v.angularB = v.angularB - turnBy(cross(load(pair.armB), toB), gatherInverseInertia(pair.bodyB), massB);
         rubPair(pair, v, 1, load(pair.tangent[0]), load(pair.carriedTangent[0]));
         rubPair(pair, v, 2, load(pair.tangent[1]), load(pair.carriedTangent[1]));
         storeVelocities(pair, v);
