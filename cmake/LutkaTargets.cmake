@@ -43,9 +43,9 @@ endif()
 
 function(lutka_common target)
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:lutka_options>)
-  # Most of a file's compile time are its headers; a dozen files share them. Names without linkage must then be unique in a
+  # Most of a file's compile time are its headers; some thirty files share them. Names without linkage must then be unique in a
   # target.
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${LUTKA_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 12)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${LUTKA_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 30)
   if(LUTKA_CLANG_TIDY)
     set_target_properties(${target} PROPERTIES CXX_CLANG_TIDY "${LUTKA_CLANG_TIDY_EXE};--quiet")
   endif()
