@@ -150,6 +150,7 @@ std::span<const Editor::Command> Editor::commands() {
                 [](Editor& e) { e.files_.requestSaveScene(e.document().sceneDocument().file()); }},
         Command{Action::saveSceneAs, true, [](Editor& e) { e.dialog = Dialog::saveSceneAs; }},
         Command{Action::exportBaked, true, [](Editor& e) { e.dialog = Dialog::exportBaked; }},
+        Command{Action::exportRagdoll, true, [](Editor& e) { e.dialog = Dialog::exportRagdoll; }},
         Command{Action::quit, true, [](Editor& e) { e.quit(); }},
         Command{Action::undo, true, [](Editor& e) { e.travel(-1); }},
         Command{Action::redo, true, [](Editor& e) { e.travel(1); }},

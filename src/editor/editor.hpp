@@ -123,6 +123,7 @@ class Editor {
         openModel,
         saveAs,
         exportBaked,
+        exportRagdoll,  ///< In another engine's format.
         saveSceneAs,
         saveRecording,
         openRecording,

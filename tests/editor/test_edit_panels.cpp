@@ -185,3 +185,15 @@ TEST_CASE("a script moves a tab below the view, which is framed above it") {
     REQUIRE(seen.ok());
     checkGolden(cropped(seen.value(), 310, 464, 626, 225), "editor_bottom", kPanel);
 }
+
+TEST_CASE("a script exports the ragdoll for an engine by the keyboard alone") {
+    const Scratch scratch;
+    Script script;
+    script.key(Key::space).move(640, 640).key(Key::e, {true, true, false}).wait(4).key(Key::enter).wait(4);
+    const Outcome outcome = play(scratch, script);
+    NEEDS_DISPLAY_OF(outcome);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    REQUIRE(fs::exists(scratch / "mannequin.xml"));
+    CHECK_THAT(fileText(scratch / "mannequin.xml"), Catch::StartsWith("<mujoco"));
+}

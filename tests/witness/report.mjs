@@ -46,6 +46,7 @@ async function canvasOf(tab) {
 
 async function open(options) {
   const tab = await browser.newPage(options);
+  tab.setDefaultTimeout(300000);  // a busy machine without a graphics card takes its time
   const told = [];
   const asked = [];
   tab.on('console', (message) => { if (message.type() === 'error') told.push(message.text()); });

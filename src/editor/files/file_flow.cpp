@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "animation/export/write_glb.hpp"
+#include "core/files.hpp"
 #include "scene/bake.hpp"
 
 namespace lutka::editor {
@@ -121,13 +122,21 @@ void FileFlow::requestSaveRecording(const std::filesystem::path& file) {
     });
 }
 
-void FileFlow::requestExport(const std::filesystem::path& file, float seconds) {
+void FileFlow::exportOrAsk(const std::filesystem::path& file, const std::function<Result<void>()>& write) {
     const bool ours = std::find(exported_.begin(), exported_.end(), file) != exported_.end();
-    writeOrAsk(file, ours, [this, file, seconds] {
-        if (workspace_.report(exportBaked(file, seconds))) return false;
+    writeOrAsk(file, ours, [this, file, write] {
+        if (workspace_.report(write())) return false;
         exported_.push_back(file);
         return true;
     });
+}
+
+void FileFlow::requestExport(const std::filesystem::path& file, float seconds) {
+    exportOrAsk(file, [this, file, seconds] { return exportBaked(file, seconds); });
+}
+
+void FileFlow::requestExport(const std::filesystem::path& file, exporting::ExportFormat format) {
+    exportOrAsk(file, [this, file, format] { return exportRagdoll(file, format); });
 }
 
 void FileFlow::saveAll() {
@@ -171,6 +180,20 @@ Result<void> FileFlow::exportBaked(const std::filesystem::path& file, float seco
                                        simulation.worldFromModel(0), animation::KeyTolerance{});
     player.setPlaying(wasPlaying);
     if (written) workspace_.say(Toast::Kind::info, fmt::format("Exported {:.1f} s to {}", seconds, file.string()));
+    return written;
+}
+
+Result<void> FileFlow::exportRagdoll(const std::filesystem::path& file, exporting::ExportFormat format) {
+    const scene::RagdollAsset& asset = document().asset();
+    const auto exported = exporting::exportRagdoll(format, {asset.character, asset.profile, asset.rig});
+    if (!exported) return exported.error();
+    auto written = writeFileAtomically(file, exported.value().bytes);
+    if (!written) return written;
+    for (const std::string& warning : exported.value().warnings)
+        workspace_.log.push_back({Toast::Kind::warning, file.filename().string() + ": " + warning});
+    const std::string told =
+        exported.value().warnings.empty() ? "" : fmt::format("; {} notes in the log", exported.value().warnings.size());
+    workspace_.say(Toast::Kind::info, "Exported " + file.string() + told);
     return written;
 }
 

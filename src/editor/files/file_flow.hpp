@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "editor/states/workspace.hpp"
+#include "export/export_ragdoll.hpp"
 
 namespace lutka::editor {
 
@@ -44,6 +45,8 @@ class FileFlow {
     void requestSaveRecording(const std::filesystem::path& file);
     /// And for exportBaked().
     void requestExport(const std::filesystem::path& file, float seconds);
+    /// And for exportRagdoll().
+    void requestExport(const std::filesystem::path& file, exporting::ExportFormat format);
     /// Ctrl+S: the profile, and the scene when it has a file. One that has none is saved by its own command: a ragdoll
     /// that is edited in a named scene should not leave scene files behind.
     void saveAll();
@@ -60,6 +63,9 @@ class FileFlow {
     /// The first doll's motion from the scene's start, `seconds` long, as an animation of its skin (*.glb). Replaces
     /// what is there.
     [[nodiscard]] Result<void> exportBaked(const std::filesystem::path& file, float seconds);
+    /// The edited ragdoll in another engine's format. Replaces what is there. What the format can't hold is told in the
+    /// log.
+    [[nodiscard]] Result<void> exportRagdoll(const std::filesystem::path& file, exporting::ExportFormat format);
 
     /// A document was opened: offers the profile that lies beside its model, when there is one and `offerProfile`.
     void greet(bool offerProfile);
@@ -84,6 +90,8 @@ class FileFlow {
     /// Writes now when the file is `ours` or none, else after the answer. Whether it was written now.
     bool writeOrAsk(const std::filesystem::path& file, bool ours, const Write& write,
                     std::function<void()> afterwards = {});
+    /// Files that were exported before are replaced without a question.
+    void exportOrAsk(const std::filesystem::path& file, const std::function<Result<void>()>& write);
     /// All takes that are in no file yet, each beside the model. Whether all could be written.
     bool saveTakes();
     [[nodiscard]] EditorDocument& document() const { return *workspace_.document; }

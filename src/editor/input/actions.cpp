@@ -21,6 +21,7 @@ constexpr std::array kBindings = {
     Binding{Key::s, kControlShift, Action::saveProfileAs},
     Binding{Key::s, kControlAlt, Action::saveScene},
     Binding{Key::e, kControl, Action::exportBaked},
+    Binding{Key::e, kControlShift, Action::exportRagdoll},
     Binding{Key::q, kControl, Action::quit},
     Binding{Key::z, kControl, Action::undo},
     Binding{Key::z, kControlShift, Action::redo},
@@ -116,6 +117,8 @@ std::string_view actionName(Action action) {
             return "Save scene as";
         case Action::exportBaked:
             return "Export baked glb";
+        case Action::exportRagdoll:
+            return "Export for an engine";
         case Action::quit:
             return "Quit";
         case Action::undo:
@@ -141,7 +144,7 @@ std::string_view actionName(Action action) {
         case Action::toggleSymmetric:
             return "Change both sides at once";
         case Action::nextTool:
-            return "Next tool: select, move, turn, size";
+            return "Next tool: select, move, turn, size, hit";
         case Action::toggleLocalAxes:
             return "The tool's axes: the world's or its own";
         case Action::swingLimits:

@@ -21,6 +21,7 @@ enum class Action {
     saveScene,
     saveSceneAs,
     exportBaked,
+    exportRagdoll,
     quit,
     undo,
     redo,

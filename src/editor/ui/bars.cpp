@@ -51,6 +51,7 @@ void fileMenu(const PanelContext& context) {
     item(context, Action::saveScene);
     item(context, Action::saveSceneAs);
     item(context, Action::exportBaked);
+    item(context, Action::exportRagdoll);
     ImGui::Separator();
     item(context, Action::quit);
     ImGui::EndMenu();

@@ -33,6 +33,7 @@ struct UiState {
     bool scrollToFile = false;
     std::string newFolder;
     float exportSeconds = 4.0F;
+    int exportFormat = 0;  ///< Of exporting::exportFormats().
     bool lightTheme = false;
     float uiScale = 0.0F;  ///< As UserSettings has it, and these two.
     float leftWidth = 0.0F;

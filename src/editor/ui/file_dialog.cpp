@@ -1,5 +1,6 @@
 /// Open, save as and export: a path, the folder it lies in, and what can be chosen there by mouse or keyboard.
 
+#include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
@@ -25,6 +26,10 @@ bool opens(Editor::Dialog dialog) {
            dialog == Editor::Dialog::chooseSky;
 }
 
+const exporting::ExportFormatInfo& formatIn(const UiState& state) {
+    return exporting::exportFormats()[static_cast<std::size_t>(state.exportFormat)];
+}
+
 fs::path suggestedPath(const PanelContext& context, Editor::Dialog dialog) {
     const EditorDocument& document = context.editor.document();
     std::error_code failed;
@@ -33,6 +38,10 @@ fs::path suggestedPath(const PanelContext& context, Editor::Dialog dialog) {
             return fs::absolute(document.profileFile(), failed);
         case Editor::Dialog::exportBaked:
             return fs::absolute(document.profileFile().parent_path() / (document.character().name + "_fall.glb"),
+                                failed);
+        case Editor::Dialog::exportRagdoll:
+            return fs::absolute(document.profileFile().parent_path() /
+                                    (document.character().name + std::string(formatIn(context.state).ending)),
                                 failed);
         case Editor::Dialog::saveSceneAs:
             return fs::absolute(document.sceneDocument().file(), failed);
@@ -57,6 +66,8 @@ const char* titleOf(Editor::Dialog dialog) {
             return "Save the profile as";
         case Editor::Dialog::exportBaked:
             return "Export the fall as a baked glb";
+        case Editor::Dialog::exportRagdoll:
+            return "Export the ragdoll for an engine";
         case Editor::Dialog::saveSceneAs:
             return "Save the scene as";
         case Editor::Dialog::saveRecording:
@@ -86,6 +97,8 @@ FileFilter filterOf(Editor::Dialog dialog) {
             return FileFilter::recordings;
         case Editor::Dialog::exportBaked:
             return FileFilter::baked;
+        case Editor::Dialog::exportRagdoll:
+            return FileFilter::all;
         case Editor::Dialog::chooseSky:
             return FileFilter::skies;
         case Editor::Dialog::openModel:
@@ -215,6 +228,7 @@ void finish(const PanelContext& context, Editor::Dialog dialog) {
     fs::path file(context.state.path);
     if (!file.has_extension() && dialog == Editor::Dialog::saveAs) file += ".ragdoll.json";
     if (!file.has_extension() && dialog == Editor::Dialog::exportBaked) file += ".glb";
+    if (!file.has_extension() && dialog == Editor::Dialog::exportRagdoll) file += formatIn(context.state).ending;
     if (!scene::isSceneFile(file) && dialog == Editor::Dialog::saveSceneAs) file += ".scene.json";
     switch (dialog) {
         case Editor::Dialog::openModel:
@@ -225,6 +239,9 @@ void finish(const PanelContext& context, Editor::Dialog dialog) {
             break;
         case Editor::Dialog::exportBaked:
             editor.files().requestExport(file, context.state.exportSeconds);
+            break;
+        case Editor::Dialog::exportRagdoll:
+            editor.files().requestExport(file, formatIn(context.state).format);
             break;
         case Editor::Dialog::saveSceneAs:
             editor.files().requestSaveScene(file);
@@ -264,6 +281,25 @@ bool enter(UiState& state) {
     if (!fs::is_directory(fs::path(state.path), failed)) return true;
     goTo(state, state.path);
     return false;
+}
+
+// The file's ending follows the format.
+void drawFormat(const PanelContext& context) {
+    UiState& state = context.state;
+    const auto formats = exporting::exportFormats();
+    const auto line = [](const exporting::ExportFormatInfo& info) {
+        return fmt::format("{} ({}): {}", info.name, info.ending, info.summary);
+    };
+    ImGui::SetNextItemWidth(context.px(520));
+    if (!ImGui::BeginCombo("##format", line(formatIn(state)).c_str(), ImGuiComboFlags_HeightLarge)) return;
+    for (std::size_t i = 0; i < formats.size(); ++i) {
+        if (!ImGui::Selectable(line(formats[i]).c_str(), static_cast<int>(i) == state.exportFormat)) continue;
+        fs::path file(state.path);
+        if (file.has_filename() && file.extension() == formatIn(state).ending)
+            state.path = file.replace_extension(formats[i].ending).string();
+        state.exportFormat = static_cast<int>(i);
+    }
+    ImGui::EndCombo();
 }
 
 void drawFilter(UiState& state) {
@@ -309,6 +345,10 @@ void drawFileDialog(const PanelContext& context) {
         ImGui::SetNextItemWidth(context.px(220));
         static_cast<void>(slider("##seconds", state.exportSeconds, 0.5F, 20.0F, "%.1f seconds"));
         mutedText("The first doll's motion from the start of the scene, as an animation of its skin.");
+    }
+    if (editor.dialog == Editor::Dialog::exportRagdoll) {
+        drawFormat(context);
+        mutedText("Bodies, joints and limits as they are edited. What the format can't hold is told in the log.");
     }
     ImGui::Spacing();
     const ImVec2 button(context.px(110), 0);

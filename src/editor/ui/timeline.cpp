@@ -17,7 +17,7 @@ void chooseClip(const PanelContext& context) {
     Editor& editor = context.editor;
     const ClipStage* shown = editor.player().clip();
     std::string chosen;
-    ImGui::SetNextItemWidth(context.px(108));
+    ImGui::SetNextItemWidth(context.px(150));
     if (!ImGui::BeginCombo("##clip", shown != nullptr ? shown->clip().c_str() : "choose a clip",
                            ImGuiComboFlags_HeightLarge))
         return;

@@ -11,9 +11,13 @@ namespace {
 
 // Whether it was pressed; the chosen one stands out.
 bool toolButton(const PanelContext& context, const char* name, bool chosen, const char* what) {
-    if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_Header));
+    // Under the mouse too: else a tool would seem to be let go of by the click that chose it.
+    if (chosen) {
+        ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_Header));
+        ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImGui::GetStyleColorVec4(ImGuiCol_Header));
+    }
     const bool pressed = ImGui::Button(name, {context.px(58), 0});
-    if (chosen) ImGui::PopStyleColor();
+    if (chosen) ImGui::PopStyleColor(2);
     tooltip(what);
     return pressed;
 }

@@ -172,6 +172,30 @@ TEST_CASE("an export over a file that is there asks, and the next one over its o
     CHECK_FALSE(editor->files().asking());
 }
 
+TEST_CASE("an edited ragdoll is exported in every format, and what one can't hold is told in the log") {
+    const auto editor = makeEditor();
+    const test::ScratchFolder folder;
+    const int hips = 0;
+    REQUIRE(editor->edit([&](EditorDocument& document) { return document.setMass(hips, 3.25F); }));
+    for (const exporting::ExportFormatInfo& info : exporting::exportFormats()) {
+        CAPTURE(info.name);
+        const fs::path file = folder / (std::string(info.name) + std::string(info.ending));
+        const std::size_t before = editor->workspace().log.size();
+        editor->files().requestExport(file, info.format);
+        const scene::RagdollAsset& asset = editor->document().asset();
+        const auto expected = exporting::exportRagdoll(info.format, {asset.character, asset.profile, asset.rig});
+        REQUIRE(expected.ok());
+        CHECK(test::fileText(file) == expected.value().bytes);
+        // One line for each note, and one that tells of the file.
+        CHECK(editor->workspace().log.size() == before + expected.value().warnings.size() + 1);
+    }
+    const fs::path mjcf = folder / "mjcf.xml";
+    CHECK(test::fileText(mjcf).find("mass=\"3.25\"") != std::string::npos);
+    std::ofstream(folder / "theirs.xml") << "theirs";
+    editor->files().requestExport(folder / "theirs.xml", exporting::ExportFormat::mjcf);
+    CHECK(editor->files().replacedFile() == folder / "theirs.xml");
+}
+
 TEST_CASE("a model that is no humanoid is offered as a ragdoll of any skeleton, and edited as one") {
     NEEDS_ZOO();
     const auto editor = makeEditor();
