@@ -155,8 +155,16 @@
   const bodies = data.bodies.map((body, index) => {
     // Neighbours differ in hue; the golden ratio keeps any two apart.
     const color = new THREE.Color().setHSL((0.58 + index * 0.618034) % 1, 0.36, 0.58).convertSRGBToLinear();
-    const mesh = new THREE.Mesh(shapeOf(body), new THREE.MeshStandardMaterial({ color, roughness: 0.6, metalness: 0 }));
+    const material = new THREE.MeshStandardMaterial({ color, roughness: 0.6, metalness: 0 });
+    const mesh = new THREE.Mesh(shapeOf(body), material);
     mesh.castShadow = true;
+    for (const added of body.more) {
+      const part = new THREE.Mesh(shapeOf(added), material);
+      part.position.fromArray(added.place.p);
+      part.quaternion.fromArray(added.place.q);
+      part.castShadow = true;
+      mesh.add(part);
+    }
     scene.add(mesh);
     return mesh;
   });

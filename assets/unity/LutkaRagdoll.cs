@@ -14,14 +14,16 @@ using UnityEngine;
 public static class LutkaRagdoll
 {
     [Serializable] class Frame { public float[] rotation; public float[] translation; }
-    [Serializable] class Shape { public string kind; public float radius; public float halfLength; public float[] halfExtents; }
+    [Serializable] class Primitive { public string kind; public float radius; public float halfLength; public float[] halfExtents; }
+    [Serializable] class AddedShape : Primitive { public Frame bodyFromShape; }
+    [Serializable] class Shape : Primitive { public AddedShape[] more; }
     [Serializable] class Body { public string name; public string joint; public Shape shape; public Frame jointFromBody; public float massKg; public float[] inertia; }
     [Serializable] class Hinge { public float lower; public float upper; }
     [Serializable] class Cone { public float swingY; public float swingZ; public float twist; }
     [Serializable] class Constraint { public string child; public string parent; public string kind; public Frame parentFromFrame; public Frame childFromFrame; public Hinge hinge; public Cone cone; }
     [Serializable] class Profile { public Body[] bodies; public Constraint[] constraints; }
 
-    class Part { public Body body; public Transform joint; public Rigidbody rigid; public Collider collider; }
+    class Part { public Body body; public Transform joint; public Rigidbody rigid; public List<Collider> colliders; }
 
     static Vector3 Position(float[] v) { return new Vector3(-v[0], v[1], v[2]); }
     static Quaternion Rotation(float[] q) { return new Quaternion(q[0], -q[1], -q[2], q[3]); }
@@ -45,7 +47,9 @@ public static class LutkaRagdoll
         foreach (Constraint constraint in profile.constraints)
             AddJoint(constraint, parts[constraint.parent], parts[constraint.child]);
         foreach (Match pair in FilteredPairs(text))
-            Physics.IgnoreCollision(parts[pair.Groups[1].Value].collider, parts[pair.Groups[2].Value].collider);
+            foreach (Collider first in parts[pair.Groups[1].Value].colliders)
+                foreach (Collider second in parts[pair.Groups[2].Value].colliders)
+                    Physics.IgnoreCollision(first, second);
         Debug.Log("Lutka: " + parts.Count + " bodies. Ignored pairs hold until the scene is loaded again: ignore them in a script of yours, too.");
     }
 
@@ -81,16 +85,28 @@ public static class LutkaRagdoll
         holder.transform.localPosition = units * Position(body.jointFromBody.translation);
         holder.transform.localRotation = Rotation(body.jointFromBody.rotation);
         Rigidbody rigid = Undo.AddComponent<Rigidbody>(joint.gameObject);
-        Collider collider = AddCollider(holder, body.shape, units);
+        var colliders = new List<Collider> { AddCollider(holder, body.shape, units) };
+        if (body.shape.more != null)
+            foreach (AddedShape added in body.shape.more)
+                colliders.Add(AddCollider(AddedHolder(holder, added, units), added, units));
         rigid.mass = body.massKg;
         rigid.centerOfMass = units * Position(body.jointFromBody.translation);
         rigid.inertiaTensor = new Vector3(body.inertia[0], body.inertia[1], body.inertia[2]);
         rigid.inertiaTensorRotation = Rotation(body.jointFromBody.rotation);
         rigid.solverIterations = 30;
-        return new Part { body = body, joint = joint, rigid = rigid, collider = collider };
+        return new Part { body = body, joint = joint, rigid = rigid, colliders = colliders };
     }
 
-    static Collider AddCollider(GameObject holder, Shape shape, float units)
+    static GameObject AddedHolder(GameObject holder, AddedShape added, float units)
+    {
+        var below = new GameObject(holder.name + " more");
+        below.transform.SetParent(holder.transform, false);
+        below.transform.localPosition = units * Position(added.bodyFromShape.translation);
+        below.transform.localRotation = Rotation(added.bodyFromShape.rotation);
+        return below;
+    }
+
+    static Collider AddCollider(GameObject holder, Primitive shape, float units)
     {
         if (shape.kind == "capsule")
         {

@@ -13,8 +13,8 @@
 namespace lutka::python {
 
 using physics::BodyProfile;
-using physics::BodyShape;
 using physics::ConstraintProfile;
+using physics::PrimitiveShape;
 using physics::RagdollProfile;
 
 void ProfileObject::edit(const std::function<void(RagdollProfile&)>& change) {
@@ -82,13 +82,13 @@ ProfilePointer fromText(const std::string& text, const std::string& source) {
     return std::make_shared<ProfileObject>(orRaise(physics::profileFromJson(text, source)));
 }
 
-const char* shapeName(BodyShape::Kind kind) {
+const char* shapeName(PrimitiveShape::Kind kind) {
     switch (kind) {
-        case BodyShape::Kind::capsule:
+        case PrimitiveShape::Kind::capsule:
             return "capsule";
-        case BodyShape::Kind::sphere:
+        case PrimitiveShape::Kind::sphere:
             return "sphere";
-        case BodyShape::Kind::box:
+        case PrimitiveShape::Kind::box:
             break;
     }
     return "box";
@@ -170,6 +170,9 @@ void bindBody(py::module_& module) {
                 editBody(b, [&](BodyProfile& e) { e.shape.halfExtents = value; });
             },
             "Metres; of a box.")
+        .def_property_readonly(
+            "shape_count", [](const BodyObject& b) { return 1 + b.get().shape.more.size(); },
+            "1 to 3. shape, radius, half_length and half_extents are the main one's; to_json() holds all.")
         .def("__repr__", [](const BodyObject& b) {
             return fmt::format("<lutka.Body {}: {} of {:.3g} kg>", b.get().name, shapeName(b.get().shape.kind),
                                b.get().massKg);

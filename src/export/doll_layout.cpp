@@ -59,8 +59,8 @@ float bindHingeAngle(const ExportSource& source, const ConstraintProfile& constr
 float lowestPoint(const RagdollProfile& profile, std::span<const RigidTransform> spaceFromBody, const vec3& up) {
     float lowest = std::numeric_limits<float>::max();
     for (std::size_t i = 0; i < spaceFromBody.size(); ++i) {
-        const vec3 bodyUp = glm::conjugate(spaceFromBody[i].rotation) * up;
-        const float reach = physics::supportExtent(profile.bodies[i].shape, bodyUp);
+        const vec3 bodyDown = glm::conjugate(spaceFromBody[i].rotation) * -up;
+        const float reach = physics::supportExtent(profile.bodies[i].shape, bodyDown);
         lowest = std::min(lowest, glm::dot(spaceFromBody[i].translation, up) - reach);
     }
     return lowest;
@@ -82,6 +82,10 @@ std::string bodyName(const RagdollProfile& profile, int body) {
         if (same) return word + fmt::format("__{}", body);
     }
     return word;
+}
+
+std::string addedName(const std::string& body, std::size_t index) {
+    return body + fmt::format("__shape{}", index + 2);
 }
 
 }  // namespace lutka::exporting

@@ -32,5 +32,7 @@ namespace lutka::exporting {
 
 /// The name of a body as an identifier of every language, unique in the profile; of a role it is the role's.
 [[nodiscard]] std::string bodyName(const physics::RagdollProfile& profile, int body);
+/// The name of the body's further shape of that index, which no body has.
+[[nodiscard]] std::string addedName(const std::string& body, std::size_t index);
 
 }  // namespace lutka::exporting

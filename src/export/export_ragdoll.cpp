@@ -41,9 +41,14 @@ bool endsWith(const std::string& text, std::string_view ending) {
 // A capsule without a length is a sphere: MuJoCo refuses it otherwise, and others have no cylinder of length 0.
 physics::RagdollProfile withSpheres(physics::RagdollProfile profile) {
     constexpr float kNoLength = 1e-5F;  // metres
+    const auto settle = [](physics::PrimitiveShape& shape) {
+        using Kind = physics::PrimitiveShape::Kind;
+        if (shape.kind == Kind::capsule && shape.halfLength < kNoLength) shape.kind = Kind::sphere;
+    };
     for (physics::BodyProfile& body : profile.bodies) {
-        const bool round = body.shape.kind == physics::BodyShape::Kind::capsule && body.shape.halfLength < kNoLength;
-        if (round) body.shape.kind = physics::BodyShape::Kind::sphere;
+        settle(body.shape);
+        for (physics::AddedShape& added : body.shape.more)
+            settle(added);
     }
     return profile;
 }

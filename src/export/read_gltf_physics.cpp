@@ -23,8 +23,8 @@ namespace {
 using animation::Role;
 using nlohmann::json;
 using physics::BodyProfile;
-using physics::BodyShape;
 using physics::ConstraintProfile;
+using physics::PrimitiveShape;
 using physics::RagdollProfile;
 
 constexpr std::size_t kMostJsonBytes = std::size_t{32} << 20U;
@@ -152,24 +152,24 @@ class Reader {
         return word;
     }
 
-    [[nodiscard]] BodyShape shapeOf(const json& collider, float scale) const {
+    [[nodiscard]] PrimitiveShape shapeOf(const json& collider, float scale) const {
         const json* geometry = memberOf(collider, "geometry");
         const json* shape =
             geometry == nullptr ? nullptr : itemOf(resource(kShapesExtension), "shapes", indexIn(*geometry, "shape"));
         if (shape == nullptr) throw Unusable{"a collider is no capsule, sphere or box"};
-        BodyShape out;
+        PrimitiveShape out;
         if (const json* capsule = memberOf(*shape, "capsule")) {
             const float bottom = numberIn(*capsule, "radiusBottom").value_or(0.25F);
             const float top = numberIn(*capsule, "radiusTop").value_or(0.25F);
-            out.kind = BodyShape::Kind::capsule;
+            out.kind = PrimitiveShape::Kind::capsule;
             out.radius = 0.5F * (bottom + top) * scale;
             out.halfLength = 0.5F * numberIn(*capsule, "height").value_or(0.5F) * scale;
         } else if (const json* sphere = memberOf(*shape, "sphere")) {
-            out.kind = BodyShape::Kind::sphere;
+            out.kind = PrimitiveShape::Kind::sphere;
             out.radius = numberIn(*sphere, "radius").value_or(0.5F) * scale;
         } else if (const json* box = memberOf(*shape, "box")) {
             const auto size = numbersIn(*box, "size", 3);
-            out.kind = BodyShape::Kind::box;
+            out.kind = PrimitiveShape::Kind::box;
             out.halfExtents = (size.empty() ? vec3(1) : vec3(size[0], size[1], size[2])) * (0.5F * scale);
         } else {
             throw Unusable{"a collider is no capsule, sphere or box"};
@@ -199,7 +199,7 @@ class Reader {
         profile.name = profile.role ? std::string(roleName(*profile.role)) : freeName(nameOf(motion, node));
         profile.joint = character_.skeleton.names[joint];
         profile.jointPath = animation::jointPath(character_.skeleton, joint);
-        profile.shape = shapeOf(collider, scene_[colliderNode].scale);
+        profile.shape = {shapeOf(collider, scene_[colliderNode].scale), {}};
         body.sceneFromBody = scene_[colliderNode].sceneFromNode;
         profile.jointFromBody = inverse(scene_[node].sceneFromNode) * body.sceneFromBody;
         profile.jointFromBody.rotation = glm::normalize(profile.jointFromBody.rotation);
@@ -218,12 +218,39 @@ class Reader {
         bodies_.push_back(std::move(body));
     }
 
-    // A body a collider's first node; further colliders of the same motion are left out.
+    // Whether a collider is of a kind that a body can have.
+    [[nodiscard]] bool isSimple(std::size_t colliderNode) const {
+        const json* geometry = memberOf(*partOf(colliderNode, "collider"), "geometry");
+        const json* shape =
+            geometry == nullptr ? nullptr : itemOf(resource(kShapesExtension), "shapes", indexIn(*geometry, "shape"));
+        return shape != nullptr && (memberOf(*shape, "capsule") != nullptr || memberOf(*shape, "sphere") != nullptr ||
+                                    memberOf(*shape, "box") != nullptr);
+    }
+
+    void addShape(Body& body, std::size_t colliderNode) {
+        physics::BodyShape& shape = body.profile.shape;
+        const bool weighed = numberIn(*motionOf(body.node), "mass").value_or(0.0F) > 0.0F;
+        const bool turned = !numbersIn(*motionOf(body.node), "inertiaDiagonal", 3).empty();
+        shape.more.push_back({shapeOf(*partOf(colliderNode, "collider"), scene_[colliderNode].scale),
+                              inverse(body.sceneFromBody) * scene_[colliderNode].sceneFromNode});
+        quat& rotation = shape.more.back().bodyFromShape.rotation;
+        rotation = glm::normalize(rotation);
+        if (!weighed) body.profile.massKg = 1000.0F * physics::shapeVolume(shape);
+        if (!turned) body.profile.inertia = physics::shapeInertia(shape, body.profile.massKg);
+    }
+
+    // A body's main shape is its motion's first collider; the next ones are its further shapes, as far as it can have
+    // them; what is beyond that is left out.
     void findBodies() {
         for (std::size_t i = 0; i < scene_.size(); ++i) {
             if (partOf(i, "collider") == nullptr) continue;
             const int motion = motionAbove(i);
-            if (motion < 0 || bodyOfNode_.count(motion) > 0) continue;
+            if (motion < 0) continue;
+            if (const auto known = bodyOfNode_.find(motion); known != bodyOfNode_.end()) {
+                Body& body = bodies_[static_cast<std::size_t>(known->second)];
+                if (body.profile.shape.more.size() < physics::BodyShape::kMostAdded && isSimple(i)) addShape(body, i);
+                continue;
+            }
             if (bodies_.size() >= kMostBodies)
                 throw Unusable{fmt::format("there are more than {} bodies", kMostBodies)};
             addBody(static_cast<std::size_t>(motion), i);

@@ -9,9 +9,9 @@ namespace {
 
 using physics::AngleSpan;
 using physics::BodyProfile;
-using physics::BodyShape;
 using physics::ConstraintProfile;
 using physics::JointRange;
+using physics::PrimitiveShape;
 using physics::RagdollProfile;
 
 // What does the work, below the tables. An armature is one that the user has imported: of the same model, in its
@@ -167,13 +167,13 @@ std::string placeText(const RigidTransform& t) {
     return fmt::format("(({}), ({}))", vectorText(t.translation, ", "), quaternionTextWxyz(t.rotation, ", "));
 }
 
-std::string shapeText(const BodyShape& shape) {
+std::string shapeText(const PrimitiveShape& shape) {
     switch (shape.kind) {
-        case BodyShape::Kind::capsule:
+        case PrimitiveShape::Kind::capsule:
             return "'CAPSULE', " + tupleText({shape.radius, shape.halfLength});
-        case BodyShape::Kind::sphere:
+        case PrimitiveShape::Kind::sphere:
             return "'SPHERE', " + tupleText({shape.radius});
-        case BodyShape::Kind::box:
+        case PrimitiveShape::Kind::box:
             break;
     }
     return fmt::format("'BOX', ({})", vectorText(shape.halfExtents, ", "));
@@ -215,6 +215,9 @@ class BlenderWriter {
             text_.line("    ({}, {}, {}, {}, {}),", quotedText(bodyName(profile_, static_cast<int>(i))),
                        shapeText(b.shape), placeText(blenderFromModel(source_) * source_.rig.bindModelFromBody[i]),
                        numberText(b.massKg), quotedText(b.joint));
+            if (!b.shape.more.empty())
+                warnings_.push_back(fmt::format("{}: a rigid body has one shape here, {} more of it are left out",
+                                                bodyName(profile_, static_cast<int>(i)), b.shape.more.size()));
         }
         text_.line("]");
     }

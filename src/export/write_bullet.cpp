@@ -1,5 +1,7 @@
 #include "export/write_bullet.hpp"
 
+#include <algorithm>
+
 #include "export/doll_layout.hpp"
 #include "export/text_builder.hpp"
 
@@ -7,8 +9,8 @@ namespace lutka::exporting {
 namespace {
 
 using physics::BodyProfile;
-using physics::BodyShape;
 using physics::ConstraintProfile;
+using physics::PrimitiveShape;
 using physics::RagdollProfile;
 
 constexpr std::string_view kHead = R"(#include <btBulletDynamicsCommon.h>
@@ -65,21 +67,44 @@ void addCone(Ragdoll& doll, btDynamicsWorld& world, int parent, int child, const
 
 )";
 
+// Written where some body has several shapes.
+constexpr std::string_view kCompound = R"(namespace {
+
+void addPart(Ragdoll& doll, btCompoundShape& whole, std::unique_ptr<btCollisionShape> part,
+             const btTransform& bodyFromPart) {
+    whole.addChildShape(bodyFromPart, part.get());
+    doll.shapes.push_back(std::move(part));
+}
+
+}  // namespace
+
+)";
+
 std::string transformText(const RigidTransform& t) {
     return fmt::format("frame({}, {})", vectorText(t.translation, ", "), quaternionTextXyzw(t.rotation, ", "));
 }
 
-std::string bulletShape(const BodyShape& shape) {
+std::string bulletShape(const PrimitiveShape& shape) {
     switch (shape.kind) {
-        case BodyShape::Kind::capsule:
+        case PrimitiveShape::Kind::capsule:
             return fmt::format("std::make_unique<btCapsuleShape>({}, {})", numberText(shape.radius),
                                numberText(2.0F * shape.halfLength));
-        case BodyShape::Kind::sphere:
+        case PrimitiveShape::Kind::sphere:
             return fmt::format("std::make_unique<btSphereShape>({})", numberText(shape.radius));
-        case BodyShape::Kind::box:
+        case PrimitiveShape::Kind::box:
             break;
     }
     return fmt::format("std::make_unique<btBoxShape>(btVector3({}))", vectorText(shape.halfExtents, ", "));
+}
+
+// The shape of a body as an argument; one of several is built in lines before.
+std::string shapeArgument(TextBuilder& text, std::size_t index, const physics::BodyShape& shape) {
+    if (shape.more.empty()) return bulletShape(shape);
+    text.line("auto shape{} = std::make_unique<btCompoundShape>();", index);
+    visitShapes(shape, [&](const PrimitiveShape& part, const RigidTransform& bodyFromShape) {
+        text.line("addPart(*doll, *shape{}, {}, {});", index, bulletShape(part), transformText(bodyFromShape));
+    });
+    return fmt::format("std::move(shape{})", index);
 }
 
 }  // namespace
@@ -90,6 +115,9 @@ Exported writeBullet(const ExportSource& source) {
     text.line("// {}: a ragdoll of {} bodies for Bullet, written by Lutka. Metres, kilograms, radians, Y up.",
               quotedText(profile.name), profile.bodies.size());
     text.block(kHead);
+    const bool anyAdded = std::any_of(profile.bodies.begin(), profile.bodies.end(),
+                                      [](const BodyProfile& body) { return !body.shape.more.empty(); });
+    if (anyAdded) text.block(kCompound);
     text.line("// Adds the figure in its bind pose: upright, facing +Z, its soles at the origin of `worldFromDoll`.");
     text.line("// Step at 1/240 s: what is linked stays together then.");
     text.line("std::unique_ptr<Ragdoll> addRagdoll(btDynamicsWorld& world, const btTransform& worldFromDoll) {{");
@@ -99,8 +127,9 @@ Exported writeBullet(const ExportSource& source) {
     for (std::size_t i = 0; i < profile.bodies.size(); ++i) {
         const BodyProfile& body = profile.bodies[i];
         text.line("// {}: {}", i, bodyName(profile, static_cast<int>(i)));
-        text.line("addBody(*doll, world, {}, {}, btVector3({}), worldFromDoll * {});", bulletShape(body.shape),
-                  numberText(body.massKg), vectorText(body.inertia, ", "),
+        const std::string shape = shapeArgument(text, i, body.shape);
+        text.line("addBody(*doll, world, {}, {}, btVector3({}), worldFromDoll * {});", shape, numberText(body.massKg),
+                  vectorText(body.inertia, ", "),
                   transformText(standingFromModel(source) * source.rig.bindModelFromBody[i]));
     }
     for (const ConstraintProfile& c : profile.constraints) {

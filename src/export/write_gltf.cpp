@@ -16,8 +16,8 @@ namespace lutka::exporting {
 namespace {
 
 using physics::BodyProfile;
-using physics::BodyShape;
 using physics::ConstraintProfile;
+using physics::PrimitiveShape;
 using physics::RagdollProfile;
 using Json = nlohmann::ordered_json;
 
@@ -38,18 +38,18 @@ Json angular(const std::vector<int>& axes, float low, float high) {
     return Json{{"angularAxes", axes}, {"min", jsonNumber(low)}, {"max", jsonNumber(high)}};
 }
 
-Json shapeJson(const BodyShape& shape) {
+Json shapeJson(const PrimitiveShape& shape) {
     switch (shape.kind) {
-        case BodyShape::Kind::capsule:
+        case PrimitiveShape::Kind::capsule:
             if (shape.halfLength <= 0.0F) break;  // a height of 0 is refused there: a sphere
             return Json{{"type", "capsule"},
                         {"capsule",
                          {{"height", jsonNumber(2.0F * shape.halfLength)},
                           {"radiusBottom", jsonNumber(shape.radius)},
                           {"radiusTop", jsonNumber(shape.radius)}}}};
-        case BodyShape::Kind::box:
+        case PrimitiveShape::Kind::box:
             return Json{{"type", "box"}, {"box", {{"size", jsonVector(2.0F * shape.halfExtents)}}}};
-        case BodyShape::Kind::sphere:
+        case PrimitiveShape::Kind::sphere:
             break;
     }
     return Json{{"type", "sphere"}, {"sphere", {{"radius", jsonNumber(shape.radius)}}}};
@@ -107,10 +107,16 @@ class GltfPhysicsWriter {
                    {"inertiaDiagonal", jsonVector(body.inertia)},
                    {"inertiaOrientation", rotationJson(body.jointFromBody.rotation)},
                    {"extras", extrasOf(profile_.bodies[index])}}}};
-        Json collider{{"geometry", {{"shape", shapes_.size()}}}, {"physicsMaterial", 0}};
-        shapes_.push_back(shapeJson(body.shape));
-        if (const int filter = addFilter(index); filter >= 0) collider["collisionFilter"] = filter;
-        addNode(index, "collider", {}, Json{{"collider", std::move(collider)}});
+        const int filter = addFilter(index);
+        int count = 0;
+        visitShapes(body.shape, [&](const PrimitiveShape& shape, const RigidTransform& bodyFromShape) {
+            Json collider{{"geometry", {{"shape", shapes_.size()}}}, {"physicsMaterial", 0}};
+            shapes_.push_back(shapeJson(shape));
+            if (filter >= 0) collider["collisionFilter"] = filter;
+            ++count;
+            addNode(index, count == 1 ? "collider" : fmt::format("collider {}", count), bodyFromShape,
+                    Json{{"collider", std::move(collider)}});
+        });
     }
 
     // Index of the filter; -1 for a body that collides with all but those that it is linked to.

@@ -14,9 +14,9 @@ namespace {
 
 using physics::AngleSpan;
 using physics::BodyProfile;
-using physics::BodyShape;
 using physics::ConstraintProfile;
 using physics::JointRange;
+using physics::PrimitiveShape;
 using physics::RagdollProfile;
 
 constexpr int kHingeJoint = 3;
@@ -64,7 +64,8 @@ class GodotWriter {
 
     Exported write() {
         nameBones();
-        text_.line("[gd_scene load_steps={} format={}]", profile_.bodies.size() + 2, four_ ? 3 : 2);
+        placeShapes();
+        text_.line("[gd_scene load_steps={} format={}]", shapes_.size() + 2, four_ ? 3 : 2);
         resources();
         text_.blank();
         text_.line("[node name=\"Ragdoll\" type=\"{}\"]", four_ ? "Node3D" : "Spatial");
@@ -117,29 +118,46 @@ class GodotWriter {
             source += c;
         }
         text_.line("script/source = \"{}\"", source);
-        for (std::size_t i = 0; i < profile_.bodies.size(); ++i) {
+        for (std::size_t i = 0; i < shapes_.size(); ++i) {
             text_.blank();
             shapeResource(i);
         }
     }
 
+    // All bodies' main shapes, then the others.
+    struct ShapeOfBody {
+        const PrimitiveShape* shape;
+        std::size_t body;
+        int count;  // 1: the body's main shape
+        RigidTransform bodyFromShape;
+    };
+    void placeShapes() {
+        for (std::size_t i = 0; i < profile_.bodies.size(); ++i)
+            shapes_.push_back({&profile_.bodies[i].shape, i, 1, {}});
+        for (std::size_t i = 0; i < profile_.bodies.size(); ++i) {
+            int count = 1;
+            for (const physics::AddedShape& added : profile_.bodies[i].shape.more)
+                shapes_.push_back({&added, i, ++count, added.bodyFromShape});
+        }
+    }
+
     void shapeResource(std::size_t index) {
-        const BodyShape& shape = profile_.bodies[index].shape;
+        const PrimitiveShape& shape = *shapes_[index].shape;
         const auto begin = [&](std::string_view type) {
             text_.line("[sub_resource type=\"{}{}\" id={}]", type, four_ ? "3D" : "", idAttribute(index + 1));
         };
         switch (shape.kind) {
-            case BodyShape::Kind::capsule:
+            case PrimitiveShape::Kind::capsule:
                 begin("CapsuleShape");
                 text_.line("radius = {}", numberText(shape.radius));
                 // From tip to tip in Godot 4, between the caps' centres in Godot 3.
                 text_.line("height = {}", numberText(2.0F * (shape.halfLength + (four_ ? shape.radius : 0.0F))));
                 return;
-            case BodyShape::Kind::sphere:
+            case PrimitiveShape::Kind::sphere:
                 begin("SphereShape");
                 text_.line("radius = {}", numberText(shape.radius));
                 return;
-            case BodyShape::Kind::box:
+            case PrimitiveShape::Kind::box:
                 begin("BoxShape");
                 text_.line("{} = {}( {} )", four_ ? "size" : "extents", "Vector3",
                            vectorText(shape.halfExtents * (four_ ? 2.0F : 1.0F), ", "));
@@ -206,13 +224,22 @@ class GodotWriter {
         text_.line("mass = {}", numberText(b.massKg));
         text_.line("friction = 0.8");
         text_.line("bone_name = {}", quotedText(bones_[source_.rig.jointOfBody[index]]));
+        for (std::size_t i = 0; i < shapes_.size(); ++i)
+            if (shapes_[i].body == static_cast<std::size_t>(index)) shapeNode(i);
+    }
+
+    void shapeNode(std::size_t index) {
+        const ShapeOfBody& one = shapes_[index];
         text_.blank();
-        text_.line("[node name=\"Shape\" type=\"CollisionShape{}\" parent=\"{}/{}\"]", four_ ? "3D" : "", bodiesPath(),
-                   bodyName(profile_, index));
+        text_.line("[node name=\"Shape{}\" type=\"CollisionShape{}\" parent=\"{}/{}\"]",
+                   one.count == 1 ? "" : std::to_string(one.count), four_ ? "3D" : "", bodiesPath(),
+                   bodyName(profile_, static_cast<int>(one.body)));
         // Godot 3's capsule lies along z.
-        if (!four_ && b.shape.kind == BodyShape::Kind::capsule)
-            text_.line("transform = {}", transformText({glm::angleAxis(-0.5F * kPi, vec3(1, 0, 0)), vec3(0)}));
-        text_.line("shape = SubResource({})", idText(static_cast<std::size_t>(index) + 1));
+        const bool turned = !four_ && one.shape->kind == PrimitiveShape::Kind::capsule;
+        const RigidTransform shapeFromNode{turned ? glm::angleAxis(-0.5F * kPi, vec3(1, 0, 0)) : quat(1, 0, 0, 0),
+                                           vec3(0)};
+        if (turned || one.count > 1) text_.line("transform = {}", transformText(one.bodyFromShape * shapeFromNode));
+        text_.line("shape = SubResource({})", idText(index + 1));
     }
 
     // Both frames of a joint are one in the bind pose there: limits are told from it. Angles run clockwise.
@@ -256,6 +283,7 @@ class GodotWriter {
     const RagdollProfile& profile_;
     bool four_;
     std::vector<std::string> bones_;
+    std::vector<ShapeOfBody> shapes_;
     TextBuilder text_;
     std::vector<std::string> warnings_;
 };

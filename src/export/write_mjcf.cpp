@@ -10,8 +10,8 @@ namespace lutka::exporting {
 namespace {
 
 using physics::BodyProfile;
-using physics::BodyShape;
 using physics::ConstraintProfile;
+using physics::PrimitiveShape;
 using physics::RagdollProfile;
 
 constexpr float kFloorFriction = 0.8F;
@@ -78,29 +78,40 @@ class MjcfWriter {
         }
         text_.line("<inertial pos=\"0 0 0\" mass=\"{}\" diaginertia=\"{}\"/>", numberText(b.massKg),
                    vectorText(b.inertia));
-        shape(index, b.shape);
+        shapes(index);
         for (const int child : children_[index])
             body(child, neutralParentFromChild(profile_.constraints[child - 1]));
         text_.outdent();
         text_.line("</body>");
     }
 
-    void shape(int index, const BodyShape& s) {
+    // A capsule of theirs lies along z.
+    void shapes(int index) {
         const std::string name = bodyName(profile_, index);
+        const physics::BodyShape& all = profile_.bodies[index].shape;
+        const bool capsule = all.kind == PrimitiveShape::Kind::capsule;
+        shape(name, all, capsule ? " quat=\"0.70710678118654752 -0.70710678118654752 0 0\"" : "");
+        for (std::size_t i = 0; i < all.more.size(); ++i) {
+            const physics::AddedShape& added = all.more[i];
+            RigidTransform place = added.bodyFromShape;
+            if (added.kind == PrimitiveShape::Kind::capsule)
+                place.rotation = place.rotation * glm::angleAxis(-0.5F * kPi, vec3(1, 0, 0));
+            shape(addedName(name, i), added,
+                  fmt::format(" pos=\"{}\" quat=\"{}\"", vectorText(place.translation),
+                              quaternionTextWxyz(place.rotation)));
+        }
+    }
+    void shape(const std::string& name, const PrimitiveShape& s, const std::string& place) {
+        const auto geom = [&](std::string_view type, const std::string& size) {
+            text_.line("<geom name=\"{}\" type=\"{}\" size=\"{}\"{}/>", name, type, size, place);
+        };
         switch (s.kind) {
-            case BodyShape::Kind::capsule:
-                // Theirs lies along z.
-                text_.line(
-                    "<geom name=\"{}\" type=\"capsule\" size=\"{} {}\" quat=\"0.70710678118654752 "
-                    "-0.70710678118654752 0 0\"/>",
-                    name, numberText(s.radius), numberText(s.halfLength));
-                return;
-            case BodyShape::Kind::sphere:
-                text_.line("<geom name=\"{}\" type=\"sphere\" size=\"{}\"/>", name, numberText(s.radius));
-                return;
-            case BodyShape::Kind::box:
-                text_.line("<geom name=\"{}\" type=\"box\" size=\"{}\"/>", name, vectorText(s.halfExtents));
-                return;
+            case PrimitiveShape::Kind::capsule:
+                return geom("capsule", numberText(s.radius) + " " + numberText(s.halfLength));
+            case PrimitiveShape::Kind::sphere:
+                return geom("sphere", numberText(s.radius));
+            case PrimitiveShape::Kind::box:
+                return geom("box", vectorText(s.halfExtents));
         }
     }
 

@@ -10,8 +10,8 @@ namespace lutka::exporting {
 namespace {
 
 using physics::BodyProfile;
-using physics::BodyShape;
 using physics::ConstraintProfile;
+using physics::PrimitiveShape;
 using physics::RagdollProfile;
 
 // Of the links between two hinges, which stand for nothing: small beside every body, yet not zero, which simulators
@@ -67,8 +67,11 @@ class UrdfWriter {
         text_.line("<link name=\"{}\">", bodyName(profile_, index));
         text_.indent();
         inertial(origin, body.massKg, body.inertia);
-        for (const char* const use : {"visual", "collision"})
-            geometry(use, origin, body.shape);
+        for (const char* const use : {"visual", "collision"}) {
+            visitShapes(body.shape, [&](const PrimitiveShape& shape, const RigidTransform& bodyFromShape) {
+                geometry(use, origin * bodyFromShape, shape);
+            });
+        }
         text_.outdent();
         text_.line("</link>");
     }
@@ -90,20 +93,20 @@ class UrdfWriter {
     }
 
     // A capsule is a cylinder, which lies along z, and two spheres.
-    void geometry(const char* use, const RigidTransform& origin, const BodyShape& shape) {
+    void geometry(const char* use, const RigidTransform& origin, const PrimitiveShape& shape) {
         const std::string sphere = fmt::format("<sphere radius=\"{}\"/>", numberText(shape.radius));
         switch (shape.kind) {
-            case BodyShape::Kind::capsule:
+            case PrimitiveShape::Kind::capsule:
                 part(use, origin * RigidTransform{glm::angleAxis(-0.5F * kPi, vec3(1, 0, 0)), vec3(0)},
                      fmt::format("<cylinder radius=\"{}\" length=\"{}\"/>", numberText(shape.radius),
                                  numberText(2.0F * shape.halfLength)));
                 for (const float end : {shape.halfLength, -shape.halfLength})
                     part(use, origin * RigidTransform{quat(1, 0, 0, 0), vec3(0, end, 0)}, sphere);
                 return;
-            case BodyShape::Kind::sphere:
+            case PrimitiveShape::Kind::sphere:
                 part(use, origin, sphere);
                 return;
-            case BodyShape::Kind::box:
+            case PrimitiveShape::Kind::box:
                 part(use, origin, fmt::format("<box size=\"{}\"/>", vectorText(2.0F * shape.halfExtents)));
                 return;
         }

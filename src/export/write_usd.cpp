@@ -7,8 +7,8 @@ namespace lutka::exporting {
 namespace {
 
 using physics::BodyProfile;
-using physics::BodyShape;
 using physics::ConstraintProfile;
+using physics::PrimitiveShape;
 using physics::RagdollProfile;
 
 class UsdWriter {
@@ -64,7 +64,10 @@ class UsdWriter {
         text_.line("float3 physics:diagonalInertia = ({})", vectorText(b.inertia, ", "));
         text_.line("quatf physics:principalAxes = (1, 0, 0, 0)");
         if (!others.empty()) text_.line("rel physics:filteredPairs = [{}]", others);
-        shape(b.shape);
+        int count = 0;
+        visitShapes(b.shape, [&](const PrimitiveShape& s, const RigidTransform& bodyFromShape) {
+            shape(s, ++count, bodyFromShape);
+        });
         end();
     }
 
@@ -76,24 +79,40 @@ class UsdWriter {
         return others;
     }
 
-    void shape(const BodyShape& s) {
-        constexpr std::string_view kSchema = "\"PhysicsCollisionAPI\"";
+    // The first one lies at the body's origin.
+    void shape(const PrimitiveShape& s, int count, const RigidTransform& bodyFromShape) {
+        const bool isMain = count == 1;
+        const auto beginShape = [&](std::string_view type) {
+            begin(fmt::format("def {} \"shape{}\"", type, isMain ? "" : std::to_string(count)),
+                  "\"PhysicsCollisionAPI\"");
+            if (isMain) return;
+            text_.line("double3 xformOp:translate = ({})", vectorText(bodyFromShape.translation, ", "));
+            text_.line("quatf xformOp:orient = ({})", quaternionTextWxyz(bodyFromShape.rotation, ", "));
+        };
+        const auto order = [&](std::string_view last) {
+            const std::string_view place = isMain ? "" : "\"xformOp:translate\", \"xformOp:orient\"";
+            if (place.empty() && last.empty()) return;
+            text_.line("uniform token[] xformOpOrder = [{}{}{}]", place, place.empty() || last.empty() ? "" : ", ",
+                       last);
+        };
         switch (s.kind) {
-            case BodyShape::Kind::capsule:
-                begin("def Capsule \"shape\"", kSchema);
+            case PrimitiveShape::Kind::capsule:
+                beginShape("Capsule");
                 text_.line("uniform token axis = \"Y\"");
                 text_.line("double height = {}", numberText(2.0F * s.halfLength));  // without the caps
                 text_.line("double radius = {}", numberText(s.radius));
+                order("");
                 break;
-            case BodyShape::Kind::sphere:
-                begin("def Sphere \"shape\"", kSchema);
+            case PrimitiveShape::Kind::sphere:
+                beginShape("Sphere");
                 text_.line("double radius = {}", numberText(s.radius));
+                order("");
                 break;
-            case BodyShape::Kind::box:
-                begin("def Cube \"shape\"", kSchema);
+            case PrimitiveShape::Kind::box:
+                beginShape("Cube");
                 text_.line("double size = 2");
                 text_.line("float3 xformOp:scale = ({})", vectorText(s.halfExtents, ", "));
-                text_.line("uniform token[] xformOpOrder = [\"xformOp:scale\"]");
+                order("\"xformOp:scale\"");
                 break;
         }
         end();

@@ -159,17 +159,27 @@ Json transformJson(const RigidTransform& t) {
     return {{"p", jsonVector(t.translation)}, {"q", jsonQuaternion(t.rotation)}};
 }
 
-Json bodyJson(const physics::BodyProfile& body) {
+Json shapeJson(const physics::PrimitiveShape& shape) {
     static constexpr std::array<const char*, 3> kKinds{"capsule", "box", "sphere"};
-    const physics::BodyShape& shape = body.shape;
-    const std::size_t kind = shape.kind == physics::BodyShape::Kind::capsule ? 0
-                             : shape.kind == physics::BodyShape::Kind::box   ? 1
-                                                                             : 2;
-    return {{"name", body.name},
-            {"kind", kKinds[kind]},
+    const std::size_t kind = shape.kind == physics::PrimitiveShape::Kind::capsule ? 0
+                             : shape.kind == physics::PrimitiveShape::Kind::box   ? 1
+                                                                                  : 2;
+    return {{"kind", kKinds[kind]},
             {"radius", jsonNumber(shape.radius)},
             {"halfLength", jsonNumber(shape.halfLength)},
             {"halfExtents", jsonVector(shape.halfExtents)}};
+}
+
+Json bodyJson(const physics::BodyProfile& body) {
+    Json json = shapeJson(body.shape);
+    json["name"] = body.name;
+    json["more"] = Json::array();
+    for (const physics::AddedShape& added : body.shape.more) {
+        Json part = shapeJson(added);
+        part["place"] = transformJson(added.bodyFromShape);
+        json["more"].push_back(std::move(part));
+    }
+    return json;
 }
 
 Json constraintJson(const physics::ConstraintProfile& constraint) {

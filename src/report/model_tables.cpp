@@ -36,18 +36,25 @@ std::string fact(std::string_view term, const std::string& value) {
     return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", term, value);
 }
 
-std::string shapeText(const physics::BodyShape& shape) {
+std::string primitiveText(const physics::PrimitiveShape& shape) {
     switch (shape.kind) {
-        case physics::BodyShape::Kind::capsule:
+        case physics::PrimitiveShape::Kind::capsule:
             return fmt::format("capsule, radius {:.1f}, length {:.1f}", shape.radius * 100,
                                (shape.halfLength + shape.radius) * 200);
-        case physics::BodyShape::Kind::sphere:
+        case physics::PrimitiveShape::Kind::sphere:
             return fmt::format("sphere, radius {:.1f}", shape.radius * 100);
-        case physics::BodyShape::Kind::box:
+        case physics::PrimitiveShape::Kind::box:
             break;
     }
     return fmt::format("box {:.1f} × {:.1f} × {:.1f}", shape.halfExtents.x * 200, shape.halfExtents.y * 200,
                        shape.halfExtents.z * 200);
+}
+
+std::string shapeText(const physics::BodyShape& shape) {
+    std::string text = primitiveText(shape);
+    for (const physics::AddedShape& added : shape.more)
+        text += "<br>" + primitiveText(added);
+    return text;
 }
 
 std::string limitText(const physics::ConstraintProfile& constraint) {

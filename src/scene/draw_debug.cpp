@@ -11,38 +11,38 @@ namespace lutka::scene {
 namespace {
 
 using physics::BodyProfile;
-using physics::BodyShape;
 using physics::ConstraintProfile;
 using physics::ConstraintState;
+using physics::PrimitiveShape;
 using render::Color;
 using render::FrameDescription;
 
 constexpr float kSolidAlpha = 0.55F;
 constexpr float kVelocitySeconds = 0.1F;  // an arrow is the way of this time
 
-void drawWire(FrameDescription& frame, const RigidTransform& world, const BodyShape& shape, Color color) {
+void drawWire(FrameDescription& frame, const RigidTransform& world, const PrimitiveShape& shape, Color color) {
     switch (shape.kind) {
-        case BodyShape::Kind::capsule:
+        case PrimitiveShape::Kind::capsule:
             addCapsule(frame.lines, world, shape.radius, shape.halfLength, color);
             break;
-        case BodyShape::Kind::sphere:
+        case PrimitiveShape::Kind::sphere:
             addSphere(frame.lines, world.translation, shape.radius, color);
             break;
-        case BodyShape::Kind::box:
+        case PrimitiveShape::Kind::box:
             addBox(frame.lines, world, shape.halfExtents, color);
             break;
     }
 }
 
-void drawSolid(FrameDescription& frame, const RigidTransform& world, const BodyShape& shape, Color color) {
+void drawSolid(FrameDescription& frame, const RigidTransform& world, const PrimitiveShape& shape, Color color) {
     switch (shape.kind) {
-        case BodyShape::Kind::capsule:
+        case PrimitiveShape::Kind::capsule:
             addCapsule(frame.solids, world, shape.radius, shape.halfLength, color);
             break;
-        case BodyShape::Kind::sphere:
+        case PrimitiveShape::Kind::sphere:
             addSphere(frame.solids, world.translation, shape.radius, color);
             break;
-        case BodyShape::Kind::box:
+        case PrimitiveShape::Kind::box:
             addBox(frame.solids, world, shape.halfExtents, color);
             break;
     }
@@ -143,8 +143,10 @@ void drawBody(const DollView& doll, std::size_t i, const DebugLayers& layers, Fr
     const BodyProfile& body = doll.asset.profile.bodies[i];
     const RigidTransform& world = doll.worldFromBody[i];
     const Color color = doll.asleep ? debugColors::asleep : debugColors::awake;
-    if (layers.capsules) drawWire(frame, world, body.shape, color);
-    if (layers.solidCapsules) drawSolid(frame, world, body.shape, withAlpha(color, kSolidAlpha));
+    visitShapes(body.shape, [&](const PrimitiveShape& shape, const RigidTransform& bodyFromShape) {
+        if (layers.capsules) drawWire(frame, world * bodyFromShape, shape, color);
+        if (layers.solidCapsules) drawSolid(frame, world * bodyFromShape, shape, withAlpha(color, kSolidAlpha));
+    });
     if (layers.velocities) {
         const vec3 tip = world.translation + doll.states[i].linearVelocity * kVelocitySeconds;
         addArrow(frame.lines, world.translation, tip, debugColors::velocity);

@@ -41,7 +41,7 @@ FloorKeeper::FloorKeeper(const RagdollAsset& asset) : asset_(&asset) {
 
 float FloorKeeper::lowestOf(int body, const RigidTransform& worldFromBody) const {
     const vec3 up = glm::conjugate(worldFromBody.rotation) * vec3(0, 1, 0);
-    return worldFromBody.translation.y - physics::supportExtent(asset_->profile.bodies[body].shape, up);
+    return worldFromBody.translation.y - physics::supportExtent(asset_->profile.bodies[body].shape, -up);
 }
 
 void FloorKeeper::closeJoints(std::span<RigidTransform> worldFromBody) const {

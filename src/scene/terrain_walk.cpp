@@ -54,8 +54,8 @@ std::optional<TerrainWalk> TerrainWalk::of(const RagdollAsset& asset) {
             return std::nullopt;
         leg.bones.bendInUpper = glm::conjugate(bind[leg.bones.upper].rotation) * (modelFromStandard * vec3(0, 0, 1));
         const RigidTransform& body = asset.rig.bindModelFromBody[foot];
-        const float sole = glm::dot(body.translation, up) -
-                           physics::supportExtent(asset.profile.bodies[foot].shape, glm::conjugate(body.rotation) * up);
+        const float sole = glm::dot(body.translation, up) - physics::supportExtent(asset.profile.bodies[foot].shape,
+                                                                                   glm::conjugate(body.rotation) * -up);
         leg.ankleHeight = glm::dot(bind[leg.bones.end].translation, up) - sole;
     }
     return walk;

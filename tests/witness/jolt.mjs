@@ -48,10 +48,21 @@ function neutralPose() {
   return pose;
 }
 
-function shapeOf({ kind, radius, halfLength, halfExtents }) {
-  if (kind === 'capsule') return new Jolt.CapsuleShape(halfLength, radius);
-  if (kind === 'sphere') return new Jolt.SphereShape(radius);
-  return new Jolt.BoxShape(vec3(halfExtents), 0.01);
+function simpleShape({ kind, radius, halfLength, halfExtents }) {
+  if (kind === 'capsule') return new Jolt.CapsuleShapeSettings(halfLength, radius);
+  if (kind === 'sphere') return new Jolt.SphereShapeSettings(radius);
+  return new Jolt.BoxShapeSettings(vec3(halfExtents), 0.01);
+}
+
+/** A compound's centre of mass is its parts'; the body's, which the constraints are told from, is at its origin. */
+function shapeOf(shape) {
+  if (!shape.more) return simpleShape(shape).Create().Get();
+  const all = new Jolt.StaticCompoundShapeSettings();
+  all.AddShape(vec3([0, 0, 0]), quat([0, 0, 0, 1]), simpleShape(shape), 0);
+  for (const added of shape.more)
+    all.AddShape(vec3(added.bodyFromShape.translation), quat(added.bodyFromShape.rotation), simpleShape(added), 0);
+  const off = all.Create().Get().GetCenterOfMass();
+  return new Jolt.OffsetCenterOfMassShapeSettings(vec3([-off.GetX(), -off.GetY(), -off.GetZ()]), all).Create().Get();
 }
 
 function constraintOf(c) {

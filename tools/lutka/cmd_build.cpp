@@ -45,13 +45,13 @@ void printChanges(const std::vector<physics::ClipLimitChange>& changes) {
     }
 }
 
-std::string shapeText(const physics::BodyShape& shape) {
+std::string shapeText(const physics::PrimitiveShape& shape) {
     switch (shape.kind) {
-        case physics::BodyShape::Kind::capsule:
+        case physics::PrimitiveShape::Kind::capsule:
             return fmt::format("capsule r {:.3f} l {:.3f}", shape.radius, shape.halfLength * 2.0F);
-        case physics::BodyShape::Kind::sphere:
+        case physics::PrimitiveShape::Kind::sphere:
             return fmt::format("sphere r {:.3f}", shape.radius);
-        case physics::BodyShape::Kind::box:
+        case physics::PrimitiveShape::Kind::box:
             break;
     }
     return fmt::format("box {:.3f} {:.3f} {:.3f}", shape.halfExtents.x * 2, shape.halfExtents.y * 2,
@@ -71,6 +71,8 @@ void printTable(const physics::RagdollProfile& profile) {
         const physics::BodyProfile& body = profile.bodies[i];
         tell("{:<15} {:<28} {:<26} {:>5.2f} kg  {}\n", body.name, body.joint, shapeText(body.shape), body.massKg,
              i == 0 ? "" : limitText(profile.constraints[i - 1]));
+        for (const physics::AddedShape& added : body.shape.more)
+            tell("{:<15} {:<28} {:<26}\n", "", "and", shapeText(added));
     }
     tell("{:.2f} m tall, {:.1f} kg, {} bodies, {} constraints, {} pairs that don't collide beside the linked\n",
          profile.heightM, profile.totalMassKg, profile.bodies.size(), profile.constraints.size(),

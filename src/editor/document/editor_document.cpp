@@ -277,11 +277,11 @@ EditorDocument::PartValues EditorDocument::copyPart(int body) const {
 
 Result<void> EditorDocument::pasteParts(std::span<const int> bodies, const PartValues& values) {
     return changeParts(bodies, "Paste", "", [&](Part& part) -> Result<void> {
-        part.body.shape = values.shape;
-        part.body.massKg = values.massKg;
-        if (part.constraint == nullptr || !values.joint) return {};
         const Side side = physics::sideOf(profile(), physics::bodyNamed(profile(), part.body.name));
         const bool across = side != values.side && side != Side::center && values.side != Side::center;
+        part.body.shape = across ? physics::mirrored(values.shape) : values.shape;
+        part.body.massKg = values.massKg;
+        if (part.constraint == nullptr || !values.joint) return {};
         physics::changeKind(*part.constraint, values.joint->kind, part.bind);
         physics::setJointRange(*part.constraint, across ? mirrored(values.joint->range) : values.joint->range,
                                part.bind);

@@ -51,7 +51,7 @@ void mirrorPlace(RagdollProfile& profile, std::span<const RigidTransform> bind, 
 }  // namespace
 
 void mirrorBody(RagdollProfile& profile, std::span<const RigidTransform> bindModelFromBody, int from, int to) {
-    profile.bodies[to].shape = profile.bodies[from].shape;
+    profile.bodies[to].shape = physics::mirrored(profile.bodies[from].shape);
     profile.bodies[to].massKg = profile.bodies[from].massKg;
     const ConstraintProfile& source = profile.constraints[from - 1];
     ConstraintProfile& target = profile.constraints[to - 1];

@@ -13,14 +13,14 @@ using physics::BodyProfile;
 using physics::ConstraintProfile;
 using physics::RagdollProfile;
 
-bool same(const physics::BodyShape& a, const physics::BodyShape& b) {
+bool same(const physics::PrimitiveShape& a, const physics::PrimitiveShape& b) {
     if (a.kind != b.kind) return false;
     switch (a.kind) {
-        case physics::BodyShape::Kind::box:
+        case physics::PrimitiveShape::Kind::box:
             return a.halfExtents == b.halfExtents;
-        case physics::BodyShape::Kind::sphere:
+        case physics::PrimitiveShape::Kind::sphere:
             return a.radius == b.radius;
-        case physics::BodyShape::Kind::capsule:
+        case physics::PrimitiveShape::Kind::capsule:
             break;
     }
     return a.radius == b.radius && a.halfLength == b.halfLength;
@@ -32,6 +32,17 @@ bool same(const RigidTransform& a, const RigidTransform& b) {
     const quat apart = glm::conjugate(a.rotation) * b.rotation;
     return glm::distance(a.translation, b.translation) < metres &&
            glm::length(vec3(apart.x, apart.y, apart.z)) < halfAngle;
+}
+
+bool same(const physics::AddedShape& a, const physics::AddedShape& b) {
+    return same(static_cast<const physics::PrimitiveShape&>(a), static_cast<const physics::PrimitiveShape&>(b)) &&
+           same(a.bodyFromShape, b.bodyFromShape);
+}
+
+bool same(const physics::BodyShape& a, const physics::BodyShape& b) {
+    return same(static_cast<const physics::PrimitiveShape&>(a), static_cast<const physics::PrimitiveShape&>(b)) &&
+           std::equal(a.more.begin(), a.more.end(), b.more.begin(), b.more.end(),
+                      [](const auto& x, const auto& y) { return same(x, y); });
 }
 
 bool same(const physics::HingeLimits& a, const physics::HingeLimits& b) {

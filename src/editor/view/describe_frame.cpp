@@ -96,15 +96,22 @@ void drawLightsAndCameras(const Workspace& workspace, render::LineBatch& lines) 
     }
 }
 
-void drawBody(const physics::BodyShape& shape, const RigidTransform& worldFromBody, render::Color color,
-              render::LineBatch& lines) {
-    if (shape.kind == physics::BodyShape::Kind::capsule) {
-        render::addCapsule(lines, worldFromBody, shape.radius, shape.halfLength, color);
-    } else if (shape.kind == physics::BodyShape::Kind::sphere) {
-        render::addSphere(lines, worldFromBody.translation, shape.radius, color);
+void drawPrimitive(const physics::PrimitiveShape& shape, const RigidTransform& worldFromShape, render::Color color,
+                   render::LineBatch& lines) {
+    if (shape.kind == physics::PrimitiveShape::Kind::capsule) {
+        render::addCapsule(lines, worldFromShape, shape.radius, shape.halfLength, color);
+    } else if (shape.kind == physics::PrimitiveShape::Kind::sphere) {
+        render::addSphere(lines, worldFromShape.translation, shape.radius, color);
     } else {
-        render::addBox(lines, worldFromBody, shape.halfExtents, color);
+        render::addBox(lines, worldFromShape, shape.halfExtents, color);
     }
+}
+
+void drawBody(const physics::BodyShape& body, const RigidTransform& worldFromBody, render::Color color,
+              render::LineBatch& lines) {
+    visitShapes(body, [&](const physics::PrimitiveShape& shape, const RigidTransform& bodyFromShape) {
+        drawPrimitive(shape, worldFromBody * bodyFromShape, color, lines);
+    });
 }
 
 // Blue at 0, green in the middle, red at 1.

@@ -2,6 +2,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
 #include <new>
@@ -13,6 +14,36 @@
 
 namespace lutka::physics {
 namespace {
+
+// Features of the pairs of a body's shapes are kept apart by these.
+constexpr int kPartStride = 1 << 20;
+constexpr int kParts = 1 + static_cast<int>(BodyShape::kMostAdded);
+
+bool isPart(const btCollisionObjectWrapper& wrapper) {
+    return wrapper.getCollisionShape() != wrapper.getCollisionObject()->getCollisionShape();
+}
+// 0 for what is whole, and for a body's main shape.
+int numberOf(const btCollisionObjectWrapper& wrapper) {
+    return isPart(wrapper) ? std::max(wrapper.m_index, 0) : 0;
+}
+
+CollisionGeometry geometryOfPart(const btCollisionObjectWrapper& wrapper, const GeometryCache& geometries) {
+    if (!isPart(wrapper)) return geometries.of(*wrapper.getCollisionObject());
+    CollisionGeometry geometry;
+    float reach = 0.0F;
+    [[maybe_unused]] const bool known = describeShape(*wrapper.getCollisionShape(), geometry, reach);
+    geometry.worldFromShape = fromBullet(wrapper.getWorldTransform());
+    return geometry;
+}
+
+// Before each step Bullet's compound algorithms place the old points anew by these, and drop what has drifted off.
+void setLocalPoints(btPersistentManifold& manifold) {
+    for (int i = 0; i < manifold.getNumContacts(); ++i) {
+        btManifoldPoint& point = manifold.getContactPoint(i);
+        point.m_localPointA = manifold.getBody0()->getWorldTransform().invXform(point.m_positionWorldOnA);
+        point.m_localPointB = manifold.getBody1()->getWorldTransform().invXform(point.m_positionWorldOnB);
+    }
+}
 
 class AnalyticCollision final : public btCollisionAlgorithm {
   public:
@@ -35,6 +66,8 @@ class AnalyticCollision final : public btCollisionAlgorithm {
 
     /// Brings the manifolds up to date with where the two are.
     void collide(const btCollisionObject& a, const btCollisionObject& b);
+    /// The same of a part of a body of several shapes, which Bullet's compound algorithms hand over one by one.
+    void collideParts(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b);
     /// The two are too far apart for any contact.
     void release() { keep(0, nullptr, nullptr); }
 
@@ -101,8 +134,25 @@ void AnalyticCollision::fill(const ContactList& list) {
 
 void AnalyticCollision::processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
                                          const btDispatcherInfo& /*info*/, btManifoldResult* result) {
-    collide(*a->getCollisionObject(), *b->getCollisionObject());
+    if (isPart(*a) || isPart(*b))
+        collideParts(*a, *b);
+    else
+        collide(*a->getCollisionObject(), *b->getCollisionObject());
     result->setPersistentManifold(manifolds_[0]);
+}
+
+void AnalyticCollision::collideParts(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
+    const btCollisionObject& objectA = *a.getCollisionObject();
+    const btCollisionObject& objectB = *b.getCollisionObject();
+    const float margin = margin_ + geometries_.aheadOf(objectA) + geometries_.aheadOf(objectB);
+    ContactList list = findContacts(geometryOfPart(a, geometries_), geometryOfPart(b, geometries_), margin);
+    for (int i = 0; i < list.count; ++i)
+        list.contacts[i].feature += kPartStride * (numberOf(a) + kParts * numberOf(b));
+    keep(list.count, &objectA, &objectB);
+    if (list.count == 0) return;
+    fill(list);
+    for (btPersistentManifold* manifold : manifolds_)
+        if (manifold != nullptr) setLocalPoints(*manifold);
 }
 
 void AnalyticCollision::collide(const btCollisionObject& a, const btCollisionObject& b) {

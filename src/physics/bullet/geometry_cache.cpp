@@ -12,8 +12,9 @@ namespace {
 constexpr float kForeseen = 0.03F;  // metres of motion in a substep that the usual margin covers
 constexpr float kFar = std::numeric_limits<float>::max();
 
-// The shape's own part of the geometry; false for shapes that findContacts() does not know.
-bool shapeOf(const btCollisionShape& shape, CollisionGeometry& geometry, float& reach) {
+}  // namespace
+
+bool describeShape(const btCollisionShape& shape, CollisionGeometry& geometry, float& reach) {
     reach = kFar;
     switch (shape.getShapeType()) {
         case CAPSULE_SHAPE_PROXYTYPE: {
@@ -43,8 +44,6 @@ bool shapeOf(const btCollisionShape& shape, CollisionGeometry& geometry, float& 
             return false;
     }
 }
-
-}  // namespace
 
 void GeometryCache::place(int index, const btCollisionObject& object) {
     CollisionGeometry& geometry = geometries_[index];
@@ -77,7 +76,7 @@ void GeometryCache::refresh(const btCollisionObjectArray& objects, std::span<btR
     known_.assign(count, 0);
     for (std::size_t i = 0; i < count; ++i) {
         const btCollisionObject& object = *objects[static_cast<int>(i)];
-        known_[i] = shapeOf(*object.getCollisionShape(), geometries_[i], reaches_[i]) ? 1 : 0;
+        known_[i] = describeShape(*object.getCollisionShape(), geometries_[i], reaches_[i]) ? 1 : 0;
         place(static_cast<int>(i), object);
     }
     refresh(objects, moving, seconds);

@@ -9,6 +9,10 @@
 
 namespace lutka::physics {
 
+/// What findContacts() is to know of a Bullet shape, but for where it is; false for shapes that it does not know.
+/// `reach`: radius of a ball around its centre that holds it, metres; FLT_MAX for planes and meshes.
+[[nodiscard]] bool describeShape(const btCollisionShape& shape, CollisionGeometry& geometry, float& reach);
+
 /// The geometry of every collision object of a world where it is now, worked out once a substep instead of once a pair.
 class GeometryCache {
   public:

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "physics/bullet/convert.hpp"
+#include "physics/collision/shape.hpp"
 
 namespace lutka::physics {
 namespace {
@@ -30,7 +31,7 @@ LedBodies::LedBodies(std::vector<btRigidBody*> bodies, const RagdollProfile& pro
         const BodyShape& shape = body.shape;
         const float half =
             shape.kind == BodyShape::Kind::box ? glm::length(shape.halfExtents) : shape.radius + shape.halfLength;
-        reach_ = std::max(reach_, half);
+        reach_ = std::max({reach_, half, shape.more.empty() ? 0.0F : boundingRadius(shape)});
     }
 }
 

@@ -10,16 +10,36 @@
 
 namespace lutka::physics {
 
-std::unique_ptr<btCollisionShape> makeShape(const BodyShape& shape) {
+namespace {
+
+std::unique_ptr<btCollisionShape> makePrimitive(const PrimitiveShape& shape) {
     switch (shape.kind) {
-        case BodyShape::Kind::capsule:
+        case PrimitiveShape::Kind::capsule:
             return std::make_unique<btCapsuleShape>(shape.radius, 2.0F * shape.halfLength);
-        case BodyShape::Kind::box:
+        case PrimitiveShape::Kind::box:
             return std::make_unique<btBoxShape>(toBullet(shape.halfExtents));
-        case BodyShape::Kind::sphere:
+        case PrimitiveShape::Kind::sphere:
             break;
     }
     return std::make_unique<btSphereShape>(shape.radius);
+}
+
+// The union of a body's shapes.
+class UnionShape final : private std::vector<std::unique_ptr<btCollisionShape>>, public btCompoundShape {
+  public:
+    explicit UnionShape(const BodyShape& shape) : btCompoundShape(true, 1 + static_cast<int>(shape.more.size())) {
+        visitShapes(shape, [&](const PrimitiveShape& part, const RigidTransform& bodyFromShape) {
+            push_back(makePrimitive(part));
+            addChildShape(toBullet(bodyFromShape), back().get());
+        });
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<btCollisionShape> makeShape(const BodyShape& shape) {
+    if (shape.more.empty()) return makePrimitive(shape);
+    return std::make_unique<UnionShape>(shape);
 }
 
 BodyInWorld makeBody(const BodyShape& shape, float massKg, const vec3& inertia, const BodyState& state) {

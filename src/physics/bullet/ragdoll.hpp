@@ -15,7 +15,7 @@
 
 namespace lutka::physics {
 
-/// Bullet's shape for a profile's.
+/// Bullet's shape for a profile's: a compound, which owns its children, where there are several.
 [[nodiscard]] std::unique_ptr<btCollisionShape> makeShape(const BodyShape& shape);
 
 /// A rigid body with the shape that it uses.

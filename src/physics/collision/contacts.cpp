@@ -175,16 +175,16 @@ ContactList findContacts(const CollisionGeometry& a, const CollisionGeometry& b,
     return out;
 }
 
-CollisionGeometry geometryOf(const BodyShape& shape, const RigidTransform& worldFromBody) {
+CollisionGeometry geometryOf(const PrimitiveShape& shape, const RigidTransform& worldFromShape) {
     CollisionGeometry geometry;
-    geometry.worldFromShape = worldFromBody;
-    if (shape.kind == BodyShape::Kind::box) {
+    geometry.worldFromShape = worldFromShape;
+    if (shape.kind == PrimitiveShape::Kind::box) {
         geometry.kind = ShapeKind::box;
         geometry.halfExtents = shape.halfExtents;
         return geometry;
     }
     geometry.radius = shape.radius;
-    geometry.halfLength = shape.kind == BodyShape::Kind::capsule ? shape.halfLength : 0.0F;
+    geometry.halfLength = shape.kind == PrimitiveShape::Kind::capsule ? shape.halfLength : 0.0F;
     return geometry;
 }
 

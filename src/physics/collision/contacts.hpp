@@ -5,7 +5,7 @@
 #include "core/rigid_transform.hpp"
 #include "physics/collision/shape_distance.hpp"
 #include "physics/collision/static_shape.hpp"
-#include "physics/profile/profile.hpp"
+#include "physics/profile/body_shape.hpp"
 
 namespace lutka::physics {
 
@@ -20,7 +20,7 @@ struct CollisionGeometry {
     const TriangleMesh* mesh = nullptr;  ///< Not null for a mesh.
 };
 
-[[nodiscard]] CollisionGeometry geometryOf(const BodyShape& shape, const RigidTransform& worldFromBody);
+[[nodiscard]] CollisionGeometry geometryOf(const PrimitiveShape& shape, const RigidTransform& worldFromShape);
 [[nodiscard]] CollisionGeometry geometryOf(const StaticShape& shape);
 
 /// Where two shapes touch or soon will.

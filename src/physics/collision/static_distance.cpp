@@ -13,11 +13,11 @@ namespace {
 constexpr float kNearMesh = 0.3F;  // metres: how far from a mesh a body's distance matters
 
 // A box, sphere or capsule as what a body's shape would be.
-BodyShape solidOf(const StaticShape& geometry) {
-    BodyShape solid;
-    solid.kind = geometry.kind == ShapeKind::box      ? BodyShape::Kind::box
-                 : geometry.kind == ShapeKind::sphere ? BodyShape::Kind::sphere
-                                                      : BodyShape::Kind::capsule;
+PrimitiveShape solidOf(const StaticShape& geometry) {
+    PrimitiveShape solid;
+    solid.kind = geometry.kind == ShapeKind::box      ? PrimitiveShape::Kind::box
+                 : geometry.kind == ShapeKind::sphere ? PrimitiveShape::Kind::sphere
+                                                      : PrimitiveShape::Kind::capsule;
     solid.halfExtents = geometry.halfExtents;
     solid.radius = geometry.radius;
     solid.halfLength = geometry.halfLength;
@@ -57,14 +57,14 @@ float leastAlong(const TriangleMesh& mesh, const Segment& segment, float range) 
 }
 
 // Round shapes exactly; boxes by their corners and the mesh's vertices.
-float distanceToMesh(const BodyShape& shape, const RigidTransform& meshFromBody, const TriangleMesh& mesh) {
+float distanceToMesh(const PrimitiveShape& shape, const RigidTransform& meshFromBody, const TriangleMesh& mesh) {
     const float reach = boundingRadius(shape);
     const float range = 2.0F * reach + kNearMesh;
     const vec3 gap =
         glm::max(glm::max(mesh.low() - meshFromBody.translation, meshFromBody.translation - mesh.high()), vec3(0));
     if (glm::length(gap) > range) return glm::length(gap) - reach;
-    if (shape.kind != BodyShape::Kind::box) {
-        const float half = shape.kind == BodyShape::Kind::capsule ? shape.halfLength : 0.0F;
+    if (shape.kind != PrimitiveShape::Kind::box) {
+        const float half = shape.kind == PrimitiveShape::Kind::capsule ? shape.halfLength : 0.0F;
         const Segment core{meshFromBody * vec3(0, -half, 0), meshFromBody * vec3(0, half, 0)};
         return leastAlong(mesh, core, range) - shape.radius;
     }
@@ -100,7 +100,7 @@ float lowestFloorOf(const TriangleMesh& mesh, const RigidTransform& worldFromMes
 
 }  // namespace
 
-float distanceToStatic(const BodyShape& shape, const RigidTransform& worldFromBody, const StaticShape& geometry) {
+float distanceToStatic(const PrimitiveShape& shape, const RigidTransform& worldFromBody, const StaticShape& geometry) {
     if (geometry.kind == StaticShape::Kind::mesh)
         return distanceToMesh(shape, inverse(geometry.worldFromShape) * worldFromBody, *geometry.mesh);
     if (geometry.kind != StaticShape::Kind::plane)
@@ -108,6 +108,14 @@ float distanceToStatic(const BodyShape& shape, const RigidTransform& worldFromBo
     const vec3 normal = geometry.worldFromShape.rotation * vec3(0, 1, 0);
     const float height = glm::dot(normal, worldFromBody.translation - geometry.worldFromShape.translation);
     return height - supportExtent(shape, glm::conjugate(worldFromBody.rotation) * normal);
+}
+
+float distanceToStatic(const BodyShape& shape, const RigidTransform& worldFromBody, const StaticShape& geometry) {
+    float least = distanceToStatic(static_cast<const PrimitiveShape&>(shape), worldFromBody, geometry);
+    for (const AddedShape& added : shape.more)
+        least = std::min(least, distanceToStatic(static_cast<const PrimitiveShape&>(added),
+                                                 worldFromBody * added.bodyFromShape, geometry));
+    return least;
 }
 
 float lowestSurface(std::span<const StaticShape> statics, const vec3& up) {

@@ -4,11 +4,14 @@
 
 #include "core/rigid_transform.hpp"
 #include "physics/collision/static_shape.hpp"
-#include "physics/profile/profile.hpp"
+#include "physics/profile/body_shape.hpp"
 
 namespace lutka::physics {
 
-/// Signed distance from the body's surface to the static shape's, metres; negative: the depth of the overlap.
+/// Signed distance from the body's surface to the static shape's, metres; negative: the depth of the overlap. Of
+/// several shapes the least.
+[[nodiscard]] float distanceToStatic(const PrimitiveShape& shape, const RigidTransform& worldFromShape,
+                                     const StaticShape& geometry);
 [[nodiscard]] float distanceToStatic(const BodyShape& shape, const RigidTransform& worldFromBody,
                                      const StaticShape& geometry);
 

@@ -129,7 +129,7 @@ void CrowdWorld::removeStaticAt(int index) {
         std::erase_if(doll.statics,
                       [&](const CarriedStatic& touch) { return geometryOfKey(touch.contact.key) == index; });
         for (CarriedStatic& touch : doll.statics)
-            if (geometryOfKey(touch.contact.key) > index) touch.contact.key -= staticKey(0, 0, 0);
+            if (geometryOfKey(touch.contact.key) > index) touch.contact.key -= staticKey(0, 0, 0, 0);
     }
     state_.reports.clear();
 }
@@ -268,10 +268,12 @@ void CrowdWorld::rayAgainstDoll(int index, const vec3& from, const vec3& to, std
     const Doll& doll = state_.dolls[index];
     const bool isDoll = doll.profile != nullptr;
     for (int body = 0; body < state_.groupOf(doll).topology.bodyCount(); ++body) {
-        const RayTouch touch = rayAgainst(placedShape(state_, doll, body), from, to);
-        if (touch.fraction > 1.0F || (nearest && touch.fraction >= nearest->fraction)) continue;
-        nearest = RayHit{doll.side.doll, isDoll ? body : -1, from + touch.fraction * (to - from), touch.normal,
-                         touch.fraction};
+        for (int shape = 0; shape < state_.groupOf(doll).topology.shapeCount(body); ++shape) {
+            const RayTouch touch = rayAgainst(placedShape(state_, doll, body, shape), from, to);
+            if (touch.fraction > 1.0F || (nearest && touch.fraction >= nearest->fraction)) continue;
+            nearest = RayHit{doll.side.doll, isDoll ? body : -1, from + touch.fraction * (to - from), touch.normal,
+                             touch.fraction};
+        }
     }
 }
 
@@ -326,8 +328,8 @@ void CrowdWorld::getContacts(std::vector<ContactPoint>& contacts) const {
         if (touch.carried.normal <= 0.0F) continue;
         const Doll& b = state_.dolls[touch.dollB];
         const vec3 core = bodyState(state_, b, touch.bodyB).worldFromBody * touch.touch.localB;
-        const BodyShape& shape = state_.groupOf(b).topology.shapes[touch.bodyB];
-        const float radius = shape.kind == BodyShape::Kind::box ? 0.0F : shape.radius;
+        const PrimitiveShape& shape = state_.groupOf(b).topology.shapeOf(touch.bodyB, touch.shapeB);
+        const float radius = shape.kind == PrimitiveShape::Kind::box ? 0.0F : shape.radius;
         contacts.push_back({core + touch.touch.normal * radius, touch.touch.normal, touch.touch.separation});
     }
 }

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "physics/collision/shape.hpp"
 #include "physics/crowd/static_contacts.hpp"
 
 namespace lutka::physics::crowd {
@@ -15,7 +16,6 @@ StepBody stepBody(const CrowdState& state, const Doll& doll, int body) {
     const BodyConstants& constants = topology.bodies[body];
     const BodyState moving = bodyState(state, doll, body);
     const PlacedShape placed = placedShape(state, doll, body);
-    const bool isBox = placed.shape->kind == BodyShape::Kind::box;
     const vec3 half = placed.axes[1] * constants.extent[1];
     StepBody step{};
     for (int i = 0; i < 3; ++i) {
@@ -24,9 +24,10 @@ StepBody stepBody(const CrowdState& state, const Doll& doll, int body) {
         step.velocity[i] = moving.linearVelocity[i];
     }
     step.radius = constants.radius;
-    step.halfLength = isBox ? kBoxCore : constants.extent[1];
+    step.halfLength = topology.isCore(body) ? constants.extent[1] : kBoxCore;  // of several shapes, too
     step.swing = glm::length(moving.angularVelocity) * constants.reach;
     step.size = constants.reach + constants.radius;
+    if (topology.shapeCount(body) > 1) step.size = boundingRadius(topology.shapes[body]);
     return step;
 }
 
@@ -42,38 +43,66 @@ float distanceIn(const TouchRange& range, const StepBody& a, const StepBody& b) 
            range.seconds * (glm::length(vectorOf(a.velocity) - vectorOf(b.velocity)) + a.swing + b.swing);
 }
 
-std::uint64_t pairKey(const Doll& a, int bodyA, const Doll& b, int bodyB, int index) {
-    const auto first = static_cast<std::uint64_t>(a.firstBody) + static_cast<std::uint64_t>(bodyA) + 1;
-    const auto second = static_cast<std::uint64_t>(b.firstBody) + static_cast<std::uint64_t>(bodyB) + 1;
-    return first << 34U | second << 4U | static_cast<std::uint64_t>(index);
-}
-
-// A body of a doll.
+// A body of a doll, or one of its shapes.
 struct BodyRef {
     int doll;
     int body;
+    int shape = 0;
 };
+
+std::uint64_t pairKey(const CrowdState& state, const BodyRef& a, const BodyRef& b, int index) {
+    const auto numberOf = [&](const BodyRef& ref) {
+        return static_cast<std::uint64_t>(state.dolls[ref.doll].firstBody) + static_cast<std::uint64_t>(ref.body) + 1;
+    };
+    return numberOf(a) << 36U | numberOf(b) << 8U | static_cast<std::uint64_t>(a.shape) << 6U |
+           static_cast<std::uint64_t>(b.shape) << 4U | static_cast<std::uint64_t>(index);
+}
+
 void addTouch(const CrowdState& state, const BodyRef& a, const BodyRef& b, int index, const BodyTouch& at,
               std::vector<PairTouch>& out) {
-    PairTouch touch{a.doll, a.body, b.doll, b.body, at, {}};
-    const std::uint64_t key = pairKey(state.dolls[a.doll], a.body, state.dolls[b.doll], b.body, index);
+    PairTouch touch{a.doll, a.body, b.doll, b.body, at, {}, a.shape, b.shape};
+    const std::uint64_t key = pairKey(state, a, b, index);
     if (const CarriedContact* carried = state.carried.find(key)) touch.carried = *carried;
     touch.carried.key = key;
     makeRoom(out, out.size() + 1);
     out.push_back(touch);
 }
 
-// Two bodies of which one is a box.
-void collideBoxes(const CrowdState& state, const BodyRef& a, const StepBody& stepA, const BodyRef& b,
-                  const StepBody& stepB, const TouchRange& range, std::vector<PairTouch>& out) {
+const Topology& topologyOf(const CrowdState& state, const BodyRef& ref) {
+    return state.groupOf(state.dolls[ref.doll]).topology;
+}
+
+// The contacts of each shape of one body with each of the other, their points in the bodies' spaces.
+template <class Visit>
+void touchAllShapes(const CrowdState& state, const BodyRef& a, const BodyRef& b, float distance, Visit visit) {
+    const Topology& topologyA = topologyOf(state, a);
+    const Topology& topologyB = topologyOf(state, b);
+    for (int shapeA = 0; shapeA < topologyA.shapeCount(a.body); ++shapeA) {
+        const PlacedShape placedA = placedShape(state, state.dolls[a.doll], a.body, shapeA);
+        for (int shapeB = 0; shapeB < topologyB.shapeCount(b.body); ++shapeB) {
+            Touches<BodyTouch> found =
+                touchBodies(placedA, placedShape(state, state.dolls[b.doll], b.body, shapeB), distance);
+            for (int i = 0; i < found.count; ++i) {
+                BodyTouch& touch = found.points[i];
+                touch.localA = topologyA.inBody(a.body, shapeA, touch.localA);
+                touch.localB = topologyB.inBody(b.body, shapeB, touch.localB);
+                visit(BodyRef{a.doll, a.body, shapeA}, BodyRef{b.doll, b.body, shapeB}, i, touch);
+            }
+        }
+    }
+}
+
+// Two bodies of which one is a box or has several shapes.
+void collideShapes(const CrowdState& state, const BodyRef& a, const StepBody& stepA, const BodyRef& b,
+                   const StepBody& stepB, const TouchRange& range, std::vector<PairTouch>& out) {
     const float distance = distanceIn(range, stepA, stepB);
     const vec3 apart = vectorOf(stepA.centre) - vectorOf(stepB.centre);
     const float reach = stepA.size + stepB.size + distance;
     if (glm::dot(apart, apart) > reach * reach) return;
-    const Touches<BodyTouch> found = touchBodies(placedShape(state, state.dolls[a.doll], a.body),
-                                                 placedShape(state, state.dolls[b.doll], b.body), distance);
-    for (int i = 0; i < found.count; ++i)
-        addTouch(state, a, b, i, found.points[i], out);
+    touchAllShapes(state, a, b, distance,
+                   [&](const BodyRef& shapeA, const BodyRef& shapeB, int index, const BodyTouch& touch) {
+                       addTouch(state, shapeA, shapeB, index, touch, out);
+                   });
 }
 
 BodyTouch touchOf(const CoreTouchLanes& found, int lane) {
@@ -108,7 +137,7 @@ class TouchSearch {
         const unsigned near = state_.kernels->touchCores(stepA_, stepB_, range_, found);
         for (int lane = 0; lane < count_; ++lane) {
             if (stepA_[lane]->halfLength == kBoxCore || stepB_[lane]->halfLength == kBoxCore)
-                collideBoxes(state_, a_[lane], *stepA_[lane], b_[lane], *stepB_[lane], range_, out_);
+                collideShapes(state_, a_[lane], *stepA_[lane], b_[lane], *stepB_[lane], range_, out_);
             else if ((near >> static_cast<unsigned>(lane) & 1U) != 0)
                 addTouch(state_, a_[lane], b_[lane], 0, touchOf(found, lane), out_);
         }
@@ -128,9 +157,39 @@ class TouchSearch {
 
 }  // namespace
 
+namespace {
+
+// The kernels bound main shapes; what the others reach beyond, with the same motion.
+void boundAdded(const CrowdState& state, Batch& batch, const Topology& topology, float dt) {
+    for (int body = 0; body < topology.bodyCount(); ++body) {
+        if (topology.shapeCount(body) == 1) continue;
+        BodyLanes& lanes = batch.bodies[body];
+        for (int lane = 0; lane < batch.used; ++lane) {
+            const Doll& doll = state.dolls[batch.doll[lane]];
+            const float turn = glm::length(readVector(lanes.angular, lane));
+            const vec3 moved =
+                glm::abs(readVector(lanes.velocity, lane) - readVector(batch.bodies[0].velocity, lane)) * dt +
+                (turn * topology.bodies[body].reach * dt + state.tuning.pairMargin);
+            vec3 low = readVector(lanes.low, lane);
+            vec3 high = readVector(lanes.high, lane);
+            for (int shape = 1; shape < topology.shapeCount(body); ++shape) {
+                const PlacedShape placed = placedShape(state, doll, body, shape);
+                const vec3 half = halfBounds(placed) + moved;
+                low = glm::min(low, placed.position - half);
+                high = glm::max(high, placed.position + half);
+            }
+            writeVector(lanes.low, lane, low);
+            writeVector(lanes.high, lane, high);
+        }
+    }
+}
+
+}  // namespace
+
 void findBounds(CrowdState& state, Batch& batch, const Topology& topology, float dt) {
     const BatchView view = batch.view(topology);
     state.kernels->findBounds(view, dt, state.tuning.pairMargin);
+    if (topology.anyAdded) boundAdded(state, batch, topology, dt);
     Wide3 low;
     Wide3 high;
     state.kernels->joinBounds(view, low, high);
@@ -162,20 +221,19 @@ void findSelfContacts(CrowdState& state, Batch& batch, const BatchView& view, co
     std::vector<unsigned char>& masks = batch.selfMasks;
     masks.resize(pairs.size());
     state.kernels->findSelfPairs(view, pairs.data(), static_cast<int>(pairs.size()), masks.data());
-    const auto isBox = [&](int body) { return topology.shapes[body].kind == BodyShape::Kind::box; };
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         if (masks[i] == 0) continue;
         const auto [bodyA, bodyB] = pairs[i];
         CoreTouchLanes found;
-        const bool boxes = isBox(bodyA) || isBox(bodyB);
-        const unsigned near = masks[i] & (boxes ? ~0U : state.kernels->touchOwnCores(view, pairs[i], range, found));
+        const bool cores = topology.isCore(bodyA) && topology.isCore(bodyB);
+        const unsigned near = masks[i] & (!cores ? ~0U : state.kernels->touchOwnCores(view, pairs[i], range, found));
         for (int lane = 0; lane < batch.used; ++lane) {
             if ((near >> static_cast<unsigned>(lane) & 1U) == 0) continue;
             const BodyRef a{batch.doll[lane], bodyA};
             const BodyRef b{batch.doll[lane], bodyB};
             const Doll& doll = state.dolls[a.doll];
-            if (boxes)
-                collideBoxes(state, a, stepBody(state, doll, bodyA), b, stepBody(state, doll, bodyB), range, out);
+            if (!cores)
+                collideShapes(state, a, stepBody(state, doll, bodyA), b, stepBody(state, doll, bodyB), range, out);
             else
                 addTouch(state, a, b, 0, touchOf(found, lane), out);
         }
@@ -203,25 +261,28 @@ void collideDolls(const CrowdState& state, int indexA, int indexB, float dt, std
 }
 
 // Whether an awake doll is about to push a sleeping one.
-bool pushes(const CrowdState& state, const Doll& mover, const Doll& sleeper, float dt) {
+bool pushes(const CrowdState& state, int moverIndex, int sleeperIndex, float dt) {
     constexpr float kPushSpeed = 0.02F;  // m/s: what only leans is left to lie
     constexpr float kOverlap = 0.01F;    // metres
+    const Doll& mover = state.dolls[moverIndex];
+    const Doll& sleeper = state.dolls[sleeperIndex];
     for (int i = 0; i < state.groupOf(mover).topology.bodyCount(); ++i) {
         const BodyState move = bodyState(state, mover, i);
         const StepBody step = stepBody(state, mover, i);
         const PlacedShape placed = placedShape(state, mover, i);
         for (int j = 0; j < state.groupOf(sleeper).topology.bodyCount(); ++j) {
             const StepBody other = stepBody(state, sleeper, j);
-            const Touches<BodyTouch> found =
-                touchBodies(placed, placedShape(state, sleeper, j), distanceIn(touchRange(state, dt), step, other));
-            for (int k = 0; k < found.count; ++k) {
-                const BodyTouch& touch = found.points[k];
+            bool pushed = false;
+            const auto judge = [&](const BodyRef&, const BodyRef&, int, const BodyTouch& touch) {
                 const vec3 arm = placed.axes * touch.localA;
                 const float closing =
                     -glm::dot(touch.normal, move.linearVelocity + glm::cross(move.angularVelocity, arm));
-                if (touch.separation < -kOverlap) return true;
-                if (closing > kPushSpeed && touch.separation < closing * dt) return true;
-            }
+                pushed =
+                    pushed || touch.separation < -kOverlap || (closing > kPushSpeed && touch.separation < closing * dt);
+            };
+            touchAllShapes(state, {moverIndex, i}, {sleeperIndex, j}, distanceIn(touchRange(state, dt), step, other),
+                           judge);
+            if (pushed) return true;
         }
     }
     return false;
@@ -303,7 +364,7 @@ void wakeTouched(CrowdState& state, float dt) {
             if (firstSleeps == state.dolls[second].asleep()) continue;
             const int sleeper = firstSleeps ? first : second;
             const int mover = firstSleeps ? second : first;
-            if (!pushes(state, state.dolls[mover], state.dolls[sleeper], dt)) continue;
+            if (!pushes(state, mover, sleeper, dt)) continue;
             wakeIsland(state, sleeper);
             woken = true;
         }

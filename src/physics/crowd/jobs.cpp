@@ -21,11 +21,14 @@ void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTou
     pair.bodyB[lane] = state.batchOf(b).bodyLane(touch.bodyB, b.lane);
     writeVector(pair.localA, lane, touch.touch.localA);
     writeVector(pair.localB, lane, touch.touch.localB);
-    const BodyShape& shapeA = state.groupOf(a).topology.shapes[touch.bodyA];
-    const BodyShape& shapeB = state.groupOf(b).topology.shapes[touch.bodyB];
+    const PrimitiveShape& shapeA = state.groupOf(a).topology.shapeOf(touch.bodyA, touch.shapeA);
+    const PrimitiveShape& shapeB = state.groupOf(b).topology.shapeOf(touch.bodyB, touch.shapeB);
     pair.halfA.lane[lane] = coreHalf(shapeA);
     pair.halfB.lane[lane] = coreHalf(shapeB);
-    if (shapeA.kind == BodyShape::Kind::box || shapeB.kind == BodyShape::Kind::box) pair.follows = 0;
+    // Only a core about its body's centre can be followed.
+    const bool follows = shapeA.kind != PrimitiveShape::Kind::box && shapeB.kind != PrimitiveShape::Kind::box &&
+                         touch.shapeA == 0 && touch.shapeB == 0;
+    if (!follows) pair.follows = 0;
     pair.radius.lane[lane] = touch.touch.radius;
     writeVector(pair.normal, lane, touch.touch.normal);
     const auto inverseMassOf = [&](const Doll& doll, int body) {

@@ -10,7 +10,7 @@
 namespace lutka::physics::crowd {
 namespace {
 
-using Kind = BodyShape::Kind;
+using Kind = PrimitiveShape::Kind;
 
 Segment coreOf(const PlacedShape& body) {
     const vec3 half = body.axes[1] * coreHalf(*body.shape);
@@ -135,11 +135,18 @@ void touchCorners(const PlacedShape& a, const PlacedShape& b, float range, bool 
 
 }  // namespace
 
-float coreHalf(const BodyShape& shape) {
+float coreHalf(const PrimitiveShape& shape) {
     return shape.kind == Kind::capsule ? shape.halfLength : 0.0F;
 }
 
-CorePoints corePoints(const BodyShape& shape) {
+vec3 halfBounds(const PlacedShape& placed) {
+    const PrimitiveShape& shape = *placed.shape;
+    if (shape.kind != Kind::box) return glm::abs(placed.axes[1]) * coreHalf(shape) + shape.radius;
+    const vec3& half = shape.halfExtents;
+    return glm::abs(placed.axes[0]) * half.x + glm::abs(placed.axes[1]) * half.y + glm::abs(placed.axes[2]) * half.z;
+}
+
+CorePoints corePoints(const PrimitiveShape& shape) {
     CorePoints points;
     if (shape.kind == Kind::box) {
         points.count = 8;

@@ -8,22 +8,25 @@
 
 namespace lutka::physics::crowd {
 
-/// A body's shape where it is.
+/// One of a body's shapes where it is.
 struct PlacedShape {
-    const BodyShape* shape = nullptr;
+    const PrimitiveShape* shape = nullptr;
     vec3 position{0, 0, 0};
-    mat3 axes{1};  ///< Columns: the body's axes in the world.
+    mat3 axes{1};  ///< Columns: the shape's axes in the world, those of the body for its main shape.
 };
 
-/// The corners of a box and the ends of a capsule, in body space: what a convex static face can meet.
+/// Half the size of the world's axis-aligned box around it, metres.
+[[nodiscard]] vec3 halfBounds(const PlacedShape& placed);
+
+/// The corners of a box and the ends of a capsule, in the shape's space: what a convex static face can meet.
 struct CorePoints {
     std::array<vec3, 8> local;
     int count = 0;
     float radius = 0.0F;
 };
 /// Half the length of the core along the body's y: a sphere is a capsule of no length.
-[[nodiscard]] float coreHalf(const BodyShape& shape);
-[[nodiscard]] CorePoints corePoints(const BodyShape& shape);
+[[nodiscard]] float coreHalf(const PrimitiveShape& shape);
+[[nodiscard]] CorePoints corePoints(const PrimitiveShape& shape);
 
 /// Where a shape's core (a point of it, in body space) with `radius` around it meets the half space n · p <= offset.
 struct StaticTouch {

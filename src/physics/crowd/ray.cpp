@@ -78,11 +78,11 @@ RayTouch rayMesh(const TriangleMesh& mesh, const vec3& from, const vec3& along) 
 RayTouch rayAgainst(const PlacedShape& body, const vec3& from, const vec3& to) {
     const vec3 start = (from - body.position) * body.axes;
     const vec3 along = (to - from) * body.axes;
-    const BodyShape& shape = *body.shape;
+    const PrimitiveShape& shape = *body.shape;
     RayTouch touch;
-    if (shape.kind == BodyShape::Kind::sphere) touch = raySphere(vec3(0), shape.radius, start, along);
-    if (shape.kind == BodyShape::Kind::capsule) touch = rayCapsule(shape.halfLength, shape.radius, start, along);
-    if (shape.kind == BodyShape::Kind::box) touch = rayBox(shape.halfExtents, start, along);
+    if (shape.kind == PrimitiveShape::Kind::sphere) touch = raySphere(vec3(0), shape.radius, start, along);
+    if (shape.kind == PrimitiveShape::Kind::capsule) touch = rayCapsule(shape.halfLength, shape.radius, start, along);
+    if (shape.kind == PrimitiveShape::Kind::box) touch = rayBox(shape.halfExtents, start, along);
     touch.normal = body.axes * touch.normal;
     return touch;
 }

@@ -40,8 +40,8 @@ void reportPairs(CrowdState& state, const Job& job) {
             report.b.body = touch.bodyB;
             report.normal = touch.touch.normal;
             const Doll& b = state.dolls[touch.dollB];
-            const BodyShape& shape = state.groupOf(b).topology.shapes[touch.bodyB];
-            const float radius = shape.kind == BodyShape::Kind::box ? 0.0F : shape.radius;
+            const PrimitiveShape& shape = state.groupOf(b).topology.shapeOf(touch.bodyB, touch.shapeB);
+            const float radius = shape.kind == PrimitiveShape::Kind::box ? 0.0F : shape.radius;
             report.position =
                 bodyState(state, b, touch.bodyB).worldFromBody * touch.touch.localB + report.normal * radius;
             report.impulse = impulse;

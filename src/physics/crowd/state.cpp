@@ -87,7 +87,9 @@ BodyState bodyState(const CrowdState& state, const Doll& doll, int body) {
     return readBody(state.batchOf(doll).bodies[body], doll.lane);
 }
 
-PlacedShape placedShape(const CrowdState& state, const Doll& doll, int body) {
+namespace {
+
+PlacedShape placedMain(const CrowdState& state, const Doll& doll, int body) {
     const BodyShape* shape = &state.groupOf(doll).topology.shapes[body];
     if (doll.asleep()) {
         const RigidTransform& at = doll.frozen[body].worldFromBody;
@@ -97,6 +99,16 @@ PlacedShape placedShape(const CrowdState& state, const Doll& doll, int body) {
     return {shape, readVector(lanes.position, doll.lane),
             mat3(readVector(lanes.axisX, doll.lane), readVector(lanes.axisY, doll.lane),
                  readVector(lanes.axisZ, doll.lane))};
+}
+
+}  // namespace
+
+PlacedShape placedShape(const CrowdState& state, const Doll& doll, int body, int shape) {
+    const PlacedShape main = placedMain(state, doll, body);
+    if (shape == 0) return main;
+    const AddedShape& added = state.groupOf(doll).topology.shapes[body].more[shape - 1];
+    return {&added, main.position + main.axes * added.bodyFromShape.translation,
+            main.axes * glm::mat3_cast(added.bodyFromShape.rotation)};
 }
 
 void wake(CrowdState& state, int index) {
@@ -144,6 +156,12 @@ void boundFrozen(const CrowdState& state, Doll& doll) {
                           glm::abs(axes[2]) * body.extent[2] + body.radius + state.tuning.pairMargin;
         doll.low = glm::min(doll.low, at.translation - half);
         doll.high = glm::max(doll.high, at.translation + half);
+        for (int shape = 1; shape < state.groupOf(doll).topology.shapeCount(i); ++shape) {
+            const PlacedShape placed = placedShape(state, doll, i, shape);
+            const vec3 extent = halfBounds(placed) + state.tuning.pairMargin;
+            doll.low = glm::min(doll.low, placed.position - extent);
+            doll.high = glm::max(doll.high, placed.position + extent);
+        }
     }
 }
 

@@ -78,8 +78,9 @@ struct Group {
 struct PairTouch {
     int dollA = 0, bodyA = 0;
     int dollB = 0, bodyB = 0;
-    BodyTouch touch;
+    BodyTouch touch;  ///< Its points in the bodies' spaces.
     CarriedContact carried;
+    int shapeA = 0, shapeB = 0;  ///< Which of the bodies' shapes.
 };
 
 /// The contacts between bodies of the last step, by key.
@@ -127,10 +128,11 @@ struct ForceRecord {
     vec3 point{0, 0, 0};  ///< Body space.
 };
 
-/// The number of a static contact: geometry, body, part of the body. Never 0.
-[[nodiscard]] constexpr std::uint64_t staticKey(int geometry, int body, int feature) {
-    return (static_cast<std::uint64_t>(geometry + 1) << 40U) | static_cast<std::uint64_t>(body) << 25U |
-           static_cast<std::uint64_t>(feature);
+/// The number of a static contact: geometry, body, which of its shapes, part of the shape. Never 0.
+[[nodiscard]] constexpr std::uint64_t staticKey(int geometry, int body, int shape, int feature) {
+    static_assert(RagdollProfile::kMostBodies <= 1 << 13 && BodyShape::kMostAdded < 4);
+    return (static_cast<std::uint64_t>(geometry + 1) << 40U) | static_cast<std::uint64_t>(shape) << 38U |
+           static_cast<std::uint64_t>(body) << 25U | static_cast<std::uint64_t>(feature);
 }
 [[nodiscard]] constexpr int geometryOfKey(std::uint64_t key) {
     return static_cast<int>(key >> 40U) - 1;
@@ -240,7 +242,7 @@ struct CrowdState {
 int addDoll(CrowdState& state, Topology topology, const RagdollProfile* profile, std::span<const BodyState> bodies);
 
 [[nodiscard]] BodyState bodyState(const CrowdState& state, const Doll& doll, int body);
-[[nodiscard]] PlacedShape placedShape(const CrowdState& state, const Doll& doll, int body);
+[[nodiscard]] PlacedShape placedShape(const CrowdState& state, const Doll& doll, int body, int shape = 0);
 
 /// Gives a sleeping doll a lane. `wakeIsland` wakes those that fell asleep with it as well.
 void wake(CrowdState& state, int doll);

@@ -105,25 +105,36 @@ class StaticContacts {
         const vec3 normal = plane.axes[1];
         const float normalLanes[3] = {normal.x, normal.y, normal.z};
         const float offset = glm::dot(normal, plane.shape.worldFromShape.translation);
-        const CorePoints points = corePoints(topology_.shapes[body]);
         const BatchView view = batch_.view(topology_);
-        for (int i = 0; i < points.count; ++i) {
-            const float point[3] = {points.local[i].x, points.local[i].y, points.local[i].z};
-            const unsigned lanes = state_.kernels->findNearPlane(view, body, point, points.radius, normalLanes, offset,
-                                                                 state_.tuning.staticMargin, kForesight * dt_);
-            if (lanes != 0) putPlane(body, index, lanes, {points.local[i], points.radius, normal, offset, 0.0F, i});
+        for (int shape = 0; shape < topology_.shapeCount(body); ++shape) {
+            const CorePoints points = corePoints(topology_.shapeOf(body, shape));
+            for (int i = 0; i < points.count; ++i) {
+                const vec3 local = topology_.inBody(body, shape, points.local[i]);
+                const float point[3] = {local.x, local.y, local.z};
+                const unsigned lanes =
+                    state_.kernels->findNearPlane(view, body, point, points.radius, normalLanes, offset,
+                                                  state_.tuning.staticMargin, kForesight * dt_);
+                if (lanes != 0) putPlane({body, shape}, index, lanes, {local, points.radius, normal, offset, 0.0F, i});
+            }
         }
     }
 
+    // One of a body's shapes.
+    struct ShapeRef {
+        int body;
+        int shape;
+    };
+
     // The same point of a body in all `lanes`.
-    void putPlane(int body, int index, unsigned lanes, const StaticTouch& touch) {
+    void putPlane(const ShapeRef& of, int index, unsigned lanes, const StaticTouch& touch) {
+        const int body = of.body;
         StaticContactLanes& contact = emptyContact(body);
         const StaticShape& plane = state_.statics[index].shape;
         spread(contact.localPoint, touch.local);
         spread(contact.normal, touch.normal);
         spread(contact.radius, touch.radius);
         spread(contact.friction, plane.friction * kBodyFriction);
-        const std::uint64_t key = staticKey(index, body, touch.feature);
+        const std::uint64_t key = staticKey(index, body, of.shape, touch.feature);
         for (int lane = 0; lane < kLanes; ++lane) {
             const int from = lane < batch_.used ? lane : 0;
             const Doll& doll = state_.dolls[batch_.doll[from]];
@@ -149,15 +160,19 @@ class StaticContacts {
             if (!nearStatic(geometry, low, high)) continue;
             const float range = state_.tuning.staticMargin +
                                 kForesight * dt_ * speedBound(readBody(lanes, lane), topology_.bodies[body]);
-            const StaticTouches found = touchStatic(placedShape(state_, doll, body), geometry, range);
-            for (int i = 0; i < found.count; ++i)
-                put(slot++, body, lane, index, found.points[i]);
+            for (int shape = 0; shape < topology_.shapeCount(body); ++shape) {
+                StaticTouches found = touchStatic(placedShape(state_, doll, body, shape), geometry, range);
+                for (int i = 0; i < found.count; ++i) {
+                    found.points[i].local = topology_.inBody(body, shape, found.points[i].local);
+                    put(slot++, {body, shape}, lane, index, found.points[i]);
+                }
+            }
         }
     }
 
-    void put(std::size_t slot, int body, int lane, int geometry, const StaticTouch& touch) {
-        if (slot == batch_.contacts.size()) emptyContact(body);
-        const std::uint64_t key = staticKey(geometry, body, touch.feature);
+    void put(std::size_t slot, const ShapeRef& of, int lane, int geometry, const StaticTouch& touch) {
+        if (slot == batch_.contacts.size()) emptyContact(of.body);
+        const std::uint64_t key = staticKey(geometry, of.body, of.shape, touch.feature);
         const CarriedStatic* carried = carriedStatic(state_.dolls[batch_.doll[lane]], key, cursor_[lane]);
         const float friction = state_.statics[geometry].shape.friction * kBodyFriction;
         setContact(batch_.contacts[slot], lane, touch, friction, key, carried);

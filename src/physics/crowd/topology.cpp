@@ -36,6 +36,12 @@ BodyConstants constantsOf(const BodyShape& shape, float massKg, const vec3& iner
     copy(constants.extent, extent);
     constants.radius = shape.kind == BodyShape::Kind::box ? 0.0F : shape.radius;
     constants.reach = glm::length(extent);
+    // Turning moves the cores of the others as well.
+    for (const AddedShape& added : shape.more) {
+        const float core = boundingRadius(static_cast<const PrimitiveShape&>(added)) -
+                           (added.kind == PrimitiveShape::Kind::box ? 0.0F : added.radius);
+        constants.reach = std::max(constants.reach, glm::length(added.bodyFromShape.translation) + core);
+    }
     return constants;
 }
 
@@ -67,6 +73,15 @@ bool mayCollide(const RagdollProfile& profile, int a, int b) {
     return !linked && std::find(filtered.begin(), filtered.end(), std::pair(a, b)) == filtered.end();
 }
 
+bool sameAdded(const BodyShape& a, const BodyShape& b) {
+    return std::equal(
+        a.more.begin(), a.more.end(), b.more.begin(), b.more.end(), [](const AddedShape& x, const AddedShape& y) {
+            return x.kind == y.kind && x.radius == y.radius && x.halfLength == y.halfLength &&
+                   x.halfExtents == y.halfExtents && x.bodyFromShape.rotation == y.bodyFromShape.rotation &&
+                   x.bodyFromShape.translation == y.bodyFromShape.translation;
+        });
+}
+
 template <class T>
 bool sameBytes(const std::vector<T>& a, const std::vector<T>& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
@@ -80,6 +95,7 @@ Topology makeTopology(const RagdollProfile& profile, float leastGyration) {
         const vec3 inertia = conditionedInertia(profile, body, leastGyration);
         topology.bodies.push_back(constantsOf(body.shape, body.massKg, inertia));
         topology.shapes.push_back(body.shape);
+        topology.anyAdded = topology.anyAdded || !body.shape.more.empty();
     }
     for (const ConstraintProfile& constraint : profile.constraints)
         topology.joints.push_back(constantsOf(constraint));
@@ -108,14 +124,15 @@ Topology makeTopology(const DynamicProp& prop) {
     Topology topology;
     topology.bodies.push_back(constantsOf(prop.shape, prop.massKg, shapeInertia(prop.shape, prop.massKg)));
     topology.shapes.push_back(prop.shape);
+    topology.anyAdded = !prop.shape.more.empty();
     return topology;
 }
 
 bool sameTopology(const Topology& a, const Topology& b) {
-    // The shapes follow from the constants but for their kind.
+    // The main shapes follow from the constants but for their kind.
     return sameBytes(a.bodies, b.bodies) && sameBytes(a.joints, b.joints) && sameBytes(a.selfPairs, b.selfPairs) &&
            std::equal(a.shapes.begin(), a.shapes.end(), b.shapes.begin(), b.shapes.end(),
-                      [](const BodyShape& x, const BodyShape& y) { return x.kind == y.kind; });
+                      [](const BodyShape& x, const BodyShape& y) { return x.kind == y.kind && sameAdded(x, y); });
 }
 
 }  // namespace lutka::physics::crowd

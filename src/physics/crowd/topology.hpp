@@ -12,10 +12,24 @@ namespace lutka::physics::crowd {
 struct Topology {
     std::vector<BodyConstants> bodies;
     std::vector<JointConstants> joints;
-    std::vector<BodyShape> shapes;
+    std::vector<BodyShape> shapes;    ///< One a body; the constants and the kernels know its main shape alone.
+    bool anyAdded = false;            ///< Whether any body has more than one shape.
     std::vector<SelfPair> selfPairs;  ///< Bodies that may collide: neither linked nor filtered.
 
     [[nodiscard]] int bodyCount() const { return static_cast<int>(bodies.size()); }
+    /// The number of shapes of a body, at least 1; the main one is shape 0.
+    [[nodiscard]] int shapeCount(int body) const { return 1 + static_cast<int>(shapes[body].more.size()); }
+    [[nodiscard]] const PrimitiveShape& shapeOf(int body, int shape) const {
+        return shape == 0 ? static_cast<const PrimitiveShape&>(shapes[body]) : shapes[body].more[shape - 1];
+    }
+    /// From the space of a body's shape to the body's.
+    [[nodiscard]] vec3 inBody(int body, int shape, const vec3& local) const {
+        return shape == 0 ? local : shapes[body].more[shape - 1].bodyFromShape * local;
+    }
+    /// Whether the kernels see the whole of the body: a capsule or a sphere and nothing else.
+    [[nodiscard]] bool isCore(int body) const {
+        return shapes[body].kind != PrimitiveShape::Kind::box && shapes[body].more.empty();
+    }
 };
 
 /// `leastGyration`: see CrowdTuning.

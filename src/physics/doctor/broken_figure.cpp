@@ -112,8 +112,8 @@ void findBodiesBesideSkin(const BodyPlan& plan, std::span<const PlacedShape> sha
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const PlannedBody& body = plan.bodies[i];
         const vec3 middle = shapes[i].standardFromBody.translation;
-        const vec3 half(supportExtent(shapes[i].shape, {1, 0, 0}), supportExtent(shapes[i].shape, {0, 1, 0}),
-                        supportExtent(shapes[i].shape, {0, 0, 1}));
+        const vec3 half(halfWidth(shapes[i].shape, {1, 0, 0}), halfWidth(shapes[i].shape, {0, 1, 0}),
+                        halfWidth(shapes[i].shape, {0, 0, 1}));
         const float surface = 8.0F * (half.x * half.y + half.y * half.z + half.z * half.x);
         if (areaOf(body) < kLeastSkin * surface) continue;
         vec3 low(1e9F);

@@ -302,7 +302,7 @@ class Examination {
     void checkSize(Diagnosis& diagnosis, const BodyProfile& body) const {
         constexpr float kTiny = 0.008F;
         constexpr float kHuge = 0.32F;
-        const float radius = std::min(supportExtent(body.shape, {1, 0, 0}), supportExtent(body.shape, {0, 0, 1}));
+        const float radius = std::min(halfWidth(body.shape, {1, 0, 0}), halfWidth(body.shape, {0, 0, 1}));
         const float share = radius / profile_.heightM;
         if (share >= kTiny && share <= kHuge) return;
         diagnosis.findings.push_back({Severity::warning,

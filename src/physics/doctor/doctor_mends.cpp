@@ -86,7 +86,8 @@ class Mender {
             mean.halfLength = 0.5F * (left.shape.halfLength + right.shape.halfLength);
             mean.halfExtents = 0.5F * (left.shape.halfExtents + right.shape.halfExtents);
         }
-        left.shape = right.shape = mean;
+        left.shape = mean;
+        right.shape = mirrored(mean);
         left.inertia = right.inertia = shapeInertia(mean, left.massKg);
         note(fmt::format("{} and {} made equal", first, second));
     }

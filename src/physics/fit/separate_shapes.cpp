@@ -87,7 +87,10 @@ void separateShapes(const BodyPlan& plan, std::vector<PlacedShape>& shapes) {
     for (int body = 0; body < count; ++body) {
         const int other = plan.bodies[body].mirror;
         const float share = plan.symmetric && other >= 0 ? std::max(shares[body], shares[other]) : shares[body];
-        shapes[body].shape.radius *= 1.0F - share;
+        BodyShape& shape = shapes[body].shape;
+        shape.radius *= 1.0F - share;
+        for (AddedShape& added : shape.more)
+            added.radius *= 1.0F - share;
     }
 }
 

@@ -1,6 +1,7 @@
 #include "physics/profile/profile.hpp"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <fmt/format.h>
 
@@ -40,13 +41,13 @@ void checkFrame(Problems& problems, const RigidTransform& frame, const std::stri
     problems.require(isFinite(frame.translation), place + "/translation", "expected three finite numbers");
 }
 
-void checkShape(Problems& problems, const BodyShape& shape, const std::string& place) {
-    if (shape.kind == BodyShape::Kind::box) {
+void checkShape(Problems& problems, const PrimitiveShape& shape, const std::string& place) {
+    if (shape.kind == PrimitiveShape::Kind::box) {
         problems.require(isPositive(shape.halfExtents), place + "/halfExtents", "expected three numbers above 0");
         return;
     }
     problems.require(isPositive(shape.radius), place + "/radius", "expected a number above 0");
-    if (shape.kind == BodyShape::Kind::capsule) {
+    if (shape.kind == PrimitiveShape::Kind::capsule) {
         problems.require(std::isfinite(shape.halfLength) && shape.halfLength >= 0.0F, place + "/halfLength",
                          "expected a number of at least 0");
     }
@@ -69,18 +70,29 @@ bool isWithin(float value, float low, float high) {
 }
 
 // Half the smallest and largest extent of the shape.
-std::pair<float, float> halfExtentsOf(const BodyShape& shape) {
+std::pair<float, float> halfExtentsOf(const PrimitiveShape& shape) {
     switch (shape.kind) {
-        case BodyShape::Kind::box: {
+        case PrimitiveShape::Kind::box: {
             const vec3& h = shape.halfExtents;
             return {std::min({h.x, h.y, h.z}), std::max({h.x, h.y, h.z})};
         }
-        case BodyShape::Kind::capsule:
+        case PrimitiveShape::Kind::capsule:
             return {shape.radius, shape.radius + shape.halfLength};
-        case BodyShape::Kind::sphere:
+        case PrimitiveShape::Kind::sphere:
             break;
     }
     return {shape.radius, shape.radius};
+}
+
+// The smallest of all shapes' and the farthest that one reaches from the body's origin.
+std::pair<float, float> halfExtentsOfAll(const BodyShape& shape) {
+    auto [thinnest, widest] = halfExtentsOf(shape);
+    for (const AddedShape& added : shape.more) {
+        const auto [thin, wide] = halfExtentsOf(added);
+        thinnest = std::min(thinnest, thin);
+        widest = std::max(widest, glm::length(added.bodyFromShape.translation) + wide);
+    }
+    return {thinnest, widest};
 }
 
 // Principal moments of any mass distribution are positive and keep the triangle inequality (Goldstein, Classical
@@ -98,7 +110,7 @@ void checkInertia(Problems& problems, const BodyProfile& body, const std::string
         most <= slack * (i.x + i.y + i.z - most), place,
         fmt::format("expected no moment above the sum of the other two, got [{}, {}, {}]; no body has these", i.x, i.y,
                     i.z));
-    const auto [thinnest, widest] = halfExtentsOf(body.shape);
+    const auto [thinnest, widest] = halfExtentsOfAll(body.shape);
     const auto momentAt = [&](float gyration) { return body.massKg * gyration * gyration; };
     const float low = momentAt(thinnest * inward);
     const float high = momentAt(widest * outward);
@@ -108,13 +120,31 @@ void checkInertia(Problems& problems, const BodyProfile& body, const std::string
                     high, i.x, i.y, i.z));
 }
 
-void checkSize(Problems& problems, const RagdollProfile& profile, const BodyShape& shape, const std::string& place) {
+void checkSize(Problems& problems, const RagdollProfile& profile, const PrimitiveShape& shape,
+               const std::string& place) {
     const auto [thinnest, widest] = halfExtentsOf(shape);
     const float low = kThinnestShare * profile.heightM;
     const float high = kWidestShare * profile.heightM;
     problems.require(isWithin(thinnest, low, high) && isWithin(widest, low, high), place,
                      fmt::format("expected radii and lengths in [{:.3g}, {:.3g}] m for a figure of {} m, got {} to {}",
                                  low, high, profile.heightM, thinnest, widest));
+}
+
+void checkAddedShapes(Problems& problems, const RagdollProfile& profile, const BodyShape& shape,
+                      const std::string& place) {
+    problems.require(shape.more.size() <= BodyShape::kMostAdded, place,
+                     fmt::format("expected at most {} shapes beside the main one", BodyShape::kMostAdded));
+    const float farthest = kWidestShare * profile.heightM;
+    for (std::size_t i = 0; i < shape.more.size(); ++i) {
+        const AddedShape& added = shape.more[i];
+        const std::string here = fmt::format("{}/{}", place, i);
+        checkShape(problems, added, here);
+        checkSize(problems, profile, added, here);
+        checkFrame(problems, added.bodyFromShape, here + "/bodyFromShape");
+        problems.require(isWithin(glm::length(added.bodyFromShape.translation), 0.0F, farthest),
+                         here + "/bodyFromShape/translation",
+                         fmt::format("expected at most {:.3g} m from the body's origin", farthest));
+    }
 }
 
 bool isName(std::string_view name) {
@@ -128,6 +158,7 @@ void checkBody(Problems& problems, const RagdollProfile& profile, std::size_t in
     checkShape(problems, body.shape, place + "/shape");
     checkFrame(problems, body.jointFromBody, place + "/jointFromBody");
     checkSize(problems, profile, body.shape, place + "/shape");
+    checkAddedShapes(problems, profile, body.shape, place + "/shape/more");
     problems.require(isWithin(body.massKg, kLeastMassKg, kMostMassKg), place + "/massKg",
                      fmt::format("expected a number in [{}, {}]", kLeastMassKg, kMostMassKg));
     checkInertia(problems, body, place + "/inertia");

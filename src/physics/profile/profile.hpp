@@ -9,29 +9,12 @@
 
 #include "animation/humanoid/roles.hpp"
 #include "core/rigid_transform.hpp"
-#include "core/shape_kind.hpp"
+#include "physics/profile/body_shape.hpp"
 #include "physics/profile/muscle_profile.hpp"
 
 namespace lutka::physics {
 
 using animation::Role;
-
-/// The collision shape of a body, centred on the body's origin.
-struct BodyShape {
-    /// The ones that a body can be, so that the compiler sees every switch over them whole.
-    enum class Kind {
-        capsule = static_cast<int>(ShapeKind::capsule),
-        box = static_cast<int>(ShapeKind::box),
-        sphere = static_cast<int>(ShapeKind::sphere),
-    };
-    Kind kind = Kind::capsule;
-    float radius = 0.05F;                ///< Metres, > 0; capsule and sphere.
-    float halfLength = 0.1F;             ///< Metres, >= 0; capsule: half the distance of the cap centres, along body Y.
-    vec3 halfExtents{0.1F, 0.1F, 0.1F};  ///< Metres, > 0; box.
-};
-[[nodiscard]] constexpr ShapeKind shapeKindOf(BodyShape::Kind kind) {
-    return static_cast<ShapeKind>(kind);
-}
 
 /// A rigid body that stands for the part of the character that one joint moves.
 struct BodyProfile {
@@ -41,7 +24,7 @@ struct BodyProfile {
     std::string joint;         ///< The joint's name in the rig that the profile was made for.
     std::string jointPath;     ///< Its unique path (names from the root joined by '/').
     BodyShape shape;
-    RigidTransform jointFromBody;       ///< Body origin = centre of mass; a capsule's axis is body Y.
+    RigidTransform jointFromBody;       ///< Body origin = centre of mass and of the main shape; a capsule's axis is Y.
     float massKg = 1.0F;                ///< > 0.
     vec3 inertia{0.01F, 0.01F, 0.01F};  ///< Principal moments about the body's axes, kg m², > 0.
     MuscleFactors muscle;               ///< Of the joint above it, on RagdollProfile::muscles.

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 
 #include "core/files.hpp"
@@ -36,28 +38,54 @@ RigidTransform readFrame(const JsonCursor& at) {
     return {readQuaternion(at["rotation"]), readVector(at["translation"], -kLargest, kLargest)};
 }
 
-BodyShape readShape(const JsonCursor& at) {
-    BodyShape shape;
-    const int kind = at["kind"].oneOf({"capsule", "box", "sphere"});
+// Where a shape stands: version 1 knew no others beside the main one.
+enum class ShapePlace { main, alone, added };
+
+void expectMembers(const JsonCursor& at, PrimitiveShape::Kind kind, ShapePlace place) {
+    const auto expect = [&](std::initializer_list<const char*> own, std::initializer_list<const char*> added) {
+        if (place == ShapePlace::added)
+            at.expectObject(added);
+        else if (place == ShapePlace::alone)
+            at.expectObject(own);
+        else
+            at.expectObject(own, {"more"});
+    };
     switch (kind) {
-        case 0:
-            at.expectObject({"kind", "radius", "halfLength"});
-            shape.radius = at["radius"].number(kSmallest, kLargest);
-            shape.halfLength = at["halfLength"].number(0.0F, kLargest);
+        case PrimitiveShape::Kind::capsule:
+            expect({"kind", "radius", "halfLength"}, {"kind", "radius", "halfLength", "bodyFromShape"});
             break;
-        case 1:
-            at.expectObject({"kind", "halfExtents"});
-            shape.kind = BodyShape::Kind::box;
-            shape.halfExtents = readVector(at["halfExtents"], kSmallest, kLargest);
+        case PrimitiveShape::Kind::box:
+            expect({"kind", "halfExtents"}, {"kind", "halfExtents", "bodyFromShape"});
             break;
-        case 2:
-            at.expectObject({"kind", "radius"});
-            shape.kind = BodyShape::Kind::sphere;
-            shape.radius = at["radius"].number(kSmallest, kLargest);
-            break;
-        default:
+        case PrimitiveShape::Kind::sphere:
+            expect({"kind", "radius"}, {"kind", "radius", "bodyFromShape"});
             break;
     }
+}
+
+PrimitiveShape readPrimitive(const JsonCursor& at, ShapePlace place) {
+    constexpr std::array kKinds{PrimitiveShape::Kind::capsule, PrimitiveShape::Kind::box, PrimitiveShape::Kind::sphere};
+    PrimitiveShape shape;
+    const int kind = at["kind"].oneOf({"capsule", "box", "sphere"});
+    if (kind < 0) return shape;
+    shape.kind = kKinds[static_cast<std::size_t>(kind)];
+    expectMembers(at, shape.kind, place);
+    if (shape.kind == PrimitiveShape::Kind::box) {
+        shape.halfExtents = readVector(at["halfExtents"], kSmallest, kLargest);
+        return shape;
+    }
+    shape.radius = at["radius"].number(kSmallest, kLargest);
+    if (shape.kind == PrimitiveShape::Kind::capsule) shape.halfLength = at["halfLength"].number(0.0F, kLargest);
+    return shape;
+}
+
+BodyShape readShape(const JsonCursor& at, std::int64_t version) {
+    BodyShape shape{readPrimitive(at, version == 1 ? ShapePlace::alone : ShapePlace::main), {}};
+    if (version == 1 || !at.has("more")) return shape;
+    const JsonCursor more = at["more"];
+    if (!more.expectArray(1, static_cast<int>(BodyShape::kMostAdded))) return shape;
+    for (std::size_t i = 0; i < more.size(); ++i)
+        shape.more.push_back({readPrimitive(more[i], ShapePlace::added), readFrame(more[i]["bodyFromShape"])});
     return shape;
 }
 
@@ -147,7 +175,7 @@ void readBody(const JsonCursor& at, RagdollProfile& profile, std::int64_t versio
     if (std::any_of(profile.bodies.begin(), profile.bodies.end(), sameJoint)) {
         at["jointPath"].report("expected a joint of its own, another body is on \"" + body.jointPath + "\"");
     }
-    body.shape = readShape(at["shape"]);
+    body.shape = readShape(at["shape"], version);
     body.jointFromBody = readFrame(at["jointFromBody"]);
     body.massKg = at["massKg"].number(kSmallest, kLargest);
     body.inertia = readVector(at["inertia"], kSmallest * kSmallest, kLargest);

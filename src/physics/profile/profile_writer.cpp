@@ -14,17 +14,27 @@ Json frame(const RigidTransform& t) {
     return Json{{"rotation", jsonQuaternion(t.rotation)}, {"translation", jsonVector(t.translation)}};
 }
 
-Json shape(const BodyShape& s) {
+Json primitive(const PrimitiveShape& s) {
     switch (s.kind) {
-        case BodyShape::Kind::capsule:
+        case PrimitiveShape::Kind::capsule:
             return Json{
                 {"kind", "capsule"}, {"radius", jsonNumber(s.radius)}, {"halfLength", jsonNumber(s.halfLength)}};
-        case BodyShape::Kind::sphere:
+        case PrimitiveShape::Kind::sphere:
             return Json{{"kind", "sphere"}, {"radius", jsonNumber(s.radius)}};
-        case BodyShape::Kind::box:
+        case PrimitiveShape::Kind::box:
             break;
     }
     return Json{{"kind", "box"}, {"halfExtents", jsonVector(s.halfExtents)}};
+}
+
+Json shape(const BodyShape& s) {
+    Json out = primitive(s);
+    for (const AddedShape& added : s.more) {
+        Json one = primitive(added);
+        one["bodyFromShape"] = frame(added.bodyFromShape);
+        out["more"].push_back(std::move(one));
+    }
+    return out;
 }
 
 Json factors(const MuscleFactors& f) {

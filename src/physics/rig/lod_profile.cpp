@@ -113,9 +113,9 @@ void mergeShape(const RagdollProfile& full, const Rig& rig, Group& group) {
     for (const int member : group.members) {
         const BodyProfile& body = full.bodies[member];
         const RigidTransform lodFromBody = lodFromModel * rig.bindModelFromBody[member];
-        const float reach = supportExtent(body.shape, glm::conjugate(lodFromBody.rotation) * vec3(0, 1, 0));
-        low = std::min(low, lodFromBody.translation.y - reach);
-        high = std::max(high, lodFromBody.translation.y + reach);
+        const vec3 up = glm::conjugate(lodFromBody.rotation) * vec3(0, 1, 0);
+        low = std::min(low, lodFromBody.translation.y - supportExtent(body.shape, -up));
+        high = std::max(high, lodFromBody.translation.y + supportExtent(body.shape, up));
         thickness += thicknessOf(body.shape) * body.massKg / group.body.massKg;
     }
     group.body.shape = {};

@@ -13,7 +13,7 @@ void DollOverlap::add(int doll, const RagdollProfile& profile, std::span<const B
         const mat3 bodyFromWorld = glm::mat3_cast(glm::conjugate(placed.rotation));
         vec3 half;
         for (int axis = 0; axis < 3; ++axis)
-            half[axis] = supportExtent(shape, bodyFromWorld[axis]) + 0.5F * kNear;
+            half[axis] = halfWidth(shape, bodyFromWorld[axis]) + 0.5F * kNear;
         bodies_.push_back({&shape, placed, placed.translation - half, placed.translation + half, doll});
     }
 }

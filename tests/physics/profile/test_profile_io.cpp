@@ -96,6 +96,58 @@ TEST_CASE("a profile comes back from its JSON to the last bit") {
     CHECK(profileToJson(back) == profileToJson(profile));
 }
 
+TEST_CASE("the further shapes of a body come back from its JSON, and only they are in it") {
+    RagdollProfile profile = profileToWrite();
+    AddedShape rod;
+    rod.radius = 0.03F;
+    rod.halfLength = 0.07F;
+    rod.bodyFromShape = {glm::angleAxis(0.3F, vec3(0, 0, 1)), {0.01F, 0.02F, 0.03F}};
+    AddedShape crate;
+    crate.kind = BodyShape::Kind::box;
+    crate.halfExtents = {0.01F, 0.02F, 0.03F};
+    profile.bodies[3].shape.more = {rod, crate};
+    const std::string text = profileToJson(profile);
+    const auto read = profileFromJson(text, "memory");
+    REQUIRE(read);
+    const std::vector<AddedShape>& back = read.value().bodies[3].shape.more;
+    REQUIRE(back.size() == 2);
+    CHECK(back[0].kind == BodyShape::Kind::capsule);
+    CHECK(back[0].radius == rod.radius);
+    CHECK(back[0].halfLength == rod.halfLength);
+    checkSame(back[0].bodyFromShape, rod.bodyFromShape);
+    CHECK(back[1].halfExtents == crate.halfExtents);
+    CHECK(profileToJson(read.value()) == text);
+    const json document = json::parse(text);
+    CHECK_FALSE(document["bodies"][0]["shape"].contains("more"));
+    std::ifstream file(std::string(LUTKA_ASSETS_DIR) + "/profiles/ragdoll.schema.json");
+    CHECK(test::checkSchema(json::parse(file), document).empty());
+}
+
+TEST_CASE("further shapes that no body can have are refused at their place") {
+    RagdollProfile profile = profileToWrite();
+    AddedShape ball;
+    ball.kind = BodyShape::Kind::sphere;
+    profile.bodies[3].shape.more = {ball};
+    const auto refused = [&](const auto& change) {
+        json document = json::parse(profileToJson(profile));
+        change(document["bodies"][3]["shape"]["more"]);
+        return problemsOf(document);
+    };
+    CHECK(refused([](json&) {}).empty());
+    CHECK(refused([](json& more) { more = json::array(); }).find("/bodies/3/shape/more") != std::string::npos);
+    CHECK(refused([](json& more) {
+              more = {more[0], more[0], more[0]};
+          }).find("/bodies/3/shape/more") != std::string::npos);
+    CHECK(refused([](json& more) { more[0]["radius"] = -1; }).find("/bodies/3/shape/more/0/radius") !=
+          std::string::npos);
+    CHECK(refused([](json& more) { more[0].erase("bodyFromShape"); }).find("bodyFromShape") != std::string::npos);
+    CHECK(refused([](json& more) { more[0]["more"] = more; }).find("/bodies/3/shape/more/0") != std::string::npos);
+    CHECK(refused([](json& more) {
+              more[0]["bodyFromShape"]["translation"] = {500, 0, 0};
+          }).find("/bodies/3/shape/more/0/bodyFromShape/translation") != std::string::npos);
+    CHECK(refused([](json& more) { more[0]["radius"] = 100; }).find("/bodies/3/shape/more/0") != std::string::npos);
+}
+
 TEST_CASE("a profile survives the way through a file") {
     const auto file = std::filesystem::temp_directory_path() / "lutka_profile_test" / "biped.ragdoll.json";
     REQUIRE(saveProfile(file, profileToWrite()));
