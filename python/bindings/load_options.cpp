@@ -80,6 +80,7 @@ scene::LoadOptions loadOptions(Keywords& keywords) {
     physics::FitOptions& fit = options.fit;
     keywords.takeWord("rig", scene::kRigWords, fit.rig);
     keywords.take("max_bodies", fit.mostBodies, 1, physics::RagdollProfile::kMostBodies);
+    keywords.take("max_shapes", fit.mostShapes, 1, 1 + static_cast<int>(physics::BodyShape::kMostAdded));
     fit.weighByVolume = !keywords.take("mass", fit.totalMassKg, 1e-3, 1e5);
     keywords.takeWord("mass_table", scene::kMassTableWords, fit.massTable);
     keywords.takeWord("masses", scene::kMassPresetWords, fit.massPreset);

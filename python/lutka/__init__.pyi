@@ -275,6 +275,7 @@ def build(
     refit: bool = ...,
     rig: Literal["humanoid", "any"] = ...,
     max_bodies: int = ...,
+    max_shapes: int = ...,
     mass: float = ...,
     mass_table: Literal["de-leva-male", "de-leva-female", "winter"] = ...,
     masses: Literal["anatomical", "balanced", "uniform", "volume"] = ...,

@@ -150,6 +150,11 @@ void RagdollOptions::addTo(const Command& app, bool modelRequired) {
         .range(1, physics::RagdollProfile::kMostBodies)
         .excludes(profileOption)
         .showDefault();
+    app.option("--shapes", shapes,
+               "the most shapes of a body: with 2 or 3 a trunk or head that one covers badly gets several")
+        .range(1, 1 + static_cast<int>(physics::BodyShape::kMostAdded))
+        .excludes(profileOption)
+        .showDefault();
     app.option("--mass", massKg, "total mass in kilograms; default: 75, and for --rig any that of its volume in water")
         .range(1e-3, 1e5)
         .excludes(profileOption);
@@ -180,6 +185,7 @@ scene::LoadOptions RagdollOptions::load() const {
     options.refit = refit;
     if (rig == "any") options.fit.rig = physics::RigKind::any;
     options.fit.mostBodies = maxBodies;
+    options.fit.mostShapes = shapes;
     options.fit.weighByVolume = !massKg;
     options.fit.totalMassKg = massKg.value_or(options.fit.totalMassKg);
     // oneOf() lets no other words through.

@@ -59,6 +59,7 @@ struct RagdollOptions {
     bool refit = false;
     std::string rig = "humanoid";
     int maxBodies = 40;
+    int shapes = physics::FitOptions{}.mostShapes;
     std::optional<float> massKg;  ///< Unset: 75 for a humanoid, by volume for any other rig.
     std::string massTable = "de-leva-male";
     std::string massPreset = "anatomical";

@@ -68,7 +68,7 @@ Result<RagdollProfile> fitRagdoll(const animation::Character& character, const a
     if (const Result<void> checked = checkInput(character, map, options); !checked) return checked.error();
     const BodyPlan plan = planFor(character, map, options);
     const Anatomy anatomy = findAnatomy(plan);
-    const std::vector<PlacedShape> shapes = fitShapes(plan, anatomy);
+    const std::vector<PlacedShape> shapes = fitShapes(plan, anatomy, options.mostShapes);
 
     RagdollProfile profile;
     profile.name = character.name;

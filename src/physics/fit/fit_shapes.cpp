@@ -6,10 +6,13 @@
 #include <glm/geometric.hpp>
 
 #include "core/quantile.hpp"
+#include "physics/collision/shape.hpp"
 #include "physics/fit/body_tips.hpp"
 #include "physics/fit/capsule_search.hpp"
+#include "physics/fit/fit_measures.hpp"
 #include "physics/fit/principal_axes.hpp"
 #include "physics/fit/separate_shapes.hpp"
+#include "physics/fit/several_capsules.hpp"
 
 namespace lutka::physics {
 namespace {
@@ -98,7 +101,37 @@ class BodyFit {
         return fitLimb();
     }
 
+    // Several in place of `single`, the body's capsule, where they cover its skin clearly better.
+    [[nodiscard]] std::optional<std::vector<Capsule>> fitSeveral(const Capsule& single, int most) const {
+        const bool trunk = isTrunk(body_.role) || body_.role == Role::head || (body_.segment && central_);
+        if (most < 2 || !trunk || points_.size() < kFewestShapePoints) return std::nullopt;
+        CapsuleBounds bounds;
+        const vec3 origin(central_ ? plan_.middleX : body_.start.x, body_.start.y, body_.start.z);
+        bounds.standardFromAxes = {central_ ? inMirrorPlane(rotation_) : rotation_, origin};
+        bounds.symmetric = central_;
+        bounds.smallestRadius = 0.02F * plan_.heightM;
+        bounds.largestRadius = largestRadius();
+        bounds.cutoff = cutoff();
+        bounds.nearM = kNearSkin * plan_.heightM;
+        return fitSeveralCapsules(points_, single, bounds, most);
+    }
+
   private:
+    // The turn about x that is in a rotation of a body in the middle.
+    [[nodiscard]] static quat inMirrorPlane(const quat& rotation) {
+        const quat turn(rotation.w, rotation.x, 0, 0);
+        return glm::dot(turn, turn) > 1e-6F ? glm::normalize(turn) : quat(1, 0, 0, 0);
+    }
+
+    [[nodiscard]] float largestRadius() const {
+        const bool head = body_.role == Role::head;
+        const float share = head ? kLargestHeadRadius : isTrunk(body_.role) ? kLargestTrunkRadius : kLargestRadius;
+        return plan_.heightM * (body_.segment ? kLargestSegmentRadius : share);
+    }
+    [[nodiscard]] float cutoff() const {
+        return std::max(kCutoff * plan_.heightM, (body_.role == Role::head ? 1.0F : 0.5F) * spread_);
+    }
+
     // Both sides of a symmetric figure tell about one shape.
     void addMirrored() {
         const int other = body_.mirror;
@@ -108,11 +141,7 @@ class BodyFit {
     }
 
     [[nodiscard]] CapsuleSearch searchAlong(const vec3& origin, const quat& axes) const {
-        const bool head = body_.role == Role::head;
-        float largest = head ? kLargestHeadRadius : isTrunk(body_.role) ? kLargestTrunkRadius : kLargestRadius;
-        if (body_.segment) largest = kLargestSegmentRadius;
-        const float cutoff = std::max(kCutoff * plan_.heightM, (head ? 1.0F : 0.5F) * spread_);
-        return {points_, {axes, origin}, plan_.heightM * kSmallestRadius, plan_.heightM * largest, cutoff};
+        return {points_, {axes, origin}, plan_.heightM * kSmallestRadius, largestRadius(), cutoff()};
     }
 
     [[nodiscard]] Capsule fitLimb() const {
@@ -293,7 +322,49 @@ PlacedShape placeCapsule(const Capsule& capsule) {
     return placed;
 }
 
-std::vector<PlacedShape> fitShapes(const BodyPlan& plan, const Anatomy& anatomy) {
+namespace {
+
+// The first is the main shape, about which the body's axes lie.
+PlacedShape placeCapsules(const std::vector<Capsule>& capsules) {
+    PlacedShape placed = placeCapsule(capsules.front());
+    for (std::size_t i = 1; i < capsules.size(); ++i) {
+        const PlacedShape further = placeCapsule(capsules[i]);
+        RigidTransform bodyFromShape = inverse(placed.standardFromBody) * further.standardFromBody;
+        bodyFromShape.rotation = glm::normalize(bodyFromShape.rotation);
+        placed.shape.more.push_back({further.shape, bodyFromShape});
+    }
+    return placed;
+}
+
+// Whether a body with these shapes comes into one that it is not linked with where it did not with its present one.
+bool comesIntoOthers(const BodyPlan& plan, const std::vector<PlacedShape>& shapes, int body,
+                     const PlacedShape& wanted) {
+    const auto depth = [&](const PlacedShape& own, int other) {
+        return -distanceBetween(own.shape, own.standardFromBody, shapes[other].shape, shapes[other].standardFromBody);
+    };
+    for (int other = 0; other < static_cast<int>(shapes.size()); ++other) {
+        const bool linked = plan.bodies[other].parent == body || plan.bodies[body].parent == other;
+        if (other == body || linked) continue;
+        if (depth(wanted, other) > std::max(0.0F, depth(shapes[body], other))) return true;
+    }
+    return false;
+}
+
+void addFurtherShapes(const BodyPlan& plan, const Anatomy& anatomy, int most, const std::vector<Capsule>& capsules,
+                      std::vector<PlacedShape>& shapes) {
+    for (int body = 0; body < static_cast<int>(plan.bodies.size()); ++body) {
+        const PlannedBody& planned = plan.bodies[body];
+        if (plan.symmetric && planned.side != Side::center && planned.mirror >= 0) continue;
+        const auto several = BodyFit(plan, anatomy, body).fitSeveral(capsules[body], most);
+        if (!several) continue;
+        PlacedShape wanted = placeCapsules(*several);
+        if (!comesIntoOthers(plan, shapes, body, wanted)) shapes[body] = std::move(wanted);
+    }
+}
+
+}  // namespace
+
+std::vector<PlacedShape> fitShapes(const BodyPlan& plan, const Anatomy& anatomy, int mostShapes) {
     std::vector<Capsule> capsules(plan.bodies.size());
     for (int body = 0; body < static_cast<int>(plan.bodies.size()); ++body) {
         const PlannedBody& planned = plan.bodies[body];
@@ -308,6 +379,7 @@ std::vector<PlacedShape> fitShapes(const BodyPlan& plan, const Anatomy& anatomy)
     shapes.reserve(capsules.size());
     for (const Capsule& capsule : capsules)
         shapes.push_back(placeCapsule(capsule));
+    addFurtherShapes(plan, anatomy, mostShapes, capsules, shapes);
     separateShapes(plan, shapes);
     return shapes;
 }

@@ -23,8 +23,11 @@ struct Capsule {
 /// the flesh, and end near the joints; trunk capsules stand or lie across, whichever fits better; the head stands; feet
 /// lie on the sole. Bodies with fewer than 24 points of skin get a man's proportions. Radii are kept between 1 % and 15
 /// % of the height (trunk 20, head 30 %). On a symmetric rig both sides are fitted as one and come out as mirror
-/// images. Shapes of bodies that are not linked are then shrunk by up to a quarter where that keeps them apart.
-[[nodiscard]] std::vector<PlacedShape> fitShapes(const BodyPlan& plan, const Anatomy& anatomy);
+/// images. A trunk or head that several capsules cover clearly better (fitSeveralCapsules()) gets up to `mostShapes` of
+/// them, where none of the further ones comes into a body that is not linked. Shapes of bodies that are not linked are
+/// then shrunk by up to a quarter where that keeps them apart.
+[[nodiscard]] std::vector<PlacedShape> fitShapes(const BodyPlan& plan, const Anatomy& anatomy,
+                                                 int mostShapes = FitOptions{}.mostShapes);
 
 /// A capsule as a placed shape: axis along body Y, body Z as near to straight ahead as the axis lets it.
 [[nodiscard]] PlacedShape placeCapsule(const Capsule& capsule);

@@ -1,0 +1,258 @@
+#include "physics/fit/several_capsules.hpp"
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+
+#include "core/quantile.hpp"
+
+namespace lutka::physics {
+namespace {
+
+constexpr std::size_t kMostUnionPoints = 250;
+constexpr float kUnionClearly = 0.65F;    // of the distance that one capsule leaves
+constexpr float kThirdClearly = 0.8F;     // of the distance that two leave
+constexpr float kShareWon = 0.1F;         // of the skin
+constexpr float kWellCovered = 0.97F;     // of the skin: nothing to win
+constexpr float kUnionProtrusion = 1.5F;  // skin inside a capsule weighs more than skin outside, as for a single one
+constexpr int kAlongX = 0;
+constexpr int kAlongY = 1;
+
+// A capsule along one of the axes, or a pair of them that are mirror images in the plane x = 0.
+struct Member {
+    vec3 center{0, 0, 0};
+    int axis = kAlongY;
+    float half = 0.0F;
+    float radius = 0.0F;
+    bool isPair = false;
+};
+using Members = std::vector<Member>;
+
+vec3 acrossMiddle(const vec3& point) {
+    return {-point.x, point.y, point.z};
+}
+
+// Distance from the surface of a capsule about `center`; negative inside.
+float distanceFrom(const Member& member, const vec3& center, const vec3& point) {
+    vec3 apart = point - center;
+    apart[member.axis] = std::max(0.0F, std::abs(apart[member.axis]) - member.half);
+    return glm::length(apart) - member.radius;
+}
+
+float distanceFrom(const Members& members, const vec3& point) {
+    float least = 1e9F;
+    for (const Member& member : members) {
+        least = std::min(least, distanceFrom(member, member.center, point));
+        if (member.isPair) least = std::min(least, distanceFrom(member, acrossMiddle(member.center), point));
+    }
+    return least;
+}
+
+float distanceFrom(const Capsule& capsule, const vec3& point) {
+    const vec3 along = capsule.end - capsule.start;
+    const float square = glm::dot(along, along);
+    const float t = square > 0.0F ? std::clamp(glm::dot(point - capsule.start, along) / square, 0.0F, 1.0F) : 0.0F;
+    return glm::distance(point, capsule.start + t * along) - capsule.radius;
+}
+
+int countOf(const Members& members) {
+    int count = 0;
+    for (const Member& member : members)
+        count += member.isPair ? 2 : 1;
+    return count;
+}
+
+class UnionSearch {
+  public:
+    UnionSearch(const std::vector<SkinPoint>& points, const CapsuleBounds& bounds) : bounds_(bounds) {
+        const RigidTransform axesFromStandard = inverse(bounds.standardFromAxes);
+        const std::size_t stride = (points.size() + kMostUnionPoints - 1) / kMostUnionPoints;
+        const bool weighted = std::any_of(points.begin(), points.end(), [](const auto& p) { return p.area > 0.0F; });
+        for (std::size_t i = 0; i < points.size(); i += stride)
+            points_.push_back({axesFromStandard * points[i].position, weighted ? points[i].area : 1.0F});
+        for (const SkinPoint& point : points_)
+            area_ += point.area;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto coordinate = [axis](const SkinPoint& p) { return p.position[axis]; };
+            low_[axis] = quantileOf(points_, 0.01F, coordinate);
+            high_[axis] = quantileOf(points_, 0.99F, coordinate);
+        }
+    }
+
+    template <class Shape>
+    [[nodiscard]] float cost(const Shape& shape) const {
+        float sum = 0.0F;
+        for (const SkinPoint& point : points_) {
+            const float signedDistance = distanceFrom(shape, point.position);
+            const float distance = signedDistance < 0.0F ? -kUnionProtrusion * signedDistance : signedDistance;
+            sum += point.area * std::min(distance, bounds_.cutoff);
+        }
+        return sum / area_;
+    }
+
+    template <class Shape>
+    [[nodiscard]] float shareNear(const Shape& shape) const {
+        float near = 0.0F;
+        for (const SkinPoint& point : points_)
+            near += std::abs(distanceFrom(shape, point.position)) <= bounds_.nearM ? point.area : 0.0F;
+        return near / area_;
+    }
+
+    // The one along an axis that fills the skin's box.
+    [[nodiscard]] Member filling(int axis) const {
+        const vec3 half = 0.5F * (high_ - low_);
+        Member member;
+        member.axis = axis;
+        member.center = 0.5F * (low_ + high_);
+        member.radius = 0.5F * (half[(axis + 1) % 3] + half[(axis + 2) % 3]);
+        member.half = half[axis] - member.radius;
+        return member;
+    }
+
+    // `members` and one along `axis` where most skin lies outside of them.
+    [[nodiscard]] Members withAnother(Members members, int axis, bool isPair) const {
+        vec3 sum(0);
+        float weight = 0.0F;
+        for (const SkinPoint& point : points_) {
+            const float outside = point.area * std::max(0.0F, distanceFrom(members, point.position));
+            const bool otherSide = isPair && point.position.x < 0.0F;
+            sum += outside * (otherSide ? acrossMiddle(point.position) : point.position);
+            weight += outside;
+        }
+        Member member;
+        member.axis = axis;
+        member.center = weight > 0.0F ? sum / weight : members.front().center;
+        member.radius = 0.6F * members.front().radius;
+        member.half = axis == members.front().axis ? members.front().half : 0.0F;
+        member.isPair = isPair;
+        members.push_back(member);
+        return run(std::move(members));
+    }
+
+    [[nodiscard]] Members run(Members best) const {
+        for (Member& member : best)
+            settle(member);
+        float least = cost(best);
+        const vec3 size = high_ - low_;
+        float step = 0.12F * std::max({size.x, size.y, size.z});
+        const float finest = 0.02F * step;
+        for (; step > finest; step *= 0.5F) {
+            constexpr int kSweeps = 6;
+            for (int sweep = 0; sweep < kSweeps; ++sweep)
+                if (!improve(best, least, step)) break;
+        }
+        return best;
+    }
+
+    [[nodiscard]] std::vector<Capsule> inStandard(const Members& members) const {
+        std::vector<Capsule> capsules;
+        for (const Member& member : members) {
+            vec3 half(0);
+            half[member.axis] = member.half;
+            const auto add = [&](const vec3& center) {
+                capsules.push_back({bounds_.standardFromAxes * (center - half),
+                                    bounds_.standardFromAxes * (center + half), member.radius});
+            };
+            add(member.center);
+            if (member.isPair) add(acrossMiddle(member.center));
+        }
+        return capsules;
+    }
+
+  private:
+    // One sweep over all parameters; whether any step helped.
+    bool improve(Members& best, float& least, float step) const {
+        bool better = false;
+        for (std::size_t i = 0; i < best.size(); ++i) {
+            for (int move = 0; move < 10; ++move) {
+                Members trial = best;
+                Member& member = trial[i];
+                const std::array<float*, 5> parameters{&member.radius, &member.half, &member.center.x, &member.center.y,
+                                                       &member.center.z};
+                *parameters[move / 2] += move % 2 == 0 ? step : -step;
+                settle(member);
+                const float trialCost = cost(trial);
+                if (trialCost >= least) continue;
+                least = trialCost;
+                best = std::move(trial);
+                better = true;
+            }
+        }
+        return better;
+    }
+
+    // Keeps a capsule with the skin: it may stand out of the skin's box by a tenth of its radius, so that it does not
+    // slip through where the part is open towards its neighbours.
+    void settle(Member& member) const {
+        const vec3 room = 0.5F * (high_ - low_);
+        member.radius = std::clamp(member.radius, bounds_.smallestRadius, bounds_.largestRadius);
+        const float thinnest = std::min({room.x, room.y, room.z});
+        member.radius = std::max(std::min(member.radius, 1.1F * thinnest), bounds_.smallestRadius);
+        const float spare = 0.1F * member.radius;
+        member.half = std::clamp(member.half, 0.0F, std::max(0.0F, room[member.axis] + spare - member.radius));
+        for (int axis = 0; axis < 3; ++axis) {
+            const float reach = member.radius - spare + (axis == member.axis ? member.half : 0.0F);
+            const float slack = std::max(0.0F, room[axis] - reach);
+            const float middle = 0.5F * (low_[axis] + high_[axis]);
+            member.center[axis] = std::clamp(member.center[axis], middle - slack, middle + slack);
+        }
+        if (!bounds_.symmetric) return;
+        if (!member.isPair)
+            member.center.x = 0.0F;
+        else
+            member.center.x = std::max(member.center.x, 0.0F);
+    }
+
+    CapsuleBounds bounds_;
+    std::vector<SkinPoint> points_;  // in the axes
+    float area_ = 0.0F;
+    vec3 low_{0, 0, 0};
+    vec3 high_{0, 0, 0};
+};
+
+}  // namespace
+
+std::optional<std::vector<Capsule>> fitSeveralCapsules(const std::vector<SkinPoint>& points, const Capsule& single,
+                                                       const CapsuleBounds& bounds, int most) {
+    const UnionSearch search(points, bounds);
+    const RigidTransform axesFromStandard = inverse(bounds.standardFromAxes);
+    const Capsule alone{axesFromStandard * single.start, axesFromStandard * single.end, single.radius};
+    const float near = search.shareNear(alone);
+    if (near + kShareWon > kWellCovered) return std::nullopt;
+    float least = kUnionClearly * search.cost(alone);
+    Members best;
+    const auto consider = [&](Members members, float factor) {
+        if (countOf(members) > most) return;
+        const float cost = search.cost(members);
+        if (cost > factor * least || search.shareNear(members) < near + kShareWon) return;
+        best = std::move(members);
+        least = std::min(least, cost);
+    };
+    for (const int main : {kAlongY, kAlongX}) {
+        for (int axis = 0; axis < 3; ++axis)
+            consider(search.withAnother({search.filling(main)}, axis, false), 1.0F);
+    }
+    const Members two = best;
+    for (const int main : {kAlongY, kAlongX}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const float factor = two.empty() ? 1.0F : kThirdClearly;
+            if (bounds.symmetric && axis != kAlongX)
+                consider(search.withAnother({search.filling(main)}, axis, true), factor);
+            if (most > 2 && !two.empty()) consider(search.withAnother(two, axis, false), factor);
+        }
+    }
+    if (best.empty()) return std::nullopt;
+    std::vector<Capsule> capsules = search.inStandard(best);
+    const bool pairs = std::any_of(best.begin(), best.end(), [](const Member& member) { return member.isPair; });
+    const auto volume = [](const Capsule& c) {
+        return c.radius * c.radius * (4.0F / 3.0F * c.radius + glm::distance(c.start, c.end));
+    };
+    // Of a symmetric body the one in the middle comes first, whatever its size.
+    if (!pairs) {
+        std::stable_sort(capsules.begin(), capsules.end(),
+                         [&](const Capsule& a, const Capsule& b) { return volume(a) > volume(b); });
+    }
+    return capsules;
+}
+
+}  // namespace lutka::physics

@@ -1,0 +1,102 @@
+#include "physics/fit/several_capsules.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "support/catch.hpp"
+
+using namespace lutka;
+using namespace lutka::physics;
+
+namespace {
+
+float distanceFrom(const Capsule& capsule, const vec3& point) {
+    const vec3 along = capsule.end - capsule.start;
+    const float square = glm::dot(along, along);
+    const float t = square > 0.0F ? std::clamp(glm::dot(point - capsule.start, along) / square, 0.0F, 1.0F) : 0.0F;
+    return glm::distance(point, capsule.start + t * along) - capsule.radius;
+}
+
+// Points on the surface of the union of capsules, all of one area.
+std::vector<SkinPoint> skinOf(const std::vector<Capsule>& capsules) {
+    std::vector<SkinPoint> points;
+    for (const Capsule& capsule : capsules) {
+        for (int ring = 0; ring <= 24; ++ring) {
+            for (int step = 0; step < 24; ++step) {
+                const float polar = kPi * static_cast<float>(ring) / 24.0F;
+                const float turn = 2.0F * kPi * static_cast<float>(step) / 24.0F;
+                const vec3 normal(std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn));
+                const bool atEnd = glm::dot(normal, capsule.end - capsule.start) > 0.0F;
+                const vec3 point = (atEnd ? capsule.end : capsule.start) + capsule.radius * normal;
+                const bool outside = std::all_of(capsules.begin(), capsules.end(), [&](const Capsule& other) {
+                    return distanceFrom(other, point) > -1e-4F;
+                });
+                if (outside) points.push_back({point, 1e-3F});
+            }
+        }
+    }
+    return points;
+}
+
+CapsuleBounds boundsOf(bool symmetric) {
+    CapsuleBounds bounds;
+    bounds.symmetric = symmetric;
+    bounds.smallestRadius = 0.02F;
+    bounds.largestRadius = 0.5F;
+    bounds.nearM = 0.02F;
+    return bounds;
+}
+
+float meanDistance(const std::vector<Capsule>& capsules, const std::vector<SkinPoint>& points) {
+    float sum = 0.0F;
+    for (const SkinPoint& point : points) {
+        float least = 1e9F;
+        for (const Capsule& capsule : capsules)
+            least = std::min(least, distanceFrom(capsule, point.position));
+        sum += std::abs(least);
+    }
+    return sum / static_cast<float>(points.size());
+}
+
+}  // namespace
+
+TEST_CASE("a chest with a belly in front gets two capsules") {
+    const Capsule chest{{0, 0.2F, 0}, {0, 0.6F, 0}, 0.15F};
+    const Capsule belly{{0, 0.2F, 0.2F}, {0, 0.2F, 0.2F}, 0.2F};
+    const auto skin = skinOf({chest, belly});
+    const Capsule single{{0, 0.25F, 0.1F}, {0, 0.55F, 0.1F}, 0.2F};
+    const auto found = fitSeveralCapsules(skin, single, boundsOf(true), 3);
+    REQUIRE(found);
+    CHECK(found->size() >= 2);
+    CHECK(meanDistance(*found, skin) < 0.5F * meanDistance({single}, skin));
+    float aside = 0.0F;
+    for (const Capsule& capsule : *found)
+        aside += capsule.start.x + capsule.end.x;
+    CHECK(std::abs(aside) < 1e-5F);
+}
+
+TEST_CASE("shoulders beside a chest are a pair of mirror images, the middle one first") {
+    const Capsule chest{{0, 0, 0}, {0, 0.5F, 0}, 0.16F};
+    const Capsule left{{0.28F, 0.1F, 0}, {0.28F, 0.5F, 0}, 0.12F};
+    const Capsule right{{-0.28F, 0.1F, 0}, {-0.28F, 0.5F, 0}, 0.12F};
+    const auto skin = skinOf({chest, left, right});
+    const Capsule single{{0, 0.1F, 0}, {0, 0.4F, 0}, 0.25F};
+    const auto found = fitSeveralCapsules(skin, single, boundsOf(true), 3);
+    REQUIRE(found);
+    REQUIRE(found->size() == 3);
+    CHECK(std::abs((*found)[0].start.x + (*found)[0].end.x) < 1e-6F);
+    CHECK((*found)[1].start.x == Approx(-(*found)[2].start.x));
+    CHECK((*found)[1].radius == Approx((*found)[2].radius));
+    CHECK(meanDistance(*found, skin) < 0.01F);
+    // With two at most there is no pair.
+    const auto two = fitSeveralCapsules(skin, single, boundsOf(true), 2);
+    CHECK((!two || two->size() == 2));
+}
+
+TEST_CASE("skin that one capsule covers keeps it") {
+    const Capsule chest{{0, 0, 0}, {0, 0.5F, 0}, 0.16F};
+    const auto skin = skinOf({chest});
+    CHECK_FALSE(fitSeveralCapsules(skin, chest, boundsOf(true), 3));
+    CHECK_FALSE(fitSeveralCapsules(skin, chest, boundsOf(false), 3));
+}
