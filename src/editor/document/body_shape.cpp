@@ -1,7 +1,11 @@
 #include "editor/document/body_shape.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "physics/collision/shape.hpp"
 
 namespace lutka::editor {
 
@@ -33,6 +37,29 @@ void setRadius(BodyShape& shape, float radius) {
     const float half = shape.halfLength + shape.radius;
     shape.radius = radius;
     if (shape.kind == BodyShape::Kind::capsule) shape.halfLength = std::max(half - radius, 0.0F);
+}
+
+Result<void> addShape(BodyShape& shape, physics::PrimitiveShape::Kind kind) {
+    using Kind = physics::PrimitiveShape::Kind;
+    if (shape.more.size() >= BodyShape::kMostAdded) {
+        return Error{ErrorCode::usage, fmt::format("a body has {} shapes at most", 1 + BodyShape::kMostAdded), "",
+                     "remove another one, or split the body"};
+    }
+    const physics::PrimitiveShape& main = shape;
+    const float ahead = physics::supportExtent(main, {0, 0, 1});
+    const float half = 0.5F * ahead;
+    physics::AddedShape added;
+    added.kind = kind;
+    added.radius = half;
+    added.halfLength = kind == Kind::capsule ? half : 0.0F;
+    added.halfExtents = vec3(half);
+    added.bodyFromShape.translation = {0, 0, ahead};
+    shape.more.push_back(added);
+    return {};
+}
+
+void removeShape(BodyShape& shape, std::size_t index) {
+    if (index < shape.more.size()) shape.more.erase(shape.more.begin() + static_cast<std::ptrdiff_t>(index));
 }
 
 }  // namespace lutka::editor

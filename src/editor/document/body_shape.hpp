@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/result.hpp"
 #include "physics/profile/profile.hpp"
 
 namespace lutka::editor {
@@ -9,5 +10,11 @@ namespace lutka::editor {
 
 /// Another radius; a capsule keeps its length from end to end, as far as that is above twice the radius.
 void setRadius(physics::BodyShape& shape, float radius);
+
+/// Gives a body another shape of that kind, half as thick as its main one and ahead of it (+Z), where it is seen. Fails
+/// with ErrorCode::usage when it has as many as a body can have.
+[[nodiscard]] Result<void> addShape(physics::BodyShape& shape, physics::PrimitiveShape::Kind kind);
+/// Takes the further shape of that index away; of another index nothing.
+void removeShape(physics::BodyShape& shape, std::size_t index);
 
 }  // namespace lutka::editor

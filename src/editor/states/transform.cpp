@@ -433,8 +433,18 @@ class ScaleHandler final : public TransformHandler {
         return lock_.kind == AxisLock::Kind::free || along;
     }
 
-    // A capsule's axis is its y.
+    // The further shapes go with the main one: their places, and their measures where all axes are scaled.
     void scale(physics::BodyShape& shape) const {
+        scaleMeasures(shape);
+        for (physics::AddedShape& added : shape.more) {
+            if (lock_.kind == AxisLock::Kind::free) scaleMeasures(added);
+            for (int axis = 0; axis < 3; ++axis)
+                if (scales(axis)) added.bodyFromShape.translation[axis] *= factor_;
+        }
+    }
+
+    // A capsule's axis is its y.
+    void scaleMeasures(physics::PrimitiveShape& shape) const {
         if (scales(0) || scales(2)) shape.radius *= factor_;
         if (scales(1)) shape.halfLength *= factor_;
         for (int axis = 0; axis < 3; ++axis) {

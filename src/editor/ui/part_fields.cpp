@@ -194,8 +194,9 @@ void drawShapeFields(const PartFields& fields) {
     // As the fit has it where it is of that kind; else as large as the old one.
     const auto setKind = [&](Kind wanted) {
         fields.change("Shape", [&, wanted](EditorDocument::Part& part) -> Result<void> {
-            const physics::BodyShape& fitted = fields.fittedOf(part).shape;
-            part.body.shape = fitted.kind == wanted ? fitted : shapeOfKind(part.body.shape, wanted);
+            const physics::PrimitiveShape& fitted = fields.fittedOf(part).shape;
+            physics::PrimitiveShape& main = part.body.shape;  // the further ones stay
+            main = fitted.kind == wanted ? fitted : shapeOfKind(part.body.shape, wanted);
             return {};
         });
     };

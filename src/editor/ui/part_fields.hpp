@@ -47,6 +47,7 @@ void fieldRow(const PartFields& fields, const char* label);
 /// Sections of the tab.
 void drawShapeFields(const PartFields& fields);
 void drawPlaceFields(const PartFields& fields);
+void drawAddedShapeFields(const PartFields& fields);
 void drawJointFields(const PartFields& fields);
 
 }  // namespace lutka::editor

@@ -96,6 +96,7 @@ void drawBody(const PanelContext& context, const Item& item) {
     } else {
         mutedText("The root of the ragdoll: it hangs on nothing.");
     }
+    drawAddedShapeFields(fields);
 }
 
 void drawTable(const PanelContext& context) {

@@ -5,7 +5,10 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <functional>
+#include <span>
 
+#include "editor/document/body_shape.hpp"
 #include "editor/ui/panels.hpp"
 #include "editor/ui/role_drag.hpp"
 #include "editor/ui/style.hpp"
@@ -28,6 +31,27 @@ int bodyOfJoint(const physics::Rig& rig, int joint) {
     return found == rig.jointOfBody.end() ? -1 : static_cast<int>(found - rig.jointOfBody.begin());
 }
 
+// Another shape for the body, or one less.
+void shapeMenu(const PanelContext& context, int body) {
+    Editor& editor = context.editor;
+    const std::size_t more = editor.document().profile().bodies[body].shape.more.size();
+    const auto change = [&](const char* what, const std::function<Result<void>(physics::BodyShape&)>& edit) {
+        editor.select(Item{Item::Kind::body, 0, body});
+        editor.edit([&](EditorDocument& document) {
+            return document.changeParts(std::span(&body, 1), what, "",
+                                        [&](EditorDocument::Part& part) { return edit(part.body.shape); });
+        });
+    };
+    if (ImGui::MenuItem("Add a shape to it", nullptr, false, more < physics::BodyShape::kMostAdded))
+        change("Add a shape", [](auto& shape) { return addShape(shape, physics::PrimitiveShape::Kind::sphere); });
+    if (ImGui::MenuItem("Remove its last shape", nullptr, false, more > 0)) {
+        change("Remove a shape", [](auto& shape) -> Result<void> {
+            removeShape(shape, shape.more.size() - 1);
+            return {};
+        });
+    }
+}
+
 // What bodies the joint has or could have.
 void bodyMenu(const PanelContext& context, int joint, int body) {
     Editor& editor = context.editor;
@@ -43,6 +67,7 @@ void bodyMenu(const PanelContext& context, int joint, int body) {
         onBody("Split its body", Action::splitBodies);
         onBody("Merge its body into the one above", Action::mergeBodies);
         onBody("Remove its body", Action::removeBodies);
+        shapeMenu(context, body);
     }
     ImGui::Separator();
 }
@@ -140,6 +165,12 @@ void drawJoint(const PanelContext& context, const Tree& tree, int joint) {
         ImGui::SameLine();
         ImGui::TextColored(accentColor(), "○");
         tooltip("It has a body of its own");
+    }
+    const std::size_t shapes = body < 0 ? 1 : 1 + editor.document().profile().bodies[body].shape.more.size();
+    if (shapes > 1) {
+        ImGui::SameLine();
+        ImGui::TextColored(mutedColor(), "×%d", static_cast<int>(shapes));
+        tooltip(fmt::format("Its body has {} shapes", shapes));
     }
     if (open) {
         if (!filtering) {

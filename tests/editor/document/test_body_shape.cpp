@@ -42,3 +42,22 @@ TEST_CASE("a capsule's radius leaves its length alone, as far as it can") {
     CHECK(shape.halfLength == 0.0F);
     CHECK(shape.radius == 0.3F);
 }
+
+TEST_CASE("a body takes two further shapes, and gives them back") {
+    BodyShape shape = thigh();
+    REQUIRE(addShape(shape, BodyShape::Kind::sphere).ok());
+    REQUIRE(addShape(shape, BodyShape::Kind::box).ok());
+    const auto refused = addShape(shape, BodyShape::Kind::capsule);
+    REQUIRE_FALSE(refused.ok());
+    CHECK_THAT(refused.error().message, Catch::Contains("3 shapes"));
+    REQUIRE(shape.more.size() == 2);
+    CHECK(shape.more[0].radius == Approx(0.04F));
+    CHECK(shape.more[0].bodyFromShape.translation.z == Approx(0.08F));
+    removeShape(shape, 0);
+    REQUIRE(shape.more.size() == 1);
+    CHECK(shape.more[0].kind == BodyShape::Kind::box);
+    removeShape(shape, 5);
+    CHECK(shape.more.size() == 1);
+    // The main shape's kind and radius leave them alone.
+    CHECK(shapeOfKind(shape, BodyShape::Kind::box).more.size() == 1);
+}

@@ -3,6 +3,7 @@
 #include <array>
 #include <glm/geometric.hpp>
 
+#include "editor/document/body_shape.hpp"
 #include "editor/sessions.hpp"
 #include "physics/profile/profile_io.hpp"
 #include "physics/rig/rig.hpp"
@@ -227,6 +228,45 @@ TEST_CASE("a joint's spring is an edit that is undone, copied, mirrored, saved a
     CHECK_FALSE(set(std::numeric_limits<float>::quiet_NaN()).ok());
     REQUIRE(document->resetPart(left).ok());
     CHECK_FALSE(spring(Role::leftUpperLeg).works());
+}
+
+TEST_CASE("a further shape is an edit that is undone, mirrored, copied and saved") {
+    const auto document = makeDocument();
+    const std::array arm = {bodyOf(*document, Role::leftUpperArm)};
+    const int other = bodyOf(*document, Role::rightUpperArm);
+    const std::string before = text(*document);
+    const float moment = document->profile().bodies[arm[0]].inertia.y;
+    REQUIRE(document
+                ->changeParts(arm, "Add a shape", "",
+                              [](Part& part) {
+                                  auto done = addShape(part.body.shape, physics::PrimitiveShape::Kind::sphere);
+                                  part.body.shape.more.back().bodyFromShape.translation = {0.1F, 0.02F, 0.05F};
+                                  return done;
+                              })
+                .ok());
+    const auto added = [&](int body) { return document->profile().bodies[body].shape.more; };
+    REQUIRE(added(arm[0]).size() == 1);
+    CHECK(document->profile().bodies[arm[0]].inertia.y > moment);
+    CHECK_FALSE(text(*document) == before);
+    REQUIRE(document->mirrorParts(arm).ok());
+    REQUIRE(added(other).size() == 1);
+    CHECK(added(other)[0].bodyFromShape.translation == vec3(-0.1F, 0.02F, 0.05F));
+    // Where both lie in the bind pose, they are mirror images.
+    const auto& bind = document->asset().rig.bindModelFromBody;
+    const vec3 left = bind[arm[0]] * added(arm[0])[0].bodyFromShape.translation;
+    const vec3 right = bind[other] * added(other)[0].bodyFromShape.translation;
+    CHECK(glm::distance(vec3(-left.x, left.y, left.z), right) < 1e-3F);
+    document->undo();
+    CHECK(added(other).empty());
+    REQUIRE(document->pasteParts(std::array{other}, document->copyPart(arm[0])).ok());
+    REQUIRE(added(other).size() == 1);
+    CHECK(added(other)[0].bodyFromShape.translation.x == -0.1F);
+    const auto back = physics::profileFromJson(text(*document), "memory");
+    REQUIRE(back);
+    CHECK(back.value().bodies[arm[0]].shape.more.size() == 1);
+    document->undo();
+    document->undo();
+    CHECK(text(*document) == before);
 }
 
 TEST_CASE("mirroring takes range, axes and place across the figure") {
