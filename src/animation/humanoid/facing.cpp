@@ -16,6 +16,7 @@ constexpr float kFewestOfEveryLimb = 4.0F;  // pairs of joints
 // What hats and hair can mislead (the head's reach, where its skin is finer) says no more than this together.
 constexpr float kMostOfHead = 3.0F;
 constexpr float kPriorPlusZ = 0.6F;
+constexpr float kMostSlope = radians(50.0F);  // of a shin that stands; those of a kneeling figure lie
 
 class FacingFinder {
   public:
@@ -69,12 +70,35 @@ class FacingFinder {
             return;
         }
         const float ankle = pair(foot).position.z;
+        if (lower != kNoPair && slopeOf(lower, foot) > kMostSlope) {
+            // Feet of a kneeling figure lie behind it, soles up: they point to the front as seen from the shin.
+            if (toes != kNoPair) {
+                const float ahead = fromUpright(lower, foot, pair(toes).position - pair(foot).position).z;
+                speak(ahead / legs_.length, 40.0F, 5.0F, "the toes point that way");
+            }
+            return;
+        }
         if (toes != kNoPair) {
             speak((pair(toes).position.z - ankle) / legs_.length, 40.0F, 5.0F, "the toes point that way");
         } else {
             readTips(foot, ankle);
         }
         readSoles(foot);
+    }
+
+    // Angle of the shin to straight down, in the plane of symmetry.
+    [[nodiscard]] float slopeOf(int lower, int foot) const {
+        const vec3 shin = pair(foot).position - pair(lower).position;
+        return std::abs(std::atan2(shin.z, -shin.y));
+    }
+
+    // A direction of the foot as it would be if the shin stood upright.
+    [[nodiscard]] vec3 fromUpright(int lower, int foot, const vec3& direction) const {
+        const vec3 shin = pair(foot).position - pair(lower).position;
+        const float angle = std::atan2(shin.z, -shin.y);
+        const float c = std::cos(angle);
+        const float s = std::sin(angle);
+        return {direction.x, c * direction.y - s * direction.z, s * direction.y + c * direction.z};
     }
 
     // Joints below an ankle without toes: tips of the foot.

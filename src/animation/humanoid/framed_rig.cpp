@@ -139,7 +139,8 @@ class PairFinder {
                 const float error =
                     glm::distance(mirrored(framed_.positions[a]), framed_.positions[b]) / framed_.spread;
                 if (error > kMaxError || separation(a, b) < kMinSeparation * framed_.spread) continue;
-                if (rig_.isAncestorOrSelf(a, b) || rig_.isAncestorOrSelf(b, a)) continue;
+                const bool above = rig_.isAncestorOrSelf(a, b) || rig_.isAncestorOrSelf(b, a);
+                if (above && nameCost(rig_.names[a], rig_.names[b]) >= 0.0F) continue;
                 const float below = glm::distance(mirrored(centroids_[a]), centroids_[b]) / framed_.spread;
                 const float cost =
                     12.0F * error + 5.0F * below + structureCost(a, b) + (parentsLinked(a, b) ? 0.0F : 0.5F);

@@ -27,15 +27,6 @@ HumanoidMap refused(std::string reason) {
     return map;
 }
 
-Part partOf(Role role) {
-    constexpr std::array<Part, 8> kSided{Part::clavicle, Part::upperArm, Part::lowerArm, Part::hand,
-                                         Part::upperLeg, Part::lowerLeg, Part::foot,     Part::toes};
-    constexpr std::array<Part, 6> kCentral{Part::hips, Part::trunk, Part::trunk, Part::chest, Part::neck, Part::head};
-    const int index = indexOf(role);
-    if (sideOf(role) == Side::center) return kCentral[static_cast<std::size_t>(index)];
-    return kSided[static_cast<std::size_t>(index - indexOf(Role::leftShoulder)) % kSided.size()];
-}
-
 // A fixed binding speaks as the loudest name: the search is drawn to it and keeps the rest consistent.
 void teachFixed(const FixedJoints& fixed, RigFeatures& rig) {
     for (int index = 0; index < kRoleCount; ++index) {

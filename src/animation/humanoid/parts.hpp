@@ -14,6 +14,9 @@ inline constexpr int kPartCount = 13;
     return static_cast<int>(part);
 }
 
+/// The part that a role is, without its side and number.
+[[nodiscard]] Part partOf(Role role);
+
 /// A number a part.
 struct PartScores {
     std::array<float, kPartCount> values{};

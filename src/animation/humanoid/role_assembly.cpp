@@ -6,10 +6,14 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
+#include "animation/humanoid/role_hierarchy.hpp"
+#include "animation/humanoid/stray_joints.hpp"
+
 namespace lutka::animation {
 namespace {
 
 constexpr float kCertain = 0.99F;
+constexpr float kLoneMargin = 2.0F;  // log-odds of a joint that is found on one side alone
 
 float probability(float logOdds) {
     return 1.0F / (1.0F + std::exp(-logOdds));
@@ -35,6 +39,7 @@ class RoleAssembler {
         constexpr std::array<Role, 4> kArms{Role::leftUpperArm, Role::leftLowerArm, Role::leftHand, Role::leftShoulder};
         bindLimb(figure_.legs, kLegs, figure_.margins.legs, "leg");
         bindLimb(figure_.arms, kArms, figure_.margins.arms, "arm");
+        bindStrayJoints(rig_, probability(kLoneMargin) * sideTrust_, map_);
         distrustAstray();
         map_.standardFromModel = standardStance();
         return map_;
@@ -111,12 +116,10 @@ class RoleAssembler {
         }
     }
 
-    // Whether the role's joint does not hang below that of the role above it: the file's hierarchy does not move that
-    // part as the body would.
     [[nodiscard]] bool isAstray(int index) const {
         const std::optional<Role> above = parentRole(roleAt(index));
         if (!map_.roles[index] || !above || !map_.roles[indexOf(*above)]) return false;
-        return !rig_.isAncestorOrSelf(map_.roles[indexOf(*above)]->joint, map_.roles[index]->joint);
+        return hangingOf(map_, rig_.parents, roleAt(index), *above) != Hanging::below;
     }
 
     // In a flat hierarchy, where joints hang on the root side by side, that says nothing about single ones.
@@ -124,13 +127,10 @@ class RoleAssembler {
         constexpr float kAstray = 0.9F;
         constexpr float kFlat = 0.8F;
         std::vector<int> astray;
-        int bound = 0;
         for (int index = 0; index < kRoleCount; ++index) {
-            bound += map_.roles[index] ? 1 : 0;
             if (isAstray(index)) astray.push_back(index);
         }
-        const bool flat = 2 * static_cast<int>(astray.size()) > bound;
-        if (flat) {
+        if (hangsFlat(map_, rig_.parents)) {
             map_.confidence *= kFlat;
             return;
         }
@@ -142,11 +142,10 @@ class RoleAssembler {
 
     // A joint that only one side has.
     void bindLone(const LimbCandidate& limb, std::size_t slot, Role leftRole, const char* what) {
-        constexpr float kMargin = 2.0F;
         const bool plusIsLeft = figure_.facing.total() >= 0.0F;
         for (std::size_t side = 0; side < limb.lone.size(); ++side) {
             const bool left = (side == 0) == plusIsLeft;
-            bind(left ? leftRole : mirrored(leftRole), limb.lone[side][slot], partsOf(limb.kind)[slot], kMargin,
+            bind(left ? leftRole : mirrored(leftRole), limb.lone[side][slot], partsOf(limb.kind)[slot], kLoneMargin,
                  fmt::format("goes on with the {} {}, which the other side does not", left ? "left" : "right", what));
         }
     }

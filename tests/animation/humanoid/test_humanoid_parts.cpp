@@ -147,4 +147,29 @@ TEST_CASE("tentacles of hundreds of joints are looked through in no time", "[pos
     CHECK_FALSE(animation::mapHumanoid(tentacles).humanoid);
 }
 
+TEST_CASE("a forearm that hangs on the other arm is still that forearm, and nothing is lost beside it", "[poses]") {
+    const animation::Character sound = makeBiped();
+    const HumanoidMap whole = animation::mapHumanoid(sound);
+    REQUIRE(whole.missing.empty());
+    const std::pair<Role, Role> strays[] = {{Role::rightLowerArm, Role::leftLowerArm},
+                                            {Role::rightHand, Role::leftHand},
+                                            {Role::rightLowerLeg, Role::leftUpperLeg},
+                                            {Role::rightUpperLeg, Role::leftUpperLeg}};
+    for (const auto& [role, on] : strays) {
+        INFO(animation::roleName(role) << " on " << animation::roleName(on));
+        animation::Character character = sound;
+        character.skeleton.parents[whole.jointOf(role)] = whole.jointOf(on);
+        const HumanoidMap map = animation::mapHumanoid(character);
+        REQUIRE(map.humanoid);
+        CHECK(map.missing.empty());
+        for (int index = 0; index < animation::kRoleCount; ++index) {
+            if (isRequired(animation::roleAt(index)))
+                CHECK(map.jointOf(animation::roleAt(index)) == whole.jointOf(animation::roleAt(index)));
+        }
+        CHECK(map.confidence < whole.confidence);
+        REQUIRE(map[role]);
+        CHECK(map[role]->confidence < whole[role]->confidence);
+    }
+}
+
 }  // namespace lutka::test

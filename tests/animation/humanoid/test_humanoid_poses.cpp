@@ -108,6 +108,18 @@ TEST_CASE("a kneeling figure keeps its shins", "[poses]") {
     checkWhole(rig);
 }
 
+TEST_CASE("a figure that sits on its heels faces where its knees do", "[poses]") {
+    for (const char* convention : {"vroid", "unreal", "cmu", "daz genesis 8", "character creator"}) {
+        INFO(convention);
+        SyntheticRig rig = makeSyntheticRig(convention, {.armsDown = 1.2F});
+        turnBoth(rig, Role::leftUpperLeg, -0.2F);
+        turnBoth(rig, Role::leftLowerLeg, 1.9F);
+        checkWhole(rig);
+        const HumanoidMap map = animation::mapHumanoid(rig.character);
+        CHECK((map.standardFromModel * vec3(0, 0, 1)).z > 0.9F);
+    }
+}
+
 TEST_CASE("a walking figure maps whole", "[poses]") {
     SyntheticRig rig = makeSyntheticRig(kConvention);
     turn(rig, Role::leftUpperLeg, -0.5F, vec3(1, 0, 0));
