@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <string>
 
 #include "physics/collision/shape.hpp"
@@ -14,10 +15,13 @@ namespace {
 
 constexpr float kLeastNear = 0.1F;       // of the skin's vertices near their body, below which …
 constexpr float kLeastCovered = 0.12F;   // … with less than this of the volume in some body, the skin is elsewhere
-constexpr float kFar = 0.06F;            // of the height: skin farther than that from all bodies hangs on none
+constexpr float kFar = 0.06F;            // of the height: skin farther than that from a body does not hang on it
 constexpr float kMostFar = 0.5F;         // of the skin's area
+constexpr float kMostAtOthers = 0.3F;    // of the skin's area
 constexpr double kMostOnOneJoint = 0.9;  // of the skin's weights, where there are …
 constexpr std::size_t kManyBodies = 8;   // … so many bodies
+constexpr float kSmallSkin = 0.45F;      // of the shape's length: the diagonal of its skin's box
+constexpr float kMostSmall = 0.5F;       // of the bodies that have skin
 constexpr float kBeside = 0.03F;         // of the height, beyond the box of a body's own skin
 constexpr float kLeastSkin = 0.1F;       // of the shape's surface, below which its skin tells nothing
 constexpr float kMostTouching = 0.05F;   // of the skin of a body beside it, within …
@@ -35,23 +39,40 @@ Finding error(const char* code, std::string place, std::string measure, const ch
     return {Severity::error, code, std::move(place), std::move(measure), mend, false, std::move(bodies)};
 }
 
-// Share of the skin's area that is far from every body.
-float farShare(const BodyPlan& plan, std::span<const PlacedShape> shapes) {
+// Shares of the skin's area.
+struct FarSkin {
+    float fromAll = 0.0F;   // far from every body
+    float atOthers = 0.0F;  // far from the body that moves it, and at one that is no neighbour of that
+};
+
+FarSkin findFarSkin(const BodyPlan& plan, std::span<const PlacedShape> shapes) {
     std::vector<RigidTransform> bodyFromStandard;
     for (const PlacedShape& shape : shapes)
         bodyFromStandard.push_back(inverse(shape.standardFromBody));
     float total = 0.0F;
-    float far = 0.0F;
-    for (const PlannedBody& body : plan.bodies) {
-        for (const SkinPoint& point : body.skin) {
+    FarSkin far;
+    for (std::size_t own = 0; own < plan.bodies.size(); ++own) {
+        for (const SkinPoint& point : plan.bodies[own].skin) {
+            const auto distanceTo = [&](std::size_t i) {
+                return signedDistance(shapes[i].shape, bodyFromStandard[i] * point.position) / plan.heightM;
+            };
             total += point.area;
-            bool near = false;
-            for (std::size_t i = 0; i < shapes.size() && !near; ++i)
-                near = signedDistance(shapes[i].shape, bodyFromStandard[i] * point.position) <= kFar * plan.heightM;
-            far += near ? 0.0F : point.area;
+            if (distanceTo(own) <= kFar) continue;
+            float nearest = kFar;
+            bool elsewhere = false;
+            for (std::size_t i = 0; i < shapes.size(); ++i) {
+                const float distance = distanceTo(i);
+                const bool neighbour =
+                    plan.bodies[i].parent == static_cast<int>(own) || plan.bodies[own].parent == static_cast<int>(i);
+                nearest = std::min(nearest, distance);
+                elsewhere = elsewhere || (!neighbour && distance <= kTouching);
+            }
+            far.fromAll += nearest >= kFar ? point.area : 0.0F;
+            far.atOthers += elsewhere ? point.area : 0.0F;
         }
     }
-    return total > 0.0F ? far / total : 0.0F;
+    if (total <= 0.0F) return {};
+    return {far.fromAll / total, far.atOthers / total};
 }
 
 void findSkinElsewhere(const BodyPlan& plan, std::span<const PlacedShape> shapes, const FitMeasures& fit,
@@ -59,12 +80,18 @@ void findSkinElsewhere(const BodyPlan& plan, std::span<const PlacedShape> shapes
     constexpr const char* kMend =
         "look at the bodies on the skin: the map, the skin's weights or the bind pose are wrong";
     if (fit.vertices == 0) return;
-    const float far = farShare(plan, shapes);
-    if (far > kMostFar) {
+    const FarSkin far = findFarSkin(plan, shapes);
+    if (far.fromAll > kMostFar) {
         findings.push_back(error("skin-outside-bodies", "/bodies",
                                  fmt::format("{:.0f} % of the skin is more than {:.0f} % of the height from all bodies",
-                                             100.0F * far, 100.0F * kFar),
+                                             100.0F * far.fromAll, 100.0F * kFar),
                                  kMend, {}));
+    } else if (far.atOthers > kMostAtOthers) {
+        findings.push_back(
+            error("skin-outside-bodies", "/bodies",
+                  fmt::format("{:.0f} % of the skin lies at bodies of other parts than the one that moves it",
+                              100.0F * far.atOthers),
+                  "give the skin weights on the joints that it lies at", {}));
     } else if (fit.volumeCovered && fit.skinNear < kLeastNear && *fit.volumeCovered < kLeastCovered) {
         findings.push_back(error("skin-outside-bodies", "/bodies",
                                  fmt::format("{:.0f} % of the skin is near its body and {:.0f} % of the volume in one",
@@ -96,6 +123,44 @@ void findSkinOnOneJoint(const animation::Character& character, const BodyPlan& p
               "give the skin weights on the joints of the limbs, or map the joints that have them", {}));
 }
 
+struct SkinBox {
+    vec3 low{1e9F};
+    vec3 high{-1e9F};
+};
+
+SkinBox boxOf(const PlannedBody& body) {
+    SkinBox box;
+    for (const SkinPoint& point : body.skin) {
+        box.low = glm::min(box.low, point.position);
+        box.high = glm::max(box.high, point.position);
+    }
+    return box;
+}
+
+// Half the shape's box, in its own axes.
+vec3 halfExtents(const PlacedShape& shape) {
+    return {halfWidth(shape.shape, {1, 0, 0}), halfWidth(shape.shape, {0, 1, 0}), halfWidth(shape.shape, {0, 0, 1})};
+}
+
+// A skin in another unit than its joints: a figure of centimetres on a skeleton of metres.
+void findSmallSkin(const BodyPlan& plan, std::span<const PlacedShape> shapes, std::vector<Finding>& findings) {
+    std::size_t skinned = 0;
+    std::size_t small = 0;
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        if (plan.bodies[i].skin.empty()) continue;
+        const SkinBox box = boxOf(plan.bodies[i]);
+        const vec3 half = halfExtents(shapes[i]);
+        ++skinned;
+        small += glm::distance(box.low, box.high) < kSmallSkin * 2.0F * std::max({half.x, half.y, half.z}) ? 1 : 0;
+    }
+    if (skinned < kManyBodies || static_cast<float>(small) <= kMostSmall * static_cast<float>(skinned)) return;
+    findings.push_back(error("skin-small", "/bodies",
+                             fmt::format("the skin of {} of {} bodies is less than {:.0f} % of them long", small,
+                                         skinned, 100.0F * kSmallSkin),
+                             "give skin and skeleton the same unit; an armature's scale was applied to one of them",
+                             {}));
+}
+
 float touchingShare(const PlannedBody& body, const PlacedShape& shape, float heightM) {
     const RigidTransform bodyFromStandard = inverse(shape.standardFromBody);
     float touching = 0.0F;
@@ -112,17 +177,11 @@ void findBodiesBesideSkin(const BodyPlan& plan, std::span<const PlacedShape> sha
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const PlannedBody& body = plan.bodies[i];
         const vec3 middle = shapes[i].standardFromBody.translation;
-        const vec3 half(halfWidth(shapes[i].shape, {1, 0, 0}), halfWidth(shapes[i].shape, {0, 1, 0}),
-                        halfWidth(shapes[i].shape, {0, 0, 1}));
+        const vec3 half = halfExtents(shapes[i]);
         const float surface = 8.0F * (half.x * half.y + half.y * half.z + half.z * half.x);
         if (areaOf(body) < kLeastSkin * surface) continue;
-        vec3 low(1e9F);
-        vec3 high(-1e9F);
-        for (const SkinPoint& point : body.skin) {
-            low = glm::min(low, point.position);
-            high = glm::max(high, point.position);
-        }
-        const vec3 beyond = glm::max(low - middle, middle - high);
+        const SkinBox box = boxOf(body);
+        const vec3 beyond = glm::max(box.low - middle, middle - box.high);
         const float distance = std::max({beyond.x, beyond.y, beyond.z});
         if (distance <= kBeside * plan.heightM) continue;
         if (touchingShare(body, shapes[i], plan.heightM) > kMostTouching) continue;
@@ -141,6 +200,7 @@ std::vector<Finding> findBrokenFigure(const animation::Character& character, con
     std::vector<Finding> findings;
     findSkinElsewhere(plan, shapes, fit, findings);
     findSkinOnOneJoint(character, plan, findings);
+    findSmallSkin(plan, shapes, findings);
     findBodiesBesideSkin(plan, shapes, findings);
     return findings;
 }

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <initializer_list>
 
+#include "animation/humanoid/role_hierarchy.hpp"
 #include "physics/collision/shape.hpp"
 #include "physics/doctor/broken_figure.hpp"
 #include "physics/fit/anatomy.hpp"
@@ -23,6 +24,11 @@ constexpr float kMostOfBroken = 40.0F;  // points that a figure whose skin or li
 
 std::string nameOf(Role role) {
     return std::string(roleName(role));
+}
+
+const char* wordsOf(animation::Hanging hanging) {
+    if (hanging == animation::Hanging::reversed) return "is above";
+    return hanging == animation::Hanging::astray ? "hangs on another limb than" : "is not below";
 }
 
 // One look at a profile on its character; each check adds its findings.
@@ -72,23 +78,28 @@ class Examination {
     }
 
     // Every joint but the root's should hang below the joint that its body hangs on: else the file's hierarchy does not
-    // move the limb as the ragdoll does (feet driven by inverse kinematics), or the role is on a wrong joint.
+    // move the limb as the ragdoll does, or the role is on a wrong joint.
     void checkHierarchy(Diagnosis& diagnosis, const animation::Skeleton& skeleton) {
+        const bool flat = animation::hangsFlat(map_, skeleton.parents);
+        const bool anyPair = std::any_of(
+            profile_.constraints.begin(), profile_.constraints.end(),
+            [&](const ConstraintProfile& c) { return sidesHangBeside(skeleton, roleOf(c.child), roleOf(c.parent)); });
         for (const ConstraintProfile& c : profile_.constraints) {
-            const std::optional<Role> role = profile_.bodies[c.child].role;
-            const std::optional<Role> above = profile_.bodies[c.parent].role;
-            const int parent = above ? map_.jointOf(*above) : animation::kNoJoint;
-            const int child = role ? map_.jointOf(*role) : animation::kNoJoint;
-            if (parent == animation::kNoJoint || child == animation::kNoJoint ||
-                animation::isAncestorOrSelf(skeleton, parent, child)) {
-                continue;
-            }
-            const bool reversed = animation::isAncestorOrSelf(skeleton, child, parent);
-            const bool elsewhere = reversed || hangsElsewhere(skeleton, *role);
-            astray_ += elsewhere ? 1 : 0;
-            diagnosis.findings.push_back({elsewhere ? Severity::error : Severity::warning, "joint-not-below", link(c),
-                                          fmt::format("the joint \"{}\" is {} \"{}\"", skeleton.names[child],
-                                                      reversed ? "above" : "not below", skeleton.names[parent]),
+            const std::optional<Role> role = roleOf(c.child);
+            const std::optional<Role> above = roleOf(c.parent);
+            const animation::Hanging hanging = hangingOf(skeleton, role, above);
+            if (hanging == animation::Hanging::below) continue;
+            // Flat trees, a spine beside the pelvis, and pairs of limbs that hang beside their bodies on both sides
+            // (feet driven by inverse kinematics; then maybe the head as well) are built so, and fall well.
+            const bool center = animation::sideOf(*role) == animation::Side::center;
+            const bool siblings =
+                skeleton.parents[map_.jointOf(*role)] == skeleton.parents[map_.jointOf(*above)] || isSpine(*role);
+            const bool built = hanging == animation::Hanging::beside &&
+                               (flat || (center ? anyPair || siblings : sidesHangBeside(skeleton, role, above)));
+            astray_ += built ? 0 : 1;
+            diagnosis.findings.push_back({built ? Severity::warning : Severity::error, "joint-not-below", link(c),
+                                          fmt::format("the joint \"{}\" {} \"{}\"", skeleton.names[map_.jointOf(*role)],
+                                                      wordsOf(hanging), skeleton.names[map_.jointOf(*above)]),
                                           "map a joint below it, unless the rig drives this limb by an IK root", false,
                                           childOf(c)});
         }
@@ -240,20 +251,23 @@ class Examination {
         return ordered;
     }
 
-    // Whether the role's joint hangs below the joint of a role that is not above it: a hand on the other arm.
-    [[nodiscard]] bool hangsElsewhere(const animation::Skeleton& skeleton, Role role) const {
-        const int joint = map_.jointOf(role);
-        for (int index = 0; index < animation::kRoleCount; ++index) {
-            const Role other = animation::roleAt(index);
-            const int top = map_.jointOf(other);
-            if (top == animation::kNoJoint || top == joint || isTrunk(other)) continue;
-            if (!animation::isAncestorOrSelf(skeleton, top, joint)) continue;
-            std::optional<Role> above = animation::parentRole(role);
-            while (above && *above != other)
-                above = animation::parentRole(*above);
-            if (!above) return true;
+    [[nodiscard]] std::optional<Role> roleOf(int body) const { return profile_.bodies[body].role; }
+
+    [[nodiscard]] bool sidesHangBeside(const animation::Skeleton& skeleton, std::optional<Role> role,
+                                       std::optional<Role> above) const {
+        using animation::Hanging;
+        return role && above && animation::sideOf(*role) != animation::Side::center &&
+               hangingOf(skeleton, role, above) == Hanging::beside &&
+               hangingOf(skeleton, animation::mirrored(*role), animation::mirrored(*above)) == Hanging::beside;
+    }
+
+    [[nodiscard]] animation::Hanging hangingOf(const animation::Skeleton& skeleton, std::optional<Role> role,
+                                               std::optional<Role> above) const {
+        if (!role || !above || map_.jointOf(*role) == animation::kNoJoint ||
+            map_.jointOf(*above) == animation::kNoJoint || map_.jointOf(*role) == map_.jointOf(*above)) {
+            return animation::Hanging::below;
         }
-        return false;
+        return animation::hangingOf(map_, skeleton.parents, *role, *above);
     }
 
     // The plan lists bodies in the order of roles, which a profile edited by hand need not keep.

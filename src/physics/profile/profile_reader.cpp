@@ -150,6 +150,19 @@ MuscleProfile readMuscles(const JsonCursor& at) {
     return muscles;
 }
 
+// Whether a path ends with a joint's name: in full, or as that of a further sibling of the name ("arm#2").
+bool isLastStep(std::string_view joint, std::string_view path) {
+    const auto endsAsStep = [&](std::string_view ending) {
+        if (!ending.ends_with(joint)) return false;
+        const std::string_view before = ending.substr(0, ending.size() - joint.size());
+        return before.empty() || before.back() == '/';
+    };
+    if (endsAsStep(path)) return true;
+    const std::size_t digits = path.find_last_not_of("0123456789");
+    const bool numbered = digits != std::string_view::npos && digits + 1 < path.size() && path[digits] == '#';
+    return numbered && endsAsStep(path.substr(0, digits));
+}
+
 void readBody(const JsonCursor& at, RagdollProfile& profile, std::int64_t version) {
     BodyProfile body;
     if (version == 1) {
@@ -171,6 +184,8 @@ void readBody(const JsonCursor& at, RagdollProfile& profile, std::int64_t versio
     }
     body.joint = at["joint"].text();
     body.jointPath = at["jointPath"].text();
+    if (!body.joint.empty() && !body.jointPath.empty() && !isLastStep(body.joint, body.jointPath))
+        at["joint"].report("expected the last name of jointPath \"" + body.jointPath + "\"; they name two joints");
     const auto sameJoint = [&](const BodyProfile& other) { return other.jointPath == body.jointPath; };
     if (std::any_of(profile.bodies.begin(), profile.bodies.end(), sameJoint)) {
         at["jointPath"].report("expected a joint of its own, another body is on \"" + body.jointPath + "\"");

@@ -169,6 +169,26 @@ void checkBroken(const Diagnosis& diagnosis, const std::string& code, const std:
     CHECK(diagnosis.score < 50.0F);
 }
 
+TEST_CASE("a limb that hangs beside its body on one side is an error, on both the rig's way of driving it") {
+    const auto hang = [](Patient& p, const char* name) {
+        p.character.skeleton.parents[findJoint(p.character.skeleton, name)] = findJoint(p.character.skeleton, "hips");
+    };
+    Patient p;
+    hang(p, "leftFoot");
+    checkBroken(p.look(), "joint-not-below", "leftFoot on leftLowerLeg");
+    hang(p, "rightFoot");
+    const Diagnosis both = p.look();
+    REQUIRE(find(both, "joint-not-below") != nullptr);
+    CHECK(find(both, "joint-not-below")->severity == Severity::warning);
+    CHECK_FALSE(both.hasErrors());
+}
+
+TEST_CASE("a part that hangs below its own body, but through another limb, is an error") {
+    Patient p;
+    p.character.skeleton.parents[p.map.jointOf(Role::rightUpperArm)] = p.map.jointOf(Role::leftHand);
+    checkBroken(p.look(), "joint-not-below", "rightUpperArm on chest");
+}
+
 TEST_CASE("the doctor certifies no figure with fewer than half of its parts") {
     Patient patient;
     const auto without = [&](Role role) {
@@ -199,6 +219,22 @@ TEST_CASE("the doctor certifies no figure whose skin is elsewhere") {
     if (fitted) CHECK(diagnose(fitted.value(), patient.character, patient.map).hasErrors());
 }
 
+TEST_CASE("the doctor certifies no figure whose skin is in another unit than its joints") {
+    for (const float unit : {0.001F, 0.01F, 0.3F, 10.0F}) {
+        INFO(unit);
+        Patient patient;
+        for (vec3& position : patient.character.meshes[0].positions)
+            position *= unit;
+        const auto fitted = fitRagdoll(patient.character, patient.map);
+        if (!fitted) continue;
+        patient.profile = fitted.value();
+        const Diagnosis diagnosis = patient.look();
+        CHECK(diagnosis.hasErrors());
+        CHECK(diagnosis.score < 50.0F);
+        if (unit < 1.0F) checkBroken(diagnosis, "skin-small", "/bodies");
+    }
+}
+
 TEST_CASE("the doctor certifies no figure whose skin hangs on one joint") {
     Patient patient;
     const int hips = findJoint(patient.character.skeleton, "hips");
@@ -209,6 +245,20 @@ TEST_CASE("the doctor certifies no figure whose skin hangs on one joint") {
     checkBroken(patient.look(), "skin-on-one-joint", "hips");
     patient.profile = fitRagdoll(patient.character, patient.map).value();
     checkBroken(patient.look(), "skin-on-one-joint", "hips");
+}
+
+TEST_CASE("the doctor certifies no figure whose skin hangs on joints of other limbs") {
+    Patient patient;
+    const int count = patient.character.skeleton.jointCount();
+    for (auto& joints : patient.character.meshes[0].joints) {
+        for (std::uint16_t& joint : joints)
+            joint = static_cast<std::uint16_t>((7 * joint + 5) % count);
+    }
+    checkBroken(patient.look(), "skin-outside-bodies", "/bodies");
+    patient.profile = fitRagdoll(patient.character, patient.map).value();
+    const Diagnosis fitted = patient.look();
+    CHECK(fitted.hasErrors());
+    CHECK(fitted.score < 50.0F);
 }
 
 TEST_CASE("the doctor certifies no head above its skull and no forearm in the air") {

@@ -350,6 +350,31 @@ TEST_CASE("bodies without a role come back, with names in any script, and their 
     CHECK_FALSE(problemsOf(nameless).empty());
 }
 
+TEST_CASE("a joint that is edited against its path, or the other way, is told") {
+    json wrong = bipedJson();
+    const std::string path = wrong["bodies"][4]["jointPath"];
+    wrong["bodies"][4]["joint"] = wrong["bodies"][8]["joint"];
+    wrong["bodies"][6]["jointPath"] = "elsewhere";
+    const std::string message = problemsOf(wrong);
+    CHECK_THAT(message, Catch::Contains("/bodies/4/joint: expected the last name of jointPath \"" + path + "\""));
+    CHECK_THAT(message, Catch::Contains("/bodies/6/joint: expected the last name of jointPath \"elsewhere\""));
+
+    json right = bipedJson();
+    const std::string joint = right["bodies"][4]["joint"];
+    for (const std::string& same : {joint, joint + "#2", "any/" + joint, "any/" + joint + "#12"}) {
+        right["bodies"][4]["jointPath"] = same;
+        CHECK(profileFromJson(right.dump(), "memory"));
+    }
+    right["bodies"][4]["joint"] = "a/b#2";  // names may hold anything
+    right["bodies"][4]["jointPath"] = "root/a/b#2";
+    CHECK(profileFromJson(right.dump(), "memory"));
+    for (const std::string& other : {"any" + joint, joint + "#", joint + "#2x", joint + "/"}) {
+        right["bodies"][4]["joint"] = joint;
+        right["bodies"][4]["jointPath"] = other;
+        CHECK_FALSE(profileFromJson(right.dump(), "memory"));
+    }
+}
+
 TEST_CASE("256 bodies are read, one more is refused") {
     RagdollProfile chain = profileToWrite();
     const BodyProfile link = chain.bodies[1];
@@ -363,7 +388,7 @@ TEST_CASE("256 bodies are read, one more is refused") {
         chain.bodies.push_back(link);
         chain.bodies.back().role.reset();
         chain.bodies.back().name = "link " + std::to_string(index);
-        chain.bodies.back().jointPath = chain.bodies.back().name;
+        chain.bodies.back().joint = chain.bodies.back().jointPath = chain.bodies.back().name;
         chain.constraints.push_back(joint);
         chain.constraints.back().child = index;
         chain.constraints.back().parent = index - 1;
