@@ -21,6 +21,7 @@ constexpr double kMostVotes = 0.9;
 constexpr double kOneSize = 0.05;  // ratio, and the share of the weight that must keep it
 constexpr double kMostOfOneSize = 0.9;
 constexpr double kAtTheirPlace = 0.05;  // in mesh sizes
+constexpr double kEven = 0.02;          // of the mean scale: how far the scales along the axes are from it
 constexpr double kInScene = 1e-4;       // in mesh sizes: what single precision leaves
 // The medoid compares every joint with every other; beyond this many only the heaviest ones are asked.
 constexpr std::size_t kMaxVoters = 200;
@@ -103,12 +104,58 @@ bool agree(const MeshExtent& box, const std::vector<Vote>& votes, const dmat4& m
     return alike > kMostVotes * all;
 }
 
+// What is left of a frame's linear part without its rotation.
+dmat3 stretchOf(const dmat4& frame) {
+    return glm::transpose(nearestRotation(frame)) * dmat3(frame);
+}
+
+bool scalesEvenly(const dmat3& stretch) {
+    const double mean = (stretch[0][0] + stretch[1][1] + stretch[2][2]) / 3.0;
+    double most = 0.0;
+    for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row)
+            most = std::max(most, std::abs(stretch[column][row] - (column == row ? mean : 0.0)));
+    }
+    return most < kEven * std::abs(mean);
+}
+
+// Whether nearly all votes stretch the mesh in the same way, however they turn it. (The squares of the linear parts
+// hold no rotation.)
+bool stretchAlike(const std::vector<Vote>& votes, const dmat4& middle) {
+    const auto square = [](const dmat4& frame) { return glm::transpose(dmat3(frame)) * dmat3(frame); };
+    const dmat3 wanted = square(middle);
+    const double size = meanScale(middle) * meanScale(middle);
+    double all = 0.0;
+    double alike = 0.0;
+    for (const Vote& vote : votes) {
+        const dmat3 off = square(vote.sceneFromMesh) - wanted;
+        double most = 0.0;
+        for (int column = 0; column < 3; ++column)
+            most = std::max({most, std::abs(off[column].x), std::abs(off[column].y), std::abs(off[column].z)});
+        all += vote.weight;
+        if (most < kOneSize * size) alike += vote.weight;
+    }
+    return alike > kMostVotes * all;
+}
+
+// Vertices that are stored in a box of their own (quantised along each axis by itself, or under a bind shape matrix):
+// only the joints know how to stretch them back. The mesh node may still say which way the figure turns.
+dmat4 stretchedFrame(const MeshExtent& box, const dmat4& meshNode, const dmat4& joints, const dmat3& stretch) {
+    dmat4 frame(nearestRotation(meshNode) * stretch);
+    frame[3] = dvec4(dvec3((joints - frame) * dvec4(box.centre, 1.0)), 1.0);
+    return frame;
+}
+
 // The mesh node's frame, brought to the size that the joints give the mesh, when it points and lies about where they
 // do; else theirs. (glTF ignores the mesh node's frame, so nothing obliges an exporter to make it fit.)
-dmat4 chooseFrame(const MeshExtent& box, const dmat4& meshNode, const dmat4& joints) {
+dmat4 chooseFrame(const MeshExtent& box, const dmat4& meshNode, const dmat4& joints, bool jointsAgree,
+                  const std::vector<Vote>& votes) {
     if (!isInvertible(meshNode) || angleBetween(nearestRotation(meshNode), nearestRotation(joints)) > kAngleTolerance) {
         return joints;
     }
+    const dmat3 stretch = stretchOf(joints);
+    if (!scalesEvenly(stretch) && stretchAlike(votes, joints) && disagreement(box, meshNode, joints) >= kAlike)
+        return jointsAgree ? joints : stretchedFrame(box, meshNode, joints, stretch);
     const double ratio = meanScale(joints) / meanScale(meshNode);
     dmat4 frame = meshNode;
     // About the scene's origin, so that what stands on the floor goes on standing there.
@@ -212,7 +259,7 @@ class BindSolver {
         // Vertices in scene space stay there: a mesh node with a frame of its own (Blender's exporter hangs the mesh
         // below the armature's object) would turn and move them a second time.
         if (alike && disagreement(box, middle, dmat4(1.0)) < kInScene) return dmat4(1.0);
-        return chooseFrame(box, meshNode, middle);
+        return chooseFrame(box, meshNode, middle, alike, votes);
     }
 
     // The frame that takes the joints' places in the mesh to where their nodes are, whatever sizes their frames have.

@@ -224,7 +224,8 @@ Result<Character> buildCharacter(SourceScene source, const std::filesystem::path
     character.meshes = convertMeshes(tree, instances, bind, character.skeleton.skinWeight, character.warnings);
     turnOutwards(character.meshes, character.warnings);
     const FigurePoints figure = pointsOfFigure(character, bind);
-    const UnitsAndAxes units = settleUnits(source.convention, figure.points, options, character.warnings);
+    const UnitsAndAxes units =
+        settleUnits(source.convention, figure.points, subjectOf(tree.jointNames), options, character.warnings);
     character.units = units.info;
     bringAlong(units, character.skeleton, figure.meshesCover, bind);
     settleMeshes(units, character.meshes);

@@ -19,7 +19,11 @@ namespace {
 // Fewer joints are an accessory's, not a character's.
 constexpr std::size_t kFewestJoints = 8;
 constexpr std::size_t kWholeSkeleton = 15;
-constexpr double kSameNames = 0.7;  // of the smaller armature's joints
+constexpr std::size_t kFewestEnds = 4;  // of a whole skeleton's joints that carry no other: a tail has one
+constexpr double kSameNames = 0.7;      // of the smaller armature's joints
+// Of the size of the character's skin: a prop with a joint of its own is larger, or farther away.
+constexpr double kLargestAccessory = 1.5;
+constexpr double kFarthestAccessory = 0.15;
 
 // Skins that share joints, or whose joints hang below each other's, are of one armature.
 struct Armature {
@@ -80,13 +84,14 @@ double sharedNames(const SourceScene& scene, const Armature& a, const Armature& 
     return static_cast<double>(shared) / static_cast<double>(std::min(a.joints.size(), b.joints.size()));
 }
 
-struct JointBounds {
+// A box in the scene's axes; low above high while it is empty.
+struct SceneBounds {
     glm::dvec3 low{1e300};
     glm::dvec3 high{-1e300};
 };
 
-JointBounds boundsOf(const std::vector<glm::dmat4>& sceneFromNode, const Armature& armature) {
-    JointBounds box;
+SceneBounds boundsOf(const std::vector<glm::dmat4>& sceneFromNode, const Armature& armature) {
+    SceneBounds box;
     for (const int joint : armature.joints) {
         box.low = glm::min(box.low, glm::dvec3(sceneFromNode[joint][3]));
         box.high = glm::max(box.high, glm::dvec3(sceneFromNode[joint][3]));
@@ -94,11 +99,31 @@ JointBounds boundsOf(const std::vector<glm::dmat4>& sceneFromNode, const Armatur
     return box;
 }
 
-bool apart(const JointBounds& a, const JointBounds& b) {
+bool apart(const SceneBounds& a, const SceneBounds& b) {
     for (int axis = 0; axis < 3; ++axis) {
         if (a.high[axis] < b.low[axis] || b.high[axis] < a.low[axis]) return true;
     }
     return false;
+}
+
+double distanceTo(const SceneBounds& box, const SceneBounds& other) {
+    const glm::dvec3 centre = 0.5 * (other.low + other.high);
+    return glm::distance(centre, glm::clamp(centre, box.low, box.high));
+}
+
+std::size_t endsOf(const SourceScene& scene, const Armature& armature) {
+    std::set<int> carriers;
+    for (const int joint : armature.joints)
+        carriers.insert(scene.nodes[joint].parent);
+    return static_cast<std::size_t>(std::count_if(armature.joints.begin(), armature.joints.end(),
+                                                  [&](int joint) { return carriers.count(joint) == 0; }));
+}
+
+// A whole skeleton beside the first one: apart from it, or with its middle outside of it, as of two people who stand
+// so near that their arms cross.
+bool standsBeside(const SourceScene& scene, const Armature& other, const SceneBounds& place, const SceneBounds& first) {
+    if (other.joints.size() < kWholeSkeleton) return false;
+    return apart(first, place) || (endsOf(scene, other) >= kFewestEnds && distanceTo(first, place) > 0.0);
 }
 
 std::vector<glm::dmat4> posed(const SourceScene& scene) {
@@ -113,7 +138,7 @@ std::vector<glm::dmat4> posed(const SourceScene& scene) {
 // The armatures that are a character each: the one with most vertices, twins of it (another of its names) and whole
 // skeletons that stand apart. In the order of their nodes. Others are accessories.
 std::vector<const Armature*> charactersAmong(const SourceScene& scene, const std::vector<Armature>& armatures,
-                                             const std::vector<JointBounds>& bounds) {
+                                             const std::vector<SceneBounds>& bounds) {
     const auto heavier = [](const Armature& a, const Armature& b) { return a.weight < b.weight; };
     // The end where there is none.
     const auto first = std::max_element(armatures.begin(), armatures.end(), heavier);
@@ -122,8 +147,8 @@ std::vector<const Armature*> charactersAmong(const SourceScene& scene, const std
         if (other != first) {
             if (std::min(other->joints.size(), first->joints.size()) < kFewestJoints) continue;
             const bool twin = sharedNames(scene, *first, *other) >= kSameNames;
-            const bool another = other->joints.size() >= kWholeSkeleton &&
-                                 apart(bounds[first - armatures.begin()], bounds[other - armatures.begin()]);
+            const bool another =
+                standsBeside(scene, *other, bounds[other - armatures.begin()], bounds[first - armatures.begin()]);
             if (!twin && !another) continue;
         }
         characters.push_back(&*other);
@@ -133,18 +158,47 @@ std::vector<const Armature*> charactersAmong(const SourceScene& scene, const std
     return characters;
 }
 
-double distanceTo(const JointBounds& box, const JointBounds& other) {
-    const glm::dvec3 centre = 0.5 * (other.low + other.high);
-    return glm::distance(centre, glm::clamp(centre, box.low, box.high));
-}
-
 // A hat on joints of its own goes with the character that it is nearest to.
-std::size_t nearestCharacter(const std::vector<JointBounds>& characters, const JointBounds& accessory) {
-    const auto nearer = [&](const JointBounds& a, const JointBounds& b) {
+std::size_t nearestCharacter(const std::vector<SceneBounds>& characters, const SceneBounds& accessory) {
+    const auto nearer = [&](const SceneBounds& a, const SceneBounds& b) {
         return distanceTo(a, accessory) < distanceTo(b, accessory);
     };
     return static_cast<std::size_t>(std::min_element(characters.begin(), characters.end(), nearer) -
                                     characters.begin());
+}
+
+// Where the meshes of some skins are in the nodes' pose, each vertex with the joint that moves it most.
+SceneBounds skinOf(const SourceScene& scene, const std::vector<glm::dmat4>& sceneFromNode,
+                   const std::vector<int>& skins) {
+    SceneBounds box;
+    for (const SourceInstance& instance : scene.instances) {
+        if (std::find(skins.begin(), skins.end(), instance.skin) == skins.end()) continue;
+        const SourceMesh& mesh = scene.meshes[instance.mesh];
+        const std::vector<SourceSkin::Joint>& joints = scene.skins[instance.skin].joints;
+        for (std::size_t v = 0; v + 1 < mesh.influenceStart.size(); ++v) {
+            const auto from = mesh.influences.begin() + mesh.influenceStart[v];
+            const auto to = mesh.influences.begin() + mesh.influenceStart[v + 1];
+            const auto most =
+                std::max_element(from, to, [](const auto& a, const auto& b) { return a.weight < b.weight; });
+            if (most == to || most->slot >= joints.size()) continue;
+            const SourceSkin::Joint& joint = joints[most->slot];
+            const glm::dvec4 place(glm::dvec3(mesh.positions[v]), 1.0);
+            const glm::dvec3 point(sceneFromNode[joint.node] * joint.jointFromMesh * place);
+            box.low = glm::min(box.low, point);
+            box.high = glm::max(box.high, point);
+        }
+    }
+    return box;
+}
+
+// A ground or a crate that hangs on a joint of its own, as exporters give one to every mesh: larger than the character,
+// or away from it.
+bool isThing(const SceneBounds& skin, const SceneBounds& character) {
+    const double reach = glm::distance(character.low, character.high);
+    const glm::dvec3 size = skin.high - skin.low;
+    if (size.x < 0.0 || character.high.x < character.low.x || reach <= 0.0) return false;
+    const glm::dvec3 gap = glm::max(glm::max(skin.low - character.high, character.low - skin.high), glm::dvec3(0.0));
+    return glm::length(size) > kLargestAccessory * reach || glm::length(gap) > kFarthestAccessory * reach;
 }
 
 // In a file without skins its own humanoid block tells what the figure is.
@@ -163,12 +217,12 @@ FigureChoice figureOfHumanoid(const SourceScene& scene) {
 FigureChoice figuresOf(const SourceScene& scene) {
     const std::vector<Armature> armatures = armaturesOf(scene);
     const std::vector<glm::dmat4> sceneFromNode = posed(scene);
-    std::vector<JointBounds> bounds;
+    std::vector<SceneBounds> bounds;
     bounds.reserve(armatures.size());
     for (const Armature& armature : armatures)
         bounds.push_back(boundsOf(sceneFromNode, armature));
     FigureChoice choice;
-    std::vector<JointBounds> places;
+    std::vector<SceneBounds> places;
     std::set<const Armature*> isCharacter;
     for (const Armature* armature : charactersAmong(scene, armatures, bounds)) {
         const int top = *armature->joints.begin();
@@ -180,7 +234,13 @@ FigureChoice figuresOf(const SourceScene& scene) {
     }
     for (std::size_t i = 0; i < armatures.size(); ++i) {
         if (isCharacter.count(&armatures[i]) > 0) continue;
-        SourceFigure& owner = choice.figures[nearestCharacter(places, bounds[i])];
+        const std::size_t nearest = nearestCharacter(places, bounds[i]);
+        const bool few = armatures[i].joints.size() < kFewestJoints && scene.nodesArePosed;
+        if (few && isThing(skinOf(scene, sceneFromNode, armatures[i].skins),
+                           skinOf(scene, sceneFromNode, choice.figures[nearest].skins))) {
+            continue;
+        }
+        SourceFigure& owner = choice.figures[nearest];
         owner.skins.insert(owner.skins.end(), armatures[i].skins.begin(), armatures[i].skins.end());
         owner.joints.insert(armatures[i].joints.begin(), armatures[i].joints.end());
         owner.vertices += armatures[i].weight;
@@ -197,6 +257,11 @@ std::vector<SourceInstance> instancesOf(const SourceScene& scene, const FigureCh
     for (const SourceInstance& instance : scene.instances) {
         if (instance.skin >= 0 && !scene.skins[instance.skin].joints.empty()) {
             if (skins.count(instance.skin) > 0) kept.push_back(instance);
+            const auto moves = [&](const SourceFigure& one) {
+                return std::find(one.skins.begin(), one.skins.end(), instance.skin) != one.skins.end();
+            };
+            if (std::none_of(choice.figures.begin(), choice.figures.end(), moves))
+                things.push_back(scene.nodes[instance.node].name);
             continue;
         }
         const auto carries = [&](const SourceFigure& one) { return hangsBelow(scene, instance.node, one.joints); };

@@ -25,11 +25,11 @@ struct FigureChoice {
 };
 
 /// Leaves out of a scene what is no part of its figure, with a warning each: meshes that hang on no joint of a skin
-/// (ground, crates) beside skinned ones, and the meshes of other characters: skins of another armature whose joints
-/// bear the first one's names, or that is a whole skeleton standing apart. A garment, hair or hat on joints of its own
-/// stays. The figure is `wanted`, counted from 1, else the one with most vertices. In a file without skins the figure
-/// is what hangs on the joints of its own humanoid block (VRM), else everything. Fails with ErrorCode::usage when there
-/// is no such figure.
+/// (ground, crates) beside skinned ones, or on a few joints of their own and larger than the figure or away from it,
+/// and the meshes of other characters: skins of another armature whose joints bear the first one's names, or that is a
+/// whole skeleton standing beside it. A garment, hair or hat on joints of its own stays. The figure is `wanted`,
+/// counted from 1, else the one with most vertices. In a file without skins the figure is what hangs on the joints of
+/// its own humanoid block (VRM), else everything. Fails with ErrorCode::usage when there is no such figure.
 [[nodiscard]] Result<FigureChoice> chooseFigure(SourceScene& scene, std::optional<int> wanted);
 
 }  // namespace lutka::animation::rig_import

@@ -4,9 +4,11 @@
 #include <cstring>
 #include <exception>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "animation/import/assimp/read_with_assimp.hpp"
 #include "animation/import/bvh/read_bvh.hpp"
@@ -15,6 +17,7 @@
 #include "animation/import/fbx/read_fbx.hpp"
 #include "animation/import/gltf/read_gltf.hpp"
 #include "animation/import/source_limits.hpp"
+#include "animation/import/unread_format.hpp"
 #include "animation/import/uri.hpp"
 
 namespace lutka::animation::rig_import {
@@ -55,6 +58,7 @@ Result<SourceScene> read(const fs::path& file, std::string_view start, const Imp
     if (isGltf(file, start)) return readGltf(file, options);
     if (fbx::isFbx({reinterpret_cast<const std::uint8_t*>(start.data()), start.size()})) return readFbx(file, options);
     if (isBvh(file, start)) return readBvh(file);
+    if (std::optional<Error> refusal = unreadFormat(file, start)) return *std::move(refusal);
     return readWithAssimp(file, options);
 }
 

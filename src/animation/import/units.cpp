@@ -8,12 +8,18 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "animation/import/uri.hpp"
+
 namespace lutka::animation::rig_import {
 namespace {
 
 constexpr double kLeastHeight = 0.3;
 constexpr double kMostHeight = 3.5;
 constexpr double kUsualHeight = 1.75;
+constexpr double kLeastHand = 0.08;  // metres, along its longest side
+constexpr double kMostHand = 0.6;
+constexpr double kUsualHand = 0.19;
+constexpr int kFewestFingerJoints = 8;
 
 // Rotation that takes the axis to +Y; the two others keep a right-handed order.
 dmat3 yFrom(UpAxis up) {
@@ -119,7 +125,15 @@ std::optional<double> usualUnit(double height, bool metric = false) {
     return std::nullopt;
 }
 
-void settleScale(const SourceConvention& convention, const Extents& box, const ImportOptions& options,
+// As usualUnit(), of a hand.
+std::optional<double> usualUnitOfHand(double longest) {
+    for (const double unit : {1.0, 0.01, 0.1, 0.001, 0.0254}) {
+        if (longest * unit >= kLeastHand && longest * unit <= kMostHand) return unit;
+    }
+    return std::nullopt;
+}
+
+void settleScale(const SourceConvention& convention, const Extents& box, Subject subject, const ImportOptions& options,
                  UnitsAndAxes& out, std::vector<std::string>& warnings) {
     if (options.metresPerFileUnit) {
         out.scale = *options.metresPerFileUnit;
@@ -129,10 +143,13 @@ void settleScale(const SourceConvention& convention, const Extents& box, const I
     // The figure may lie, or the axis be unknown: then its longest side is its height.
     const dvec3 size = glm::abs(out.rotation * box.size());
     const double longest = std::max({size.x, size.y, size.z});
-    const double height = size.y < 0.3 * longest ? longest : size.y;
+    const bool hand = subject == Subject::hand;
+    const double height = hand || size.y < 0.3 * longest ? longest : size.y;
+    const double least = hand ? kLeastHand : kLeastHeight;
+    const double most = hand ? kMostHand : kMostHeight;
     const std::optional<double> stated = convention.metresPerUnit;
     const std::string& source = convention.unitSource;
-    if (stated && (height * *stated >= kLeastHeight || !(height > 0.0)) && height * *stated <= kMostHeight) {
+    if (stated && (height * *stated >= least || !(height > 0.0)) && height * *stated <= most) {
         out.scale = *stated;
         out.info.unitSource = source;
         return;
@@ -143,9 +160,11 @@ void settleScale(const SourceConvention& convention, const Extents& box, const I
         return;
     }
     const bool animal = longest > kAnimalLength * height;
-    std::optional<double> usual = animal ? usualUnit(longest, true) : usualUnit(height);
-    if (!usual && animal) usual = usualUnit(height);  // a person with wings or a staff
-    out.scale = usual.value_or(kUsualHeight / height);
+    std::optional<double> usual = hand     ? usualUnitOfHand(longest)
+                                  : animal ? usualUnit(longest, true)
+                                           : usualUnit(height);
+    if (!usual && animal && !hand) usual = usualUnit(height);  // a person with wings or a staff
+    out.scale = usual.value_or((hand ? kUsualHand : kUsualHeight) / height);
     out.info.unitSource = "height of the figure";
     const std::string why = stated
                                 ? fmt::format("by {} the figure would be {:.3g} m tall", source, height * *stated)
@@ -176,12 +195,26 @@ dmat4 UnitsAndAxes::modelFromScene() const {
     return matrix;
 }
 
-UnitsAndAxes settleUnits(const SourceConvention& convention, std::span<const vec3> points, const ImportOptions& options,
-                         std::vector<std::string>& warnings) {
+Subject subjectOf(std::span<const std::string> jointNames) {
+    constexpr std::array kFingers{"thumb",  "index",  "middle",     "ring",   "pinky",
+                                  "little", "finger", "metacarpal", "phalanx"};
+    constexpr std::array kTrunk{"hip", "pelvis", "spine", "chest", "neck", "head", "leg", "foot", "thigh", "shoulder"};
+    int fingers = 0;
+    for (const std::string& name : jointNames) {
+        const std::string low = lowerCased(name);
+        const auto holds = [&](const char* word) { return low.find(word) != std::string::npos; };
+        if (std::any_of(kTrunk.begin(), kTrunk.end(), holds)) return Subject::figure;
+        fingers += std::any_of(kFingers.begin(), kFingers.end(), holds) ? 1 : 0;
+    }
+    return fingers >= kFewestFingerJoints ? Subject::hand : Subject::figure;
+}
+
+UnitsAndAxes settleUnits(const SourceConvention& convention, std::span<const vec3> points, Subject subject,
+                         const ImportOptions& options, std::vector<std::string>& warnings) {
     UnitsAndAxes out;
     const Extents box = extentsOf(points);
     settleUp(convention, box, options, out, warnings);
-    settleScale(convention, box, options, out, warnings);
+    settleScale(convention, box, subject, options, out, warnings);
     settlePlace(box, out, warnings);
     out.info.metresPerFileUnit = static_cast<float>(out.scale);
     return out;

@@ -24,6 +24,26 @@ float tallness(const Character& character) {
     return high - low;
 }
 
+// A box of that size on one joint, with a skin of its own.
+Character boxOnJoint(const std::string& joint, const vec3& size, const vec3& place) {
+    Character box;
+    box.skeleton.names = {joint};
+    box.skeleton.parents = {kNoJoint};
+    box.skeleton.bindModelFromJoint = {{quat(1, 0, 0, 0), place}};
+    box.skeleton.nodeParentFromJoint = box.skeleton.bindModelFromJoint;
+    SkinnedMesh mesh;
+    for (int corner = 0; corner < 8; ++corner) {
+        const vec3 sign(corner & 1 ? 0.5F : -0.5F, corner & 2 ? 0.5F : -0.5F, corner & 4 ? 0.5F : -0.5F);
+        mesh.positions.push_back(place + sign * size);
+        mesh.joints.push_back({0, 0, 0, 0});
+        mesh.weights.push_back({1, 0, 0, 0});
+    }
+    mesh.indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                    2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+    box.meshes.push_back(std::move(mesh));
+    return box;
+}
+
 ImportOptions takingFigure(int number) {
     ImportOptions options;
     options.figure = number;
@@ -140,5 +160,43 @@ TEST_CASE("a mesh that has nothing to do with the skeleton does not give the fig
         CHECK(mapHumanoid(character, {}).humanoid);
         CHECK(character.meshes.size() == (large ? 0 : 1));
         CHECK(warns(character, large ? "crate" : "hardly any of the skeleton's joints"));
+    }
+}
+
+TEST_CASE("a second character of other names is one, too, though its arms cross the first one's") {
+    const TemporaryFolder folder;
+    Character other = makeBiped();
+    for (std::string& name : other.skeleton.names)
+        name = "mixamorig:" + name;
+    GltfFile file;
+    addFigure(file, makeBiped(), "Anna");
+    addFigure(file, other, "Bert", vec3(1.1F, 0, 0));
+    file.saveBinary(folder / "crossing.glb");
+    const Character character = imported(folder / "crossing.glb");
+    REQUIRE(character.figures.size() == 2);
+    CHECK(bindVertices(character).size() == makeBiped().meshes[0].positions.size());
+}
+
+TEST_CASE("a prop with a joint and a skin of its own is left out, a hat stays") {
+    const TemporaryFolder folder;
+    struct Case {
+        const char* joint;
+        vec3 size;
+        vec3 place;
+        bool stays;
+    };
+    for (const Case& prop :
+         {Case{"Ground", {8, 0.1F, 8}, {0, -0.05F, 0}, false}, Case{"Crate", {1, 1, 1}, {2.2F, 0.5F, 0}, false},
+          Case{"Hat", {0.3F, 0.2F, 0.3F}, {0, 1.85F, 0}, true}}) {
+        INFO(prop.joint);
+        GltfFile file;
+        addFigure(file, makeBiped(), "Anna");
+        addFigure(file, boxOnJoint(prop.joint, prop.size, prop.place), std::string(prop.joint) + " armature");
+        file.saveBinary(folder / "prop.glb");
+        const Character character = imported(folder / "prop.glb");
+        CHECK(character.figures.size() == 1);
+        CHECK(character.meshes.size() == (prop.stays ? 2 : 1));
+        CHECK(warns(character, "left out: " + std::string(prop.joint)) != prop.stays);
+        if (!prop.stays) CHECK(tallness(character) == Approx(tallness(makeBiped())));
     }
 }

@@ -343,3 +343,25 @@ TEST_CASE("units and up axis of an FBX come from its global settings") {
         if (each.upAxis == 2) CHECK(lowest == Approx(each.upSign > 0 ? 0.0F : -1.8F).margin(1e-5));
     }
 }
+
+TEST_CASE("a format that is known but not read is refused by its name, with a way out") {
+    const TemporaryFolder folder;
+    struct Case {
+        const char* file;
+        std::string bytes;
+        const char* says;
+    };
+    for (const Case& one :
+         {Case{"jack.mdl", "UMDL" + std::string(60, '\0'), "Urho3D"},
+          Case{"miku.pmd", std::string("Pmd\0\0\x80\x3f", 7) + "Miku", "MikuMikuDance"},
+          Case{"scene.max", "\xD0\xCF\x11\xE0 and more", "3ds Max"}, Case{"rig.ma", "//Maya ASCII 2020 scene", "Maya"},
+          Case{"a.usda", "#usda 1.0", "USD"}, Case{"a.USDZ", "PK\x03\x04", "USD"},
+          Case{"hero.prefab", "%YAML 1.1", "Unity"}, Case{"hero.scn", "RSRC", "Godot"}}) {
+        INFO(one.file);
+        const auto file = folder / one.file;
+        REQUIRE(writeFileAtomically(file, one.bytes));
+        const Error error = refusal(file);
+        CHECK_THAT(error.message, Catch::Contains(one.says));
+        CHECK_FALSE(error.mend.empty());
+    }
+}

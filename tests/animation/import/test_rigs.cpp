@@ -173,6 +173,41 @@ TEST_CASE("an animal's unit makes it as long as one, not as tall as a person") {
     CHECK(character.units.metresPerFileUnit == Approx(0.01F));
 }
 
+TEST_CASE("a hand is as long as a hand, not as tall as a person") {
+    const TemporaryFolder folder;
+    const char* fingers[] = {"thumb", "index-finger", "middle-finger", "ring-finger", "pinky-finger"};
+    for (const float unit : {1.0F, 100.0F}) {
+        INFO(unit);
+        GltfFile file;
+        const int wrist = file.addNode("wrist", -1);
+        std::vector<int> nodes{wrist};
+        std::vector<mat4> jointFromMesh{mat4(1.0F)};
+        for (const char* finger : fingers) {
+            int parent = wrist;
+            for (const char* part : {"-phalanx-proximal", "-phalanx-distal"}) {
+                parent = file.addNode(std::string(finger) + part, parent);
+                nodes.push_back(parent);
+                jointFromMesh.emplace_back(1.0F);
+            }
+        }
+        // The post is 1.8 m tall: here a hand of 0.18 m.
+        const mat4 small = glm::scale(mat4(1.0F), vec3(0.1F * unit));
+        const int node = file.addNode("mesh", -1);
+        file.json["nodes"][node]["mesh"] = addPostMesh(file, makePost(), small);
+        file.json["nodes"][node]["skin"] = addSkin(file, nodes, jointFromMesh);
+        file.saveBinary(folder / "hand.glb");
+        const Character hand = imported(folder / "hand.glb");
+        float low = 1e9F;
+        float high = -1e9F;
+        for (const vec3& p : bindVertices(hand)) {
+            low = std::min(low, p.y);
+            high = std::max(high, p.y);
+        }
+        CHECK(high - low == Approx(0.18F).epsilon(1e-3));
+        CHECK(hand.warnings.empty() == (unit == 1.0F));
+    }
+}
+
 TEST_CASE("the node pose bends the skin as the file says") {
     GltfFile file = makePostRig(glm::scale(mat4(1.0F), vec3(0.01F)));
     // Turns the joint 'high' by 90 degrees about z: what is above it falls to -x.
@@ -203,6 +238,44 @@ TEST_CASE("a mesh that contradicts the size of its joints takes theirs") {
     GltfFile file = makePostRig();
     file.json["nodes"][4]["scale"] = {0.01, 0.01, 0.01};
     CHECK(distanceToPost(importedRig(file)) < 1e-5F);
+}
+
+TEST_CASE("vertices that are stretched into a box of their own come out in their shape") {
+    const TemporaryFolder folder;
+    makePostRig().saveBinary(folder / "plain.glb");
+    const Character plain = imported(folder / "plain.glb");
+    const mat4 turned = glm::rotate(mat4(1.0F), 0.5F, vec3(0, 1, 0));
+    const mat4 boxes[] = {glm::scale(mat4(1.0F), vec3(2.0F, 1.0F, 0.5F)),
+                          turned * glm::scale(mat4(1.0F), vec3(2.0F, 1.0F, 0.5F)),
+                          glm::scale(glm::translate(mat4(1.0F), vec3(-0.3F, 0, -0.2F)),
+                                     vec3(0.6F / 65535.0F, 1.8F / 65535.0F, 0.4F / 65535.0F))};
+    for (const mat4& sceneFromMesh : boxes) {
+        const Post post = makePost();
+        GltfFile file;
+        const int armature = file.addNode("Armature", -1);
+        const int low = file.addNode("low", armature);
+        const int middle = file.addNode("middle", low, glm::translate(mat4(1.0F), vec3(0, 0.6F, 0)));
+        const int high = file.addNode("high", middle, glm::translate(mat4(1.0F), vec3(0, 0.6F, 0)));
+        std::vector<mat4> jointFromMesh;
+        for (const float height : {0.0F, 0.6F, 1.2F})
+            jointFromMesh.push_back(glm::translate(mat4(1.0F), vec3(0, -height, 0)) * sceneFromMesh);
+        const int mesh = addPostMesh(file, post, glm::inverse(sceneFromMesh));
+        const int node = file.addNode("mesh", armature);
+        file.json["nodes"][node]["mesh"] = mesh;
+        file.json["nodes"][node]["skin"] = addSkin(file, {low, middle, high}, jointFromMesh);
+        file.saveBinary(folder / "boxed.glb");
+        const Character boxed = imported(folder / "boxed.glb");
+        checkInvariants(boxed);
+        const std::vector<vec3> got = bindVertices(boxed);
+        const std::vector<vec3> wanted = bindVertices(plain);
+        REQUIRE(got.size() == wanted.size());
+        for (const vec3& point : got) {
+            float nearest = 1e9F;
+            for (const vec3& other : wanted)
+                nearest = std::min(nearest, glm::distance(point, other));
+            CHECK(nearest < 1e-4F);
+        }
+    }
 }
 
 TEST_CASE("joints that skin no vertex and joints without weights keep their place") {
