@@ -30,8 +30,9 @@ bool isHeld(const std::vector<bool>& marks, std::size_t joint) {
 /// Adds keys where a joint is too far off until none is.
 class Reducer {
   public:
-    Reducer(const Skeleton& skeleton, const Clip& clip, const KeyTolerance& tolerance)
+    Reducer(const Skeleton& skeleton, const Clip& clip, const KeyTolerance& tolerance, std::span<const float> reach)
         : skeleton_(skeleton),
+          reach_(reach.begin(), reach.end()),
           joints_(skeleton.parents.size()),
           frames_(clip.frameCount),
           tolerance_(tolerance),
@@ -39,6 +40,7 @@ class Reducer {
           model_(local_.size()),
           blended_(local_),
           blendedModel_(local_.size()) {
+        reach_.resize(joints_, 0.0F);
         for (int frame = 0; frame < frames_; ++frame)
             localToModel(skeleton_, at(local_, frame), at(model_, frame));
         keys_.rotations = ends(clip.steppedRotations);
@@ -101,12 +103,13 @@ class Reducer {
         visit(keys.back(), keys.back(), keys.back(), 0.0F);
     }
 
-    // In tolerances: above 1 it is too far off.
+    // In tolerances: above 1 it is too far off, or its skin is.
     [[nodiscard]] float errorOf(int frame, std::size_t joint) const {
         const RigidTransform& wanted = of(model_, frame, joint);
         const RigidTransform& got = of(blendedModel_, frame, joint);
-        return std::max(glm::distance(wanted.translation, got.translation) / tolerance_.metres,
-                        angleBetween(wanted.rotation, got.rotation) / tolerance_.radians);
+        const float angle = angleBetween(wanted.rotation, got.rotation);
+        const float moved = glm::distance(wanted.translation, got.translation) + angle * reach_[joint];
+        return std::max(moved / tolerance_.metres, angle / tolerance_.radians);
     }
 
     // At the worst frame of every run of frames where a joint is too far off.
@@ -148,7 +151,8 @@ class Reducer {
     [[nodiscard]] float turned(int frame, int above, std::size_t joint) const {
         const auto a = static_cast<std::size_t>(above);
         const float angle = angleBetween(of(local_, frame, a).rotation, of(blended_, frame, a).rotation);
-        const float lever = glm::distance(of(model_, frame, a).translation, of(model_, frame, joint).translation);
+        const float lever =
+            reach_[joint] + glm::distance(of(model_, frame, a).translation, of(model_, frame, joint).translation);
         return std::max(angle / tolerance_.radians, angle * lever / tolerance_.metres);
     }
     [[nodiscard]] float moved(int frame, int above) const {
@@ -164,6 +168,7 @@ class Reducer {
     }
 
     const Skeleton& skeleton_;
+    std::vector<float> reach_;
     std::size_t joints_;
     int frames_;
     KeyTolerance tolerance_;
@@ -176,10 +181,28 @@ class Reducer {
 
 }  // namespace
 
-KeptKeys reduceKeys(const Skeleton& skeleton, const Clip& clip, const KeyTolerance& tolerance) {
+std::vector<float> skinReach(const Character& character) {
+    constexpr float kLeastWeight = 0.01F;
+    const std::vector<RigidTransform>& bind = character.skeleton.bindModelFromJoint;
+    std::vector<float> reach(bind.size(), 0.0F);
+    for (const SkinnedMesh& mesh : character.meshes) {
+        for (std::size_t v = 0; v < mesh.weights.size(); ++v) {
+            for (std::size_t i = 0; i < mesh.weights[v].size(); ++i) {
+                if (mesh.weights[v][i] < kLeastWeight) continue;
+                float& farthest = reach[mesh.joints[v][i]];
+                farthest = std::max(farthest, glm::distance(mesh.positions[v], bind[mesh.joints[v][i]].translation));
+            }
+        }
+    }
+    return reach;
+}
+
+KeptKeys reduceKeys(const Skeleton& skeleton, const Clip& clip, const KeyTolerance& tolerance,
+                    std::span<const float> reach) {
+    LUTKA_ASSERT(reach.empty() || reach.size() == skeleton.parents.size());
     LUTKA_ASSERT(tolerance.metres > 0.0F && tolerance.radians > 0.0F);
     LUTKA_ASSERT(clip.parentFromJoint.size() == skeleton.parents.size() * static_cast<std::size_t>(clip.frameCount));
-    return Reducer(skeleton, clip, tolerance).run();
+    return Reducer(skeleton, clip, tolerance, reach).run();
 }
 
 KeptKeys allKeys(const Skeleton& skeleton, const Clip& clip) {

@@ -1,5 +1,6 @@
 #include "animation/export/write_glb.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <map>
 #include <sstream>
@@ -34,6 +35,8 @@ class GlbBuilder {
         std::vector<int> meshes;
         int inverseBinds = -1;
         std::vector<RigidTransform> parentFromJoint;  // of the bind pose
+        std::vector<float> skinReach;
+        float heightM = 0.0F;  // of the skin
     };
     const Shared& sharedOf(const Character& character);
 
@@ -53,6 +56,27 @@ tinygltf::Node wrapperNode(const Character& character, const RigidTransform& wor
     return node;
 }
 
+float heightOfSkin(const Character& character) {
+    float low = 0.0F;
+    float high = 0.0F;
+    bool first = true;
+    for (const SkinnedMesh& mesh : character.meshes) {
+        for (const vec3& position : mesh.positions) {
+            low = first ? position.y : std::min(low, position.y);
+            high = first ? position.y : std::max(high, position.y);
+            first = false;
+        }
+    }
+    return high - low;
+}
+
+// Of small figures a tenth of a millimetre is much: nothing is off by more than a share of the height.
+KeyTolerance toSize(KeyTolerance tolerance, float heightM) {
+    constexpr float kShare = 1e-4F;
+    if (heightM > 0.0F) tolerance.metres = std::min(tolerance.metres, kShare * heightM);
+    return tolerance;
+}
+
 const GlbBuilder::Shared& GlbBuilder::sharedOf(const Character& character) {
     const auto known = shared_.find(&character);
     if (known != shared_.end()) return known->second;
@@ -60,6 +84,8 @@ const GlbBuilder::Shared& GlbBuilder::sharedOf(const Character& character) {
     Shared& shared = shared_[&character];
     shared.parentFromJoint.resize(skeleton.parents.size());
     modelToLocal(skeleton, skeleton.bindModelFromJoint, shared.parentFromJoint);
+    shared.skinReach = skinReach(character);
+    shared.heightM = heightOfSkin(character);
     if (skeleton.jointCount() > 0) shared.inverseBinds = glb::addInverseBinds(skeleton, buffer_);
     const int firstMaterial = static_cast<int>(model_.materials.size());
     for (const SkinnedMesh& mesh : character.meshes)
@@ -95,8 +121,11 @@ void GlbBuilder::addAnimation(const std::string& name, std::span<const GlbFigure
     for (std::size_t i = 0; i < figures.size(); ++i) {
         const Skeleton& skeleton = figures[i].character->skeleton;
         const Clip& clip = *figures[i].clip;
-        animation.add(clip, tolerance ? reduceKeys(skeleton, clip, *tolerance) : allKeys(skeleton, clip),
-                      sharedOf(*figures[i].character).parentFromJoint, firstJoints[i]);
+        const Shared& shared = sharedOf(*figures[i].character);
+        animation.add(clip,
+                      tolerance ? reduceKeys(skeleton, clip, toSize(*tolerance, shared.heightM), shared.skinReach)
+                                : allKeys(skeleton, clip),
+                      shared.parentFromJoint, firstJoints[i]);
     }
     animation.finish();
 }

@@ -89,6 +89,40 @@ TEST_CASE("with the keys that are kept every joint stays within the tolerance in
     CHECK(countOf(reduceKeys(skeleton, clip, {1e-2F, 0.05F})) < countOf(keys));
 }
 
+TEST_CASE("the skin stays within the tolerance, too, however far it reaches from its joint") {
+    Character character = makeBiped();
+    const Skeleton& skeleton = character.skeleton;
+    SkinnedMesh& mesh = character.meshes[0];
+    mesh.positions.push_back(skeleton.bindModelFromJoint[12].translation + vec3(0, 0, 1.4F));  // a spear's tip
+    mesh.joints.push_back({12, 0, 0, 0});
+    mesh.weights.push_back({1, 0, 0, 0});
+    const std::vector<float> reach = skinReach(character);
+    CHECK(reach[12] == Approx(1.4F));
+    const Clip clip = swinging(skeleton);
+    const KeyTolerance tolerance;
+    const KeptKeys keys = reduceKeys(skeleton, clip, tolerance, reach);
+    const std::size_t joints = skeleton.parents.size();
+    std::vector<RigidTransform> exact(joints);
+    float most = 0.0F;
+    for (int frame = 0; frame < clip.frameCount; ++frame) {
+        std::copy_n(clip.parentFromJoint.data() + static_cast<std::size_t>(frame) * joints, joints, exact.begin());
+        localToModel(skeleton, exact, exact);
+        const auto got = blended(skeleton, clip, keys, frame);
+        for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+            vec3 off(0);
+            for (std::size_t i = 0; i < 4; ++i) {
+                const std::size_t joint = mesh.joints[v][i];
+                const vec3 inJoint = inverse(skeleton.bindModelFromJoint[joint]) * mesh.positions[v];
+                off += mesh.weights[v][i] * (got[joint] * inJoint - exact[joint] * inJoint);
+            }
+            most = std::max(most, glm::length(off));
+        }
+    }
+    CHECK(most <= tolerance.metres * 1.02F);
+    CHECK(countOf(keys) < countOf(allKeys(skeleton, clip)));
+    CHECK(countOf(reduceKeys(skeleton, clip, tolerance)) < countOf(keys));
+}
+
 TEST_CASE("a joint at rest keeps its two ends, and one that turns evenly, too") {
     const Skeleton skeleton = makeBiped().skeleton;
     Clip clip = swinging(skeleton);
