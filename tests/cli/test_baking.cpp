@@ -1,9 +1,12 @@
 // --out and --mesh-out of simulate: rates, reduced keys, crowds in one file, motion capture, sequences of meshes.
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <vector>
 
+#include "animation/import/figure_file.hpp"
 #include "support/catch.hpp"
 #include "support/command.hpp"
+#include "support/rigs.hpp"
 
 using namespace lutka::test;
 using Json = nlohmann::json;
@@ -31,6 +34,26 @@ Json inspected(const std::string& file) {
 }
 
 }  // namespace
+
+TEST_CASE("baking: the skin keeps its pictures") {
+    const ScratchFolder folder;
+    const lutka::animation::Character figure = makeBiped();
+    GltfFile file;
+    addFigure(file, figure, "Anna");
+    file.json["images"] = {{{"uri",
+                             "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8BQ"
+                             "DwAEhQGAhKmMIQAAAABJRU5ErkJggg=="}}};
+    file.json["textures"] = {{{"source", 0}}};
+    file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    Json& primitive = file.json["meshes"][0]["primitives"][0];
+    primitive["material"] = 0;
+    const std::vector<float> uvs(2 * figure.meshes[0].positions.size(), 0.5F);
+    primitive["attributes"]["TEXCOORD_0"] = file.addFloats(uvs, "VEC2");
+    file.saveBinary(folder / "anna.glb");
+    REQUIRE(lutkaCommand("simulate " + (folder / "anna.glb") + " --seconds 0.1 --out " + (folder / "fall.glb")).code ==
+            0);
+    CHECK(inspected(folder / "fall.glb")["textures"].size() == 1);
+}
 
 TEST_CASE("baking: needless keys are left out unless --no-reduce is given") {
     const ScratchFolder folder;

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "commands.hpp"
 #include "core/files.hpp"
@@ -80,7 +81,9 @@ void runBatch(const BatchCommandOptions& options) {
     settings.maker = "lutka " LUTKA_VERSION;
     settings.load.import = options.model.import();
     settings.afterStep = leaveIfInterrupted;
-    scene::Batch batch(orLeave(scene::loadBatch(options.list)), settings);
+    scene::BatchPlan plan = orLeave(scene::loadBatch(options.list));
+    settings.load.import.loadTextures = plan.bake;
+    scene::Batch batch(std::move(plan), settings);
     std::vector<std::size_t> rows;
     for (std::size_t row = 0; row < batch.plan().rows.size(); ++row)
         if (shard.has(row)) rows.push_back(row);

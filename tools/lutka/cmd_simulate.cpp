@@ -10,6 +10,8 @@ namespace lutka::cli {
 namespace {
 
 void runSimulate(SimulateOptions& options) {
+    // A skin that is written has its pictures with it.
+    options.ragdoll.model.textures = !options.bakedOut.empty() && options.bakedOut.extension() != ".bvh";
     Run run = prepare(options);
     execute(options, run);
     if (run.replay) {
