@@ -113,7 +113,10 @@ Result<void> PuppetCast::findClips(const RagdollAsset& asset, const RagdollAsset
     if (play_.start.clip.empty()) return {};
     float seconds = 0.0F;
     animation::Clip clip;
-    if (auto borrowed = clipOf(asset, donor, play_.start.clip); donor != nullptr && borrowed) {
+    auto borrowed = clipOf(asset, donor, play_.start.clip);
+    // One that is there and can't be had says why.
+    if (donor != nullptr && !borrowed && borrowed.error().code != ErrorCode::usage) return borrowed.error();
+    if (donor != nullptr && borrowed) {
         clip = std::move(borrowed).value();
         seconds = std::clamp(play_.start.seconds, 0.0F, clip.seconds());
     } else {
@@ -135,7 +138,7 @@ PuppetCast::PuppetCast(std::span<const RagdollAsset* const> assets, const Scenar
         const vec3 up = shape.worldFromShape.rotation * vec3(0, 1, 0);
         return shape.kind == physics::StaticShape::Kind::plane && up.y > 1.0F - 1e-4F;
     });
-    if (!isLevel_) statics_ = scenario.statics;
+    statics_ = scenario.statics;
     std::stable_sort(play_.hits.begin(), play_.hits.end(),
                      [](const PuppetHit& a, const PuppetHit& b) { return a.seconds < b.seconds; });
 }
@@ -189,6 +192,9 @@ physics::PuppetSettings PuppetCast::settingsOf(const RagdollAsset& asset, int ro
         settings.muscles = *own;
         settings.muscles.strength *= play_.puppet.muscles.strength;
     }
+    if (play_.ownMuscles && settings.muscles.bodies.empty())
+        for (const physics::BodyProfile& body : profile.bodies)
+            settings.muscles.bodies.push_back(body.muscle);
     settings.gravity = std::max(-play_.gravity.y, 0.1F);
     settings.pinForceN = play_.pinForceN.value_or(profile.bodies[root].pinForceN.value_or(settings.pinForceN));
     for (const physics::BodyProfile& body : profile.bodies)
@@ -222,10 +228,13 @@ void PuppetCast::resume(int doll, const PuppetMemory& memory) {
         actor.from = actor.raw = actor.to;
     }
     constexpr float atOnce = 1e-3F;  // seconds
+    // To be limp again as it was is no knock-out.
+    const int knockOuts = worst_.knockOuts;
     if (memory.limp)
         actor.puppet->goLimp();
     else
         actor.puppet->comeBack(atOnce);
+    worst_.knockOuts = knockOuts;
 }
 
 void PuppetCast::startClip(Actor& actor, float seconds, physics::World& world, physics::DollId doll) {
@@ -289,6 +298,8 @@ void PuppetCast::pose(Actor& actor, std::vector<RigidTransform>& bodies, float d
         if (play_.meetsGround) {
             worldFromModel = lifted;
             std::swap(joints_, fitted_);
+            // Nothing to walk on: it falls, also what is led.
+            if (actor.terrain->isOverNothing()) actor.puppet->goLimp();
         }
     }
     animation::localToModel(skeleton, joints_, joints_);
@@ -343,19 +354,32 @@ void PuppetCast::playOn(Actor& actor, float dt) {
     show(actor, dt);
 }
 
+// Ground is what stays where it is: a ray goes through dolls and props.
+std::optional<animation::GroundHit> PuppetCast::groundOn(const vec3& from, const vec3& to) const {
+    constexpr int kMostAbove = 12;
+    constexpr float kOnM = 2e-3F;
+    physics::BodyShape point;
+    point.kind = physics::BodyShape::Kind::sphere;
+    point.radius = 0.0F;
+    vec3 start = from;
+    for (int i = 0; i < kMostAbove && start.y > to.y; ++i) {
+        const auto hit = world_->rayTest(start, to);
+        if (!hit) return std::nullopt;
+        const bool isStatic = std::any_of(statics_.begin(), statics_.end(), [&](const physics::StaticShape& shape) {
+            return std::abs(physics::distanceToStatic(point, {quat(1, 0, 0, 0), hit->position}, shape)) < kOnM;
+        });
+        if (!hit->doll.isSet() && isStatic && hit->normal.y > 0.1F)
+            return animation::GroundHit{hit->position.y, hit->normal};
+        start = hit->position - vec3(0, 1e-3F, 0);
+    }
+    return std::nullopt;
+}
+
 // The ground at a point: the highest that is no more than a tall step above it.
 std::optional<animation::GroundHit> PuppetCast::footing(const vec3& point) const {
     constexpr float kAboveM = 0.8F;
     constexpr float kBelowM = 2.0F;
-    constexpr int kMostDollsAbove = 8;
-    vec3 from = point + vec3(0, kAboveM, 0);
-    for (int i = 0; i < kMostDollsAbove; ++i) {
-        const auto hit = world_->rayTest(from, point - vec3(0, kBelowM, 0));
-        if (!hit) return std::nullopt;
-        if (!hit->doll.isSet() && hit->normal.y > 0.1F) return animation::GroundHit{hit->position.y, hit->normal};
-        from = hit->position - vec3(0, 1e-3F, 0);
-    }
-    return std::nullopt;
+    return groundOn(point + vec3(0, kAboveM, 0), point - vec3(0, kBelowM, 0));
 }
 
 // How near feet that stand in the clip are to the ground. Bodies are in frames_ after a step.
@@ -395,17 +419,21 @@ void PuppetCast::feelContacts() {
         if (actor.puppet->settings().pinForceN <= 0.0F) feelGround(actor);
 }
 
-// Which feet have something under them.
+// Which feet stand on something: what pushes them from below, and is none of their own doll.
 void PuppetCast::feelGround(Actor& actor) {
+    using Side = physics::ContactReport::Side;
+    constexpr float kUp = 0.5F;
+    const physics::DollId own = actor.puppet->doll();
     std::array<bool, 2> grounded{false, false};
+    const auto feel = [&](const Side& one, const Side& other, float up) {
+        if (one.kind != Side::Kind::doll || one.doll != own || up < kUp) return;
+        if (other.kind == Side::Kind::doll && other.doll == own) return;
+        for (std::size_t side = 0; side < grounded.size(); ++side)
+            grounded[side] = grounded[side] || one.body == actor.puppet->feet()[side];
+    };
     for (const physics::ContactReport& report : world_->contactReports()) {
-        for (std::size_t side = 0; side < grounded.size(); ++side) {
-            const auto isFoot = [&](const physics::ContactReport::Side& one) {
-                return one.kind == physics::ContactReport::Side::Kind::doll && one.doll == actor.puppet->doll() &&
-                       one.body == actor.puppet->feet()[side];
-            };
-            grounded[side] = grounded[side] || isFoot(report.a) || isFoot(report.b);
-        }
+        feel(report.a, report.b, report.normal.y);
+        feel(report.b, report.a, -report.normal.y);
     }
     actor.puppet->setGrounded(grounded);
 }

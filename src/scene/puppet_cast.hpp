@@ -161,10 +161,12 @@ class PuppetCast {
     void blendInto(Actor& actor, std::span<const RigidTransform> rawBefore, std::span<const RigidTransform> raw,
                    float dt);
     void show(Actor& actor, float dt);
+    void keepLimits(Actor& actor);
     bool holdBack(Actor& actor, float dt);
     void measureRising(Actor& actor);
     void measureFeet(Actor& actor);
     [[nodiscard]] float groundBelow(const vec3& point) const;
+    [[nodiscard]] std::optional<animation::GroundHit> groundOn(const vec3& from, const vec3& to) const;
     [[nodiscard]] std::optional<animation::GroundHit> footing(const vec3& point) const;
     void measureFooting(const Actor& actor);
 
@@ -173,7 +175,7 @@ class PuppetCast {
     std::vector<float> startSeconds_;                                 // likewise
     std::vector<std::unique_ptr<GetUpClips>> getUps_;                 // likewise, with PuppetPlay::getUp
     std::vector<std::unique_ptr<FloorKeeper>> floors_;                // likewise
-    std::vector<physics::StaticShape> statics_;                       // of ground that is not level
+    std::vector<physics::StaticShape> statics_;                       // the ground
     bool isLevel_ = true;                                             // the ground is planes alone
     std::vector<Placement> placements_;
     PuppetPlay play_;

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "physics/collision/shape.hpp"
+#include "physics/profile/within_limits.hpp"
 #include "scene/puppet_cast.hpp"
 
 namespace lutka::scene {
@@ -14,11 +16,11 @@ using physics::BodyState;
 using physics::PuppetState;
 
 constexpr float kRestSpeed = 0.12F;           // m/s, root of the mean square by mass: slower is at rest
+constexpr float kRestTurn = 3.0F;             // rad/s of any body: a hand that still swings is hardly felt in the mean
 constexpr float kRestSeconds = 0.3F;          // for so long, before it gets up
 constexpr float kStrengthSeconds = 0.3F;      // in which its strength comes
 constexpr float kSlowStart = 0.4F;            // of the clip's speed, while the doll is still on its way into it
 constexpr float kMostTurn = radians(330.0F);  // rad/s of a joint on the way
-constexpr int kMostThrough = 8;               // bodies that a ray to the ground goes through
 constexpr float kRayM = 10.0F;
 constexpr float kLagM = 0.06F;      // a foot that is farther behind its aim slows the clip down,
 constexpr float kMostLagM = 0.16F;  // so much that it hardly goes on
@@ -53,16 +55,11 @@ quat headingOf(const quat& turn) {
 
 }  // namespace
 
-// Bodies of dolls are gone through; far below there is ground in any case.
+// Far below there is ground in any case.
 float PuppetCast::groundBelow(const vec3& point) const {
-    vec3 from = point;
-    for (int i = 0; i < kMostThrough; ++i) {
-        const auto hit = world_->rayTest(from, from - vec3(0, kRayM, 0));
-        if (!hit) break;
-        if (!hit->doll.isSet()) return hit->position.y;
-        from = hit->position - vec3(0, 1e-3F, 0);
-    }
-    return point.y - kRayM;
+    const vec3 lowest = point - vec3(0, kRayM, 0);
+    const auto hit = groundOn(point, lowest);
+    return hit ? hit->height : lowest.y;
 }
 
 void PuppetCast::watchRest(Actor& actor, float dt) {
@@ -75,12 +72,15 @@ void PuppetCast::watchRest(Actor& actor, float dt) {
     world_->getBodies(actor.puppet->doll(), bodies_);
     float energy = 0.0F;
     float mass = 0.0F;
+    float turn = 0.0F;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        turn = std::max(turn, glm::length(bodies_[i].angularVelocity));
         const float m = actor.asset->profile.bodies[i].massKg;
         energy += m * glm::dot(bodies_[i].linearVelocity, bodies_[i].linearVelocity);
         mass += m;
     }
-    const bool rests = world_->isAsleep(actor.puppet->doll()) || energy < mass * kRestSpeed * kRestSpeed;
+    const bool isSlow = energy < mass * kRestSpeed * kRestSpeed && turn < kRestTurn;
+    const bool rests = isSlow || world_->isAsleep(actor.puppet->doll());
     actor.rest = rests ? actor.rest + dt : 0.0F;
     if (actor.rest >= kRestSeconds) beginRising(actor, dt);
 }
@@ -136,11 +136,24 @@ void PuppetCast::show(Actor& actor, float dt) {
             actor.to[body] = actor.to[actor.asset->rig.parentBody[body]] * relative_[body];
     }
     if (!blends && !actor.rising && !actor.isHeldBack) return;
+    if (actor.rising) keepLimits(actor);
     actor.floor->closeJoints(actor.to);
     const float level = actor.ground;
     if (blends || actor.rising)
         actor.floor->keep([&](const vec3& point) { return isLevel_ ? level : groundBelow(point); }, actor.to);
     actor.isHeldBack = holdBack(actor, dt);
+}
+
+// A wrist can't go to where its limits hold it: what its motor still asks of it there it does all at once when the
+// floor lets go of the hand.
+void PuppetCast::keepLimits(Actor& actor) {
+    for (const physics::ConstraintProfile& joint : actor.asset->profile.constraints) {
+        const auto& role = actor.asset->profile.bodies[joint.child].role;
+        if (role != physics::Role::leftHand && role != physics::Role::rightHand) continue;
+        const quat& parent = actor.to[joint.parent].rotation;
+        const quat parentFromChild = glm::conjugate(parent) * actor.to[joint.child].rotation;
+        actor.to[joint.child].rotation = glm::normalize(parent * physics::withinLimits(joint, parentFromChild));
+    }
 }
 
 // No joint of what is shown turns faster than kMostTurn: limbs that the floor bends and hasty clips come after.
@@ -236,16 +249,28 @@ void PuppetCast::measureRising(Actor& actor) {
 
 // How far feet slide that stand flat and still in the pose. Bodies are in frames_ after a step.
 void PuppetCast::measureFeet(Actor& actor) {
-    const float ground = actor.rising ? actor.ground : actor.worldFromModel.translation.y - actor.lift;
+    if (actor.puppet->state() == PuppetState::reacting) {
+        // What strikes it may move its feet.
+        for (Actor::Foot& foot : actor.feet)
+            foot.stands = false;
+        return;
+    }
+    const float level = actor.rising ? actor.ground : actor.worldFromModel.translation.y - actor.lift;
     for (Actor::Foot& foot : actor.feet) {
         if (foot.body < 0) continue;
         const RigidTransform& aim = actor.to[foot.body];
+        animation::GroundHit ground{level, vec3(0, 1, 0)};
+        if (!isLevel_) ground = footing(aim.translation).value_or(ground);
         const quat off = aim.rotation * glm::conjugate(actor.asset->rig.bindModelFromBody[foot.body].rotation) *
                          glm::conjugate(actor.asset->map.standardFromModel);
         const vec3 up = off * vec3(0, 1, 0);
         const float still = kFootStillMps * dt_ * (actor.rising ? actor.pace : 1.0F);
+        const vec3 onGround(aim.translation.x, ground.height, aim.translation.z);
+        const float above = glm::dot(aim.translation - onGround, ground.normal) -
+                            physics::supportExtent(actor.asset->profile.bodies[foot.body].shape,
+                                                   glm::conjugate(aim.rotation) * ground.normal);
         const bool stands = glm::distance(aim.translation, actor.from[foot.body].translation) < still &&
-                            actor.floor->lowestOf(foot.body, aim) < ground + kFootLowM && up.y > std::cos(kFootFlat);
+                            above < kFootLowM && glm::dot(up, ground.normal) > std::cos(kFootFlat);
         const vec3 at = frames_[foot.body].translation;
         if (stands && !foot.stands) foot.at = at;
         foot.stands = stands;

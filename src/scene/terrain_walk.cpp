@@ -68,6 +68,7 @@ void TerrainWalk::look(Leg& leg, const animation::GroundQuery& ground, float dt,
     const auto below = at(leg.ankle);
     const vec3 normal = below ? below->normal : vec3(0, 1, 0);
     float height = below && below->height < before + kHighestStepM ? below->height : before;
+    leg.hasGround = below || at(leg.ball);
     for (const vec3& point : {leg.ball, leg.ball + 0.5F * leg.ahead, leg.ball + leg.ahead}) {
         const auto hit = at(point);
         if (!hit) continue;
@@ -93,6 +94,7 @@ RigidTransform TerrainWalk::fit(const animation::GroundQuery& ground, float dt, 
     if (dt <= 0.0F) {
         // At another place what was known of the ground says nothing.
         isKnown_ = false;
+        hadGround_ = false;
         for (Leg& leg : legs_)
             leg.isKnown = false;
     }
@@ -112,6 +114,7 @@ RigidTransform TerrainWalk::fit(const animation::GroundQuery& ground, float dt, 
         leg.ankle = ankle;
         leg.ball = ball;
         look(leg, ground, dt, floor);
+        hadGround_ = hadGround_ || leg.hasGround;
         mean += 0.5F * leg.height;
     }
     height_ = isKnown_ && dt > 0.0F ? towards(height_, mean, kFloorSeconds, dt) : mean;

@@ -26,13 +26,17 @@ class TerrainWalk {
 
     /// Whether a foot (left, right) stood in the last pose before it was fitted: low, and hardly moving.
     [[nodiscard]] bool stands(int leg) const { return legs_[leg].stands; }
+    /// Whether the query had no answer below both feet in the last pose, but had one since the last start: the figure
+    /// walked over an edge.
+    [[nodiscard]] bool isOverNothing() const { return hadGround_ && !legs_[0].hasGround && !legs_[1].hasGround; }
 
   private:
     struct Leg {
         animation::GroundLeg bones;
         bool stands = false;
         bool isKnown = false;
-        vec3 ankle{0, 0, 0};  // in the pose as it came, world
+        bool hasGround = false;  // below ankle or ball
+        vec3 ankle{0, 0, 0};     // in the pose as it came, world
         vec3 ball{0, 0, 0};
         vec3 ahead{0, 0, 0};   // how far the ball goes in the time that is looked ahead, level
         float height = 0.0F;   // of the ground, smoothed
@@ -46,6 +50,7 @@ class TerrainWalk {
     std::array<Leg, 2> legs_;
     float height_ = 0.0F;  // of the figure's floor
     bool isKnown_ = false;
+    bool hadGround_ = false;
 };
 
 }  // namespace lutka::scene

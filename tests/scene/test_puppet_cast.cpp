@@ -162,3 +162,68 @@ TEST_CASE("a clip that is not there is an error that names those that are") {
     CHECK(refused.error().message.find("dance") != std::string::npos);
     CHECK(refused.error().mend.find("walk") != std::string::npos);
 }
+
+TEST_CASE("a limp doll that goes on in a simulation made anew was not knocked out once more") {
+    PuppetPlay play;
+    play.start.clip = "idle";
+    const auto simulation = simulate(play, SolverKind::crowd, 0.2F);
+    scene::PuppetCast& cast = *simulation->puppets();
+    cast.puppet(0).goLimp();
+    REQUIRE(cast.figures().knockOuts == 1);
+    const scene::PuppetMemory memory = cast.memoryOf(0);
+    simulation->reset();
+    cast.resume(0, memory);
+    CHECK(cast.puppet(0).state() == physics::PuppetState::limp);
+    CHECK(cast.figures().knockOuts == 0);
+}
+
+TEST_CASE("a body's own strength counts where the profile says nothing of the whole doll's") {
+    auto asset = scene::loadRagdoll(std::filesystem::path(LUTKA_ASSETS_DIR) / "models/mannequin.glb");
+    REQUIRE(asset);
+    const int hand = physics::bodyOf(asset.value()->profile, Role::leftHand);
+    asset.value()->profile.bodies[hand].muscle.strength = 0.25F;
+    scene::SimulationOptions options;
+    options.puppet.emplace();
+    options.puppet->start.clip = "idle";
+    const auto strengthOf = [&](bool own) {
+        options.puppet->ownMuscles = own;
+        auto simulation = scene::Simulation::create(*asset.value(), ground(), options);
+        REQUIRE(simulation);
+        return physics::strengthOf(simulation.value()->puppets()->settingsOfFirst().muscles, asset.value()->profile,
+                                   hand);
+    };
+    CHECK(strengthOf(true) == 0.25F);
+    CHECK(strengthOf(false) == 1.0F);
+}
+
+TEST_CASE("what strikes a foot from above is no ground to stand on") {
+    // In the air, without gravity: nothing may change by a puppet's wish to balance.
+    const auto hashOf = [](bool balances) {
+        scene::Scenario scenario = ground();
+        scenario.statics.clear();
+        const int foot = physics::bodyOf(mannequin().profile, Role::leftFoot);
+        physics::DynamicProp& ball = scenario.props.emplace_back();
+        ball.shape.kind = physics::BodyShape::Kind::sphere;
+        ball.shape.radius = 0.05F;
+        ball.massKg = 2.0F;
+        ball.state.worldFromBody.translation =
+            mannequin().rig.bindModelFromBody[foot].translation + vec3(0, 0.3F, 0.1F);
+        ball.state.linearVelocity = vec3(0, -2.0F, 0);
+        scene::SimulationOptions options;
+        options.world.gravity = vec3(0);
+        options.puppet.emplace();
+        options.puppet->start.clip = "idle";
+        options.puppet->pinForceN = 0.0F;
+        options.puppet->puppet.balances = balances;
+        auto simulation = scene::Simulation::create(mannequin(), scenario, options);
+        REQUIRE(simulation);
+        bool struck = false;
+        for (int i = 0; i < 40; ++i) {
+            simulation.value()->step();
+            struck = struck || !simulation.value()->world().contactReports().empty();
+        }
+        REQUIRE(struck);
+        return simulation.value()->stateHash();
+    };
+    CHECK(hashOf(true) == hashOf(false));
+}

@@ -139,3 +139,82 @@ TEST_CASE("a pose that is fitted at once somewhere else forgets the ground where
     animation::modelToLocal(skeleton, skeleton.bindModelFromJoint, pose);
     CHECK(walk->fit(ground, 0.0F, 2.0F, above, pose).translation.y == Approx(2.0F).margin(1e-4));
 }
+
+TEST_CASE("feet that slide are told on a terrace as on a plane") {
+    // Idle, drawn along at 5 cm/s: slow enough to stand.
+    const auto slid = [](const std::vector<StaticShape>& statics, float height) {
+        scene::Scenario scenario;
+        scenario.statics = statics;
+        scenario.dolls.emplace_back().worldFromModel.translation.y = height;
+        scene::SimulationOptions options;
+        options.puppet.emplace();
+        options.puppet->start.clip = "idle";
+        options.puppet->pace = 0.05F;
+        options.puppet->led = {{"all", 1.0F}};
+        auto made = scene::Simulation::create(walker(), scenario, options);
+        REQUIRE(made);
+        for (int i = 0; i < 90; ++i)
+            made.value()->step();
+        return made.value()->puppets()->figures().footSlideM;
+    };
+    const float onPlane = slid({StaticShape{}}, 0.0F);
+    CHECK(onPlane == Approx(0.075F).margin(0.02));
+    CHECK(slid({slab({0, 0.5F, 0}, {5, 0.5F, 5})}, 1.0F) == Approx(onPlane).margin(0.005));
+    // Up on a ramp the floor of the clip is far below.
+    const auto ramp = slid(rampUp(), 0.0F);
+    CHECK(ramp == Approx(onPlane).margin(0.005));
+    const quat tilt = glm::angleAxis(-radians(12.0F), vec3(1, 0, 0));
+    const float high = slid({slab(tilt * vec3(0, -0.1F, 0) + vec3(0, 1.5F, 0), {2, 0.1F, 4}, tilt)}, 1.5F);
+    CHECK(high == Approx(onPlane).margin(0.01));
+}
+
+TEST_CASE("who walks over an edge falls, whatever leads it") {
+    for (const bool kinematic : {true, false}) {
+        for (const physics::SolverKind solver : {physics::SolverKind::crowd, physics::SolverKind::bullet}) {
+            scene::Scenario scenario;
+            scenario.statics = {StaticShape{}, slab({0, 2.5F, 0}, {2, 0.5F, 1.5F})};
+            scenario.dolls.emplace_back().worldFromModel.translation.y = 3.0F;
+            scene::SimulationOptions options;
+            options.world.solver = solver;
+            options.puppet.emplace();
+            options.puppet->start.clip = "walk";
+            options.puppet->pace = 0.95F;
+            if (kinematic) options.puppet->led = {{"all", 1.0F}};
+            auto made = scene::Simulation::create(walker(), scenario, options);
+            REQUIRE(made);
+            for (int i = 0; i < 60; ++i)
+                made.value()->step();
+            INFO(physics::solverName(solver) << (kinematic ? ", kinematic" : ", powered"));
+            CHECK(made.value()->puppets()->figures().limp == 0);
+            for (int i = 0; i < 180; ++i)
+                made.value()->step();
+            CHECK(made.value()->puppets()->figures().limp == 1);
+            CHECK(made.value()->worldFromBody(0)[0].translation.y < 2.0F);
+        }
+    }
+}
+
+TEST_CASE("props that lie in the way are no ground to feet") {
+    scene::Scenario scenario;
+    scenario.statics = {slab({0, -0.5F, 0}, {20, 0.5F, 20})};
+    scenario.dolls.emplace_back();
+    for (int i = 0; i < 6; ++i) {
+        physics::DynamicProp& crate = scenario.props.emplace_back();
+        crate.shape.kind = physics::BodyShape::Kind::box;
+        crate.shape.halfExtents = vec3(0.3F, 0.1F, 0.15F);
+        crate.state.worldFromBody.translation = {0, 0.1F, 0.6F + 0.4F * static_cast<float>(i)};
+    }
+    scene::SimulationOptions options;
+    options.puppet.emplace();
+    options.puppet->start.clip = "walk";
+    options.puppet->pace = 0.95F;
+    options.puppet->led = {{"all", 1.0F}};
+    auto made = scene::Simulation::create(walker(), scenario, options);
+    REQUIRE(made);
+    for (int i = 0; i < 150; ++i)
+        made.value()->step();
+    const scene::PuppetFigures figures = made.value()->puppets()->figures();
+    INFO("mean gap " << figures.footGapMeanM << ", most " << figures.footGapM);
+    CHECK(figures.footGapMeanM < 0.005F);
+    CHECK(figures.footGapM < 0.05F);
+}

@@ -12,6 +12,11 @@ constexpr float kUnboundedNm = 1e9F;
 constexpr float kAdultM = 1.75F;
 constexpr float kFar = radians(40.0F);
 constexpr float kLost = radians(90.0F);
+constexpr float kHandBrake = 8.0F;  // on the damping of wrists, which the floor bends far and lets go of at once
+
+bool isHand(const BodyProfile& body) {
+    return body.role == Role::leftHand || body.role == Role::rightHand;
+}
 
 // The child's frame in the parent's.
 quat relativeOf(const ConstraintProfile& constraint, std::span<const RigidTransform> bodies) {
@@ -90,15 +95,16 @@ vec3 PoseDrive::gravityTorque(int constraint, const vec3& gravity) const {
 
 // The target no farther than mostLead_ from where the joint is, nor farther and faster than drives it at mostSpeed_:
 // with a spring k, a damper d and a rate v of the target the joint comes to v + k / d times the lead.
-void PoseDrive::leashTo(const ConstraintProfile& constraint, float inertia, JointMotor& motor) const {
+void PoseDrive::leashTo(const ConstraintProfile& constraint, float inertia, JointMotor& motor) {
     const quat parent = bodies_[constraint.parent].worldFromBody.rotation * constraint.parentFromFrame.rotation;
     const quat now = glm::conjugate(parent) *
                      (bodies_[constraint.child].worldFromBody.rotation * constraint.childFromFrame.rotation);
     const vec3 lead = rotationVector(glm::normalize(motor.target * glm::conjugate(now)));
     const float angle = glm::length(lead);
+    farthest_ = std::max(farthest_, angle);
     if (angle < 1e-6F) return;
     // What is very far off does not follow but is held, most often by its own limits, and would be driven along them.
-    const float follows = std::clamp((kLost - angle) / (kLost - kFar), 0.0F, 1.0F);
+    const float follows = holdsFar_ ? std::clamp((kLost - angle) / (kLost - kFar), 0.0F, 1.0F) : 1.0F;
     const float kept = follows * std::min(angle, mostLead_);
     // A spring that is damped less is no faster than its own swing.
     const float damping = std::max(motor.damping, 2.0F * std::sqrt(motor.stiffness * inertia));
@@ -114,6 +120,7 @@ void PoseDrive::drive(World& world, DollId doll, const MuscleSettings& muscles, 
                       const Stance* stance) {
     const bool carries = muscles.carriedGravity != vec3(0);
     const bool leashes = mostLead_ < kPi || mostSpeed_ < kUnbounded;
+    farthest_ = 0.0F;
     if (carries || leashes || stance != nullptr) world.getBodies(doll, bodies_);
     for (int i = 0; i < static_cast<int>(profile_.constraints.size()); ++i) {
         const ConstraintProfile& constraint = profile_.constraints[i];
@@ -139,6 +146,7 @@ void PoseDrive::drive(World& world, DollId doll, const MuscleSettings& muscles, 
         const quat before = relativeOf(constraint, from);
         motor.target = relativeOf(constraint, to);
         motor.rate = rotationVector(glm::normalize(motor.target * glm::conjugate(before))) / dt;
+        if (leashes && isHand(profile_.bodies[constraint.child])) motor.damping *= kHandBrake;
         if (leashes) leashTo(constraint, inertia, motor);
         if (carriesDoll) {
             const quat parentFrame =

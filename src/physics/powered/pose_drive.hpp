@@ -29,9 +29,14 @@ class PoseDrive {
     /// it is at first: never changed. What is held back by force then comes along gently once it is let go.
     void setMostLead(float lead) { mostLead_ = lead; }
     /// Likewise of the speed that a motor drives its joint to while nothing else holds it: the target's rate and the
-    /// spring's pull over the damper together, rad/s, > 0; unbounded at first.
+    /// spring's pull over the damper together, rad/s, > 0; unbounded at first. With either bound wrists are damped
+    /// more.
     void setMostSpeed(float speed) { mostSpeed_ = speed; }
     static constexpr float kUnbounded = 1e9F;
+    /// Whether a joint that is very far from its target is held there instead of following; at first they are.
+    void setHoldsFar(bool holds) { holdsFar_ = holds; }
+    /// The farthest that a joint was from its target in the last drive() with a bound on lead or speed, radians.
+    [[nodiscard]] float farthest() const { return farthest_; }
     /// Takes all motors away.
     void release(World& world, DollId doll) const;
 
@@ -52,11 +57,13 @@ class PoseDrive {
     // What gravity does about the joint through all that hangs below it, N m, world.
     [[nodiscard]] vec3 gravityTorque(int constraint, const vec3& gravity) const;
 
-    void leashTo(const ConstraintProfile& constraint, float inertia, JointMotor& motor) const;
+    void leashTo(const ConstraintProfile& constraint, float inertia, JointMotor& motor);
 
     const RagdollProfile& profile_;
     float mostLead_ = kPi;
     float mostSpeed_ = kUnbounded;
+    bool holdsFar_ = true;
+    float farthest_ = 0.0F;
     std::vector<Joint> joints_;      // one a constraint
     float massKg_ = 0.0F;            // of the doll
     float heightM_ = 0.0F;           // about

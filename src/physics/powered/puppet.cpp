@@ -228,6 +228,17 @@ void Puppet::pull(std::span<const RigidTransform> from, std::span<const RigidTra
     }
 }
 
+// By a pin or a led body, to the pose itself.
+bool Puppet::isHeld() const {
+    if (settings_.pinForceN > 0.0F) return true;
+    for (std::size_t body = 0; body < weights_.size(); ++body) {
+        const bool isPinned =
+            body < settings_.pins.size() && static_cast<int>(body) != root_ && settings_.pins[body] > 0.0F;
+        if (isPinned || weights_[body] > 0.0F) return true;
+    }
+    return false;
+}
+
 void Puppet::letGo() {
     for (std::unique_ptr<BodyPin>& pin : pins_)
         pin.reset();
@@ -244,12 +255,15 @@ void Puppet::prepare(std::span<const RigidTransform> from, std::span<const Rigid
     for (std::size_t body = 0; body < factors_.size(); ++body)
         factors_[body] = strengthLeft(static_cast<int>(body));
     const bool getsUp = state_ == PuppetState::gettingUp && !standsByItself_;
-    drive_.setMostLead(getsUp ? settings_.getUpLead : kPi);
-    drive_.setMostSpeed(getsUp ? settings_.getUpSpeed : PoseDrive::kUnbounded);
+    // Once it stands a limb may still be behind: it comes along as gently.
+    isLeashed_ = getsUp || (isLeashed_ && drive_.farthest() > settings_.getUpLead);
+    drive_.setMostLead(isLeashed_ ? settings_.getUpLead : kPi);
+    drive_.setMostSpeed(isLeashed_ ? settings_.getUpSpeed : PoseDrive::kUnbounded);
+    drive_.setHoldsFar(getsUp);
     lead(from, to, dt);
     for (const ConstraintProfile& joint : profile_.constraints)
         if (weights_[joint.parent] >= 1.0F && weights_[joint.child] >= 1.0F) factors_[joint.child] = 0.0F;
-    const bool standsFreely = settings_.balances && !getsUp && settings_.pinForceN <= 0.0F && weights_[root_] <= 0.0F;
+    const bool standsFreely = settings_.balances && !getsUp && !isHeld();
     // bodies_ are those of now: isTooMuch() has asked for them.
     const Stance* stance = standsFreely ? balance_.stanceOf(bodies_, grounded_, settings_.gravity) : nullptr;
     drive_.drive(world_, doll_, settings_.muscles, from, to, dt, factors_, stance);

@@ -27,7 +27,7 @@ struct PuppetSettings {
     /// With what weight each body is led to its pose itself, [0, 1], one a body; see BodyTarget. 1: kinematic; 0: by
     /// the muscles alone. Empty: all 0. A pinned body that is led has no pin. None is led while the puppet is limp.
     std::vector<float> led;
-    bool balances = true;      ///< A doll that stands and whose root is neither pinned nor led keeps its balance.
+    bool balances = true;      ///< A doll that stands and of which no body is pinned or led keeps its balance.
     float gravity = 9.81F;     ///< m/s² down, > 0: what it balances against.
     float leadSpeed = 1.5F;    ///< m/s, > 0: while a weight grows no body is drawn to its pose faster than this,
     float leadTurn = 3.5F;     ///< nor turned, rad/s, > 0; only one that is near becomes kinematic.
@@ -102,6 +102,7 @@ class Puppet {
     void lead(std::span<const RigidTransform> from, std::span<const RigidTransform> to, float dt);
     void draw(int body, BodyTarget& target);
     void pull(std::span<const RigidTransform> from, std::span<const RigidTransform> to, float dt);
+    [[nodiscard]] bool isHeld() const;
     void letGo();
     [[nodiscard]] bool isTooMuch(std::span<const RigidTransform> pose);
 
@@ -123,6 +124,7 @@ class Puppet {
     std::vector<BodyState> bodies_;           // scratch
     float back_ = 1.0F;                       // how much of its strength it has while it returns
     float backSeconds_ = 1.0F;
+    bool isLeashed_ = false;      // to getUpLead and getUpSpeed
     bool standsByItself_ = true;  // gettingUp ends when its strength is back
     std::function<void(PuppetState, PuppetState)> listener_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 
 #include "physics/powered/puppet.hpp"
@@ -95,4 +96,39 @@ TEST_CASE("nobody balances without a foot on the ground") {
     // back.
     CHECK(std::abs(stance->torque[left].z) > 1.0F);
     CHECK(glm::length(stance->torque[right]) == 0.0F);
+}
+
+TEST_CASE("a doll that is held by a pin or a led body does not balance as well") {
+    const physics::RagdollProfile profile = makeDoll();
+    const int chest = physics::bodyOf(profile, Role::chest);
+    // Where the chest is after a push; what holds it is told by `hold`.
+    const auto chestAfter = [&](bool balances, const std::function<void(PuppetSettings&)>& hold) {
+        const auto world = worldOf(SolverKind::crowd);
+        world->addStatic(physics::StaticShape{});
+        const auto start = standingDoll(profile, {0, 0.001F, 0});
+        const physics::DollId doll = world->addDoll(profile, start);
+        PuppetSettings settings;
+        settings.pinForceN = 0.0F;
+        settings.balances = balances;
+        settings.pins.assign(profile.bodies.size(), 0.0F);
+        settings.led.assign(profile.bodies.size(), 0.0F);
+        hold(settings);
+        Puppet puppet(*world, doll, profile, physics::bodyOf(profile, Role::hips), start, settings);
+        std::vector<RigidTransform> pose;
+        for (const BodyState& body : start)
+            pose.push_back(body.worldFromBody);
+        for (int i = 0; i < 60; ++i) {
+            if (i == 10) puppet.hit(chest, bodyOfDoll(*world, 0, chest).worldFromBody.translation, vec3(0, 0, 20));
+            puppet.setGrounded({true, true});
+            puppet.prepare(pose, pose, kFrame);
+            world->step(kFrame);
+        }
+        return bodyOfDoll(*world, 0, chest).worldFromBody.translation;
+    };
+    const auto freely = [](PuppetSettings&) {};
+    const auto pinned = [&](PuppetSettings& settings) { settings.pins[chest] = 500.0F; };
+    const auto led = [&](PuppetSettings& settings) { settings.led[chest] = 0.3F; };
+    CHECK(chestAfter(true, freely) != chestAfter(false, freely));
+    CHECK(chestAfter(true, pinned) == chestAfter(false, pinned));
+    CHECK(chestAfter(true, led) == chestAfter(false, led));
 }

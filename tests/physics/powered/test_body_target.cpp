@@ -254,9 +254,10 @@ TEST_CASE("a puppet is led to its pose over a time, interrupted at any moment, w
         run(30);
         CHECK(offBy() < 0.001F);
         puppet.settings().led.assign(profile.bodies.size(), 0.0F);
-        run(25);  // falls
+        // Falls, until its arms have come down on it: that is the doll's own motion, whether it is caught or not.
+        run(32);
         CHECK(offBy() > 0.1F);
-        jumps.forget();  // of the fall, which is the doll's own
+        jumps.forget();
         puppet.settings().led.assign(profile.bodies.size(), 1.0F);
         run(11);  // on its way
         CHECK(puppet.weightOf(0) > 0.2F);
@@ -266,7 +267,7 @@ TEST_CASE("a puppet is led to its pose over a time, interrupted at any moment, w
         puppet.settings().led.assign(profile.bodies.size(), 1.0F);
         run(120);
         INFO("largest turn of a joint between two frames " << jumps.most() << " degrees");
-        CHECK(jumps.most() < 17.0F);
+        CHECK(jumps.most() < 10.0F);
         CHECK(offBy() < 0.001F);
         puppet.goLimp();
         CHECK(puppet.weightOf(0) == 0.0F);

@@ -6,6 +6,7 @@
 #include "core/swing_twist.hpp"
 #include "physics/fit/fit_ragdoll.hpp"
 #include "physics/profile/constraint_state.hpp"
+#include "physics/profile/within_limits.hpp"
 #include "physics/rig/rig.hpp"
 #include "support/catch.hpp"
 #include "support/rigs.hpp"
@@ -222,4 +223,26 @@ TEST_CASE("a spring rests in the same pose whatever becomes of its joint's limit
     setSpringFromBind(other, bent, fitted.bind(Role::head));
     CHECK(near(springFromBind(other, fitted.bind(Role::head)).rest, bent.rest));
     CHECK(other.spring.damping == 2.0F);
+}
+
+TEST_CASE("a rotation beyond a joint's limits comes back on them, one within them as it is") {
+    Fitted fitted;
+    for (const Role role : {Role::leftHand, Role::leftUpperArm, Role::leftLowerLeg}) {
+        const ConstraintProfile& joint = fitted.constraint(role);
+        const BindFrames bind = fitted.bind(role);
+        for (int i = 0; i < 27; ++i) {
+            const vec3 turn(static_cast<float>(i % 3 - 1), static_cast<float>(i / 3 % 3 - 1),
+                            static_cast<float>(i / 9 - 1));
+            const float angle = glm::length(turn) * 0.9F;
+            const quat relative = angle > 0.0F ? glm::angleAxis(angle, glm::normalize(turn)) : quat(1, 0, 0, 0);
+            BindFrames pose = posed(joint, bind, relative);
+            const bool was = violationOf(joint, pose) > 1e-3F;
+            const quat before = glm::conjugate(pose.fromParent.rotation) * pose.fromChild.rotation;
+            const quat after = withinLimits(joint, before);
+            pose.fromChild.rotation = pose.fromParent.rotation * after;
+            CHECK(violationOf(joint, pose) < 1e-3F);
+            if (!was && joint.kind == ConstraintProfile::Kind::coneTwist)
+                CHECK(std::abs(glm::dot(before, after)) > 1.0F - 1e-5F);
+        }
+    }
 }
