@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <glm/geometric.hpp>
 
+#include "animation/clip_reference.hpp"
 #include "animation/pose.hpp"
 
 namespace lutka::scene {
@@ -16,11 +17,8 @@ using animation::Clip;
 using physics::BodyState;
 
 Result<const Clip*> clipNamed(const Character& character, const std::string& name) {
-    std::string known;
-    for (const Clip& clip : character.clips) {
-        if (clip.name == name) return &clip;
-        known += (known.empty() ? "" : ", ") + clip.name;
-    }
+    if (const int clip = animation::clipMeant(character.clips, name); clip >= 0) return &character.clips[clip];
+    const std::string known = animation::clipReferences(character.clips);
     return Error{ErrorCode::usage, fmt::format("there is no clip named '{}'", name), character.file.string(),
                  known.empty() ? "the file has no clips" : "the clips are " + known};
 }
@@ -28,8 +26,7 @@ Result<const Clip*> clipNamed(const Character& character, const std::string& nam
 // "a@1" may be a clip's own name, which a command line reads as one second into "a". Where no clip is called "a", it
 // is.
 ClipStart withWholeName(const Character& character, const ClipStart& start) {
-    const auto isNamed = [&](const Clip& clip) { return clip.name == start.clip; };
-    if (std::any_of(character.clips.begin(), character.clips.end(), isNamed)) return start;
+    if (animation::clipMeant(character.clips, start.clip) >= 0) return start;
     for (const Clip& clip : character.clips) {
         if (!clip.name.starts_with(start.clip + "@")) continue;
         const char* number = clip.name.c_str() + start.clip.size() + 1;

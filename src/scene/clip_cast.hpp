@@ -27,8 +27,8 @@ struct ClipMoment {
     float seconds = 0.0F;                   ///< Within the clip.
 };
 
-/// Fails with ErrorCode::usage when there is no such clip (the known ones are listed) or it has no such moment. A clip
-/// whose own name ends in "@1" is found by it.
+/// Fails with ErrorCode::usage when there is no such clip (the known ones are listed; see animation::clipMeant) or it
+/// has no such moment. A clip whose own name ends in "@1" is found by it.
 [[nodiscard]] Result<ClipMoment> findClipMoment(const animation::Character& character, const ClipStart& start);
 
 /// The poses of all characters that play one clip, the same for all dolls of a character. A loop's way over the ground

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "animation/clip_reference.hpp"
 #include "animation/pose.hpp"
 #include "animation/retarget/retarget_clip.hpp"
 
@@ -80,12 +81,12 @@ Lying lyingOf(const RagdollAsset& asset, std::span<const RigidTransform> worldFr
 }
 
 Result<Clip> clipOf(const RagdollAsset& asset, const RagdollAsset* donor, std::string_view name) {
-    const auto isNamed = [&](const Clip& clip) { return clip.name == name; };
     const std::vector<Clip>& own = asset.character.clips;
-    if (const auto at = std::find_if(own.begin(), own.end(), isNamed); at != own.end()) return *at;
+    if (const int at = animation::clipMeant(own, name); at >= 0) return own[at];
     if (donor != nullptr) {
         const std::vector<Clip>& given = donor->character.clips;
-        const auto at = std::find_if(given.begin(), given.end(), isNamed);
+        // By its name alone: a number means one of the character's own.
+        const auto at = std::find_if(given.begin(), given.end(), [&](const Clip& clip) { return clip.name == name; });
         if (at != given.end()) return retargeted(asset, *donor, *at);
     }
     return Error{ErrorCode::usage, fmt::format("there is no clip named '{}'", name), asset.character.file.string(),

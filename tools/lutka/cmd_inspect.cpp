@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "animation/clip_reference.hpp"
 #include "animation/joint_paths.hpp"
 #include "commands.hpp"
 #include "options.hpp"
@@ -113,8 +114,10 @@ void printText(const Character& character) {
              mesh.rigid ? ", rigid" : "");
     }
     tell("clips      {}\n", character.clips.size());
-    for (const animation::Clip& clip : character.clips) {
-        tell("  {:<48} {:7.2f} s, {} frames\n", clip.name, clip.seconds(), clip.frameCount);
+    for (std::size_t i = 0; i < character.clips.size(); ++i) {
+        const animation::Clip& clip = character.clips[i];
+        tell("  {:<48} {:7.2f} s, {} frames\n", animation::clipLabel(character.clips, i), clip.seconds(),
+             clip.frameCount);
     }
     tell("materials  {}, textures {}\n", character.materials.size(), character.textures.size());
     if (!character.warnings.empty()) tell("repaired or noticed\n");

@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "animation/clip_reference.hpp"
 #include "animation/export/write_glb.hpp"
 #include "animation/humanoid/map_humanoid.hpp"
 #include "animation/retarget/retarget_clip.hpp"
@@ -28,11 +29,9 @@ struct RetargetCommandOptions {
 };
 
 const animation::Clip& clipOf(const animation::Character& character, const std::string& name) {
-    std::string known;
-    for (const animation::Clip& clip : character.clips) {
-        if (clip.name == name || (name.empty() && character.clips.size() == 1)) return clip;
-        known += (known.empty() ? "" : ", ") + clip.name;
-    }
+    if (name.empty() && character.clips.size() == 1) return character.clips.front();
+    if (const int clip = animation::clipMeant(character.clips, name); clip >= 0) return character.clips[clip];
+    const std::string known = animation::clipReferences(character.clips);
     leave({ErrorCode::usage,
            name.empty() ? fmt::format("has {} clips", character.clips.size()) : fmt::format("has no clip '{}'", name),
            character.file.string(), known.empty() ? "take a file with a clip" : "--clip takes one of " + known});

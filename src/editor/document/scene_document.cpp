@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "animation/clip_reference.hpp"
 #include "scene/scene_file.hpp"
 
 namespace lutka::editor {
@@ -17,8 +18,7 @@ bool samePath(const fs::path& a, const fs::path& b) {
 }
 
 bool hasClip(const scene::RagdollAsset& asset, const std::string& name) {
-    const auto& clips = asset.character.clips;
-    return std::any_of(clips.begin(), clips.end(), [&](const animation::Clip& clip) { return clip.name == name; });
+    return animation::clipMeant(asset.character.clips, name) >= 0;
 }
 
 }  // namespace

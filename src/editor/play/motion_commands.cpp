@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "animation/clip_reference.hpp"
+
 namespace lutka::editor {
 namespace {
 
@@ -94,7 +96,7 @@ void MotionCommands::toggleClips(bool& shown) {
         return;
     }
     const auto& clips = workspace_.document->character().clips;
-    if (!clips.empty()) showClip(clips.front().name);
+    if (!clips.empty()) showClip(animation::clipReference(clips, 0));
 }
 
 void MotionCommands::showClip(const std::string& clip) {

@@ -6,6 +6,8 @@
 
 #include <array>
 
+#include "animation/clip_reference.hpp"
+#include "editor/ui/clip_list.hpp"
 #include "editor/ui/panels.hpp"
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"
@@ -173,22 +175,21 @@ void draw(const PanelContext& /*context*/, Fields& fields, scene::Collider& coll
 void drawClip(const PanelContext& context, Fields& fields, scene::Ragdoll& ragdoll) {
     const auto& clips = context.editor.document().sceneDocument().assetOf(ragdoll).character.clips;
     labelled("Clip", fields.labelWidth());
-    if (ImGui::BeginCombo("##clip", ragdoll.clip ? ragdoll.clip->clip.c_str() : "none")) {
+    const std::string shown = ragdoll.clip ? shownClip(clips, ragdoll.clip->clip) : "none";
+    if (ImGui::BeginCombo("##clip", shown.c_str())) {
         if (ImGui::Selectable("none", !ragdoll.clip)) {
             ragdoll.clip.reset();
             fields.change("Clip");
         }
-        for (const animation::Clip& clip : clips) {
-            if (!ImGui::Selectable(clip.name.c_str(), ragdoll.clip && ragdoll.clip->clip == clip.name)) continue;
-            ragdoll.clip = scene::ClipStart{clip.name, 0.0F};
+        if (const auto chosen = chooseListedClip(clips, ragdoll.clip ? ragdoll.clip->clip : "")) {
+            ragdoll.clip = scene::ClipStart{*chosen, 0.0F};
             fields.change("Clip");
         }
         ImGui::EndCombo();
     }
     if (!ragdoll.clip) return;
-    const auto clip = std::find_if(clips.begin(), clips.end(),
-                                   [&](const animation::Clip& one) { return one.name == ragdoll.clip->clip; });
-    fields.number("At", ragdoll.clip->seconds, 0, clip != clips.end() ? clip->seconds() : 60.0F, "%.2f s");
+    const int clip = animation::clipMeant(clips, ragdoll.clip->clip);
+    fields.number("At", ragdoll.clip->seconds, 0, clip >= 0 ? clips[clip].seconds() : 60.0F, "%.2f s");
 }
 
 void drawPins(const PanelContext& context, Fields& fields, scene::Ragdoll& ragdoll) {

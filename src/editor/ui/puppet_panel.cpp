@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "editor/ui/clip_list.hpp"
 #include "editor/ui/panels.hpp"
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"
@@ -28,11 +29,11 @@ void drawClip(const PanelContext& context, const ScenePuppets& puppets) {
     std::optional<std::string> chosen;
     labelled("Follow", context.px(92));
     const char* held = "the start pose";
-    if (ImGui::BeginCombo("##follow", puppets.clip.empty() ? held : puppets.clip.c_str(),
-                          ImGuiComboFlags_HeightLarge)) {
+    const auto& clips = editor.document().character().clips;
+    const std::string shown = puppets.clip.empty() ? held : shownClip(clips, puppets.clip);
+    if (ImGui::BeginCombo("##follow", shown.c_str(), ImGuiComboFlags_HeightLarge)) {
         if (ImGui::Selectable(held, puppets.clip.empty())) chosen = "";
-        for (const animation::Clip& clip : editor.document().character().clips)
-            if (ImGui::Selectable(clip.name.c_str(), clip.name == puppets.clip)) chosen = clip.name;
+        if (const auto clip = chooseListedClip(clips, puppets.clip)) chosen = clip;
         ImGui::EndCombo();
     }
     if (!chosen) return;

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "animation/clip_reference.hpp"
+#include "editor/ui/clip_list.hpp"
 #include "editor/ui/panels.hpp"
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"
@@ -111,10 +113,9 @@ void drawClipTime(const PanelContext& context) {
     Editor& editor = context.editor;
     const scene::ClipStart& start = *editor.document().sceneDocument().settings().clip;
     const auto& clips = editor.document().character().clips;
-    const auto clip =
-        std::find_if(clips.begin(), clips.end(), [&](const animation::Clip& one) { return one.name == start.clip; });
+    const int clip = animation::clipMeant(clips, start.clip);
     labelled("At", simulationLabelWidth(context));
-    const float length = clip != clips.end() ? clip->seconds() : 1.0F;
+    const float length = clip >= 0 ? clips[clip].seconds() : 1.0F;
     float seconds = start.seconds;
     if (slider("##clipTime", seconds, 0.0F, length, "%.2f s of the clip")) {
         change(editor, {"Start time", "clipTime", true}, [&](SceneSettings& next) { next.clip->seconds = seconds; });
@@ -129,16 +130,16 @@ void drawStart(const PanelContext& context) {
     const char* poses[] = {"Bind pose", "File's node pose"};
     std::optional<int> pose;
     std::optional<scene::ClipStart> clip;
+    const auto& clips = editor.document().character().clips;
     labelled("Start pose", simulationLabelWidth(context));
-    const std::string shown = scene.clip ? "Clip " + scene.clip->clip : poses[static_cast<int>(scene.pose)];
+    const std::string shown =
+        scene.clip ? "Clip " + shownClip(clips, scene.clip->clip) : poses[static_cast<int>(scene.pose)];
     if (ImGui::BeginCombo("##pose", shown.c_str(), ImGuiComboFlags_HeightLarge)) {
         for (int one = 0; one < 2; ++one) {
             if (ImGui::Selectable(poses[one], !scene.clip && static_cast<int>(scene.pose) == one)) pose = one;
         }
-        for (const animation::Clip& one : editor.document().character().clips) {
-            const bool now = scene.clip && scene.clip->clip == one.name;
-            if (ImGui::Selectable(("Clip " + one.name).c_str(), now)) clip = scene::ClipStart{one.name, 0.0F};
-        }
+        const std::string present = scene.clip ? scene.clip->clip : "";
+        if (const auto chosen = chooseListedClip(clips, present, "Clip ")) clip = scene::ClipStart{*chosen, 0.0F};
         ImGui::EndCombo();
     }
     if (pose || clip) {

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "animation/clip_reference.hpp"
+#include "editor/ui/clip_list.hpp"
 #include "editor/ui/panels.hpp"
 #include "editor/ui/side_panels.hpp"
 #include "editor/ui/style.hpp"
@@ -17,13 +19,15 @@ void chooseClip(const PanelContext& context) {
     Editor& editor = context.editor;
     const ClipStage* shown = editor.player().clip();
     std::string chosen;
+    const auto& clips = editor.document().character().clips;
+    const std::string preview = shown != nullptr ? shownClip(clips, shown->clip()) : "choose a clip";
     ImGui::SetNextItemWidth(context.px(150));
-    if (!ImGui::BeginCombo("##clip", shown != nullptr ? shown->clip().c_str() : "choose a clip",
-                           ImGuiComboFlags_HeightLarge))
-        return;
-    for (const animation::Clip& clip : editor.document().character().clips) {
-        const std::string line = fmt::format("{}  {:.1f} s##{}", clip.name, clip.seconds(), clip.name);
-        if (ImGui::Selectable(line.c_str(), shown != nullptr && shown->clip() == clip.name)) chosen = clip.name;
+    if (!ImGui::BeginCombo("##clip", preview.c_str(), ImGuiComboFlags_HeightLarge)) return;
+    for (std::size_t i = 0; i < clips.size(); ++i) {
+        const std::string reference = animation::clipReference(clips, i);
+        const std::string line =
+            fmt::format("{}  {:.1f} s##{}", animation::clipLabel(clips, i), clips[i].seconds(), reference);
+        if (ImGui::Selectable(line.c_str(), shown != nullptr && shown->clip() == reference)) chosen = reference;
     }
     ImGui::EndCombo();
     if (!chosen.empty()) editor.showClip(chosen);
