@@ -142,6 +142,9 @@ TEST_CASE("bodies are held by their names, and an unknown one is wrong usage tha
         return highest;
     };
     CHECK(highestVertex(" --hold head,rightHand") > 1.2F);
+    CHECK(highestVertex(" --hold ' head , rightHand'") > 1.2F);
+    // The list ends with its word.
+    CHECK(lutkaCommand("simulate --seconds 0.1 --hold head,rightHand " + kMannequinArgument).code == 0);
     CHECK(highestVertex("") < 1.0F);
     const CommandResult unknown = lutkaCommand(common + " --hold tail");
     CHECK(unknown.code == 2);

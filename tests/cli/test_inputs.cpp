@@ -1,7 +1,10 @@
+#include <nlohmann/json.hpp>
+
 #include "support/catch.hpp"
 #include "support/command.hpp"
 
 using namespace lutka::test;
+using Json = nlohmann::json;
 
 namespace {
 
@@ -46,4 +49,34 @@ TEST_CASE("a run from inputs that differ ends with the step and the body") {
     const CommandResult broken = lutkaCommand(model + " --replay " + inputs);
     CHECK(broken.code == 3);
     CHECK_THAT(broken.err, Catch::Contains("/hits/0/step"));
+}
+
+TEST_CASE("names with blanks survive the way through a file of inputs") {
+    const ScratchFolder folder;
+    const std::string profile = folder / "doll.ragdoll.json";
+    REQUIRE(lutkaCommand("build " + kMannequinArgument + " -o " + profile).code == 0);
+    // A body without a role may have any name.
+    std::string text = fileText(profile);
+    Json doll = Json::parse(text);
+    for (Json& body : doll["bodies"]) {
+        if (body["name"] != "leftHand") continue;
+        body["name"] = "left \"hand\" of it";
+        body.erase("role");
+    }
+    std::ofstream(profile) << doll.dump(1);
+    const std::string inputs = folder / "walk.inputs.json";
+    const std::string model = "simulate " + kMannequinArgument + " --profile " + profile;
+    const std::string hand = "'left \"hand\" of it'";
+    REQUIRE(lutkaCommand(
+                model +
+                " --clip walk --puppet powered --hit head@0.2:5 --hit hips@0.3:0,0,4 --seconds 0.5 --kinematic hips," +
+                hand + " --record " + inputs)
+                .code == 0);
+    const CommandResult again = lutkaCommand(model + " --replay " + inputs);
+    INFO(again.err);
+    CHECK(again.code == 0);
+    REQUIRE(lutkaCommand(model + " --hold head," + hand + " --seconds 0.5 --record " + inputs).code == 0);
+    const CommandResult held = lutkaCommand(model + " --replay " + inputs);
+    INFO(held.err);
+    CHECK(held.code == 0);
 }

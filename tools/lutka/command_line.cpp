@@ -53,7 +53,16 @@ Option Option::check(std::function<std::string(const std::string&)> problem) con
 
 Option Option::commaSeparated(int count) const {
     option_->delimiter(',');
-    if (count > 0) option_->expected(count);
+    option_->transform(CLI::Validator(
+        [](std::string& piece) {
+            piece = CLI::detail::trim_copy(piece);
+            return std::string();
+        },
+        ""));
+    if (count > 0)
+        option_->expected(count);
+    else
+        option_->allow_extra_args(false);  // what follows the word is no part of the list
     return *this;
 }
 

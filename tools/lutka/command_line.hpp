@@ -26,7 +26,8 @@ class Option {
     Option oneOf(const std::vector<std::string>& words, bool ignoreCase = false) const;
     /// `problem` gives what is wrong with the text, or nothing.
     Option check(std::function<std::string(const std::string&)> problem) const;
-    /// Several values in one word, separated by commas; exactly `count` when that is above 0.
+    /// Several values in one word, separated by commas, with or without blanks around them; exactly `count` when that
+    /// is above 0.
     Option commaSeparated(int count = 0) const;
     /// One value each time the option is given, of any number of times.
     Option oneValueEach() const;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <iomanip>
 #include <sstream>
 
 namespace lutka::cli {
@@ -25,6 +26,18 @@ std::string wordOf(const std::optional<T>& value) {
 template <class T>
 std::string wordOf(const std::vector<T>& values) {
     return fmt::format("{}", fmt::join(values, " "));
+}
+// Blanks part the words of a list: one that holds any, or a quote, is quoted.
+std::string wordOf(const std::vector<std::string>& values) {
+    std::ostringstream out;
+    for (const std::string& value : values) {
+        if (out.tellp() > 0) out << ' ';
+        if (value.empty() || value.find_first_of(" \t\n\v\f\r\"") != std::string::npos)
+            out << std::quoted(value);
+        else
+            out << value;
+    }
+    return out.str();
 }
 
 // And back; false where the word is none of its kind.
@@ -57,7 +70,7 @@ bool takeWord(const std::string& words, std::vector<T>& values) {
     values.clear();
     std::istringstream in(words);
     bool good = true;
-    for (std::string word; in >> word;)
+    for (std::string word; in >> std::quoted(word);)
         good = takeWord(word, values.emplace_back()) && good;
     return good;
 }

@@ -242,7 +242,8 @@ void SimulateOptions::addTo(const Command& app) {
     app.option("--seconds", seconds, "length of the run; default: what the scene needs").range(0.0, 3600.0);
     app.option("--hold", hold,
                "hold bodies where they start, by their names, comma separated: leftHand,head; with --rig any as "
-               "`lutka build` lists them");
+               "`lutka build` lists them")
+        .commaSeparated();
     app.option("--pose", pose, "the pose to start in: the bind pose, the default, or the file's node pose")
         .oneOf({"bind", "node"});
     const Option fromClipOption =

@@ -90,7 +90,7 @@ struct SimulateOptions {
     RagdollOptions ragdoll;
     SceneOptions scene;
     std::optional<float> seconds;
-    std::string hold;  ///< Names of bodies that are held where they start, comma separated.
+    std::vector<std::string> hold;  ///< Names of bodies that are held where they start.
     std::string pose;
     std::string fromClip;
     std::string clip;  ///< Played instead of falling, as the next three say.

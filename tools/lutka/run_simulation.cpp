@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
 #include "bake_outputs.hpp"
 #include "core/files.hpp"
@@ -173,22 +172,11 @@ void standOnFloor(scene::EntityScene& entities) {
     entities.simulation.focus = {0, 0.9F, 0};
 }
 
-std::vector<std::string> namesIn(const std::string& list) {
-    std::vector<std::string> names;
-    std::istringstream in(list);
-    for (std::string name; std::getline(in, name, ',');) {
-        if (!name.empty()) names.push_back(name);
-    }
-    return names;
-}
-
 // --hold: in place of the pins that the scene has itself.
 void holdBodies(const SimulateOptions& options, const scene::SceneCast& cast, scene::EntityScene& entities) {
     if (options.hold.empty()) return;
     if (cast.assets.empty()) leave({ErrorCode::usage, "the scene has no character", "--hold", "name a MODEL"});
-    const std::vector<std::string> names = namesIn(options.hold);
-    if (names.empty()) leave({ErrorCode::usage, "names no body", "--hold", "leftHand,head"});
-    for (const std::string& name : names) {
+    for (const std::string& name : options.hold) {
         const bool known = std::any_of(cast.assets.begin(), cast.assets.end(), [&](const auto& asset) {
             return physics::bodyNamed(asset->profile, name) >= 0;
         });
@@ -200,7 +188,7 @@ void holdBodies(const SimulateOptions& options, const scene::SceneCast& cast, sc
                fmt::format("the bodies are {}", fmt::join(bodies, ", "))});
     }
     for (scene::Ragdoll& ragdoll : entities.all<scene::Ragdoll>())
-        ragdoll.pins = names;
+        ragdoll.pins = options.hold;
 }
 
 // One pass of the clip, where nothing else was asked for.
