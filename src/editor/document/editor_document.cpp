@@ -265,7 +265,7 @@ Result<void> EditorDocument::changeParts(std::span<const int> bodies, const std:
 
 EditorDocument::PartValues EditorDocument::copyPart(int body) const {
     const BodyProfile& from = profile().bodies[body];
-    PartValues values{physics::sideOf(profile(), body), from.shape, from.massKg, std::nullopt};
+    PartValues values{physics::sideOf(profile(), body), from.shape, from.massKg, from.muscle, std::nullopt};
     if (body > 0) {
         const ConstraintProfile& joint = profile().constraints[body - 1];
         const physics::BindFrames bind = bindOf(body - 1);
@@ -281,6 +281,7 @@ Result<void> EditorDocument::pasteParts(std::span<const int> bodies, const PartV
         const bool across = side != values.side && side != Side::center && values.side != Side::center;
         part.body.shape = across ? physics::mirrored(values.shape) : values.shape;
         part.body.massKg = values.massKg;
+        part.body.muscle = values.muscle;
         if (part.constraint == nullptr || !values.joint) return {};
         physics::changeKind(*part.constraint, values.joint->kind, part.bind);
         physics::setJointRange(*part.constraint, across ? mirrored(values.joint->range) : values.joint->range,

@@ -60,8 +60,8 @@ class EditorDocument {
         physics::BindFrames bind;                ///< Of the constraint's two bodies; for physics::setJointRange() & co.
     };
     /// The same change to several bodies, as one entry of undo: shapes and their places, masses, kinds, limits, axes,
-    /// friction. A value that comes out as the fit has it is no edit. `what` names the change; `group` as in UndoStack.
-    /// Fails with what `change` fails with, and with ErrorCode::usage as below.
+    /// friction, strengths. A value that comes out as the fit has it is no edit. `what` names the change; `group` as in
+    /// UndoStack. Fails with what `change` fails with, and with ErrorCode::usage as below.
     [[nodiscard]] Result<void> changeParts(std::span<const int> bodies, const std::string& what,
                                            const std::string& group, const std::function<Result<void>(Part&)>& change);
 
@@ -70,6 +70,7 @@ class EditorDocument {
         animation::Side side = animation::Side::center;
         physics::BodyShape shape;
         float massKg = 1.0F;
+        physics::MuscleFactors muscle;
         struct Joint {
             physics::ConstraintProfile::Kind kind = physics::ConstraintProfile::Kind::coneTwist;
             physics::JointRange range;

@@ -53,6 +53,7 @@ void mirrorPlace(RagdollProfile& profile, std::span<const RigidTransform> bind, 
 void mirrorBody(RagdollProfile& profile, std::span<const RigidTransform> bindModelFromBody, int from, int to) {
     profile.bodies[to].shape = physics::mirrored(profile.bodies[from].shape);
     profile.bodies[to].massKg = profile.bodies[from].massKg;
+    profile.bodies[to].muscle = profile.bodies[from].muscle;
     const ConstraintProfile& source = profile.constraints[from - 1];
     ConstraintProfile& target = profile.constraints[to - 1];
     target.kind = source.kind;

@@ -70,6 +70,7 @@ void applyTo(RagdollProfile& profile, int index, const PartEdits& edits) {
     if (edits.jointFromBody) physics::moveBody(profile, index, *edits.jointFromBody);
     if (edits.shape) body.shape = *edits.shape;
     if (edits.massKg) body.massKg = *edits.massKg;
+    if (edits.muscle) body.muscle = *edits.muscle;
     if (edits.shape || edits.massKg) body.inertia = physics::shapeInertia(body.shape, body.massKg);
 }
 
@@ -118,6 +119,7 @@ PartEdits partEditsBetween(const RagdollProfile& plain, int plainBody, const Rag
     const BodyProfile& to = given.bodies[body];
     if (!same(from.shape, to.shape)) edits.shape = to.shape;
     if (from.massKg != to.massKg) edits.massKg = to.massKg;
+    if (!(from.muscle == to.muscle)) edits.muscle = to.muscle;
     // Places and frames compare only on the same joint.
     const bool comparable = from.jointPath == to.jointPath;
     if (comparable && !same(from.jointFromBody, to.jointFromBody)) edits.jointFromBody = to.jointFromBody;
@@ -172,6 +174,7 @@ void fillUnset(AllPartEdits& edits, const AllPartEdits& others) {
         takeUnset(part.shape, other.shape);
         takeUnset(part.jointFromBody, other.jointFromBody);
         takeUnset(part.massKg, other.massKg);
+        takeUnset(part.muscle, other.muscle);
         takeUnset(part.kind, other.kind);
         takeUnset(part.hinge, other.hinge);
         takeUnset(part.cone, other.cone);

@@ -16,6 +16,7 @@ struct PartEdits {
     std::optional<physics::BodyShape> shape;
     std::optional<RigidTransform> jointFromBody;
     std::optional<float> massKg;
+    std::optional<physics::MuscleFactors> muscle;
     std::optional<physics::ConstraintProfile::Kind> kind;
     std::optional<physics::HingeLimits> hinge;
     std::optional<physics::ConeTwistLimits> cone;
@@ -24,7 +25,7 @@ struct PartEdits {
     std::optional<physics::JointSpring> spring;  ///< Its rest told in the frames as edited.
 
     [[nodiscard]] bool any() const {
-        return shape || jointFromBody || massKg || kind || hinge || cone || frames || frictionNm || spring;
+        return shape || jointFromBody || massKg || muscle || kind || hinge || cone || frames || frictionNm || spring;
     }
 };
 /// By the body's name. No entry: nothing was changed.

@@ -151,7 +151,7 @@ void Player::keepProps(const Motion& motion, bool all, scene::Scenario& scenario
         scenario.props[firstNew + i].state = motion.props[firstOld + i];
 }
 
-Result<void> Player::build(const Motion* motion, bool all) {
+Result<void> Player::build(const Motion* motion, bool all, Hold hold) {
     held_.detach();
     simulation_.reset();  // it borrows the asset that changes now
     document_.commitAsset();
@@ -177,8 +177,9 @@ Result<void> Player::build(const Motion* motion, bool all) {
     governor_.emplace(simulation_->world().substepsPerStep());
     if (motion != nullptr) restore(*motion, all);
     if (stage_ && !stage_->follow(*simulation_)) stage_.reset();
-    held_.attach(*simulation_,
-                 [&](int doll) { return motion == nullptr || all || !startsAsBefore(entityOfDoll(doll)); });
+    held_.attach(*simulation_, [&](int doll) {
+        return hold == Hold::here || motion == nullptr || all || !startsAsBefore(entityOfDoll(doll));
+    });
     built_ = document_.scene();
     loop_.setStepSeconds(options.dt);
     loop_.restart();
@@ -288,9 +289,8 @@ void Player::returnToPlay() {
     // As a rebuild would, but for the time: what was thrown since stays thrown.
     const Motion motion = *std::exchange(atPlay_, std::nullopt);
     somethingMoved();
-    [[maybe_unused]] const bool built = build(&motion, false).ok();
+    [[maybe_unused]] const bool built = build(&motion, false, Hold::here).ok();
     LUTKA_ASSERT(built);  // the document is as it was
-    holdHere();
 }
 
 // Held bodies stay where they have been put.

@@ -143,12 +143,17 @@ class Player {
         std::uint64_t moment = 0;
         Motion motion;
     };
+    /// Where held bodies are held in a simulation that is made anew.
+    enum class Hold {
+        whereHeld,  ///< Where they were held before; those of a doll that is placed anew, where they are.
+        here,       ///< All where they are.
+    };
     void advanceReplay(double seconds);
     [[nodiscard]] Motion capture() const;
     void dampDolls(float share);
     /// The simulation anew from the document, its dolls and props where `motion` has them, if any: those that start as
     /// before, or, with `all`, every one.
-    [[nodiscard]] Result<void> build(const Motion* motion, bool all);
+    [[nodiscard]] Result<void> build(const Motion* motion, bool all, Hold hold = Hold::whereHeld);
     void restore(const Motion& motion, bool all);
     void keepProps(const Motion& motion, bool all, scene::Scenario& scenario) const;
     [[nodiscard]] bool startsAsBefore(scene::EntityId id) const;

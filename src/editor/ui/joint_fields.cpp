@@ -1,5 +1,5 @@
-/// The Body tab's joint: kind, limits in anatomical words, present angles, friction, spring, and the swing that shows
-/// them.
+/// The Body tab's joint: kind, limits in anatomical words, present angles, friction, spring, strength, and the swing
+/// that shows them.
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -276,6 +276,28 @@ void frictionField(const PartFields& fields) {
     }
 }
 
+// Of the muscle in the joint, as a factor on what the doll has.
+void strengthField(const PartFields& fields) {
+    float strength = fields.profile().muscle.strength;
+    const float was = fields.fitted().muscle.strength;
+    fieldRow(fields, "Strength");
+    if (slider("##strength", strength, 0.01F, 10.0F, "%.2f times", true)) {
+        fields.change("Strength", [&](EditorDocument::Part& part) -> Result<void> {
+            part.body.muscle.strength = std::clamp(strength, 0.0F, physics::MuscleFactors::kMost);
+            return {};
+        });
+    }
+    tooltip(
+        "What the joint's muscle has of the doll's strength, where characters have muscles (Physics) and these are the "
+        "profile's own");
+    if (wasText(fields, "strength", fields.profile().muscle.strength != was, fmt::format("{:.2f}", was))) {
+        fields.change("Strength", [&](EditorDocument::Part& part) -> Result<void> {
+            part.body.muscle = fields.fittedOf(part).muscle;
+            return {};
+        });
+    }
+}
+
 }  // namespace
 
 void drawJointFields(const PartFields& fields) {
@@ -287,6 +309,7 @@ void drawJointFields(const PartFields& fields) {
     caption(fmt::format("JOINT TO {}", parent.name).c_str());
     kindField(fields);
     frictionField(fields);
+    strengthField(fields);
     const bool swinging = editor.swing() != nullptr;
     if (ImGui::Button(swinging ? "Stop" : "Swing through the limits")) {
         if (swinging) {

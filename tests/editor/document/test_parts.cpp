@@ -269,6 +269,34 @@ TEST_CASE("a further shape is an edit that is undone, mirrored, copied and saved
     CHECK(text(*document) == before);
 }
 
+TEST_CASE("a body's strength is an edit that is undone, copied, mirrored, saved and taken back") {
+    const auto document = makeDocument();
+    const int left = bodyOf(*document, Role::leftLowerArm);
+    const auto strength = [&](Role role) {
+        return document->profile().bodies[bodyOf(*document, role)].muscle.strength;
+    };
+    REQUIRE(document
+                ->changeParts(std::array{left}, "Strength", "",
+                              [](Part& part) -> Result<void> {
+                                  part.body.muscle.strength = 0.25F;
+                                  return {};
+                              })
+                .ok());
+    CHECK(strength(Role::leftLowerArm) == 0.25F);
+    document->undo();
+    CHECK(strength(Role::leftLowerArm) == 1.0F);
+    document->redo();
+    REQUIRE(document->mirrorPart(left).ok());
+    CHECK(strength(Role::rightLowerArm) == 0.25F);
+    REQUIRE(document->pasteParts(std::array{bodyOf(*document, Role::leftHand)}, document->copyPart(left)).ok());
+    CHECK(strength(Role::leftHand) == 0.25F);
+    const auto saved = physics::profileFromJson(physics::profileToJson(document->profile()), "saved");
+    REQUIRE(saved.ok());
+    CHECK(saved.value().bodies[left].muscle.strength == 0.25F);
+    REQUIRE(document->resetPart(left).ok());
+    CHECK(strength(Role::leftLowerArm) == 1.0F);
+}
+
 TEST_CASE("mirroring takes range, axes and place across the figure") {
     const auto document = makeDocument();
     const int left = bodyOf(*document, Role::leftUpperLeg);
