@@ -13,23 +13,21 @@ namespace {
 
 // Where the vertices of each joint of the skin go: bind frame times offset. All equal unless meshes contradict each
 // other about the bind pose of a joint that they share; then each vertex follows its own joints.
-std::vector<dmat4> placements(const NodeTree& tree, const MeshInstance& instance, std::span<const dmat4> bind) {
-    std::vector<dmat4> sceneFromMesh(tree.nodeOfJoint.size(), dmat4(0.0));
+void placeJoints(const MeshInstance& instance, std::span<const dmat4> bind, std::span<dmat4> sceneFromMesh) {
     for (const SkinJoint& joint : instance.joints)
         sceneFromMesh[joint.joint] = bind[joint.joint] * joint.jointFromMesh;
-    return sceneFromMesh;
 }
 
 // The deforming joint that stray vertices follow: the nearest above the mesh node, else the topmost of the skin.
 int fallbackJointOf(const NodeTree& tree, const MeshInstance& instance) {
+    std::vector<int> skinned;
+    for (const SkinJoint& joint : instance.joints)
+        skinned.push_back(joint.joint);
+    std::sort(skinned.begin(), skinned.end());
     for (int joint = tree.nodes[instance.node].joint; joint >= 0; joint = tree.jointParents[joint]) {
-        for (const SkinJoint& skinned : instance.joints) {
-            if (skinned.joint == joint) return joint;
-        }
+        if (std::binary_search(skinned.begin(), skinned.end(), joint)) return joint;
     }
-    return std::min_element(instance.joints.begin(), instance.joints.end(),
-                            [](const SkinJoint& a, const SkinJoint& b) { return a.joint < b.joint; })
-        ->joint;
+    return skinned.front();
 }
 
 vec3 unitOrUp(const dvec3& v) {
@@ -89,14 +87,15 @@ void copyColors(const SourceMesh& source, SkinnedMesh& mesh) {
         mesh.colors.push_back(glm::clamp(color, 0.0F, 1.0F));
 }
 
+// `sceneFromMesh` is scratch, one a joint: only those of the instance are set and used, or thousands of small meshes
+// below thousands of joints would take minutes.
 SkinnedMesh convertMesh(const NodeTree& tree, const MeshInstance& instance, std::span<const dmat4> bind,
-                        WeightRepairs& repairs) {
+                        std::span<dmat4> sceneFromMesh, WeightRepairs& repairs) {
     SkinnedMesh mesh;
     mesh.name = instance.mesh->name.empty() ? tree.jointNames[tree.nodes[instance.node].joint] : instance.mesh->name;
     mesh.material = std::max(instance.mesh->material, 0);
     mesh.rigid = instance.joints.empty();
     std::vector<VertexSkin> skins;
-    std::vector<dmat4> sceneFromMesh;
     int guide = 0;
     if (mesh.rigid) {
         const NodeTree::Node& node = tree.nodes[instance.node];
@@ -105,12 +104,11 @@ SkinnedMesh convertMesh(const NodeTree& tree, const MeshInstance& instance, std:
         // A helper below the joint (FBX geometry offsets) adds its own way to the joint's.
         const dmat4& joint = tree.sceneFromJoint(guide);
         const dmat4 way = isInvertible(joint) ? glm::inverse(joint) * node.sceneFromNode : dmat4(1.0);
-        sceneFromMesh.assign(bind.begin(), bind.end());
         sceneFromMesh[guide] = bind[guide] * way;
     } else {
         guide = fallbackJointOf(tree, instance);
         skins = readWeights(instance, guide, repairs);
-        sceneFromMesh = placements(tree, instance, bind);
+        placeJoints(instance, bind, sceneFromMesh);
     }
     copyVertices(*instance.mesh, skins, sceneFromMesh, mesh);
     copyColors(*instance.mesh, mesh);
@@ -126,8 +124,9 @@ std::vector<SkinnedMesh> convertMeshes(const NodeTree& tree, std::span<const Mes
     std::vector<SkinnedMesh> meshes;
     WeightRepairs repairs;
     MeshRepairs meshRepairs;
+    std::vector<dmat4> sceneFromMesh(bindSceneFromJoint.size(), dmat4(0.0));
     for (const MeshInstance& instance : instances) {
-        SkinnedMesh mesh = convertMesh(tree, instance, bindSceneFromJoint, repairs);
+        SkinnedMesh mesh = convertMesh(tree, instance, bindSceneFromJoint, sceneFromMesh, repairs);
         repairMesh(mesh, meshRepairs);
         if (mesh.indices.empty()) continue;
         for (std::size_t v = 0; v < mesh.joints.size(); ++v) {

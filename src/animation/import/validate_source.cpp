@@ -15,10 +15,26 @@ std::string excessOf(const SourceScene& scene) {
     for (const SourceMesh& mesh : scene.meshes)
         vertices += mesh.positions.size();
     std::size_t placed = 0;
-    for (const SourceInstance& instance : scene.instances)
-        placed += scene.meshes[static_cast<std::size_t>(instance.mesh)].positions.size();
-    if (scene.meshes.size() > kMaxMeshes) return fmt::format("has more than {} meshes", kMaxMeshes);
-    if (std::max(vertices, placed) > kMaxVertices) return fmt::format("has more than {} vertices", kMaxVertices);
+    std::size_t indices = 0;
+    std::size_t slots = 0;
+    for (const SourceInstance& instance : scene.instances) {
+        const SourceMesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        placed += mesh.positions.size();
+        indices += mesh.indices.size();
+        if (instance.skin >= 0) slots += scene.skins[static_cast<std::size_t>(instance.skin)].joints.size();
+    }
+    struct Limit {
+        std::size_t count, most;
+        const char* what;
+    };
+    for (const Limit& limit :
+         {Limit{scene.meshes.size(), kMaxMeshes, "meshes"},
+          Limit{scene.instances.size(), kMaxPlacedMeshes, "places of meshes"},
+          Limit{std::max(vertices, placed), kMaxVertices, "vertices (each place of a mesh counts)"},
+          Limit{indices / 3, kMaxPlacedIndices / 3, "triangles (each place of a mesh counts)"},
+          Limit{slots, kMaxPlacedSlots, "joints of skins (each place of a mesh counts)"}}) {
+        if (limit.count > limit.most) return fmt::format("has more than {} {}", limit.most, limit.what);
+    }
     return {};
 }
 

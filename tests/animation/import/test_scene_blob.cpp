@@ -1,6 +1,8 @@
 #include <random>
 
+#include "animation/import/build_character.hpp"
 #include "animation/import/scene_blob.hpp"
+#include "animation/import/source_limits.hpp"
 #include "support/catch.hpp"
 
 using namespace lutka;
@@ -118,4 +120,40 @@ TEST_CASE("a scene whose parts do not fit together is refused with what is wrong
     CHECK_THAT(problem([](SourceScene& s) { s.meshes[0].positions[1].y = INFINITY; }), Catch::Contains("damaged"));
     CHECK_THAT(problem([](SourceScene& s) { s.nodes[1].parentFromNode[3][0] = NAN; }), Catch::Contains("damaged"));
     CHECK_THAT(problem([](SourceScene& s) { s.convention.metresPerUnit = 0.0; }), Catch::Contains("unit"));
+}
+
+TEST_CASE("a scene that places more than a character can have is refused by name of what is too much") {
+    const auto refusal = [](auto change) {
+        SourceScene scene = everything();
+        change(scene);
+        const auto error = validate(scene, "file.glb");
+        return error ? error->message : std::string();
+    };
+    CHECK(refusal([](SourceScene&) {}).empty());
+    // Few of each in the file, very many where it is placed.
+    const auto place = [](SourceScene& scene, std::size_t times) {
+        const SourceInstance one = scene.instances[0];
+        scene.instances.assign(times, one);
+    };
+    CHECK(refusal([&](SourceScene& s) { place(s, kMaxPlacedMeshes); }).empty());
+    CHECK_THAT(refusal([&](SourceScene& s) { place(s, kMaxPlacedMeshes + 1); }),
+               Catch::Contains("65535 places of meshes"));
+    CHECK_THAT(refusal([&](SourceScene& s) {
+                   s.skins[0].joints.resize(1000, s.skins[0].joints[0]);
+                   place(s, kMaxPlacedSlots / 1000 + 1);
+               }),
+               Catch::Contains("16000000 joints of skins"));
+    CHECK_THAT(refusal([&](SourceScene& s) {
+                   s.meshes[0].indices.assign(3000, 0);
+                   place(s, kMaxPlacedIndices / 3000 + 1);
+               }),
+               Catch::Contains("20000000 triangles"));
+    CHECK_THAT(refusal([&](SourceScene& s) {
+                   SourceMesh& mesh = s.meshes[0];
+                   mesh = {};
+                   mesh.positions.resize(1000);
+                   s.instances[0].skin = -1;
+                   place(s, kMaxVertices / 1000 + 1);
+               }),
+               Catch::Contains("10000000 vertices"));
 }
