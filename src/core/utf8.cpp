@@ -37,4 +37,15 @@ std::string wellFormedUtf8(std::string_view text, std::string_view replacement) 
     return out;
 }
 
+std::string withoutControls(std::string_view text, char replacement) {
+    std::string out;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+        const bool wide = byte(at) == 0xC2U && byte(at + 1) >= 0x80U && byte(at + 1) < 0xA0U;
+        out += wide || byte(at) < 0x20U || byte(at) == 0x7FU ? replacement : text[at];
+        if (wide) ++at;
+    }
+    return out;
+}
+
 }  // namespace lutka

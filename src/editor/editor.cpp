@@ -23,39 +23,55 @@ Result<std::unique_ptr<Editor>> Editor::create(const EditorOptions& options) {
     const bool fromScene = !options.sceneFile.empty();
     const auto all = fromScene ? withSceneRead(options) : Result<EditorOptions>(options);
     if (!all) return all.error();
-    auto document = EditorDocument::open(all.value().model, all.value().load);
+    std::unique_ptr<Editor> editor(new Editor);
+    const EditorOptions heard = editor->hearReaders(all.value());
+    auto document = EditorDocument::open(heard.model, heard.load);
     if (!document) return document.error();
-    auto editor = create(std::move(document).value(), all.value());
-    if (editor && fromScene) editor.value()->document().sceneDocument().setFile(options.sceneFile);
+    if (auto begun = editor->begin(std::move(document).value(), heard); !begun) return begun.error();
+    if (fromScene) editor->document().sceneDocument().setFile(options.sceneFile);
     return editor;
 }
 
 Result<std::unique_ptr<Editor>> Editor::create(std::unique_ptr<EditorDocument> document, const EditorOptions& options) {
     std::unique_ptr<Editor> editor(new Editor);
-    editor->workspace_.window = options.window;
-    editor->load_ = options.load;
-    editor->clock_ = options.clock;
+    if (auto begun = editor->begin(std::move(document), editor->hearReaders(options)); !begun) return begun.error();
+    return editor;
+}
+
+EditorOptions Editor::hearReaders(EditorOptions options) {
+    std::function<void(const std::string&)>& printed = options.load.import.worker.printed;
+    printed = [this, others = printed](const std::string& line) {
+        workspace_.note(Toast::Kind::info, line);
+        if (others) others(line);
+    };
+    return options;
+}
+
+Result<void> Editor::begin(std::unique_ptr<EditorDocument> opened, const EditorOptions& options) {
+    workspace_.window = options.window;
+    load_ = options.load;
+    clock_ = options.clock;
     SceneSettings scene = options.scene;
     if (options.applyToWorld) options.applyToWorld(scene.entities.simulation.world);
-    if (auto started = document->startScene(scene); !started) return started.error();
-    auto player = std::make_unique<Player>(*document, options.clock);
-    if (auto built = player->rebuild(Player::Keep::nothing); !built) return built.error();
-    editor->workspace_.document = std::move(document);
-    editor->workspace_.player = std::move(player);
-    editor->workspace_.rememberBodies();
-    editor->player().setPlaying(options.playing);
-    editor->player().setSparing(options.spareSubsteps);
-    editor->view.layers.capsules = true;
-    editor->view.layers.limits = true;
-    editor->camera_.frameScene();
-    editor->machine_ = std::make_unique<StateMachine>(makeHandlers(editor->workspace_));
-    editor->files_.greet(!options.load.profile.has_value());
-    editor->motion_.listen();
-    editor->watch_.watch(editor->document().character().file);
-    if (options.recovery.empty()) return editor;
-    if (const auto begun = editor->recovery_.begin(options.recovery); !begun)
-        editor->workspace_.say(Toast::Kind::warning, begun.error().text());
-    return editor;
+    if (auto started = opened->startScene(scene); !started) return started;
+    auto simulated = std::make_unique<Player>(*opened, options.clock);
+    if (auto built = simulated->rebuild(Player::Keep::nothing); !built) return built;
+    workspace_.document = std::move(opened);
+    workspace_.player = std::move(simulated);
+    workspace_.rememberBodies();
+    player().setPlaying(options.playing);
+    player().setSparing(options.spareSubsteps);
+    view.layers.capsules = true;
+    view.layers.limits = true;
+    camera_.frameScene();
+    machine_ = std::make_unique<StateMachine>(makeHandlers(workspace_));
+    files_.greet(!options.load.profile.has_value());
+    motion_.listen();
+    watch_.watch(document().character().file);
+    if (options.recovery.empty()) return {};
+    if (const auto begun = recovery_.begin(options.recovery); !begun)
+        workspace_.say(Toast::Kind::warning, begun.error().text());
+    return {};
 }
 
 Editor::Editor() : files_(workspace_, [this] { endTransform(); }) {}

@@ -158,6 +158,10 @@ class Editor {
     [[nodiscard]] static std::span<const Command> commands();
 
     Editor();
+    /// The options under which what readers print goes into the log as well, while this editor lives.
+    [[nodiscard]] EditorOptions hearReaders(EditorOptions options);
+    /// Sets up what is opened; once, before anything else.
+    Result<void> begin(std::unique_ptr<EditorDocument> opened, const EditorOptions& options);
     void handleMouseButton(const InputEvent& event, const UiCapture& capture);
     void handleKey(const InputEvent& event, const UiCapture& capture);
     [[nodiscard]] bool busy() const;

@@ -156,3 +156,24 @@ TEST_CASE("the program names what it is made of, with versions, and so does its 
         CHECK_FALSE(package["licenseDeclared"].get<std::string>().empty());
     }
 }
+
+TEST_CASE("a path can't colour the terminal that an error is told on, nor flood it") {
+    const CommandResult result = runCommand(kLutka + "inspect '\x1b[31mno\nwhere.glb'");
+    CHECK(result.code == 3);
+    CHECK(result.err.find('\x1b') == std::string::npos);
+    CHECK_THAT(result.err, Catch::Contains(" [31mno where.glb: there is no such file"));
+    const ScratchFolder folder;
+    std::ofstream(folder / "long.gltf") << Json{
+        {"asset", {{"version", "2.0"}}},
+        {"buffers", {{{"uri", std::string(100000, 'a')}, {"byteLength", 4}}}},
+        {"bufferViews", {{{"buffer", 0}, {"byteLength", 4}}}},
+        {"accessors", {{{"bufferView", 0}, {"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}}}},
+        {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}},
+        {"nodes", {{{"mesh", 0}}}},
+        {"scenes", {{{"nodes", {0}}}}},
+        {"scene", 0}}.dump();
+    const CommandResult flood = lutkaCommand("inspect '" + (folder / "long.gltf") + "'");
+    CHECK(flood.code == 3);
+    CHECK(flood.err.size() < 5000);
+    CHECK_THAT(flood.err, Catch::Contains("more bytes"));
+}

@@ -15,6 +15,7 @@
 #include "animation/import/import_character.hpp"
 #include "commands.hpp"
 #include "interrupt.hpp"
+#include "log_text.hpp"
 #include "options.hpp"
 #include "render/gl/gl_context.hpp"
 #include "standard_streams.hpp"
@@ -88,7 +89,7 @@ int main(int argc, char** argv) {
     auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>(plain ? spdlog::color_mode::never
                                                                             : spdlog::color_mode::automatic);
     spdlog::set_default_logger(std::make_shared<spdlog::logger>("lutka", std::move(sink)));
-    spdlog::set_pattern("lutka: %^%l%$: %v");
+    spdlog::set_formatter(lutka::cli::logFormatter());
     lutka::cli::installInterruptHandler();
     const int code = runCommands(argc, argv);
     // An error that came before is the more telling one; findings and success mean nothing when nobody could read them.

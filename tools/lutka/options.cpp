@@ -133,6 +133,8 @@ animation::ImportOptions ModelOptions::import() const {
     if (!inProcess) options.worker.program = std::filesystem::read_symlink("/proc/self/exe", failed);
     options.worker.memoryBytes = static_cast<std::size_t>(importMemoryMiB) << 20U;
     options.worker.stop = interrupted;
+    options.worker.printed = [](const std::string& line) { spdlog::info("{}", line); };
+    options.stdoutAside = true;
     return options;
 }
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "animation/import/bind_pose.hpp"
+#include "animation/import/clean_source.hpp"
 #include "animation/import/clip_sampling.hpp"
 #include "animation/import/figure_choice.hpp"
 #include "animation/import/inside_out.hpp"
@@ -22,6 +23,7 @@
 #include "animation/import/units.hpp"
 #include "animation/import/vertex_order.hpp"
 #include "animation/pose.hpp"
+#include "core/utf8.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {
@@ -207,12 +209,13 @@ bool hasFinitePlaces(const Character& character) {
 
 Result<Character> buildCharacter(SourceScene source, const std::filesystem::path& file, const ImportOptions& options) {
     if (std::optional<Error> error = validate(source, file.string())) return *std::move(error);
+    cleanNames(source);
     const Result<FigureChoice> figures = chooseFigure(source, options.figure);
     if (!figures) return withLocation(figures.error(), file.string());
     const NodeTree tree = makeNodeTree(source);
     Character character;
     takeFigures(figures.value(), tree, character);
-    character.name = file.stem().string();
+    character.name = withoutControls(file.stem().string(), '_');
     character.file = file;
     character.warnings = std::move(source.warnings);
     character.skeleton.names = tree.jointNames;

@@ -7,6 +7,7 @@
 
 #include "animation/import/affine.hpp"
 #include "core/math.hpp"
+#include "core/utf8.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {
@@ -97,6 +98,16 @@ void cleanNumbers(SourceScene& scene) {
             fmt::format("{} vertices have no finite position; their triangles were dropped", vertices));
     }
     if (weights > 0) scene.warnings.push_back(fmt::format("{} invalid skin weights were dropped", weights));
+}
+
+void cleanNames(SourceScene& scene) {
+    const auto clean = [](auto& named) {
+        for (auto& one : named)
+            one.name = withoutControls(one.name, '_');
+    };
+    clean(scene.nodes);
+    clean(scene.meshes);
+    clean(scene.clips);
 }
 
 }  // namespace lutka::animation::rig_import

@@ -1,10 +1,12 @@
 #include "animation/import/import_character.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include "animation/import/build_character.hpp"
 #include "animation/import/isolated_reading.hpp"
 #include "animation/import/source_reader.hpp"
+#include "core/stdout_aside.hpp"
 
 namespace lutka::animation {
 namespace {
@@ -15,7 +17,14 @@ rig_import::Isolation isolationOf(const ImportWorker& worker) {
     isolation.limits.memoryBytes = worker.memoryBytes;
     isolation.limits.seconds = worker.seconds;
     isolation.stop = worker.stop;
+    isolation.printed = worker.printed;
     return isolation;
+}
+
+Result<rig_import::SourceScene> readHere(const std::filesystem::path& file, const ImportOptions& options) {
+    std::optional<StdoutAside> aside;
+    if (options.stdoutAside) aside.emplace();
+    return rig_import::readSource(file, options);
 }
 
 }  // namespace
@@ -26,7 +35,7 @@ Result<Character> importCharacter(const std::filesystem::path& file, const Impor
         return Error{ErrorCode::usage, "the scale must be a number above zero", "", ""};
     }
     Result<rig_import::SourceScene> source = options.worker.program.empty()
-                                                 ? rig_import::readSource(file, options)
+                                                 ? readHere(file, options)
                                                  : rig_import::readIsolated(file, options, isolationOf(options.worker));
     if (!source) return source.error();
     return rig_import::buildCharacter(std::move(source).value(), file, options);

@@ -22,6 +22,8 @@ struct ImportWorker {
     std::size_t memoryBytes = std::size_t{3} << 29U;  ///< Address space: 1.5 GiB.
     int seconds = 20;                                 ///< Of processor time, and of time on the wall.
     std::function<bool()> stop;                       ///< Asked ten times a second; true gives the reading up.
+    /// Told each line that readers print there, fit for a terminal; unset: to standard error.
+    std::function<void(const std::string& line)> printed;
 };
 
 struct ImportOptions {
@@ -37,6 +39,9 @@ struct ImportOptions {
     /// links lead too; a buffer elsewhere is an error, the rest is left out with a warning.
     bool allowOutside = false;
     ImportWorker worker;
+    /// Without a worker: what readers print to standard output goes to standard error (StdoutAside: the whole process's
+    /// does meanwhile).
+    bool stdoutAside = false;
 };
 
 /// Loads any rigged model that Assimp reads and settles it in model space: metres, Y up, rigid joint frames with all

@@ -83,14 +83,7 @@ Error errorOf(const ProcessEnd& end, const std::filesystem::path& file, const Pr
 void tellPrinted(const std::string& printed, const std::function<void(const std::string& line)>& tell) {
     std::istringstream lines(printed);
     for (std::string line; std::getline(lines, line);) {
-        line = wellFormedUtf8(line, "?");
-        for (std::size_t i = 0; i < line.size(); ++i) {
-            const auto byte = static_cast<unsigned char>(line[i]);
-            // U+0080 to U+009F are controls as well: some terminals act on them.
-            const bool wide = byte == 0xC2U && i + 1 < line.size() && static_cast<unsigned char>(line[i + 1]) < 0xA0U;
-            if (wide) line[i + 1] = ' ';
-            if (wide || byte < 0x20U || byte == 0x7FU) line[i] = ' ';
-        }
+        line = withoutControls(wellFormedUtf8(line, "?"), ' ');
         if (line.find_first_not_of(' ') == std::string::npos) continue;
         if (tell)
             tell(line);

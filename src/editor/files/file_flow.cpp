@@ -199,7 +199,7 @@ Result<void> FileFlow::exportRagdoll(const std::filesystem::path& file, exportin
 
 void FileFlow::greet(bool offerProfile) {
     for (const std::string& warning : document().character().warnings)
-        workspace_.log.push_back({Toast::Kind::warning, warning});
+        workspace_.note(Toast::Kind::warning, warning);
     offeredProfile_.clear();
     const std::filesystem::path beside = document().profileFile();
     std::error_code failed;

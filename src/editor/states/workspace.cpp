@@ -191,11 +191,15 @@ bool Workspace::report(const Result<void>& result) {
     return true;
 }
 
+void Workspace::note(Toast::Kind kind, std::string text) {
+    constexpr std::size_t maxLog = 500;
+    log.push_back({kind, std::move(text)});
+    if (log.size() > maxLog) log.erase(log.begin());
+}
+
 void Workspace::say(Toast::Kind kind, std::string text) {
     constexpr std::size_t maxToasts = 4;
-    constexpr std::size_t maxLog = 500;
-    log.push_back({kind, text});
-    if (log.size() > maxLog) log.erase(log.begin());
+    note(kind, text);
     const bool shown = std::any_of(toasts.begin(), toasts.end(), [&](Toast& toast) { return toast.text == text; });
     if (shown) return;
     if (toasts.size() >= maxToasts) toasts.erase(toasts.begin());

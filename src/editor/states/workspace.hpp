@@ -116,6 +116,8 @@ struct Workspace {
     /// Tells the user about a failure; nothing for success. Whether it was one.
     bool report(const Result<void>& result);
     void say(Toast::Kind kind, std::string text);
+    /// Into the log alone.
+    void note(Toast::Kind kind, std::string text);
 
     /// Which end of a state this is.
     [[nodiscard]] Trigger ended() const {

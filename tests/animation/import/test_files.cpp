@@ -365,3 +365,47 @@ TEST_CASE("a format that is known but not read is refused by its name, with a wa
         CHECK_FALSE(error.mend.empty());
     }
 }
+
+TEST_CASE("control characters in the names of a file get no further than its reader") {
+    GltfFile file = makePostRig();
+    file.json["nodes"][1]["name"] = "\x1b[31mlow\n";
+    file.json["meshes"][0]["name"] =
+        "\xC2\x9B"
+        "31m";
+    const TemporaryFolder folder;
+    const auto path = folder / "rig\x1b[31m.gltf";
+    file.saveText(path);
+    const Character character = imported(path);
+    CHECK(findJoint(character.skeleton, "_[31mlow_") != kNoJoint);
+    CHECK(character.name == "rig_[31m");
+    CHECK(character.file == path);
+}
+
+TEST_CASE("thousands of meshes below nodes of their own stand where those do, beside a skinned one") {
+    GltfFile file = makePostRig();
+    const int mesh = addPostMesh(file, makePost(), mat4(1.0F), false);
+    const int high = 3;  // the armature and its three joints come first
+    for (int i = 0; i < 3000; ++i) {
+        const vec3 place(0.001F * static_cast<float>(i), 0.0F, 0.0F);
+        const int node = file.addNode("stone" + std::to_string(i), high, glm::translate(mat4(1.0F), place));
+        file.json["nodes"][node]["mesh"] = mesh;
+    }
+    const TemporaryFolder folder;
+    file.saveBinary(folder / "field.glb");
+    const Character character = imported(folder / "field.glb");
+    int rigid = 0;
+    float worst = 0.0F;
+    for (const SkinnedMesh& placed : character.meshes) {
+        rigid += placed.rigid ? 1 : 0;
+        const int joint = findJoint(character.skeleton, "low");
+        REQUIRE(joint != kNoJoint);
+        const int carrier = placed.rigid ? placed.joints.front()[0] : joint;
+        vec3 middle(0);
+        for (const vec3& position : placed.positions)
+            middle += position / static_cast<float>(placed.positions.size());
+        worst = std::max(worst, std::abs(middle.x - character.skeleton.bindModelFromJoint[carrier].translation.x));
+    }
+    CHECK(rigid == 3000);
+    CHECK(character.meshes.size() == 3001);
+    CHECK(worst < 1e-4F);
+}

@@ -1,14 +1,12 @@
-#include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include <cstdio>
 #include <string>
 #include <vector>
 
 #include "animation/import/isolated_reading.hpp"
 #include "support/catch.hpp"
 #include "support/command.hpp"
+#include "support/other_streams.hpp"
 
 using namespace lutka;
 using namespace lutka::animation;
@@ -31,35 +29,6 @@ Result<SourceScene> readText(const test::ScratchFolder& folder, const std::strin
     std::ofstream(file) << text;
     return readIsolated(file, {}, isolation);
 }
-
-/// Standard output and error lead to a file, or are closed where it has no name, until the end of the scope.
-class OtherStreams {
-  public:
-    explicit OtherStreams(const std::string& file) {
-        std::fflush(nullptr);
-        for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
-            kept_.push_back(::fcntl(stream, F_DUPFD_CLOEXEC, 10));
-            ::close(stream);
-        }
-        if (file.empty()) return;
-        const int opened = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
-        ::dup2(opened, STDOUT_FILENO);
-        ::dup2(opened, STDERR_FILENO);
-        if (opened > STDERR_FILENO) ::close(opened);
-    }
-    OtherStreams(const OtherStreams&) = delete;
-    OtherStreams& operator=(const OtherStreams&) = delete;
-    ~OtherStreams() {
-        std::fflush(nullptr);
-        ::dup2(kept_[0], STDOUT_FILENO);
-        ::dup2(kept_[1], STDERR_FILENO);
-        for (const int kept : kept_)
-            ::close(kept);
-    }
-
-  private:
-    std::vector<int> kept_;
-};
 
 std::string refusalOfBlob(const std::string& text, const Isolation& isolation = smallIsolation()) {
     const test::ScratchFolder folder;
@@ -90,7 +59,7 @@ TEST_CASE("what readers print is told line by line, fit for a terminal, and is n
     std::vector<std::string> lines;
     Isolation isolation = smallIsolation();
     isolation.printed = [&](const std::string& line) { lines.push_back(line); };
-    const std::vector<std::string> told = {"in  [31mcolour?   31m", "a third party's chatter"};
+    const std::vector<std::string> told = {"in  [31mcolour?  31m", "a third party's chatter"};
     // The reading process may write no file: where ours is one it must not print there.
     for (const char* stream : {"", "/dev/full", "a file"}) {
         INFO("standard output and error: " << (*stream == '\0' ? "closed" : stream));
@@ -98,7 +67,7 @@ TEST_CASE("what readers print is told line by line, fit for a terminal, and is n
         bool read = false;
         bool crashed = false;
         {
-            const OtherStreams streams(stream == std::string("a file") ? folder / "log" : stream);
+            const test::OtherStreams streams(stream == std::string("a file") ? folder / "log" : stream);
             read = readText(folder, "print", isolation).ok();
             const auto refused = readText(folder, "print and crash", isolation);
             crashed = !refused && refused.error().message.find("signal 11") != std::string::npos;
@@ -114,7 +83,7 @@ TEST_CASE("what readers print is told line by line, fit for a terminal, and is n
 TEST_CASE("without a log, what readers print goes to standard error") {
     const test::ScratchFolder folder;
     {
-        const OtherStreams streams(folder / "log");
+        const test::OtherStreams streams(folder / "log");
         static_cast<void>(readText(folder, "print"));
     }
     CHECK_THAT(test::fileText(folder / "log"), Catch::Contains("a third party's chatter\n"));

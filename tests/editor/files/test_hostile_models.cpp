@@ -1,5 +1,7 @@
 /// The editor and its unsaved work live on, whatever happens to the process that reads a model.
 
+#include <algorithm>
+
 #include "editor/sessions.hpp"
 #include "physics/profile/profile_io.hpp"
 #include "support/command.hpp"
@@ -20,6 +22,21 @@ EditorOptions withWorker(int seconds) {
 }
 
 }  // namespace
+
+TEST_CASE("what a reader prints is in the editor's log, and goes on to who listened before") {
+    const ScratchFolder folder;
+    std::string heard;
+    EditorOptions options = withWorker(120);
+    options.load.import.worker.printed = [&](const std::string& line) { heard += line + '\n'; };
+    const auto editor = makeEditor(options);
+    std::ofstream(folder / "model.glb") << "print and crash";
+    editor->open(folder / "model.glb");
+    const std::vector<LogLine>& log = editor->workspace().log;
+    CHECK(std::any_of(log.begin(), log.end(), [](const LogLine& line) {
+        return line.text == "a third party's chatter" && line.kind == Toast::Kind::info;
+    }));
+    CHECK_THAT(heard, Catch::Contains("a third party's chatter\n"));
+}
 
 TEST_CASE("a model that kills, stalls or starves its reader leaves the editor with its unsaved work") {
     const ScratchFolder folder;
