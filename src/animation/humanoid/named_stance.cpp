@@ -8,7 +8,7 @@ namespace lutka::animation {
 namespace {
 
 constexpr float kNamedLimb = 1.5F;   // a name's score from which it says which part of a limb this is
-constexpr float kNamedTrunk = 2.0F;  // … or that it is the hips or the head
+constexpr float kNamedTrunkEnd = 2.0F;  // … or that it is the hips or the head
 
 // The joint whose name says that part most clearly; of equals the one nearest to the root.
 int namedJoint(const RigFeatures& rig, Part part, Side side, float least) {
@@ -35,8 +35,8 @@ bool namesWholeFigure(const RigFeatures& rig) {
         if (namedJoint(rig, part, Side::left, kNamedLimb) == kNoJoint) return false;
         if (namedJoint(rig, part, Side::right, kNamedLimb) == kNoJoint) return false;
     }
-    return namedJoint(rig, Part::hips, Side::center, kNamedTrunk) != kNoJoint &&
-           namedJoint(rig, Part::head, Side::center, kNamedTrunk) != kNoJoint;
+    return namedJoint(rig, Part::hips, Side::center, kNamedTrunkEnd) != kNoJoint &&
+           namedJoint(rig, Part::head, Side::center, kNamedTrunkEnd) != kNoJoint;
 }
 
 }  // namespace

@@ -14,10 +14,10 @@ namespace lutka::editor {
 namespace {
 
 using physics::AddedShape;
-using Kind = physics::PrimitiveShape::Kind;
+using AddedKind = physics::PrimitiveShape::Kind;
 
 constexpr float kThinnest = 0.005F;  // metres
-constexpr const char* kKinds[] = {"Capsule", "Box", "Sphere"};
+constexpr const char* kAddedKinds[] = {"Capsule", "Box", "Sphere"};
 
 // Of all selected bodies that have a shape of that index.
 void changeShape(const PartFields& fields, const char* what, std::size_t index,
@@ -39,7 +39,7 @@ void lengthField(const PartFields& fields, const char* label, std::size_t index,
 }
 
 void sizeFields(const PartFields& fields, std::size_t index, const AddedShape& shape) {
-    if (shape.kind == Kind::box) {
+    if (shape.kind == AddedKind::box) {
         constexpr const char* kSides[] = {"Half width", "Half height", "Half depth"};
         for (int axis = 0; axis < 3; ++axis)
             lengthField(fields, kSides[axis], index, shape.halfExtents[axis], kThinnest,
@@ -47,7 +47,7 @@ void sizeFields(const PartFields& fields, std::size_t index, const AddedShape& s
         return;
     }
     lengthField(fields, "Radius", index, shape.radius, kThinnest, [](AddedShape& s, float value) { s.radius = value; });
-    if (shape.kind != Kind::capsule) return;
+    if (shape.kind != AddedKind::capsule) return;
     lengthField(fields, "Length", index, 2.0F * (shape.halfLength + shape.radius), 2.0F * shape.radius,
                 [](AddedShape& s, float value) { s.halfLength = std::max(0.5F * value - s.radius, 0.0F); });
 }
@@ -75,10 +75,10 @@ bool drawAdded(const PartFields& fields, std::size_t index) {
     const AddedShape shape = fields.profile().shape.more[index];  // a copy: an edit takes the profile away
     fieldRow(fields, fmt::format("Shape {}", index + 2).c_str());
     int kind = static_cast<int>(shape.kind);
-    if (ImGui::Combo(fmt::format("##kind{}", index).c_str(), &kind, kKinds, 3)) {
+    if (ImGui::Combo(fmt::format("##kind{}", index).c_str(), &kind, kAddedKinds, 3)) {
         changeShape(fields, "Kind", index, [&](AddedShape& s) {
             const physics::BodyShape alone{s, {}};
-            static_cast<physics::PrimitiveShape&>(s) = shapeOfKind(alone, static_cast<Kind>(kind));
+            static_cast<physics::PrimitiveShape&>(s) = shapeOfKind(alone, static_cast<AddedKind>(kind));
         });
         return true;
     }
@@ -103,8 +103,8 @@ void drawAddedShapeFields(const PartFields& fields) {
     for (std::size_t index = 0; index < fields.profile().shape.more.size(); ++index)
         if (!drawAdded(fields, index)) return;
     if (fields.profile().shape.more.size() >= physics::BodyShape::kMostAdded) return;
-    for (const Kind kind : {Kind::sphere, Kind::capsule, Kind::box}) {
-        if (ImGui::SmallButton(fmt::format("Add {}", kKinds[static_cast<int>(kind)]).c_str())) {
+    for (const AddedKind kind : {AddedKind::sphere, AddedKind::capsule, AddedKind::box}) {
+        if (ImGui::SmallButton(fmt::format("Add {}", kAddedKinds[static_cast<int>(kind)]).c_str())) {
             fields.change("Add a shape", [&](EditorDocument::Part& part) { return addShape(part.body.shape, kind); });
         }
         tooltip("The body is the union of its shapes, three at most; its middle stays that of the main one");

@@ -59,7 +59,7 @@ void mergeIntoParent(RagdollProfile& profile, int body) {
 }
 
 // Linked bodies never collide anyway, and a merge may have linked two that were filtered.
-void dropLinkedPairs(RagdollProfile& profile) {
+void dropPairsOfJoints(RagdollProfile& profile) {
     std::erase_if(profile.filteredPairs, [&](const std::pair<int, int>& pair) {
         return profile.constraints[pair.second - 1].parent == pair.first;
     });
@@ -82,7 +82,7 @@ RagdollProfile adaptTrunk(RagdollProfile profile, const animation::HumanoidMap& 
     for (std::size_t i = 0; i + 1 < bodies.size(); ++i)
         setRole(profile.bodies[bodies[i]], rig[i]);
     if (!bodies.empty()) setRole(profile.bodies[bodies.back()], rig.back());
-    dropLinkedPairs(profile);
+    dropPairsOfJoints(profile);
     return profile;
 }
 
