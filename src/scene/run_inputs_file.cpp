@@ -162,7 +162,8 @@ Result<RunInputs> inputsFromJson(std::string_view text, std::string_view source)
 }
 
 Result<RunInputs> loadInputs(const std::filesystem::path& file) {
-    const auto bytes = readFile(file);
+    constexpr std::size_t mostBytes = std::size_t{64} << 20U;  // as a scene, which is most of it
+    const auto bytes = readFile(file, mostBytes);
     if (!bytes) return bytes.error();
     const auto* text = reinterpret_cast<const char*>(bytes.value().data());
     return inputsFromJson({text, bytes.value().size()}, file.string());

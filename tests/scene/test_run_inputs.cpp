@@ -1,6 +1,10 @@
 #include "scene/run_inputs.hpp"
 
+#include <filesystem>
+#include <fstream>
+
 #include "support/catch.hpp"
+#include "support/command.hpp"
 #include "support/rigs.hpp"
 
 using namespace lutka;
@@ -150,4 +154,15 @@ TEST_CASE("faults of an inputs file are told with their pointers") {
     CHECK_THAT(refused("\"bodies\": \"", "\"bodies\": \"xyzw"), Catch::Contains("/checks/0/bodies"));
     CHECK_THAT(refused("\"settings\": {}", "\"settings\": 3"), Catch::Contains("/settings"));
     CHECK_THAT(refused("\"profile\": \"", "\"profile\": \"g"), Catch::Contains("/profile"));
+}
+
+TEST_CASE("a huge inputs file is refused by its size, before it is read") {
+    const test::ScratchFolder folder;
+    const std::filesystem::path file = folder / "huge.inputs.json";
+    std::ofstream(file) << "{";
+    std::filesystem::resize_file(file, std::uintmax_t{2} << 30U);
+    const auto read = loadInputs(file);
+    REQUIRE_FALSE(read.ok());
+    CHECK(read.error().code == ErrorCode::input);
+    CHECK_THAT(read.error().message, Catch::Contains("is larger than 67108864 bytes"));
 }
