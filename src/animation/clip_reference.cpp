@@ -11,11 +11,7 @@ int firstNamed(std::span<const Clip> clips, std::string_view name) {
     return at != clips.end() ? static_cast<int>(at - clips.begin()) : -1;
 }
 
-}  // namespace
-
-int clipMeant(std::span<const Clip> clips, std::string_view reference) {
-    if (reference.empty()) return -1;
-    if (const int named = firstNamed(clips, reference); named >= 0) return named;
+int clipOfNumber(std::span<const Clip> clips, std::string_view reference) {
     if (!reference.starts_with('#')) return -1;
     std::size_t number = 0;
     const char* end = reference.data() + reference.size();
@@ -24,9 +20,17 @@ int clipMeant(std::span<const Clip> clips, std::string_view reference) {
     return whole && number >= 1 && number <= clips.size() ? static_cast<int>(number) - 1 : -1;
 }
 
+}  // namespace
+
+int clipMeant(std::span<const Clip> clips, std::string_view reference) {
+    if (reference.empty()) return -1;
+    const int numbered = clipOfNumber(clips, reference);
+    return numbered >= 0 ? numbered : firstNamed(clips, reference);
+}
+
 std::string clipReference(std::span<const Clip> clips, std::size_t clip) {
     const std::string& name = clips[clip].name;
-    if (!name.empty() && firstNamed(clips, name) == static_cast<int>(clip)) return name;
+    if (!name.empty() && clipMeant(clips, name) == static_cast<int>(clip)) return name;
     return "#" + std::to_string(clip + 1);
 }
 

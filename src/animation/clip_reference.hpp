@@ -8,10 +8,10 @@
 
 namespace lutka::animation {
 
-/// The clip that a text means: the first of that name, else, for "#3", the third; -1: none.
+/// The clip that a text means: for "#3" the third where there are so many, else the first of that name; -1: none.
 [[nodiscard]] int clipMeant(std::span<const Clip> clips, std::string_view reference);
-/// The text that means a clip: its name, or, where it has none or another before it has the same, "#" with its number,
-/// counted from 1.
+/// The text that means a clip: its name, or, where it has none or one that means another, "#" with its number, counted
+/// from 1.
 [[nodiscard]] std::string clipReference(std::span<const Clip> clips, std::size_t clip);
 /// For people: the name, with the number where the name does not tell it from the others.
 [[nodiscard]] std::string clipLabel(std::span<const Clip> clips, std::size_t clip);

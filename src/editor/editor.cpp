@@ -11,13 +11,6 @@
 #include "scene/scene_file.hpp"
 
 namespace lutka::editor {
-namespace {
-
-bool isProfile(const std::filesystem::path& file) {
-    return file.extension() == ".json";
-}
-
-}  // namespace
 
 Result<std::unique_ptr<Editor>> Editor::create(const EditorOptions& options) {
     const bool fromScene = !options.sceneFile.empty();
@@ -406,7 +399,7 @@ void Editor::open(const std::filesystem::path& file) {
         files_.afterUnsaved([this, file] { openSceneNow(file); });
         return;
     }
-    if (isProfile(file)) {
+    if (file.extension() == ".json") {
         files_.takeOffer();
         if (edit([&](EditorDocument& document) { return document.useProfile(file); })) {
             workspace_.say(Toast::Kind::info, "Opened the profile " + file.filename().string());

@@ -356,7 +356,7 @@ void PuppetCast::playOn(Actor& actor, float dt) {
 
 // Ground is what stays where it is: a ray goes through dolls and props.
 std::optional<animation::GroundHit> PuppetCast::groundOn(const vec3& from, const vec3& to) const {
-    constexpr int kMostAbove = 12;
+    constexpr int kMostAbove = 64;  // shapes of its own legs, and of those who lie there
     constexpr float kOnM = 2e-3F;
     physics::BodyShape point;
     point.kind = physics::BodyShape::Kind::sphere;

@@ -151,8 +151,18 @@ void PuppetCast::keepLimits(Actor& actor) {
         const auto& role = actor.asset->profile.bodies[joint.child].role;
         if (role != physics::Role::leftHand && role != physics::Role::rightHand) continue;
         const quat& parent = actor.to[joint.parent].rotation;
-        const quat parentFromChild = glm::conjugate(parent) * actor.to[joint.child].rotation;
-        actor.to[joint.child].rotation = glm::normalize(parent * physics::withinLimits(joint, parentFromChild));
+        const quat before = actor.to[joint.child].rotation;
+        const quat after = glm::normalize(parent * physics::withinLimits(joint, glm::conjugate(parent) * before));
+        const quat turn = after * glm::conjugate(before);
+        actor.to[joint.child].rotation = after;
+        // What the hand holds, and fingers, turn with it.
+        const auto& joints = actor.asset->profile.constraints;  // each hangs on a body before it
+        for (std::size_t body = joint.child + 1; body < actor.to.size(); ++body) {
+            int above = static_cast<int>(body);
+            while (above > joint.child)
+                above = joints[above - 1].parent;
+            if (above == joint.child) actor.to[body].rotation = glm::normalize(turn * actor.to[body].rotation);
+        }
     }
 }
 

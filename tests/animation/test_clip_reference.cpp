@@ -25,11 +25,15 @@ TEST_CASE("every clip can be asked for, whether names are missing or shared") {
     CHECK(clipLabel(clips, 2) == "walk (#3)");
     CHECK(clipLabel(clips, 3) == "idle");
     CHECK(clipReferences(clips) == "walk, #2, #3, idle, #5");
+    const auto numbers = clipsNamed({"#2", "", "#3", "#9"});
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        CHECK(clipMeant(numbers, clipReference(numbers, i)) == static_cast<int>(i));
+    CHECK(clipReferences(numbers) == "#1, #2, #3, #9");
 }
 
-TEST_CASE("what means no clip means none, and a name goes before a number") {
+TEST_CASE("what means no clip means none, and a number goes before a name") {
     const auto clips = clipsNamed({"a", "#1"});
-    CHECK(clipMeant(clips, "#1") == 1);
+    CHECK(clipMeant(clips, "#1") == 0);
     CHECK(clipMeant(clips, "#2") == 1);
     for (const char* text : {"", "b", "#", "#0", "#3", "#-1", "#1x", "# 1", "#99999999999999999999"})
         CHECK(clipMeant(clips, text) == -1);

@@ -194,6 +194,6 @@ TEST_CASE("a script exports the ragdoll for an engine by the keyboard alone") {
     NEEDS_DISPLAY_OF(outcome);
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
-    REQUIRE(fs::exists(scratch / "mannequin.xml"));
-    CHECK_THAT(fileText(scratch / "mannequin.xml"), Catch::StartsWith("<mujoco"));
+    REQUIRE(fs::exists(scratch / "mannequin_ragdoll.xml"));
+    CHECK_THAT(fileText(scratch / "mannequin_ragdoll.xml"), Catch::StartsWith("<mujoco"));
 }

@@ -70,9 +70,22 @@ bool takeWord(const std::string& words, std::vector<T>& values) {
     values.clear();
     std::istringstream in(words);
     bool good = true;
-    for (std::string word; in >> std::quoted(word);)
+    for (std::string word; in >> std::ws && !in.eof();) {
+        if (!(in >> std::quoted(word))) return false;  // a quote that does not end
         good = takeWord(word, values.emplace_back()) && good;
+    }
     return good;
+}
+
+// Files of before had one word of names with commas between.
+std::vector<std::string> splitAtCommas(const std::vector<std::string>& words) {
+    std::vector<std::string> out;
+    for (const std::string& word : words) {
+        std::istringstream in(word);
+        for (std::string name; std::getline(in, name, ',');)
+            out.push_back(name);
+    }
+    return out;
 }
 
 // Every setting with its name.
@@ -118,6 +131,7 @@ void takeSettings(const std::map<std::string, std::string>& settings, const std:
         if (!takeWord(found->second, value)) return;
         left.erase(found);
     });
+    options.hold = splitAtCommas(options.hold);
     if (left.empty()) return;
     leave({ErrorCode::input, fmt::format("/settings/{}: is nothing that a run is made of here", left.begin()->first),
            file.string(), "make it anew with `lutka simulate --record`"});

@@ -30,10 +30,12 @@ std::string oneText(std::string_view text) {
 class FitText : public spdlog::custom_flag_formatter {
   public:
     void format(const spdlog::details::log_msg& message, const std::tm& /*time*/, spdlog::memory_buf_t& out) override {
-        std::string text = oneText({message.payload.data(), message.payload.size()});
+        std::string text = oneText(wellFormedUtf8({message.payload.data(), message.payload.size()}, "?"));
         if (text.size() > kMostLogged) {
-            const std::size_t more = text.size() - kMostLogged;
-            text = fmt::format("{} … ({} more bytes)", text.substr(0, kMostLogged), more);
+            std::size_t end = kMostLogged;
+            while ((static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
+                --end;  // whole characters
+            text = fmt::format("{} … ({} more bytes)", text.substr(0, end), text.size() - end);
         }
         out.append(text.data(), text.data() + text.size());
     }

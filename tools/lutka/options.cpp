@@ -12,6 +12,7 @@
 
 #include "animation/humanoid/roles.hpp"
 #include "core/files.hpp"
+#include "core/utf8.hpp"
 #include "interrupt.hpp"
 #include "scene/load_words.hpp"
 #include "scene/scene_file.hpp"
@@ -388,6 +389,14 @@ render::Extent parseSize(const std::string& text) {
 bool SimulateOptions::fillsStandardOutput() const {
     return isStandardOutput(bakedOut) || isStandardOutput(meshOut) || isStandardOutput(report) ||
            isStandardOutput(recordTo);
+}
+
+void printClean(std::string_view text) {
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        fmt::print("{}{}", withoutControls(text.substr(at, end - at), ' '), end < text.size() ? "\n" : "");
+        at = end + 1;
+    }
 }
 
 bool isQuiet() {

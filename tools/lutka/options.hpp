@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "command_line.hpp"
@@ -149,10 +150,13 @@ void addSolverOption(const Command& app, std::string& solver);
 /// Whether --quiet was given.
 [[nodiscard]] bool isQuiet();
 
+/// Prints to stdout, with control characters but line breaks as blanks: paths may bring them along.
+void printClean(std::string_view text);
+
 /// Prints what is for people to stdout, but not with --quiet.
 template <class... Args>
 void tell(fmt::format_string<Args...> format, Args&&... args) {
-    if (!isQuiet()) fmt::print(format, std::forward<Args>(args)...);
+    if (!isQuiet()) printClean(fmt::format(format, std::forward<Args>(args)...));
 }
 
 /// With --verbose: tells on stderr how long its life took.

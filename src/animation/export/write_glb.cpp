@@ -36,7 +36,7 @@ class GlbBuilder {
         int inverseBinds = -1;
         std::vector<RigidTransform> parentFromJoint;  // of the bind pose
         std::vector<float> skinReach;
-        float heightM = 0.0F;  // of the skin
+        float sizeM = 0.0F;  // of the skin
     };
     const Shared& sharedOf(const Character& character);
 
@@ -56,24 +56,26 @@ tinygltf::Node wrapperNode(const Character& character, const RigidTransform& wor
     return node;
 }
 
-float heightOfSkin(const Character& character) {
-    float low = 0.0F;
-    float high = 0.0F;
+// The longest side of the skin's box: a figure may lie.
+float sizeOfSkin(const Character& character) {
+    vec3 low(0);
+    vec3 high(0);
     bool first = true;
     for (const SkinnedMesh& mesh : character.meshes) {
         for (const vec3& position : mesh.positions) {
-            low = first ? position.y : std::min(low, position.y);
-            high = first ? position.y : std::max(high, position.y);
+            low = first ? position : glm::min(low, position);
+            high = first ? position : glm::max(high, position);
             first = false;
         }
     }
-    return high - low;
+    const vec3 size = high - low;
+    return std::max({size.x, size.y, size.z});
 }
 
-// Of small figures a tenth of a millimetre is much: nothing is off by more than a share of the height.
-KeyTolerance toSize(KeyTolerance tolerance, float heightM) {
+// Of small figures a tenth of a millimetre is much: nothing is off by more than a share of the size.
+KeyTolerance toSize(KeyTolerance tolerance, float sizeM) {
     constexpr float kShare = 1e-4F;
-    if (heightM > 0.0F) tolerance.metres = std::min(tolerance.metres, kShare * heightM);
+    if (sizeM > 0.0F) tolerance.metres = std::min(tolerance.metres, kShare * sizeM);
     return tolerance;
 }
 
@@ -85,7 +87,7 @@ const GlbBuilder::Shared& GlbBuilder::sharedOf(const Character& character) {
     shared.parentFromJoint.resize(skeleton.parents.size());
     modelToLocal(skeleton, skeleton.bindModelFromJoint, shared.parentFromJoint);
     shared.skinReach = skinReach(character);
-    shared.heightM = heightOfSkin(character);
+    shared.sizeM = sizeOfSkin(character);
     if (skeleton.jointCount() > 0) shared.inverseBinds = glb::addInverseBinds(skeleton, buffer_);
     const int firstMaterial = static_cast<int>(model_.materials.size());
     for (const SkinnedMesh& mesh : character.meshes)
@@ -123,7 +125,7 @@ void GlbBuilder::addAnimation(const std::string& name, std::span<const GlbFigure
         const Clip& clip = *figures[i].clip;
         const Shared& shared = sharedOf(*figures[i].character);
         animation.add(clip,
-                      tolerance ? reduceKeys(skeleton, clip, toSize(*tolerance, shared.heightM), shared.skinReach)
+                      tolerance ? reduceKeys(skeleton, clip, toSize(*tolerance, shared.sizeM), shared.skinReach)
                                 : allKeys(skeleton, clip),
                       shared.parentFromJoint, firstJoints[i]);
     }

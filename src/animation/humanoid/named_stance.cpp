@@ -7,7 +7,7 @@
 namespace lutka::animation {
 namespace {
 
-constexpr float kNamedLimb = 1.5F;   // a name's score from which it says which part of a limb this is
+constexpr float kNamedLimb = 1.5F;      // a name's score from which it says which part of a limb this is
 constexpr float kNamedTrunkEnd = 2.0F;  // … or that it is the hips or the head
 
 // The joint whose name says that part most clearly; of equals the one nearest to the root.

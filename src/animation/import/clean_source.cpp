@@ -108,6 +108,10 @@ void cleanNames(SourceScene& scene) {
     clean(scene.nodes);
     clean(scene.meshes);
     clean(scene.clips);
+    clean(scene.materials);
+    clean(scene.textures);
+    for (std::string& warning : scene.warnings)
+        warning = withoutControls(warning, ' ');
 }
 
 }  // namespace lutka::animation::rig_import

@@ -8,7 +8,7 @@ namespace lutka::animation::rig_import {
 /// transforms. Tells what was dropped.
 void cleanNumbers(SourceScene& scene);
 
-/// Control characters of names become '_'.
+/// Control characters of names become '_', those of warnings blanks.
 void cleanNames(SourceScene& scene);
 
 }  // namespace lutka::animation::rig_import

@@ -232,14 +232,15 @@ FigureChoice figuresOf(const SourceScene& scene) {
         places.push_back(bounds[armature - armatures.data()]);
         isCharacter.insert(armature);
     }
+    // Of the characters alone: what was added to one does not say how large the next thing may be.
+    std::vector<SceneBounds> ownSkins;
+    for (const SourceFigure& figure : choice.figures)
+        ownSkins.push_back(scene.nodesArePosed ? skinOf(scene, sceneFromNode, figure.skins) : SceneBounds{});
     for (std::size_t i = 0; i < armatures.size(); ++i) {
         if (isCharacter.count(&armatures[i]) > 0) continue;
         const std::size_t nearest = nearestCharacter(places, bounds[i]);
         const bool few = armatures[i].joints.size() < kFewestJoints && scene.nodesArePosed;
-        if (few && isThing(skinOf(scene, sceneFromNode, armatures[i].skins),
-                           skinOf(scene, sceneFromNode, choice.figures[nearest].skins))) {
-            continue;
-        }
+        if (few && isThing(skinOf(scene, sceneFromNode, armatures[i].skins), ownSkins[nearest])) continue;
         SourceFigure& owner = choice.figures[nearest];
         owner.skins.insert(owner.skins.end(), armatures[i].skins.begin(), armatures[i].skins.end());
         owner.joints.insert(armatures[i].joints.begin(), armatures[i].joints.end());
@@ -253,15 +254,14 @@ std::vector<SourceInstance> instancesOf(const SourceScene& scene, const FigureCh
                                         std::vector<std::string>& things) {
     const SourceFigure& figure = choice.figures[choice.taken];
     const std::set<int> skins(figure.skins.begin(), figure.skins.end());
+    std::set<int> ofAnybody;
+    for (const SourceFigure& one : choice.figures)
+        ofAnybody.insert(one.skins.begin(), one.skins.end());
     std::vector<SourceInstance> kept;
     for (const SourceInstance& instance : scene.instances) {
         if (instance.skin >= 0 && !scene.skins[instance.skin].joints.empty()) {
             if (skins.count(instance.skin) > 0) kept.push_back(instance);
-            const auto moves = [&](const SourceFigure& one) {
-                return std::find(one.skins.begin(), one.skins.end(), instance.skin) != one.skins.end();
-            };
-            if (std::none_of(choice.figures.begin(), choice.figures.end(), moves))
-                things.push_back(scene.nodes[instance.node].name);
+            if (ofAnybody.count(instance.skin) == 0) things.push_back(scene.nodes[instance.node].name);
             continue;
         }
         const auto carries = [&](const SourceFigure& one) { return hangsBelow(scene, instance.node, one.joints); };

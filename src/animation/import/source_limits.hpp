@@ -12,11 +12,13 @@ inline constexpr std::size_t kMaxNodes = 65535;  ///< Node instances; a vertex n
 inline constexpr int kMaxDepth = 4096;           ///< Nodes below one another.
 inline constexpr std::size_t kMaxMeshes = 20'000;
 inline constexpr std::size_t kMaxVertices = 10'000'000;  ///< Of all meshes together.
+inline constexpr std::size_t kMaxCorners =
+    50'000'000;  ///< Of the polygons of a file, before equal ones become one vertex.
 // Of what the scene places, where a mesh counts as often as it is placed: a small file can place it thousands of times,
-// and a character has each of its own. kMaxVertices counts so, too. All of it together stays below 1.5 GiB.
+// and a character has each of its own. kMaxVertices counts so, too. All of it together stays below 2 GiB.
 inline constexpr std::size_t kMaxPlacedMeshes = 65'535;
 inline constexpr std::size_t kMaxPlacedIndices = 60'000'000;
-inline constexpr std::size_t kMaxPlacedSlots = 16'000'000;  ///< Joints of the skins of placed meshes.
+inline constexpr std::size_t kMaxPlacedSlots = 4'000'000;  ///< Joints of the skins of placed meshes.
 
 inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30U;  ///< Of a model, and of each file that it names.
 inline constexpr std::size_t kMaxJsonBytes = std::size_t{256} << 20U;

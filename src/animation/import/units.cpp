@@ -198,7 +198,11 @@ dmat4 UnitsAndAxes::modelFromScene() const {
 Subject subjectOf(std::span<const std::string> jointNames) {
     constexpr std::array kFingers{"thumb",  "index",  "middle",     "ring",   "pinky",
                                   "little", "finger", "metacarpal", "phalanx"};
-    constexpr std::array kTrunk{"hip", "pelvis", "spine", "chest", "neck", "head", "leg", "foot", "thigh", "shoulder"};
+    constexpr std::array kTrunk{"hip",       "pelvis",    "spine",   "chest",   "torso",    "waist",
+                                "neck",      "head",      "leg",     "foot",    "thigh",    "knee",
+                                "toe",       "shoulder",  "clav",    "elbow",   "upperarm", "fore_arm",
+                                "upper_arm", "lower_arm", "forearm", "lowerarm"};
+    constexpr double kMostAreFingers = 0.7;  // a whole figure of words that are not known here has as many others
     int fingers = 0;
     for (const std::string& name : jointNames) {
         const std::string low = lowerCased(name);
@@ -206,7 +210,8 @@ Subject subjectOf(std::span<const std::string> jointNames) {
         if (std::any_of(kTrunk.begin(), kTrunk.end(), holds)) return Subject::figure;
         fingers += std::any_of(kFingers.begin(), kFingers.end(), holds) ? 1 : 0;
     }
-    return fingers >= kFewestFingerJoints ? Subject::hand : Subject::figure;
+    const bool most = fingers >= kMostAreFingers * static_cast<double>(jointNames.size());
+    return most && fingers >= kFewestFingerJoints ? Subject::hand : Subject::figure;
 }
 
 UnitsAndAxes settleUnits(const SourceConvention& convention, std::span<const vec3> points, Subject subject,

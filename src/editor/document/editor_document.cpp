@@ -20,10 +20,7 @@ using physics::ConstraintProfile;
 using physics::RagdollProfile;
 
 Error outOfRange(const std::vector<std::string>& problems) {
-    std::string all;
-    for (const std::string& problem : problems)
-        all += fmt::format("{}{}", all.empty() ? "" : "; ", problem);
-    return {ErrorCode::usage, all, "", "choose a value inside the range"};
+    return {ErrorCode::usage, fmt::format("{}", fmt::join(problems, "; ")), "", "choose a value inside the range"};
 }
 
 std::string partName(const physics::RagdollProfile& profile, int body) {

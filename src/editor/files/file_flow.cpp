@@ -123,6 +123,12 @@ void FileFlow::requestSaveRecording(const std::filesystem::path& file) {
 }
 
 void FileFlow::exportOrAsk(const std::filesystem::path& file, const std::function<Result<void>()>& write) {
+    std::error_code failed;
+    if (std::filesystem::equivalent(file, document().character().file, failed)) {
+        workspace_.report(Result<void>(
+            Error{ErrorCode::usage, "that file is the model itself", file.string(), "choose another name"}));
+        return;
+    }
     const bool ours = std::find(exported_.begin(), exported_.end(), file) != exported_.end();
     writeOrAsk(file, ours, [this, file, write] {
         if (workspace_.report(write())) return false;
@@ -190,7 +196,7 @@ Result<void> FileFlow::exportRagdoll(const std::filesystem::path& file, exportin
     auto written = writeFileAtomically(file, exported.value().bytes);
     if (!written) return written;
     for (const std::string& warning : exported.value().warnings)
-        workspace_.log.push_back({Toast::Kind::warning, file.filename().string() + ": " + warning});
+        workspace_.note(Toast::Kind::warning, file.filename().string() + ": " + warning);
     const std::string told =
         exported.value().warnings.empty() ? "" : fmt::format("; {} notes in the log", exported.value().warnings.size());
     workspace_.say(Toast::Kind::info, "Exported " + file.string() + told);

@@ -31,7 +31,7 @@ void changeShape(const PartFields& fields, const char* what, std::size_t index,
 // A length in centimetres.
 void lengthField(const PartFields& fields, const char* label, std::size_t index, float now, float least,
                  const std::function<void(AddedShape&, float)>& set) {
-    const float most = fields.context.editor.document().state().profile.heightM * 0.5F;
+    const float most = std::max(fields.context.editor.document().state().profile.heightM * 0.5F, 2.0F * least);
     float cm = now * 100.0F;
     fieldRow(fields, label);
     if (!slider(fmt::format("##{}{}", label, index).c_str(), cm, least * 100.0F, most * 100.0F, "%.1f cm")) return;
@@ -46,7 +46,11 @@ void sizeFields(const PartFields& fields, std::size_t index, const AddedShape& s
                         [axis](AddedShape& s, float value) { s.halfExtents[axis] = value; });
         return;
     }
-    lengthField(fields, "Radius", index, shape.radius, kThinnest, [](AddedShape& s, float value) { s.radius = value; });
+    lengthField(fields, "Radius", index, shape.radius, kThinnest, [](AddedShape& s, float value) {
+        // The length stays, as that of the main shape does.
+        s.halfLength = std::max(s.halfLength + s.radius - value, 0.0F);
+        s.radius = value;
+    });
     if (shape.kind != AddedKind::capsule) return;
     lengthField(fields, "Length", index, 2.0F * (shape.halfLength + shape.radius), 2.0F * shape.radius,
                 [](AddedShape& s, float value) { s.halfLength = std::max(0.5F * value - s.radius, 0.0F); });
@@ -55,7 +59,8 @@ void sizeFields(const PartFields& fields, std::size_t index, const AddedShape& s
 void placeOf(const PartFields& fields, std::size_t index, const AddedShape& shape) {
     vec3 offset = shape.bodyFromShape.translation * 100.0F;
     fieldRow(fields, "Offset");
-    if (ImGui::DragFloat3(fmt::format("##offset{}", index).c_str(), &offset.x, 0.1F, -200.0F, 200.0F, "%.1f"))
+    const float far = 200.0F * fields.context.editor.document().state().profile.heightM;
+    if (ImGui::DragFloat3(fmt::format("##offset{}", index).c_str(), &offset.x, 0.1F, -far, far, "%.1f"))
         changeShape(fields, "Offset", index, [&](AddedShape& s) { s.bodyFromShape.translation = offset * 0.01F; });
     tooltip("Centimetres from the middle of the main shape, along its axes");
     vec3 angles(0);

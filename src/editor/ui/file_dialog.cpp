@@ -40,8 +40,8 @@ fs::path suggestedPath(const PanelContext& context, Editor::Dialog dialog) {
             return fs::absolute(document.profileFile().parent_path() / (document.character().name + "_fall.glb"),
                                 failed);
         case Editor::Dialog::exportRagdoll:
-            return fs::absolute(document.profileFile().parent_path() /
-                                    (document.character().name + std::string(formatIn(context.state).ending)),
+            return fs::absolute(document.profileFile().parent_path() / (document.character().name + "_ragdoll" +
+                                                                        std::string(formatIn(context.state).ending)),
                                 failed);
         case Editor::Dialog::saveSceneAs:
             return fs::absolute(document.sceneDocument().file(), failed);

@@ -292,7 +292,7 @@ void strengthField(const PartFields& fields) {
         "profile's own");
     if (wasText(fields, "strength", fields.profile().muscle.strength != was, fmt::format("{:.2f}", was))) {
         fields.change("Strength", [&](EditorDocument::Part& part) -> Result<void> {
-            part.body.muscle = fields.fittedOf(part).muscle;
+            part.body.muscle.strength = fields.fittedOf(part).muscle.strength;
             return {};
         });
     }

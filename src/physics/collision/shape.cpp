@@ -27,19 +27,27 @@ float distanceToPlacedBox(const PrimitiveShape& round, const RigidTransform& wor
 class UnionGrid {
   public:
     explicit UnionGrid(const BodyShape& shape) : shape_(shape) {
-        constexpr float kCells = 60.0F;  // along the longest side
+        constexpr float kCellsAcross = 8.0F;  // of the thinnest shape
+        constexpr float kFewest = 16.0F;      // along a side
+        constexpr float kMost = 100.0F;
         low_ = {-supportExtent(shape, {-1, 0, 0}), -supportExtent(shape, {0, -1, 0}),
                 -supportExtent(shape, {0, 0, -1})};
         high_ = {supportExtent(shape, {1, 0, 0}), supportExtent(shape, {0, 1, 0}), supportExtent(shape, {0, 0, 1})};
+        float thinnest = std::numeric_limits<float>::max();
+        visitShapes(shape, [&](const PrimitiveShape& one, const RigidTransform&) {
+            const vec3& half = one.halfExtents;
+            thinnest = std::min(
+                thinnest, one.kind == PrimitiveShape::Kind::box ? std::min({half.x, half.y, half.z}) : one.radius);
+        });
         const vec3 size = high_ - low_;
-        cell_ = std::max({size.x, size.y, size.z}) / kCells;
+        cell_ = size / glm::clamp(glm::ceil(size * (0.5F * kCellsAcross / thinnest)), kFewest, kMost);
     }
 
     template <class Visit>
     void visitInside(Visit visit) const {
-        for (float x = low_.x + 0.5F * cell_; x < high_.x; x += cell_) {
-            for (float y = low_.y + 0.5F * cell_; y < high_.y; y += cell_) {
-                for (float z = low_.z + 0.5F * cell_; z < high_.z; z += cell_) {
+        for (float x = low_.x + 0.5F * cell_.x; x < high_.x; x += cell_.x) {
+            for (float y = low_.y + 0.5F * cell_.y; y < high_.y; y += cell_.y) {
+                for (float z = low_.z + 0.5F * cell_.z; z < high_.z; z += cell_.z) {
                     const vec3 point(x, y, z);
                     if (signedDistance(shape_, point) <= 0.0F) visit(point);
                 }
@@ -47,13 +55,13 @@ class UnionGrid {
         }
     }
 
-    [[nodiscard]] float cell() const { return cell_; }
+    [[nodiscard]] const vec3& cell() const { return cell_; }
 
   private:
     const BodyShape& shape_;
     vec3 low_{0, 0, 0};
     vec3 high_{0, 0, 0};
-    float cell_ = 0.0F;
+    vec3 cell_{0, 0, 0};
 };
 
 }  // namespace
@@ -77,7 +85,10 @@ float shapeVolume(const BodyShape& shape) {
     const UnionGrid grid(shape);
     double cells = 0.0;
     grid.visitInside([&](const vec3&) { ++cells; });
-    return static_cast<float>(cells) * grid.cell() * grid.cell() * grid.cell();
+    const vec3& cell = grid.cell();
+    // A shape that is thin beside the others may lie between the points.
+    return std::max(static_cast<float>(cells) * cell.x * cell.y * cell.z,
+                    shapeVolume(static_cast<const PrimitiveShape&>(shape)));
 }
 
 vec3 shapeInertia(const PrimitiveShape& shape, float massKg) {
@@ -112,7 +123,7 @@ vec3 shapeInertia(const BodyShape& shape, float massKg) {
         ++cells;
     });
     if (cells == 0.0) return shapeInertia(static_cast<const PrimitiveShape&>(shape), massKg);
-    const vec3 mean = vec3(squares / cells) + vec3(grid.cell() * grid.cell() / 12.0F);  // and within the cells
+    const vec3 mean = vec3(squares / cells) + grid.cell() * grid.cell() / 12.0F;  // and within the cells
     return massKg * vec3(mean.y + mean.z, mean.x + mean.z, mean.x + mean.y);
 }
 

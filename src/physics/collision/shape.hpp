@@ -5,7 +5,8 @@
 
 namespace lutka::physics {
 
-/// Volume of the shape, cubic metres. Of several shapes that of their union, by a grid of points, to a percent.
+/// Volume of the shape, cubic metres. Of several shapes that of their union, by a grid of points, to 3 percent where
+/// none is thinner than a 25th of the whole.
 [[nodiscard]] float shapeVolume(const PrimitiveShape& shape);
 [[nodiscard]] float shapeVolume(const BodyShape& shape);
 

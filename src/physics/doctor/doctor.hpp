@@ -51,10 +51,9 @@ struct Diagnosis {
 /// - `joint-not-below` a role's joint is not below that of the role above it, or hangs on another limb (error; warning
 ///   where both sides are built so, as feet under an IK root, and in a flat tree)
 /// - `skin-outside-bodies` most of the skin is more than 6 % of the height from all bodies, or much of it lies at
-/// bodies
-///   of other parts than the one that moves it (error)
+///   bodies of other parts than the one that moves it (error)
 /// - `skin-on-one-joint` nine tenths of the skin follow one joint where there are many bodies (error)
-/// - `skin-small` most bodies' skin is less than half as long as they are: another unit (error)
+/// - `skin-small` most bodies' skin is less than 45 % as long as they are: another unit (error)
 /// - `body-beside-skin` a body lies beside all the skin that follows it and hardly touches any (error)
 /// - `mass-ratio` above 10 : 1 across a constraint (warning; above 20 : 1 error)
 /// - `bind-outside-limits` a limit excludes the bind pose: energy appears at the first step (error)

@@ -80,7 +80,8 @@ class Mender {
         BodyProfile& left = profile_.bodies[a];
         BodyProfile& right = profile_.bodies[b];
         left.massKg = right.massKg = 0.5F * (left.massKg + right.massKg);
-        BodyShape mean = left.shape;
+        const bool leftHasMost = left.shape.more.size() >= right.shape.more.size();
+        BodyShape mean = leftHasMost ? left.shape : mirrored(right.shape);
         if (left.shape.kind == right.shape.kind) {
             mean.radius = 0.5F * (left.shape.radius + right.shape.radius);
             mean.halfLength = 0.5F * (left.shape.halfLength + right.shape.halfLength);
@@ -94,7 +95,7 @@ class Mender {
 
     // The frames of a body's own constraint and of those that hang on it move with it.
     void refit(int body) {
-        if (fitted_.empty()) fitted_ = fitShapes(plan_, anatomy_);
+        if (fitted_.empty()) fitted_ = fitShapes(plan_, anatomy_, mostShapesOf(profile_));
         const PlacedShape& shape = fitted_[places_[body]];
         const RigidTransform standardFromOld = placed()[body].standardFromBody;
         BodyProfile& target = profile_.bodies[body];

@@ -84,7 +84,7 @@ void fitBody(RagdollProfile& profile, const Character& character, const Humanoid
     const BodyPlan plan = planOfProfile(profile, character, mapOfBody(profile, map, body));
     const int place = placesInPlan(profile, plan)[body];
     if (place < 0) return;
-    const PlacedShape fitted = fitShapes(plan, findAnatomy(plan))[place];
+    const PlacedShape fitted = fitShapes(plan, findAnatomy(plan), mostShapesOf(profile))[place];
     const int joint = plan.bodies[place].joint;
     const RigidTransform standardFromModel{profile.standardFromModel, vec3(0)};
     RigidTransform jointFromBody =

@@ -310,6 +310,13 @@ Capsule mirroredCapsule(const BodyPlan& plan, const Capsule& capsule, const Plan
 
 }  // namespace
 
+int mostShapesOf(const RagdollProfile& profile) {
+    std::size_t most = 0;
+    for (const BodyProfile& body : profile.bodies)
+        most = std::max(most, body.shape.more.size());
+    return static_cast<int>(most) + 1;
+}
+
 PlacedShape placeCapsule(const Capsule& capsule) {
     const vec3 along = capsule.end - capsule.start;
     const float length = glm::length(along);

@@ -29,6 +29,9 @@ struct Capsule {
 [[nodiscard]] std::vector<PlacedShape> fitShapes(const BodyPlan& plan, const Anatomy& anatomy,
                                                  int mostShapes = FitOptions{}.mostShapes);
 
+/// The number of shapes of the body that has most: what a new fit of the profile may give a body.
+[[nodiscard]] int mostShapesOf(const RagdollProfile& profile);
+
 /// A capsule as a placed shape: axis along body Y, body Z as near to straight ahead as the axis lets it.
 [[nodiscard]] PlacedShape placeCapsule(const Capsule& capsule);
 

@@ -182,7 +182,8 @@ Result<RagdollProfile> rebindProfile(const RagdollProfile& given, const animatio
         turns.push_back(map.standardFromModel * character.skeleton.bindModelFromJoint[plan.bodies[i].joint].rotation *
                         bound.bodies[i].jointFromBody.rotation);
     }
-    const std::vector<PlacedShape> shapes = keepShapes ? keptShapes(bound, plan, anatomy) : fitShapes(plan, anatomy);
+    const std::vector<PlacedShape> shapes =
+        keepShapes ? keptShapes(bound, plan, anatomy) : fitShapes(plan, anatomy, mostShapesOf(profile));
     placeBodies(bound, character, plan, shapes);
     if (!keepShapes) {
         for (BodyProfile& body : bound.bodies)

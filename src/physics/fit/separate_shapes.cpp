@@ -68,6 +68,13 @@ std::vector<int> parentsOfBodies(const RagdollProfile& profile) {
 void separateShapes(const BodyPlan& plan, std::vector<PlacedShape>& shapes) {
     const int count = static_cast<int>(shapes.size());
     const auto linked = [&](int a, int b) { return plan.bodies[a].parent == b || plan.bodies[b].parent == a; };
+    // Which of a body's shapes lies in the other is not told: the thinnest has least to give.
+    const auto radiusOf = [&](int body) {
+        float least = shapes[body].shape.radius;
+        for (const AddedShape& added : shapes[body].shape.more)
+            least = std::min(least, added.radius);
+        return least;
+    };
     // The largest shrink that any pair asks of a body, as a share of its radius.
     std::vector<float> shares(shapes.size(), 0.0F);
     for (int a = 0; a < count; ++a) {
@@ -77,8 +84,7 @@ void separateShapes(const BodyPlan& plan, std::vector<PlacedShape>& shapes) {
             // What hangs on a humanoid gives way to it alone.
             const bool aGives = plan.bodies[a].segment || !plan.bodies[b].segment;
             const bool bGives = plan.bodies[b].segment || !plan.bodies[a].segment;
-            const float share =
-                overlap / ((aGives ? shapes[a].shape.radius : 0.0F) + (bGives ? shapes[b].shape.radius : 0.0F));
+            const float share = overlap / ((aGives ? radiusOf(a) : 0.0F) + (bGives ? radiusOf(b) : 0.0F));
             if (share > kLargestShrink) continue;
             if (aGives) shares[a] = std::max(shares[a], share);
             if (bGives) shares[b] = std::max(shares[b], share);

@@ -55,23 +55,18 @@ float distanceFrom(const Capsule& capsule, const vec3& point) {
     return glm::distance(point, capsule.start + t * along) - capsule.radius;
 }
 
-int countOf(const Members& members) {
-    int count = 0;
-    for (const Member& member : members)
-        count += member.isPair ? 2 : 1;
-    return count;
-}
-
 class UnionSearch {
   public:
     UnionSearch(const std::vector<SkinPoint>& points, const CapsuleBounds& bounds) : bounds_(bounds) {
         const RigidTransform axesFromStandard = inverse(bounds.standardFromAxes);
         const std::size_t stride = (points.size() + kMostUnionPoints - 1) / kMostUnionPoints;
-        const bool weighted = std::any_of(points.begin(), points.end(), [](const auto& p) { return p.area > 0.0F; });
         for (std::size_t i = 0; i < points.size(); i += stride)
-            points_.push_back({axesFromStandard * points[i].position, weighted ? points[i].area : 1.0F});
-        for (const SkinPoint& point : points_)
+            points_.push_back({axesFromStandard * points[i].position, points[i].area});
+        const bool weighted = std::any_of(points_.begin(), points_.end(), [](const auto& p) { return p.area > 0.0F; });
+        for (SkinPoint& point : points_) {
+            if (!weighted) point.area = 1.0F;
             area_ += point.area;
+        }
         for (int axis = 0; axis < 3; ++axis) {
             const auto coordinate = [axis](const SkinPoint& p) { return p.position[axis]; };
             low_[axis] = quantileOf(points_, 0.01F, coordinate);
@@ -219,26 +214,26 @@ std::optional<std::vector<Capsule>> fitSeveralCapsules(const std::vector<SkinPoi
     const Capsule alone{axesFromStandard * single.start, axesFromStandard * single.end, single.radius};
     const float near = search.shareNear(alone);
     if (near + kShareWon > kWellCovered) return std::nullopt;
-    float least = kUnionClearly * search.cost(alone);
+    float limit = kUnionClearly * search.cost(alone);  // what a union may cost at most
+    float least = limit;                               // the best one's cost
     Members best;
-    const auto consider = [&](Members members, float factor) {
-        if (countOf(members) > most) return;
+    const auto consider = [&](Members members) {
         const float cost = search.cost(members);
-        if (cost > factor * least || search.shareNear(members) < near + kShareWon) return;
+        if (cost > std::min(limit, least) || search.shareNear(members) < near + kShareWon) return;
         best = std::move(members);
-        least = std::min(least, cost);
+        least = cost;
     };
     for (const int main : {kAlongY, kAlongX}) {
         for (int axis = 0; axis < 3; ++axis)
-            consider(search.withAnother({search.filling(main)}, axis, false), 1.0F);
+            consider(search.withAnother({search.filling(main)}, axis, false));
     }
     const Members two = best;
+    if (!two.empty()) limit = kThirdClearly * least;
     for (const int main : {kAlongY, kAlongX}) {
         for (int axis = 0; axis < 3; ++axis) {
-            const float factor = two.empty() ? 1.0F : kThirdClearly;
-            if (bounds.symmetric && axis != kAlongX)
-                consider(search.withAnother({search.filling(main)}, axis, true), factor);
-            if (most > 2 && !two.empty()) consider(search.withAnother(two, axis, false), factor);
+            if (most < 3) break;
+            if (bounds.symmetric && axis != kAlongX) consider(search.withAnother({search.filling(main)}, axis, true));
+            if (!two.empty()) consider(search.withAnother(two, axis, false));
         }
     }
     if (best.empty()) return std::nullopt;

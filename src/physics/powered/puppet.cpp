@@ -247,9 +247,9 @@ void Puppet::letGo() {
 }
 
 void Puppet::prepare(std::span<const RigidTransform> from, std::span<const RigidTransform> to, float dt) {
-    if (state_ == PuppetState::limp) return;
-    if (isTooMuch(from)) {
-        change(PuppetState::limp);
+    if (state_ != PuppetState::limp && isTooMuch(from)) change(PuppetState::limp);
+    if (state_ == PuppetState::limp) {
+        isLeashed_ = false;
         return;
     }
     for (std::size_t body = 0; body < factors_.size(); ++body)

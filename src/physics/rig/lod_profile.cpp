@@ -83,6 +83,7 @@ mat3 inertiaAbout(const BodyProfile& body, const RigidTransform& modelFromBody, 
 
 // The thickness of a member across its length.
 float thicknessOf(const BodyShape& shape) {
+    if (!shape.more.empty()) return 0.5F * (halfWidth(shape, {1, 0, 0}) + halfWidth(shape, {0, 0, 1}));
     if (shape.kind != BodyShape::Kind::box) return shape.radius;
     const vec3 h = shape.halfExtents;
     return (h.x + h.y + h.z - std::max({h.x, h.y, h.z})) / 2.0F;

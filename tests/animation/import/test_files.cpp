@@ -378,6 +378,8 @@ TEST_CASE("control characters in the names of a file get no further than its rea
     const Character character = imported(path);
     CHECK(findJoint(character.skeleton, "_[31mlow_") != kNoJoint);
     CHECK(character.name == "rig_[31m");
+    REQUIRE_FALSE(character.meshes.empty());
+    CHECK(character.meshes[0].name == "_31m");
     CHECK(character.file == path);
 }
 

@@ -182,7 +182,7 @@ std::vector<std::string> GeometryRepairs::sentences() const {
         out.push_back(fmt::format("{} polygons name corners that are not there or have fewer than three; left out",
                                   brokenPolygons));
     }
-    if (tooManyVertices) out.push_back(fmt::format("meshes beyond {} vertices were left out", kMaxVertices));
+    if (tooManyVertices) out.push_back(fmt::format("meshes beyond {} corners of polygons were left out", kMaxCorners));
     return out;
 }
 
@@ -227,7 +227,7 @@ std::vector<MeshPart> GeometryReader::read(int geometry, const dmat4& meshFromGe
     std::vector<Corner> polygon;
     std::size_t polygons = 0;
     bool whole = true;
-    if (repairs_.tooManyVertices || (vertices_ += ends.size()) > kMaxVertices) {
+    if (repairs_.tooManyVertices || (corners_ += ends.size()) > kMaxCorners) {
         repairs_.tooManyVertices = true;
         return {};
     }

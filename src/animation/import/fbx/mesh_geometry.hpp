@@ -42,7 +42,7 @@ class GeometryReader {
 
     const Objects& objects_;
     GeometryRepairs& repairs_;
-    std::size_t vertices_ = 0;
+    std::size_t corners_ = 0;
 };
 
 }  // namespace lutka::animation::rig_import::fbx
