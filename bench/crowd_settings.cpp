@@ -25,6 +25,8 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
                                               {"supportPassed", &tuning.supportPassed},
                                               {"supportKept", &tuning.supportKept},
                                               {"nearSpeed", &tuning.nearSpeed},
+                                              {"hitSpeed", &tuning.hitSpeed},
+                                              {"hitRate", &tuning.hitRate},
                                               {"contactTolerance", &tuning.contactTolerance},
                                               {"limitTolerance", &tuning.limitTolerance},
                                               {"firstTouch", &tuning.firstTouch},
@@ -48,11 +50,9 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
                                               {"sleepSpeed", &tuning.sleepSpeed},
                                               {"angularDamping", &tuning.angularDamping},
                                               {"leastGyration", &tuning.leastGyration}};
-    const std::map<std::string, int*> whole{{"substeps", &tuning.substeps},
-                                            {"passes", &tuning.passes},
-                                            {"patience", &tuning.patience},
-                                            {"mendEvery", &tuning.mendEvery},
-                                            {"mendSweeps", &tuning.mendSweeps}};
+    const std::map<std::string, int*> whole{{"substeps", &tuning.substeps},   {"passes", &tuning.passes},
+                                            {"patience", &tuning.patience},   {"mendEvery", &tuning.mendEvery},
+                                            {"hitSweeps", &tuning.hitSweeps}, {"mendSweeps", &tuning.mendSweeps}};
     if (const auto real = reals.find(name); real != reals.end())
         *real->second = value;
     else if (const auto number = whole.find(name); number != whole.end())

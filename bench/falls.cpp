@@ -12,6 +12,7 @@
 
 #include "crowd_settings.hpp"
 #include "physics/bullet/bullet_world.hpp"
+#include "physics/profile/constraint_state.hpp"
 #include "support/falls.hpp"
 
 namespace {
@@ -29,11 +30,14 @@ struct Arguments {
     float seconds = 8.0F;
     float limitDeg = 15.0F;
     bool all = false;
+    bool holds = false;
 };
 
 std::unique_ptr<physics::World> makeWorld(const Arguments& arguments) {
     physics::WorldSettings settings;
     settings.solver = arguments.solver == "stock" ? physics::SolverKind::stock : physics::SolverKind::bullet;
+    settings.contactReports = arguments.holds;
+    settings.sleeping = !arguments.holds;  // what sleeps reports no contacts
     if (arguments.solver != "crowd") return physics::createBulletWorld(settings);
     physics::crowd::CrowdTuning tuning;
     for (const std::string& setting : arguments.settings)
@@ -46,12 +50,55 @@ struct Trial {
     std::string model;
     test::FallSettings settings;
     test::Fall fall;
+    std::string holds;  // what holds the figure up at the end, if asked for
 };
+
+// The name of one side of a contact of a doll.
+std::string sideName(const physics::ContactReport::Side& side, const physics::RagdollProfile& profile) {
+    using Kind = physics::ContactReport::Side::Kind;
+    return side.kind == Kind::doll ? profile.bodies[side.body].name : side.kind == Kind::prop ? "prop" : "ground";
+}
+
+// What a doll is held by: its contacts with the share of its weight that they bear, and the joints at their stops.
+std::string holdsOf(const physics::World& world, physics::DollId doll) {
+    constexpr float kAtStop = radians(1.0F);
+    const physics::RagdollProfile& profile = world.profileOf(doll);
+    const float weight = profile.totalMassKg * 9.81F / 60.0F;
+    std::string text;
+    for (const physics::ContactReport& contact : world.contactReports())
+        text += fmt::format(" {}-{} {:.0f}%", sideName(contact.a, profile), sideName(contact.b, profile),
+                            100.0F * contact.impulse / weight);
+    text += "; at stops:";
+    std::vector<physics::BodyState> bodies(profile.bodies.size());
+    world.getBodies(doll, bodies);
+    for (const physics::ConstraintProfile& constraint : profile.constraints) {
+        const RigidTransform& parent = bodies[constraint.parent].worldFromBody;
+        const RigidTransform& child = bodies[constraint.child].worldFromBody;
+        // A range that is narrower by a degree shows what is at its end.
+        physics::ConstraintProfile inner = constraint;
+        inner.hinge = {inner.hinge.lower + kAtStop, inner.hinge.upper - kAtStop};
+        inner.cone.swingY -= kAtStop;
+        inner.cone.swingZ -= kAtStop;
+        inner.cone.twist -= kAtStop;
+        const physics::ConstraintState state = physics::measureConstraint(inner, parent, child);
+        if (state.violation <= 0.0F) continue;
+        text += constraint.kind == physics::ConstraintProfile::Kind::hinge
+                    ? fmt::format(" {} {:.0f}", profile.bodies[constraint.child].name, degrees(state.hingeAngle))
+                    : fmt::format(" {} {:.0f}/{:.0f}/{:.0f}", profile.bodies[constraint.child].name,
+                                  degrees(state.swing.y), degrees(state.swing.z), degrees(state.twist));
+    }
+    return text;
+}
 
 void runAll(std::vector<Trial>& trials, const Arguments& arguments) {
     std::atomic<std::size_t> next{0};
     const auto work = [&] {
         for (std::size_t i = next++; i < trials.size(); i = next++) {
+            if (arguments.holds) {
+                trials[i].settings.atEnd = [&trial = trials[i]](const physics::World& world, physics::DollId doll) {
+                    trial.holds = holdsOf(world, doll);
+                };
+            }
             auto done = test::fall(*trials[i].asset, makeWorld(arguments), trials[i].settings);
             if (done) trials[i].fall = std::move(done).value();
         }
@@ -75,6 +122,7 @@ void printFall(const Trial& trial) {
                trial.fall.worstJoint, q.jointSeparationM.max * 1e3F, q.floorPenetrationM * 1e3F,
                q.selfPenetrationM * 1e3F, energyPercent(q), q.settleSeconds.value_or(-1.0F), trial.fall.hipsHeightShare,
                trial.fall.trunkLeanDeg);
+    if (!trial.holds.empty()) fmt::print("#  {}\n", trial.holds);
 }
 
 // The value that a share of the falls does not exceed.
@@ -118,7 +166,9 @@ void printResults(const std::vector<Trial>& trials, const Arguments& arguments) 
         "model,scene,seed,lastingDeg,maxDeg,joint,separationMm,floorMm,selfMm,energyPercent,settleS,hipsShare,"
         "leanDeg\n");
     for (const Trial& trial : trials) {
-        if (arguments.all || trial.fall.quality.limitViolationDeg.lasting > arguments.limitDeg) printFall(trial);
+        const bool upright = arguments.holds && trial.settings.scene == "drop" && !trial.fall.lies();
+        const bool past = trial.fall.quality.limitViolationDeg.lasting > arguments.limitDeg;
+        if (arguments.all || past || upright) printFall(trial);
     }
     std::vector<const Trial*> every;
     for (const std::string& scene : arguments.scenes) {
@@ -147,6 +197,7 @@ int main(int argc, char** argv) {
     app.add_option("--seconds", arguments.seconds);
     app.add_option("--limit", arguments.limitDeg, "degrees past a limit for two frames that count as broken");
     app.add_flag("--all", arguments.all, "a line for every fall");
+    app.add_flag("--holds", arguments.holds, "what holds up those that do not lie after a drop, without sleep");
     CLI11_PARSE(app, argc, argv);
 
     std::vector<std::unique_ptr<scene::RagdollAsset>> assets;
@@ -163,6 +214,7 @@ int main(int argc, char** argv) {
                 trials.push_back({assets.back().get(),
                                   std::filesystem::path(model).filename().string(),
                                   {scene, static_cast<std::uint64_t>(seed), arguments.seconds},
+                                  {},
                                   {}});
             }
         }

@@ -99,6 +99,7 @@ Result<Fall> fall(const scene::RagdollAsset& asset, std::unique_ptr<physics::Wor
             watch.sample(seconds, bodies);
         });
     }
+    if (settings.atEnd) settings.atEnd(*world, doll);
     Fall result;
     result.quality = meter.result();
     result.worstJoint = watch.worst();

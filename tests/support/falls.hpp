@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -15,6 +16,8 @@ struct FallSettings {
     std::string scene = "drop";
     std::uint64_t seed = 0;
     float seconds = 8.0F;
+    /// Called once it is over, before the world goes; may be empty.
+    std::function<void(const physics::World&, physics::DollId)> atEnd = {};
 };
 
 /// What came of it.

@@ -210,6 +210,7 @@ static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& 
         store(pair.approach, start);
         store(pair.normalImpulse, held);
         store(pair.carriedNormal, held);
+        store(pair.struck, all(0.0F));
         const Mask presses = held > all(0.0F);
         if (bits(presses) != 0) passSupport(pair, presses, params);
         for (int k = 0; k < 2; ++k) {  // friction ends with the load
@@ -248,6 +249,7 @@ static int solvePairs(PairContactLanes* pairs, int count, const SubstepParams& p
     Mask pressed = noLanes();
     for (int i = 0; i < count; ++i) {
         PairContactLanes& pair = pairs[i];
+        pair.hit = 0;
         PairVelocities v = velocitiesOf(pair);
         const V3 normal = load(pair.normal);
         const V3 sliding = slidingOf(pair, v);
@@ -268,6 +270,11 @@ static int solvePairs(PairContactLanes* pairs, int count, const SubstepParams& p
 
         const F approach = dot(normal, slidingOf(pair, v));
         const F off = approach + bias;
+        const Mask hit = (off < all(-params.hitSpeed)) & (load(pair.strikes) > all(0.0F));
+        if (params.hitSweeps > 0 && bits(hit) != 0) {
+            pair.hit = static_cast<int>(bits(hit));
+            store(pair.asked, hit ? off : all(0.0F));
+        }
         // A single body's mass is less than what a doll sets against a push: what pressed too much is taken back
         // faster.
         const F change = -load(pair.normalMass) *

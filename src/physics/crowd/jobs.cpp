@@ -45,6 +45,7 @@ void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTou
     pair.active.lane[lane] = 1.0F;
     const auto isJointed = [&](const Doll& doll) { return !state.groupOf(doll).topology.joints.empty(); };
     pair.eager.lane[lane] = isJointed(a) && isJointed(b) ? 1.0F : 0.0F;
+    pair.strikes.lane[lane] = touch.dollA != touch.dollB ? pair.eager.lane[lane] : 0.0F;
     const auto onAxisY = [](const vec3& local) { return local.x == 0.0F && local.z == 0.0F; };
     if (!onAxisY(touch.touch.localA) || !onAxisY(touch.touch.localB)) pair.onAxisY = 0;
 }

@@ -236,10 +236,12 @@ struct PairContactLanes {
     Wide approach;       ///< Relative speed along the normal at the start of the last substep.
     Wide carriedNormal;  ///< What the substep before left of the impulses.
     Wide carriedTangent[2];
-    Wide active;  ///< 1, or 0 where the lane is empty.
-    Wide eager;   ///< 1 where both bodies have others jointed to them, which lag behind a push; else 0.
-    int onAxisY;  ///< Whether all touching points lie on the bodies' y, as those of capsules do.
-    int follows;  ///< Whether all are of capsules and spheres: points and normal are found anew in every substep.
+    Wide active;   ///< 1, or 0 where the lane is empty.
+    Wide eager;    ///< 1 where both bodies have others jointed to them, which lag behind a push; else 0.
+    Wide strikes;  ///< 1 where both are of different dolls with joints: what hits there is pushed again
+                   ///< (hit_kernels.hpp).
+    int onAxisY;   ///< Whether all touching points lie on the bodies' y, as those of capsules do.
+    int follows;   ///< Whether all are of capsules and spheres: points and normal are found anew in every substep.
 
     Wide3 armA, armB;
     Wide3 tangent[2];
@@ -248,6 +250,10 @@ struct PairContactLanes {
     Wide separation;
     Wide normalMass;
     Wide tangentMass[2];
+    Wide asked;   ///< m/s by which the first sweep wanted the approach to change, of contacts that are hit; see
+                  ///< hit_kernels.hpp.
+    Wide struck;  ///< N s, what the second push gave in this substep; it is over with it.
+    int hit;      ///< A bit a lane: which are hit in this substep.
 };
 
 /// What decides quality and cost within a substep; the same for all of them. The defaults are the outcome of the sweep
@@ -263,6 +269,9 @@ struct SubstepTuning {
     int mendSweeps = 2;        ///< Over the contacts between bodies, in each mending.
     float supportPassed = 0.97F;  ///< How firmly what rests on a body is held, of how firmly that body is, [0, 1).
     float supportKept = 0.95F;    ///< What is left of it a substep later once nothing presses.
+    float hitSpeed = 1.0F;    ///< m/s of approach that is left after a push by which a contact is hit and pushed again,
+    float hitRate = 1.5F;     ///< so many times as hard, at most, as its two bodies' masses ask.
+    int hitSweeps = 1;        ///< How often, 0: never.
     float nearSpeed = 8.0F;   ///< m/s that an approach may grow by within a substep: contacts farther off are left out.
     float mendGap = 0.0002F;  ///< Metres, and
     float mendAngle = 0.002F;       ///< rad: errors below which nothing is mended.
@@ -410,6 +419,9 @@ struct Kernels {
     int (*solvePairs)(PairContactLanes* pairs, int count, const SubstepParams& params);
     /// Adds to the velocities what mends overlaps; returns whether there was any.
     int (*mendPairs)(PairContactLanes* pairs, int count, const SubstepParams& params);
+    /// Pushes the contacts that are still hit after the dolls have answered the first sweep; returns in how many
+    /// blocks.
+    int (*solveHits)(PairContactLanes* pairs, int count, const SubstepParams& params);
     /// Pushes the bodies with what the substep before left of the impulses.
     void (*carryPairs)(PairContactLanes* pairs, int count);
 };
