@@ -4,6 +4,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <tuple>
 
+#include "physics/crowd/firmest_row.hpp"
+
 namespace lutka::physics::crowd {
 namespace {
 
@@ -11,10 +13,11 @@ bool before(const MotorRecord& record, std::pair<int, int> wanted) {
     return std::pair(record.doll, record.constraint) < wanted;
 }
 
-void writeLanes(MotorLanes& lanes, int lane, const MotorRecord& record, bool isHinge, float dt) {
+void writeLanes(MotorLanes& lanes, int lane, const MotorRecord& record, const Topology& topology, float dt) {
     const JointMotor& motor = record.motor;
     const float firmness = motor.damping + dt * motor.stiffness;
     if (firmness <= 0.0F || motor.maxTorqueNm <= 0.0F) return;
+    const bool isHinge = topology.joints[record.constraint].isHinge != 0;
     const quat target = isHinge ? glm::angleAxis(motor.angle, vec3(0, 0, 1)) : glm::normalize(motor.target);
     lanes.active = 1;
     lanes.target.x.lane[lane] = target.x;
@@ -22,7 +25,7 @@ void writeLanes(MotorLanes& lanes, int lane, const MotorRecord& record, bool isH
     lanes.target.z.lane[lane] = target.z;
     lanes.target.w.lane[lane] = target.w;
     writeVector(lanes.rate, lane, isHinge ? vec3(0, 0, motor.rate.z) : motor.rate);
-    lanes.weight.lane[lane] = dt * firmness;
+    lanes.weight.lane[lane] = std::min(dt * firmness, firmestRow(topology).moment);
     lanes.pull.lane[lane] = motor.stiffness / firmness;
     lanes.bound.lane[lane] = motor.maxTorqueNm * dt;
     lanes.gain.lane[lane] = record.bounded ? 0.0F : lanes.weight.lane[lane];
@@ -38,8 +41,7 @@ void placeMotors(CrowdState& state, float dt) {
         if (doll.asleep()) continue;
         Batch& batch = state.batchOf(doll);
         if (batch.motors.empty()) batch.motors.resize(batch.joints.size());  // of zeros
-        const bool isHinge = state.groupOf(doll).topology.joints[record.constraint].isHinge != 0;
-        writeLanes(batch.motors[record.constraint], doll.lane, record, isHinge, dt);
+        writeLanes(batch.motors[record.constraint], doll.lane, record, state.groupOf(doll).topology, dt);
     }
 }
 

@@ -97,6 +97,7 @@ class JobSubstep {
             job_.motorWork += workOfMotors(*batch);
         for (const Batch* batch : job_.batches)
             job_.dragWork += workOfTargets(*batch);
+        if (!state_.targets.empty()) job_.dragWork += workOfPushes(state_, job_);
         for (DragRecord* drag : job_.drags)
             job_.dragWork += endDrag(state_, *drag);
         if (mends_) {

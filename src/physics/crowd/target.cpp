@@ -1,31 +1,16 @@
 #include "physics/crowd/target.hpp"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <tuple>
+
+#include "physics/crowd/firmest_row.hpp"
 
 namespace lutka::physics::crowd {
 namespace {
 
-// Of a kinematic body, over its doll's mass: so much that what hangs on it moves it by some micrometres a substep,
-// which the next one takes back, and so little that floats still hold a hand beside it.
-constexpr float kHeavy = 200.0F;
-
 bool isBefore(const TargetRecord& record, std::pair<int, int> wanted) {
     return std::pair(record.doll, record.body) < wanted;
-}
-
-// Mass of a doll, and the longest of its bodies: the arm that its weight may turn a body at.
-struct Size {
-    float massKg = 0.0F;
-    float reach = 0.0F;
-};
-Size sizeOf(const Topology& topology) {
-    Size size;
-    for (const BodyConstants& body : topology.bodies) {
-        size.massKg += 1.0F / body.inverseMass;
-        size.reach = std::max(size.reach, body.reach + body.radius);
-    }
-    return size;
 }
 
 void writeLanes(TargetLanes& lanes, int lane, const BodyTarget& target, const Topology& topology, int body, float dt) {
@@ -38,13 +23,12 @@ void writeLanes(TargetLanes& lanes, int lane, const BodyTarget& target, const To
     lanes.rotation.y.lane[lane] = turn.y;
     lanes.rotation.z.lane[lane] = turn.z;
     lanes.rotation.w.lane[lane] = turn.w;
-    const Size size = sizeOf(topology);
-    const float heavy = kHeavy * size.massKg;
+    const FirmestRow firmest = firmestRow(topology);
     const bool kinematic = target.weight >= 1.0F;
     lanes.kinematic.lane[lane] = kinematic ? 1.0F : 0.0F;
     if (kinematic) {
-        lanes.weight.lane[lane] = heavy;
-        lanes.turnWeight.lane[lane] = heavy * size.reach * size.reach;
+        lanes.weight.lane[lane] = firmest.massKg;
+        lanes.turnWeight.lane[lane] = firmest.moment;
         lanes.pull.lane[lane] = 1.0F / dt;
         return;
     }
@@ -53,8 +37,8 @@ void writeLanes(TargetLanes& lanes, int lane, const BodyTarget& target, const To
     const float omega = 2.0F * kPi * frequencyOf(target.weight);
     const float answer = dt * omega * (dt * omega + 2.0F);
     const float moment = std::max({constants.inertia[0], constants.inertia[1], constants.inertia[2]});
-    lanes.weight.lane[lane] = std::min(answer / constants.inverseMass, heavy);
-    lanes.turnWeight.lane[lane] = std::min(answer * moment, heavy * size.reach * size.reach);
+    lanes.weight.lane[lane] = std::min(answer / constants.inverseMass, firmest.massKg);
+    lanes.turnWeight.lane[lane] = std::min(answer * moment, firmest.moment);
     lanes.pull.lane[lane] = omega / (dt * omega + 2.0F);
 }
 
@@ -78,6 +62,36 @@ double workOfTargets(const Batch& batch) {
     for (const TargetLanes& target : batch.targets)
         for (int lane = 0; target.active != 0 && lane < batch.used; ++lane)
             work += static_cast<double>(target.work.lane[lane]);
+    return work;
+}
+
+double workOfPushes(const CrowdState& state, const Job& job) {
+    double work = 0.0;
+    // What one side gives the other: the impulse on `other` times how the point of a kinematic body moves.
+    const auto pushes = [&](int doll, int body, const vec3& arm, const vec3& impulse) {
+        const Doll& kinematic = state.dolls[doll];
+        const Batch& batch = state.batchOf(kinematic);
+        const int lane = kinematic.lane;
+        if (!isKinematic(batch, body, lane)) return;
+        const TargetLanes& target = batch.targets[body];
+        const vec3 velocity = readVector(target.before, lane) + readVector(batch.bodies[body].steadyVelocity, lane);
+        const vec3 angular = readVector(target.turnBefore, lane) + readVector(batch.bodies[body].steadyAngular, lane);
+        work += static_cast<double>(0.5F * glm::dot(impulse, velocity + glm::cross(angular, arm)));
+    };
+    for (std::size_t block = 0; block < job.pairs.size(); ++block) {
+        const PairContactLanes& pair = job.pairs[block];
+        for (int lane = 0; lane < kLanes; ++lane) {
+            const int index = job.touchOfLane[block][lane];
+            const float pressed = pair.normalImpulse.lane[lane] + pair.struck.lane[lane];
+            if (index < 0 || pressed <= 0.0F) continue;
+            const PairTouch& touch = state.touches[index];
+            const vec3 onA = readVector(pair.normal, lane) * pressed +
+                             readVector(pair.tangent[0], lane) * pair.tangentImpulse[0].lane[lane] +
+                             readVector(pair.tangent[1], lane) * pair.tangentImpulse[1].lane[lane];
+            pushes(touch.dollA, touch.bodyA, readVector(pair.armA, lane), -onA);
+            pushes(touch.dollB, touch.bodyB, readVector(pair.armB, lane), onA);
+        }
+    }
     return work;
 }
 

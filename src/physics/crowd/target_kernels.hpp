@@ -85,4 +85,9 @@ static __attribute__((noinline)) void forgetHeld(JointLanes& joint, const JointC
         store(limit.impulse, load(limit.impulse) * free);
 }
 
+// Nor has a motor there done any work.
+LUTKA_LANES void drivesOnly(MotorLanes& motor, F free) {
+    store(motor.work, load(motor.work) * free);
+}
+
 }  // namespace lutka::physics::crowd::LUTKA_KERNELS

@@ -183,6 +183,7 @@ LUTKA_LANES Mask substitute(const BatchView& batch, int index, const SubstepPara
     if (batch.targets != nullptr) {
         const F free = freeToTurn(batch, constants);
         forgetHeld(joint, constants, free);
+        if (batch.motors != nullptr) drivesOnly(batch.motors[index], free);
         off &= free > all(0.0F);
     }
     return wrong | off;

@@ -1,5 +1,7 @@
 #include "physics/powered/muscles.hpp"
 
+#include <algorithm>
+
 namespace lutka::physics {
 
 MuscleGroup muscleGroupOf(const BodyProfile& body) {
@@ -31,18 +33,22 @@ MuscleGroup muscleGroupOf(const BodyProfile& body) {
     }
 }
 
+float boundedProduct(float a, float b) {
+    return std::min(a * b, MuscleFactors::kMost);
+}
+
 MuscleFactors factorsOf(const MuscleSettings& muscles, const RagdollProfile& profile, int body) {
     MuscleFactors factors = muscles.groups[static_cast<std::size_t>(muscleGroupOf(profile.bodies[body]))];
     const auto at = static_cast<std::size_t>(body);
     if (at >= muscles.bodies.size()) return factors;
-    factors.strength *= muscles.bodies[at].strength;
-    factors.damping *= muscles.bodies[at].damping;
-    factors.torque *= muscles.bodies[at].torque;
+    factors.strength = boundedProduct(factors.strength, muscles.bodies[at].strength);
+    factors.damping = boundedProduct(factors.damping, muscles.bodies[at].damping);
+    factors.torque = boundedProduct(factors.torque, muscles.bodies[at].torque);
     return factors;
 }
 
 float strengthOf(const MuscleSettings& muscles, const RagdollProfile& profile, int body) {
-    return muscles.strength * factorsOf(muscles, profile, body).strength;
+    return boundedProduct(muscles.strength, factorsOf(muscles, profile, body).strength);
 }
 
 MuscleSettings musclesOf(MusclePreset preset) {

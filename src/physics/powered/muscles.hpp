@@ -17,6 +17,8 @@ struct MuscleSettings : MuscleProfile {
     vec3 carriedGravity{0, 0, 0};       ///< m/s²: joints carry what hangs on them against it; 0: they sag.
 };
 
+/// What several factors come to: their product, bounded as each of them is.
+[[nodiscard]] float boundedProduct(float a, float b);
 /// What the joint above a body has of the doll's muscles: the product of its group's factors and its own.
 [[nodiscard]] MuscleFactors factorsOf(const MuscleSettings& muscles, const RagdollProfile& profile, int body);
 /// The strength of the joint above a body: `strength` with the group's and the body's factors.

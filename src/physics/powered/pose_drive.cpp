@@ -73,7 +73,7 @@ PoseDrive::PoseDrive(const RagdollProfile& profile, std::span<const BodyState> b
 
 float PoseDrive::stiffnessOf(int constraint, const MuscleSettings& muscles, float factor) const {
     const float omega = 2.0F * kPi * muscles.frequencyHz;
-    return factor * strengthOf(muscles, profile_, profile_.constraints[constraint].child) *
+    return boundedProduct(factor, strengthOf(muscles, profile_, profile_.constraints[constraint].child)) *
            joints_[constraint].inertia * omega * omega;
 }
 
@@ -81,8 +81,10 @@ float PoseDrive::torqueBoundOf(int constraint, const MuscleSettings& muscles, fl
     if (!muscles.bounded) return kUnboundedNm;
     const int child = profile_.constraints[constraint].child;
     const auto group = static_cast<std::size_t>(muscleGroupOf(profile_.bodies[child]));
-    const float share = factor * strengthOf(muscles, profile_, child) * muscles.torque;
-    return share * factorsOf(muscles, profile_, child).torque * kTorquePerKg[group] * massKg_ * (heightM_ / kAdultM);
+    const float strength = boundedProduct(factor, strengthOf(muscles, profile_, child));
+    const float share =
+        boundedProduct(strength, boundedProduct(muscles.torque, factorsOf(muscles, profile_, child).torque));
+    return share * kTorquePerKg[group] * massKg_ * (heightM_ / kAdultM);
 }
 
 vec3 PoseDrive::gravityTorque(int constraint, const vec3& gravity) const {
@@ -140,7 +142,8 @@ void PoseDrive::drive(World& world, DollId doll, const MuscleSettings& muscles, 
             motor.stiffness *= std::max(carried, inertia) / inertia;
             inertia = std::max(carried, inertia);
         }
-        const float ratio = muscles.dampingRatio * factorsOf(muscles, profile_, constraint.child).damping;
+        const float ratio =
+            boundedProduct(muscles.dampingRatio, factorsOf(muscles, profile_, constraint.child).damping);
         motor.damping = 2.0F * ratio * std::sqrt(motor.stiffness * inertia);
         motor.maxTorqueNm = torqueBoundOf(i, muscles, factor);
         const quat before = relativeOf(constraint, from);

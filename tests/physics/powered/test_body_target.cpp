@@ -146,6 +146,58 @@ TEST_CASE("others feel an infinite mass in a kinematic body, and static geometry
     }
 }
 
+TEST_CASE("what a kinematic body gives to what it pushes is counted as its work") {
+    // A rod comes at one metre a second upon a crate that floats at rest and takes it along: the push is the crate's
+    // momentum, and half of its work is lost in the hit. The rod's own energy is the rest.
+    const RagdollProfile rod = rodProfile(0.2F, 0.05F, 0.3F);
+    physics::WorldSettings settings;
+    settings.gravity = vec3(0);
+    const auto world = worldOf(SolverKind::crowd, settings);
+    const std::vector<BodyState> start{stateAt({0, 0, 0}, glm::angleAxis(kPi / 2, vec3(0, 0, 1)))};
+    const physics::DollId doll = world->addDoll(rod, start);
+    physics::DynamicProp crate;
+    crate.shape.kind = physics::BodyShape::Kind::box;
+    crate.shape.halfExtents = vec3(0.2F);
+    crate.massKg = 60.0F;
+    crate.state = stateAt({0, 0, 0.405F});  // met within a step: what rests against something already is braked
+    const physics::PropId prop = world->addProp(crate);
+    RigidTransform from = start[0].worldFromBody;
+    for (int i = 0; i < 30; ++i) {
+        RigidTransform to = from;
+        to.translation.z += kFrame;
+        world->setBodyTarget(doll, 0, targetOf(from, to));
+        world->step(kFrame);
+        from = to;
+    }
+    const double speed = static_cast<double>(world->propState(prop).linearVelocity.z);
+    CHECK(speed > 0.9);
+    CHECK(world->dragWork() == Approx(60.0 * speed + 0.15).epsilon(0.03));
+}
+
+TEST_CASE("a motor between two kinematic bodies moves nothing and works nothing") {
+    const RagdollProfile profile = makeDoll();
+    const auto world = worldOf(SolverKind::crowd);
+    const auto start = standingDoll(profile, {0, 1.0F, 0});
+    const physics::DollId doll = world->addDoll(profile, start);
+    const int shin = physics::bodyOf(profile, Role::leftLowerLeg);
+    const int knee = shin - 1;  // the constraint of a body has its number less one
+    REQUIRE(profile.constraints[knee].child == shin);
+    world->setMotor(doll, knee, physics::JointMotor{{1, 0, 0, 0}, 1.0F, 60.0F, 4.0F});
+    for (int i = 0; i < 30; ++i) {
+        for (int body = 0; body < static_cast<int>(start.size()); ++body) {
+            RigidTransform from = start[body].worldFromBody;
+            RigidTransform to = from;
+            if (body == shin) {  // led out of its joint's angle
+                from.rotation = glm::angleAxis(0.01F * static_cast<float>(i), vec3(1, 0, 0)) * from.rotation;
+                to.rotation = glm::angleAxis(0.01F * static_cast<float>(i + 1), vec3(1, 0, 0)) * to.rotation;
+            }
+            world->setBodyTarget(doll, body, targetOf(from, to));
+        }
+        world->step(kFrame);
+    }
+    CHECK(world->motorWork() == 0.0);
+}
+
 TEST_CASE("kinematic joints beyond their limits give way to the pose and throw nothing") {
     const RagdollProfile profile = makeDoll();
     for (const SolverKind solver : kOurSolvers) {

@@ -129,6 +129,27 @@ TEST_CASE("a doll with muscles, hung by its hips, follows a pose in motion withi
     }
 }
 
+TEST_CASE("muscles whose factors are all as large as they may be hold a doll together") {
+    const RagdollProfile profile = makeDoll();
+    constexpr float kMost = physics::MuscleFactors::kMost;
+    MuscleSettings muscles = physics::musclesOf(MusclePreset::stiff);
+    muscles.frequencyHz = physics::MuscleProfile::kMostHz;
+    muscles.dampingRatio = muscles.strength = muscles.torque = kMost;
+    muscles.groups.fill({kMost, kMost, kMost});
+    muscles.bodies.assign(profile.bodies.size(), {kMost, kMost, kMost});
+    const physics::MuscleFactors together = physics::factorsOf(muscles, profile, 1);
+    CHECK(together == physics::MuscleFactors{kMost, kMost, kMost});
+    CHECK(physics::strengthOf(muscles, profile, 1) == kMost);
+    for (const SolverKind solver : kOurSolvers) {
+        INFO(physics::solverName(solver));
+        const Tracking firm = track(profile, solver, muscles, 1.0F);
+        INFO(firm.rms << " degrees rms, " << firm.quality.jointSeparationM.max * 1e3F << " mm apart");
+        CHECK(firm.quality.nonFinite == 0);
+        CHECK(firm.rms < 1.0F);
+        CHECK(firm.quality.jointSeparationM.max < 0.01F);
+    }
+}
+
 TEST_CASE("the stronger the muscles, the closer the pose, over six orders of magnitude, and nothing shakes") {
     const RagdollProfile profile = makeDoll();
     MuscleSettings muscles = physics::musclesOf(MusclePreset::powered);
