@@ -63,6 +63,9 @@ TEST_CASE("names with blanks survive the way through a file of inputs") {
         body["name"] = "left \"hand\" of it";
         body.erase("role");
     }
+    for (Json& constraint : doll["constraints"]) {
+        if (constraint["child"] == "leftHand") constraint["child"] = "left \"hand\" of it";
+    }
     std::ofstream(profile) << doll.dump(1);
     const std::string inputs = folder / "walk.inputs.json";
     const std::string model = "simulate " + kMannequinArgument + " --profile " + profile;

@@ -167,7 +167,7 @@ TEST_CASE("a path can't colour the terminal that an error is told on, nor flood 
         {"asset", {{"version", "2.0"}}},
         {"buffers", {{{"uri", std::string(100000, 'a')}, {"byteLength", 4}}}},
         {"bufferViews", {{{"buffer", 0}, {"byteLength", 4}}}},
-        {"accessors", {{{"bufferView", 0}, {"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}}}},
+        {"accessors", {{{"bufferView", 0}, {"componentType", 5126}, {"count", 1}, {"type", "VEC3"}}}},
         {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}},
         {"nodes", {{{"mesh", 0}}}},
         {"scenes", {{{"nodes", {0}}}}},

@@ -92,7 +92,7 @@ TEST_CASE("a script locks a knee by the menu of its turn") {
     const Scratch scratch;
     Script script;
     script.key(Key::space).click(632, 393);                   // the left lower leg
-    script.click(980, 517).wait(2).click(1010, 573).wait(2);  // Flexion: Locked
+    script.click(980, 545).wait(2).click(1010, 601).wait(2);  // Flexion: Locked
     script.move(640, 640).key(Key::s, kControl).wait(2);
     const Outcome outcome = play(scratch, script);
     NEEDS_DISPLAY_OF(outcome);
@@ -122,7 +122,7 @@ TEST_CASE("a script adds a body to a finger by the tree's menu, splits it, and E
     CHECK(now.constraints[finger - 1].parent == physics::bodyOf(now, Role::leftHand));
 }
 
-TEST_CASE("a script maps a thigh to a foot, and one Fix of a limit mends the mapping that brought it about") {
+TEST_CASE("a script maps a thigh to a foot, and one Fix mends the mapping") {
     if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;
     Script script;
@@ -130,7 +130,7 @@ TEST_CASE("a script maps a thigh to a foot, and one Fix of a limit mends the map
     type(script, "leftFoot").wait(2).click(190, 396).wait(2);
     script.click(1134, 43).move(640, 640).wait(3);  // the tab Doctor
     const int wrong = script.frame();
-    script.wait(1).click(958, 299).wait(2).move(640, 640).key(Key::s, kControl).wait(3);  // Fix of the thigh's limit
+    script.wait(1).click(958, 213).wait(2).move(640, 640).key(Key::s, kControl).wait(3);  // Fix of the thigh's joint
     const std::string picture = (scratch / "wrong.png").string();
     const Outcome outcome = play(scratch, script, " --screenshot-at " + std::to_string(wrong) + ":" + picture);
     NEEDS_DISPLAY_OF(outcome);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "animation/clip_reference.hpp"
 #include "animation/pose.hpp"
 #include "scene/simulation.hpp"
 #include "scene/start_pose.hpp"
@@ -30,7 +31,9 @@ std::unique_ptr<Simulation> startFrom(const RagdollAsset& asset, const animation
     options.world.gravity = vec3(0);
     options.dt = dt;
     options.measure = false;
-    options.fromClip = scene::ClipStart{clip.name, seconds};
+    const std::vector<animation::Clip>& clips = asset.character.clips;
+    options.fromClip =
+        scene::ClipStart{animation::clipReference(clips, static_cast<std::size_t>(&clip - clips.data())), seconds};
     auto simulation = Simulation::create(asset, std::move(scenario).value(), options);
     REQUIRE(simulation.ok());
     return std::move(simulation).value();

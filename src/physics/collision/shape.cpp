@@ -27,9 +27,9 @@ float distanceToPlacedBox(const PrimitiveShape& round, const RigidTransform& wor
 class UnionGrid {
   public:
     explicit UnionGrid(const BodyShape& shape) : shape_(shape) {
-        constexpr float kCellsAcross = 8.0F;  // of the thinnest shape
-        constexpr float kFewest = 16.0F;      // along a side
-        constexpr float kMost = 100.0F;
+        constexpr float kCellsAcross = 16.0F;  // of the thinnest shape
+        constexpr float kFewest = 32.0F;       // along a side
+        constexpr float kMost = 128.0F;
         low_ = {-supportExtent(shape, {-1, 0, 0}), -supportExtent(shape, {0, -1, 0}),
                 -supportExtent(shape, {0, 0, -1})};
         high_ = {supportExtent(shape, {1, 0, 0}), supportExtent(shape, {0, 1, 0}), supportExtent(shape, {0, 0, 1})};

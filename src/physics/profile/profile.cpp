@@ -188,8 +188,6 @@ void checkMuscles(Problems& problems, const RagdollProfile& profile) {
         const BodyProfile& body = profile.bodies[i];
         const std::string place = fmt::format("/bodies/{}", i);
         checkFactors(problems, body.muscle, place + "/muscle");
-        problems.require(profile.muscles || body.muscle == MuscleFactors{}, place + "/muscle",
-                         "expected muscles of the whole doll, which these are factors on");
         problems.require(!body.pinForceN || isWithin(*body.pinForceN, 0.0F, kMostPinN), place + "/pinForceN",
                          "expected newtons in [0, 1e6]");
     }

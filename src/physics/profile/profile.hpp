@@ -27,7 +27,7 @@ struct BodyProfile {
     RigidTransform jointFromBody;       ///< Body origin = centre of mass and of the main shape; a capsule's axis is Y.
     float massKg = 1.0F;                ///< > 0.
     vec3 inertia{0.01F, 0.01F, 0.01F};  ///< Principal moments about the body's axes, kg m², > 0.
-    MuscleFactors muscle;               ///< Of the joint above it, on RagdollProfile::muscles.
+    MuscleFactors muscle;               ///< Of the joint above it, on RagdollProfile::muscles or what else powers it.
     std::optional<float> pinForceN;     ///< A powered doll holds it to its pose with at most so much, N, [0, 1e6];
                                         ///< unset: the root as PuppetSettings says, others not at all.
 };

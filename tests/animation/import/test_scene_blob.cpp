@@ -142,7 +142,7 @@ TEST_CASE("a scene that places more than a character can have is refused by name
                    s.skins[0].joints.resize(1000, s.skins[0].joints[0]);
                    place(s, kMaxPlacedSlots / 1000 + 1);
                }),
-               Catch::Contains("16000000 joints of skins"));
+               Catch::Contains("4000000 joints of skins"));
     CHECK_THAT(refusal([&](SourceScene& s) {
                    s.meshes[0].indices.assign(3000, 0);
                    place(s, kMaxPlacedIndices / 3000 + 1);
