@@ -1,5 +1,7 @@
 #include <stb/stb_image_write.h>
 
+#include <algorithm>
+
 #include "animation/export/glb_parts.hpp"
 
 namespace lutka::animation::glb {
@@ -37,6 +39,8 @@ const char* nameOf(Material::AlphaMode mode) {
     return "OPAQUE";
 }
 
+constexpr const char* kEmissiveStrength = "KHR_materials_emissive_strength";
+
 tinygltf::Material convert(const Material& material, int firstTexture) {
     const auto placed = [&](int texture) { return texture < 0 ? texture : firstTexture + texture; };
     tinygltf::Material out;
@@ -51,7 +55,14 @@ tinygltf::Material convert(const Material& material, int firstTexture) {
     out.normalTexture.index = placed(material.normalTexture);
     out.occlusionTexture.index = placed(material.occlusionTexture);
     out.emissiveTexture.index = placed(material.emissiveTexture);
-    out.emissiveFactor = {material.emissive.r, material.emissive.g, material.emissive.b};
+    // A factor is at most 1: what shines more says how much more.
+    const float strength = std::max({1.0F, material.emissive.r, material.emissive.g, material.emissive.b});
+    const vec3 emissive = material.emissive / strength;
+    out.emissiveFactor = {emissive.r, emissive.g, emissive.b};
+    if (strength > 1.0F) {
+        out.extensions[kEmissiveStrength] = tinygltf::Value(
+            tinygltf::Value::Object{{"emissiveStrength", tinygltf::Value(static_cast<double>(strength))}});
+    }
     out.alphaMode = nameOf(material.alphaMode);
     if (material.alphaMode == Material::AlphaMode::mask) out.alphaCutoff = material.alphaCutoff;
     out.doubleSided = material.doubleSided;
@@ -70,8 +81,13 @@ void addMaterials(const Character& character, BufferBuilder& buffer, tinygltf::M
     }
     for (const Texture& texture : character.textures)
         addTexture(texture, buffer, model);
-    for (const Material& material : character.materials)
+    for (const Material& material : character.materials) {
         model.materials.push_back(convert(material, firstTexture));
+        auto& used = model.extensionsUsed;
+        if (!model.materials.back().extensions.empty() &&
+            std::find(used.begin(), used.end(), kEmissiveStrength) == used.end())
+            used.emplace_back(kEmissiveStrength);
+    }
 }
 
 }  // namespace lutka::animation::glb

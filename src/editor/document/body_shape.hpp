@@ -5,11 +5,14 @@
 
 namespace lutka::editor {
 
-/// A shape of another kind that is as large: its box is the old one's as near as the kind allows, along the same axes.
-[[nodiscard]] physics::BodyShape shapeOfKind(const physics::BodyShape& shape, physics::BodyShape::Kind kind);
+/// Makes it a shape of another kind that is as large: its box is the old one's as near as the kind allows, along the
+/// same axes.
+void setKind(physics::PrimitiveShape& shape, physics::PrimitiveShape::Kind kind);
+/// The same of a body's main shape, for a copy.
+[[nodiscard]] physics::BodyShape shapeOfKind(physics::BodyShape shape, physics::BodyShape::Kind kind);
 
 /// Another radius; a capsule keeps its length from end to end, as far as that is above twice the radius.
-void setRadius(physics::BodyShape& shape, float radius);
+void setRadius(physics::PrimitiveShape& shape, float radius);
 
 /// Gives a body another shape of that kind, half as thick as its main one and ahead of it (+Z), where it is seen. Fails
 /// with ErrorCode::usage when it has as many as a body can have.

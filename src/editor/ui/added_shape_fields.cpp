@@ -46,11 +46,8 @@ void sizeFields(const PartFields& fields, std::size_t index, const AddedShape& s
                         [axis](AddedShape& s, float value) { s.halfExtents[axis] = value; });
         return;
     }
-    lengthField(fields, "Radius", index, shape.radius, kThinnest, [](AddedShape& s, float value) {
-        // The length stays, as that of the main shape does.
-        s.halfLength = std::max(s.halfLength + s.radius - value, 0.0F);
-        s.radius = value;
-    });
+    lengthField(fields, "Radius", index, shape.radius, kThinnest,
+                [](AddedShape& s, float value) { setRadius(s, value); });
     if (shape.kind != AddedKind::capsule) return;
     lengthField(fields, "Length", index, 2.0F * (shape.halfLength + shape.radius), 2.0F * shape.radius,
                 [](AddedShape& s, float value) { s.halfLength = std::max(0.5F * value - s.radius, 0.0F); });
@@ -81,10 +78,7 @@ bool drawAdded(const PartFields& fields, std::size_t index) {
     fieldRow(fields, fmt::format("Shape {}", index + 2).c_str());
     int kind = static_cast<int>(shape.kind);
     if (ImGui::Combo(fmt::format("##kind{}", index).c_str(), &kind, kAddedKinds, 3)) {
-        changeShape(fields, "Kind", index, [&](AddedShape& s) {
-            const physics::BodyShape alone{s, {}};
-            static_cast<physics::PrimitiveShape&>(s) = shapeOfKind(alone, static_cast<AddedKind>(kind));
-        });
+        changeShape(fields, "Kind", index, [&](AddedShape& s) { setKind(s, static_cast<AddedKind>(kind)); });
         return true;
     }
     sizeFields(fields, index, shape);

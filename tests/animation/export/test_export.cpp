@@ -149,7 +149,7 @@ TEST_CASE("a character comes back from its .glb as it was") {
     Texture checker{"checker", 2, 2, {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 128, 9, 8, 7, 0}};
     biped.textures.push_back(checker);
     Material& material = biped.materials[0];
-    material = {"skin", {0.5F, 0.25F, 0.125F, 0.75F}, 0.3F, 0.6F, {0.1F, 0.2F, 0.3F}, Material::AlphaMode::mask, 0.4F,
+    material = {"skin", {0.5F, 0.25F, 0.125F, 0.75F}, 0.3F, 0.6F, {0.5F, 1.0F, 4.0F}, Material::AlphaMode::mask, 0.4F,
                 true};
     material.baseColorTexture = 0;
     REQUIRE(writeGlb(folder / "biped.glb", biped, biped.clips).ok());
