@@ -192,16 +192,19 @@ void drawShapeFields(const PartFields& fields) {
     fieldRow(fields, "Shape");
     int kind = static_cast<int>(shape.kind);
     // As the fit has it where it is of that kind; else as large as the old one.
-    const auto setKind = [&](Kind wanted) {
+    const auto change = [&](Kind wanted) {
         fields.change("Shape", [&, wanted](EditorDocument::Part& part) -> Result<void> {
             const physics::PrimitiveShape& fitted = fields.fittedOf(part).shape;
             physics::PrimitiveShape& main = part.body.shape;  // the further ones stay
-            main = fitted.kind == wanted ? fitted : shapeOfKind(part.body.shape, wanted);
+            if (fitted.kind == wanted)
+                main = fitted;
+            else
+                setKind(main, wanted);
             return {};
         });
     };
-    if (ImGui::Combo("##kind", &kind, kShapeKinds, 3)) setKind(static_cast<Kind>(kind));
-    if (wasText(fields, "kind", shape.kind != was.kind, kShapeKinds[static_cast<int>(was.kind)])) setKind(was.kind);
+    if (ImGui::Combo("##kind", &kind, kShapeKinds, 3)) change(static_cast<Kind>(kind));
+    if (wasText(fields, "kind", shape.kind != was.kind, kShapeKinds[static_cast<int>(was.kind)])) change(was.kind);
     shape = fields.profile().shape;  // as it is from now on
     massField(fields);
     // Every kind takes the lines of a box, so that what follows stays in its place.

@@ -104,7 +104,7 @@ PlacedShape placedMain(const CrowdState& state, const Doll& doll, int body) {
 }  // namespace
 
 PlacedShape placedShape(const CrowdState& state, const Doll& doll, int body, int shape) {
-    const PlacedShape main = placedMain(state, doll, body);
+    PlacedShape main = placedMain(state, doll, body);
     if (shape == 0) return main;
     const AddedShape& added = state.groupOf(doll).topology.shapes[body].more[shape - 1];
     return {&added, main.position + main.axes * added.bodyFromShape.translation,

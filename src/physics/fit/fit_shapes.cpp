@@ -338,7 +338,8 @@ PlacedShape placeCapsules(const std::vector<Capsule>& capsules) {
         const PlacedShape further = placeCapsule(capsules[i]);
         RigidTransform bodyFromShape = inverse(placed.standardFromBody) * further.standardFromBody;
         bodyFromShape.rotation = glm::normalize(bodyFromShape.rotation);
-        placed.shape.more.push_back({further.shape, bodyFromShape});
+        const PrimitiveShape& capsule = further.shape;
+        placed.shape.more.push_back({capsule, bodyFromShape});
     }
     return placed;
 }
