@@ -305,10 +305,13 @@ TEST_CASE("what is not said of muscles is the preset's, and what is wrong with t
          {"/muscles/preset", "/muscles/frequencyHz", "/muscles/bounded", "/muscles/groups/tail", "/muscles/colour",
           "/muscles/dampingRatio", "/bodies/2/muscle/strength", "/bodies/2/muscle/speed", "/bodies/3/pinForceN"})
         CHECK(message.find(place) != std::string::npos);
-    // Factors on muscles that are not there mean nothing.
+    // Factors count on whatever powers the doll, also without muscles of its own.
     json lone = bipedJson();
     lone["bodies"][2]["muscle"] = {{"strength", 0.5}};
-    CHECK(problemsOf(lone).find("/bodies/2/muscle: expected muscles") != std::string::npos);
+    const auto factors = profileFromJson(lone.dump(), "lone");
+    REQUIRE(factors.ok());
+    CHECK_FALSE(factors.value().muscles);
+    CHECK(factors.value().bodies[2].muscle.strength == 0.5F);
     // Version 1 knew none.
     std::ifstream file(std::string(LUTKA_TESTS_DIR) + "/golden/profiles/biped_v1.ragdoll.json");
     json old = json::parse(file);
