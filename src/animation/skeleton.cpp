@@ -75,8 +75,12 @@ std::vector<std::vector<int>> childrenOf(const Skeleton& skeleton) {
 }
 
 bool isAncestorOrSelf(const Skeleton& skeleton, int ancestor, int joint) {
+    return isAncestorOrSelf(skeleton.parents, ancestor, joint);
+}
+
+bool isAncestorOrSelf(std::span<const int> parents, int ancestor, int joint) {
     while (joint > ancestor)
-        joint = skeleton.parents[joint];
+        joint = parents[static_cast<std::size_t>(joint)];
     return joint == ancestor;
 }
 

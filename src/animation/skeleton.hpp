@@ -44,6 +44,8 @@ struct Skeleton {
 
 /// Whether `ancestor` is `joint` itself or above it.
 [[nodiscard]] bool isAncestorOrSelf(const Skeleton& skeleton, int ancestor, int joint);
+/// The same by Skeleton::parents alone.
+[[nodiscard]] bool isAncestorOrSelf(std::span<const int> parents, int ancestor, int joint);
 
 /// All that is wrong with the arrays (sizes, order of parents, non-finite or non-unit frames); empty when valid.
 [[nodiscard]] std::vector<std::string> validate(const Skeleton& skeleton);

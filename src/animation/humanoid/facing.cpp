@@ -70,7 +70,7 @@ class FacingFinder {
             return;
         }
         const float ankle = pair(foot).position.z;
-        if (lower != kNoPair && slopeOf(lower, foot) > kMostSlope) {
+        if (lower != kNoPair && std::abs(slopeOf(lower, foot)) > kMostSlope) {
             // Feet of a kneeling figure lie behind it, soles up: they point to the front as seen from the shin.
             if (toes != kNoPair) {
                 const float ahead = fromUpright(lower, foot, pair(toes).position - pair(foot).position).z;
@@ -86,16 +86,15 @@ class FacingFinder {
         readSoles(foot);
     }
 
-    // Angle of the shin to straight down, in the plane of symmetry.
+    // Angle of the shin to straight down, in the plane of symmetry; above 0 where the foot lies ahead of the knee.
     [[nodiscard]] float slopeOf(int lower, int foot) const {
         const vec3 shin = pair(foot).position - pair(lower).position;
-        return std::abs(std::atan2(shin.z, -shin.y));
+        return std::atan2(shin.z, -shin.y);
     }
 
     // A direction of the foot as it would be if the shin stood upright.
     [[nodiscard]] vec3 fromUpright(int lower, int foot, const vec3& direction) const {
-        const vec3 shin = pair(foot).position - pair(lower).position;
-        const float angle = std::atan2(shin.z, -shin.y);
+        const float angle = slopeOf(lower, foot);
         const float c = std::cos(angle);
         const float s = std::sin(angle);
         return {direction.x, c * direction.y - s * direction.z, s * direction.y + c * direction.z};

@@ -5,12 +5,6 @@
 namespace lutka::animation {
 namespace {
 
-bool isAboveOrSelf(std::span<const int> parents, int above, int joint) {
-    while (joint > above)
-        joint = parents[static_cast<std::size_t>(joint)];
-    return joint == above;
-}
-
 bool isRoleAbove(Role role, Role other) {
     std::optional<Role> above = parentRole(role);
     while (above && *above != other)
@@ -30,14 +24,14 @@ Hanging hangingOf(const HumanoidMap& map, std::span<const int> parents, Role rol
     const int joint = map.jointOf(role);
     const int parent = map.jointOf(above);
     LUTKA_ASSERT(joint != kNoJoint && parent != kNoJoint);
-    if (joint != parent && isAboveOrSelf(parents, joint, parent)) return Hanging::reversed;
+    if (joint != parent && isAncestorOrSelf(parents, joint, parent)) return Hanging::reversed;
     for (int index = 0; index < kRoleCount; ++index) {
         const Role other = roleAt(index);
         const int top = map.jointOf(other);
         if (top == kNoJoint || top == joint || !isLimbOfOthers(other, role) || isRoleAbove(role, other)) continue;
-        if (isAboveOrSelf(parents, top, joint)) return Hanging::astray;
+        if (isAncestorOrSelf(parents, top, joint)) return Hanging::astray;
     }
-    return isAboveOrSelf(parents, parent, joint) ? Hanging::below : Hanging::beside;
+    return isAncestorOrSelf(parents, parent, joint) ? Hanging::below : Hanging::beside;
 }
 
 bool hangsFlat(const HumanoidMap& map, std::span<const int> parents) {

@@ -23,7 +23,8 @@ struct UnitsAndAxes {
 /// What a file shows, as far as its size goes.
 enum class Subject { figure, hand };
 
-/// A hand where eight joints or more are named as parts of fingers and none as a part of the trunk.
+/// A hand where eight joints or more, and seven in ten of all, are named as parts of fingers, and none as a part of
+/// trunk, head, legs or arms.
 [[nodiscard]] Subject subjectOf(std::span<const std::string> jointNames);
 
 /// Settles units and up axis: the options', else the file's own where they give a plausible figure, else a guess from

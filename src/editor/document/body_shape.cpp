@@ -31,11 +31,6 @@ void setKind(physics::PrimitiveShape& shape, physics::PrimitiveShape::Kind kind)
     }
 }
 
-BodyShape shapeOfKind(BodyShape shape, BodyShape::Kind kind) {
-    setKind(shape, kind);
-    return shape;
-}
-
 void setRadius(physics::PrimitiveShape& shape, float radius) {
     const float half = shape.halfLength + shape.radius;
     shape.radius = radius;

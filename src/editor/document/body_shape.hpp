@@ -8,8 +8,6 @@ namespace lutka::editor {
 /// Makes it a shape of another kind that is as large: its box is the old one's as near as the kind allows, along the
 /// same axes.
 void setKind(physics::PrimitiveShape& shape, physics::PrimitiveShape::Kind kind);
-/// The same of a body's main shape, for a copy.
-[[nodiscard]] physics::BodyShape shapeOfKind(physics::BodyShape shape, physics::BodyShape::Kind kind);
 
 /// Another radius; a capsule keeps its length from end to end, as far as that is above twice the radius.
 void setRadius(physics::PrimitiveShape& shape, float radius);

@@ -221,6 +221,18 @@ static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& 
     }
 }
 
+// Both sides get the impulse `whole`, less what pressPair() gave each of them for a push of size `pressed`.
+LUTKA_LANES void pushRest(const PairContactLanes& pair, PairVelocities& v, const V3& whole, F pressed) {
+    const V3 toA = whole - load(pair.pushA) * pressed;
+    const V3 toB = whole - load(pair.pushB) * pressed;
+    const F massA = load(pair.inverseMassA);
+    const F massB = load(pair.inverseMassB);
+    v.velocityA = v.velocityA + toA * massA;
+    v.velocityB = v.velocityB - toB * massB;
+    v.angularA = v.angularA + turnBy(cross(load(pair.armA), toA), gatherInverseInertia(pair.bodyA), massA);
+    v.angularB = v.angularB - turnBy(cross(load(pair.armB), toB), gatherInverseInertia(pair.bodyB), massB);
+}
+
 // Pushes with what the substep before left, and gives the supports what the sweep held back from them.
 static void carryPairs(PairContactLanes* pairs, int count) {
     for (int i = 0; i < count; ++i) {
@@ -231,14 +243,7 @@ static void carryPairs(PairContactLanes* pairs, int count) {
         PairVelocities v = velocitiesOf(pair);
         const V3 whole = load(pair.normal) * total;
         const F swept = total - pressed;
-        const V3 toA = whole - load(pair.pushA) * swept;
-        const V3 toB = whole - load(pair.pushB) * swept;
-        const F massA = load(pair.inverseMassA);
-        const F massB = load(pair.inverseMassB);
-        v.velocityA = v.velocityA + toA * massA;
-        v.velocityB = v.velocityB - toB * massB;
-        v.angularA = v.angularA + turnBy(cross(load(pair.armA), toA), gatherInverseInertia(pair.bodyA), massA);
-        v.angularB = v.angularB - turnBy(cross(load(pair.armB), toB), gatherInverseInertia(pair.bodyB), massB);
+        pushRest(pair, v, whole, swept);
         rubPair(pair, v, 1, load(pair.tangent[0]), load(pair.carriedTangent[0]));
         rubPair(pair, v, 2, load(pair.tangent[1]), load(pair.carriedTangent[1]));
         storeVelocities(pair, v);

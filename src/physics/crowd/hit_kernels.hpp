@@ -14,15 +14,7 @@ namespace lutka::physics::crowd::LUTKA_KERNELS {
 // Gives back what supports held of the push, as carryPairs() does after the first sweep.
 LUTKA_LANES void passToSupports(const PairContactLanes& pair, F push) {
     PairVelocities v = velocitiesOf(pair);
-    const V3 whole = load(pair.normal) * push;
-    const V3 toA = whole - load(pair.pushA) * push;
-    const V3 toB = whole - load(pair.pushB) * push;
-    const F massA = load(pair.inverseMassA);
-    const F massB = load(pair.inverseMassB);
-    v.velocityA = v.velocityA + toA * massA;
-    v.velocityB = v.velocityB - toB * massB;
-    v.angularA = v.angularA + turnBy(cross(load(pair.armA), toA), gatherInverseInertia(pair.bodyA), massA);
-    v.angularB = v.angularB - turnBy(cross(load(pair.armB), toB), gatherInverseInertia(pair.bodyB), massB);
+    pushRest(pair, v, load(pair.normal) * push, push);
     storeVelocities(pair, v);
 }
 

@@ -16,6 +16,11 @@ BodyShape thigh() {
     return shape;
 }
 
+BodyShape shapeOfKind(BodyShape shape, BodyShape::Kind kind) {
+    setKind(shape, kind);
+    return shape;
+}
+
 }  // namespace
 
 TEST_CASE("a shape of another kind has the old one's measures") {
