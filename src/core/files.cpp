@@ -1,9 +1,6 @@
 #include "core/files.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -12,6 +9,7 @@
 #include <memory>
 #include <system_error>
 
+#include "core/input_file.hpp"
 #include "core/temporary_file.hpp"
 
 namespace lutka {
@@ -23,10 +21,6 @@ struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
-
-Error inputError(const fs::path& file, std::string message) {
-    return {ErrorCode::input, std::move(message), file.string(), ""};
-}
 
 Error outputError(const fs::path& file, const std::string& what, int errorNumber) {
     return {ErrorCode::output, fmt::format("{}: {}", what, std::strerror(errorNumber)), file.string(),
@@ -54,21 +48,12 @@ bool isStream(const fs::path& file) {
 }  // namespace
 
 Result<std::vector<unsigned char>> readFile(const fs::path& file, std::size_t maxBytes) {
-    const auto unreadable = [&](int why) {
-        return inputError(file, fmt::format("can't be read: {}", std::strerror(why)));
-    };
-    // Without O_NONBLOCK a FIFO that nobody writes to would hold us for ever before we could see what it is.
-    const int handle = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (handle < 0) return unreadable(errno);
-    const File in(::fdopen(handle, "rb"));
-    struct stat status {};
-    if (!in || ::fstat(handle, &status) != 0) return unreadable(errno);
-    if (S_ISDIR(status.st_mode)) return inputError(file, "is a folder, not a file");
-    if (!S_ISREG(status.st_mode)) return inputError(file, "is no ordinary file but a pipe or a device");
-    const auto size = static_cast<std::size_t>(status.st_size);
-    if (size > maxBytes) return inputError(file, fmt::format("is larger than {} bytes", maxBytes));
-    std::vector<unsigned char> bytes(size);
-    if (std::fread(bytes.data(), 1, size, in.get()) != size) return inputError(file, "can't be read to its end");
+    const Result<InputFile> in = InputFile::open(file);
+    if (!in) return in.error();
+    if (in.value().size() > maxBytes)
+        return Error{ErrorCode::input, fmt::format("is larger than {} bytes", maxBytes), file.string(), ""};
+    std::vector<unsigned char> bytes(in.value().size());
+    if (const Result<void> whole = in.value().read(0, bytes); !whole) return whole.error();
     return bytes;
 }
 

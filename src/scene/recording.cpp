@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <glm/gtx/component_wise.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/files.hpp"
+#include "core/input_file.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/json_text.hpp"
 
@@ -16,12 +19,19 @@ namespace lutka::scene {
 namespace {
 
 constexpr std::size_t kFloats = 7;
+constexpr std::size_t kBodyBytes = kFloats * sizeof(float);
+constexpr std::size_t kMostBytes = std::size_t{4} << 30U;
+constexpr std::size_t kMostHeaderBytes = std::size_t{4} << 20U;
+constexpr std::size_t kMostNameBytes = std::size_t{1} << 16U;
+constexpr std::size_t kBodiesAtOnce = 40000;  // while a file is read: a megabyte
 constexpr const char* kFormat = "lutka.recording";
 constexpr int kMostDolls = 100000;
 constexpr int kMostBodies = 1000;
 constexpr int kMostFigures = 10000;
 constexpr long long kMostSteps = 100'000'000;
 constexpr float kLeastStep = 1e-6F;
+constexpr float kMostMetres = 1e9F;    // what is worked out from places stays finite
+constexpr float kMostOffUnit = 1e-2F;  // of a rotation's squared length
 
 static_assert(std::endian::native == std::endian::little, "recordings are little-endian; a big-endian host must swap");
 
@@ -54,21 +64,55 @@ void readHeader(const JsonCursor& at, int version, Recording& recording) {
 struct Header {
     Recording recording;                 ///< Without frames.
     std::optional<long long> stepCount;  ///< How many frames should follow.
+    std::size_t bytes = 0;               ///< Of the line, with its end.
 };
 
-Result<Header> readHeader(const std::filesystem::path& file, std::string_view line) {
+// `start` holds the file's first bytes, the line among them.
+Result<Header> readHeader(const std::filesystem::path& file, std::span<const unsigned char> start) {
+    const auto newline = std::find(start.begin(), start.end(), static_cast<unsigned char>('\n'));
+    if (newline == start.end()) return broken(file, "is not a recording of ours");
+    const std::string line(start.begin(), newline);
     std::vector<std::string> problems;
     const Result<nlohmann::json> parsed = parseJson(line, file.string(), problems);
     if (!parsed) return broken(file, "is not a recording of ours");
     const JsonCursor at(parsed.value(), problems);
     if (!at.has("format")) return broken(file, "is not a recording of ours");
     Header header;
+    header.bytes = line.size() + 1;
     at["format"].oneOf({kFormat});
     const auto version = at["version"].wholeNumber(1, Recording::kVersion);
     if (problems.empty() && version) readHeader(at, static_cast<int>(*version), header.recording);
     if (problems.empty() && at.has("steps")) header.stepCount = at["steps"].wholeNumber(1, kMostSteps);
     if (problems.empty()) return header;
     return broken(file, fmt::format("has a damaged first line: {}", fmt::join(problems, "; ")));
+}
+
+// Whether a file of that size holds the frames that its first line promises.
+Result<void> checkSize(const std::filesystem::path& file, const Header& header, std::size_t fileBytes) {
+    const std::size_t payload = fileBytes - header.bytes;
+    const std::size_t frameBytes = header.recording.frameSize() * kBodyBytes;
+    if (payload == 0 || payload % frameBytes != 0) return broken(file, "is cut short");
+    const auto steps = static_cast<long long>(payload / frameBytes);
+    if (header.stepCount && *header.stepCount != steps)
+        return broken(file, fmt::format("is cut short: {} of its {} steps are there", steps, *header.stepCount));
+    return {};
+}
+
+// `bytes` are those of whole bodies.
+Result<void> appendFrames(const std::filesystem::path& file, std::span<const unsigned char> bytes,
+                          std::vector<RigidTransform>& frames) {
+    for (; !bytes.empty(); bytes = bytes.subspan(kBodyBytes)) {
+        float v[kFloats];
+        std::memcpy(v, bytes.data(), sizeof v);
+        const RigidTransform t = {quat(v[3], v[0], v[1], v[2]), {v[4], v[5], v[6]}};
+        if (!isFinite(t)) return broken(file, "holds a frame that is not finite");
+        if (std::abs(glm::dot(t.rotation, t.rotation) - 1.0F) > kMostOffUnit)
+            return broken(file, "holds a rotation that is none");
+        if (glm::compMax(glm::abs(t.translation)) > kMostMetres)
+            return broken(file, fmt::format("holds a body more than {} m away", kMostMetres));
+        frames.push_back(t);
+    }
+    return {};
 }
 
 }  // namespace
@@ -106,8 +150,8 @@ Result<void> saveRecording(const std::filesystem::path& file, const Recording& r
     nlohmann::ordered_json header;
     header["format"] = kFormat;
     header["version"] = recording.bodiesOfDoll.empty() ? 1 : Recording::kVersion;
-    header["model"] = recording.model;
-    header["scene"] = recording.scene;
+    header["model"] = recording.model.substr(0, kMostNameBytes);
+    header["scene"] = recording.scene.substr(0, kMostNameBytes);
     if (recording.figure > 0) header["figure"] = recording.figure;
     header["dt"] = recording.dt;
     header["dolls"] = recording.dolls;
@@ -120,7 +164,7 @@ Result<void> saveRecording(const std::filesystem::path& file, const Recording& r
     header["steps"] = recording.steps();
     std::string bytes = header.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     const std::size_t start = bytes.size();
-    bytes.resize(start + recording.frames.size() * kFloats * sizeof(float));
+    bytes.resize(start + recording.frames.size() * kBodyBytes);
     char* out = bytes.data() + start;
     for (const RigidTransform& t : recording.frames) {
         const float values[kFloats] = {t.rotation.x,    t.rotation.y,    t.rotation.z,   t.rotation.w,
@@ -132,35 +176,32 @@ Result<void> saveRecording(const std::filesystem::path& file, const Recording& r
 }
 
 Result<Recording> recordingFromBytes(std::span<const unsigned char> data, const std::filesystem::path& file) {
-    const auto newline = std::find(data.begin(), data.end(), static_cast<unsigned char>('\n'));
-    if (newline == data.end()) return broken(file, "is not a recording of ours");
-    const std::string line(data.begin(), newline);
-    Result<Header> header = readHeader(file, line);
+    Result<Header> header = readHeader(file, data.first(std::min(data.size(), kMostHeaderBytes)));
     if (!header) return header.error();
+    if (const auto fits = checkSize(file, header.value(), data.size()); !fits) return fits.error();
     Recording recording = std::move(header.value().recording);
-    const std::size_t start = line.size() + 1;
-    const std::size_t frameBytes = recording.frameSize() * kFloats * sizeof(float);
-    const std::size_t payload = data.size() - start;
-    if (payload == 0 || payload % frameBytes != 0) return broken(file, "is cut short");
-    const auto steps = static_cast<long long>(payload / frameBytes);
-    if (const auto& promised = header.value().stepCount; promised && *promised != steps)
-        return broken(file, fmt::format("is cut short: {} of its {} steps are there", steps, *promised));
-    recording.frames.resize(payload / (kFloats * sizeof(float)));
-    const unsigned char* in = data.data() + start;
-    for (RigidTransform& t : recording.frames) {
-        float v[kFloats];
-        std::memcpy(v, in, sizeof v);
-        in += sizeof v;
-        t = {quat(v[3], v[0], v[1], v[2]), {v[4], v[5], v[6]}};
-        if (!isFinite(t)) return broken(file, "holds a frame that is not finite");
-    }
+    const auto sound = appendFrames(file, data.subspan(header.value().bytes), recording.frames);
+    if (!sound) return sound.error();
     return recording;
 }
 
 Result<Recording> loadRecording(const std::filesystem::path& file) {
-    const auto bytes = readFile(file);
-    if (!bytes) return bytes.error();
-    return recordingFromBytes(bytes.value(), file);
+    const Result<InputFile> in = InputFile::open(file);
+    if (!in) return in.error();
+    const std::size_t size = in.value().size();
+    std::vector<unsigned char> piece(std::min(size, kMostHeaderBytes));
+    if (const auto there = in.value().read(0, piece); !there) return there.error();
+    Result<Header> header = readHeader(file, piece);
+    if (!header) return header.error();
+    if (size > kMostBytes) return broken(file, fmt::format("is larger than {} bytes", kMostBytes));
+    if (const auto fits = checkSize(file, header.value(), size); !fits) return fits.error();
+    Recording recording = std::move(header.value().recording);
+    for (std::size_t at = header.value().bytes; at < size; at += piece.size()) {
+        piece.resize(std::min(size - at, kBodiesAtOnce * kBodyBytes));
+        if (const auto there = in.value().read(at, piece); !there) return there.error();
+        if (const auto sound = appendFrames(file, piece, recording.frames); !sound) return sound.error();
+    }
+    return recording;
 }
 
 }  // namespace lutka::scene

@@ -50,10 +50,10 @@ void record(Simulation& simulation, Recording& recording);
 
 [[nodiscard]] Result<void> saveRecording(const std::filesystem::path& file, const Recording& recording);
 /// A recording as its file's bytes; `source` names it in messages. Fails with ErrorCode::input when it isn't a
-/// recording, holds more or fewer steps than it says, or what isn't finite.
+/// recording, holds more or fewer steps than it says, or what no body can be at: not finite, no rotation, beyond 10⁹ m.
 [[nodiscard]] Result<Recording> recordingFromBytes(std::span<const unsigned char> bytes,
                                                    const std::filesystem::path& source);
-/// The same of a file.
+/// The same of a file of up to 4 GiB; its first line and its size are judged before memory is taken.
 [[nodiscard]] Result<Recording> loadRecording(const std::filesystem::path& file);
 
 }  // namespace lutka::scene

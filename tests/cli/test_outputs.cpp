@@ -177,3 +177,20 @@ TEST_CASE("a path can't colour the terminal that an error is told on, nor flood 
     CHECK(flood.err.size() < 5000);
     CHECK_THAT(flood.err, Catch::Contains("more bytes"));
 }
+
+TEST_CASE("arguments that are refused can't colour the terminal, nor flood it") {
+    for (const char* wrong : {"map a.glb '\x1b[31mb\n.glb'", "'\x1b[31mdance'", "simulate a.glb --count '\x1b[31m1'",
+                              "simulate a.glb --gravity '\x1b[31m1'", "map a.glb '--\x1b[31mno'",
+                              "simulate a.glb --threads \x1b[31m", "map a.glb --rig '\xC2\x9B'31m"}) {
+        INFO(wrong);
+        const CommandResult result = runCommand(kLutka + wrong);
+        CHECK(result.code == 2);
+        CHECK_FALSE(result.err.empty());
+        CHECK(std::all_of(result.err.begin(), result.err.end(),
+                          [](char c) { return c == '\n' || (static_cast<unsigned char>(c) >= 0x20U && c != '\x7F'); }));
+        CHECK_THAT(result.err, !Catch::Contains("\xC2\x9B"));
+    }
+    const CommandResult flood = runCommand(kLutka + "map a.glb " + std::string(100000, 'b'));
+    CHECK(flood.code == 2);
+    CHECK(flood.err.size() < 5000);
+}

@@ -7,6 +7,7 @@
 
 #include "core/files.hpp"
 #include "support/catch.hpp"
+#include "support/command.hpp"
 
 using namespace lutka;
 using namespace lutka::scene;
@@ -89,7 +90,59 @@ TEST_CASE("a damaged recording is an input error that says what is wrong") {
     const float nan = NAN;
     std::memcpy(notFinite.data() + notFinite.find('\n') + 1, &nan, sizeof nan);
     CHECK(refusal(notFinite) == "holds a frame that is not finite");
+    const auto withFirst = [&](std::initializer_list<float> values) {
+        std::string other = good;
+        std::memcpy(other.data() + other.find('\n') + 1, values.begin(), values.size() * sizeof(float));
+        return other;
+    };
+    CHECK(refusal(withFirst({0, 0, 0, 0})) == "holds a rotation that is none");
+    CHECK(refusal(withFirst({0, 1e19F, 0, 0})) == "holds a rotation that is none");
+    CHECK(refusal(withFirst({0, 1, 0, 0, 1, -3e38F, 1})) == "holds a body more than 1000000000 m away");
+    CHECK(withFirst({1, 0, 0, 0, 0, 0.5F, -2}) == good);
     std::string tooMany = good;
     tooMany.replace(tooMany.find("\"dolls\":2"), 9, "\"dolls\":0");
     CHECK(refusal(tooMany) == "has a damaged first line: /dolls: expected a whole number in [1, 100000], got 0");
+}
+
+TEST_CASE("the first line of a recording is judged before the gigabytes that follow are read", "[limits]") {
+    const RemoveAtEnd file{temporaryFile()};
+    REQUIRE(saveRecording(file.file, sample()));
+    std::string good = test::fileText(file.file);
+    const auto refusal = [&](const std::string& start) {
+        REQUIRE(writeFileAtomically(file.file, start));
+        // A hole, which takes no room on the disk.
+        fs::resize_file(file.file, std::uintmax_t{1} << 40U);
+        const auto read = loadRecording(file.file);
+        REQUIRE_FALSE(read);
+        return read.error().message;
+    };
+    CHECK(refusal("hello") == "is not a recording of ours");
+    CHECK(refusal("{}\n") == "is not a recording of ours");
+    CHECK(refusal(good) == "is larger than 4294967296 bytes");
+    good.replace(good.find("\"dolls\":2"), 9, "\"dolls\":0");
+    CHECK_THAT(refusal(good), Catch::StartsWith("has a damaged first line"));
+}
+
+TEST_CASE("a recording that is longer than what is read at once comes back as it was") {
+    const RemoveAtEnd file{temporaryFile()};
+    Recording written = sample();
+    while (written.frames.size() < 100000)
+        written.frames.insert(written.frames.end(), 7,
+                              {quat(1, 0, 0, 0), vec3(0, static_cast<float>(written.frames.size()), 0)});
+    REQUIRE(saveRecording(file.file, written));
+    const auto read = loadRecording(file.file);
+    REQUIRE(read);
+    REQUIRE(read.value().frames.size() == written.frames.size());
+    bool same = true;
+    for (std::size_t i = 0; i < written.frames.size(); ++i)
+        same = same && read.value().frames[i].translation == written.frames[i].translation;
+    CHECK(same);
+}
+
+TEST_CASE("a recording of a character with a name without end can be read again") {
+    const RemoveAtEnd file{temporaryFile()};
+    Recording written = sample();
+    written.model = std::string(std::size_t{5} << 20U, 'x');
+    REQUIRE(saveRecording(file.file, written));
+    CHECK(loadRecording(file.file));
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/result.hpp"
+#include "terminal_text.hpp"
 
 namespace lutka::cli {
 
@@ -138,6 +139,10 @@ int parseCommandLine(int argc, char** argv, const ProgramFacts& facts,
     app.add_flag_callback("-v,--verbose", facts.onVerbose, "Tell what is done and how long it takes")->excludes(quiet);
     app.footer(facts.footer);
     app.require_subcommand(1);
+    app.failure_message([](const CLI::App* program, const CLI::Error& wrong) {
+        const CLI::Error told(wrong.get_name(), fitForTerminal(wrong.what()), wrong.get_exit_code());
+        return CLI::FailureMessage::simple(program, told);
+    });
     addCommands(Command(&app));
     try {
         app.parse(argc, argv);

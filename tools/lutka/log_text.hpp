@@ -6,8 +6,7 @@
 
 namespace lutka::cli {
 
-/// Of each line that is logged "lutka: level: text", with the text fit for a terminal: without control characters,
-/// which paths and what files hold may bring along, and of a few thousand bytes at most.
+/// Of each line that is logged "lutka: level: text", with the text as fitForTerminal() makes it.
 [[nodiscard]] std::unique_ptr<spdlog::formatter> logFormatter();
 
 }  // namespace lutka::cli
