@@ -61,15 +61,27 @@ bool isStandardOutput(const fs::path& file) {
     return file == "-" || file == "/dev/stdout" || file == "/dev/fd/1" || file == "/proc/self/fd/1";
 }
 
-Result<void> writeFileAtomically(const fs::path& named, const std::function<Result<void>(const fs::path&)>& write) {
-    // What a link names is replaced, not the link. A file that is not there yet is no link.
-    std::error_code ignored;
-    const fs::path file = fs::is_symlink(named, ignored) ? fs::weakly_canonical(named, ignored) : named;
+Result<fs::path> outputTarget(const fs::path& named) {
+    constexpr int kMostLinks = 40;  // as many as the kernel follows
+    fs::path file = named;
     std::error_code failed;
-    if (isStream(file) || isStandardOutput(named)) {
+    for (int links = 0; fs::is_symlink(file, failed); ++links) {
+        const fs::path target = fs::read_symlink(file, failed);
+        if (links == kMostLinks || failed) return outputError(named, "can't be written", ELOOP);
+        file = file.parent_path() / target;
+    }
+    return file;
+}
+
+Result<void> writeFileAtomically(const fs::path& named, const std::function<Result<void>(const fs::path&)>& write) {
+    if (isStream(named) || isStandardOutput(named)) {
         return Error{ErrorCode::output, "is no ordinary file, and this output can't be streamed", named.string(),
                      "give the name of a file"};
     }
+    const Result<fs::path> target = outputTarget(named);
+    if (!target) return target.error();
+    const fs::path& file = target.value();
+    std::error_code failed;
     if (file.has_parent_path()) fs::create_directories(file.parent_path(), failed);
     if (failed) return outputError(file, "its folder can't be made", failed.value());
     if (fs::is_directory(file, failed)) return outputError(file, "can't be written", EISDIR);

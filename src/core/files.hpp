@@ -19,10 +19,14 @@ namespace lutka {
 /// Whether an output of that name is the process's standard output: `-`, /dev/stdout and its other names.
 [[nodiscard]] bool isStandardOutput(const std::filesystem::path& file);
 
+/// The file that an output of that name is written to: a link's target, which may not be there yet, not the link. Fails
+/// with ErrorCode::output where links lead in a circle.
+[[nodiscard]] Result<std::filesystem::path> outputTarget(const std::filesystem::path& file);
+
 /// Writes the file whole or not at all: `bytes` go to a temporary file in the same folder, which is flushed and renamed
 /// over `file`; on failure (ErrorCode::output) the temporary file is removed and an old `file` is left as it was.
-/// Missing parent folders are made. A link's target is written, not the link; a device, a pipe and the standard output
-/// are written straight.
+/// Missing parent folders are made. Links are followed (outputTarget()); a device, a pipe and the standard output are
+/// written straight.
 [[nodiscard]] Result<void> writeFileAtomically(const std::filesystem::path& file, std::string_view bytes);
 
 /// The same for a writer that needs a path (an encoder, a third-party library): `write` gets a temporary path beside

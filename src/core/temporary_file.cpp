@@ -87,6 +87,10 @@ TemporaryFile::~TemporaryFile() {
 }
 
 Result<void> TemporaryFile::replace(const fs::path& target) {
+    // What was kept from others stays so.
+    struct stat old {};
+    if (::lstat(target.c_str(), &old) == 0 && S_ISREG(old.st_mode) && ::fchmod(lock_, old.st_mode & 07777U) != 0)
+        return unwritable(target, "can't be written", errno);
     // Data first, name second: without this a crash after the rename can leave an empty file under the final name.
     if (::fsync(lock_) != 0 && errno != EINVAL) return unwritable(target, "can't be written", errno);
     if (std::rename(path_.c_str(), target.c_str()) != 0) return unwritable(target, "can't be written", errno);

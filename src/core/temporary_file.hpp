@@ -24,7 +24,8 @@ class TemporaryFile {
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
     /// Flushes the data to the disk, then gives the file the target's name, in one step: a crash at any time leaves the
-    /// old file or the new one. Fails with ErrorCode::output, the target being as it was.
+    /// old file or the new one. The permissions of an old file stay. Fails with ErrorCode::output, the target being as
+    /// it was.
     [[nodiscard]] Result<void> replace(const std::filesystem::path& target);
 
   private:

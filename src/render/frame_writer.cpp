@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/assert.hpp"
+#include "core/files.hpp"
 #include "core/temporary_file.hpp"
 #include "render/child_process.hpp"
 #include "render/video_end.hpp"
@@ -153,15 +154,19 @@ bool FrameWriter::ffmpegIsThere() {
     return ChildProcess::isOnPath("ffmpeg");
 }
 
-Result<FrameWriter> FrameWriter::open(const fs::path& file, Extent size, double framesPerSecond) {
+Result<FrameWriter> FrameWriter::open(const fs::path& named, Extent size, double framesPerSecond) {
     LUTKA_ASSERT(size.width > 0 && size.height > 0 && framesPerSecond >= 1.0 && framesPerSecond <= 1000.0);
-    const std::optional<Format> format = formatOf(file);
+    const std::optional<Format> format = formatOf(named);
     if (!format) {
-        return Error{ErrorCode::usage, "is neither .mp4, .gif nor .png", file.string(),
+        return Error{ErrorCode::usage, "is neither .mp4, .gif nor .png", named.string(),
                      "give the output one of these extensions"};
     }
+    Result<fs::path> target = outputTarget(named);
+    if (!target) return target.error();
     auto state = std::make_unique<State>();
-    state->file = file;
+    // Of a sequence no file has the name that was given.
+    state->file = *format == Format::pngs ? named : std::move(target).value();
+    const fs::path& file = state->file;
     state->format = *format;
     state->size = size;
     std::error_code failed;

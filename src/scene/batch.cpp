@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "animation/export/write_glb.hpp"
 #include "core/files.hpp"
+#include "core/input_file.hpp"
 #include "core/random.hpp"
 #include "scene/bake.hpp"
 #include "scene/quality_json.hpp"
@@ -46,6 +48,22 @@ std::string figuresOf(const Simulation& simulation) {
                        simulation.world().caught().size());
 }
 
+// Of what the file holds; a word for what can't be an input: missing, no ordinary file, larger than any reader takes.
+std::string hashOfFile(const std::filesystem::path& file) {
+    constexpr std::size_t kMostBytes = std::size_t{1} << 30U;
+    constexpr std::size_t kAtOnce = std::size_t{1} << 20U;
+    const Result<InputFile> in = InputFile::open(file);
+    if (!in || in.value().size() > kMostBytes) return "unreadable";
+    std::uint64_t hash = kHashStart;
+    std::vector<unsigned char> piece;
+    for (std::size_t at = 0; at < in.value().size(); at += piece.size()) {
+        piece.resize(std::min(in.value().size() - at, kAtOnce));
+        if (!in.value().read(at, piece)) return "unreadable";
+        hash = hashBytes(piece.data(), piece.size(), hash);
+    }
+    return fmt::format("{:016x}", hash);
+}
+
 std::string dumpRow(const RowJson& json) {
     return json.dump(2, ' ', false, RowJson::error_handler_t::replace) + "\n";
 }
@@ -65,10 +83,7 @@ Batch::~Batch() = default;
 const std::string& Batch::bytesHash(const std::filesystem::path& file) {
     const auto known = hashes_.find(file);
     if (known != hashes_.end()) return known->second;
-    const auto bytes = readFile(file);
-    const std::string hash = bytes ? fmt::format("{:016x}", hashBytes(bytes.value().data(), bytes.value().size()))
-                                   : std::string("unreadable");
-    return hashes_.emplace(file, hash).first->second;
+    return hashes_.emplace(file, hashOfFile(file)).first->second;
 }
 
 std::string Batch::fingerprint(const BatchRow& row) {

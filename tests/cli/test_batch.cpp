@@ -65,6 +65,19 @@ TEST_CASE("a batch with rows that fail names them, ends with 3 and keeps the oth
     CHECK_THAT(summary, Catch::Contains("2,broken.glb,,humanoid,drop,0,1,failed,") && Catch::Contains(",done,"));
 }
 
+TEST_CASE("a model of gigabytes fails its row without being taken into memory") {
+    const ScratchFolder folder;
+    const std::string list = folder / "list.json";
+    std::ofstream(list)
+        << R"({"format":"lutka.batch","version":1,"models":["huge.glb"],"scenes":["drop"],"seeds":[1]})";
+    std::ofstream(folder / "huge.glb") << "glTF";
+    std::filesystem::resize_file(folder / "huge.glb", std::uintmax_t{7} << 29U);
+    const CommandResult result = runCommand("sh -c 'ulimit -v 2000000; exec \"$@\"' sh " + kLutkaBinary + "batch " +
+                                            list + " --out " + (folder / "out"));
+    CHECK(result.code == 3);
+    CHECK_THAT(result.err, Catch::Contains("row 0: huge.glb"));
+}
+
 TEST_CASE("wrong lists and shards are refused by name") {
     const ScratchFolder folder;
     const std::string list = writeList(folder, 1);

@@ -178,6 +178,28 @@ TEST_CASE("a path can't colour the terminal that an error is told on, nor flood 
     CHECK_THAT(flood.err, Catch::Contains("more bytes"));
 }
 
+TEST_CASE("names that are no UTF-8 are written, and told in what is") {
+    const ScratchFolder folder;
+    const std::string name = folder / "\xFF\x9B.json";
+    const CommandResult result =
+        lutkaCommand("simulate --seconds 0.1 " + kMannequinArgument + " --report '" + name + "'");
+    CHECK(result.code == 0);
+    CHECK(fs::exists(name));
+    CHECK_THAT(result.out + result.err, !Catch::Contains("\xFF") && !Catch::Contains("\x9B"));
+}
+
+TEST_CASE("the editor's events go to stdout where that is asked for, and count there") {
+    const ScratchFolder folder;
+    const std::string edit = "edit --headless --frames 2 --size 160x120 --record-input ";
+    const CommandResult result = lutkaCommand(edit + "-");
+    NEEDS_DISPLAY_OF(result);
+    CHECK(result.code == 0);
+    CHECK(Json::parse(result.out)["format"] == "lutka.input");
+    CHECK_FALSE(fs::exists("-"));
+    if (!fs::exists("/dev/full")) SKIP_TEST("this system has no /dev/full");
+    CHECK(shell(kLutka + edit + "- > /dev/full; echo \\$?").out == "5\n");
+}
+
 TEST_CASE("arguments that are refused can't colour the terminal, nor flood it") {
     for (const char* wrong : {"map a.glb '\x1b[31mb\n.glb'", "'\x1b[31mdance'", "simulate a.glb --count '\x1b[31m1'",
                               "simulate a.glb --gravity '\x1b[31m1'", "map a.glb '--\x1b[31mno'",

@@ -74,6 +74,30 @@ TEST_CASE("a link stays a link and its target is written") {
     CHECK(test::fileText(folder.path / "target") == "new");
 }
 
+TEST_CASE("a link whose target is not there yet stays a link, and one in a circle is an output error that names it") {
+    const test::ScratchFolder folder;
+    fs::create_symlink("below/target", folder.path / "link");
+    REQUIRE(writeFileAtomically(folder.path / "link", "new"));
+    CHECK(fs::is_symlink(folder.path / "link"));
+    CHECK(test::fileText(folder.path / "below" / "target") == "new");
+    fs::create_symlink("circle", folder.path / "circle");
+    const auto circle = writeFileAtomically(folder.path / "circle", "lost");
+    REQUIRE_FALSE(circle);
+    CHECK(circle.error().code == ErrorCode::output);
+    CHECK(circle.error().location == (folder.path / "circle").string());
+    CHECK(fs::is_symlink(folder.path / "circle"));
+}
+
+TEST_CASE("a file that only its owner may read stays so when it is written anew") {
+    const test::ScratchFolder folder;
+    const fs::path file = folder.path / "own.txt";
+    REQUIRE(writeFileAtomically(file, "old"));
+    fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write);
+    REQUIRE(writeFileAtomically(file, "new"));
+    CHECK(test::fileText(file) == "new");
+    CHECK(fs::status(file).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
+}
+
 TEST_CASE("a pipe is written straight by bytes and refused where a second version is needed") {
     const test::ScratchFolder folder;
     const fs::path pipe = folder.path / "pipe";

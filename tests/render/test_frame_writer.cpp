@@ -90,6 +90,22 @@ TEST_CASE("a gif is written whole and alone") {
     CHECK(firstBytes(folder / "fall.gif").substr(0, 6) == "GIF89a");
 }
 
+TEST_CASE("a film that is written through a link leaves the link, and links in a circle are refused at the start") {
+    if (!FrameWriter::ffmpegIsThere()) SKIP_TEST("the program ffmpeg is not on the PATH");
+    const Folder folder("link");
+    fs::create_symlink("below/film.mp4", folder / "link.mp4");
+    Result<FrameWriter> writer = FrameWriter::open(folder / "link.mp4", {64, 32}, 30);
+    REQUIRE(writer.ok());
+    REQUIRE(writer.value().add(frameOf({64, 32}, 1)).ok());
+    REQUIRE(writer.value().finish().ok());
+    CHECK(fs::is_symlink(folder / "link.mp4"));
+    CHECK(firstBytes(folder / "below/film.mp4").substr(4, 4) == "ftyp");
+    fs::create_symlink("circle.gif", folder / "circle.gif");
+    const Result<FrameWriter> circle = FrameWriter::open(folder / "circle.gif", {64, 32}, 25);
+    REQUIRE_FALSE(circle.ok());
+    CHECK(circle.error().code == ErrorCode::output);
+}
+
 TEST_CASE("a video that is dropped before its end leaves nothing behind and keeps the old file") {
     if (!FrameWriter::ffmpegIsThere()) SKIP_TEST("the program ffmpeg is not on the PATH");
     const Folder folder("dropped");

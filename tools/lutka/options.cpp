@@ -394,7 +394,8 @@ bool SimulateOptions::fillsStandardOutput() const {
 void printClean(std::string_view text) {
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = std::min(text.find('\n', at), text.size());
-        fmt::print("{}{}", withoutControls(text.substr(at, end - at), ' '), end < text.size() ? "\n" : "");
+        const std::string line = withoutControls(wellFormedUtf8(text.substr(at, end - at), "?"), ' ');
+        fmt::print("{}{}", line, end < text.size() ? "\n" : "");
         at = end + 1;
     }
 }

@@ -150,7 +150,7 @@ void addSolverOption(const Command& app, std::string& solver);
 /// Whether --quiet was given.
 [[nodiscard]] bool isQuiet();
 
-/// Prints to stdout, with control characters but line breaks as blanks: paths may bring them along.
+/// Prints to stdout, well-formed and with control characters but line breaks as blanks: paths may bring all along.
 void printClean(std::string_view text);
 
 /// Prints what is for people to stdout, but not with --quiet.

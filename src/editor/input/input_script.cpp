@@ -283,7 +283,8 @@ Result<InputScript> loadScript(const std::filesystem::path& file) {
 }
 
 Result<ScriptWriter> ScriptWriter::create(const std::filesystem::path& file, render::Extent size) {
-    ScriptWriter writer(file, std::ofstream(file, std::ios::binary | std::ios::trunc));
+    const std::filesystem::path place = isStandardOutput(file) ? "/dev/stdout" : file;
+    ScriptWriter writer(file, std::ofstream(place, std::ios::binary | std::ios::trunc));
     if (auto written = writer.write(headerLine(size)); !written) return written.error();
     return writer;
 }

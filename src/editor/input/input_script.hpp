@@ -43,7 +43,8 @@ struct InputScript {
 /// Writes a script event by event, so that what the user did is on disk even when the program does not end well.
 class ScriptWriter {
   public:
-    /// Writes the header. Fails with ErrorCode::output when the file can't be written.
+    /// Writes the header, to standard output where the file is one of its names (isStandardOutput()). Fails with
+    /// ErrorCode::output when it can't be written.
     [[nodiscard]] static Result<ScriptWriter> create(const std::filesystem::path& file, render::Extent size);
     /// Appends the events of a frame. Fails with ErrorCode::output.
     [[nodiscard]] Result<void> add(std::span<const InputScript::Entry> entries);
