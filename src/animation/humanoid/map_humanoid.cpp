@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "animation/humanoid/completed_rig.hpp"
 #include "animation/humanoid/figure.hpp"
 #include "animation/humanoid/rig_features.hpp"
 #include "animation/humanoid/role_assembly.hpp"
@@ -17,6 +18,7 @@ namespace {
 constexpr float kFixed = 40.0F;  // log-odds of what the user or the file says
 constexpr int kFewestJoints = 5;
 constexpr float kLoudShape = 1.5F;  // log-odds of the facing by shape that are worth a word against the names
+constexpr float kImagined = 4.0F;   // log-odds against a limb that is not there
 constexpr int kMostMissing = 7;     // of the 15 required roles, without a warning
 
 using FixedJoints = std::array<std::optional<int>, kRoleCount>;
@@ -133,6 +135,50 @@ void addWarnings(const Figure& figure, HumanoidMap& map) {
     }
 }
 
+// The figure, and the rig that it refers to where that is not the character's own.
+struct Reading {
+    std::vector<CompletedRig> completed;
+    bool ofImages = false;
+    Figure figure;
+};
+
+// No limb may pair an image with anything but its original: a head with the image of an arm.
+bool isHonest(const CompletedRig& completed, const Figure& figure) {
+    for (const LimbCandidate* limb : {&figure.arms, &figure.legs}) {
+        for (const int pair : limb->pairs) {
+            if (pair == kNoPair) continue;
+            const auto& joints = figure.framed.pairs[pair].joints;
+            if (!completed.isHonestPair(joints[0], joints[1])) return false;
+        }
+    }
+    return true;
+}
+
+// A figure that lacks a whole arm or leg is read by the mirror image of the one that it has.
+Reading readFigure(const RigFeatures& rig) {
+    Reading reading;
+    reading.figure = findFigure(rig);
+    reading.completed = completeRig(rig);
+    for (const CompletedRig& completed : reading.completed) {
+        Figure figure = findFigure(completed.rig);
+        if (!figure.refusal.empty() || !isHonest(completed, figure)) continue;
+        if (reading.figure.refusal.empty() && figure.score < reading.figure.score + kImagined) continue;
+        reading.ofImages = true;
+        reading.figure = std::move(figure);
+    }
+    return reading;
+}
+
+void tellMissingLimbs(HumanoidMap& map) {
+    constexpr float kIncomplete = 0.9F;
+    map.confidence *= kIncomplete;
+    for (const auto& [upper, limb] :
+         {std::pair{Role::leftUpperArm, "left arm"}, std::pair{Role::rightUpperArm, "right arm"},
+          std::pair{Role::leftUpperLeg, "left leg"}, std::pair{Role::rightUpperLeg, "right leg"}}) {
+        if (!map[upper]) map.warnings.push_back(fmt::format("the figure has no joints of a {}", limb));
+    }
+}
+
 void listMissing(HumanoidMap& map) {
     map.missing.clear();
     for (int index = 0; index < kRoleCount; ++index) {
@@ -157,11 +203,13 @@ HumanoidMap mapHumanoid(const Character& character, const MapOptions& options) {
     }
     RigFeatures rig = readRig(character, options.useNames);
     teachFixed(known, rig);
-    const Figure figure = findFigure(rig);
+    const Reading reading = readFigure(rig);
+    const Figure& figure = reading.figure;
     const std::optional<quat> knownStance = stanceOfBindings(known, skeleton);
-    HumanoidMap map = figure.refusal.empty() ? assembleRoles(figure) : refused(figure.refusal);
+    HumanoidMap map = figure.refusal.empty() ? assembleRoles(figure, rig) : refused(figure.refusal);
     if (!map.humanoid && !knownStance) return map;
     if (map.humanoid) addWarnings(figure, map);
+    if (map.humanoid && reading.ofImages) tellMissingLimbs(map);
     if (knownStance) {
         // Who named hips, arms and legs has settled that it is a humanoid, and its left and right.
         if (!map.humanoid) map.warnings.clear();

@@ -13,28 +13,6 @@ namespace {
 
 constexpr std::size_t kMaxVertices = 12000;
 
-void walkTree(RigFeatures& rig) {
-    const int count = rig.count();
-    std::vector<int> size(count, 1);
-    rig.depth.assign(count, 0);
-    for (int joint = count - 1; joint >= 0; --joint) {
-        if (rig.parents[joint] != kNoJoint) size[rig.parents[joint]] += size[joint];
-    }
-    rig.enter.assign(count, 0);
-    rig.leave.assign(count, 0);
-    std::vector<int> next(count, 0);
-    int nextRoot = 0;
-    for (int joint = 0; joint < count; ++joint) {
-        const int parent = rig.parents[joint];
-        int& slot = parent == kNoJoint ? nextRoot : next[parent];
-        rig.enter[joint] = slot;
-        rig.leave[joint] = slot + size[joint];
-        slot += size[joint];
-        next[joint] = rig.enter[joint] + 1;
-        if (parent != kNoJoint) rig.depth[joint] = rig.depth[parent] + 1;
-    }
-}
-
 void readWeights(const Skeleton& skeleton, RigFeatures& rig) {
     const int count = rig.count();
     rig.ownWeight = skeleton.skinWeight;
@@ -248,6 +226,28 @@ int RigFeatures::commonAncestor(int a, int b) const {
     while (a != kNoJoint && !isAncestorOrSelf(a, b))
         a = parents[a];
     return a;
+}
+
+void walkTree(RigFeatures& rig) {
+    const int count = rig.count();
+    std::vector<int> size(count, 1);
+    rig.depth.assign(count, 0);
+    for (int joint = count - 1; joint >= 0; --joint) {
+        if (rig.parents[joint] != kNoJoint) size[rig.parents[joint]] += size[joint];
+    }
+    rig.enter.assign(count, 0);
+    rig.leave.assign(count, 0);
+    std::vector<int> next(count, 0);
+    int nextRoot = 0;
+    for (int joint = 0; joint < count; ++joint) {
+        const int parent = rig.parents[joint];
+        int& slot = parent == kNoJoint ? nextRoot : next[parent];
+        rig.enter[joint] = slot;
+        rig.leave[joint] = slot + size[joint];
+        slot += size[joint];
+        next[joint] = rig.enter[joint] + 1;
+        if (parent != kNoJoint) rig.depth[joint] = rig.depth[parent] + 1;
+    }
 }
 
 RigFeatures readRig(const Character& character, bool useNames) {

@@ -45,6 +45,9 @@ struct RigFeatures {
 /// Root mean square distance of the joints (those with skin, if any have) from their mean, times two.
 [[nodiscard]] float spreadOf(const RigFeatures& rig);
 
+/// Fills enter, leave and depth from the parents. A parent comes before its children.
+void walkTree(RigFeatures& rig);
+
 [[nodiscard]] RigFeatures readRig(const Character& character, bool useNames);
 
 }  // namespace lutka::animation

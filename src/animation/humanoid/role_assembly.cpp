@@ -28,8 +28,8 @@ std::string joined(const std::vector<std::string>& words) {
 
 class RoleAssembler {
   public:
-    explicit RoleAssembler(const Figure& figure)
-        : figure_(figure), rig_(*figure.framed.rig), sideTrust_(probability(std::abs(figure.facing.total()))) {}
+    RoleAssembler(const Figure& figure, const RigFeatures& rig)
+        : figure_(figure), rig_(rig), sideTrust_(probability(std::abs(figure.facing.total()))) {}
 
     HumanoidMap assemble() {
         map_.humanoid = true;
@@ -62,7 +62,8 @@ class RoleAssembler {
     }
 
     void bind(Role role, int joint, Part part, float margin, const std::string& place) {
-        if (joint == kNoJoint) return;
+        const bool isImage = joint >= rig_.count();
+        if (joint == kNoJoint || isImage) return;
         const float trust = sideOf(role) == Side::center ? 1.0F : sideTrust_;
         RoleBinding binding;
         binding.joint = joint;
@@ -164,8 +165,8 @@ class RoleAssembler {
 
 }  // namespace
 
-HumanoidMap assembleRoles(const Figure& figure) {
-    return RoleAssembler(figure).assemble();
+HumanoidMap assembleRoles(const Figure& figure, const RigFeatures& rig) {
+    return RoleAssembler(figure, rig).assemble();
 }
 
 }  // namespace lutka::animation

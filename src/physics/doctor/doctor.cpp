@@ -90,7 +90,8 @@ class Examination {
             const animation::Hanging hanging = hangingOf(skeleton, role, above);
             if (hanging == animation::Hanging::below) continue;
             // Flat trees, a spine beside the pelvis, and pairs of limbs that hang beside their bodies on both sides
-            // (feet driven by inverse kinematics; then maybe the head as well) are built so, and fall well.
+            // (feet driven by inverse kinematics; then maybe the head as well) are built so, and fall well. Where the
+            // other limb is missing nothing speaks against it.
             const bool center = animation::sideOf(*role) == animation::Side::center;
             const bool siblings =
                 skeleton.parents[map_.jointOf(*role)] == skeleton.parents[map_.jointOf(*above)] || isSpine(*role);
@@ -256,9 +257,13 @@ class Examination {
     [[nodiscard]] bool sidesHangBeside(const animation::Skeleton& skeleton, std::optional<Role> role,
                                        std::optional<Role> above) const {
         using animation::Hanging;
-        return role && above && animation::sideOf(*role) != animation::Side::center &&
-               hangingOf(skeleton, role, above) == Hanging::beside &&
-               hangingOf(skeleton, animation::mirrored(*role), animation::mirrored(*above)) == Hanging::beside;
+        if (!role || !above || animation::sideOf(*role) == animation::Side::center) return false;
+        const Role other = animation::mirrored(*role);
+        const Role otherAbove = animation::mirrored(*above);
+        const bool alone =
+            map_.jointOf(other) == animation::kNoJoint || map_.jointOf(otherAbove) == animation::kNoJoint;
+        return hangingOf(skeleton, role, above) == Hanging::beside &&
+               (alone || hangingOf(skeleton, other, otherAbove) == Hanging::beside);
     }
 
     [[nodiscard]] animation::Hanging hangingOf(const animation::Skeleton& skeleton, std::optional<Role> role,

@@ -83,6 +83,28 @@ void eraseJoint(animation::Character& character, std::size_t gone, std::uint16_t
     }
 }
 
+// Every role whose joint is still there has that joint, and no other role has any.
+void checkWhatIsLeft(const SyntheticRig& rig) {
+    const HumanoidMap map = animation::mapHumanoid(rig.character);
+    INFO((map.warnings.empty() ? std::string() : map.warnings.front()));
+    REQUIRE(map.humanoid);
+    const animation::Skeleton& skeleton = rig.character.skeleton;
+    for (int index = 0; index < animation::kRoleCount; ++index) {
+        const Role role = animation::roleAt(index);
+        if (animation::sideOf(role) == animation::Side::center || !rig.truth.roles[index]) continue;
+        const std::vector<std::string>& right = *rig.truth.roles[index];
+        const int joint = map.jointOf(role);
+        const std::string got = joint == animation::kNoJoint ? "" : skeleton.names[joint];
+        const bool there = std::any_of(right.begin(), right.end(), [&](const std::string& name) {
+            return std::find(skeleton.names.begin(), skeleton.names.end(), name) != skeleton.names.end();
+        });
+        INFO(animation::roleName(role) << " at \"" << got << "\"");
+        if (there && animation::isRequired(role)) CHECK(std::find(right.begin(), right.end(), got) != right.end());
+        if (!there) CHECK(got.empty());
+    }
+    CHECK_FALSE(map.missing.empty());
+}
+
 void checkWhole(const SyntheticRig& rig) {
     const HumanoidMap map = animation::mapHumanoid(rig.character);
     const Score score = scoreMap(rig.truth, map, rig.character.skeleton.names);
@@ -162,6 +184,43 @@ TEST_CASE("a peg leg costs the other leg nothing", "[poses]") {
     for (const Role role : {Role::leftUpperLeg, Role::leftLowerLeg, Role::leftFoot, Role::leftToes, Role::rightUpperLeg,
                             Role::rightLowerLeg})
         CHECK(map.jointOf(role) == jointOf(rig, role));
+}
+
+TEST_CASE("a whole arm or leg that is missing costs the figure nothing else", "[poses]") {
+    for (const std::string& convention : syntheticConventions()) {
+        for (const Role top : {Role::leftUpperArm, Role::rightUpperArm, Role::leftUpperLeg, Role::rightUpperLeg}) {
+            SyntheticRig rig = makeSyntheticRig(convention, {.armsDown = 0.5F});
+            INFO(convention << " without " << animation::roleName(top));
+            cutOff(rig, top);
+            checkWhatIsLeft(rig);
+        }
+    }
+}
+
+TEST_CASE("an arm that is missing with its shoulder costs the figure nothing else", "[poses]") {
+    for (const char* convention : {"vroid", "unreal", "cmu", "xsens"}) {
+        SyntheticRig rig = makeSyntheticRig(convention);
+        INFO(convention);
+        cutOff(rig, Role::leftShoulder);
+        checkWhatIsLeft(rig);
+    }
+}
+
+TEST_CASE("an arm and the leg of the other side may both be missing", "[poses]") {
+    for (const std::string& convention : syntheticConventions()) {
+        SyntheticRig rig = makeSyntheticRig(convention);
+        INFO(convention);
+        cutOff(rig, Role::leftUpperArm);
+        cutOff(rig, Role::rightUpperLeg);
+        checkWhatIsLeft(rig);
+    }
+}
+
+TEST_CASE("a missing arm is told", "[poses]") {
+    SyntheticRig rig = makeSyntheticRig(kConvention);
+    cutOff(rig, Role::leftUpperArm);
+    const HumanoidMap map = animation::mapHumanoid(rig.character);
+    CHECK(std::count(map.warnings.begin(), map.warnings.end(), "the figure has no joints of a left arm") == 1);
 }
 
 TEST_CASE("a head thrust forward is the head by its name", "[poses]") {

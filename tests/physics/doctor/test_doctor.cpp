@@ -183,6 +183,19 @@ TEST_CASE("a limb that hangs beside its body on one side is an error, on both th
     CHECK_FALSE(both.hasErrors());
 }
 
+TEST_CASE("a leg without the other may hang beside its body as those of such rigs do") {
+    Patient p;
+    p.character.skeleton.parents[findJoint(p.character.skeleton, "leftFoot")] = findJoint(p.character.skeleton, "hips");
+    for (const Role role : {Role::rightUpperLeg, Role::rightLowerLeg, Role::rightFoot, Role::rightToes})
+        p.map.roles[animation::indexOf(role)].reset();
+    p.profile = fitRagdoll(p.character, p.map).value();
+    const Diagnosis diagnosis = p.look();
+    const Finding* finding = find(diagnosis, "joint-not-below");
+    REQUIRE(finding != nullptr);
+    CHECK(finding->place == "leftFoot on leftLowerLeg");
+    CHECK(finding->severity == Severity::warning);
+}
+
 TEST_CASE("a part that hangs below its own body, but through another limb, is an error") {
     Patient p;
     p.character.skeleton.parents[p.map.jointOf(Role::rightUpperArm)] = p.map.jointOf(Role::leftHand);
