@@ -17,9 +17,10 @@ namespace {
 
 constexpr float kFixed = 40.0F;  // log-odds of what the user or the file says
 constexpr int kFewestJoints = 5;
-constexpr float kLoudShape = 1.5F;  // log-odds of the facing by shape that are worth a word against the names
-constexpr float kImagined = 4.0F;   // log-odds against a limb that is not there
-constexpr int kMostMissing = 7;     // of the 15 required roles, without a warning
+constexpr float kLoudShape = 1.5F;           // log-odds of the facing by shape that are worth a word against the names
+constexpr float kImagined = 4.0F;            // log-odds against a limb that is not there
+constexpr float kLeastShapeOfImages = 3.0F;  // of Figure::shapeScore(), where nothing else makes a figure
+constexpr int kMostMissing = 7;              // of the 15 required roles, without a warning
 
 using FixedJoints = std::array<std::optional<int>, kRoleCount>;
 
@@ -162,7 +163,9 @@ Reading readFigure(const RigFeatures& rig) {
     for (const CompletedRig& completed : reading.completed) {
         Figure figure = findFigure(completed.rig);
         if (!figure.refusal.empty() || !isHonest(completed, figure)) continue;
-        if (reading.figure.refusal.empty() && figure.score < reading.figure.score + kImagined) continue;
+        if (reading.figure.refusal.empty() ? figure.score < reading.figure.score + kImagined
+                                           : figure.shapeScore() < kLeastShapeOfImages)
+            continue;
         reading.ofImages = true;
         reading.figure = std::move(figure);
     }
@@ -171,11 +174,12 @@ Reading readFigure(const RigFeatures& rig) {
 
 void tellMissingLimbs(HumanoidMap& map) {
     constexpr float kIncomplete = 0.9F;
-    map.confidence *= kIncomplete;
     for (const auto& [upper, limb] :
          {std::pair{Role::leftUpperArm, "left arm"}, std::pair{Role::rightUpperArm, "right arm"},
           std::pair{Role::leftUpperLeg, "left leg"}, std::pair{Role::rightUpperLeg, "right leg"}}) {
-        if (!map[upper]) map.warnings.push_back(fmt::format("the figure has no joints of a {}", limb));
+        if (map[upper]) continue;
+        map.confidence *= kIncomplete;
+        map.warnings.push_back(fmt::format("the figure has no joints of a {}", limb));
     }
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
@@ -259,6 +260,43 @@ TEST_CASE("animals, limbs and things are refused with a reason", "[refusal]") {
             CHECK_FALSE(map.humanoid);
             REQUIRE_FALSE(map.warnings.empty());
             CHECK(map.warnings.front().find("not a humanoid: ") == 0);
+        }
+    }
+}
+
+// Without the joint and all below it.
+animation::Character without(const animation::Character& whole, int top) {
+    animation::Character left = whole;
+    left.meshes.clear();
+    animation::Skeleton& skeleton = left.skeleton = {};
+    std::vector<int> fresh;
+    for (int joint = 0; joint < whole.skeleton.jointCount(); ++joint) {
+        const int parent = whole.skeleton.parents[joint];
+        const bool gone = joint == top || (parent != animation::kNoJoint && fresh[parent] == animation::kNoJoint);
+        fresh.push_back(gone ? animation::kNoJoint : skeleton.jointCount());
+        if (gone) continue;
+        skeleton.names.push_back(whole.skeleton.names[joint]);
+        skeleton.parents.push_back(parent == animation::kNoJoint ? animation::kNoJoint : fresh[parent]);
+        skeleton.bindModelFromJoint.push_back(whole.skeleton.bindModelFromJoint[joint]);
+        skeleton.nodeParentFromJoint.push_back(whole.skeleton.nodeParentFromJoint[joint]);
+        skeleton.skinWeight.push_back(whole.skeleton.skinWeight[joint]);
+    }
+    return left;
+}
+
+TEST_CASE("an animal that lacks a limb is no figure that lacks one", "[refusal]") {
+    for (const auto& [name, make] : strangers()) {
+        const animation::Character whole = make();
+        for (int joint = 1; joint < whole.skeleton.jointCount(); ++joint) {
+            const animation::Character lame = without(whole, joint);
+            INFO(name << " without \"" << whole.skeleton.names[joint] << '"');
+            for (const animation::Character& variant : {lame, withoutNames(lame)}) {
+                const animation::HumanoidMap map = animation::mapHumanoid(variant);
+                const bool imagined = std::any_of(map.warnings.begin(), map.warnings.end(), [](const std::string& word) {
+                    return word.find("the figure has no joints of") == 0;
+                });
+                CHECK_FALSE((map.humanoid && imagined));
+            }
         }
     }
 }
