@@ -292,9 +292,9 @@ TEST_CASE("an animal that lacks a limb is no figure that lacks one", "[refusal]"
             INFO(name << " without \"" << whole.skeleton.names[joint] << '"');
             for (const animation::Character& variant : {lame, withoutNames(lame)}) {
                 const animation::HumanoidMap map = animation::mapHumanoid(variant);
-                const bool imagined = std::any_of(map.warnings.begin(), map.warnings.end(), [](const std::string& word) {
-                    return word.find("the figure has no joints of") == 0;
-                });
+                const bool imagined =
+                    std::any_of(map.warnings.begin(), map.warnings.end(),
+                                [](const std::string& word) { return word.find("the figure has no joints of") == 0; });
                 CHECK_FALSE((map.humanoid && imagined));
             }
         }
