@@ -15,6 +15,9 @@ constexpr float kShareOfHeight = 0.48F;  // of the picture, that a standing figu
 constexpr float kTimeConstant = 0.3F;    // seconds: of the way to where the dolls are
 constexpr float kLargestLag = 0.14F;     // of the picture's height, that they are ahead at most
 constexpr float kRoomAround = 0.12F;     // of the picture, on each side of a group
+constexpr float kRoomAroundOne = 0.25F;  // on each side of a single doll, which moves faster than the camera
+constexpr float kNearest = 0.6F;         // of the distance for a standing figure, to one that lies
+constexpr float kApproachTime = 1.0F;    // seconds: slow, so that a doll that bounces doesn't pump the picture
 
 float tallest(const Simulation& simulation) {
     float height = 0.0F;
@@ -24,8 +27,8 @@ float tallest(const Simulation& simulation) {
 }
 
 // The part of the way to a goal that is gone in a time.
-float shareIn(float seconds) {
-    return 1.0F - std::exp(-seconds / kTimeConstant);
+float shareIn(float seconds, float timeConstant = kTimeConstant) {
+    return 1.0F - std::exp(-seconds / timeConstant);
 }
 
 }  // namespace
@@ -79,21 +82,24 @@ void FilmCamera::follow(Simulation& simulation, float alpha, float seconds) {
         high = glm::max(high, point);
     }
     const vec3 centre = (low + high) * 0.5F;
+    const bool single = simulation.dollCount() == 1;
+    const float room = single ? kRoomAroundOne : kRoomAround;
     render::Camera group = camera;
-    render::framePoints(group, points_, aspect_, {kRoomAround, kRoomAround, kRoomAround, kRoomAround});
+    render::framePoints(group, points_, aspect_, {room, room, room, room});
     const float slope = 2.0F * std::tan(0.5F * camera.fieldOfView);
     // In a narrow picture the figure lies across its width in the end.
     const float alone = tallest(simulation) / (kShareOfHeight * slope * std::min(1.0F, aspect_));
-    const float distance = std::max(alone, simulation.dollCount() > 1 ? group.distance : 0.0F);
+    const float distance = single ? std::clamp(group.distance, kNearest * alone, alone) : std::max(alone, group.distance);
     if (!begun_) {
         begun_ = true;
         camera.target = centre;
-        if (!keepsDistance_) camera.distance = distance;
+        if (!keepsDistance_) camera.distance = single ? alone : distance;
         return;
     }
-    const float share = shareIn(std::max(seconds, 0.0F));
-    camera.target += (centre - camera.target) * share;
-    if (!keepsDistance_) camera.distance += (distance - camera.distance) * share;
+    const float passed = std::max(seconds, 0.0F);
+    camera.target += (centre - camera.target) * shareIn(passed);
+    const float distanceTime = single && distance < camera.distance ? kApproachTime : kTimeConstant;
+    if (!keepsDistance_) camera.distance += (distance - camera.distance) * shareIn(passed, distanceTime);
     const vec3 lag = camera.target - centre;
     const float most = kLargestLag * slope * camera.distance;
     if (glm::length(lag) > most) camera.target = centre + glm::normalize(lag) * most;

@@ -10,7 +10,8 @@ namespace lutka::scene {
 
 /// The view of a picture or a film of a simulation: the scene's own camera where it has one; else its focus from its
 /// side (SceneSimulation::focusYaw), or, where that follows, a view that goes along with the dolls. Such a view shows a
-/// standing figure a little less than half as high as the picture, and of several dolls all.
+/// standing figure a little less than half as high as the picture, comes nearer to a single doll that lies, and shows
+/// of several dolls all.
 class FilmCamera {
   public:
     /// `aspect`: width : height of the picture.
