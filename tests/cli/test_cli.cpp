@@ -378,6 +378,37 @@ TEST_CASE("an interrupt that comes several times at once is one") {
     CHECK(fs::is_empty(folder.path));
 }
 
+TEST_CASE("a signal while a model is read ends with the signal's code") {
+    const ScratchFolder folder;
+    const std::string file = folder / "long.bvh";
+    constexpr int frames = 8'000'000;  // seconds of reading
+    std::string motion;
+    for (int frame = 0; frame < 1000; ++frame)
+        motion += "0 0 0 0 0 0\n";
+    std::ofstream out(file);
+    out << "HIERARCHY\nROOT hips\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation "
+           "Yrotation\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: "
+        << frames << "\nFrame Time: 0.01\n";
+    for (int written = 0; written < frames; written += 1000)
+        out << motion;
+    out.close();
+    const CommandResult result =
+        runCommand("timeout --preserve-status --signal=TERM 0.3 '" LUTKA_BINARY "' map '" + file + "'");
+    CHECK(result.code == 128 + SIGTERM);
+    CHECK(result.err.empty());
+}
+
+TEST_CASE("an empty value is wrong usage: a variable of a script that is not set is no run without the option") {
+    for (const std::string& line :
+         {std::string("map ''"), "build " + kMannequinArgument + " -o ''",
+          "simulate " + kMannequinArgument + " --out ''", std::string("simulate --replay ''")}) {
+        const CommandResult result = lutkaCommand(line);
+        INFO(line);
+        CHECK(result.code == 2);
+        CHECK(contains(result.err, "empty"));
+    }
+}
+
 namespace {
 
 const std::string kPlayground = shellQuoted(LUTKA_ASSETS_DIR "/scenes/playground.scene.json");

@@ -93,7 +93,12 @@ Command Command::add(const std::string& name, const std::string& help) const {
 
 template <class T>
 Option Command::option(const std::string& names, T& value, const std::string& help) const {
-    return Option(app_->add_option(names, value, help));
+    CLI::Option* option = app_->add_option(names, value, help);
+    // No value of ours is empty. A script whose variable isn't set must not pass for a run without the option.
+    option->check(CLI::Validator(
+        [](std::string& text) { return text.empty() ? "empty (is a variable of a script not set?)" : std::string(); },
+        ""));
+    return Option(option);
 }
 
 template Option Command::option(const std::string&, std::string&, const std::string&) const;

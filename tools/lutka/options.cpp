@@ -102,6 +102,7 @@ scene::LedPart parseLed(const std::string& text) {
 }  // namespace
 
 void leave(const Error& error) {
+    leaveIfInterrupted();  // what was cut off by a signal fails because of it
     spdlog::error("{}", error.text());
     throw Exit{static_cast<int>(error.code)};
 }
