@@ -26,7 +26,7 @@ std::vector<std::string> pathSteps(const Skeleton& skeleton) {
 }
 
 bool isUsable(const RigidTransform& frame) {
-    return isFinite(frame) && std::abs(glm::dot(frame.rotation, frame.rotation) - 1.0F) < 1e-3F;
+    return isFinite(frame) && isPlace(frame.translation) && std::abs(glm::dot(frame.rotation, frame.rotation) - 1.0F) < 1e-3F;
 }
 
 }  // namespace
@@ -98,10 +98,10 @@ std::vector<std::string> validate(const Skeleton& skeleton) {
             problems.push_back(fmt::format("joint {} has parent {}, which does not come before it", joint, parent));
         }
         if (!isUsable(skeleton.bindModelFromJoint[joint])) {
-            problems.push_back(fmt::format("joint {} has a bind frame that is not finite and rigid", joint));
+            problems.push_back(fmt::format("joint {} has a bind frame that is not finite, near and rigid", joint));
         }
         if (!isUsable(skeleton.nodeParentFromJoint[joint])) {
-            problems.push_back(fmt::format("joint {} has a node frame that is not finite and rigid", joint));
+            problems.push_back(fmt::format("joint {} has a node frame that is not finite, near and rigid", joint));
         }
         if (!(skeleton.skinWeight[joint] >= 0.0F)) {
             problems.push_back(fmt::format("joint {} has skin weight {}", joint, skeleton.skinWeight[joint]));

@@ -47,7 +47,8 @@ struct Skeleton {
 /// The same by Skeleton::parents alone.
 [[nodiscard]] bool isAncestorOrSelf(std::span<const int> parents, int ancestor, int joint);
 
-/// All that is wrong with the arrays (sizes, order of parents, non-finite or non-unit frames); empty when valid.
+/// All that is wrong with the arrays (sizes, order of parents, frames that are not finite, unit and within
+/// kFarthestPlaceM); empty when valid.
 [[nodiscard]] std::vector<std::string> validate(const Skeleton& skeleton);
 
 }  // namespace lutka::animation

@@ -33,6 +33,11 @@ inline constexpr float kPi = std::numbers::pi_v<float>;
 [[nodiscard]] inline bool isFinite(const vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
+/// Metres: places of a file beyond this are no sound ones. What is worked out from places within stays finite in float.
+inline constexpr float kFarthestPlaceM = 1e9F;
+[[nodiscard]] inline bool isPlace(const vec3& v) {
+    return std::abs(v.x) <= kFarthestPlaceM && std::abs(v.y) <= kFarthestPlaceM && std::abs(v.z) <= kFarthestPlaceM;
+}
 [[nodiscard]] inline bool isFinite(const quat& q) {
     return std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z) && std::isfinite(q.w);
 }

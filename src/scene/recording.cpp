@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <glm/gtx/component_wise.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -30,7 +29,6 @@ constexpr int kMostBodies = 1000;
 constexpr int kMostFigures = 10000;
 constexpr long long kMostSteps = 100'000'000;
 constexpr float kLeastStep = 1e-6F;
-constexpr float kMostMetres = 1e9F;    // what is worked out from places stays finite
 constexpr float kMostOffUnit = 1e-2F;  // of a rotation's squared length
 
 static_assert(std::endian::native == std::endian::little, "recordings are little-endian; a big-endian host must swap");
@@ -108,8 +106,8 @@ Result<void> appendFrames(const std::filesystem::path& file, std::span<const uns
         if (!isFinite(t)) return broken(file, "holds a frame that is not finite");
         if (std::abs(glm::dot(t.rotation, t.rotation) - 1.0F) > kMostOffUnit)
             return broken(file, "holds a rotation that is none");
-        if (glm::compMax(glm::abs(t.translation)) > kMostMetres)
-            return broken(file, fmt::format("holds a body more than {} m away", kMostMetres));
+        if (!isPlace(t.translation))
+            return broken(file, fmt::format("holds a body more than {} m away", kFarthestPlaceM));
         frames.push_back(t);
     }
     return {};

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <string_view>
 
 /// One run of a fuzz target (https://llvm.org/docs/LibFuzzer.html): any bytes; it must return, whatever they are.
@@ -14,9 +15,11 @@ inline std::string_view textOf(const std::uint8_t* data, std::size_t size) {
     return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Ends the program, as a sanitizer would: what the target promises of its result does not hold.
-inline void promise(bool holds) {
-    if (!holds) __builtin_trap();
+/// Ends the program, as a sanitizer would, with its place: what the target promises of its result does not hold.
+inline void promise(bool holds, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+    if (holds) return;
+    std::fprintf(stderr, "%s:%d: the promise does not hold\n", file, line);
+    __builtin_trap();
 }
 
 }  // namespace lutka::fuzz

@@ -3,6 +3,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <string>
 
 #include "animation/import/build_character.hpp"
@@ -39,6 +40,16 @@ void promiseSoundImport(Result<rig_import::SourceScene> scene) {
             promise(index < mesh.positions.size());
         for (const vec3& position : mesh.positions)
             promise(isFinite(position));
+        for (const vec3& normal : mesh.normals)
+            promise(isFinite(normal));
+    }
+    constexpr std::size_t mostFrames = 20000;  // to be looked at: posing long clips takes the time of a hundred files
+    for (const animation::Clip& clip : character.value().clips) {
+        if (clip.parentFromJoint.size() > mostFrames) continue;
+        for (const RigidTransform& frame : clip.parentFromJoint)
+            promise(isFinite(frame.translation) &&
+                    isFinite(vec3(frame.rotation.x, frame.rotation.y, frame.rotation.z)) &&
+                    std::isfinite(frame.rotation.w));
     }
 }
 

@@ -196,13 +196,18 @@ Error withLocation(Error error, std::string location) {
 }
 
 // Finite numbers in the file may be no more so once they were scaled and put in their places.
-bool hasFinitePlaces(const Character& character) {
-    for (const SkinnedMesh& mesh : character.meshes) {
+bool hasSoundPlaces(const std::vector<SkinnedMesh>& meshes) {
+    for (const SkinnedMesh& mesh : meshes) {
         for (const vec3& position : mesh.positions) {
-            if (!lutka::isFinite(position)) return false;
+            if (!isPlace(position)) return false;
         }
     }
     return true;
+}
+
+Error tooLarge(const std::string& what, const std::filesystem::path& file) {
+    return {ErrorCode::input, fmt::format("its numbers are too large: placed in the scene, {} are beyond any", what),
+            file.string(), "scale the figure down where it was made"};
 }
 
 }  // namespace
@@ -234,14 +239,12 @@ Result<Character> buildCharacter(SourceScene source, const std::filesystem::path
     settleMeshes(units, character.meshes);
     for (SkinnedMesh& mesh : character.meshes)
         orderForSkinning(mesh);
-    if (!hasFinitePlaces(character)) {
-        return Error{ErrorCode::input, "its numbers are too large: placed in the scene, vertices are beyond any",
-                     file.string(), "scale the figure down where it was made"};
-    }
+    if (!hasSoundPlaces(character.meshes)) return tooLarge("vertices", file);
     takeMaterials(source, character);
     for (const auto& [role, node] : source.vrmHumanoid)
         character.vrmHumanoid[role] = tree.nodes[node].joint;
     buildMotion(source, tree, bind, units, character);
+    if (!validate(character.skeleton).empty()) return tooLarge("joints", file);
     return character;
 }
 

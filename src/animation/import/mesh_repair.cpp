@@ -109,7 +109,7 @@ void makeNormals(SkinnedMesh& mesh) {
     }
     for (vec3& sum : sums) {
         const float length = glm::length(sum);
-        sum = length > 0.0F ? sum / length : vec3(0, 1, 0);
+        sum = length > 0.0F && std::isfinite(length) ? sum / length : vec3(0, 1, 0);
     }
     mesh.normals = std::move(sums);
 }

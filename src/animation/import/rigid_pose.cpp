@@ -39,7 +39,8 @@ double RigidPoser::pose(std::span<const dmat4> sceneFromNode, double uniformScal
         const dmat3 rotation = nearestRotation(moved);
         const quat turn(glm::normalize(glm::quat_cast(rotation)));
         modelFromJoint[joint] = {glm::normalize(turn * bind.rotation), vec3(origin / uniformScale)};
-        if (!isFinite(modelFromJoint[joint])) modelFromJoint[joint] = bind;
+        const bool sound = isFinite(modelFromJoint[joint].rotation) && isPlace(modelFromJoint[joint].translation);
+        if (!sound) modelFromJoint[joint] = bind;
         if (matters[joint]) worst = std::max(worst, stretchBeyond(rotation, dmat3(moved) / uniformScale));
     }
     return worst;
