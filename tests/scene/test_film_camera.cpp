@@ -94,7 +94,7 @@ TEST_CASE("the camera comes nearer to a doll that lies, never by a leap, and sho
     const float standing = film.camera.distance;
     float before = standing;
     float largestStep = 0.0F;
-    for (int frame = 0; frame < 6 * kFramesPerSecond; ++frame) {
+    for (int frame = 0; frame < 6 * static_cast<int>(kFramesPerSecond); ++frame) {
         simulation->step();
         simulation->step();
         film.update(*simulation, 1.0F, 1.0F / kFramesPerSecond);
