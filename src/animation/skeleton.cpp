@@ -26,7 +26,8 @@ std::vector<std::string> pathSteps(const Skeleton& skeleton) {
 }
 
 bool isUsable(const RigidTransform& frame) {
-    return isFinite(frame) && isPlace(frame.translation) && std::abs(glm::dot(frame.rotation, frame.rotation) - 1.0F) < 1e-3F;
+    return isFinite(frame) && isPlace(frame.translation) &&
+           std::abs(glm::dot(frame.rotation, frame.rotation) - 1.0F) < 1e-3F;
 }
 
 }  // namespace

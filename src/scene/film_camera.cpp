@@ -89,7 +89,8 @@ void FilmCamera::follow(Simulation& simulation, float alpha, float seconds) {
     const float slope = 2.0F * std::tan(0.5F * camera.fieldOfView);
     // In a narrow picture the figure lies across its width in the end.
     const float alone = tallest(simulation) / (kShareOfHeight * slope * std::min(1.0F, aspect_));
-    const float distance = single ? std::clamp(group.distance, kNearest * alone, alone) : std::max(alone, group.distance);
+    const float distance =
+        single ? std::clamp(group.distance, kNearest * alone, alone) : std::max(alone, group.distance);
     if (!begun_) {
         begun_ = true;
         camera.target = centre;

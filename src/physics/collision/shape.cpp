@@ -5,10 +5,15 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "physics/collision/box_manifold.hpp"
 #include "physics/collision/shape_distance.hpp"
 
 namespace lutka::physics {
 namespace {
+
+BoxPlace placeOf(const PrimitiveShape& box, const RigidTransform& worldFromBox) {
+    return {box.halfExtents, worldFromBox.translation, glm::mat3_cast(worldFromBox.rotation)};
+}
 
 // The core of a capsule or sphere in the world: what the radius rounds.
 Segment segmentOf(const PrimitiveShape& shape, const RigidTransform& worldFromBody) {
@@ -146,7 +151,8 @@ float distanceBetween(const PrimitiveShape& a, const RigidTransform& worldFromA,
                       const RigidTransform& worldFromB) {
     const bool boxA = a.kind == PrimitiveShape::Kind::box;
     const bool boxB = b.kind == PrimitiveShape::Kind::box;
-    if (boxA && boxB) return distanceBetweenBoxes(a.halfExtents, worldFromA, b.halfExtents, worldFromB);
+    // Of boxes that are apart a lower bound of the gap.
+    if (boxA && boxB) return leastOverlap(placeOf(a, worldFromA), placeOf(b, worldFromB)).distance;
     if (boxA) return distanceToPlacedBox(b, worldFromB, a, worldFromA);
     if (boxB) return distanceToPlacedBox(a, worldFromA, b, worldFromB);
     const Segment segmentA = segmentOf(a, worldFromA);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 
 namespace lutka::physics {
 
@@ -113,36 +112,65 @@ BoxTouches touchBox(const Segment& core, const vec3& halfExtents, float reach) {
     return touches;
 }
 
+Segment boxEdge(const vec3& halfExtents, int index) {
+    const int axis = index / 4;
+    vec3 half(0);
+    half[axis] = halfExtents[axis];
+    vec3 middle(0);
+    middle[(axis + 1) % 3] = (index & 1) != 0 ? halfExtents[(axis + 1) % 3] : -halfExtents[(axis + 1) % 3];
+    middle[(axis + 2) % 3] = (index & 2) != 0 ? halfExtents[(axis + 2) % 3] : -halfExtents[(axis + 2) % 3];
+    return {middle - half, middle + half};
+}
+
+EdgeTouches touchEdge(const Segment& edge, const vec3& halfExtents, float reach) {
+    EdgeTouches touches;
+    const SurfaceDistance first = distanceToBox(edge.start, halfExtents);
+    const SurfaceDistance last = distanceToBox(edge.end, halfExtents);
+    if (!mayComeNear(first.distance, last.distance, edge, reach)) return touches;
+    const float deepest = deepestOnSegment(edge, halfExtents);
+    const SurfaceDistance nearest = distanceToBox(edge.at(deepest), halfExtents);
+    if (nearest.distance >= reach) return touches;
+    int face = 0;
+    for (int axis = 1; axis < 3; ++axis) {
+        if (std::abs(nearest.normal[axis]) > std::abs(nearest.normal[face])) face = axis;
+    }
+    // What lies between the sides of the face.
+    float from = 0.0F;
+    float to = 1.0F;
+    const vec3 along = edge.end - edge.start;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (axis == face) continue;
+        const float half = halfExtents[axis];
+        if (std::abs(along[axis]) < 1e-9F) {
+            if (std::abs(edge.start[axis]) > half) to = -1.0F;
+            continue;
+        }
+        const float low = (-half - edge.start[axis]) / along[axis];
+        const float high = (half - edge.start[axis]) / along[axis];
+        from = std::max(from, std::min(low, high));
+        to = std::min(to, std::max(low, high));
+    }
+    const bool overFace = std::abs(nearest.normal[face]) > 0.9999F;
+    if (!overFace || (to - from) * glm::length(along) < kSamePlace) {
+        touches.points[touches.count++] = {deepest, nearest, 2};
+        return touches;
+    }
+    vec3 normal(0);
+    normal[face] = nearest.normal[face] < 0.0F ? -1.0F : 1.0F;
+    for (int end = 0; end < 2; ++end) {
+        const float t = end == 0 ? from : to;
+        const float distance = glm::dot(normal, edge.at(t)) - halfExtents[face];
+        if (distance < reach) touches.points[touches.count++] = {t, {distance, normal}, end};
+    }
+    return touches;
+}
+
 vec3 directionBetween(const vec3& between, const vec3& alongA, const vec3& alongB) {
     const float distance = glm::length(between);
     if (distance > 1e-6F) return between / distance;
     const vec3 across = glm::cross(alongA, alongB);
     const float length = glm::length(across);
     return length > 1e-3F ? across / length : vec3(0, 1, 0);
-}
-
-float distanceBetweenBoxes(const vec3& halfExtentsA, const RigidTransform& worldFromA, const vec3& halfExtentsB,
-                           const RigidTransform& worldFromB) {
-    const mat3 a = glm::mat3_cast(worldFromA.rotation);
-    const mat3 b = glm::mat3_cast(worldFromB.rotation);
-    const vec3 offset = worldFromB.translation - worldFromA.translation;
-    float best = -std::numeric_limits<float>::max();
-    const auto tryAxis = [&](const vec3& axis) {
-        const float length = glm::length(axis);
-        if (length < 1e-4F) return;  // parallel edges: the faces' axes cover them
-        float reach = 0.0F;
-        for (int i = 0; i < 3; ++i)
-            reach +=
-                halfExtentsA[i] * std::abs(glm::dot(a[i], axis)) + halfExtentsB[i] * std::abs(glm::dot(b[i], axis));
-        best = std::max(best, (std::abs(glm::dot(offset, axis)) - reach) / length);
-    };
-    for (int i = 0; i < 3; ++i) {
-        tryAxis(a[i]);
-        tryAxis(b[i]);
-        for (int j = 0; j < 3; ++j)
-            tryAxis(glm::cross(a[i], b[j]));
-    }
-    return best;
 }
 
 }  // namespace lutka::physics

@@ -51,6 +51,17 @@ struct BoxTouches {
 };
 [[nodiscard]] BoxTouches touchBox(const Segment& core, const vec3& halfExtents, float reach);
 
+/// One of a box's twelve edges in its own frame: `index` % 4 tells the corner of its face, `index` / 4 its axis.
+[[nodiscard]] Segment boxEdge(const vec3& halfExtents, int index);
+
+/// Where the edge of another box (in this box's frame) is nearer to the box than `reach` metres: the two ends of what
+/// lies over the face that is nearest, or the one nearest point where that is an edge or a corner.
+struct EdgeTouches {
+    std::array<BoxTouch, 2> points;  ///< `part`: 0 and 1 the ends, 2 the one point.
+    int count = 0;
+};
+[[nodiscard]] EdgeTouches touchEdge(const Segment& edge, const vec3& halfExtents, float reach);
+
 /// The unit vector along `between`, which leads from a point of one core to a point of another. Where the cores cross
 /// it is across both (unit vectors along them), or up where they are parallel.
 [[nodiscard]] vec3 directionBetween(const vec3& between, const vec3& alongA, const vec3& alongB);
@@ -59,10 +70,5 @@ struct BoxTouches {
 /// function along a line: the interval is halved by the sign of its slope, to 2^-halvings of the length, and the
 /// slope's zero is taken by a straight line between the interval's ends.
 [[nodiscard]] float deepestOnSegment(const Segment& segment, const vec3& halfExtents, int halvings = 16);
-
-/// Signed distance of two boxes along the best of the 15 axes of the separating-axis test: negative, the depth of the
-/// overlap; positive, a lower bound of the gap (Gottschalk, Lin and Manocha 1996).
-[[nodiscard]] float distanceBetweenBoxes(const vec3& halfExtentsA, const RigidTransform& worldFromA,
-                                         const vec3& halfExtentsB, const RigidTransform& worldFromB);
 
 }  // namespace lutka::physics

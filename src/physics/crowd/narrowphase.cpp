@@ -5,12 +5,17 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "physics/collision/box_manifold.hpp"
 #include "physics/collision/shape_distance.hpp"
 
 namespace lutka::physics::crowd {
 namespace {
 
 using Kind = PrimitiveShape::Kind;
+
+constexpr float kFarApart = 1e6F;
+constexpr int kFirstEdgeFeature = 8;       // after a box's corners
+constexpr int kFirstManifoldFeature = 64;  // after its edges
 
 Segment coreOf(const PlacedShape& body) {
     const vec3 half = body.axes[1] * coreHalf(*body.shape);
@@ -26,17 +31,58 @@ void addHalfSpace(const vec3& local, float radius, const vec3& inBox, const Surf
     out.add({local, radius, normal, offset, surface.distance - radius, feature});
 }
 
+bool saysTheSame(const StaticTouches& found, const vec3& local, const vec3& normal) {
+    for (int i = 0; i < found.count; ++i) {
+        const StaticTouch& other = found.points[i];
+        if (glm::distance(other.local, local) < kSamePlace && glm::dot(other.normal, normal) > 0.99F) return true;
+    }
+    return false;
+}
+
+// The edges of a static box at a box: the body's point on its surface, which the edge's half space keeps out.
+void touchStaticEdges(const PlacedShape& body, const PlacedStatic& box, float least, float range, StaticTouches& out) {
+    const mat3 bodyFromBox = glm::transpose(body.axes) * box.axes;
+    const vec3 centre = (box.shape.worldFromShape.translation - body.position) * body.axes;
+    for (int i = 0; i < 12; ++i) {
+        const Segment own = boxEdge(box.shape.halfExtents, i);
+        const Segment edge{centre + bodyFromBox * own.start, centre + bodyFromBox * own.end};
+        const EdgeTouches touches = touchEdge(edge, body.shape->halfExtents, range);
+        for (int k = 0; k < touches.count; ++k) {
+            const auto& [along, surface, part] = touches.points[k];
+            const vec3 onEdge = edge.at(along);
+            const vec3 normal = -(body.axes * surface.normal);
+            const float offset = glm::dot(normal, body.position + body.axes * onEdge);
+            const vec3 onBody = onEdge - surface.normal * surface.distance;
+            if (surface.distance > least && !saysTheSame(out, onBody, normal))
+                out.add({onBody, 0.0F, normal, offset, surface.distance, kFirstEdgeFeature + 3 * i + part});
+        }
+    }
+}
+
 void touchStaticBox(const PlacedShape& body, const PlacedStatic& box, float range, StaticTouches& out) {
     const vec3& halfExtents = box.shape.halfExtents;
     const vec3 centre = (body.position - box.shape.worldFromShape.translation) * box.axes;
     const mat3 boxFromBody = glm::transpose(box.axes) * body.axes;
     const CorePoints points = corePoints(*body.shape);
     if (body.shape->kind == Kind::box) {
+        out.capacity = ContactList::kMax;
+        const BoxManifold manifold = touchBoxes({body.shape->halfExtents, body.position, body.axes},
+                                                {halfExtents, box.shape.worldFromShape.translation, box.axes}, range);
+        for (int i = 0; i < manifold.count; ++i) {
+            const auto& [onBody, onBox, distance, feature] = manifold.points[i];
+            const vec3 inWorld = box.shape.worldFromShape.translation + box.axes * onBox;
+            out.add({onBody, 0.0F, manifold.normal, glm::dot(manifold.normal, inWorld), distance,
+                     kFirstManifoldFeature + feature});
+        }
+        // What is still apart, but nearer than what overlaps is to its ends, must not come in next.
+        const float least = manifold.count > 0 ? 0.0F : -kFarApart;
         for (int i = 0; i < points.count; ++i) {
             const vec3 inBox = centre + boxFromBody * points.local[i];
             const SurfaceDistance surface = distanceToBox(inBox, halfExtents);
-            if (surface.distance < range) addHalfSpace(points.local[i], 0.0F, inBox, surface, box, i, out);
+            if (surface.distance > least && surface.distance < range)
+                addHalfSpace(points.local[i], 0.0F, inBox, surface, box, i, out);
         }
+        touchStaticEdges(body, box, least, range, out);
         return;
     }
     const vec3 first = points.local[0];
@@ -133,6 +179,26 @@ void touchCorners(const PlacedShape& a, const PlacedShape& b, float range, bool 
     }
 }
 
+// The edges of A in B.
+void touchEdges(const PlacedShape& a, const PlacedShape& b, float range, bool swapped, Touches<BodyTouch>& out) {
+    const mat3 inB = glm::transpose(b.axes) * a.axes;
+    const vec3 centre = (a.position - b.position) * b.axes;
+    for (int i = 0; i < 12; ++i) {
+        const Segment own = boxEdge(a.shape->halfExtents, i);
+        const Segment edge{centre + inB * own.start, centre + inB * own.end};
+        const EdgeTouches touches = touchEdge(edge, b.shape->halfExtents, range);
+        for (int k = 0; k < touches.count; ++k) {
+            const auto& [along, surface, part] = touches.points[k];
+            const vec3 onB = edge.at(along) - surface.normal * surface.distance;
+            const vec3 normal = b.axes * surface.normal;
+            if (swapped)
+                out.add({onB, own.at(along), 0.0F, -normal, surface.distance});
+            else
+                out.add({own.at(along), onB, 0.0F, normal, surface.distance});
+        }
+    }
+}
+
 }  // namespace
 
 float coreHalf(const PrimitiveShape& shape) {
@@ -194,8 +260,17 @@ Touches<BodyTouch> touchBodies(const PlacedShape& a, const PlacedShape& b, float
     if (!boxA && !boxB) {
         touchCores(a, b, range, touches);
     } else if (boxA && boxB) {
+        const BoxManifold manifold =
+            touchBoxes({a.shape->halfExtents, a.position, a.axes}, {b.shape->halfExtents, b.position, b.axes}, range);
+        for (int i = 0; i < manifold.count; ++i) {
+            const auto& [onA, onB, distance, feature] = manifold.points[i];
+            touches.add({onA, onB, 0.0F, manifold.normal, distance});
+        }
+        if (manifold.count > 0) return touches;
         touchCorners(a, b, range, false, touches);
         touchCorners(b, a, range, true, touches);
+        touchEdges(a, b, range, false, touches);
+        touchEdges(b, a, range, true, touches);
     } else if (boxB) {
         touchCoreAndBox(a, b, range, false, touches);
     } else {

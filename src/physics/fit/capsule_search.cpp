@@ -11,36 +11,23 @@ namespace lutka::physics {
 namespace {
 
 constexpr std::size_t kMostPoints = 400;
-// Skin inside the capsule, where the capsule stands out of it, weighs more than skin outside.
-constexpr float kProtrusion = 1.5F;
 
 }  // namespace
 
 CapsuleSearch::CapsuleSearch(const std::vector<SkinPoint>& points, const RigidTransform& standardFromSearch,
                              float smallestRadius, float largestRadius, float cutoff)
-    : standardFromSearch_(standardFromSearch),
+    : sample_(points, inverse(standardFromSearch), kMostPoints),
+      standardFromSearch_(standardFromSearch),
       smallestRadius_(smallestRadius),
       largestRadius_(largestRadius),
-      cutoff_(cutoff) {
-    const RigidTransform searchFromStandard = inverse(standardFromSearch);
-    const std::size_t stride = (points.size() + kMostPoints - 1) / kMostPoints;
-    const bool weighted = std::any_of(points.begin(), points.end(), [](const SkinPoint& p) { return p.area > 0.0F; });
-    for (std::size_t i = 0; i < points.size(); i += stride)
-        points_.push_back({searchFromStandard * points[i].position, weighted ? points[i].area : 1.0F});
-}
+      cutoff_(cutoff) {}
 
 float CapsuleSearch::cost(const CapsuleTrial& trial) const {
-    float sum = 0.0F;
-    float total = 0.0F;
-    for (const SkinPoint& point : points_) {
-        const vec3 d = point.position - trial.center;
+    return sample_.cost(cutoff_, [&](const vec3& point) {
+        const vec3 d = point - trial.center;
         const float beyond = std::max(0.0F, std::abs(d.y) - trial.halfLength);
-        const float signedDistance = std::sqrt(d.x * d.x + beyond * beyond + d.z * d.z) - trial.radius;
-        const float distance = signedDistance < 0.0F ? -kProtrusion * signedDistance : signedDistance;
-        sum += point.area * std::min(distance, cutoff_);
-        total += point.area;
-    }
-    return total > 0.0F ? sum / total : 0.0F;
+        return std::sqrt(d.x * d.x + beyond * beyond + d.z * d.z) - trial.radius;
+    });
 }
 
 float CapsuleSearch::cost(const Capsule& capsule) const {
@@ -87,7 +74,7 @@ Capsule CapsuleSearch::run(const CapsuleTrial& start, const std::function<void(C
 
 float CapsuleSearch::radiusAboutAxis(float fromY, float toY) const {
     std::vector<SkinPoint> between;
-    for (const SkinPoint& point : points_) {
+    for (const SkinPoint& point : sample_.points()) {
         if (point.position.y >= fromY && point.position.y <= toY) between.push_back(point);
     }
     if (between.empty()) return smallestRadius_;
@@ -95,10 +82,7 @@ float CapsuleSearch::radiusAboutAxis(float fromY, float toY) const {
 }
 
 vec3 CapsuleSearch::quantiles(float share) const {
-    vec3 result(0);
-    for (int axis = 0; axis < 3; ++axis)
-        result[axis] = quantileOf(points_, share, [axis](const SkinPoint& p) { return p.position[axis]; });
-    return result;
+    return sample_.quantiles(share);
 }
 
 CapsuleTrial CapsuleSearch::boundingTrial() const {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/rigid_transform.hpp"
-#include "physics/fit/skin_point.hpp"
+#include "physics/fit/skin_sample.hpp"
 
 namespace lutka::physics {
 
@@ -45,7 +45,7 @@ class CapsuleSearch {
   private:
     [[nodiscard]] float cost(const CapsuleTrial& trial) const;
 
-    std::vector<SkinPoint> points_;  // in the search's axes
+    SkinSample sample_;  // in the search's axes
     RigidTransform standardFromSearch_;
     float smallestRadius_;
     float largestRadius_;

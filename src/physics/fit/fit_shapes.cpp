@@ -8,6 +8,7 @@
 #include "core/quantile.hpp"
 #include "physics/collision/shape.hpp"
 #include "physics/fit/body_tips.hpp"
+#include "physics/fit/box_search.hpp"
 #include "physics/fit/capsule_search.hpp"
 #include "physics/fit/fit_measures.hpp"
 #include "physics/fit/principal_axes.hpp"
@@ -95,7 +96,7 @@ class BodyFit {
 
     [[nodiscard]] Capsule fit() const {
         if (points_.size() < kFewestShapePoints) return byProportions();
-        if (isEitherSide(body_.role, Role::leftFoot) || isEitherSide(body_.role, Role::leftToes)) return fitFoot();
+        if (isFoot()) return fitFoot();
         if (isTrunk(body_.role) || body_.role == Role::head) return fitStandingOrLying();
         if (body_.segment) return fitSegment();
         return fitLimb();
@@ -116,6 +117,29 @@ class BodyFit {
         return fitSeveralCapsules(points_, single, bounds, most);
     }
 
+    // A box in place of `capsule` where the body's skin is one.
+    [[nodiscard]] std::optional<PlacedBox> fitBox(const Capsule& capsule) const {
+        if (points_.size() < kFewestShapePoints || isWhatStands()) return std::nullopt;
+        BoxBounds bounds;
+        const bool stands = central_ || isTrunk(body_.role) || body_.role == Role::head;
+        bounds.standardFromAxes = central_ ? inMirrorPlane(rotation_)
+                                  : stands ? rotation_
+                                           : axesAlong(body_.direction());
+        bounds.turnAxis = stands ? vec3(1, 0, 0) : vec3(0, 1, 0);
+        bounds.symmetric = central_;
+        bounds.middleX = plan_.middleX;
+        bounds.smallestHalf = kSmallestRadius * plan_.heightM;
+        bounds.largestHalf = largestRadius() + body_.length();
+        bounds.cutoff = cutoff();
+        bounds.nearM = kNearSkin * plan_.heightM;
+        const std::optional<PlacedBox> box = physics::fitBox(points_, capsule, bounds);
+        // About a joint that bends, a limb's box about one of its ends would turn into its neighbour.
+        constexpr float kOfLength = 0.2F;
+        const float middle = box ? glm::dot(box->standardFromBox.translation - body_.start, body_.direction()) : 0.0F;
+        const bool between = middle > kOfLength * body_.length() && middle < (1.0F - kOfLength) * body_.length();
+        return stands || between ? box : std::nullopt;
+    }
+
   private:
     // The turn about x that is in a rotation of a body in the middle.
     [[nodiscard]] static quat inMirrorPlane(const quat& rotation) {
@@ -123,6 +147,17 @@ class BodyFit {
         return glm::dot(turn, turn) > 1e-6F ? glm::normalize(turn) : quat(1, 0, 0, 0);
     }
 
+    [[nodiscard]] bool isFoot() const {
+        return isEitherSide(body_.role, Role::leftFoot) || isEitherSide(body_.role, Role::leftToes);
+    }
+    // The lowest body of a leg. It stays round where it meets the ground: on flat ends a limp figure would go on
+    // standing.
+    [[nodiscard]] bool isWhatStands() const {
+        const auto has = [&](Role left) { return plan_.bodyOf(left) >= 0 && plan_.bodyOf(mirrored(left)) >= 0; };
+        const bool shin = isEitherSide(body_.role, Role::leftLowerLeg) && !has(Role::leftFoot);
+        const bool leg = isEitherSide(body_.role, Role::leftUpperLeg) && !has(Role::leftLowerLeg);
+        return isFoot() || shin || leg;
+    }
     [[nodiscard]] float largestRadius() const {
         const bool head = body_.role == Role::head;
         const float share = head ? kLargestHeadRadius : isTrunk(body_.role) ? kLargestTrunkRadius : kLargestRadius;
@@ -310,6 +345,13 @@ Capsule mirroredCapsule(const BodyPlan& plan, const Capsule& capsule, const Plan
 
 }  // namespace
 
+float distanceFrom(const Capsule& capsule, const vec3& point) {
+    const vec3 along = capsule.end - capsule.start;
+    const float square = glm::dot(along, along);
+    const float t = square > 0.0F ? std::clamp(glm::dot(point - capsule.start, along) / square, 0.0F, 1.0F) : 0.0F;
+    return glm::distance(point, capsule.start + t * along) - capsule.radius;
+}
+
 int mostShapesOf(const RagdollProfile& profile) {
     std::size_t most = 0;
     for (const BodyProfile& body : profile.bodies)
@@ -358,11 +400,44 @@ bool comesIntoOthers(const BodyPlan& plan, const std::vector<PlacedShape>& shape
     return false;
 }
 
+PlacedShape placeBox(const PlacedBox& box) {
+    PlacedShape placed;
+    placed.shape.kind = BodyShape::Kind::box;
+    placed.shape.halfExtents = box.halfExtents;
+    placed.standardFromBody = box.standardFromBox;
+    return placed;
+}
+
+// The mirror image of the left's box about the right's joint. Its sides are the box's own.
+PlacedBox mirroredBox(const BodyPlan& plan, const PlacedBox& box, const PlannedBody& from, const PlannedBody& to) {
+    const vec3 shift = to.start - plan.mirror(from.start);
+    const quat& q = box.standardFromBox.rotation;
+    return {{quat(q.w, q.x, -q.y, -q.z), plan.mirror(box.standardFromBox.translation) + shift}, box.halfExtents};
+}
+
+// Bodies whose skin is a box, as in figures made of blocks, become one, both of a pair or none. What they touch beside
+// them separateShapes() parts.
+void takeBoxes(const BodyPlan& plan, const Anatomy& anatomy, const std::vector<Capsule>& capsules,
+               std::vector<PlacedShape>& shapes) {
+    for (int body = 0; body < static_cast<int>(plan.bodies.size()); ++body) {
+        const PlannedBody& planned = plan.bodies[body];
+        const bool paired = plan.symmetric && planned.side != Side::center && planned.mirror >= 0;
+        if (paired && planned.side == Side::right) continue;
+        const auto box = BodyFit(plan, anatomy, body).fitBox(capsules[body]);
+        if (!box) continue;
+        shapes[body] = placeBox(*box);
+        if (!paired) continue;
+        const int other = planned.mirror;
+        shapes[other] = placeBox(mirroredBox(plan, *box, planned, plan.bodies[other]));
+    }
+}
+
 void addFurtherShapes(const BodyPlan& plan, const Anatomy& anatomy, int most, const std::vector<Capsule>& capsules,
                       std::vector<PlacedShape>& shapes) {
     for (int body = 0; body < static_cast<int>(plan.bodies.size()); ++body) {
         const PlannedBody& planned = plan.bodies[body];
         if (plan.symmetric && planned.side != Side::center && planned.mirror >= 0) continue;
+        if (shapes[body].shape.kind == BodyShape::Kind::box) continue;
         const auto several = BodyFit(plan, anatomy, body).fitSeveral(capsules[body], most);
         if (!several) continue;
         PlacedShape wanted = placeCapsules(*several);
@@ -387,6 +462,7 @@ std::vector<PlacedShape> fitShapes(const BodyPlan& plan, const Anatomy& anatomy,
     shapes.reserve(capsules.size());
     for (const Capsule& capsule : capsules)
         shapes.push_back(placeCapsule(capsule));
+    takeBoxes(plan, anatomy, capsules, shapes);
     addFurtherShapes(plan, anatomy, mostShapes, capsules, shapes);
     separateShapes(plan, shapes);
     return shapes;

@@ -14,6 +14,8 @@ struct Capsule {
     vec3 end{0, 0, 0};
     float radius = 0.0F;
 };
+/// Of a point from its surface, metres; negative inside.
+[[nodiscard]] float distanceFrom(const Capsule& capsule, const vec3& point);
 
 /// A shape for every body of the plan.
 ///
@@ -23,9 +25,10 @@ struct Capsule {
 /// the flesh, and end near the joints; trunk capsules stand or lie across, whichever fits better; the head stands; feet
 /// lie on the sole. Bodies with fewer than 24 points of skin get a man's proportions. Radii are kept between 1 % and 15
 /// % of the height (trunk 20, head 30 %). On a symmetric rig both sides are fitted as one and come out as mirror
-/// images. A trunk or head that several capsules cover clearly better (fitSeveralCapsules()) gets up to `mostShapes` of
-/// them, where none of the further ones comes into a body that is not linked. Shapes of bodies that are not linked are
-/// then shrunk by up to a quarter where that keeps them apart.
+/// images. Bodies whose skin is a block become boxes (fitBox()), but for feet and the lowest bodies of legs. A trunk or
+/// head that several capsules cover clearly better (fitSeveralCapsules()) gets up to `mostShapes` of them, where none
+/// of the further ones comes into a body that is not linked. Shapes of bodies that are not linked are then shrunk by up
+/// to a quarter where that keeps them apart.
 [[nodiscard]] std::vector<PlacedShape> fitShapes(const BodyPlan& plan, const Anatomy& anatomy,
                                                  int mostShapes = FitOptions{}.mostShapes);
 

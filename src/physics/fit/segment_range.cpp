@@ -6,7 +6,7 @@
 namespace lutka::physics {
 namespace {
 
-using animation::Segment;
+using RigSegment = animation::Segment;
 using animation::Side;
 
 constexpr float kBeyondClips = 15.0F;  // degrees
@@ -18,17 +18,17 @@ struct ConeDegrees {
     float side, flexion, twist;
 };
 
-ConeDegrees coneOf(Segment::Kind kind) {
+ConeDegrees coneOf(RigSegment::Kind kind) {
     switch (kind) {
-        case Segment::Kind::trunk:
+        case RigSegment::Kind::trunk:
             return {25, 25, 20};
-        case Segment::Kind::limbRoot:
+        case RigSegment::Kind::limbRoot:
             return {50, 60, 35};
-        case Segment::Kind::limb:
+        case RigSegment::Kind::limb:
             return {30, 60, 25};
-        case Segment::Kind::held:
+        case RigSegment::Kind::held:
             return {10, 10, 10};
-        case Segment::Kind::chain:
+        case RigSegment::Kind::chain:
             break;
     }
     return {40, 40, 30};
@@ -70,7 +70,7 @@ quat segmentFrame(const BodyPlan& plan, int child) {
 }
 
 void setSegmentRange(ConstraintProfile& constraint, const PlannedBody& body) {
-    const Segment segment = body.segment.value_or(Segment{});
+    const RigSegment segment = body.segment.value_or(RigSegment{});
     if (segment.hinge) {
         const auto beyond = [](float angle) {
             return radians(std::clamp(degrees(std::abs(angle)) + kBeyondClips, kLeastHinge, kMostHinge));

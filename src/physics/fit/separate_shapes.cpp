@@ -12,6 +12,19 @@ namespace {
 constexpr float kLargestShrink = 0.25F;
 constexpr float kGap = 1e-4F;  // metres left between parted shapes, so that rounding does not close them
 
+float thicknessOf(const PrimitiveShape& shape) {
+    const vec3& half = shape.halfExtents;
+    return shape.kind == PrimitiveShape::Kind::box ? std::min({half.x, half.y, half.z}) : shape.radius;
+}
+
+// Brings its surface in by a share of its thickness.
+void shrink(PrimitiveShape& shape, float share) {
+    if (shape.kind == PrimitiveShape::Kind::box)
+        shape.halfExtents -= share * thicknessOf(shape);
+    else
+        shape.radius *= 1.0F - share;
+}
+
 float distanceOf(const std::vector<PlacedShape>& shapes, int a, int b) {
     return distanceBetween(shapes[a].shape, shapes[a].standardFromBody, shapes[b].shape, shapes[b].standardFromBody);
 }
@@ -70,9 +83,9 @@ void separateShapes(const BodyPlan& plan, std::vector<PlacedShape>& shapes) {
     const auto linked = [&](int a, int b) { return plan.bodies[a].parent == b || plan.bodies[b].parent == a; };
     // Which of a body's shapes lies in the other is not told: the thinnest has least to give.
     const auto radiusOf = [&](int body) {
-        float least = shapes[body].shape.radius;
+        float least = thicknessOf(shapes[body].shape);
         for (const AddedShape& added : shapes[body].shape.more)
-            least = std::min(least, added.radius);
+            least = std::min(least, thicknessOf(added));
         return least;
     };
     // The largest shrink that any pair asks of a body, as a share of its radius.
@@ -94,9 +107,9 @@ void separateShapes(const BodyPlan& plan, std::vector<PlacedShape>& shapes) {
         const int other = plan.bodies[body].mirror;
         const float share = plan.symmetric && other >= 0 ? std::max(shares[body], shares[other]) : shares[body];
         BodyShape& shape = shapes[body].shape;
-        shape.radius *= 1.0F - share;
+        shrink(shape, share);
         for (AddedShape& added : shape.more)
-            added.radius *= 1.0F - share;
+            shrink(added, share);
     }
 }
 

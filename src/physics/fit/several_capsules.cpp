@@ -4,17 +4,16 @@
 #include <array>
 #include <glm/geometric.hpp>
 
-#include "core/quantile.hpp"
+#include "physics/fit/skin_sample.hpp"
 
 namespace lutka::physics {
 namespace {
 
 constexpr std::size_t kMostUnionPoints = 250;
-constexpr float kUnionClearly = 0.65F;    // of the distance that one capsule leaves
-constexpr float kThirdClearly = 0.8F;     // of the distance that two leave
-constexpr float kShareWon = 0.1F;         // of the skin
-constexpr float kWellCovered = 0.97F;     // of the skin: nothing to win
-constexpr float kUnionProtrusion = 1.5F;  // skin inside a capsule weighs more than skin outside, as for a single one
+constexpr float kUnionClearly = 0.65F;  // of the distance that one capsule leaves
+constexpr float kThirdClearly = 0.8F;   // of the distance that two leave
+constexpr float kShareWon = 0.1F;       // of the skin
+constexpr float kWellCovered = 0.97F;   // of the skin: nothing to win
 constexpr int kAlongX = 0;
 constexpr int kAlongY = 1;
 
@@ -48,49 +47,22 @@ float distanceFrom(const Members& members, const vec3& point) {
     return least;
 }
 
-float distanceFrom(const Capsule& capsule, const vec3& point) {
-    const vec3 along = capsule.end - capsule.start;
-    const float square = glm::dot(along, along);
-    const float t = square > 0.0F ? std::clamp(glm::dot(point - capsule.start, along) / square, 0.0F, 1.0F) : 0.0F;
-    return glm::distance(point, capsule.start + t * along) - capsule.radius;
-}
-
 class UnionSearch {
   public:
-    UnionSearch(const std::vector<SkinPoint>& points, const CapsuleBounds& bounds) : bounds_(bounds) {
-        const RigidTransform axesFromStandard = inverse(bounds.standardFromAxes);
-        const std::size_t stride = (points.size() + kMostUnionPoints - 1) / kMostUnionPoints;
-        for (std::size_t i = 0; i < points.size(); i += stride)
-            points_.push_back({axesFromStandard * points[i].position, points[i].area});
-        const bool weighted = std::any_of(points_.begin(), points_.end(), [](const auto& p) { return p.area > 0.0F; });
-        for (SkinPoint& point : points_) {
-            if (!weighted) point.area = 1.0F;
-            area_ += point.area;
-        }
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto coordinate = [axis](const SkinPoint& p) { return p.position[axis]; };
-            low_[axis] = quantileOf(points_, 0.01F, coordinate);
-            high_[axis] = quantileOf(points_, 0.99F, coordinate);
-        }
-    }
+    UnionSearch(const std::vector<SkinPoint>& points, const CapsuleBounds& bounds)
+        : bounds_(bounds),
+          sample_(points, inverse(bounds.standardFromAxes), kMostUnionPoints),
+          low_(sample_.quantiles(0.01F)),
+          high_(sample_.quantiles(0.99F)) {}
 
     template <class Shape>
     [[nodiscard]] float cost(const Shape& shape) const {
-        float sum = 0.0F;
-        for (const SkinPoint& point : points_) {
-            const float signedDistance = distanceFrom(shape, point.position);
-            const float distance = signedDistance < 0.0F ? -kUnionProtrusion * signedDistance : signedDistance;
-            sum += point.area * std::min(distance, bounds_.cutoff);
-        }
-        return sum / area_;
+        return sample_.cost(bounds_.cutoff, [&](const vec3& point) { return distanceFrom(shape, point); });
     }
 
     template <class Shape>
     [[nodiscard]] float shareNear(const Shape& shape) const {
-        float near = 0.0F;
-        for (const SkinPoint& point : points_)
-            near += std::abs(distanceFrom(shape, point.position)) <= bounds_.nearM ? point.area : 0.0F;
-        return near / area_;
+        return sample_.shareWithin(bounds_.nearM, [&](const vec3& point) { return distanceFrom(shape, point); });
     }
 
     // The one along an axis that fills the skin's box.
@@ -108,7 +80,7 @@ class UnionSearch {
     [[nodiscard]] Members withAnother(Members members, int axis, bool isPair) const {
         vec3 sum(0);
         float weight = 0.0F;
-        for (const SkinPoint& point : points_) {
+        for (const SkinPoint& point : sample_.points()) {
             const float outside = point.area * std::max(0.0F, distanceFrom(members, point.position));
             const bool otherSide = isPair && point.position.x < 0.0F;
             sum += outside * (otherSide ? acrossMiddle(point.position) : point.position);
@@ -199,8 +171,7 @@ class UnionSearch {
     }
 
     CapsuleBounds bounds_;
-    std::vector<SkinPoint> points_;  // in the axes
-    float area_ = 0.0F;
+    SkinSample sample_;  // in the axes
     vec3 low_{0, 0, 0};
     vec3 high_{0, 0, 0};
 };

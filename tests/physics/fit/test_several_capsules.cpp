@@ -11,13 +11,6 @@ using namespace lutka::physics;
 
 namespace {
 
-float distanceFrom(const Capsule& capsule, const vec3& point) {
-    const vec3 along = capsule.end - capsule.start;
-    const float square = glm::dot(along, along);
-    const float t = square > 0.0F ? std::clamp(glm::dot(point - capsule.start, along) / square, 0.0F, 1.0F) : 0.0F;
-    return glm::distance(point, capsule.start + t * along) - capsule.radius;
-}
-
 // Points on the surface of the union of capsules, all of one area.
 std::vector<SkinPoint> skinOf(const std::vector<Capsule>& capsules) {
     std::vector<SkinPoint> points;

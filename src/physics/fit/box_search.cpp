@@ -1,0 +1,144 @@
+#include "physics/fit/box_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "physics/collision/shape_distance.hpp"
+#include "physics/fit/fit_shapes.hpp"
+#include "physics/fit/skin_sample.hpp"
+
+namespace lutka::physics {
+namespace {
+
+constexpr std::size_t kMostBoxPoints = 400;
+constexpr float kBoxClearly = 0.5F;    // of the distance that the capsule leaves
+constexpr float kBoxNear = 0.9F;       // of the skin
+constexpr float kBoxItself = 0.25F;    // of that distance: the skin is a box
+constexpr float kBoxRounded = 0.12F;   // of its thinnest half: what a box leaves of a round part is more
+constexpr float kBoxWon = 0.15F;       // of the skin, that the capsule leaves
+constexpr float kBoxThickness = 0.4F;  // of its second side: plates slip through one another
+constexpr int kTurns = 18;             // in a quarter: every five degrees
+constexpr float kBoxTail = 0.01F;      // of the skin, that a box of quantiles leaves out on each side
+
+// A box about `center` along the axes of the points.
+struct BoxTrial {
+    vec3 center{0, 0, 0};
+    vec3 half{0, 0, 0};
+};
+
+float distanceFrom(const BoxTrial& box, const vec3& point) {
+    return distanceToBox(point - box.center, box.half).distance;
+}
+
+bool isPlate(vec3 half) {
+    std::sort(&half.x, &half.x + 3);
+    return half.x < kBoxThickness * half.y;
+}
+
+class BoxSearch {
+  public:
+    BoxSearch(const std::vector<SkinPoint>& points, const quat& standardFromAxes, const BoxBounds& bounds)
+        : bounds_(bounds),
+          standardFromAxes_(standardFromAxes),
+          sample_(points, {glm::conjugate(standardFromAxes), vec3(0)}, kMostBoxPoints) {}
+
+    [[nodiscard]] BoxTrial boxOfQuantiles() const {
+        const vec3 low = sample_.quantiles(kBoxTail);
+        const vec3 high = sample_.quantiles(1.0F - kBoxTail);
+        return settled({0.5F * (low + high), 0.5F * (high - low)});
+    }
+
+    template <class Shape>
+    [[nodiscard]] float cost(const Shape& shape) const {
+        return sample_.cost(bounds_.cutoff, [&](const vec3& point) { return distanceFrom(shape, point); });
+    }
+
+    template <class Shape>
+    [[nodiscard]] float shareNear(const Shape& shape) const {
+        return sample_.shareWithin(bounds_.nearM, [&](const vec3& point) { return distanceFrom(shape, point); });
+    }
+
+    // A capsule in the search's axes.
+    [[nodiscard]] Capsule inAxes(const Capsule& capsule) const {
+        const quat axesFromStandard = glm::conjugate(standardFromAxes_);
+        return {axesFromStandard * capsule.start, axesFromStandard * capsule.end, capsule.radius};
+    }
+
+    [[nodiscard]] BoxTrial run() const {
+        BoxTrial best = boxOfQuantiles();
+        float least = cost(best);
+        constexpr int kRounds = 6;
+        constexpr int kSweeps = 4;
+        float step = 0.1F * std::max({best.half.x, best.half.y, best.half.z});
+        for (int round = 0; round < kRounds; ++round, step *= 0.5F) {
+            for (int sweep = 0; sweep < kSweeps; ++sweep)
+                if (!improve(best, least, step)) break;
+        }
+        return best;
+    }
+
+    [[nodiscard]] PlacedBox inStandard(const BoxTrial& box) const {
+        return {{standardFromAxes_, standardFromAxes_ * box.center}, box.half};
+    }
+
+  private:
+    // One sweep over all parameters; whether any step helped.
+    bool improve(BoxTrial& best, float& least, float step) const {
+        bool better = false;
+        for (int move = 0; move < 12; ++move) {
+            BoxTrial trial = best;
+            vec3& part = move < 6 ? trial.center : trial.half;
+            part[move / 2 % 3] += move % 2 == 0 ? step : -step;
+            trial = settled(trial);
+            const float trialCost = cost(trial);
+            if (trialCost >= least) continue;
+            least = trialCost;
+            best = trial;
+            better = true;
+        }
+        return better;
+    }
+
+    [[nodiscard]] BoxTrial settled(BoxTrial box) const {
+        box.half = glm::clamp(box.half, vec3(bounds_.smallestHalf), vec3(bounds_.largestHalf));
+        if (!bounds_.symmetric) return box;
+        vec3 middle = standardFromAxes_ * box.center;
+        middle.x = bounds_.middleX;
+        box.center = glm::conjugate(standardFromAxes_) * middle;
+        return box;
+    }
+
+    BoxBounds bounds_;
+    quat standardFromAxes_;
+    SkinSample sample_;  // in the box's axes
+};
+
+}  // namespace
+
+std::optional<PlacedBox> fitBox(const std::vector<SkinPoint>& points, const Capsule& capsule, const BoxBounds& bounds) {
+    std::optional<BoxSearch> nearest;
+    float least = 0.0F;
+    for (int turn = 0; turn < kTurns; ++turn) {
+        const float angle = static_cast<float>(turn) * (0.5F * kPi / kTurns);
+        BoxSearch search(points, bounds.standardFromAxes * glm::angleAxis(angle, bounds.turnAxis), bounds);
+        const float cost = search.cost(search.boxOfQuantiles());
+        if (nearest && cost >= least) continue;
+        nearest = std::move(search);
+        least = cost;
+    }
+    const BoxTrial box = nearest->run();
+    const Capsule other = nearest->inAxes(capsule);
+    const float near = nearest->shareNear(box);
+    const float left = nearest->cost(box);
+    const bool wins = near >= nearest->shareNear(other) + kBoxWon;
+    const bool clearly = left <= (wins ? kBoxClearly : kBoxItself) * nearest->cost(other);
+    const float thinnest = std::min({box.half.x, box.half.y, box.half.z});
+    if (!clearly || left > kBoxRounded * thinnest || near < kBoxNear || isPlate(box.half)) return std::nullopt;
+    return nearest->inStandard(box);
+}
+
+}  // namespace lutka::physics

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/quantile.hpp"
+#include "core/rigid_transform.hpp"
+#include "physics/fit/skin_point.hpp"
+
+namespace lutka::physics {
+
+/// A few hundred of a body's skin points in the axes of a search, and how near a shape's surface lies to them. Where no
+/// point has an area all count alike.
+class SkinSample {
+  public:
+    /// At most `most` of the points, evenly from their order; at least one.
+    SkinSample(const std::vector<SkinPoint>& points, const RigidTransform& axesFromStandard, std::size_t most) {
+        const std::size_t stride = (points.size() + most - 1) / most;
+        const bool weighted = std::any_of(points.begin(), points.end(), [](const auto& p) { return p.area > 0.0F; });
+        for (std::size_t i = 0; i < points.size(); i += stride) {
+            points_.push_back({axesFromStandard * points[i].position, weighted ? points[i].area : 1.0F});
+            area_ += points_.back().area;
+        }
+    }
+
+    [[nodiscard]] const std::vector<SkinPoint>& points() const { return points_; }
+
+    /// Area-weighted mean distance of the points from a surface, metres, each cut off at `cutoff`. `signedDistance`
+    /// gives a point's, negative inside. Skin inside the shape, where the shape stands out of it, weighs more.
+    template <class Distance>
+    [[nodiscard]] float cost(float cutoff, Distance signedDistance) const {
+        constexpr float kProtrusion = 1.5F;
+        float sum = 0.0F;
+        for (const SkinPoint& point : points_) {
+            const float apart = signedDistance(point.position);
+            const float distance = apart < 0.0F ? -kProtrusion * apart : apart;
+            sum += point.area * std::min(distance, cutoff);
+        }
+        return area_ > 0.0F ? sum / area_ : 0.0F;
+    }
+
+    /// The share of the skin within `reach` metres of a surface, [0, 1].
+    template <class Distance>
+    [[nodiscard]] float shareWithin(float reach, Distance signedDistance) const {
+        float near = 0.0F;
+        for (const SkinPoint& point : points_)
+            near += std::abs(signedDistance(point.position)) <= reach ? point.area : 0.0F;
+        return area_ > 0.0F ? near / area_ : 0.0F;
+    }
+
+    /// The same quantile of the points' three coordinates.
+    [[nodiscard]] vec3 quantiles(float share) const {
+        vec3 result(0);
+        for (int axis = 0; axis < 3; ++axis)
+            result[axis] = quantileOf(points_, share, [axis](const SkinPoint& p) { return p.position[axis]; });
+        return result;
+    }
+
+  private:
+    std::vector<SkinPoint> points_;
+    float area_ = 0.0F;
+};
+
+}  // namespace lutka::physics
