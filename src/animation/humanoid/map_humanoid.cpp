@@ -155,10 +155,12 @@ bool isHonest(const CompletedRig& completed, const Figure& figure) {
     return true;
 }
 
-// A figure that lacks a whole arm or leg is read by the mirror image of the one that it has.
+// A figure that lacks a whole arm or leg is read by the mirror image of the one that it has. Where names tell all
+// limbs, none is missing, however a pose bends them.
 Reading readFigure(const RigFeatures& rig) {
     Reading reading;
     reading.figure = findFigure(rig);
+    if (reading.figure.refusal.empty() && reading.figure.legs.told && reading.figure.arms.told) return reading;
     reading.completed = completeRig(rig);
     for (const CompletedRig& completed : reading.completed) {
         Figure figure = findFigure(completed.rig);

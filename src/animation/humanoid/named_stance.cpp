@@ -28,6 +28,16 @@ bool hasTail(const RigFeatures& rig) {
     return std::any_of(rig.names.begin(), rig.names.end(), [](const NameEvidence& name) { return name.tail; });
 }
 
+// Many rigs call the hips "root" or count them to the spine: then they are the joint that both thighs hang on.
+bool namesHips(const RigFeatures& rig) {
+    if (namedJoint(rig, Part::hips, Side::center, kNamedTrunkEnd) != kNoJoint) return true;
+    const int left = namedJoint(rig, Part::upperLeg, Side::left, kNamedLimb);
+    const int right = namedJoint(rig, Part::upperLeg, Side::right, kNamedLimb);
+    const int parent = left == kNoJoint ? kNoJoint : rig.parents[left];
+    return parent != kNoJoint && right != kNoJoint && rig.parents[right] == parent &&
+           rig.names[parent].side == Side::center && rig.names[parent].parts[Part::hips] >= 0.0F;
+}
+
 bool namesWholeFigure(const RigFeatures& rig) {
     constexpr std::array<Part, 6> kLimbs{Part::upperArm, Part::lowerArm, Part::hand,
                                          Part::upperLeg, Part::lowerLeg, Part::foot};
@@ -35,8 +45,7 @@ bool namesWholeFigure(const RigFeatures& rig) {
         if (namedJoint(rig, part, Side::left, kNamedLimb) == kNoJoint) return false;
         if (namedJoint(rig, part, Side::right, kNamedLimb) == kNoJoint) return false;
     }
-    return namedJoint(rig, Part::hips, Side::center, kNamedTrunkEnd) != kNoJoint &&
-           namedJoint(rig, Part::head, Side::center, kNamedTrunkEnd) != kNoJoint;
+    return namesHips(rig) && namedJoint(rig, Part::head, Side::center, kNamedTrunkEnd) != kNoJoint;
 }
 
 }  // namespace

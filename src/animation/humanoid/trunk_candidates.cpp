@@ -15,8 +15,10 @@ constexpr float kNoSkinBelow = -5.0F;
 constexpr float kShadow = -3.0F;
 constexpr float kOneJointTrunk = -1.5F;   // hips and chest in one
 constexpr float kUnskinnedTrunk = -4.0F;  // … that moves no skin
+constexpr float kCarriesThighs = 1.5F;    // the parent of told thighs and of all above, where no name says hips
 constexpr float kHeadless = -3.0F;
 constexpr float kNamedChest = 2.0F;
+constexpr float kNamedHips = 4.0F;
 constexpr float kNamedTrunk = 3.0F;  // a name's score from which it says which part of the trunk this is
 constexpr float kNamedHead = 4.0F;   // a name's score from which it says head and nothing else
 constexpr float kNamedPose = -2.0F;  // the most that the place of a head so named may cost
@@ -37,6 +39,7 @@ class TrunkFinder {
         const auto& arm = framed.pairs[arms.first].joints;
         legParent_ = rig_.commonAncestor(leg[0], leg[1]);
         armParent_ = rig_.commonAncestor(arm[0], arm[1]);
+        if (rig_.parents[leg[0]] == rig_.parents[leg[1]]) thighParent_ = rig_.parents[leg[0]];
         trunkRoot_ =
             legParent_ == kNoJoint || armParent_ == kNoJoint ? kNoJoint : rig_.commonAncestor(legParent_, armParent_);
         for (int joint = 0; joint < rig_.count(); ++joint) {
@@ -118,7 +121,8 @@ class TrunkFinder {
         const int pair = framed_.pairOf[joint];
         if (pair >= 0 && (legs_.uses(pair) || arms_.uses(pair))) return false;
         // A dancer's or fallen figure's trunk may lie to the side; its names tell.
-        const float aside = !isNamedTrunk(joint) ? 0.12F : framed_.stance.byNames ? 2.0F : 0.4F;
+        const bool told = isNamedTrunk(joint) || (joint == thighParent_ && legs_.told);
+        const float aside = !told ? 0.12F : framed_.stance.byNames ? 2.0F : 0.4F;
         return std::abs(position(joint).x) < aside * length_ && pair < 0;
     }
 
@@ -143,6 +147,8 @@ class TrunkFinder {
 
     [[nodiscard]] std::vector<Scored> likelyHips(int banned) const {
         std::vector<Scored> hips;
+        const bool namesHips = std::any_of(central_.begin(), central_.end(),
+                                           [&](int joint) { return name(joint, Part::hips) >= kNamedHips; });
         for (const int joint : central_) {
             if (joint == banned) continue;
             const float height = (position(joint).y - legs_.root.y) / length_;
@@ -151,6 +157,7 @@ class TrunkFinder {
                           near((position(joint).z - legs_.root.z) / length_, 0.0F, 0.25F, 4.0F);
             if (trunkRoot_ != kNoJoint && rig_.isAncestorOrSelf(joint, trunkRoot_)) score += 1.5F;
             if (joint == trunkRoot_) score += 0.6F;
+            if (joint == trunkRoot_ && joint == thighParent_ && legs_.told && !namesHips) score += kCarriesThighs;
             if (rig_.skinned && ownSkin(joint) <= 0.0F) score += kUnskinnedHips;
             // The joint above would be the hips if it moves skin at the same height.
             const int parent = rig_.parents[joint];
@@ -230,7 +237,8 @@ class TrunkFinder {
         const vec3& place = position(chest);
         if (chest == trunk.head) return -kFarAway;
         if (trunk.head != kNoJoint && rig_.isAncestorOrSelf(trunk.head, chest)) return -kFarAway;
-        if (chest != trunk.hips && rig_.isAncestorOrSelf(chest, trunk.hips)) return -kFarAway;
+        if (chest != trunk.hips && rig_.isAncestorOrSelf(chest, trunk.hips) && !isTurnedOver(chest, trunk.hips))
+            return -kFarAway;
         float score = skinTerm(chest) + centralTerm(chest) + near((place.z - arms_.root.z) / length_, 0.0F, 0.3F, 4.0F);
         score +=
             chest == trunk.hips ? kOneJointTrunk + std::max(name(chest, Part::chest), 0.0F) : name(chest, Part::chest);
@@ -255,6 +263,12 @@ class TrunkFinder {
         if (trunk.head == kNoJoint) return score;
         score += near((position(trunk.head).y - place.y) / length_, 0.6F, 0.25F, isNamedHead(trunk.head) ? 1.5F : 4.0F);
         return score + neckScore(trunk);
+    }
+
+    // A trunk that carries its hips: robots whose body is the root. The hips are named so and carry the legs alone.
+    [[nodiscard]] bool isTurnedOver(int chest, int hips) const {
+        return chest == armParent_ && hips == legParent_ && name(hips, Part::hips) >= kNamedHips &&
+               name(chest, Part::chest) >= kNamedChest;
     }
 
     // How many joints lie between chest and head, and what they are called.
@@ -297,6 +311,7 @@ class TrunkFinder {
     float length_;  // from the thighs up to the upper arms
     float slack_;   // limbs of one joint need not start at the shoulder and the hip
     int legParent_ = kNoJoint;
+    int thighParent_ = kNoJoint;  // of both, where it is one
     int armParent_ = kNoJoint;
     int trunkRoot_ = kNoJoint;
     std::vector<int> central_;

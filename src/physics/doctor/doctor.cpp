@@ -95,8 +95,10 @@ class Examination {
             const bool center = animation::sideOf(*role) == animation::Side::center;
             const bool siblings =
                 skeleton.parents[map_.jointOf(*role)] == skeleton.parents[map_.jointOf(*above)] || isSpine(*role);
-            const bool built = hanging == animation::Hanging::beside &&
-                               (flat || (center ? anyPair || siblings : sidesHangBeside(skeleton, role, above)));
+            const bool built = (hanging == animation::Hanging::beside &&
+                                (flat || (center ? anyPair || siblings : sidesHangBeside(skeleton, role, above)))) ||
+                               (hanging == animation::Hanging::reversed && isSpine(*role) && *above == Role::hips &&
+                                carriesLegsAlone(skeleton));
             astray_ += built ? 0 : 1;
             diagnosis.findings.push_back({built ? Severity::warning : Severity::error, "joint-not-below", link(c),
                                           fmt::format("the joint \"{}\" {} \"{}\"", skeleton.names[map_.jointOf(*role)],
@@ -264,6 +266,17 @@ class Examination {
             map_.jointOf(other) == animation::kNoJoint || map_.jointOf(otherAbove) == animation::kNoJoint;
         return hangingOf(skeleton, role, above) == Hanging::beside &&
                (alone || hangingOf(skeleton, other, otherAbove) == Hanging::beside);
+    }
+
+    // Hips that hang on the trunk and carry both legs, but no arm: the rig's root is the trunk.
+    [[nodiscard]] bool carriesLegsAlone(const animation::Skeleton& skeleton) const {
+        const auto carries = [&](Role role) {
+            return animation::isAncestorOrSelf(skeleton, map_.jointOf(Role::hips), map_.jointOf(role));
+        };
+        const auto bound = [&](Role role) { return map_.jointOf(role) != animation::kNoJoint; };
+        const auto both = [](Role left, const auto& holds) { return holds(left) && holds(animation::mirrored(left)); };
+        return both(Role::leftUpperLeg, bound) && both(Role::leftUpperArm, bound) &&
+               both(Role::leftUpperLeg, carries) && !carries(Role::leftUpperArm) && !carries(Role::rightUpperArm);
     }
 
     [[nodiscard]] animation::Hanging hangingOf(const animation::Skeleton& skeleton, std::optional<Role> role,

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "animation/humanoid/map_humanoid.hpp"
+#include "posed_rigs.hpp"
 #include "rig_variations.hpp"
 #include "support/catch.hpp"
 #include "support/rigs.hpp"
@@ -17,55 +18,6 @@ using animation::HumanoidMap;
 using animation::Role;
 
 constexpr const char* kConvention = "vroid";
-
-int jointOf(const SyntheticRig& rig, Role role) {
-    const auto& names = rig.character.skeleton.names;
-    return static_cast<int>(std::find(names.begin(), names.end(), rig.truth.roles[indexOf(role)]->front()) -
-                            names.begin());
-}
-
-bool isBelow(const animation::Skeleton& skeleton, int top, int joint) {
-    while (joint != animation::kNoJoint && joint != top)
-        joint = skeleton.parents[joint];
-    return joint == top;
-}
-
-// Turns a role's joint and all below it about the joint itself.
-void turn(SyntheticRig& rig, Role role, float angle, const vec3& axis) {
-    animation::Skeleton& skeleton = rig.character.skeleton;
-    const int top = jointOf(rig, role);
-    const vec3 pivot = skeleton.bindModelFromJoint[top].translation;
-    const quat rotation = glm::angleAxis(angle, axis);
-    for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
-        if (!isBelow(skeleton, top, joint)) continue;
-        vec3& place = skeleton.bindModelFromJoint[joint].translation;
-        place = pivot + rotation * (place - pivot);
-    }
-}
-
-void turnBoth(SyntheticRig& rig, Role left, float angle) {
-    turn(rig, left, angle, vec3(1, 0, 0));
-    turn(rig, animation::mirrored(left), angle, vec3(1, 0, 0));
-}
-
-// Without the joints of a role and below it.
-void cutOff(SyntheticRig& rig, Role role) {
-    animation::Skeleton& skeleton = rig.character.skeleton;
-    const int top = jointOf(rig, role);
-    animation::Skeleton left;
-    std::vector<int> fresh;
-    for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
-        const bool gone = isBelow(skeleton, top, joint);
-        fresh.push_back(gone ? animation::kNoJoint : static_cast<int>(left.names.size()));
-        if (gone) continue;
-        left.names.push_back(skeleton.names[joint]);
-        left.parents.push_back(skeleton.parents[joint] < 0 ? animation::kNoJoint : fresh[skeleton.parents[joint]]);
-        left.bindModelFromJoint.push_back(skeleton.bindModelFromJoint[joint]);
-        left.nodeParentFromJoint.push_back(skeleton.nodeParentFromJoint[joint]);
-        left.skinWeight.push_back(skeleton.skinWeight[joint]);
-    }
-    skeleton = left;
-}
 
 void eraseJoint(animation::Character& character, std::size_t gone, std::uint16_t heir) {
     animation::Skeleton& skeleton = character.skeleton;
@@ -103,15 +55,6 @@ void checkWhatIsLeft(const SyntheticRig& rig) {
         if (!there) CHECK(got.empty());
     }
     CHECK_FALSE(map.missing.empty());
-}
-
-void checkWhole(const SyntheticRig& rig) {
-    const HumanoidMap map = animation::mapHumanoid(rig.character);
-    const Score score = scoreMap(rig.truth, map, rig.character.skeleton.names);
-    INFO(score.faults);
-    INFO((map.warnings.empty() ? std::string() : map.warnings.front()));
-    CHECK(map.humanoid);
-    CHECK(score.right == score.of);
 }
 
 }  // namespace

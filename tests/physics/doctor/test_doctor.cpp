@@ -196,6 +196,26 @@ TEST_CASE("a leg without the other may hang beside its body as those of such rig
     CHECK(finding->severity == Severity::warning);
 }
 
+TEST_CASE("a trunk that carries its hips is the rig's way, hips that carry an arm are an error") {
+    Patient p;
+    animation::Skeleton& skeleton = p.character.skeleton;
+    const int trunk = p.map.jointOf(Role::hips);
+    const int hips = p.map.jointOf(Role::spine);
+    skeleton.bindModelFromJoint[hips] = skeleton.bindModelFromJoint[trunk];
+    for (const Role role : {Role::leftUpperLeg, Role::rightUpperLeg})
+        skeleton.parents[p.map.jointOf(role)] = hips;
+    skeleton.parents[p.map.jointOf(Role::chest)] = trunk;
+    std::swap(p.map.roles[animation::indexOf(Role::hips)], p.map.roles[animation::indexOf(Role::spine)]);
+    p.profile = fitRagdoll(p.character, p.map).value();
+    const Diagnosis sound = p.look();
+    REQUIRE(find(sound, "joint-not-below") != nullptr);
+    CHECK(find(sound, "joint-not-below")->severity == Severity::warning);
+    skeleton.parents[p.map.jointOf(Role::leftUpperArm)] = hips;
+    const Diagnosis broken = p.look();
+    REQUIRE(find(broken, "joint-not-below") != nullptr);
+    CHECK(find(broken, "joint-not-below")->severity == Severity::error);
+}
+
 TEST_CASE("a part that hangs below its own body, but through another limb, is an error") {
     Patient p;
     p.character.skeleton.parents[p.map.jointOf(Role::rightUpperArm)] = p.map.jointOf(Role::leftHand);

@@ -1,0 +1,94 @@
+// Figures whose names tell more than their bind pose.
+
+#include <algorithm>
+#include <random>
+#include <string>
+
+#include "animation/humanoid/map_humanoid.hpp"
+#include "posed_rigs.hpp"
+#include "support/catch.hpp"
+#include "support/rigs.hpp"
+
+namespace lutka::test {
+namespace {
+
+using animation::Role;
+
+// As a clip without its skin is exported: the first frame is all the pose that there is.
+SyntheticRig bareRig(const std::string& convention, const Build& build) {
+    SyntheticRig rig = makeSyntheticRig(convention, build);
+    std::vector<float>& weights = rig.character.skeleton.skinWeight;
+    std::fill(weights.begin(), weights.end(), 0.0F);
+    rig.character.meshes.clear();
+    return rig;
+}
+
+// Poses of a fight, within what joints can do; the same number gives the same pose.
+void fight(SyntheticRig& rig, int number) {
+    std::mt19937 random(static_cast<unsigned>(number));
+    const auto between = [&](float low, float high) {
+        return low + (high - low) * static_cast<float>(random() % 1000U) / 999.0F;
+    };
+    const vec3 x(1, 0, 0);
+    const vec3 y(0, 1, 0);
+    turn(rig, Role::hips, between(-0.6F, 0.6F), y);
+    const float lean = between(0.0F, 0.5F);
+    turn(rig, Role::hips, lean, x);
+    for (const Role left : {Role::leftUpperLeg, Role::rightUpperLeg}) {
+        const float thigh = between(-1.3F, 0.5F);
+        turn(rig, left, thigh - lean, x);
+        turn(rig, left == Role::leftUpperLeg ? Role::leftLowerLeg : Role::rightLowerLeg,
+             between(0.1F, 1.2F) - 0.5F * thigh, x);
+    }
+    for (const Role left : {Role::leftUpperArm, Role::rightUpperArm}) {
+        const bool right = left == Role::rightUpperArm;
+        turn(rig, left, between(-1.6F, 0.8F), x);
+        turn(rig, right ? Role::rightLowerArm : Role::leftLowerArm, (right ? 1.0F : -1.0F) * between(0.0F, 1.2F), y);
+        turn(rig, right ? Role::rightLowerArm : Role::leftLowerArm, -between(0.2F, 1.6F), x);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("where names tell all limbs, a fighter's poses cost no limb", "[named]") {
+    for (const char* convention : {"advanced skeleton", "vroid", "cmu"}) {
+        for (int seed = 0; seed < 300; ++seed) {
+            SyntheticRig rig = bareRig(convention, {.armsDown = 1.2F});
+            fight(rig, seed);
+            const animation::HumanoidMap map = animation::mapHumanoid(rig.character);
+            const Score score = scoreMap(rig.truth, map, rig.character.skeleton.names);
+            INFO(convention << " in pose " << seed << ": " << score.faults);
+            REQUIRE(score.right == score.of);
+        }
+    }
+}
+
+TEST_CASE("hips that hang on the trunk and carry the legs are the hips by their name", "[named]") {
+    // As a robot is rigged whose body is the root.
+    std::vector<JointSpec> joints{{"root", animation::kNoJoint, vec3(0)},
+                                  {"torso", 0, vec3(0, 0.6F, 0)},
+                                  {"hips", 1, vec3(0, 0.6F, 0)},
+                                  {"neck", 1, vec3(0, 1.0F, 0)},
+                                  {"head", 3, vec3(0, 1.1F, 0.02F)}};
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string end = side > 0.0F ? ".L" : ".R";
+        const auto add = [&](const char* name, int parent, const vec3& place) {
+            joints.push_back({name + end, parent, vec3(side, 1, 1) * place});
+            return static_cast<int>(joints.size()) - 1;
+        };
+        const int thigh = add("upperleg", 2, vec3(0.13F, 0.55F, 0));
+        add("foot", add("lowerleg", thigh, vec3(0.13F, 0.35F, 0.02F)), vec3(0.13F, 0.12F, 0));
+        const int arm = add("upperarm", 1, vec3(0.2F, 0.95F, 0));
+        add("hand", add("lowerarm", arm, vec3(0.42F, 0.95F, 0)), vec3(0.6F, 0.95F, 0));
+    }
+    animation::Character robot;
+    robot.skeleton = makeSkeleton(joints);
+    robot.skeleton.skinWeight.assign(joints.size(), 100.0F);
+    robot.skeleton.skinWeight[0] = 0.0F;
+    const animation::HumanoidMap map = animation::mapHumanoid(robot);
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(Role::hips) == 2);
+    CHECK(map.jointOf(Role::spine) == 1);
+}
+
+}  // namespace lutka::test
