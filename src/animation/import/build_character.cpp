@@ -12,6 +12,7 @@
 #include <memory>
 #include <utility>
 
+#include "animation/import/bare_skeleton.hpp"
 #include "animation/import/bind_pose.hpp"
 #include "animation/import/clean_source.hpp"
 #include "animation/import/clip_sampling.hpp"
@@ -215,6 +216,7 @@ Error tooLarge(const std::string& what, const std::filesystem::path& file) {
 Result<Character> buildCharacter(SourceScene source, const std::filesystem::path& file, const ImportOptions& options) {
     if (std::optional<Error> error = validate(source, file.string())) return *std::move(error);
     cleanNames(source);
+    poseBareSkeleton(source);
     const Result<FigureChoice> figures = chooseFigure(source, options.figure);
     if (!figures) return withLocation(figures.error(), file.string());
     const NodeTree tree = makeNodeTree(source);

@@ -306,6 +306,34 @@ Clip makeClip(const std::shared_ptr<const ClipFile>& file, const SourceClip& ani
 
 }  // namespace
 
+std::pair<double, double> spanOf(const SourceClip& clip) {
+    const KeyTimes times = keyTimes(clip);
+    return times.last < times.first ? std::pair(0.0, 0.0) : std::pair(times.first, times.last);
+}
+
+std::vector<dmat4> parentFromNodes(const SourceScene& scene, const SourceClip& clip, double time) {
+    std::vector<dmat4> out;
+    out.reserve(scene.nodes.size());
+    for (const SourceNode& node : scene.nodes)
+        out.push_back(node.parentFromNode);
+    std::vector<SourceTrs> parts = partsOf(scene);
+    for (const SourceChannel& channel : clip.channels)
+        apply(channel, time, parts[static_cast<std::size_t>(channel.node)]);
+    for (const SourceChannel& channel : clip.channels)
+        out[static_cast<std::size_t>(channel.node)] = matrixOf(parts[static_cast<std::size_t>(channel.node)]);
+    return out;
+}
+
+std::vector<dmat4> sceneFromNodes(const SourceScene& scene, std::span<const dmat4> parentFromNode) {
+    std::vector<dmat4> out;
+    out.reserve(parentFromNode.size());
+    for (std::size_t node = 0; node < parentFromNode.size(); ++node) {
+        const int parent = scene.nodes[node].parent;
+        out.push_back(parent < 0 ? parentFromNode[node] : out[static_cast<std::size_t>(parent)] * parentFromNode[node]);
+    }
+    return out;
+}
+
 ClipFile::ClipFile(const NodeTree& nodes, std::span<const dmat4> bindSceneFromJoint, const dmat4& modelFromScene,
                    const Skeleton& of, SourceScene& scene)
     : tree(nodes),

@@ -3,6 +3,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "animation/clip.hpp"
@@ -32,6 +33,15 @@ class ClipFile {
   private:
     std::unique_ptr<bool[]> matters_;
 };
+
+/// First and last key of a clip, in seconds; both 0 without keys.
+[[nodiscard]] std::pair<double, double> spanOf(const SourceClip& clip);
+
+/// The nodes' own poses with what the clip makes of them at a time in seconds, one element a node.
+[[nodiscard]] std::vector<dmat4> parentFromNodes(const SourceScene& scene, const SourceClip& clip, double time);
+
+/// Frames of all nodes in the scene; parents come before children.
+[[nodiscard]] std::vector<dmat4> sceneFromNodes(const SourceScene& scene, std::span<const dmat4> parentFromNode);
 
 /// All clips as rigid poses at a fixed rate: that of their keys, times the smallest whole number that reaches 30 frames
 /// a second (60 for splines, at most 120), so that the frames fall on the keys. A clip starts at the file's time 0, or

@@ -53,3 +53,51 @@ TEST_CASE("a figure that is inside out is turned, with a word") {
             CHECK(glm::dot(mesh.normals[v], mesh.positions[v] - vec3(0, 0.9F, 0)) > 0.0F);
     }
 }
+
+TEST_CASE("joints without places of their own take those of the clip's plainest frame") {
+    // As exporters of clips alone write them: no mesh, no pose of the nodes, all of it in the channels.
+    const TemporaryFolder folder;
+    GltfFile file;
+    struct Limb {
+        const char* name;
+        int parent;
+        vec3 place;
+    };
+    const std::vector<Limb> limbs{{"Hips", -1, {0, 1, 0}},
+                                  {"Spine", 0, {0, 0.2F, 0}},
+                                  {"Head", 1, {0, 0.4F, 0}},
+                                  {"LeftUpLeg", 0, {0.1F, -0.05F, 0}},
+                                  {"LeftLeg", 3, {0, -0.45F, 0}},
+                                  {"LeftFoot", 4, {0, -0.42F, 0}},
+                                  {"RightUpLeg", 0, {-0.1F, -0.05F, 0}},
+                                  {"RightLeg", 6, {0, -0.45F, 0}},
+                                  {"RightFoot", 7, {0, -0.42F, 0}},
+                                  {"LeftArm", 1, {0.2F, 0.25F, 0}},
+                                  {"LeftForeArm", 9, {0.28F, 0, 0}},
+                                  {"LeftHand", 10, {0.25F, 0, 0}},
+                                  {"RightArm", 1, {-0.2F, 0.25F, 0}},
+                                  {"RightForeArm", 12, {-0.28F, 0, 0}},
+                                  {"RightHand", 13, {-0.25F, 0, 0}}};
+    // It crouches, then stands.
+    const std::vector<float> times{0, 1};
+    nlohmann::json clip = {{"name", "rise"}};
+    for (const Limb& limb : limbs) {
+        const int node = file.addNode(limb.name, limb.parent);
+        const vec3 low = limb.place.y < -0.3F ? vec3(0, 0.1F, 0.4F) : limb.place;
+        const std::vector<float> values{low.x, low.y, low.z, limb.place.x, limb.place.y, limb.place.z};
+        clip["samplers"].push_back({{"input", file.addFloats(times, "SCALAR")},
+                                    {"output", file.addFloats(values, "VEC3")},
+                                    {"interpolation", "LINEAR"}});
+        clip["channels"].push_back(
+            {{"sampler", clip["samplers"].size() - 1}, {"target", {{"node", node}, {"path", "translation"}}}});
+    }
+    file.json["animations"].push_back(clip);
+    file.saveBinary(folder / "rise.glb");
+    const Character character = imported(folder / "rise.glb");
+    CHECK(warns(character, "no figure"));
+    const auto at = [&](const char* name) {
+        return character.skeleton.bindModelFromJoint[findJoint(character.skeleton, name)].translation;
+    };
+    CHECK(glm::distance(at("LeftFoot"), vec3(0.1F, 0.08F, 0)) < 0.05F);
+    CHECK(glm::distance(at("RightHand"), vec3(-0.73F, 1.45F, 0)) < 0.05F);
+}

@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 
+#include "animation/import/bare_skeleton.hpp"
 #include "animation/import/bvh/bvh_document.hpp"
 #include "animation/import/source_limits.hpp"
 #include "core/files.hpp"
@@ -21,16 +22,11 @@ using bvh::BvhDocument;
 using glm::dmat4;
 using glm::dvec3;
 
-// The share of all bones' length that points one way, or along one axis, above which a pose is no figure. A figure that
-// stands with its arms down has about 0.7 and 0.85.
-constexpr double kMostOneWay = 0.82;
-constexpr double kMostOneAxis = 0.93;
 // How far the lowest joint may be from the floor, in heights, and how far it must be for another axis.
 constexpr double kOnFloor = 0.15;
 constexpr double kOffFloor = 0.35;
 constexpr std::size_t kFramesLookedAt = 40;
 constexpr std::size_t kFramesToChooseFrom = 300;
-constexpr double kClearlyBetter = 1.02;
 
 std::vector<dmat4> sceneFromJoints(const BvhDocument& document, std::span<const dmat4> parentFromJoint) {
     std::vector<dmat4> out;
@@ -54,38 +50,6 @@ std::vector<dmat4> poseAt(const BvhDocument& document, std::size_t frame) {
     for (std::size_t joint = 0; joint < document.joints.size(); ++joint)
         out.push_back(document.parentFromJoint(joint, frame));
     return out;
-}
-
-// The joints from the first on that has several children: what is above them only leads to the figure.
-std::size_t firstFork(const BvhDocument& document) {
-    std::vector<int> children(document.joints.size(), 0);
-    for (const bvh::Joint& joint : document.joints) {
-        if (joint.parent >= 0) ++children[static_cast<std::size_t>(joint.parent)];
-    }
-    const auto fork = std::find_if(children.begin(), children.end(), [](int count) { return count > 1; });
-    return fork == children.end() ? 0 : static_cast<std::size_t>(fork - children.begin());
-}
-
-// Whether the bones point into different directions, as those of a figure do in any pose.
-bool spreadsOut(const BvhDocument& document, std::span<const dmat4> parentFromJoint) {
-    const std::vector<dmat4> scene = sceneFromJoints(document, parentFromJoint);
-    dvec3 positive(0);
-    dvec3 negative(0);
-    double total = 0.0;
-    for (std::size_t i = firstFork(document) + 1; i < scene.size(); ++i) {
-        const int parent = document.joints[i].parent;
-        if (parent < 0) continue;
-        const dvec3 bone = dvec3(scene[i][3]) - dvec3(scene[static_cast<std::size_t>(parent)][3]);
-        total += glm::length(bone);
-        positive += glm::max(bone, dvec3(0));
-        negative += glm::max(-bone, dvec3(0));
-    }
-    if (!(total > 0.0)) return false;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double oneWay = std::max(positive[axis], negative[axis]);
-        if (oneWay > kMostOneWay * total || positive[axis] + negative[axis] > kMostOneAxis * total) return false;
-    }
-    return true;
 }
 
 // How far the lowest joint is from the floor along an axis, in sizes of the figure; over some frames.
@@ -116,49 +80,29 @@ int upAxisOf(const BvhDocument& document) {
     return z ? 2 : 1;
 }
 
-// How plainly a pose shows the figure: how high the hips stand over the lowest joint, in lengths of the longest way
-// down from them, and how straight the limbs are.
-double plainness(const BvhDocument& document, std::span<const dmat4> parentFromJoint, int up) {
-    const std::vector<dmat4> scene = sceneFromJoints(document, parentFromJoint);
-    const std::size_t fork = firstFork(document);
-    const dvec3 hips(scene[fork][3]);
-    std::vector<double> way(scene.size(), 0.0);
-    std::vector<bool> isTip(scene.size(), true);
-    double longest = 1e-12;
-    double low = hips[up];
-    for (std::size_t i = fork + 1; i < scene.size(); ++i) {
-        if (document.joints[i].parent < static_cast<int>(fork)) break;  // another hierarchy
-        const auto parent = static_cast<std::size_t>(document.joints[i].parent);
-        way[i] = way[parent] + glm::distance(dvec3(scene[i][3]), dvec3(scene[parent][3]));
-        isTip[parent] = false;
-        longest = std::max(longest, way[i]);
-        low = std::min(low, scene[i][3][up]);
-    }
-    double straight = 0.0;
-    double tips = 0.0;
-    for (std::size_t i = fork + 1; i < scene.size(); ++i) {
-        if (!isTip[i] || !(way[i] > 0.0)) continue;
-        straight += glm::distance(dvec3(scene[i][3]), hips) / way[i];
-        tips += 1.0;
-    }
-    return (hips[up] - low) / longest + straight / std::max(tips, 1.0);
+std::vector<int> parentsOf(const BvhDocument& document) {
+    std::vector<int> parents;
+    for (const bvh::Joint& joint : document.joints)
+        parents.push_back(joint.parent);
+    return parents;
 }
 
 // The nodes' pose.
 std::vector<dmat4> restPose(const BvhDocument& document, std::vector<std::string>& warnings) {
     std::vector<dmat4> zero = zeroPose(document);
+    const std::vector<int> parents = parentsOf(document);
     const std::size_t frames = document.frameCount();
-    if (frames == 0 || document.joints.size() < 4 || spreadsOut(document, zero)) return zero;
+    if (frames == 0 || parents.size() < 4 || spreadsOut(parents, sceneFromJoints(document, zero))) return zero;
     const int up = upAxisOf(document);
     const std::size_t step = std::max<std::size_t>(1, frames / kFramesToChooseFrom);
     std::optional<std::size_t> chosen;
     double best = 0.0;
     for (std::size_t frame = 0; frame < frames; frame += step) {
-        const std::vector<dmat4> pose = poseAt(document, frame);
-        if (!spreadsOut(document, pose)) continue;
-        const double score = plainness(document, pose, up);
+        const std::vector<dmat4> scene = sceneFromJoints(document, poseAt(document, frame));
+        if (!spreadsOut(parents, scene)) continue;
+        const double score = plainness(parents, scene, up);
         // The earliest of those that are about as good: many captures begin with a pose for the purpose.
-        if (chosen && score < kClearlyBetter * best) continue;
+        if (chosen && score < kClearlyPlainer * best) continue;
         chosen = frame;
         best = score;
     }

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+
+#include "animation/import/affine.hpp"
+#include "animation/import/source_scene.hpp"
+
+namespace lutka::animation::rig_import {
+
+/// How much plainer a later frame must be to be taken instead: many captures begin with a pose for the purpose.
+inline constexpr double kClearlyPlainer = 1.02;
+
+/// Whether the bones point into different directions, as those of a figure do in any pose. Parents before children, -1
+/// for roots; `scene` holds each node's frame. What only leads to the figure does not count.
+[[nodiscard]] bool spreadsOut(std::span<const int> parents, std::span<const dmat4> scene);
+
+/// How plainly a pose shows a figure: how high the hips stand over the lowest node along axis `up`, in lengths of the
+/// longest way down from them, and how straight the limbs are. About 2 for one that stands with straight limbs.
+[[nodiscard]] double plainness(std::span<const int> parents, std::span<const dmat4> scene, int up);
+
+/// In a file with clips and no mesh the nodes' own pose binds nothing, and some exporters write none: all nodes in one
+/// place, or along one axis. Such nodes are given the pose of the frame that shows the figure most plainly, the
+/// earliest of those that do; a warning tells which.
+void poseBareSkeleton(SourceScene& scene);
+
+}  // namespace lutka::animation::rig_import
