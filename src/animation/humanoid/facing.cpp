@@ -15,6 +15,7 @@ constexpr float kNamesOfEveryLimb = 4.8F;
 constexpr float kFewestOfEveryLimb = 4.0F;  // pairs of joints
 // What hats and hair can mislead (the head's reach, where its skin is finer) says no more than this together.
 constexpr float kMostOfHead = 3.0F;
+constexpr float kVerticesOfFace = 100.0F;  // of a head whose finer side proves something
 constexpr float kPriorPlusZ = 0.6F;
 constexpr float kMostSlope = radians(50.0F);  // of a shin that stands; those of a kneeling figure lie
 
@@ -29,6 +30,7 @@ class FacingFinder {
         readBends();
         readHead();
         readHands();
+        readBack();
         facing_.shape += std::clamp(headOutline_, -kMostOfHead, kMostOfHead);
         readNames();
         facing_.prior = kPriorPlusZ * framed_.stance.through().z;
@@ -187,9 +189,25 @@ class FacingFinder {
         const Box& own = framed_.ownSkin[trunk_.head];
         if (own.count == 0) return;
         speakOfHead((0.5F * (own.low.z + own.high.z) - neck) / size, 5.0F, 1.2F, "the head reaches that way");
-        // Eyes, nose and mouth take more vertices than the back of the head.
-        speakOfHead((own.mean().z - 0.5F * (own.low.z + own.high.z)) / size, 28.0F, 3.0F,
+        // Eyes, nose and mouth take more vertices than the back of the head; a box has none.
+        const float detail = std::min(static_cast<float>(own.count) / kVerticesOfFace, 1.0F);
+        speakOfHead((own.mean().z - 0.5F * (own.low.z + own.high.z)) / size, 28.0F * detail, 3.0F * detail,
                     "the head is finer on that side");
+    }
+
+    // Capes, packs and wings hang behind the trunk.
+    void readBack() {
+        const float trunk = framed_.positions[trunk_.chest].z;
+        const float size = std::max(arms_.root.y - legs_.root.y, 0.05F * framed_.spread);
+        float behind = 0.0F;
+        int count = 0;
+        for (int joint = 0; joint < rig_.count(); ++joint) {
+            if (!rig_.names[joint].onBack) continue;
+            const Box& skin = framed_.ownSkin[joint];
+            behind += trunk - (skin.count > 0 ? middle(skin) : framed_.positions[joint].z);
+            ++count;
+        }
+        if (count > 0) speak(behind / static_cast<float>(count) / size, 10.0F, 2.0F, "what hangs on the back says so");
     }
 
     void readHands() {

@@ -1,6 +1,7 @@
 #include "animation/humanoid/name_evidence.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bitset>
 #include <initializer_list>
 
@@ -159,6 +160,12 @@ void keepBelowControl(const Concepts& c, NameEvidence& evidence) {
         score += kControlLoss;
 }
 
+bool isCarriedOnBack(std::string_view word) {
+    constexpr std::array<std::string_view, 12> kWords{"cape", "capes",   "cloak", "cloaks", "backpack", "rucksack",
+                                                      "wing", "jetpack", "wings", "elytra", "tail",     "tails"};
+    return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
+}
+
 bool hasWord(const std::vector<std::string>& words, std::string_view word) {
     return std::find(words.begin(), words.end(), word) != words.end();
 }
@@ -183,6 +190,7 @@ NameEvidence nameEvidence(std::string_view name) {
     evidence.bareLimb = evidence.parts[Part::upperArm] == kBareLimb || evidence.parts[Part::upperLeg] == kBareLimb;
     evidence.face = concepts.has(Concept::face);
     evidence.thumb = hasWord(tokens.words, "thumb") || hasWord(tokens.words, "thumbs");
+    evidence.onBack = std::any_of(tokens.words.begin(), tokens.words.end(), isCarriedOnBack);
     evidence.helper = concepts.hasAny({Concept::twist, Concept::control, Concept::end, Concept::prop});
     evidence.meaningful = !concepts.empty();
     keepBelowControl(concepts, evidence);

@@ -22,6 +22,7 @@ struct NameEvidence {
     bool bareLimb = false;      ///< Only "arm" or "leg", without a word for which part of it.
     bool face = false;          ///< Eye, jaw, nose …: in front of the head.
     bool thumb = false;
+    bool onBack = false;  ///< What figures carry on their backs: capes, packs, wings.
     bool tail = false;
     bool creature = false;           ///< Wing, paw, front leg …: not a human part.
     std::vector<std::string> words;  ///< For reasons and for pairing left and right.

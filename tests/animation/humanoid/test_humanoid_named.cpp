@@ -91,4 +91,44 @@ TEST_CASE("hips that hang on the trunk and carry the legs are the hips by their 
     CHECK(map.jointOf(Role::spine) == 1);
 }
 
+TEST_CASE("a cape hangs behind, and the finer side of a box of a head proves nothing", "[named]") {
+    // Faces -Z, as figures of some block games do: a box of a head with a brim towards +Z.
+    animation::Character block;
+    block.skeleton = makeSkeleton({{"Player", -1, {0, 0, 0}},
+                                   {"Body", 0, {0, 0.67F, 0}},
+                                   {"Leg_Right", 1, {0.1F, 0.67F, 0}},
+                                   {"Leg_Left", 1, {-0.1F, 0.67F, 0}},
+                                   {"Cape", 1, {0, 1.3F, 0.12F}},
+                                   {"Arm_Right", 1, {0.3F, 1.25F, 0}},
+                                   {"Arm_Left", 1, {-0.3F, 1.25F, 0}},
+                                   {"Head", 1, {0, 1.35F, 0}}});
+    animation::SkinnedMesh mesh;
+    const auto box = [&](int joint, const vec3& low, const vec3& high) {
+        for (int corner = 0; corner < 8; ++corner) {
+            mesh.positions.emplace_back((corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
+                                        (corner & 4) != 0 ? high.z : low.z);
+            mesh.joints.push_back({static_cast<std::uint16_t>(joint), 0, 0, 0});
+            mesh.weights.push_back({1, 0, 0, 0});
+        }
+        block.skeleton.skinWeight[static_cast<std::size_t>(joint)] += 8.0F;
+    };
+    box(1, {-0.2F, 0.67F, -0.1F}, {0.2F, 1.35F, 0.1F});
+    box(2, {0, 0, -0.1F}, {0.2F, 0.67F, 0.1F});
+    box(3, {-0.2F, 0, -0.1F}, {0, 0.67F, 0.1F});
+    box(4, {-0.2F, 0.7F, 0.12F}, {0.2F, 1.3F, 0.14F});
+    box(5, {0.2F, 0.67F, -0.1F}, {0.4F, 1.35F, 0.1F});
+    box(6, {-0.4F, 0.67F, -0.1F}, {-0.2F, 1.35F, 0.1F});
+    box(7, {-0.2F, 1.35F, -0.2F}, {0.2F, 1.75F, 0.2F});
+    box(7, {-0.2F, 1.7F, 0.18F}, {0.2F, 1.75F, 0.2F});
+    block.meshes.push_back(mesh);
+    const animation::HumanoidMap map = animation::mapHumanoid(block);
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(Role::leftUpperArm) == 6);
+    CHECK(map.jointOf(Role::leftUpperLeg) == 3);
+    CHECK((map.standardFromModel * vec3(0, 0, -1)).z > 0.9F);
+    animation::MapOptions unnamed;
+    unnamed.useNames = false;
+    CHECK(animation::mapHumanoid(block, unnamed).humanoid);
+}
+
 }  // namespace lutka::test
