@@ -138,7 +138,7 @@ bool losesItsHead(const RigFeatures& rig, const Figure& figure) {
 
 // Which side the names give the joints of the +x half: +1 left, -1 right, 0 where they disagree or are too few.
 int sideByNames(const FramedRig& framed, const LimbCandidate& limb) {
-    constexpr int kFewest = 2;
+    constexpr int kFewest = 1;
     int sum = 0;
     int counted = 0;
     for (const int index : limb.pairs) {

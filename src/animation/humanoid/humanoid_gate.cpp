@@ -20,6 +20,13 @@ constexpr float kBlocksWhole = 5.0F;
 // Names of every joint of all four limbs, of hips and head carry a figure of any proportions whose trunk is upright.
 constexpr float kToldTrunk = 8.0F;
 constexpr float kToldShape = 12.0F;
+// Of shape and half the whole, where no name speaks for a figure: upright; headless; lying or leaning; on its head or
+// side. Turned far enough, many a creature has something of a figure.
+constexpr float kLeastUpright = -3.5F;
+constexpr float kLeastHeadless = 4.5F;
+constexpr float kLeastTurned = -1.1F;
+constexpr float kLeastOdd = 4.0F;
+constexpr float kOddPrior = -3.5F;
 constexpr float kLeastRise = 0.10F;  // of the arms' roots above the legs', as a share of the legs' length
 
 float angleTo(const vec3& direction, const vec3& axis) {
@@ -75,6 +82,11 @@ bool isScattered(const Figure& figure, const FramedRig& framed) {
     return true;
 }
 
+float leastUnnamed(const Figure& figure) {
+    const float least = figure.prior >= 0.0F ? kLeastUpright : figure.prior < kOddPrior ? kLeastOdd : kLeastTurned;
+    return figure.trunk.head == kNoJoint ? std::max(least, kLeastHeadless) : least;
+}
+
 }  // namespace
 
 float trunkTilt(const Figure& figure, const FramedRig& framed) {
@@ -116,14 +128,16 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     if (isScattered(figure, framed)) return "its parts hang on nothing and are named as no limbs";
     // Names alone never make a humanoid, but they carry one that is put together oddly.
     const float names = figure.legs.names + figure.arms.names + figure.trunk.names;
+    const float whole = figure.score - figure.prior - names;
+    if (names <= 0.0F && figure.shapeScore() + 0.5F * whole < leastUnnamed(figure))
+        return "no figure stands upright in it";
     const bool blocks = figure.isBlocky() && figure.legs.names > kNamedBlock && figure.arms.names > kNamedBlock;
     const bool told = figure.legs.told && figure.arms.told && figure.trunk.names >= kToldTrunk;
     const float helpShape =
         std::clamp(0.2F * names, -6.0F, 4.0F) + (blocks ? kBlocksShape : 0.0F) + (told ? kToldShape : 0.0F);
     const float helpWhole =
         std::clamp(0.6F * names, -10.0F, 10.0F) + (blocks ? kBlocksWhole : 0.0F) + (told ? kToldShape : 0.0F);
-    if (figure.shapeScore() + helpShape < kLeastShapeScore ||
-        figure.score - figure.prior - names + helpWhole < kLeastWholeScore) {
+    if (figure.shapeScore() + helpShape < kLeastShapeScore || whole + helpWhole < kLeastWholeScore) {
         return fmt::format("the limbs have not the proportions of a human figure (score {:.1f})", figure.shapeScore());
     }
     return {};

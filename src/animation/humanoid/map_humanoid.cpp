@@ -20,6 +20,7 @@ constexpr int kFewestJoints = 5;
 constexpr float kLoudShape = 1.5F;           // log-odds of the facing by shape that are worth a word against the names
 constexpr float kImagined = 4.0F;            // log-odds against a limb that is not there
 constexpr float kLeastShapeOfImages = 3.0F;  // of Figure::shapeScore(), where nothing else makes a figure
+constexpr float kLeastShapeUnnamed = 6.0F;   // … nor names speak for one
 constexpr int kMostMissing = 7;              // of the 15 required roles, without a warning
 
 using FixedJoints = std::array<std::optional<int>, kRoleCount>;
@@ -155,6 +156,11 @@ bool isHonest(const CompletedRig& completed, const Figure& figure) {
     return true;
 }
 
+float leastShapeOf(const Figure& figure) {
+    const bool named = figure.legs.names + figure.arms.names + figure.trunk.names > 0.0F;
+    return named ? kLeastShapeOfImages : kLeastShapeUnnamed;
+}
+
 // A figure that lacks a whole arm or leg is read by the mirror image of the one that it has. Where names tell all
 // limbs, none is missing, however a pose bends them.
 Reading readFigure(const RigFeatures& rig) {
@@ -166,7 +172,7 @@ Reading readFigure(const RigFeatures& rig) {
         Figure figure = findFigure(completed.rig);
         if (!figure.refusal.empty() || !isHonest(completed, figure)) continue;
         if (reading.figure.refusal.empty() ? figure.score < reading.figure.score + kImagined
-                                           : figure.shapeScore() < kLeastShapeOfImages)
+                                           : figure.shapeScore() < leastShapeOf(figure))
             continue;
         reading.ofImages = true;
         reading.figure = std::move(figure);

@@ -15,8 +15,8 @@ struct Entry {
 
 // One line a concept and language group. Words shorter than three letters match whole tokens only.
 constexpr Entry kEntries[] = {
-    {Concept::upper, "upper up uper upr uppr ober superior sup"},
-    {Concept::lower, "lower low lo lwr down dn fore lowr unter inferior inf"},
+    {Concept::upper, "upper up uper upr uppr ober superior sup inner"},
+    {Concept::lower, "lower low lo lwr down dn fore lowr unter inferior inf outer"},
     {Concept::leftSide,
      "left l lft lf lt izq izquierda izquierdo links linke linker gauche sinistra sinistro sx esquerda "
      "esquerdo hidari"},

@@ -229,6 +229,52 @@ animation::Character thingsInAPattern() {
     return ofRigidParts(rig.character());
 }
 
+// A reptile on its belly, whose legs are one joint beside the trunk each, a little askew, as a child would rig it.
+animation::Character lizard() {
+    const std::vector<JointSpec> joints{
+        {"Armature", -1, {0.05F, 0.226F, 0.244F}}, {"Bone", 0, {0.048F, 0.078F, 0.33F}},
+        {"Bone_009", 1, {0.048F, 0.085F, 0.12F}},  {"Bone_010", 2, {0.046F, 0.086F, 0.05F}},
+        {"Bone_011", 3, {0.047F, 0.1F, -0.04F}},   {"Bone_016", 3, {0.047F, 0.1F, -0.04F}},
+        {"Bone_017", 5, {0.043F, 0.04F, -0.085F}}, {"Bone_012", 3, {0.046F, 0.086F, 0.047F}},
+        {"Bone_013", 7, {0.26F, 0.062F, 0.045F}},  {"Bone_014", 3, {0.046F, 0.086F, 0.047F}},
+        {"Bone_015", 9, {-0.17F, 0.065F, 0.047F}}, {"Bone_001", 0, {0.048F, 0.078F, 0.334F}},
+        {"Bone_002", 11, {0.047F, 0.077F, 0.42F}}, {"Bone_003", 12, {0.262F, 0.062F, 0.43F}},
+        {"Bone_004", 11, {0.047F, 0.077F, 0.42F}}, {"Bone_005", 14, {-0.168F, 0.073F, 0.43F}},
+        {"Bone_006", 11, {0.047F, 0.077F, 0.42F}}, {"Bone_007", 16, {0.043F, 0.077F, 0.5F}},
+        {"Bone_008", 17, {0.042F, 0.075F, 0.67F}}};
+    std::vector<TubeSpec> skin;
+    for (const int joint : {1, 3, 4, 5, 7, 9, 11, 12, 14, 16, 17}) {
+        vec3 end = joints[static_cast<std::size_t>(joint)].position + vec3(0, 0, 0.08F);
+        for (const JointSpec& child : joints) {
+            if (child.parent == joint) end = child.position;
+        }
+        skin.push_back({joint, end, 0.04F});
+    }
+    for (const int foot : {8, 10, 13, 15})
+        skin.push_back({foot, joints[static_cast<std::size_t>(foot)].position * vec3(1.1F, 0, 1), 0.03F});
+    skin.push_back({6, {0.04F, 0.04F, -0.3F}, 0.04F});
+    skin.push_back({18, {0.04F, 0.07F, 0.9F}, 0.02F});
+    return makeFigure("lizard", joints, skin);
+}
+
+// Ten legs to the sides of one body.
+animation::Character crab() {
+    RigBuilder rig;
+    const int root = rig.add("Armature", -1, {0, 0, 0});
+    const int body = rig.add("Bone", root, {0.016F, 0.17F, -0.017F});
+    int count = 0;
+    for (const float side : {1.0F, -1.0F}) {
+        for (int leg = 0; leg < 5; ++leg) {
+            const float z = -0.09F + 0.045F * static_cast<float>(leg) + 0.004F * side;
+            int joint = rig.add("Bone_" + std::to_string(++count), body, {0.016F, 0.13F, -0.017F});
+            for (const float x : {0.1F, 0.235F, 0.37F})
+                joint = rig.add("Bone_" + std::to_string(++count), joint,
+                                {0.016F + side * (x + 0.003F * static_cast<float>(leg)), 0.121F, z + 0.02F * x});
+        }
+    }
+    return rig.character();
+}
+
 const std::vector<std::pair<const char*, std::function<animation::Character()>>>& strangers() {
     static const std::vector<std::pair<const char*, std::function<animation::Character()>>> all = {
         {"quadruped with human names", [] { return quadruped("Arm", "Leg"); }},
@@ -244,9 +290,13 @@ const std::vector<std::pair<const char*, std::function<animation::Character()>>>
         {"car", car},
         {"fish", fish},
         {"tree", tree},
+        {"lizard", lizard},
+        {"crab", crab},
     };
     return all;
 }
+
+constexpr float kAskew = 0.01F;  // metres
 
 }  // namespace
 
@@ -260,6 +310,16 @@ TEST_CASE("animals, limbs and things are refused with a reason", "[refusal]") {
             CHECK_FALSE(map.humanoid);
             REQUIRE_FALSE(map.warnings.empty());
             CHECK(map.warnings.front().find("not a humanoid: ") == 0);
+        }
+    }
+}
+
+TEST_CASE("creatures whose joints lie a little askew are refused, too", "[refusal]") {
+    for (const auto& [name, make] : strangers()) {
+        const animation::Character made = make();
+        for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+            INFO(name << ", seed " << seed);
+            CHECK_FALSE(animation::mapHumanoid(jittered(withoutNames(made), kAskew, seed)).humanoid);
         }
     }
 }
