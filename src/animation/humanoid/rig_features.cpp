@@ -175,6 +175,22 @@ void readNamesInChains(RigFeatures& rig) {
     }
 }
 
+// A rigid mesh that hangs on the joint of its name is no joint of its own: "Head" below "Head_jnt".
+void leaveNamesToPivots(RigFeatures& rig) {
+    constexpr float kTellingName = 2.0F;
+    constexpr float kMeshOfJoint = -2.5F;
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        const int parent = rig.parents[joint];
+        if (parent == kNoJoint || !rig.rigidPart[joint] || rig.rigidPart[parent] || !rig.children[joint].empty())
+            continue;
+        if (rig.names[parent].side != rig.names[joint].side || rig.names[parent].helper) continue;
+        for (std::size_t part = 0; part < rig.names[joint].parts.values.size(); ++part) {
+            float& score = rig.names[joint].parts.values[part];
+            if (score >= kTellingName && rig.names[parent].parts.values[part] >= kTellingName) score = kMeshOfJoint;
+        }
+    }
+}
+
 // "Arm 1, Arm 2, Arm 3": where one chain calls three joints or more by the same word for a limb, the word tells the
 // limb and no part of it.
 void flattenNumberedLimbs(RigFeatures& rig) {
@@ -267,6 +283,7 @@ RigFeatures readRig(const Character& character, bool useNames) {
     if (useNames) std::transform(skeleton.names.begin(), skeleton.names.end(), rig.names.begin(), nameEvidence);
     believeSkinnedControls(rig);
     readNamesInChains(rig);
+    leaveNamesToPivots(rig);
     flattenNumberedLimbs(rig);
     doubtPartialSkin(rig);
     findShadows(rig);

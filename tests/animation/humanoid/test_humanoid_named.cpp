@@ -1,6 +1,7 @@
 // Figures whose names tell more than their bind pose.
 
 #include <algorithm>
+#include <array>
 #include <random>
 #include <string>
 
@@ -89,6 +90,41 @@ TEST_CASE("hips that hang on the trunk and carry the legs are the hips by their 
     REQUIRE(map.humanoid);
     CHECK(map.jointOf(Role::hips) == 2);
     CHECK(map.jointOf(Role::spine) == 1);
+}
+
+TEST_CASE("the mesh that hangs on the joint of its name does not take its role", "[named]") {
+    // A figure of rigid meshes on joints "..._jnt"; those of hats and head hang in the middle of the skull.
+    SyntheticRig rig = bareRig("unreal", {});
+    animation::Skeleton& skeleton = rig.character.skeleton;
+    const auto hang = [&](const char* name, int parent, const vec3& from) {
+        const vec3 place = skeleton.bindModelFromJoint[parent].translation + from;
+        const auto node = static_cast<std::uint16_t>(skeleton.jointCount());
+        skeleton.names.emplace_back(name);
+        skeleton.parents.push_back(parent);
+        skeleton.bindModelFromJoint.push_back({quat(1, 0, 0, 0), place});
+        skeleton.nodeParentFromJoint.emplace_back();
+        skeleton.skinWeight.push_back(8.0F);
+        animation::SkinnedMesh part;
+        part.rigid = true;
+        for (const vec3& corner : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 1), vec3(0, -1, -1)})
+            part.positions.push_back(place + 0.1F * corner);
+        part.joints.assign(part.positions.size(), std::array<std::uint16_t, 4>{node, 0, 0, 0});
+        part.weights.assign(part.positions.size(), std::array<float, 4>{1, 0, 0, 0});
+        part.indices = {0, 1, 2, 0, 1, 3};
+        rig.character.meshes.push_back(std::move(part));
+    };
+    const int neck = jointOf(rig, Role::neck);
+    const int head = jointOf(rig, Role::head);
+    skeleton.names[neck] = "Spine_top";
+    skeleton.names[head] = "Head_jnt";
+    rig.truth.roles[indexOf(Role::head)] = std::vector<std::string>{"Head_jnt"};
+    skeleton.bindModelFromJoint[head].translation = skeleton.bindModelFromJoint[neck].translation + vec3(0, 0.01F, 0);
+    hang("Head", head, vec3(0, 0.18F, 0));
+    hang("Hat", head, vec3(0, 0.3F, 0));
+    hang("Body", animation::findJoint(skeleton, "spine_02"), vec3(0, 0.1F, 0));
+    const animation::HumanoidMap map = animation::mapHumanoid(rig.character);
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(Role::head) == head);
 }
 
 TEST_CASE("a cape hangs behind, and the finer side of a box of a head proves nothing", "[named]") {
