@@ -37,7 +37,22 @@ std::string widenHinge(HingeLimits& limits, float angle, std::string_view child)
     return fmt::format("{}: hinge widened by {:.1f} degrees to hold the bind pose", child, by);
 }
 
-std::string widenCone(ConeTwistLimits& limits, const SwingTwist& pose, std::string_view child) {
+// A cone is as wide to both sides of its middle: widened for a pose far from it, it would reach round the back. So the
+// middle moves half the way that is missing, and the cone is widened by the other half: what it held it holds, and it
+// reaches the pose. Returns how far, in radians; 0 where the pose is near enough.
+float moveTowards(ConstraintProfile& constraint, const SwingTwist& pose) {
+    constexpr float kFarthest = radians(200.0F);  // from the pose to the far side
+    const float angle = glm::length(pose.swing);
+    const float filled = std::hypot(pose.swing.y / constraint.cone.swingY, pose.swing.z / constraint.cone.swingZ);
+    const float missing = filled > 1.0F ? angle + radians(kSpare) - angle / filled : 0.0F;
+    if (missing <= 0.0F || 2.0F * angle + radians(kSpare) < kFarthest) return 0.0F;
+    const float way = 0.5F * missing;
+    const quat turn = rotationOf({pose.swing * (way / angle), 0.0F});
+    constraint.parentFromFrame.rotation = glm::normalize(constraint.parentFromFrame.rotation * turn);
+    return way;
+}
+
+std::string widenCone(ConeTwistLimits& limits, const SwingTwist& pose, bool isFar, std::string_view child) {
     std::string note;
     const float angle = glm::length(pose.swing);
     const float filled = std::hypot(pose.swing.y / limits.swingY, pose.swing.z / limits.swingZ);
@@ -45,8 +60,20 @@ std::string widenCone(ConeTwistLimits& limits, const SwingTwist& pose, std::stri
     if (factor > 1.0F) {
         note = fmt::format("{}: cone of {:.0f} by {:.0f} degrees widened {:.2f} times to hold the bind pose", child,
                            degrees(limits.swingY), degrees(limits.swingZ), factor);
-        limits.swingY = std::min(limits.swingY * factor, radians(kWidest));
-        limits.swingZ = std::min(limits.swingZ * factor, radians(kWidest));
+        const ConeTwistLimits before = limits;
+        limits.swingY *= factor;
+        limits.swingZ *= factor;
+        // A narrow cone need not widen its wide side as much: what fills half of each axis fills the ellipse.
+        const float root = std::sqrt(2.0F) * (angle + radians(kSpare)) / angle;
+        const float y = std::max(before.swingY, root * std::abs(pose.swing.y));
+        const float z = std::max(before.swingZ, root * std::abs(pose.swing.z));
+        const float widest = std::max(limits.swingY, limits.swingZ);
+        if ((isFar || widest > radians(kWidest)) && std::max(y, z) < widest) {
+            limits.swingY = y;
+            limits.swingZ = z;
+        }
+        limits.swingY = std::min(limits.swingY, radians(kWidest));
+        limits.swingZ = std::min(limits.swingZ, radians(kWidest));
     }
     const float twist = std::min(std::abs(pose.twist) + radians(kSpare), radians(kWidest));
     if (twist > limits.twist) {
@@ -121,7 +148,12 @@ std::string widenToHold(ConstraintProfile& constraint, const RigidTransform& wor
         const float angle = 2.0F * std::atan2(relative.z, relative.w);
         return widenHinge(constraint.hinge, std::remainder(angle, 2.0F * kPi), child);
     }
-    return widenCone(constraint.cone, swingTwist(relative), child);
+    SwingTwist pose = swingTwist(relative);
+    const float moved = moveTowards(constraint, pose);
+    if (moved > 0.0F) pose.swing *= 1.0F - moved / glm::length(pose.swing);
+    std::string note = widenCone(constraint.cone, pose, moved > 0.0F, child);
+    if (moved > 0.0F) note += fmt::format("; its middle moved by {:.0f} degrees towards it", degrees(moved));
+    return note;
 }
 
 void setJointFriction(RagdollProfile& profile) {

@@ -40,8 +40,8 @@ void setRange(ConstraintProfile& constraint, const BodyPlan& plan, int child);
                                                              const std::vector<PlacedShape>& shapes,
                                                              std::vector<std::string>& notes);
 
-/// Widens the limits of a constraint until they hold the pose of the two frames; a sentence with what was done, empty
-/// when nothing was.
+/// Widens the limits of a constraint until they hold the pose of the two frames, a cone that is far from it with its
+/// middle moved towards it; a sentence with what was done, empty when nothing was.
 [[nodiscard]] std::string widenToHold(ConstraintProfile& constraint, const RigidTransform& worldFromParent,
                                       const RigidTransform& worldFromChild, std::string_view child);
 

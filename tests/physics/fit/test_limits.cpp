@@ -7,6 +7,8 @@
 #include "core/random.hpp"
 #include "core/swing_twist.hpp"
 #include "physics/fit/fit_ragdoll.hpp"
+#include "physics/fit/rebind.hpp"
+#include "physics/profile/joint_range.hpp"
 #include "support/catch.hpp"
 #include "support/rigs.hpp"
 
@@ -159,4 +161,30 @@ TEST_CASE("a bind pose beyond the anatomy widens the limit and says by how much"
     CHECK(profile.notes[0].find("leftLowerLeg: hinge widened by 22.0 degrees") != std::string::npos);
     const ConstraintProfile& knee = profile.constraints[bodyOf(profile, Role::leftLowerLeg) - 1];
     CHECK(degrees(knee.hinge.lower) == Approx(-92.0).margin(0.1));
+}
+
+TEST_CASE("a bind pose far beyond the anatomy is held by a cone that does not reach round the back") {
+    // A foot that a clip left turned back, an arm wound up behind, a wrist bent sideways: all about two axes.
+    const BindPose poses[] = {{"foot back", {{"leftFoot", {1, 0, 0}, 110}}},
+                              {"foot askew", {{"leftFoot", glm::normalize(vec3(1, 0.6F, 0)), 125}}},
+                              {"arm behind", {{"rightUpperArm", glm::normalize(vec3(0, 1, 0.4F)), 140}}},
+                              {"hand askew", {{"rightHand", glm::normalize(vec3(0.2F, 1, 0.3F)), 150}}}};
+    for (const BindPose& pose : poses) {
+        INFO(pose.name);
+        const animation::Character biped = posedBiped(pose);
+        const RagdollProfile profile = fitRagdoll(biped, test::mapOfBiped(biped)).value();
+        REQUIRE(profile.notes.size() == 1);
+        INFO(profile.notes[0]);
+        const auto shapes = shapesInBindPose(profile, biped.skeleton);
+        const std::vector<RigidTransform> bodies = bindBodies(biped, profile);
+        for (const ConstraintProfile& constraint : profile.constraints) {
+            if (constraint.kind == ConstraintProfile::Kind::hinge) continue;
+            const SwingTwist parts = swingTwist(relativeRotation(constraint, bodies));
+            CHECK(std::hypot(parts.swing.y / constraint.cone.swingY, parts.swing.z / constraint.cone.swingZ) < 1);
+            const JointRange range = jointRange(
+                constraint, {shapes[constraint.parent].standardFromBody, shapes[constraint.child].standardFromBody});
+            for (const AngleSpan& span : {range.flexion, range.side})
+                CHECK(degrees(std::max(-span.low, span.high)) < 230.0F);
+        }
+    }
 }
