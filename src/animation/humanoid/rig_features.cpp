@@ -178,16 +178,20 @@ void readNamesInChains(RigFeatures& rig) {
 // A rigid mesh that hangs on the joint of its name is no joint of its own: "Head" below "Head_jnt".
 void leaveNamesToPivots(RigFeatures& rig) {
     constexpr float kTellingName = 2.0F;
-    constexpr float kMeshOfJoint = -2.5F;
+    constexpr float kMeshOfJoint = -9.0F;
     for (int joint = 0; joint < rig.count(); ++joint) {
         const int parent = rig.parents[joint];
         if (parent == kNoJoint || !rig.rigidPart[joint] || rig.rigidPart[parent] || !rig.children[joint].empty())
             continue;
         if (rig.names[parent].side != rig.names[joint].side || rig.names[parent].helper) continue;
-        for (std::size_t part = 0; part < rig.names[joint].parts.values.size(); ++part) {
-            float& score = rig.names[joint].parts.values[part];
-            if (score >= kTellingName && rig.names[parent].parts.values[part] >= kTellingName) score = kMeshOfJoint;
-        }
+        PartScores& own = rig.names[joint].parts;
+        const PartScores& above = rig.names[parent].parts;
+        bool alike = false;
+        for (std::size_t part = 0; part < own.values.size(); ++part)
+            alike = alike || (own.values[part] >= kTellingName && above.values[part] >= kTellingName);
+        if (!alike) continue;
+        own.values.fill(kMeshOfJoint);
+        rig.names[joint].helper = true;
     }
 }
 

@@ -16,6 +16,9 @@ namespace {
 constexpr float kLeastNear = 0.1F;       // of the skin's vertices near their body, below which …
 constexpr float kLeastCovered = 0.12F;   // … with less than this of the volume in some body, the skin is elsewhere
 constexpr float kFar = 0.06F;            // of the height: skin farther than that from a body does not hang on it
+constexpr float kToCorner = 0.74F;       // of a shape's radius: how far the corner of the box about a ball is
+constexpr float kClothed = 0.25F;        // of the shape's surface: skin of its own about it
+constexpr float kMostClothed = 0.8F;     // of the bodies
 constexpr float kMostFar = 0.5F;         // of the skin's area
 constexpr float kMostAtOthers = 0.3F;    // of the skin's area
 constexpr double kMostOnOneJoint = 0.9;  // of the skin's weights, where there are …
@@ -39,6 +42,29 @@ Finding error(const char* code, std::string place, std::string measure, const ch
     return {Severity::error, code, std::move(place), std::move(measure), mend, false, std::move(bodies)};
 }
 
+// Half the shape's box, in its own axes.
+vec3 halfExtents(const PlacedShape& shape) {
+    return {halfWidth(shape.shape, {1, 0, 0}), halfWidth(shape.shape, {0, 1, 0}), halfWidth(shape.shape, {0, 0, 1})};
+}
+
+// Whether nearly all bodies have skin of their own about them: then what is far is a thing that the figure holds, wears
+// or stands in.
+bool areClothed(const BodyPlan& plan, std::span<const PlacedShape> shapes) {
+    std::size_t clothed = 0;
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        const RigidTransform bodyFromStandard = inverse(shapes[i].standardFromBody);
+        const vec3 half = halfExtents(shapes[i]);
+        float near = 0.0F;
+        for (const SkinPoint& point : plan.bodies[i].skin) {
+            const float distance = std::abs(signedDistance(shapes[i].shape, bodyFromStandard * point.position));
+            near += distance <= kTouching * plan.heightM ? point.area : 0.0F;
+        }
+        const float surface = 8.0F * (half.x * half.y + half.y * half.z + half.z * half.x);
+        clothed += near > kClothed * surface ? 1 : 0;
+    }
+    return static_cast<float>(clothed) >= kMostClothed * static_cast<float>(shapes.size());
+}
+
 // Shares of the skin's area.
 struct FarSkin {
     float fromAll = 0.0F;   // far from every body
@@ -47,8 +73,12 @@ struct FarSkin {
 
 FarSkin findFarSkin(const BodyPlan& plan, std::span<const PlacedShape> shapes) {
     std::vector<RigidTransform> bodyFromStandard;
-    for (const PlacedShape& shape : shapes)
+    std::vector<float> nearEnough;  // of the height
+    for (const PlacedShape& shape : shapes) {
         bodyFromStandard.push_back(inverse(shape.standardFromBody));
+        const vec3 half = halfExtents(shape);
+        nearEnough.push_back(std::max(kFar, kToCorner * std::min({half.x, half.y, half.z}) / plan.heightM));
+    }
     float total = 0.0F;
     FarSkin far;
     for (std::size_t own = 0; own < plan.bodies.size(); ++own) {
@@ -57,17 +87,17 @@ FarSkin findFarSkin(const BodyPlan& plan, std::span<const PlacedShape> shapes) {
                 return signedDistance(shapes[i].shape, bodyFromStandard[i] * point.position) / plan.heightM;
             };
             total += point.area;
-            if (distanceTo(own) <= kFar) continue;
-            float nearest = kFar;
+            if (distanceTo(own) <= nearEnough[own]) continue;
+            bool fromAll = true;
             bool elsewhere = false;
             for (std::size_t i = 0; i < shapes.size(); ++i) {
                 const float distance = distanceTo(i);
                 const bool neighbour =
                     plan.bodies[i].parent == static_cast<int>(own) || plan.bodies[own].parent == static_cast<int>(i);
-                nearest = std::min(nearest, distance);
+                fromAll = fromAll && distance > nearEnough[i];
                 elsewhere = elsewhere || (!neighbour && distance <= kTouching);
             }
-            far.fromAll += nearest >= kFar ? point.area : 0.0F;
+            far.fromAll += fromAll ? point.area : 0.0F;
             far.atOthers += elsewhere ? point.area : 0.0F;
         }
     }
@@ -81,6 +111,7 @@ void findSkinElsewhere(const BodyPlan& plan, std::span<const PlacedShape> shapes
         "look at the bodies on the skin: the map, the skin's weights or the bind pose are wrong";
     if (fit.vertices == 0) return;
     const FarSkin far = findFarSkin(plan, shapes);
+    if (far.fromAll > kMostFar && areClothed(plan, shapes)) return;
     if (far.fromAll > kMostFar) {
         findings.push_back(error("skin-outside-bodies", "/bodies",
                                  fmt::format("{:.0f} % of the skin is more than {:.0f} % of the height from all bodies",
@@ -135,11 +166,6 @@ SkinBox boxOf(const PlannedBody& body) {
         box.high = glm::max(box.high, point.position);
     }
     return box;
-}
-
-// Half the shape's box, in its own axes.
-vec3 halfExtents(const PlacedShape& shape) {
-    return {halfWidth(shape.shape, {1, 0, 0}), halfWidth(shape.shape, {0, 1, 0}), halfWidth(shape.shape, {0, 0, 1})};
 }
 
 // A skin in another unit than its joints: a figure of centimetres on a skeleton of metres.

@@ -50,8 +50,9 @@ struct Diagnosis {
 /// - `roles-few` fewer than half of the required roles have a joint, and head or a whole limb has none (error)
 /// - `joint-not-below` a role's joint is not below that of the role above it, or hangs on another limb (error; warning
 ///   where both sides are built so, as feet under an IK root, and in a flat tree)
-/// - `skin-outside-bodies` most of the skin is more than 6 % of the height from all bodies, or much of it lies at
-///   bodies of other parts than the one that moves it (error)
+/// - `skin-outside-bodies` most of the skin is more than 6 % of the height (of a thick body: 74 % of its radius) from
+///   all bodies, and few of these have skin of their own about them; or much of it lies at bodies of other parts than
+///   the one that moves it (error)
 /// - `skin-on-one-joint` nine tenths of the skin follow one joint where there are many bodies (error)
 /// - `skin-small` most bodies' skin is less than 45 % as long as they are: another unit (error)
 /// - `body-beside-skin` a body lies beside all the skin that follows it and hardly touches any (error)

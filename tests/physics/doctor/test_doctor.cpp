@@ -1,6 +1,7 @@
 #include "physics/doctor/doctor.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "physics/collision/shape.hpp"
 #include "physics/fit/fit_ragdoll.hpp"
@@ -269,6 +270,34 @@ TEST_CASE("the doctor certifies no figure whose skin is in another unit than its
         if (unit < 1.0F) checkBroken(diagnosis, "skin-small", "/bodies");
     }
     CHECK(looked >= 2);
+}
+
+TEST_CASE("a boat that a figure stands in, however large, is no skin of a broken figure") {
+    Patient patient;
+    animation::SkinnedMesh& mesh = patient.character.meshes[0];
+    const auto hips = static_cast<std::uint16_t>(findJoint(patient.character.skeleton, "hips"));
+    for (int ring = 0; ring < 30; ++ring) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (int step = 0; step < 24; ++step) {
+            const float angle = 2.0F * kPi * static_cast<float>(step) / 24.0F;
+            mesh.positions.emplace_back(0.8F * std::cos(angle), 0.03F * static_cast<float>(ring),
+                                        0.8F * std::sin(angle));
+            mesh.normals.emplace_back(std::cos(angle), 0, std::sin(angle));
+            mesh.uvs.emplace_back(0, 0);
+            mesh.joints.push_back({hips, 0, 0, 0});
+            mesh.weights.push_back({1, 0, 0, 0});
+            const auto at = [&](int of, int row) {
+                return first + static_cast<std::uint32_t>(of % 24) - static_cast<std::uint32_t>(24 * row);
+            };
+            if (ring == 0) continue;
+            for (const std::uint32_t index :
+                 {at(step, 1), at(step + 1, 1), at(step, 0), at(step + 1, 1), at(step + 1, 0), at(step, 0)})
+                mesh.indices.push_back(index);
+        }
+    }
+    patient.character.skeleton.skinWeight[hips] += 720.0F;
+    patient.profile = fitRagdoll(test::makeBiped(), patient.map).value();
+    CHECK(find(patient.look(), "skin-outside-bodies") == nullptr);
 }
 
 TEST_CASE("the doctor certifies no figure whose skin hangs on one joint") {
