@@ -119,10 +119,12 @@ std::optional<quat> stanceOfBindings(const FixedJoints& joints, const Skeleton& 
 }
 
 void addWarnings(const Figure& figure, HumanoidMap& map) {
-    if (!figure.framed.rig->skinned) {
-        map.warnings.emplace_back(figure.framed.rig->vertices.empty()
-                                      ? "the skeleton has no skin: shapes come from the joints alone"
-                                      : "the figure has no skin, only rigid parts");
+    const RigFeatures& rig = *figure.framed.rig;
+    if (rig.partlySkinned) {
+        map.warnings.emplace_back("only a part of the figure has skin: the other shapes come from the joints alone");
+    } else if (!rig.skinned) {
+        map.warnings.emplace_back(rig.vertices.empty() ? "the skeleton has no skin: shapes come from the joints alone"
+                                                       : "the figure has no skin, only rigid parts");
     }
     if (figure.facing.namesDisagree()) {
         map.warnings.push_back(

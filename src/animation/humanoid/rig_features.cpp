@@ -122,8 +122,8 @@ void believeSkinnedControls(RigFeatures& rig) {
     }
 }
 
-// A file may hold the skin of the head alone (a face, an avatar's parts), and joints for the whole figure. Where names
-// tell all joints of arms and legs and hardly any of those carries skin, the skin proves nothing about the limbs.
+// A file may hold the skin of a part alone (a face, trousers, an avatar's hands), and joints for the whole figure.
+// Where names tell all joints of arms and legs and many of those carry none, the skin proves nothing about the limbs.
 void doubtPartialSkin(RigFeatures& rig) {
     constexpr float kTellingName = 1.5F;
     constexpr std::array<Part, 4> kLimbs{Part::upperArm, Part::lowerArm, Part::upperLeg, Part::lowerLeg};
@@ -143,8 +143,9 @@ void doubtPartialSkin(RigFeatures& rig) {
             bare += carries ? 0 : 1;
         }
     }
-    constexpr int kMostLimbs = 4;  // of the eight: arms or legs alone
-    if (bare > kMostLimbs) rig.skinned = false;
+    constexpr int kFewestBare = 4;  // of the eight: both arms or both legs, of a garment or of what a player sees
+    rig.partlySkinned = bare >= kFewestBare;
+    if (rig.partlySkinned) rig.skinned = false;
 }
 
 // A word of two meanings has one where its neighbour has the other: a shoulder above an arm is the clavicle and that

@@ -28,6 +28,7 @@ struct RigFeatures {
     std::vector<bool> shadow;
     std::vector<bool> rigidPart;      ///< Carries a mesh that has no skin: the node of a part.
     bool skinned = false;             ///< False: no weights at all or only rigid parts, so that they prove nothing.
+    bool partlySkinned = false;       ///< Not `skinned` because only a part of the figure has skin: a garment.
     std::vector<NameEvidence> names;  ///< Empty words everywhere when names are not to be used.
     std::vector<Vertex> vertices;     ///< At most some ten thousand, evenly thinned.
 

@@ -127,6 +127,33 @@ TEST_CASE("the mesh that hangs on the joint of its name does not take its role",
     CHECK(map.jointOf(Role::head) == head);
 }
 
+TEST_CASE("trousers with the skeleton of the whole figure map as it", "[named]") {
+    for (const bool legs : {true, false}) {
+        INFO((legs ? "trousers" : "a shirt"));
+        animation::Character garment = makeBiped();
+        animation::SkinnedMesh& mesh = garment.meshes[0];
+        const animation::SkinnedMesh whole = mesh;
+        mesh = {};
+        std::fill(garment.skeleton.skinWeight.begin(), garment.skeleton.skinWeight.end(), 0.0F);
+        for (std::size_t v = 0; v < whole.positions.size(); ++v) {
+            const std::string& name = garment.skeleton.names[whole.joints[v][0]];
+            const bool ofLeg = name.ends_with("UpperLeg") || name.ends_with("LowerLeg");
+            const bool ofShirt = name.ends_with("UpperArm") || name.ends_with("LowerArm") || name == "chest";
+            if (legs ? !ofLeg : !ofShirt) continue;
+            mesh.positions.push_back(whole.positions[v]);
+            mesh.joints.push_back(whole.joints[v]);
+            mesh.weights.push_back(whole.weights[v]);
+            garment.skeleton.skinWeight[whole.joints[v][0]] += 1.0F;
+        }
+        const animation::HumanoidMap map = animation::mapHumanoid(garment);
+        REQUIRE(map.humanoid);
+        CHECK(map.missing.empty());
+        CHECK(map.jointOf(Role::head) == animation::findJoint(garment.skeleton, "head"));
+        CHECK(map.jointOf(Role::leftHand) == animation::findJoint(garment.skeleton, "leftHand"));
+        CHECK(map.warnings.front().find("only a part of the figure has skin") == 0);
+    }
+}
+
 TEST_CASE("a cape hangs behind, and the finer side of a box of a head proves nothing", "[named]") {
     // Faces -Z, as figures of some block games do: a box of a head with a brim towards +Z.
     animation::Character block;
