@@ -36,15 +36,17 @@ vec3 bendingDirection(const Limb& limb, const vec3& direction) {
 }
 
 // By default from the way elbows and knees bend; from the limb's own plane where it is bent enough to show one and the
-// plane is anatomically plausible.
+// plane is anatomically plausible; or so far that it can't be bent the other way.
 vec3 hingeAxis(const Limb& limb, const vec3& upper, const vec3& lower) {
     constexpr float kClearBend = 8.0F;
     constexpr float kPlausible = 0.5F;  // cosine of the angle to the default axis
+    constexpr float kOnlyFlexed = 45.0F;
     const vec3 expected = across(glm::cross(upper, bendingDirection(limb, upper)), lower);
     const vec3 own = glm::cross(upper, lower);
     const float sine = glm::length(own);
     const bool clear = sine > std::sin(radians(kClearBend)) || glm::dot(upper, lower) < 0.0F;
-    if (clear && sine > 1e-3F && glm::dot(own / sine, expected) > kPlausible) return own / sine;
+    const bool onlyFlexed = glm::dot(upper, lower) < std::cos(radians(kOnlyFlexed));
+    if (clear && sine > 1e-3F && (onlyFlexed || glm::dot(own / sine, expected) > kPlausible)) return own / sine;
     return expected;
 }
 

@@ -188,3 +188,23 @@ TEST_CASE("a bind pose far beyond the anatomy is held by a cone that does not re
         }
     }
 }
+
+TEST_CASE("a limb that is bent far is flexed, whichever way its upper part is turned") {
+    // A forearm behind the back, a shin crossed over the other leg: the shoulder and the hip are turned, no elbow and
+    // no knee is broken.
+    const BindPose poses[] = {{"behind the back", {{"leftLowerArm", {0, 1, 0}, 90}}},
+                              {"crossed", {{"rightLowerLeg", {0, 0, 1}, -80}}}};
+    for (const BindPose& pose : poses) {
+        INFO(pose.name);
+        const animation::Character biped = posedBiped(pose);
+        const RagdollProfile profile = fitRagdoll(biped, test::mapOfBiped(biped)).value();
+        for (const std::string& note : profile.notes) {
+            INFO(note);
+            CHECK(note.find("hinge widened") == std::string::npos);
+        }
+        const Role role = std::string(pose.name) == "crossed" ? Role::rightLowerLeg : Role::leftLowerArm;
+        const float bend = std::string(pose.name) == "crossed" ? 80.0F - 65.0F : 90.0F - 72.5F;
+        CHECK(degrees(hingeAngle(profile.constraints[bodyOf(profile, role) - 1], bindBodies(biped, profile))) ==
+              Approx(bend).margin(0.1));
+    }
+}
