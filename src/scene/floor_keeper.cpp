@@ -53,9 +53,8 @@ void FloorKeeper::closeJoints(std::span<RigidTransform> worldFromBody) const {
     }
 }
 
-void FloorKeeper::liftEnd(const Limb& limb, const GroundHeight& ground, std::span<RigidTransform> worldFromBody) const {
-    const RigidTransform& end = worldFromBody[limb.end];
-    const float depth = ground(end.translation) - lowestOf(limb.end, end);
+void FloorKeeper::liftEnd(const Limb& limb, float height, std::span<RigidTransform> worldFromBody) const {
+    const float depth = height - lowestOf(limb.end, worldFromBody[limb.end]);
     if (depth <= 0.0F) return;
     const auto anchor = [&](int body) { return worldFromBody[body] * asset_->rig.anchors[body].inChild; };
     const animation::BonePoints points{anchor(limb.upper), anchor(limb.lower), anchor(limb.end)};
@@ -67,9 +66,11 @@ void FloorKeeper::liftEnd(const Limb& limb, const GroundHeight& ground, std::spa
     worldFromBody[limb.lower].rotation = glm::normalize(turns.lower * worldFromBody[limb.lower].rotation);
 }
 
-void FloorKeeper::keep(const GroundHeight& ground, std::span<RigidTransform> worldFromBody) const {
+void FloorKeeper::keep(const GroundHeight& ground, std::span<RigidTransform> worldFromBody,
+                       std::span<const float> clearance) const {
     for (const Limb& limb : limbs_)
-        liftEnd(limb, ground, worldFromBody);
+        liftEnd(limb, ground(worldFromBody[limb.end].translation) + (clearance.empty() ? 0.0F : clearance[limb.end]),
+                worldFromBody);
     closeJoints(worldFromBody);
     float lift = 0.0F;
     for (int body = 0; body < static_cast<int>(worldFromBody.size()); ++body) {

@@ -17,8 +17,10 @@ class FloorKeeper {
   public:
     explicit FloorKeeper(const RagdollAsset& asset);
 
-    /// In place, one frame a body, world. Continuous in the pose where the ground's height is. Allocates nothing.
-    void keep(const GroundHeight& ground, std::span<RigidTransform> worldFromBody) const;
+    /// In place, one frame a body, world. `clearance`: how high over the ground a hand or foot is lifted at least,
+    /// metres, one a body; empty: 0. Continuous in the pose where the ground's height is. Allocates nothing.
+    void keep(const GroundHeight& ground, std::span<RigidTransform> worldFromBody,
+              std::span<const float> clearance = {}) const;
     /// Places all bodies but the root from their rotations, so that the joints are closed.
     void closeJoints(std::span<RigidTransform> worldFromBody) const;
     /// The height of a body's lowest point.
@@ -29,7 +31,7 @@ class FloorKeeper {
         int upper = -1, lower = -1, end = -1;  // bodies
         vec3 bendInUpper{0, 0, 1};             // where elbow or knee sticks out
     };
-    void liftEnd(const Limb& limb, const GroundHeight& ground, std::span<RigidTransform> worldFromBody) const;
+    void liftEnd(const Limb& limb, float height, std::span<RigidTransform> worldFromBody) const;
 
     const RagdollAsset* asset_;
     std::vector<Limb> limbs_;

@@ -13,6 +13,7 @@
 #include "animation/clip_reference.hpp"
 #include "animation/pose.hpp"
 #include "animation/retarget/retarget_clip.hpp"
+#include "scene/reachable_clip.hpp"
 
 namespace lutka::scene {
 namespace {
@@ -34,12 +35,14 @@ std::string plainName(std::string_view name) {
     return plain;
 }
 
+// Over what the figure stands on.
 float hipsHeight(const RagdollAsset& asset, const Clip& clip, float seconds) {
     std::vector<RigidTransform> pose(asset.character.skeleton.parents.size());
     animation::sampleClip(clip, seconds, pose);
     const vec3 up = glm::conjugate(asset.profile.standardFromModel) * vec3(0, 1, 0);
     const int joint = asset.rig.jointOfBody.front();
-    return glm::dot(animation::modelFrameOf(asset.character.skeleton, pose, joint).translation, up);
+    const float floor = animation::floorOf(asset.character, asset.map);
+    return glm::dot(animation::modelFrameOf(asset.character.skeleton, pose, joint).translation, up) - floor;
 }
 
 bool isGetUp(const RagdollAsset& asset, const Clip& clip) {
@@ -93,6 +96,9 @@ Result<Clip> clipOf(const RagdollAsset& asset, const RagdollAsset* donor, std::s
                  "name one of the character's own clips"};
 }
 
+GetUpClips::GetUpClips(const RagdollAsset& asset)
+    : asset_(&asset), floor_(animation::floorOf(asset.character, asset.map)) {}
+
 bool GetUpClips::hasOwn(const RagdollAsset& asset) {
     return std::any_of(asset.character.clips.begin(), asset.character.clips.end(),
                        [&](const Clip& clip) { return isGetUp(asset, clip); });
@@ -103,13 +109,13 @@ Result<GetUpClips> GetUpClips::create(const RagdollAsset& asset, const RagdollAs
     clips.joints_.resize(asset.character.skeleton.parents.size());
     clips.bodies_.resize(asset.profile.bodies.size());
     for (const Clip& clip : asset.character.clips)
-        if (isGetUp(asset, clip)) clips.clips_.push_back(clip);
+        if (isGetUp(asset, clip)) clips.clips_.push_back(reachableClip(asset, clip).clip);
     const bool borrows = clips.clips_.empty() && donor != nullptr;
     for (const Clip& clip : borrows ? std::span<const Clip>(donor->character.clips) : std::span<const Clip>()) {
         if (!isGetUp(*donor, clip)) continue;
         auto taken = retargeted(asset, *donor, clip);
         if (!taken) return taken.error();
-        clips.clips_.push_back(std::move(taken).value());
+        clips.clips_.push_back(reachableClip(asset, taken.value()).clip);
     }
     if (clips.clips_.empty()) {
         return Error{ErrorCode::input, "the character has no clip in which it gets up", asset.character.file.string(),
@@ -144,7 +150,7 @@ std::vector<vec3> GetUpClips::pointsOf(std::span<const RigidTransform> bodies) c
 void GetUpClips::sample(const Match& match, float seconds, std::span<RigidTransform> worldFromBody) {
     animation::sampleClip(clips_[match.clip], seconds, joints_);
     animation::localToModel(asset_->character.skeleton, joints_, joints_);
-    const RigidTransform standardFromModel{asset_->profile.standardFromModel, vec3(0)};
+    const RigidTransform standardFromModel{asset_->profile.standardFromModel, vec3(0, -floor_, 0)};
     physics::bodiesFromPose(asset_->rig, joints_, match.worldFromStandard * standardFromModel, bodies_);
     for (std::size_t i = 0; i < bodies_.size(); ++i)
         worldFromBody[i] = bodies_[i].worldFromBody;

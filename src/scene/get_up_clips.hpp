@@ -57,11 +57,12 @@ class GetUpClips {
         float seconds = 0.0F;
         std::vector<vec3> points;  // standard space, kPointsOfBody a body
     };
-    explicit GetUpClips(const RagdollAsset& asset) : asset_(&asset) {}
+    explicit GetUpClips(const RagdollAsset& asset);
     void addFrames(int clip);
     [[nodiscard]] std::vector<vec3> pointsOf(std::span<const RigidTransform> bodies) const;
 
     const RagdollAsset* asset_;
+    float floor_ = 0.0F;  // what the figure stands on in its bind pose, standard space
     std::vector<animation::Clip> clips_;
     std::vector<Frame> frames_;
     std::vector<RigidTransform> joints_;  // scratch

@@ -11,6 +11,7 @@
 #include "physics/collision/shape.hpp"
 #include "physics/collision/static_distance.hpp"
 #include "scene/clip_cast.hpp"
+#include "scene/reachable_clip.hpp"
 
 namespace lutka::scene {
 namespace {
@@ -43,6 +44,15 @@ int bodyMet(const physics::RagdollProfile& profile, animation::Role role) {
 bool holds(std::string_view name, const physics::BodyProfile& body) {
     const auto group = static_cast<std::size_t>(physics::muscleGroupOf(body));
     return name == "all" || name == body.name || name == physics::kMuscleGroupNames[group];
+}
+
+// The kinematic ones, which follow the clip whatever it asks for.
+std::vector<bool> keptBodies(const physics::RagdollProfile& profile, std::span<const LedPart> led) {
+    std::vector<bool> kept(profile.bodies.size(), false);
+    for (std::size_t body = 0; body < kept.size(); ++body)
+        for (const LedPart& part : led)
+            if (holds(part.name, profile.bodies[body])) kept[body] = part.weight >= 1.0F;
+    return kept;
 }
 
 // Every part names a body of some doll.
@@ -125,6 +135,12 @@ Result<void> PuppetCast::findClips(const RagdollAsset& asset, const RagdollAsset
         clip = *moment.value().clip;
         seconds = moment.value().seconds;
     }
+    ReachableClip reachable = reachableClip(asset, clip, keptBodies(asset.profile, play_.led));
+    if (reachable.mostDeg > reach_.clipReachDeg) {
+        reach_.clipReachDeg = reachable.mostDeg;
+        reach_.clipReachJoint = reachable.joint;
+    }
+    clip = std::move(reachable.clip);
     auto library = animation::ClipLibrary::create(asset.character.skeleton, std::span(&clip, 1), travelOf(asset));
     if (!library) return library.error();
     libraries_.push_back(std::make_unique<animation::ClipLibrary>(std::move(library).value()));
@@ -159,7 +175,8 @@ void PuppetCast::begin(physics::World& world, std::span<const physics::DollId> d
         actor.assetIndex = placement.asset;
         actor.floor = floors_[placement.asset].get();
         actor.worldFromModel = placement.worldFromModel;
-        actor.base = placement.worldFromModel.translation.y;
+        actor.soles = animation::floorOf(actor.asset->character, actor.asset->map);
+        actor.base = placement.worldFromModel.translation.y + actor.soles;
         if (!isLevel_) actor.terrain = TerrainWalk::of(*actor.asset);
         actor.root = std::max(physics::bodyOf(actor.asset->profile, physics::Role::hips), 0);
         bodies_.resize(actor.asset->profile.bodies.size());
@@ -257,12 +274,11 @@ void PuppetCast::startClip(Actor& actor, float seconds, physics::World& world, p
     world.setBodies(doll, bodies_);
 }
 
-// How far above the ground that the doll is placed on (the height of its model's origin) its lowest body stays
-// throughout the clip, metres.
+// How far above the ground that the doll stands on in its bind pose its lowest body stays throughout the clip, metres.
 float PuppetCast::clearance(const Actor& actor) {
     constexpr float kStep = 1.0F / 60.0F;
     const animation::Skeleton& skeleton = actor.asset->character.skeleton;
-    const RigidTransform standing{actor.asset->map.standardFromModel, vec3(0)};
+    const RigidTransform standing{actor.asset->map.standardFromModel, vec3(0, -actor.soles, 0)};
     float lowest = 1e9F;
     joints_.resize(skeleton.parents.size());
     for (float seconds = 0.0F; seconds <= actor.library->seconds(0); seconds += kStep) {
@@ -471,6 +487,8 @@ void PuppetCast::measure() {
 
 PuppetFigures PuppetCast::figures() const {
     PuppetFigures figures = worst_;
+    figures.clipReachDeg = reach_.clipReachDeg;
+    figures.clipReachJoint = reach_.clipReachJoint;
     figures.rmsDeg = count_ > 0 ? static_cast<float>(std::sqrt(squares_ / static_cast<double>(count_))) : 0.0F;
     figures.footGapMeanM = standing_ > 0 ? static_cast<float>(gapsM_ / static_cast<double>(standing_)) : 0.0F;
     figures.limp = static_cast<int>(std::count_if(actors_.begin(), actors_.end(), [](const Actor& actor) {

@@ -63,9 +63,11 @@ struct GetUpFigures {
 struct PuppetFigures {
     float rmsDeg = 0.0F;  ///< Of all joints' angles from the pose's.
     float maxDeg = 0.0F;
-    std::string worstJoint;  ///< The body below the joint of `maxDeg`.
-    float rootM = 0.0F;      ///< Farthest that a pinned root body was from its pose.
-    float ledM = 0.0F;       ///< And any kinematic body.
+    std::string worstJoint;      ///< The body below the joint of `maxDeg`.
+    float clipReachDeg = 0.0F;   ///< Most that a joint of the clip was turned by, so that the doll can follow it.
+    std::string clipReachJoint;  ///< The body below it.
+    float rootM = 0.0F;          ///< Farthest that a pinned root body was from its pose.
+    float ledM = 0.0F;           ///< And any kinematic body.
     /// On ground that is not level, of feet that stand in the clip: the mean and the most that they were above it, and
     /// the deepest in it.
     float footGapMeanM = 0.0F;
@@ -122,6 +124,7 @@ class PuppetCast {
         float lift = 0.0F;       // of the clip, so that no shape is in the ground
         float ground = 0.0F;     // height where it got up last
         float base = 0.0F;       // height of the level floor that its clip is played on
+        float soles = 0.0F;      // of what it stands on in its bind pose over the model's origin
         std::optional<TerrainWalk> terrain;
 
         const FloorKeeper* floor = nullptr;
@@ -161,6 +164,7 @@ class PuppetCast {
     void blendInto(Actor& actor, std::span<const RigidTransform> rawBefore, std::span<const RigidTransform> raw,
                    float dt);
     void show(Actor& actor, float dt);
+    void liftSwinging(const Actor& actor, float dt);
     void keepLimits(Actor& actor);
     bool holdBack(Actor& actor, float dt);
     void measureRising(Actor& actor);
@@ -187,12 +191,13 @@ class PuppetCast {
     std::vector<RigidTransform> joints_, fitted_;  // scratch
     std::vector<physics::BodyState> bodies_;
     std::vector<RigidTransform> frames_;
-    std::vector<float> errors_;
+    std::vector<float> errors_, clearance_;
     double squares_ = 0.0;
     double gapsM_ = 0.0;
     long long standing_ = 0;  // feet, in all steps
     long long count_ = 0;
     PuppetFigures worst_;
+    PuppetFigures reach_;  // its clipReachDeg and clipReachJoint, of all assets
     GetUpFigures risen_;
     double risenSeconds_ = 0.0;
     double matchedM_ = 0.0;

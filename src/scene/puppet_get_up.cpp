@@ -29,6 +29,9 @@ constexpr float kLeastPace = 0.06F;     // of the clip's speed
 constexpr float kFootStillMps = 0.06F;  // a foot of the pose that is slower stands
 constexpr float kFootLowM = 0.03F;      // and is lower over the ground
 constexpr float kFootFlat = radians(20.0F);
+constexpr float kStillMps = 0.1F;  // over the ground: a foot that moves no faster may stay on it,
+constexpr float kSwingMps = 0.5F;  // one that moves so fast
+constexpr float kSwingM = 0.03F;   // is lifted so high
 
 // Frames relative to the parent bodies'; the root's stays in the world.
 void relativeOf(const physics::Rig& rig, std::span<const RigidTransform> world, std::vector<RigidTransform>& relative) {
@@ -139,9 +142,24 @@ void PuppetCast::show(Actor& actor, float dt) {
     if (actor.rising) keepLimits(actor);
     actor.floor->closeJoints(actor.to);
     const float level = actor.ground;
-    if (blends || actor.rising)
-        actor.floor->keep([&](const vec3& point) { return isLevel_ ? level : groundBelow(point); }, actor.to);
+    if (blends || actor.rising) {
+        liftSwinging(actor, dt);
+        actor.floor->keep([&](const vec3& point) { return isLevel_ ? level : groundBelow(point); }, actor.to,
+                          clearance_);
+    }
     actor.isHeldBack = holdBack(actor, dt);
+}
+
+// A foot that moves over the ground is lifted off it: on the ground it would be caught.
+void PuppetCast::liftSwinging(const Actor& actor, float dt) {
+    clearance_.assign(actor.to.size(), 0.0F);
+    for (const Actor::Foot& foot : actor.feet) {
+        if (foot.body < 0) continue;
+        const vec3 way = actor.to[foot.body].translation - actor.from[foot.body].translation;
+        const float share =
+            std::clamp((std::hypot(way.x, way.z) / dt - kStillMps) / (kSwingMps - kStillMps), 0.0F, 1.0F);
+        clearance_[foot.body] = kSwingM * share * share * (3.0F - 2.0F * share);
+    }
 }
 
 // A wrist can't go to where its limits hold it: what its motor still asks of it there it does all at once when the
@@ -228,7 +246,7 @@ void PuppetCast::standUp(Actor& actor, float dt) {
         foot.stands = false;
     const RigidTransform stands = actor.to[actor.root];
     actor.player->play(0, 0, {});
-    actor.worldFromModel = {actor.asset->map.standardFromModel, {0, actor.ground + actor.lift, 0}};
+    actor.worldFromModel = {actor.asset->map.standardFromModel, {0, actor.ground + actor.lift - actor.soles, 0}};
     actor.base = actor.ground;
     pose(actor, now_);
     const quat heading = headingOf(glm::normalize(stands.rotation * glm::conjugate(now_[actor.root].rotation)));
@@ -265,7 +283,7 @@ void PuppetCast::measureFeet(Actor& actor) {
             foot.stands = false;
         return;
     }
-    const float level = actor.rising ? actor.ground : actor.worldFromModel.translation.y - actor.lift;
+    const float level = actor.rising ? actor.ground : actor.worldFromModel.translation.y + actor.soles - actor.lift;
     for (Actor::Foot& foot : actor.feet) {
         if (foot.body < 0) continue;
         const RigidTransform& aim = actor.to[foot.body];

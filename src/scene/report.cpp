@@ -79,6 +79,7 @@ nlohmann::ordered_json puppetJson(const Simulation& simulation) {
         {"pinForceN", first.pinForceN},
         {"kinematicBodies", std::count_if(first.led.begin(), first.led.end(), [](float w) { return w >= 1.0F; })},
         {"trackingErrorDeg", {{"rms", figures.rmsDeg}, {"max", figures.maxDeg}, {"worst", figures.worstJoint}}},
+        {"clipTurned", {{"maxDeg", figures.clipReachDeg}, {"joint", figures.clipReachJoint}}},
         {"rootErrorM", figures.rootM},
         {"ledErrorM", figures.ledM},
         {"footSlideM", figures.footSlideM},
@@ -106,6 +107,9 @@ std::string puppetText(const Simulation& simulation) {
     const PuppetFigures figures = simulation.puppets()->figures();
     std::string text = fmt::format("  behind the pose    {:7.2f} deg RMS, {:.2f} deg at most ({}), root {:.1f} cm\n",
                                    figures.rmsDeg, figures.maxDeg, figures.worstJoint, figures.rootM * 1e2F);
+    if (figures.clipReachDeg > 1.0F)
+        text += fmt::format("  the clip itself    {:7.1f} deg at most beyond what its joints can do ({})\n",
+                            figures.clipReachDeg, figures.clipReachJoint);
     text += fmt::format("  feet slid          {:7.1f} cm at most while they stood\n", figures.footSlideM * 1e2F);
     text += fmt::format("  work               {:7.1f} J by muscles, {:.1f} J by pins\n", simulation.world().motorWork(),
                         simulation.world().dragWork());

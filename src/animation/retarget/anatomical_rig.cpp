@@ -127,27 +127,6 @@ void setFoot(AnatomicalRig& rig, Side side) {
     out.ballHeight = std::max(ball.y - rig.floor, 0.0F);
 }
 
-// The lowest of the skin, else of what hangs on the feet.
-float floorOf(const AnatomicalRig& rig, const Character& character) {
-    float low = std::numeric_limits<float>::max();
-    for (const SkinnedMesh& mesh : character.meshes) {
-        for (const vec3& position : mesh.positions)
-            low = std::min(low, (rig.standardFromModel * position).y);
-    }
-    const float ankles = std::min(rig.bindOf(Role::leftFoot).y, rig.bindOf(Role::rightFoot).y);
-    const float knees = std::min(rig.bindOf(Role::leftLowerLeg).y, rig.bindOf(Role::rightLowerLeg).y);
-    // A cape or a stand below the soles is no floor, nor is skin that ends above them.
-    if (low < ankles && ankles - low < 0.4F * (knees - ankles)) return low;
-    low = ankles;
-    for (const Role foot : {Role::leftFoot, Role::rightFoot}) {
-        for (int joint = rig.jointOf(foot); joint < rig.skeleton->jointCount(); ++joint) {
-            if (isAncestorOrSelf(*rig.skeleton, rig.jointOf(foot), joint))
-                low = std::min(low, rig.standardBind[joint].translation.y);
-        }
-    }
-    return low;
-}
-
 float legLengthOf(const AnatomicalRig& rig) {
     float sum = 0.0F;
     for (const Side side : {Side::left, Side::right}) {
@@ -216,6 +195,37 @@ std::optional<Role> endOfBone(Role role) {
     return std::nullopt;
 }
 
+float floorOf(const Character& character, const HumanoidMap& map) {
+    const Skeleton& skeleton = character.skeleton;
+    const auto heightOf = [&](int joint) {
+        return (map.standardFromModel * skeleton.bindModelFromJoint[joint].translation).y;
+    };
+    const auto lowestOf = [&](Role left) {
+        float lowest = std::numeric_limits<float>::max();
+        for (const Role role : {left, mirrored(left)})
+            if (map.jointOf(role) != kNoJoint) lowest = std::min(lowest, heightOf(map.jointOf(role)));
+        return lowest;
+    };
+    float low = std::numeric_limits<float>::max();
+    for (const SkinnedMesh& mesh : character.meshes)
+        for (const vec3& position : mesh.positions)
+            low = std::min(low, (map.standardFromModel * position).y);
+    const bool hasSkin = low < std::numeric_limits<float>::max();
+    const float ankles = lowestOf(Role::leftFoot);
+    const float knees = lowestOf(Role::leftLowerLeg);
+    const bool hasLegs = std::max(ankles, knees) < std::numeric_limits<float>::max();
+    if (!hasLegs) return hasSkin ? low : 0.0F;
+    // A cape or a stand below the soles is no floor, nor is skin that ends above them.
+    if (low < ankles && ankles - low < 0.4F * (knees - ankles)) return low;
+    low = ankles;
+    for (const Role role : {Role::leftFoot, Role::rightFoot}) {
+        const int foot = map.jointOf(role);
+        for (int joint = std::max(foot, 0); foot != kNoJoint && joint < skeleton.jointCount(); ++joint)
+            if (isAncestorOrSelf(skeleton, foot, joint)) low = std::min(low, heightOf(joint));
+    }
+    return low;
+}
+
 Result<AnatomicalRig> makeAnatomicalRig(const Character& character, const HumanoidMap& map) {
     const auto refuse = [&](const char* what, const char* mend) {
         return Error{ErrorCode::input, what, character.file.string(), mend};
@@ -230,7 +240,7 @@ Result<AnatomicalRig> makeAnatomicalRig(const Character& character, const Humano
         rig.joint[role] = map.jointOf(roleAt(role));
     for (const RigidTransform& bind : character.skeleton.bindModelFromJoint)
         rig.standardBind.push_back({rig.standardFromModel * bind.rotation, rig.standardFromModel * bind.translation});
-    rig.floor = floorOf(rig, character);
+    rig.floor = floorOf(character, map);
     rig.legLength = legLengthOf(rig);
     if (!(rig.legLength > kNoLength)) return refuse("has legs without length", "check its bind pose");
     setAllAxes(rig);

@@ -62,6 +62,11 @@ struct AnatomicalRig {
     [[nodiscard]] int neckOrHead() const { return has(Role::neck) ? jointOf(Role::neck) : jointOf(Role::head); }
 };
 
+/// The height in standard space of what a figure stands on in its bind pose, metres: the lowest of its skin, or of what
+/// hangs on its feet where the skin says nothing of it. The origin of a file may be elsewhere: in BVH it is mostly at
+/// the hips.
+[[nodiscard]] float floorOf(const Character& character, const HumanoidMap& map);
+
 /// Fails with ErrorCode::input when the map is none of a humanoid, or a leg has no length. `character` must outlive the
 /// rig.
 [[nodiscard]] Result<AnatomicalRig> makeAnatomicalRig(const Character& character, const HumanoidMap& map);

@@ -39,7 +39,7 @@ struct PuppetSettings {
     float knockOutLoss = 0.75F;    ///< Mean loss of all joints, weighed by the mass that they move, above which it goes
                                    ///< limp; 1 and more: never.
     float knockOutTilt = radians(50.0F);  ///< Of the root body from its pose, radians, above which it goes limp.
-    float getUpForceN = 2000.0F;          ///< In place of `pinForceN` while it gets up, >= 0.
+    float getUpForceN = 3000.0F;          ///< In place of `pinForceN` while it gets up, >= 0.
     float getUpLead = radians(15.0F);     ///< While it gets up no joint is drawn to more than this ahead of where it
                                           ///< is: what was held by the floor does not snap back; radians, > 0.
     float getUpSpeed = radians(450.0F);   ///< Nor driven faster than this, rad/s, > 0.

@@ -35,23 +35,28 @@ ALL_FOURS = {"hips": (0, .49, -.40), "turn": about_x(88), "bend": (6, 0, 0), "lo
 def from_all_fours(joints):
     """(seconds, key) from ALL_FOURS on."""
     return [
-        (.22, {"hips": (.03, .515, -.38), "turn": about_z(-4) @ about_x(57), "bend": (24, 0, 0), "right_foot": (-.14, .26, -.47),
-               "right_sole": about_x(22), "right_toes": 0, **both(hand=(.26, .16, .12)), "right_knee": (-.28, .35, .9), "left_sole": about_x(106), "left_foot": (.116, .160, -.81), "left_toes": 72}),
-        (.46, {"hips": (.01, .53, -.34), "turn": about_z(-2) @ about_x(29), "bend": (28, 0, 0), "right_foot": (-.116, .082, -.026),
-               "right_sole": FLAT, "right_knee": (-.25, .5, .8), "left_sole": about_x(98), "left_foot": (.116, .150, -.79),
-               "left_toes": 68, "look": (-18, 0), **both(hand=(.25, .42, .08))}),
-        (.74, {"hips": (-.01, .56, -.28), "turn": about_x(27), "bend": (22, 0, 0), "look": (-12, 0), "left_sole": about_x(78),
-               "left_foot": (.116, .170, -.84), "left_toes": 62, "right_hand": (-.17, .53, .04), "right_fingers": (.3, -.2, 1),
-               "right_palm": (0, -1, -.3), "right_elbow": (-1, .2, -.3), "left_hand": (.25, .47, .08), "left_fingers": (0, -.8, .6),
+        (.20, {"hips": (.035, .555, -.40), "turn": about_z(-4) @ about_x(50), "bend": (26, 0, 0), "right_foot": (-.16, .27, -.52),
+               "right_sole": about_x(78), "right_toes": 0, **both(hand=(.26, .12, .12)), "right_knee": (-.2, .2, .9), "left_sole": about_x(112),
+               "left_foot": (.116, .155, -.81), "left_toes": 70}),
+        (.36, {"hips": (.025, .575, -.385), "turn": about_z(-3) @ about_x(28), "bend": (26, 0, 0), "right_foot": (-.15, .21, -.20),
+               "right_sole": about_x(24), "right_knee": (-.16, .4, .9), **both(hand=(.26, .30, .08))}),
+        (.52, {"hips": (.01, .55, -.36), "turn": about_z(-2) @ about_x(20), "bend": (24, 0, 0), "right_foot": (-.116, .082, -.026),
+               "right_sole": FLAT, "right_knee": (-.18, .5, .8), "left_sole": about_x(102), "left_foot": (.116, .152, -.80),
+               "left_toes": 68, "look": (-18, 0), **both(hand=(.25, .44, .06))}),
+        (.78, {"hips": (-.01, .56, -.31), "turn": about_x(20), "bend": (22, 0, 0), "look": (-12, 0), "left_sole": about_x(84),
+               "left_foot": (.116, .170, -.83), "left_toes": 62, "right_hand": (-.17, .53, .04), "right_fingers": (.3, -.2, 1),
+               "right_palm": (0, -1, -.3), "right_elbow": (-1, .2, -.3), "left_hand": (.25, .47, .06), "left_fingers": (0, -.8, .6),
                "left_palm": (-1, 0, 0), "left_elbow": (.6, .1, -1), "left_curl": 10}),
-        (1.02, {"hips": (-.04, .68, -.17), "turn": about_x(28), "bend": (14, 0, 0), "left_sole": about_x(58), "left_toes": 45,
-                "left_foot": (.116, .180, -.82), "left_knee": (.1, -.2, .9), "right_hand": (-.17, .55, .06), "left_hand": (.27, .52, .14)}),
-        (1.30, {"hips": (-.03, .81, -.07), "turn": about_x(24), "bend": (10, 0, 0), "look": (-6, 0), "left_foot": (.13, .23, -.42),
-                "left_sole": about_x(48), "left_toes": 5, "left_knee": (.1, .2, .9), "right_hand": (-.25, .70, .08),
+        (1.04, {"hips": (-.04, .68, -.19), "turn": about_x(26), "bend": (14, 0, 0), "left_sole": about_x(62), "left_toes": 45,
+                "left_foot": (.116, .180, -.82), "left_knee": (.1, -.2, .9), "right_hand": (-.17, .55, .06), "left_hand": (.27, .52, .14),
+                "right_sole": about_x(10), "right_foot": (-.116, .093, -.026)}),
+        (1.30, {"hips": (-.03, .81, -.08), "turn": about_x(22), "bend": (10, 0, 0), "look": (-6, 0), "left_foot": (.13, .27, -.42),
+                "left_sole": about_x(60), "left_toes": 5, "left_knee": (.1, .2, .9), "right_hand": (-.25, .70, .08),
                 "right_fingers": (0, -1, .3), "right_palm": (1, 0, 0), "right_elbow": (-.5, .1, -1), "right_curl": 10,
-                "left_hand": (.27, .66, .06)}),
-        (1.58, {"hips": (-.015, .90, -.02), "turn": about_x(9), "bend": (5, 0, 0), "look": (-2, 0), "left_foot": (.116, .09, -.02),
-                "left_sole": about_x(-4), "left_toes": 0, "right_hand": (-.27, .77, .05), "left_hand": (.28, .76, 0)}),
+                "left_hand": (.27, .66, .06), "right_sole": about_x(10), "right_foot": (-.116, .093, -.026)}),
+        (1.56, {"hips": (-.015, .90, -.02), "turn": about_x(9), "bend": (5, 0, 0), "look": (-2, 0), "left_foot": (.116, .105, -.06),
+                "left_sole": about_x(4), "left_toes": 0, "right_hand": (-.27, .77, .05), "left_hand": (.28, .76, 0),
+                "right_sole": FLAT, "right_foot": (-.116, .082, -.026)}),
         (1.70, {"hips": (0, .918, -.01), "turn": about_x(6), "bend": (3, 0, 0), "left_foot": (.116, .082, -.026), "left_sole": FLAT,
                 "right_foot": (-.116, .082, -.026)}),
         (2.00, {**stood(joints), "right_foot": (-.116, .082, -.026)})]
@@ -89,7 +94,7 @@ def _on_left_side():
 
 def get_up_left(joints):
     roll = {"hips": (.12, .25, -.16), "turn": about_z(-55) @ about_x(84), "bend": (6, -8, 0), "look": (-12, -10),
-            "left_hand": (-.02, .055, .33), "left_palm": DOWN, "left_fingers": (-.8, 0, .6), "left_elbow": (.4, .9, -.5),
+            "left_hand": (-.02, .055, .33), "left_palm": (-.6, -.6, .4), "left_fingers": (-.3, 0, 1), "left_elbow": (.6, .2, -1),
             "left_curl": 5, "left_foot": (.10, .155, -.82), "left_knee": (-.9, -.4, .4), "left_sole": about_z(-60) @ about_x(140),
             "right_foot": (-.08, .16, -.82), "right_knee": (-.7, -.3, .6), "right_sole": about_z(-50) @ about_x(140)}
     up = {"hips": (.05, .40, -.28), "turn": about_z(-22) @ about_x(84), "bend": (2, 0, 0), "look": (-25, 0),
@@ -110,20 +115,20 @@ def get_up_supine(joints):
     """Draws the feet up, sits up, pushes off with the left hand and stands up out of a squat."""
     lie = {"hips": (0, .11, -.47), "turn": about_x(-90), "bend": (0, 0, 0), "look": (4, 0),
            **both(foot=(.14, .098, .385), sole=about_x(-58), knee=(.3, 1, 0), toes=0, hand=(.34, .045, -.50), palm=DOWN,
-                  fingers=(-.1, 0, 1), elbow=(1, .2, -.3), shrug=(0, 0), curl=10)}
+                  fingers=(-.1, 0, 1), elbow=(1, -.4, -.3), shrug=(0, 0), curl=10)}
     draw = {"hips": (0, .115, -.47), "turn": about_x(-84), "bend": (12, 0, 0), "look": (30, 0),
             **both(foot=(.116, .082, -.026), sole=FLAT, knee=(.15, 1, .4))}
     sit = {"hips": (.01, .125, -.46), "turn": about_x(-34), "bend": (34, 5, 0), "look": (6, 0), "left_hand": (.27, .035, -.43),
            "left_fingers": (.5, 0, 1), "left_elbow": (.7, .2, -1), "right_hand": (-.20, .46, -.22), "right_fingers": (.1, .1, 1),
            "right_palm": (.6, -.8, 0), "right_elbow": (-.7, -.7, -.2), "left_curl": 3}
     rock = {"hips": (.01, .17, -.41), "turn": about_x(-20), "bend": (50, 6, 0), "look": (-8, 0), "right_hand": (-.20, .44, .06)}
-    squat = {"hips": (0, .29, -.29), "turn": about_x(2), "bend": (52, 0, 0), "look": (-24, 0), "left_hand": (.24, .26, -.02),
+    squat = {"hips": (0, .29, -.29), "turn": about_x(-8), "bend": (60, 0, 0), "look": (-24, 0), "left_hand": (.24, .26, -.02),
              "left_fingers": (0, -.5, 1), "left_palm": (-.6, -.6, 0), "left_elbow": (.8, -.2, -.6), "right_hand": (-.20, .38, .24),
-             **both(knee=(.2, .8, .6))}
+             **both(knee=(.2, .8, .6), sole=about_x(12), foot=(.116, .096, -.026))}
     half = {"hips": (0, .54, -.20), "turn": about_x(34), "bend": (34, 0, 0), "look": (-24, 0), "left_hand": (.22, .42, .22),
             "left_fingers": (0, -.4, 1), "right_hand": (-.20, .43, .26), "right_fingers": (.1, -.4, 1), **both(knee=(.1, .5, .9))}
     high = {"hips": (0, .80, -.09), "turn": about_x(26), "bend": (14, 0, 0), "look": (-10, 0), "left_curl": 10,
-            **both(hand=(.25, .64, .16), fingers=(0, -.8, .6), palm=(-1, 0, 0), elbow=(.6, 0, -1), knee=(.05, .1, 1))}
+            **both(hand=(.25, .64, .16), fingers=(0, -.8, .6), palm=(-1, 0, 0), elbow=(.6, 0, -1), knee=(.05, .1, 1), sole=about_x(8), foot=(.116, .091, -.026))}
     top = {"hips": (0, .915, -.015), "turn": about_x(6), "bend": (4, 0, 0), "look": (-1, 0),
            **both(hand=(.29, .77, .03), fingers=(0, -1, .2), elbow=(.4, 0, -1))}
     return _moves([(0, lie), (.42, draw), (.80, sit), (1.06, rock), (1.30, squat), (1.62, half), (1.98, high), (2.30, top),

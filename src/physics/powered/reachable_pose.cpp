@@ -1,0 +1,211 @@
+#include "physics/powered/reachable_pose.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "physics/collision/contacts.hpp"
+#include "physics/profile/within_limits.hpp"
+
+namespace lutka::physics {
+namespace {
+
+constexpr int kMostPushes = 12;
+constexpr float kDeepEnoughM = 5e-4F;
+constexpr float kMostPush = 0.15F;     // radians at a time
+constexpr float kLeastLeverM = 0.02F;  // a contact nearer to the shoulder's axis can't be turned away from
+
+constexpr std::array<std::array<Role, 3>, 2> kArms{{{Role::leftUpperArm, Role::leftLowerArm, Role::leftHand},
+                                                    {Role::rightUpperArm, Role::rightLowerArm, Role::rightHand}}};
+constexpr std::array<std::array<Role, 3>, 2> kLegs{{{Role::leftUpperLeg, Role::leftLowerLeg, Role::leftFoot},
+                                                    {Role::rightUpperLeg, Role::rightLowerLeg, Role::rightFoot}}};
+
+// A hinge between two bones, in the upper one's frame: where its end is for each of its angles.
+struct Bend {
+    quat parentFrame, childFrame;
+    vec3 upper;  // from the upper bone's joint to the hinge, in the parent's frame of the hinge
+    vec3 lower;  // from the hinge to the end, in the child's
+
+    [[nodiscard]] quat turn(float angle) const {
+        return parentFrame * glm::angleAxis(angle, vec3(0, 0, 1)) * glm::conjugate(childFrame);
+    }
+    [[nodiscard]] vec3 end(float angle) const {
+        return parentFrame * (upper + glm::angleAxis(angle, vec3(0, 0, 1)) * lower);
+    }
+    // Of the two angles at which the end is so far away the one that is bent to where the hinge has more room; the
+    // straightest or the most bent where none is. Within the limits.
+    [[nodiscard]] float angleFor(float distance, const HingeLimits& limits) const {
+        const float along = upper.x * lower.x + upper.y * lower.y;
+        const float across = upper.y * lower.x - upper.x * lower.y;
+        const float straight = std::atan2(across, along);
+        const float reach = 2.0F * std::hypot(along, across);
+        const float rest = distance * distance - glm::dot(upper, upper) - glm::dot(lower, lower);
+        const float cosine = (rest - 2.0F * upper.z * lower.z) / std::max(reach, 1e-9F);
+        const float bent = std::acos(std::clamp(cosine, -1.0F, 1.0F));
+        const float middle = std::remainder(0.5F * (limits.lower + limits.upper) - straight, 2.0F * kPi);
+        const float angle = std::remainder(straight + std::copysign(bent, middle), 2.0F * kPi);
+        return std::clamp(angle, limits.lower, limits.upper);
+    }
+};
+
+}  // namespace
+
+ReachablePose::ReachablePose(const RagdollProfile& profile, std::vector<bool> keeps)
+    : profile_(profile),
+      keeps_(std::move(keeps)),
+      limbOf_(profile.bodies.size(), -1),
+      before_(profile.bodies.size(), quat(1, 0, 0, 0)) {
+    for (const auto& arm : kArms)
+        addLimb(arm, false);
+    for (const auto& leg : kLegs)
+        addLimb(leg, true);
+    planMeetings();
+}
+
+bool ReachablePose::hangsOn(int body, int above) const {
+    while (body > above)
+        body = jointOf(body).parent;  // each hangs on a body before it
+    return body == above;
+}
+
+bool ReachablePose::collide(int a, int b) const {
+    const auto linked = [&](int child, int parent) { return child > 0 && jointOf(child).parent == parent; };
+    if (a == b || linked(a, b) || linked(b, a)) return false;
+    const std::pair<int, int> pair = std::minmax(a, b);
+    return std::find(profile_.filteredPairs.begin(), profile_.filteredPairs.end(), pair) ==
+           profile_.filteredPairs.end();
+}
+
+void ReachablePose::addLimb(const std::array<Role, 3>& roles, bool isLeg) {
+    Limb limb;
+    limb.upper = bodyOf(profile_, roles[0]);
+    limb.lower = bodyOf(profile_, roles[1]);
+    limb.end = bodyOf(profile_, roles[2]);
+    limb.isLeg = isLeg;
+    const bool isChain = limb.upper > 0 && limb.lower > 0 && limb.end > 0 && jointOf(limb.lower).parent == limb.upper &&
+                         jointOf(limb.end).parent == limb.lower &&
+                         jointOf(limb.lower).kind == ConstraintProfile::Kind::hinge;
+    if (!isChain || isKept(limb.upper) || isKept(limb.lower) || isKept(limb.end)) return;
+    for (int body = limb.upper; body < static_cast<int>(profile_.bodies.size()); ++body)
+        if (hangsOn(body, limb.upper)) limb.bodies.push_back(body);
+    for (const int body : {limb.upper, limb.lower, limb.end})
+        limbOf_[body] = static_cast<int>(limbs_.size());
+    limbs_.push_back(std::move(limb));
+}
+
+// Arms make way for everything, legs for each other.
+void ReachablePose::planMeetings() {
+    for (Limb& limb : limbs_) {
+        for (const int own : {limb.upper, limb.lower, limb.end}) {
+            for (int other = 0; other < static_cast<int>(profile_.bodies.size()); ++other) {
+                if (hangsOn(other, limb.upper) || !collide(own, other)) continue;
+                const bool onLeg = limbOf_[other] >= 0 && limbs_[limbOf_[other]].isLeg;
+                const bool onArm = limbOf_[other] >= 0 && !onLeg;
+                if (limb.isLeg ? onLeg : !onArm) limb.meets.emplace_back(own, other);
+            }
+        }
+    }
+}
+
+void ReachablePose::closeJoints(std::span<RigidTransform> bodies) const {
+    for (std::size_t body = 1; body < bodies.size(); ++body) {
+        const ConstraintProfile& joint = profile_.constraints[body - 1];
+        bodies[body].translation = bodies[joint.parent] * joint.parentFromFrame.translation -
+                                   bodies[body].rotation * joint.childFromFrame.translation;
+    }
+}
+
+void ReachablePose::bend(const Limb& limb, std::span<RigidTransform> bodies) const {
+    const ConstraintProfile& top = jointOf(limb.upper);
+    const ConstraintProfile& hinge = jointOf(limb.lower);
+    const ConstraintProfile& tip = jointOf(limb.end);
+    const quat& parent = bodies[top.parent].rotation;
+    const quat carried = parent * glm::conjugate(before_[top.parent]);
+    const quat upper = carried * before_[limb.upper];
+    const quat lower = carried * before_[limb.lower];
+    const vec3 toHinge = hinge.parentFromFrame.translation - top.childFromFrame.translation;
+    const vec3 toEnd = tip.parentFromFrame.translation - hinge.childFromFrame.translation;
+    const vec3 goal = upper * toHinge + lower * toEnd;
+    const Bend bend{hinge.parentFromFrame.rotation, hinge.childFromFrame.rotation,
+                    glm::conjugate(hinge.parentFromFrame.rotation) * toHinge,
+                    glm::conjugate(hinge.childFromFrame.rotation) * toEnd};
+    const float angle = bend.angleFor(glm::length(goal), hinge.hinge);
+    const quat aimed = rotationBetween(upper * bend.end(angle), goal) * upper;
+    bodies[limb.upper].rotation = glm::normalize(parent * withinLimits(top, glm::conjugate(parent) * aimed));
+    bodies[limb.lower].rotation = glm::normalize(bodies[limb.upper].rotation * bend.turn(angle));
+    const quat& shin = bodies[limb.lower].rotation;
+    const quat end = glm::conjugate(shin) * (carried * before_[limb.end]);
+    bodies[limb.end].rotation = glm::normalize(shin * withinLimits(tip, end));
+}
+
+// About its upper joint; a foot keeps its own turn.
+void ReachablePose::turnLimb(const Limb& limb, const quat& turn, std::span<RigidTransform> bodies) const {
+    const ConstraintProfile& top = jointOf(limb.upper);
+    const quat& parent = bodies[top.parent].rotation;
+    const quat wanted = glm::conjugate(parent) * (turn * bodies[limb.upper].rotation);
+    const quat turned = glm::normalize(parent * withinLimits(top, wanted));
+    const quat done = turned * glm::conjugate(bodies[limb.upper].rotation);
+    const quat foot = bodies[limb.end].rotation;
+    for (const int body : limb.bodies)
+        bodies[body].rotation = glm::normalize(done * bodies[body].rotation);
+    if (limb.isLeg) {
+        const quat& shin = bodies[limb.lower].rotation;
+        bodies[limb.end].rotation = glm::normalize(shin * withinLimits(jointOf(limb.end), glm::conjugate(shin) * foot));
+    }
+}
+
+// Turns the limb out of what it is deepest in; whether it is in anything.
+bool ReachablePose::pushOut(const Limb& limb, std::span<RigidTransform> bodies) const {
+    const vec3 pivot = bodies[limb.upper] * jointOf(limb.upper).childFromFrame.translation;
+    vec3 axis(0);
+    float angle = 0.0F;
+    for (const auto& [own, other] : limb.meets) {
+        const BodyShape& shape = profile_.bodies[own].shape;
+        visitShapes(shape, [&](const PrimitiveShape& mine, const RigidTransform& ownFromShape) {
+            visitShapes(profile_.bodies[other].shape, [&](const PrimitiveShape& its, const RigidTransform& otherFrom) {
+                const ContactList list = findContacts(geometryOf(mine, bodies[own] * ownFromShape),
+                                                      geometryOf(its, bodies[other] * otherFrom), 0.0F);
+                for (int i = 0; i < list.count; ++i) {
+                    const SurfaceContact& contact = list.contacts[i];
+                    const vec3 way = glm::cross(contact.position - pivot, contact.normal);
+                    const float lever = glm::length(way);
+                    if (-contact.distance < kDeepEnoughM || lever < kLeastLeverM) continue;
+                    if (-contact.distance / lever <= angle) continue;
+                    angle = -contact.distance / lever;
+                    axis = way / lever;
+                }
+            });
+        });
+    }
+    if (angle <= 0.0F) return false;
+    const float share = limb.isLeg ? 0.5F : 1.0F;  // the other leg does the same
+    turnLimb(limb, glm::angleAxis(std::min(share * angle, kMostPush), axis), bodies);
+    closeJoints(bodies);
+    return true;
+}
+
+void ReachablePose::apply(std::span<RigidTransform> bodies) {
+    for (std::size_t body = 0; body < bodies.size(); ++body)
+        before_[body] = bodies[body].rotation;
+    for (int body = 1; body < static_cast<int>(bodies.size()); ++body) {
+        if (isKept(body)) continue;
+        const int limb = limbOf_[body];
+        if (limb >= 0) {
+            if (limbs_[limb].upper == body) bend(limbs_[limb], bodies);
+            continue;
+        }
+        const ConstraintProfile& joint = jointOf(body);
+        const quat relative = glm::conjugate(before_[joint.parent]) * before_[body];
+        bodies[body].rotation = glm::normalize(bodies[joint.parent].rotation * withinLimits(joint, relative));
+    }
+    closeJoints(bodies);
+    for (int push = 0; push < kMostPushes; ++push) {
+        bool isIn = false;
+        for (const Limb& limb : limbs_)
+            isIn = pushOut(limb, bodies) || isIn;
+        if (!isIn) break;
+    }
+}
+
+}  // namespace lutka::physics

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "physics/profile/body_state.hpp"
+#include "physics/profile/profile.hpp"
+
+namespace lutka::physics {
+
+/// Makes poses of a doll such that it can take them: no joint beyond its limits, and no arm in the trunk or a leg in
+/// the other one. A motor that is led beyond a limit or into a body only leans on it, and what holds the doll has to
+/// bear that.
+///
+/// - Arms and legs with a hinge in their middle keep the place of their end as far as they can: the hinge takes the
+///   angle at which the end is as far from the shoulder or hip, and the upper part aims it. Hands and feet keep their
+///   turn in the world as far as their own limits let them.
+/// - All other joints take the nearest turn within their limits, and what hangs on them goes along.
+/// - Limbs that are in something are turned out of it about the shoulder or hip. Where that would break a limit the
+///   limit wins.
+class ReachablePose {
+  public:
+    /// `keeps`: one a body, which of them stay as they are turned, such as kinematic ones; empty: none. The profile
+    /// must outlive this.
+    explicit ReachablePose(const RagdollProfile& profile, std::vector<bool> keeps = {});
+
+    /// In place, one frame a body, in any space. The root stays where it is, the others close the joints. Allocates
+    /// nothing.
+    void apply(std::span<RigidTransform> bodies);
+
+  private:
+    struct Limb {
+        int upper = -1, lower = -1, end = -1;  // bodies; the lower one hangs on a hinge
+        bool isLeg = false;
+        std::vector<int> bodies;                 // upper and all that hangs on it, parents first
+        std::vector<std::pair<int, int>> meets;  // one of `bodies`, and what it may run into
+    };
+    [[nodiscard]] const ConstraintProfile& jointOf(int body) const { return profile_.constraints[body - 1]; }
+    [[nodiscard]] bool isKept(int body) const { return !keeps_.empty() && keeps_[body]; }
+    [[nodiscard]] bool hangsOn(int body, int above) const;
+    [[nodiscard]] bool collide(int a, int b) const;
+    void addLimb(const std::array<Role, 3>& roles, bool isLeg);
+    void planMeetings();
+    void bend(const Limb& limb, std::span<RigidTransform> bodies) const;
+    void closeJoints(std::span<RigidTransform> bodies) const;
+    void turnLimb(const Limb& limb, const quat& turn, std::span<RigidTransform> bodies) const;
+    bool pushOut(const Limb& limb, std::span<RigidTransform> bodies) const;
+
+    const RagdollProfile& profile_;
+    std::vector<bool> keeps_;
+    std::vector<Limb> limbs_;
+    std::vector<int> limbOf_;   // one a body: whose upper, lower or end it is; -1: none
+    std::vector<quat> before_;  // scratch
+};
+
+}  // namespace lutka::physics

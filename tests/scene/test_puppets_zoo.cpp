@@ -1,0 +1,91 @@
+// Real models as puppets of the mannequin's clips: figures with short legs, fat trunks, bent knees, their origin at the
+// hips.
+#include "scene/reachable_clip.hpp"
+#include "scene/simulation.hpp"
+#include "support/catch.hpp"
+#include "support/zoo.hpp"
+
+using namespace lutka;
+using physics::SolverKind;
+using scene::RagdollAsset;
+using scene::Simulation;
+
+namespace {
+
+std::unique_ptr<RagdollAsset> figure(const char* file) {
+    scene::LoadOptions options;
+    options.import.loadTextures = false;
+    auto loaded = scene::loadRagdoll(test::zooFile(file), options);
+    REQUIRE(loaded.ok());
+    return std::move(loaded).value();
+}
+
+std::unique_ptr<Simulation> playIn(const RagdollAsset& asset, scene::Scenario scenario, const scene::PuppetPlay& play,
+                                   SolverKind solver, float seconds) {
+    scene::SimulationOptions options;
+    options.world.solver = solver;
+    options.puppet = play;
+    auto simulation = Simulation::create(asset, std::move(scenario), options);
+    REQUIRE(simulation.ok());
+    for (int i = 0; i < static_cast<int>(seconds * 60.0F); ++i)
+        simulation.value()->step();
+    return std::move(simulation).value();
+}
+
+}  // namespace
+
+TEST_CASE("figures of any proportions walk within two degrees of a clip that they borrow") {
+    NEEDS_ZOO();
+    for (const char* file :
+         {"cesium_man_glb/CesiumMan.glb", "makehuman_mixamo/makehuman_mixamo.glb", "kenney_medium/characterMedium.fbx",
+          "kaykit_rogue/Rogue_Hooded.glb", "lumberjack_rigify/lumberjack.glb", "quaternius_man_fbx/Male_Casual.fbx"}) {
+        const auto asset = figure(file);
+        for (const SolverKind solver : {SolverKind::crowd, SolverKind::bullet}) {
+            INFO(file << ", " << physics::solverName(solver));
+            scene::Scenario ground;
+            ground.statics.emplace_back();
+            ground.dolls.emplace_back();
+            scene::PuppetPlay play;
+            play.start.clip = "walk";
+            play.borrows = true;
+            const auto simulation = playIn(*asset, std::move(ground), play, solver, 3.0F);
+            const scene::PuppetFigures figures = simulation->puppets()->figures();
+            INFO(figures.rmsDeg << " rms, " << figures.maxDeg << " at most at " << figures.worstJoint
+                                << "; the clip was turned by " << figures.clipReachDeg << " at "
+                                << figures.clipReachJoint);
+            CHECK(figures.rmsDeg <= 2.0F);
+            CHECK(figures.rootM <= 0.02F);
+            CHECK(simulation->quality().nonFinite == 0);
+        }
+    }
+}
+
+TEST_CASE("figures of any proportions get up: short legs, a large head, a heavy trunk, an origin at the hips") {
+    NEEDS_ZOO();
+    for (const char* file :
+         {"kaykit_rogue/Rogue_Hooded.glb", "bvh_boxing/Boxing_Toes.bvh", "lumberjack_rigify/lumberjack.glb",
+          "quaternius_platformer_ik/"
+          "platformer_game_pack_Character.glb"}) {
+        INFO(file);
+        const auto asset = figure(file);
+        auto scenario = scene::makeScenario({.name = "spread", .count = 10, .seed = 1}, *asset);
+        REQUIRE(scenario.ok());
+        scene::PuppetPlay play;
+        play.getUp = play.limp = true;
+        const auto simulation = playIn(*asset, std::move(scenario).value(), play, SolverKind::crowd, 10.0F);
+        const scene::GetUpFigures up = simulation->puppets()->getUpFigures();
+        INFO(up.begun << " begun, " << up.stood << " stood, " << up.mostSeconds << " s at most");
+        CHECK(up.stood >= 9);
+        CHECK(up.begun <= 12);
+        CHECK(simulation->quality().nonFinite == 0);
+        const vec3 up3 = glm::conjugate(asset->profile.standardFromModel) * vec3(0, 1, 0);
+        const float standing = scene::figureOf(*asset).bounds.low.y;
+        int upright = 0;
+        for (int doll = 0; doll < simulation->dollCount(); ++doll) {
+            const float hips = simulation->worldFromBody(doll).front().translation.y;
+            upright +=
+                hips > 0.85F * (glm::dot(asset->rig.bindModelFromBody.front().translation, up3) - standing) ? 1 : 0;
+        }
+        CHECK(upright >= 9);
+    }
+}
