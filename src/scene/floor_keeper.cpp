@@ -23,7 +23,7 @@ constexpr std::array<LimbRoles, 4> kLimbs{{{Role::leftUpperArm, Role::leftLowerA
 
 }  // namespace
 
-FloorKeeper::FloorKeeper(const RagdollAsset& asset) : asset_(&asset) {
+FloorKeeper::FloorKeeper(const RagdollAsset& asset) : asset_(&asset), reachable_(asset.profile) {
     for (const LimbRoles& roles : kLimbs) {
         Limb limb;
         limb.upper = physics::bodyOf(asset.profile, roles.upper);
@@ -35,6 +35,7 @@ FloorKeeper::FloorKeeper(const RagdollAsset& asset) : asset_(&asset) {
         if (!isChain) continue;
         limb.bendInUpper = glm::conjugate(asset.rig.bindModelFromBody[limb.upper].rotation) *
                            (glm::conjugate(asset.profile.standardFromModel) * vec3(0, 0, roles.ahead));
+        limb.isLeg = roles.ahead > 0.0F;
         limbs_.push_back(limb);
     }
 }
@@ -53,9 +54,16 @@ void FloorKeeper::closeJoints(std::span<RigidTransform> worldFromBody) const {
     }
 }
 
+// Within the limits. An arm that can't be lifted out so is bent beyond them, where it will lean on the floor: it is
+// no reason to lift the whole figure, which a leg is.
 void FloorKeeper::liftEnd(const Limb& limb, float height, std::span<RigidTransform> worldFromBody) const {
-    const float depth = height - lowestOf(limb.end, worldFromBody[limb.end]);
+    float depth = height - lowestOf(limb.end, worldFromBody[limb.end]);
     if (depth <= 0.0F) return;
+    if (reachable_.moveEnd(limb.end, vec3(0, depth, 0), worldFromBody)) {
+        if (limb.isLeg) return;
+        depth = height - lowestOf(limb.end, worldFromBody[limb.end]);
+        if (depth <= 0.0F) return;
+    }
     const auto anchor = [&](int body) { return worldFromBody[body] * asset_->rig.anchors[body].inChild; };
     const animation::BonePoints points{anchor(limb.upper), anchor(limb.lower), anchor(limb.end)};
     animation::TwoBoneGoal goal;

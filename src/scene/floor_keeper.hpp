@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/powered/reachable_pose.hpp"
 #include "scene/ragdoll_asset.hpp"
 
 namespace lutka::scene {
@@ -11,8 +12,9 @@ namespace lutka::scene {
 /// Height of the ground below a point, world, Y up.
 using GroundHeight = std::function<float(const vec3& worldPoint)>;
 
-/// Keeps a pose of bodies out of the floor: hands and feet are lifted by two bones each, and what of the rest is in the
-/// ground lifts the whole figure. Joints stay closed. The asset must outlive this.
+/// Keeps a pose of bodies out of the floor: hands and feet are lifted by two bones each, feet as far as the joints'
+/// limits allow, and what is in the ground then lifts the whole figure. Joints stay closed. The asset must outlive
+/// this.
 class FloorKeeper {
   public:
     explicit FloorKeeper(const RagdollAsset& asset);
@@ -29,11 +31,13 @@ class FloorKeeper {
   private:
     struct Limb {
         int upper = -1, lower = -1, end = -1;  // bodies
-        vec3 bendInUpper{0, 0, 1};             // where elbow or knee sticks out
+        bool isLeg = false;
+        vec3 bendInUpper{0, 0, 1};  // where elbow or knee sticks out
     };
     void liftEnd(const Limb& limb, float height, std::span<RigidTransform> worldFromBody) const;
 
     const RagdollAsset* asset_;
+    physics::ReachablePose reachable_;
     std::vector<Limb> limbs_;
 };
 

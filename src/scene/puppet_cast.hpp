@@ -142,6 +142,7 @@ class PuppetCast {
             int body = -1;
             bool stands = false;
             vec3 at{0, 0, 0};
+            std::optional<vec3> aim;  // where it was to be on the way up, before the floor
         };
         std::array<Foot, 2> feet;
     };
@@ -164,7 +165,7 @@ class PuppetCast {
     void blendInto(Actor& actor, std::span<const RigidTransform> rawBefore, std::span<const RigidTransform> raw,
                    float dt);
     void show(Actor& actor, float dt);
-    void liftSwinging(const Actor& actor, float dt);
+    void liftSwinging(Actor& actor, float dt);
     void keepLimits(Actor& actor);
     bool holdBack(Actor& actor, float dt);
     void measureRising(Actor& actor);

@@ -109,6 +109,8 @@ void PuppetCast::beginRising(Actor& actor, float dt) {
     blendInto(actor, actor.raw, actor.raw, dt);
     actor.puppet->getUp(kStrengthSeconds);
     actor.joints.clear();
+    for (Actor::Foot& foot : actor.feet)
+        foot.aim.reset();
     ++risen_.begun;
     matchedM_ += static_cast<double>(actor.rising->distanceM);
 }
@@ -150,14 +152,17 @@ void PuppetCast::show(Actor& actor, float dt) {
     actor.isHeldBack = holdBack(actor, dt);
 }
 
-// A foot that moves over the ground is lifted off it: on the ground it would be caught.
-void PuppetCast::liftSwinging(const Actor& actor, float dt) {
+// A foot that moves over the ground is lifted off it: on the ground it would be caught. Told by where the foot would be
+// without that.
+void PuppetCast::liftSwinging(Actor& actor, float dt) {
     clearance_.assign(actor.to.size(), 0.0F);
-    for (const Actor::Foot& foot : actor.feet) {
+    for (Actor::Foot& foot : actor.feet) {
         if (foot.body < 0) continue;
-        const vec3 way = actor.to[foot.body].translation - actor.from[foot.body].translation;
-        const float share =
-            std::clamp((std::hypot(way.x, way.z) / dt - kStillMps) / (kSwingMps - kStillMps), 0.0F, 1.0F);
+        const vec3 now = actor.to[foot.body].translation;
+        const vec3 way = now - foot.aim.value_or(now);
+        foot.aim = now;
+        const float speed = std::hypot(way.x, way.z) / dt;
+        const float share = std::clamp((speed - kStillMps) / (kSwingMps - kStillMps), 0.0F, 1.0F);
         clearance_[foot.body] = kSwingM * share * share * (3.0F - 2.0F * share);
     }
 }

@@ -1,5 +1,6 @@
 #include <glm/gtc/quaternion.hpp>
 
+#include "physics/profile/constraint_state.hpp"
 #include "scene/floor_keeper.hpp"
 #include "scene/get_up_clips.hpp"
 #include "scene/report.hpp"
@@ -122,6 +123,22 @@ TEST_CASE("hands and feet in the floor are lifted by their limbs, the rest with 
     keeper.keep(level, bodies);
     for (int body = 0; body < static_cast<int>(bodies.size()); ++body)
         CHECK(keeper.lowestOf(body, bodies[body]) > -1e-3F);
+    // Legs are folded no further than they can be: what is left of the depth is the whole figure's.
+    for (const float sunk : {0.08F, 0.2F, 0.4F}) {
+        INFO(sunk);
+        bodies = before;
+        for (RigidTransform& body : bodies)
+            body.translation.y -= sunk;
+        keeper.keep(level, bodies);
+        for (const Role role : {Role::leftUpperLeg, Role::leftLowerLeg, Role::rightUpperLeg, Role::rightLowerLeg}) {
+            const int body = physics::bodyOf(asset.profile, role);
+            const auto& joint = asset.profile.constraints[body - 1];
+            const auto state = physics::measureConstraint(joint, bodies[joint.parent], bodies[joint.child]);
+            CHECK(degrees(state.violation) < 0.1F);
+        }
+        for (int body = 0; body < static_cast<int>(bodies.size()); ++body)
+            CHECK(keeper.lowestOf(body, bodies[body]) > -1e-3F);
+    }
     // What is out of the floor stays as it is.
     auto high = before;
     for (RigidTransform& body : high)

@@ -116,27 +116,43 @@ void ReachablePose::closeJoints(std::span<RigidTransform> bodies) const {
     }
 }
 
-void ReachablePose::bend(const Limb& limb, std::span<RigidTransform> bodies) const {
+// From the turns that its bones are to have in the world; the end is where they put it, and `shift` from there.
+void ReachablePose::bend(const Limb& limb, const quat& upper, const quat& lower, const quat& end, const vec3& shift,
+                         std::span<RigidTransform> bodies) const {
     const ConstraintProfile& top = jointOf(limb.upper);
     const ConstraintProfile& hinge = jointOf(limb.lower);
-    const ConstraintProfile& tip = jointOf(limb.end);
     const quat& parent = bodies[top.parent].rotation;
-    const quat carried = parent * glm::conjugate(before_[top.parent]);
-    const quat upper = carried * before_[limb.upper];
-    const quat lower = carried * before_[limb.lower];
     const vec3 toHinge = hinge.parentFromFrame.translation - top.childFromFrame.translation;
-    const vec3 toEnd = tip.parentFromFrame.translation - hinge.childFromFrame.translation;
-    const vec3 goal = upper * toHinge + lower * toEnd;
+    const vec3 toEnd = jointOf(limb.end).parentFromFrame.translation - hinge.childFromFrame.translation;
+    const vec3 goal = upper * toHinge + lower * toEnd + shift;
     const Bend bend{hinge.parentFromFrame.rotation, hinge.childFromFrame.rotation,
                     glm::conjugate(hinge.parentFromFrame.rotation) * toHinge,
                     glm::conjugate(hinge.childFromFrame.rotation) * toEnd};
     const float angle = bend.angleFor(glm::length(goal), hinge.hinge);
     const quat aimed = rotationBetween(upper * bend.end(angle), goal) * upper;
     bodies[limb.upper].rotation = glm::normalize(parent * withinLimits(top, glm::conjugate(parent) * aimed));
-    bodies[limb.lower].rotation = glm::normalize(bodies[limb.upper].rotation * bend.turn(angle));
-    const quat& shin = bodies[limb.lower].rotation;
-    const quat end = glm::conjugate(shin) * (carried * before_[limb.end]);
-    bodies[limb.end].rotation = glm::normalize(shin * withinLimits(tip, end));
+    const quat shin = glm::normalize(bodies[limb.upper].rotation * bend.turn(angle));
+    bodies[limb.lower].rotation = shin;
+    bodies[limb.end].rotation = glm::normalize(shin * withinLimits(jointOf(limb.end), glm::conjugate(shin) * end));
+}
+
+bool ReachablePose::moveEnd(int body, const vec3& shift, std::span<RigidTransform> bodies) const {
+    const int index = limbOf_[body];
+    if (index < 0 || limbs_[index].end != body) return false;
+    const Limb& limb = limbs_[index];
+    const quat upper = bodies[limb.upper].rotation;
+    const quat lower = bodies[limb.lower].rotation;
+    const quat end = bodies[limb.end].rotation;
+    bend(limb, upper, lower, end, shift, bodies);
+    for (const int other : limb.bodies) {
+        // Toes, fingers and what else hangs on it.
+        if (limbOf_[other] == index) continue;
+        const quat& before = hangsOn(other, limb.end) ? end : hangsOn(other, limb.lower) ? lower : upper;
+        const int on = hangsOn(other, limb.end) ? limb.end : hangsOn(other, limb.lower) ? limb.lower : limb.upper;
+        bodies[other].rotation = glm::normalize(bodies[on].rotation * glm::conjugate(before) * bodies[other].rotation);
+    }
+    closeJoints(bodies);
+    return true;
 }
 
 // About its upper joint; a foot keeps its own turn.
@@ -192,7 +208,11 @@ void ReachablePose::apply(std::span<RigidTransform> bodies) {
         if (isKept(body)) continue;
         const int limb = limbOf_[body];
         if (limb >= 0) {
-            if (limbs_[limb].upper == body) bend(limbs_[limb], bodies);
+            if (limbs_[limb].upper != body) continue;
+            const int parent = jointOf(body).parent;
+            const quat carried = bodies[parent].rotation * glm::conjugate(before_[parent]);
+            bend(limbs_[limb], carried * before_[body], carried * before_[limbs_[limb].lower],
+                 carried * before_[limbs_[limb].end], vec3(0), bodies);
             continue;
         }
         const ConstraintProfile& joint = jointOf(body);

@@ -29,6 +29,10 @@ class ReachablePose {
     /// In place, one frame a body, in any space. The root stays where it is, the others close the joints. Allocates
     /// nothing.
     void apply(std::span<RigidTransform> bodies);
+    /// Moves the end of an arm or leg (a hand or a foot) by `shift`, metres, as far as the limits allow; it keeps its
+    /// turn as far as its own do, and what hangs on the limb goes along. False, and nothing is done, where the body is
+    /// no end of a limb with a hinge. Allocates nothing.
+    bool moveEnd(int body, const vec3& shift, std::span<RigidTransform> bodies) const;
 
   private:
     struct Limb {
@@ -43,7 +47,8 @@ class ReachablePose {
     [[nodiscard]] bool collide(int a, int b) const;
     void addLimb(const std::array<Role, 3>& roles, bool isLeg);
     void planMeetings();
-    void bend(const Limb& limb, std::span<RigidTransform> bodies) const;
+    void bend(const Limb& limb, const quat& upper, const quat& lower, const quat& end, const vec3& shift,
+              std::span<RigidTransform> bodies) const;
     void closeJoints(std::span<RigidTransform> bodies) const;
     void turnLimb(const Limb& limb, const quat& turn, std::span<RigidTransform> bodies) const;
     bool pushOut(const Limb& limb, std::span<RigidTransform> bodies) const;
