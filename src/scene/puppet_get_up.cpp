@@ -29,9 +29,16 @@ constexpr float kLeastPace = 0.06F;     // of the clip's speed
 constexpr float kFootStillMps = 0.06F;  // a foot of the pose that is slower stands
 constexpr float kFootLowM = 0.03F;      // and is lower over the ground
 constexpr float kFootFlat = radians(20.0F);
-constexpr float kStillMps = 0.1F;  // over the ground: a foot that moves no faster may stay on it,
-constexpr float kSwingMps = 0.5F;  // one that moves so fast
-constexpr float kSwingM = 0.03F;   // is lifted so high
+constexpr float kStillMps = 0.1F;     // over the ground: a foot that moves no faster may stay on it,
+constexpr float kSwingMps = 0.5F;     // one that moves so fast
+constexpr float kSwingM = 0.03F;      // is lifted so high
+constexpr float kCaughtM = 0.04F;     // over the ground: a foot that is farther from its aim than this is lifted,
+constexpr float kFarCaughtM = 0.14F;  // one that is so far
+constexpr float kFreeM = 0.10F;       // by so much
+
+float eased(float t) {
+    return t * t * (3.0F - 2.0F * t);
+}
 
 // Frames relative to the parent bodies'; the root's stays in the world.
 void relativeOf(const physics::Rig& rig, std::span<const RigidTransform> world, std::vector<RigidTransform>& relative) {
@@ -152,18 +159,23 @@ void PuppetCast::show(Actor& actor, float dt) {
     actor.isHeldBack = holdBack(actor, dt);
 }
 
-// A foot that moves over the ground is lifted off it: on the ground it would be caught. Told by where the foot would be
-// without that.
+// A foot that moves over the ground is lifted off it, or it would be caught there, and one that was caught is lifted
+// the higher the farther it is behind. Told by where the foot would be without that.
 void PuppetCast::liftSwinging(Actor& actor, float dt) {
     clearance_.assign(actor.to.size(), 0.0F);
+    bodies_.resize(actor.to.size());
+    world_->getBodies(actor.puppet->doll(), bodies_);
     for (Actor::Foot& foot : actor.feet) {
         if (foot.body < 0) continue;
         const vec3 now = actor.to[foot.body].translation;
-        const vec3 way = now - foot.aim.value_or(now);
+        const vec3 before = foot.aim.value_or(now);
+        const vec3 is = bodies_[foot.body].worldFromBody.translation;
         foot.aim = now;
-        const float speed = std::hypot(way.x, way.z) / dt;
+        const float speed = std::hypot(now.x - before.x, now.z - before.z) / dt;
         const float share = std::clamp((speed - kStillMps) / (kSwingMps - kStillMps), 0.0F, 1.0F);
-        clearance_[foot.body] = kSwingM * share * share * (3.0F - 2.0F * share);
+        const float lag = std::hypot(before.x - is.x, before.z - is.z);
+        const float caught = std::clamp((lag - kCaughtM) / (kFarCaughtM - kCaughtM), 0.0F, 1.0F);
+        clearance_[foot.body] = std::max(kSwingM * eased(share), kFreeM * eased(caught));
     }
 }
 

@@ -77,6 +77,7 @@ TEST_CASE("figures of any proportions get up: short legs, a large head, a heavy 
         INFO(up.begun << " begun, " << up.stood << " stood, " << up.mostSeconds << " s at most");
         CHECK(up.stood >= 9);
         CHECK(up.begun <= 12);
+        CHECK(up.mostSlideM <= 0.1F);
         CHECK(simulation->quality().nonFinite == 0);
         const vec3 up3 = glm::conjugate(asset->profile.standardFromModel) * vec3(0, 1, 0);
         const float standing = scene::figureOf(*asset).bounds.low.y;

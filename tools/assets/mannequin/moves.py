@@ -35,12 +35,12 @@ ALL_FOURS = {"hips": (0, .49, -.40), "turn": about_x(88), "bend": (6, 0, 0), "lo
 def from_all_fours(joints):
     """(seconds, key) from ALL_FOURS on."""
     return [
-        (.20, {"hips": (.035, .555, -.40), "turn": about_z(-4) @ about_x(50), "bend": (26, 0, 0), "right_foot": (-.16, .27, -.52),
+        (.20, {"hips": (.04, .585, -.41), "turn": about_z(-5) @ about_x(44), "bend": (20, 0, 0), "right_foot": (-.16, .27, -.52),
                "right_sole": about_x(78), "right_toes": 0, **both(hand=(.26, .12, .12)), "right_knee": (-.2, .2, .9), "left_sole": about_x(112),
                "left_foot": (.116, .155, -.81), "left_toes": 70}),
-        (.36, {"hips": (.025, .575, -.385), "turn": about_z(-3) @ about_x(28), "bend": (26, 0, 0), "right_foot": (-.15, .21, -.20),
+        (.36, {"hips": (.03, .615, -.38), "turn": about_z(-4) @ about_x(18), "bend": (16, 0, 0), "right_foot": (-.15, .21, -.20),
                "right_sole": about_x(24), "right_knee": (-.16, .4, .9), **both(hand=(.26, .30, .08))}),
-        (.52, {"hips": (.01, .55, -.36), "turn": about_z(-2) @ about_x(20), "bend": (24, 0, 0), "right_foot": (-.116, .082, -.026),
+        (.52, {"hips": (.01, .57, -.35), "turn": about_z(-2) @ about_x(14), "bend": (20, 0, 0), "right_foot": (-.116, .082, -.026),
                "right_sole": FLAT, "right_knee": (-.18, .5, .8), "left_sole": about_x(102), "left_foot": (.116, .152, -.80),
                "left_toes": 68, "look": (-18, 0), **both(hand=(.25, .44, .06))}),
         (.78, {"hips": (-.01, .56, -.31), "turn": about_x(20), "bend": (22, 0, 0), "look": (-12, 0), "left_sole": about_x(84),
