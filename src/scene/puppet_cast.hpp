@@ -143,6 +143,7 @@ class PuppetCast {
             bool stands = false;
             vec3 at{0, 0, 0};
             std::optional<vec3> aim;  // where it was to be on the way up, before the floor
+            float lift = 0.0F;        // over the ground, metres
         };
         std::array<Foot, 2> feet;
     };

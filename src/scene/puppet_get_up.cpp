@@ -34,7 +34,8 @@ constexpr float kSwingMps = 0.5F;     // one that moves so fast
 constexpr float kSwingM = 0.03F;      // is lifted so high
 constexpr float kCaughtM = 0.04F;     // over the ground: a foot that is farther from its aim than this is lifted,
 constexpr float kFarCaughtM = 0.14F;  // one that is so far
-constexpr float kFreeM = 0.10F;       // by so much
+constexpr float kFreeM = 0.10F;       // by so much,
+constexpr float kLiftMps = 0.6F;      // no faster than that
 
 float eased(float t) {
     return t * t * (3.0F - 2.0F * t);
@@ -116,8 +117,10 @@ void PuppetCast::beginRising(Actor& actor, float dt) {
     blendInto(actor, actor.raw, actor.raw, dt);
     actor.puppet->getUp(kStrengthSeconds);
     actor.joints.clear();
-    for (Actor::Foot& foot : actor.feet)
+    for (Actor::Foot& foot : actor.feet) {
         foot.aim.reset();
+        foot.lift = 0.0F;
+    }
     ++risen_.begun;
     matchedM_ += static_cast<double>(actor.rising->distanceM);
 }
@@ -147,11 +150,13 @@ void PuppetCast::show(Actor& actor, float dt) {
         for (std::size_t body = 1; body < relative_.size(); ++body)
             actor.to[body] = actor.to[actor.asset->rig.parentBody[body]] * relative_[body];
     }
-    if (!blends && !actor.rising && !actor.isHeldBack) return;
+    const bool lifts =
+        std::any_of(actor.feet.begin(), actor.feet.end(), [](const Actor::Foot& foot) { return foot.lift > 0.0F; });
+    if (!blends && !actor.rising && !actor.isHeldBack && !lifts) return;
     if (actor.rising) keepLimits(actor);
     actor.floor->closeJoints(actor.to);
     const float level = actor.ground;
-    if (blends || actor.rising) {
+    if (blends || actor.rising || lifts) {
         liftSwinging(actor, dt);
         actor.floor->keep([&](const vec3& point) { return isLevel_ ? level : groundBelow(point); }, actor.to,
                           clearance_);
@@ -175,7 +180,9 @@ void PuppetCast::liftSwinging(Actor& actor, float dt) {
         const float share = std::clamp((speed - kStillMps) / (kSwingMps - kStillMps), 0.0F, 1.0F);
         const float lag = std::hypot(before.x - is.x, before.z - is.z);
         const float caught = std::clamp((lag - kCaughtM) / (kFarCaughtM - kCaughtM), 0.0F, 1.0F);
-        clearance_[foot.body] = std::max(kSwingM * eased(share), kFreeM * eased(caught));
+        const float wanted = std::max(kSwingM * eased(share), kFreeM * eased(caught));
+        foot.lift += std::clamp(wanted - foot.lift, -kLiftMps * dt, kLiftMps * dt);
+        clearance_[foot.body] = foot.lift;
     }
 }
 
