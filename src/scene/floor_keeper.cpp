@@ -12,6 +12,8 @@ namespace {
 
 using physics::Role;
 
+constexpr float kMostOverM = 0.02F;  // of a clearance, that the whole figure is lifted for
+
 struct LimbRoles {
     Role upper, lower, end;
     float ahead;  // where the middle joint sticks out, standard space: +1 ahead, -1 behind
@@ -83,7 +85,8 @@ void FloorKeeper::keep(const GroundHeight& ground, std::span<RigidTransform> wor
     float lift = 0.0F;
     for (int body = 0; body < static_cast<int>(worldFromBody.size()); ++body) {
         const RigidTransform& at = worldFromBody[body];
-        lift = std::max(lift, ground(at.translation) - lowestOf(body, at));
+        const float over = clearance.empty() ? 0.0F : std::min(clearance[body], kMostOverM);
+        lift = std::max(lift, ground(at.translation) + over - lowestOf(body, at));
     }
     for (RigidTransform& body : worldFromBody)
         body.translation.y += lift;
