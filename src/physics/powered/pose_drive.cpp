@@ -10,6 +10,8 @@ namespace {
 
 constexpr float kUnboundedNm = 1e9F;
 constexpr float kAdultM = 1.75F;
+constexpr float kCarries = 3.0F;  // times what gravity takes of a limb that is held out level, at least
+constexpr float kGravity = 9.81F;
 constexpr float kFar = radians(40.0F);
 constexpr float kLost = radians(90.0F);
 constexpr float kHandBrake = 8.0F;  // on the damping of wrists, which the floor bends far and lets go of at once
@@ -66,6 +68,9 @@ PoseDrive::PoseDrive(const RagdollProfile& profile, std::span<const BodyState> b
             if (std::find(joint.below.begin(), joint.below.end(), body) == joint.below.end()) above.push_back(body);
         const vec3 anchor = anchorOf(profile.constraints[i], bodies);
         joint.above = momentAbout(profile, bodies, above, anchor);
+        for (const int body : joint.below)
+            joint.leverKgM +=
+                profile.bodies[body].massKg * glm::distance(bodies[body].worldFromBody.translation, anchor);
         joint.inertia = 1.0F / (1.0F / momentAbout(profile, bodies, joint.below, anchor) + 1.0F / joint.above);
         joints_.push_back(std::move(joint));
     }
@@ -84,7 +89,8 @@ float PoseDrive::torqueBoundOf(int constraint, const MuscleSettings& muscles, fl
     const float strength = boundedProduct(factor, strengthOf(muscles, profile_, child));
     const float share =
         boundedProduct(strength, boundedProduct(muscles.torque, factorsOf(muscles, profile_, child).torque));
-    return share * kTorquePerKg[group] * massKg_ * (heightM_ / kAdultM);
+    const float adult = kTorquePerKg[group] * massKg_ * (heightM_ / kAdultM);
+    return share * std::max(adult, kCarries * kGravity * joints_[constraint].leverKgM);
 }
 
 vec3 PoseDrive::gravityTorque(int constraint, const vec3& gravity) const {

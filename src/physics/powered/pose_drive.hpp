@@ -52,6 +52,7 @@ class PoseDrive {
     struct Joint {
         float inertia = 0.0F;
         float above = 0.0F;      // moment of all that is not below
+        float leverKgM = 0.0F;   // of all below about the anchor, as if all of it lay the same way
         std::vector<int> below;  // bodies
     };
     // What gravity does about the joint through all that hangs below it, N m, world.

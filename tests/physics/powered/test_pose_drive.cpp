@@ -219,6 +219,21 @@ TEST_CASE("muscles are set by frequency, group and body, without strength a join
     CHECK(drive.stiffnessOf(hip, muscles) > 0.0F);
 }
 
+TEST_CASE("a head too large for an adult's neck is carried by what it weighs") {
+    RagdollProfile profile = makeDoll();
+    const int head = physics::bodyOf(profile, Role::head);
+    const MuscleSettings muscles = musclesOf(MusclePreset::powered);
+    const auto boundOf = [&](int body) {
+        return PoseDrive(profile, standingDoll(profile, vec3(0))).torqueBoundOf(body - 1, muscles);
+    };
+    const float neck = boundOf(head);
+    physics::ConstraintProfile& joint = profile.constraints[head - 1];
+    joint.childFromFrame.translation *= 6.0F;
+    const float lever = glm::length(joint.childFromFrame.translation) * profile.bodies[head].massKg;
+    CHECK(boundOf(head) == Approx(3.0F * 9.81F * lever).epsilon(0.01));
+    CHECK(boundOf(head) > 1.5F * neck);
+}
+
 TEST_CASE("a pinned body is where its frame in motion is, and is let go of with the pin") {
     const RagdollProfile profile = makeDoll();
     for (const SolverKind solver : kOurSolvers) {
