@@ -86,6 +86,7 @@ nlohmann::ordered_json puppetJson(const Simulation& simulation) {
         {"footing", {{"gapMeanM", figures.footGapMeanM}, {"gapM", figures.footGapM}, {"depthM", figures.footDepthM}}},
         {"motorWorkJ", simulation.world().motorWork()},
         {"pinWorkJ", simulation.world().dragWork()},
+        {"hitWorkJ", simulation.world().impulseWork()},
         {"knockOuts", figures.knockOuts},
         {"limp", figures.limp},
         {"recoverySeconds",

@@ -177,7 +177,7 @@ double QualityMeter::State::sampleWorld(bool figures) {
     }
     quality.nonFinite += broken;
     quality.residualSpeedMps = moving > 0 ? static_cast<float>(std::sqrt(squares / moving)) : 0.0F;
-    return energy - world.dragWork() - world.motorWork();
+    return energy - world.dragWork() - world.motorWork() - world.impulseWork();
 }
 
 const std::vector<std::pair<int, int>>& QualityMeter::State::pairsOf(const RagdollProfile& profile) {

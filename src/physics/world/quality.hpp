@@ -24,8 +24,9 @@ struct Quality {
     float selfPenetrationM = 0;   ///< Largest between bodies of one doll that may collide.
     struct {
         float max = 0, p99 = 0;
-    } dollPenetrationM;       ///< Between bodies of different dolls, once a frame; p99 over pairs less than 1 cm apart.
-    float energyGrowthJ = 0;  ///< Largest rise over the running minimum, less the work of drags, motors and forces.
+    } dollPenetrationM;  ///< Between bodies of different dolls, once a frame; p99 over pairs less than 1 cm apart.
+    float energyGrowthJ =
+        0;  ///< Largest rise over the running minimum, less the work of drags, motors, forces and impulses.
     float initialEnergyJ = 0;  ///< At release, for the growth's share.
     std::optional<float>
         settleSeconds;           ///< From the first contact until all dolls are asleep or below 1 cm/s; unset: never.

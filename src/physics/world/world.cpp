@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "physics/world/joint_spring.hpp"
 
@@ -192,8 +193,24 @@ void World::applyImpulse(DollId doll, int body, const vec3& impulse, const vec3&
         refuse(call, "impulse or point is not finite");
         return;
     }
+    impulseWork_ += workOfImpulse(place, body, impulse, worldPoint);
     applyImpulseAt(place, body, impulse, worldPoint);
     guard_.touch(place);
+}
+
+// What a free rigid body gains: the impulse times the mean of the point's velocities before and after it.
+double World::workOfImpulse(int doll, int body, const vec3& impulse, const vec3& worldPoint) {
+    const DollId id = dolls()[doll];
+    const BodyProfile& hit = profileOf(id).bodies[body];
+    hit_.resize(profileOf(id).bodies.size());
+    getBodies(id, hit_);
+    const BodyState& before = hit_[body];
+    const quat& rotation = before.worldFromBody.rotation;
+    const vec3 arm = worldPoint - before.worldFromBody.translation;
+    const vec3 torque = glm::conjugate(rotation) * glm::cross(arm, impulse);
+    const vec3 speed = before.linearVelocity + glm::cross(before.angularVelocity, arm);
+    const float gained = glm::dot(impulse, impulse) / hit.massKg + glm::dot(torque, torque / inertiaOf(id, body));
+    return static_cast<double>(glm::dot(impulse, speed) + 0.5F * gained);
 }
 
 void World::applyForce(DollId doll, int body, const vec3& force, const vec3& worldPoint) {

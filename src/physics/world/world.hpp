@@ -97,7 +97,7 @@ class World : public WorldView {
     /// Like setBodies(), with everything else; a doll may be put in asleep (where sleeping is on).
     void setDollState(DollId doll, const DollState& state);
 
-    /// Impulse in N s at a world point of a body; wakes the doll.
+    /// Impulse in N s at a world point of a body; wakes the doll. Its work is in impulseWork().
     void applyImpulse(DollId doll, int body, const vec3& impulse, const vec3& worldPoint);
     /// Force in N at a world point of a body, which acts throughout the next step and moves with the body; wakes the
     /// doll.
@@ -128,6 +128,7 @@ class World : public WorldView {
     [[nodiscard]] std::vector<DragId> dragsOf(DollId doll) const;
     [[nodiscard]] bool isDragged(DollId doll) const;
     [[nodiscard]] Drag dragOf(DragId id) const;
+    [[nodiscard]] double impulseWork() const override { return impulseWork_; }
 
   protected:
     World() = default;
@@ -165,11 +166,14 @@ class World : public WorldView {
     [[nodiscard]] int checkedDrag(std::string_view call, DragId id) const;
 
     void putBack(int doll);
+    [[nodiscard]] double workOfImpulse(int doll, int body, const vec3& impulse, const vec3& worldPoint);
 
     DollGuard guard_;
     double seconds_ = 0.0;  // of all steps so far
     IdTable<DragId> dragIds_;
     std::vector<Drag> drags_;  // by their places
+    double impulseWork_ = 0.0;
+    std::vector<BodyState> hit_;  // scratch
 };
 
 }  // namespace lutka::physics

@@ -96,6 +96,8 @@ class WorldView {
     [[nodiscard]] virtual double dragWork() const { return 0.0; }
     /// Work done by motors and applied forces since the world was made, joules.
     [[nodiscard]] virtual double motorWork() const { return 0.0; }
+    /// Work done by impulses (World::applyImpulse) since the world was made, joules.
+    [[nodiscard]] virtual double impulseWork() const { return 0.0; }
     /// The contacts of the last substep, appended to `contacts`.
     virtual void getContacts(std::vector<ContactPoint>& /*contacts*/) const {}
     /// What pushed what in the last step, in an order that the same calls repeat; empty without

@@ -201,3 +201,29 @@ TEST_CASE("a puppet that is pushed over goes limp by its tilt") {
     stage.step(120);
     CHECK(stage.puppet().state() == PuppetState::limp);
 }
+
+TEST_CASE("an impulse's work is what the body gains, and is no growth of energy") {
+    for (const SolverKind solver : kAllSolvers) {
+        INFO(physics::solverName(solver));
+        physics::WorldSettings settings;
+        settings.gravity = vec3(0);
+        const auto world = worldOf(solver, settings);
+        const RagdollProfile rod = rodProfile(0.4F, 0.1F);
+        const physics::DollId doll = world->addDoll(
+            rod, std::vector<BodyState>{stateAt({0, 1, 0}, glm::angleAxis(0.7F, vec3(1, 0, 0)), {0.5F, 0, 0})});
+        const auto energyOf = [&] {
+            const BodyState state = bodyOfDoll(*world, 0);
+            const vec3 turn = glm::conjugate(state.worldFromBody.rotation) * state.angularVelocity;
+            return 0.5F * (rod.bodies[0].massKg * glm::dot(state.linearVelocity, state.linearVelocity) +
+                           glm::dot(turn, world->inertiaOf(doll, 0) * turn));
+        };
+        physics::QualityMeter meter(*world, {}, settings.gravity);
+        const float before = energyOf();
+        world->applyImpulse(doll, 0, {1, 3, -2}, {0.05F, 1.3F, 0.1F});
+        world->applyImpulse(doll, 0, {-2, 0, 1}, {0, 0.8F, 0});
+        CHECK(world->impulseWork() == Approx(energyOf() - before).epsilon(1e-3));
+        CHECK(world->impulseWork() > 1.0);
+        meter.sample(0.1);
+        CHECK(meter.result().energyGrowthJ < 0.01F);
+    }
+}
