@@ -166,7 +166,10 @@ class PuppetCast {
     void blendInto(Actor& actor, std::span<const RigidTransform> rawBefore, std::span<const RigidTransform> raw,
                    float dt);
     void show(Actor& actor, float dt);
-    void liftSwinging(Actor& actor, float dt);
+    [[nodiscard]] static float levelOf(const Actor& actor);
+    [[nodiscard]] float lagOf(const Actor& actor, const Actor::Foot& foot) const;
+    [[nodiscard]] bool stepsBack(const Actor& actor);
+    void liftFeet(Actor& actor, float dt, bool swings);
     void keepLimits(Actor& actor);
     bool holdBack(Actor& actor, float dt);
     void measureRising(Actor& actor);

@@ -150,37 +150,61 @@ void PuppetCast::show(Actor& actor, float dt) {
         for (std::size_t body = 1; body < relative_.size(); ++body)
             actor.to[body] = actor.to[actor.asset->rig.parentBody[body]] * relative_[body];
     }
-    const bool lifts =
-        std::any_of(actor.feet.begin(), actor.feet.end(), [](const Actor::Foot& foot) { return foot.lift > 0.0F; });
-    if (!blends && !actor.rising && !actor.isHeldBack && !lifts) return;
+    const bool steps = stepsBack(actor);
+    if (!blends && !actor.rising && !actor.isHeldBack && !steps) {
+        for (Actor::Foot& foot : actor.feet)
+            foot.aim.reset();
+        return;
+    }
     if (actor.rising) keepLimits(actor);
     actor.floor->closeJoints(actor.to);
-    const float level = actor.ground;
-    if (blends || actor.rising || lifts) {
-        liftSwinging(actor, dt);
+    const float level = levelOf(actor);
+    if (blends || actor.rising || steps) {
+        liftFeet(actor, dt, blends || actor.rising);
         actor.floor->keep([&](const vec3& point) { return isLevel_ ? level : groundBelow(point); }, actor.to,
                           clearance_);
     }
     actor.isHeldBack = holdBack(actor, dt);
 }
 
-// A foot that moves over the ground is lifted off it, or it would be caught there, and one that was caught is lifted
-// the higher the farther it is behind. Told by where the foot would be without that.
-void PuppetCast::liftSwinging(Actor& actor, float dt) {
+// Height of the level floor that it is on.
+float PuppetCast::levelOf(const Actor& actor) {
+    return actor.rising ? actor.ground : actor.worldFromModel.translation.y + actor.soles - actor.lift;
+}
+
+// How far a foot is from where it was to be, over the ground. Bodies are in bodies_.
+float PuppetCast::lagOf(const Actor& actor, const Actor::Foot& foot) const {
+    const vec3 way = actor.from[foot.body].translation - bodies_[foot.body].worldFromBody.translation;
+    return std::hypot(way.x, way.z);
+}
+
+// Whether a foot was pushed away from where it stands, or is on its way back. A doll that nothing holds up keeps its
+// feet on the ground.
+bool PuppetCast::stepsBack(const Actor& actor) {
+    if (actor.puppet->settings().pinForceN <= 0.0F || !play_.led.empty()) return false;
+    bodies_.resize(actor.to.size());
+    world_->getBodies(actor.puppet->doll(), bodies_);
+    return std::any_of(actor.feet.begin(), actor.feet.end(), [&](const Actor::Foot& foot) {
+        return foot.body >= 0 && (foot.lift > 0.0F || lagOf(actor, foot) > kCaughtM);
+    });
+}
+
+// A foot that is not where it is to be is lifted, the higher the farther it is off: it steps there instead of being
+// dragged. On the way up (`swings`) so is one that moves over the ground, which would be caught there; that is told by
+// where it would be without being lifted.
+void PuppetCast::liftFeet(Actor& actor, float dt, bool swings) {
     clearance_.assign(actor.to.size(), 0.0F);
     bodies_.resize(actor.to.size());
     world_->getBodies(actor.puppet->doll(), bodies_);
     for (Actor::Foot& foot : actor.feet) {
         if (foot.body < 0) continue;
         const vec3 now = actor.to[foot.body].translation;
-        const vec3 before = foot.aim.value_or(now);
-        const vec3 is = bodies_[foot.body].worldFromBody.translation;
+        const vec3 way = now - foot.aim.value_or(now);
         foot.aim = now;
-        const float speed = std::hypot(now.x - before.x, now.z - before.z) / dt;
+        const float speed = swings ? std::hypot(way.x, way.z) / dt : 0.0F;
         const float share = std::clamp((speed - kStillMps) / (kSwingMps - kStillMps), 0.0F, 1.0F);
-        const float lag = std::hypot(before.x - is.x, before.z - is.z);
-        const float caught = std::clamp((lag - kCaughtM) / (kFarCaughtM - kCaughtM), 0.0F, 1.0F);
-        const float wanted = std::max(kSwingM * eased(share), kFreeM * eased(caught));
+        const float off = std::clamp((lagOf(actor, foot) - kCaughtM) / (kFarCaughtM - kCaughtM), 0.0F, 1.0F);
+        const float wanted = std::max(kSwingM * eased(share), kFreeM * eased(off));
         foot.lift += std::clamp(wanted - foot.lift, -kLiftMps * dt, kLiftMps * dt);
         clearance_[foot.body] = foot.lift;
     }
@@ -307,7 +331,7 @@ void PuppetCast::measureFeet(Actor& actor) {
             foot.stands = false;
         return;
     }
-    const float level = actor.rising ? actor.ground : actor.worldFromModel.translation.y + actor.soles - actor.lift;
+    const float level = levelOf(actor);
     for (Actor::Foot& foot : actor.feet) {
         if (foot.body < 0) continue;
         const RigidTransform& aim = actor.to[foot.body];
