@@ -260,7 +260,9 @@ Figure findFigure(const RigFeatures& rig) {
     }
     if (const std::optional<Stance> stance = stanceOfNames(rig)) {
         Figure figure = readInStance(rig, *stance, {stance->up, kLeanPrior, false, true}, 0.0F);
-        if (better(figure, best)) best = std::move(figure);
+        // What names tell whole needs not be likelier than what is refused: a bow stands in line with nothing.
+        const bool told = figure.refusal.empty() && !best.refusal.empty();
+        if (told || better(figure, best)) best = std::move(figure);
     }
     for (const UpAxis& up : lying) {
         if (best.refusal.empty()) break;

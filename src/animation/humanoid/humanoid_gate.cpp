@@ -60,11 +60,15 @@ float creaturesBelow(const FramedRig& framed, const LimbCandidate& limb) {
     return all > 0 ? static_cast<float>(named) / static_cast<float>(all) : 0.0F;
 }
 
-// Straight arms and straight legs side by side, across the trunk: names of a human do not make an animal one.
+// Straight arms and straight legs side by side, across the trunk, which end at one height: names of a human do not make
+// an animal one. The hands of one who bows hang above the ground.
 bool isOnAllFours(const Figure& figure) {
-    constexpr float kStraight = 0.8F;  // of the limb's length
+    constexpr float kStraight = 0.8F;     // of the limb's length
+    constexpr float kAboveGround = 0.2F;  // of the legs' length
     const vec3 legs = figure.legs.tip - figure.legs.root;
     const vec3 arms = figure.arms.tip - figure.arms.root;
+    const float above = glm::dot(figure.legs.tip - figure.arms.tip, legs) / std::max(glm::dot(legs, legs), 1e-9F);
+    if (above > kAboveGround) return false;
     return glm::length(legs) > kStraight * figure.legs.length && glm::length(arms) > kStraight * figure.arms.length &&
            angleTo(legs, vec3(0, -1, 0)) > kMostLegTilt && angleTo(arms, legs) < kMostTilt;
 }

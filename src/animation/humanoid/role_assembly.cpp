@@ -153,8 +153,21 @@ class RoleAssembler {
 
     [[nodiscard]] quat standardStance() const {
         const Stance& stance = figure_.framed.stance;
-        const vec3 left = figure_.facing.total() >= 0.0F ? stance.across() : -stance.across();
-        return glm::conjugate(rotationFromXY(left, stance.up));
+        vec3 left = figure_.facing.total() >= 0.0F ? stance.across() : -stance.across();
+        const vec3 up = standsOnStraightLegs() ? vec3(0, 1, 0) : stance.up;
+        left -= glm::dot(left, up) * up;
+        return glm::conjugate(rotationFromXY(glm::normalize(left), up));
+    }
+
+    // Who bows stands, though the names' stance is the trunk's: his legs go straight down in the model.
+    [[nodiscard]] bool standsOnStraightLegs() const {
+        constexpr float kStraightDown = 0.85F;  // of the legs' length
+        constexpr float kMostAcross = 0.5F;     // of the axis across, along the vertical
+        const Stance& stance = figure_.framed.stance;
+        if (!figure_.posed || std::abs(stance.across().y) > kMostAcross) return false;
+        const vec3 legs = figure_.legs.tip - figure_.legs.root;
+        const vec3 inModel = legs.x * stance.across() + legs.y * stance.up + legs.z * stance.through();
+        return inModel.y < -kStraightDown * figure_.legs.length;
     }
 
     const Figure& figure_;

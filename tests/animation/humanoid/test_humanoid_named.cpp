@@ -194,4 +194,23 @@ TEST_CASE("a cape hangs behind, and the finer side of a box of a head proves not
     CHECK(animation::mapHumanoid(block, unnamed).humanoid);
 }
 
+TEST_CASE("who bows deeply is a figure by his names, and stands upright on his legs", "[named]") {
+    for (const std::string& convention : syntheticConventions()) {
+        if (convention == "rigify control rig") continue;  // its legs do not hang on its hips
+        for (const float bow : {0.8F, 1.2F, 1.6F}) {
+            for (const bool armsHang : {false, true}) {
+                INFO(convention << " bows by " << bow << (armsHang ? ", arms down" : ""));
+                SyntheticRig rig = makeSyntheticRig(convention, {.armsDown = 1.3F});
+                turn(rig, Role::hips, bow, vec3(1, 0, 0));
+                turnBoth(rig, Role::leftUpperLeg, -bow);
+                if (armsHang) turnBoth(rig, Role::leftUpperArm, -bow);
+                checkWhole(rig);
+                const animation::HumanoidMap map = animation::mapHumanoid(rig.character);
+                CHECK((map.standardFromModel * vec3(0, 1, 0)).y > 0.95F);
+                CHECK((map.standardFromModel * vec3(0, 0, 1)).z > 0.95F);
+            }
+        }
+    }
+}
+
 }  // namespace lutka::test
