@@ -262,13 +262,18 @@ void throwAtWall(Context& context) {
     context.scene.simulation.focusRadius = 2.4F;
 }
 
-void addBall(Context& context, const vec3& centre, const vec3& velocity) {
+struct Ball {
+    float radius = 0.12F;
+    float massKg = 4.0F;
+};
+
+void addBall(Context& context, const vec3& centre, const vec3& velocity, const Ball& kind = {}) {
     const EntityId id = addEntity(context.scene, "Ball", {kUpright, centre}).id;
     Collider ball;
     ball.kind = Collider::Kind::sphere;
-    ball.radius = 0.12F;
+    ball.radius = kind.radius;
     context.scene.add(id, ball);
-    context.scene.add(id, RigidBody{.massKg = 4.0F, .linearVelocity = velocity});
+    context.scene.add(id, RigidBody{.massKg = kind.massKg, .linearVelocity = velocity});
     context.scene.add(id, MeshRenderer{.color = kMovingColor});
 }
 
@@ -304,11 +309,12 @@ vec3 standAt(Context& context, const vec3& place) {
 }
 
 constexpr float kWalkSpeed = 0.95F;  // m/s, of the mannequin's clip
+constexpr float kAdultM = 1.78F;     // the mannequin's height
 
 // A ball that meets a point at a moment.
-void throwBall(Context& context, const vec3& target, const vec3& from, float seconds) {
+void throwBall(Context& context, const vec3& target, const vec3& from, float seconds, const Ball& kind = {}) {
     const vec3 gravity(0, -9.81F, 0);
-    addBall(context, from, (target - from) / seconds - 0.5F * gravity * seconds);
+    addBall(context, from, (target - from) / seconds - 0.5F * gravity * seconds, kind);
 }
 
 void walk(Context& context) {
@@ -320,14 +326,19 @@ void walk(Context& context) {
         const float across = (static_cast<float>(i) - static_cast<float>(context.count - 1) * 0.5F) * kSpacing;
         const vec3 foot = standAt(context, {across, 0, start});
         placeFeet(context, foot, kUpright);
-        // One at the shoulder, one from ahead, and two at once that are too much.
-        const auto at = [&](float seconds, float height) { return foot + vec3(0, height, kWalkSpeed * seconds); };
+        // One at the shoulder, one from ahead, and three at once that are too much. Short flights: those of a second or
+        // more come down so steeply that what a solver adds to their way makes them miss.
+        const float size = (context.figure.high.y - context.figure.low.y) / kAdultM;
+        const auto at = [&](float seconds, float height) {
+            return foot + vec3(0, height * size, kWalkSpeed * seconds);
+        };
         const float side = context.isSeedZero || context.random.uniform(-1, 1) > 0 ? 1.0F : -1.0F;
-        throwBall(context, at(0.9F, 1.35F), at(0.9F, 1.3F) + vec3(4.0F * side, 0, 0.4F), 0.9F);
-        throwBall(context, at(1.6F, 1.25F), at(1.6F, 1.2F) + vec3(0.6F * side, 0, 8.0F), 1.6F);
-        throwBall(context, at(2.3F, 1.40F), at(2.3F, 1.2F) + vec3(-25.0F * side, 0, 2.0F), 2.3F);
-        throwBall(context, at(2.32F, 1.15F), at(2.32F, 1.2F) + vec3(-26.0F * side, 0, 1.0F), 2.32F);
-        throwBall(context, at(2.36F, 1.25F), at(2.36F, 1.2F) + vec3(-27.0F * side, 0, 1.6F), 2.36F);
+        throwBall(context, at(0.6F, 1.35F), at(0.6F, 1.3F) + vec3(3.0F * side, 0, 0.4F), 0.6F);
+        throwBall(context, at(1.1F, 1.25F), at(1.1F, 1.2F) + vec3(0.6F * side, 0, 6.0F), 1.1F);
+        constexpr Ball kHeavy{.radius = 0.14F, .massKg = 6.0F};
+        throwBall(context, at(1.7F, 1.45F), at(1.7F, 1.2F) + vec3(-25.0F * side, 0, 2.0F), 1.7F, kHeavy);
+        throwBall(context, at(1.72F, 1.15F), at(1.72F, 1.2F) + vec3(-26.0F * side, 0, 1.0F), 1.72F, kHeavy);
+        throwBall(context, at(1.76F, 1.30F), at(1.76F, 1.2F) + vec3(-27.0F * side, 0, 1.6F), 1.76F, kHeavy);
     }
     context.scene.simulation.focus = {0, 0.9F, 0.0F};
     focusOnGrid(context, kSpacing);

@@ -29,7 +29,7 @@ physics::PuppetState stateOf(Editor& editor) {
 
 TEST_CASE("a walker goes on through edits: neither its place nor its time nor its strength begins anew") {
     const auto editor = mannequinIn("walk");
-    test::pass(*editor, 50);
+    test::pass(*editor, 20);
     REQUIRE(editor->player().simulation().puppets() != nullptr);
     REQUIRE(stateOf(*editor) == physics::PuppetState::animated);
     const vec3 before = placeOf(*editor, Role::hips);
