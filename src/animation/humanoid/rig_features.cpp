@@ -96,6 +96,7 @@ void readVertices(const Character& character, RigFeatures& rig) {
 
 void findShadows(RigFeatures& rig) {
     constexpr float kCoincident = 0.004F;  // of the spread
+    constexpr float kOwnPart = 0.04F;      // of the skin
     const float tolerance = kCoincident * spreadOf(rig);
     rig.shadow.assign(rig.positions.size(), false);
     for (int joint = 0; joint < rig.count(); ++joint) {
@@ -103,7 +104,9 @@ void findShadows(RigFeatures& rig) {
             if (other == joint || glm::distance(rig.positions[joint], rig.positions[other]) > tolerance) continue;
             const bool otherSkinned = rig.directWeight[other] > 0.0F && !rig.rigidPart[other];
             const bool partOfOther = rig.rigidPart[joint] && !rig.rigidPart[other];
-            const bool leafOfMore = rig.children[joint].empty() && !rig.children[other].empty();
+            // A leaf that moves much of the skin is a part of its own: a head that starts where the clavicles do.
+            const bool leafOfMore = rig.children[joint].empty() && !rig.children[other].empty() &&
+                                    (!rig.skinned || rig.directWeight[joint] < kOwnPart);
             rig.shadow[joint] = (otherSkinned && rig.directWeight[joint] <= 0.0F) ||
                                 (leafOfMore && (otherSkinned || partOfOther || !rig.skinned));
         }

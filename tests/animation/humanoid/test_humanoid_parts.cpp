@@ -172,4 +172,36 @@ TEST_CASE("a forearm that hangs on the other arm is still that forearm, and noth
     }
 }
 
+TEST_CASE("a head that starts where the clavicles do is no end marker of theirs", "[blocks]") {
+    // A squat creature of few joints: clavicles and head all start in one point at the top of the spine.
+    std::vector<JointSpec> joints{{"Armature", -1, {0, 0, 0}},
+                                  {"Bone", 0, {0, 0.44F, 0}},
+                                  {"Bone.002", 1, {0, 0.86F, 0}},
+                                  {"Bone.003", 0, {0, 0.44F, 0}}};
+    for (const float side : {1.0F, -1.0F}) {
+        const auto add = [&](int parent, const vec3& place) {
+            joints.push_back({"Bone." + std::to_string(joints.size()), parent, vec3(side, 1, 1) * place});
+            return static_cast<int>(joints.size()) - 1;
+        };
+        const int arm = add(add(1, {0, 0.86F, 0}), {0.28F, 0.83F, 0});
+        const int hand = add(add(arm, {0.34F, 0.57F, 0}), {0.44F, 0.32F, 0});
+        add(hand, {0.27F, 0.29F, 0});
+        add(add(add(0, {0, 0.44F, 0}), {0.15F, 0.38F, 0}), {0.15F, 0.22F, 0});
+    }
+    std::vector<TubeSpec> skin{{1, {0, 0.86F, 0}, 0.2F}, {2, {0, 1.1F, 0.05F}, 0.16F}, {3, {0, 0.4F, -0.4F}, 0.05F}};
+    for (std::size_t joint = 4; joint < joints.size(); ++joint) {
+        vec3 end = joints[joint].position * vec3(1, 0.1F, 1);
+        for (const JointSpec& child : joints) {
+            if (child.parent == static_cast<int>(joint)) end = child.position;
+        }
+        skin.push_back({static_cast<int>(joint), end, 0.06F});
+    }
+    const animation::Character figure = makeFigure("squat", joints, skin);
+    const HumanoidMap map = animation::mapHumanoid(figure);
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(Role::head) == 2);
+    CHECK(map[Role::leftUpperArm]);
+    CHECK(map[Role::leftLowerLeg]);
+}
+
 }  // namespace lutka::test
