@@ -106,7 +106,7 @@ void findShadows(RigFeatures& rig) {
             const bool partOfOther = rig.rigidPart[joint] && !rig.rigidPart[other];
             // A leaf that moves much of the skin is a part of its own: a head that starts where the clavicles do.
             const bool leafOfMore = rig.children[joint].empty() && !rig.children[other].empty() &&
-                                    (!rig.skinned || rig.directWeight[joint] < kOwnPart);
+                                    (!rig.skinned || rig.rigidPart[joint] || rig.directWeight[joint] < kOwnPart);
             rig.shadow[joint] = (otherSkinned && rig.directWeight[joint] <= 0.0F) ||
                                 (leafOfMore && (otherSkinned || partOfOther || !rig.skinned));
         }

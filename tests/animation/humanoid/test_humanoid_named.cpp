@@ -125,6 +125,24 @@ TEST_CASE("the mesh that hangs on the joint of its name does not take its role",
     const animation::HumanoidMap map = animation::mapHumanoid(rig.character);
     REQUIRE(map.humanoid);
     CHECK(map.jointOf(Role::head) == head);
+    // A mesh of the hips that lies on the first joint of the spine, in a figure whose trunk has a skin.
+    SyntheticRig cop = makeSyntheticRig("unreal");
+    animation::Skeleton& bones = cop.character.skeleton;
+    const int pelvis = jointOf(cop, Role::hips);
+    bones.names[pelvis] = "spine1_loRes";
+    bones.names.emplace_back("male_hips");
+    bones.parents.push_back(pelvis);
+    bones.bindModelFromJoint.push_back(bones.bindModelFromJoint[pelvis]);
+    bones.nodeParentFromJoint.emplace_back();
+    bones.skinWeight.push_back(900.0F);
+    animation::SkinnedMesh part;
+    part.rigid = true;
+    const vec3 place = bones.bindModelFromJoint[pelvis].translation;
+    part.positions = {place, place + vec3(0.1F, 0, 0), place + vec3(0, 0.1F, 0.1F)};
+    part.joints.assign(3, {static_cast<std::uint16_t>(bones.jointCount() - 1), 0, 0, 0});
+    part.weights.assign(3, {1, 0, 0, 0});
+    cop.character.meshes.push_back(part);
+    CHECK(animation::mapHumanoid(cop.character).jointOf(Role::hips) == pelvis);
 }
 
 TEST_CASE("trousers with the skeleton of the whole figure map as it", "[named]") {
