@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -75,6 +76,39 @@ bool cover(const std::vector<vec3>& points, const std::vector<vec3>& joints) {
     return static_cast<double>(inside) >= kLeastShare * static_cast<double>(joints.size());
 }
 
+// Marks the joints below `root` that are the figure's: all but single nodes on it, far from where most of them are
+// (cameras and lights beside several hierarchies).
+std::vector<bool> jointsOfFigure(const Skeleton& skeleton, int root, std::span<const dmat4> bind) {
+    constexpr double kFar = 4.0;  // of the distance from the middle that four in five keep
+    const auto count = static_cast<std::size_t>(skeleton.jointCount());
+    std::vector<bool> of(count, false);
+    std::vector<bool> isLeaf(count, true);
+    std::array<std::vector<double>, 3> places;
+    for (std::size_t joint = 0; joint < count; ++joint) {
+        of[joint] = isAncestorOrSelf(skeleton, root, static_cast<int>(joint));
+        if (skeleton.parents[joint] != kNoJoint) isLeaf[static_cast<std::size_t>(skeleton.parents[joint])] = false;
+        for (int axis = 0; of[joint] && axis < 3; ++axis)
+            places[static_cast<std::size_t>(axis)].push_back(bind[joint][3][axis]);
+    }
+    if (places[0].size() < kFewestJointsOfFigure) return of;
+    const auto quantile = [](std::vector<double>& values, double share) {
+        const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+        std::nth_element(values.begin(), at, values.end());
+        return *at;
+    };
+    const dvec3 middle(quantile(places[0], 0.5), quantile(places[1], 0.5), quantile(places[2], 0.5));
+    std::vector<double> distances;
+    for (std::size_t joint = 0; joint < count; ++joint) {
+        if (of[joint]) distances.push_back(glm::distance(dvec3(bind[joint][3]), middle));
+    }
+    const double most = kFar * quantile(distances, 0.8);
+    for (std::size_t joint = 0; joint < count; ++joint) {
+        const bool alone = isLeaf[joint] && skeleton.parents[joint] == root;
+        if (alone && glm::distance(dvec3(bind[joint][3]), middle) > most) of[joint] = false;
+    }
+    return of;
+}
+
 struct FigurePoints {
     std::vector<vec3> points;
     bool meshesCover = true;  // the meshes lie about the skeleton: they tell which of its joints are the figure's
@@ -92,10 +126,11 @@ FigurePoints pointsOfFigure(Character& character, std::span<const dmat4> bind) {
         if (skinned == !mesh.rigid) points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
     }
     std::vector<vec3> joints;
+    const std::vector<bool> ofFigure = jointsOfFigure(character.skeleton, root, bind);
     for (int joint = 0; joint < character.skeleton.jointCount(); ++joint) {
         const bool deforms = character.skeleton.skinWeight[joint] > 0.0F && skinned;
         if (deforms) points.emplace_back(bind[joint][3]);
-        if (isAncestorOrSelf(character.skeleton, root, joint)) joints.emplace_back(bind[joint][3]);
+        if (ofFigure[static_cast<std::size_t>(joint)]) joints.emplace_back(bind[joint][3]);
     }
     if (!points.empty() && (joints.size() < kFewestJointsOfFigure || cover(points, joints))) return {points, true};
     if (!points.empty()) {
@@ -128,9 +163,9 @@ void bringAlong(const UnitsAndAxes& units, const Skeleton& skeleton, bool skinCo
     const auto away = [&](std::size_t joint) { return glm::length(dvec3(modelFromScene * bind[joint][3])); };
     const auto weighs = [](float weight) { return weight > 0.0F; };
     const bool skinned = skinCovers && std::any_of(skeleton.skinWeight.begin(), skeleton.skinWeight.end(), weighs);
-    const int root = rootOfFigure(skeleton);
+    const std::vector<bool> ofFigure = jointsOfFigure(skeleton, rootOfFigure(skeleton), bind);
     const auto isOfFigure = [&](std::size_t joint) {
-        return skinned ? weighs(skeleton.skinWeight[joint]) : isAncestorOrSelf(skeleton, root, static_cast<int>(joint));
+        return skinned ? weighs(skeleton.skinWeight[joint]) : static_cast<bool>(ofFigure[joint]);
     };
     double reach = 0.0;
     for (std::size_t joint = 0; joint < bind.size(); ++joint) {

@@ -28,6 +28,26 @@ TEST_CASE("cameras and lights beside a skeleton do not enter its height") {
         CHECK(glm::length(frame.translation) < 3.0F);
 }
 
+TEST_CASE("cameras beside a skeleton and its effectors do not enter its height") {
+    // A figure of centimetres in a file of metres, with a second hierarchy beside it, and four cameras a metre away.
+    const TemporaryFolder folder;
+    GltfFile file;
+    const int scene = file.addNode("VisualSceneNode", -1);
+    int joint = file.addNode("Hips", scene, glm::translate(mat4(1.0F), vec3(0, 0.009F, 0)));
+    for (int i = 0; i < 12; ++i)
+        joint = file.addNode("Spine" + std::to_string(i), joint, glm::translate(mat4(1.0F), vec3(0, 0.0007F, 0)));
+    int effector = file.addNode("humanIK1", scene, glm::translate(mat4(1.0F), vec3(0, 0.001F, 0)));
+    for (int i = 0; i < 6; ++i)
+        effector = file.addNode("Eff" + std::to_string(i), effector, glm::translate(mat4(1.0F), vec3(0, 0.001F, 0)));
+    for (const vec3& place : {vec3(0, 0.02F, 0.005F), vec3(0, 1, 0), vec3(0, 0.02F, 1), vec3(1, 0.01F, 0)})
+        file.addNode("camera", scene, glm::translate(mat4(1.0F), place));
+    file.saveBinary(folder / "effectors.glb");
+    const Character character = imported(folder / "effectors.glb");
+    CHECK(character.units.metresPerFileUnit == Approx(100.0F));
+    for (const RigidTransform& frame : character.skeleton.bindModelFromJoint)
+        CHECK(glm::length(frame.translation) < 3.0F);
+}
+
 TEST_CASE("a figure that is inside out is turned, with a word") {
     const TemporaryFolder folder;
     // A post with a lid and a bottom, and the same with all triangles the other way round.
