@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "animation/ik/two_bone.hpp"
 #include "animation/pose.hpp"
@@ -49,10 +50,10 @@ Result<Retargeter> Retargeter::make(const Character& source, const HumanoidMap& 
     if (!from) return from.error();
     auto to = makeAnatomicalRig(target, targetMap);
     if (!to) return to.error();
-    return Retargeter(std::move(from).value(), std::move(to).value());
+    return Retargeter(std::move(from).value(), std::move(to).value(), target);
 }
 
-Retargeter::Retargeter(AnatomicalRig source, AnatomicalRig target)
+Retargeter::Retargeter(AnatomicalRig source, AnatomicalRig target, const Character& character)
     : source_(std::move(source)),
       target_(std::move(target)),
       isDriven_(target_.standardBind.size(), false),
@@ -65,6 +66,54 @@ Retargeter::Retargeter(AnatomicalRig source, AnatomicalRig target)
     planTrunk();
     planLimbs();
     planFingers();
+    planCarried(character);
+}
+
+// The joint itself or the nearest above it that is driven.
+int Retargeter::drivenAbove(int joint) const {
+    while (joint != kNoJoint && !isDriven_[joint])
+        joint = target_.skeleton->parents[joint];
+    return joint;
+}
+
+// Which driven joint takes one along that hangs on none: the hips what lies above them, else the nearest.
+int Retargeter::carrierOf(int joint) const {
+    const int hips = target_.jointOf(Role::hips);
+    if (isAncestorOrSelf(*target_.skeleton, joint, hips)) return hips;
+    int nearest = hips;
+    float least = std::numeric_limits<float>::max();
+    for (int other = 0; other < target_.skeleton->jointCount(); ++other) {
+        const int driven = drivenAbove(other);
+        if (driven == kNoJoint) continue;
+        const float distance =
+            glm::distance(target_.standardBind[other].translation, target_.standardBind[joint].translation);
+        if (distance >= least) continue;
+        least = distance;
+        nearest = driven;
+    }
+    return nearest;
+}
+
+void Retargeter::planCarried(const Character& character) {
+    std::vector<bool> movesSkin(target_.standardBind.size(), false);
+    for (const SkinnedMesh& mesh : character.meshes)
+        for (std::size_t vertex = 0; vertex < mesh.joints.size(); ++vertex)
+            for (std::size_t i = 0; i < mesh.joints[vertex].size(); ++i)
+                if (mesh.weights[vertex][i] > 0.0F) movesSkin[mesh.joints[vertex][i]] = true;
+    std::vector<Driven> carried;
+    for (int joint = 0; joint < target_.skeleton->jointCount(); ++joint) {
+        if (!movesSkin[joint] || drivenAbove(joint) != kNoJoint) continue;
+        const int base = carrierOf(joint);
+        carried.push_back({.by = Driven::By::carried,
+                           .joint = joint,
+                           .base = base,
+                           .baseFromJoint = inverse(target_.standardBind[base]) * target_.standardBind[joint]});
+    }
+    // Not before all have been told: none carries another.
+    for (const Driven& driven : carried) {
+        isDriven_[driven.joint] = true;
+        driven_.push_back(driven);
+    }
 }
 
 // A joint of the target, with those on its way up to the nearest that is driven; `otherwiseBelow` is what it hangs on
@@ -324,6 +373,9 @@ void Retargeter::pose(std::span<const RigidTransform> sourceParentFromJoint, con
     leanTrunk();
     bendLeg(0, shift.feet[0]);
     bendLeg(1, shift.feet[1]);
+    for (const Driven& driven : driven_)
+        if (driven.by == Driven::By::carried)
+            targetStandard_[driven.joint].rotation = glm::normalize(rotationOf(driven));
     placeJoints(placement, shift.hips);
     // What follows nothing keeps its place under its parent.
     const std::vector<int>& parents = target_.skeleton->parents;

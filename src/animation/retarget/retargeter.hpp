@@ -39,7 +39,9 @@ class Retargeter {
     [[nodiscard]] float scale() const { return target_.legLength / source_.legLength; }
 
     /// `sourceParentFromJoint` is a pose of the source, parent-relative, `targetParentFromJoint` becomes the target's.
-    /// Joints that follow nothing keep their bind pose.
+    /// Joints that follow nothing keep their bind pose, but for those that move skin: what lies above the hips in the
+    /// file goes along with them, what lies beside the figure (a hat with a skeleton of its own) with the nearest
+    /// joint.
     void pose(std::span<const RigidTransform> sourceParentFromJoint, const RetargetPlacement& placement,
               std::span<RigidTransform> targetParentFromJoint);
     /// The same with the legs moved.
@@ -66,10 +68,13 @@ class Retargeter {
         int sourceJoint = kNoJoint;  // finger
         quat sourceFromAnatomy{1, 0, 0, 0};
     };
-    Retargeter(AnatomicalRig source, AnatomicalRig target);
+    Retargeter(AnatomicalRig source, AnatomicalRig target, const Character& character);
     void planTrunk();
     void planLimbs();
     void planFingers();
+    void planCarried(const Character& character);
+    [[nodiscard]] int drivenAbove(int joint) const;
+    [[nodiscard]] int carrierOf(int joint) const;
     Driven& plan(int joint, int otherwiseBelow);
     void planBone(Role from, Role to);
     [[nodiscard]] quat sourceAxes(Role role) const;

@@ -150,6 +150,31 @@ void carryAncestors(Binding& b, int mappedJoint) {
     }
 }
 
+// What lies beside the figure in the file (a hat with a skeleton of its own) goes along with the nearest joint that a
+// body moves.
+void carryBeside(Binding& b) {
+    const int count = b.skeleton.jointCount();
+    std::vector<bool> isBelow(static_cast<std::size_t>(count)), isAbove(static_cast<std::size_t>(count));
+    for (int joint = 0; joint < count; ++joint) {
+        const int parent = b.skeleton.parents[joint];
+        isBelow[joint] = b.isMapped(joint) || (parent != kNoJoint && isBelow[parent]);
+    }
+    for (int joint = 0; joint < count; ++joint)
+        for (int above = joint; b.isMapped(joint) && above != kNoJoint; above = b.skeleton.parents[above])
+            isAbove[above] = true;
+    for (int joint = 0; joint < count; ++joint) {
+        const int parent = b.skeleton.parents[joint];
+        const bool isTop = parent == kNoJoint || isAbove[parent];
+        if (isBelow[joint] || isAbove[joint] || !isTop) continue;
+        int nearest = b.rig.jointOfBody[0];
+        for (int other = 0; other < count; ++other)
+            if (isBelow[other] && glm::distance(b.position(other), b.position(joint)) <
+                                      glm::distance(b.position(nearest), b.position(joint)))
+                nearest = other;
+        b.setBase(joint, nearest);
+    }
+}
+
 // Every joint after its base; false when the bases run in a circle.
 bool orderByBase(Rig& rig) {
     std::vector<std::vector<int>> dependants(rig.joints.size());
@@ -210,6 +235,7 @@ void bindBases(Binding& b) {
     carryAncestors(b, hips);
     for (const int joint : detached)
         carryAncestors(b, joint);
+    carryBeside(b);
 }
 
 // Rotation about `axis` (unit) that is left of q when the swing across it is taken away.

@@ -55,6 +55,40 @@ float turnOf(const test::TestHumanoid& humanoid, std::span<const RigidTransform>
 
 }  // namespace
 
+TEST_CASE("skin above the hips and beside the figure goes along, other such joints stay") {
+    const test::TestHumanoid source = test::makeHumanoid({});
+    test::TestHumanoid target = test::makeHumanoid({});
+    Skeleton& skeleton = target.character.skeleton;
+    const int head = target.map.jointOf(Role::head);
+    const int first = skeleton.jointCount();
+    // A control without skin, and a hat.
+    for (const char* name : {"control", "hat"}) {
+        skeleton.names.emplace_back(name);
+        skeleton.parents.push_back(kNoJoint);
+        RigidTransform place = skeleton.bindModelFromJoint[head];
+        place.translation.y += 0.1F;
+        skeleton.bindModelFromJoint.push_back(place);
+        skeleton.nodeParentFromJoint.push_back(place);
+    }
+    SkinnedMesh hat;
+    hat.positions = {skeleton.bindModelFromJoint[first + 1].translation};
+    hat.joints = {{static_cast<std::uint16_t>(first + 1), 0, 0, 0}};
+    hat.weights = {{1, 0, 0, 0}};
+    target.character.meshes.push_back(hat);
+    auto retargeter = Retargeter::make(source.character, source.map, target.character, target.map);
+    REQUIRE(retargeter.ok());
+    std::vector<RigidTransform> pose(source.character.skeleton.nodeParentFromJoint);
+    test::turnInStandard(source, Role::spine, glm::angleAxis(0.6F, vec3(1, 0, 0)), pose);
+    std::vector<RigidTransform> out(static_cast<std::size_t>(skeleton.jointCount()));
+    retargeter.value().pose(pose, {}, out);
+    const RigidTransform now = modelFrameOf(skeleton, out, head);
+    const RigidTransform headFromHat =
+        inverse(skeleton.bindModelFromJoint[head]) * skeleton.bindModelFromJoint[first + 1];
+    CHECK(glm::distance(out[first + 1].translation, (now * headFromHat).translation) < 1e-4F);
+    CHECK(glm::distance(out[first + 1].translation, skeleton.bindModelFromJoint[first + 1].translation) > 0.05F);
+    CHECK(glm::distance(out[first].translation, skeleton.bindModelFromJoint[first].translation) < 1e-5F);
+}
+
 TEST_CASE("a figure's clip on itself is the clip") {
     const test::TestHumanoid humanoid = test::makeHumanoid({});
     const Clip walk = test::makeWalk(humanoid);

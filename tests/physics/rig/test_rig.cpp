@@ -221,6 +221,28 @@ TEST_CASE("roots above the hips move with them", "[rig]") {
     CHECK(glm::distance(pose[1].translation, vec3(5, 0.1F, 0)) < 1e-5F);
 }
 
+TEST_CASE("what has a skeleton of its own beside the figure goes along with the body that it is at", "[rig]") {
+    const Skeleton skeleton = bipedWith({}, {{"armature", -1, {0, 0, 0}},
+                                             {"hatRoot", 0, {0, 1.75F, 0}},
+                                             {"hat", 1, {0, 1.8F, 0}},
+                                             {"root", 0, {0, 0.1F, 0}}});
+    const RagdollProfile doll = dollWithoutPaths();
+    const Rig rig = boundTo(skeleton, doll);
+    std::vector<BodyState> bodies(rig.jointOfBody.size());
+    bodiesFromPose(rig, skeleton.bindModelFromJoint, {}, bodies);
+    std::vector<RigidTransform> worldFromBody = transformsOf(bodies);
+    const int head = physics::bodyOf(doll, Role::head);
+    const quat nod = glm::angleAxis(0.5F, vec3(1, 0, 0));
+    worldFromBody[head].rotation = nod * worldFromBody[head].rotation;
+    std::vector<RigidTransform> pose(rig.joints.size());
+    poseFromBodies(rig, skeleton, worldFromBody, {}, pose);
+    const int joint = rig.jointOfBody[head];
+    const vec3 offset = vec3(0, 1.8F, 0) - skeleton.bindModelFromJoint[joint].translation;
+    CHECK(glm::distance(pose[2].translation, pose[joint].translation + nod * offset) < 1e-4F);
+    CHECK(angleBetween(pose[2].rotation, nod) < 1e-3F);
+    CHECK(angleBetween(pose[3].rotation, quat(1, 0, 0, 0)) < 1e-3F);
+}
+
 TEST_CASE("followers keep the local pose that is given", "[rig]") {
     const Skeleton skeleton =
         test::makeSkeleton({{"hips", -1, {0, 0, 0}}, {"spine", 0, {0, 0.2F, 0}}, {"finger", 1, {0, 0.4F, 0}}});
