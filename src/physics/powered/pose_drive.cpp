@@ -26,6 +26,11 @@ quat relativeOf(const ConstraintProfile& constraint, std::span<const RigidTransf
     return glm::conjugate(parent) * (bodies[constraint.child].rotation * constraint.childFromFrame.rotation);
 }
 
+// The neutral turn, on the side of a quaternion.
+quat neutralNear(const quat& turn) {
+    return turn.w < 0.0F ? quat(-1, 0, 0, 0) : quat(1, 0, 0, 0);
+}
+
 vec3 anchorOf(const ConstraintProfile& constraint, std::span<const BodyState> bodies) {
     return bodies[constraint.parent].worldFromBody * constraint.parentFromFrame.translation;
 }
@@ -107,17 +112,20 @@ void PoseDrive::leashTo(const ConstraintProfile& constraint, float inertia, Join
     const quat parent = bodies_[constraint.parent].worldFromBody.rotation * constraint.parentFromFrame.rotation;
     const quat now = glm::conjugate(parent) *
                      (bodies_[constraint.child].worldFromBody.rotation * constraint.childFromFrame.rotation);
+    const float whole = glm::length(rotationVector(glm::normalize(motor.target * glm::conjugate(now))));
+    farthest_ = std::max(farthest_, whole);
+    // What is very far off is most often held by its own limits, which the shortest way would drive it along: it goes
+    // by the middle of its range.
+    const float far = goesByMiddle_ ? std::clamp((whole - kFar) / (kLost - kFar), 0.0F, 1.0F) : 0.0F;
+    if (far > 0.0F) motor.target = glm::normalize(glm::slerp(motor.target, neutralNear(motor.target), far));
+    motor.rate *= 1.0F - far;
     const vec3 lead = rotationVector(glm::normalize(motor.target * glm::conjugate(now)));
     const float angle = glm::length(lead);
-    farthest_ = std::max(farthest_, angle);
     if (angle < 1e-6F) return;
-    // What is very far off does not follow but is held, most often by its own limits, and would be driven along them.
-    const float follows = holdsFar_ ? std::clamp((kLost - angle) / (kLost - kFar), 0.0F, 1.0F) : 1.0F;
-    const float kept = follows * std::min(angle, mostLead_);
+    const float kept = std::min(angle, mostLead_);
     // A spring that is damped less is no faster than its own swing.
     const float damping = std::max(motor.damping, 2.0F * std::sqrt(motor.stiffness * inertia));
     const vec3 drawn = lead * (kept / angle) * (motor.stiffness / std::max(damping, 1e-9F));
-    motor.rate *= follows;
     const float share = std::min(1.0F, mostSpeed_ / std::max(glm::length(motor.rate + drawn), 1e-9F));
     motor.rate *= share;
     if (kept * share < angle) motor.target = glm::normalize(glm::angleAxis(kept * share, lead / angle) * now);

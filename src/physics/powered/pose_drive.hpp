@@ -33,8 +33,9 @@ class PoseDrive {
     /// more.
     void setMostSpeed(float speed) { mostSpeed_ = speed; }
     static constexpr float kUnbounded = 1e9F;
-    /// Whether a joint that is very far from its target is held there instead of following; at first they are.
-    void setHoldsFar(bool holds) { holdsFar_ = holds; }
+    /// Whether a joint with a bound on lead or speed that is very far from its target goes there by the middle of its
+    /// range instead of the shortest way; at first none does.
+    void setGoesByMiddle(bool goes) { goesByMiddle_ = goes; }
     /// The farthest that a joint was from its target in the last drive() with a bound on lead or speed, radians.
     [[nodiscard]] float farthest() const { return farthest_; }
     /// Takes all motors away.
@@ -63,7 +64,7 @@ class PoseDrive {
     const RagdollProfile& profile_;
     float mostLead_ = kPi;
     float mostSpeed_ = kUnbounded;
-    bool holdsFar_ = true;
+    bool goesByMiddle_ = false;
     float farthest_ = 0.0F;
     std::vector<Joint> joints_;      // one a constraint
     float massKg_ = 0.0F;            // of the doll

@@ -259,7 +259,7 @@ void Puppet::prepare(std::span<const RigidTransform> from, std::span<const Rigid
     isLeashed_ = getsUp || (isLeashed_ && drive_.farthest() > settings_.getUpLead);
     drive_.setMostLead(isLeashed_ ? settings_.getUpLead : kPi);
     drive_.setMostSpeed(isLeashed_ ? settings_.getUpSpeed : PoseDrive::kUnbounded);
-    drive_.setHoldsFar(getsUp);
+    drive_.setGoesByMiddle(getsUp);
     lead(from, to, dt);
     for (const ConstraintProfile& joint : profile_.constraints)
         if (weights_[joint.parent] >= 1.0F && weights_[joint.child] >= 1.0F) factors_[joint.child] = 0.0F;

@@ -219,6 +219,52 @@ TEST_CASE("muscles are set by frequency, group and body, without strength a join
     CHECK(drive.stiffnessOf(hip, muscles) > 0.0F);
 }
 
+TEST_CASE("an arm on a leash comes from one end of its range to the other") {
+    const RagdollProfile profile = makeDoll();
+    const int arm = physics::bodyOf(profile, Role::leftUpperArm);
+    const physics::ConstraintProfile& shoulder = profile.constraints[arm - 1];
+    for (const SolverKind solver : kOurSolvers) {
+        INFO(physics::solverName(solver));
+        physics::WorldSettings settings;
+        settings.gravity = vec3(0);
+        const auto world = worldOf(solver, settings);
+        const auto start = standingDoll(profile, {0, 1, 0});
+        const physics::DollId doll = world->addDoll(profile, start);
+        PoseDrive drive(profile, start);
+        const auto poseWith = [&](float swing) {
+            std::vector<RigidTransform> pose;
+            for (const BodyState& body : start)
+                pose.push_back(body.worldFromBody);
+            const quat turned = pose[shoulder.parent].rotation * shoulder.parentFromFrame.rotation *
+                                glm::angleAxis(swing, vec3(0, 0, 1)) * glm::conjugate(shoulder.childFromFrame.rotation);
+            const quat by = turned * glm::conjugate(pose[arm].rotation);
+            for (const Role role : {Role::leftUpperArm, Role::leftLowerArm, Role::leftHand}) {
+                quat& rotation = pose[physics::bodyOf(profile, role)].rotation;
+                rotation = by * rotation;
+            }
+            return pose;
+        };
+        const auto go = [&](const std::vector<RigidTransform>& pose, int steps) {
+            for (int i = 0; i < steps; ++i) {
+                drive.drive(*world, doll, musclesOf(MusclePreset::powered), pose, pose, kFrame);
+                world->step(kFrame);
+            }
+            std::vector<RigidTransform> bodies;
+            for (const BodyState& body : bodiesOfDoll(*world, 0))
+                bodies.push_back(body.worldFromBody);
+            std::vector<float> errors(profile.constraints.size());
+            physics::jointErrors(profile, pose, bodies, errors);
+            return degrees(errors[arm - 1]);
+        };
+        REQUIRE(go(poseWith(radians(68.0F)), 120) < 3.0F);
+        drive.setMostLead(radians(15.0F));
+        drive.setMostSpeed(radians(450.0F));
+        drive.setGoesByMiddle(true);
+        CHECK(go(poseWith(radians(-40.0F)), 1) > 100.0F);
+        CHECK(go(poseWith(radians(-40.0F)), 120) < 5.0F);
+    }
+}
+
 TEST_CASE("a head too large for an adult's neck is carried by what it weighs") {
     RagdollProfile profile = makeDoll();
     const int head = physics::bodyOf(profile, Role::head);
