@@ -18,6 +18,7 @@ constexpr float kMostOfHead = 3.0F;
 constexpr float kVerticesOfFace = 100.0F;  // of a head whose finer side proves something
 constexpr float kPriorPlusZ = 0.6F;
 constexpr float kMostSlope = radians(50.0F);  // of a shin that stands; those of a kneeling figure lie
+constexpr float kLeastTipSlope = 0.4F;        // of a foot from its ankle: ahead for each length that it drops
 
 class FacingFinder {
   public:
@@ -102,13 +103,16 @@ class FacingFinder {
         return {direction.x, c * direction.y - s * direction.z, s * direction.y + c * direction.z};
     }
 
-    // Joints below an ankle without toes: tips of the foot.
+    // Joints below an ankle without toes: tips of the foot. One that lies nearly straight below is the end of a shin
+    // that is called foot, and tells only how that slopes.
     void readTips(int foot, float ankle) {
         float sum = 0.0F;
         int count = 0;
         for (const int top : pair(foot).joints) {
             for (int joint = 0; joint < rig_.count(); ++joint) {
                 if (joint == top || !rig_.isAncestorOrSelf(top, joint)) continue;
+                const vec3 tip = framed_.positions[joint] - framed_.positions[top];
+                if (std::abs(tip.z) < kLeastTipSlope * -tip.y) continue;
                 sum += framed_.positions[joint].z - ankle;
                 ++count;
             }

@@ -92,6 +92,35 @@ TEST_CASE("hips that hang on the trunk and carry the legs are the hips by their 
     CHECK(map.jointOf(Role::spine) == 1);
 }
 
+TEST_CASE("the end of a shin that is called foot is no tip of a foot", "[named]") {
+    // Blender writes an end for every last bone; that of a shin lies behind the knee. This one faces -Z.
+    std::vector<JointSpec> joints{{"hips", animation::kNoJoint, vec3(0, 0.9F, 0)},
+                                  {"chest", 0, vec3(0, 1.1F, 0)},
+                                  {"head", 1, vec3(0, 1.4F, 0)},
+                                  {"head_end", 2, vec3(0, 1.7F, 0)}};
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string end = side > 0.0F ? ".R" : ".L";
+        const auto add = [&](const std::string& name, int parent, const vec3& place) {
+            joints.push_back({name, parent, vec3(side, 1, 1) * place});
+            return static_cast<int>(joints.size()) - 1;
+        };
+        const int foot = add("foot" + end, add("noga" + end, 0, vec3(0.1F, 0.85F, 0)), vec3(0.12F, 0.5F, -0.01F));
+        add("foot" + end + "_end", foot, vec3(0.13F, 0.05F, 0.15F));
+        const int hand = add("hand" + end, add("arm" + end, 1, vec3(0.2F, 1.35F, 0)), vec3(0.45F, 1.35F, 0));
+        add("hand" + end + "_end", hand, vec3(0.75F, 1.35F, 0));
+    }
+    animation::Character figure;
+    figure.skeleton = makeSkeleton(joints);
+    for (const JointSpec& joint : joints) {
+        figure.skeleton.skinWeight.push_back(joint.name.ends_with("_end") ? 0.0F : 100.0F);
+    }
+    const animation::HumanoidMap map = animation::mapHumanoid(figure);
+    REQUIRE(map.humanoid);
+    const auto nameOf = [&](Role role) { return figure.skeleton.names[map.jointOf(role)]; };
+    CHECK(nameOf(Role::leftUpperLeg) == "noga.L");
+    CHECK(nameOf(Role::rightUpperArm) == "arm.R");
+}
+
 TEST_CASE("the mesh that hangs on the joint of its name does not take its role", "[named]") {
     // A figure of rigid meshes on joints "..._jnt"; those of hats and head hang in the middle of the skull.
     SyntheticRig rig = bareRig("unreal", {});
