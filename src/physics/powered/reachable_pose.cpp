@@ -176,7 +176,9 @@ bool ReachablePose::pushOut(const Limb& limb, std::span<RigidTransform> bodies) 
     const vec3 pivot = bodies[limb.upper] * jointOf(limb.upper).childFromFrame.translation;
     vec3 axis(0);
     float angle = 0.0F;
-    for (const auto& [own, other] : limb.meets) {
+    for (const auto& meeting : limb.meets) {
+        const int own = meeting.first;
+        const int other = meeting.second;
         const BodyShape& shape = profile_.bodies[own].shape;
         visitShapes(shape, [&](const PrimitiveShape& mine, const RigidTransform& ownFromShape) {
             visitShapes(profile_.bodies[other].shape, [&](const PrimitiveShape& its, const RigidTransform& otherFrom) {
