@@ -133,6 +133,8 @@ bool wantsAnyRig(const Error& error) {
 }
 
 Result<std::unique_ptr<RagdollAsset>> makeRagdoll(animation::Character character, const LoadOptions& options) {
+    if (const std::vector<std::string> problems = animation::validate(character.skeleton); !problems.empty())
+        return Error{ErrorCode::usage, "the skeleton is not sound: " + problems.front(), character.name, ""};
     auto asset = std::make_unique<RagdollAsset>();
     asset->character = std::move(character);
     auto read = givenProfile(options);

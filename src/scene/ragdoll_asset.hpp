@@ -48,7 +48,8 @@ struct LoadOptions {
 /// Whether loading failed because the figure is no humanoid, so that FitOptions::rig any would take it.
 [[nodiscard]] bool wantsAnyRig(const Error& error);
 
-/// map → fit → bind for a character that is there already.
+/// map → fit → bind for a character that is there already. Wrong usage where its skeleton is not valid
+/// (animation::validate()).
 [[nodiscard]] Result<std::unique_ptr<RagdollAsset>> makeRagdoll(animation::Character character,
                                                                 const LoadOptions& options = {});
 

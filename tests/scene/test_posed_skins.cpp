@@ -21,6 +21,7 @@ std::unique_ptr<RagdollAsset> tailedRagdoll() {
     skeleton.parents.push_back(0);
     skeleton.bindModelFromJoint.push_back(skeleton.bindModelFromJoint[0] * RigidTransform{{}, {0, 0, -0.2F}});
     skeleton.nodeParentFromJoint.push_back({{}, {0, 0, -0.2F}});
+    skeleton.skinWeight.push_back(0.0F);
     auto asset = makeRagdoll(std::move(character));
     REQUIRE(asset);
     return std::move(asset).value();

@@ -35,6 +35,15 @@ LoadOptions withProfile(const std::string& file) {
 
 }  // namespace
 
+TEST_CASE("a character whose skeleton's arrays do not agree is refused") {
+    animation::Character character = test::makeBiped();
+    character.skeleton.skinWeight.pop_back();
+    const auto asset = makeRagdoll(std::move(character));
+    REQUIRE_FALSE(asset.ok());
+    CHECK(asset.error().code == ErrorCode::usage);
+    CHECK_THAT(asset.error().message, Catch::Contains("different sizes"));
+}
+
 TEST_CASE("a profile read for its own rig is taken as it is") {
     const test::ScratchFolder folder;
     auto asset = test::bipedRagdoll();
