@@ -56,7 +56,8 @@ TEST_CASE("values that are no numbers leave gaps, and charts of nothing are stil
 }
 
 TEST_CASE("names in charts are escaped") {
-    LineChart chart = chartOf({0, 1}, std::nullopt);
+    const std::vector<float> values{0, 1};  // a line looks at them
+    LineChart chart = chartOf(values, std::nullopt);
     chart.label = "\"><script>";
     chart.lines.front().name = "<i>";
     CHECK(lineChartSvg(chart).find("<script>") == std::string::npos);
