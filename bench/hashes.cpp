@@ -62,9 +62,9 @@ void fill(physics::World& world, const Cast& cast) {
     std::vector<physics::DollId> dolls;
     for (int i = 0; i < kDolls; ++i) {
         std::vector<BodyState> bodies = cast.standing;
-        const vec3 at(0.5F * static_cast<float>(i % kRow) + random.uniform(-0.1F, 0.1F),
+        const vec3 at{0.5F * static_cast<float>(i % kRow) + random.uniform(-0.1F, 0.1F),
                       1.9F * static_cast<float>(i / (kRow * kRow)),
-                      0.4F * static_cast<float>(i / kRow % kRow) + random.uniform(-0.1F, 0.1F));
+                      0.4F * static_cast<float>(i / kRow % kRow) + random.uniform(-0.1F, 0.1F)};
         for (BodyState& body : bodies) {
             body.worldFromBody.translation += at;
             body.linearVelocity = {random.uniform(-1, 1), 0, random.uniform(-1, 1)};

@@ -49,7 +49,7 @@ std::vector<animation::SkinMatrix> bentPalette(const animation::Skeleton& skelet
     std::vector<RigidTransform> model(skeleton.parents.size());
     animation::modelToLocal(skeleton, skeleton.bindModelFromJoint, local);
     for (RigidTransform& joint : local) {
-        const vec3 axis(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.1F, 1));
+        const vec3 axis{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.1F, 1)};
         joint.rotation = joint.rotation * glm::angleAxis(radians(random.uniform(0, mostDeg)), glm::normalize(axis));
     }
     animation::localToModel(skeleton, local, model);

@@ -171,7 +171,10 @@ void pile(Context& context) {
     constexpr int layer = side * side;
     for (int i = 0; i < context.count; ++i) {
         vec3 centre = gridPlace(i % layer, layer, kPitSpacing);
-        centre += vec3(context.random.uniform(-0.1F, 0.1F), 0, context.random.uniform(-0.1F, 0.1F));
+        // Drawn in statements of their own: compilers differ in the order of a call's arguments.
+        const float ahead = context.random.uniform(-0.1F, 0.1F);
+        const float aside = context.random.uniform(-0.1F, 0.1F);
+        centre += vec3(aside, 0, ahead);
         const int storey = i / layer;
         centre.y = 1.3F + kLayerHeight * static_cast<float>(storey);
         placeCentre(context, centre, anyTurn(context));

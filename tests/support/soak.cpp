@@ -96,8 +96,8 @@ class Soak {
 
     void add() {
         const physics::RagdollProfile& profile = profiles_[random_.next() % 2];
-        const vec3 at(random_.uniform(-8, 8), random_.uniform(0, 5), random_.uniform(-8, 8));
-        const vec3 velocity(random_.uniform(-4, 4), 0, random_.uniform(-4, 4));
+        const vec3 at{random_.uniform(-8, 8), random_.uniform(0, 5), random_.uniform(-8, 8)};
+        const vec3 velocity{random_.uniform(-4, 4), 0, random_.uniform(-4, 4)};
         std::vector<physics::BodyState> bodies = standing_;
         for (physics::BodyState& body : bodies) {
             body.worldFromBody.translation += at;
@@ -120,7 +120,7 @@ class Soak {
 
     void throwOne() {
         const physics::DollId doll = living_[random_.next() % living_.size()];
-        const vec3 impulse(random_.uniform(-300, 300), random_.uniform(0, 500), random_.uniform(-300, 300));
+        const vec3 impulse{random_.uniform(-300, 300), random_.uniform(0, 500), random_.uniform(-300, 300)};
         std::vector<physics::BodyState>& bodies = looked_;
         world_->getBodies(doll, bodies);
         world_->applyImpulse(doll, 0, impulse, bodies[0].worldFromBody.translation);

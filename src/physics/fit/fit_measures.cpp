@@ -28,8 +28,11 @@ class RayGrid {
           rows_(1 + static_cast<int>((high.y - low.y) / cell)),
           crossings_(static_cast<std::size_t>(columns_ * rows_)) {
         Random random(1);
-        for (std::size_t i = 0; i < crossings_.size(); ++i)
-            places_.emplace_back(random.uniform(0.0F, 1.0F), random.uniform(0.0F, 1.0F));
+        for (std::size_t i = 0; i < crossings_.size(); ++i) {
+            // In statements of their own: compilers differ in the order of a call's arguments.
+            const float y = random.uniform(0.0F, 1.0F);
+            places_.emplace_back(random.uniform(0.0F, 1.0F), y);
+        }
     }
 
     void addTriangle(const vec3& a, const vec3& b, const vec3& c) {
