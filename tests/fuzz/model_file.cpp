@@ -3,7 +3,6 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <string>
 
 #include "animation/import/build_character.hpp"
@@ -47,9 +46,7 @@ void promiseSoundImport(Result<rig_import::SourceScene> scene) {
     for (const animation::Clip& clip : character.value().clips) {
         if (clip.parentFromJoint.size() > mostFrames) continue;
         for (const RigidTransform& frame : clip.parentFromJoint)
-            promise(isFinite(frame.translation) &&
-                    isFinite(vec3(frame.rotation.x, frame.rotation.y, frame.rotation.z)) &&
-                    std::isfinite(frame.rotation.w));
+            promise(isFinite(frame));
     }
 }
 

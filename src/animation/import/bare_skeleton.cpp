@@ -58,7 +58,7 @@ Frame plainestFrame(const SourceScene& scene, std::span<const int> parents) {
         const auto [first, last] = spanOf(clip);
         for (int step = 0; step < kFramesToChooseFrom; ++step) {
             const double time = first + (last - first) * step / (kFramesToChooseFrom - 1);
-            const std::vector<dmat4> pose = sceneFromNodes(scene, parentFromNodes(scene, clip, time));
+            const std::vector<dmat4> pose = sceneFromNodes(parents, parentFromNodes(scene, clip, time));
             if (!spreadsOut(parents, pose)) continue;
             const double score = plainness(parents, pose, indexOfAxis(scene.convention.up));
             if (chosen.clip != nullptr && score < kClearlyPlainer * best) continue;
@@ -123,7 +123,7 @@ void poseBareSkeleton(SourceScene& scene) {
         parents.push_back(node.parent);
         own.push_back(node.parentFromNode);
     }
-    if (spreadsOut(parents, sceneFromNodes(scene, own))) return;
+    if (spreadsOut(parents, sceneFromNodes(parents, own))) return;
     const Frame chosen = plainestFrame(scene, parents);
     if (chosen.clip == nullptr) return;
     const std::vector<dmat4> pose = parentFromNodes(scene, *chosen.clip, chosen.time);

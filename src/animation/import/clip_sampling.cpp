@@ -324,11 +324,11 @@ std::vector<dmat4> parentFromNodes(const SourceScene& scene, const SourceClip& c
     return out;
 }
 
-std::vector<dmat4> sceneFromNodes(const SourceScene& scene, std::span<const dmat4> parentFromNode) {
+std::vector<dmat4> sceneFromNodes(std::span<const int> parents, std::span<const dmat4> parentFromNode) {
     std::vector<dmat4> out;
     out.reserve(parentFromNode.size());
     for (std::size_t node = 0; node < parentFromNode.size(); ++node) {
-        const int parent = scene.nodes[node].parent;
+        const int parent = parents[node];
         out.push_back(parent < 0 ? parentFromNode[node] : out[static_cast<std::size_t>(parent)] * parentFromNode[node]);
     }
     return out;

@@ -40,8 +40,8 @@ class ClipFile {
 /// The nodes' own poses with what the clip makes of them at a time in seconds, one element a node.
 [[nodiscard]] std::vector<dmat4> parentFromNodes(const SourceScene& scene, const SourceClip& clip, double time);
 
-/// Frames of all nodes in the scene; parents come before children.
-[[nodiscard]] std::vector<dmat4> sceneFromNodes(const SourceScene& scene, std::span<const dmat4> parentFromNode);
+/// Frames of all nodes in the scene; parents come before children, those of roots are below 0.
+[[nodiscard]] std::vector<dmat4> sceneFromNodes(std::span<const int> parents, std::span<const dmat4> parentFromNode);
 
 /// All clips as rigid poses at a fixed rate: that of their keys, times the smallest whole number that reaches 30 frames
 /// a second (60 for splines, at most 120), so that the frames fall on the keys. A clip starts at the file's time 0, or

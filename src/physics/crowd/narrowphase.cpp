@@ -39,24 +39,40 @@ bool saysTheSame(const StaticTouches& found, const vec3& local, const vec3& norm
     return false;
 }
 
+// Calls found(index, edge in the axes of its box, the same in those of `at`, where) for all edges of a box near
+// another.
+template <class Found>
+void visitEdges(const BoxPlace& of, const BoxPlace& at, float range, Found found) {
+    const mat3 inAt = glm::transpose(at.axes) * of.axes;
+    const vec3 centre = (of.position - at.position) * at.axes;
+    for (int i = 0; i < 12; ++i) {
+        const Segment own = boxEdge(of.halfExtents, i);
+        const Segment edge{centre + inAt * own.start, centre + inAt * own.end};
+        const EdgeTouches touches = touchEdge(edge, at.halfExtents, range);
+        for (int k = 0; k < touches.count; ++k)
+            found(i, own, edge, touches.points[k]);
+    }
+}
+
+BoxPlace placeOf(const PlacedShape& box) {
+    return {box.shape->halfExtents, box.position, box.axes};
+}
+BoxPlace placeOf(const PlacedStatic& box) {
+    return {box.shape.halfExtents, box.shape.worldFromShape.translation, box.axes};
+}
+
 // The edges of a static box at a box: the body's point on its surface, which the edge's half space keeps out.
 void touchStaticEdges(const PlacedShape& body, const PlacedStatic& box, float least, float range, StaticTouches& out) {
-    const mat3 bodyFromBox = glm::transpose(body.axes) * box.axes;
-    const vec3 centre = (box.shape.worldFromShape.translation - body.position) * body.axes;
-    for (int i = 0; i < 12; ++i) {
-        const Segment own = boxEdge(box.shape.halfExtents, i);
-        const Segment edge{centre + bodyFromBox * own.start, centre + bodyFromBox * own.end};
-        const EdgeTouches touches = touchEdge(edge, body.shape->halfExtents, range);
-        for (int k = 0; k < touches.count; ++k) {
-            const auto& [along, surface, part] = touches.points[k];
-            const vec3 onEdge = edge.at(along);
-            const vec3 normal = -(body.axes * surface.normal);
-            const float offset = glm::dot(normal, body.position + body.axes * onEdge);
-            const vec3 onBody = onEdge - surface.normal * surface.distance;
-            if (surface.distance > least && !saysTheSame(out, onBody, normal))
-                out.add({onBody, 0.0F, normal, offset, surface.distance, kFirstEdgeFeature + 3 * i + part});
-        }
-    }
+    const auto add = [&](int index, const Segment&, const Segment& edge, const BoxTouch& touch) {
+        const SurfaceDistance& surface = touch.surface;
+        const vec3 onEdge = edge.at(touch.along);
+        const vec3 normal = -(body.axes * surface.normal);
+        const float offset = glm::dot(normal, body.position + body.axes * onEdge);
+        const vec3 onBody = onEdge - surface.normal * surface.distance;
+        if (surface.distance > least && !saysTheSame(out, onBody, normal))
+            out.add({onBody, 0.0F, normal, offset, surface.distance, kFirstEdgeFeature + 3 * index + touch.part});
+    };
+    visitEdges(placeOf(box), placeOf(body), range, add);
 }
 
 void touchStaticBox(const PlacedShape& body, const PlacedStatic& box, float range, StaticTouches& out) {
@@ -66,8 +82,7 @@ void touchStaticBox(const PlacedShape& body, const PlacedStatic& box, float rang
     const CorePoints points = corePoints(*body.shape);
     if (body.shape->kind == Kind::box) {
         out.capacity = ContactList::kMax;
-        const BoxManifold manifold = touchBoxes({body.shape->halfExtents, body.position, body.axes},
-                                                {halfExtents, box.shape.worldFromShape.translation, box.axes}, range);
+        const BoxManifold manifold = touchBoxes(placeOf(body), placeOf(box), range);
         for (int i = 0; i < manifold.count; ++i) {
             const auto& [onBody, onBox, distance, feature] = manifold.points[i];
             const vec3 inWorld = box.shape.worldFromShape.translation + box.axes * onBox;
@@ -181,22 +196,16 @@ void touchCorners(const PlacedShape& a, const PlacedShape& b, float range, bool 
 
 // The edges of A in B.
 void touchEdges(const PlacedShape& a, const PlacedShape& b, float range, bool swapped, Touches<BodyTouch>& out) {
-    const mat3 inB = glm::transpose(b.axes) * a.axes;
-    const vec3 centre = (a.position - b.position) * b.axes;
-    for (int i = 0; i < 12; ++i) {
-        const Segment own = boxEdge(a.shape->halfExtents, i);
-        const Segment edge{centre + inB * own.start, centre + inB * own.end};
-        const EdgeTouches touches = touchEdge(edge, b.shape->halfExtents, range);
-        for (int k = 0; k < touches.count; ++k) {
-            const auto& [along, surface, part] = touches.points[k];
-            const vec3 onB = edge.at(along) - surface.normal * surface.distance;
-            const vec3 normal = b.axes * surface.normal;
-            if (swapped)
-                out.add({onB, own.at(along), 0.0F, -normal, surface.distance});
-            else
-                out.add({own.at(along), onB, 0.0F, normal, surface.distance});
-        }
-    }
+    const auto add = [&](int, const Segment& own, const Segment& edge, const BoxTouch& touch) {
+        const SurfaceDistance& surface = touch.surface;
+        const vec3 onB = edge.at(touch.along) - surface.normal * surface.distance;
+        const vec3 normal = b.axes * surface.normal;
+        if (swapped)
+            out.add({onB, own.at(touch.along), 0.0F, -normal, surface.distance});
+        else
+            out.add({own.at(touch.along), onB, 0.0F, normal, surface.distance});
+    };
+    visitEdges(placeOf(a), placeOf(b), range, add);
 }
 
 }  // namespace
@@ -260,8 +269,7 @@ Touches<BodyTouch> touchBodies(const PlacedShape& a, const PlacedShape& b, float
     if (!boxA && !boxB) {
         touchCores(a, b, range, touches);
     } else if (boxA && boxB) {
-        const BoxManifold manifold =
-            touchBoxes({a.shape->halfExtents, a.position, a.axes}, {b.shape->halfExtents, b.position, b.axes}, range);
+        const BoxManifold manifold = touchBoxes(placeOf(a), placeOf(b), range);
         for (int i = 0; i < manifold.count; ++i) {
             const auto& [onA, onB, distance, feature] = manifold.points[i];
             touches.add({onA, onB, 0.0F, manifold.normal, distance});

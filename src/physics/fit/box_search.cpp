@@ -1,7 +1,6 @@
 #include "physics/fit/box_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

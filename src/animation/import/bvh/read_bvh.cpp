@@ -12,6 +12,7 @@
 
 #include "animation/import/bare_skeleton.hpp"
 #include "animation/import/bvh/bvh_document.hpp"
+#include "animation/import/clip_sampling.hpp"
 #include "animation/import/source_limits.hpp"
 #include "core/files.hpp"
 
@@ -28,14 +29,11 @@ constexpr double kOffFloor = 0.35;
 constexpr std::size_t kFramesLookedAt = 40;
 constexpr std::size_t kFramesToChooseFrom = 300;
 
-std::vector<dmat4> sceneFromJoints(const BvhDocument& document, std::span<const dmat4> parentFromJoint) {
-    std::vector<dmat4> out;
-    out.reserve(parentFromJoint.size());
-    for (std::size_t i = 0; i < parentFromJoint.size(); ++i) {
-        const int parent = document.joints[i].parent;
-        out.push_back(parent < 0 ? parentFromJoint[i] : out[static_cast<std::size_t>(parent)] * parentFromJoint[i]);
-    }
-    return out;
+std::vector<int> parentsOf(const BvhDocument& document) {
+    std::vector<int> parents;
+    for (const bvh::Joint& joint : document.joints)
+        parents.push_back(joint.parent);
+    return parents;
 }
 
 std::vector<dmat4> zeroPose(const BvhDocument& document) {
@@ -54,6 +52,7 @@ std::vector<dmat4> poseAt(const BvhDocument& document, std::size_t frame) {
 
 // How far the lowest joint is from the floor along an axis, in sizes of the figure; over some frames.
 double offFloor(const BvhDocument& document, int axis) {
+    const std::vector<int> parents = parentsOf(document);
     const std::size_t frames = document.frameCount();
     const std::size_t step = std::max<std::size_t>(1, frames / kFramesLookedAt);
     double sum = 0.0;
@@ -62,7 +61,7 @@ double offFloor(const BvhDocument& document, int axis) {
         double low = HUGE_VAL;
         dvec3 least(HUGE_VAL);
         dvec3 most(-HUGE_VAL);
-        for (const dmat4& joint : sceneFromJoints(document, poseAt(document, frame))) {
+        for (const dmat4& joint : sceneFromNodes(parents, poseAt(document, frame))) {
             low = std::min(low, joint[3][axis]);
             least = glm::min(least, dvec3(joint[3]));
             most = glm::max(most, dvec3(joint[3]));
@@ -80,25 +79,18 @@ int upAxisOf(const BvhDocument& document) {
     return z ? 2 : 1;
 }
 
-std::vector<int> parentsOf(const BvhDocument& document) {
-    std::vector<int> parents;
-    for (const bvh::Joint& joint : document.joints)
-        parents.push_back(joint.parent);
-    return parents;
-}
-
 // The nodes' pose.
 std::vector<dmat4> restPose(const BvhDocument& document, std::vector<std::string>& warnings) {
     std::vector<dmat4> zero = zeroPose(document);
     const std::vector<int> parents = parentsOf(document);
     const std::size_t frames = document.frameCount();
-    if (frames == 0 || parents.size() < 4 || spreadsOut(parents, sceneFromJoints(document, zero))) return zero;
+    if (frames == 0 || parents.size() < 4 || spreadsOut(parents, sceneFromNodes(parents, zero))) return zero;
     const int up = upAxisOf(document);
     const std::size_t step = std::max<std::size_t>(1, frames / kFramesToChooseFrom);
     std::optional<std::size_t> chosen;
     double best = 0.0;
     for (std::size_t frame = 0; frame < frames; frame += step) {
-        const std::vector<dmat4> scene = sceneFromJoints(document, poseAt(document, frame));
+        const std::vector<dmat4> scene = sceneFromNodes(parents, poseAt(document, frame));
         if (!spreadsOut(parents, scene)) continue;
         const double score = plainness(parents, scene, up);
         // The earliest of those that are about as good: many captures begin with a pose for the purpose.
