@@ -67,8 +67,8 @@ TEST_CASE("a script sets a limit by its slider, changes another value, undoes th
     const Scratch scratch;
     Script script;
     script.key(Key::space).click(632, 393);       // the left lower leg
-    script.drag(1184, 492, 1160, 492).release();  // its flexion
-    script.drag(1062, 408, 1160, 408).release();  // its friction
+    script.drag(1184, 430, 1160, 430).release();  // its flexion
+    script.drag(1062, 379, 1160, 379).release();  // its friction
     script.key(Key::z, kControl).key(Key::s, kControl).wait(2);
     script.save(scratch / "script.jsonl");
     const Outcome outcome = edit(scratch, "--headless --input " + (scratch / "script.jsonl").string());
@@ -211,7 +211,7 @@ TEST_CASE("the panels look as they did when they were looked at") {
     script.click(112, 530).move(120, 602).add(keyPressed(Key::leftShift, {}));
     script.add(mouseButton(MouseButton::left, true, {true, false, false}));
     script.add(mouseButton(MouseButton::left, false, {true, false, false})).add(keyReleased(Key::leftShift));
-    script.drag(1170, 520, 1118, 520).release().move(640, 620);
+    script.drag(1170, 430, 1122, 430).release().move(640, 620);
     picture("thighs.png");
     script.click(1134, 43).move(640, 620);
     picture("doctor.png");

@@ -49,8 +49,8 @@ TEST_CASE("a script makes a box of a capsule and types a mass by a double click,
     const Scratch scratch;
     Script script;
     script.key(Key::space).click(632, 393);                    // the left lower leg
-    script.click(1130, 195).wait(2).click(1080, 243).wait(2);  // its shape: Box
-    script.click(1130, 224).press().release().wait(2);         // its mass
+    script.click(1130, 183).wait(2).click(1080, 231).wait(2);  // its shape: Box
+    script.click(1130, 209).press().release().wait(2);         // its mass
     type(script, "7.5").click(640, 640).wait(2);               // beside everything
     script.key(Key::s, kControl).wait(2);
     const Outcome outcome = play(scratch, script);
@@ -73,8 +73,8 @@ TEST_CASE("a value typed after a double click is one entry of undo, whatever its
     const Scratch scratch;
     Script script;
     script.key(Key::space).click(632, 393);
-    script.click(1130, 195).wait(2).click(1080, 243).wait(2);  // its shape: Box
-    script.click(1070, 224).press().release().wait(40);        // its mass, far from the knob; some time goes by
+    script.click(1130, 183).wait(2).click(1080, 231).wait(2);  // its shape: Box
+    script.click(1070, 209).press().release().wait(40);        // its mass, far from the knob; some time goes by
     type(script, "7.5").key(Key::enter).wait(40);
     script.move(640, 640).key(Key::z, kControl).key(Key::z, kControl).wait(2).key(Key::s, kControl).wait(2);
     const Outcome outcome = play(scratch, script);
@@ -92,7 +92,7 @@ TEST_CASE("a script locks a knee by the menu of its turn") {
     const Scratch scratch;
     Script script;
     script.key(Key::space).click(632, 393);                   // the left lower leg
-    script.click(980, 545).wait(2).click(1010, 601).wait(2);  // Flexion: Locked
+    script.click(980, 478).wait(2).click(1010, 534).wait(2);  // Flexion: Locked
     script.move(640, 640).key(Key::s, kControl).wait(2);
     const Outcome outcome = play(scratch, script);
     NEEDS_DISPLAY_OF(outcome);
@@ -168,6 +168,117 @@ TEST_CASE("a script chooses a character's model with Browse and saves the scene 
     REQUIRE(outcome.code == 0);
     REQUIRE(fs::exists(scratch / "drop.scene.json"));
     CHECK_THAT(fileText(scratch / "drop.scene.json"), Catch::Contains("other.glb"));
+}
+
+TEST_CASE("a script saves the scene, then the ragdoll that is offered, then the scene anew, which names the ragdoll") {
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
+    const Scratch scratch;
+    Script script;
+    script.key(Key::space).click(632, 393);             // the left lower leg
+    script.click(1130, 209).press().release().wait(2);  // its mass
+    type(script, "7.5").key(Key::enter).move(640, 640).wait(2);
+    script.key(Key::s, {false, true, true}).wait(3);
+    const auto playOn = [&](int offers) {
+        fs::remove(scratch / "drop.scene.json");
+        fs::remove(scratch / "mannequin.ragdoll.json");
+        Script more = script;
+        for (int i = 0; i < offers; ++i)
+            more.click(540, 140).wait(3);  // "Save the ragdoll too", then "Save the scene too"
+        return play(scratch, more);
+    };
+    const Outcome scene = playOn(0);
+    NEEDS_DISPLAY_OF(scene);
+    INFO(scene.output);
+    REQUIRE(scene.code == 0);
+    REQUIRE(fs::exists(scratch / "drop.scene.json"));
+    CHECK_FALSE(fs::exists(scratch / "mannequin.ragdoll.json"));
+    REQUIRE(playOn(1).code == 0);
+    const physics::RagdollProfile now = saved(scratch);
+    CHECK(now.bodies[physics::bodyOf(now, Role::leftLowerLeg)].massKg == Approx(7.5F));
+    CHECK(fileText(scratch / "drop.scene.json").find("mannequin.ragdoll.json") == std::string::npos);
+    REQUIRE(playOn(2).code == 0);
+    CHECK_THAT(fileText(scratch / "drop.scene.json"), Catch::Contains("mannequin.ragdoll.json"));
+}
+
+TEST_CASE("a script types limits beside the bind pose, and the mark is red from one degree past them on") {
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
+    const Scratch scratch;
+    Script script;
+    std::string screenshots;
+    script.key(Key::space).click(632, 393);  // the left lower leg
+    const std::pair<const char*, const char*> extensions[] = {
+        {"20", "green"}, {"3", "near"}, {"-0.5", "within"}, {"-1.5", "red"}};
+    for (const auto& [typed, picture] : extensions) {
+        script.wait(30).click(1118, 456).press().release().wait(2);
+        type(script, typed).key(Key::enter).move(640, 640).wait(3);
+        screenshots +=
+            " --screenshot-at " + std::to_string(script.frame()) + ":" + (scratch / picture).string() + ".png";
+        script.wait(1);
+    }
+    const Outcome outcome = play(scratch, script, screenshots);
+    NEEDS_DISPLAY_OF(outcome);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    const auto mark = [&](const char* name) {
+        const auto seen = render::loadPng(fs::path(scratch / name).string() + ".png");
+        REQUIRE(seen.ok());
+        // Where the lower limit and so the mark is; the widest range has the bind pose a little to the right of that.
+        const bool wide = std::string(name) == "green";
+        return seen.value().at(wide ? 1074 : (std::string(name) == "near" ? 1057 : 1054), 481);
+    };
+    const auto red = [](const render::Color& color) { return color.r > 200 && color.g < 140; };
+    const auto yellow = [](const render::Color& color) { return color.r > 200 && color.g > 150 && color.b < 140; };
+    const auto green = [](const render::Color& color) { return color.g > color.r; };
+    CHECK(green(mark("green")));
+    CHECK(yellow(mark("near")));
+    CHECK(yellow(mark("within")));
+    CHECK(red(mark("red")));
+}
+
+TEST_CASE("a script chooses a panorama in the view, which lights and then is seen, and goes back to the plain sky") {
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
+    const Scratch scratch;
+    // Red above, dark below.
+    constexpr int width = 16;
+    constexpr int height = 8;
+    std::ofstream panorama(scratch / "dusk.hdr", std::ios::binary);
+    panorama << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " << height << " +X " << width << "\n";
+    for (int texel = 0; texel < width * height; ++texel)
+        panorama << (texel < width * height / 2 ? "\xfa\x14\x14\x81" : "\x14\x14\x14\x81");
+    panorama.close();
+    Script script;
+    std::string screenshots;
+    const auto picture = [&](const char* name) {
+        script.move(640, 640).wait(4);
+        screenshots += " --screenshot-at " + std::to_string(script.frame()) + ":" + (scratch / name).string();
+        script.wait(1);
+    };
+    script.key(Key::space).click(1086, 43);  // the tab View
+    picture("plain.png");
+    script.click(1260, 569).wait(3).key(Key::down).key(Key::enter);  // … beside Sky, the only panorama
+    picture("lit.png");
+    script.click(957, 597);  // Show it behind the scene
+    picture("seen.png");
+    script.click(1176, 597);  // Plain sky
+    picture("again.png");
+    const Outcome outcome = play(scratch, script, screenshots);
+    NEEDS_DISPLAY_OF(outcome);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    const auto at = [&](const char* name, int x, int y) {
+        const auto seen = render::loadPng(scratch / name);
+        REQUIRE(seen.ok());
+        return seen.value().at(x, y);
+    };
+    const auto redder = [](const render::Color& color) { return color.r > color.b + 20; };
+    const auto ground = [&](const char* name) { return at(name, 420, 600); };
+    const auto above = [&](const char* name) { return at(name, 860, 60); };
+    CHECK_FALSE(redder(ground("plain.png")));
+    CHECK(redder(ground("lit.png")));
+    CHECK_FALSE(redder(above("lit.png")));
+    CHECK(redder(above("seen.png")));
+    CHECK_FALSE(redder(ground("again.png")));
+    CHECK_FALSE(redder(above("again.png")));
 }
 
 TEST_CASE("a script moves a tab below the view, which is framed above it") {

@@ -236,6 +236,7 @@ void springRest(const PartFields& fields) {
 void springMenu(const PartFields& fields) {
     const bool works = fields.constraint().spring.works();
     if (works) ImGui::PushStyleColor(ImGuiCol_Text, accentColor());
+    ImGui::AlignTextToFramePadding();
     if (ImGui::SmallButton("Friction ▾")) ImGui::OpenPopup("##spring");
     if (works) ImGui::PopStyleColor();
     tooltip("The joint's spring: stiffness, damping, and the pose in which it rests");
@@ -298,6 +299,38 @@ void strengthField(const PartFields& fields) {
     }
 }
 
+// At the right of the caption's line; meanwhile it tells how far the swing is, else how far the joint is apart.
+void swingButton(const PartFields& fields, const physics::ConstraintState& state) {
+    Editor& editor = fields.context.editor;
+    const bool swinging = editor.swing() != nullptr;
+    const std::string told = swinging                    ? editor.swing()->text()
+                             : state.separationM > 0.01F ? fmt::format("apart {:.0f} mm", state.separationM * 1000.0F)
+                                                         : "";
+    const char* name = swinging ? "Stop" : "Swing";
+    const ImVec2 padding = ImGui::GetStyle().FramePadding;
+    const float end = ImGui::GetWindowContentRegionMax().x;
+    const float button = ImGui::CalcTextSize("Swing").x + 2.0F * padding.x;
+    if (!told.empty()) {
+        const float text = ImGui::CalcTextSize(told.c_str()).x + ImGui::GetStyle().ItemSpacing.x;
+        ImGui::SameLine(std::max(end - button - text, ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + padding.x));
+        ImGui::TextColored(swinging ? accentColor() : warningColor(), "%s", told.c_str());
+    }
+    ImGui::SameLine(end - button);
+    ImGui::PushID("swing");
+    if (ImGui::SmallButton(name)) {
+        if (swinging) {
+            editor.endSwing();
+        } else {
+            editor.perform(Action::swingLimits);
+        }
+    }
+    ImGui::PopID();
+    tooltip(fmt::format(
+        "L: swings the joint through its limits while the simulation stands still; the doll ends where it was. "
+        "Apart now: {:.1f} mm",
+        state.separationM * 1000.0F));
+}
+
 }  // namespace
 
 void drawJointFields(const PartFields& fields) {
@@ -307,25 +340,10 @@ void drawJointFields(const PartFields& fields) {
     const auto state = physics::measureConstraint(constraint, bodies[constraint.parent], bodies[constraint.child]);
     const auto& parent = editor.document().profile().bodies[constraint.parent];
     caption(fmt::format("JOINT TO {}", parent.name).c_str());
+    swingButton(fields, state);
     kindField(fields);
     frictionField(fields);
     strengthField(fields);
-    const bool swinging = editor.swing() != nullptr;
-    if (ImGui::Button(swinging ? "Stop" : "Swing through the limits")) {
-        if (swinging) {
-            editor.endSwing();
-        } else {
-            editor.perform(Action::swingLimits);
-        }
-    }
-    tooltip("L: shows what the limits allow while the simulation stands still; the doll ends where it was");
-    ImGui::SameLine();
-    const ImVec4 color = state.separationM > 0.01F ? warningColor() : mutedColor();
-    if (swinging) {
-        ImGui::TextColored(accentColor(), "%s", editor.swing()->text().c_str());
-    } else {
-        ImGui::TextColored(color, "apart %.1f mm", static_cast<double>(state.separationM * 1000.0F));
-    }
     // Last, since a hinge has fewer lines: what stands above keeps its place.
     limitFields(fields, state);
 }

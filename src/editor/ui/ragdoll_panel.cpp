@@ -67,6 +67,13 @@ void drawSetButtons(const PanelContext& context, const PartFields& fields) {
     }
 }
 
+// Lines closer together where the panel is low, so that a joint with all its limits is seen whole.
+void pushLineSpacing(const PanelContext& context) {
+    const bool low = ImGui::GetWindowHeight() < context.px(720);
+    const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(spacing.x, low ? context.px(3) : spacing.y));
+}
+
 void drawBody(const PanelContext& context, const Item& item) {
     const PartFields fields{context, context.editor.workspace().selectedBodies(), item.doll};
     const physics::BodyProfile& body = fields.profile();
@@ -84,9 +91,12 @@ void drawBody(const PanelContext& context, const Item& item) {
         ImGui::TextColored(mutedColor(), "joint %s", body.joint.c_str());
     }
     tooltip(body.jointPath);
+    // Two lines of them, also beside a scroll bar.
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(context.px(3), ImGui::GetStyle().FramePadding.y));
     drawValueButtons(context, fields);
     const std::uint64_t shown = context.editor.document().revision();
     drawSetButtons(context, fields);
+    ImGui::PopStyleVar();
     if (context.editor.document().revision() != shown) return;  // other bodies: what is told below may be gone
     caption("BODY");
     drawShapeFields(fields);
@@ -144,7 +154,9 @@ void drawRagdollTab(const PanelContext& context) {
     if (!active) {
         drawTable(context);
     } else if (active->kind == Item::Kind::body) {
+        pushLineSpacing(context);
         drawBody(context, *active);
+        ImGui::PopStyleVar();
     } else {
         mutedText(context.editor.workspace().nameOf(*active) + ": its components are under Scene, on the left.");
         drawTable(context);

@@ -129,7 +129,8 @@ void moveMenu(const PanelContext& context, const PanelTab& tab) {
     ImGui::EndPopup();
 }
 
-void drawTabs(const PanelContext& context, PanelSide side, const char* id) {
+// `padding`: of what is in the tabs.
+void drawTabs(const PanelContext& context, PanelSide side, const char* id, const ImVec2& padding) {
     if (!ImGui::BeginTabBar(id, ImGuiTabBarFlags_FittingPolicyScroll)) return;
     for (const PanelTab& tab : kTabs) {
         if (sideOf(context, tab) != side) continue;
@@ -137,6 +138,8 @@ void drawTabs(const PanelContext& context, PanelSide side, const char* id) {
         const bool open = ImGui::BeginTabItem(doctor ? doctorTitle(context).c_str() : tab.name);
         moveMenu(context, tab);
         if (!open) continue;
+        // What is in the tab keeps its place whatever its title tells.
+        ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, padding);
         if (tab.scrolls) {
             ImGui::PushStyleColor(ImGuiCol_ChildBg, 0U);
             ImGui::BeginChild("##tab");
@@ -144,15 +147,16 @@ void drawTabs(const PanelContext& context, PanelSide side, const char* id) {
         }
         tab.draw(context);
         if (tab.scrolls) ImGui::EndChild();
+        ImGui::PopStyleVar();
         ImGui::EndTabItem();
     }
     ImGui::EndTabBar();
 }
 
 // Names of tabs closer together where there is little room.
-float tabPadding(const PanelContext& context, float width) {
+float tabPadding(const PanelContext& context, float width, int errors) {
     if (width < context.px(kRightWidth - 1.0F)) return 2.0F;
-    return context.state.doctorErrors > 0 ? 3.0F : 6.0F;
+    return errors > 0 ? 3.0F : 6.0F;
 }
 
 void drawPanel(const PanelContext& context, PanelSide side, const char* id, const ImVec2& place, const ImVec2& size) {
@@ -161,12 +165,15 @@ void drawPanel(const PanelContext& context, PanelSide side, const char* id, cons
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
     ImGui::Begin(id, nullptr, kPanel);
     const bool right = side == PanelSide::right;
+    ImVec2 titles = ImGui::GetStyle().FramePadding;
+    ImVec2 content = titles;
     if (right) {
-        const ImVec2 padding(context.px(tabPadding(context, size.x)), context.px(4));
-        ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, padding);
+        titles = {context.px(tabPadding(context, size.x, context.state.doctorErrors)), context.px(4)};
+        content = {context.px(tabPadding(context, size.x, 0)), context.px(4)};
     }
-    drawTabs(context, side, (std::string(id) + "Tabs").c_str());
-    if (right) ImGui::PopStyleVar();
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, titles);
+    drawTabs(context, side, (std::string(id) + "Tabs").c_str(), content);
+    ImGui::PopStyleVar();
     ImGui::End();
     ImGui::PopStyleVar();
 }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstring>
 
 #include "editor/ui/style.hpp"
 
@@ -110,7 +111,9 @@ template <class... Values>
 std::string formatted(const char* format, Values... values) {
     std::array<char, 64> text{};
     ImFormatString(text.data(), text.size(), format, values...);
-    return text.data();
+    // What is rounded to nothing has no sign.
+    const bool nothing = text[0] == '-' && std::strpbrk(text.data(), "123456789") == nullptr;
+    return text.data() + (nothing ? 1 : 0);
 }
 
 float shareOf(float value, float low, float high, bool logarithmic) {
