@@ -1,6 +1,7 @@
 #include "scene/scene_extent.hpp"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "scene/body_bounds.hpp"
@@ -42,15 +43,29 @@ void addStatic(const StaticShape& shape, std::vector<vec3>& points) {
     }
 }
 
-// Below whoever is in the air, so that where it will land is seen.
-void addGround(const Scenario& scenario, std::vector<vec3>& points) {
-    const bool floor = std::any_of(scenario.statics.begin(), scenario.statics.end(), [](const StaticShape& shape) {
+bool hasFloor(const Scenario& scenario) {
+    return std::any_of(scenario.statics.begin(), scenario.statics.end(), [](const StaticShape& shape) {
         return shape.kind == StaticShape::Kind::plane && shape.worldFromShape.rotation.w > 0.999F;
     });
-    if (!floor) return;
-    const std::size_t count = points.size();
-    for (std::size_t i = 0; i < count; ++i) {
+}
+
+// Below a doll, from the points around it: where it will land, and how far it will reach when it lies there.
+void addGround(std::vector<vec3>& points, std::size_t first) {
+    vec3 low = points[first];
+    vec3 high = low;
+    const std::size_t end = points.size();
+    for (std::size_t i = first; i < end; ++i) {
+        low = glm::min(low, points[i]);
+        high = glm::max(high, points[i]);
         if (points[i].y > 0.0F) points.emplace_back(points[i].x, 0.0F, points[i].z);
+    }
+    if (low.y <= 0.0F) return;
+    constexpr float kShare = 0.65F;  // of its height, from where its middle is now
+    const vec3 middle = 0.5F * (low + high);
+    const float reach = kShare * (high.y - low.y);
+    for (const float way : {-reach, reach}) {
+        points.emplace_back(middle.x + way, 0.0F, middle.z);
+        points.emplace_back(middle.x, 0.0F, middle.z + way);
     }
 }
 
@@ -65,9 +80,12 @@ void addExtentOfDoll(Simulation& simulation, int doll, float alpha, std::vector<
 
 void addExtentOfScene(Simulation& simulation, float alpha, std::vector<vec3>& points) {
     const Scenario& scenario = simulation.scenario();
-    for (int doll = 0; doll < simulation.dollCount(); ++doll)
+    const bool floor = hasFloor(scenario);
+    for (int doll = 0; doll < simulation.dollCount(); ++doll) {
+        const std::size_t first = points.size();
         addExtentOfDoll(simulation, doll, alpha, points);
-    addGround(scenario, points);
+        if (floor && points.size() > first) addGround(points, first);
+    }
     for (const StaticShape& shape : scenario.statics)
         addStatic(shape, points);
     const auto props = simulation.world().props();

@@ -66,7 +66,7 @@ TEST_CASE("a script sets a limit by its slider, changes another value, undoes th
     if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;
     Script script;
-    script.key(Key::space).click(632, 393);       // the left lower leg
+    script.key(Key::space).click(612, 370);       // the left lower leg
     script.drag(1184, 430, 1160, 430).release();  // its flexion
     script.drag(1062, 379, 1160, 379).release();  // its friction
     script.key(Key::z, kControl).key(Key::s, kControl).wait(2);
@@ -173,7 +173,7 @@ TEST_CASE("a role that a script drags from its panel onto a joint in the view ta
     const Scratch scratch;
     Script script;
     script.key(Key::space).click(122, 43).wait(2);     // the tab Mapping
-    script.drag(40, 331, 683, 213).wait(2).release();  // leftHand to the left elbow
+    script.drag(40, 331, 660, 204).wait(2).release();  // leftHand to the left elbow
     script.move(640, 600).key(Key::s, kControl).wait(2);
     script.save(scratch / "script.jsonl");
     const Outcome outcome = edit(scratch, "--headless --input " + (scratch / "script.jsonl").string());
@@ -197,7 +197,7 @@ TEST_CASE("the panels look as they did when they were looked at") {
         screenshots += " --screenshot-at " + std::to_string(script.frame()) + ":" + (scratch / name).string();
         script.wait(1);
     };
-    script.key(Key::space).click(632, 393);
+    script.key(Key::space).click(612, 370);
     script.move(640, 620);  // away from everything that lights up
     picture("body.png");
     script.click(122, 43).click(1024, 43).move(640, 620);
@@ -257,7 +257,7 @@ TEST_CASE("the log and the file dialog look as they did when they were looked at
         std::ofstream(scratch / file) << ' ';
     Script script;
     script.key(Key::space)
-        .click(632, 393)
+        .click(612, 370)
         .key(Key::x)
         .key(Key::escape)
         .add(filesDropped({"absent.glb"}))
@@ -286,7 +286,7 @@ TEST_CASE("the same script gives the same picture twice and a drag shows in it")
     if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;
     Script script;
-    script.wait(12).drag(600, 330, 600, 200).wait(20);
+    script.wait(12).drag(595, 250, 595, 120).wait(20);
     script.save(scratch / "drag.jsonl");
     const std::string last = std::to_string(script.frame());
     const auto picture = [&](const char* file, const std::string& input) {

@@ -48,7 +48,7 @@ TEST_CASE("a script makes a box of a capsule and types a mass by a double click,
     if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;
     Script script;
-    script.key(Key::space).click(632, 393);                    // the left lower leg
+    script.key(Key::space).click(612, 370);                    // the left lower leg
     script.click(1130, 183).wait(2).click(1080, 231).wait(2);  // its shape: Box
     script.click(1130, 209).press().release().wait(2);         // its mass
     type(script, "7.5").click(640, 640).wait(2);               // beside everything
@@ -72,7 +72,7 @@ TEST_CASE("a value typed after a double click is one entry of undo, whatever its
     if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;
     Script script;
-    script.key(Key::space).click(632, 393);
+    script.key(Key::space).click(612, 370);
     script.click(1130, 183).wait(2).click(1080, 231).wait(2);  // its shape: Box
     script.click(1070, 209).press().release().wait(40);        // its mass, far from the knob; some time goes by
     type(script, "7.5").key(Key::enter).wait(40);
@@ -91,7 +91,7 @@ TEST_CASE("a script locks a knee by the menu of its turn") {
     if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;
     Script script;
-    script.key(Key::space).click(632, 393);                   // the left lower leg
+    script.key(Key::space).click(612, 370);                   // the left lower leg
     script.click(980, 478).wait(2).click(1010, 534).wait(2);  // Flexion: Locked
     script.move(640, 640).key(Key::s, kControl).wait(2);
     const Outcome outcome = play(scratch, script);
@@ -174,7 +174,7 @@ TEST_CASE("a script saves the scene, then the ragdoll that is offered, then the 
     if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;
     Script script;
-    script.key(Key::space).click(632, 393);             // the left lower leg
+    script.key(Key::space).click(612, 370);             // the left lower leg
     script.click(1130, 209).press().release().wait(2);  // its mass
     type(script, "7.5").key(Key::enter).move(640, 640).wait(2);
     script.key(Key::s, {false, true, true}).wait(3);
@@ -205,7 +205,7 @@ TEST_CASE("a script types limits beside the bind pose, and the mark is red from 
     const Scratch scratch;
     Script script;
     std::string screenshots;
-    script.key(Key::space).click(632, 393);  // the left lower leg
+    script.key(Key::space).click(612, 370);  // the left lower leg
     const std::pair<const char*, const char*> extensions[] = {
         {"20", "green"}, {"3", "near"}, {"-0.5", "within"}, {"-1.5", "red"}};
     for (const auto& [typed, picture] : extensions) {

@@ -58,6 +58,19 @@ TEST_CASE("every named scene is framed whole between the panels of a window of a
     }
 }
 
+TEST_CASE("a doll that has fallen lies in the picture in which it began") {
+    for (const render::Extent window : {render::Extent{1280, 720}, {800, 900}}) {
+        const auto editor = test::makeEditor(sceneOf("drop", window));
+        editor->workspace().covered = panelsOf(window);
+        editor->player().setPlaying(true);
+        for (int second = 0; second < 5; ++second) {
+            INFO(second << " s at " << window.width << " x " << window.height);
+            test::pass(*editor, 60);
+            CHECK(seesAll(*editor));
+        }
+    }
+}
+
 TEST_CASE("a framed view goes along with the window until the user moves it") {
     const auto editor = test::makeEditor(sceneOf("stairs", {1280, 720}));
     editor->workspace().covered = panelsOf({1280, 720});
