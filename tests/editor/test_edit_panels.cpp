@@ -87,6 +87,55 @@ TEST_CASE("a value typed after a double click is one entry of undo, whatever its
     CHECK(now.bodies[leg].shape.kind == physics::BodyShape::Kind::capsule);
 }
 
+TEST_CASE("a script gives a thigh a second shape, whose fields come into sight, and types its width") {
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
+    const Scratch scratch;
+    Script script;
+    script.key(Key::space).click(112, 572).wait(2);           // the left thigh, in the tree
+    script.click(960, 640).wait(2).click(1172, 657).wait(4);  // More shapes, Add Box
+    type(script.click(1100, 547).press().release().wait(2), "9").key(Key::enter).wait(2);  // its half width
+    script.move(640, 640).key(Key::s, kControl).wait(2);
+    const Outcome outcome = play(scratch, script);
+    NEEDS_DISPLAY_OF(outcome);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    const physics::RagdollProfile now = saved(scratch);
+    const auto& shape = now.bodies[physics::bodyOf(now, Role::leftUpperLeg)].shape;
+    REQUIRE(shape.more.size() == 1);
+    CHECK(shape.more.front().kind == physics::BodyShape::Kind::box);
+    CHECK(shape.more.front().halfExtents.x == Approx(0.09F));
+}
+
+TEST_CASE("a script changes two measures of a fitted second shape and takes one back by a click on what it was") {
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
+    const Scratch scratch;
+    Script script;
+    script.key(Key::space).click(88, 158).wait(2).move(1100, 450);  // the spine, in the tree
+    for (int notch = 0; notch < 12; ++notch)
+        script.add(wheelTurned(-1.0F));
+    script.wait(3);
+    type(script.click(1140, 429).press().release().wait(2), "5").key(Key::enter).wait(30);   // its radius
+    type(script.click(1140, 455).press().release().wait(2), "30").key(Key::enter).wait(30);  // its length
+    script.click(1222, 429).wait(2).move(640, 640).key(Key::s, kControl).wait(2);            // "6.8 cm"
+    const Outcome outcome = play(scratch, script, " --shapes 3");
+    NEEDS_DISPLAY_OF(outcome);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    scene::LoadOptions options;
+    options.fit.mostShapes = 3;
+    const auto asset = scene::loadRagdoll(scratch.model(), options);
+    REQUIRE(asset.ok());
+    const auto second = [](const physics::RagdollProfile& profile) {
+        const auto& more = profile.bodies[physics::bodyOf(profile, Role::spine)].shape.more;
+        REQUIRE(more.size() == 2);
+        return more.front();
+    };
+    CHECK(second(saved(scratch)).radius == Approx(second(asset.value()->profile).radius));
+    const auto now = second(saved(scratch));
+    CHECK(2.0F * (now.halfLength + now.radius) == Approx(0.3F).margin(0.04));
+    CHECK(now.halfLength != Approx(second(asset.value()->profile).halfLength).margin(0.01));
+}
+
 TEST_CASE("a script locks a knee by the menu of its turn") {
     if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;

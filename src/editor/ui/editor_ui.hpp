@@ -41,6 +41,7 @@ struct UiState {
     float bottomHeight = 0.0F;
     std::map<std::string, PanelSide> tabSides;  ///< Of tabs that the user has moved.
     int doctorErrors = 0;                       ///< That the doctor's tab tells.
+    bool shapeAdded = false;                    ///< To a body, and its fields are not shown yet.
     bool showCollisions = false;
     bool draggingOverView = false;  ///< A role is dragged, and not over a panel.
     std::vector<std::filesystem::path> recent;

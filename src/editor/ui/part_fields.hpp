@@ -44,6 +44,10 @@ void fieldRow(const PartFields& fields, const char* label);
 /// Ends the row: what the value was, if it was another; whether a click on it takes the change back.
 [[nodiscard]] bool wasText(const PartFields& fields, const char* id, bool changed, const std::string& was);
 
+/// A rotation as turns about x, then y, then z of the turned axes, in degrees, and back.
+[[nodiscard]] vec3 degreesOf(const quat& rotation);
+[[nodiscard]] quat rotationFromDegrees(const vec3& angles);
+
 /// Sections of the tab.
 void drawShapeFields(const PartFields& fields);
 void drawPlaceFields(const PartFields& fields);

@@ -13,22 +13,6 @@
 namespace lutka::editor {
 namespace {
 
-// Turns about x, then y, then z of the turned axes, in degrees.
-vec3 degreesOf(const quat& rotation) {
-    vec3 angles(0);
-    glm::extractEulerAngleXYZ(glm::mat4_cast(rotation), angles.x, angles.y, angles.z);
-    // Rounding may leave a hair below 0, which would be shown as -0.
-    const auto shown = [](float radiansOf) {
-        const float value = degrees(radiansOf);
-        return std::abs(value) < 0.05F ? 0.0F : value;
-    };
-    return {shown(angles.x), shown(angles.y), shown(angles.z)};
-}
-
-quat rotationFromDegrees(const vec3& angles) {
-    return glm::normalize(glm::quat_cast(glm::eulerAngleXYZ(radians(angles.x), radians(angles.y), radians(angles.z))));
-}
-
 bool dragDegrees(const char* id, vec3& angles) {
     return ImGui::DragFloat3(id, &angles.x, 0.5F, -180.0F, 180.0F, "%.0f°");
 }
@@ -104,6 +88,21 @@ void axesField(const PartFields& fields) {
 }
 
 }  // namespace
+
+vec3 degreesOf(const quat& rotation) {
+    vec3 angles(0);
+    glm::extractEulerAngleXYZ(glm::mat4_cast(rotation), angles.x, angles.y, angles.z);
+    // Rounding may leave a hair below 0, which would be shown as -0.
+    const auto shown = [](float radiansOf) {
+        const float value = degrees(radiansOf);
+        return std::abs(value) < 0.05F ? 0.0F : value;
+    };
+    return {shown(angles.x), shown(angles.y), shown(angles.z)};
+}
+
+quat rotationFromDegrees(const vec3& angles) {
+    return glm::normalize(glm::quat_cast(glm::eulerAngleXYZ(radians(angles.x), radians(angles.y), radians(angles.z))));
+}
 
 void drawPlaceFields(const PartFields& fields) {
     const bool edited = fields.edits().jointFromBody || fields.edits().frames;
