@@ -9,7 +9,9 @@
 #include "animation/humanoid/role_hierarchy.hpp"
 #include "physics/collision/shape.hpp"
 #include "physics/doctor/broken_figure.hpp"
+#include "physics/doctor/shape_faults.hpp"
 #include "physics/fit/anatomy.hpp"
+#include "physics/fit/fit_shapes.hpp"
 #include "physics/fit/profile_plan.hpp"
 #include "physics/fit/rebind.hpp"
 #include "physics/profile/constraint_state.hpp"
@@ -40,7 +42,8 @@ class Examination {
           plan_(planOfProfile(profile, character, map)),
           places_(placesInPlan(profile, plan_)),
           anatomy_(findAnatomy(plan_)),
-          shapes_(shapesInBindPose(profile, character.skeleton)) {}
+          shapes_(shapesInBindPose(profile, character.skeleton)),
+          newShapes_(plan_, anatomy_, mostShapesOf(profile), profile.heightM) {}
 
     void checkMap(Diagnosis& diagnosis) {
         if (!hasRoles(profile_)) {
@@ -159,11 +162,9 @@ class Examination {
         }
     }
 
-    void checkShapes(Diagnosis& diagnosis) const {
-        for (std::size_t body = 0; body < profile_.bodies.size(); ++body) {
-            checkSize(diagnosis, profile_.bodies[body]);
-            checkSkin(diagnosis, body);
-        }
+    void checkShapes(Diagnosis& diagnosis) {
+        for (int body = 0; body < static_cast<int>(profile_.bodies.size()); ++body)
+            checkShape(diagnosis, body);
         for (const ConstraintProfile& c : profile_.constraints) {
             const float distance =
                 glm::distance(plan_.bodies[indexOf(c.parent)].start, plan_.bodies[indexOf(c.child)].start);
@@ -331,50 +332,21 @@ class Examination {
                                       "make the frames anew from the anatomy", true, childOf(c)});
     }
 
-    void checkSize(Diagnosis& diagnosis, const BodyProfile& body) const {
-        constexpr float kTiny = 0.008F;
-        constexpr float kHuge = 0.32F;
-        const float radius = std::min(halfWidth(body.shape, {1, 0, 0}), halfWidth(body.shape, {0, 0, 1}));
-        const float share = radius / profile_.heightM;
-        if (share >= kTiny && share <= kHuge) return;
-        diagnosis.findings.push_back({Severity::warning,
-                                      share < kTiny ? "body-tiny" : "body-huge",
-                                      body.name,
-                                      fmt::format("{:.1f} % of the height thick, expected 0.8 to 32", 100.0F * share),
-                                      "fit the shape anew",
-                                      true,
-                                      {body.name}});
+    // Another fit is no mend where it has the same fault: a cape or a coat is no capsule.
+    void checkShape(Diagnosis& diagnosis, int body) {
+        const std::string& name = profile_.bodies[body].name;
+        for (const ShapeFault& fault : shapeFaults(plan_.bodies[indexOf(body)], shapes_[body], profile_.heightM)) {
+            const bool mendable = newShapes_.without(fault.code, indexOf(body)) != nullptr;
+            const char* mend = mendable ? "fit the shape anew" : otherMend(fault.code);
+            diagnosis.findings.push_back({Severity::warning, fault.code, name, fault.measure, mend, mendable, {name}});
+        }
     }
 
-    void checkSkin(Diagnosis& diagnosis, std::size_t body) const {
-        constexpr float kStandsOut = 0.02F;
-        constexpr float kUncovered = 0.04F;
-        constexpr float kShare = 0.25F;
-        const std::vector<SkinPoint>& skin = plan_.bodies[indexOf(static_cast<int>(body))].skin;
-        const RigidTransform bodyFromStandard = inverse(shapes_[body].standardFromBody);
-        float total = 0.0F;
-        float inside = 0.0F;
-        float outside = 0.0F;
-        for (const SkinPoint& point : skin) {
-            const float distance = signedDistance(shapes_[body].shape, bodyFromStandard * point.position);
-            total += point.area;
-            if (distance < -kStandsOut * profile_.heightM) inside += point.area;
-            if (distance > kUncovered * profile_.heightM) outside += point.area;
-        }
-        if (total <= 0.0F) return;
-        const auto report = [&](const char* code, float share, const char* what) {
-            if (share <= kShare) return;
-            const std::string& name = profile_.bodies[body].name;
-            diagnosis.findings.push_back({Severity::warning,
-                                          code,
-                                          name,
-                                          fmt::format("{:.0f} % of its skin {}, at most 25", 100.0F * share, what),
-                                          "fit the shape anew, or give it another shape",
-                                          true,
-                                          {name}});
-        };
-        report("capsule-outside-skin", inside / total, "lies more than 2 % of the height inside the shape");
-        report("skin-not-covered", outside / total, "lies more than 4 % of the height outside the shape");
+    static const char* otherMend(std::string_view code) {
+        if (code == "skin-not-covered")
+            return "no other fit covers it: give the body more shapes, or what stands out a body of its own";
+        if (code == "capsule-outside-skin") return "no other fit is thinner: give the body another shape, or several";
+        return "no other fit is of another size: give the body another shape";
     }
 
     const RagdollProfile& profile_;
@@ -383,6 +355,7 @@ class Examination {
     std::vector<int> places_;  // of the profile's bodies in the plan
     Anatomy anatomy_;
     std::vector<PlacedShape> shapes_;
+    NewShapes newShapes_;
     float worstRatio_ = 1.0F;
     int brokenLimits_ = 0;
     int astray_ = 0;       // roles whose joints hang on another limb

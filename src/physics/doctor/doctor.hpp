@@ -64,7 +64,8 @@ struct Diagnosis {
 /// - `hinge-askew` a hinge axis more than 45 degrees off the anatomy's (warning)
 /// - `overlap` bodies that overlap in the bind pose though they may collide (error from 1 % of the height)
 /// - `capsule-outside-skin` a body that stands out of its skin by more than 2 % of the height at over a quarter of it
-/// - `skin-not-covered` a body more than 4 % of the height below its skin at over a quarter of it (both warnings)
+/// - `skin-not-covered` a body more than 4 % of the height below its skin at over a quarter of it (both warnings;
+///   mendable where another fit is without them)
 /// - `sides-differ` shape or mass of left and right differ by more than a tenth on a symmetric rig (warning)
 /// - `body-tiny`, `body-huge` radius below 0.8 % or above 32 % of the height (warning)
 /// - `chain-degenerate` two linked joints nearer than 0.5 % of the height (warning)

@@ -4,6 +4,7 @@
 
 #include "physics/collision/shape.hpp"
 #include "physics/doctor/doctor.hpp"
+#include "physics/doctor/shape_faults.hpp"
 #include "physics/fit/anatomy.hpp"
 #include "physics/fit/fit_shapes.hpp"
 #include "physics/fit/masses.hpp"
@@ -14,11 +15,6 @@
 namespace lutka::physics {
 namespace {
 
-bool isShapeFault(const Finding& finding) {
-    return finding.code == "body-tiny" || finding.code == "body-huge" || finding.code == "capsule-outside-skin" ||
-           finding.code == "skin-not-covered";
-}
-
 // Mends a copy of the profile, one finding after the other.
 class Mender {
   public:
@@ -27,7 +23,8 @@ class Mender {
           character_(character),
           plan_(planOfProfile(profile, character, map)),
           places_(placesInPlan(profile, plan_)),
-          anatomy_(findAnatomy(plan_)) {}
+          anatomy_(findAnatomy(plan_)),
+          newShapes_(plan_, anatomy_, mostShapesOf(profile), profile.heightM) {}
 
     [[nodiscard]] bool matches() const { return plan_.bodies.size() == profile_.bodies.size(); }
 
@@ -38,7 +35,7 @@ class Mender {
             makeEqual(finding.bodies[0], finding.bodies[1]);
         const int body = finding.bodies.empty() ? -1 : bodyNamed(profile_, finding.bodies[0]);
         if (body < 0) return;
-        if (isShapeFault(finding)) refit(body);
+        if (isShapeFault(finding.code)) refit(body, finding.code);
         if (finding.code == "hinge-reversed" || finding.code == "hinge-askew") rebuildFrames(body);
         if (finding.code == "limit-impossible" && body > 0) {
             setRange(profile_.constraints[body - 1], plan_, places_[body]);
@@ -94,9 +91,10 @@ class Mender {
     }
 
     // The frames of a body's own constraint and of those that hang on it move with it.
-    void refit(int body) {
-        if (fitted_.empty()) fitted_ = fitShapes(plan_, anatomy_, mostShapesOf(profile_));
-        const PlacedShape& shape = fitted_[places_[body]];
+    void refit(int body, std::string_view fault) {
+        const PlacedShape* found = newShapes_.without(fault, places_[body]);
+        if (found == nullptr) return;
+        const PlacedShape& shape = *found;
         const RigidTransform standardFromOld = placed()[body].standardFromBody;
         BodyProfile& target = profile_.bodies[body];
         target.shape = shape.shape;
@@ -141,7 +139,7 @@ class Mender {
     BodyPlan plan_;
     std::vector<int> places_;  // of the profile's bodies in the plan
     Anatomy anatomy_;
-    std::vector<PlacedShape> fitted_;
+    NewShapes newShapes_;
     bool balanced_ = false;
 };
 
@@ -161,10 +159,10 @@ Result<RagdollProfile> applyMends(const RagdollProfile& profile, const animation
     }
     // Shapes before what is measured on them: frames, then limits, then pairs.
     const auto order = [](const Finding& finding) {
-        return isShapeFault(finding) || finding.code == "sides-differ" ? 0
-               : finding.code == "bind-outside-limits"                 ? 2
-               : finding.code == "overlap"                             ? 3
-                                                                       : 1;
+        return isShapeFault(finding.code) || finding.code == "sides-differ" ? 0
+               : finding.code == "bind-outside-limits"                      ? 2
+               : finding.code == "overlap"                                  ? 3
+                                                                            : 1;
     };
     for (int stage = 0; stage < 4; ++stage) {
         for (const Finding& finding : findings) {

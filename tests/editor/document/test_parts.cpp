@@ -8,6 +8,7 @@
 #include "physics/profile/profile_io.hpp"
 #include "physics/rig/rig.hpp"
 #include "support/command.hpp"
+#include "support/zoo.hpp"
 
 using namespace lutka;
 using namespace lutka::editor;
@@ -415,4 +416,28 @@ TEST_CASE("the history lists all changes and goes to any of them") {
     CHECK(editor->document().profile().bodies[hand].massKg == 3.0F);
     editor->travel(-3);
     CHECK(editor->document().profile().bodies[hand].massKg == fitted);
+}
+
+TEST_CASE("a Fix that the doctor offers for a real model mends, and what no fit mends is told and not offered") {
+    NEEDS_ZOO();
+    const char* models[] = {"kaykit_rogue/Rogue_Hooded.glb", "godot_platformer_robot/platformer_player.glb",
+                            "sketchbook_boxman/boxman.glb", "khronos_rigged_figure/RiggedFigure.glb"};
+    int told = 0;
+    for (const char* model : models) {
+        const auto opened = EditorDocument::open(test::zooFile(model));
+        REQUIRE(opened.ok());
+        EditorDocument& document = *opened.value();
+        const physics::Diagnosis diagnosis = document.diagnosis();
+        for (const physics::Finding& finding : diagnosis.findings) {
+            INFO(model << ": " << finding.code << " at " << finding.place);
+            if (!document.canMend(finding)) {
+                told += finding.code == "skin-not-covered" ? 1 : 0;
+                continue;
+            }
+            const Result<void> mended = document.mend(std::span(&finding, 1));
+            CHECK(mended.ok());
+            if (mended.ok()) document.undo();
+        }
+    }
+    CHECK(told > 2);  // the Rogue's cape and weapons
 }
