@@ -208,7 +208,7 @@ TEST_CASE("the panels look as they did when they were looked at") {
     picture("scene.png");
     script.click(967, 43).click(44, 43);
     // Both thighs by the tree; the flexion of both by its slider; where that leaves the bind pose the doctor tells.
-    script.click(112, 530).move(120, 602).add(keyPressed(Key::leftShift, {}));
+    script.click(112, 572).move(120, 644).add(keyPressed(Key::leftShift, {}));
     script.add(mouseButton(MouseButton::left, true, {true, false, false}));
     script.add(mouseButton(MouseButton::left, false, {true, false, false})).add(keyReleased(Key::leftShift));
     script.drag(1170, 430, 1122, 430).release().move(640, 620);

@@ -145,7 +145,11 @@ void drawJoint(const PanelContext& context, const Tree& tree, int joint) {
     const bool open = ImGui::TreeNodeEx("##joint", flags, "%s", skeleton.names[joint].c_str());
     if (plain) ImGui::PopStyleColor();
     if (context.state.scrollToJoint == joint) {
-        ImGui::SetScrollHereY();
+        // A line that is seen stays under the mouse that clicked it.
+        const float top = ImGui::GetWindowPos().y;
+        const float bottom = top + ImGui::GetWindowHeight() - ImGui::GetStyle().ScrollbarSize;
+        const bool seen = ImGui::GetItemRectMin().y >= top && ImGui::GetItemRectMax().y <= bottom;
+        if (!seen) ImGui::SetScrollHereY();
         context.state.scrollToJoint = -1;
     }
     if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen() && body >= 0) {
