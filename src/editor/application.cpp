@@ -19,6 +19,7 @@
 #include "editor/view/quality_governor.hpp"
 #include "render/environment.hpp"
 #include "render/gl/renderer.hpp"
+#include "scene/scene_extent.hpp"
 
 namespace lutka::editor {
 namespace {
@@ -331,7 +332,11 @@ void Application::keepModelPicture() {
     const std::filesystem::path& folder = ui_->state.pictureFolder;
     if (folder.empty()) return;
     const auto file = modelPictureFile(folder, editor_->document().character().file);
-    const auto picture = smallPicture(renderer_->readPixels(), editor_->workspace().covered, size);
+    std::vector<vec3> figure;
+    scene::Simulation& simulation = editor_->player().simulation();
+    if (simulation.dollCount() > 0) scene::addExtentOfDoll(simulation, 0, 1.0F, figure);
+    const Workspace& seen = editor_->workspace();
+    const auto picture = smallPicture(renderer_->readPixels(), insetsAround(figure, seen.camera, seen.window), size);
     std::error_code failed;
     std::filesystem::create_directories(folder, failed);
     // A model without a picture is no loss.

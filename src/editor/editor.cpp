@@ -409,6 +409,7 @@ void Editor::open(const std::filesystem::path& file) {
     files_.takeAnyRig();
     files_.afterUnsaved([this, file] {
         auto opened = openModel(file, load_, document());
+        if (!opened) unread_ = file;
         if (!opened && scene::wantsAnyRig(opened.error())) files_.offerAnyRig(file);
         adopt(std::move(opened));
     });
@@ -431,11 +432,8 @@ void Editor::answerOffer(bool take) {
 }
 
 void Editor::openBeside(int step) {
-    const std::filesystem::path file = fileBeside(document().character().file, step);
-    if (file.empty()) {
-        workspace_.say(Toast::Kind::info, "No other model lies in this folder");
-        return;
-    }
+    const std::filesystem::path file = fileBeside(unread_.empty() ? document().character().file : unread_, step);
+    if (file.empty()) return workspace_.say(Toast::Kind::info, "No other model lies in this folder");
     open(file);
 }
 
@@ -475,6 +473,7 @@ bool Editor::adopt(Result<std::unique_ptr<EditorDocument>> opened, const std::st
     }
     auto player = std::make_unique<Player>(*opened.value(), clock_);
     if (workspace_.report(player->rebuild(Player::Keep::nothing))) return false;
+    unread_.clear();
     select(std::nullopt);
     workspace_.pulls.pins.clear();
     player->setPlaying(workspace_.player->playing());

@@ -185,6 +185,7 @@ class Editor {
     std::unique_ptr<StateMachine> machine_;
     scene::SimulationDrawer drawer_;
     scene::LoadOptions load_;
+    std::filesystem::path unread_;  // the last file that could not be opened, since one was: the next one is beside it
     scene::FrameLoop::Clock clock_;
     std::array<bool, kMouseButtonCount> held_{};  // pressed in the view and not released yet
     RecoveryDesk recovery_;

@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <glm/common.hpp>
+#include <utility>
 
 namespace lutka::editor {
 
@@ -28,21 +30,35 @@ fs::path modelPictureFile(const fs::path& folder, const fs::path& model) {
     return folder / fmt::format("{:016x}.png", hash);
 }
 
-render::Image smallPicture(const render::Image& view, const render::PictureInsets& covered, render::Extent size) {
-    const auto width = static_cast<float>(view.width);
-    const auto height = static_cast<float>(view.height);
-    float left = width * covered.left;
-    float top = height * covered.top;
-    float across = std::max(width * (1.0F - covered.right) - left, 1.0F);
-    float down = std::max(height * (1.0F - covered.bottom) - top, 1.0F);
-    const float wanted = size.aspect();
-    if (across > down * wanted) {
-        left += 0.5F * (across - down * wanted);
-        across = down * wanted;
-    } else {
-        top += 0.5F * (down - across / wanted);
-        down = across / wanted;
+render::PictureInsets insetsAround(std::span<const vec3> points, const render::Camera& camera, render::Extent window) {
+    vec2 low(1e9F);
+    vec2 high(-1e9F);
+    for (const vec3& point : points) {
+        const auto seen = render::project(camera, point, window);
+        if (!seen) continue;
+        low = glm::min(low, vec2(*seen));
+        high = glm::max(high, vec2(*seen));
     }
+    if (high.x <= low.x || high.y <= low.y) return {};
+    constexpr float kRoom = 0.08F;  // on each side, of the part's size
+    const vec2 size(static_cast<float>(window.width), static_cast<float>(window.height));
+    const vec2 room = kRoom * (high - low);
+    low = glm::clamp((low - room) / size, vec2(0), vec2(1));
+    high = glm::clamp((high + room) / size, vec2(0), vec2(1));
+    return {low.x, 1.0F - high.x, low.y, 1.0F - high.y};
+}
+
+render::Image smallPicture(const render::Image& view, const render::PictureInsets& around, render::Extent size) {
+    const vec2 whole(static_cast<float>(view.width), static_cast<float>(view.height));
+    const vec2 inside(1.0F - around.left - around.right, 1.0F - around.top - around.bottom);
+    const vec2 middle = whole * (vec2(around.left, around.top) + 0.5F * inside);
+    const float wanted = size.aspect();
+    vec2 part = glm::max(whole * inside, vec2(1));
+    part = {std::max(part.x, part.y * wanted), std::max(part.y, part.x / wanted)};
+    part *= std::min(1.0F, std::min(whole.x / part.x, whole.y / part.y));
+    const vec2 corner = glm::clamp(middle - 0.5F * part, vec2(0), whole - part);
+    const auto [left, top] = std::pair(corner.x, corner.y);
+    const auto [across, down] = std::pair(part.x, part.y);
     render::Image picture(size, {});
     const auto clamped = [](float at, int count) { return std::clamp(static_cast<int>(at), 0, count - 1); };
     for (int y = 0; y < size.height; ++y) {

@@ -47,7 +47,10 @@ bool drawFinding(const PanelContext& context, const Finding& finding) {
     const bool mendable = context.editor.document().canMend(finding);
     bool mend = false;
     if (mendable) mend = ImGui::SmallButton("Fix");
-    if (!finding.bodies.empty()) {
+    const physics::RagdollProfile& profile = context.editor.document().profile();
+    const bool seen = std::any_of(finding.bodies.begin(), finding.bodies.end(),
+                                  [&](const std::string& name) { return physics::bodyNamed(profile, name) >= 0; });
+    if (seen) {
         if (mendable) ImGui::SameLine();
         if (ImGui::SmallButton("Show")) show(context.editor, finding);
     }

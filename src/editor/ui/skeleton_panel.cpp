@@ -74,13 +74,15 @@ void bodyMenu(const PanelContext& context, int joint, int body) {
 
 void assignMenu(const PanelContext& context, int joint) {
     const animation::HumanoidMap& map = context.editor.document().state().map;
-    ImGui::TextColored(mutedColor(), "This joint is the figure's …");
+    // A menu of its own: beside what is done to bodies a slip of the mouse would map the joint.
+    if (!ImGui::BeginMenu("This joint is the figure's …")) return;
     std::optional<Role> chosen;
     for (int i = 0; i < animation::kRoleCount; ++i) {
         const Role role = animation::roleAt(i);
         const bool mine = map.jointOf(role) == joint;
         if (ImGui::MenuItem(std::string(animation::roleName(role)).c_str(), nullptr, mine) && !mine) chosen = role;
     }
+    ImGui::EndMenu();
     if (chosen) context.editor.edit([&](EditorDocument& document) { return document.assignRole(*chosen, joint); });
 }
 
@@ -200,8 +202,15 @@ void drawMissingRoles(const PanelContext& context) {
     const animation::HumanoidMap& map = context.editor.document().state().map;
     if (map.missing.empty()) return;
     ImGui::TextColored(warningColor(), "Without a joint (drag to one):");
+    bool first = true;
     for (const Role role : map.missing) {
-        ImGui::SmallButton(std::string(animation::roleName(role)).c_str());
+        const std::string name(animation::roleName(role));
+        const ImGuiStyle& style = ImGui::GetStyle();
+        const float width = ImGui::CalcTextSize(name.c_str()).x + 2.0F * style.FramePadding.x;
+        const float end = ImGui::GetItemRectMax().x + style.ItemSpacing.x + width;
+        if (!first && end < ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x) ImGui::SameLine();
+        first = false;
+        ImGui::SmallButton(name.c_str());
         dragRole(role);
     }
 }
@@ -214,11 +223,12 @@ void drawSkeletonTab(const PanelContext& context) {
     ImGui::InputTextWithHint("##search", "search joints", &context.state.jointFilter);
     const animation::Skeleton& skeleton = context.editor.document().character().skeleton;
     drawMissingRoles(context);
+    ImGui::PushID(
+        context.editor.characterRevision());  // what is folded, and how far it is scrolled, is another model's affair
     ImGui::BeginChild("##tree", {0, 0}, true, ImGuiWindowFlags_HorizontalScrollbar);
     ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, context.px(11));
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(context.px(6), context.px(3)));
     const Tree tree = makeTree(context.editor.document());
-    ImGui::PushID(context.editor.characterRevision());  // what is folded is another model's affair
     bool found = context.state.jointFilter.empty();
     for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
         if (!context.state.jointFilter.empty()) {
@@ -229,10 +239,10 @@ void drawSkeletonTab(const PanelContext& context) {
             drawJoint(context, tree, joint);
         }
     }
-    ImGui::PopID();
     ImGui::PopStyleVar(2);
     if (!found) mutedText("No joint's name has that in it. Empty the field to see all.");
     ImGui::EndChild();
+    ImGui::PopID();
 }
 
 }  // namespace lutka::editor

@@ -6,6 +6,7 @@
 #include "editor/files/folder_files.hpp"
 #include "editor/files/model_pictures.hpp"
 #include "editor/sessions.hpp"
+#include "scene/scene_extent.hpp"
 #include "support/command.hpp"
 
 using namespace lutka;
@@ -55,6 +56,30 @@ TEST_CASE("the next and the previous model of a folder go round") {
     CHECK(fileBeside(folder.path / "c.gltf", 1).empty());
 }
 
+TEST_CASE("a file that can't be read does not end the way through a folder") {
+    const test::ScratchFolder folder;
+    for (const char* name : {"a.glb", "c.glb"})
+        fs::copy_file(LUTKA_ASSETS_DIR "/models/mannequin.glb", folder.path / name);
+    write(folder.path / "b.glb", "half a file", 0);
+    EditorOptions options;
+    options.model = folder.path / "a.glb";
+    auto made = Editor::create(options);
+    REQUIRE(made.ok());
+    Editor& editor = *made.value();
+    const auto name = [&] { return editor.document().character().file.filename(); };
+    editor.perform(Action::nextFile);
+    CHECK(name() == "a.glb");
+    CHECK(editor.workspace().toasts.back().kind == Toast::Kind::error);
+    editor.perform(Action::nextFile);
+    CHECK(name() == "c.glb");
+    editor.perform(Action::previousFile);
+    CHECK(name() == "c.glb");
+    editor.perform(Action::previousFile);
+    CHECK(name() == "a.glb");
+    editor.perform(Action::previousFile);
+    CHECK(name() == "c.glb");
+}
+
 TEST_CASE("a model that another program has written is read again, with the user's edits") {
     const test::ScratchFolder folder;
     const fs::path model = folder.path / "hero.glb";
@@ -86,16 +111,34 @@ TEST_CASE("a model that another program has written is read again, with the user
     CHECK(editor.workspace().toasts.back().kind == Toast::Kind::error);
 }
 
-TEST_CASE("the small picture of a model is the middle of the free view") {
+TEST_CASE("the small picture of a model shows all of its figure, and more of the view beside it") {
     render::Image view({200, 100}, {10, 20, 30, 255});
-    for (int y = 0; y < 100; ++y) {
-        for (int x = 100; x < 200; ++x)
+    for (int y = 0; y < 40; ++y) {
+        for (int x = 100; x < 120; ++x)
             view.set(x, y, {200, 100, 50, 255});
     }
-    const render::Image picture = smallPicture(view, {0.5F, 0.0F, 0.0F, 0.0F}, {16, 10});
+    const render::Image picture = smallPicture(view, {0.5F, 0.4F, 0.0F, 0.6F}, {16, 10});
     CHECK(picture.width == 16);
-    CHECK(picture.at(8, 5).r == 200);
-    CHECK(picture.at(0, 0).g == 100);
+    CHECK(picture.at(8, 0).r == 200);
+    CHECK(picture.at(8, 9).r == 200);
+    CHECK(picture.at(0, 5).r == 10);
+    CHECK(picture.at(15, 5).r == 10);
+    // A part at the edge, and one that is the whole view.
+    CHECK(smallPicture(view, {0.0F, 0.9F, 0.0F, 0.0F}, {16, 10}).at(0, 0).r == 10);
+    CHECK(smallPicture(view, {}, {10, 20}).at(5, 5).r == 200);
+
+    const auto editor = test::makeEditor();
+    std::vector<vec3> figure;
+    scene::addExtentOfDoll(editor->player().simulation(), 0, 1.0F, figure);
+    const Workspace& seen = editor->workspace();
+    const render::PictureInsets around = insetsAround(figure, seen.camera, seen.window);
+    for (const vec3& point : figure) {
+        const auto at = render::project(seen.camera, point, seen.window);
+        REQUIRE(at.has_value());
+        CHECK(at->x > around.left * static_cast<float>(seen.window.width));
+        CHECK(at->y > around.top * static_cast<float>(seen.window.height));
+        CHECK(at->y < (1.0F - around.bottom) * static_cast<float>(seen.window.height));
+    }
     const fs::path folder("pictures");
     CHECK(modelPictureFile(folder, "/a/hero.glb") != modelPictureFile(folder, "/b/hero.glb"));
     CHECK(modelPictureFile(folder, "/a/hero.glb") == modelPictureFile(folder, "/a/x/../hero.glb"));
