@@ -118,6 +118,19 @@ render::Extent shareOf(render::Extent pixels, float share) {
     return {part(pixels.width), part(pixels.height)};
 }
 
+// A window that was not asked for by its size has room for its panels.
+render::Extent widened(GLFWwindow* window, render::Extent usual, float scale) {
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    if (monitor == nullptr) return usual;
+    int x = 0;
+    int y = 0;
+    render::Extent free;
+    glfwGetMonitorWorkarea(monitor, &x, &y, &free.width, &free.height);
+    const render::Extent size = windowSizeFor(usual, scale, free);
+    if (size.width != usual.width || size.height != usual.height) glfwSetWindowSize(window, size.width, size.height);
+    return size;
+}
+
 Result<void> Application::start() {
     windowSize_ = options_.input ? options_.input->size : options_.editor.window;
     const auto quality = options_.headless ? render::RenderQuality::best : options_.quality;
@@ -129,6 +142,7 @@ Result<void> Application::start() {
     const float scale = chosen > 0.0F ? chosen : monitorScale(context_);
     host_ = std::make_unique<ImguiHost>(scale);
     if (context_.window() != nullptr) {
+        if (options_.windowFollowsScale) windowSize_ = widened(context_.window(), windowSize_, scale);
         window_ = std::make_unique<WindowInput>(context_.window());
         host_->useClipboard([window = context_.window()] { return glfwGetClipboardString(window); },
                             [window = context_.window()](const char* text) { glfwSetClipboardString(window, text); });

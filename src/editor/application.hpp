@@ -25,6 +25,8 @@ struct ApplicationOptions {
     std::vector<Screenshot> screenshots;
     std::optional<int> frames;  ///< Ends after so many; headless needs this, an input or a screenshot to end.
     float uiScale = 0.0F;       ///< 0: the monitor's.
+    /// The window is larger by the scale of the panels, as far as the monitor has room.
+    bool windowFollowsScale = false;
     bool vsync = true;
     /// Without a window every picture is `best`: only those that are kept are drawn at all.
     render::RenderQuality quality = render::RenderQuality::automatic;

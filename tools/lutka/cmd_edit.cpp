@@ -21,7 +21,7 @@ struct EditCommandOptions {
     std::filesystem::path recovery;
     std::vector<std::string> screenshots;
     std::optional<int> frames;
-    std::string size = "1280x720";
+    std::string size;
     float uiScale = 0.0F;
     bool noVsync = false;
     std::string quality = "auto";
@@ -58,7 +58,8 @@ editor::ApplicationOptions applicationOptions(EditCommandOptions& options) {
     edit.scene.count = options.scene.count.value_or(1);
     edit.scene.seed = options.scene.seed.value_or(0);
     edit.applyToWorld = [given = options.scene](physics::WorldSettings& world) { given.applyTo(world); };
-    edit.window = parseSize(options.size);
+    application.windowFollowsScale = options.size.empty() && options.input.empty();
+    if (!options.size.empty()) edit.window = parseSize(options.size);
     edit.playing = !options.paused;
     application.headless = options.headless;
     if (!options.input.empty()) application.input = orLeave(editor::loadScript(options.input));
@@ -110,7 +111,7 @@ void addEdit(const Command& app) {
                    "scripts");
     command.option("--screenshot-at", options->screenshots, "FRAME:FILE.png, as often as wanted").oneValueEach();
     command.option("--frames", options->frames, "end after so many frames").range(1, 10000000);
-    command.option("--size", options->size, "window size, WxH").showDefault();
+    command.option("--size", options->size, "window size, WxH; default: 1280x720, times the size of the panels");
     command.option("--ui-scale", options->uiScale, "size of the panels; default: the monitor's").range(0.5, 4.0);
     command.option("--quality", options->quality, "of the picture: best, fast, or auto: fast where a processor draws")
         .oneOf({"auto", "best", "fast"})

@@ -20,4 +20,13 @@ float uiScaleFor(const MonitorMeasures& monitor) {
     return std::clamp(std::floor(std::min(byLines, byDpi) / step + 0.01F) * step, 1.0F, most);
 }
 
+render::Extent windowSizeFor(render::Extent usual, float scale, render::Extent free) {
+    constexpr float share = 0.9F;
+    const auto length = [&](int own, int room) {
+        const float wanted = std::min(static_cast<float>(own) * scale, static_cast<float>(room) * share);
+        return std::max(static_cast<int>(wanted), own);
+    };
+    return {length(usual.width, free.width), length(usual.height, free.height)};
+}
+
 }  // namespace lutka::editor

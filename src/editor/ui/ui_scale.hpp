@@ -1,5 +1,7 @@
 #pragma once
 
+#include "render/extent.hpp"
+
 namespace lutka::editor {
 
 /// What the window system tells of a monitor; 0: it does not.
@@ -12,5 +14,9 @@ struct MonitorMeasures {
 /// How much larger than on 96 dots per inch panels are to be: the user's own setting; where that says nothing, by the
 /// size of a pixel, so that a small 4K screen has panels that can be read. [0.75, 4].
 [[nodiscard]] float uiScaleFor(const MonitorMeasures& monitor);
+
+/// The window for panels of that scale: larger with them, and at most nine tenths of what the monitor has free; never
+/// smaller than `usual`.
+[[nodiscard]] render::Extent windowSizeFor(render::Extent usual, float scale, render::Extent free);
 
 }  // namespace lutka::editor

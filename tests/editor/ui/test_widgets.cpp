@@ -32,3 +32,14 @@ TEST_CASE("panels have a size that can be read on any monitor") {
     CHECK(uiScaleFor({1.0F, 0, 0.0F}) == 1.0F);
     CHECK(uiScaleFor({1.0F, 768, 0.0F}) == 1.0F);
 }
+
+TEST_CASE("a window whose size was not asked for grows with its panels, as far as the monitor has room") {
+    const auto size = [](float scale, lutka::render::Extent free) { return windowSizeFor({1280, 720}, scale, free); };
+    CHECK(size(1.0F, {1920, 1080}).width == 1280);
+    CHECK(size(2.0F, {3840, 2160}).width == 2560);
+    CHECK(size(2.0F, {3840, 2160}).height == 1440);
+    CHECK(size(3.0F, {3840, 2100}).width == 3456);
+    CHECK(size(3.0F, {3840, 2100}).height == 1890);
+    CHECK(size(2.0F, {1280, 720}).width == 1280);
+    CHECK(size(0.75F, {1920, 1080}).height == 720);
+}
