@@ -358,3 +358,17 @@ TEST_CASE("a script exports the ragdoll for an engine by the keyboard alone") {
     REQUIRE(fs::exists(scratch / "mannequin_ragdoll.xml"));
     CHECK_THAT(fileText(scratch / "mannequin_ragdoll.xml"), Catch::StartsWith("<mujoco"));
 }
+
+TEST_CASE("Esc in a list of a dialog closes the list alone") {
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
+    const Scratch scratch;
+    Script script;
+    script.key(Key::space).move(640, 640).key(Key::e, {true, true, false}).wait(4);
+    script.click(640, 461).wait(3).key(Key::escape).wait(3);  // the list of formats
+    script.click(434, 529).wait(4);                           // Save
+    const Outcome outcome = play(scratch, script);
+    NEEDS_DISPLAY_OF(outcome);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    CHECK(fs::exists(scratch / "mannequin_ragdoll.xml"));
+}

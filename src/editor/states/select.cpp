@@ -31,6 +31,10 @@ class SelectHandler final : public StateHandler {
         if (const auto gizmo = workspace_.gizmo())
             drawGizmo(*gizmo, workspace_.hotGizmo, workspace_.camera, workspace_.overlay);
         if (workspace_.tool == Tool::hit && showHit()) return;
+        if (workspace_.tool == Tool::hit) {
+            workspace_.hint = "Point at a body: a click hits it   wheel over it: harder or softer   T: the next tool";
+            return;
+        }
         const auto active = workspace_.selection.active();
         const char* last = active && active->kind == Item::Kind::body ? "P pin  X remove" : "X delete";
         if (workspace_.hotHandle && active && active->kind == Item::Kind::body) {

@@ -10,14 +10,17 @@ namespace lutka::editor {
 
 namespace {
 
-// Dear ImGui closes menus and lists by a click beside them alone, unless it has the keyboard for navigation.
-void closePopupByEscape() {
+// Dear ImGui closes menus and lists by a click beside them alone, unless it has the keyboard for navigation. Whether
+// one was closed.
+bool closePopupByEscape() {
     const ImGuiContext& imgui = *ImGui::GetCurrentContext();
     const int open = imgui.OpenPopupStack.Size;
-    if (open == 0 || !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) return;
+    if (open == 0 || !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) return false;
     const ImGuiWindow* window = imgui.OpenPopupStack[open - 1].Window;
-    if (window == nullptr || (window->Flags & ImGuiWindowFlags_Modal) != 0) return;  // dialogs have an answer for it
+    if (window == nullptr || (window->Flags & ImGuiWindowFlags_Modal) != 0)
+        return false;  // dialogs have an answer for it
     ImGui::ClosePopupToLevel(open - 1, true);
+    return true;
 }
 
 // What a drag changes is one entry of undo. A click may be the first of two, after which a value is typed: all of that
@@ -41,7 +44,7 @@ void endGroups(Editor& editor, UiState& state) {
 
 void EditorUi::build(Editor& editor, const FrameHistory& history) {
     const PanelContext context{editor, state, history, host_.fonts(), host_.scale()};
-    closePopupByEscape();
+    state.escapeTaken = closePopupByEscape();
     drawMenuBar(context);
     drawStatusBar(context);
     if (editor.view.panels) {

@@ -63,6 +63,7 @@ struct UiState {
     float toolsRight = 0.0F;        ///< Where the view begins beside the tools, in a narrow one; else 0.
     float transportBottom = 0.0F;   ///< Window units: where the view begins below it.
     AmendStats amendStats;          ///< May be empty.
+    bool escapeTaken = false;       ///< In this frame, by a list or menu that it closed: no dialog below it ends.
     int copies = 8;                 ///< Of "Drop copies".
     std::optional<Item> shownItem;  ///< What panels showed last, to notice a new selection.
 };

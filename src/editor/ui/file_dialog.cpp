@@ -354,7 +354,8 @@ void drawFileDialog(const PanelContext& context) {
     const ImVec2 button(context.px(110), 0);
     if (ImGui::Button(opens(editor.dialog) ? "Open" : "Save", button)) done = enter(state);
     ImGui::SameLine();
-    const bool cancelled = ImGui::Button("Cancel", button) || ImGui::IsKeyPressed(static_cast<int>(Key::escape), false);
+    const bool escape = ImGui::IsKeyPressed(static_cast<int>(Key::escape), false) && !state.escapeTaken;
+    const bool cancelled = ImGui::Button("Cancel", button) || escape;
     if (done || cancelled) {
         const Editor::Dialog dialog = std::exchange(editor.dialog, Editor::Dialog::none);
         ImGui::CloseCurrentPopup();
