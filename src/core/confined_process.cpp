@@ -103,7 +103,8 @@ class Child {
 };
 
 Error cannotStart(const std::string& program, int why) {
-    return {ErrorCode::internal, std::string("can't be started: ") + std::strerror(why), program, ""};
+    return {ErrorCode::internal, std::string("can't be started: ") + std::strerror(why), program,
+            "raise the limits on open files and processes, or end other programs"};
 }
 
 int spawn(const std::vector<std::string>& arguments, int output, int printed, pid_t& pid) {

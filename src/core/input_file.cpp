@@ -18,7 +18,8 @@ Error inputError(const std::filesystem::path& file, std::string message) {
 }
 
 Error unreadable(const std::filesystem::path& file, int why) {
-    return inputError(file, fmt::format("can't be read: {}", std::strerror(why)));
+    const char* const mend = why == EACCES || why == EPERM ? "check the permissions of the file and its folders" : "";
+    return {ErrorCode::input, fmt::format("can't be read: {}", std::strerror(why)), file.string(), mend};
 }
 
 }  // namespace

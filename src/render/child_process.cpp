@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -34,12 +35,9 @@ std::string tailOf(int file) {
     return text;
 }
 
-// An unlinked file: nothing to clean up, and no pipe that could fill and block the program.
+// A file in memory: no folder that has to be writable, and no pipe that could fill and block the program.
 int openErrorFile() {
-    std::string name = (std::filesystem::temp_directory_path() / "lutka-errors-XXXXXX").string();
-    const int file = ::mkostemp(name.data(), O_CLOEXEC);
-    if (file >= 0) ::unlink(name.c_str());
-    return file;
+    return ::memfd_create("lutka-errors", MFD_CLOEXEC);
 }
 
 int spawn(const std::vector<std::string>& arguments, int input, int errors, pid_t& pid) {

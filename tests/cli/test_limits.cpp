@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -51,4 +53,28 @@ TEST_CASE("a scene of as many entities as a file may have is checked and run, on
     const CommandResult more = runCommand(kProgram + "scene '" + file + "'");
     CHECK(more.code == 3);
     CHECK_THAT(more.err, Catch::Contains("20000"));
+}
+
+TEST_CASE("a file that we may not read is told as that, whatever reads it") {
+    const ScratchFolder folder;
+    // root reads everything, unless it lays that down.
+    const std::string plain = ::geteuid() == 0 ? "setpriv --bounding-set -dac_override,-dac_read_search " : "";
+    const std::vector<std::pair<std::string, std::string>> uses = {
+        {"figure.glb", "check "},
+        {"figure.fbx", "check "},
+        {"figure.dae", "check "},
+        {"figure.glb", "check --in-process "},
+        {"doll.ragdoll.json", "check " + kMannequinArgument + " --profile "},
+        {"place.scene.json", "scene "}};
+    for (const auto& [name, command] : uses) {
+        INFO(command << name);
+        const std::string file = folder / name;
+        std::ofstream(file) << "kept from others";
+        std::filesystem::permissions(file, std::filesystem::perms::none);
+        const CommandResult result = runCommand(plain + kProgram + command + shellQuoted(file));
+        CHECK(result.code == 3);
+        CHECK_THAT(result.err, Catch::Contains(name) && Catch::Contains("Permission denied") &&
+                                   Catch::Contains("permissions of the file"));
+        std::filesystem::remove(file);
+    }
 }

@@ -87,6 +87,39 @@ TEST_CASE("a film that the disk has no room for ends with 5, keeps the old one a
     CHECK(filesIn(folder.path) == 1);
 }
 
+TEST_CASE("a limit on the size of files is told like a full disk, and leaves nothing") {
+    const ScratchFolder folder;
+    const std::string limited = "ulimit -f 1; cd '" + folder.path.string() + "'; ";
+    const std::vector<std::pair<std::string, std::string>> outputs = {
+        {"build -o big.ragdoll.json", "big.ragdoll.json"},
+        {"simulate --seconds 0.5 --out big.glb", "big.glb"},
+        {"simulate --seconds 1 --record big.rec", "big.rec"},
+        {"report -o big.html", "big.html"},
+        {"inspect --json", "standard output"},
+    };
+    for (const auto& [command, told] : outputs) {
+        INFO(command);
+        // The program's own prints go to files as well, but for stdout's they stay below the limit.
+        const std::string printed = told == "standard output" ? " >printed" : "";
+        const CommandResult result = shell(limited + kLutka + command + " " + kMannequinArgument + printed);
+        CHECK(result.code == 5);
+        CHECK_THAT(result.err, Catch::Contains(told));
+        fs::remove(folder.path / "printed");
+        CHECK(filesIn(folder.path) == 0);
+    }
+}
+
+TEST_CASE("a film needs no folder for temporary files") {
+    NEEDS_PROGRAM("ffmpeg");
+    const ScratchFolder folder;
+    const std::string film = folder / "fall.mp4";
+    const CommandResult result =
+        runCommand("TMPDIR=/nonexistent " + kLutka + "render --seconds 0.2 -o " + film + " " + kMannequinArgument);
+    NEEDS_DISPLAY_OF(result);
+    CHECK(result.code == 0);
+    CHECK(fs::file_size(film) > 0);
+}
+
 TEST_CASE("an encoder that says it succeeded and left half a film is not believed") {
     const ScratchFolder folder;
     std::ofstream(folder / "ffmpeg") << "#!/bin/sh\nfor last; do :; done\ncat >/dev/null\n"

@@ -57,12 +57,13 @@ void installInterruptHandler() {
     struct sigaction timeUp {};
     timeUp.sa_handler = onTimeUp;
     ::sigaction(SIGALRM, &timeUp, nullptr);
-    // A reader that closed its end of our output is an output error like a full disk. A handler instead of SIG_IGN,
-    // which the programs that we start would inherit.
-    struct sigaction pipe {};
-    pipe.sa_handler = [](int) {};
-    pipe.sa_flags = SA_RESTART;
-    ::sigaction(SIGPIPE, &pipe, nullptr);
+    // A reader that closed its end of our output, or a limit on the size of files (ulimit -f), is an output error like
+    // a full disk. A handler instead of SIG_IGN, which the programs that we start would inherit.
+    struct sigaction outputFails {};
+    outputFails.sa_handler = [](int) {};
+    outputFails.sa_flags = SA_RESTART;
+    for (const int number : {SIGPIPE, SIGXFSZ})
+        ::sigaction(number, &outputFails, nullptr);
     struct sigaction action {};
     action.sa_handler = onSignal;
     for (const int number : {SIGINT, SIGTERM, SIGHUP})

@@ -19,6 +19,7 @@
 #include "animation/import/source_limits.hpp"
 #include "animation/import/unread_format.hpp"
 #include "animation/import/uri.hpp"
+#include "core/input_file.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {
@@ -70,7 +71,9 @@ Result<SourceScene> readSource(const fs::path& file, const ImportOptions& option
     if (!fs::exists(status)) return cannotRead(file, "there is no such file");
     if (fs::is_directory(status)) return cannotRead(file, "is a folder, not a model");
     if (!fs::is_regular_file(status)) return cannotRead(file, "is a device or a pipe, not a model");
-    const std::uintmax_t size = fs::file_size(file, ignored);
+    const Result<InputFile> opened = InputFile::open(file);
+    if (!opened) return opened.error();  // third parties would not say why
+    const std::size_t size = opened.value().size();
     if (size == 0) return cannotRead(file, "is empty");
     if (size > kMaxFileBytes) return tooLargeFile(file.string());
     const std::string start = firstBytes(file);
