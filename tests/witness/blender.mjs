@@ -13,8 +13,14 @@ run('export', model, '-o', script);
 const out = path.join(folder, `${stem}.blender.json`);
 const drop = path.join(import.meta.dirname, 'blender_drop.py');
 execFileSync('blender', ['-b', '--factory-startup', '--python-exit-code', '1', '--python', drop, '--', script, out], { stdio: ['ignore', 'ignore', 'inherit'], timeout: 600000 });
-const { masses, steps } = JSON.parse(fs.readFileSync(out, 'utf8'));
-for (const body of profile.bodies) checks.near(masses[body.name], body.massKg, 1e-5, `mass of ${body.name}`);
+const { masses, shapes, steps } = JSON.parse(fs.readFileSync(out, 'utf8'));
+for (const body of profile.bodies) {
+  checks.near(masses[body.name], body.massKg, 1e-5, `mass of ${body.name}`);
+  const { kind, radius, halfLength, halfExtents } = body.shape;
+  const sizes = kind === 'box' ? halfExtents : [radius, radius, radius + (halfLength ?? 0)];  // a capsule's axis is z there
+  checks.that(shapes[body.name].kind === kind.toUpperCase(), `kind of the shape of ${body.name}: ${shapes[body.name].kind}`);
+  checks.near(shapes[body.name].size, sizes.map((x) => 2 * x), 1e-3, `sizes of ${body.name}`);
+}
 let start = 0;
 let separation = 0;
 const violations = [];

@@ -42,5 +42,6 @@ for frame in range(1, 362):
     scene.frame_set(frame)
     steps.append(places())
 masses = {name: body.rigid_body.mass for name, body in bodies.items()}
+shapes = {name: {'kind': body.rigid_body.collision_shape, 'size': list(body.dimensions)} for name, body in bodies.items()}
 with open(out, 'w') as file:
-    json.dump({'masses': masses, 'steps': steps}, file)
+    json.dump({'masses': masses, 'shapes': shapes, 'steps': steps}, file)

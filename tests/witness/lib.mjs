@@ -43,6 +43,11 @@ export class Checks {
   }
 }
 
+/** The numbers of a shape, in the order that MuJoCo lists them in: radius, half the length between the caps; half extents. */
+export function shapeSizes({ kind, radius, halfLength, halfExtents }) {
+  return { capsule: [radius, halfLength], sphere: [radius], box: halfExtents }[kind];
+}
+
 /** Names as the exporters write them (bodyName() in src/export/doll_layout.cpp). */
 function exportNames(profile) {
   const words = profile.bodies.map(({ name }) => {

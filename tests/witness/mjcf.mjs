@@ -4,9 +4,10 @@ import loadMujoco from '@mujoco/mujoco';
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { Checks, multiply, ourRestHeight, profileOf, rotate, run } from './lib.mjs';
+import { Checks, multiply, ourRestHeight, profileOf, rotate, run, shapeSizes } from './lib.mjs';
 
 const [model, folder] = process.argv.slice(2);
+const geomTypes = { sphere: 2, capsule: 3, box: 6 };  // mjtGeom
 const sorted = (values) => [...values].sort((a, b) => a - b);
 const stem = path.parse(model).name;
 const file = path.join(folder, `${stem}.xml`);
@@ -30,7 +31,11 @@ async function readByMujoco3() {
   const three = (array, i) => [...array.slice(3 * i, 3 * i + 3)];
   const bodies = {};
   for (let i = 1; i < m.nbody; i++) {
-    bodies[name(mj.mjtObj.mjOBJ_BODY, i)] = { mass: m.body_mass[i], inertia: three(m.body_inertia, i), ipos: three(m.body_ipos, i) };
+    bodies[name(mj.mjtObj.mjOBJ_BODY, i)] = { mass: m.body_mass[i], inertia: three(m.body_inertia, i), ipos: three(m.body_ipos, i), geoms: [] };
+  }
+  for (let i = 0; i < m.ngeom; i++) {
+    const body = bodies[name(mj.mjtObj.mjOBJ_BODY, m.geom_bodyid[i])];
+    if (body) body.geoms.push({ type: m.geom_type[i], size: three(m.geom_size, i) });
   }
   const joints = {};
   for (let i = 1; i < m.njnt; i++) {
@@ -50,6 +55,9 @@ function compare(name, read) {
     checks.near(got.mass, body.massKg, 1e-6, `mass of ${body.name}`);
     // MuJoCo sorts principal axes when it must; ours come in the body's axes.
     checks.near(sorted(got.inertia), sorted(body.inertia), 1e-6, `inertia of ${body.name}`);
+    const sizes = shapeSizes(body.shape);
+    checks.that(got.geoms[0]?.type === geomTypes[body.shape.kind], `kind of the shape of ${body.name}: ${got.geoms[0]?.type}`);
+    checks.near(sorted(got.geoms[0]?.size.slice(0, sizes.length) ?? []), sorted(sizes), 1e-6, `sizes of ${body.name}`);
     checks.near(got.ipos, [0, 0, 0], 1e-6, `centre of mass of ${body.name}`);
   }
   for (const c of profile.constraints) {

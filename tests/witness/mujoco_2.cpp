@@ -26,7 +26,13 @@ int main(int argc, char** argv) {
     for (int i = 1; i < m->nbody; ++i) {
         std::printf("%s\"%s\": {\"mass\": %.17g, ", i > 1 ? ", " : "", mj_id2name(m, mjOBJ_BODY, i), m->body_mass[i]);
         printArray("inertia", m->body_inertia + 3 * i, 3, ", ");
-        printArray("ipos", m->body_ipos + 3 * i, 3, "}");
+        printArray("ipos", m->body_ipos + 3 * i, 3, ", \"geoms\": [");
+        for (int k = 0; k < m->body_geomnum[i]; ++k) {
+            const int geom = m->body_geomadr[i] + k;
+            std::printf("%s{\"type\": %d, ", k > 0 ? ", " : "", m->geom_type[geom]);
+            printArray("size", m->geom_size + 3 * geom, 3, "}");
+        }
+        std::printf("]}");
     }
     std::printf("}, \"joints\": {");
     for (int i = 1; i < m->njnt; ++i) {

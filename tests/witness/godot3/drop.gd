@@ -27,8 +27,13 @@ func _facts():
 	for body in skeleton.get_children():
 		var fact = {"mass": body.mass, "bone": body.get_bone_id(), "joint": body.joint_type, "exceptions": body.get_collision_exceptions().size()}
 		var shape = body.get_node("Shape").shape
-		fact["radius"] = shape.radius
-		fact["height"] = shape.height
+		fact["shape"] = shape.get_class()
+		if shape is BoxShape:
+			fact["sizes"] = [shape.extents.x, shape.extents.y, shape.extents.z]
+		elif shape is CapsuleShape:
+			fact["sizes"] = [shape.radius, shape.height / 2]
+		else:
+			fact["sizes"] = [shape.radius]
 		for name in ["angular_limit_lower", "angular_limit_upper", "x/angular_limit_lower", "x/angular_limit_upper", "y/angular_limit_lower", "y/angular_limit_upper", "z/angular_limit_lower", "z/angular_limit_upper"]:
 			fact[name] = body.get("joint_constraints/" + name)
 		facts[body.name] = fact
