@@ -2,7 +2,7 @@
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { Checks, measure, ourRestHeight, profileOf, run } from './lib.mjs';
+import { Checks, measure, ourRestHeight, plainShape, profileOf, run } from './lib.mjs';
 
 const [model, folder] = process.argv.slice(2);
 const stem = path.parse(model).name;
@@ -16,10 +16,11 @@ execFileSync('blender', ['-b', '--factory-startup', '--python-exit-code', '1', '
 const { masses, shapes, steps } = JSON.parse(fs.readFileSync(out, 'utf8'));
 for (const body of profile.bodies) {
   checks.near(masses[body.name], body.massKg, 1e-5, `mass of ${body.name}`);
-  const { kind, radius, halfLength, halfExtents } = body.shape;
-  const sizes = kind === 'box' ? halfExtents : [radius, radius, radius + (halfLength ?? 0)];  // a capsule's axis is z there
+  const { kind, sizes } = plainShape(body.shape);
+  const [radius, halfLength = 0] = sizes;
+  const half = kind === 'box' ? sizes : [radius, radius, radius + halfLength];  // a capsule's axis is z there
   checks.that(shapes[body.name].kind === kind.toUpperCase(), `kind of the shape of ${body.name}: ${shapes[body.name].kind}`);
-  checks.near(shapes[body.name].size, sizes.map((x) => 2 * x), 1e-3, `sizes of ${body.name}`);
+  checks.near(shapes[body.name].size, half.map((x) => 2 * x), 1e-3, `sizes of ${body.name}`);
 }
 let start = 0;
 let separation = 0;

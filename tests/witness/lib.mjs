@@ -43,9 +43,11 @@ export class Checks {
   }
 }
 
-/** The numbers of a shape, in the order that MuJoCo lists them in: radius, half the length between the caps; half extents. */
-export function shapeSizes({ kind, radius, halfLength, halfExtents }) {
-  return { capsule: [radius, halfLength], sphere: [radius], box: halfExtents }[kind];
+/** A shape as exporters write it (a capsule without length is a sphere): its kind, and its numbers: radius, half the length
+ * between the caps; half extents. */
+export function plainShape({ kind, radius, halfLength, halfExtents }) {
+  if (kind === 'sphere' || halfLength === 0) return { kind: 'sphere', sizes: [radius] };
+  return { kind, sizes: kind === 'box' ? halfExtents : [radius, halfLength] };
 }
 
 /** Names as the exporters write them (bodyName() in src/export/doll_layout.cpp). */

@@ -4,7 +4,7 @@ import loadMujoco from '@mujoco/mujoco';
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { Checks, multiply, ourRestHeight, profileOf, rotate, run, shapeSizes } from './lib.mjs';
+import { Checks, multiply, ourRestHeight, plainShape, profileOf, rotate, run } from './lib.mjs';
 
 const [model, folder] = process.argv.slice(2);
 const geomTypes = { sphere: 2, capsule: 3, box: 6 };  // mjtGeom
@@ -55,9 +55,8 @@ function compare(name, read) {
     checks.near(got.mass, body.massKg, 1e-6, `mass of ${body.name}`);
     // MuJoCo sorts principal axes when it must; ours come in the body's axes.
     checks.near(sorted(got.inertia), sorted(body.inertia), 1e-6, `inertia of ${body.name}`);
-    const asSphere = body.shape.halfLength === 0;  // MuJoCo takes no capsule without length
-    const sizes = asSphere ? [body.shape.radius] : shapeSizes(body.shape);
-    checks.that(got.geoms[0]?.type === geomTypes[asSphere ? 'sphere' : body.shape.kind], `kind of the shape of ${body.name}: ${got.geoms[0]?.type}`);
+    const { kind, sizes } = plainShape(body.shape);
+    checks.that(got.geoms[0]?.type === geomTypes[kind], `kind of the shape of ${body.name}: ${got.geoms[0]?.type}`);
     checks.near(sorted(got.geoms[0]?.size.slice(0, sizes.length) ?? []), sorted(sizes), 1e-6, `sizes of ${body.name}`);
     checks.near(got.ipos, [0, 0, 0], 1e-6, `centre of mass of ${body.name}`);
   }

@@ -448,7 +448,7 @@ void findContacts(CrowdState& state, float dt) {
         for (std::size_t i = begin; i < end; ++i) {
             Batch& batch = *state.active[i];
             const Topology& topology = state.activeGroup[i]->topology;
-            findStatics(state, batch, topology, dt);
+            findStatics(state, batch, topology, dt, dt / static_cast<float>(state.tuning.substeps));
             findSelfContacts(state, batch, batch.view(topology), topology, dt, state.selfTouches[i]);
         }
     });

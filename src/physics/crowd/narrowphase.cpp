@@ -31,14 +31,6 @@ void addHalfSpace(const vec3& local, float radius, const vec3& inBox, const Surf
     out.add({local, radius, normal, offset, surface.distance - radius, feature});
 }
 
-bool saysTheSame(const StaticTouches& found, const vec3& local, const vec3& normal) {
-    for (int i = 0; i < found.count; ++i) {
-        const StaticTouch& other = found.points[i];
-        if (glm::distance(other.local, local) < kSamePlace && glm::dot(other.normal, normal) > 0.99F) return true;
-    }
-    return false;
-}
-
 // Calls found(index, edge in the axes of its box, the same in those of `at`, where) for all edges of a box near
 // another.
 template <class Found>
@@ -251,6 +243,14 @@ PlacedStatic::PlacedStatic(const StaticShape& given)
     }
     low = centre - half;
     high = centre + half;
+}
+
+bool saysTheSame(const StaticTouches& found, const vec3& local, const vec3& normal) {
+    for (int i = 0; i < found.count; ++i) {
+        const StaticTouch& other = found.points[i];
+        if (glm::distance(other.local, local) < kSamePlace && glm::dot(other.normal, normal) > 0.99F) return true;
+    }
+    return false;
 }
 
 StaticTouches touchStatic(const PlacedShape& body, const PlacedStatic& geometry, float range) {

@@ -85,7 +85,10 @@ using StaticTouches = Touches<StaticTouch, ContactList::kMax>;
 /// is one. Other geometry: see findContacts().
 [[nodiscard]] StaticTouches touchStatic(const PlacedShape& body, const PlacedStatic& geometry, float range);
 
-/// Points of two bodies nearer than `range`. Two boxes are told apart by their corners only; see docs/crowd.md.
+/// Whether one of the touches keeps the same point of the body out of the same half space.
+[[nodiscard]] bool saysTheSame(const StaticTouches& touches, const vec3& local, const vec3& normal);
+
+/// Points of two bodies nearer than `range`. Two boxes that overlap: those of touchBoxes().
 [[nodiscard]] Touches<BodyTouch> touchBodies(const PlacedShape& a, const PlacedShape& b, float range);
 
 /// Fraction of the segment from `from` to `to` where it enters the shape and the normal there; fraction > 1: it misses.

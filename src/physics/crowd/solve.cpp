@@ -59,14 +59,14 @@ void keepStatics(CrowdState& state, Batch& batch) {
 }
 
 // The faces and edges that bodies are near now: a body may have slid over an edge.
-void refreshStatics(CrowdState& state, Job& job, float seconds) {
+void refreshStatics(CrowdState& state, Job& job, float seconds, float substep) {
     for (std::size_t i = 0; i < job.batches.size(); ++i) {
         Batch& batch = *job.batches[i];
         if (!batch.nearShapes) continue;
         keepStatics(state, batch);
         if (state.settings.contactReports) closeSums(state, batch);
         findBounds(state, batch, *job.topologies[i], seconds);
-        findStatics(state, batch, *job.topologies[i], seconds);
+        findStatics(state, batch, *job.topologies[i], seconds, substep);
         if (state.settings.contactReports) openSums(batch);
     }
 }
@@ -206,7 +206,7 @@ void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSu
     const auto substep = [&](Job& job, int index) {
         SubstepParams params = index == 0 ? first : others;
         params.remaining = dt * static_cast<float>(substeps - index) / static_cast<float>(substeps);
-        if (index > 0) refreshStatics(state, job, params.remaining);
+        if (index > 0) refreshStatics(state, job, params.remaining, params.dt);
         const bool mends = (substeps - 1 - index) % state.tuning.mendEvery == 0;
         JobSubstep(state, job, params, mends).run();
     };

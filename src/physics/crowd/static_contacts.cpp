@@ -10,6 +10,20 @@
 namespace lutka::physics::crowd {
 namespace {
 
+constexpr float kForeseenM = 0.002F;        // nearer than this at a substep's end is foreseen
+constexpr int kFirstForeseenFeature = 128;  // after those of all shapes (narrowphase)
+
+// Where a shape will be in `seconds` if nothing touches its body.
+PlacedShape movedOn(PlacedShape shape, const BodyState& body, const vec3& gravity, float seconds) {
+    const vec3 turn = seconds * body.angularVelocity;
+    const float angle = glm::length(turn);
+    const mat3 turned = angle > 1e-6F ? glm::mat3_cast(glm::angleAxis(angle, turn / angle)) : mat3(1);
+    const vec3& centre = body.worldFromBody.translation;
+    shape.position = centre + turned * (shape.position - centre) + seconds * (body.linearVelocity + seconds * gravity);
+    shape.axes = turned * shape.axes;
+    return shape;
+}
+
 float speedBound(const BodyState& body, const BodyConstants& constants) {
     return glm::length(body.linearVelocity) + glm::length(body.angularVelocity) * constants.reach;
 }
@@ -65,8 +79,8 @@ const CarriedStatic* carriedStatic(const Doll& doll, std::uint64_t key, std::siz
 // The static contacts of one batch: body by body, each lane's next contact into the next of the body's slots.
 class StaticContacts {
   public:
-    StaticContacts(CrowdState& state, Batch& batch, const Topology& topology, float dt)
-        : state_(state), batch_(batch), topology_(topology), dt_(dt) {}
+    StaticContacts(CrowdState& state, Batch& batch, const Topology& topology, float dt, float substep)
+        : state_(state), batch_(batch), topology_(topology), dt_(dt), substep_(substep) {}
 
     void find() {
         batch_.contacts.clear();
@@ -161,16 +175,35 @@ class StaticContacts {
             const float range = state_.tuning.staticMargin +
                                 kForesight * dt_ * speedBound(readBody(lanes, lane), topology_.bodies[body]);
             for (int shape = 0; shape < topology_.shapeCount(body); ++shape) {
-                StaticTouches found = touchStatic(placedShape(state_, doll, body, shape), geometry, range);
-                for (int i = 0; i < found.count; ++i) {
-                    found.points[i].local = topology_.inBody(body, shape, found.points[i].local);
+                const PlacedShape placed = placedShape(state_, doll, body, shape);
+                const StaticTouches found = touchStatic(placed, geometry, range);
+                for (int i = 0; i < found.count; ++i)
                     put(slot++, {body, shape}, lane, index, found.points[i]);
-                }
+                foresee({body, shape}, lane, index, placed, found, slot);
             }
         }
     }
 
-    void put(std::size_t slot, const ShapeRef& of, int lane, int geometry, const StaticTouch& touch) {
+    // The half spaces that a body is about to be in: where it passes an edge within a substep, the one that is nearest
+    // at its beginning is not the one that it is in at its end.
+    void foresee(const ShapeRef& of, int lane, int index, const PlacedShape& placed, const StaticTouches& found,
+                 std::size_t& slot) {
+        const BodyState body = readBody(batch_.bodies[of.body], lane);
+        const float way = substep_ * speedBound(body, topology_.bodies[of.body]) + kForeseenM;
+        const auto reaches = [&](const StaticTouch& touch) { return touch.separation < way; };
+        if (std::none_of(found.points.begin(), found.points.begin() + found.count, reaches)) return;
+        const PlacedShape next = movedOn(placed, body, state_.settings.gravity, substep_);
+        const StaticTouches later = touchStatic(next, state_.statics[index], kForeseenM);
+        for (int i = 0; i < later.count; ++i) {
+            StaticTouch touch = later.points[i];
+            if (saysTheSame(found, touch.local, touch.normal)) continue;
+            touch.feature += kFirstForeseenFeature;
+            put(slot++, of, lane, index, touch);
+        }
+    }
+
+    void put(std::size_t slot, const ShapeRef& of, int lane, int geometry, StaticTouch touch) {
+        touch.local = topology_.inBody(of.body, of.shape, touch.local);
         if (slot == batch_.contacts.size()) emptyContact(of.body);
         const std::uint64_t key = staticKey(geometry, of.body, of.shape, touch.feature);
         const CarriedStatic* carried = carriedStatic(state_.dolls[batch_.doll[lane]], key, cursor_[lane]);
@@ -197,6 +230,7 @@ class StaticContacts {
     Batch& batch_;
     const Topology& topology_;
     float dt_;
+    float substep_;
     float farther_ = state_.tuning.staticMargin - state_.tuning.pairMargin;  // than the bodies' own bounds reach
     std::size_t firstSlot_ = 0;
     std::size_t cursor_[kLanes]{};  // see carriedStatic
@@ -204,8 +238,8 @@ class StaticContacts {
 
 }  // namespace
 
-void findStatics(CrowdState& state, Batch& batch, const Topology& topology, float dt) {
-    StaticContacts(state, batch, topology, dt).find();
+void findStatics(CrowdState& state, Batch& batch, const Topology& topology, float dt, float substep) {
+    StaticContacts(state, batch, topology, dt, substep).find();
 }
 
 }  // namespace lutka::physics::crowd

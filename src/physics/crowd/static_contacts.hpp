@@ -6,6 +6,6 @@ namespace lutka::physics::crowd {
 
 /// The static contacts of one batch for the next `dt` s, with the impulses that its dolls' contacts were kept with.
 /// Needs the bounds of its dolls.
-void findStatics(CrowdState& state, Batch& batch, const Topology& topology, float dt);
+void findStatics(CrowdState& state, Batch& batch, const Topology& topology, float dt, float substep);
 
 }  // namespace lutka::physics::crowd
