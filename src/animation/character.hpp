@@ -93,7 +93,8 @@ struct Character {
     int figure = 0;  ///< Index into `figures`: whose meshes these are.
     std::vector<std::string> warnings;  ///< What was repaired, dropped or guessed, a sentence each.
 
-    /// The file's own VRM humanoid map, when it has one: VRM role name → joint index.
+    /// The file's own humanoid map, when it has one (VRM's block, or kRoleExtra as we write it): VRM role name → joint
+    /// index.
     std::map<std::string, int> vrmHumanoid;
 };
 

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "animation/export/glb_parts.hpp"
+#include "animation/humanoid/roles.hpp"
 #include "animation/pose.hpp"
 #include "core/files.hpp"
 
@@ -105,6 +106,10 @@ int GlbBuilder::addFigure(const Character& character, const RigidTransform& worl
     const int skin = skeleton.jointCount() > 0
                          ? glb::addSkeleton(skeleton, shared.parentFromJoint, wrapper, shared.inverseBinds, model_)
                          : -1;
+    // What VRM's own block told; without it a figure of odd proportions would not be known again.
+    for (const auto& [role, joint] : character.vrmHumanoid)
+        model_.nodes[wrapper + 1 + joint].extras =
+            tinygltf::Value(tinygltf::Value::Object{{kRoleExtra, tinygltf::Value(glb::utf8(role))}});
     for (std::size_t i = 0; i < shared.meshes.size(); ++i) {
         tinygltf::Node node;
         node.name = glb::utf8(character.meshes[i].name);

@@ -42,6 +42,9 @@ enum class Side { center, left, right };
     return static_cast<int>(role);
 }
 
+/// In the extras of a glTF node that we write: the role that the file which the figure came from told of it.
+inline constexpr const char* kRoleExtra = "lutkaRole";
+
 /// "leftUpperArm" …, the VRM name.
 [[nodiscard]] std::string_view roleName(Role role);
 [[nodiscard]] std::optional<Role> roleFromName(std::string_view name);

@@ -148,6 +148,7 @@ TEST_CASE("a character comes back from its .glb as it was") {
     Character biped = movingBiped();
     Texture checker{"checker", 2, 2, {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 128, 9, 8, 7, 0}};
     biped.textures.push_back(checker);
+    biped.vrmHumanoid = {{"hips", 0}, {"spine", 1}};
     Material& material = biped.materials[0];
     material = {"skin", {0.5F, 0.25F, 0.125F, 0.75F}, 0.3F, 0.6F, {0.5F, 1.0F, 4.0F}, Material::AlphaMode::mask, 0.4F,
                 true};
@@ -156,6 +157,9 @@ TEST_CASE("a character comes back from its .glb as it was") {
     const Character read = imported(folder / "biped.glb");
     checkInvariants(read);
     checkSame(biped, read, 1e-5F);
+    REQUIRE(read.vrmHumanoid.size() == biped.vrmHumanoid.size());
+    for (const auto& [role, joint] : biped.vrmHumanoid)
+        CHECK(read.skeleton.names[read.vrmHumanoid.at(role)] == biped.skeleton.names[joint]);
     REQUIRE(read.clips.size() == 2);
     checkSameClips(biped, read, 1e-5F);
     const Material& back = read.materials[0];

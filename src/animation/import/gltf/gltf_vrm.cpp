@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "animation/humanoid/roles.hpp"
 #include "animation/import/gltf/gltf_parts.hpp"
 
 namespace lutka::animation::rig_import::gltf {
@@ -22,6 +23,17 @@ const json* bonesOf(const GltfFile& file, const char* extension) {
     return humanoid == nullptr ? nullptr : member(*humanoid, "humanBones");
 }
 
+// As write_glb writes them; of several figures those of the first.
+void addWrittenRoles(const GltfFile& file, std::map<std::string, std::size_t>& roles) {
+    const json* nodes = member(file.json(), "nodes");
+    if (nodes == nullptr || !nodes->is_array()) return;
+    for (std::size_t i = 0; i < nodes->size(); ++i) {
+        const json* extras = member((*nodes)[i], "extras");
+        const std::string role = extras == nullptr ? "" : textOf(*extras, kRoleExtra);
+        if (!role.empty()) roles.emplace(role, i);
+    }
+}
+
 // Role → glTF node index of either version's block; a node that isn't there stays out of range.
 std::map<std::string, std::size_t> nodesOfRoles(const GltfFile& file) {
     std::map<std::string, std::size_t> roles;
@@ -38,6 +50,7 @@ std::map<std::string, std::size_t> nodesOfRoles(const GltfFile& file) {
             if (!bone.empty()) put(roleOfVrm0(bone), entry);
         }
     }
+    if (roles.empty()) addWrittenRoles(file, roles);
     return roles;
 }
 
