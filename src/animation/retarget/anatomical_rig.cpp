@@ -1,5 +1,7 @@
 #include "animation/retarget/anatomical_rig.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -227,18 +229,22 @@ float floorOf(const Character& character, const HumanoidMap& map) {
 }
 
 Result<AnatomicalRig> makeAnatomicalRig(const Character& character, const HumanoidMap& map) {
-    const auto refuse = [&](const char* what, const char* mend) {
-        return Error{ErrorCode::input, what, character.file.string(), mend};
+    const auto refuse = [&](std::string what, const char* mend) {
+        return Error{ErrorCode::input, std::move(what), character.file.string(), mend};
     };
     if (!map.humanoid) return refuse("is no humanoid", "map its joints, or take another model");
-    if (!map.missing.empty())
-        return refuse("lacks joints of a whole humanoid", "`lutka map` says which roles have none");
+    LimbEnds ends = addLimbEnds(character, map);
+    if (!ends.missing.empty()) {
+        return refuse(fmt::format("lacks joints of a whole humanoid, the first is {}", roleName(ends.missing.front())),
+                      "name a joint for it, if there is one: --map");
+    }
     AnatomicalRig rig;
-    rig.skeleton = &character.skeleton;
+    rig.skeleton = std::move(ends.skeleton);
+    rig.fileJoints = character.skeleton.jointCount();
+    rig.stiffLimbs = std::move(ends.stiff);
     rig.standardFromModel = map.standardFromModel;
-    for (int role = 0; role < kRoleCount; ++role)
-        rig.joint[role] = map.jointOf(roleAt(role));
-    for (const RigidTransform& bind : character.skeleton.bindModelFromJoint)
+    rig.joint = ends.joint;
+    for (const RigidTransform& bind : rig.skeleton->bindModelFromJoint)
         rig.standardBind.push_back({rig.standardFromModel * bind.rotation, rig.standardFromModel * bind.translation});
     rig.floor = floorOf(character, map);
     rig.legLength = legLengthOf(rig);

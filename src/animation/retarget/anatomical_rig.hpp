@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -8,6 +10,7 @@
 #include "animation/character.hpp"
 #include "animation/humanoid/map_humanoid.hpp"
 #include "animation/retarget/finger_chains.hpp"
+#include "animation/retarget/limb_ends.hpp"
 #include "core/result.hpp"
 
 namespace lutka::animation {
@@ -42,7 +45,9 @@ struct AnatomicalRig {
         quat jointFromAnatomy{1, 0, 0, 0};
     };
 
-    const Skeleton* skeleton = nullptr;
+    std::shared_ptr<const Skeleton> skeleton;  ///< With the ends of limbs that were added (LimbEnds).
+    int fileJoints = 0;                        ///< The first of its joints, those of the file.
+    std::vector<StiffLimb> stiffLimbs;
     quat standardFromModel{1, 0, 0, 0};
     std::array<int, kRoleCount> joint{};
     std::array<quat, kRoleCount> jointFromAnatomy{};                            ///< Of the roles that have a joint.
@@ -56,6 +61,12 @@ struct AnatomicalRig {
     [[nodiscard]] int jointOf(Role role) const { return joint[indexOf(role)]; }
     [[nodiscard]] bool has(Role role) const { return jointOf(role) != kNoJoint; }
     [[nodiscard]] vec3 bindOf(Role role) const { return standardBind[jointOf(role)].translation; }
+    /// Whether the role's joint was added.
+    [[nodiscard]] bool isAdded(Role role) const { return jointOf(role) >= fileJoints; }
+    /// Whether a leg has no knee of its own.
+    [[nodiscard]] bool hasStiffLegs() const {
+        return std::any_of(stiffLimbs.begin(), stiffLimbs.end(), [](const StiffLimb& limb) { return limb.leg; });
+    }
     /// Of the ankles over the soles, mean of both.
     [[nodiscard]] float ankleHeight() const { return (feet[0].ankleHeight + feet[1].ankleHeight) * 0.5F; }
     /// The neck, or the head of a figure without one.
@@ -67,8 +78,8 @@ struct AnatomicalRig {
 /// the hips.
 [[nodiscard]] float floorOf(const Character& character, const HumanoidMap& map);
 
-/// Fails with ErrorCode::input when the map is none of a humanoid, or a leg has no length. `character` must outlive the
-/// rig.
+/// Fails with ErrorCode::input when the map is none of a humanoid, lacks a role that addLimbEnds() can't add, or a leg
+/// has no length. `character` must outlive the rig.
 [[nodiscard]] Result<AnatomicalRig> makeAnatomicalRig(const Character& character, const HumanoidMap& map);
 
 /// Which role a limb's bone ends at; nothing for those whose end is no role's joint.

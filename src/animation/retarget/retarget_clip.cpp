@@ -32,7 +32,7 @@ void addTo(FootTrack& track, const AnatomicalRig::Foot& foot, std::span<const Ri
 class Crossing {
   public:
     Crossing(Retargeter& retargeter, const Clip& clip)
-        : retargeter_(retargeter), clip_(clip), pose_(retargeter.target().standardBind.size()) {}
+        : retargeter_(retargeter), clip_(clip), pose_(static_cast<std::size_t>(retargeter.target().fileJoints)) {}
 
     // Without keeping the feet: what they do in both figures.
     void look() {
@@ -69,7 +69,9 @@ class Crossing {
         out.clip.framesPerSecond = clip_.framesPerSecond;
         out.clip.frameCount = clip_.frameCount;
         std::vector<FootShift> shifts(static_cast<std::size_t>(clip_.frameCount));
-        if (keep) shifts = keepFeet(retargeter_.target(), motion_, contacts_, clip_.framesPerSecond);
+        // Legs without knees reach the floor at one place only, which pose() has put them to.
+        if (keep && !retargeter_.target().hasStiffLegs())
+            shifts = keepFeet(retargeter_.target(), motion_, contacts_, clip_.framesPerSecond);
         RetargetMeter meter(retargeter_, contacts_, placement_.sourceFloor);
         for (int frame = 0; frame < clip_.frameCount; ++frame) {
             retargeter_.pose(sourceFrame(frame), placement_, shifts[frame], pose_);
@@ -94,7 +96,7 @@ class Crossing {
         }
     }
     [[nodiscard]] std::span<const RigidTransform> sourceFrame(int frame) const {
-        const std::size_t joints = retargeter_.source().standardBind.size();
+        const auto joints = static_cast<std::size_t>(retargeter_.source().fileJoints);
         return std::span(clip_.parentFromJoint.get()).subspan(static_cast<std::size_t>(frame) * joints, joints);
     }
 
@@ -110,7 +112,8 @@ class Crossing {
 }  // namespace
 
 Result<RetargetedClip> retargetClip(Retargeter& retargeter, const Clip& clip, const RetargetOptions& options) {
-    if (auto checked = checkSourceClip(clip, retargeter.source().standardBind.size()); !checked) return checked.error();
+    if (auto checked = checkSourceClip(clip, static_cast<std::size_t>(retargeter.source().fileJoints)); !checked)
+        return checked.error();
     Crossing crossing(retargeter, clip);
     crossing.look();
     crossing.findContacts(options.contacts);

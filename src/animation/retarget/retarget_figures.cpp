@@ -76,15 +76,32 @@ void RetargetMeter::addDirections() {
     const auto target = retargeter_.targetPose();
     std::size_t part = 0;
     const auto add = [&](const vec3& a, const vec3& b) { parts_[part++].degrees.add(degreesBetween(a, b)); };
+    const auto isStiff = [&](Role role) {
+        return std::any_of(to.stiffLimbs.begin(), to.stiffLimbs.end(), [&](const StiffLimb& limb) {
+            return to.jointOf(role) == limb.upper || to.jointOf(role) == limb.middle;
+        });
+    };
     for (const Role role : kLimbs) {
-        const Role end = *endOfBone(role);
+        Role end = *endOfBone(role);
+        // Of a limb without a middle the whole way is compared, once.
+        if (isStiff(role)) {
+            if (to.isAdded(role)) {
+                ++part;
+                continue;
+            }
+            end = *endOfBone(end);
+        }
         const auto way = [&](const AnatomicalRig& rig, std::span<const RigidTransform> pose) {
             return pose[rig.jointOf(end)].translation - pose[rig.jointOf(role)].translation;
         };
         add(way(from, source), way(to, target));
     }
-    for (const Role role : kFeet)
-        add(axisOf(from, source, role, {1, 0, 0}), axisOf(to, target, role, {1, 0, 0}));
+    for (const Role role : kFeet) {
+        if (to.isAdded(role) || from.isAdded(role))
+            ++part;
+        else
+            add(axisOf(from, source, role, {1, 0, 0}), axisOf(to, target, role, {1, 0, 0}));
+    }
     const auto trunk = [](const AnatomicalRig& rig, std::span<const RigidTransform> pose) {
         return pose[rig.neckOrHead()].translation - between(rig, pose, Role::leftUpperLeg, Role::rightUpperLeg);
     };

@@ -6,6 +6,7 @@
 
 #include "animation/ik/two_bone.hpp"
 #include "animation/pose.hpp"
+#include "animation/retarget/foot_keeper.hpp"
 #include "core/assert.hpp"
 
 namespace lutka::animation {
@@ -36,6 +37,16 @@ quat twistShare(const quat& rotation, const vec3& axis, float share) {
     return glm::angleAxis(shortest * share, axis);
 }
 
+// Of the lower foot's sole over the floor.
+float heightOfFeet(const AnatomicalRig& rig, std::span<const RigidTransform> pose, float floor) {
+    float least = std::numeric_limits<float>::max();
+    for (const AnatomicalRig::Foot& foot : rig.feet) {
+        const vec3 up = pose[foot.joint].rotation * foot.upInJoint;
+        least = std::min(least, -depthOf(foot, pose[foot.joint].translation, foot.ballIn(pose), up, floor));
+    }
+    return least;
+}
+
 TwoBone legBones() {
     TwoBone bones;
     bones.mostFlexion = radians(170.0F);
@@ -57,6 +68,7 @@ Retargeter::Retargeter(AnatomicalRig source, AnatomicalRig target, const Charact
     : source_(std::move(source)),
       target_(std::move(target)),
       isDriven_(target_.standardBind.size(), false),
+      sourceLocal_(source_.skeleton->nodeParentFromJoint),
       sourceStandard_(source_.standardBind.size()),
       targetStandard_(target_.standardBind.size()),
       targetBindLocal_(target_.standardBind.size()) {
@@ -344,6 +356,29 @@ void Retargeter::bendLeg(int side, const vec3& shift) {
     }
 }
 
+// A limb without a joint in its middle points to where the bent one would end. Legs are longer by that: the lower foot
+// is put as high over the floor as the source's.
+void Retargeter::straightenLimbs(const RetargetPlacement& placement) {
+    const auto hangOn = [&](int joint, int parent) {
+        targetStandard_[joint] = targetStandard_[parent] * targetBindLocal_[joint];
+    };
+    for (const StiffLimb& limb : target_.stiffLimbs) {
+        RigidTransform& upper = targetStandard_[limb.upper];
+        const vec3 bent = targetStandard_[limb.end].translation - upper.translation;
+        const RigidTransform upperFromEnd = targetBindLocal_[limb.middle] * targetBindLocal_[limb.end];
+        const vec3 straight = upper.rotation * upperFromEnd.translation;
+        if (glm::length(bent) > 1e-6F && glm::length(straight) > 1e-6F)
+            upper.rotation = glm::normalize(rotationBetween(straight, bent) * upper.rotation);
+        hangOn(limb.middle, limb.upper);
+        hangOn(limb.end, limb.middle);
+    }
+    if (!target_.hasStiffLegs()) return;
+    const float lift = scale() * heightOfFeet(source_, sourceStandard_, placement.sourceFloor) -
+                       heightOfFeet(target_, targetStandard_, target_.floor);
+    for (const Driven& driven : driven_)
+        targetStandard_[driven.joint].translation.y += lift;
+}
+
 void Retargeter::writeLocals(std::span<RigidTransform> targetParentFromJoint) const {
     const RigidTransform modelFromStandard{glm::conjugate(target_.standardFromModel), vec3(0)};
     const std::vector<int>& parents = target_.skeleton->parents;
@@ -362,9 +397,10 @@ void Retargeter::pose(std::span<const RigidTransform> sourceParentFromJoint, con
 
 void Retargeter::pose(std::span<const RigidTransform> sourceParentFromJoint, const RetargetPlacement& placement,
                       const FootShift& shift, std::span<RigidTransform> targetParentFromJoint) {
-    LUTKA_ASSERT(sourceParentFromJoint.size() == sourceStandard_.size());
-    LUTKA_ASSERT(targetParentFromJoint.size() == targetStandard_.size());
-    localToModel(*source_.skeleton, sourceParentFromJoint, sourceStandard_);
+    LUTKA_ASSERT(sourceParentFromJoint.size() == static_cast<std::size_t>(source_.fileJoints));
+    LUTKA_ASSERT(targetParentFromJoint.size() == static_cast<std::size_t>(target_.fileJoints));
+    std::copy(sourceParentFromJoint.begin(), sourceParentFromJoint.end(), sourceLocal_.begin());
+    localToModel(*source_.skeleton, sourceLocal_, sourceStandard_);
     const RigidTransform standardFromModel{source_.standardFromModel, vec3(0)};
     for (RigidTransform& frame : sourceStandard_)
         frame = standardFromModel * frame;
@@ -377,6 +413,7 @@ void Retargeter::pose(std::span<const RigidTransform> sourceParentFromJoint, con
         if (driven.by == Driven::By::carried)
             targetStandard_[driven.joint].rotation = glm::normalize(rotationOf(driven));
     placeJoints(placement, shift.hips);
+    if (!target_.stiffLimbs.empty()) straightenLimbs(placement);
     // What follows nothing keeps its place under its parent.
     const std::vector<int>& parents = target_.skeleton->parents;
     for (std::size_t joint = 0; joint < targetStandard_.size(); ++joint) {

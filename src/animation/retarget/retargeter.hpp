@@ -23,13 +23,13 @@ struct FootShift {
 /// do in the source, so that limbs point the same ways in standard space, whatever the rigs' joint axes and bind poses.
 /// Each joint of the target's trunk takes the turn that the source's trunk has at its height; joints within a limb
 /// share the twist of the bone; fingers go by name and order. The middle of the hip joints moves as the source's, in
-/// proportion to leg length.
+/// proportion to leg length. A limb of a single joint points to where the source's ends.
 ///
 /// Immutable after make(); pose() works in buffers of its own and allocates nothing, so that one retargeter serves one
 /// thread. Both characters must outlive it.
 class Retargeter {
   public:
-    /// Fails with ErrorCode::input when one is no whole humanoid.
+    /// Fails with ErrorCode::input when one is no humanoid with a head, arms and legs (makeAnatomicalRig).
     [[nodiscard]] static Result<Retargeter> make(const Character& source, const HumanoidMap& sourceMap,
                                                  const Character& target, const HumanoidMap& targetMap);
 
@@ -84,6 +84,7 @@ class Retargeter {
     void placeJoints(const RetargetPlacement& placement, const vec3& hipsShift);
     void leanTrunk();
     void bendLeg(int side, const vec3& shift);
+    void straightenLimbs(const RetargetPlacement& placement);
     void writeLocals(std::span<RigidTransform> targetParentFromJoint) const;
 
     AnatomicalRig source_;
@@ -91,6 +92,7 @@ class Retargeter {
     std::vector<Driven> driven_;
     std::vector<bool> isDriven_;
     vec3 hipsFromMiddle_{0, 0, 0};  // of the target's bind pose, standard: from between the legs to the hips' joint
+    std::vector<RigidTransform> sourceLocal_;  // with the ends of limbs that were added
     std::vector<RigidTransform> sourceStandard_;
     std::vector<RigidTransform> targetStandard_;
     std::vector<RigidTransform> targetBindLocal_;

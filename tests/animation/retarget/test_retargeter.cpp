@@ -32,11 +32,6 @@ test::HumanoidSpec oddSpec() {
     return spec;
 }
 
-std::span<const RigidTransform> frameOf(const Clip& clip, int frame) {
-    const std::size_t joints = clip.parentFromJoint.size() / static_cast<std::size_t>(clip.frameCount);
-    return std::span(clip.parentFromJoint.get()).subspan(static_cast<std::size_t>(frame) * joints, joints);
-}
-
 float worstDirection(const test::TestHumanoid& source, std::span<const RigidTransform> a,
                      const test::TestHumanoid& target, std::span<const RigidTransform> b) {
     float worst = 0.0F;
@@ -97,7 +92,7 @@ TEST_CASE("a figure's clip on itself is the clip") {
     CHECK(retargeter.value().scale() == 1.0F);
     std::vector<RigidTransform> pose(humanoid.character.skeleton.parents.size());
     for (int frame = 0; frame < walk.frameCount; frame += 7) {
-        const auto source = frameOf(walk, frame);
+        const auto source = test::frameOf(walk, frame);
         retargeter.value().pose(source, {}, pose);
         for (std::size_t joint = 0; joint < pose.size(); ++joint) {
             CHECK(glm::distance(pose[joint].translation, source[joint].translation) < 1e-4F);
@@ -118,7 +113,7 @@ TEST_CASE("limbs point as the source's on a rig of other axes, bind pose, up dir
     std::vector<RigidTransform> pose(odd.character.skeleton.parents.size());
     std::vector<RigidTransform> again(plain.character.skeleton.parents.size());
     for (int frame = 0; frame < walk.frameCount; frame += 5) {
-        const auto source = frameOf(walk, frame);
+        const auto source = test::frameOf(walk, frame);
         there.value().pose(source, {}, pose);
         CHECK(worstDirection(plain, source, odd, pose) < 0.3F);
         // The middle of the hips goes along in proportion.
@@ -206,8 +201,8 @@ TEST_CASE("a foot below a root of its own stays on its leg") {
     REQUIRE(retargeter);
     std::vector<RigidTransform> pose(skeleton.parents.size());
     for (const int frame : {10, 25}) {
-        retargeter.value().pose(frameOf(walk, frame), {}, pose);
-        CHECK(worstDirection(plain, frameOf(walk, frame), apart, pose) < 0.3F);
+        retargeter.value().pose(test::frameOf(walk, frame), {}, pose);
+        CHECK(worstDirection(plain, test::frameOf(walk, frame), apart, pose) < 0.3F);
     }
 }
 
@@ -221,6 +216,6 @@ TEST_CASE("retargeting a pose allocates nothing") {
     FootShift shift;
     shift.feet[0] = vec3(0.001F, 0.001F, 0);
     const std::size_t before = test::allocationCount();
-    retargeter.value().pose(frameOf(walk, 3), {}, shift, pose);
+    retargeter.value().pose(test::frameOf(walk, 3), {}, shift, pose);
     CHECK(test::allocationCount() == before);
 }

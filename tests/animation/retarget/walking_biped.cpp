@@ -160,6 +160,11 @@ TestHumanoid makeHumanoid(const HumanoidSpec& spec) {
     return out;
 }
 
+std::span<const RigidTransform> frameOf(const Clip& clip, int frame) {
+    const std::size_t joints = clip.parentFromJoint.size() / static_cast<std::size_t>(clip.frameCount);
+    return std::span(clip.parentFromJoint.get()).subspan(static_cast<std::size_t>(frame) * joints, joints);
+}
+
 void turnInStandard(const TestHumanoid& humanoid, Role role, const quat& turn,
                     std::span<RigidTransform> parentFromJoint) {
     const Skeleton& skeleton = humanoid.character.skeleton;

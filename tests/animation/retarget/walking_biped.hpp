@@ -37,6 +37,9 @@ struct TestHumanoid {
 /// to the bit of a solver, arms swing and the trunk turns.
 [[nodiscard]] animation::Clip makeWalk(const TestHumanoid& humanoid);
 
+/// The pose of all joints in one frame of a clip.
+[[nodiscard]] std::span<const RigidTransform> frameOf(const animation::Clip& clip, int frame);
+
 /// Turns a joint of a parent-relative pose in standard space.
 void turnInStandard(const TestHumanoid& humanoid, animation::Role role, const quat& turn,
                     std::span<RigidTransform> parentFromJoint);

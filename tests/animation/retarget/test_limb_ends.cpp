@@ -1,0 +1,154 @@
+#include "animation/retarget/limb_ends.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "animation/retarget/retarget_clip.hpp"
+#include "support/catch.hpp"
+#include "support/counting_new.hpp"
+#include "walking_biped.hpp"
+
+using namespace lutka;
+using namespace lutka::animation;
+
+namespace {
+
+void takeAway(HumanoidMap& map, std::initializer_list<Role> left) {
+    for (const Role of : left) {
+        for (const Role role : {of, mirrored(of)}) {
+            map.roles[indexOf(role)].reset();
+            if (isRequired(role)) map.missing.push_back(role);
+        }
+    }
+}
+
+float degreesBetween(const vec3& a, const vec3& b) {
+    return degrees(std::acos(std::clamp(glm::dot(glm::normalize(a), glm::normalize(b)), -1.0F, 1.0F)));
+}
+
+float lowestFoot(const AnatomicalRig& rig, std::span<const RigidTransform> pose) {
+    return std::min(pose[rig.feet[0].joint].translation.y, pose[rig.feet[1].joint].translation.y);
+}
+
+}  // namespace
+
+TEST_CASE("a whole humanoid keeps its own skeleton") {
+    const test::TestHumanoid whole = test::makeHumanoid({});
+    const LimbEnds ends = addLimbEnds(whole.character, whole.map);
+    CHECK(ends.skeleton.get() == &whole.character.skeleton);
+    CHECK(ends.stiff.empty());
+    CHECK(ends.missing.empty());
+}
+
+TEST_CASE("hands and feet are added where the skin ends, and the limbs point as the source's") {
+    const test::TestHumanoid source = test::makeHumanoid({});
+    test::TestHumanoid target = test::makeHumanoid({.armDropDeg = 40.0F, .axesSeed = 3});
+    const Character& character = target.character;
+    const int wrist = target.map.jointOf(Role::leftHand);
+    const int elbow = target.map.jointOf(Role::leftLowerArm);
+    takeAway(target.map, {Role::leftHand, Role::leftFoot, Role::leftToes});
+    // Skin of a forearm with a hand: 1.2 times as far as the wrist's joint.
+    SkinnedMesh arm;
+    const vec3 from = character.skeleton.bindModelFromJoint[elbow].translation;
+    const vec3 to = character.skeleton.bindModelFromJoint[wrist].translation;
+    for (const float share : {0.0F, 0.4F, 0.8F, 1.2F}) {
+        arm.positions.push_back(from + share * (to - from));
+        arm.joints.push_back({static_cast<std::uint16_t>(elbow), 0, 0, 0});
+        arm.weights.push_back({1, 0, 0, 0});
+    }
+    target.character.meshes.push_back(arm);
+    const LimbEnds ends = addLimbEnds(character, target.map);
+    CHECK(ends.missing.empty());
+    CHECK(ends.stiff.empty());
+    CHECK(validate(*ends.skeleton).empty());
+    CHECK(ends.skeleton->jointCount() == character.skeleton.jointCount() + 4);
+    const vec3 hand = ends.skeleton->bindModelFromJoint[ends.joint[indexOf(Role::leftHand)]].translation;
+    CHECK(degreesBetween(hand - from, to - from) < 0.1F);
+    CHECK(glm::distance(hand, from) == Approx(1.2F * 0.575F * glm::distance(to, from)).epsilon(0.01));
+
+    auto retargeter = Retargeter::make(source.character, source.map, character, target.map);
+    REQUIRE(retargeter);
+    const auto made = retargetClip(retargeter.value(), test::makeWalk(source));
+    REQUIRE(made);
+    const std::size_t joints = character.skeleton.parents.size();
+    CHECK(made.value().clip.parentFromJoint.size() == joints * static_cast<std::size_t>(made.value().clip.frameCount));
+    CHECK(made.value().figures.meanLimbDeg() < 3.0);
+    CHECK(made.value().figures.slideCm.most < 0.5);
+    CHECK(made.value().figures.penetrationCm.most < 0.5);
+}
+
+TEST_CASE("a limb of one joint points to where the source's ends, and legs stand as high over the floor") {
+    const test::TestHumanoid source = test::makeHumanoid({});
+    test::TestHumanoid target = test::makeHumanoid({.axesSeed = 5, .toes = false, .legShare = 0.6F});
+    const std::vector<RigidTransform> bind = target.character.skeleton.bindModelFromJoint;
+    takeAway(target.map, {Role::leftLowerArm, Role::leftHand, Role::leftLowerLeg, Role::leftFoot});
+    auto made = Retargeter::make(source.character, source.map, target.character, target.map);
+    REQUIRE(made);
+    Retargeter& retargeter = made.value();
+    const AnatomicalRig& rig = retargeter.target();
+    CHECK(rig.stiffLimbs.size() == 4);
+    CHECK(rig.hasStiffLegs());
+    const Clip walk = test::makeWalk(source);
+    std::vector<RigidTransform> pose(target.character.skeleton.parents.size());
+    float highest = -1.0F;
+    for (int frame = 0; frame < walk.frameCount; ++frame) {
+        INFO("frame " << frame);
+        retargeter.pose(test::frameOf(walk, frame), {}, pose);
+        const auto theirs = retargeter.sourcePose();
+        const auto ours = retargeter.targetPose();
+        for (const StiffLimb& limb : rig.stiffLimbs) {
+            const auto role = std::find(rig.joint.begin(), rig.joint.end(), limb.upper) - rig.joint.begin();
+            const auto end = std::find(rig.joint.begin(), rig.joint.end(), limb.end) - rig.joint.begin();
+            const AnatomicalRig& from = retargeter.source();
+            const vec3 wanted = theirs[from.joint[static_cast<std::size_t>(end)]].translation -
+                                theirs[from.joint[static_cast<std::size_t>(role)]].translation;
+            // Legs and arms are cut at other places than the source's, which bends the added middle a little.
+            CHECK(degreesBetween(ours[limb.end].translation - ours[limb.upper].translation, wanted) < 4.0F);
+            const float length =
+                glm::distance(rig.standardBind[limb.end].translation, rig.standardBind[limb.upper].translation);
+            CHECK(glm::distance(ours[limb.end].translation, ours[limb.upper].translation) == Approx(length));
+        }
+        highest = std::max(highest, lowestFoot(rig, ours) - rig.floor - rig.ankleHeight());
+        CHECK(lowestFoot(rig, ours) > rig.floor - 0.01F);
+    }
+    // One foot of a walk is always down.
+    CHECK(highest < 0.05F);
+    const auto clip = retargetClip(retargeter, walk);
+    REQUIRE(clip);
+    CHECK(clip.value().figures.penetrationCm.most < 0.5);
+
+    const std::size_t before = test::allocationCount();
+    retargeter.pose(test::frameOf(walk, 3), {}, pose);
+    CHECK(test::allocationCount() == before);
+}
+
+TEST_CASE("a source of few joints plays on a whole figure") {
+    const test::TestHumanoid target = test::makeHumanoid({});
+    test::TestHumanoid source = test::makeHumanoid({});
+    const Clip walk = test::makeWalk(source);
+    takeAway(source.map, {Role::leftHand, Role::leftFoot, Role::leftToes});
+    auto retargeter = Retargeter::make(source.character, source.map, target.character, target.map);
+    REQUIRE(retargeter);
+    const auto made = retargetClip(retargeter.value(), walk);
+    REQUIRE(made);
+    CHECK(made.value().figures.meanLimbDeg() < 3.0);
+    CHECK(made.value().clip.frameCount == walk.frameCount);
+}
+
+TEST_CASE("what can't be added is told by its role") {
+    test::TestHumanoid humanoid = test::makeHumanoid({});
+    const auto refusal = [&] {
+        const auto rig = makeAnatomicalRig(humanoid.character, humanoid.map);
+        REQUIRE_FALSE(rig);
+        return rig.error().message;
+    };
+    SECTION("a head") {
+        humanoid.map.roles[indexOf(Role::head)].reset();
+        humanoid.map.missing = {Role::head};
+        CHECK_THAT(refusal(), Catch::Contains("head"));
+    }
+    SECTION("a whole arm") {
+        takeAway(humanoid.map, {Role::leftUpperArm, Role::leftLowerArm, Role::leftHand});
+        CHECK_THAT(refusal(), Catch::Contains("UpperArm"));
+    }
+}
