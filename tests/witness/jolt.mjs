@@ -138,7 +138,8 @@ function lyingOnBack() {
   const pose = neutralPose();
   const unit = (v) => v.map((x) => x / length(v));
   const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-  const up = unit(subtract(pose.head.p, pose.hips.p));
+  const top = ['head', 'upperChest', 'chest', 'spine'].find((name) => pose[name]);
+  const up = unit(subtract(pose[top].p, pose.hips.p));
   const front = unit(cross(subtract(pose.leftUpperLeg.p, pose.rightUpperLeg.p), up));
   const left = cross(up, front);
   // Rows: where left, front and up go: +x, +y, -z.

@@ -189,8 +189,9 @@ class StaticContacts {
     void foresee(const ShapeRef& of, int lane, int index, const PlacedShape& placed, const StaticTouches& found,
                  std::size_t& slot) {
         const BodyState body = readBody(batch_.bodies[of.body], lane);
-        const float way = substep_ * speedBound(body, topology_.bodies[of.body]) + kForeseenM;
-        const auto reaches = [&](const StaticTouch& touch) { return touch.separation < way; };
+        const float way = substep_ * speedBound(body, topology_.bodies[of.body]);
+        if (way < kForeseenM) return;  // what comes to rest keeps its contacts
+        const auto reaches = [&](const StaticTouch& touch) { return touch.separation < way + kForeseenM; };
         if (std::none_of(found.points.begin(), found.points.begin() + found.count, reaches)) return;
         const PlacedShape next = movedOn(placed, body, state_.settings.gravity, substep_);
         const StaticTouches later = touchStatic(next, state_.statics[index], kForeseenM);
