@@ -8,6 +8,7 @@
 
 #include "editor/input/input_script.hpp"
 #include "editor/sessions.hpp"
+#include "physics/profile/profile_io.hpp"
 #include "render/gl/golden.hpp"
 #include "render/image.hpp"
 #include "support/catch.hpp"
@@ -69,12 +70,22 @@ class Script {
         return *this;
     }
     Script& add(const editor::InputEvent& event) {
-        script_.entries.push_back({frame_++, event});
+        script_.entries.push_back({frame_, event});
+        if (!atOnce_) ++frame_;
         return *this;
     }
     Script& wait(int frames) {
         frame_ += frames;
         return *this;
+    }
+    // What follows comes in one frame, as on a machine that draws once in a while, until leisurely() is called.
+    Script& atOnce() {
+        atOnce_ = true;
+        return *this;
+    }
+    Script& leisurely() {
+        atOnce_ = false;
+        return wait(1);
     }
     void setSize(render::Extent size) { script_.size = size; }
     [[nodiscard]] int frame() const { return frame_; }
@@ -83,7 +94,38 @@ class Script {
   private:
     editor::InputScript script_;
     int frame_ = 1;
+    bool atOnce_ = false;
 };
+
+// Plays it without a window; what it saves lies beside the scratch model.
+inline Outcome play(const Scratch& scratch, const Script& script, const std::string& more = "") {
+    script.save(scratch / "script.jsonl");
+    return edit(scratch, "--headless --input " + (scratch / "script.jsonl").string() + more);
+}
+
+inline physics::RagdollProfile fitted(const Scratch& scratch) {
+    return scene::loadRagdoll(scratch.model()).value()->profile;
+}
+
+inline physics::RagdollProfile saved(const Scratch& scratch) {
+    auto profile = physics::loadProfile(scratch / "mannequin.ragdoll.json");
+    REQUIRE(profile.ok());
+    return std::move(profile).value();
+}
+
+inline editor::InputEvent rightButton(bool pressed) {
+    return editor::mouseButton(editor::MouseButton::right, pressed);
+}
+
+inline Script& rightClick(Script& script, float x, float y) {
+    return script.move(x, y).add(rightButton(true)).add(rightButton(false));
+}
+
+inline Script& type(Script& script, const std::string& text) {
+    for (const char letter : text)
+        script.add(editor::textTyped(static_cast<std::uint32_t>(letter)));
+    return script;
+}
 
 inline render::Image cropped(const render::Image& image, int x, int y, int width, int height) {
     render::Image part({width, height}, {});

@@ -3,46 +3,11 @@
 #include <fstream>
 
 #include "editor/scripts.hpp"
-#include "physics/profile/profile_io.hpp"
 
 using namespace lutka;
 using namespace lutka::editor;
 using namespace lutka::test;
 using animation::Role;
-
-namespace {
-
-physics::RagdollProfile fitted(const Scratch& scratch) {
-    return scene::loadRagdoll(scratch.model()).value()->profile;
-}
-
-// Plays it without a window; whether there was a GL to do so.
-Outcome play(const Scratch& scratch, const Script& script, const std::string& more = "") {
-    script.save(scratch / "script.jsonl");
-    return edit(scratch, "--headless --input " + (scratch / "script.jsonl").string() + more);
-}
-
-physics::RagdollProfile saved(const Scratch& scratch) {
-    auto profile = physics::loadProfile(scratch / "mannequin.ragdoll.json");
-    REQUIRE(profile.ok());
-    return std::move(profile).value();
-}
-
-InputEvent rightButton(bool pressed) {
-    return mouseButton(MouseButton::right, pressed);
-}
-
-Script& rightClick(Script& script, float x, float y) {
-    return script.move(x, y).add(rightButton(true)).add(rightButton(false));
-}
-
-Script& type(Script& script, const std::string& text) {
-    for (const char letter : text)
-        script.add(textTyped(static_cast<std::uint32_t>(letter)));
-    return script;
-}
-
-}  // namespace
 
 TEST_CASE("a script makes a box of a capsule and types a mass by a double click, which counts when the field is left") {
     if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
