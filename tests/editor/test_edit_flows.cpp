@@ -161,3 +161,18 @@ TEST_CASE("a script whose clicks and keys all come in one frame does what it doe
     const int hips = physics::bodyOf(was, Role::hips);
     CHECK(saved(scratch).bodies[hips].shape.radius == Approx(was.bodies[hips].shape.radius * 1.5F));
 }
+
+TEST_CASE("a script selects a body, types its mass and saves it, all in one frame") {
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
+    const Scratch scratch;
+    Script script;
+    script.key(Key::space).wait(2).atOnce();
+    script.click(612, 370).click(1130, 209).press().release();  // the left lower leg, its mass
+    type(script, "7.5").key(Key::enter).move(640, 640).key(Key::s, kControl).leisurely().wait(2);
+    const Outcome outcome = play(scratch, script);
+    NEEDS_DISPLAY_OF(outcome);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    const physics::RagdollProfile now = saved(scratch);
+    CHECK(now.bodies[physics::bodyOf(now, Role::leftLowerLeg)].massKg == Approx(7.5F));
+}
