@@ -45,11 +45,27 @@ float hipsHeight(const RagdollAsset& asset, const Clip& clip, float seconds) {
     return glm::dot(animation::modelFrameOf(asset.character.skeleton, pose, joint).translation, up) - floor;
 }
 
+// Whether the trunk is nearer to the ground than to the upright: who sits stands up, but does not get up.
+bool liesAtFirst(const RagdollAsset& asset, const Clip& clip) {
+    int top = -1;
+    for (const Role role : {Role::spine, Role::chest, Role::upperChest, Role::head})
+        if (const int body = physics::bodyOf(asset.profile, role); body > 0) top = asset.rig.jointOfBody[body];
+    if (top < 0) return true;
+    std::vector<RigidTransform> pose(asset.character.skeleton.parents.size());
+    animation::sampleClip(clip, 0.0F, pose);
+    const auto placeOf = [&](int joint) {
+        return animation::modelFrameOf(asset.character.skeleton, pose, joint).translation;
+    };
+    const vec3 trunk = asset.profile.standardFromModel * (placeOf(top) - placeOf(asset.rig.jointOfBody.front()));
+    constexpr float kLeans = 0.7F;  // cosine of 45 degrees
+    return trunk.y < kLeans * glm::length(trunk);
+}
+
 bool isGetUp(const RagdollAsset& asset, const Clip& clip) {
     const std::string name = plainName(clip.name);
     if (name.find("getup") == std::string::npos && name.find("standup") == std::string::npos) return false;
     if (clip.frameCount < 2) return false;
-    return hipsHeight(asset, clip, 0.0F) < 0.5F * hipsHeight(asset, clip, clip.seconds());
+    return hipsHeight(asset, clip, 0.0F) < 0.5F * hipsHeight(asset, clip, clip.seconds()) && liesAtFirst(asset, clip);
 }
 
 Result<Clip> retargeted(const RagdollAsset& asset, const RagdollAsset& donor, const Clip& clip) {

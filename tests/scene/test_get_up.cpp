@@ -82,6 +82,32 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("who stands up from a seat does not get up from the ground") {
+    scene::RagdollAsset asset = getUpMannequin();
+    std::vector<animation::Clip>& clips = asset.character.clips;
+    const auto idle = std::find_if(clips.begin(), clips.end(), [](const auto& clip) { return clip.name == "idle"; });
+    REQUIRE(idle != clips.end());
+    const std::size_t joints = asset.character.skeleton.parents.size();
+    const std::vector<RigidTransform> all = idle->parentFromJoint.get();
+    std::vector<RigidTransform> standing(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(joints));
+    std::vector<RigidTransform> low = standing;
+    low[static_cast<std::size_t>(asset.map.jointOf(animation::Role::hips))].translation.y *= 0.3F;
+    const auto holdsGetUp = [&](const std::vector<RigidTransform>& first) {
+        animation::Clip clip;
+        clip.name = "stand_up_left";
+        clip.framesPerSecond = 1.0F;
+        clip.frameCount = 2;
+        clip.parentFromJoint.append(first);
+        clip.parentFromJoint.append(standing);
+        clips = {clip};
+        return scene::GetUpClips::hasOwn(asset);
+    };
+    CHECK_FALSE(holdsGetUp(low));
+    RigidTransform& hips = low[static_cast<std::size_t>(asset.map.jointOf(animation::Role::hips))];
+    hips.rotation = glm::angleAxis(kPi / 2, vec3(1, 0, 0)) * hips.rotation;
+    CHECK(holdsGetUp(low));
+}
+
 TEST_CASE("limp dolls fall, get up, and go on standing in both solvers, no joint snaps and feet stay") {
     for (const SolverKind solver : {SolverKind::crowd, SolverKind::bullet}) {
         INFO(physics::solverName(solver));
