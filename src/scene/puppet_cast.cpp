@@ -135,7 +135,8 @@ Result<void> PuppetCast::findClips(const RagdollAsset& asset, const RagdollAsset
         clip = *moment.value().clip;
         seconds = moment.value().seconds;
     }
-    ReachableClip reachable = reachableClip(asset, clip, keptBodies(asset.profile, play_.led));
+    const FloorKeeper* floor = play_.led.empty() ? floors_.back().get() : nullptr;
+    ReachableClip reachable = reachableClip(asset, clip, keptBodies(asset.profile, play_.led), floor);
     if (reachable.mostDeg > reach_.clipReachDeg) {
         reach_.clipReachDeg = reachable.mostDeg;
         reach_.clipReachJoint = reachable.joint;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "animation/clip.hpp"
+#include "scene/floor_keeper.hpp"
 #include "scene/ragdoll_asset.hpp"
 
 namespace lutka::scene {
@@ -17,8 +18,10 @@ struct ReachableClip {
 
 /// The clip with the doll's joints within their limits and its limbs out of its trunk and of each other, frame by frame
 /// (physics::ReachablePose). What has no body keeps its turns under its parent; joints keep the lengths of the bind
-/// pose. `keeps`: one a body, which of them stay as they are turned; empty: none.
+/// pose. `keeps`: one a body, which of them stay as they are turned; empty: none. With a `floor` nothing is in the
+/// level ground that the character stands on: feet and hands that would be are lifted out of it, what else is lifts the
+/// whole figure.
 [[nodiscard]] ReachableClip reachableClip(const RagdollAsset& asset, const animation::Clip& clip,
-                                          std::vector<bool> keeps = {});
+                                          std::vector<bool> keeps = {}, const FloorKeeper* floor = nullptr);
 
 }  // namespace lutka::scene

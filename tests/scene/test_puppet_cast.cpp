@@ -1,5 +1,8 @@
 #include "scene/puppet_cast.hpp"
 
+#include <algorithm>
+
+#include "scene/floor_keeper.hpp"
 #include "scene/report.hpp"
 #include "scene/simulation.hpp"
 #include "support/catch.hpp"
@@ -58,6 +61,26 @@ TEST_CASE("a pinned puppet walks within two degrees of its clip, its pelvis with
         CHECK(simulation->quality().nonFinite == 0);
         CHECK(simulation->quality().jointSeparationM.max < 0.01F);
     }
+}
+
+TEST_CASE("a clip that puts feet into the floor walks on it: neither in it nor over it") {
+    PuppetPlay play;
+    play.start.clip = "walk";
+    const auto simulation = simulate(play, SolverKind::crowd, 0.1F);
+    const scene::FloorKeeper floor(mannequin());
+    const int left = physics::bodyOf(mannequin().profile, Role::leftFoot);
+    const int right = physics::bodyOf(mannequin().profile, Role::rightFoot);
+    float lowest = 1.0F;
+    float highest = -1.0F;
+    for (int i = 0; i < 120; ++i) {
+        simulation->step();
+        const auto pose = simulation->puppets()->pose(0);
+        const float stands = std::min(floor.lowestOf(left, pose[left]), floor.lowestOf(right, pose[right]));
+        lowest = std::min(lowest, stands);
+        highest = std::max(highest, stands);
+    }
+    CHECK(lowest > -0.002F);
+    CHECK(highest < 0.02F);
 }
 
 TEST_CASE("puppets run the same bits again, after a reset as well") {

@@ -1,5 +1,8 @@
 // Real models as puppets of the mannequin's clips: figures with short legs, fat trunks, bent knees, their origin at the
 // hips.
+#include <cmath>
+
+#include "core/files.hpp"
 #include "scene/reachable_clip.hpp"
 #include "scene/simulation.hpp"
 #include "support/catch.hpp"
@@ -88,5 +91,51 @@ TEST_CASE("figures of any proportions get up: short legs, a large head, a heavy 
                 hips > 0.85F * (glm::dot(asset->rig.bindModelFromBody.front().translation, up3) - standing) ? 1 : 0;
         }
         CHECK(upright >= 9);
+    }
+}
+
+TEST_CASE("figures of any proportions stand, and a push of 20 N s on the chest from no side makes them fall or step") {
+    NEEDS_ZOO();
+    constexpr int kWays = 8;
+    const std::filesystem::path mannequin = findAsset("models/mannequin.glb").value();
+    for (const std::filesystem::path& file :
+         {mannequin, test::zooFile("cesium_man_glb/CesiumMan.glb"),
+          test::zooFile("makehuman_mixamo/makehuman_mixamo.glb"), test::zooFile("kenney_medium/characterMedium.fbx"),
+          test::zooFile("kaykit_rogue/Rogue_Hooded.glb"),
+          test::zooFile("godot_platformer_robot/platformer_player.glb")}) {
+        auto loaded = scene::loadRagdoll(file);
+        REQUIRE(loaded.ok());
+        const RagdollAsset& asset = *loaded.value();
+        for (const SolverKind solver : {SolverKind::crowd, SolverKind::bullet}) {
+            INFO(file.string() << ", " << physics::solverName(solver));
+            const scene::Figure about = scene::figureOf(asset);
+            scene::Scenario ground;
+            ground.statics.emplace_back();
+            scene::PuppetPlay play;
+            play.start.clip = "idle";
+            play.borrows = true;
+            play.pinForceN = 0.0F;
+            for (int way = 0; way < kWays; ++way) {
+                ground.dolls.emplace_back().worldFromModel = {
+                    about.standardFromModel, vec3(3.0F * static_cast<float>(way), -about.bounds.low.y, 0)};
+                const float angle = 2.0F * kPi / kWays * static_cast<float>(way);
+                play.hits.push_back(
+                    {physics::Role::upperChest, 3.0F, 20.0F * vec3(std::sin(angle), 0, std::cos(angle)), way});
+            }
+            const auto simulation = playIn(asset, std::move(ground), play, solver, 7.0F);
+            const float standing = about.bounds.low.y;
+            const vec3 up = glm::conjugate(asset.profile.standardFromModel) * vec3(0, 1, 0);
+            const float hips = glm::dot(asset.rig.bindModelFromBody.front().translation, up) - standing;
+            for (int way = 0; way < kWays; ++way) {
+                INFO(way * 45 << " degrees from ahead");
+                CHECK(simulation->puppets()->puppet(way).state() != physics::PuppetState::limp);
+                const auto bodies = simulation->worldFromBody(way);
+                CHECK(bodies.front().translation.y > 0.85F * hips);
+                const int left = physics::bodyOf(asset.profile, physics::Role::leftFoot);
+                const int right = physics::bodyOf(asset.profile, physics::Role::rightFoot);
+                const vec3 between = 0.5F * (bodies[left].translation + bodies[right].translation);
+                CHECK(std::abs(between.x - 3.0F * static_cast<float>(way)) < 0.06F);
+            }
+        }
     }
 }

@@ -90,7 +90,7 @@ TEST_CASE("a clip's feet meet a ramp and stairs, which they go through without b
              << ", fitted: mean gap " << with.figures.footGapMeanM << ", most " << with.figures.footGapM << ", depth "
              << with.figures.footDepthM << "; not: " << without.figures.footGapMeanM << ", "
              << without.figures.footDepthM << "; hips rose " << with.hipsRise << ", in a step " << with.mostHipsStep);
-        CHECK(with.figures.footDepthM < (isRamp ? 0.005F : 0.05F));
+        CHECK(with.figures.footDepthM < (isRamp ? 0.005F : 0.06F));
         CHECK(with.figures.footGapMeanM < 0.005F);
         CHECK(without.figures.footDepthM > 0.1F);
         CHECK(with.hipsRise > 0.35F);

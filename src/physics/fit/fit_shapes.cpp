@@ -31,6 +31,11 @@ constexpr float kCutoff = 0.04F;
 // How far a limb's cap may reach past its joint, in radii: enough to close the knee, not to look like a sausage.
 constexpr float kOvershoot = 0.5F;
 constexpr float kRadiusOfLength = 0.15F;  // of a segment without skin
+// A foot presses on the ground no farther out than its caps' centres: so they lie nearer to heel and toe tip than by
+// their radius. Of the radius, and how far a cap may come out of the skin for that, of the height.
+constexpr float kHeelInset = 0.6F;
+constexpr float kHeelBeyond = 0.012F;
+constexpr float kFootRadius = 0.35F;  // at most, of the foot's length
 
 // Radius of a man's segment as a share of his height, and for what has no second joint its length.
 float radiusShare(Role role) {
@@ -256,7 +261,11 @@ class BodyFit {
         });
     }
 
-    // Along the sole and touching it.
+    [[nodiscard]] float heelInset(float radius) const {
+        return std::max(kHeelInset * radius, radius - kHeelBeyond * plan_.heightM);
+    }
+
+    // Along the sole and touching it, from heel to toe tip.
     [[nodiscard]] Capsule fitFoot() const {
         const CapsuleSearch search = searchAlong(body_.start, axesAlong(rotation_ * vec3(0, 0, 1)));
         const vec3 low = search.quantiles(0.02F);
@@ -268,18 +277,16 @@ class BodyFit {
         const float sign = up[vertical] > 0.0F ? 1.0F : -1.0F;
         const int lateral = 2 - vertical;
         const float width = high[lateral] - low[lateral];
+        // A stub that is as wide as long stands on more than one point, too.
+        const float thickest = kFootRadius * (high.y - low.y);
         CapsuleTrial trial;
         trial.radius = std::max(0.4F * width, kSmallestRadius * plan_.heightM);
         trial.center = 0.5F * (low + high);
-        trial.halfLength = 0.5F * (high.y - low.y) - trial.radius;
         return search.run(trial, [&](CapsuleTrial& t) {
-            t.radius = std::clamp(t.radius, 0.3F * width, 0.5F * width);
+            t.radius = std::min(std::clamp(t.radius, 0.3F * width, 0.5F * width), thickest);
             t.center[vertical] = sole + sign * t.radius;
-            const float longest = std::max(0.0F, 0.5F * (high.y - low.y) - t.radius);
-            t.halfLength = std::clamp(t.halfLength, 0.8F * longest, longest);
-            const float slack = longest - t.halfLength;
-            const float middle = 0.5F * (low.y + high.y);
-            t.center.y = std::clamp(t.center.y, middle - slack, middle + slack);
+            t.center.y = 0.5F * (low.y + high.y);
+            t.halfLength = std::max(0.0F, 0.5F * (high.y - low.y) - heelInset(t.radius));
         });
     }
 
@@ -299,15 +306,18 @@ class BodyFit {
         radius = std::min(radius, std::max(0.35F * length, kSmallestRadius * plan_.heightM));
         vec3 start = body_.start;
         vec3 end = body_.end;
-        if (isEitherSide(role, Role::leftFoot) || isEitherSide(role, Role::leftToes)) {
+        float beyond = kOvershoot * radius;
+        if (isFoot()) {
             // The ankle stands 0.04 of the height above the sole and a quarter of the foot ahead of the heel.
+            const bool whole = isEitherSide(role, Role::leftFoot);
             const vec3 ahead = rotation_ * vec3(0, 0, 1);
-            const vec3 sole = start - vec3(0, (isEitherSide(role, Role::leftFoot) ? 0.04F : 0.01F) * plan_.heightM, 0);
-            start = sole + vec3(0, radius, 0) - 0.02F * plan_.heightM * ahead;
+            start += vec3(0, radius - (whole ? 0.04F : 0.01F) * plan_.heightM, 0);
             end = start + ahead * std::max(length, 0.04F * plan_.heightM);
+            start -= ahead * ((whole ? 0.0375F : 0.02F) * plan_.heightM);
+            beyond = radius - heelInset(radius);
         }
         const vec3 along = glm::normalize(end - start);
-        const float inset = std::min((1.0F - kOvershoot) * radius, 0.5F * glm::distance(start, end));
+        const float inset = std::min(radius - beyond, 0.5F * glm::distance(start, end));
         return {start + inset * along, end - inset * along, radius};
     }
 

@@ -106,12 +106,36 @@ vec3 PoseDrive::gravityTorque(int constraint, const vec3& gravity) const {
     return torque;
 }
 
+quat PoseDrive::parentFrameOf(const ConstraintProfile& constraint) const {
+    return bodies_[constraint.parent].worldFromBody.rotation * constraint.parentFromFrame.rotation;
+}
+
+// The child's frame in the parent's, where the doll is.
+quat PoseDrive::turnNow(const ConstraintProfile& constraint) const {
+    return glm::conjugate(parentFrameOf(constraint)) *
+           (bodies_[constraint.child].worldFromBody.rotation * constraint.childFromFrame.rotation);
+}
+
+// About a world axis the motor gives a torque, whatever the joint's angle and speed are; about the others it holds the
+// pose.
+void PoseDrive::giveTorque(const ConstraintProfile& constraint, const vec3& worldAxis, float torque,
+                           JointMotor& motor) const {
+    const quat frameFromWorld = glm::conjugate(parentFrameOf(constraint));
+    const vec3 axis = frameFromWorld * worldAxis;
+    const quat now = turnNow(constraint);
+    vec3 lead = rotationVector(glm::normalize(motor.target * glm::conjugate(now)));
+    lead += axis * (torque / motor.stiffness - glm::dot(lead, axis));
+    const vec3 speed =
+        frameFromWorld * (bodies_[constraint.child].angularVelocity - bodies_[constraint.parent].angularVelocity);
+    motor.rate += axis * glm::dot(speed - motor.rate, axis);
+    const float angle = glm::length(lead);
+    if (angle > 1e-6F) motor.target = glm::normalize(glm::angleAxis(std::min(angle, 0.5F), lead / angle) * now);
+}
+
 // The target no farther than mostLead_ from where the joint is, nor farther and faster than drives it at mostSpeed_:
 // with a spring k, a damper d and a rate v of the target the joint comes to v + k / d times the lead.
 void PoseDrive::leashTo(const ConstraintProfile& constraint, float inertia, JointMotor& motor) {
-    const quat parent = bodies_[constraint.parent].worldFromBody.rotation * constraint.parentFromFrame.rotation;
-    const quat now = glm::conjugate(parent) *
-                     (bodies_[constraint.child].worldFromBody.rotation * constraint.childFromFrame.rotation);
+    const quat now = turnNow(constraint);
     const float whole = glm::length(rotationVector(glm::normalize(motor.target * glm::conjugate(now))));
     farthest_ = std::max(farthest_, whole);
     // What is very far off is most often held by its own limits, which the shortest way would drive it along: it goes
@@ -163,19 +187,17 @@ void PoseDrive::drive(World& world, DollId doll, const MuscleSettings& muscles, 
         const quat before = relativeOf(constraint, from);
         motor.target = relativeOf(constraint, to);
         motor.rate = rotationVector(glm::normalize(motor.target * glm::conjugate(before))) / dt;
+        if (stance != nullptr && stance->turn[i] != vec3(0)) {
+            const vec3 turn = glm::conjugate(parentFrameOf(constraint)) * stance->turn[i];
+            motor.target = glm::normalize(glm::angleAxis(glm::length(turn), glm::normalize(turn)) * motor.target);
+        }
         if (leashes && isHand(profile_.bodies[constraint.child])) motor.damping *= kHandBrake;
         if (leashes) leashTo(constraint, inertia, motor);
         if (carriesDoll) {
-            const quat parentFrame =
-                bodies_[constraint.parent].worldFromBody.rotation * constraint.parentFromFrame.rotation;
-            const vec3 lead = glm::conjugate(parentFrame) * stance->torque[i] / motor.stiffness;
-            const float angle = glm::length(lead);
-            if (angle > 1e-6F) motor.target = glm::angleAxis(std::min(angle, 0.5F), lead / angle) * motor.target;
+            if (stance->axis[i] != vec3(0)) giveTorque(constraint, stance->axis[i], stance->torque[i], motor);
         } else if (carries) {
             // The spring leads the pose by the angle at which its torque is what gravity takes.
-            const quat parentFrame =
-                bodies_[constraint.parent].worldFromBody.rotation * constraint.parentFromFrame.rotation;
-            const vec3 hold = glm::conjugate(parentFrame) * -gravityTorque(i, muscles.carriedGravity);
+            const vec3 hold = glm::conjugate(parentFrameOf(constraint)) * -gravityTorque(i, muscles.carriedGravity);
             const vec3 lead = hold / motor.stiffness;
             const float angle = glm::length(lead);
             if (angle > 1e-6F) motor.target = glm::angleAxis(std::min(angle, 1.0F), lead / angle) * motor.target;

@@ -59,6 +59,9 @@ class PoseDrive {
     // What gravity does about the joint through all that hangs below it, N m, world.
     [[nodiscard]] vec3 gravityTorque(int constraint, const vec3& gravity) const;
 
+    [[nodiscard]] quat parentFrameOf(const ConstraintProfile& constraint) const;
+    [[nodiscard]] quat turnNow(const ConstraintProfile& constraint) const;
+    void giveTorque(const ConstraintProfile& constraint, const vec3& worldAxis, float torque, JointMotor& motor) const;
     void leashTo(const ConstraintProfile& constraint, float inertia, JointMotor& motor);
 
     const RagdollProfile& profile_;

@@ -265,7 +265,7 @@ void Puppet::prepare(std::span<const RigidTransform> from, std::span<const Rigid
         if (weights_[joint.parent] >= 1.0F && weights_[joint.child] >= 1.0F) factors_[joint.child] = 0.0F;
     const bool standsFreely = settings_.balances && !getsUp && !isHeld();
     // bodies_ are those of now: isTooMuch() has asked for them.
-    const Stance* stance = standsFreely ? balance_.stanceOf(bodies_, grounded_, settings_.gravity) : nullptr;
+    const Stance* stance = standsFreely ? balance_.stanceOf(bodies_, grounded_, settings_.gravity, dt) : nullptr;
     drive_.drive(world_, doll_, settings_.muscles, from, to, dt, factors_, stance);
     pull(from, to, dt);
     recover(dt);

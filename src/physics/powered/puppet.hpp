@@ -88,7 +88,7 @@ class Puppet {
     /// Says which of left and right foot are on the ground: nobody balances in the air. Call it before prepare().
     void setGrounded(const std::array<bool, 2>& feet) { grounded_ = feet; }
     /// The bodies of left and right foot; -1: none.
-    [[nodiscard]] const std::array<int, 2>& feet() const { return balance_.feet(); }
+    [[nodiscard]] std::array<int, 2> feet() const { return balance_.feet(); }
 
   private:
     struct Loss {

@@ -231,3 +231,44 @@ TEST_CASE("shapes of the zoo's humanoids lie near their skin and fill it") {
         if (diagnosis.fit.volumeCovered) CHECK(*diagnosis.fit.volumeCovered > 0.65F);
     }
 }
+
+TEST_CASE("a foot stands from its heel to its toe tip, though a capsule touches the ground between its caps alone") {
+    NEEDS_ZOO();
+    int feet = 0;
+    for (const Subject& subject : subjects()) {
+        const auto is = [&](const char* name) { return subject.name == name; };
+        if (!is("cesium_man_glb") && !is("makehuman_mixamo") && !is("rocketbox_male") && !is("kaykit_rogue") &&
+            !is("mesh2motion_human"))
+            continue;
+        INFO(subject.name);
+        const int body = bodyOf(subject.profile, Role::leftFoot);
+        REQUIRE(body >= 0);
+        const PlacedShape& foot = subject.bind[body];
+        const vec3 along = foot.standardFromBody.rotation * vec3(0, 1, 0);
+        const vec3 ahead = along.z < 0.0F ? -along : along;
+        const float middle = glm::dot(foot.standardFromBody.translation, ahead);
+        // Skin that hangs on the foot or on what follows it, and touches the ground.
+        const int joint = subject.map.jointOf(Role::leftFoot);
+        std::vector<vec3> skin;
+        float sole = 1e9F;
+        for (const animation::SkinnedMesh& mesh : subject.character.meshes)
+            for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+                if (!isAncestorOrSelf(subject.character.skeleton, joint, mesh.joints[i][0])) continue;
+                skin.push_back(subject.map.standardFromModel * mesh.positions[i]);
+                sole = std::min(sole, skin.back().y);
+            }
+        float heel = 1e9F;
+        float toe = -1e9F;
+        for (const vec3& point : skin) {
+            if (point.y > sole + 0.02F * subject.profile.heightM) continue;
+            heel = std::min(heel, glm::dot(point, ahead));
+            toe = std::max(toe, glm::dot(point, ahead));
+        }
+        const float height = subject.profile.heightM;
+        const float most = std::max(0.6F * foot.shape.radius, foot.shape.radius - 0.012F * height) + 0.01F * height;
+        CHECK(middle - foot.shape.halfLength - heel < most);
+        CHECK(toe - middle - foot.shape.halfLength < most);
+        ++feet;
+    }
+    CHECK(feet == 5);
+}
