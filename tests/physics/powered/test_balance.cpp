@@ -97,7 +97,7 @@ TEST_CASE("nobody balances without a foot on the ground") {
     CHECK(stance->axis[right] == vec3(0));
 }
 
-TEST_CASE("an ankle gives what presses the foot beyond the capture point, within its length; trunk and arms the rest") {
+TEST_CASE("an ankle gives what presses the foot beyond the capture point, within its length, trunk and arms the rest") {
     const physics::RagdollProfile profile = makeDoll();
     const int left = physics::bodyOf(profile, Role::leftFoot) - 1;
     const int arm = physics::bodyOf(profile, Role::leftUpperArm) - 1;
