@@ -83,7 +83,14 @@ class LimbCompleter {
     void addTo(const LimbRoles& limb) {
         const int upper = map_.jointOf(limb.upper);
         const int lower = map_.jointOf(limb.lower);
-        if (map_.jointOf(limb.end) != kNoJoint || upper == kNoJoint) return;
+        const int end = map_.jointOf(limb.end);
+        if (upper == kNoJoint || (end != kNoJoint && lower != kNoJoint)) return;
+        if (end != kNoJoint) {
+            if (!isAncestorOrSelf(character_.skeleton, upper, end)) return;
+            const int middle = add(limb.lower, upper, 0.5F * (placeOf(upper) + placeOf(end)));
+            out_.stiff.push_back({upper, middle, end, limb.leg});
+            return;
+        }
         if (lower == kNoJoint) {
             const auto reach = reachOf(character_, upper, std::nullopt);
             if (!reach) return;

@@ -9,11 +9,11 @@
 
 namespace lutka::animation {
 
-/// A limb of one joint: it turns as a whole, its elbow or knee is one that we added.
+/// A limb without an elbow or knee: it turns as a whole, its middle is a joint that we added.
 struct StiffLimb {
     int upper = kNoJoint;   ///< The file's joint.
     int middle = kNoJoint;  ///< Added, half way.
-    int end = kNoJoint;     ///< Added: wrist or ankle.
+    int end = kNoJoint;     ///< Wrist or ankle; added where the file has none.
     bool leg = false;
 };
 

@@ -359,18 +359,30 @@ void Retargeter::bendLeg(int side, const vec3& shift) {
 // A limb without a joint in its middle points to where the bent one would end. Legs are longer by that: the lower foot
 // is put as high over the floor as the source's.
 void Retargeter::straightenLimbs(const RetargetPlacement& placement) {
-    const auto hangOn = [&](int joint, int parent) {
-        targetStandard_[joint] = targetStandard_[parent] * targetBindLocal_[joint];
-    };
+    const std::vector<RigidTransform>& bind = target_.standardBind;
     for (const StiffLimb& limb : target_.stiffLimbs) {
         RigidTransform& upper = targetStandard_[limb.upper];
-        const vec3 bent = targetStandard_[limb.end].translation - upper.translation;
-        const RigidTransform upperFromEnd = targetBindLocal_[limb.middle] * targetBindLocal_[limb.end];
+        RigidTransform& middle = targetStandard_[limb.middle];
+        RigidTransform& end = targetStandard_[limb.end];
+        const RigidTransform upperFromEnd = inverse(bind[limb.upper]) * bind[limb.end];
+        const vec3 bent = middle * (inverse(bind[limb.middle]) * bind[limb.end]).translation - upper.translation;
         const vec3 straight = upper.rotation * upperFromEnd.translation;
-        if (glm::length(bent) > 1e-6F && glm::length(straight) > 1e-6F)
-            upper.rotation = glm::normalize(rotationBetween(straight, bent) * upper.rotation);
-        hangOn(limb.middle, limb.upper);
-        hangOn(limb.end, limb.middle);
+        quat turn(1, 0, 0, 0);
+        if (glm::length(bent) > 1e-6F && glm::length(straight) > 1e-6F) turn = rotationBetween(straight, bent);
+        upper.rotation = glm::normalize(turn * upper.rotation);
+        const vec3 endMoved = upper * upperFromEnd.translation - end.translation;
+        for (const Driven& driven : driven_) {
+            RigidTransform& joint = targetStandard_[driven.joint];
+            // A hand or foot of the file's own keeps its way, with all that is on it.
+            if (isAncestorOrSelf(*target_.skeleton, limb.end, driven.joint)) {
+                joint.translation += endMoved;
+            } else if (driven.joint != limb.upper && isAncestorOrSelf(*target_.skeleton, limb.upper, driven.joint)) {
+                joint.rotation = glm::normalize(turn * joint.rotation);
+                joint.translation = upper.translation + turn * (joint.translation - upper.translation);
+            }
+        }
+        middle = upper * (inverse(bind[limb.upper]) * bind[limb.middle]);
+        if (limb.end >= target_.fileJoints) end.rotation = glm::normalize(upper.rotation * upperFromEnd.rotation);
     }
     if (!target_.hasStiffLegs()) return;
     const float lift = scale() * heightOfFeet(source_, sourceStandard_, placement.sourceFloor) -
