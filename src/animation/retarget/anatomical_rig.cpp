@@ -11,6 +11,11 @@ namespace {
 
 constexpr float kNoLength = 1e-4F;  // metres
 
+bool isOfArm(Role role) {
+    return isEitherSide(role, Role::leftUpperArm) || isEitherSide(role, Role::leftLowerArm) ||
+           isEitherSide(role, Role::leftHand);
+}
+
 Role onSide(Role left, Side side) {
     return side == Side::left ? left : mirrored(left);
 }
@@ -46,7 +51,8 @@ void setLimb(AnatomicalRig& rig, const std::array<Role, 4>& roles, const vec3& a
     quat axes = rotationFromXY(along, aside);
     for (std::size_t i = 0; i + 1 < roles.size(); ++i) {
         auto next = boneDirection(rig, roles[i], roles[i + 1]);
-        if (!next && isEitherSide(roles[i], Role::leftHand)) next = handDirection(rig, rig.jointOf(roles[i]));
+        if (!next && isEitherSide(roles[i], Role::leftHand) && rig.has(roles[i]))
+            next = handDirection(rig, rig.jointOf(roles[i]));
         if (next) {
             axes = rotationBetween(direction, *next) * axes;
             direction = *next;
@@ -60,7 +66,8 @@ quat trunkAxes(const AnatomicalRig& rig) {
     const vec3 hips = (rig.bindOf(Role::leftUpperLeg) + rig.bindOf(Role::rightUpperLeg)) * 0.5F;
     const vec3 up = rig.standardBind[rig.neckOrHead()].translation - hips;
     vec3 left = rig.bindOf(Role::leftUpperLeg) - rig.bindOf(Role::rightUpperLeg);
-    left += rig.bindOf(Role::leftUpperArm) - rig.bindOf(Role::rightUpperArm);
+    if (rig.has(Role::leftUpperArm) && rig.has(Role::rightUpperArm))
+        left += rig.bindOf(Role::leftUpperArm) - rig.bindOf(Role::rightUpperArm);
     if (glm::length(up) < kNoLength || glm::length(glm::cross(left, up)) < kNoLength * kNoLength) return {1, 0, 0, 0};
     const vec3 y = glm::normalize(up);
     return rotationFromXY(glm::normalize(left - y * glm::dot(left, y)), y);
@@ -141,6 +148,7 @@ float legLengthOf(const AnatomicalRig& rig) {
 
 void setFingers(AnatomicalRig& rig, Side side) {
     const Role role = onSide(Role::leftHand, side);
+    if (!rig.has(role)) return;
     const int hand = rig.jointOf(role);
     const FingerChains chains = fingersOf(*rig.skeleton, hand);
     const quat handAxes = rig.standardBind[hand].rotation * rig.jointFromAnatomy[indexOf(role)];
@@ -234,8 +242,10 @@ Result<AnatomicalRig> makeAnatomicalRig(const Character& character, const Humano
     };
     if (!map.humanoid) return refuse("is no humanoid", "map its joints, or take another model");
     LimbEnds ends = addLimbEnds(character, map);
-    if (!ends.missing.empty()) {
-        return refuse(fmt::format("lacks joints of a whole humanoid, the first is {}", roleName(ends.missing.front())),
+    // A figure without an arm walks all the same.
+    const auto needed = std::find_if_not(ends.missing.begin(), ends.missing.end(), isOfArm);
+    if (needed != ends.missing.end()) {
+        return refuse(fmt::format("lacks joints of a whole humanoid, the first is {}", roleName(*needed)),
                       "name a joint for it, if there is one: --map");
     }
     AnatomicalRig rig;

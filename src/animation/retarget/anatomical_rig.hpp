@@ -78,8 +78,8 @@ struct AnatomicalRig {
 /// the hips.
 [[nodiscard]] float floorOf(const Character& character, const HumanoidMap& map);
 
-/// Fails with ErrorCode::input when the map is none of a humanoid, lacks a role that addLimbEnds() can't add, or a leg
-/// has no length. `character` must outlive the rig.
+/// Fails with ErrorCode::input when the map is none of a humanoid, lacks a role other than an arm's that addLimbEnds()
+/// can't add, or a leg has no length. `character` must outlive the rig.
 [[nodiscard]] Result<AnatomicalRig> makeAnatomicalRig(const Character& character, const HumanoidMap& map);
 
 /// Which role a limb's bone ends at; nothing for those whose end is no role's joint.

@@ -91,6 +91,11 @@ void RetargetMeter::addDirections() {
             }
             end = *endOfBone(end);
         }
+        const auto isWhole = [&](const AnatomicalRig& rig) { return rig.has(role) && rig.has(end); };
+        if (!isWhole(from) || !isWhole(to)) {
+            ++part;
+            continue;
+        }
         const auto way = [&](const AnatomicalRig& rig, std::span<const RigidTransform> pose) {
             return pose[rig.jointOf(end)].translation - pose[rig.jointOf(role)].translation;
         };

@@ -171,7 +171,7 @@ void Retargeter::planTrunk() {
 void Retargeter::planBone(Role from, Role to) {
     if (!target_.has(to)) return;
     const std::size_t first = driven_.size();
-    Driven& end = plan(target_.jointOf(to), target_.jointOf(from));
+    Driven& end = plan(target_.jointOf(to), target_.has(from) ? target_.jointOf(from) : target_.trunk.back().joint);
     end.role = to;
     end.jointFromAnatomy = target_.jointFromAnatomy[indexOf(to)];
     // A role that the source doesn't have stays as it is on its base.

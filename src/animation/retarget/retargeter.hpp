@@ -29,7 +29,7 @@ struct FootShift {
 /// thread. Both characters must outlive it.
 class Retargeter {
   public:
-    /// Fails with ErrorCode::input when one is no humanoid with a head, arms and legs (makeAnatomicalRig).
+    /// Fails with ErrorCode::input when one is no humanoid with a head and legs (makeAnatomicalRig).
     [[nodiscard]] static Result<Retargeter> make(const Character& source, const HumanoidMap& sourceMap,
                                                  const Character& target, const HumanoidMap& targetMap);
 

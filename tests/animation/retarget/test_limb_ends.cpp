@@ -150,8 +150,29 @@ TEST_CASE("what can't be added is told by its role") {
         humanoid.map.missing = {Role::head};
         CHECK_THAT(refusal(), Catch::Contains("head"));
     }
-    SECTION("a whole arm") {
-        takeAway(humanoid.map, {Role::leftUpperArm, Role::leftLowerArm, Role::leftHand});
-        CHECK_THAT(refusal(), Catch::Contains("UpperArm"));
+    SECTION("a whole leg") {
+        takeAway(humanoid.map, {Role::leftUpperLeg, Role::leftLowerLeg, Role::leftFoot});
+        CHECK_THAT(refusal(), Catch::Contains("UpperLeg"));
+    }
+}
+
+TEST_CASE("a figure without an arm walks, and its clips play on a whole one") {
+    const test::TestHumanoid whole = test::makeHumanoid({});
+    test::TestHumanoid lacking = test::makeHumanoid({.axesSeed = 2});
+    for (const Role role : {Role::leftUpperArm, Role::leftLowerArm, Role::leftHand}) {
+        lacking.map.roles[indexOf(role)].reset();
+        lacking.map.missing.push_back(role);
+    }
+    const auto figures = [](const test::TestHumanoid& source, const test::TestHumanoid& target) {
+        auto retargeter = Retargeter::make(source.character, source.map, target.character, target.map);
+        REQUIRE(retargeter);
+        const auto made = retargetClip(retargeter.value(), test::makeWalk(source));
+        REQUIRE(made);
+        return made.value().figures;
+    };
+    for (const RetargetFigures& made : {figures(whole, lacking), figures(lacking, whole)}) {
+        CHECK(made.meanLimbDeg() < 3.0);
+        CHECK(std::none_of(made.directions.begin(), made.directions.end(),
+                           [](const auto& part) { return part.part == "leftUpperArm"; }));
     }
 }
