@@ -152,7 +152,7 @@ TEST_CASE("a script gives a role to another joint by the mapping's list and save
         script.add(textTyped(static_cast<std::uint32_t>(letter)));
     script.wait(2);
     const int list = script.frame();
-    script.click(190, 198).wait(2);  // "chest", the first line of what is left
+    script.click(190, 207).wait(2);  // "chest", the first line of what is left
     script.key(Key::s, kControl).wait(2);
     script.save(scratch / "script.jsonl");
     const Outcome outcome =

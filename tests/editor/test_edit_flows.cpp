@@ -176,3 +176,18 @@ TEST_CASE("a script selects a body, types its mass and saves it, all in one fram
     const physics::RagdollProfile now = saved(scratch);
     CHECK(now.bodies[physics::bodyOf(now, Role::leftLowerLeg)].massKg == Approx(7.5F));
 }
+
+TEST_CASE("the list of joints begins where the joint of the role is, and takes its neighbour by a click") {
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
+    const Scratch scratch;
+    Script script;
+    script.key(Key::space).click(122, 43).click(190, 353).wait(3);  // the tab Mapping, the left thigh's joint
+    script.click(190, 584).wait(2);                                 // below it in the list: leftLowerLeg
+    script.move(640, 640).key(Key::s, kControl).wait(3);
+    const Outcome outcome = play(scratch, script);
+    NEEDS_DISPLAY_OF(outcome);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    const physics::RagdollProfile now = saved(scratch);
+    CHECK(now.bodies[physics::bodyOf(now, Role::leftUpperLeg)].joint == "leftLowerLeg");
+}

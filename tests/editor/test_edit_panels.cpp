@@ -142,7 +142,7 @@ TEST_CASE("a script maps a thigh to a foot, and one Fix mends the mapping") {
     const Scratch scratch;
     Script script;
     script.key(Key::space).click(122, 43).click(190, 353);  // the tab Mapping, the left thigh's joint
-    type(script, "leftFoot").wait(2).click(190, 396).wait(2);
+    type(script, "leftFoot").wait(2).click(190, 404).wait(2);
     script.click(1134, 43).move(640, 640).wait(3);  // the tab Doctor
     const int wrong = script.frame();
     script.wait(1).click(958, 213).wait(2).move(640, 640).key(Key::s, kControl).wait(3);  // Fix of the thigh's joint

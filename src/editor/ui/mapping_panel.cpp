@@ -4,6 +4,9 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "editor/ui/panels.hpp"
 #include "editor/ui/role_drag.hpp"
 #include "editor/ui/style.hpp"
@@ -22,7 +25,7 @@ void jointCombo(const PanelContext& context, Role role, int joint, bool fixed) {
     ImGui::SetNextItemWidth(-context.px(28));
     if (fixed) ImGui::PushStyleColor(ImGuiCol_Text, accentColor());
     const bool open =
-        ImGui::BeginCombo("##combo", shown.c_str(), ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton);
+        ImGui::BeginCombo("##combo", shown.c_str(), ImGuiComboFlags_HeightLargest | ImGuiComboFlags_NoArrowButton);
     if (fixed) ImGui::PopStyleColor();
     if (!open) return;
     static std::string filter;  // only one combo is open at a time
@@ -32,17 +35,30 @@ void jointCombo(const PanelContext& context, Role role, int joint, bool fixed) {
     }
     ImGui::SetNextItemWidth(-1.0F);
     ImGui::InputTextWithHint("##filter", "type to search", &filter);
+    // The list scrolls below the search, and begins where the joint is now.
+    const float line = ImGui::GetTextLineHeightWithSpacing();
+    constexpr float lines = 20.0F;
+    const float below = ImGui::GetIO().DisplaySize.y - ImGui::GetCursorScreenPos().y - context.px(16);
+    const float height = std::min(lines, static_cast<float>(skeleton.jointCount() + 1)) * line;
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, 0U);
+    ImGui::BeginChild("##joints", {context.px(280), std::max(std::min(height, below), 4.0F * line)});
+    ImGui::PopStyleColor();
+    std::optional<int> chosen;
     // Without a joint for such a role there is no ragdoll.
-    if (!animation::isRequired(role) && ImGui::Selectable("(none)", joint < 0)) {
-        editor.edit([&](EditorDocument& document) { return document.unmapRole(role); });
-    }
+    if (!animation::isRequired(role) && ImGui::Selectable("(none)", joint < 0)) chosen = animation::kNoJoint;
     for (int i = 0; i < skeleton.jointCount(); ++i) {
         if (!containsText(skeleton.names[i], filter)) continue;
         ImGui::PushID(i);
-        if (ImGui::Selectable(skeleton.names[i].c_str(), i == joint)) {
-            editor.edit([&](EditorDocument& document) { return document.assignRole(role, i); });
-        }
+        if (ImGui::Selectable(skeleton.names[i].c_str(), i == joint)) chosen = i;
+        if (i == joint && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
         ImGui::PopID();
+    }
+    ImGui::EndChild();
+    if (chosen) {
+        ImGui::CloseCurrentPopup();
+        editor.edit([&](EditorDocument& document) {
+            return *chosen == animation::kNoJoint ? document.unmapRole(role) : document.assignRole(role, *chosen);
+        });
     }
     ImGui::EndCombo();
 }

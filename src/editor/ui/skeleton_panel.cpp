@@ -90,6 +90,7 @@ void assignMenu(const PanelContext& context, int joint) {
 struct Tree {
     std::vector<std::vector<int>> children;
     std::vector<bool> leads;  // to a joint with a role or a body, or has one itself: shown unfolded
+    int depth = 1;            // of what is shown unfolded
 };
 
 Tree makeTree(const EditorDocument& document) {
@@ -106,7 +107,20 @@ Tree makeTree(const EditorDocument& document) {
         leadTo(animation::findJoint(skeleton, body.jointPath));
     // Who makes a ragdoll of a creature by hand looks for joints.
     if (!physics::hasRoles(document.profile())) tree.leads.assign(tree.leads.size(), true);
+    std::vector<int> depths(skeleton.parents.size(), 1);  // parents come first
+    for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
+        if (skeleton.parents[joint] >= 0) depths[joint] = depths[skeleton.parents[joint]] + 1;
+        if (tree.leads[joint]) tree.depth = std::max(tree.depth, depths[joint]);
+    }
     return tree;
+}
+
+// Less in a deep tree, whose names would begin where the panel ends.
+float indentOf(const Tree& tree) {
+    constexpr float usual = 11.0F;
+    constexpr float least = 4.0F;
+    constexpr float room = 12.0F * usual;
+    return std::clamp(room / static_cast<float>(tree.depth), least, usual);
 }
 
 void roleTag(Role role, const std::string& joint) {
@@ -226,9 +240,9 @@ void drawSkeletonTab(const PanelContext& context) {
     ImGui::PushID(
         context.editor.characterRevision());  // what is folded, and how far it is scrolled, is another model's affair
     ImGui::BeginChild("##tree", {0, 0}, true, ImGuiWindowFlags_HorizontalScrollbar);
-    ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, context.px(11));
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(context.px(6), context.px(3)));
     const Tree tree = makeTree(context.editor.document());
+    ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, context.px(indentOf(tree)));
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(context.px(6), context.px(3)));
     bool found = context.state.jointFilter.empty();
     for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
         if (!context.state.jointFilter.empty()) {
