@@ -282,7 +282,7 @@ void strengthField(const PartFields& fields) {
     float strength = fields.profile().muscle.strength;
     const float was = fields.fitted().muscle.strength;
     fieldRow(fields, "Strength");
-    if (slider("##strength", strength, 0.01F, 10.0F, "%.2f times", true)) {
+    if (slider("##strength", strength, 0.01F, 10.0F, "× %.2f", true)) {
         fields.change("Strength", [&](EditorDocument::Part& part) -> Result<void> {
             part.body.muscle.strength = std::clamp(strength, 0.0F, physics::MuscleFactors::kMost);
             return {};

@@ -75,6 +75,15 @@ void ViewCamera::lookAlong(float yaw, float pitch) {
     render::orbit(workspace_.camera, 0.0F, 0.0F);  // keeps off the pole
 }
 
+bool ViewCamera::seesFreely(const vec3& point) const {
+    const auto seen = render::project(workspace_.camera, point, workspace_.window);
+    if (!seen) return false;
+    const render::PictureInsets& covered = workspace_.covered;
+    const float x = seen->x / static_cast<float>(workspace_.window.width);
+    const float y = seen->y / static_cast<float>(workspace_.window.height);
+    return x > covered.left && x < 1.0F - covered.right && y > covered.top && y < 1.0F - covered.bottom;
+}
+
 void ViewCamera::toggleFollow() {
     if (workspace_.followed) {
         workspace_.followed.reset();
@@ -84,6 +93,8 @@ void ViewCamera::toggleFollow() {
     const auto active = workspace_.selection.active();
     workspace_.followed = active && active->kind == Item::Kind::body ? active->doll : 0;
     followedAt_ = player.simulation().worldFromBody(*workspace_.followed, player.alpha())[0].translation;
+    // Who has fallen out of the picture comes into its middle; else the view stays as the user has it.
+    if (!seesFreely(followedAt_)) workspace_.camera.target = followedAt_;
     workspace_.say(Toast::Kind::info, "The camera follows the doll; Shift+F lets it go");
 }
 

@@ -17,6 +17,7 @@ class ViewCamera {
     void focus();
     /// Looks that way at what it looks at; radians.
     void lookAlong(float yaw, float pitch);
+    /// Of the selected doll, or the first: keeps it where it is seen, or takes it into the middle when it is not.
     void toggleFollow();
     /// Once a frame.
     void follow();
@@ -34,6 +35,8 @@ class ViewCamera {
     void frame(std::vector<vec3> points);
     void frameAgain();
     [[nodiscard]] std::vector<vec3> pointsOfAll() const;
+    // Not behind panels, bars or the eye.
+    [[nodiscard]] bool seesFreely(const vec3& point) const;
 
     Workspace& workspace_;
     std::optional<Framed> framed_;

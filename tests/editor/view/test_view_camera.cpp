@@ -101,3 +101,23 @@ TEST_CASE("F frames what is selected, and all of the scene when nothing is") {
     CHECK(editor->workspace().camera.distance == Approx(all).margin(0.01));
     CHECK(seesAll(*editor));
 }
+
+TEST_CASE(
+    "a doll that has left the picture comes into it when it is followed, and one that is seen stays where it is") {
+    const auto editor = test::makeEditor(sceneOf("drop", {1280, 720}));
+    editor->workspace().covered = panelsOf({1280, 720});
+    test::pass(*editor, 1);
+    const vec3 target = editor->workspace().camera.target;
+    test::send(*editor, keyPressed(Key::f, {true, false, false}));
+    CHECK(editor->workspace().camera.target == target);
+    test::send(*editor, keyPressed(Key::f, {true, false, false}));
+    test::click(*editor, test::seenAt(*editor, Role::head));
+    test::send(*editor, keyPressed(Key::f));
+    test::send(*editor, keyPressed(Key::escape));
+    editor->player().setPlaying(true);
+    test::pass(*editor, 120);
+    test::send(*editor, keyPressed(Key::f, {true, false, false}));
+    test::pass(*editor, 10);
+    const vec2 hips = test::seenAt(*editor, Role::hips);
+    CHECK((hips.x > 310.0F && hips.x < 936.0F && hips.y > 70.0F && hips.y < 692.0F));
+}
