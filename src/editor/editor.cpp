@@ -439,6 +439,7 @@ void Editor::openBeside(int step) {
 
 void Editor::reload() {
     const render::Camera seen = workspace_.camera;
+    const std::vector<std::string> selected = namesOf(document().profile(), workspace_.selectedBodies());
     endTransform();
     auto again = reopenModel(load_, document());
     const std::string name = document().character().file.filename().string();
@@ -446,6 +447,8 @@ void Editor::reload() {
         workspace_.say(Toast::Kind::error, name + " can't be read again; the old one goes on. " + again.error().text());
     } else if (adopt(std::move(again), "Read again: " + name)) {
         workspace_.camera = seen;
+        for (const int body : bodiesNamed(document().profile(), selected))
+            select(Item{Item::Kind::body, 0, body}, true);
     }
 }
 

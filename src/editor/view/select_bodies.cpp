@@ -1,7 +1,5 @@
 #include "editor/view/select_bodies.hpp"
 
-#include <vector>
-
 namespace lutka::editor {
 
 void selectMirror(Selection& selection, const physics::RagdollProfile& profile) {
@@ -29,6 +27,22 @@ void selectChildren(Selection& selection, const physics::RagdollProfile& profile
     }
     // What was added last is the active one.
     if (!items.empty() && selection.active() != items.back()) selection.toggle(items.back());
+}
+
+std::vector<std::string> namesOf(const physics::RagdollProfile& profile, std::span<const int> bodies) {
+    std::vector<std::string> names;
+    for (const int body : bodies)
+        names.push_back(profile.bodies[body].name);
+    return names;
+}
+
+std::vector<int> bodiesNamed(const physics::RagdollProfile& profile, std::span<const std::string> names) {
+    std::vector<int> bodies;
+    for (const std::string& name : names) {
+        const int body = physics::bodyNamed(profile, name);
+        if (body >= 0) bodies.push_back(body);
+    }
+    return bodies;
 }
 
 }  // namespace lutka::editor

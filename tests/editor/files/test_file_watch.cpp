@@ -94,6 +94,9 @@ TEST_CASE("a model that another program has written is read again, with the user
     physics::BodyShape shape = editor.document().profile().bodies[head].shape;
     shape.radius *= 1.25F;
     REQUIRE(editor.edit([&](EditorDocument& document) { return document.setShape(head, shape); }));
+    const int hand = physics::bodyOf(editor.document().profile(), animation::Role::leftHand);
+    editor.select(Item{Item::Kind::body, 0, hand});
+    editor.select(Item{Item::Kind::body, 0, head}, true);
     const int revision = editor.characterRevision();
     const render::Camera seen = editor.workspace().camera;
     fs::last_write_time(model, fs::last_write_time(model) + std::chrono::seconds(10));
@@ -103,6 +106,8 @@ TEST_CASE("a model that another program has written is read again, with the user
     CHECK(editor.document().profile().bodies[head].shape.radius == Approx(shape.radius));
     CHECK(editor.document().unsaved());
     CHECK(editor.workspace().camera.distance == Approx(seen.distance));
+    CHECK(editor.workspace().selectedBodies() == std::vector<int>{hand, head});
+    CHECK(editor.state() == State::selected);
     // A file that can't be read leaves everything as it is.
     write(model, "half a file", 20);
     for (int i = 0; i < 4; ++i)
