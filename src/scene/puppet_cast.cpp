@@ -92,8 +92,7 @@ Result<std::unique_ptr<PuppetCast>> PuppetCast::create(std::span<const RagdollAs
     }
     if (auto known = checkLed(assets, play.led); !known) return known.error();
     std::unique_ptr<PuppetCast> cast(new PuppetCast(assets, scenario, std::move(play)));
-    const bool wantsIdle = cast->play_.getUp && cast->play_.start.clip.empty();
-    if (wantsIdle) cast->play_.start.clip = "idle";
+    if (cast->play_.getUp && cast->play_.start.clip.empty()) cast->play_.start.clip = "idle";
     std::unique_ptr<RagdollAsset> donor;
     cast->play_.borrows = cast->play_.borrows || cast->play_.getUp;
     const std::string& clip = cast->play_.start.clip;
@@ -141,8 +140,8 @@ Result<void> PuppetCast::findClips(const RagdollAsset& asset, const RagdollAsset
         reach_.clipReachDeg = reachable.mostDeg;
         reach_.clipReachJoint = reachable.joint;
     }
-    clip = std::move(reachable.clip);
-    auto library = animation::ClipLibrary::create(asset.character.skeleton, std::span(&clip, 1), travelOf(asset));
+    auto library =
+        animation::ClipLibrary::create(asset.character.skeleton, std::span(&reachable.clip, 1), travelOf(asset));
     if (!library) return library.error();
     libraries_.push_back(std::make_unique<animation::ClipLibrary>(std::move(library).value()));
     startSeconds_.push_back(seconds);

@@ -104,6 +104,8 @@ class PuppetCast {
     [[nodiscard]] physics::Puppet& puppet(int doll) { return *actors_[doll].puppet; }
     /// The pose that a doll is to have at the end of the last step, one frame a body, world.
     [[nodiscard]] std::span<const RigidTransform> pose(int doll) const { return actors_[doll].to; }
+    /// The same in the course of the last step, `alpha` in [0, 1] of it. Holds until the next call.
+    [[nodiscard]] std::span<const RigidTransform> pose(int doll, float alpha);
     [[nodiscard]] const PuppetPlay& settings() const { return play_; }
     /// What the first doll's puppet is made with.
     [[nodiscard]] physics::PuppetSettings settingsOfFirst() const {
@@ -193,7 +195,7 @@ class PuppetCast {
     double seconds_ = 0.0;
     float dt_ = 0.0F;  // of the last step
 
-    std::vector<RigidTransform> joints_, fitted_;  // scratch
+    std::vector<RigidTransform> joints_, fitted_, mixed_;  // scratch
     std::vector<physics::BodyState> bodies_;
     std::vector<RigidTransform> frames_;
     std::vector<float> errors_, clearance_;

@@ -167,6 +167,14 @@ void PuppetCast::show(Actor& actor, float dt) {
     actor.isHeldBack = holdBack(actor, dt);
 }
 
+std::span<const RigidTransform> PuppetCast::pose(int doll, float alpha) {
+    const Actor& actor = actors_[doll];
+    mixed_.resize(actor.to.size());
+    for (std::size_t body = 0; body < mixed_.size(); ++body)
+        mixed_[body] = interpolate(actor.from[body], actor.to[body], alpha);
+    return mixed_;
+}
+
 // Height of the level floor that it is on.
 float PuppetCast::levelOf(const Actor& actor) {
     return actor.rising ? actor.ground : actor.worldFromModel.translation.y + actor.soles - actor.lift;

@@ -83,6 +83,21 @@ TEST_CASE("a clip that puts feet into the floor walks on it: neither in it nor o
     CHECK(highest < 0.02F);
 }
 
+TEST_CASE("the pose that a puppet follows is told in the course of a step as its bodies are") {
+    PuppetPlay play;
+    play.start.clip = "walk";
+    const auto simulation = simulate(play, SolverKind::crowd, 1.0F);
+    scene::PuppetCast& cast = *simulation->puppets();
+    const int foot = physics::bodyOf(mannequin().profile, Role::leftFoot);
+    const vec3 end = cast.pose(0)[foot].translation;
+    const vec3 begin = cast.pose(0, 0.0F)[foot].translation;
+    CHECK(glm::distance(begin, end) > 1e-4F);
+    CHECK(glm::distance(cast.pose(0, 1.0F)[foot].translation, end) < 1e-6F);
+    CHECK(glm::distance(cast.pose(0, 0.5F)[foot].translation, 0.5F * (begin + end)) < 1e-5F);
+    simulation->step();
+    CHECK(glm::distance(cast.pose(0, 0.0F)[foot].translation, end) < 1e-6F);
+}
+
 TEST_CASE("puppets run the same bits again, after a reset as well") {
     PuppetPlay play;
     play.start.clip = "walk";

@@ -123,16 +123,25 @@ render::Color heat(float share, unsigned char opacity) {
             opacity};
 }
 
-// The pose that a puppet follows, each body by how far its joint is from it.
-void drawGhost(const scene::Simulation& simulation, int doll, std::span<const RigidTransform> bodies,
-               render::LineBatch& lines) {
+bool isThere(const RigidTransform& body, const RigidTransform& pose) {
+    constexpr float kNearM = 0.015F;
+    constexpr float kNear = radians(3.0F);
+    const quat off = glm::normalize(body.rotation * glm::conjugate(pose.rotation));
+    return glm::distance(body.translation, pose.translation) < kNearM && glm::length(rotationVector(off)) < kNear;
+}
+
+// The pose that a puppet follows, each body by how far its joint is from it. Where the bodies themselves are coloured
+// (`overBodies`) those that are in it are left out: two colours on one line are none.
+void drawGhost(scene::Simulation& simulation, int doll, std::span<const RigidTransform> bodies, float alpha,
+               bool overBodies, render::LineBatch& lines) {
     constexpr float most = radians(30.0F);  // and more: red
     constexpr unsigned char opacity = 150;
     const physics::RagdollProfile& profile = simulation.assetOf(doll).profile;
-    const std::span<const RigidTransform> pose = simulation.puppets()->pose(doll);
+    const std::span<const RigidTransform> pose = simulation.puppets()->pose(doll, alpha);
     std::vector<float> errors(profile.constraints.size());
     physics::jointErrors(profile, pose, bodies, errors);
     for (std::size_t body = 0; body < pose.size(); ++body) {
+        if (overBodies && isThere(bodies[body], pose[body])) continue;
         const float error = body > 0 ? errors[body - 1] : 0.0F;
         drawBody(profile.bodies[body].shape, pose[body], heat(0.5F + 0.5F * std::min(error / most, 1.0F), opacity),
                  lines);
@@ -155,9 +164,10 @@ void drawPuppets(const Workspace& workspace, const ViewSettings& view, render::L
     scene::Simulation& simulation = workspace.player->simulation();
     if (simulation.puppets() == nullptr) return;
     for (int doll = 0; doll < simulation.dollCount(); ++doll) {
-        const auto bodies = simulation.worldFromBody(doll, workspace.player->alpha());
+        const float alpha = workspace.player->alpha();
+        const auto bodies = simulation.worldFromBody(doll, alpha);
         const bool limp = simulation.puppets()->puppet(doll).state() == physics::PuppetState::limp;
-        if (view.ghost && !limp) drawGhost(simulation, doll, bodies, lines);
+        if (view.ghost && !limp) drawGhost(simulation, doll, bodies, alpha, view.strength, lines);
         if (view.strength) drawStrength(simulation, doll, bodies, lines);
     }
 }
