@@ -18,15 +18,12 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
                                               {"mendGap", &tuning.mendGap},
                                               {"mendAngle", &tuning.mendAngle},
                                               {"aimGap", &tuning.aimGap},
-                                              {"releaseRate", &tuning.releaseRate},
-                                              {"pressRate", &tuning.pressRate},
                                               {"mendRate", &tuning.mendRate},
                                               {"mendHaste", &tuning.mendHaste},
                                               {"supportPassed", &tuning.supportPassed},
                                               {"supportKept", &tuning.supportKept},
                                               {"nearSpeed", &tuning.nearSpeed},
-                                              {"hitSpeed", &tuning.hitSpeed},
-                                              {"hitRate", &tuning.hitRate},
+                                              {"answerSpeed", &tuning.answerSpeed},
                                               {"contactTolerance", &tuning.contactTolerance},
                                               {"limitTolerance", &tuning.limitTolerance},
                                               {"firstTouch", &tuning.firstTouch},
@@ -50,9 +47,9 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
                                               {"sleepSpeed", &tuning.sleepSpeed},
                                               {"angularDamping", &tuning.angularDamping},
                                               {"leastGyration", &tuning.leastGyration}};
-    const std::map<std::string, int*> whole{{"substeps", &tuning.substeps},   {"passes", &tuning.passes},
-                                            {"patience", &tuning.patience},   {"mendEvery", &tuning.mendEvery},
-                                            {"hitSweeps", &tuning.hitSweeps}, {"mendSweeps", &tuning.mendSweeps}};
+    const std::map<std::string, int*> whole{{"substeps", &tuning.substeps},         {"passes", &tuning.passes},
+                                            {"patience", &tuning.patience},         {"mendEvery", &tuning.mendEvery},
+                                            {"answerSweeps", &tuning.answerSweeps}, {"mendSweeps", &tuning.mendSweeps}};
     if (const auto real = reals.find(name); real != reals.end())
         *real->second = value;
     else if (const auto number = whole.find(name); number != whole.end())

@@ -41,8 +41,8 @@ struct Batch {
     RestLanes rest{};
     int doll[kLanes]{};  ///< Which doll is in which lane.
     int used = 0;
-    int job = 0;         ///< Which job of this step solves it.
-    bool isHit = false;  ///< Whether a contact of its dolls was pushed again in this substep.
+    int job = 0;             ///< Which job of this step solves it.
+    bool isPressed = false;  ///< Whether a contact of its dolls was pressed again, so that they have to answer.
 
     [[nodiscard]] BatchView view(const Topology& topology);
     /// First member of a body's lane: what pair contacts point to.

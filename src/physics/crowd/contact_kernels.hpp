@@ -139,6 +139,13 @@ LUTKA_LANES void preparePair(PairContactLanes& pair, bool isFirst) {
     }
 }
 
+// What was too far off to be met when the substep began may have been pushed together since.
+LUTKA_LANES void makeReady(PairContactLanes& pair) {
+    if (pair.ready != 0) return;
+    pair.ready = 1;
+    preparePair(pair, false);
+}
+
 // Places a contact where its bodies are now: the touching points, how far apart the surfaces are, the arms. Both bodies
 // are pushed at one point, so that no torque comes from nowhere.
 LUTKA_LANES void placePair(PairContactLanes& pair, bool isFirst) {
@@ -190,8 +197,6 @@ LUTKA_LANES void passSupport(const PairContactLanes& pair, const Mask& presses, 
     scatter3(pair.bodyB, kSupportOffset, choose(liftsB, -normal * firmA, b));
 }
 
-constexpr float kComing = 1.0F;  // m/s by which pushes of others may speed up an approach within a sweep
-
 static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& params) {
     const bool isFirst = params.warmStart != 0;
     for (int i = 0; i < count; ++i) {
@@ -200,9 +205,9 @@ static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& 
         const V3 normal = load(pair.normal);
         const F start = dot(normal, slidingOf(pair, velocitiesOf(pair)));
         const F pressed = load(pair.normalImpulse);
-        const Mask meets =
-            (pressed > all(0.0F)) | (start + contactBias(load(pair.separation), params, 0) < all(kComing));
-        if (isFirst || bits(meets) != 0) preparePair(pair, isFirst);
+        const Mask meets = (pressed > all(0.0F)) | (start + contactBias(load(pair.separation), params, 0) < all(0.0F));
+        pair.ready = isFirst || bits(meets) != 0 ? 1 : 0;
+        if (pair.ready != 0) preparePair(pair, isFirst);
         // What changed the bodies' speeds was a hit and is over; what held them against a load goes on.
         const F steady = pressed - load(pair.normalMass) * (start - load(pair.approach));
         // Bodies that part already bear no load either: pushing on would speed them up.
@@ -210,7 +215,6 @@ static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& 
         store(pair.approach, start);
         store(pair.normalImpulse, held);
         store(pair.carriedNormal, held);
-        store(pair.struck, all(0.0F));
         const Mask presses = held > all(0.0F);
         if (bits(presses) != 0) passSupport(pair, presses, params);
         for (int k = 0; k < 2; ++k) {  // friction ends with the load
@@ -254,13 +258,13 @@ static int solvePairs(PairContactLanes* pairs, int count, const SubstepParams& p
     Mask pressed = noLanes();
     for (int i = 0; i < count; ++i) {
         PairContactLanes& pair = pairs[i];
-        pair.hit = 0;
         PairVelocities v = velocitiesOf(pair);
         const V3 normal = load(pair.normal);
         const V3 sliding = slidingOf(pair, v);
         const F carried = load(pair.normalImpulse);
         const F bias = contactBias(load(pair.separation), params, 0);
         if (bits((carried > all(0.0F)) | (dot(normal, sliding) + bias < all(0.0F))) == 0) continue;
+        makeReady(pair);
         const V3 t1 = load(pair.tangent[0]);
         const V3 t2 = load(pair.tangent[1]);
         const F before1 = load(pair.tangentImpulse[0]);
@@ -275,16 +279,7 @@ static int solvePairs(PairContactLanes* pairs, int count, const SubstepParams& p
 
         const F approach = dot(normal, slidingOf(pair, v));
         const F off = approach + bias;
-        const Mask hit = (off < all(-params.hitSpeed)) & (load(pair.strikes) > all(0.0F));
-        if (params.hitSweeps > 0 && bits(hit) != 0) {
-            pair.hit = static_cast<int>(bits(hit));
-            store(pair.asked, hit ? off : all(0.0F));
-        }
-        // A single body's mass is less than what a doll sets against a push: what pressed too much is taken back
-        // faster.
-        const F change = -load(pair.normalMass) *
-                         (off > all(0.0F) ? off * all(params.releaseRate) : off * eagerness(pair, params.pressRate));
-        const F total = most(carried + change, all(0.0F));
+        const F total = most(carried - load(pair.normalMass) * off, all(0.0F));
         pressed |= (total > all(0.0F)) | (carried > all(0.0F));
         store(pair.normalImpulse, total);
         pressPair(pair, v, total - carried);
@@ -300,6 +295,7 @@ static int mendPairs(PairContactLanes* pairs, int count, const SubstepParams& pa
         const F zero = all(0.0F);
         const Mask overlaps = (load(pair.separation) < all(-params.slop - params.mendGap)) & (load(pair.active) > zero);
         if (bits(overlaps) == 0) continue;
+        makeReady(pair);
         any |= overlaps;
         PairVelocities v = velocitiesOf(pair);
         const V3 normal = load(pair.normal);

@@ -2,7 +2,7 @@
 
 /// What a translation unit that defines LUTKA_KERNELS includes to get that instruction set's kernels.
 
-#include "physics/crowd/hit_kernels.hpp"
+#include "physics/crowd/answer_kernels.hpp"
 #include "physics/crowd/momentum_kernels.hpp"
 
 namespace lutka::physics::crowd::LUTKA_KERNELS {
@@ -25,6 +25,6 @@ static void begin(const BatchView& batch, const SubstepParams& params) {
 static constexpr Kernels kTable{&refresh,       &findBounds,    &findSelfPairs, &findBodyPairs, &touchCores,
                                 &touchOwnCores, &findNearPlane, &joinBounds,    &findMotion,    &begin,
                                 &solve,         &mend,          &advance,       &beginPairs,    &solvePairs,
-                                &mendPairs,     &solveHits,     &carryPairs};
+                                &mendPairs,     &pressAgain,    &carryPairs};
 
 }  // namespace lutka::physics::crowd::LUTKA_KERNELS

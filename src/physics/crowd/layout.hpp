@@ -38,10 +38,11 @@ struct BodyLanes {
     Wide3 position;                       ///< Of the centre of mass.
     Wide3 axisX, axisY, axisZ;            ///< The columns of the rotation, kept in step with `rotation`.
     Wide4 rotation;
-    Wide3 loose;      ///< The velocity before the joints were solved: what it changes by is their doing.
-    Wide3 spin;       ///< What half a substep of free motion adds to the turning rate.
-    Wide3 low, high;  ///< Bounds for the coming step as seen from the doll's root: see `findBounds`.
-    Wide3 support;    ///< Out of what it rests on; its length says how firmly that holds, 0 to 1.
+    Wide3 loose;         ///< The velocity that pushes on single bodies gave: what differs is the joints' doing.
+    Wide3 spin;          ///< What half a substep of free motion adds to the turning rate.
+    Wide3 low, high;     ///< Bounds for the coming step as seen from the doll's root: see `findBounds`.
+    Wide3 support;       ///< Out of what it rests on; its length says how firmly that holds, 0 to 1.
+    Wide3 looseAngular;  ///< The turning rate likewise.
 };
 /// In floats, from the first member to the lane's own; batch.cpp holds them to the members.
 inline constexpr int kVelocityOffset = 0;
@@ -234,12 +235,12 @@ struct PairContactLanes {
     Wide3 frictionImpulse;  ///< World axes, what is carried from the step before.
     Wide tangentImpulse[2];
     Wide approach;       ///< Relative speed along the normal at the start of the last substep.
-    Wide carriedNormal;  ///< What the substep before left of the impulses.
+    Wide carriedNormal;  ///< What the substep before left of the impulses; later what the last sweep added.
     Wide carriedTangent[2];
     Wide active;   ///< 1, or 0 where the lane is empty.
     Wide eager;    ///< 1 where both bodies have others jointed to them, which lag behind a push; else 0.
-    Wide strikes;  ///< 1 where both are of different dolls with joints: what hits there is pushed again
-                   ///< (hit_kernels.hpp).
+    Wide strikes;  ///< 1 where both are of different dolls with joints: these are pressed again once the dolls have
+                   ///< answered (answer_kernels.hpp).
     int onAxisY;   ///< Whether all touching points lie on the bodies' y, as those of capsules do.
     int follows;   ///< Whether all are of capsules and spheres: points and normal are found anew in every substep.
 
@@ -250,28 +251,24 @@ struct PairContactLanes {
     Wide separation;
     Wide normalMass;
     Wide tangentMass[2];
-    Wide asked;   ///< m/s by which the first sweep wanted the approach to change, of contacts that are hit; see
-                  ///< hit_kernels.hpp.
-    Wide struck;  ///< N s, what the second push gave in this substep; it is over with it.
-    int hit;      ///< A bit a lane: which are hit in this substep.
+    int ready;    ///< Whether directions and masses are those of this substep.
+    int changed;  ///< A bit a lane: which the last sweep of pressAgain() has changed.
 };
 
 /// What decides quality and cost within a substep; the same for all of them. The defaults are the outcome of the sweep
 /// described in docs/crowd.md.
 struct SubstepTuning {
-    int passes = 8;            ///< At most, with bias in a substep, >= 1: until the guess of what holds is right.
-    int patience = 3;          ///< Passes after which rows that will not come to rest are only added any more.
-    float aimGap = 0.0003F;    ///< Metres by which an anchor may miss in a substep before its arm is foreseen anew.
-    float releaseRate = 2.0F;  ///< By how much faster a contact between bodies takes back what it pressed too much.
-    float pressRate = 1.1F;    ///< By how much more it presses than the two bodies' masses ask, [1, 2): dolls follow.
-    float mendRate = 1.6F;     ///< The same of the sweeps that mend overlap.
-    float mendHaste = 3.0F;    ///< Factor on the speed with which overlap of jointed bodies is mended.
-    int mendSweeps = 2;        ///< Over the contacts between bodies, in each mending.
+    int passes = 8;          ///< At most, with bias in a substep, >= 1: until the guess of what holds is right.
+    int patience = 3;        ///< Passes after which rows that will not come to rest are only added any more.
+    float aimGap = 0.0003F;  ///< Metres by which an anchor may miss in a substep before its arm is foreseen anew.
+    float mendRate = 1.6F;   ///< By how much more the sweeps that mend overlap press than the two bodies' masses ask.
+    float mendHaste = 3.0F;  ///< Factor on the speed with which overlap of jointed bodies is mended.
+    int mendSweeps = 2;      ///< Over the contacts between bodies, in each mending.
     float supportPassed = 0.97F;  ///< How firmly what rests on a body is held, of how firmly that body is, [0, 1).
     float supportKept = 0.95F;    ///< What is left of it a substep later once nothing presses.
-    float hitSpeed = 1.0F;    ///< m/s of approach that is left after a push by which a contact is hit and pushed again,
-    float hitRate = 1.5F;     ///< so many times as hard, at most, as its two bodies' masses ask.
-    int hitSweeps = 1;        ///< How often, 0: never.
+    int answerSweeps = 2;       ///< At most, over the contacts between dolls after these have answered; 0: none. More:
+                                ///< stiffer heaps, and the dolls' cost again for each.
+    float answerSpeed = 0.02F;  ///< m/s by which a contact may be wrong to be left out of them. Less: the same.
     float nearSpeed = 8.0F;   ///< m/s that an approach may grow by within a substep: contacts farther off are left out.
     float mendGap = 0.0002F;  ///< Metres, and
     float mendAngle = 0.002F;       ///< rad: errors below which nothing is mended.
@@ -419,9 +416,8 @@ struct Kernels {
     int (*solvePairs)(PairContactLanes* pairs, int count, const SubstepParams& params);
     /// Adds to the velocities what mends overlaps; returns whether there was any.
     int (*mendPairs)(PairContactLanes* pairs, int count, const SubstepParams& params);
-    /// Pushes the contacts that are still hit after the dolls have answered the first sweep; returns in how many
-    /// blocks.
-    int (*solveHits)(PairContactLanes* pairs, int count, const SubstepParams& params);
+    /// Presses the contacts between dolls anew after these have answered; returns how many blocks have changed.
+    int (*pressAgain)(PairContactLanes* pairs, int count, const SubstepParams& params);
     /// Pushes the bodies with what the substep before left of the impulses.
     void (*carryPairs)(PairContactLanes* pairs, int count);
 };

@@ -68,10 +68,8 @@ void sumImpulses(Job& job) {
         for (std::size_t i = 0; i < batch->contacts.size(); ++i)
             add(batch->contacts[i].normalImpulse, batch->impulseSums[i]);
     }
-    for (std::size_t i = 0; i < job.pairs.size(); ++i) {
+    for (std::size_t i = 0; i < job.pairs.size(); ++i)
         add(job.pairs[i].normalImpulse, job.impulseSums[i]);
-        add(job.pairs[i].struck, job.impulseSums[i]);
-    }
 }
 
 void openSums(Batch& batch) {

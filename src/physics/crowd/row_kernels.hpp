@@ -9,7 +9,8 @@ namespace lutka::physics::crowd::LUTKA_KERNELS {
 // Which pass this is.
 struct Pass {
     bool mending;  ///< Mends errors of position on top of the steady velocities; friction rests and nothing is kept.
-    F applied;     ///< 1 where the rows' impulses are already in the velocities, 0 in the substep's first pass.
+    F applied;     ///< 1 where the rows' impulses are already in the velocities, else 0.
+    bool begun;    ///< Whether a pass of this substep has been made before.
     /// Lanes whose guesses will not come to rest: rows are only added any more, and those that hold just stop what
     /// comes.
     Mask late;
@@ -59,7 +60,7 @@ LUTKA_LANES F stays(F speed, float slip) {
 // What a one-sided row carries into the substep; later passes correct it as they find it.
 LUTKA_LANES F carriedPush(F impulse, F rate, float slip, const Pass& pass) {
     const F kept = impulse * stays(rate, slip);
-    return pass.applied > all(0.0F) ? impulse : kept;
+    return pass.begun ? impulse : kept;
 }
 
 // What a one-sided row decides in a pass: where it holds, and the impulse that is added to what the velocities have.
@@ -254,7 +255,7 @@ constexpr float kMendReach = 3.0F;  // m/s that mending moves a point with at mo
 // substep, since what the bound itself has moved says nothing about it.
 LUTKA_LANES V3 springTarget(const V3& before, const V3& wanted, F bound, F gain, const Pass& pass) {
     const F zero = all(0.0F);
-    const V3 along = choose(pass.applied > zero, before, wanted);
+    const V3 along = pass.begun ? before : wanted;
     const V3 bounded = along * within(dot(along, along), bound).share;
     return choose(gain > zero, wanted, bounded);
 }

@@ -91,7 +91,7 @@ class JobSubstep {
         kernels.solvePairs(job_.pairs.data(), pairs, params_);
         kernels.carryPairs(job_.pairs.data(), pairs);
         forBatches([&](const BatchView& view) { kernels.solve(view, params_, 1); });
-        for (int i = 0; i < params_.hitSweeps && solveHits(); ++i) {
+        for (int i = 0; i < params_.answerSweeps && pressAgain(); ++i) {
         }
         for (const Batch* batch : job_.batches)
             job_.motorWork += workOfMotors(*batch);
@@ -111,22 +111,23 @@ class JobSubstep {
     }
 
   private:
-    // Pushes what is still being hit once more, and lets the dolls that feel it answer. False: nothing is.
-    bool solveHits() {
+    // Presses the contacts anew that the dolls' answer has left wrong, and lets these answer again. False: none is
+    // wrong.
+    bool pressAgain() {
         const Kernels& kernels = *state_.kernels;
-        if (kernels.solveHits(job_.pairs.data(), static_cast<int>(job_.pairs.size()), params_) == 0) return false;
+        if (kernels.pressAgain(job_.pairs.data(), static_cast<int>(job_.pairs.size()), params_) == 0) return false;
         for (Batch* batch : job_.batches)
-            batch->isHit = false;
+            batch->isPressed = false;
         for (std::size_t block = 0; block < job_.pairs.size(); ++block) {
-            for (auto hit = static_cast<unsigned>(job_.pairs[block].hit); hit != 0; hit &= hit - 1) {
-                const PairTouch& touch = state_.touches[job_.touchOfLane[block][std::countr_zero(hit)]];
+            for (auto lanes = static_cast<unsigned>(job_.pairs[block].changed); lanes != 0; lanes &= lanes - 1) {
+                const PairTouch& touch = state_.touches[job_.touchOfLane[block][std::countr_zero(lanes)]];
                 for (const int doll : {touch.dollA, touch.dollB})
-                    state_.batchOf(state_.dolls[doll]).isHit = true;
+                    state_.batchOf(state_.dolls[doll]).isPressed = true;
             }
         }
         const auto answer = [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
-                if (job_.batches[i]->isHit) kernels.solve(job_.batches[i]->view(*job_.topologies[i]), params_, 0);
+                if (job_.batches[i]->isPressed) kernels.solve(job_.batches[i]->view(*job_.topologies[i]), params_, 0);
         };
         if (job_.batches.size() >= kSplitJob)
             state_.inParallel(job_.batches.size(), 4, answer);

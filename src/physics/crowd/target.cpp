@@ -82,7 +82,7 @@ double workOfPushes(const CrowdState& state, const Job& job) {
         const PairContactLanes& pair = job.pairs[block];
         for (int lane = 0; lane < kLanes; ++lane) {
             const int index = job.touchOfLane[block][lane];
-            const float pressed = pair.normalImpulse.lane[lane] + pair.struck.lane[lane];
+            const float pressed = pair.normalImpulse.lane[lane];
             if (index < 0 || pressed <= 0.0F) continue;
             const PairTouch& touch = state.touches[index];
             const vec3 onA = readVector(pair.normal, lane) * pressed +

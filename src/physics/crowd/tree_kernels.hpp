@@ -26,19 +26,24 @@
 
 namespace lutka::physics::crowd::LUTKA_KERNELS {
 
+// What a pass adds of what was done to the bodies: nothing, what has been done since the last sweep, or all that has
+// been done in this substep, with which the joints are solved from the beginning.
+enum class Fresh { nothing, since, whole };
+
 // A body's inertia about its centre with that of everything below it, what was done to it since the last sweep
 // (`fresh`), and the contacts that hold it.
 LUTKA_LANES Loaded loadBody(const BatchView& batch, int index, bool gathers, const SubstepParams& params,
-                            const Pass& pass, bool fresh) {
+                            const Pass& pass, Fresh fresh) {
     const BodyLanes& body = batch.bodies[index];
     const F zero = all(0.0F);
     const V3 none{zero, zero, zero};
     const F mass = all(1.0F / batch.bodyConstants[index].inverseMass);
     const Symmetric inertia = load(body.inertia);
     Loaded loaded{{{mass, mass, mass, zero, zero, zero}, {{none, none, none}}, inertia}, none, none};
-    if (fresh) {
-        loaded.impulse = (load(body.velocity) - load(body.steadyVelocity)) * mass;
-        loaded.torque = inertia * (load(body.angular) - load(body.steadyAngular));
+    if (fresh != Fresh::nothing) {
+        const bool whole = fresh == Fresh::whole;
+        loaded.impulse = (load(whole ? body.loose : body.velocity) - load(body.steadyVelocity)) * mass;
+        loaded.torque = inertia * (load(whole ? body.looseAngular : body.angular) - load(body.steadyAngular));
     }
     if (gathers) {
         const GatheredLanes& below = batch.tree[index].gathered;
@@ -72,7 +77,7 @@ LUTKA_LANES void gather(GatheredLanes& above, bool opens, const Loaded& loaded) 
 
 // The way up: takes a joint's child out of the equations.
 LUTKA_LANES void eliminate(const BatchView& batch, int index, const SubstepParams& params, const Pass& pass,
-                           bool fresh) {
+                           Fresh fresh) {
     JointLanes& joint = batch.joints[index];
     const JointConstants& constants = batch.jointConstants[index];
     const BodyLanes& parent = batch.bodies[constants.parent];
@@ -190,7 +195,7 @@ LUTKA_LANES Mask substitute(const BatchView& batch, int index, const SubstepPara
 }
 
 // One Newton pass; returns the lanes whose guess was wrong.
-static Mask sweep(const BatchView& batch, const SubstepParams& params, Pass& pass, bool fresh) {
+static Mask sweep(const BatchView& batch, const SubstepParams& params, Pass& pass, Fresh fresh) {
     for (int j = batch.jointCount - 1; j >= 0; --j)
         eliminate(batch, j, params, pass, fresh);
     const Loaded root = loadBody(batch, 0, batch.jointCount > 0, params, pass, fresh);
@@ -246,29 +251,48 @@ static void leaveSteady(const BatchView& batch, const Mask& lanes) {
 
 static void mend(const BatchView& batch, const SubstepParams& params, int pushed) {
     if (pushed == 0 && !needsMending(batch, params)) return;
-    Pass pass{true, all(1.0F), noLanes(), all(1.0F), noLanes()};
+    Pass pass{true, all(1.0F), true, noLanes(), all(1.0F), noLanes()};
     constexpr int kPasses = 4;
     Mask unsolved = noLanes();
     for (int i = 0; i < kPasses; ++i) {
         pass.astray = noLanes();
-        unsolved = sweep(batch, params, pass, true) | pass.astray;
+        unsolved = sweep(batch, params, pass, Fresh::since) | pass.astray;
         if (bits(unsolved) == 0) return;
         if (i + 1 < kPasses && bits(pass.astray) != 0) aim(batch, params, pass.astray);
     }
     leaveSteady(batch, unsolved);
 }
 
+// Gathers what has been done to single bodies, without the joints' answer.
+static void gatherLoose(const BatchView& batch, bool isFirst) {
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        BodyLanes& body = batch.bodies[b];
+        if (isFirst) {
+            body.loose = body.velocity;
+            body.looseAngular = body.angular;
+        } else {
+            store(body.loose, load(body.loose) + (load(body.velocity) - load(body.steadyVelocity)));
+            store(body.looseAngular, load(body.looseAngular) + (load(body.angular) - load(body.steadyAngular)));
+        }
+    }
+}
+
 static void solve(const BatchView& batch, const SubstepParams& params, int first) {
-    for (int b = 0; first != 0 && b < batch.bodyCount; ++b)
-        batch.bodies[b].loose = batch.bodies[b].velocity;
-    Pass pass{false, all(first != 0 ? 0.0F : 1.0F), noLanes(), load(batch.rest->stiction), noLanes()};
+    gatherLoose(batch, first != 0);
+    Pass pass{false, all(first != 0 ? 0.0F : 1.0F), first == 0, noLanes(), load(batch.rest->stiction), noLanes()};
+    Fresh fresh = Fresh::since;
     for (int i = 0; i < params.passes; ++i) {
         pass.astray = noLanes();
-        const Mask wrong = sweep(batch, params, pass, i == 0);
+        const Mask wrong = sweep(batch, params, pass, fresh);
         const bool astray = bits(pass.astray) != 0;
         if (bits(wrong) == 0 && !astray) return;
         if (astray) aim(batch, params, ~noLanes());
-        pass.applied = all(1.0F);
+        // At other arms the joints push otherwise: an answer to further pushes is solved from the beginning, or what
+        // was pushed at the old arms would be left over as energy.
+        const bool anew = astray && first == 0;
+        fresh = anew ? Fresh::whole : Fresh::nothing;
+        pass.applied = all(anew ? 0.0F : 1.0F);
+        pass.begun = true;
         if (i + 1 >= params.patience) pass.late |= wrong;
     }
 }
