@@ -308,11 +308,13 @@ class BodyFit {
         vec3 end = body_.end;
         float beyond = kOvershoot * radius;
         if (isFoot()) {
-            // The ankle stands 0.04 of the height above the sole and a quarter of the foot ahead of the heel.
+            // The ankle stands 0.04 of the height above the sole and a quarter of the foot ahead of the heel; a foot is
+            // 0.152 of the height long (Drillis and Contini 1966), however far the joints of its toes reach.
+            constexpr float kAheadOfAnkle = 0.152F - 0.0375F;
             const bool whole = isEitherSide(role, Role::leftFoot);
             const vec3 ahead = rotation_ * vec3(0, 0, 1);
             start += vec3(0, radius - (whole ? 0.04F : 0.01F) * plan_.heightM, 0);
-            end = start + ahead * std::max(length, 0.04F * plan_.heightM);
+            end = start + ahead * std::clamp(length, 0.04F * plan_.heightM, kAheadOfAnkle * plan_.heightM);
             start -= ahead * ((whole ? 0.0375F : 0.02F) * plan_.heightM);
             beyond = radius - heelInset(radius);
         }
