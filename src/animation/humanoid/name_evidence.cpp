@@ -24,12 +24,6 @@ struct PartScore {
     float score;
 };
 
-struct Meaning {
-    Concept word;
-    std::initializer_list<PartScore> sided;    // with a left or right in the name
-    std::initializer_list<PartScore> central;  // without
-};
-
 class Concepts {
   public:
     explicit Concepts(const std::vector<std::string>& words) {

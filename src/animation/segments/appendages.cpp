@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <glm/geometric.hpp>
-#include <initializer_list>
+#include <vector>
 
 #include "animation/segments/segment_sides.hpp"
 #include "animation/segments/segment_tree.hpp"
@@ -14,10 +14,11 @@ namespace {
 constexpr float kLeastReach = 0.035F;  // of the figure's longest extent
 constexpr float kShortest = 0.03F;     // likewise, of a segment
 
+// Vectors and not lists of initialisers: what such a list points to does not outlive the expression everywhere (clang).
 struct KindWords {
     AppendageKind kind;
-    std::initializer_list<std::string_view> words;      // of a name, whole
-    std::initializer_list<std::string_view> fragments;  // anywhere in the name
+    std::vector<std::string_view> words;      // of a name, whole
+    std::vector<std::string_view> fragments;  // anywhere in the name
 };
 
 // In this order: a ponytail is hair, a coat's tail is cape.
