@@ -136,6 +136,32 @@ inline render::Image cropped(const render::Image& image, int x, int y, int width
     return part;
 }
 
+/// Pictures of a script, taken when the mouse is out of the way.
+struct Pictures {
+    const Scratch& scratch;
+    Script& script;
+    std::string arguments;
+    vec2 aside{420, 640};
+
+    void take(const char* name) {
+        script.move(aside.x, aside.y).wait(4);
+        arguments += " --screenshot-at " + std::to_string(script.frame()) + ":" + (scratch / name).string();
+        script.wait(1);
+    }
+    [[nodiscard]] render::Image load(const char* name) const {
+        auto picture = render::loadPng(scratch / name);
+        REQUIRE(picture.ok());
+        return std::move(picture).value();
+    }
+    [[nodiscard]] render::Color at(const char* name, int x, int y) const { return load(name).at(x, y); }
+    [[nodiscard]] float apart(const char* a, const char* b, int x, int y, int width, int height) const {
+        constexpr int channel = 16;
+        return static_cast<float>(
+            render::compareImages(cropped(load(a), x, y, width, height), cropped(load(b), x, y, width, height), channel)
+                .differingShare);
+    }
+};
+
 inline constexpr editor::Modifiers kControl{false, true, false};
 // Panels are words: one that changes is a few hundred pixels.
 inline constexpr GoldenTolerance kPanel{10, 0.001, 0.5};

@@ -9,34 +9,6 @@ using namespace lutka::editor;
 using namespace lutka::test;
 using animation::Role;
 
-namespace {
-
-/// Pictures of a script, taken when the mouse is out of the way.
-struct Pictures {
-    const Scratch& scratch;
-    Script& script;
-    std::string arguments;
-
-    void take(const char* name) {
-        script.move(420, 640).wait(4);
-        arguments += " --screenshot-at " + std::to_string(script.frame()) + ":" + (scratch / name).string();
-        script.wait(1);
-    }
-    [[nodiscard]] render::Image load(const char* name) const {
-        auto picture = render::loadPng(scratch / name);
-        REQUIRE(picture.ok());
-        return std::move(picture).value();
-    }
-    [[nodiscard]] float apart(const char* a, const char* b, int x, int y, int width, int height) const {
-        constexpr int channel = 16;
-        return static_cast<float>(
-            render::compareImages(cropped(load(a), x, y, width, height), cropped(load(b), x, y, width, height), channel)
-                .differingShare);
-    }
-};
-
-}  // namespace
-
 TEST_CASE("a script poses an arm, Esc puts it back, the release keeps it, and undo and redo go both ways") {
     if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;

@@ -219,35 +219,31 @@ TEST_CASE("a script types limits beside the bind pose, and the mark is red from 
     if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;
     Script script;
-    std::string screenshots;
+    Pictures pictures{scratch, script, {}, {640, 640}};
     script.key(Key::space).click(612, 370);  // the left lower leg
     const std::pair<const char*, const char*> extensions[] = {
-        {"20", "green"}, {"3", "near"}, {"-0.5", "within"}, {"-1.5", "red"}};
+        {"20", "green.png"}, {"3", "near.png"}, {"-0.5", "within.png"}, {"-1.5", "red.png"}};
     for (const auto& [typed, picture] : extensions) {
         script.wait(30).click(1118, 456).press().release().wait(2);
-        type(script, typed).key(Key::enter).move(640, 640).wait(3);
-        screenshots +=
-            " --screenshot-at " + std::to_string(script.frame()) + ":" + (scratch / picture).string() + ".png";
-        script.wait(1);
+        type(script, typed).key(Key::enter);
+        pictures.take(picture);
     }
-    const Outcome outcome = play(scratch, script, screenshots);
+    const Outcome outcome = play(scratch, script, pictures.arguments);
     NEEDS_DISPLAY_OF(outcome);
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
     const auto mark = [&](const char* name) {
-        const auto seen = render::loadPng(fs::path(scratch / name).string() + ".png");
-        REQUIRE(seen.ok());
         // Where the lower limit and so the mark is; the widest range has the bind pose a little to the right of that.
-        const bool wide = std::string(name) == "green";
-        return seen.value().at(wide ? 1074 : (std::string(name) == "near" ? 1057 : 1054), 481);
+        const bool wide = std::string(name) == "green.png";
+        return pictures.at(name, wide ? 1074 : (std::string(name) == "near.png" ? 1057 : 1054), 481);
     };
     const auto red = [](const render::Color& color) { return color.r > 200 && color.g < 140; };
     const auto yellow = [](const render::Color& color) { return color.r > 200 && color.g > 150 && color.b < 140; };
     const auto green = [](const render::Color& color) { return color.g > color.r; };
-    CHECK(green(mark("green")));
-    CHECK(yellow(mark("near")));
-    CHECK(yellow(mark("within")));
-    CHECK(red(mark("red")));
+    CHECK(green(mark("green.png")));
+    CHECK(yellow(mark("near.png")));
+    CHECK(yellow(mark("within.png")));
+    CHECK(red(mark("red.png")));
 }
 
 TEST_CASE("a script chooses a panorama in the view, which lights and then is seen, and goes back to the plain sky") {
@@ -262,32 +258,22 @@ TEST_CASE("a script chooses a panorama in the view, which lights and then is see
         panorama << (texel < width * height / 2 ? "\xfa\x14\x14\x81" : "\x14\x14\x14\x81");
     panorama.close();
     Script script;
-    std::string screenshots;
-    const auto picture = [&](const char* name) {
-        script.move(640, 640).wait(4);
-        screenshots += " --screenshot-at " + std::to_string(script.frame()) + ":" + (scratch / name).string();
-        script.wait(1);
-    };
+    Pictures pictures{scratch, script, {}, {640, 640}};
     script.key(Key::space).click(1086, 43);  // the tab View
-    picture("plain.png");
+    pictures.take("plain.png");
     script.click(1260, 569).wait(3).key(Key::down).key(Key::enter);  // … beside Sky, the only panorama
-    picture("lit.png");
+    pictures.take("lit.png");
     script.click(957, 597);  // Show it behind the scene
-    picture("seen.png");
+    pictures.take("seen.png");
     script.click(1176, 597);  // Plain sky
-    picture("again.png");
-    const Outcome outcome = play(scratch, script, screenshots);
+    pictures.take("again.png");
+    const Outcome outcome = play(scratch, script, pictures.arguments);
     NEEDS_DISPLAY_OF(outcome);
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
-    const auto at = [&](const char* name, int x, int y) {
-        const auto seen = render::loadPng(scratch / name);
-        REQUIRE(seen.ok());
-        return seen.value().at(x, y);
-    };
     const auto redder = [](const render::Color& color) { return color.r > color.b + 20; };
-    const auto ground = [&](const char* name) { return at(name, 420, 600); };
-    const auto above = [&](const char* name) { return at(name, 860, 60); };
+    const auto ground = [&](const char* name) { return pictures.at(name, 420, 600); };
+    const auto above = [&](const char* name) { return pictures.at(name, 860, 60); };
     CHECK_FALSE(redder(ground("plain.png")));
     CHECK(redder(ground("lit.png")));
     CHECK_FALSE(redder(above("lit.png")));
