@@ -10,8 +10,8 @@
 namespace lutka::physics::crowd {
 namespace {
 
-constexpr float kForeseenM = 0.002F;        // nearer than this at a substep's end is foreseen
-constexpr int kFirstForeseenFeature = 128;  // after those of all shapes (narrowphase)
+constexpr float kForeseenM = 0.002F;       // nearer than this at a substep's end is foreseen
+constexpr int kForeseenFeature = 1 << 20;  // beyond those of all shapes, meshes included (collision/mesh_contacts)
 
 // Where a shape will be in `seconds` if nothing touches its body.
 PlacedShape movedOn(PlacedShape shape, const BodyState& body, const vec3& gravity, float seconds) {
@@ -198,7 +198,7 @@ class StaticContacts {
         for (int i = 0; i < later.count; ++i) {
             StaticTouch touch = later.points[i];
             if (saysTheSame(found, touch.local, touch.normal)) continue;
-            touch.feature += kFirstForeseenFeature;
+            touch.feature += kForeseenFeature;
             put(slot++, of, lane, index, touch);
         }
     }
