@@ -15,6 +15,7 @@ constexpr float kShareOfHeight = 0.48F;  // of the picture, that a standing figu
 constexpr float kTimeConstant = 0.3F;    // seconds: of the way to where the dolls are
 constexpr float kLargestLag = 0.14F;     // of the picture's height, that they are ahead at most
 constexpr float kRoomAround = 0.12F;     // of the picture, on each side of a group
+constexpr float kLeastRoom = 0.02F;      // of the picture, that a group keeps however fast it goes apart
 constexpr float kRoomAroundOne = 0.25F;  // on each side of a single doll, which moves faster than the camera
 constexpr float kNearest = 0.6F;         // of the distance for a standing figure, to one that lies
 constexpr float kApproachTime = 1.0F;    // seconds: slow, so that a doll that bounces doesn't pump the picture
@@ -29,6 +30,15 @@ float tallest(const Simulation& simulation) {
 // The part of the way to a goal that is gone in a time.
 float shareIn(float seconds, float timeConstant = kTimeConstant) {
     return 1.0F - std::exp(-seconds / timeConstant);
+}
+
+// With the least room at each edge.
+bool showsAll(const render::Camera& camera, std::span<const vec3> points, float aspect) {
+    const mat4 clipFromWorld = render::clipFromWorld(camera, aspect);
+    return std::ranges::all_of(points, [&](const vec3& point) {
+        const vec4 clip = clipFromWorld * vec4(point, 1);
+        return std::max(std::abs(clip.x), std::abs(clip.y)) <= (1.0F - 2.0F * kLeastRoom) * clip.w;
+    });
 }
 
 }  // namespace
@@ -81,11 +91,12 @@ void FilmCamera::follow(Simulation& simulation, float alpha, float seconds) {
         low = glm::min(low, point);
         high = glm::max(high, point);
     }
-    const vec3 centre = (low + high) * 0.5F;
     const bool single = simulation.dollCount() == 1;
     const float room = single ? kRoomAroundOne : kRoomAround;
     render::Camera group = camera;
     render::framePoints(group, points_, aspect_, {room, room, room, room});
+    // The group's distance is one from the group's target: about another point those in front would be cut off.
+    const vec3 centre = single ? (low + high) * 0.5F : group.target;
     const float slope = 2.0F * std::tan(0.5F * camera.fieldOfView);
     // In a narrow picture the figure lies across its width in the end.
     const float alone = tallest(simulation) / (kShareOfHeight * slope * std::min(1.0F, aspect_));
@@ -104,6 +115,25 @@ void FilmCamera::follow(Simulation& simulation, float alpha, float seconds) {
     const vec3 lag = camera.target - centre;
     const float most = kLargestLag * slope * camera.distance;
     if (glm::length(lag) > most) camera.target = centre + glm::normalize(lag) * most;
+    if (!single && !keepsDistance_) keepAllIn(points_, centre, distance);
+}
+
+void FilmCamera::keepAllIn(std::span<const vec3> points, const vec3& target, float distance) {
+    const auto towards = [&](float share) {
+        render::Camera nearer = camera;
+        nearer.target = glm::mix(camera.target, target, share);
+        nearer.distance = glm::mix(camera.distance, distance, share);
+        return nearer;
+    };
+    if (showsAll(camera, points, aspect_)) return;
+    float least = 0.0F;
+    float enough = 1.0F;
+    constexpr int halvings = 8;  // to less than a pixel of a film
+    for (int i = 0; i < halvings; ++i) {
+        const float middle = 0.5F * (least + enough);
+        (showsAll(towards(middle), points, aspect_) ? enough : least) = middle;
+    }
+    camera = towards(enough);
 }
 
 }  // namespace lutka::scene

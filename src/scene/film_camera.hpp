@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "render/camera.hpp"
@@ -30,6 +31,8 @@ class FilmCamera {
   private:
     void follow(Simulation& simulation, float alpha, float seconds);
     void followAlone(Simulation& simulation, float alpha, float seconds);
+    // Goes so much of the way to where all points have room as it needs to show them.
+    void keepAllIn(std::span<const vec3> points, const vec3& target, float distance);
 
     float aspect_;
     bool following_ = false;
