@@ -55,6 +55,7 @@ bpy.context.view_layer.objects.active = armature
 bpy.context.view_layer.update()
 names = [bone.name for bone in armature.data.bones]
 rest = {name: armature.matrix_world @ armature.data.bones[name].head_local for name in names}
+armature.pose.bones[names[1]].scale = (1, 1.1, 1)  # of the pose that it stands in: not the action's
 
 try:  # an operator that reports an error raises from a script
     bpy.ops.lutka.ragdoll(scene='drop', seconds=2.0, seed=3, folder=folder)

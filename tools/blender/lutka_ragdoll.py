@@ -270,10 +270,13 @@ def bake_action(context, armature, placing, start):
     armature.animation_data.action = action
     for name, rows in keys.items():
         armature.pose.bones[name].rotation_mode = "QUATERNION"
+        bone = f'pose.bones["{bpy.utils.escape_identifier(name)}"]'
+        for axis in range(3):  # the rest pose's size: the pose that the armature stands in may have another
+            curve = action.fcurves.new(f"{bone}.scale", index=axis, action_group=name)
+            curve.keyframe_points.insert(start, 1.0)
         for path, first, width in (("location", 0, 3), ("rotation_quaternion", 3, 4)):
             for axis in range(width):
-                curve = action.fcurves.new(f'pose.bones["{bpy.utils.escape_identifier(name)}"].{path}', index=axis,
-                                           action_group=name)
+                curve = action.fcurves.new(f"{bone}.{path}", index=axis, action_group=name)
                 curve.keyframe_points.add(count)
                 flat = [value for i, row in enumerate(rows) for value in (start + i, row[first + axis])]
                 curve.keyframe_points.foreach_set("co", flat)
