@@ -107,7 +107,12 @@ for (const [name, options] of Object.entries({
 // A library of two, with one that is refused.
 const library = path.join(folder, `${stem}.library`);
 fs.mkdirSync(library, { recursive: true });
-for (const name of ['a', 'b']) fs.copyFileSync(model, path.join(library, name + path.extname(model)));
+// With what lies beside the model under names that begin like its own: it may be a part of it.
+const parts = fs.readdirSync(path.dirname(model)).filter((name) => name.startsWith(stem));
+for (const name of ['a', 'b']) {
+  fs.mkdirSync(path.join(library, name), { recursive: true });
+  for (const part of parts) fs.copyFileSync(path.join(path.dirname(model), part), path.join(library, name, part));
+}
 fs.writeFileSync(path.join(library, 'broken.glb'), 'glTF');
 const table = path.join(folder, `${stem}.library.html`);
 run('report', library, '-o', table);
@@ -120,7 +125,7 @@ checks.that((await tab.locator('#models tbody tr').count()) === 2, 'the library 
 await tab.click('#models th:first-child');
 await tab.click('#models th:first-child');
 checks.that((await tab.locator('#models tbody tr').first().textContent()).startsWith('b'), 'a click on a head sorts');
-await tab.fill('#search', 'a.');
+await tab.fill('#search', 'a/');
 checks.that((await tab.locator('#models tbody tr:visible').count()) === 1, 'the search leaves one row');
 await tab.fill('#search', '');
 checks.that((await tab.locator('body').textContent()).includes('broken.glb'), 'the refused one is told');

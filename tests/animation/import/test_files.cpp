@@ -72,6 +72,24 @@ TEST_CASE("a missing file, a folder and a text are refused with a reason") {
     CHECK_FALSE(refusal(folder / "empty.glb").message.empty());
 }
 
+TEST_CASE("a model whose other half is in a file that is missing is refused with that file's name and place") {
+    const TemporaryFolder folder;
+    // The header of a model of Half-Life, one bone and one part, without pictures: those are in heroT.mdl.
+    constexpr std::size_t size = 244;
+    std::string header(size, '\0');
+    const auto put = [&](std::size_t at, std::int32_t value) { std::memcpy(header.data() + at, &value, sizeof value); };
+    std::memcpy(header.data(), "IDST", 4);
+    put(4, 10);                                   // version
+    for (const std::size_t end : {72, 144, 208})  // of the file, bones, parts
+        put(end, size);
+    for (const std::size_t count : {140, 204})
+        put(count, 1);
+    std::ofstream(folder / "hero.mdl", std::ios::binary) << header;
+    const Error error = refusal(folder / "hero.mdl");
+    CHECK(error.message.find("heroT.mdl") != std::string::npos);
+    CHECK(error.mend.find("put heroT.mdl beside") != std::string::npos);
+}
+
 TEST_CASE("required extensions that can't be read are refused by name with a mend") {
     const TemporaryFolder folder;
     for (const char* extension : {"EXT_mesh_gpu_instancing", "ACME_geometry"}) {

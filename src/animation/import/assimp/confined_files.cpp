@@ -32,16 +32,17 @@ std::string tidiedText(const fs::path& file) {
 
 }  // namespace
 
-ConfinedFiles::ConfinedFiles(fs::path model, ModelFolder folder, std::shared_ptr<std::set<std::string>> refused)
-    : model_(std::move(model)), folder_(std::move(folder)), refused_(std::move(refused)) {}
+ConfinedFiles::ConfinedFiles(fs::path model, ModelFolder folder, std::shared_ptr<FilesDenied> denied)
+    : model_(std::move(model)), folder_(std::move(folder)), denied_(std::move(denied)) {}
 
 bool ConfinedFiles::mayOpen(const std::string& file) const {
     if (model_ == file) return true;
     if (!folder_.admits(file)) {
-        refused_->insert(file);
+        denied_->outside.insert(file);
         return false;
     }
     std::error_code failed;
+    if (!fs::exists(file, failed)) denied_->absent.insert(file);
     return fs::is_regular_file(file, failed) && fs::file_size(file, failed) <= kMaxFileBytes && !failed;
 }
 

@@ -12,13 +12,19 @@
 
 namespace lutka::animation::rig_import {
 
+/// Files that a reader asked for and did not get, by the names it asked with.
+struct FilesDenied {
+    std::set<std::string> outside;  ///< Of the model's folder.
+    std::set<std::string> absent;   ///< Not there.
+};
+
 /// Assimp's door to the disk: opens the model and the ordinary files that its folder admits, for reading, up to
 /// kMaxFileBytes each; a Collada document as tidyCollada() has it. Whatever else a format names (a material library, an
 /// animation, a skin) is not there for it.
 class ConfinedFiles : public Assimp::DefaultIOSystem {
   public:
-    /// `refused` takes the names of what was outside of the folder.
-    ConfinedFiles(std::filesystem::path model, ModelFolder folder, std::shared_ptr<std::set<std::string>> refused);
+    /// `denied` is filled as files are asked for.
+    ConfinedFiles(std::filesystem::path model, ModelFolder folder, std::shared_ptr<FilesDenied> denied);
 
     bool Exists(const char* file) const override;
     Assimp::IOStream* Open(const char* file, const char* mode) override;
@@ -31,7 +37,7 @@ class ConfinedFiles : public Assimp::DefaultIOSystem {
 
     std::filesystem::path model_;
     ModelFolder folder_;
-    std::shared_ptr<std::set<std::string>> refused_;
+    std::shared_ptr<FilesDenied> denied_;
     std::optional<std::string> tidied_;  // of the model, once it was looked at
 };
 

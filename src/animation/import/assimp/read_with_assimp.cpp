@@ -91,7 +91,7 @@ Result<SourceScene> readWithAssimp(const std::filesystem::path& file, const Impo
     addClips(scene, nodes, out);
     convertMaterials(scene, folder, options.loadTextures, out);
     nameByDocument(file, out);
-    if (const std::set<std::string>& refused = *opened.value().refused; !refused.empty()) {
+    if (const std::set<std::string>& refused = opened.value().denied->outside; !refused.empty()) {
         out.warnings.push_back(fmt::format(
             "{} files that the model names lie outside of its folder and were left out: {}; --allow-outside takes them",
             refused.size(), fmt::join(refused, ", ")));

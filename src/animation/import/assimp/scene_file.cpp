@@ -59,20 +59,28 @@ const aiScene* read(Assimp::Importer& importer, const fs::path& file, std::strin
     }
 }
 
+// A part of the model in a file of its own that is not there is not a fault of the file that names it.
+std::string mendOf(const std::string& why, const FilesDenied& denied) {
+    for (const std::string& name : denied.absent) {
+        const std::string part = fs::path(name).filename().string();
+        if (why.find(part) != std::string::npos)
+            return fmt::format("put {} beside the model, it is a part of it", part);
+    }
+    return "check that the file is whole, or export it again as glTF 2.0 or FBX";
+}
+
 }  // namespace
 
 Result<SceneFile> readScene(const fs::path& file, const ModelFolder& folder) {
     SceneFile out;
     out.importer = std::make_unique<Assimp::Importer>();
-    out.refused = std::make_shared<std::set<std::string>>();
-    out.importer->SetIOHandler(new ConfinedFiles(file, folder, out.refused));  // the importer owns it
+    out.denied = std::make_shared<FilesDenied>();
+    out.importer->SetIOHandler(new ConfinedFiles(file, folder, out.denied));  // the importer owns it
     configure(*out.importer);
     std::string why;
     out.scene = read(*out.importer, file, why);
-    if (out.scene == nullptr) {
-        return unreadable(file, why.empty() ? "can't be read as a model" : why,
-                          "check that the file is whole, or export it again as glTF 2.0 or FBX");
-    }
+    if (out.scene == nullptr)
+        return unreadable(file, why.empty() ? "can't be read as a model" : why, mendOf(why, *out.denied));
     if (out.scene->mRootNode == nullptr) return unreadable(file, "holds no scene");
     if (std::optional<Error> error = findAbsurdCount(*out.scene, file)) return *std::move(error);
     return out;

@@ -5,9 +5,9 @@
 
 #include <filesystem>
 #include <memory>
-#include <set>
 #include <string>
 
+#include "animation/import/assimp/confined_files.hpp"
 #include "animation/import/model_folder.hpp"
 #include "core/result.hpp"
 
@@ -17,7 +17,7 @@ namespace lutka::animation::rig_import {
 struct SceneFile {
     std::unique_ptr<Assimp::Importer> importer;  ///< Owns `scene`.
     const aiScene* scene = nullptr;
-    std::shared_ptr<std::set<std::string>> refused;  ///< Files that it named outside of the model's folder.
+    std::shared_ptr<FilesDenied> denied;  ///< Files that it named and that were not opened.
 };
 
 /// Fails with the importer's own message, and when the counts in the file are absurd.
