@@ -206,3 +206,20 @@ TEST_CASE("dolls that fall on one another in a pit stay out of each other") {
     CHECK(quality.energyGrowthJ < 0.01F * quality.initialEnergyJ);
     CHECK(quality.nonFinite == 0);
 }
+
+TEST_CASE(
+    "contacts between dolls are pressed again after the dolls have answered, so that a heap lies less deep in itself") {
+    const physics::RagdollProfile profile = makeDoll();
+    const auto deepest = [&](int sweeps) {
+        physics::crowd::CrowdTuning tuning;
+        tuning.answerSweeps = sweeps;
+        const auto world = createCrowdWorld(WorldSettings{}, tuning);
+        std::vector<physics::StaticShape> statics;
+        fillPit(*world, profile, 96, statics);
+        return stepAndMeasure(*world, statics, 2.5F).dollPenetrationM.p99;
+    };
+    const float once = deepest(0);
+    const float again = deepest(physics::crowd::CrowdTuning{}.answerSweeps);
+    INFO(once << " m once, " << again << " m again");
+    CHECK(again < 0.8F * once);
+}
