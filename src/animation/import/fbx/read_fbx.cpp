@@ -1,10 +1,13 @@
 #include "animation/import/fbx/read_fbx.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <glm/matrix.hpp>
 #include <map>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "animation/import/fbx/clips.hpp"
@@ -108,6 +111,12 @@ class SceneReader {
         }
         for (std::string& sentence : repairs.sentences())
             scene_.warnings.push_back(std::move(sentence));
+        if (!dualQuaternionMeshes_.empty()) {
+            scene_.warnings.push_back(fmt::format(
+                "skinned by dual quaternions in the file: {}; files are written, and pictures drawn, with linear "
+                "skinning (`lutka render --skinning dual` draws the other)",
+                fmt::join(dualQuaternionMeshes_, ", ")));
+        }
     }
 
     struct Place {
@@ -129,6 +138,7 @@ class SceneReader {
         const std::optional<ReadSkin> skin =
             parts.empty() ? std::nullopt : readSkin(context, place.owner, place.model, points);
         if (skin) {
+            if (!skin->isLinear) dualQuaternionMeshes_.insert(objects_[place.model].name);
             scene_.skins.push_back(skin->skin);
             for (SourceSkin::Joint& joint : scene_.skins.back().joints)
                 joint.node = layout_.sceneNode[static_cast<std::size_t>(joint.node)];
@@ -162,6 +172,7 @@ class SceneReader {
     dmat4 sceneFromFile_{1.0};
     std::map<int, int> materialOf_;
     std::map<int, std::string> uvSets_;
+    std::set<std::string> dualQuaternionMeshes_;
 };
 
 }  // namespace

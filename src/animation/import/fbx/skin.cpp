@@ -144,6 +144,10 @@ std::optional<ReadSkin> readSkin(const SkinContext& context, int owner, int mesh
             out.skin.sceneFromMesh = joint * out.skin.joints.back().jointFromMesh;
     }
     addWeights(clusters, controlPoints, out);
+    for (const int skin : context.objects.children(owner, "Deformer", "Skin")) {
+        const Record* type = context.objects[skin].record->child("SkinningType");
+        if (type != nullptr && (type->text(0) == "DualQuaternion" || type->text(0) == "Blend")) out.isLinear = false;
+    }
     return out;
 }
 

@@ -18,6 +18,7 @@ struct ReadSkin {
     SourceSkin skin;
     std::vector<std::uint32_t> start;
     std::vector<SourceMesh::Influence> influences;
+    bool isLinear = true;  ///< False: the file blends by dual quaternions, all or some of the skin.
 };
 
 /// What skins are read with: scene nodes by model, where they stand, and the file's bind pose.

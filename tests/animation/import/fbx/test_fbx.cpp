@@ -247,6 +247,24 @@ TEST_CASE("a geometric transform moves a skinned FBX mesh in its node and is no 
     CHECK(scene.meshes[0].influences[0].weight == 1.0F);
 }
 
+TEST_CASE("an FBX skin that blends by dual quaternions is told, a linear one is not") {
+    for (const std::string type : {"DualQuaternion", "Blend", "Linear", "Rigid"}) {
+        INFO(type);
+        std::vector<FbxRecord> sections = skinnedSquare({}, dmat4(1.0), dmat4(1.0));
+        for (FbxRecord& section : sections) {
+            for (FbxRecord& record : section.children) {
+                if (record.name == "Deformer" && std::get<std::string>(record.values.back()) == "Skin")
+                    record.children.push_back({"SkinningType", {type}, {}});
+            }
+        }
+        const SourceScene scene = readAll(sections);
+        const bool told = std::ranges::any_of(scene.warnings, [](const std::string& warning) {
+            return warning.find("dual quaternions in the file: Body") != std::string::npos;
+        });
+        CHECK(told == (type == "DualQuaternion" || type == "Blend"));
+    }
+}
+
 TEST_CASE("left-handed FBX axes are mirrored at the root") {
     auto sections = document({model(1, "A", {{"Lcl Translation", {1, 2, 3}}})}, {fbxLink(1, 0)});
     sections.insert(sections.begin(), {"GlobalSettings",
