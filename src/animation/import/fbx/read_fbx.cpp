@@ -43,6 +43,8 @@ class SceneReader {
         readNodes();
         readMeshes();
         scene_.clips = sampleMotions(motions, tree_, layout_, frameRateOf(objects_.settings()), scene_.warnings);
+        if (movesBlendShapes(document_, objects_))
+            scene_.warnings.emplace_back("animations of blend shapes were left out");
         return std::nullopt;
     }
 

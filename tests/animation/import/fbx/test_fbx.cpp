@@ -265,6 +265,32 @@ TEST_CASE("an FBX skin that blends by dual quaternions is told, a linear one is 
     }
 }
 
+TEST_CASE("blend shapes that an FBX moves are told, those with curves that stand still are not") {
+    for (const double last : {100.0, 40.0}) {
+        INFO(last);
+        std::vector<FbxRecord> sections = skinnedSquare({}, dmat4(1.0), dmat4(1.0));
+        const auto add = [&](const char* section, FbxRecord record) {
+            const auto found = std::ranges::find_if(sections, [&](const FbxRecord& r) { return r.name == section; });
+            REQUIRE(found != sections.end());
+            found->children.push_back(std::move(record));
+        };
+        add("Objects",
+            {"Deformer", {std::int64_t{20}, std::string("SubDeformer::Smile"), std::string("BlendShapeChannel")}, {}});
+        add("Objects",
+            {"AnimationCurveNode", {std::int64_t{21}, std::string("AnimCurveNode::DeformPercent"), std::string()}, {}});
+        add("Objects", {"AnimationCurve",
+                        {std::int64_t{22}, std::string("AnimCurve::"), std::string()},
+                        {row("KeyTime", {0.0, kTicks}), row("KeyValueFloat", {40.0, last}), wholes("KeyAttrFlags", {4}),
+                         row("KeyAttrDataFloat", {0, 0, 0, 0}), wholes("KeyAttrRefCount", {2})}});
+        add("Connections", fbxLink(21, 20, "DeformPercent"));
+        add("Connections", fbxLink(22, 21, "d|DeformPercent"));
+        const SourceScene scene = readAll(sections);
+        const bool told =
+            std::ranges::find(scene.warnings, "animations of blend shapes were left out") != scene.warnings.end();
+        CHECK(told == (last != 40.0));
+    }
+}
+
 TEST_CASE("left-handed FBX axes are mirrored at the root") {
     auto sections = document({model(1, "A", {{"Lcl Translation", {1, 2, 3}}})}, {fbxLink(1, 0)});
     sections.insert(sections.begin(), {"GlobalSettings",
