@@ -90,6 +90,16 @@ TEST_CASE("a model whose other half is in a file that is missing is refused with
     CHECK(error.mend.find("put heroT.mdl beside") != std::string::npos);
 }
 
+TEST_CASE("glTF 1.0 is refused by its version, also where that is a number") {
+    const TemporaryFolder folder;
+    for (const nlohmann::json& version : {nlohmann::json(1), nlohmann::json(1.1), nlohmann::json("1.0")}) {
+        GltfFile file = makePostRig();
+        file.json["asset"]["version"] = version;
+        file.saveText(folder / "rig.gltf");
+        CHECK(refusal(folder / "rig.gltf").message.find("is glTF 1") != std::string::npos);
+    }
+}
+
 TEST_CASE("required extensions that can't be read are refused by name with a mend") {
     const TemporaryFolder folder;
     for (const char* extension : {"EXT_mesh_gpu_instancing", "ACME_geometry"}) {

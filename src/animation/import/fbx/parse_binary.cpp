@@ -18,6 +18,10 @@ class BinaryParser {
 
     std::optional<Error> parse() {
         if (bytes_.size() < kHeaderBytes) return error("breaks off in its header");
+        // A zero, a 26 (which ends a text), and the byte order follow the magic.
+        const std::uint8_t* mark = bytes_.data() + kBinaryMagic.size();
+        if (mark[0] != 0) return error("is a binary file that was copied as a text, which has damaged it");
+        if (mark[2] == 1) return error("has the byte order of old Macs (big-endian), which is not read");
         at_ = kHeaderBytes - 4;
         document_.version = static_cast<int>(read<std::uint32_t>());
         wide_ = document_.version >= kFirstWideVersion;

@@ -147,7 +147,10 @@ void GltfFile::readContainer() {
     json_ = nlohmann::json::parse(text.begin(), text.end(), nullptr, false);
     if (json_.is_discarded() || !json_.is_object()) throw Damage{"the glTF's JSON is broken or cut off"};
     const nlohmann::json* asset = member(json_, "asset");
-    const std::string version = asset == nullptr ? "" : textOf(*asset, "version");
+    std::string version = asset == nullptr ? "" : textOf(*asset, "version");
+    // Early writers of glTF 1.0 made it a number.
+    const nlohmann::json* number = asset == nullptr ? nullptr : member(*asset, "version");
+    if (number != nullptr && number->is_number()) version = fmt::format("{}", number->get<double>());
     if (!version.empty() && !version.starts_with("2"))
         throw Damage{fmt::format("is glTF {}; glTF 2.0 can be read", version), "convert it to glTF 2.0"};
 }

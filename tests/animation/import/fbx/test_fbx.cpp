@@ -337,6 +337,21 @@ TEST_CASE("FBX records nested beyond all measure are refused with the limit") {
     CHECK(scene.error().message.find("deeper than 64") != std::string::npos);
 }
 
+TEST_CASE("a binary FBX copied as a text, or in the other byte order, is refused with the reason") {
+    const std::string sound = binaryFbx(document({model(1, "A", {})}, {fbxLink(1, 0)}), 7400, false);
+    REQUIRE(readBytes(sound).ok());
+    std::string spaced = sound;
+    std::ranges::replace(spaced, '\0', ' ');
+    const Result<SourceScene> copied = readBytes(spaced);
+    REQUIRE_FALSE(copied.ok());
+    CHECK(copied.error().message.find("copied as a text") != std::string::npos);
+    std::string turned = sound;
+    turned[22] = 1;
+    const Result<SourceScene> other = readBytes(turned);
+    REQUIRE_FALSE(other.ok());
+    CHECK(other.error().message.find("big-endian") != std::string::npos);
+}
+
 TEST_CASE("an FBX array that claims more than its bytes can hold is refused before memory is taken") {
     auto sections = skinnedSquare({}, dmat4(1.0), dmat4(1.0));
     std::string bytes = binaryFbx(sections, 7400, true);
