@@ -120,6 +120,15 @@ class Clip:
     def root(self):
         return self.order[0][0]
 
+    def resize(self, factor):
+        """Everything that many times as large."""
+        for node in self.nodes:
+            if "translation" in node:
+                node["translation"] = [factor * x for x in node["translation"]]
+        for (_, path), (_, rows) in self.tracks.items():
+            if path == "translation":
+                rows[:] = [tuple(factor * x for x in row) for row in rows]
+
 
 # The executable.
 
@@ -188,16 +197,24 @@ def bones_of(armature, clip):
     return pairs
 
 
-def shift_of(clip, pairs, exported_from_armature):
-    """lutka may have moved the whole figure to the origin: its model space from the exported file's."""
-    bind = clip.worlds()
-    to_model = bind[clip.root()].inverted()
+def fit_to(clip, pairs, exported_from_armature):
+    """lutka may have moved the whole figure to the origin and taken another unit than a metre for it. Brings the clip to the armature's
+    size. Returns lutka's model space from the exported file's, both in that size, and Blender's units a metre."""
     heads = [GLTF_FROM_BLENDER @ (exported_from_armature @ bone.head_local) for bone, _ in pairs]
-    shifts = [(to_model @ bind[node]).translation - head for head, (_, node) in zip(heads, pairs)]
-    spread = max((shift - shifts[0]).length for shift in shifts)
-    if spread > 0.01 * max((head - heads[0]).length for head in heads):
+    size = max((head - heads[0]).length for head in heads)
+
+    def bind():
+        worlds = clip.worlds()
+        to_model = worlds[clip.root()].inverted()
+        return [(to_model @ worlds[node]).translation for _, node in pairs]
+
+    joints = bind()
+    units = size / max(max((joint - joints[0]).length for joint in joints), 1e-9)
+    clip.resize(units)
+    shifts = [joint - head for joint, head in zip(bind(), heads)]
+    if max((shift - shifts[0]).length for shift in shifts) > 0.01 * size:
         raise Trouble("The bones do not stand where the file has them: apply the armature's rotation and scale first")
-    return Matrix.Translation(shifts[0])
+    return Matrix.Translation(shifts[0]), units
 
 
 class Placing:
@@ -207,7 +224,7 @@ class Placing:
         self.clip, self.armature = clip, armature
         self.pairs = bones_of(armature, clip)
         self.standing = standing(armature)
-        self.shift = shift_of(clip, self.pairs, self.standing.inverted() @ armature.matrix_world)
+        self.shift, self.units = fit_to(clip, self.pairs, self.standing.inverted() @ armature.matrix_world)
         bind = clip.worlds()
         to_model = bind[clip.root()].inverted()
         self.bind = {node: to_model @ bind[node] for _, node in self.pairs}
@@ -300,11 +317,13 @@ def add_rigid_bodies(context, armature, placing, script, profile, drive):
     if joint is None:
         raise Trouble(f"The ragdoll's root {root['joint']} is no bone of the armature")
     frame = root["jointFromBody"]
-    joint_from_body = Matrix.Translation(frame["translation"]) @ quaternion_of(frame["rotation"]).to_matrix().to_4x4()
+    size = Matrix.Scale(placing.units, 4)
+    joint_from_body = Matrix.Translation(placing.units * Vector(frame["translation"])) @ quaternion_of(frame["rotation"]).to_matrix().to_4x4()
     target = placing.standing @ BLENDER_FROM_GLTF @ placing.shift.inverted() @ placing.bind[joint] @ joint_from_body
     if root["shape"]["kind"] == "capsule":  # along z there, along y here
         target = target @ Matrix.Rotation(-1.5707963267948966, 4, "X")
-    move = target @ body.matrix_world.inverted()
+    place, turn, _ = (size @ body.matrix_world).decompose()
+    move = target @ (Matrix.Translation(place) @ turn.to_matrix().to_4x4()).inverted() @ size
     group = bpy.data.collections.new(f"{armature.name} ragdoll")
     context.scene.collection.children.link(group)
     for thing in made:
