@@ -312,7 +312,6 @@ def add_rigid_bodies(context, armature, placing, script, profile, drive):
     context.view_layer.update()
     # The script stands the figure on the origin, facing -y; the root body tells where it belongs.
     root = profile["bodies"][0]
-    name, body = next(iter(bodies.items()))
     joint = next((node for bone, node in placing.pairs if bone.name == root["joint"]), None)
     if joint is None:
         raise Trouble(f"The ragdoll's root {root['joint']} is no bone of the armature")
@@ -320,9 +319,7 @@ def add_rigid_bodies(context, armature, placing, script, profile, drive):
     size = Matrix.Scale(placing.units, 4)
     joint_from_body = Matrix.Translation(placing.units * Vector(frame["translation"])) @ quaternion_of(frame["rotation"]).to_matrix().to_4x4()
     target = placing.standing @ BLENDER_FROM_GLTF @ placing.shift.inverted() @ placing.bind[joint] @ joint_from_body
-    if root["shape"]["kind"] == "capsule":  # along z there, along y here
-        target = target @ Matrix.Rotation(-1.5707963267948966, 4, "X")
-    place, turn, _ = (size @ body.matrix_world).decompose()
+    place, turn, _ = (size @ built["matrix"](built["BODIES"][0][3])).decompose()
     move = target @ (Matrix.Translation(place) @ turn.to_matrix().to_4x4()).inverted() @ size
     group = bpy.data.collections.new(f"{armature.name} ragdoll")
     context.scene.collection.children.link(group)
