@@ -10,7 +10,19 @@ const stem = path.parse(model).name;
 const checks = new Checks(`retarget ${stem}`);
 const source = path.join(process.env.LUTKA_ASSETS, 'models/mannequin.glb');
 const file = path.join(folder, `${stem}.retargeted.glb`);
-const figures = JSON.parse(run('retarget', source, '--clip', 'walk', '--to', model, '-o', file, '--json'));
+function retarget() {
+  try {
+    return JSON.parse(run('retarget', source, '--clip', 'walk', '--to', model, '-o', file, '--json'));
+  } catch (failure) {
+    if (failure.status !== 3) throw failure;
+    checks.fact('refused as no whole figure');  // as it should be: without a file
+    checks.that(!fs.existsSync(file), 'a refusal leaves no file');
+    checks.end();
+    process.exit();
+  }
+}
+fs.rmSync(file, { force: true });
+const figures = retarget();
 checks.fact(`limbs ${figures.limbDirectionDeg.mean.toFixed(2)} degrees, slide ${figures.footSlideCm.max.toFixed(2)} cm`);
 checks.that(figures.limbDirectionDeg.mean <= 3, `limbs point off by ${figures.limbDirectionDeg.mean} degrees`);
 const report = await validator.validateBytes(new Uint8Array(fs.readFileSync(file)));
