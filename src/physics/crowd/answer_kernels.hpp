@@ -12,40 +12,49 @@
 
 namespace lutka::physics::crowd::LUTKA_KERNELS {
 
+// Notes for the dolls of both bodies that they have to answer.
+LUTKA_LANES void storePressed(const PairContactLanes& pair, const PairBodies& bodies, const PairVelocities& v,
+                              const Mask& pressed) {
+    const F one = all(1.0F);
+    Columns a = columnsOf(v.velocityA, v.angularA);
+    Columns b = columnsOf(v.velocityB, v.angularB);
+    a.column[6] = pressed ? one : readRows(bodies.motions, pair.bodyA, 0).column[6];
+    b.column[6] = pressed ? one : readRows(bodies.motions, pair.bodyB, 0).column[6];
+    writeRows(bodies.motions, pair.bodyA, 0, a);
+    writeRows(bodies.motions, pair.bodyB, 0, b);
+}
+
 // One sweep over what is still wrong by more than a little. Friction waits for the next substep.
-static int pressAgain(PairContactLanes* pairs, int count, const SubstepParams& params) {
+static int pressAgain(const PairsView& view, const SubstepParams& params) {
+    const PairBodies& bodies = view.bodies;
     const F zero = all(0.0F);
     const F tolerance = all(params.answerSpeed);
-    int changed = 0;
-    for (int i = 0; i < count; ++i) {
-        PairContactLanes& pair = pairs[i];
-        pair.changed = 0;
-        PairVelocities v = velocitiesOf(pair);
+    int found = 0;
+    for (int i = 0; i < view.liveCount; ++i) {
+        PairContactLanes& pair = view.pairs[view.live[i]];
+        PairVelocities v = velocitiesOf(pair, bodies);
         const F before = load(pair.normalImpulse);
         const F off = dot(load(pair.normal), slidingOf(pair, v)) + contactBias(load(pair.separation), params, 0);
         const Mask wrong = (load(pair.strikes) > zero) & ((off < -tolerance) | ((before > zero) & (off > tolerance)));
         if (bits(wrong) == 0) continue;
-        makeReady(pair);
+        makeReady(pair, bodies);
         const F total = wrong ? most(before - load(pair.normalMass) * off, zero) : before;
-        pair.changed = static_cast<int>(bits(total != before));
-        if (pair.changed == 0) continue;
-        ++changed;
+        if (bits(total != before) == 0) continue;
+        view.changed[found++] = view.live[i];
         store(pair.normalImpulse, total);
         store(pair.carriedNormal, total - before);  // has been carried, and is free
         pressPair(pair, v, total - before);
-        storeVelocities(pair, v);
+        storeVelocities(pair, bodies, v);
     }
-    if (changed == 0) return 0;
     // Supports get what was held back from them, as in carryPairs().
-    for (int i = 0; i < count; ++i) {
-        const PairContactLanes& pair = pairs[i];
-        if (pair.changed == 0) continue;
+    for (int i = 0; i < found; ++i) {
+        const PairContactLanes& pair = view.pairs[view.changed[i]];
         const F push = load(pair.carriedNormal);
-        PairVelocities v = velocitiesOf(pair);
-        pushRest(pair, v, load(pair.normal) * push, push);
-        storeVelocities(pair, v);
+        PairVelocities v = velocitiesOf(pair, bodies);
+        pushRest(pair, bodies, v, load(pair.normal) * push, push);
+        storePressed(pair, bodies, v, push != zero);
     }
-    return changed;
+    return found;
 }
 
 }  // namespace lutka::physics::crowd::LUTKA_KERNELS

@@ -1,17 +1,7 @@
 #include "physics/crowd/batch.hpp"
 
-#include <cstddef>
-
 namespace lutka::physics::crowd {
 namespace {
-
-// Pair contacts find members by these; layout.hpp, which the kernels of each instruction set see, includes nothing.
-static_assert(offsetof(BodyLanes, velocity) == kVelocityOffset * sizeof(float));
-static_assert(offsetof(BodyLanes, angular) == kAngularOffset * sizeof(float));
-static_assert(offsetof(BodyLanes, inverseInertia) == kInverseInertiaOffset * sizeof(float));
-static_assert(offsetof(BodyLanes, position) == kPositionOffset * sizeof(float));
-static_assert(offsetof(BodyLanes, axisX) == kAxisOffset * sizeof(float));
-static_assert(offsetof(BodyLanes, support) == kSupportOffset * sizeof(float));
 
 // Copies one lane of every Wide in `from`, which is made of nothing else.
 template <class Lanes>
@@ -32,7 +22,7 @@ void clear(Wide& wide, int lane) {
 }  // namespace
 
 Batch::Batch(const Topology& topology)
-    : bodies(topology.bodies.size() + 1),
+    : bodies(topology.bodies.size()),
       joints(topology.joints.size()),
       tree(topology.bodies.size()),
       firstContact(topology.bodies.size() + 1, 0) {}
@@ -52,7 +42,11 @@ BatchView Batch::view(const Topology& topology) {
             drags.data(),
             motors.empty() ? nullptr : motors.data(),
             targets.empty() ? nullptr : targets.data(),
-            &rest};
+            &rest,
+            paired.data(),
+            static_cast<int>(paired.size()),
+            firstBody,
+            pairBodies};
 }
 
 vec3 readVector(const Wide3& v, int lane) {
@@ -112,7 +106,7 @@ void clearImpulses(Batch& batch, int lane) {
 }
 
 void copyLane(const Batch& from, int fromLane, Batch& to, int toLane) {
-    for (std::size_t b = 0; b + 1 < from.bodies.size(); ++b)
+    for (std::size_t b = 0; b < from.bodies.size(); ++b)
         copyWides(from.bodies[b], fromLane, to.bodies[b], toLane);
     for (std::size_t j = 0; j < from.joints.size(); ++j) {
         const JointLanes& source = from.joints[j];

@@ -24,7 +24,7 @@ struct StaticPush {
 struct Batch {
     explicit Batch(const Topology& topology);
 
-    std::vector<BodyLanes> bodies;  ///< One a body, and one of zeros that empty lanes of pair contacts point to.
+    std::vector<BodyLanes> bodies;  ///< One a body.
     std::vector<JointLanes> joints;
     std::vector<TreeLanes> tree;               ///< One a body.
     std::vector<StaticContactLanes> contacts;  ///< Of this step, body by body.
@@ -41,13 +41,13 @@ struct Batch {
     RestLanes rest{};
     int doll[kLanes]{};  ///< Which doll is in which lane.
     int used = 0;
-    int job = 0;             ///< Which job of this step solves it.
-    bool isPressed = false;  ///< Whether a contact of its dolls was pressed again, so that they have to answer.
+    int job = 0;                 ///< Which job of this step solves it.
+    std::vector<char> isPaired;  ///< One a body, of this step: whether pair contacts push it, in some lane;
+    std::vector<int> paired;     ///< those that they do.
+    int firstBody[kLanes]{};
+    PairBodies pairBodies{};
 
     [[nodiscard]] BatchView view(const Topology& topology);
-    /// First member of a body's lane: what pair contacts point to.
-    [[nodiscard]] float* bodyLane(int body, int lane) { return &bodies[body].velocity.x.lane[lane]; }
-    [[nodiscard]] float* emptyLane(int lane) { return &bodies.back().velocity.x.lane[lane]; }
 };
 
 /// A body's state in and out of a lane. The rotation's columns and the inertia follow at the next refresh.

@@ -4,69 +4,50 @@
 /// comes before the normal row, so that overlap has the last word; both tangents are solved at once and share one
 /// circular bound.
 
+#include "physics/crowd/pair_body_kernels.hpp"
 #include "physics/crowd/touch_kernels.hpp"
 #include "physics/crowd/tree_kernels.hpp"
 
 namespace lutka::physics::crowd::LUTKA_KERNELS {
 
-using Lanes = float* const (&)[kLanes];
-
-LUTKA_LANES F gather(Lanes body, int offset) {
-    return F{body[0][offset], body[1][offset], body[2][offset], body[3][offset],
-             body[4][offset], body[5][offset], body[6][offset], body[7][offset]};
+LUTKA_LANES Symmetric inverseInertiaOf(const PairBodies& bodies, Indices index) {
+    return symmetricOf(readRows(bodies.frames, index, kInertiaRow));
 }
-LUTKA_LANES V3 gather3(Lanes body, int offset) {
-    return {gather(body, offset), gather(body, offset + kLanes), gather(body, offset + 2 * kLanes)};
+LUTKA_LANES V3 supportOf(const PairBodies& bodies, Indices index) {
+    return first3(readRows(bodies.frames, index, kSupportRow));
 }
-LUTKA_LANES void scatter(Lanes body, int offset, const F& value) {
-    for (int lane = 0; lane < kLanes; ++lane)
-        body[lane][offset] = value[lane];
-}
-LUTKA_LANES void scatter3(Lanes body, int offset, const V3& value) {
-    scatter(body, offset, value.x);
-    scatter(body, offset + kLanes, value.y);
-    scatter(body, offset + 2 * kLanes, value.z);
-}
-LUTKA_LANES Symmetric gatherInverseInertia(Lanes body) {
-    return {gather(body, kInverseInertiaOffset),
-            gather(body, kInverseInertiaOffset + kLanes),
-            gather(body, kInverseInertiaOffset + 2 * kLanes),
-            gather(body, kInverseInertiaOffset + 3 * kLanes),
-            gather(body, kInverseInertiaOffset + 4 * kLanes),
-            gather(body, kInverseInertiaOffset + 5 * kLanes)};
-}
-LUTKA_LANES V3 gatherCore(Lanes body, const V3& local, int onAxisY) {
-    if (onAxisY != 0) return gather3(body, kAxisOffset + 3 * kLanes) * local.y;
-    return gather3(body, kAxisOffset) * local.x + gather3(body, kAxisOffset + 3 * kLanes) * local.y +
-           gather3(body, kAxisOffset + 6 * kLanes) * local.z;
+// From the centre to a point of the core.
+LUTKA_LANES V3 coreOf(const PairBodies& bodies, Indices index, const V3& axisY, const V3& local, int onAxisY) {
+    if (onAxisY != 0) return axisY * local.y;
+    return second3(readRows(bodies.frames, index, kSupportRow)) * local.x + axisY * local.y +
+           first3(readRows(bodies.frames, index, kAxisZRow)) * local.z;
 }
 
 struct PairVelocities {
     V3 velocityA, angularA, velocityB, angularB;
 };
-LUTKA_LANES PairVelocities velocitiesOf(const PairContactLanes& pair) {
-    return {gather3(pair.bodyA, kVelocityOffset), gather3(pair.bodyA, kAngularOffset),
-            gather3(pair.bodyB, kVelocityOffset), gather3(pair.bodyB, kAngularOffset)};
+LUTKA_LANES PairVelocities velocitiesOf(const PairContactLanes& pair, const PairBodies& bodies) {
+    const Columns a = readRows(bodies.motions, pair.bodyA, 0);
+    const Columns b = readRows(bodies.motions, pair.bodyB, 0);
+    return {first3(a), second3(a), first3(b), second3(b)};
 }
-LUTKA_LANES void storeVelocities(const PairContactLanes& pair, const PairVelocities& v) {
-    scatter3(pair.bodyA, kVelocityOffset, v.velocityA);
-    scatter3(pair.bodyA, kAngularOffset, v.angularA);
-    scatter3(pair.bodyB, kVelocityOffset, v.velocityB);
-    scatter3(pair.bodyB, kAngularOffset, v.angularB);
+LUTKA_LANES void storeVelocities(const PairContactLanes& pair, const PairBodies& bodies, const PairVelocities& v) {
+    writeRows(bodies.motions, pair.bodyA, 0, columnsOf(v.velocityA, v.angularA));
+    writeRows(bodies.motions, pair.bodyB, 0, columnsOf(v.velocityB, v.angularB));
 }
 // An impulse of size `size` along the normal, without what supports hold against.
 LUTKA_LANES void pressPair(const PairContactLanes& pair, PairVelocities& v, F size) {
     v.velocityA = v.velocityA + load(pair.pushA) * (size * load(pair.inverseMassA));
     v.velocityB = v.velocityB - load(pair.pushB) * (size * load(pair.inverseMassB));
-    v.angularA = v.angularA + load(pair.turnA[0]) * size;
-    v.angularB = v.angularB - load(pair.turnB[0]) * size;
+    v.angularA = v.angularA + load(pair.turnA) * size;
+    v.angularB = v.angularB - load(pair.turnB) * size;
 }
-// An impulse of size `size` on A along tangent `index`, 1 or 2.
+// An impulse of size `size` on A along tangent `index`.
 LUTKA_LANES void rubPair(const PairContactLanes& pair, PairVelocities& v, int index, const V3& direction, F size) {
     v.velocityA = v.velocityA + direction * (size * load(pair.inverseMassA));
     v.velocityB = v.velocityB - direction * (size * load(pair.inverseMassB));
-    v.angularA = v.angularA + load(pair.turnA[index]) * size;
-    v.angularB = v.angularB - load(pair.turnB[index]) * size;
+    v.angularA = v.angularA + load(pair.rubA[index]) * size;
+    v.angularB = v.angularB - load(pair.rubB[index]) * size;
 }
 LUTKA_LANES V3 slidingOf(const PairContactLanes& pair, const PairVelocities& v) {
     return v.velocityA + cross(v.angularA, load(pair.armA)) - (v.velocityB + cross(v.angularB, load(pair.armB)));
@@ -97,7 +78,7 @@ LUTKA_LANES F eagerness(const PairContactLanes& pair, float rate) {
 constexpr float kLeastYield = 0.35F;
 
 // Directions and masses. What friction carries is turned into the new directions.
-LUTKA_LANES void preparePair(PairContactLanes& pair, bool isFirst) {
+LUTKA_LANES void preparePair(PairContactLanes& pair, const PairBodies& bodies, bool isFirst) {
     V3 direction[3];
     direction[0] = load(pair.normal);
     tangentsOf(direction[0], direction[1], direction[2]);
@@ -110,10 +91,10 @@ LUTKA_LANES void preparePair(PairContactLanes& pair, bool isFirst) {
     store(pair.tangentImpulse[1], dot(kept, direction[2]));
     const V3 armA = load(pair.armA);
     const V3 armB = load(pair.armB);
-    const Symmetric inertiaA = gatherInverseInertia(pair.bodyA);
-    const Symmetric inertiaB = gatherInverseInertia(pair.bodyB);
-    const V3 pushA = leftOf(direction[0], gather3(pair.bodyA, kSupportOffset));
-    const V3 pushB = -leftOf(-direction[0], gather3(pair.bodyB, kSupportOffset));
+    const Symmetric inertiaA = inverseInertiaOf(bodies, pair.bodyA);
+    const Symmetric inertiaB = inverseInertiaOf(bodies, pair.bodyB);
+    const V3 pushA = leftOf(direction[0], supportOf(bodies, pair.bodyA));
+    const V3 pushB = -leftOf(-direction[0], supportOf(bodies, pair.bodyB));
     store(pair.pushA, pushA);
     store(pair.pushB, pushB);
     const F massA = load(pair.inverseMassA);
@@ -130,8 +111,8 @@ LUTKA_LANES void preparePair(PairContactLanes& pair, bool isFirst) {
         const V3& onB = i == 0 ? pushB : direction[i];
         const V3 turnA = turnBy(cross(armA, onA), inertiaA, massA);
         const V3 turnB = turnBy(cross(armB, onB), inertiaB, massB);
-        store(pair.turnA[i], turnA);
-        store(pair.turnB[i], turnB);
+        store(i == 0 ? pair.turnA : pair.rubA[i - 1], turnA);
+        store(i == 0 ? pair.turnB : pair.rubB[i - 1], turnB);
         const F k = massA * dot(onA, direction[i]) + massB * dot(onB, direction[i]) +
                     dot(cross(armA, direction[i]), turnA) + dot(cross(armB, direction[i]), turnB);
         const F mass = moves ? all(1.0F) / most(k, leastYield) : zero;
@@ -140,22 +121,24 @@ LUTKA_LANES void preparePair(PairContactLanes& pair, bool isFirst) {
 }
 
 // What was too far off to be met when the substep began may have been pushed together since.
-LUTKA_LANES void makeReady(PairContactLanes& pair) {
+LUTKA_LANES void makeReady(PairContactLanes& pair, const PairBodies& bodies) {
     if (pair.ready != 0) return;
     pair.ready = 1;
-    preparePair(pair, false);
+    preparePair(pair, bodies, false);
 }
 
 // Places a contact where its bodies are now: the touching points, how far apart the surfaces are, the arms. Both bodies
 // are pushed at one point, so that no torque comes from nowhere.
-LUTKA_LANES void placePair(PairContactLanes& pair, bool isFirst) {
+LUTKA_LANES void placePair(PairContactLanes& pair, const PairBodies& bodies, bool isFirst) {
     const F radius = load(pair.radius);
     V3 coreA, coreB;
-    const V3 between = gather3(pair.bodyA, kPositionOffset) - gather3(pair.bodyB, kPositionOffset);
+    const Columns placeA = readRows(bodies.frames, pair.bodyA, kPlaceRow);
+    const Columns placeB = readRows(bodies.frames, pair.bodyB, kPlaceRow);
+    const V3 between = first3(placeA) - first3(placeB);
+    const V3 axisA = second3(placeA);
+    const V3 axisB = second3(placeB);
     if (pair.follows != 0 && !isFirst) {
         const F one = all(1.0F), two = all(2.0F), zero = all(0.0F);
-        const V3 axisA = gather3(pair.bodyA, kAxisOffset + 3 * kLanes);
-        const V3 axisB = gather3(pair.bodyB, kAxisOffset + 3 * kLanes);
         const F halfA = load(pair.halfA);
         const F halfB = load(pair.halfB);
         const NearestPoints at = nearestPoints(between, axisA * halfA, {zero, zero, zero}, axisB * halfB);
@@ -172,8 +155,8 @@ LUTKA_LANES void placePair(PairContactLanes& pair, bool isFirst) {
         coreA = axisA * alongA;
         coreB = axisB * alongB;
     } else {
-        coreA = gatherCore(pair.bodyA, load(pair.localA), pair.onAxisY);
-        coreB = gatherCore(pair.bodyB, load(pair.localB), pair.onAxisY);
+        coreA = coreOf(bodies, pair.bodyA, axisA, load(pair.localA), pair.onAxisY);
+        coreB = coreOf(bodies, pair.bodyB, axisB, load(pair.localB), pair.onAxisY);
     }
     const V3 apart = between + (coreA - coreB);
     store(pair.separation, dot(load(pair.normal), apart) - radius);
@@ -183,31 +166,38 @@ LUTKA_LANES void placePair(PairContactLanes& pair, bool isFirst) {
 }
 
 // What rests on something that is held is held itself, less firmly.
-LUTKA_LANES void passSupport(const PairContactLanes& pair, const Mask& presses, const SubstepParams& params) {
+LUTKA_LANES void passSupport(const PairContactLanes& pair, const PairBodies& bodies, const Mask& presses,
+                             const SubstepParams& params) {
     const F zero = all(0.0F);
     const V3 normal = load(pair.normal);
-    const V3 a = gather3(pair.bodyA, kSupportOffset);
-    const V3 b = gather3(pair.bodyB, kSupportOffset);
+    const Columns rowA = readRows(bodies.frames, pair.bodyA, kSupportRow);
+    const Columns rowB = readRows(bodies.frames, pair.bodyB, kSupportRow);
+    const V3 a = first3(rowA);
+    const V3 b = first3(rowB);
     const F firmA = -dot(normal, a) * all(params.supportPassed);
     const F firmB = dot(normal, b) * all(params.supportPassed);
     const Mask liftsA = presses & (firmB > zero) & (firmB * firmB > dot(a, a));
     const Mask liftsB = presses & (firmA > zero) & (firmA * firmA > dot(b, b)) & ~liftsA;
     if (bits(liftsA | liftsB) == 0) return;
-    scatter3(pair.bodyA, kSupportOffset, choose(liftsA, normal * firmB, a));
-    scatter3(pair.bodyB, kSupportOffset, choose(liftsB, -normal * firmA, b));
+    writeRows(bodies.frames, pair.bodyA, kSupportRow, columnsOf(choose(liftsA, normal * firmB, a), second3(rowA)));
+    writeRows(bodies.frames, pair.bodyB, kSupportRow, columnsOf(choose(liftsB, -normal * firmA, b), second3(rowB)));
 }
 
-static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& params) {
+static void beginPairs(PairsView& view, const SubstepParams& params) {
     const bool isFirst = params.warmStart != 0;
-    for (int i = 0; i < count; ++i) {
-        PairContactLanes& pair = pairs[i];
-        placePair(pair, isFirst);
+    const PairBodies& bodies = view.bodies;
+    view.liveCount = 0;
+    for (int i = 0; i < view.count; ++i) {
+        PairContactLanes& pair = view.pairs[i];
+        placePair(pair, bodies, isFirst);
         const V3 normal = load(pair.normal);
-        const F start = dot(normal, slidingOf(pair, velocitiesOf(pair)));
+        const F start = dot(normal, slidingOf(pair, velocitiesOf(pair, bodies)));
         const F pressed = load(pair.normalImpulse);
-        const Mask meets = (pressed > all(0.0F)) | (start + contactBias(load(pair.separation), params, 0) < all(0.0F));
+        const F left = start + contactBias(load(pair.separation), params, 0);
+        const Mask meets = (pressed > all(0.0F)) | (left < all(0.0F));
         pair.ready = isFirst || bits(meets) != 0 ? 1 : 0;
-        if (pair.ready != 0) preparePair(pair, isFirst);
+        if (bits(meets | (left < all(params.nearPairSpeed))) != 0) view.live[view.liveCount++] = i;
+        if (pair.ready != 0) preparePair(pair, bodies, isFirst);
         // What changed the bodies' speeds was a hit and is over; what held them against a load goes on.
         const F steady = pressed - load(pair.normalMass) * (start - load(pair.approach));
         // Bodies that part already bear no load either: pushing on would speed them up.
@@ -216,7 +206,7 @@ static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& 
         store(pair.normalImpulse, held);
         store(pair.carriedNormal, held);
         const Mask presses = held > all(0.0F);
-        if (bits(presses) != 0) passSupport(pair, presses, params);
+        if (bits(presses) != 0) passSupport(pair, bodies, presses, params);
         for (int k = 0; k < 2; ++k) {  // friction ends with the load
             const F rubbed = held > all(0.0F) ? load(pair.tangentImpulse[k]) : all(0.0F);
             store(pair.tangentImpulse[k], rubbed);
@@ -226,45 +216,48 @@ static void beginPairs(PairContactLanes* pairs, int count, const SubstepParams& 
 }
 
 // Both sides get the impulse `whole`, less what pressPair() gave each of them for a push of size `pressed`.
-LUTKA_LANES void pushRest(const PairContactLanes& pair, PairVelocities& v, const V3& whole, F pressed) {
+LUTKA_LANES void pushRest(const PairContactLanes& pair, const PairBodies& bodies, PairVelocities& v, const V3& whole,
+                          F pressed) {
     const V3 toA = whole - load(pair.pushA) * pressed;
     const V3 toB = whole - load(pair.pushB) * pressed;
     const F massA = load(pair.inverseMassA);
     const F massB = load(pair.inverseMassB);
     v.velocityA = v.velocityA + toA * massA;
     v.velocityB = v.velocityB - toB * massB;
-    v.angularA = v.angularA + turnBy(cross(load(pair.armA), toA), gatherInverseInertia(pair.bodyA), massA);
-    v.angularB = v.angularB - turnBy(cross(load(pair.armB), toB), gatherInverseInertia(pair.bodyB), massB);
+    v.angularA = v.angularA + turnBy(cross(load(pair.armA), toA), inverseInertiaOf(bodies, pair.bodyA), massA);
+    v.angularB = v.angularB - turnBy(cross(load(pair.armB), toB), inverseInertiaOf(bodies, pair.bodyB), massB);
 }
 
 // Pushes with what the substep before left, and gives the supports what the sweep held back from them.
-static void carryPairs(PairContactLanes* pairs, int count) {
-    for (int i = 0; i < count; ++i) {
-        const PairContactLanes& pair = pairs[i];
+static void carryPairs(const PairsView& view) {
+    const PairBodies& bodies = view.bodies;
+    for (int i = 0; i < view.liveCount; ++i) {
+        const PairContactLanes& pair = view.pairs[view.live[i]];
         const F pressed = load(pair.carriedNormal);
         const F total = load(pair.normalImpulse);
         if (bits((pressed > all(0.0F)) | (total > all(0.0F))) == 0) continue;
-        PairVelocities v = velocitiesOf(pair);
+        PairVelocities v = velocitiesOf(pair, bodies);
         const V3 whole = load(pair.normal) * total;
         const F swept = total - pressed;
-        pushRest(pair, v, whole, swept);
-        rubPair(pair, v, 1, load(pair.tangent[0]), load(pair.carriedTangent[0]));
-        rubPair(pair, v, 2, load(pair.tangent[1]), load(pair.carriedTangent[1]));
-        storeVelocities(pair, v);
+        pushRest(pair, bodies, v, whole, swept);
+        rubPair(pair, v, 0, load(pair.tangent[0]), load(pair.carriedTangent[0]));
+        rubPair(pair, v, 1, load(pair.tangent[1]), load(pair.carriedTangent[1]));
+        storeVelocities(pair, bodies, v);
     }
 }
 
-static int solvePairs(PairContactLanes* pairs, int count, const SubstepParams& params) {
+static int solvePairs(const PairsView& view, const SubstepParams& params) {
+    const PairBodies& bodies = view.bodies;
     Mask pressed = noLanes();
-    for (int i = 0; i < count; ++i) {
-        PairContactLanes& pair = pairs[i];
-        PairVelocities v = velocitiesOf(pair);
+    for (int i = 0; i < view.liveCount; ++i) {
+        PairContactLanes& pair = view.pairs[view.live[i]];
+        PairVelocities v = velocitiesOf(pair, bodies);
         const V3 normal = load(pair.normal);
         const V3 sliding = slidingOf(pair, v);
         const F carried = load(pair.normalImpulse);
         const F bias = contactBias(load(pair.separation), params, 0);
         if (bits((carried > all(0.0F)) | (dot(normal, sliding) + bias < all(0.0F))) == 0) continue;
-        makeReady(pair);
+        makeReady(pair, bodies);
         const V3 t1 = load(pair.tangent[0]);
         const V3 t2 = load(pair.tangent[1]);
         const F before1 = load(pair.tangentImpulse[0]);
@@ -274,8 +267,8 @@ static int solvePairs(PairContactLanes* pairs, int count, const SubstepParams& p
                          before2 - load(pair.tangentMass[1]) * dot(t2, sliding), load(pair.friction) * carried);
         store(pair.tangentImpulse[0], after.first);
         store(pair.tangentImpulse[1], after.second);
-        rubPair(pair, v, 1, t1, after.first - before1);
-        rubPair(pair, v, 2, t2, after.second - before2);
+        rubPair(pair, v, 0, t1, after.first - before1);
+        rubPair(pair, v, 1, t2, after.second - before2);
 
         const F approach = dot(normal, slidingOf(pair, v));
         const F off = approach + bias;
@@ -283,27 +276,28 @@ static int solvePairs(PairContactLanes* pairs, int count, const SubstepParams& p
         pressed |= (total > all(0.0F)) | (carried > all(0.0F));
         store(pair.normalImpulse, total);
         pressPair(pair, v, total - carried);
-        storeVelocities(pair, v);
+        storeVelocities(pair, bodies, v);
     }
     return bits(pressed) != 0 ? 1 : 0;
 }
 
-static int mendPairs(PairContactLanes* pairs, int count, const SubstepParams& params) {
+static int mendPairs(const PairsView& view, const SubstepParams& params) {
+    const PairBodies& bodies = view.bodies;
     Mask any = noLanes();
-    for (int i = 0; i < count; ++i) {
-        PairContactLanes& pair = pairs[i];
+    for (int i = 0; i < view.liveCount; ++i) {
+        PairContactLanes& pair = view.pairs[view.live[i]];
         const F zero = all(0.0F);
         const Mask overlaps = (load(pair.separation) < all(-params.slop - params.mendGap)) & (load(pair.active) > zero);
         if (bits(overlaps) == 0) continue;
-        makeReady(pair);
+        makeReady(pair, bodies);
         any |= overlaps;
-        PairVelocities v = velocitiesOf(pair);
+        PairVelocities v = velocitiesOf(pair, bodies);
         const V3 normal = load(pair.normal);
         const F off = dot(normal, slidingOf(pair, v)) +
                       contactBias(load(pair.separation), params, 1) * eagerness(pair, params.mendHaste);
         const F push = most(load(pair.normalMass) * -off * eagerness(pair, params.mendRate), zero);
         pressPair(pair, v, overlaps ? push : zero);
-        storeVelocities(pair, v);
+        storeVelocities(pair, bodies, v);
     }
     return bits(any) != 0 ? 1 : 0;
 }

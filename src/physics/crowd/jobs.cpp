@@ -17,8 +17,8 @@ void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTou
     constexpr float kFriction = kBodyFriction * kBodyFriction;
     const Doll& a = state.dolls[touch.dollA];
     const Doll& b = state.dolls[touch.dollB];
-    pair.bodyA[lane] = state.batchOf(a).bodyLane(touch.bodyA, a.lane);
-    pair.bodyB[lane] = state.batchOf(b).bodyLane(touch.bodyB, b.lane);
+    pair.bodyA[lane] = a.firstBody + touch.bodyA;
+    pair.bodyB[lane] = b.firstBody + touch.bodyB;
     writeVector(pair.localA, lane, touch.touch.localA);
     writeVector(pair.localB, lane, touch.touch.localB);
     const PrimitiveShape& shapeA = state.groupOf(a).topology.shapeOf(touch.bodyA, touch.shapeA);
@@ -50,14 +50,10 @@ void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTou
     if (!onAxisY(touch.touch.localA) || !onAxisY(touch.touch.localB)) pair.onAxisY = 0;
 }
 
-// A block of empty lanes: they point to bodies of zeros and push nothing.
-void emptyBlock(PairContactLanes& pair, Batch& batch) {
+// A block without contacts.
+void emptyBlock(PairContactLanes& pair) {
     pair = {};
     pair.onAxisY = pair.follows = 1;
-    for (int lane = 0; lane < kLanes; ++lane) {
-        pair.bodyA[lane] = pair.bodyB[lane] = batch.emptyLane(lane);
-        pair.normal.y.lane[lane] = 1.0F;
-    }
 }
 
 // Gives each contact the first open block that has room and neither of its bodies: a greedy colouring whose colours
@@ -143,10 +139,12 @@ class Packer {
     }
 
     void fill(Job& job, std::size_t block) {
-        emptyBlock(job.pairs[block], *job.batches.front());
+        PairContactLanes& pair = job.pairs[block];
+        emptyBlock(pair);
         for (int lane = 0; lane < kLanes; ++lane) {
             const int index = job.touchOfLane[block][lane];
-            if (index >= 0) fillLane(state_, job.pairs[block], lane, state_.touches[index]);
+            fillLane(state_, pair, lane, state_.touches[index >= 0 ? index : job.touchOfLane[block][0]]);
+            if (index < 0) pair.active.lane[lane] = pair.strikes.lane[lane] = 0.0F;
         }
     }
 
@@ -188,10 +186,32 @@ void assignBatches(CrowdState& state) {
         state.active[i]->job = jobOf[sets.find(static_cast<int>(i))];
 }
 
+// Which bodies of each batch pair contacts push, and where they are kept meanwhile.
+void findPaired(CrowdState& state) {
+    state.motions.resize(static_cast<std::size_t>(state.bodyTotal));
+    state.frames.resize(static_cast<std::size_t>(state.bodyTotal));
+    for (Batch* batch : state.active) {
+        batch->paired.clear();
+        batch->isPaired.assign(batch->bodies.size(), 0);
+        batch->pairBodies = pairBodiesOf(state);
+        for (int lane = 0; lane < kLanes; ++lane)
+            batch->firstBody[lane] = state.dolls[batch->doll[lane < batch->used ? lane : 0]].firstBody;
+    }
+    const auto add = [&](int doll, int body) { state.batchOf(state.dolls[doll]).isPaired[body] = 1; };
+    for (const PairTouch& touch : state.touches) {
+        add(touch.dollA, touch.bodyA);
+        add(touch.dollB, touch.bodyB);
+    }
+    for (Batch* batch : state.active)
+        for (std::size_t body = 0; body < batch->isPaired.size(); ++body)
+            if (batch->isPaired[body] != 0) batch->paired.push_back(static_cast<int>(body));
+}
+
 }  // namespace
 
 void makeJobs(CrowdState& state) {
     assignBatches(state);
+    findPaired(state);
     for (std::size_t i = 0; i < state.touches.size(); ++i)
         state.jobs[state.batchOf(state.dolls[state.touches[i].dollA]).job].touches.push_back(static_cast<int>(i));
     for (DragRecord& record : state.drags) {

@@ -20,6 +20,7 @@ static void begin(const BatchView& batch, const SubstepParams& params) {
             beginMotor(batch.motors[j], batch.joints[j], batch.jointConstants[j], batch, params);
     for (int b = 0; batch.targets != nullptr && b < batch.bodyCount; ++b)
         if (batch.targets[b].active != 0) beginTarget(batch.targets[b], batch.bodies[b], params);
+    showBodies(batch);
 }
 
 static constexpr Kernels kTable{&refresh,       &findBounds,    &findSelfPairs, &findBodyPairs, &touchCores,

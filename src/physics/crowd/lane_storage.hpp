@@ -47,4 +47,24 @@ LUTKA_LANES void store(Wide4& to, const Q& q) {
     store(to.w, q.w);
 }
 
+// Rows of eight floats into columns.
+LUTKA_LANES void transpose(F (&rows)[kLanes]) {
+    F pairs[kLanes];
+    for (int i = 0; i < kLanes; i += 2) {
+        pairs[i] = __builtin_shufflevector(rows[i], rows[i + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+        pairs[i + 1] = __builtin_shufflevector(rows[i], rows[i + 1], 2, 10, 3, 11, 6, 14, 7, 15);
+    }
+    F fours[kLanes];
+    for (int i = 0; i < kLanes; i += 4) {
+        for (int k = 0; k < 2; ++k) {
+            fours[i + 2 * k] = __builtin_shufflevector(pairs[i + k], pairs[i + k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+            fours[i + 2 * k + 1] = __builtin_shufflevector(pairs[i + k], pairs[i + k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+        }
+    }
+    for (int i = 0; i < 4; ++i) {
+        rows[i] = __builtin_shufflevector(fours[i], fours[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+        rows[i + 4] = __builtin_shufflevector(fours[i], fours[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+    }
+}
+
 }  // namespace lutka::physics::crowd::LUTKA_KERNELS

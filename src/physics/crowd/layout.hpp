@@ -26,8 +26,7 @@ struct WideSymmetric {
 };
 
 /// The state of one body in all lanes. World space, SI units. What a sweep of the tree needs comes first, so that it
-/// stays in the nearest cache. Pair contacts find the members of one lane by the offsets below: the order of members is
-/// part of the layout.
+/// stays in the nearest cache.
 struct BodyLanes {
     Wide3 velocity;
     Wide3 angular;                        ///< World axes.
@@ -44,13 +43,29 @@ struct BodyLanes {
     Wide3 support;       ///< Out of what it rests on; its length says how firmly that holds, 0 to 1.
     Wide3 looseAngular;  ///< The turning rate likewise.
 };
-/// In floats, from the first member to the lane's own; batch.cpp holds them to the members.
-inline constexpr int kVelocityOffset = 0;
-inline constexpr int kAngularOffset = 3 * kLanes;
-inline constexpr int kInverseInertiaOffset = 18 * kLanes;
-inline constexpr int kPositionOffset = 27 * kLanes;
-inline constexpr int kAxisOffset = 30 * kLanes;
-inline constexpr int kSupportOffset = 55 * kLanes;
+
+/// One body of one doll as pair contacts see it: what they push. A register's worth, so that eight bodies of any dolls
+/// are read by eight loads and a transposition. Begun anew in every substep from BodyLanes, and taken in there.
+struct alignas(32) BodyMotion {
+    float velocity[3];
+    float angular[3];
+    float pressed;  ///< 1 once a contact was pressed again since the doll has last answered; else 0.
+    float unused;
+};
+
+/// What else they need of it, in rows of the same kind. What rests on a body passes its support on.
+struct alignas(64) BodyFrame {
+    float position[3], axisY[3], unused0[2];
+    float inverseInertia[6], unused1[2];  ///< As in WideSymmetric.
+    float support[3], axisX[3], unused2[2];
+    float axisZ[3], unused3[5];
+};
+
+/// One of each a body of the world. Jobs share no body.
+struct PairBodies {
+    BodyMotion* motions;
+    BodyFrame* frames;
+};
 
 /// What is constant of a body, from the profile.
 struct BodyConstants {
@@ -221,38 +236,53 @@ struct TargetLanes {
     int active;        ///< Whether any lane has one.
 };
 
-/// Eight contacts between two bodies each, of any dolls; no body comes twice, so that they are solved at once.
+/// Eight contacts between two bodies each, of any dolls; no body comes twice, so that they are solved at once. Lanes
+/// without a contact come last and repeat lane 0, but for `active`: they push nothing, and lane 0 is written after
+/// them.
 struct PairContactLanes {
-    float* bodyA[kLanes];  ///< First member of the lane in its BodyLanes.
-    float* bodyB[kLanes];
-    Wide3 localA, localB;  ///< The touching points of the cores.
-    Wide halfA, halfB;     ///< Half lengths of the cores along the bodies' y, where `follows`.
-    Wide radius;           ///< Sum of both.
-    Wide3 normal;          ///< From B to A.
-    Wide inverseMassA, inverseMassB;
-    Wide friction;
+    // What says whether there is anything to do,
+    int bodyA[kLanes];  ///< Into PairBodies.
+    int bodyB[kLanes];
+    Wide3 normal;  ///< From B to A.
+    Wide3 armA, armB;
+    Wide separation;
     Wide normalImpulse;
-    Wide3 frictionImpulse;  ///< World axes, what is carried from the step before.
-    Wide tangentImpulse[2];
-    Wide approach;       ///< Relative speed along the normal at the start of the last substep.
-    Wide carriedNormal;  ///< What the substep before left of the impulses; later what the last sweep added.
-    Wide carriedTangent[2];
-    Wide active;   ///< 1, or 0 where the lane is empty.
-    Wide eager;    ///< 1 where both bodies have others jointed to them, which lag behind a push; else 0.
     Wide strikes;  ///< 1 where both are of different dolls with joints: these are pressed again once the dolls have
                    ///< answered (answer_kernels.hpp).
-    int onAxisY;   ///< Whether all touching points lie on the bodies' y, as those of capsules do.
-    int follows;   ///< Whether all are of capsules and spheres: points and normal are found anew in every substep.
-
-    Wide3 armA, armB;
-    Wide3 tangent[2];
-    Wide3 pushA, pushB;        ///< The normal without the part that is held against by what a body rests on.
-    Wide3 turnA[3], turnB[3];  ///< Inverse inertia times (arm × direction), for the normal and the tangents.
-    Wide separation;
+    // what a push needs,
     Wide normalMass;
+    Wide inverseMassA, inverseMassB;
+    Wide3 pushA, pushB;  ///< The normal without the part that is held against by what a body rests on.
+    Wide3 turnA, turnB;  ///< Inverse inertia times (arm × push).
+    Wide active;         ///< 1, or 0 where the lane is empty.
+    Wide eager;          ///< 1 where both bodies have others jointed to them, which lag behind a push; else 0.
+    Wide carriedNormal;  ///< What the substep before left of the impulses; later what the last sweep added.
+    int ready;           ///< Whether directions and masses are those of this substep.
+    int onAxisY;         ///< Whether all touching points lie on the bodies' y, as those of capsules do.
+    int follows;  ///< Whether all are of capsules and spheres: points and normal are found anew in every substep.
+    // what friction does,
+    Wide carriedTangent[2];
+    Wide3 tangent[2];
+    Wide3 rubA[2], rubB[2];  ///< Inverse inertia times (arm × tangent).
     Wide tangentMass[2];
-    int ready;    ///< Whether directions and masses are those of this substep.
-    int changed;  ///< A bit a lane: which the last sweep of pressAgain() has changed.
+    Wide tangentImpulse[2];
+    Wide friction;
+    // and what is looked at once a substep.
+    Wide3 localA, localB;   ///< The touching points of the cores.
+    Wide halfA, halfB;      ///< Half lengths of the cores along the bodies' y, where `follows`.
+    Wide radius;            ///< Sum of both.
+    Wide approach;          ///< Relative speed along the normal at the start of the last substep.
+    Wide3 frictionImpulse;  ///< World axes, what is carried from the step before.
+};
+
+/// The pair contacts of a job as the kernels see them.
+struct PairsView {
+    PairContactLanes* pairs;
+    int count;
+    PairBodies bodies;
+    int* live;  ///< Blocks that may be met in this substep, in their order; room for all.
+    int liveCount;
+    int* changed;  ///< Room for as many more.
 };
 
 /// What decides quality and cost within a substep; the same for all of them. The defaults are the outcome of the sweep
@@ -269,8 +299,9 @@ struct SubstepTuning {
     int answerSweeps = 2;       ///< At most, over the contacts between dolls after these have answered; 0: none. More:
                                 ///< stiffer heaps, and the dolls' cost again for each.
     float answerSpeed = 0.02F;  ///< m/s by which a contact may be wrong to be left out of them. Less: the same.
-    float nearSpeed = 8.0F;   ///< m/s that an approach may grow by within a substep: contacts farther off are left out.
-    float mendGap = 0.0002F;  ///< Metres, and
+    float nearSpeed = 8.0F;  ///< m/s that an approach may grow by within a substep: contacts farther off are left out.
+    float nearPairSpeed = 4.0F;     ///< m/s, the same of contacts between bodies.
+    float mendGap = 0.0002F;        ///< Metres, and
     float mendAngle = 0.002F;       ///< rad: errors below which nothing is mended.
     float contactTolerance = 0.1F;  ///< m/s by which the guess of which contacts hold may be wrong.
     float limitTolerance = 1.0F;    ///< rad/s, the same of limits.
@@ -327,6 +358,10 @@ struct BatchView {
     MotorLanes* motors;    ///< One a joint, or null where no doll of the batch has any.
     TargetLanes* targets;  ///< One a body, likewise.
     const RestLanes* rest;
+    const int* paired;  ///< Its bodies that pair contacts push, in some lane.
+    int pairedCount;
+    const int* firstBody;  ///< One a lane: where its doll's bodies begin in `pairBodies`.
+    PairBodies pairBodies;
 };
 
 /// A pair of bodies of one doll that may collide, and the lanes in which their bounds meet.
@@ -404,22 +439,23 @@ struct Kernels {
     /// Gravity and damping, this substep's Jacobians and masses, then last substep's impulses.
     void (*begin)(const BatchView& batch, const SubstepParams& params);
     /// Solves all joints of each doll at once with the limits, friction and static contacts that hold. `first`: brings
-    /// in last substep's impulses.
+    /// in last substep's impulses; otherwise does nothing where no contact was pressed again.
     void (*solve)(const BatchView& batch, const SubstepParams& params, int first);
     /// Adds to the velocities, not to the steady ones, what mends errors of position; does nothing where there are none
     /// unless `pushed`, which says that something else has added to the velocities in the same way.
     void (*mend)(const BatchView& batch, const SubstepParams& params, int pushed);
     /// Positions and orientations with the velocities, which are the steady ones again afterwards.
     void (*advance)(const BatchView& batch, const SubstepParams& params);
-    void (*beginPairs)(PairContactLanes* pairs, int count, const SubstepParams& params);
+    /// Sets the view's live blocks, which all the others work on.
+    void (*beginPairs)(PairsView& view, const SubstepParams& params);
     /// One sweep; returns whether any contact presses, or did before.
-    int (*solvePairs)(PairContactLanes* pairs, int count, const SubstepParams& params);
+    int (*solvePairs)(const PairsView& view, const SubstepParams& params);
     /// Adds to the velocities what mends overlaps; returns whether there was any.
-    int (*mendPairs)(PairContactLanes* pairs, int count, const SubstepParams& params);
+    int (*mendPairs)(const PairsView& view, const SubstepParams& params);
     /// Presses the contacts between dolls anew after these have answered; returns how many blocks have changed.
-    int (*pressAgain)(PairContactLanes* pairs, int count, const SubstepParams& params);
+    int (*pressAgain)(const PairsView& view, const SubstepParams& params);
     /// Pushes the bodies with what the substep before left of the impulses.
-    void (*carryPairs)(PairContactLanes* pairs, int count);
+    void (*carryPairs)(const PairsView& view);
 };
 
 }  // namespace lutka::physics::crowd

@@ -1,7 +1,6 @@
 #include "physics/crowd/solve.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -85,13 +84,16 @@ class JobSubstep {
         for (DragRecord* drag : job_.drags)
             beginDrag(state_, *drag);
         forBatches([&](const BatchView& view) { kernels.begin(view, params_); });
-        kernels.beginPairs(job_.pairs.data(), static_cast<int>(job_.pairs.size()), params_);
         // What touches other bodies works on single bodies; a pass over the dolls must follow before anything moves.
-        const int pairs = static_cast<int>(job_.pairs.size());
-        kernels.solvePairs(job_.pairs.data(), pairs, params_);
-        kernels.carryPairs(job_.pairs.data(), pairs);
+        PairsView pairs = viewOfPairs();
+        kernels.beginPairs(pairs, params_);
+        kernels.solvePairs(pairs, params_);
+        kernels.carryPairs(pairs);
         forBatches([&](const BatchView& view) { kernels.solve(view, params_, 1); });
-        for (int i = 0; i < params_.answerSweeps && pressAgain(); ++i) {
+        for (int i = 0; i < params_.answerSweeps; ++i) {
+            // The contacts that the dolls' answer has left wrong, and their dolls' answer to that.
+            if (kernels.pressAgain(pairs, params_) == 0) break;
+            forBatches([&](const BatchView& view) { kernels.solve(view, params_, 0); });
         }
         for (const Batch* batch : job_.batches)
             job_.motorWork += workOfMotors(*batch);
@@ -101,9 +103,9 @@ class JobSubstep {
         for (DragRecord* drag : job_.drags)
             job_.dragWork += endDrag(state_, *drag);
         if (mends_) {
-            const int pushed = kernels.mendPairs(job_.pairs.data(), pairs, params_);
+            const int pushed = kernels.mendPairs(pairs, params_);
             for (int i = 1; i < params_.mendSweeps && pushed != 0; ++i)
-                kernels.mendPairs(job_.pairs.data(), pairs, params_);
+                kernels.mendPairs(pairs, params_);
             forBatches([&](const BatchView& view) { kernels.mend(view, params_, pushed); });
         }
         forBatches([&](const BatchView& view) { kernels.advance(view, params_); });
@@ -111,29 +113,11 @@ class JobSubstep {
     }
 
   private:
-    // Presses the contacts anew that the dolls' answer has left wrong, and lets these answer again. False: none is
-    // wrong.
-    bool pressAgain() {
-        const Kernels& kernels = *state_.kernels;
-        if (kernels.pressAgain(job_.pairs.data(), static_cast<int>(job_.pairs.size()), params_) == 0) return false;
-        for (Batch* batch : job_.batches)
-            batch->isPressed = false;
-        for (std::size_t block = 0; block < job_.pairs.size(); ++block) {
-            for (auto lanes = static_cast<unsigned>(job_.pairs[block].changed); lanes != 0; lanes &= lanes - 1) {
-                const PairTouch& touch = state_.touches[job_.touchOfLane[block][std::countr_zero(lanes)]];
-                for (const int doll : {touch.dollA, touch.dollB})
-                    state_.batchOf(state_.dolls[doll]).isPressed = true;
-            }
-        }
-        const auto answer = [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                if (job_.batches[i]->isPressed) kernels.solve(job_.batches[i]->view(*job_.topologies[i]), params_, 0);
-        };
-        if (job_.batches.size() >= kSplitJob)
-            state_.inParallel(job_.batches.size(), 4, answer);
-        else
-            answer(0, job_.batches.size());
-        return true;
+    PairsView viewOfPairs() {
+        job_.blocks.resize(2 * job_.pairs.size());
+        int* blocks = job_.blocks.data();
+        return {job_.pairs.data(),         static_cast<int>(job_.pairs.size()), pairBodiesOf(state_), blocks, 0,
+                blocks + job_.pairs.size()};
     }
 
     template <class Work>

@@ -144,6 +144,7 @@ struct Job {
     std::vector<const Topology*> topologies;  ///< One a batch.
     std::vector<int> touches;                 ///< Into CrowdState::touches.
     std::vector<PairContactLanes> pairs;
+    std::vector<int> blocks;                           ///< Room for the lists of PairsView.
     std::vector<std::array<int, kLanes>> touchOfLane;  ///< One a pair block; -1 where a lane is empty.
     std::vector<DragRecord*> drags;
     std::vector<const ForceRecord*> forces;
@@ -216,6 +217,8 @@ struct CrowdState {
     std::vector<Group*> activeGroup;                  ///< One an active batch.
     std::vector<std::vector<PairTouch>> selfTouches;  ///< One an active batch.
     std::vector<StepBody> stepBodies;                 ///< One a body of the world; those of dolls near others are set.
+    std::vector<BodyMotion> motions;                  ///< One a body of the world; those with pair contacts are set.
+    std::vector<BodyFrame> frames;                    ///< Likewise.
     std::vector<BoxLanes> stepBoxes;                  ///< From Doll::firstBox on, of the same dolls.
     std::vector<char> isNear;                         ///< One a doll: whether its bounds meet another's.
     std::vector<PieceTouches> dollTouches;            ///< One a piece of `dollPairs`.
@@ -237,6 +240,10 @@ struct CrowdState {
     [[nodiscard]] Batch& batchOf(const Doll& doll) { return groupOf(doll).batches[doll.batch]; }
     [[nodiscard]] const Batch& batchOf(const Doll& doll) const { return groupOf(doll).batches[doll.batch]; }
 };
+
+[[nodiscard]] inline PairBodies pairBodiesOf(CrowdState& state) {
+    return {state.motions.data(), state.frames.data()};
+}
 
 /// Adds a doll or prop, awake. Returns its index in CrowdState::dolls.
 int addDoll(CrowdState& state, Topology topology, const RagdollProfile* profile, std::span<const BodyState> bodies);

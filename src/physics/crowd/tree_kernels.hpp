@@ -22,6 +22,7 @@
 /// down, is done while its numbers are at hand.
 
 #include "physics/crowd/drag_kernels.hpp"
+#include "physics/crowd/pair_body_kernels.hpp"
 #include "physics/crowd/target_kernels.hpp"
 
 namespace lutka::physics::crowd::LUTKA_KERNELS {
@@ -250,6 +251,7 @@ static void leaveSteady(const BatchView& batch, const Mask& lanes) {
 }
 
 static void mend(const BatchView& batch, const SubstepParams& params, int pushed) {
+    if (pushed != 0) takeMotions(batch);
     if (pushed == 0 && !needsMending(batch, params)) return;
     Pass pass{true, all(1.0F), true, noLanes(), all(1.0F), noLanes()};
     constexpr int kPasses = 4;
@@ -277,7 +279,7 @@ static void gatherLoose(const BatchView& batch, bool isFirst) {
     }
 }
 
-static void solve(const BatchView& batch, const SubstepParams& params, int first) {
+static void solveAll(const BatchView& batch, const SubstepParams& params, int first) {
     gatherLoose(batch, first != 0);
     Pass pass{false, all(first != 0 ? 0.0F : 1.0F), first == 0, noLanes(), load(batch.rest->stiction), noLanes()};
     Fresh fresh = Fresh::since;
@@ -295,6 +297,14 @@ static void solve(const BatchView& batch, const SubstepParams& params, int first
         pass.begun = true;
         if (i + 1 >= params.patience) pass.late |= wrong;
     }
+}
+
+static void solve(const BatchView& batch, const SubstepParams& params, int first) {
+    const bool pressed = takeMotions(batch);
+    if (first == 0 && !pressed) return;
+    if (first != 0) takeSupports(batch);
+    solveAll(batch, params, first);
+    showMotions(batch);
 }
 
 }  // namespace lutka::physics::crowd::LUTKA_KERNELS
