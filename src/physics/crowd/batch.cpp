@@ -49,16 +49,6 @@ BatchView Batch::view(const Topology& topology) {
             pairBodies};
 }
 
-vec3 readVector(const Wide3& v, int lane) {
-    return {v.x.lane[lane], v.y.lane[lane], v.z.lane[lane]};
-}
-
-void writeVector(Wide3& to, int lane, const vec3& v) {
-    to.x.lane[lane] = v.x;
-    to.y.lane[lane] = v.y;
-    to.z.lane[lane] = v.z;
-}
-
 void writeLane(Batch& batch, int lane, std::span<const BodyState> bodies) {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         BodyLanes& to = batch.bodies[b];
@@ -72,13 +62,6 @@ void writeLane(Batch& batch, int lane, std::span<const BodyState> bodies) {
         to.rotation.z.lane[lane] = q.z;
         to.rotation.w.lane[lane] = q.w;
     }
-}
-
-BodyState readBody(const BodyLanes& body, int lane) {
-    const Wide4& q = body.rotation;
-    return {{quat(q.w.lane[lane], q.x.lane[lane], q.y.lane[lane], q.z.lane[lane]), readVector(body.position, lane)},
-            readVector(body.velocity, lane),
-            readVector(body.angular, lane)};
 }
 
 void readLane(const Batch& batch, int lane, std::span<BodyState> bodies) {

@@ -33,11 +33,12 @@ struct Batch {
     std::vector<StaticPush> pushes;        ///< Of contacts that were found anew since, and at last of all; for reports.
     std::vector<int> nearPlanes;           ///< Statics that some lane is near, while contacts are found,
     std::vector<int> nearStatics[kLanes];  ///< and the others, lane by lane.
-    std::vector<unsigned char> selfMasks;  ///< One a pair of the topology, likewise.
-    bool nearShapes = false;               ///< Whether some of its dolls are near static geometry other than planes.
-    std::vector<DragLanes> drags;          ///< Of this step, one a pull.
-    std::vector<MotorLanes> motors;        ///< Of this step, one a joint, or none at all.
-    std::vector<TargetLanes> targets;      ///< Of this step, one a body, or none at all.
+    std::vector<std::uint64_t> carriedKeys[kLanes];  ///< Of the contacts that its dolls keep, in their order, likewise.
+    std::vector<unsigned char> selfMasks;            ///< One a pair of the topology, likewise.
+    bool nearShapes = false;           ///< Whether some of its dolls are near static geometry other than planes.
+    std::vector<DragLanes> drags;      ///< Of this step, one a pull.
+    std::vector<MotorLanes> motors;    ///< Of this step, one a joint, or none at all.
+    std::vector<TargetLanes> targets;  ///< Of this step, one a body, or none at all.
     RestLanes rest{};
     int doll[kLanes]{};  ///< Which doll is in which lane.
     int used = 0;
@@ -53,9 +54,20 @@ struct Batch {
 /// A body's state in and out of a lane. The rotation's columns and the inertia follow at the next refresh.
 void writeLane(Batch& batch, int lane, std::span<const BodyState> bodies);
 void readLane(const Batch& batch, int lane, std::span<BodyState> bodies);
-[[nodiscard]] BodyState readBody(const BodyLanes& body, int lane);
-[[nodiscard]] vec3 readVector(const Wide3& v, int lane);
-void writeVector(Wide3& to, int lane, const vec3& v);
+[[nodiscard]] inline vec3 readVector(const Wide3& v, int lane) {
+    return {v.x.lane[lane], v.y.lane[lane], v.z.lane[lane]};
+}
+inline void writeVector(Wide3& to, int lane, const vec3& v) {
+    to.x.lane[lane] = v.x;
+    to.y.lane[lane] = v.y;
+    to.z.lane[lane] = v.z;
+}
+[[nodiscard]] inline BodyState readBody(const BodyLanes& body, int lane) {
+    const Wide4& q = body.rotation;
+    return {{quat(q.w.lane[lane], q.x.lane[lane], q.y.lane[lane], q.z.lane[lane]), readVector(body.position, lane)},
+            readVector(body.velocity, lane),
+            readVector(body.angular, lane)};
+}
 
 /// Lets go of a doll that was coming to rest.
 void awaken(RestLanes& rest, int lane);

@@ -63,19 +63,6 @@ void setContact(StaticContactLanes& contact, int lane, const StaticTouch& touch,
     if (carried != nullptr) setImpulses(contact, lane, *carried);
 }
 
-// Null when there was no such contact. `cursor`: where the last search ended; contacts are looked for in nearly the
-// order that they were kept in.
-const CarriedStatic* carriedStatic(const Doll& doll, std::uint64_t key, std::size_t& cursor) {
-    const std::size_t count = doll.statics.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t at = cursor + i < count ? cursor + i : cursor + i - count;
-        if (doll.statics[at].contact.key != key) continue;
-        cursor = at + 1 < count ? at + 1 : 0;
-        return &doll.statics[at];
-    }
-    return nullptr;
-}
-
 // The static contacts of one batch: body by body, each lane's next contact into the next of the body's slots.
 class StaticContacts {
   public:
@@ -90,6 +77,9 @@ class StaticContacts {
             near.clear();
         for (int lane = 0; lane < batch_.used; ++lane) {
             const Doll& doll = state_.dolls[batch_.doll[lane]];
+            batch_.carriedKeys[lane].clear();
+            for (const CarriedStatic& touch : doll.statics)
+                batch_.carriedKeys[lane].push_back(touch.contact.key);
             const Bounds bounds = worldBounds(doll, dt_, farther_);
             for (int i = 0; i < static_cast<int>(state_.statics.size()); ++i) {
                 if (!state_.statics[i].shape.filter.collidesWith(doll.filter)) continue;
@@ -156,7 +146,7 @@ class StaticContacts {
             if (isKinematic(batch_, body, from)) continue;
             contact.offset.lane[lane] = touch.offset;
             contact.key[lane] = key;
-            const CarriedStatic* carried = carriedStatic(doll, key, cursor_[from]);
+            const CarriedStatic* carried = carriedStatic(from, key);
             if (carried != nullptr) setImpulses(contact, lane, *carried);
         }
     }
@@ -207,12 +197,27 @@ class StaticContacts {
         touch.local = topology_.inBody(of.body, of.shape, touch.local);
         if (slot == batch_.contacts.size()) emptyContact(of.body);
         const std::uint64_t key = staticKey(geometry, of.body, of.shape, touch.feature);
-        const CarriedStatic* carried = carriedStatic(state_.dolls[batch_.doll[lane]], key, cursor_[lane]);
+        const CarriedStatic* carried = carriedStatic(lane, key);
         const float friction = state_.statics[geometry].shape.friction * kBodyFriction;
         setContact(batch_.contacts[slot], lane, touch, friction, key, carried);
         if (lane != 0) return;
         for (int copy = batch_.used; copy < kLanes; ++copy)
             setContact(batch_.contacts[slot], copy, touch, friction, key, carried);
+    }
+
+    // What the lane's doll has kept of that contact; null when there was none. They are looked for in nearly the order
+    // that they were kept in: from where the last search ended.
+    const CarriedStatic* carriedStatic(int lane, std::uint64_t key) {
+        const std::vector<std::uint64_t>& keys = batch_.carriedKeys[lane];
+        const auto from = keys.begin() + static_cast<std::ptrdiff_t>(cursor_[lane]);
+        auto at = std::find(from, keys.end(), key);
+        if (at == keys.end()) {
+            at = std::find(keys.begin(), from, key);
+            if (at == from) return nullptr;
+        }
+        const auto index = static_cast<std::size_t>(at - keys.begin());
+        cursor_[lane] = index + 1 < keys.size() ? index + 1 : 0;
+        return &state_.dolls[batch_.doll[lane]].statics[index];
     }
 
     // One that no lane has.
@@ -234,7 +239,7 @@ class StaticContacts {
     float substep_;
     float farther_ = state_.tuning.staticMargin - state_.tuning.pairMargin;  // than the bodies' own bounds reach
     std::size_t firstSlot_ = 0;
-    std::size_t cursor_[kLanes]{};  // see carriedStatic
+    std::size_t cursor_[kLanes]{};  // into Batch::carriedKeys
 };
 
 }  // namespace
