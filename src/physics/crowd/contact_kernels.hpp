@@ -195,8 +195,9 @@ static void beginPairs(PairsView& view, const SubstepParams& params) {
         const F pressed = load(pair.normalImpulse);
         const F left = start + contactBias(load(pair.separation), params, 0);
         const Mask meets = (pressed > all(0.0F)) | (left < all(0.0F));
-        pair.ready = isFirst || bits(meets) != 0 ? 1 : 0;
-        if (bits(meets | (left < all(params.nearPairSpeed))) != 0) view.live[view.liveCount++] = i;
+        if (bits(meets | (left < all(params.nearPairSpeed))) == 0) continue;  // nor did it press before
+        view.live[view.liveCount++] = i;
+        pair.ready = bits(meets) != 0 ? 1 : 0;
         if (pair.ready != 0) preparePair(pair, bodies, isFirst);
         // What changed the bodies' speeds was a hit and is over; what held them against a load goes on.
         const F steady = pressed - load(pair.normalMass) * (start - load(pair.approach));

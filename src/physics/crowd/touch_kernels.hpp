@@ -42,6 +42,9 @@ LUTKA_LANES NearestPoints nearestPoints(const V3& centreA, const V3& halfA, cons
 
     const V3 between = r + da * s - db * t;
     const F distance = squareRoot(dot(between, between));
+    const Mask apart = distance > all(1e-6F);
+    const F scale = one / most(distance, all(1e-6F));
+    if (bits(~apart) == 0) return {s, t, between * scale, distance};
     // Where the cores cross: apart along what is across both, or anything.
     const V3 crossed = cross(da, db);
     const F across2 = dot(crossed, crossed);
@@ -49,13 +52,7 @@ LUTKA_LANES NearestPoints nearestPoints(const V3& centreA, const V3& halfA, cons
     const Mask skew = across2 > all(1e-6F) * aa * bb;
     const V3 other{skew ? crossed.x * perAcross : zero, skew ? crossed.y * perAcross : one,
                    skew ? crossed.z * perAcross : zero};
-    const Mask apart = distance > all(1e-6F);
-    const F scale = one / most(distance, all(1e-6F));
-    return {
-        s,
-        t,
-        {apart ? between.x * scale : other.x, apart ? between.y * scale : other.y, apart ? between.z * scale : other.z},
-        distance};
+    return {s, t, choose(apart, between * scale, other), distance};
 }
 
 LUTKA_LANES unsigned touch(const Cores& a, const Cores& b, const TouchRange& range, CoreTouchLanes& out) {
