@@ -113,12 +113,20 @@ LUTKA_LANES V3 spinOf(const BodyLanes& body, const BodyConstants& constants, con
                      half * torque.z * inverseInertia.z};
 }
 
+// Foresees how a body turns: `angular` is its rate, `half` half the substep, seconds.
+LUTKA_LANES void aimBody(BodyLanes& body, const BodyConstants& constants, const V3& angular, const V3& steady, F half) {
+    const V3 spin = spinOf(body, constants, steady, half);
+    const V3 turn = (angular + spin) * half;
+    store(body.aim, angular);
+    store(body.spin, spin);
+    store(body.halfTurn, turn);
+    store(body.chord, all(1.0F) / (all(1.0F) + dot(turn, turn)));
+}
+
 // An arm of the body as it will be half way through the substep, shortened so that the rate times it and the substep's
 // length is the chord along which its end moves.
-LUTKA_LANES V3 halfWay(const BodyLanes& body, const V3& arm, F half) {
-    const V3 turn = (load(body.aim) + load(body.spin)) * half;
-    const F scale = all(1.0F) / (all(1.0F) + dot(turn, turn));
-    return (arm + cross(turn, arm)) * scale;
+LUTKA_LANES V3 halfWay(const BodyLanes& body, const V3& arm) {
+    return (arm + cross(load(body.halfTurn), arm)) * load(body.chord);
 }
 
 LUTKA_LANES void applyForces(const BatchView& batch, const SubstepParams& params) {
@@ -135,8 +143,7 @@ LUTKA_LANES void applyForces(const BatchView& batch, const SubstepParams& params
         store(body.steadyVelocity, velocity);
         store(body.steadyAngular, turn);
         store(body.inertia, onAxes(axesOf(body), batch.bodyConstants[b].inertia));
-        store(body.aim, turn);
-        store(body.spin, spinOf(body, batch.bodyConstants[b], turn, all(0.5F * params.dt)));
+        aimBody(body, batch.bodyConstants[b], turn, turn, all(0.5F * params.dt));
     }
 }
 

@@ -7,15 +7,15 @@
 
 namespace lutka::physics::crowd::LUTKA_KERNELS {
 
-LUTKA_LANES void aimDrag(DragLanes& drag, const BodyLanes& body, const SubstepParams& params) {
-    store(drag.arm, halfWay(body, axesOf(body) * load(drag.localPoint), all(0.5F * params.dt)));
+LUTKA_LANES void aimDrag(DragLanes& drag, const BodyLanes& body) {
+    store(drag.arm, halfWay(body, axesOf(body) * load(drag.localPoint)));
 }
 
 LUTKA_LANES void beginDrag(DragLanes& drag, const BatchView& batch, const SubstepParams& params) {
     const BodyLanes& body = batch.bodies[drag.body];
     const F zero = all(0.0F);
     const V3 core = axesOf(body) * load(drag.localPoint);
-    aimDrag(drag, body, params);
+    aimDrag(drag, body);
     // The target moves back from where it will be at the step's end.
     const V3 rate = load(drag.rate);
     const V3 ahead = load(body.position) + core - load(drag.target) + rate * all(params.remaining);

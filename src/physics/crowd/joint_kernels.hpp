@@ -12,18 +12,23 @@ LUTKA_LANES Mask prepareLimit(JointLanes& joint, int index, const Symmetric& k, 
                               const SubstepParams& params) {
     LimitRow& row = joint.limit[index];
     const F zero = all(0.0F);
+    const Mask met = room < near;
+    joint.limitActive[index] = bits(met) != 0 ? 1 : 0;
+    if (joint.limitActive[index] == 0) {
+        store(row.impulse, zero);
+        return noLanes();
+    }
     const F along = dot(axis, k * axis);
     store(row.axis, axis);
     const F mend = most(room * all(params.limitRate), all(-params.limitSpeed));
     store(row.bias, room > zero ? room * all(params.inverseDt) : mend);  // may turn as far as the limit
-    const Mask kept = (side == load(joint.side[index])) & (room < near);
+    const Mask kept = (side == load(joint.side[index])) & met;
     const F impulse = kept ? most(load(row.impulse), zero) : zero;
     store(row.impulse, impulse);
     store(row.gain, zero);
     const F scale = ((room > zero) & (impulse <= zero)) ? all(params.firstTouch) : all(params.limitStiffness);
     store(row.weight, along > all(1e-9F) ? scale / along : zero);
     store(joint.side[index], side);
-    joint.limitActive[index] = bits((room < near) | (impulse > zero)) != 0 ? 1 : 0;
     return room < all(-params.mendAngle);
 }
 
@@ -72,33 +77,31 @@ LUTKA_LANES Mask prepareCone(JointLanes& joint, const JointConstants& constants,
     const F zero = all(0.0F), one = all(1.0F), two = all(2.0F), tiny = all(1e-12F);
     const F flip = given.w < zero ? -one : one;
     const Q q{given.x * flip, given.y * flip, given.z * flip, given.w * flip};
+    // q = swing · twist: the twist is (w, x) made a unit, and the swing (y, z) turned by it, which keeps its length.
     const F cosHalf = squareRoot(q.w * q.w + q.x * q.x);
-    const F shrink = one / most(cosHalf, all(1e-6F));
-    const F twistW = q.w * shrink;
-    const F twistX = q.x * shrink;
-    const F swingY = q.y * twistW - q.z * twistX;
-    const F swingZ = q.z * twistW + q.y * twistX;
-    const F sinHalf = squareRoot(swingY * swingY + swingZ * swingZ);
+    const F sinHalf = squareRoot(q.y * q.y + q.z * q.z);
+    const F perCos = one / most(cosHalf, all(1e-6F));
+    const F perSin = one / most(sinHalf, tiny);
     const F angle = two * angleOf(sinHalf, cosHalf);
-    const F unit = one / most(sinHalf, tiny);
-    const F uy = swingY * unit;
-    const F uz = swingZ * unit;
+    const F unit = perCos * perSin;
+    const F uy = (q.y * q.w - q.z * q.x) * unit;
+    const F uz = (q.z * q.w + q.y * q.x) * unit;
 
     const F gy = uy * all(1.0F / (constants.limit[0] * constants.limit[0]));
     const F gz = uz * all(1.0F / (constants.limit[1] * constants.limit[1]));
     const F rate = squareRoot(most(uy * gy + uz * gz, tiny));  // of rho along u
     const F slope = squareRoot(most(gy * gy + gz * gz, tiny));
-    const F ny = gy / slope;
-    const F nz = gz / slope;
-    const F steep = slope / rate;  // length of the gradient of rho
+    const F perSlope = one / slope;
+    const F ny = gy * perSlope;
+    const F nz = gz * perSlope;
+    const F flat = rate * perSlope;  // one over the length of the gradient of rho
     const F along = ny * uy + nz * uz;
     const F sideways = ny * uz - nz * uy;
-    const F sine = two * sinHalf * cosHalf;
     const F cosine = one - two * sinHalf * sinHalf;
-    const F bent = sine > all(1e-4F) ? angle * cosine / sine : one;
+    const F bent = two * sinHalf * cosHalf > all(1e-4F) ? angle * cosine * (all(0.5F) * unit) : one;  // angle · cot
     const V3 inFrame{-sideways * angle, along * uy + sideways * bent * uz, along * uz - sideways * bent * uy};
     Mask off =
-        prepareLimit(joint, 0, setting.k, frame * -inFrame, (one - angle * rate) / steep, one, setting.near, params);
+        prepareLimit(joint, 0, setting.k, frame * -inFrame, (one - angle * rate) * flat, one, setting.near, params);
     if (constants.longAxis >= 0) {
         // Past the tip the ellipse's normal turns quickly towards the short axis, where a little to and fro satisfies
         // its row while the swing runs on along the long one: that has a row of its own.
@@ -112,7 +115,7 @@ LUTKA_LANES Mask prepareCone(JointLanes& joint, const JointConstants& constants,
         off |= prepareLimit(joint, 2, setting.k, frame * (rising * -end), left, end, setting.near, params);
     }
 
-    const F twist = two * angleOf(twistX, twistW);
+    const F twist = two * angleOf(q.x, q.w);
     const F side = twist < zero ? -one : one;
     const V3 childX{one - two * (q.y * q.y + q.z * q.z), two * (q.x * q.y + q.w * q.z), two * (q.x * q.z - q.w * q.y)};
     const F spread = -side / most(one + childX.x, all(0.05F));
@@ -129,8 +132,8 @@ LUTKA_LANES V3 aimJoint(JointLanes& joint, const JointConstants& constants, cons
     const V3 parentArm = axesOf(parent) * all(constants.parentAnchor);
     const V3 childArm = axesOf(child) * all(constants.childAnchor);
     const V3 error = (load(child.position) - load(parent.position)) + (childArm - parentArm);
-    const V3 parentMiddle = halfWay(parent, parentArm, all(0.5F * params.dt));
-    const V3 childMiddle = halfWay(child, childArm, all(0.5F * params.dt));
+    const V3 parentMiddle = halfWay(parent, parentArm);
+    const V3 childMiddle = halfWay(child, childArm);
     store(joint.parentArm, parentMiddle);
     store(joint.childArm, childMiddle);
     store(joint.drift, cross(load(child.spin), childMiddle) - cross(load(parent.spin), parentMiddle));

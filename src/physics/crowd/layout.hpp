@@ -39,6 +39,8 @@ struct BodyLanes {
     Wide4 rotation;
     Wide3 loose;         ///< The velocity that pushes on single bodies gave: what differs is the joints' doing.
     Wide3 spin;          ///< What half a substep of free motion adds to the turning rate.
+    Wide3 halfTurn;      ///< Half the substep times both: with it
+    Wide chord;          ///< and this factor an arm comes to where it is half way: see `halfWay`.
     Wide3 low, high;     ///< Bounds for the coming step as seen from the doll's root: see `findBounds`.
     Wide3 support;       ///< Out of what it rests on; its length says how firmly that holds, 0 to 1.
     Wide3 looseAngular;  ///< The turning rate likewise.
@@ -69,6 +71,7 @@ struct PairBodies {
 
 /// What is constant of a body, from the profile.
 struct BodyConstants {
+    float mass;
     float inverseMass;
     float inertia[3];
     float inverseInertia[3];

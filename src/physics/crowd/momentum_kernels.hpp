@@ -32,7 +32,7 @@ static void keepMomentum(const BatchView& batch) {
     // A joint's push is the sum over all that hangs on it; velocityChange is free for that once the tree is solved.
     for (int b = 0; b < batch.bodyCount; ++b) {
         const BodyLanes& body = batch.bodies[b];
-        const F mass = all(1.0F / batch.bodyConstants[b].inverseMass);
+        const F mass = all(batch.bodyConstants[b].mass);
         store(batch.tree[b].velocityChange, (load(body.steadyVelocity) - load(body.loose)) * mass);
     }
     for (int j = batch.jointCount - 1; j >= 0; --j) {

@@ -59,8 +59,7 @@ LUTKA_LANES F stays(F speed, float slip) {
 
 // What a one-sided row carries into the substep; later passes correct it as they find it.
 LUTKA_LANES F carriedPush(F impulse, F rate, float slip, const Pass& pass) {
-    const F kept = impulse * stays(rate, slip);
-    return pass.begun ? impulse : kept;
+    return pass.begun ? impulse : impulse * stays(rate, slip);
 }
 
 // What a one-sided row decides in a pass: where it holds, and the impulse that is added to what the velocities have.
@@ -101,12 +100,12 @@ LUTKA_LANES Mask updateLimit(LimitRow& row, const V3& relative, const SubstepPar
     const F off = dot(load(row.axis), relative) + oneSidedBias(load(row.bias), held, pass);
     const F total = load(row.impulse) - gain * off;
     store(row.impulse, held ? total : zero);
-    // In rad/s: a pull that should not be, or a stop run through.
-    const F pull = pass.late ? zero : total * all(params.limitStiffness) / most(gain, all(1e-12F));
     const F tolerance = all(-params.limitTolerance);
+    // A pull that should not be, of more than the tolerance, or a stop run through.
+    const Mask pulls = (total * all(params.limitStiffness) < tolerance * gain) & ~pass.late;
     // A row that holds and still turns has not got the load's whole impulse yet.
     const Mask yields = held & (magnitude(off) > -tolerance) & ~pass.late;
-    return ((held ? pull : off) < tolerance) | yields;
+    return (held & pulls) | (~held & (off < tolerance)) | yields;
 }
 
 // Limits that mending would run through hold in its next pass. Returns the lanes that have any.
@@ -131,18 +130,23 @@ struct Bounded {
     F share;
 };
 LUTKA_LANES Bounded within(F squared, F limit) {
-    const F size = squareRoot(squared);
-    const Mask holds = size <= limit;
-    return {holds, holds ? all(1.0F) : limit / most(size, all(1e-20F))};
+    const F one = all(1.0F);
+    const Mask holds = squared <= limit * limit;
+    if (bits(~holds) == 0) return {holds, one};  // what lies still: without the root and the division
+    return {holds, holds ? one : limit / most(squareRoot(squared), all(1e-20F))};
 }
 
 // What friction may carry over into this pass. Something that slides or turns already is not held: the part of the
 // impulse that would drive it on is dropped, or a hit that comes back the other way is sped up by its own friction.
 LUTKA_LANES V3 opposing(const V3& carried, const V3& sliding, float slip) {
+    const F zero = all(0.0F);
     const F speed2 = dot(sliding, sliding);
-    const F driving = most(dot(carried, sliding), all(0.0F));
+    const F driving = dot(carried, sliding);
+    const Mask slips = (driving > zero) & (speed2 > all(slip * slip));
+    if (bits(slips) == 0) return carried;
     const F share = all(1.0F) - stays(squareRoot(speed2), slip);
-    return carried - sliding * (driving * share / most(speed2, all(1e-12F)));
+    const F dropped = driving * share / most(speed2, all(1e-12F));
+    return carried - sliding * (slips ? dropped : zero);
 }
 
 // Dry friction against any motion (m/s or rad/s): holds while the impulse that stops it is within `bound`, else it is
@@ -366,9 +370,9 @@ LUTKA_LANES Mask updateStatic(const BodyLanes& body, StaticContactLanes& contact
     const F stiffest = load(contact.normalMass) * all(params.stiffest);
     const Mask yields = held & (magnitude(off) > -tolerance) & ~pass.late;
     store(contact.normalWeight, yields ? least(weight * all(params.stiffen), stiffest) : weight);
-    // In m/s: a pull that should not be, or a surface run through.
-    const F pull = pass.late ? zero : total * all(params.contactStiffness) / most(gain, all(1e-12F));
-    return ((held ? pull : off) < tolerance) | (yields & (weight < stiffest));
+    // A pull that should not be, of more than the tolerance, or a surface run through.
+    const Mask pulls = (total * all(params.contactStiffness) < tolerance * gain) & ~pass.late;
+    return (held & pulls) | (~held & (off < tolerance)) | (yields & (weight < stiffest));
 }
 
 }  // namespace lutka::physics::crowd::LUTKA_KERNELS

@@ -53,9 +53,8 @@ LUTKA_LANES void weighContact(StaticContactLanes& contact, const BatchView& batc
     store(contact.rollWeight, all(params.grip) / most(most(inertia.xx, inertia.yy), inertia.zz));
 }
 
-LUTKA_LANES V3 armOf(const StaticContactLanes& contact, const BodyLanes& body, const V3& core,
-                     const SubstepParams& params) {
-    return halfWay(body, core, all(0.5F * params.dt)) - load(contact.normal) * load(contact.radius);
+LUTKA_LANES V3 armOf(const StaticContactLanes& contact, const BodyLanes& body, const V3& core) {
+    return halfWay(body, core) - load(contact.normal) * load(contact.radius);
 }
 
 LUTKA_LANES void beginStatic(StaticContactLanes& contact, const BatchView& batch, const SubstepParams& params) {
@@ -75,7 +74,7 @@ LUTKA_LANES void beginStatic(StaticContactLanes& contact, const BatchView& batch
     contact.engaged = 0;
     store(contact.normalGain, zero);
     if (contact.near == 0) return;
-    const V3 arm = armOf(contact, body, core, params);
+    const V3 arm = armOf(contact, body, core);
     store(contact.arm, arm);
     store(contact.bias, bias);
     store(contact.normalImpulse, impulse);

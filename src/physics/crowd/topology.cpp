@@ -27,6 +27,7 @@ void copy(float (&to)[4], const quat& q) {
 
 BodyConstants constantsOf(const BodyShape& shape, float massKg, const vec3& inertia) {
     BodyConstants constants{};
+    constants.mass = massKg;
     constants.inverseMass = 1.0F / massKg;
     copy(constants.inertia, inertia);
     copy(constants.inverseInertia, 1.0F / inertia);

@@ -38,7 +38,7 @@ LUTKA_LANES Loaded loadBody(const BatchView& batch, int index, bool gathers, con
     const BodyLanes& body = batch.bodies[index];
     const F zero = all(0.0F);
     const V3 none{zero, zero, zero};
-    const F mass = all(1.0F / batch.bodyConstants[index].inverseMass);
+    const F mass = all(batch.bodyConstants[index].mass);
     const Symmetric inertia = load(body.inertia);
     Loaded loaded{{{mass, mass, mass, zero, zero, zero}, {{none, none, none}}, inertia}, none, none};
     if (fresh != Fresh::nothing) {
@@ -149,8 +149,8 @@ LUTKA_LANES Mask moveBody(const BatchView& batch, int index, const Motion& chang
     store(body.velocity, velocity);
     store(body.angular, angular);
     const V3 off = angular - load(body.aim);
-    const F gap = all(params.aimGap / (0.5F * params.dt * params.dt * batch.bodyConstants[index].armReach + 1e-12F));
-    pass.astray |= dot(off, off) * dot(angular, angular) > gap * gap;
+    const F missed = all(0.5F * params.dt * params.dt * batch.bodyConstants[index].armReach);
+    pass.astray |= dot(off, off) * dot(angular, angular) * (missed * missed) > all(params.aimGap * params.aimGap);
     if (pass.mending) return noLanes();
     store(body.steadyVelocity, velocity);
     store(body.steadyAngular, angular);
@@ -224,8 +224,7 @@ static void aim(const BatchView& batch, const SubstepParams& params, const Mask&
     for (int b = 0; b < batch.bodyCount; ++b) {
         BodyLanes& body = batch.bodies[b];
         const V3 angular = choose(lanes, load(body.angular), load(body.aim));
-        store(body.aim, angular);
-        store(body.spin, spinOf(body, batch.bodyConstants[b], load(body.steadyAngular), all(0.5F * params.dt)));
+        aimBody(body, batch.bodyConstants[b], angular, load(body.steadyAngular), all(0.5F * params.dt));
     }
     for (int j = 0; j < batch.jointCount; ++j) {
         const JointConstants& constants = batch.jointConstants[j];
@@ -235,10 +234,10 @@ static void aim(const BatchView& batch, const SubstepParams& params, const Mask&
         StaticContactLanes& contact = batch.contacts[i];
         if (contact.near == 0) continue;
         const BodyLanes& body = batch.bodies[contact.body];
-        store(contact.arm, armOf(contact, body, axesOf(body) * load(contact.localPoint), params));
+        store(contact.arm, armOf(contact, body, axesOf(body) * load(contact.localPoint)));
     }
     for (int i = 0; i < batch.dragCount; ++i)
-        aimDrag(batch.drags[i], batch.bodies[batch.drags[i].body], params);
+        aimDrag(batch.drags[i], batch.bodies[batch.drags[i].body]);
 }
 
 // Takes back all mending in some lanes.
