@@ -11,6 +11,7 @@ namespace lutka::animation {
 struct CompletedRig {
     RigFeatures rig;              ///< The joints of the rig, then the images.
     std::vector<int> originalOf;  ///< Per joint: what it is the image of; kNoJoint for joints of the rig.
+    bool imagined = false;        ///< Made by imagineLimbs(): then an image's original is its image on the other side.
 
     [[nodiscard]] bool isImage(int joint) const { return originalOf[joint] != kNoJoint; }
     /// Whether these two are an image and its original, or no image at all.

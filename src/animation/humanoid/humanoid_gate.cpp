@@ -46,14 +46,23 @@ float creatureShare(const FramedRig& framed, const LimbCandidate& limb) {
     return placed > 0 ? static_cast<float>(named) / static_cast<float>(placed) : 0.0F;
 }
 
-// Share of the joints below a limb's first pair that are named as an animal's: wings that hang on shoulders.
+// Share of the joints below a limb's first pair that are named as an animal's: wings that hang on shoulders. What hangs
+// on a hand by its name is its own affair: a robot's claws.
 float creaturesBelow(const FramedRig& framed, const LimbCandidate& limb) {
+    constexpr float kNamedHand = 2.0F;
     const RigFeatures& rig = *framed.rig;
     const int top = framed.pairs[limb.first].joints[0];
+    const auto ofHand = [&](int joint) {
+        for (int above = rig.parents[joint]; above != kNoJoint && above != top; above = rig.parents[above]) {
+            if (rig.names[above].parts[Part::hand] >= kNamedHand) return true;
+        }
+        return false;
+    };
     int named = 0;
     int all = 0;
     for (int joint = 0; joint < rig.count(); ++joint) {
         if (joint == top || !rig.isAncestorOrSelf(top, joint) || !rig.names[joint].meaningful) continue;
+        if (ofHand(joint)) continue;
         ++all;
         if (rig.names[joint].creature) ++named;
     }

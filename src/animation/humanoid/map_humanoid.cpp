@@ -8,6 +8,7 @@
 
 #include "animation/humanoid/completed_rig.hpp"
 #include "animation/humanoid/figure.hpp"
+#include "animation/humanoid/imagined_limbs.hpp"
 #include "animation/humanoid/rig_features.hpp"
 #include "animation/humanoid/role_assembly.hpp"
 #include "core/assert.hpp"
@@ -21,7 +22,8 @@ constexpr float kLoudShape = 1.5F;           // log-odds of the facing by shape 
 constexpr float kImagined = 4.0F;            // log-odds against a limb that is not there
 constexpr float kLeastShapeOfImages = 3.0F;  // of Figure::shapeScore(), where nothing else makes a figure
 constexpr float kLeastShapeUnnamed = 6.0F;   // … nor names speak for one
-constexpr int kMostMissing = 7;              // of the 15 required roles, without a warning
+constexpr float kLeastShapeOfImagined = 0.0F;  // … and names tell it, of which both arms or both legs are missing
+constexpr int kMostMissing = 7;                // of the 15 required roles, without a warning
 
 using FixedJoints = std::array<std::optional<int>, kRoleCount>;
 
@@ -158,23 +160,31 @@ bool isHonest(const CompletedRig& completed, const Figure& figure) {
     return true;
 }
 
-float leastShapeOf(const Figure& figure) {
+float leastShapeOf(const CompletedRig& completed, const Figure& figure) {
+    if (completed.imagined) return kLeastShapeOfImagined;
     const bool named = figure.legs.names + figure.arms.names + figure.trunk.names > 0.0F;
     return named ? kLeastShapeOfImages : kLeastShapeUnnamed;
 }
 
-// A figure that lacks a whole arm or leg is read by the mirror image of the one that it has. Where names tell all
-// limbs, none is missing, however a pose bends them.
+// A figure that lacks a whole arm or leg is read by the mirror image of the one that it has, and one that lacks both by
+// limbs as a human has them. Where names tell all limbs, none is missing, however a pose bends them.
 Reading readFigure(const RigFeatures& rig) {
     Reading reading;
     reading.figure = findFigure(rig);
     if (reading.figure.refusal.empty() && reading.figure.legs.told && reading.figure.arms.told) return reading;
     reading.completed = completeRig(rig);
+    // Collars and bosoms make arms only where nothing says what they are.
+    const bool contradicted = reading.figure.arms.names < 0.0F || reading.figure.legs.names < 0.0F;
+    if (!reading.figure.refusal.empty() || contradicted) {
+        for (CompletedRig& imagined : imagineLimbs(rig))
+            reading.completed.push_back(std::move(imagined));
+    }
     for (const CompletedRig& completed : reading.completed) {
         Figure figure = findFigure(completed.rig);
         if (!figure.refusal.empty() || !isHonest(completed, figure)) continue;
-        if (reading.figure.refusal.empty() ? figure.score < reading.figure.score + kImagined
-                                           : figure.shapeScore() < leastShapeOf(figure))
+        const bool stands = reading.figure.refusal.empty() && !completed.imagined;
+        if (stands ? figure.score < reading.figure.score + kImagined
+                   : figure.shapeScore() < leastShapeOf(completed, figure))
             continue;
         reading.ofImages = true;
         reading.figure = std::move(figure);

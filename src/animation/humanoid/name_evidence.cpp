@@ -193,8 +193,10 @@ NameEvidence nameEvidence(std::string_view name) {
     }
     const bool fourLegged =
         (hasWord(tokens.words, "fore") || hasWord(tokens.words, "back")) && concepts.has(Concept::leg);
-    evidence.creature = fourLegged || concepts.has(Concept::creature);
-    evidence.tail = hasWord(tokens.words, "tail") || hasWord(tokens.words, "tails");
+    // The front of a skirt, a tail of hair.
+    const bool worn = concepts.hasAny({Concept::cloth, Concept::hair});
+    evidence.creature = !worn && (fourLegged || concepts.has(Concept::creature));
+    evidence.tail = !worn && (hasWord(tokens.words, "tail") || hasWord(tokens.words, "tails"));
     evidence.bareLimb = evidence.parts[Part::upperArm] == kBareLimb || evidence.parts[Part::upperLeg] == kBareLimb;
     evidence.face = concepts.has(Concept::face);
     evidence.thumb = hasWord(tokens.words, "thumb") || hasWord(tokens.words, "thumbs");

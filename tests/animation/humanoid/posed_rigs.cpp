@@ -68,4 +68,25 @@ void checkWhole(const SyntheticRig& rig) {
     CHECK(score.right == score.of);
 }
 
+void checkWhatIsLeft(const SyntheticRig& rig) {
+    const HumanoidMap map = animation::mapHumanoid(rig.character);
+    INFO((map.warnings.empty() ? std::string() : map.warnings.front()));
+    REQUIRE(map.humanoid);
+    const animation::Skeleton& skeleton = rig.character.skeleton;
+    for (int index = 0; index < animation::kRoleCount; ++index) {
+        const Role role = animation::roleAt(index);
+        if (animation::sideOf(role) == animation::Side::center || !rig.truth.roles[index]) continue;
+        const std::vector<std::string>& right = *rig.truth.roles[index];
+        const int joint = map.jointOf(role);
+        const std::string got = joint == animation::kNoJoint ? "" : skeleton.names[joint];
+        const bool there = std::any_of(right.begin(), right.end(), [&](const std::string& name) {
+            return std::find(skeleton.names.begin(), skeleton.names.end(), name) != skeleton.names.end();
+        });
+        INFO(animation::roleName(role) << " at \"" << got << "\"");
+        if (there && animation::isRequired(role)) CHECK(std::find(right.begin(), right.end(), got) != right.end());
+        if (!there) CHECK(got.empty());
+    }
+    CHECK_FALSE(map.missing.empty());
+}
+
 }  // namespace lutka::test

@@ -22,4 +22,8 @@ void cutOff(SyntheticRig& rig, animation::Role role);
 /// The map is right in every required role.
 void checkWhole(const SyntheticRig& rig);
 
+/// Every role of a side whose joint is still there has that joint, no other one of a side has any, and some role is
+/// missing.
+void checkWhatIsLeft(const SyntheticRig& rig);
+
 }  // namespace lutka::test

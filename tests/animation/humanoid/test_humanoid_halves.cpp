@@ -1,0 +1,97 @@
+// Figures both of whose arms or legs are missing, and what is none.
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "animation/humanoid/map_humanoid.hpp"
+#include "posed_rigs.hpp"
+#include "rig_variations.hpp"
+#include "support/catch.hpp"
+#include "support/rigs.hpp"
+#include "synthetic_rigs.hpp"
+
+namespace lutka::test {
+namespace {
+
+using animation::HumanoidMap;
+using animation::Role;
+
+bool tells(const HumanoidMap& map, const std::string& word) {
+    return std::find(map.warnings.begin(), map.warnings.end(), word) != map.warnings.end();
+}
+
+// Legs, a level or an upright body and a head; as the names of a game's birds have it.
+animation::Character legsAlone(bool upright) {
+    const vec3 neck = upright ? vec3(0, 0.9F, 0.05F) : vec3(0, 0.6F, 0.4F);
+    animation::Character bird;
+    bird.skeleton = makeSkeleton({{"Hips", -1, {0, 0.5F, 0}},
+                                  {"Spine", 0, {0, 0.6F, 0.02F}},
+                                  {"Neck", 1, neck},
+                                  {"Head", 2, neck + vec3(0, 0.1F, 0.02F)},
+                                  {"LeftUpperLeg", 0, {0.1F, 0.48F, 0}},
+                                  {"LeftLowerLeg", 4, {0.1F, 0.25F, 0.01F}},
+                                  {"LeftFoot", 5, {0.1F, 0.05F, 0}},
+                                  {"RightUpperLeg", 0, {-0.1F, 0.48F, 0}},
+                                  {"RightLowerLeg", 7, {-0.1F, 0.25F, 0.01F}},
+                                  {"RightFoot", 8, {-0.1F, 0.05F, 0}}});
+    std::fill(bird.skeleton.skinWeight.begin(), bird.skeleton.skinWeight.end(), 50.0F);
+    return bird;
+}
+
+}  // namespace
+
+TEST_CASE("a figure without legs, or without arms, is read by its names", "[halves]") {
+    for (const char* convention : {"unreal", "vroid", "daz genesis 8", "character creator", "mmd", "xsens", "german"}) {
+        for (const bool legs : {true, false}) {
+            SyntheticRig rig = makeSyntheticRig(convention, {.armsDown = 0.5F});
+            const std::string limb = legs ? "leg" : "arm";
+            INFO(convention << " without a " << limb);
+            // Without its arms a shoulder may be one.
+            const bool shoulders = rig.truth.roles[indexOf(Role::leftShoulder)].has_value();
+            const Role top = legs ? Role::leftUpperLeg : shoulders ? Role::leftShoulder : Role::leftUpperArm;
+            cutOff(rig, top);
+            cutOff(rig, animation::mirrored(top));
+            checkWhatIsLeft(rig);
+            const HumanoidMap map = animation::mapHumanoid(rig.character);
+            CHECK(tells(map, "the figure has no joints of a left " + limb));
+            CHECK(tells(map, "the figure has no joints of a right " + limb));
+            CHECK(map[Role::hips]);
+            CHECK(map[Role::head]);
+            CHECK((map.standardFromModel * vec3(0, 1, 0)).y > 0.99F);
+            CHECK((map.standardFromModel * vec3(1, 0, 0)).x > 0.99F);
+        }
+    }
+}
+
+TEST_CASE("collars and bosoms are no arms where their names say so", "[halves]") {
+    SyntheticRig rig = makeSyntheticRig("daz genesis 8");
+    cutOff(rig, Role::leftUpperArm);
+    cutOff(rig, Role::rightUpperArm);
+    checkWhatIsLeft(rig);
+}
+
+TEST_CASE("half a figure without names is none", "[halves]") {
+    SyntheticRig rig = makeSyntheticRig("vroid");
+    cutOff(rig, Role::leftUpperLeg);
+    cutOff(rig, Role::rightUpperLeg);
+    CHECK_FALSE(animation::mapHumanoid(withoutNames(rig.character)).humanoid);
+}
+
+TEST_CASE("legs below an upright trunk are a figure, below a level one a bird, and so beside a wing or a tail",
+          "[halves]") {
+    CHECK(animation::mapHumanoid(legsAlone(true)).humanoid);
+    CHECK_FALSE(animation::mapHumanoid(legsAlone(false)).humanoid);
+    for (const char* name : {"Wing_L", "Tail"}) {
+        animation::Character bird = legsAlone(true);
+        bird.skeleton.names.emplace_back(name);
+        bird.skeleton.parents.push_back(1);
+        bird.skeleton.bindModelFromJoint.push_back({quat(1, 0, 0, 0), vec3(0.1F, 0.7F, 0)});
+        bird.skeleton.nodeParentFromJoint.emplace_back();
+        bird.skeleton.skinWeight.push_back(50.0F);
+        INFO(name);
+        CHECK_FALSE(animation::mapHumanoid(bird).humanoid);
+    }
+}
+
+}  // namespace lutka::test
