@@ -210,9 +210,11 @@ void buildMotion(SourceScene& source, const NodeTree& tree, std::span<const dmat
 void takeMaterials(SourceScene& source, Character& character) {
     character.materials = std::move(source.materials);
     character.textures = std::move(source.textures);
-    if (character.materials.empty() && !character.meshes.empty()) character.materials.emplace_back();
+    // Meshes without a material get one of their own: the first may be a glass eye's.
+    const auto count = static_cast<int>(character.materials.size());
     for (SkinnedMesh& mesh : character.meshes) {
-        if (mesh.material >= static_cast<int>(character.materials.size())) mesh.material = 0;
+        if (mesh.material < 0 || mesh.material >= count) mesh.material = count;
+        if (mesh.material == static_cast<int>(character.materials.size())) character.materials.emplace_back();
     }
 }
 

@@ -93,7 +93,7 @@ SkinnedMesh convertMesh(const NodeTree& tree, const MeshInstance& instance, std:
                         std::span<dmat4> sceneFromMesh, WeightRepairs& repairs) {
     SkinnedMesh mesh;
     mesh.name = instance.mesh->name.empty() ? tree.jointNames[tree.nodes[instance.node].joint] : instance.mesh->name;
-    mesh.material = std::max(instance.mesh->material, 0);
+    mesh.material = instance.mesh->material;
     mesh.rigid = instance.joints.empty();
     std::vector<VertexSkin> skins;
     int guide = 0;

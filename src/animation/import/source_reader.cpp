@@ -1,5 +1,6 @@
 #include "animation/import/source_reader.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <exception>
@@ -63,6 +64,15 @@ Result<SourceScene> read(const fs::path& file, std::string_view start, const Imp
     return readWithAssimp(file, options);
 }
 
+// Outside of glTF nothing says that vertex colours are colours: those that are black everywhere hold data in their
+// alpha.
+void forgetDataColors(SourceScene& scene) {
+    for (SourceMesh& mesh : scene.meshes) {
+        const auto isBlack = [](const vec4& color) { return color.r == 0.0F && color.g == 0.0F && color.b == 0.0F; };
+        if (std::all_of(mesh.colors.begin(), mesh.colors.end(), isBlack)) mesh.colors.clear();
+    }
+}
+
 }  // namespace
 
 Result<SourceScene> readSource(const fs::path& file, const ImportOptions& options) {
@@ -80,6 +90,7 @@ Result<SourceScene> readSource(const fs::path& file, const ImportOptions& option
     // Third parties throw; what is left is memory running out over a monstrous file.
     try {
         Result<SourceScene> scene = read(file, start, options);
+        if (scene && !isGltf(file, start)) forgetDataColors(scene.value());
         if (scene) cleanNumbers(scene.value());
         return scene;
     } catch (const std::exception& e) {

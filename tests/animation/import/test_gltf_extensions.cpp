@@ -192,6 +192,29 @@ TEST_CASE("specular-glossiness becomes the nearest metallic-roughness") {
     CHECK(glm::distance(gold.baseColor, vec4(1.0F, 0.8F, 0.3F, 1.0F)) < 0.05F);
 }
 
+TEST_CASE("a mesh without a material does not take the first one's glass") {
+    GltfFile file = withPicture();
+    file.json["materials"][0]["alphaMode"] = "BLEND";
+    primitiveOf(file).erase("material");
+    const Character character = readBack(file);
+    REQUIRE(character.materials.size() == 2);
+    const animation::Material& plain = character.materials[character.meshes[0].material];
+    CHECK(plain.alphaMode == animation::Material::AlphaMode::opaque);
+    CHECK(plain.baseColorTexture == animation::Material::kNoTexture);
+    CHECK(plain.baseColor == animation::Material{}.baseColor);
+}
+
+TEST_CASE("what shines by a picture that can't be read does not shine all over") {
+    GltfFile file = withPicture();
+    file.json["materials"][0]["emissiveFactor"] = {1.0, 1.0, 1.0};
+    CHECK(readBack(file).materials[0].emissive == vec3(1));
+    file.json["materials"][0]["emissiveTexture"] = {{"index", 1}};
+    file.json["textures"].push_back({{"source", 0}});
+    CHECK(readBack(file).materials[0].emissive == vec3(1));
+    file.json["textures"][1] = {{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}};
+    CHECK(readBack(file).materials[0].emissive == vec3(0));
+}
+
 TEST_CASE("buffers packed by meshoptimizer are unpacked") {
     const Post post = makePost();
     GltfFile file = makePostRig();

@@ -145,3 +145,19 @@ TEST_CASE("the colours of a PLY are sRGB and become linear") {
     REQUIRE(ply.meshes[0].colors.size() == 3);
     CHECK(glm::distance(ply.meshes[0].colors[0], vec4(1.0F, 0.2158F, 0.0F, 1.0F)) < 1e-3F);
 }
+
+TEST_CASE("vertex colours that are black everywhere are data outside of glTF, and colours in it") {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "post.ply")
+        << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+           "property float z\nproperty uchar red\nproperty uchar green\n"
+           "property uchar blue\nproperty uchar alpha\nelement face 1\n"
+           "property list uchar int vertex_indices\nend_header\n"
+           "0 0 0 0 0 0 90\n1 0 0 0 0 0 200\n0 1.7 0 0 0 0 7\n3 0 1 2\n";
+    CHECK(imported(folder / "post.ply").meshes[0].colors.empty());
+
+    GltfFile file = makePostRig();
+    const std::size_t count = makePost().positions.size();
+    setColors(file, file.addFloats(std::vector<float>(3 * count, 0.0F), "VEC3"), 12);
+    CHECK(readColors(file).meshes[0].colors.size() == readColors(file).meshes[0].positions.size());
+}

@@ -90,6 +90,9 @@ class MaterialReader {
         material.normalTexture = texture(source, "normalTexture");
         material.occlusionTexture = texture(source, "occlusionTexture");
         material.emissiveTexture = texture(source, "emissiveTexture");
+        // Without the picture that it is a factor of, everything would shine.
+        const bool pictured = member(source, "emissiveTexture") != nullptr;
+        if (pictured && material.emissiveTexture == Material::kNoTexture) material.emissive = vec3(0);
         tellMixedUvs(source);
         return material;
     }
