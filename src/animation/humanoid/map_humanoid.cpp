@@ -162,7 +162,8 @@ bool isHonest(const CompletedRig& completed, const Figure& figure) {
 
 float leastShapeOf(const CompletedRig& completed, const Figure& figure) {
     if (completed.imagined) return kLeastShapeOfImagined;
-    const bool named = figure.legs.names + figure.arms.names + figure.trunk.names > 0.0F;
+    // A root and a neck, or what sounds like them, have rooms and machines as well.
+    const bool named = figure.legs.names + figure.arms.names > 0.0F;
     return named ? kLeastShapeOfImages : kLeastShapeUnnamed;
 }
 

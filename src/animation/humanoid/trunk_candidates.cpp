@@ -19,9 +19,12 @@ constexpr float kCarriesThighs = 1.5F;    // the parent of told thighs and of al
 constexpr float kHeadless = -3.0F;
 constexpr float kNamedChest = 2.0F;
 constexpr float kNamedHips = 4.0F;
-constexpr float kNamedTrunk = 3.0F;  // a name's score from which it says which part of the trunk this is
-constexpr float kNamedHead = 4.0F;   // a name's score from which it says head and nothing else
-constexpr float kNamedPose = -2.0F;  // the most that the place of a head so named may cost
+constexpr float kNamedTrunk = 3.0F;       // a name's score from which it says which part of the trunk this is
+constexpr float kNamedHead = 4.0F;        // a name's score from which it says head and nothing else
+constexpr float kNamedPose = -2.0F;       // the most that the place of a head so named may cost
+constexpr float kArmsAboveChest = -1.5F;  // the arms hang on a joint between chest and neck
+constexpr float kWholeHead = 0.8F;        // of the skin above the arms
+constexpr float kWholePose = -1.0F;       // the most that the place of what keeps so much may cost
 constexpr std::size_t kHeadsTried = 6;
 constexpr std::size_t kHipsTried = 4;
 constexpr float kFarAway = 1e8F;
@@ -188,8 +191,13 @@ class TrunkFinder {
         for (const int joint : joints) {
             const float pose = near((position(joint).y - arms_.root.y) / length_, 0.32F, 0.2F, 5.0F) +
                                near((position(joint).z - arms_.root.z) / length_, 0.0F, 0.3F, 3.0F);
+            // So is the end of a long neck, where it keeps nearly all skin above the arms and names tell the limbs.
+            const bool keepsAll =
+                skinAbove > 0.0F && legs_.names + arms_.names > 0.0F && retainedSkin(joint) >= kWholeHead * skinAbove;
             float score = name(joint, Part::head) + skinTerm(joint) + centralTerm(joint) +
-                          (isNamedHead(joint) ? std::max(pose, kNamedPose) : pose);
+                          (isNamedHead(joint) ? std::max(pose, kNamedPose)
+                           : keepsAll         ? std::max(pose, kWholePose)
+                                              : pose);
             if (skinAbove > 0.0F) score += 2.0F * std::min(retainedSkin(joint) / (0.4F * skinAbove), 1.0F);
             // Arms on the head: a head that is the trunk, too, has that name.
             if (rig_.isAncestorOrSelf(joint, armRoot())) score -= isNamedHead(joint) ? 1.0F : 6.0F;
@@ -277,6 +285,11 @@ class TrunkFinder {
         constexpr float kByCount[] = {-0.9F, 0.0F, -0.2F, -0.5F};
         float score = kByCount[std::min<std::size_t>(necks.size(), 3)];
         if (!necks.empty()) score += name(lowestNeck(trunk), Part::neck);
+        const int lowest = necks.empty() ? kNoJoint : lowestNeck(trunk);
+        const bool carries = lowest != kNoJoint && armParent_ != kNoJoint && armParent_ != trunk.chest &&
+                             armParent_ != lowest && rig_.isAncestorOrSelf(trunk.chest, armParent_) &&
+                             rig_.isAncestorOrSelf(armParent_, lowest);
+        if (carries) score += kArmsAboveChest;
         return score;
     }
 
@@ -295,7 +308,14 @@ class TrunkFinder {
     [[nodiscard]] int lowestNeck(const TrunkCandidate& trunk) const {
         int best = kNoJoint;
         float bestScore = -kFarAway;
-        for (const int joint : necksOf(trunk)) {
+        const std::vector<int> necks = necksOf(trunk);
+        // What carries the arms is the trunk, unless its name says neck or nothing else is one.
+        const auto carriesArms = [&](int joint) {
+            return rig_.isAncestorOrSelf(joint, armRoot()) && name(joint, Part::neck) <= 0.0F;
+        };
+        const bool onlyThose = std::all_of(necks.begin(), necks.end(), carriesArms);
+        for (const int joint : necks) {
+            if (carriesArms(joint) && !onlyThose) continue;
             const float score = name(joint, Part::neck) + (ownSkin(joint) > 0.0F || !rig_.skinned ? 0.5F : 0.0F);
             if (score < bestScore) continue;
             bestScore = score;

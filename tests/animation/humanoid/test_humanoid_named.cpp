@@ -241,6 +241,41 @@ TEST_CASE("a cape hangs behind, and the finer side of a box of a head proves not
     CHECK(animation::mapHumanoid(block, unnamed).humanoid);
 }
 
+TEST_CASE("a hub that carries the collarbones is the chest, and one at the end of a long spine the head", "[named]") {
+    // As 3ds Max's CAT builds figures: hubs with spines between them, here with a neck of five joints.
+    std::vector<JointSpec> joints{{"Hub1", -1, {0, 0.6F, 0}}};
+    for (int i = 0; i < 4; ++i)
+        joints.push_back({"Spine" + std::to_string(i + 1), i, {0, 0.65F + 0.08F * static_cast<float>(i), 0}});
+    joints.push_back({"Hub2", 4, {0, 1.0F, -0.02F}});
+    for (int i = 0; i < 5; ++i)
+        joints.push_back({"Spine" + std::to_string(i + 5), 5 + i, {0, 1.02F + 0.08F * static_cast<float>(i), -0.02F}});
+    joints.push_back({"Hub3", 10, {0, 1.4F, -0.02F}});
+    for (const bool left : {true, false}) {
+        const std::string side = left ? "L" : "R";
+        const float x = left ? 1.0F : -1.0F;
+        const auto at = static_cast<int>(joints.size());
+        joints.push_back({side + "ArmCollarbone", 5, {0.03F * x, 1.0F, -0.02F}});
+        joints.push_back({side + "UpperArm", at, {0.2F * x, 1.0F, -0.02F}});
+        joints.push_back({side + "Forearm", at + 1, {0.41F * x, 0.98F, 0}});
+        joints.push_back({side + "Palm", at + 2, {0.63F * x, 0.94F, 0}});
+        joints.push_back({side + "Thigh", 0, {0.13F * x, 0.6F, 0}});
+        joints.push_back({side + "Calf", at + 4, {0.13F * x, 0.32F, 0.03F}});
+        joints.push_back({side + "Ankle", at + 5, {0.13F * x, 0.03F, 0}});
+    }
+    animation::Character figure;
+    figure.skeleton = makeSkeleton(joints);
+    std::fill(figure.skeleton.skinWeight.begin(), figure.skeleton.skinWeight.end(), 50.0F);
+    for (int i = 6; i < 11; ++i)
+        figure.skeleton.skinWeight[i] = 8.0F;
+    figure.skeleton.skinWeight[11] = 230.0F;
+    const HumanoidMap map = animation::mapHumanoid(figure);
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(Role::head) == 11);
+    CHECK(map.jointOf(Role::upperChest) == 5);
+    CHECK(map.jointOf(Role::neck) == 6);
+    CHECK(map.jointOf(Role::hips) == 0);
+}
+
 TEST_CASE("who bows deeply is a figure by his names, and stands upright on his legs", "[named]") {
     for (const std::string& convention : syntheticConventions()) {
         if (convention == "rigify control rig") continue;  // its legs do not hang on its hips

@@ -104,6 +104,25 @@ animation::Character bird() {
     return rig.character();
 }
 
+// The walls of a room on joints of their own, a door in one of them and a way in before it.
+animation::Character room() {
+    RigBuilder rig;
+    const int root = rig.add("roomRoot_bone", rig.add("room", -1, {0, 0.01F, 0}), {0, 0, 0});
+    rig.add("XMinus_bone", root, {-3.4F, 0, 0});
+    rig.add("XPlus_bone", root, {3.4F, 0, 0});
+    rig.add("YMinus_bone", root, {0, 0, 0});
+    rig.add("YPlus_bone", root, {0, 2.7F, 0});
+    const int wall = rig.add("ZMinus_bone", root, {0, 0, -3.4F});
+    rig.add("doorAnim_bone", wall, {-0.68F, 0, -3.4F});
+    rig.add("ZPlus_bone", root, {0, 0, 3.4F});
+    const int ornament = rig.add("dec_bone", root, {0, 0, 0});
+    rig.add("entrance_bone", ornament, {0, 1.01F, -4.23F});
+    rig.add("fur_bone", root, {0, 0, 0});
+    animation::Character made = rig.character();
+    made.skeleton.skinWeight = {0, 241, 64, 56, 64, 49, 84, 97, 112, 0, 48, 2481};
+    return made;
+}
+
 animation::Character handAlone() {
     RigBuilder rig;
     const int wrist = rig.add("wrist", -1, {0, 0, 0});
@@ -285,6 +304,7 @@ const std::vector<std::pair<const char*, std::function<animation::Character()>>>
         {"raptor", raptor},
         {"spider", spider},
         {"bird", bird},
+        {"room", room},
         {"hand", handAlone},
         {"arm", armAlone},
         {"car", car},
