@@ -77,6 +77,7 @@ class TrunkFinder {
         const float low = std::max(position(trunk.hips).y, legs_.root.y) + 0.03F * length_;
         for (int joint = rig_.parents[trunk.chest]; joint != kNoJoint && joint != trunk.hips;
              joint = rig_.parents[joint]) {
+            if (rig_.isAncestorOrSelf(joint, trunk.hips)) break;  // of the whole body
             // A spine that starts beside hips of their own, and not on them, starts at their height.
             const bool beside = !rig_.isAncestorOrSelf(joint, trunk.hips) && !rig_.isAncestorOrSelf(trunk.hips, joint);
             const float least = beside ? low - 0.06F * length_ : low;
@@ -264,7 +265,9 @@ class TrunkFinder {
             const bool named = chest == armParent_ && name(chest, Part::chest) >= kNamedChest;
             score += named ? std::max(height, kNamedPose) : height;
         }
-        if (rig_.isAncestorOrSelf(trunk.hips, chest)) score += 1.5F;
+        // Hips that are named so and carry the legs may hang beside the spine, on a joint of the whole body.
+        const bool beside = trunk.hips == legParent_ && name(trunk.hips, Part::hips) >= kNamedHips;
+        if (rig_.isAncestorOrSelf(trunk.hips, chest) || beside) score += 1.5F;
         // Hips without skin below a trunk that is no higher are a control of that trunk.
         const bool low = place.y - legs_.root.y < 0.3F * length_;
         if (low && chest != trunk.hips && rig_.skinned && ownSkin(trunk.hips) <= 0.0F) score += 1.5F * kUnskinnedTrunk;

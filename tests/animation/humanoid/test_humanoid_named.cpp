@@ -276,6 +276,43 @@ TEST_CASE("a hub that carries the collarbones is the chest, and one at the end o
     CHECK(map.jointOf(Role::hips) == 0);
 }
 
+TEST_CASE("hips that carry the legs beside the spine are the hips, not the joint of the whole body above both",
+          "[named]") {
+    // As a game of 2004 has its monsters.
+    std::vector<JointSpec> joints{{"origin", -1, {0, 0, 0}},
+                                  {"Body", 0, {0, 1.01F, 0}},
+                                  {"Body2", 1, {0, 1.01F, 0}},
+                                  {"Hips", 2, {0, 0.99F, -0.02F}},
+                                  {"waist", 2, {0, 1.006F, -0.02F}},
+                                  {"chest", 4, {0, 1.27F, -0.1F}},
+                                  {"shoulders", 5, {0, 1.56F, -0.09F}},
+                                  {"loneck", 6, {0, 1.64F, -0.09F}},
+                                  {"head", 7, {0, 1.76F, -0.07F}}};
+    for (const bool left : {true, false}) {
+        const std::string side = left ? "L" : "R";
+        const float x = left ? 1.0F : -1.0F;
+        const auto at = static_cast<int>(joints.size());
+        joints.push_back({side + "upleg", 3, {0.13F * x, 0.99F, -0.04F}});
+        joints.push_back({side + "loleg", at, {0.2F * x, 0.48F, -0.02F}});
+        joints.push_back({side + "ankle", at + 1, {0.25F * x, 0.1F, -0.1F}});
+        joints.push_back({side + "uparm", 6, {0.19F * x, 1.54F, -0.07F}});
+        joints.push_back({side + "loarm", at + 3, {0.49F * x, 1.43F, -0.11F}});
+        joints.push_back({side + "hand", at + 4, {0.67F * x, 1.36F, -0.1F}});
+    }
+    animation::Character figure;
+    figure.skeleton = makeSkeleton(joints);
+    std::fill(figure.skeleton.skinWeight.begin(), figure.skeleton.skinWeight.end(), 60.0F);
+    figure.skeleton.skinWeight[0] = 0.0F;
+    figure.skeleton.skinWeight[1] = 1.6F;
+    figure.skeleton.skinWeight[2] = 17.8F;
+    const HumanoidMap map = animation::mapHumanoid(figure);
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(Role::hips) == 3);
+    CHECK(map.jointOf(Role::spine) == 4);
+    CHECK(map.jointOf(Role::chest) == 5);
+    CHECK(map.jointOf(Role::head) == 8);
+}
+
 TEST_CASE("who bows deeply is a figure by his names, and stands upright on his legs", "[named]") {
     for (const std::string& convention : syntheticConventions()) {
         if (convention == "rigify control rig") continue;  // its legs do not hang on its hips
