@@ -37,16 +37,28 @@ std::string widenHinge(HingeLimits& limits, float angle, std::string_view child)
     return fmt::format("{}: hinge widened by {:.1f} degrees to hold the bind pose", child, by);
 }
 
+constexpr float kFarthest = radians(200.0F);  // from the bind pose to the far side of a range
+
+// A twist is as wide to both sides as well. Legs whose knees bend forwards, and shins that end in feet far before them,
+// stand nearly half a turn from where a man's do: their twist is counted from the bind pose. Returns by how much.
+float turnTowards(ConstraintProfile& constraint, float twist) {
+    if (2.0F * std::abs(twist) + radians(kSpare) < kFarthest) return 0.0F;
+    const quat turn = glm::angleAxis(twist, vec3(1, 0, 0));
+    constraint.parentFromFrame.rotation = glm::normalize(constraint.parentFromFrame.rotation * turn);
+    return twist;
+}
+
 // A cone is as wide to both sides of its middle: widened for a pose far from it, it would reach round the back. So the
 // middle moves half the way that is missing, and the cone is widened by the other half: what it held it holds, and it
-// reaches the pose. Returns how far, in radians; 0 where the pose is near enough.
+// reaches the pose. It moves farther where the far side would still be out of any joint's reach. Returns how far, in
+// radians; 0 where the pose is near enough.
 float moveTowards(ConstraintProfile& constraint, const SwingTwist& pose) {
-    constexpr float kFarthest = radians(200.0F);  // from the pose to the far side
     const float angle = glm::length(pose.swing);
     const float filled = std::hypot(pose.swing.y / constraint.cone.swingY, pose.swing.z / constraint.cone.swingZ);
     const float missing = filled > 1.0F ? angle + radians(kSpare) - angle / filled : 0.0F;
     if (missing <= 0.0F || 2.0F * angle + radians(kSpare) < kFarthest) return 0.0F;
-    const float way = 0.5F * missing;
+    const float farSide = 2.0F * (angle + radians(kSpare)) - kFarthest;
+    const float way = std::clamp(0.5F * farSide, 0.5F * missing, missing);
     const quat turn = rotationOf({pose.swing * (way / angle), 0.0F});
     constraint.parentFromFrame.rotation = glm::normalize(constraint.parentFromFrame.rotation * turn);
     return way;
@@ -141,18 +153,26 @@ std::vector<ConstraintProfile> makeConstraints(const BodyPlan& plan, const Anato
 
 std::string widenToHold(ConstraintProfile& constraint, const RigidTransform& worldFromParent,
                         const RigidTransform& worldFromChild, std::string_view child) {
-    const quat parentFrame = worldFromParent.rotation * constraint.parentFromFrame.rotation;
     const quat childFrame = worldFromChild.rotation * constraint.childFromFrame.rotation;
-    const quat relative = glm::conjugate(parentFrame) * childFrame;
+    const auto relativePose = [&] {
+        return glm::conjugate(worldFromParent.rotation * constraint.parentFromFrame.rotation) * childFrame;
+    };
+    const quat relative = relativePose();
     if (constraint.kind == ConstraintProfile::Kind::hinge) {
         const float angle = 2.0F * std::atan2(relative.z, relative.w);
         return widenHinge(constraint.hinge, std::remainder(angle, 2.0F * kPi), child);
     }
     SwingTwist pose = swingTwist(relative);
+    const float turned = turnTowards(constraint, pose.twist);
+    if (turned != 0.0F) pose = swingTwist(relativePose());
     const float moved = moveTowards(constraint, pose);
     if (moved > 0.0F) pose.swing *= 1.0F - moved / glm::length(pose.swing);
     std::string note = widenCone(constraint.cone, pose, moved > 0.0F, child);
     if (moved > 0.0F) note += fmt::format("; its middle moved by {:.0f} degrees towards it", degrees(moved));
+    if (turned != 0.0F) {
+        note += fmt::format("{}twist is counted from the bind pose, {:.0f} degrees from a man's",
+                            note.empty() ? fmt::format("{}: ", child) : "; ", degrees(std::abs(turned)));
+    }
     return note;
 }
 

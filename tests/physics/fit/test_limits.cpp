@@ -168,7 +168,8 @@ TEST_CASE("a bind pose far beyond the anatomy is held by a cone that does not re
     const BindPose poses[] = {{"foot back", {{"leftFoot", {1, 0, 0}, 110}}},
                               {"foot askew", {{"leftFoot", glm::normalize(vec3(1, 0.6F, 0)), 125}}},
                               {"arm behind", {{"rightUpperArm", glm::normalize(vec3(0, 1, 0.4F)), 140}}},
-                              {"hand askew", {{"rightHand", glm::normalize(vec3(0.2F, 1, 0.3F)), 150}}}};
+                              {"hand askew", {{"rightHand", glm::normalize(vec3(0.2F, 1, 0.3F)), 150}}},
+                              {"hand folded back", {{"leftHand", glm::normalize(vec3(0.1F, 0.2F, 1)), 172}}}};
     for (const BindPose& pose : poses) {
         INFO(pose.name);
         const animation::Character biped = posedBiped(pose);
@@ -186,6 +187,28 @@ TEST_CASE("a bind pose far beyond the anatomy is held by a cone that does not re
             for (const AngleSpan& span : {range.flexion, range.side})
                 CHECK(degrees(std::max(-span.low, span.high)) < 230.0F);
         }
+    }
+}
+
+TEST_CASE("a twist nearly half a turn from a man's is counted from the bind pose") {
+    // A walker's knees, which bend forwards.
+    const BindPose pose{"walker", {{"leftLowerLeg", {1, 0, 0}, -60}, {"rightLowerLeg", {1, 0, 0}, -60}}};
+    const animation::Character biped = posedBiped(pose);
+    const RagdollProfile profile = fitRagdoll(biped, test::mapOfBiped(biped)).value();
+    const auto shapes = shapesInBindPose(profile, biped.skeleton);
+    const std::vector<RigidTransform> bodies = bindBodies(biped, profile);
+    bool told = false;
+    for (const std::string& note : profile.notes)
+        told = told || note.find("twist is counted from the bind pose") != std::string::npos;
+    CHECK(told);
+    for (const ConstraintProfile& constraint : profile.constraints) {
+        if (constraint.kind == ConstraintProfile::Kind::hinge) continue;
+        INFO(profile.bodies[constraint.child].name);
+        CHECK(std::abs(swingTwist(relativeRotation(constraint, bodies)).twist) < constraint.cone.twist);
+        const JointRange range = jointRange(
+            constraint, {shapes[constraint.parent].standardFromBody, shapes[constraint.child].standardFromBody});
+        for (const AngleSpan& span : {range.flexion, range.side, range.twist})
+            CHECK(degrees(std::max(-span.low, span.high)) < 230.0F);
     }
 }
 
