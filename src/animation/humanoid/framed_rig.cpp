@@ -251,6 +251,10 @@ void readSkin(FramedRig& framed) {
     const auto hundredth = static_cast<std::ptrdiff_t>(heights.size() / 100);
     std::nth_element(heights.begin(), heights.begin() + hundredth, heights.end());
     framed.floor = heights[static_cast<std::size_t>(hundredth)];
+    // The skin of a part ends where that part does: the rest of the figure may reach further down.
+    if (!rig.partlySkinned) return;
+    for (const vec3& position : framed.positions)
+        framed.floor = std::min(framed.floor, position.y);
 }
 
 }  // namespace

@@ -131,8 +131,9 @@ void doubtPartialSkin(RigFeatures& rig) {
     constexpr float kTellingName = 1.5F;
     constexpr std::array<Part, 4> kLimbs{Part::upperArm, Part::lowerArm, Part::upperLeg, Part::lowerLeg};
     if (!rig.skinned) return;
-    int bare = 0;
+    bool partly = false;
     for (const Part part : kLimbs) {
+        int bare = 0;
         for (const Side side : {Side::left, Side::right}) {
             bool named = false;
             bool carries = false;
@@ -145,9 +146,10 @@ void doubtPartialSkin(RigFeatures& rig) {
             if (!named) return;
             bare += carries ? 0 : 1;
         }
+        // On both sides: of a garment, of what a player sees of himself, of a figure that was cut in two.
+        partly = partly || bare == 2;
     }
-    constexpr int kFewestBare = 4;  // of the eight: both arms or both legs, of a garment or of what a player sees
-    rig.partlySkinned = bare >= kFewestBare;
+    rig.partlySkinned = partly;
     if (rig.partlySkinned) rig.skinned = false;
 }
 

@@ -94,4 +94,30 @@ TEST_CASE("legs below an upright trunk are a figure, below a level one a bird, a
     }
 }
 
+TEST_CASE("the halves of a figure that was cut in two map as the whole", "[halves]") {
+    // Stumps and no feet: neither half moves the skin of all four limbs, nor loses all of any.
+    for (const bool upper : {true, false}) {
+        INFO((upper ? "upper half" : "lower half"));
+        SyntheticRig rig = makeSyntheticRig("german");
+        for (const Role role : {Role::leftFoot, Role::rightFoot})
+            cutOff(rig, role);
+        animation::Character& half = rig.character;
+        const std::vector<Role> bare = upper ? std::vector<Role>{Role::leftLowerLeg, Role::rightLowerLeg}
+                                             : std::vector<Role>{Role::head, Role::leftLowerArm, Role::leftHand,
+                                                                 Role::rightLowerArm, Role::rightHand};
+        for (const Role role : bare) {
+            for (int joint = 0; joint < half.skeleton.jointCount(); ++joint) {
+                if (animation::isAncestorOrSelf(half.skeleton, jointOf(rig, role), joint))
+                    half.skeleton.skinWeight[joint] = 0.0F;
+            }
+        }
+        const HumanoidMap map = animation::mapHumanoid(half);
+        REQUIRE(map.humanoid);
+        for (const Role role : {Role::head, Role::leftUpperArm, Role::leftLowerArm, Role::leftHand, Role::leftUpperLeg,
+                                Role::leftLowerLeg, Role::rightLowerArm, Role::rightLowerLeg})
+            CHECK(map.jointOf(role) == jointOf(rig, role));
+        CHECK(tells(map, "only a part of the figure has skin: the other shapes come from the joints alone"));
+    }
+}
+
 }  // namespace lutka::test
