@@ -70,7 +70,7 @@ public static class LutkaRagdoll
         int start = text.IndexOf("\"filteredPairs\"", StringComparison.Ordinal);
         int end = text.IndexOf("\"notes\"", start, StringComparison.Ordinal);
         string list = end > start ? text.Substring(start, end - start) : text.Substring(start);
-        return Regex.Matches(list, "\\[\\s*\"(\\w+)\",\\s*\"(\\w+)\"\\s*\\]");
+        return Regex.Matches(list, "\\[\\s*\"([^\"]+)\",\\s*\"([^\"]+)\"\\s*\\]");
     }
 
     // Lengths of the file are metres; a bone may be scaled.
