@@ -23,7 +23,6 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
                                               {"supportPassed", &tuning.supportPassed},
                                               {"supportKept", &tuning.supportKept},
                                               {"nearSpeed", &tuning.nearSpeed},
-                                              {"nearPairSpeed", &tuning.nearPairSpeed},
                                               {"answerSpeed", &tuning.answerSpeed},
                                               {"contactTolerance", &tuning.contactTolerance},
                                               {"limitTolerance", &tuning.limitTolerance},

@@ -195,7 +195,7 @@ static void beginPairs(PairsView& view, const SubstepParams& params) {
         const F pressed = load(pair.normalImpulse);
         const F left = start + contactBias(load(pair.separation), params, 0);
         const Mask meets = (pressed > all(0.0F)) | (left < all(0.0F));
-        if (bits(meets | (left < all(params.nearPairSpeed))) == 0) continue;  // nor did it press before
+        if (bits(meets | (left < all(params.nearSpeed))) == 0) continue;  // nor did it press before
         view.live[view.liveCount++] = i;
         pair.ready = bits(meets) != 0 ? 1 : 0;
         if (pair.ready != 0) preparePair(pair, bodies, isFirst);
