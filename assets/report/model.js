@@ -142,6 +142,12 @@
   // The bodies --------------------------------------------------------------------------------------------------------------
   function shapeOf(body) {
     if (body.kind === 'box') return new THREE.BoxBufferGeometry(...body.halfExtents.map((half) => 2 * half));
+    if (body.kind === 'hull') {
+      const hull = new THREE.BufferGeometry();
+      hull.setAttribute('position', new THREE.Float32BufferAttribute(body.triangles, 3));
+      hull.computeVertexNormals();
+      return hull;
+    }
     if (body.kind === 'sphere') return new THREE.SphereBufferGeometry(body.radius, 28, 18);
     const outline = [];
     for (let i = 0; i <= 20; ++i) {

@@ -14,7 +14,7 @@ using UnityEngine;
 public static class LutkaRagdoll
 {
     [Serializable] class Frame { public float[] rotation; public float[] translation; }
-    [Serializable] class Primitive { public string kind; public float radius; public float halfLength; public float[] halfExtents; }
+    [Serializable] class Primitive { public string kind; public float radius; public float halfLength; public float[] halfExtents; public float[] points; }
     [Serializable] class AddedShape : Primitive { public Frame bodyFromShape; }
     [Serializable] class Shape : Primitive { public AddedShape[] more; }
     [Serializable] class Body { public string name; public string joint; public Shape shape; public Frame jointFromBody; public float massKg; public float[] inertia; }
@@ -35,7 +35,7 @@ public static class LutkaRagdoll
         if (root == null) { Debug.LogError("Lutka: select the model's root first"); return; }
         string file = EditorUtility.OpenFilePanel("Ragdoll profile", "", "json");
         if (string.IsNullOrEmpty(file)) return;
-        string text = File.ReadAllText(file);
+        string text = WithFlatPoints(File.ReadAllText(file));
         Profile profile = JsonUtility.FromJson<Profile>(text);
         var parts = new Dictionary<string, Part>();
         foreach (Body body in profile.bodies)
@@ -64,7 +64,14 @@ public static class LutkaRagdoll
         return null;
     }
 
-    // Arrays in arrays are more than JsonUtility reads.
+    // Arrays in arrays are more than JsonUtility reads: a hull's points become one array of numbers.
+    static string WithFlatPoints(string text)
+    {
+        return Regex.Replace(text, "\"points\":\\s*\\[([^\"{}]*)\\]",
+            match => "\"points\": [" + match.Groups[1].Value.Replace("[", "").Replace("]", "") + "]");
+    }
+
+    // So are these.
     static MatchCollection FilteredPairs(string text)
     {
         int start = text.IndexOf("\"filteredPairs\"", StringComparison.Ordinal);
@@ -122,9 +129,28 @@ public static class LutkaRagdoll
             sphere.radius = units * shape.radius;
             return sphere;
         }
+        if (shape.kind == "hull")
+        {
+            MeshCollider hull = holder.AddComponent<MeshCollider>();
+            hull.sharedMesh = HullMesh(shape.points, units);
+            hull.convex = true;
+            return hull;
+        }
         BoxCollider box = holder.AddComponent<BoxCollider>();
         box.size = units * 2f * new Vector3(shape.halfExtents[0], shape.halfExtents[1], shape.halfExtents[2]);
         return box;
+    }
+
+    // Unity makes the hull of the vertices; triangles it only demands.
+    static Mesh HullMesh(float[] points, float units)
+    {
+        var vertices = new Vector3[points.Length / 3];
+        for (int i = 0; i < vertices.Length; ++i)
+            vertices[i] = units * Position(new[] { points[3 * i], points[3 * i + 1], points[3 * i + 2] });
+        var triangles = new List<int>();
+        for (int i = 2; i < vertices.Length; ++i)
+            triangles.AddRange(new[] { 0, i - 1, i });
+        return new Mesh { vertices = vertices, triangles = triangles.ToArray() };
     }
 
     static Quaternion FrameInJoint(Part part, Frame frame) { return Rotation(part.body.jointFromBody.rotation) * Rotation(frame.rotation); }

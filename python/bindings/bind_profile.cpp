@@ -88,6 +88,8 @@ const char* shapeName(PrimitiveShape::Kind kind) {
             return "capsule";
         case PrimitiveShape::Kind::sphere:
             return "sphere";
+        case PrimitiveShape::Kind::hull:
+            return "hull";
         case PrimitiveShape::Kind::box:
             break;
     }
@@ -155,7 +157,8 @@ void bindBody(py::module_& module) {
             [](const BodyObject& b, const vec3& value) { editBody(b, [&](BodyProfile& e) { e.inertia = value; }); },
             "Principal moments about the body's axes, kg m².")
         .def_property_readonly(
-            "shape", [](const BodyObject& b) { return shapeName(b.get().shape.kind); }, "'capsule', 'box' or 'sphere'.")
+            "shape", [](const BodyObject& b) { return shapeName(b.get().shape.kind); },
+            "'capsule', 'box', 'sphere' or 'hull'.")
         .def_property(
             "radius", [](const BodyObject& b) { return b.get().shape.radius; },
             [](const BodyObject& b, float value) { editBody(b, [&](BodyProfile& e) { e.shape.radius = value; }); },
@@ -170,6 +173,17 @@ void bindBody(py::module_& module) {
                 editBody(b, [&](BodyProfile& e) { e.shape.halfExtents = value; });
             },
             "Metres; of a box.")
+        .def_property_readonly(
+            "points",
+            [](const BodyObject& b) -> py::object {
+                const physics::ConvexHullPtr& hull = b.get().shape.hull;
+                if (b.get().shape.kind != PrimitiveShape::Kind::hull) return py::none();
+                py::list points;
+                for (const vec3& point : hull->points())
+                    points.append(py::make_tuple(point.x, point.y, point.z));
+                return points;
+            },
+            "Corners of a hull in the body's axes, metres: a list of (x, y, z); None for other shapes.")
         .def_property_readonly(
             "shape_count", [](const BodyObject& b) { return 1 + b.get().shape.more.size(); },
             "1 to 3. shape, radius, half_length and half_extents are the main one's; to_json() holds all.")

@@ -81,6 +81,7 @@ scene::LoadOptions loadOptions(Keywords& keywords) {
     keywords.takeWord("rig", scene::kRigWords, fit.rig);
     keywords.take("max_bodies", fit.mostBodies, 1, physics::RagdollProfile::kMostBodies);
     keywords.take("max_shapes", fit.mostShapes, 1, 1 + static_cast<int>(physics::BodyShape::kMostAdded));
+    keywords.take("hulls", fit.hulls);
     fit.weighByVolume = !keywords.take("mass", fit.totalMassKg, 1e-3, 1e5);
     keywords.takeWord("mass_table", scene::kMassTableWords, fit.massTable);
     keywords.takeWord("masses", scene::kMassPresetWords, fit.massPreset);

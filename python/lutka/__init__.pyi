@@ -95,6 +95,8 @@ class Body:
     @half_extents.setter
     def half_extents(self, value: _Vector) -> None: ...
     @property
+    def points(self) -> list[tuple[float, float, float]] | None: ...
+    @property
     def shape_count(self) -> int: ...
 
 class Constraint:
@@ -276,6 +278,7 @@ def build(
     rig: Literal["humanoid", "any"] = ...,
     max_bodies: int = ...,
     max_shapes: int = ...,
+    hulls: bool = ...,
     mass: float = ...,
     mass_table: Literal["de-leva-male", "de-leva-female", "winter"] = ...,
     masses: Literal["anatomical", "balanced", "uniform", "volume"] = ...,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/math.hpp"
+#include "physics/profile/convex_hull.hpp"
 
 namespace lutka::exporting {
 
@@ -49,6 +50,14 @@ class TextBuilder {
 [[nodiscard]] inline std::string quaternionTextXyzw(const quat& q, std::string_view between = " ") {
     return fmt::format("{1}{0}{2}{0}{3}{0}{4}", between, numberText(q.x), numberText(q.y), numberText(q.z),
                        numberText(q.w));
+}
+
+/// The corners of a hull, with `between` between their components and between them.
+[[nodiscard]] inline std::string pointsText(const physics::ConvexHull& hull, std::string_view between = " ") {
+    std::string text;
+    for (const vec3& point : hull.points())
+        text += fmt::format("{}{}", text.empty() ? "" : between, vectorText(point, between));
+    return text;
 }
 
 /// For an attribute or a text of XML; what XML can't hold (control characters) becomes '_'.

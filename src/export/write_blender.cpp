@@ -24,7 +24,9 @@ def matrix(place):
 
 
 def outline(kind, size):
-    """The corners that a rigid body takes its shape's size from; a capsule lies along z."""
+    """The corners that a rigid body takes its shape's size from; a capsule lies along z, a hull is its corners."""
+    if kind == 'CONVEX_HULL':
+        return size
     if kind == 'CAPSULE':
         r, half = size
         return [(r, 0, 0), (-r, 0, 0), (0, r, 0), (0, -r, 0), (0, 0, half + r), (0, 0, -half - r)]
@@ -173,6 +175,12 @@ std::string shapeText(const PrimitiveShape& shape) {
             return "'CAPSULE', " + tupleText({shape.radius, shape.halfLength});
         case PrimitiveShape::Kind::sphere:
             return "'SPHERE', " + tupleText({shape.radius});
+        case PrimitiveShape::Kind::hull: {
+            std::string corners;
+            for (const vec3& point : shape.hull->points())
+                corners += fmt::format("({}), ", vectorText(point, ", "));
+            return "'CONVEX_HULL', [" + corners + "]";
+        }
         case PrimitiveShape::Kind::box:
             break;
     }

@@ -67,6 +67,22 @@ void addCone(Ragdoll& doll, btDynamicsWorld& world, int parent, int child, const
 
 )";
 
+// Written where some body has a hull.
+constexpr std::string_view kHull = R"(namespace {
+
+std::unique_ptr<btCollisionShape> hull(std::initializer_list<btVector3> corners) {
+    auto shape = std::make_unique<btConvexHullShape>();
+    for (const btVector3& corner : corners)
+        shape->addPoint(corner, false);
+    shape->setMargin(0.001f);  // which Bullet adds around it
+    shape->recalcLocalAabb();
+    return shape;
+}
+
+}  // namespace
+
+)";
+
 // Written where some body has several shapes.
 constexpr std::string_view kCompound = R"(namespace {
 
@@ -91,6 +107,12 @@ std::string bulletShape(const PrimitiveShape& shape) {
                                numberText(2.0F * shape.halfLength));
         case PrimitiveShape::Kind::sphere:
             return fmt::format("std::make_unique<btSphereShape>({})", numberText(shape.radius));
+        case PrimitiveShape::Kind::hull: {
+            std::string corners;
+            for (const vec3& point : shape.hull->points())
+                corners += fmt::format("{}btVector3({})", corners.empty() ? "" : ", ", vectorText(point, ", "));
+            return fmt::format("hull({{{}}})", corners);
+        }
         case PrimitiveShape::Kind::box:
             break;
     }
@@ -107,6 +129,14 @@ std::string shapeArgument(TextBuilder& text, std::size_t index, const physics::B
     return fmt::format("std::move(shape{})", index);
 }
 
+bool hasHull(const BodyProfile& body) {
+    bool any = false;
+    visitShapes(body.shape, [&](const PrimitiveShape& shape, const RigidTransform&) {
+        any = any || shape.kind == PrimitiveShape::Kind::hull;
+    });
+    return any;
+}
+
 }  // namespace
 
 Exported writeBullet(const ExportSource& source) {
@@ -118,6 +148,8 @@ Exported writeBullet(const ExportSource& source) {
     const bool anyAdded = std::any_of(profile.bodies.begin(), profile.bodies.end(),
                                       [](const BodyProfile& body) { return !body.shape.more.empty(); });
     if (anyAdded) text.block(kCompound);
+    const bool anyHull = std::any_of(profile.bodies.begin(), profile.bodies.end(), hasHull);
+    if (anyHull) text.block(kHull);
     text.line("// Adds the figure in its bind pose: upright, facing +Z, its soles at the origin of `worldFromDoll`.");
     text.line("// Step at 1/240 s: what is linked stays together then.");
     text.line("std::unique_ptr<Ragdoll> addRagdoll(btDynamicsWorld& world, const btTransform& worldFromDoll) {{");

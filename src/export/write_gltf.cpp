@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <map>
 
@@ -49,6 +50,7 @@ Json shapeJson(const PrimitiveShape& shape) {
                           {"radiusTop", jsonNumber(shape.radius)}}}};
         case PrimitiveShape::Kind::box:
             return Json{{"type", "box"}, {"box", {{"size", jsonVector(2.0F * shape.halfExtents)}}}};
+        case PrimitiveShape::Kind::hull:  // a mesh, see hullNode()
         case PrimitiveShape::Kind::sphere:
             break;
     }
@@ -63,8 +65,8 @@ Json extrasOf(const physics::BodyProfile& body) {
 
 class GltfPhysicsWriter {
   public:
-    GltfPhysicsWriter(const ExportSource& source, Json& document)
-        : source_(source), profile_(source.profile), document_(document) {}
+    GltfPhysicsWriter(const ExportSource& source, GlbContainer& container)
+        : source_(source), profile_(source.profile), document_(container.json), binary_(container.binary) {}
 
     std::vector<std::string> write() {
         physics_["physicsMaterials"] = Json::array({Json{{"staticFriction", jsonNumber(kFriction)},
@@ -74,9 +76,10 @@ class GltfPhysicsWriter {
             addBody(static_cast<int>(i));
         for (const ConstraintProfile& constraint : profile_.constraints)
             addJoint(constraint);
-        document_["extensions"][kShapesExtension] = Json{{"shapes", std::move(shapes_)}};
+        if (!binary_.empty()) document_["buffers"][0]["byteLength"] = binary_.size();
+        if (!shapes_.empty()) document_["extensions"][kShapesExtension] = Json{{"shapes", std::move(shapes_)}};
         document_["extensions"][kPhysicsExtension] = std::move(physics_);
-        document_["extensionsUsed"].push_back(kShapesExtension);
+        if (document_["extensions"].contains(kShapesExtension)) document_["extensionsUsed"].push_back(kShapesExtension);
         document_["extensionsUsed"].push_back(kPhysicsExtension);
         return std::move(warnings_);
     }
@@ -110,13 +113,58 @@ class GltfPhysicsWriter {
         const int filter = addFilter(index);
         int count = 0;
         visitShapes(body.shape, [&](const PrimitiveShape& shape, const RigidTransform& bodyFromShape) {
-            Json collider{{"geometry", {{"shape", shapes_.size()}}}, {"physicsMaterial", 0}};
-            shapes_.push_back(shapeJson(shape));
+            Json geometry;
+            if (shape.kind == PrimitiveShape::Kind::hull) {
+                geometry = Json{{"convexHull", true}, {"node", addHullNode(index, *shape.hull)}};
+            } else {
+                geometry = Json{{"shape", shapes_.size()}};
+                shapes_.push_back(shapeJson(shape));
+            }
+            Json collider{{"geometry", std::move(geometry)}, {"physicsMaterial", 0}};
             if (filter >= 0) collider["collisionFilter"] = filter;
             ++count;
             addNode(index, count == 1 ? "collider" : fmt::format("collider {}", count), bodyFromShape,
                     Json{{"collider", std::move(collider)}});
         });
+    }
+
+    // Index of an accessor over data at the buffer's end.
+    template <class T>
+    int addAccessor(const std::vector<T>& values, int componentType, std::size_t count, Json accessor) {
+        binary_.resize((binary_.size() + 3) / 4 * 4);
+        const std::size_t bytes = values.size() * sizeof(T);
+        Json& views = document_["bufferViews"];
+        views.push_back(Json{{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes}});
+        binary_.append(reinterpret_cast<const char*>(values.data()), bytes);
+        accessor["bufferView"] = views.size() - 1;
+        accessor["componentType"] = componentType;
+        accessor["count"] = count;
+        document_["accessors"].push_back(std::move(accessor));
+        return static_cast<int>(document_["accessors"].size()) - 1;
+    }
+
+    // A mesh on a node that is in no scene, so that nothing draws it. A collider lies where its own node is.
+    int addHullNode(int body, const physics::ConvexHull& hull) {
+        constexpr int kFloat = 5126;
+        constexpr int kUnsignedShort = 5123;
+        std::vector<std::uint16_t> triangles;
+        for (const physics::ConvexHull::Face& face : hull.faces()) {
+            const std::span<const int> loop = hull.cornersOf(face);
+            for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+                for (const int corner : {loop[0], loop[i], loop[i + 1]})
+                    triangles.push_back(static_cast<std::uint16_t>(corner));
+        }
+        const std::vector<vec3> points(hull.points().begin(), hull.points().end());
+        const int positions =
+            addAccessor(points, kFloat, points.size(),
+                        Json{{"type", "VEC3"}, {"min", jsonVector(hull.low())}, {"max", jsonVector(hull.high())}});
+        const int indices = addAccessor(triangles, kUnsignedShort, triangles.size(), Json{{"type", "SCALAR"}});
+        const std::string name = bodyName(profile_, body) + " hull";
+        document_["meshes"].push_back(
+            Json{{"name", name},
+                 {"primitives", Json::array({Json{{"attributes", {{"POSITION", positions}}}, {"indices", indices}}})}});
+        document_["nodes"].push_back(Json{{"name", name}, {"mesh", document_["meshes"].size() - 1}});
+        return static_cast<int>(document_["nodes"].size()) - 1;
     }
 
     // Index of the filter; -1 for a body that collides with all but those that it is linked to.
@@ -182,6 +230,7 @@ class GltfPhysicsWriter {
     const ExportSource& source_;
     const RagdollProfile& profile_;
     Json& document_;
+    std::string& binary_;
     Json physics_ = Json::object();
     Json shapes_ = Json::array();
     std::vector<std::string> warnings_;
@@ -194,7 +243,7 @@ Result<Exported> writeGltf(const ExportSource& source, GltfKind kind) {
     if (!bytes) return bytes.error();
     GlbContainer container = unpackGlb(bytes.value());
     Exported exported;
-    exported.warnings = GltfPhysicsWriter(source, container.json).write();
+    exported.warnings = GltfPhysicsWriter(source, container).write();
     exported.warnings.insert(exported.warnings.begin(),
                              "KHR_physics_rigid_bodies is a draft: few programs read it, and it may change");
     exported.bytes = kind == GltfKind::binary ? packGlb(container) : gltfText(container);

@@ -162,6 +162,11 @@ class GodotWriter {
                 text_.line("{} = {}( {} )", four_ ? "size" : "extents", "Vector3",
                            vectorText(shape.halfExtents * (four_ ? 2.0F : 1.0F), ", "));
                 return;
+            case PrimitiveShape::Kind::hull:
+                begin("ConvexPolygonShape");
+                text_.line("points = {}( {} )", four_ ? "PackedVector3Array" : "PoolVector3Array",
+                           pointsText(*shape.hull, ", "));
+                return;
         }
     }
 

@@ -28,6 +28,7 @@ class MjcfWriter {
         text_.line("<mujoco model=\"{}\">", xmlEscaped(profile_.name));
         text_.indent();
         header();
+        meshes();
         world();
         excludes();
         sums();
@@ -45,6 +46,24 @@ class MjcfWriter {
         text_.line("  <joint armature=\"0\" damping=\"0\"/>");
         text_.line("  <geom condim=\"3\" friction=\"{} 0.005 0.0001\"/>", numberText(kFloorFriction));
         text_.line("</default>");
+    }
+
+    // The hulls, of which MuJoCo makes the faces.
+    void meshes() {
+        std::vector<std::pair<std::string, const PrimitiveShape*>> hulls;
+        for (std::size_t i = 0; i < profile_.bodies.size(); ++i) {
+            const std::string name = bodyName(profile_, static_cast<int>(i));
+            const physics::BodyShape& shape = profile_.bodies[i].shape;
+            if (shape.kind == PrimitiveShape::Kind::hull) hulls.emplace_back(name, &shape);
+            for (std::size_t k = 0; k < shape.more.size(); ++k)
+                if (shape.more[k].kind == PrimitiveShape::Kind::hull)
+                    hulls.emplace_back(addedName(name, k), &shape.more[k]);
+        }
+        if (hulls.empty()) return;
+        text_.line("<asset>");
+        for (const auto& [name, shape] : hulls)
+            text_.line("  <mesh name=\"{}\" vertex=\"{}\"/>", name, pointsText(*shape->hull));
+        text_.line("</asset>");
     }
 
     void world() {
@@ -112,6 +131,9 @@ class MjcfWriter {
                 return geom("sphere", numberText(s.radius));
             case PrimitiveShape::Kind::box:
                 return geom("box", vectorText(s.halfExtents));
+            case PrimitiveShape::Kind::hull:
+                text_.line("<geom name=\"{0}\" type=\"mesh\" mesh=\"{0}\"{1}/>", name, place);
+                return;
         }
     }
 

@@ -5,6 +5,7 @@
 #include "export/doll_layout.hpp"
 #include "export/text_builder.hpp"
 #include "export/three_hinges.hpp"
+#include "physics/collision/shape.hpp"
 
 namespace lutka::exporting {
 namespace {
@@ -72,6 +73,13 @@ class UrdfWriter {
                 geometry(use, origin * bodyFromShape, shape);
             });
         }
+        visitShapes(body.shape, [&](const PrimitiveShape& shape, const RigidTransform&) {
+            if (shape.kind != PrimitiveShape::Kind::hull) return;
+            const bool box = physics::standInFor(*shape.hull).shape.kind == PrimitiveShape::Kind::box;
+            warnings_.push_back(
+                fmt::format("{}: a hull can't be written into the file; it is the {} of the same moments",
+                            bodyName(profile_, index), box ? "box" : "capsule"));
+        });
         text_.outdent();
         text_.line("</link>");
     }
@@ -109,6 +117,11 @@ class UrdfWriter {
             case PrimitiveShape::Kind::box:
                 part(use, origin, fmt::format("<box size=\"{}\"/>", vectorText(2.0F * shape.halfExtents)));
                 return;
+            case PrimitiveShape::Kind::hull: {
+                const physics::StandIn simple = physics::standInFor(*shape.hull);
+                geometry(use, origin * simple.hullFromShape, simple.shape);
+                return;
+            }
         }
     }
 

@@ -88,7 +88,8 @@ class UsdWriter {
         const bool isMain = count == 1;
         const auto beginShape = [&](std::string_view type) {
             begin(fmt::format("def {} \"shape{}\"", type, isMain ? "" : std::to_string(count)),
-                  "\"PhysicsCollisionAPI\"");
+                  s.kind == PrimitiveShape::Kind::hull ? "\"PhysicsCollisionAPI\", \"PhysicsMeshCollisionAPI\""
+                                                       : "\"PhysicsCollisionAPI\"");
             if (isMain) return;
             text_.line("double3 xformOp:translate = ({})", vectorText(bodyFromShape.translation, ", "));
             text_.line("quatf xformOp:orient = ({})", quaternionTextWxyz(bodyFromShape.rotation, ", "));
@@ -118,8 +119,32 @@ class UsdWriter {
                 text_.line("float3 xformOp:scale = ({})", vectorText(s.halfExtents, ", "));
                 order("\"xformOp:scale\"");
                 break;
+            case PrimitiveShape::Kind::hull:
+                beginShape("Mesh");
+                mesh(*s.hull);
+                order("");
+                break;
         }
         end();
+    }
+
+    void mesh(const physics::ConvexHull& hull) {
+        std::string points;
+        std::string counts;
+        std::string corners;
+        const auto append = [](std::string& list, const std::string& one) { list += (list.empty() ? "" : ", ") + one; };
+        for (const vec3& point : hull.points())
+            append(points, fmt::format("({})", vectorText(point, ", ")));
+        for (const physics::ConvexHull::Face& face : hull.faces()) {
+            append(counts, std::to_string(face.count));
+            for (const int corner : hull.cornersOf(face))
+                append(corners, std::to_string(corner));
+        }
+        text_.line("uniform token physics:approximation = \"convexHull\"");
+        text_.line("uniform token subdivisionScheme = \"none\"");
+        text_.line("point3f[] points = [{}]", points);
+        text_.line("int[] faceVertexCounts = [{}]", counts);
+        text_.line("int[] faceVertexIndices = [{}]", corners);
     }
 
     void range(const char* axis, float low, float high) {

@@ -44,7 +44,7 @@ struct CharacterItem {
 
 /// A simple shape of the scene: static geometry, balls, targets.
 struct PropItem {
-    ShapeKind kind = ShapeKind::box;  ///< Any but a mesh.
+    ShapeKind kind = ShapeKind::box;  ///< Any but a mesh or hull.
     RigidTransform worldFromShape;
     vec3 halfExtents{0.5F, 0.5F, 0.5F};  ///< Box; a plane uses x and z. Metres.
     float radius = 0.5F;                 ///< Sphere and capsule, metres.

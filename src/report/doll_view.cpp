@@ -159,7 +159,21 @@ Json transformJson(const RigidTransform& t) {
     return {{"p", jsonVector(t.translation)}, {"q", jsonQuaternion(t.rotation)}};
 }
 
+// Triangles as corners, for the view knows no polygons.
+Json hullJson(const physics::ConvexHull& hull) {
+    Json points = Json::array();
+    for (const physics::ConvexHull::Face& face : hull.faces()) {
+        const std::span<const int> loop = hull.cornersOf(face);
+        for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+            for (const int corner : {loop[0], loop[i], loop[i + 1]})
+                for (int axis = 0; axis < 3; ++axis)
+                    points.push_back(jsonNumber(hull.points()[corner][axis]));
+    }
+    return {{"kind", "hull"}, {"triangles", std::move(points)}};
+}
+
 Json shapeJson(const physics::PrimitiveShape& shape) {
+    if (shape.kind == physics::PrimitiveShape::Kind::hull) return hullJson(*shape.hull);
     static constexpr std::array<const char*, 3> kKinds{"capsule", "box", "sphere"};
     const std::size_t kind = shape.kind == physics::PrimitiveShape::Kind::capsule ? 0
                              : shape.kind == physics::PrimitiveShape::Kind::box   ? 1

@@ -43,6 +43,11 @@ std::string primitiveText(const physics::PrimitiveShape& shape) {
                                (shape.halfLength + shape.radius) * 200);
         case physics::PrimitiveShape::Kind::sphere:
             return fmt::format("sphere, radius {:.1f}", shape.radius * 100);
+        case physics::PrimitiveShape::Kind::hull: {
+            const vec3 size = 100.0F * (shape.hull->high() - shape.hull->low());
+            return fmt::format("hull of {} corners, {:.1f} × {:.1f} × {:.1f}", shape.hull->points().size(), size.x,
+                               size.y, size.z);
+        }
         case physics::PrimitiveShape::Kind::box:
             break;
     }

@@ -6,6 +6,7 @@
 
 #include "physics/profile/constraint_state.hpp"
 #include "scene/body_bounds.hpp"
+#include "scene/draw_hull.hpp"
 
 namespace lutka::scene {
 namespace {
@@ -31,6 +32,9 @@ void drawWire(FrameDescription& frame, const RigidTransform& world, const Primit
         case PrimitiveShape::Kind::box:
             addBox(frame.lines, world, shape.halfExtents, color);
             break;
+        case PrimitiveShape::Kind::hull:
+            addHull(frame.lines, world, *shape.hull, color);
+            break;
     }
 }
 
@@ -44,6 +48,9 @@ void drawSolid(FrameDescription& frame, const RigidTransform& world, const Primi
             break;
         case PrimitiveShape::Kind::box:
             addBox(frame.solids, world, shape.halfExtents, color);
+            break;
+        case PrimitiveShape::Kind::hull:
+            addHull(frame.solids, world, *shape.hull, color);
             break;
     }
 }

@@ -352,7 +352,7 @@ void PuppetCast::measureFeet(Actor& actor) {
         const vec3 onGround(aim.translation.x, ground.height, aim.translation.z);
         const float above = glm::dot(aim.translation - onGround, ground.normal) -
                             physics::supportExtent(actor.asset->profile.bodies[foot.body].shape,
-                                                   glm::conjugate(aim.rotation) * ground.normal);
+                                                   glm::conjugate(aim.rotation) * -ground.normal);
         const bool stands = glm::distance(aim.translation, actor.from[foot.body].translation) < still &&
                             above < kFootLowM && glm::dot(up, ground.normal) > std::cos(kFootFlat);
         const vec3 at = frames_[foot.body].translation;

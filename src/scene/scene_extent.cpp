@@ -28,6 +28,7 @@ void addAround(const RigidTransform& world, const physics::BodyShape& shape, std
 void addStatic(const StaticShape& shape, std::vector<vec3>& points) {
     switch (shape.kind) {
         case StaticShape::Kind::plane:
+        case StaticShape::Kind::hull:  // of bodies alone
             return;
         case StaticShape::Kind::box:
             return addCorners(shape.worldFromShape, shape.halfExtents, points);

@@ -48,7 +48,12 @@ function neutralPose() {
   return pose;
 }
 
-function simpleShape({ kind, radius, halfLength, halfExtents }) {
+function simpleShape({ kind, radius, halfLength, halfExtents, points }) {
+  if (kind === 'hull') {
+    const hull = new Jolt.ConvexHullShapeSettings();
+    for (const point of points) hull.mPoints.push_back(vec3(point));
+    return hull;
+  }
   if (kind === 'capsule') return new Jolt.CapsuleShapeSettings(halfLength, radius);
   if (kind === 'sphere') return new Jolt.SphereShapeSettings(radius);
   return new Jolt.BoxShapeSettings(vec3(halfExtents), 0.01);

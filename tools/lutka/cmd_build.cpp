@@ -51,6 +51,8 @@ std::string shapeText(const physics::PrimitiveShape& shape) {
             return fmt::format("capsule r {:.3f} l {:.3f}", shape.radius, shape.halfLength * 2.0F);
         case physics::PrimitiveShape::Kind::sphere:
             return fmt::format("sphere r {:.3f}", shape.radius);
+        case physics::PrimitiveShape::Kind::hull:
+            return fmt::format("hull of {} corners", shape.hull->points().size());
         case physics::PrimitiveShape::Kind::box:
             break;
     }

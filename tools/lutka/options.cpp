@@ -159,6 +159,7 @@ void RagdollOptions::addTo(const Command& app, bool modelRequired) {
         .range(1, 1 + static_cast<int>(physics::BodyShape::kMostAdded))
         .excludes(profileOption)
         .showDefault();
+    app.flag("--hulls", hulls, "every body is the convex hull of its skin").excludes(profileOption);
     app.option("--mass", massKg, "total mass in kilograms; default: 75, and for --rig any that of its volume in water")
         .range(1e-3, 1e5)
         .excludes(profileOption);
@@ -190,6 +191,7 @@ scene::LoadOptions RagdollOptions::load() const {
     if (rig == "any") options.fit.rig = physics::RigKind::any;
     options.fit.mostBodies = maxBodies;
     options.fit.mostShapes = shapes;
+    options.fit.hulls = hulls;
     options.fit.weighByVolume = !massKg;
     options.fit.totalMassKg = massKg.value_or(options.fit.totalMassKg);
     // oneOf() lets no other words through.

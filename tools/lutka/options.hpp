@@ -61,6 +61,7 @@ struct RagdollOptions {
     std::string rig = "humanoid";
     int maxBodies = 40;
     int shapes = physics::FitOptions{}.mostShapes;
+    bool hulls = false;
     std::optional<float> massKg;  ///< Unset: 75 for a humanoid, by volume for any other rig.
     std::string massTable = "de-leva-male";
     std::string massPreset = "anatomical";

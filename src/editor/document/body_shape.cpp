@@ -13,11 +13,18 @@ using physics::BodyShape;
 
 void setKind(physics::PrimitiveShape& shape, physics::PrimitiveShape::Kind kind) {
     if (kind == shape.kind) return;
-    vec3 half = shape.halfExtents;
-    if (shape.kind == BodyShape::Kind::sphere) half = vec3(shape.radius);
-    if (shape.kind == BodyShape::Kind::capsule) half = {shape.radius, shape.radius + shape.halfLength, shape.radius};
+    if (kind == BodyShape::Kind::hull) {
+        shape.hull = physics::hullWithin(shape);
+        shape.kind = kind;
+        return;
+    }
+    const bool wasHull = shape.kind == BodyShape::Kind::hull;
+    const vec3 half = wasHull ? physics::halfBoxOfMoments(*shape.hull) : physics::halfBox(shape);
+    shape.hull.reset();
     shape.kind = kind;
     switch (kind) {
+        case BodyShape::Kind::hull:
+            break;
         case BodyShape::Kind::box:
             shape.halfExtents = half;
             break;

@@ -6,7 +6,7 @@
 namespace lutka::editor {
 
 /// Makes it a shape of another kind that is as large: its box is the old one's as near as the kind allows, along the
-/// same axes.
+/// same axes. A hull comes out within the old shape, of corners on its surface; the box of one has its moments.
 void setKind(physics::PrimitiveShape& shape, physics::PrimitiveShape::Kind kind);
 
 /// Another radius; a capsule keeps its length from end to end, as far as that is above twice the radius.

@@ -20,6 +20,8 @@ bool same(const physics::PrimitiveShape& a, const physics::PrimitiveShape& b) {
             return a.halfExtents == b.halfExtents;
         case physics::PrimitiveShape::Kind::sphere:
             return a.radius == b.radius;
+        case physics::PrimitiveShape::Kind::hull:
+            return physics::sameHull(a.hull, b.hull);
         case physics::PrimitiveShape::Kind::capsule:
             break;
     }

@@ -450,6 +450,8 @@ class ScaleHandler final : public TransformHandler {
         for (int axis = 0; axis < 3; ++axis) {
             if (scales(axis)) shape.halfExtents[axis] *= factor_;
         }
+        if (shape.kind != physics::PrimitiveShape::Kind::hull) return;
+        physics::scaleHull(shape, {scales(0) ? factor_ : 1.0F, scales(1) ? factor_ : 1.0F, scales(2) ? factor_ : 1.0F});
     }
 
     // A shape by its measures, a light by how strong it is, a camera by how far it sees.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "scene/draw_hull.hpp"
+
 namespace lutka::editor {
 namespace {
 
@@ -102,6 +104,8 @@ void drawPrimitive(const physics::PrimitiveShape& shape, const RigidTransform& w
         render::addCapsule(lines, worldFromShape, shape.radius, shape.halfLength, color);
     } else if (shape.kind == physics::PrimitiveShape::Kind::sphere) {
         render::addSphere(lines, worldFromShape.translation, shape.radius, color);
+    } else if (shape.kind == physics::PrimitiveShape::Kind::hull) {
+        scene::addHull(lines, worldFromShape, *shape.hull, color);
     } else {
         render::addBox(lines, worldFromShape, shape.halfExtents, color);
     }

@@ -127,6 +127,7 @@ void addShapeHandles(const HandleScene& scene, const render::Camera& camera, std
         handles.push_back({HandleKind::boxZ, world * (kZ * shape.halfExtents.z)});
         return;
     }
+    if (shape.kind == BodyShape::Kind::hull) return;  // it has no measures: it is scaled as a whole
     handles.push_back({HandleKind::radius, world.translation + outward(scene, camera) * shape.radius});
     if (shape.kind == BodyShape::Kind::sphere) return;
     const vec3 end = kY * (shape.halfLength + shape.radius);

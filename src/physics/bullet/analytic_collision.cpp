@@ -209,21 +209,24 @@ bool AnalyticCollisionFactory::handles(const btCollisionObject& a, const btColli
     using Kind = ShapeKind;
     const Kind first = geometries_.of(a).kind;
     const Kind second = geometries_.of(b).kind;
-    if (first == second) return first == Kind::capsule;
+    const auto isAngular = [](Kind kind) { return kind == Kind::box || kind == Kind::hull; };
+    if (first == second || (isAngular(first) && isAngular(second))) return first == Kind::capsule;
     return first == Kind::capsule || second == Kind::capsule || (first != Kind::mesh && second != Kind::mesh);
 }
 
 void AnalyticCollisionFactory::registerWith(btCollisionDispatcher& dispatcher) {
-    // Boxes on meshes are left to Bullet, which sees edges against edges.
+    // Boxes and hulls on meshes are left to Bullet, which sees edges against edges; so are they on each other.
     for (const int round : {CAPSULE_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE}) {
         dispatcher.registerCollisionCreateFunc(round, TRIANGLE_MESH_SHAPE_PROXYTYPE, this);
         dispatcher.registerCollisionCreateFunc(TRIANGLE_MESH_SHAPE_PROXYTYPE, round, this);
     }
-    const std::array<int, 4> types{CAPSULE_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE,
-                                   STATIC_PLANE_PROXYTYPE};
+    const std::array<int, 5> types{CAPSULE_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE,
+                                   CONVEX_HULL_SHAPE_PROXYTYPE, STATIC_PLANE_PROXYTYPE};
+    const auto isAngular = [](int type) { return type == BOX_SHAPE_PROXYTYPE || type == CONVEX_HULL_SHAPE_PROXYTYPE; };
     for (const int a : types) {
         for (const int b : types) {
-            if (a == b && (a == BOX_SHAPE_PROXYTYPE || a == STATIC_PLANE_PROXYTYPE)) continue;
+            if (isAngular(a) && isAngular(b)) continue;
+            if (a == b && a == STATIC_PLANE_PROXYTYPE) continue;
             dispatcher.registerCollisionCreateFunc(a, b, this);
         }
     }

@@ -33,6 +33,12 @@ bool describeShape(const btCollisionShape& shape, CollisionGeometry& geometry, f
             geometry.halfExtents = fromBullet(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin());
             reach = glm::length(geometry.halfExtents);
             return true;
+        case CONVEX_HULL_SHAPE_PROXYTYPE:
+            geometry.kind = ShapeKind::hull;
+            geometry.hull = static_cast<const ConvexHull*>(shape.getUserPointer());
+            if (geometry.hull == nullptr) return false;
+            reach = geometry.hull->reach();
+            return true;
         case STATIC_PLANE_PROXYTYPE:
             geometry.kind = ShapeKind::plane;
             return true;

@@ -32,7 +32,7 @@ class GeometryCache {
     /// How much farther than usual contacts of the object must be foreseen, metres: 0 but for what is fast enough to
     /// pass through the usual margin within the substep.
     [[nodiscard]] float aheadOf(const btCollisionObject& object) const { return aheads_[object.getWorldArrayIndex()]; }
-    /// Whether the object is a capsule, sphere, box, plane or mesh, as findContacts() knows them.
+    /// Whether the object is a capsule, sphere, box, hull, plane or mesh, as findContacts() knows them.
     [[nodiscard]] bool knows(const btCollisionObject& object) const { return known_[object.getWorldArrayIndex()] != 0; }
 
   private:

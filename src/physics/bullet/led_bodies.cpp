@@ -29,8 +29,8 @@ LedBodies::LedBodies(std::vector<btRigidBody*> bodies, const RagdollProfile& pro
     for (const BodyProfile& body : profile.bodies) {
         heavyKg_ += kHeavy * body.massKg;
         const BodyShape& shape = body.shape;
-        const float half =
-            shape.kind == BodyShape::Kind::box ? glm::length(shape.halfExtents) : shape.radius + shape.halfLength;
+        const float half = shape.isAngular() ? boundingRadius(static_cast<const PrimitiveShape&>(shape))
+                                             : shape.radius + shape.halfLength;
         reach_ = std::max({reach_, half, shape.more.empty() ? 0.0F : boundingRadius(shape)});
     }
 }

@@ -1,5 +1,7 @@
 #include "physics/bullet/ragdoll.hpp"
 
+#include <LinearMath/btConvexHullComputer.h>
+
 #include <algorithm>
 #include <glm/common.hpp>
 #include <limits>
@@ -12,12 +14,36 @@ namespace lutka::physics {
 
 namespace {
 
+// Bullet rounds a hull by its margin, out of the points that it is given: so it gets a smaller hull. Its user pointer
+// is to the whole one.
+class HullShape final : public btConvexHullShape {
+  public:
+    explicit HullShape(ConvexHullPtr hull) : hull_(std::move(hull)) {
+        constexpr float kMargin = 0.004F;  // metres
+        constexpr float kMostOfInside = 0.25F;
+        const std::span<const vec3> points = hull_->points();
+        btConvexHullComputer shrunk;
+        const float margin =
+            shrunk.compute(&points[0].x, sizeof(vec3), static_cast<int>(points.size()), kMargin, kMostOfInside);
+        for (int i = 0; i < shrunk.vertices.size(); ++i)
+            addPoint(shrunk.vertices[i], false);
+        setMargin(std::max(margin, 0.0F));
+        recalcLocalAabb();
+        setUserPointer(const_cast<ConvexHull*>(hull_.get()));  // Bullet knows no pointer to what is constant
+    }
+
+  private:
+    ConvexHullPtr hull_;
+};
+
 std::unique_ptr<btCollisionShape> makePrimitive(const PrimitiveShape& shape) {
     switch (shape.kind) {
         case PrimitiveShape::Kind::capsule:
             return std::make_unique<btCapsuleShape>(shape.radius, 2.0F * shape.halfLength);
         case PrimitiveShape::Kind::box:
             return std::make_unique<btBoxShape>(toBullet(shape.halfExtents));
+        case PrimitiveShape::Kind::hull:
+            return std::make_unique<HullShape>(shape.hull);
         case PrimitiveShape::Kind::sphere:
             break;
     }

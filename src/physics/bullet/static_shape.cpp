@@ -49,6 +49,8 @@ BodyInWorld makeStaticShape(const StaticShape& shape) {
         case StaticShape::Kind::capsule:
             made.shape = std::make_unique<btCapsuleShape>(shape.radius, 2.0F * shape.halfLength);
             break;
+        case StaticShape::Kind::hull:  // World refuses it
+            break;
         case StaticShape::Kind::mesh:
             made.shape = std::make_unique<MeshShape>(shape.mesh);
             break;

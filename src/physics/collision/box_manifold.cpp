@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "physics/collision/clip_polygon.hpp"
 #include "physics/collision/shape_distance.hpp"
 
 namespace lutka::physics {
@@ -14,30 +15,8 @@ vec3 inBox(const BoxPlace& box, const vec3& point) {
     return (point - box.position) * box.axes;
 }
 
-// The corners of a polygon that is cut by planes; a quad cut by four has at most eight.
-struct Polygon {
-    std::array<vec3, 8> points;
-    int count = 0;
-
-    void add(const vec3& point) {
-        if (count < static_cast<int>(points.size())) points[count++] = point;
-    }
-};
-
-// What lies where sign * p[axis] <= most (Sutherland and Hodgman 1974).
-Polygon clipped(const Polygon& polygon, int axis, float sign, float most) {
-    Polygon out;
-    for (int i = 0; i < polygon.count; ++i) {
-        const vec3& from = polygon.points[i];
-        const vec3& to = polygon.points[(i + 1) % polygon.count];
-        const float first = sign * from[axis] - most;
-        const float second = sign * to[axis] - most;
-        if (first <= 0.0F) out.add(from);
-        if ((first < 0.0F && second > 0.0F) || (first > 0.0F && second < 0.0F))
-            out.add(from + first / (first - second) * (to - from));
-    }
-    return out;
-}
+// A quad cut by four planes.
+using Polygon = ClippedPolygon<8>;
 
 // The face of `box` that looks most against `normal` (of the world), in the axes of `reference`.
 Polygon faceAgainst(const BoxPlace& box, const vec3& normal, const BoxPlace& reference, int& face) {
@@ -68,8 +47,10 @@ void clipOnFace(const BoxPlace& reference, int axis, const vec3& outward, const 
     int otherFace = 0;
     Polygon polygon = faceAgainst(other, outward, reference, otherFace);
     for (const int side : {(axis + 1) % 3, (axis + 2) % 3}) {
-        polygon = clipped(polygon, side, 1.0F, reference.halfExtents[side]);
-        polygon = clipped(polygon, side, -1.0F, reference.halfExtents[side]);
+        vec3 across(0);
+        across[side] = 1.0F;
+        polygon = clipped(polygon, across, reference.halfExtents[side]);
+        polygon = clipped(polygon, -across, reference.halfExtents[side]);
     }
     const float sign = glm::dot(outward, reference.axes[axis]) > 0.0F ? 1.0F : -1.0F;
     for (int i = 0; i < polygon.count; ++i) {

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "physics/collision/hull_distance.hpp"
 #include "physics/collision/mesh_contacts.hpp"
 
 namespace lutka::physics {
@@ -25,33 +26,59 @@ void roundOnPlane(const CollisionGeometry& round, const CollisionGeometry& plane
     }
 }
 
-void boxOnPlane(const CollisionGeometry& box, const CollisionGeometry& plane, float margin, ContactList& out) {
-    const vec3 normal = plane.worldFromShape.rotation * vec3(0, 1, 0);
-    std::array<SurfaceContact, 8> corners;
-    for (int corner = 0; corner < 8; ++corner) {
-        const vec3 point = box.worldFromShape * boxCorner(box.halfExtents, corner);
-        const float height = glm::dot(point - plane.worldFromShape.translation, normal);
-        corners[corner] = {corner, point - height * normal, normal, height};
+// The corners of a box or hull, and what lies on which side of it.
+class Corners {
+  public:
+    explicit Corners(const CollisionGeometry& solid) : solid_(solid) {}
+
+    [[nodiscard]] int count() const {
+        return solid_.kind == ShapeKind::hull ? static_cast<int>(solid_.hull->points().size()) : 8;
     }
-    constexpr int kCorners = 4;  // of a face
-    std::partial_sort(corners.begin(), corners.begin() + kCorners, corners.end(),
+    // In its own frame.
+    [[nodiscard]] vec3 operator[](int index) const {
+        return solid_.kind == ShapeKind::hull ? solid_.hull->points()[index] : boxCorner(solid_.halfExtents, index);
+    }
+    [[nodiscard]] SurfaceDistance distanceTo(const vec3& point) const {
+        return solid_.kind == ShapeKind::hull ? distanceToHull(point, *solid_.hull)
+                                              : distanceToBox(point, solid_.halfExtents);
+    }
+    [[nodiscard]] float reach() const {
+        return solid_.kind == ShapeKind::hull ? solid_.hull->reach() : glm::length(solid_.halfExtents);
+    }
+
+  private:
+    const CollisionGeometry& solid_;
+};
+
+void cornersOnPlane(const CollisionGeometry& solid, const CollisionGeometry& plane, float margin, ContactList& out) {
+    const vec3 normal = plane.worldFromShape.rotation * vec3(0, 1, 0);
+    const Corners corners(solid);
+    std::array<SurfaceContact, ConvexHull::kMostPoints> all;
+    for (int corner = 0; corner < corners.count(); ++corner) {
+        const vec3 point = solid.worldFromShape * corners[corner];
+        const float height = glm::dot(point - plane.worldFromShape.translation, normal);
+        all[corner] = {corner, point - height * normal, normal, height};
+    }
+    const int most = std::min(solid.kind == ShapeKind::box ? 4 : ContactList::kMax, corners.count());  // 4: of a face
+    std::partial_sort(all.begin(), all.begin() + most, all.begin() + corners.count(),
                       [](const SurfaceContact& p, const SurfaceContact& q) { return p.distance < q.distance; });
-    for (int i = 0; i < kCorners && corners[i].distance < margin; ++i)
-        out.add(corners[i]);
+    for (int i = 0; i < most && all[i].distance < margin; ++i)
+        out.add(all[i]);
 }
 
-void roundOnBox(const CollisionGeometry& round, const CollisionGeometry& box, float margin, ContactList& out) {
-    const RigidTransform boxFromWorld = inverse(box.worldFromShape);
+void roundOnSolid(const CollisionGeometry& round, const CollisionGeometry& solid, float margin, ContactList& out) {
+    const RigidTransform solidFromWorld = inverse(solid.worldFromShape);
     const Segment world = coreOf(round);
-    const Segment core{boxFromWorld * world.start, boxFromWorld * world.end};
+    const Segment core{solidFromWorld * world.start, solidFromWorld * world.end};
     // Most pairs that the broadphase reports don't touch.
     const float reach = round.radius + margin;
-    if (distanceToBox(core.at(0.5F), box.halfExtents).distance > reach + round.halfLength) return;
-    const BoxTouches touches = touchBox(core, box.halfExtents, reach);
+    if (Corners(solid).distanceTo(core.at(0.5F)).distance > reach + round.halfLength) return;
+    const CoreTouches touches =
+        solid.kind == ShapeKind::hull ? touchHull(core, *solid.hull, reach) : touchBox(core, solid.halfExtents, reach);
     for (int i = 0; i < touches.count; ++i) {
         const auto& [along, surface, part] = touches.points[i];
-        const vec3 onBox = core.at(along) - surface.distance * surface.normal;
-        out.add({part, box.worldFromShape * onBox, box.worldFromShape.rotation * surface.normal,
+        const vec3 onSolid = core.at(along) - surface.distance * surface.normal;
+        out.add({part, solid.worldFromShape * onSolid, solid.worldFromShape.rotation * surface.normal,
                  surface.distance - round.radius});
     }
 }
@@ -117,21 +144,22 @@ void roundOnMesh(const CollisionGeometry& round, const CollisionGeometry& mesh, 
     takeFromMesh(touches, mesh.worldFromShape, round.radius, out);
 }
 
-void boxOnMesh(const CollisionGeometry& box, const CollisionGeometry& mesh, float margin, ContactList& out) {
-    const RigidTransform meshFromBox = inverse(mesh.worldFromShape) * box.worldFromShape;
+void solidOnMesh(const CollisionGeometry& solid, const CollisionGeometry& mesh, float margin, ContactList& out) {
+    const RigidTransform meshFromSolid = inverse(mesh.worldFromShape) * solid.worldFromShape;
+    const Corners corners(solid);
     MeshContactList touches;
-    for (int corner = 0; corner < 8; ++corner)
-        touchMesh(*mesh.mesh, meshFromBox * boxCorner(box.halfExtents, corner), corner, margin, touches);
+    for (int corner = 0; corner < corners.count(); ++corner)
+        touchMesh(*mesh.mesh, meshFromSolid * corners[corner], corner, margin, touches);
     takeFromMesh(touches, mesh.worldFromShape, 0.0F, out);
-    // Peaks of the mesh in a face of the box.
-    const RigidTransform boxFromMesh = inverse(meshFromBox);
-    const vec3 reach(glm::length(box.halfExtents) + margin);
-    mesh.mesh->forEachIn(meshFromBox.translation - reach, meshFromBox.translation + reach, [&](int triangle) {
+    // Peaks of the mesh in a face of the solid.
+    const RigidTransform solidFromMesh = inverse(meshFromSolid);
+    const vec3 reach(corners.reach() + margin);
+    mesh.mesh->forEachIn(meshFromSolid.translation - reach, meshFromSolid.translation + reach, [&](int triangle) {
         for (const int vertex : mesh.mesh->triangles()[triangle]) {
             if (mesh.mesh->ownerOf(vertex) != triangle) continue;
             const vec3 peak = mesh.mesh->vertices()[vertex];
-            const SurfaceDistance surface = distanceToBox(boxFromMesh * peak, box.halfExtents);
-            const vec3 normal = meshFromBox.rotation * -surface.normal;  // from the mesh towards the box
+            const SurfaceDistance surface = corners.distanceTo(solidFromMesh * peak);
+            const vec3 normal = meshFromSolid.rotation * -surface.normal;  // from the mesh towards the solid
             if (surface.distance >= margin || !mesh.mesh->vertexSupports(vertex, normal)) continue;
             constexpr int kFirstPeak = 1 << 19;  // beyond touchMesh()'s numbers
             out.add({kFirstPeak + vertex, mesh.worldFromShape * peak, mesh.worldFromShape.rotation * normal,
@@ -152,26 +180,29 @@ void flip(ContactList& list) {
 
 ContactList findContacts(const CollisionGeometry& a, const CollisionGeometry& b, float margin) {
     ContactList out;
-    // Capsule before box before plane before mesh; the other order is the same pair seen from the other side.
+    // Capsule before box and hull before plane before mesh; the other order is the same pair seen from the other side.
     using Kind = ShapeKind;
-    static_assert(Kind::capsule < Kind::box && Kind::box < Kind::plane && Kind::plane < Kind::mesh);
+    static_assert(Kind::capsule < Kind::box && Kind::box < Kind::hull && Kind::hull < Kind::plane &&
+                  Kind::plane < Kind::mesh);
     if (a.kind > b.kind) {
         out = findContacts(b, a, margin);
         flip(out);
         return out;
     }
+    const bool solidA = a.kind == Kind::box || a.kind == Kind::hull;
+    const bool solidB = b.kind == Kind::box || b.kind == Kind::hull;
     if (a.kind == Kind::capsule && b.kind == Kind::capsule)
         roundOnRound(a, b, margin, out);
-    else if (a.kind == Kind::capsule && b.kind == Kind::box)
-        roundOnBox(a, b, margin, out);
+    else if (a.kind == Kind::capsule && solidB)
+        roundOnSolid(a, b, margin, out);
     else if (a.kind == Kind::capsule && b.kind == Kind::plane)
         roundOnPlane(a, b, margin, out);
     else if (a.kind == Kind::capsule)
         roundOnMesh(a, b, margin, out);
-    else if (a.kind == Kind::box && b.kind == Kind::plane)
-        boxOnPlane(a, b, margin, out);
-    else if (a.kind == Kind::box && b.kind == Kind::mesh)
-        boxOnMesh(a, b, margin, out);
+    else if (solidA && b.kind == Kind::plane)
+        cornersOnPlane(a, b, margin, out);
+    else if (solidA && b.kind == Kind::mesh)
+        solidOnMesh(a, b, margin, out);
     return out;
 }
 
@@ -181,6 +212,11 @@ CollisionGeometry geometryOf(const PrimitiveShape& shape, const RigidTransform& 
     if (shape.kind == PrimitiveShape::Kind::box) {
         geometry.kind = ShapeKind::box;
         geometry.halfExtents = shape.halfExtents;
+        return geometry;
+    }
+    if (shape.kind == PrimitiveShape::Kind::hull) {
+        geometry.kind = ShapeKind::hull;
+        geometry.hull = shape.hull.get();
         return geometry;
     }
     geometry.radius = shape.radius;

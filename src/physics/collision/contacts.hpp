@@ -9,8 +9,8 @@
 
 namespace lutka::physics {
 
-/// What collides: a capsule (a segment along y with a radius; a sphere is one of no length), a box, a half-space below
-/// y = 0, or a triangle mesh.
+/// What collides: a capsule (a segment along y with a radius; a sphere is one of no length), a box, a convex hull, a
+/// half-space below y = 0, or a triangle mesh.
 struct CollisionGeometry {
     ShapeKind kind = ShapeKind::capsule;  ///< Never `sphere`.
     float radius = 0.0F;                  ///< Metres; capsule.
@@ -18,6 +18,7 @@ struct CollisionGeometry {
     vec3 halfExtents{0, 0, 0};            ///< Metres; box.
     RigidTransform worldFromShape;
     const TriangleMesh* mesh = nullptr;  ///< Not null for a mesh.
+    const ConvexHull* hull = nullptr;    ///< Not null for a hull.
 };
 
 [[nodiscard]] CollisionGeometry geometryOf(const PrimitiveShape& shape, const RigidTransform& worldFromShape);
@@ -43,8 +44,9 @@ struct ContactList {
 };
 
 /// The contacts of A with B that are nearer than `margin` metres, in closed form: a lying capsule has one at each end,
-/// a box on a plane one at each corner (the four lowest), a round shape on a mesh as touchMesh() says, a box on a mesh
-/// at its own corners and at the mesh's vertices. Two boxes, planes or meshes are not handled: no contacts.
+/// a box or hull on a plane one at each corner (of a box the four lowest, of a hull the eight), a round shape on a mesh
+/// as touchMesh() says, a box or hull on a mesh at its own corners and at the mesh's vertices. Two of boxes and hulls,
+/// two planes or meshes are not handled: no contacts.
 [[nodiscard]] ContactList findContacts(const CollisionGeometry& a, const CollisionGeometry& b, float margin);
 
 }  // namespace lutka::physics

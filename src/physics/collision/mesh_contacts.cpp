@@ -8,8 +8,8 @@
 namespace lutka::physics {
 namespace {
 
-constexpr int kParts = 16;
-constexpr int kBetween = 15;  // the part of a capsule between its ends
+constexpr int kParts = 64;
+constexpr int kBetween = 63;  // the part of a capsule between its ends
 
 // A part and a direction in steps of an eighth: what a contact is known by from step to step.
 int featureOf(int part, const vec3& normal) {

@@ -24,7 +24,7 @@ struct MeshContactList {
     void add(const MeshContact& contact);
 };
 
-/// Contacts of one point of a core, number `part` in [0, 16), nearer to the surface than `reach` metres: where the
+/// Contacts of one point of a core, number `part` in [0, 63), nearer to the surface than `reach` metres: where the
 /// distance to the surface has a minimum of its own, so that neighbouring triangles of a plane give one contact with
 /// the plane's normal and nothing bumps into the edge between them, while the two sides of a valley give one each. A
 /// point behind the surface, up to kDeepest, has one contact that leads out the shortest way.

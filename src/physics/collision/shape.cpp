@@ -6,7 +6,9 @@
 #include <limits>
 
 #include "physics/collision/box_manifold.hpp"
+#include "physics/collision/hull_distance.hpp"
 #include "physics/collision/shape_distance.hpp"
+#include "physics/collision/solid_manifold.hpp"
 
 namespace lutka::physics {
 namespace {
@@ -21,11 +23,17 @@ Segment segmentOf(const PrimitiveShape& shape, const RigidTransform& worldFromBo
     return {worldFromBody * vec3(0, -half, 0), worldFromBody * vec3(0, half, 0)};
 }
 
-float distanceToPlacedBox(const PrimitiveShape& round, const RigidTransform& worldFromRound, const PrimitiveShape& box,
-                          const RigidTransform& worldFromBox) {
-    const Segment segment = segmentOf(round, inverse(worldFromBox) * worldFromRound);
-    const vec3 deepest = segment.at(deepestOnSegment(segment, box.halfExtents));
-    return distanceToBox(deepest, box.halfExtents).distance - round.radius;
+SolidPlace solidOf(const PrimitiveShape& shape, const RigidTransform& worldFromShape) {
+    return {shape.hull.get(), shape.halfExtents, worldFromShape.translation, glm::mat3_cast(worldFromShape.rotation)};
+}
+
+// Of a capsule or sphere from a box or hull.
+float distanceToSolid(const PrimitiveShape& round, const RigidTransform& worldFromRound, const PrimitiveShape& solid,
+                      const RigidTransform& worldFromSolid) {
+    const Segment segment = segmentOf(round, inverse(worldFromSolid) * worldFromRound);
+    const float along = solid.kind == PrimitiveShape::Kind::hull ? deepestOnSegment(segment, *solid.hull)
+                                                                 : deepestOnSegment(segment, solid.halfExtents);
+    return signedDistance(solid, segment.at(along)) - round.radius;
 }
 
 // The union of a body's shapes as the middles of a grid's cells that lie in it.
@@ -40,9 +48,7 @@ class UnionGrid {
         high_ = {supportExtent(shape, {1, 0, 0}), supportExtent(shape, {0, 1, 0}), supportExtent(shape, {0, 0, 1})};
         float thinnest = std::numeric_limits<float>::max();
         visitShapes(shape, [&](const PrimitiveShape& one, const RigidTransform&) {
-            const vec3& half = one.halfExtents;
-            thinnest = std::min(
-                thinnest, one.kind == PrimitiveShape::Kind::box ? std::min({half.x, half.y, half.z}) : one.radius);
+            thinnest = std::min(thinnest, thicknessOf(one));
         });
         const vec3 size = high_ - low_;
         cell_ = size / glm::clamp(glm::ceil(size * (0.5F * kCellsAcross / thinnest)), kFewest, kMost);
@@ -79,6 +85,8 @@ float shapeVolume(const PrimitiveShape& shape) {
             return sphere;
         case PrimitiveShape::Kind::capsule:
             return sphere + kPi * r * r * 2.0F * shape.halfLength;
+        case PrimitiveShape::Kind::hull:
+            return shape.hull->volume();
         case PrimitiveShape::Kind::box:
             break;
     }
@@ -111,6 +119,10 @@ vec3 shapeInertia(const PrimitiveShape& shape, float massKg) {
                 cylinder * (0.25F * r * r + h * h / 3.0F) + caps * (0.4F * r * r + h * h + 0.75F * h * r);
             return {across, axial, across};
         }
+        case PrimitiveShape::Kind::hull: {
+            const mat3& square = shape.hull->meanSquare();
+            return massKg * vec3(square[1][1] + square[2][2], square[0][0] + square[2][2], square[0][0] + square[1][1]);
+        }
         case PrimitiveShape::Kind::box:
             break;
     }
@@ -134,6 +146,7 @@ vec3 shapeInertia(const BodyShape& shape, float massKg) {
 
 float signedDistance(const PrimitiveShape& shape, const vec3& bodyPoint) {
     if (shape.kind == PrimitiveShape::Kind::box) return distanceToBox(bodyPoint, shape.halfExtents).distance;
+    if (shape.kind == PrimitiveShape::Kind::hull) return distanceToHull(bodyPoint, *shape.hull).distance;
     const float half = shape.kind == PrimitiveShape::Kind::capsule ? shape.halfLength : 0.0F;
     const vec3 onAxis(0, std::clamp(bodyPoint.y, -half, half), 0);
     return glm::distance(bodyPoint, onAxis) - shape.radius;
@@ -151,10 +164,11 @@ float distanceBetween(const PrimitiveShape& a, const RigidTransform& worldFromA,
                       const RigidTransform& worldFromB) {
     const bool boxA = a.kind == PrimitiveShape::Kind::box;
     const bool boxB = b.kind == PrimitiveShape::Kind::box;
-    // Of boxes that are apart a lower bound of the gap.
+    // Of boxes and hulls that are apart a lower bound of the gap.
     if (boxA && boxB) return leastOverlap(placeOf(a, worldFromA), placeOf(b, worldFromB)).distance;
-    if (boxA) return distanceToPlacedBox(b, worldFromB, a, worldFromA);
-    if (boxB) return distanceToPlacedBox(a, worldFromA, b, worldFromB);
+    if (a.isAngular() && b.isAngular()) return distanceBetweenSolids(solidOf(a, worldFromA), solidOf(b, worldFromB));
+    if (a.isAngular()) return distanceToSolid(b, worldFromB, a, worldFromA);
+    if (b.isAngular()) return distanceToSolid(a, worldFromA, b, worldFromB);
     const Segment segmentA = segmentOf(a, worldFromA);
     const Segment segmentB = segmentOf(b, worldFromB);
     const SegmentPair closest = closestBetweenSegments(segmentA, segmentB);
@@ -177,6 +191,12 @@ float distanceBetween(const BodyShape& a, const RigidTransform& worldFromA, cons
 
 float supportExtent(const PrimitiveShape& shape, const vec3& bodyDirection) {
     if (shape.kind == PrimitiveShape::Kind::box) return glm::dot(glm::abs(bodyDirection), shape.halfExtents);
+    if (shape.kind == PrimitiveShape::Kind::hull) {
+        float most = 0.0F;  // the origin is inside
+        for (const vec3& point : shape.hull->points())
+            most = std::max(most, glm::dot(bodyDirection, point));
+        return most;
+    }
     const float half = shape.kind == PrimitiveShape::Kind::capsule ? shape.halfLength : 0.0F;
     return shape.radius + half * std::abs(bodyDirection.y);
 }
@@ -193,11 +213,85 @@ float supportExtent(const BodyShape& shape, const vec3& bodyDirection) {
 
 float halfWidth(const BodyShape& shape, const vec3& bodyDirection) {
     const float ahead = supportExtent(shape, bodyDirection);
-    return shape.more.empty() ? ahead : std::max(ahead, supportExtent(shape, -bodyDirection));
+    const bool even = shape.more.empty() && shape.kind != PrimitiveShape::Kind::hull;
+    return even ? ahead : std::max(ahead, supportExtent(shape, -bodyDirection));
+}
+
+float thicknessOf(const PrimitiveShape& shape) {
+    const vec3& half = shape.halfExtents;
+    if (shape.kind == PrimitiveShape::Kind::box) return std::min({half.x, half.y, half.z});
+    return shape.kind == PrimitiveShape::Kind::hull ? 0.5F * shape.hull->thickness() : shape.radius;
+}
+
+vec3 halfBox(const PrimitiveShape& shape) {
+    switch (shape.kind) {
+        case PrimitiveShape::Kind::box:
+            return shape.halfExtents;
+        case PrimitiveShape::Kind::hull:
+            return shape.hull->halfBounds();
+        case PrimitiveShape::Kind::capsule:
+            return {shape.radius, shape.radius + shape.halfLength, shape.radius};
+        case PrimitiveShape::Kind::sphere:
+            break;
+    }
+    return vec3(shape.radius);
+}
+
+ConvexHullPtr hullWithin(const PrimitiveShape& shape) {
+    if (shape.kind == PrimitiveShape::Kind::hull) return shape.hull;
+    std::vector<vec3> points;
+    if (shape.kind == PrimitiveShape::Kind::box) {
+        for (int corner = 0; corner < 8; ++corner)
+            points.push_back(boxCorner(shape.halfExtents, corner));
+        return makeConvexHull(points);
+    }
+    // Of each cap its pole, a ring half way and one near its rim.
+    const float half = shape.kind == PrimitiveShape::Kind::capsule ? shape.halfLength : 0.0F;
+    constexpr int kRing = 7;
+    for (const float side : {1.0F, -1.0F}) {
+        points.emplace_back(0, side * (half + shape.radius), 0);
+        for (const float up : {0.05F * kPi, 0.25F * kPi}) {
+            for (int i = 0; i < kRing; ++i) {
+                const float turn = 2.0F * kPi * static_cast<float>(i) / kRing;
+                points.push_back(shape.radius * vec3(std::cos(up) * std::cos(turn), side * std::sin(up),
+                                                     std::cos(up) * std::sin(turn)) +
+                                 vec3(0, side * half, 0));
+            }
+        }
+    }
+    return makeConvexHull(points);
+}
+
+vec3 halfBoxOfMoments(const ConvexHull& hull) {
+    const mat3& square = hull.meanSquare();
+    return glm::sqrt(3.0F * vec3(square[0][0], square[1][1], square[2][2]));
+}
+
+StandIn standInFor(const ConvexHull& hull) {
+    constexpr float kRounder = 1.06F;  // of the box's volume: an ellipsoid has 1.13 of that of the box of its moments
+    const mat3& square = hull.meanSquare();
+    StandIn standIn;
+    PrimitiveShape& shape = standIn.shape;
+    shape.kind = PrimitiveShape::Kind::box;
+    shape.halfExtents = halfBoxOfMoments(hull);
+    const vec3 half = shape.halfExtents;
+    if (hull.volume() < kRounder * 8.0F * half.x * half.y * half.z) return standIn;
+    const int longest = half.x > std::max(half.y, half.z) ? 0 : half.y >= half.z ? 1 : 2;
+    shape.kind = PrimitiveShape::Kind::capsule;
+    // A disc's mean square across is a quarter of its radius', an interval's a third of its half length's.
+    shape.radius = std::sqrt(2.0F * (square[0][0] + square[1][1] + square[2][2] - square[longest][longest]));
+    const float end = 0.5F * (hull.high()[longest] - hull.low()[longest]);
+    shape.halfLength = std::max(end - shape.radius, 0.0F);
+    vec3 along(0);
+    along[longest] = 1.0F;
+    standIn.hullFromShape.rotation = rotationBetween({0, 1, 0}, along);
+    standIn.hullFromShape.translation[longest] = 0.5F * (hull.high()[longest] + hull.low()[longest]);
+    return standIn;
 }
 
 float boundingRadius(const PrimitiveShape& shape) {
     if (shape.kind == PrimitiveShape::Kind::box) return glm::length(shape.halfExtents);
+    if (shape.kind == PrimitiveShape::Kind::hull) return shape.hull->reach();
     return shape.radius + (shape.kind == PrimitiveShape::Kind::capsule ? shape.halfLength : 0.0F);
 }
 

@@ -5,7 +5,22 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "physics/collision/surface_touch.hpp"
+
 namespace lutka::physics {
+namespace {
+
+struct BoxSurface {
+    const vec3& halfExtents;
+
+    [[nodiscard]] SurfaceDistance at(const vec3& point) const { return distanceToBox(point, halfExtents); }
+    // Both are of one and the same face.
+    [[nodiscard]] static bool isFlatBetween(const vec3& a, const vec3& b) {
+        return glm::dot(a, b) > 0.9999F && std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}) > 0.9999F;
+    }
+};
+
+}  // namespace
 
 SegmentPair closestBetweenSegments(const Segment& a, const Segment& b) {
     constexpr float kTiny = 1e-10F;
@@ -49,28 +64,7 @@ SurfaceDistance distanceToBox(const vec3& point, const vec3& halfExtents) {
 }
 
 float deepestOnSegment(const Segment& segment, const vec3& halfExtents, int halvings) {
-    const vec3 along = segment.end - segment.start;
-    const auto slopeAt = [&](float t) { return glm::dot(distanceToBox(segment.at(t), halfExtents).normal, along); };
-    float slopeLow = slopeAt(0.0F);
-    if (slopeLow > 0.0F) return 0.0F;
-    float slopeHigh = slopeAt(1.0F);
-    if (slopeHigh <= 0.0F) return 1.0F;
-    float low = 0.0F;
-    float high = 1.0F;
-    for (int halving = 0; halving < halvings; ++halving) {
-        const float middle = 0.5F * (low + high);
-        const float slope = slopeAt(middle);
-        if (slope > 0.0F) {
-            high = middle;
-            slopeHigh = slope;
-        } else {
-            low = middle;
-            slopeLow = slope;
-        }
-    }
-    // Where the slope is nearly straight, as beside an edge, its zero; where it jumps, inside the box, the jump is
-    // here.
-    return low + (high - low) * (-slopeLow / (slopeHigh - slopeLow));
+    return deepestOn(BoxSurface{halfExtents}, segment, halvings);
 }
 
 vec3 boxCorner(const vec3& halfExtents, int index) {
@@ -78,38 +72,8 @@ vec3 boxCorner(const vec3& halfExtents, int index) {
            vec3((index & 1) != 0 ? 1.0F : -1.0F, (index & 2) != 0 ? 1.0F : -1.0F, (index & 4) != 0 ? 1.0F : -1.0F);
 }
 
-namespace {
-
-// Whether some point of a segment can be nearer than `reach`, from the distances of its ends: along it the distance
-// changes by no more than the way.
-bool mayComeNear(float first, float last, const Segment& segment, float reach) {
-    return 0.5F * (first + last - glm::length(segment.end - segment.start)) < reach;
-}
-
-// Whether two normals are those of one and the same face, so that nothing between the points can be nearer.
-bool sameFace(const vec3& a, const vec3& b) {
-    return glm::dot(a, b) > 0.9999F && std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}) > 0.9999F;
-}
-
-}  // namespace
-
-BoxTouches touchBox(const Segment& core, const vec3& halfExtents, float reach) {
-    BoxTouches touches;
-    const auto add = [&](float along, const SurfaceDistance& surface, int part) {
-        if (surface.distance < reach) touches.points[touches.count++] = {along, surface, part};
-    };
-    const SurfaceDistance first = distanceToBox(core.start, halfExtents);
-    add(0.0F, first, 0);
-    if (core.start == core.end) return touches;
-    const SurfaceDistance last = distanceToBox(core.end, halfExtents);
-    add(1.0F, last, 1);
-    if (sameFace(first.normal, last.normal) || !mayComeNear(first.distance, last.distance, core, reach)) return touches;
-    constexpr int kHalvings = 7;
-    const float deepest = deepestOnSegment(core, halfExtents, kHalvings);
-    const float nearAnEnd = kSamePlace / glm::length(core.end - core.start);
-    if (deepest > nearAnEnd && deepest < 1.0F - nearAnEnd)
-        add(deepest, distanceToBox(core.at(deepest), halfExtents), 2);
-    return touches;
+CoreTouches touchBox(const Segment& core, const vec3& halfExtents, float reach) {
+    return touchSurface(BoxSurface{halfExtents}, core, reach);
 }
 
 Segment boxEdge(const vec3& halfExtents, int index) {

@@ -36,8 +36,8 @@ struct SurfaceDistance {
 /// One of a box's eight corners in its own frame: bit 0 of `index` tells the side along x, 1 along y, 2 along z.
 [[nodiscard]] vec3 boxCorner(const vec3& halfExtents, int index);
 
-/// A point of a core near a box.
-struct BoxTouch {
+/// A point of a core near a box or convex hull.
+struct CoreTouch {
     float along = 0.0F;  ///< Fraction of the core.
     SurfaceDistance surface;
     int part = 0;  ///< 0: the core's start, 1: its end, 2: in between.
@@ -45,11 +45,11 @@ struct BoxTouch {
 /// Either end of the core (in the box's frame) that is nearer to the box than `reach` metres, and the point in between
 /// that is nearest of all where an edge or corner of the box presses there: not where both ends are over the same face.
 /// A core of no length has its start alone.
-struct BoxTouches {
-    std::array<BoxTouch, 3> points;
+struct CoreTouches {
+    std::array<CoreTouch, 3> points;
     int count = 0;
 };
-[[nodiscard]] BoxTouches touchBox(const Segment& core, const vec3& halfExtents, float reach);
+[[nodiscard]] CoreTouches touchBox(const Segment& core, const vec3& halfExtents, float reach);
 
 /// One of a box's twelve edges in its own frame: `index` % 4 tells the corner of its face, `index` / 4 its axis.
 [[nodiscard]] Segment boxEdge(const vec3& halfExtents, int index);
@@ -57,7 +57,7 @@ struct BoxTouches {
 /// Where the edge of another box (in this box's frame) is nearer to the box than `reach` metres: the two ends of what
 /// lies over the face that is nearest, or the one nearest point where that is an edge or a corner.
 struct EdgeTouches {
-    std::array<BoxTouch, 2> points;  ///< `part`: 0 and 1 the ends, 2 the one point.
+    std::array<CoreTouch, 2> points;  ///< `part`: 0 and 1 the ends, 2 the one point.
     int count = 0;
 };
 [[nodiscard]] EdgeTouches touchEdge(const Segment& edge, const vec3& halfExtents, float reach);

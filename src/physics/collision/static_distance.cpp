@@ -56,22 +56,24 @@ float leastAlong(const TriangleMesh& mesh, const Segment& segment, float range) 
     return least;
 }
 
-// Round shapes exactly; boxes by their corners and the mesh's vertices.
+// Round shapes exactly; boxes and hulls by their corners and the mesh's vertices.
 float distanceToMesh(const PrimitiveShape& shape, const RigidTransform& meshFromBody, const TriangleMesh& mesh) {
     const float reach = boundingRadius(shape);
     const float range = 2.0F * reach + kNearMesh;
     const vec3 gap =
         glm::max(glm::max(mesh.low() - meshFromBody.translation, meshFromBody.translation - mesh.high()), vec3(0));
     if (glm::length(gap) > range) return glm::length(gap) - reach;
-    if (shape.kind != PrimitiveShape::Kind::box) {
+    if (!shape.isAngular()) {
         const float half = shape.kind == PrimitiveShape::Kind::capsule ? shape.halfLength : 0.0F;
         const Segment core{meshFromBody * vec3(0, -half, 0), meshFromBody * vec3(0, half, 0)};
         return leastAlong(mesh, core, range) - shape.radius;
     }
     float least = range;
-    for (int corner = 0; corner < 8; ++corner) {
-        const vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
-        const MeshDistance distance = mesh.distanceTo(meshFromBody * (sign * shape.halfExtents), range);
+    const bool isHull = shape.kind == PrimitiveShape::Kind::hull;
+    const int corners = isHull ? static_cast<int>(shape.hull->points().size()) : 8;
+    for (int corner = 0; corner < corners; ++corner) {
+        const vec3 point = isHull ? shape.hull->points()[corner] : boxCorner(shape.halfExtents, corner);
+        const MeshDistance distance = mesh.distanceTo(meshFromBody * point, range);
         if (distance.found) least = std::min(least, distance.distance);
     }
     const RigidTransform bodyFromMesh = inverse(meshFromBody);
@@ -107,7 +109,7 @@ float distanceToStatic(const PrimitiveShape& shape, const RigidTransform& worldF
         return distanceBetween(shape, worldFromBody, solidOf(geometry), geometry.worldFromShape);
     const vec3 normal = geometry.worldFromShape.rotation * vec3(0, 1, 0);
     const float height = glm::dot(normal, worldFromBody.translation - geometry.worldFromShape.translation);
-    return height - supportExtent(shape, glm::conjugate(worldFromBody.rotation) * normal);
+    return height - supportExtent(shape, glm::conjugate(worldFromBody.rotation) * -normal);
 }
 
 float distanceToStatic(const BodyShape& shape, const RigidTransform& worldFromBody, const StaticShape& geometry) {

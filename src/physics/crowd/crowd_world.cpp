@@ -329,7 +329,7 @@ void CrowdWorld::getContacts(std::vector<ContactPoint>& contacts) const {
         const Doll& b = state_.dolls[touch.dollB];
         const vec3 core = bodyState(state_, b, touch.bodyB).worldFromBody * touch.touch.localB;
         const PrimitiveShape& shape = state_.groupOf(b).topology.shapeOf(touch.bodyB, touch.shapeB);
-        const float radius = shape.kind == PrimitiveShape::Kind::box ? 0.0F : shape.radius;
+        const float radius = shape.isAngular() ? 0.0F : shape.radius;
         contacts.push_back({core + touch.touch.normal * radius, touch.touch.normal, touch.touch.separation});
     }
 }

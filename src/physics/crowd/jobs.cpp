@@ -26,8 +26,7 @@ void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTou
     pair.halfA.lane[lane] = coreHalf(shapeA);
     pair.halfB.lane[lane] = coreHalf(shapeB);
     // Only a core about its body's centre can be followed.
-    const bool follows = shapeA.kind != PrimitiveShape::Kind::box && shapeB.kind != PrimitiveShape::Kind::box &&
-                         touch.shapeA == 0 && touch.shapeB == 0;
+    const bool follows = !shapeA.isAngular() && !shapeB.isAngular() && touch.shapeA == 0 && touch.shapeB == 0;
     if (!follows) pair.follows = 0;
     pair.radius.lane[lane] = touch.touch.radius;
     writeVector(pair.normal, lane, touch.touch.normal);

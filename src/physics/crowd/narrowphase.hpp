@@ -18,9 +18,9 @@ struct PlacedShape {
 /// Half the size of the world's axis-aligned box around it, metres.
 [[nodiscard]] vec3 halfBounds(const PlacedShape& placed);
 
-/// The corners of a box and the ends of a capsule, in the shape's space: what a convex static face can meet.
+/// The corners of a box or hull and the ends of a capsule, in the shape's space: what a convex static face can meet.
 struct CorePoints {
-    std::array<vec3, 8> local;
+    std::array<vec3, ConvexHull::kMostPoints> local;
     int count = 0;
     float radius = 0.0F;
 };
@@ -82,13 +82,14 @@ struct PlacedStatic {
 using StaticTouches = Touches<StaticTouch, ContactList::kMax>;
 
 /// Points of the body nearer than `range` to the geometry. On a box: those of touchBox(), or the corners of a body that
-/// is one. Other geometry: see findContacts().
+/// is one, or those of a hull's. Other geometry: see findContacts().
 [[nodiscard]] StaticTouches touchStatic(const PlacedShape& body, const PlacedStatic& geometry, float range);
 
 /// Whether one of the touches keeps the same point of the body out of the same half space.
 [[nodiscard]] bool saysTheSame(const StaticTouches& touches, const vec3& local, const vec3& normal);
 
-/// Points of two bodies nearer than `range`. Two boxes that overlap: those of touchBoxes().
+/// Points of two bodies nearer than `range`. Two boxes that overlap: those of touchBoxes(); a hull and
+/// a box or hull: those of touchSolids().
 [[nodiscard]] Touches<BodyTouch> touchBodies(const PlacedShape& a, const PlacedShape& b, float range);
 
 /// Fraction of the segment from `from` to `to` where it enters the shape and the normal there; fraction > 1: it misses.

@@ -67,6 +67,24 @@ RayTouch rayBox(const vec3& half, const vec3& from, const vec3& along) {
     return {enter, normal};
 }
 
+RayTouch rayHull(const ConvexHull& hull, const vec3& from, const vec3& along) {
+    float enter = -std::numeric_limits<float>::max();
+    float leave = std::numeric_limits<float>::max();
+    vec3 normal(0);
+    for (const ConvexHull::Face& face : hull.faces()) {
+        const float above = glm::dot(face.normal, from) - face.offset;
+        const float closing = -glm::dot(face.normal, along);
+        if (closing == 0.0F && above > 0.0F) return {};
+        if (closing > 0.0F && above > enter * closing) {
+            enter = above / closing;
+            normal = face.normal;
+        }
+        if (closing < 0.0F) leave = std::min(leave, above / closing);
+    }
+    if (enter < 0.0F || enter > leave) return {};
+    return {enter, normal};
+}
+
 RayTouch rayMesh(const TriangleMesh& mesh, const vec3& from, const vec3& along) {
     const TriangleMesh::Ray hit = mesh.rayTest(from, from + along);
     if (hit.triangle < 0) return {};
@@ -83,6 +101,7 @@ RayTouch rayAgainst(const PlacedShape& body, const vec3& from, const vec3& to) {
     if (shape.kind == PrimitiveShape::Kind::sphere) touch = raySphere(vec3(0), shape.radius, start, along);
     if (shape.kind == PrimitiveShape::Kind::capsule) touch = rayCapsule(shape.halfLength, shape.radius, start, along);
     if (shape.kind == PrimitiveShape::Kind::box) touch = rayBox(shape.halfExtents, start, along);
+    if (shape.kind == PrimitiveShape::Kind::hull) touch = rayHull(*shape.hull, start, along);
     touch.normal = body.axes * touch.normal;
     return touch;
 }
@@ -103,6 +122,8 @@ RayTouch rayAgainst(const PlacedStatic& geometry, const vec3& from, const vec3& 
             break;
         case StaticShape::Kind::mesh:
             touch = rayMesh(*geometry.shape.mesh, start, along);
+            break;
+        case StaticShape::Kind::hull:  // of bodies alone
             break;
         case StaticShape::Kind::plane:
             if (start.y >= 0.0F && along.y < 0.0F) touch = {start.y / -along.y, {0, 1, 0}};

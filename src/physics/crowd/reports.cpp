@@ -41,7 +41,7 @@ void reportPairs(CrowdState& state, const Job& job) {
             report.normal = touch.touch.normal;
             const Doll& b = state.dolls[touch.dollB];
             const PrimitiveShape& shape = state.groupOf(b).topology.shapeOf(touch.bodyB, touch.shapeB);
-            const float radius = shape.kind == PrimitiveShape::Kind::box ? 0.0F : shape.radius;
+            const float radius = shape.isAngular() ? 0.0F : shape.radius;
             report.position =
                 bodyState(state, b, touch.bodyB).worldFromBody * touch.touch.localB + report.normal * radius;
             report.impulse = impulse;

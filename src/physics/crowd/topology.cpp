@@ -34,13 +34,14 @@ BodyConstants constantsOf(const BodyShape& shape, float massKg, const vec3& iner
     vec3 extent(0);
     if (shape.kind == BodyShape::Kind::capsule) extent.y = shape.halfLength;
     if (shape.kind == BodyShape::Kind::box) extent = shape.halfExtents;
+    if (shape.kind == BodyShape::Kind::hull) extent = shape.hull->halfBounds();
     copy(constants.extent, extent);
-    constants.radius = shape.kind == BodyShape::Kind::box ? 0.0F : shape.radius;
-    constants.reach = glm::length(extent);
+    constants.radius = shape.isAngular() ? 0.0F : shape.radius;
+    constants.reach = shape.kind == BodyShape::Kind::hull ? shape.hull->reach() : glm::length(extent);
     // Turning moves the cores of the others as well.
     for (const AddedShape& added : shape.more) {
-        const float core = boundingRadius(static_cast<const PrimitiveShape&>(added)) -
-                           (added.kind == PrimitiveShape::Kind::box ? 0.0F : added.radius);
+        const float core =
+            boundingRadius(static_cast<const PrimitiveShape&>(added)) - (added.isAngular() ? 0.0F : added.radius);
         constants.reach = std::max(constants.reach, glm::length(added.bodyFromShape.translation) + core);
     }
     return constants;
@@ -74,10 +75,14 @@ bool mayCollide(const RagdollProfile& profile, int a, int b) {
     return !linked && std::find(filtered.begin(), filtered.end(), std::pair(a, b)) == filtered.end();
 }
 
+bool sameKind(const PrimitiveShape& a, const PrimitiveShape& b) {
+    return a.kind == b.kind && sameHull(a.hull, b.hull);
+}
+
 bool sameAdded(const BodyShape& a, const BodyShape& b) {
     return std::equal(
         a.more.begin(), a.more.end(), b.more.begin(), b.more.end(), [](const AddedShape& x, const AddedShape& y) {
-            return x.kind == y.kind && x.radius == y.radius && x.halfLength == y.halfLength &&
+            return sameKind(x, y) && x.radius == y.radius && x.halfLength == y.halfLength &&
                    x.halfExtents == y.halfExtents && x.bodyFromShape.rotation == y.bodyFromShape.rotation &&
                    x.bodyFromShape.translation == y.bodyFromShape.translation;
         });
@@ -130,10 +135,10 @@ Topology makeTopology(const DynamicProp& prop) {
 }
 
 bool sameTopology(const Topology& a, const Topology& b) {
-    // The main shapes follow from the constants but for their kind.
+    // The main shapes follow from the constants but for their kind and hull.
     return sameBytes(a.bodies, b.bodies) && sameBytes(a.joints, b.joints) && sameBytes(a.selfPairs, b.selfPairs) &&
            std::equal(a.shapes.begin(), a.shapes.end(), b.shapes.begin(), b.shapes.end(),
-                      [](const BodyShape& x, const BodyShape& y) { return x.kind == y.kind && sameAdded(x, y); });
+                      [](const BodyShape& x, const BodyShape& y) { return sameKind(x, y) && sameAdded(x, y); });
 }
 
 }  // namespace lutka::physics::crowd

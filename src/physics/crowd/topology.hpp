@@ -27,9 +27,7 @@ struct Topology {
         return shape == 0 ? local : shapes[body].more[shape - 1].bodyFromShape * local;
     }
     /// Whether the kernels see the whole of the body: a capsule or a sphere and nothing else.
-    [[nodiscard]] bool isCore(int body) const {
-        return shapes[body].kind != PrimitiveShape::Kind::box && shapes[body].more.empty();
-    }
+    [[nodiscard]] bool isCore(int body) const { return !shapes[body].isAngular() && shapes[body].more.empty(); }
 };
 
 /// `leastGyration`: see CrowdTuning.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "physics/collision/shape.hpp"
 #include "physics/doctor/doctor.hpp"
@@ -77,6 +78,12 @@ class Mender {
         BodyProfile& left = profile_.bodies[a];
         BodyProfile& right = profile_.bodies[b];
         left.massKg = right.massKg = 0.5F * (left.massKg + right.massKg);
+        using Kind = PrimitiveShape::Kind;
+        if (left.shape.kind == Kind::hull && right.shape.kind == Kind::hull) {
+            makeHullsEqual(left, right);
+            note(fmt::format("{} and {} made equal", first, second));
+            return;
+        }
         const bool leftHasMost = left.shape.more.size() >= right.shape.more.size();
         BodyShape mean = leftHasMost ? left.shape : mirrored(right.shape);
         if (left.shape.kind == right.shape.kind) {
@@ -88,6 +95,15 @@ class Mender {
         right.shape = mirrored(mean);
         left.inertia = right.inertia = shapeInertia(mean, left.massKg);
         note(fmt::format("{} and {} made equal", first, second));
+    }
+
+    // Each keeps its own form, for their axes need not be mirror images.
+    static void makeHullsEqual(BodyProfile& left, BodyProfile& right) {
+        const float volume = 0.5F * (left.shape.hull->volume() + right.shape.hull->volume());
+        for (BodyProfile* body : {&left, &right}) {
+            scaleHull(body->shape, vec3(std::cbrt(volume / body->shape.hull->volume())));
+            body->inertia = shapeInertia(body->shape, body->massKg);
+        }
     }
 
     // The frames of a body's own constraint and of those that hang on it move with it.

@@ -27,6 +27,7 @@ struct PlannedBody {
     vec3 end{0, 0, 0};            ///< The next joint down the limb, or the tip.
     bool endsAtJoint = false;     ///< False: `end` is a tip, from the skin or from proportions.
     std::vector<SkinPoint> skin;  ///< The vertices that the joint and what follows it own.
+    bool asHull = false;          ///< Whether the convex hull of its skin is asked for as its shape.
 
     [[nodiscard]] vec3 direction() const;  ///< Unit, from start to end.
     [[nodiscard]] float length() const;

@@ -31,6 +31,7 @@ struct FitOptions {
     /// Bodies for what hangs on a humanoid beside its parts, at most mostBodies of them.
     std::vector<animation::AppendageKind> appendages;
     int mostShapes = 1;           ///< A body, in [1, 3]: see fitShapes().
+    bool hulls = false;           ///< Every body with skin is the convex hull of it: see fitHull().
     bool allTrunkBodies = false;  ///< A body for every mapped trunk role instead of hips, spine and the topmost.
 };
 

@@ -66,7 +66,9 @@ void assignAllMasses(RagdollProfile& profile, const FitOptions& options) {
 Result<RagdollProfile> fitRagdoll(const animation::Character& character, const animation::HumanoidMap& map,
                                   const FitOptions& options) {
     if (const Result<void> checked = checkInput(character, map, options); !checked) return checked.error();
-    const BodyPlan plan = planFor(character, map, options);
+    BodyPlan plan = planFor(character, map, options);
+    for (PlannedBody& body : plan.bodies)
+        body.asHull = options.hulls;
     const Anatomy anatomy = findAnatomy(plan);
     const std::vector<PlacedShape> shapes = fitShapes(plan, anatomy, options.mostShapes);
 

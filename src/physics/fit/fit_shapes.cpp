@@ -11,6 +11,7 @@
 #include "physics/fit/box_search.hpp"
 #include "physics/fit/capsule_search.hpp"
 #include "physics/fit/fit_measures.hpp"
+#include "physics/fit/hull_fit.hpp"
 #include "physics/fit/principal_axes.hpp"
 #include "physics/fit/separate_shapes.hpp"
 #include "physics/fit/several_capsules.hpp"
@@ -476,6 +477,7 @@ std::vector<PlacedShape> fitShapes(const BodyPlan& plan, const Anatomy& anatomy,
         shapes.push_back(placeCapsule(capsule));
     takeBoxes(plan, anatomy, capsules, shapes);
     addFurtherShapes(plan, anatomy, mostShapes, capsules, shapes);
+    takeHulls(plan, shapes);
     separateShapes(plan, shapes);
     return shapes;
 }

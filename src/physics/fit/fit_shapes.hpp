@@ -27,8 +27,8 @@ struct Capsule {
 /// % of the height (trunk 20, head 30 %). On a symmetric rig both sides are fitted as one and come out as mirror
 /// images. Bodies whose skin is a block become boxes (fitBox()), but for feet and the lowest bodies of legs. A trunk or
 /// head that several capsules cover clearly better (fitSeveralCapsules()) gets up to `mostShapes` of them, where none
-/// of the further ones comes into a body that is not linked. Shapes of bodies that are not linked are then shrunk by up
-/// to a quarter where that keeps them apart.
+/// of the further ones comes into a body that is not linked. Bodies that are asked for as hulls become them
+/// (takeHulls()). Shapes of bodies that are not linked are then shrunk by up to a quarter where that keeps them apart.
 [[nodiscard]] std::vector<PlacedShape> fitShapes(const BodyPlan& plan, const Anatomy& anatomy,
                                                  int mostShapes = FitOptions{}.mostShapes);
 

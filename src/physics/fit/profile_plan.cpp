@@ -67,7 +67,13 @@ int jointOfBody(const BodyProfile& body, const animation::Skeleton& skeleton) {
 
 BodyPlan planOfProfile(const RagdollProfile& profile, const animation::Character& character,
                        const animation::HumanoidMap& map) {
-    return planBodies(character, map, rolesOf(profile), segmentsOf(profile, character.skeleton));
+    BodyPlan plan = planBodies(character, map, rolesOf(profile), segmentsOf(profile, character.skeleton));
+    const std::vector<int> places = placesInPlan(profile, plan);
+    for (std::size_t body = 0; body < places.size(); ++body) {
+        if (places[body] >= 0)
+            plan.bodies[places[body]].asHull = profile.bodies[body].shape.kind == PrimitiveShape::Kind::hull;
+    }
+    return plan;
 }
 
 std::vector<int> placesInPlan(const RagdollProfile& profile, const BodyPlan& plan) {

@@ -11,7 +11,7 @@ namespace lutka::physics {
 
 /// What the bodies of a profile stand for on a rig: by the map's joint where they have a role, else by their own joint,
 /// with the lengths and sides that the profile tells. Roles and joints that the rig lacks are left out, so that the
-/// plan may have fewer bodies than the profile.
+/// plan may have fewer bodies than the profile. Bodies that are hulls are asked for as hulls.
 [[nodiscard]] BodyPlan planOfProfile(const RagdollProfile& profile, const animation::Character& character,
                                      const animation::HumanoidMap& map);
 

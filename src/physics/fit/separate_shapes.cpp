@@ -12,15 +12,12 @@ namespace {
 constexpr float kLargestShrink = 0.25F;
 constexpr float kGap = 1e-4F;  // metres left between parted shapes, so that rounding does not close them
 
-float thicknessOf(const PrimitiveShape& shape) {
-    const vec3& half = shape.halfExtents;
-    return shape.kind == PrimitiveShape::Kind::box ? std::min({half.x, half.y, half.z}) : shape.radius;
-}
-
 // Brings its surface in by a share of its thickness.
 void shrink(PrimitiveShape& shape, float share) {
     if (shape.kind == PrimitiveShape::Kind::box)
         shape.halfExtents -= share * thicknessOf(shape);
+    else if (shape.kind == PrimitiveShape::Kind::hull)
+        scaleHull(shape, vec3(1.0F - share));
     else
         shape.radius *= 1.0F - share;
 }

@@ -8,7 +8,8 @@ namespace lutka::physics {
 /// the origin is the model's).
 struct SkinPoint {
     vec3 position{0, 0, 0};
-    float area = 0.0F;  ///< A third of the area of the triangles around the vertex, m².
+    float area = 0.0F;     ///< A third of the area of the triangles around the vertex, m².
+    vec3 vertex{0, 0, 0};  ///< That it stands for: where it is itself, or nearby on a coarse mesh.
 };
 
 }  // namespace lutka::physics

@@ -41,7 +41,8 @@ void addVertices(BodyPlan& plan, const SkinnedMesh& mesh, const std::vector<int>
     // In the file's order: neighbours follow each other in it, which the search for shapes draws its samples by.
     for (std::size_t place = 0; place < mesh.positions.size(); ++place) {
         const std::size_t vertex = mesh.fileOrder.empty() ? place : mesh.fileOrder[place];
-        plan.bodies[owners[vertex]].skin.push_back({toStandard * mesh.positions[vertex], areas[vertex]});
+        const vec3 at = toStandard * mesh.positions[vertex];
+        plan.bodies[owners[vertex]].skin.push_back({at, areas[vertex], at});
     }
 }
 
@@ -55,8 +56,8 @@ void addTrianglePoints(BodyPlan& plan, const SkinnedMesh& mesh, const std::vecto
         for (int k = 0; k < 3; ++k) {
             const vec3& at = mesh.positions[corner[k]];
             std::vector<SkinPoint>& skin = plan.bodies[owners[corner[k]]].skin;
-            skin.push_back({toStandard * glm::mix(at, middle, 0.2F), sixth});
-            skin.push_back({toStandard * glm::mix(at, middle, 0.6F), sixth});
+            skin.push_back({toStandard * glm::mix(at, middle, 0.2F), sixth, toStandard * at});
+            skin.push_back({toStandard * glm::mix(at, middle, 0.6F), sixth, toStandard * at});
         }
     }
 }

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "physics/collision/shape.hpp"
+
 namespace lutka::physics {
 namespace {
 
@@ -42,7 +44,7 @@ vec3 level(const vec3& v) {
 std::pair<vec3, float> lengthOf(const PrimitiveShape& shape) {
     if (shape.kind == PrimitiveShape::Kind::capsule) return {{0, 1, 0}, shape.halfLength};
     if (shape.kind == PrimitiveShape::Kind::sphere) return {{0, 1, 0}, 0.0F};
-    const vec3& half = shape.halfExtents;
+    const vec3 half = halfBox(shape);
     const float most = std::max({half.x, half.y, half.z});
     return {half.x == most ? vec3(1, 0, 0) : half.y == most ? vec3(0, 1, 0) : vec3(0, 0, 1), most};
 }

@@ -5,6 +5,7 @@
 
 #include "core/rigid_transform.hpp"
 #include "core/shape_kind.hpp"
+#include "physics/profile/convex_hull.hpp"
 
 namespace lutka::physics {
 
@@ -15,11 +16,16 @@ struct PrimitiveShape {
         capsule = static_cast<int>(ShapeKind::capsule),
         box = static_cast<int>(ShapeKind::box),
         sphere = static_cast<int>(ShapeKind::sphere),
+        hull = static_cast<int>(ShapeKind::hull),
     };
     Kind kind = Kind::capsule;
     float radius = 0.05F;                ///< Metres, > 0; capsule and sphere.
     float halfLength = 0.1F;             ///< Metres, >= 0; capsule: half the distance of the cap centres, along Y.
     vec3 halfExtents{0.1F, 0.1F, 0.1F};  ///< Metres, > 0; box.
+    ConvexHullPtr hull;                  ///< Hull: not null, its centroid at the origin (see isCentred()).
+
+    /// Whether it has flat sides and edges; else it is a segment or point with a radius around it.
+    [[nodiscard]] bool isAngular() const { return kind == Kind::box || kind == Kind::hull; }
 };
 [[nodiscard]] constexpr ShapeKind shapeKindOf(PrimitiveShape::Kind kind) {
     return static_cast<ShapeKind>(kind);
@@ -38,15 +44,22 @@ struct BodyShape : PrimitiveShape {
     std::vector<AddedShape> more;  ///< At most kMostAdded; mostly none.
 };
 
+/// Whether the hull's centroid is at the origin, to a hundredth of its reach.
+[[nodiscard]] bool isCentred(const ConvexHull& hull);
+
+/// A hull of points that are told in any frame, as a shape that is centred on its own origin along its principal axes,
+/// those that are nearest to the frame's.
+struct CentredHull {
+    PrimitiveShape shape;  ///< Of kind hull.
+    RigidTransform frameFromShape;
+};
+[[nodiscard]] CentredHull centredHull(const ConvexHull& hull);
+
+/// The same hull with each side scaled by the factors, all above 0. Where it would come out flat nothing changes.
+void scaleHull(PrimitiveShape& shape, const vec3& factors);
+
 /// The shape of the counterpart on the other side, in a body's axes that are mirrored across x.
-[[nodiscard]] inline BodyShape mirrored(BodyShape shape) {
-    for (AddedShape& added : shape.more) {
-        const quat& q = added.bodyFromShape.rotation;
-        added.bodyFromShape.rotation = {q.w, q.x, -q.y, -q.z};
-        added.bodyFromShape.translation.x = -added.bodyFromShape.translation.x;
-    }
-    return shape;
-}
+[[nodiscard]] BodyShape mirrored(BodyShape shape);
 
 /// Calls visit(shape, bodyFromShape) for each of a body's shapes, the main one first.
 template <class Visit>

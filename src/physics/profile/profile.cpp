@@ -46,6 +46,15 @@ void checkShape(Problems& problems, const PrimitiveShape& shape, const std::stri
         problems.require(isPositive(shape.halfExtents), place + "/halfExtents", "expected three numbers above 0");
         return;
     }
+    if (shape.kind == PrimitiveShape::Kind::hull) {
+        const bool made = shape.hull != nullptr;
+        problems.require(made, place + "/points", "expected points whose hull is not flat");
+        problems.require(!made || shape.hull->points().size() <= ConvexHull::kMostPoints, place + "/points",
+                         fmt::format("expected at most {} points", ConvexHull::kMostPoints));
+        problems.require(!made || isCentred(*shape.hull), place + "/points",
+                         "expected points about the middle of their hull's volume, which is the shape's origin");
+        return;
+    }
     problems.require(isPositive(shape.radius), place + "/radius", "expected a number above 0");
     if (shape.kind == PrimitiveShape::Kind::capsule) {
         problems.require(std::isfinite(shape.halfLength) && shape.halfLength >= 0.0F, place + "/halfLength",
@@ -78,6 +87,9 @@ std::pair<float, float> halfExtentsOf(const PrimitiveShape& shape) {
         }
         case PrimitiveShape::Kind::capsule:
             return {shape.radius, shape.radius + shape.halfLength};
+        case PrimitiveShape::Kind::hull:
+            if (shape.hull == nullptr) return {0.0F, 0.0F};
+            return {0.5F * shape.hull->thickness(), shape.hull->reach()};
         case PrimitiveShape::Kind::sphere:
             break;
     }

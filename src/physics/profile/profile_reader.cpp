@@ -38,7 +38,7 @@ RigidTransform readFrame(const JsonCursor& at) {
     return {readQuaternion(at["rotation"]), readVector(at["translation"], -kLargest, kLargest)};
 }
 
-// Where a shape stands: version 1 knew no others beside the main one.
+// Where a shape stands: version 1 knew no others beside the main one, and no hulls.
 enum class ShapePlace { main, alone, added };
 
 void expectMembers(const JsonCursor& at, PrimitiveShape::Kind kind, ShapePlace place) {
@@ -60,16 +60,58 @@ void expectMembers(const JsonCursor& at, PrimitiveShape::Kind kind, ShapePlace p
         case PrimitiveShape::Kind::sphere:
             expect({"kind", "radius"}, {"kind", "radius", "bodyFromShape"});
             break;
+        case PrimitiveShape::Kind::hull:
+            expect({"kind", "points"}, {"kind", "points", "bodyFromShape"});
+            break;
     }
 }
 
+// Null, and reported, where the points are no corners of a hull.
+ConvexHullPtr readHull(const JsonCursor& at) {
+    if (!at.expectArray(ConvexHull::kFewestPoints, ConvexHull::kMostPoints)) return nullptr;
+    std::vector<vec3> points;
+    bool readable = true;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        const JsonCursor point = at[i];
+        points.push_back(readVector(point, -kLargest, kLargest));
+        readable = readable && point.readable();
+    }
+    if (!readable) return nullptr;
+    ConvexHullPtr hull = makeConvexHull(points);
+    if (hull == nullptr) {
+        at.report("expected points whose hull is not flat");
+        return nullptr;
+    }
+    const std::span<const vec3> corners = hull->points();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (i < corners.size() && corners[i] == points[i]) continue;
+        at[i].report(
+            "expected a corner of the points' convex hull, this one lies inside, on its surface or on another");
+        return nullptr;
+    }
+    if (!isCentred(*hull)) {
+        const vec3& middle = hull->centroid();
+        at.report(
+            fmt::format("expected points about the middle of their hull's volume, it is at [{:.3g}, {:.3g}, {:.3g}]",
+                        middle.x, middle.y, middle.z));
+    }
+    return hull;
+}
+
 PrimitiveShape readPrimitive(const JsonCursor& at, ShapePlace place) {
-    constexpr std::array kKinds{PrimitiveShape::Kind::capsule, PrimitiveShape::Kind::box, PrimitiveShape::Kind::sphere};
+    constexpr std::array kKinds{PrimitiveShape::Kind::capsule, PrimitiveShape::Kind::box, PrimitiveShape::Kind::sphere,
+                                PrimitiveShape::Kind::hull};
     PrimitiveShape shape;
-    const int kind = at["kind"].oneOf({"capsule", "box", "sphere"});
+    const std::array kNames{"capsule", "box", "sphere", "hull"};
+    const std::size_t known = place == ShapePlace::alone ? 3 : kNames.size();
+    const int kind = at["kind"].oneOf(std::span<const char* const>(kNames).first(known));
     if (kind < 0) return shape;
     shape.kind = kKinds[static_cast<std::size_t>(kind)];
     expectMembers(at, shape.kind, place);
+    if (shape.kind == PrimitiveShape::Kind::hull) {
+        shape.hull = readHull(at["points"]);
+        return shape;
+    }
     if (shape.kind == PrimitiveShape::Kind::box) {
         shape.halfExtents = readVector(at["halfExtents"], kSmallest, kLargest);
         return shape;

@@ -21,6 +21,12 @@ Json primitive(const PrimitiveShape& s) {
                 {"kind", "capsule"}, {"radius", jsonNumber(s.radius)}, {"halfLength", jsonNumber(s.halfLength)}};
         case PrimitiveShape::Kind::sphere:
             return Json{{"kind", "sphere"}, {"radius", jsonNumber(s.radius)}};
+        case PrimitiveShape::Kind::hull: {
+            Json points = Json::array();
+            for (const vec3& point : s.hull->points())
+                points.push_back(jsonVector(point));
+            return Json{{"kind", "hull"}, {"points", std::move(points)}};
+        }
         case PrimitiveShape::Kind::box:
             break;
     }

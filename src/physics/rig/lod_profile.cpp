@@ -84,8 +84,8 @@ mat3 inertiaAbout(const BodyProfile& body, const RigidTransform& modelFromBody, 
 // The thickness of a member across its length.
 float thicknessOf(const BodyShape& shape) {
     if (!shape.more.empty()) return 0.5F * (halfWidth(shape, {1, 0, 0}) + halfWidth(shape, {0, 0, 1}));
-    if (shape.kind != BodyShape::Kind::box) return shape.radius;
-    const vec3 h = shape.halfExtents;
+    if (!shape.isAngular()) return shape.radius;
+    const vec3 h = halfBox(shape);
     return (h.x + h.y + h.z - std::max({h.x, h.y, h.z})) / 2.0F;
 }
 

@@ -51,6 +51,10 @@ StaticId World::addStatic(const StaticShape& shape) {
         refuse("addStatic", "place, size or friction is not finite");
         return {};
     }
+    if (shape.kind == ShapeKind::hull) {
+        refuse("addStatic", "a convex hull is a shape of bodies");
+        return {};
+    }
     const StaticId id = staticIds_.add();
     addStaticAs(id, shape);
     return id;

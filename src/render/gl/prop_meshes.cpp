@@ -84,6 +84,7 @@ std::vector<PropVertex> verticesOf(ShapeKind kind) {
 
 PropMeshes::PropMeshes() {
     for (int kind = 0; kind < kKinds; ++kind) {
+        if (static_cast<ShapeKind>(kind) == ShapeKind::hull) continue;
         Mesh& mesh = meshes_[kind];
         const std::vector<PropVertex> vertices = verticesOf(static_cast<ShapeKind>(kind));
         mesh.vertexArray = GlVertexArray::create();

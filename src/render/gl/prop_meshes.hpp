@@ -10,7 +10,7 @@ namespace lutka::render {
 /// One mesh for each kind of prop, of unit measures; the vertex shader gives it its size (assets/shaders/prop.glsl).
 class PropMeshes {
   public:
-    static constexpr int kKinds = 4;  // ShapeKind without the mesh, which is its last
+    static constexpr int kKinds = 5;  // ShapeKind without the mesh, which is its last; no prop is a hull
 
     PropMeshes();
 

@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "core/random.hpp"
+#include "physics/collision/shape.hpp"
 #include "physics/fit/fit_ragdoll.hpp"
 #include "support/catch.hpp"
 #include "support/json_schema.hpp"
@@ -23,6 +25,8 @@ RagdollProfile profileToWrite() {
     profile.notes = {"a \"note\" with ümlauts"};
     profile.bodies[2].shape.kind = BodyShape::Kind::box;
     profile.bodies[3].shape.kind = BodyShape::Kind::sphere;
+    profile.bodies[4].shape.hull = hullWithin(profile.bodies[4].shape);
+    profile.bodies[4].shape.kind = BodyShape::Kind::hull;
     profile.constraints[2].spring = {4.5F, 0.25F, glm::angleAxis(0.5F, vec3(0, 0, 1))};
     return profile;
 }
@@ -64,7 +68,8 @@ TEST_CASE("a profile comes back from its JSON to the last bit") {
         CHECK(a.joint == b.joint);
         CHECK(a.jointPath == b.jointPath);
         CHECK(a.shape.kind == b.shape.kind);
-        if (a.shape.kind != BodyShape::Kind::box) CHECK(a.shape.radius == b.shape.radius);
+        if (!a.shape.isAngular()) CHECK(a.shape.radius == b.shape.radius);
+        CHECK(sameHull(a.shape.hull, b.shape.hull));
         if (a.shape.kind == BodyShape::Kind::capsule) CHECK(a.shape.halfLength == b.shape.halfLength);
         if (a.shape.kind == BodyShape::Kind::box) CHECK(a.shape.halfExtents == b.shape.halfExtents);
         checkSame(a.jointFromBody, b.jointFromBody);
@@ -146,6 +151,60 @@ TEST_CASE("further shapes that no body can have are refused at their place") {
               more[0]["bodyFromShape"]["translation"] = {500, 0, 0};
           }).find("/bodies/3/shape/more/0/bodyFromShape/translation") != std::string::npos);
     CHECK(refused([](json& more) { more[0]["radius"] = 100; }).find("/bodies/3/shape/more/0") != std::string::npos);
+}
+
+TEST_CASE("hulls that no body can have are refused at their place") {
+    const json whole = bipedJson();
+    const auto problemsWith = [&](const std::function<void(json&)>& spoil) {
+        json document = whole;
+        spoil(document["bodies"][4]["shape"]["points"]);
+        return problemsOf(document);
+    };
+    CHECK(problemsWith([](json&) {}).empty());
+    const std::string place = "/bodies/4/shape/points";
+    const auto blames = [&](const std::string& problems, const std::string& where, const std::string& what) {
+        INFO(problems);
+        CHECK(problems.find(place + where + ":") != std::string::npos);
+        CHECK(problems.find(what) != std::string::npos);
+    };
+    blames(problemsWith([](json& points) { points = 3; }), "", "an array");
+    blames(problemsWith([](json& points) {
+               points.erase(3);
+               points.erase(2);
+               while (points.size() > 3)
+                   points.erase(0);
+           }),
+           "", "4 to 32 items");
+    blames(problemsWith([](json& points) {
+               for (int i = 0; i < 40; ++i)
+                   points.push_back(points[0]);
+           }),
+           "", "4 to 32 items");
+    blames(problemsWith([](json& points) { points[5][1] = "up"; }), "/5/1", "a number");
+    blames(problemsWith([](json& points) { points[5] = {1, 2}; }), "/5", "3");
+    blames(problemsWith([](json& points) { points[5][1] = 1e30; }), "/5/1", "number");
+    blames(problemsWith([](json& points) { points[5] = {0, 0, 0}; }), "/5", "a corner of the points' convex hull");
+    blames(problemsWith([](json& points) { points[5] = points[4]; }), "/5", "a corner of the points' convex hull");
+    blames(problemsWith([](json& points) {
+               for (json& point : points)
+                   point[1] = 0.01;
+           }),
+           "", "not flat");
+    blames(problemsWith([](json& points) {
+               for (json& point : points)
+                   point[1] = point[1].get<float>() + 0.1F;
+           }),
+           "", "middle of their hull's volume");
+    // Sizes are bounded as those of other shapes.
+    json huge = whole;
+    for (json& point : huge["bodies"][4]["shape"]["points"])
+        for (json& x : point)
+            x = 1000.0F * x.get<float>();
+    CHECK(problemsOf(huge).find("/bodies/4/shape") != std::string::npos);
+    // Version 1 knew none.
+    json old = whole;
+    old["version"] = 1;
+    CHECK(problemsOf(old).find("/bodies/4/shape/kind") != std::string::npos);
 }
 
 TEST_CASE("a profile survives the way through a file") {
