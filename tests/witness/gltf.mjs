@@ -9,7 +9,8 @@ import { Checks, profileOf, run } from './lib.mjs';
 const [model, folder] = process.argv.slice(2);
 const stem = path.parse(model).name;
 const checks = new Checks(`glTF ${stem}`);
-const profile = profileOf(model, path.join(folder, `${stem}.ragdoll.json`));
+const profileFile = path.join(folder, `${stem}.ragdoll.json`);
+const profile = profileOf(model, profileFile);
 
 /** The JSON of a .glb. */
 function jsonOf(bytes) {
@@ -49,13 +50,15 @@ function checkNumbers(json) {
   const physics = json.extensions.KHR_physics_rigid_bodies;
   const motions = json.nodes.map((n) => n.extensions?.KHR_physics_rigid_bodies?.motion).filter(Boolean);
   checks.that(motions.length === profile.bodies.length, 'number of motions');
+  // glTF keeps the names as they are.
+  const bodies = Object.fromEntries(JSON.parse(fs.readFileSync(profileFile, 'utf8')).bodies.map((b) => [b.name, b]));
   for (const motion of motions) {
-    const body = profile.byName[motion.extras.lutkaRole];
+    const body = bodies[motion.extras.lutkaName];
     checks.near(motion.mass, body.massKg, 1e-6, `mass of ${body.name}`);
     checks.near(motion.inertiaDiagonal, body.inertia, 1e-6, `inertia of ${body.name}`);
     checks.near(motion.centerOfMass, body.jointFromBody.translation, 1e-5, `centre of mass of ${body.name}`);
   }
-  checks.that(physics.physicsJoints.length === profile.constraints.length, 'number of joints');
+  checks.that((physics.physicsJoints ?? []).length === profile.constraints.length, 'number of joints');
 }
 
 async function checkCore(file) {

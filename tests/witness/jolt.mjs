@@ -116,7 +116,6 @@ function makeRagdoll(system, worldFromHips) {
   for (const [a, b] of profile.filteredPairs) filter.DisableCollision(index[a], index[b]);
   settings.mSkeleton = skeleton;
   settings.mParts.resize(profile.bodies.length);
-  const pose = neutralPose();
   profile.bodies.forEach((b, i) => {
     const part = settings.mParts.at(i);
     part.SetShape(shapeOf(b.shape));
@@ -138,9 +137,11 @@ function makeRagdoll(system, worldFromHips) {
   return ragdoll;
 }
 
+const pose = neutralPose();
+const isHuman = ['hips', 'leftUpperLeg', 'rightUpperLeg'].every((name) => pose[name]);
+
 /** Turns the figure of neutralPose() onto its back: head towards -z, face up, left at +x, as our drop begins. */
 function lyingOnBack() {
-  const pose = neutralPose();
   const unit = (v) => v.map((x) => x / length(v));
   const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
   const top = ['head', 'upperChest', 'chest', 'spine'].find((name) => pose[name]);
@@ -162,7 +163,7 @@ const physics = system.GetPhysicsSettings();
 physics.mNumVelocitySteps = 20;
 physics.mNumPositionSteps = 10;
 system.SetPhysicsSettings(physics);
-const ragdoll = makeRagdoll(system, { p: [0, 1.2, 0], q: lyingOnBack() });
+const ragdoll = makeRagdoll(system, { p: [0, 1.2, 0], q: isHuman ? lyingOnBack() : [0, 0, 0, 1] });
 const checks = new Checks(`Jolt ${stem}`);
 checks.that(ragdoll.GetBodyCount() === profile.bodies.length, 'number of bodies');
 checks.that(ragdoll.GetConstraintCount() === profile.constraints.length, 'number of constraints');
@@ -194,8 +195,9 @@ checks.that(Object.values(end).every((b) => [...b.p, ...b.q].every(Number.isFini
 const rest = profile.bodies.reduce((sum, b) => sum + b.massKg * end[b.name].p[1], 0) / profile.totalMassKg;
 checks.that(separation < 0.02, `joints stay together: ${separation} m`);
 checks.that(violation < 0.26, `limits hold: ${(violation * 180) / Math.PI} degrees past`);
-const ours = ourRestHeight(model, profile, folder);
-checks.that(Math.abs(rest - ours) < 0.05, `height of the centre of mass at rest: ${rest}, ours ${ours}`);
+// The neutral pose of a creature stands no way that our drop knows.
+const ours = isHuman ? ourRestHeight(model, profile, folder) : NaN;
+if (isHuman) checks.that(Math.abs(rest - ours) < 0.05, `height of the centre of mass at rest: ${rest}, ours ${ours}`);
 checks.fact(`separation ${(1000 * separation).toFixed(1)} mm, ${((violation * 180) / Math.PI).toFixed(1)} degrees past limits at most`);
-checks.fact(`rests at ${rest.toFixed(3)} m, ours at ${ours.toFixed(3)} m`);
+checks.fact(`rests at ${rest.toFixed(3)} m${isHuman ? `, ours at ${ours.toFixed(3)} m` : ''}`);
 checks.end();
