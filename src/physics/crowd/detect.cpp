@@ -414,6 +414,7 @@ void collideAllDolls(CrowdState& state, float dt) {
     state.inParallel(pieces, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t piece = begin; piece < end; ++piece) {
             PieceTouches& out = state.dollTouches[piece];
+            giveBackRoom(out.touches, out.touches.size());
             out.touches.clear();
             TouchSearch search(state, dt, out.touches);
             for (std::size_t i = piece * kPiece; i < std::min((piece + 1) * kPiece, state.dollPairs.size()); ++i) {
@@ -433,6 +434,7 @@ void collideAllDolls(CrowdState& state, float dt) {
     };
     join([&](const std::vector<PairTouch>& touches) { found += touches.size(); });
     state.touches.clear();
+    giveBackRoom(state.touches, found);
     makeRoom(state.touches, found);
     join([&](const std::vector<PairTouch>& touches) {
         state.touches.insert(state.touches.end(), touches.begin(), touches.end());

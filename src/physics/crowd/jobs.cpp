@@ -75,6 +75,7 @@ class Packer {
             place(job, job.touches[i]);
         }
         forget(job, job.touches.size());
+        giveBackRoom(job.pairs, job.touchOfLane.size());
         makeRoom(job.pairs, job.touchOfLane.size());
         job.pairs.resize(job.touchOfLane.size());
         state_.inParallel(job.pairs.size(), 64, [&](std::size_t begin, std::size_t end) {

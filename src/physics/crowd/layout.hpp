@@ -302,8 +302,8 @@ struct SubstepTuning {
     int answerSweeps = 2;       ///< At most, over the contacts between dolls after these have answered; 0: none. More:
                                 ///< stiffer heaps, and the dolls' cost again for each.
     float answerSpeed = 0.02F;  ///< m/s by which a contact may be wrong to be left out of them. Less: the same.
-    float nearSpeed = 8.0F;  ///< m/s that an approach may grow by within a substep: contacts farther off are left out.
-    float mendGap = 0.0002F;        ///< Metres, and
+    float nearSpeed = 8.0F;   ///< m/s that an approach may grow by within a substep: contacts farther off are left out.
+    float mendGap = 0.0002F;  ///< Metres, and
     float mendAngle = 0.002F;       ///< rad: errors below which nothing is mended.
     float contactTolerance = 0.1F;  ///< m/s by which the guess of which contacts hold may be wrong.
     float limitTolerance = 1.0F;    ///< rad/s, the same of limits.

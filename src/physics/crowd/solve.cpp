@@ -149,8 +149,9 @@ void forJobs(CrowdState& state, const Work& work) {
         if (state.jobs[i].batches.size() >= kSplitJob) work(state.jobs[i]);
 }
 
-void keepPairs(CrowdState& state, const Job& job) {
-    for (std::size_t block = 0; block < job.pairs.size(); ++block) {
+// Of some blocks.
+void keepPairs(CrowdState& state, const Job& job, std::size_t begin, std::size_t end) {
+    for (std::size_t block = begin; block < end; ++block) {
         const PairContactLanes& pair = job.pairs[block];
         for (int lane = 0; lane < kLanes; ++lane) {
             const int index = job.touchOfLane[block][lane];
@@ -216,8 +217,11 @@ void keepImpulses(CrowdState& state) {
         for (std::size_t i = begin; i < end; ++i)
             keepStatics(state, *state.active[i]);
     });
-    for (std::size_t i = 0; i < state.jobCount; ++i)
-        keepPairs(state, state.jobs[i]);
+    for (std::size_t i = 0; i < state.jobCount; ++i) {
+        const Job& job = state.jobs[i];
+        state.inParallel(job.pairs.size(), 64,
+                         [&](std::size_t begin, std::size_t end) { keepPairs(state, job, begin, end); });
+    }
     state.carried.assign(state.touches);
 }
 

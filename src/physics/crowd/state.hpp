@@ -65,6 +65,12 @@ void makeRoom(std::vector<T>& items, std::size_t count) {
     if (items.capacity() < count) items.reserve(count + count / 8 + 4);
 }
 
+/// Gives back what is far more than `count` need, contents and all: a heap has thrice the contacts while it falls.
+template <class T>
+void giveBackRoom(std::vector<T>& items, std::size_t count) {
+    if (items.capacity() > 2 * count + 64) items = {};
+}
+
 /// All dolls of one topology: awake ones fill the batches in order.
 struct Group {
     Topology topology;
