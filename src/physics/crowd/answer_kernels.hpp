@@ -12,16 +12,12 @@
 
 namespace lutka::physics::crowd::LUTKA_KERNELS {
 
-// Notes for the dolls of both bodies that they have to answer.
-LUTKA_LANES void storePressed(const PairContactLanes& pair, const PairBodies& bodies, const PairVelocities& v,
-                              const Mask& pressed) {
-    const F one = all(1.0F);
-    Columns a = columnsOf(v.velocityA, v.angularA);
-    Columns b = columnsOf(v.velocityB, v.angularB);
-    a.column[6] = pressed ? one : readRows(bodies.motions, pair.bodyA, 0).column[6];
-    b.column[6] = pressed ? one : readRows(bodies.motions, pair.bodyB, 0).column[6];
-    writeRows(bodies.motions, pair.bodyA, 0, a);
-    writeRows(bodies.motions, pair.bodyB, 0, b);
+// Puts the velocities into rows that were read before, with a note for the body's doll that it has to answer.
+LUTKA_LANES void writePressed(const PairBodies& bodies, Indices index, const Columns& before, const V3& velocity,
+                              const V3& angular, const Mask& pressed) {
+    Columns row = columnsOf(velocity, angular);
+    row.column[6] = pressed ? all(1.0F) : before.column[6];
+    writeRows(bodies.motions, index, 0, row);
 }
 
 // One sweep over what is still wrong by more than a little. Friction waits for the next substep.
@@ -50,9 +46,12 @@ static int pressAgain(const PairsView& view, const SubstepParams& params) {
     for (int i = 0; i < found; ++i) {
         const PairContactLanes& pair = view.pairs[view.changed[i]];
         const F push = load(pair.carriedNormal);
-        PairVelocities v = velocitiesOf(pair, bodies);
+        const Columns a = readRows(bodies.motions, pair.bodyA, 0);
+        const Columns b = readRows(bodies.motions, pair.bodyB, 0);
+        PairVelocities v{first3(a), second3(a), first3(b), second3(b)};
         pushRest(pair, bodies, v, load(pair.normal) * push, push);
-        storePressed(pair, bodies, v, push != zero);
+        writePressed(bodies, pair.bodyA, a, v.velocityA, v.angularA, push != zero);
+        writePressed(bodies, pair.bodyB, b, v.velocityB, v.angularB, push != zero);
     }
     return found;
 }
