@@ -9,7 +9,8 @@
 namespace lutka::animation {
 namespace {
 
-constexpr float kMostTilt = radians(40.0F);     // of the trunk from upright; hunched figures reach 30 degrees
+constexpr float kMostTilt = radians(40.0F);  // of the trunk from upright; hunched figures reach 30 degrees
+constexpr float kUprightTrunk = radians(20.0F);
 constexpr float kMostBend = radians(22.0F);     // of trunk and legs of a figure that leans as a whole
 constexpr float kMostLegTilt = radians(50.0F);  // of the legs from straight down
 constexpr float kLeastHandHeight = 0.16F;       // above the feet, as a share of the way up to the arms' roots
@@ -95,6 +96,16 @@ bool isScattered(const Figure& figure, const FramedRig& framed) {
     return true;
 }
 
+// Of a figure that was turned to stand: a tail that reaches further down than the feet goes on with the trunk.
+bool trailsTail(const Figure& figure, const FramedRig& framed) {
+    const RigFeatures& rig = *framed.rig;
+    const float least = figure.legs.tip.y - 0.1F * figure.legs.length;
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        if (rig.names[joint].tail && rig.carriesSkin(joint) && framed.positions[joint].y < least) return true;
+    }
+    return false;
+}
+
 float leastUnnamed(const Figure& figure) {
     const float least = figure.prior >= 0.0F ? kLeastUpright : figure.prior < kOddPrior ? kLeastOdd : kLeastTurned;
     return figure.trunk.head == kNoJoint ? std::max(least, kLeastHeadless) : least;
@@ -120,6 +131,8 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     // A leaning figure is straight: an animal's legs and trunk are not in one line, however it is turned.
     // Without names a sitting animal reads as such a figure.
     if (figure.leans && !(figure.legs.named && figure.arms.named)) return "no figure stands upright in it";
+    if (figure.prior < 0.0F && !figure.leans && trailsTail(figure, framed))
+        return "it lies, and its tail is an animal's";
     if (figure.leans && (tilt > kMostBend || legTilt > kMostBend)) return "the trunk and the legs are not in one line";
     // The names tell a seated or kneeling figure, as long as its trunk is upright.
     const bool named = figure.legs.named && figure.arms.named && (figure.prior >= 0.0F || figure.posed);
@@ -134,7 +147,9 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     if (rise < kLeastRise * figure.legs.length) return "the arms start no higher than the legs";
     const float feet = std::min(figure.legs.tip.y, framed.floor + 0.15F * figure.legs.length);
     const float hands = (figure.arms.tip.y - feet) / (figure.arms.root.y - feet);
-    if (hands < kLeastHandHeight && !named) return "the hands stand on the ground: a four-legged animal";
+    // Long arms of a goblin, upright by its trunk and told by its names.
+    const bool upright = figure.legs.told && figure.arms.told && tilt < kUprightTrunk;
+    if (hands < kLeastHandHeight && !named && !upright) return "the hands stand on the ground: a four-legged animal";
     if (creatureShare(framed, figure.arms) > 0.6F || creaturesBelow(framed, figure.arms) > 0.5F)
         return "what would be the arms are named as wings or front legs";
     if (creatureShare(framed, figure.legs) > 0.6F) return "what would be the legs are named as an animal's";

@@ -66,6 +66,7 @@ class Imaginer {
         for (int joint = 0; joint < rig_.count(); ++joint) {
             const NameEvidence& name = rig_.names[joint];
             if (name.side != Side::left || name.helper || name.parts[upper] < kToldLimb) continue;
+            if (!rig_.carriesSkin(joint)) continue;
             if (!rig_.isAncestorOrSelf(first, joint) && !rig_.isAncestorOrSelf(joint, first)) return true;
         }
         return false;
@@ -74,7 +75,8 @@ class Imaginer {
     // No joint that moves skin speaks of such a limb, on either side or none.
     [[nodiscard]] bool isAbsent(const std::array<Part, 3>& limb) const {
         for (int joint = 0; joint < rig_.count(); ++joint) {
-            if (!rig_.carriesSkin(joint)) continue;
+            const bool isHips = rig_.names[joint].parts[Part::hips] >= kToldTrunkPart;  // "hip" may be a thigh's
+            if (!rig_.carriesSkin(joint) || (isHips && rig_.names[joint].side == Side::center)) continue;
             for (const Part part : limb) {
                 if (rig_.names[joint].parts[part] > 0.0F) return false;
             }

@@ -71,7 +71,7 @@ constexpr Entry kEntries[] = {
     {Concept::control,
      "ik fk ikfk ctrl ctl control controller controls pole poletarget poles target tgt mch org tweak "
      "effector handle goal tracker lookat aim orient constraint footsteps vis driver rotator pivot locator "
-     "loc grp group offset snap camera light lamp assimp prerotation translation parent switch dummy"},
+     "loc grp group offset snap camera light lamp assimp prerotation translation parent switch dummy nurbs"},
     {Concept::end, "end nub tip site endsite leaf null headtop toetip effectorend terminal"},
     {Concept::finger,
      "finger fingers thumb thumbs index middle mid ring pinky pinkie little digit phalanx phalange metacarpal "

@@ -23,6 +23,7 @@ constexpr float kNamedTrunk = 3.0F;       // a name's score from which it says w
 constexpr float kNamedHead = 4.0F;        // a name's score from which it says head and nothing else
 constexpr float kNamedPose = -2.0F;       // the most that the place of a head so named may cost
 constexpr float kArmsAboveChest = -1.5F;  // the arms hang on a joint between chest and neck
+constexpr float kCarriesFace = 3.0F;      // eyes or ears hang on it
 constexpr float kWholeHead = 0.8F;        // of the skin above the arms
 constexpr float kWholePose = -1.0F;       // the most that the place of what keeps so much may cost
 constexpr std::size_t kHeadsTried = 6;
@@ -200,6 +201,7 @@ class TrunkFinder {
                            : keepsAll         ? std::max(pose, kWholePose)
                                               : pose);
             if (skinAbove > 0.0F) score += 2.0F * std::min(retainedSkin(joint) / (0.4F * skinAbove), 1.0F);
+            if (carriesFace(joint)) score += kCarriesFace;
             // Arms on the head: a head that is the trunk, too, has that name.
             if (rig_.isAncestorOrSelf(joint, armRoot())) score -= isNamedHead(joint) ? 1.0F : 6.0F;
             heads.push_back({joint, score});
@@ -218,6 +220,12 @@ class TrunkFinder {
 
     // A head that is thrust forward is still one by its name.
     [[nodiscard]] bool isNamedHead(int joint) const { return name(joint, Part::head) >= kNamedHead; }
+
+    // Two joints of a face hang on it: eyes, ears.
+    [[nodiscard]] bool carriesFace(int joint) const {
+        const auto isFace = [&](int child) { return rig_.names[child].face; };
+        return std::count_if(rig_.children[joint].begin(), rig_.children[joint].end(), isFace) >= 2;
+    }
 
     // Skin at and below a joint, without what goes on upwards along the middle: much for a head, little for a neck.
     [[nodiscard]] float retainedSkin(int joint) const {

@@ -71,6 +71,31 @@ TEST_CASE("collars and bosoms are no arms where their names say so", "[halves]")
     checkWhatIsLeft(rig);
 }
 
+TEST_CASE("curves that drive the arms are no second pair of them", "[halves]") {
+    // The upper half of a walking machine: "hip" is no thigh, and the curves bear the names of the joints.
+    std::vector<JointSpec> joints{{"hip", -1, {0, 0.9F, 0}}, {"torso", 0, {0, 1.1F, 0}}, {"head", 1, {0, 1.5F, 0}}};
+    for (const char* side : {"L", "R"}) {
+        const float x = *side == 'L' ? 1.0F : -1.0F;
+        const auto at = static_cast<int>(joints.size());
+        joints.push_back({side + std::string("colar"), 1, {0.15F * x, 1.3F, 0}});
+        joints.push_back({side + std::string("shoulder"), at, {0.3F * x, 1.3F, 0}});
+        joints.push_back({side + std::string("elbow"), at + 1, {0.3F * x, 1.0F, 0}});
+        joints.push_back({side + std::string("hand"), at + 2, {0.3F * x, 0.85F, 0.15F}});
+        joints.push_back({side + std::string("shoulder_nurbsCircle"), -1, {0.4F * x, 0, 0}});
+        joints.push_back({side + std::string("elbow_nurbsCircle"), -1, {0.5F * x, 0, 0}});
+    }
+    animation::Character machine;
+    machine.skeleton = makeSkeleton(joints);
+    for (std::size_t i = 0; i < joints.size(); ++i)
+        machine.skeleton.skinWeight[i] = joints[i].name.ends_with("Circle") ? 0.0F : 60.0F;
+    const HumanoidMap map = animation::mapHumanoid(machine);
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(Role::hips) == 0);
+    CHECK(map.jointOf(Role::leftUpperArm) == 4);
+    CHECK(map.jointOf(Role::leftHand) == 6);
+    CHECK(map.jointOf(Role::leftUpperLeg) == animation::kNoJoint);
+}
+
 TEST_CASE("half a figure without names is none", "[halves]") {
     SyntheticRig rig = makeSyntheticRig("vroid");
     cutOff(rig, Role::leftUpperLeg);

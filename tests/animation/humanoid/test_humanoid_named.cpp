@@ -313,6 +313,34 @@ TEST_CASE("hips that carry the legs beside the spine are the hips, not the joint
     CHECK(map.jointOf(Role::head) == 8);
 }
 
+TEST_CASE("a goblin whose forearms end at the ground is a figure by its names, and what its ears hang on is its head",
+          "[named]") {
+    std::vector<JointSpec> joints{
+        {"Base", -1, {0, 0.03F, 0.4F}}, {"Body", 0, {0, 0.38F, 0}}, {"Body.001", 1, {0, 0.64F, 0}}};
+    for (const char* side : {".L", ".R"}) {
+        const float x = side[1] == 'L' ? 1.0F : -1.0F;
+        const auto at = static_cast<int>(joints.size());
+        joints.push_back({"Thigh" + std::string(side), 1, {0.13F * x, 0.4F, -0.05F}});
+        joints.push_back({"Calf" + std::string(side), at, {0.13F * x, 0.24F, -0.05F}});
+        joints.push_back({"Foot" + std::string(side), at + 1, {0.13F * x, 0.06F, -0.05F}});
+        joints.push_back({"Bicep" + std::string(side), 1, {0.25F * x, 0.62F, -0.07F}});
+        joints.push_back({"Forearm" + std::string(side), at + 3, {0.33F * x, 0.46F, -0.07F}});
+        joints.push_back({"Forearm" + std::string(side) + "_end", at + 4, {0.36F * x, 0.05F, -0.05F}});
+        joints.push_back({"Ear" + std::string(side), 2, {0.28F * x, 0.99F, -0.15F}});
+    }
+    animation::Character goblin;
+    goblin.skeleton = makeSkeleton(joints);
+    for (std::size_t i = 0; i < joints.size(); ++i)
+        goblin.skeleton.skinWeight[i] = joints[i].name.ends_with("_end") ? 0.0F : 50.0F;
+    goblin.skeleton.skinWeight[2] = 400.0F;
+    const HumanoidMap map = animation::mapHumanoid(goblin);
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(Role::head) == 2);
+    CHECK(map.jointOf(Role::hips) == 1);
+    CHECK(goblin.skeleton.names[map.jointOf(Role::leftLowerArm)] == "Forearm.L");
+    CHECK(goblin.skeleton.names[map.jointOf(Role::rightFoot)] == "Foot.R");
+}
+
 TEST_CASE("who bows deeply is a figure by his names, and stands upright on his legs", "[named]") {
     for (const std::string& convention : syntheticConventions()) {
         if (convention == "rigify control rig") continue;  // its legs do not hang on its hips

@@ -123,6 +123,29 @@ animation::Character room() {
     return made;
 }
 
+// It flies level, with the names of a man's limbs: turned to stand it would have a tail below its feet.
+animation::Character flyingDragon() {
+    RigBuilder rig;
+    const int chest = rig.add("SpineCOG", -1, {0, 0.5F, -0.2F});
+    const int hips = rig.add("SpineC", rig.add("SpineB", chest, {0, 0.5F, -0.4F}), {0, 0.5F, -0.7F});
+    rig.add("HeadEnd", rig.add("Head", rig.add("NeckA", chest, {0, 0.5F, -0.18F}), {0, 0.5F, -0.07F}),
+            {0, 0.5F, 0.24F});
+    rig.chain("Tail", hips, {0, 0.5F, -0.9F}, {{0, 0, -0.15F}, {0, 0, -0.16F}, {0, 0, -0.13F}, {0, 0, -0.12F}});
+    for (const char* side : {"l", "r"}) {
+        const float x = *side == 'l' ? 1.0F : -1.0F;
+        const auto add = [&](const char* name, int parent, const vec3& place) {
+            return rig.add(std::string(side) + name, parent, {x * place.x, place.y, place.z});
+        };
+        add("_hand", add("_lowerArm", add("_upperArm", chest, {0.19F, 0.46F, -0.25F}), {0.25F, 0.43F, -0.33F}),
+            {0.29F, 0.42F, -0.44F});
+        add("_toes",
+            add("_ankle", add("_lowerLeg", add("_upperLeg", hips, {0.2F, 0.43F, -0.68F}), {0.24F, 0.34F, -0.76F}),
+                {0.18F, 0.38F, -0.89F}),
+            {0.19F, 0.35F, -0.94F});
+    }
+    return rig.character();
+}
+
 animation::Character handAlone() {
     RigBuilder rig;
     const int wrist = rig.add("wrist", -1, {0, 0, 0});
@@ -305,6 +328,7 @@ const std::vector<std::pair<const char*, std::function<animation::Character()>>>
         {"spider", spider},
         {"bird", bird},
         {"room", room},
+        {"flying dragon", flyingDragon},
         {"hand", handAlone},
         {"arm", armAlone},
         {"car", car},
