@@ -147,6 +147,7 @@ class Imaginer {
         CompletedRig completed{rig_, std::vector<int>(rig_.parents.size(), kNoJoint), true};
         RigFeatures& rig = completed.rig;
         const vec3 outward = glm::normalize(aside);
+        auto name = names.begin();
         for (int side = 0; side < 2; ++side) {
             const float sign = side == 0 ? 1.0F : -1.0F;
             const vec3 along = glm::dot(step, outward) * outward;
@@ -155,7 +156,7 @@ class Imaginer {
                 completed.originalOf.push_back(side == 0 ? joint + 3 : joint - 3);
                 const auto count = static_cast<float>(place);
                 rig.positions.push_back(start + sign * (aside + count * along) + count * (step - along));
-                addJoint(place == 0 ? parent : joint - 1, names[static_cast<std::size_t>(3 * side + place)], rig);
+                addJoint(place == 0 ? parent : joint - 1, *name++, rig);
             }
         }
         walkTree(rig);
