@@ -24,6 +24,9 @@ constexpr float kWristOfArm = (0.186F + 0.146F) / (0.186F + 0.146F + 0.108F);
 constexpr float kAnkleOfShin = 0.246F / (0.246F + 0.039F);
 constexpr float kAnkleOfLeg = (0.245F + 0.246F) / (0.245F + 0.246F + 0.039F);
 
+// The chin above the shoulders, of the way up to them from the hips (ibid.: 0.870, 0.818 and 0.530 of the height).
+constexpr float kHeadOfTrunk = (0.870F - 0.818F) / (0.818F - 0.530F);
+
 // What a joint with all below it has of the figure: points of the skin that it moves most, else the joints below.
 std::vector<vec3> pointsOf(const Character& character, int joint) {
     std::vector<vec3> points;
@@ -70,6 +73,7 @@ class LimbCompleter {
     LimbEnds complete() {
         for (const LimbRoles& limb : kWholeLimbs)
             addTo(limb);
+        if (map_.jointOf(Role::head) == kNoJoint) addHead();
         out_.skeleton = longer_ ? std::move(longer_)
                                 : std::shared_ptr<const Skeleton>(std::shared_ptr<void>(), &character_.skeleton);
         return std::move(out_);
@@ -78,6 +82,19 @@ class LimbCompleter {
   private:
     [[nodiscard]] const vec3& placeOf(int joint) const {
         return character_.skeleton.bindModelFromJoint[joint].translation;
+    }
+
+    // On the topmost joint of the trunk, above the shoulders.
+    void addHead() {
+        int top = kNoJoint;
+        for (const Role role : {Role::hips, Role::spine, Role::chest, Role::upperChest, Role::neck})
+            top = map_.jointOf(role) != kNoJoint ? map_.jointOf(role) : top;
+        const int left = map_.jointOf(Role::leftUpperArm);
+        const int right = map_.jointOf(Role::rightUpperArm);
+        const int hips = map_.jointOf(Role::hips);
+        if (top == kNoJoint || hips == kNoJoint || left == kNoJoint || right == kNoJoint) return;
+        const vec3 shoulders = 0.5F * (placeOf(left) + placeOf(right));
+        add(Role::head, top, shoulders + kHeadOfTrunk * (shoulders - placeOf(hips)));
     }
 
     void addTo(const LimbRoles& limb) {

@@ -18,7 +18,8 @@ struct StiffLimb {
 };
 
 /// A humanoid whose limbs all end in a wrist or an ankle. Figures of few joints have no hands or feet, or limbs of a
-/// single joint; poses are told by where limbs point and end, so what is missing is added where the skin ends.
+/// single joint; poses are told by where limbs point and end, so what is missing is added where the skin ends. A head
+/// that is missing is added above the shoulders, where both arms are there.
 struct LimbEnds {
     /// The file's joints, then those that were added. The character's own where nothing was, which must outlive it.
     std::shared_ptr<const Skeleton> skeleton;

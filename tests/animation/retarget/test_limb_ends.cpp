@@ -145,7 +145,8 @@ TEST_CASE("what can't be added is told by its role") {
         REQUIRE_FALSE(rig);
         return rig.error().message;
     };
-    SECTION("a head") {
+    SECTION("a head without shoulders") {
+        takeAway(humanoid.map, {Role::leftUpperArm, Role::leftLowerArm, Role::leftHand});
         humanoid.map.roles[indexOf(Role::head)].reset();
         humanoid.map.missing = {Role::head};
         CHECK_THAT(refusal(), Catch::Contains("head"));
@@ -153,6 +154,27 @@ TEST_CASE("what can't be added is told by its role") {
     SECTION("a whole leg") {
         takeAway(humanoid.map, {Role::leftUpperLeg, Role::leftLowerLeg, Role::leftFoot});
         CHECK_THAT(refusal(), Catch::Contains("UpperLeg"));
+    }
+}
+
+TEST_CASE("a figure without a head walks, and its clips play on a whole one") {
+    const test::TestHumanoid whole = test::makeHumanoid({});
+    for (const bool neck : {true, false}) {
+        INFO((neck ? "with a neck" : "without a neck"));
+        test::TestHumanoid lacking = test::makeHumanoid({.axesSeed = 2});
+        lacking.map.roles[indexOf(Role::head)].reset();
+        if (!neck) lacking.map.roles[indexOf(Role::neck)].reset();
+        lacking.map.missing = {Role::head};
+        for (const bool source : {true, false}) {
+            const test::TestHumanoid& from = source ? lacking : whole;
+            const test::TestHumanoid& to = source ? whole : lacking;
+            auto retargeter = Retargeter::make(from.character, from.map, to.character, to.map);
+            REQUIRE(retargeter);
+            const auto made = retargetClip(retargeter.value(), test::makeWalk(from));
+            REQUIRE(made);
+            CHECK(made.value().figures.meanLimbDeg() < 3.0);
+            CHECK(made.value().figures.penetrationCm.most < 0.5);
+        }
     }
 }
 
