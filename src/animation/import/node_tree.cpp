@@ -1,5 +1,7 @@
 #include "animation/import/node_tree.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/assert.hpp"
@@ -31,7 +33,8 @@ NodeTree makeNodeTree(const SourceScene& scene) {
             tree.jointParents.push_back(node.joint);
             node.joint = tree.jointCount();
             tree.nodeOfJoint.push_back(index);
-            tree.jointNames.push_back(source.name);
+            // A joint's path is made of names: an empty one would be no path at the root.
+            tree.jointNames.push_back(source.name.empty() ? fmt::format("nodes[{}]", index) : source.name);
         }
         tree.nodes.push_back(node);
     }

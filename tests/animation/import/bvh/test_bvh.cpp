@@ -11,6 +11,7 @@
 
 #include "animation/import/bvh/bvh_document.hpp"
 #include "animation/import/bvh/read_bvh.hpp"
+#include "animation/import/checks.hpp"
 #include "support/catch.hpp"
 #include "support/command.hpp"
 
@@ -97,6 +98,18 @@ TEST_CASE("a BVH zero pose along one axis gives way to the frame that shows the 
     CHECK(glm::distance(dvec3(at[2][3]), dvec3(0, 150, 0)) < 1e-4);   // the spine's tip
     CHECK(glm::distance(dvec3(at[4][3]), dvec3(60, 90, 0)) < 1e-4);   // the left arm's
     CHECK(glm::distance(dvec3(at[6][3]), dvec3(-60, 90, 0)) < 1e-4);  // the right arm's
+}
+
+TEST_CASE("a joint without a name gets one, so that it has a path") {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "nameless.bvh")
+        << "HIERARCHY\nROOT \n{\nOFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\n"
+           "JOINT up\n{\nOFFSET 0 1 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\n"
+           "JOINT side\n{\nOFFSET 1 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET 1 0 0\n}\n}\n}\n"
+           "MOTION\nFrames: 1\nFrame Time: 0.03\n0 0 0 0 0 0 0 0 0\n";
+    const Character character = imported(folder / "nameless.bvh");
+    CHECK(character.skeleton.names[0] == "nodes[0]");
+    CHECK(jointPath(character.skeleton, findJoint(character.skeleton, "up")) == "nodes[0]/up");
 }
 
 TEST_CASE("a BVH motion that breaks off keeps its whole frames") {
