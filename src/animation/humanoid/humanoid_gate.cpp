@@ -11,9 +11,10 @@ namespace {
 
 constexpr float kMostTilt = radians(40.0F);  // of the trunk from upright; hunched figures reach 30 degrees
 constexpr float kUprightTrunk = radians(20.0F);
-constexpr float kMostBend = radians(22.0F);     // of trunk and legs of a figure that leans as a whole
-constexpr float kMostLegTilt = radians(50.0F);  // of the legs from straight down
-constexpr float kLeastHandHeight = 0.16F;       // above the feet, as a share of the way up to the arms' roots
+constexpr float kMostHeadTilt = radians(42.0F);  // … of a head without a name from above the shoulders
+constexpr float kMostBend = radians(22.0F);      // of trunk and legs of a figure that leans as a whole
+constexpr float kMostLegTilt = radians(50.0F);   // of the legs from straight down
+constexpr float kLeastHandHeight = 0.16F;        // above the feet, as a share of the way up to the arms' roots
 // Figures of blocks have one joint a limb and any proportions; names of arms and legs tell them.
 constexpr float kNamedBlock = 2.0F;
 constexpr float kBlocksShape = 1.0F;
@@ -106,6 +107,18 @@ bool trailsTail(const Figure& figure, const FramedRig& framed) {
     return false;
 }
 
+// Of the way from the shoulders to a head that is not named so, from upright; 0 without one, or where it is shorter
+// than the trunk.
+float headTilt(const Figure& figure, const FramedRig& framed) {
+    constexpr float kNamedHead = 2.0F;
+    const int head = figure.trunk.head;
+    if (head == kNoJoint || framed.rig->names[head].parts[Part::head] >= kNamedHead) return 0.0F;
+    vec3 way = framed.positions[head] - figure.arms.root;
+    way.x = 0.0F;
+    const bool far = glm::length(way) > glm::distance(figure.arms.root, figure.legs.root);
+    return far ? angleTo(way, vec3(0, 1, 0)) : 0.0F;
+}
+
 float leastUnnamed(const Figure& figure) {
     const float least = figure.prior >= 0.0F ? kLeastUpright : figure.prior < kOddPrior ? kLeastOdd : kLeastTurned;
     return figure.trunk.head == kNoJoint ? std::max(least, kLeastHeadless) : least;
@@ -142,6 +155,8 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
         return fmt::format("the trunk lies at {:.0f} degrees from upright: an animal, not a standing figure",
                            degrees(tilt));
     }
+    if (headTilt(figure, framed) > kMostHeadTilt)
+        return "its head lies before its shoulders, not above them: an animal";
     if (legTilt > kMostLegTilt && !named) return "the legs do not go down";
     const float rise = figure.arms.root.y - figure.legs.root.y;
     if (rise < kLeastRise * figure.legs.length) return "the arms start no higher than the legs";

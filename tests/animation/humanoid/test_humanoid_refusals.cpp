@@ -123,6 +123,34 @@ animation::Character room() {
     return made;
 }
 
+// A game's, with a man's names: arms, legs and a trunk that stands; head and tail are on joints without a name.
+animation::Character toyTyrannosaur() {
+    RigBuilder rig;
+    const int root = rig.add("Root", -1, {0, 0.6F, 0});
+    const int spine = rig.add("Spine", root, {0, 0.8F, 0.04F});
+    const int chest = rig.add("Spine.001", spine, {0, 1.0F, 0.1F});
+    rig.chain("Bone", chest, {0, 1.2F, 0.2F}, {{0, 0.16F, 0.13F}, {0, 0.1F, 0.15F}, {0, 0.07F, 0.14F}});
+    const int head = rig.add("Bone.007", root, {0, 1.6F, 0.84F});
+    rig.add("Eye.L", head, {0.16F, 1.67F, 1.12F});
+    rig.add("Eye.R", head, {-0.16F, 1.67F, 1.12F});
+    rig.chain("Bone.01", root, {0, 0.6F, 0},
+              {{0, -0.04F, -0.34F}, {0, -0.1F, -0.3F}, {0, -0.15F, -0.3F}, {0, 0, -0.3F}});
+    for (const char* side : {".L", ".R"}) {
+        const float x = side[1] == 'L' ? 1.0F : -1.0F;
+        const auto add = [&](const char* name, int parent, const vec3& place) {
+            return rig.add(name + std::string(side), parent, {x * place.x, place.y, place.z});
+        };
+        add("Forearm", add("Bicep", add("Shoulder", chest, {0, 1.2F, 0.2F}), {0.28F, 1.06F, 0.28F}),
+            {0.28F, 0.94F, 0.37F});
+        add("Hand", root, {0.27F, 0.83F, 0.57F});
+        add("Calf", add("Thigh", add("Hip", root, {0, 0.6F, 0}), {0.3F, 0.66F, 0.1F}), {0.3F, 0.21F, 0.14F});
+        add("Foot", root, {0.3F, -0.17F, 0.11F});
+    }
+    animation::Character made = rig.character();
+    made.skeleton.skinWeight[head] = 900.0F;
+    return made;
+}
+
 // It flies level, with the names of a man's limbs: turned to stand it would have a tail below its feet.
 animation::Character flyingDragon() {
     RigBuilder rig;
@@ -386,6 +414,12 @@ animation::Character without(const animation::Character& whole, int top) {
         skeleton.skinWeight.push_back(whole.skeleton.skinWeight[joint]);
     }
     return left;
+}
+
+TEST_CASE("a head that lies before the shoulders makes an animal of a figure with a man's names", "[refusal]") {
+    const animation::HumanoidMap map = animation::mapHumanoid(toyTyrannosaur());
+    CHECK_FALSE(map.humanoid);
+    CHECK(map.warnings.front().find("its head lies before its shoulders") != std::string::npos);
 }
 
 TEST_CASE("an animal that lacks a limb is no figure that lacks one", "[refusal]") {
