@@ -152,11 +152,40 @@ class Reader {
         return word;
     }
 
+    // The corners that we write beside a hull's mesh; of others' meshes, whose bytes are not looked at, nothing.
+    [[nodiscard]] static std::vector<vec3> cornersOf(const json& geometry) {
+        const json* extras = memberOf(geometry, "extras");
+        const json* corners = extras == nullptr ? nullptr : memberOf(*extras, kCornersKey);
+        std::vector<vec3> points;
+        if (corners == nullptr || !corners->is_array() || corners->size() > physics::ConvexHull::kMostPoints) return {};
+        for (const json& corner : *corners) {
+            if (!corner.is_array() || corner.size() != 3) return {};
+            vec3 point(0);
+            for (int axis = 0; axis < 3; ++axis) {
+                const json& number = corner[static_cast<std::size_t>(axis)];
+                if (!number.is_number() || !std::isfinite(number.get<float>())) return {};
+                point[axis] = number.get<float>();
+            }
+            points.push_back(point);
+        }
+        return points;
+    }
+
     [[nodiscard]] PrimitiveShape shapeOf(const json& collider, float scale) const {
         const json* geometry = memberOf(collider, "geometry");
+        if (std::vector<vec3> corners = geometry == nullptr ? std::vector<vec3>() : cornersOf(*geometry);
+            !corners.empty()) {
+            for (vec3& corner : corners)
+                corner *= scale;
+            PrimitiveShape out;
+            out.kind = PrimitiveShape::Kind::hull;
+            out.hull = physics::makeConvexHull(corners);
+            if (out.hull == nullptr) throw Unusable{"a collider's hull is flat"};
+            return out;
+        }
         const json* shape =
             geometry == nullptr ? nullptr : itemOf(resource(kShapesExtension), "shapes", indexIn(*geometry, "shape"));
-        if (shape == nullptr) throw Unusable{"a collider is no capsule, sphere or box"};
+        if (shape == nullptr) throw Unusable{"a collider is no capsule, sphere or box, and no hull that we wrote"};
         PrimitiveShape out;
         if (const json* capsule = memberOf(*shape, "capsule")) {
             const float bottom = numberIn(*capsule, "radiusBottom").value_or(0.25F);
@@ -172,7 +201,7 @@ class Reader {
             out.kind = PrimitiveShape::Kind::box;
             out.halfExtents = (size.empty() ? vec3(1) : vec3(size[0], size[1], size[2])) * (0.5F * scale);
         } else {
-            throw Unusable{"a collider is no capsule, sphere or box"};
+            throw Unusable{"a collider is no capsule, sphere or box, and no hull that we wrote"};
         }
         return out;
     }
@@ -221,6 +250,7 @@ class Reader {
     // Whether a collider is of a kind that a body can have.
     [[nodiscard]] bool isSimple(std::size_t colliderNode) const {
         const json* geometry = memberOf(*partOf(colliderNode, "collider"), "geometry");
+        if (geometry != nullptr && !cornersOf(*geometry).empty()) return true;
         const json* shape =
             geometry == nullptr ? nullptr : itemOf(resource(kShapesExtension), "shapes", indexIn(*geometry, "shape"));
         return shape != nullptr && (memberOf(*shape, "capsule") != nullptr || memberOf(*shape, "sphere") != nullptr ||

@@ -115,7 +115,12 @@ class GltfPhysicsWriter {
         visitShapes(body.shape, [&](const PrimitiveShape& shape, const RigidTransform& bodyFromShape) {
             Json geometry;
             if (shape.kind == PrimitiveShape::Kind::hull) {
-                geometry = Json{{"convexHull", true}, {"node", addHullNode(index, *shape.hull)}};
+                Json corners = Json::array();
+                for (const vec3& point : shape.hull->points())
+                    corners.push_back(jsonVector(point));
+                geometry = Json{{"convexHull", true},
+                                {"node", addHullNode(index, *shape.hull)},
+                                {"extras", {{kCornersKey, std::move(corners)}}}};
             } else {
                 geometry = Json{{"shape", shapes_.size()}};
                 shapes_.push_back(shapeJson(shape));

@@ -20,7 +20,7 @@ namespace {
 using physics::AddedShape;
 using AddedKind = physics::PrimitiveShape::Kind;
 
-constexpr const char* kAddedKinds[] = {"Capsule", "Box", "Sphere"};
+constexpr const char* kAddedKinds[] = {"Capsule", "Box", "Sphere", "Hull"};
 
 /// A further shape of the active body: what the fields of all selected bodies show.
 struct Added {
@@ -99,6 +99,7 @@ void sizeFields(const Added& added) {
             lengthField(added, side, side.least);
         return;
     }
+    if (added.now.kind == AddedKind::hull) return;  // its corners are no fields
     lengthField(added, kRadius, kRadius.least);
     if (added.now.kind == AddedKind::capsule) lengthField(added, kLength, 2.0F * added.now.radius);
 }
@@ -140,7 +141,7 @@ void kindOf(const Added& added) {
     fieldRow(added.fields, fmt::format("Shape {}", added.index + 2).c_str());
     int kind = static_cast<int>(added.now.kind);
     const auto set = [&](AddedKind wanted) { changeShape(added, "Kind", [&](AddedShape& s) { setKind(s, wanted); }); };
-    if (ImGui::Combo(added.id("kind").c_str(), &kind, kAddedKinds, 3)) set(static_cast<AddedKind>(kind));
+    if (ImGui::Combo(added.id("kind").c_str(), &kind, kAddedKinds, 4)) set(static_cast<AddedKind>(kind));
     const bool changed = added.was && !added.sameKind();
     if (!wasText(added.fields, added.id("kind").c_str(), changed,
                  kAddedKinds[changed ? static_cast<int>(added.was->kind) : 0])) {

@@ -8,6 +8,7 @@
 #include "editor/document/body_shape.hpp"
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"
+#include "physics/fit/edit_bodies.hpp"
 
 namespace lutka::editor {
 namespace {
@@ -92,9 +93,39 @@ void massField(const PartFields& fields) {
     }
 }
 
-constexpr const char* kShapeKinds[] = {"Capsule", "Box", "Sphere"};
+constexpr const char* kShapeKinds[] = {"Capsule", "Box", "Sphere", "Hull"};
+
+// As the fit has it where it is of that kind; a hull of the skin; else as large as the old one.
+Result<void> takeKind(const PartFields& fields, EditorDocument::Part& part, physics::BodyShape::Kind wanted) {
+    using Kind = physics::BodyShape::Kind;
+    const physics::BodyProfile& fitted = fields.fittedOf(part);
+    if (fitted.shape.kind == wanted) {
+        const bool placed = part.body.shape.kind == Kind::hull || wanted == Kind::hull;
+        if (placed) part.body.jointFromBody = fitted.jointFromBody;
+        static_cast<physics::PrimitiveShape&>(part.body.shape) = fitted.shape;  // the further ones stay
+        return {};
+    }
+    if (wanted == Kind::hull) return takeHullOfSkin(fields, part);
+    // A hull stands elsewhere in the joint than what the fit has there.
+    if (part.body.shape.kind == Kind::hull && fitted.shape.kind != Kind::hull) {
+        part.body.jointFromBody = fitted.jointFromBody;
+        static_cast<physics::PrimitiveShape&>(part.body.shape) = fitted.shape;
+    }
+    setKind(part.body.shape, wanted);
+    return {};
+}
 
 }  // namespace
+
+Result<void> takeHullOfSkin(const PartFields& fields, EditorDocument::Part& part) {
+    const EditorDocument& document = fields.context.editor.document();
+    const int body = physics::bodyNamed(document.profile(), part.body.name);
+    auto hull = physics::hullOfSkin(document.profile(), document.character(), document.state().map, body);
+    if (!hull) return hull.error();
+    part.body.shape = hull.value().shape;  // alone: it holds all of the skin
+    part.body.jointFromBody = hull.value().jointFromBody;
+    return {};
+}
 
 const physics::BodyProfile& PartFields::profile() const {
     return context.editor.document().profile().bodies[body()];
@@ -191,25 +222,26 @@ void drawShapeFields(const PartFields& fields) {
     using Kind = physics::BodyShape::Kind;
     fieldRow(fields, "Shape");
     int kind = static_cast<int>(shape.kind);
-    // As the fit has it where it is of that kind; else as large as the old one.
     const auto change = [&](Kind wanted) {
-        fields.change("Shape", [&, wanted](EditorDocument::Part& part) -> Result<void> {
-            const physics::PrimitiveShape& fitted = fields.fittedOf(part).shape;
-            physics::PrimitiveShape& main = part.body.shape;  // the further ones stay
-            if (fitted.kind == wanted)
-                main = fitted;
-            else
-                setKind(main, wanted);
-            return {};
-        });
+        fields.change("Shape", [&, wanted](EditorDocument::Part& part) { return takeKind(fields, part, wanted); });
     };
-    if (ImGui::Combo("##kind", &kind, kShapeKinds, 3)) change(static_cast<Kind>(kind));
+    if (ImGui::Combo("##kind", &kind, kShapeKinds, 4)) change(static_cast<Kind>(kind));
     if (wasText(fields, "kind", shape.kind != was.kind, kShapeKinds[static_cast<int>(was.kind)])) change(was.kind);
     shape = fields.profile().shape;  // as it is from now on
     massField(fields);
     // Every kind takes the lines of a box, so that what follows stays in its place.
     constexpr int lines = 3;
     int used = 1;
+    if (shape.kind == Kind::hull) {
+        const vec3 size = 100.0F * (shape.hull->high() - shape.hull->low());
+        fieldRow(fields, "Size");
+        ImGui::TextUnformatted(fmt::format("{:.1f} × {:.1f} × {:.1f} cm", size.x, size.y, size.z).c_str());
+        fieldRow(fields, "Corners");
+        ImGui::TextUnformatted(fmt::format("{}", shape.hull->points().size()).c_str());
+        tooltip("The convex hull of the body's skin. S scales it, Refit makes it anew.");
+        ImGui::Dummy({1.0F, ImGui::GetFrameHeight()});
+        return;
+    }
     if (shape.kind == Kind::box) {
         measureField(fields, kWidth, kLeast, most);
         measureField(fields, kHeight, kLeast, most);

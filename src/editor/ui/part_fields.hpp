@@ -50,6 +50,9 @@ void fieldRow(const PartFields& fields, const char* label);
 
 /// Sections of the tab.
 void drawShapeFields(const PartFields& fields);
+
+/// Makes a body the convex hull of its skin, in its place. Fails with ErrorCode::usage where it has none.
+[[nodiscard]] Result<void> takeHullOfSkin(const PartFields& fields, EditorDocument::Part& part);
 void drawPlaceFields(const PartFields& fields);
 void drawAddedShapeFields(const PartFields& fields);
 void drawJointFields(const PartFields& fields);

@@ -45,6 +45,9 @@ void drawValueButtons(const PanelContext& context, const PartFields& fields) {
     if (wrappedButton("Refit", "Fits the shapes of the selected bodies to the skin again; limits and masses stay",
                       fields.edits().shape || fields.edits().jointFromBody)) {
         fields.change("Refit", [&](EditorDocument::Part& part) -> Result<void> {
+            const bool isHull = part.body.shape.kind == physics::BodyShape::Kind::hull;
+            if (isHull && fields.fittedOf(part).shape.kind != physics::BodyShape::Kind::hull)
+                return takeHullOfSkin(fields, part);
             part.body.shape = fields.fittedOf(part).shape;
             part.body.jointFromBody = fields.fittedOf(part).jointFromBody;
             return {};

@@ -8,6 +8,7 @@
 
 #include "physics/collision/shape.hpp"
 #include "physics/fit/fit_shapes.hpp"
+#include "physics/fit/hull_fit.hpp"
 #include "physics/fit/profile_plan.hpp"
 #include "physics/fit/rebind.hpp"
 #include "physics/fit/separate_shapes.hpp"
@@ -302,6 +303,24 @@ Result<RagdollProfile> splitBody(const RagdollProfile& profile, const Character&
     RagdollProfile work = std::move(added).value();
     fitBody(work, character, map, bodyNamed(work, name));
     return whole(std::move(work), character);
+}
+
+Result<HullOfSkin> hullOfSkin(const RagdollProfile& profile, const Character& character, const HumanoidMap& map,
+                              int body) {
+    const BodyPlan plan = planOfProfile(profile, character, mapOfBody(profile, map, body));
+    const int place = placesInPlan(profile, plan)[body];
+    const PlacedShape present = shapesInBindPose(profile, character.skeleton)[body];
+    const auto hull = place >= 0 ? fitHull(plan, plan.bodies[place], present) : std::nullopt;
+    if (!hull) {
+        return Error{ErrorCode::usage,
+                     fmt::format("{} has no skin that a hull could be made of", profile.bodies[body].name), "",
+                     "choose another shape"};
+    }
+    // The present shape's place in the joint, and in it the hull's.
+    RigidTransform jointFromBody =
+        profile.bodies[body].jointFromBody * inverse(present.standardFromBody) * hull->standardFromBody;
+    jointFromBody.rotation = glm::normalize(jointFromBody.rotation);
+    return HullOfSkin{hull->shape, jointFromBody};
 }
 
 RagdollProfile rootAlone(const RagdollProfile& profile, const Character& character, const HumanoidMap& map) {

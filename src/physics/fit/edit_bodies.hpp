@@ -29,6 +29,15 @@ namespace lutka::physics {
 [[nodiscard]] Result<RagdollProfile> splitBody(const RagdollProfile& profile, const animation::Character& character,
                                                const animation::HumanoidMap& map, int body);
 
+/// The convex hull of a body's skin (fitHull()) as its shape, and its place in the body's joint.
+struct HullOfSkin {
+    BodyShape shape;
+    RigidTransform jointFromBody;
+};
+/// Fails with ErrorCode::usage where the body has next to no skin, or flat skin.
+[[nodiscard]] Result<HullOfSkin> hullOfSkin(const RagdollProfile& profile, const animation::Character& character,
+                                            const animation::HumanoidMap& map, int body);
+
 /// The root alone, fitted to the skin of all: what a ragdoll made by hand begins with.
 [[nodiscard]] RagdollProfile rootAlone(const RagdollProfile& profile, const animation::Character& character,
                                        const animation::HumanoidMap& map);
