@@ -166,6 +166,7 @@ class GodotWriter {
                 begin("ConvexPolygonShape");
                 text_.line("points = {}( {} )", four_ ? "PackedVector3Array" : "PoolVector3Array",
                            pointsText(*shape.hull, ", "));
+                text_.line("margin = 0.002");  // which Bullet adds around it; 4 cm if nothing is said
                 return;
         }
     }

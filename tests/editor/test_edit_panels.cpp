@@ -33,6 +33,31 @@ TEST_CASE("a script makes a box of a capsule and types a mass by a double click,
     CHECK(now.bodies[leg].massKg == Approx(7.5F));
 }
 
+TEST_CASE("a script makes a thigh the hull of its skin, scales it and has it fitted again") {
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
+    const auto hullAfter = [](bool scales, bool refits) {
+        const Scratch scratch;
+        Script script;
+        script.key(Key::space).click(612, 370);                    // the left lower leg
+        script.click(1130, 183).wait(2).click(1080, 265).wait(2);  // its shape: Hull
+        if (scales) {
+            script.move(640, 640).key(Key::s).key(Key::digit1).key(Key::period).key(Key::digit5).key(Key::enter);
+        }
+        if (refits) script.click(980, 640).wait(2);  // Refit
+        script.move(640, 640).key(Key::s, kControl).wait(2);
+        const Outcome outcome = play(scratch, script);
+        INFO(outcome.output);
+        REQUIRE(outcome.code == 0);
+        const physics::RagdollProfile now = saved(scratch);
+        const physics::BodyProfile& leg = now.bodies[physics::bodyOf(now, Role::leftLowerLeg)];
+        REQUIRE(leg.shape.kind == physics::BodyShape::Kind::hull);
+        CHECK(physics::validate(now).empty());
+        return leg.shape.hull->volume();
+    };
+    const float fitted = hullAfter(false, false);
+    CHECK(hullAfter(true, false) == Approx(1.5F * 1.5F * 1.5F * fitted).epsilon(0.02));
+}
+
 TEST_CASE("a value typed after a double click is one entry of undo, whatever its first click did to the knob") {
     if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;

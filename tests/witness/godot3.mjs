@@ -22,7 +22,7 @@ for (const body of profile.bodies) {
   checks.near(fact.mass, body.massKg, 1e-5, `mass of ${body.name}`);
   checks.that(fact.bone >= 0, `bone of ${body.name}`);
   const { kind, sizes } = plainShape(body.shape);
-  checks.that(fact.shape === { capsule: 'CapsuleShape', sphere: 'SphereShape', box: 'BoxShape' }[kind], `kind of the shape of ${body.name}: ${fact.shape}`);
+  checks.that(fact.shape === { capsule: 'CapsuleShape', sphere: 'SphereShape', box: 'BoxShape', hull: 'ConvexPolygonShape' }[kind], `kind of the shape of ${body.name}: ${fact.shape}`);
   checks.near(fact.sizes, sizes, 1e-5, `sizes of ${body.name}`);
 }
 for (const c of profile.constraints) {

@@ -7,7 +7,7 @@ import path from 'node:path';
 import { Checks, multiply, ourRestHeight, plainShape, profileOf, rotate, run } from './lib.mjs';
 
 const [model, folder] = process.argv.slice(2);
-const geomTypes = { sphere: 2, capsule: 3, box: 6 };  // mjtGeom
+const geomTypes = { sphere: 2, capsule: 3, box: 6, hull: 7 };  // mjtGeom
 const sorted = (values) => [...values].sort((a, b) => a - b);
 const stem = path.parse(model).name;
 const file = path.join(folder, `${stem}.xml`);

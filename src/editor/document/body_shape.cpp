@@ -11,6 +11,18 @@ namespace lutka::editor {
 
 using physics::BodyShape;
 
+namespace {
+
+// The box of a round shape that is as long as a hull and has its moments across; of a box that of its moments.
+vec3 halfBoxLike(const physics::ConvexHull& hull, BodyShape::Kind kind) {
+    constexpr float kRound = 1.1547F;  // a disc's mean square is r²/4, a square's h²/3
+    const vec3 half = physics::halfBoxOfMoments(hull);
+    if (kind != BodyShape::Kind::capsule) return half;
+    return {kRound * half.x, 0.5F * (hull.high().y - hull.low().y), kRound * half.z};
+}
+
+}  // namespace
+
 void setKind(physics::PrimitiveShape& shape, physics::PrimitiveShape::Kind kind) {
     if (kind == shape.kind) return;
     if (kind == BodyShape::Kind::hull) {
@@ -18,8 +30,8 @@ void setKind(physics::PrimitiveShape& shape, physics::PrimitiveShape::Kind kind)
         shape.kind = kind;
         return;
     }
-    const bool wasHull = shape.kind == BodyShape::Kind::hull;
-    const vec3 half = wasHull ? physics::halfBoxOfMoments(*shape.hull) : physics::halfBox(shape);
+    vec3 half = physics::halfBox(shape);
+    if (shape.kind == BodyShape::Kind::hull) half = halfBoxLike(*shape.hull, kind);
     shape.hull.reset();
     shape.kind = kind;
     switch (kind) {

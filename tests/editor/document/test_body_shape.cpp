@@ -1,5 +1,6 @@
 #include "editor/document/body_shape.hpp"
 
+#include "physics/collision/shape.hpp"
 #include "support/catch.hpp"
 
 using namespace lutka;
@@ -37,6 +38,19 @@ TEST_CASE("a shape of another kind has the old one's measures") {
     BodyShape flat = box;
     flat.halfExtents = {0.2F, 0.05F, 0.2F};
     CHECK(shapeOfKind(flat, BodyShape::Kind::capsule).halfLength == Approx(0.0F).margin(1e-6));
+}
+
+TEST_CASE("a hull made of a shape lies in it, and what is made of a hull is as large") {
+    const BodyShape hull = shapeOfKind(thigh(), BodyShape::Kind::hull);
+    REQUIRE(hull.hull != nullptr);
+    CHECK(physics::isCentred(*hull.hull));
+    for (const vec3& corner : hull.hull->points())
+        CHECK(physics::signedDistance(static_cast<const physics::PrimitiveShape&>(thigh()), corner) < 1e-5F);
+    const BodyShape back = shapeOfKind(hull, BodyShape::Kind::capsule);
+    CHECK(back.hull == nullptr);
+    CHECK(back.radius == Approx(0.08F).epsilon(0.2));
+    CHECK(back.radius + back.halfLength == Approx(0.24F).epsilon(0.15));
+    CHECK(shapeOfKind(hull, BodyShape::Kind::box).halfExtents.y == Approx(0.24F).epsilon(0.15));
 }
 
 TEST_CASE("a capsule's radius leaves its length alone, as far as it can") {

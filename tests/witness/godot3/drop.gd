@@ -32,6 +32,8 @@ func _facts():
 			fact["sizes"] = [shape.extents.x, shape.extents.y, shape.extents.z]
 		elif shape is CapsuleShape:
 			fact["sizes"] = [shape.radius, shape.height / 2]
+		elif shape is ConvexPolygonShape:
+			fact["sizes"] = []
 		else:
 			fact["sizes"] = [shape.radius]
 		for name in ["angular_limit_lower", "angular_limit_upper", "x/angular_limit_lower", "x/angular_limit_upper", "y/angular_limit_lower", "y/angular_limit_upper", "z/angular_limit_lower", "z/angular_limit_upper"]:
