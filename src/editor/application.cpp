@@ -50,6 +50,8 @@ class Application {
     void followSky();
     void keepModelPicture();
     void rememberSettings();
+    void rememberFile(const std::filesystem::path& file);
+    void followScene();
     [[nodiscard]] bool isSeen() const;
     Result<void> takeScreenshots();
     void updateTitle();
@@ -70,7 +72,8 @@ class Application {
     std::vector<render::CharacterHandle> characters_;
     int characterRevision_ = -1;
     QualityGovernor governor_;
-    std::filesystem::path sky_;  // whose light the renderer has
+    std::filesystem::path scene_;  // the file of the scene that was remembered last
+    std::filesystem::path sky_;    // whose light the renderer has
     bool vsync_ = true;
     int pictured_ = -1;  // the revision of the character whose picture was kept
     int framesOfModel_ = 0;
@@ -172,7 +175,9 @@ Result<void> Application::start() {
         if (!recorder) return recorder.error();
         recorder_.emplace(std::move(recorder).value());
     }
-    return followCharacter();
+    if (auto followed = followCharacter(); !followed) return followed;
+    followScene();
+    return {};
 }
 
 int Application::frameLimit() const {
@@ -231,10 +236,21 @@ Result<void> Application::followCharacter() {
     uploaded_ = wanted;
     if (sameModel) return {};
     characterRevision_ = editor_->characterRevision();
-    settings_.remember(editor_->document().character().file);
+    rememberFile(editor_->document().character().file);
+    return {};
+}
+
+void Application::rememberFile(const std::filesystem::path& file) {
+    settings_.remember(file);
     if (options_.settings) saveUserSettings(userSettingsFile(), settings_);
     ui_->state.recent = settings_.recent;
-    return {};
+}
+
+void Application::followScene() {
+    const SceneDocument& document = editor_->document().sceneDocument();
+    if (!document.hasFile() || document.file() == scene_) return;
+    scene_ = document.file();
+    rememberFile(scene_);
 }
 
 // What the command line allowed is for this run; what the user chose stays.
@@ -298,6 +314,7 @@ Result<void> Application::oneFrame(double seconds) {
     if (editor_->view.vsync != vsync_) context_.setVsync(vsync_ = editor_->view.vsync);
     editor_->update(seconds);
     if (auto followed = followCharacter(); !followed) return followed;
+    followScene();
     rememberSettings();
     followSky();
     editor_->describe(characters_, frame_);

@@ -61,6 +61,12 @@ void EditorDocument::remember(const std::filesystem::path& file) {
     tellScene();
 }
 
+void EditorDocument::beginHere() {
+    saved_.begin(physics::profileToJson(state_.profile));
+    unsaved_ = false;
+    tellScene();
+}
+
 void EditorDocument::tellScene() {
     scene_.setProfileFile(profileFile(), saved_.fileOf(state_.openedProfile).has_value());
 }

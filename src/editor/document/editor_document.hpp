@@ -93,6 +93,8 @@ class EditorDocument {
     [[nodiscard]] Result<void> changeBodies(
         const std::string& label,
         const std::function<Result<physics::RagdollProfile>(const physics::RagdollProfile&)>& change);
+    /// What the ragdoll is now is what a session begins with: nothing of it is unsaved.
+    void beginHere();
     /// Forgets the user's edits of these bodies and their constraints.
     [[nodiscard]] Result<void> resetParts(std::span<const int> bodies);
     /// Whether two bodies collide (in the ragdoll that has them both). Linked bodies never do: ErrorCode::usage.

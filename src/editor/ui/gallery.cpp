@@ -62,7 +62,7 @@ void drawGallery(const PanelContext& context) {
     ImGui::SetNextWindowSize({std::min(room, context.px(720)), window.y * 0.7F});
     bool open = !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
     std::optional<std::filesystem::path> chosen;
-    if (ImGui::Begin("Recent models", &open,
+    if (ImGui::Begin("Recent files", &open,
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                          ImGuiWindowFlags_NoCollapse)) {
         const float width = card.x + context.px(18);
@@ -74,7 +74,7 @@ void drawGallery(const PanelContext& context) {
             if (modelCard(context, model, card)) chosen = model;
             ImGui::PopID();
         }
-        if (context.state.recent.empty()) mutedText("Models that you open are listed here.");
+        if (context.state.recent.empty()) mutedText("Models and scenes that you open are listed here.");
     }
     ImGui::End();
     context.editor.view.gallery = open && !chosen;

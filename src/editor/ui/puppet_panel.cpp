@@ -89,10 +89,12 @@ void drawMuscles(const PanelContext& context) {
     drawClip(context, *puppets);
     drawStrengths(context, *puppets);
     ImGui::Checkbox("Target", &editor.view.ghost);
-    tooltip("The pose that they follow, green where they are in it, red where a joint is 30° off");
+    tooltip("The pose that they follow, by how far they are from it");
     ImGui::SameLine(context.px(150));
     ImGui::Checkbox("Strength as a colour", &editor.view.strength);
-    tooltip("Red: all of it, green: half, blue: none");
+    tooltip("What is left of each joint's strength");
+    if (editor.view.ghost) drawLegend(targetLegend());
+    if (editor.view.strength) drawLegend(strengthLegend());
 }
 
 }  // namespace lutka::editor

@@ -57,25 +57,6 @@ void drawFit(const PanelContext& context) {
 
 namespace {
 
-// What a layer's colours mean, a line each.
-void drawLegend(const scene::DebugLayerInfo& layer) {
-    ImGui::Indent();
-    for (const render::LegendEntry& entry : layer.legend) {
-        const ImVec4 color(static_cast<float>(entry.color.r) / 255.0F, static_cast<float>(entry.color.g) / 255.0F,
-                           static_cast<float>(entry.color.b) / 255.0F, 1.0F);
-        const float side = ImGui::GetTextLineHeight();
-        ImGui::ColorButton(entry.text.data(), color, ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop,
-                           {side, side});
-        ImGui::SameLine();
-        mutedText(std::string(entry.text));
-    }
-    ImGui::Unindent();
-}
-
-}  // namespace
-
-namespace {
-
 // The plain sky, or a panorama that gives the light.
 void drawSky(const PanelContext& context) {
     ViewSettings& view = context.editor.view;
@@ -104,7 +85,7 @@ void drawViewTab(const PanelContext& context) {
     for (const scene::DebugLayerInfo& layer : scene::debugLayerInfos()) {
         ImGui::Checkbox(layer.title.data(), &(layers.*layer.member));
         tooltip(layer.what.data());
-        if (view.debug && layers.*layer.member) drawLegend(layer);
+        if (view.debug && layers.*layer.member) drawLegend(layer.legend);
     }
     ImGui::Unindent();
     ImGui::EndDisabled();

@@ -12,7 +12,7 @@ namespace lutka::editor {
 /// What the editor remembers between runs.
 struct UserSettings {
     static constexpr std::size_t kMaxRecent = 24;
-    std::vector<std::filesystem::path> recent;  ///< Models, the last one first.
+    std::vector<std::filesystem::path> recent;  ///< Models and scenes, the last one first.
     float uiScale = 0.0F;                       ///< Of the panels; 0: the monitor's.
     float leftWidth = 0.0F;                     ///< Of the side panels, in 96 dpi pixels; 0: their own.
     float rightWidth = 0.0F;

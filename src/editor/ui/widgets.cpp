@@ -19,6 +19,20 @@ void caption(const char* text) {
     ImGui::TextColored(mutedColor(), "%s", text);
 }
 
+void drawLegend(std::span<const render::LegendEntry> entries) {
+    ImGui::Indent();
+    for (const render::LegendEntry& entry : entries) {
+        const ImVec4 color(static_cast<float>(entry.color.r) / 255.0F, static_cast<float>(entry.color.g) / 255.0F,
+                           static_cast<float>(entry.color.b) / 255.0F, 1.0F);
+        const float side = ImGui::GetTextLineHeight();
+        ImGui::ColorButton(entry.text.data(), color, ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop,
+                           {side, side});
+        ImGui::SameLine();
+        mutedText(std::string(entry.text));
+    }
+    ImGui::Unindent();
+}
+
 void mutedText(const std::string& text) {
     ImGui::PushStyleColor(ImGuiCol_Text, mutedColor());
     ImGui::PushTextWrapPos(0.0F);

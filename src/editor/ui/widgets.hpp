@@ -1,7 +1,10 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
+
+#include "render/legend.hpp"
 
 namespace lutka::editor {
 
@@ -9,6 +12,8 @@ namespace lutka::editor {
 void caption(const char* text);
 /// A line of text that is wrapped at the panel's edge and muted.
 void mutedText(const std::string& text);
+/// What colours mean, a line each.
+void drawLegend(std::span<const render::LegendEntry> entries);
 /// A label at the left and the next widget at the right, filling the rest of the line.
 void labelled(const char* label, float labelWidth);
 /// Shows `text` when the last widget is hovered, and not while something is dragged.

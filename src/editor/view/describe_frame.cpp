@@ -118,13 +118,17 @@ void drawBody(const physics::BodyShape& body, const RigidTransform& worldFromBod
     });
 }
 
-// Blue at 0, green in the middle, red at 1.
-render::Color heat(float share, unsigned char opacity) {
-    const float hot = std::clamp(share * 2.0F - 1.0F, 0.0F, 1.0F);
-    const float cold = std::clamp(1.0F - share * 2.0F, 0.0F, 1.0F);
-    const auto byte = [](float value) { return static_cast<unsigned char>(std::lround(value * 255.0F)); };
-    return {byte(0.15F + 0.85F * hot), byte(0.25F + 0.6F * (1.0F - hot) * (1.0F - cold)), byte(0.15F + 0.85F * cold),
-            opacity};
+constexpr render::Color kOnTarget{38, 217, 38, 255};
+constexpr render::Color kOffTarget{255, 64, 38, 255};
+// Not red, which is what is wrong.
+constexpr render::Color kNoStrength{72, 84, 120, 255};
+constexpr render::Color kFullStrength{255, 214, 64, 255};
+
+render::Color between(const render::Color& none, const render::Color& full, float share, unsigned char opacity) {
+    const auto mixed = [&](unsigned char a, unsigned char b) {
+        return static_cast<unsigned char>(std::lround(glm::mix(static_cast<float>(a), static_cast<float>(b), share)));
+    };
+    return {mixed(none.r, full.r), mixed(none.g, full.g), mixed(none.b, full.b), opacity};
 }
 
 bool isThere(const RigidTransform& body, const RigidTransform& pose) {
@@ -147,20 +151,20 @@ void drawGhost(scene::Simulation& simulation, int doll, std::span<const RigidTra
     for (std::size_t body = 0; body < pose.size(); ++body) {
         if (overBodies && isThere(bodies[body], pose[body])) continue;
         const float error = body > 0 ? errors[body - 1] : 0.0F;
-        drawBody(profile.bodies[body].shape, pose[body], heat(0.5F + 0.5F * std::min(error / most, 1.0F), opacity),
-                 lines);
+        drawBody(profile.bodies[body].shape, pose[body],
+                 between(kOnTarget, kOffTarget, std::min(error / most, 1.0F), opacity), lines);
     }
 }
 
-// Each body's shape in the colour of the strength that its joint has now: red full, blue none.
+// Each body's shape in the colour of the strength that its joint has now.
 void drawStrength(scene::Simulation& simulation, int doll, std::span<const RigidTransform> bodies,
                   render::LineBatch& lines) {
     const physics::RagdollProfile& profile = simulation.assetOf(doll).profile;
     physics::Puppet& puppet = simulation.puppets()->puppet(doll);
     for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
         const float own = physics::strengthOf(puppet.settings().muscles, profile, body);
-        drawBody(profile.bodies[body].shape, bodies[body], heat(std::min(own * puppet.strengthLeft(body), 1.0F), 255),
-                 lines);
+        const float share = std::min(own * puppet.strengthLeft(body), 1.0F);
+        drawBody(profile.bodies[body].shape, bodies[body], between(kNoStrength, kFullStrength, share, 255), lines);
     }
 }
 
@@ -209,6 +213,14 @@ void drawPins(const Workspace& workspace, render::LineBatch& lines) {
 }
 
 }  // namespace
+
+std::array<render::LegendEntry, 2> targetLegend() {
+    return {{{kOnTarget, "in the pose"}, {kOffTarget, "a joint 30 degrees off"}}};
+}
+
+std::array<render::LegendEntry, 2> strengthLegend() {
+    return {{{kFullStrength, "all of its strength"}, {kNoStrength, "none"}}};
+}
 
 void describeFrame(const Workspace& workspace, const ViewSettings& view, scene::SimulationDrawer& drawer,
                    std::span<const render::CharacterHandle> characters, render::FrameDescription& frame) {

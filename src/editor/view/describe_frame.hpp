@@ -3,8 +3,11 @@
 #include <filesystem>
 #include <span>
 
+#include <array>
+
 #include "editor/states/workspace.hpp"
 #include "render/frame.hpp"
+#include "render/legend.hpp"
 #include "scene/draw_simulation.hpp"
 
 namespace lutka::editor {
@@ -30,5 +33,9 @@ struct ViewSettings {
 /// `characters` are the uploaded ones of the document's assets; `drawer` keeps its buffers from frame to frame.
 void describeFrame(const Workspace& workspace, const ViewSettings& view, scene::SimulationDrawer& drawer,
                    std::span<const render::CharacterHandle> characters, render::FrameDescription& frame);
+
+/// What the colours of puppets' targets and of their strength mean, from the one end to the other.
+[[nodiscard]] std::array<render::LegendEntry, 2> targetLegend();
+[[nodiscard]] std::array<render::LegendEntry, 2> strengthLegend();
 
 }  // namespace lutka::editor

@@ -196,6 +196,17 @@ TEST_CASE("an edited ragdoll is exported in every format, and what one can't hol
     CHECK(editor->files().replacedFile() == folder / "theirs.xml");
 }
 
+TEST_CASE("a ragdoll that is begun by hand has nothing unsaved until something is done") {
+    NEEDS_ZOO();
+    const auto editor = makeEditor();
+    send(*editor, filesDropped({test::zooFile("fox/Fox.glb").string()}));
+    editor->answerAnyRig(Editor::AnyRig::byHand);
+    REQUIRE(editor->document().profile().bodies.size() == 1);
+    CHECK_FALSE(editor->document().unsaved());
+    REQUIRE(editor->edit([](EditorDocument& document) { return document.setMass(0, 3.0F); }));
+    CHECK(editor->document().unsaved());
+}
+
 TEST_CASE("a model that is no humanoid is offered as a ragdoll of any skeleton, and edited as one") {
     NEEDS_ZOO();
     const auto editor = makeEditor();
