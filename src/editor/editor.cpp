@@ -422,9 +422,7 @@ void Editor::answerAnyRig(AnyRig answer) {
     load.fit.rig = physics::RigKind::any;
     load.fit.weighByVolume = true;
     files_.afterUnsaved([this, file, load, answer] {
-        if (!adopt(openModel(file, load, document())) || answer != AnyRig::byHand) return;
-        onBodies(&BodyCommands::beginByHand);
-        document().beginHere();  // the one body is no work of the user's that could be lost
+        if (adopt(openModel(file, load, document())) && answer == AnyRig::byHand) onBodies(&BodyCommands::beginByHand);
     });
 }
 

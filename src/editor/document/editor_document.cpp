@@ -49,20 +49,13 @@ EditorDocument::EditorDocument(std::unique_ptr<scene::RagdollAsset> asset) : ass
     state_.map = asset_->map;
     state_.base = asset_->profile;
     state_.profile = asset_->profile;
-    saved_.begin(physics::profileToJson(state_.profile));
-    tellScene();
+    beginHere();
     const Result<void> started = startScene({});
     LUTKA_ASSERT(started.ok());
 }
 
 void EditorDocument::remember(const std::filesystem::path& file) {
     saved_.remember(state_.openedProfile, file, physics::profileToJson(state_.profile));
-    unsaved_ = false;
-    tellScene();
-}
-
-void EditorDocument::beginHere() {
-    saved_.begin(physics::profileToJson(state_.profile));
     unsaved_ = false;
     tellScene();
 }

@@ -1,5 +1,7 @@
 #include "editor/document/open_document.hpp"
 
+#include "physics/profile/profile_io.hpp"
+
 namespace lutka::editor {
 namespace {
 
@@ -78,6 +80,12 @@ Opened openScene(const std::filesystem::path& file, const scene::EntityScene& sc
         return opened;
     }
     return std::unique_ptr<EditorDocument>();
+}
+
+void EditorDocument::beginHere() {
+    saved_.begin(physics::profileToJson(state_.profile));
+    unsaved_ = false;
+    tellScene();
 }
 
 }  // namespace lutka::editor

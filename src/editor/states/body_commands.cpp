@@ -90,6 +90,7 @@ void BodyCommands::beginByHand() {
             return physics::rootAlone(profile, document.character(), document.state().map);
         });
     });
+    workspace_.document->beginHere();  // the one body is no work of the user's that could be lost
     workspace_.say(Toast::Kind::info,
                    "One body for all: add others by a right click on a joint of the tree, or Ctrl+B");
 }

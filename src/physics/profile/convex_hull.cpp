@@ -49,6 +49,7 @@ class HullMaker {
     void takePoints(std::span<const vec3> points) {
         const int count = computer_.vertices.size();
         std::vector<std::pair<int, int>> order;  // index among the points given, among the computer's vertices
+        order.reserve(static_cast<std::size_t>(count));
         for (int i = 0; i < count; ++i)
             order.emplace_back(computer_.original_vertex_index[i], i);
         std::sort(order.begin(), order.end());
