@@ -33,6 +33,15 @@ def test_build_gives_bodies_joints_and_meshes(ragdoll):
     assert not ragdoll.from_model and not ragdoll.rebound
 
 
+def test_bodies_are_hulls_on_request():
+    profile = lutka.build(lutka.mannequin(), hulls=True).profile
+    head = profile.body("head")
+    assert head.shape == "hull" and 4 <= len(head.points) <= 32
+    assert all(len(point) == 3 for point in head.points)
+    assert json.loads(profile.to_json())["bodies"][0]["shape"]["kind"] == "hull"
+    assert lutka.build(lutka.mannequin()).profile.body("head").points is None
+
+
 def test_options_of_build_do_what_they_say():
     heavy = lutka.build(lutka.mannequin(), mass=120, bodies=["neck", "toes"], preset="stiff")
     assert heavy.profile.mass == pytest.approx(120, rel=1e-4)
