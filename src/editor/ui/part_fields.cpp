@@ -99,17 +99,18 @@ constexpr const char* kShapeKinds[] = {"Capsule", "Box", "Sphere", "Hull"};
 Result<void> takeKind(const PartFields& fields, EditorDocument::Part& part, physics::BodyShape::Kind wanted) {
     using Kind = physics::BodyShape::Kind;
     const physics::BodyProfile& fitted = fields.fittedOf(part);
+    const physics::PrimitiveShape& fittedMain = fitted.shape;
     if (fitted.shape.kind == wanted) {
         const bool placed = part.body.shape.kind == Kind::hull || wanted == Kind::hull;
         if (placed) part.body.jointFromBody = fitted.jointFromBody;
-        static_cast<physics::PrimitiveShape&>(part.body.shape) = fitted.shape;  // the further ones stay
+        static_cast<physics::PrimitiveShape&>(part.body.shape) = fittedMain;  // the further ones stay
         return {};
     }
     if (wanted == Kind::hull) return takeHullOfSkin(fields, part);
     // A hull stands elsewhere in the joint than what the fit has there.
     if (part.body.shape.kind == Kind::hull && fitted.shape.kind != Kind::hull) {
         part.body.jointFromBody = fitted.jointFromBody;
-        static_cast<physics::PrimitiveShape&>(part.body.shape) = fitted.shape;
+        static_cast<physics::PrimitiveShape&>(part.body.shape) = fittedMain;
     }
     setKind(part.body.shape, wanted);
     return {};
