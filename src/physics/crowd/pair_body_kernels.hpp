@@ -24,7 +24,7 @@ LUTKA_LANES Symmetric symmetricOf(const Columns& c) {
 
 using Indices = int const (&)[kLanes];
 
-// Row `Row` of eight records that begin with rows of eight floats.
+// Row `row` of eight records that begin with rows of eight floats.
 template <class Record>
 LUTKA_LANES Columns readRows(const Record* records, Indices index, int row) {
     Columns c;
