@@ -2,6 +2,7 @@
 /// is widened, a machine that hardly draws.
 
 #include "editor/scripts.hpp"
+#include "editor/view/describe_frame.hpp"
 #include "scene/recording.hpp"
 
 using namespace lutka;
@@ -162,4 +163,70 @@ TEST_CASE("the list of joints begins where the joint of the role is, and takes i
     REQUIRE(outcome.code == 0);
     const physics::RagdollProfile now = saved(scratch);
     CHECK(now.bodies[physics::bodyOf(now, Role::leftUpperLeg)].joint == "leftLowerLeg");
+}
+
+TEST_CASE("a scene among the recent files is opened by a click on its card") {
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
+    const Scratch scratch;
+    for (const char* name : {"drop", "stairs"}) {
+        Script script;
+        script.key(Key::space).move(640, 640).key(Key::s, {false, true, true}).wait(3);
+        const Outcome outcome = play(scratch, script, std::string(" --scene ") + name);
+        NEEDS_DISPLAY_OF(outcome);
+        INFO(outcome.output);
+        REQUIRE(fs::exists(scratch / (std::string(name) + ".scene.json").c_str()));
+    }
+    Script script;
+    Pictures pictures{scratch, script, ""};
+    pictures.take("stairs.png");
+    script.add(filesDropped({scratch / "drop.scene.json"})).wait(3);
+    pictures.take("drop.png");
+    script.key(Key::o, {true, true, false}).wait(3);
+    script.click(604, 156).wait(3);  // the second card: the last scene but one
+    pictures.take("again.png");
+    script.save(scratch / "script.jsonl");
+    const Outcome outcome =
+        run(scratch, std::string(LUTKA_BINARY) + " edit " + (scratch / "stairs.scene.json").string() +
+                         " --paused --headless --input " + (scratch / "script.jsonl").string() + pictures.arguments);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    // The view above what is told of the files that were opened.
+    const auto view = [&](const char* a, const char* b) { return pictures.apart(a, b, 400, 70, 520, 500); };
+    CHECK(view("stairs.png", "drop.png") > 0.2F);
+    CHECK(view("stairs.png", "again.png") < 0.001F);
+}
+
+TEST_CASE("a script shows puppets' target and strength, whose colours are told with words") {
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
+    const Scratch scratch;
+    Script script;
+    Pictures pictures{scratch, script, {}, {640, 640}};
+    script.key(Key::space).click(1024, 43).wait(3).move(1100, 500);  // the tab Physics
+    for (int notch = 0; notch < 9; ++notch)
+        script.add(wheelTurned(-1.0F));
+    script.wait(3).click(957, 93).wait(3);  // Characters have muscles
+    pictures.take("off.png");
+    script.click(957, 289).wait(2).click(1107, 289).wait(2);  // Target, Strength as a colour
+    pictures.take("on.png");
+    const Outcome outcome = play(scratch, script, pictures.arguments);
+    NEEDS_DISPLAY_OF(outcome);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    const render::Image on = pictures.load("on.png");
+    int line = 0;
+    for (const auto& legend : {targetLegend(), strengthLegend()}) {
+        for (const render::LegendEntry& entry : legend) {
+            INFO(entry.text);
+            const int y = 314 + 20 * line++;
+            const render::Color shown = on.at(967, y);
+            CHECK(std::abs(shown.r - entry.color.r) + std::abs(shown.g - entry.color.g) +
+                      std::abs(shown.b - entry.color.b) <
+                  12);
+            int bright = 0;  // letters behind the colour
+            for (int x = 980; x < 1130; ++x)
+                bright += static_cast<int>(on.at(x, y).g > 100);
+            CHECK(bright > 5);
+        }
+    }
+    checkGolden(cropped(on, 937, 280, 343, 110), "editor_puppet_legend", kPanel);
 }
