@@ -39,6 +39,14 @@ struct UiState {
     float leftWidth = 0.0F;
     float rightWidth = 0.0F;
     float bottomHeight = 0.0F;
+    /// What joints' names need, measured once for each model, so that no edit moves the panels. Window units.
+    struct NameRoom {
+        int characterRevision = -1;
+        float scale = 0.0F;
+        float indent = 0.0F;  ///< Of each level of the tree.
+        float width = 0.0F;   ///< Of the panel.
+    };
+    NameRoom nameRoom;
     std::map<std::string, PanelSide> tabSides;  ///< Of tabs that the user has moved.
     int doctorErrors = 0;                       ///< That the doctor's tab tells.
     bool shapeAdded = false;                    ///< To a body, and its fields are not shown yet.

@@ -144,16 +144,20 @@ void drawRow(const PanelContext& context, const EntityRow& row) {
     } else {
         const bool selected = editor.workspace().selection.contains(itemOf(entity.id));
         const float width = ImGui::GetContentRegionAvail().x;
-        if (ImGui::Selectable(entity.name.c_str(), selected, ImGuiSelectableFlags_AllowDoubleClick, {width, 0})) {
+        const char* kind = kindOf(editor.document().scene(), entity.id);
+        const float kindWidth = ImGui::CalcTextSize(kind).x;
+        const std::string shown = nameWithin(entity.name, width - kindWidth - ImGui::GetStyle().ItemSpacing.x);
+        const std::string label = shown + "###entity";
+        if (ImGui::Selectable(label.c_str(), selected, ImGuiSelectableFlags_AllowDoubleClick, {width, 0})) {
             editor.select(itemOf(entity.id), ImGui::GetIO().KeyShift);
             if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
                 context.state.renaming = entity.id;
                 context.state.newName = entity.name;
             }
         }
+        if (shown != entity.name) tooltip(entity.name);
         dragAndDrop(context, entity);
-        const char* kind = kindOf(editor.document().scene(), entity.id);
-        ImGui::SameLine(indent + width - ImGui::CalcTextSize(kind).x);
+        ImGui::SameLine(indent + width - kindWidth);
         ImGui::TextColored(mutedColor(), "%s", kind);
         drawContextMenu(context, entity);
     }

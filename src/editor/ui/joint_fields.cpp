@@ -339,7 +339,12 @@ void drawJointFields(const PartFields& fields) {
     const auto bodies = editor.player().simulation().worldFromBody(fields.doll);
     const auto state = physics::measureConstraint(constraint, bodies[constraint.parent], bodies[constraint.child]);
     const auto& parent = editor.document().profile().bodies[constraint.parent];
-    caption(fmt::format("JOINT TO {}", parent.name).c_str());
+    const char* words = "JOINT TO ";
+    // Beside the button behind it.
+    const float taken =
+        ImGui::CalcTextSize(words).x + ImGui::CalcTextSize("Swing").x + 4.0F * ImGui::GetStyle().FramePadding.x;
+    caption((words + nameWithin(parent.name, ImGui::GetContentRegionAvail().x - taken)).c_str());
+    tooltip("The joint that hangs it on " + parent.name);
     swingButton(fields, state);
     kindField(fields);
     frictionField(fields);

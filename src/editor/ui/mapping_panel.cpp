@@ -5,6 +5,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "editor/ui/panels.hpp"
@@ -17,15 +18,23 @@ namespace {
 
 using animation::Role;
 
+constexpr float kRoleWidth = 104.0F;
+constexpr float kSureWidth = 26.0F;
+constexpr float kPickWidth = 28.0F;  // of the ring behind the joint
+constexpr float kCellPadding = 3.0F;
+constexpr float kFramePadding = 6.0F;
+
 // A joint's name in a combo of hundreds: filtered by typing.
 void jointCombo(const PanelContext& context, Role role, int joint, bool fixed) {
     Editor& editor = context.editor;
     const animation::Skeleton& skeleton = editor.document().character().skeleton;
     const std::string shown = joint >= 0 ? skeleton.names[joint] : "(none)";
-    ImGui::SetNextItemWidth(-context.px(28));
+    const float width = ImGui::GetContentRegionAvail().x - context.px(kPickWidth);
+    ImGui::SetNextItemWidth(width);
+    const std::string inside = nameWithin(shown, width - 2.0F * ImGui::GetStyle().FramePadding.x);
     if (fixed) ImGui::PushStyleColor(ImGuiCol_Text, accentColor());
     const bool open =
-        ImGui::BeginCombo("##combo", shown.c_str(), ImGuiComboFlags_HeightLargest | ImGuiComboFlags_NoArrowButton);
+        ImGui::BeginCombo("##combo", inside.c_str(), ImGuiComboFlags_HeightLargest | ImGuiComboFlags_NoArrowButton);
     if (fixed) ImGui::PopStyleColor();
     if (!open) return;
     static std::string filter;  // only one combo is open at a time
@@ -80,7 +89,8 @@ void roleRow(const PanelContext& context, Role role) {
     ImGui::TableNextColumn();
     jointCombo(context, role, binding ? binding->joint : animation::kNoJoint, fixed.has_value());
     if (binding) {
-        tooltip(fmt::format("{}{}", binding->reason, fixed ? "\nFixed by you." : ""));
+        const std::string& name = context.editor.document().character().skeleton.names[binding->joint];
+        tooltip(fmt::format("{}: {}{}", name, binding->reason, fixed ? "\nFixed by you." : ""));
     }
     ImGui::SameLine(0.0F, context.px(3));
     const bool asking = context.editor.workspace().pickRole == role;
@@ -101,6 +111,18 @@ void roleRow(const PanelContext& context, Role role) {
 }
 
 }  // namespace
+
+float mappingTabWidth(const PanelContext& context) {
+    const EditorDocument& document = context.editor.document();
+    float widest = 0.0F;
+    for (const auto& binding : document.state().map.roles) {
+        if (!binding) continue;
+        const std::string& name = document.character().skeleton.names[binding->joint];
+        widest = std::max(widest, ImGui::CalcTextSize(name.c_str()).x);
+    }
+    constexpr float cells = kRoleWidth + kSureWidth + kPickWidth + 6.0F * kCellPadding + 2.0F * kFramePadding;
+    return std::ceil(widest + context.px(cells + 4.0F) + 2.0F * ImGui::GetStyle().WindowPadding.x);
+}
 
 void drawMappingTab(const PanelContext& context) {
     Editor& editor = context.editor;
@@ -125,12 +147,12 @@ void drawMappingTab(const PanelContext& context) {
     ImGui::PushStyleColor(ImGuiCol_ChildBg, 0U);
     ImGui::BeginChild("##roles");
     ImGui::PopStyleColor();
-    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(context.px(3), context.px(1)));
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(context.px(6), context.px(2.5F)));
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(context.px(kCellPadding), context.px(1)));
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(context.px(kFramePadding), context.px(2.5F)));
     if (ImGui::BeginTable("##roleTable", 3, ImGuiTableFlags_SizingFixedFit)) {
-        ImGui::TableSetupColumn("role", ImGuiTableColumnFlags_WidthFixed, context.px(104));
+        ImGui::TableSetupColumn("role", ImGuiTableColumnFlags_WidthFixed, context.px(kRoleWidth));
         ImGui::TableSetupColumn("joint", ImGuiTableColumnFlags_WidthStretch);
-        ImGui::TableSetupColumn("sure", ImGuiTableColumnFlags_WidthFixed, context.px(26));
+        ImGui::TableSetupColumn("sure", ImGuiTableColumnFlags_WidthFixed, context.px(kSureWidth));
         for (int role = 0; role < animation::kRoleCount; ++role)
             roleRow(context, animation::roleAt(role));
         ImGui::EndTable();

@@ -20,6 +20,8 @@ struct PanelContext {
     [[nodiscard]] float px(float length) const { return length * scale; }
 };
 
+/// Of the left panel, 96 dpi pixels, unless names need more or the window is narrow.
+inline constexpr float kLeftWidth = 310.0F;
 /// Widths of the side panels in window units: their full width, less in a narrow window.
 [[nodiscard]] float leftPanelWidth(const PanelContext& context);
 [[nodiscard]] float rightPanelWidth(const PanelContext& context);
@@ -63,6 +65,10 @@ void drawCollisions(const PanelContext& context);
 /// Tabs of the left panel.
 void drawSkeletonTab(const PanelContext& context);
 void drawMappingTab(const PanelContext& context);
+/// How wide a panel shows whole the names that are seen in the beginning, window units: in either of these tabs, and in
+/// the one of the mapping.
+[[nodiscard]] float widthForNames(const PanelContext& context);
+[[nodiscard]] float mappingTabWidth(const PanelContext& context);
 void drawEntityTab(const PanelContext& context);
 /// Its lower half: the components of the selected entity.
 void drawInspector(const PanelContext& context);

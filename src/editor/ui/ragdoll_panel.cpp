@@ -81,8 +81,11 @@ void drawBody(const PanelContext& context, const Item& item) {
     const PartFields fields{context, context.editor.workspace().selectedBodies(), item.doll};
     const physics::BodyProfile& body = fields.profile();
     ImGui::PushFont(context.fonts.heading);
-    ImGui::TextUnformatted(body.name.c_str());
+    const float room = ImGui::GetContentRegionAvail().x;
+    const std::string heading = nameWithin(body.name, room);
+    ImGui::TextUnformatted(heading.c_str());
     ImGui::PopFont();
+    if (heading != body.name) tooltip(body.name);
     // One line whatever is selected, so that nothing below moves.
     const auto count = static_cast<int>(fields.bodies.size());
     const bool both = context.editor.document().symmetric();
@@ -91,7 +94,7 @@ void drawBody(const PanelContext& context, const Item& item) {
     } else if (both) {
         ImGui::TextColored(accentColor(), "Changes go to both sides (Shift+M)");
     } else {
-        ImGui::TextColored(mutedColor(), "joint %s", body.joint.c_str());
+        ImGui::TextColored(mutedColor(), "%s", nameWithin("joint " + body.joint, room).c_str());
     }
     tooltip(body.jointPath);
     // Two lines of them, also beside a scroll bar.
@@ -119,18 +122,23 @@ void drawTable(const PanelContext& context) {
                           profile.bodies.size(), profile.bodies.size() == 1 ? "body" : "bodies"));
     if (ImGui::Button("Collisions …")) context.state.showCollisions = true;
     tooltip("Which bodies collide with which");
-    if (!ImGui::BeginTable("##bodies", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
-    ImGui::TableSetupColumn("Body", 0, 2.7F);
-    ImGui::TableSetupColumn("Mass", 0, 1.6F);
-    ImGui::TableSetupColumn("Flex, side, twist", 0, 3.3F);
+    if (!ImGui::BeginTable("##bodies", 3, ImGuiTableFlags_RowBg)) return;
+    // Names get what figures leave.
+    ImGui::TableSetupColumn("Body", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("Mass", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("Flex, side, twist", ImGuiTableColumnFlags_WidthFixed);
     ImGui::TableHeadersRow();
     for (int i = 0; i < static_cast<int>(profile.bodies.size()); ++i) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         const std::string& name = profile.bodies[i].name;
-        if (ImGui::Selectable(name.c_str(), false, ImGuiSelectableFlags_SpanAllColumns)) {
+        const std::string shown = nameWithin(name, ImGui::GetContentRegionAvail().x);
+        ImGui::PushID(i);
+        if (ImGui::Selectable((shown + "###body").c_str(), false, ImGuiSelectableFlags_SpanAllColumns)) {
             editor.select(Item{Item::Kind::body, 0, i}, ImGui::GetIO().KeyShift);
         }
+        ImGui::PopID();
+        if (shown != name) tooltip(name);
         ImGui::TableNextColumn();
         // As many digits as the column has room for.
         const float mass = profile.bodies[i].massKg;

@@ -20,7 +20,6 @@ namespace {
 constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
-constexpr float kLeftWidth = 310.0F;
 constexpr float kRightWidth = 344.0F;
 constexpr float kBottomHeight = 230.0F;
 
@@ -43,10 +42,25 @@ bool anyTab(const PanelContext& context, PanelSide side) {
     return std::any_of(kTabs.begin(), kTabs.end(), [&](const PanelTab& tab) { return sideOf(context, tab) == side; });
 }
 
-// Its own width at most that share of the window; one that the user dragged at most what leaves the view some room.
-float panelWidth(const PanelContext& context, float chosen, float own, float share) {
+// What a panel needs for the names of its joints; 0: it has none.
+float nameWidth(const PanelContext& context, PanelSide side) {
+    const auto has = [&](auto* draw) {
+        return std::any_of(kTabs.begin(), kTabs.end(),
+                           [&](const PanelTab& tab) { return tab.draw == draw && sideOf(context, tab) == side; });
+    };
+    return has(drawSkeletonTab) || has(drawMappingTab) ? widthForNames(context) : 0.0F;
+}
+
+// Its own width at most that share of the window, and a little more where names need it; one that the user dragged at
+// most what leaves the view some room.
+float panelWidth(const PanelContext& context, PanelSide side, float chosen, float own, float share) {
     const float window = ImGui::GetIO().DisplaySize.x;
-    if (chosen <= 0.0F) return std::min(context.px(own), window * share);
+    if (chosen <= 0.0F) {
+        constexpr float mostForNames = 0.33F;
+        const float names = nameWidth(context, side);
+        const float usual = std::min(context.px(own), window * share);
+        return names <= context.px(own) ? usual : std::max(usual, std::min(names, window * mostForNames));
+    }
     constexpr float most = 0.45F;
     return std::clamp(context.px(chosen), std::min(context.px(180), window * share), window * most);
 }
@@ -195,12 +209,12 @@ float statusHeight() {
 
 float leftPanelWidth(const PanelContext& context) {
     if (!anyTab(context, PanelSide::left)) return 0.0F;
-    return panelWidth(context, context.state.leftWidth, kLeftWidth, 0.29F);
+    return panelWidth(context, PanelSide::left, context.state.leftWidth, kLeftWidth, 0.29F);
 }
 
 float rightPanelWidth(const PanelContext& context) {
     if (!anyTab(context, PanelSide::right)) return 0.0F;
-    return panelWidth(context, context.state.rightWidth, kRightWidth, 0.33F);
+    return panelWidth(context, PanelSide::right, context.state.rightWidth, kRightWidth, 0.33F);
 }
 
 ViewSpan viewSpan(const PanelContext& context) {

@@ -5,6 +5,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <span>
 
@@ -115,19 +116,41 @@ Tree makeTree(const EditorDocument& document) {
     return tree;
 }
 
-// Less in a deep tree, whose names would begin where the panel ends.
-float indentOf(const Tree& tree) {
-    constexpr float usual = 11.0F;
-    constexpr float least = 4.0F;
-    constexpr float room = 12.0F * usual;
-    return std::clamp(room / static_cast<float>(tree.depth), least, usual);
+// A joint that is called like its role needs no second word.
+std::string roleWord(Role role, const std::string& joint) {
+    const std::string name(animation::roleName(role));
+    return name == joint ? "●" : name;
+}
+
+constexpr const char* kBodyMark = "○";
+constexpr float kGap = 6.0F;  // between what stands in a line
+
+// What stands behind a joint's name, window units.
+float marksWidth(const PanelContext& context, int joint) {
+    const EditorDocument& document = context.editor.document();
+    const auto role = roleOfJoint(document.state().map, joint);
+    const int body = bodyOfJoint(document.asset().rig, joint);
+    const auto wide = [&](const std::string& text) { return context.px(kGap) + ImGui::CalcTextSize(text.c_str()).x; };
+    float width = 0.0F;
+    if (role) {
+        width = wide(roleWord(*role, document.character().skeleton.names[joint]));
+    } else if (body >= 0) {
+        width = wide(kBodyMark);
+    }
+    if (body >= 0 && !document.profile().bodies[body].shape.more.empty())
+        width += wide(fmt::format("×{}", 1 + document.profile().bodies[body].shape.more.size()));
+    return width;
+}
+
+// From where a line of the tree begins to its name.
+float arrowWidth() {
+    return ImGui::GetFontSize() + 2.0F * ImGui::GetStyle().FramePadding.x;
 }
 
 void roleTag(Role role, const std::string& joint) {
     const std::string name(animation::roleName(role));
     ImGui::SameLine();
-    // A joint that is called like its role needs no second word.
-    ImGui::TextColored(accentColor(), "%s", name == joint ? "●" : name.c_str());
+    ImGui::TextColored(accentColor(), "%s", roleWord(role, joint).c_str());
     tooltip("The joint's role: " + name + ". Drag it onto another joint to move it there.");
     dragRole(role);
 }
@@ -158,8 +181,13 @@ void drawJoint(const PanelContext& context, const Tree& tree, int joint) {
     ImGui::PushID(joint);
     const bool plain = !role && body < 0;
     if (plain) ImGui::PushStyleColor(ImGuiCol_Text, mutedColor());
-    const bool open = ImGui::TreeNodeEx("##joint", flags, "%s", skeleton.names[joint].c_str());
+    // What a deep line has no room for even so is reached by scrolling.
+    const float room = ImGui::GetContentRegionAvail().x - arrowWidth() - marksWidth(context, joint);
+    constexpr float least = 6.0F;  // letters
+    const std::string shown = nameWithin(skeleton.names[joint], std::max(room, least * ImGui::GetFontSize()));
+    const bool open = ImGui::TreeNodeEx("##joint", flags, "%s", shown.c_str());
     if (plain) ImGui::PopStyleColor();
+    if (shown != skeleton.names[joint]) tooltip(skeleton.names[joint]);
     if (context.state.scrollToJoint == joint) {
         // A line that is seen stays under the mouse that clicked it.
         const float top = ImGui::GetWindowPos().y;
@@ -183,7 +211,7 @@ void drawJoint(const PanelContext& context, const Tree& tree, int joint) {
         roleTag(*role, skeleton.names[joint]);
     } else if (body >= 0) {
         ImGui::SameLine();
-        ImGui::TextColored(accentColor(), "○");
+        ImGui::TextColored(accentColor(), "%s", kBodyMark);
         tooltip("It has a body of its own");
     }
     const std::size_t shapes = body < 0 ? 1 : 1 + editor.document().profile().bodies[body].shape.more.size();
@@ -229,7 +257,53 @@ void drawMissingRoles(const PanelContext& context) {
     }
 }
 
+// What the names of the joints that are shown in the beginning need: less indent in a deep tree and one of long names,
+// and a wider panel where that does not help.
+UiState::NameRoom measureNames(const PanelContext& context) {
+    constexpr float usual = 11.0F;
+    constexpr float narrow = 8.0F;
+    constexpr float least = 4.0F;
+    constexpr float room = 12.0F * usual;
+    const animation::Skeleton& skeleton = context.editor.document().character().skeleton;
+    const Tree tree = makeTree(context.editor.document());
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float around = 4.0F * style.WindowPadding.x + style.ScrollbarSize + 4.0F * style.WindowBorderSize;
+    const float most = std::clamp(room / static_cast<float>(tree.depth), least, usual);
+    float indent = most;
+    float width = mappingTabWidth(context);
+    std::vector<float> levels(skeleton.parents.size(), 0.0F);  // parents come first
+    std::vector<bool> shown(skeleton.parents.size(), true);
+    std::vector<float> words(skeleton.parents.size(), 0.0F);
+    for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
+        if (const int parent = skeleton.parents[joint]; parent >= 0) {
+            levels[joint] = levels[parent] + 1.0F;
+            shown[joint] = shown[parent] && tree.leads[parent];
+        }
+        if (!shown[joint]) continue;
+        words[joint] =
+            around + arrowWidth() + ImGui::CalcTextSize(skeleton.names[joint].c_str()).x + marksWidth(context, joint);
+        const float fits = (context.px(kLeftWidth) - words[joint]) / std::max(levels[joint], 1.0F) / context.scale;
+        indent = std::min(indent, std::max(fits, std::min(narrow, most)));
+    }
+    for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
+        if (shown[joint]) width = std::max(width, words[joint] + levels[joint] * context.px(indent));
+    }
+    // Half a pixel of rounding makes no panel wider.
+    return {context.editor.characterRevision(), context.scale, context.px(indent), std::ceil(width - 0.5F)};
+}
+
+const UiState::NameRoom& nameRoom(const PanelContext& context) {
+    UiState::NameRoom& known = context.state.nameRoom;
+    if (known.characterRevision != context.editor.characterRevision() || known.scale != context.scale)
+        known = measureNames(context);
+    return known;
+}
+
 }  // namespace
+
+float widthForNames(const PanelContext& context) {
+    return nameRoom(context).width;
+}
 
 void drawSkeletonTab(const PanelContext& context) {
     followSelection(context);
@@ -241,8 +315,8 @@ void drawSkeletonTab(const PanelContext& context) {
         context.editor.characterRevision());  // what is folded, and how far it is scrolled, is another model's affair
     ImGui::BeginChild("##tree", {0, 0}, true, ImGuiWindowFlags_HorizontalScrollbar);
     const Tree tree = makeTree(context.editor.document());
-    ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, context.px(indentOf(tree)));
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(context.px(6), context.px(3)));
+    ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, nameRoom(context).indent);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(context.px(kGap), context.px(3)));
     bool found = context.state.jointFilter.empty();
     for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
         if (!context.state.jointFilter.empty()) {

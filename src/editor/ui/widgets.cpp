@@ -9,6 +9,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 #include "editor/ui/style.hpp"
 
@@ -62,6 +63,32 @@ bool containsText(std::string_view text, std::string_view part) {
     const auto lower = [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); };
     return std::search(text.begin(), text.end(), part.begin(), part.end(),
                        [&](char a, char b) { return lower(a) == lower(b); }) != text.end();
+}
+
+std::string cutInTheMiddle(std::string_view text, float room, const std::function<float(std::string_view)>& widthOf) {
+    if (widthOf(text) <= room) return std::string(text);
+    std::vector<std::size_t> letters;  // where each begins
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if ((static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U) letters.push_back(i);
+    }
+    letters.push_back(text.size());
+    const std::size_t count = letters.size() - 1;
+    // The end tells more: names of a rig begin alike.
+    const auto cut = [&](std::size_t kept) {
+        const std::size_t first = kept / 2;
+        std::string result(text.substr(0, letters[first]));
+        return result.append("…").append(text.substr(letters[count - (kept - first)]));
+    };
+    std::size_t kept = std::max<std::size_t>(count, 2) - 1;
+    while (kept > 1 && widthOf(cut(kept)) > room)
+        --kept;
+    return count < 2 ? std::string(text) : cut(kept);
+}
+
+std::string nameWithin(std::string_view name, float room) {
+    return cutInTheMiddle(name, room, [](std::string_view text) {
+        return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x;
+    });
 }
 
 void chip(const std::string& text, unsigned int color) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,6 +41,13 @@ struct WidgetMemory {
 [[nodiscard]] bool textLine(const char* id, std::string& value);
 /// The same for a path, with a button behind it; `browse` is set when that was pressed.
 [[nodiscard]] bool pathLine(const char* id, std::string& value, bool& browse);
+
+/// The UTF-8 text, or as much of its beginning and end as has room beside an ellipsis between them, at least one letter
+/// of its end; `widthOf` measures in the unit of `room`.
+[[nodiscard]] std::string cutInTheMiddle(std::string_view text, float room,
+                                         const std::function<float(std::string_view)>& widthOf);
+/// A name in the present font, cut in the middle where it is wider than `room`, window units.
+[[nodiscard]] std::string nameWithin(std::string_view name, float room);
 
 /// Where the text of a slider of that width stands, from its left edge, beside a knob whose middle is at `share` of the
 /// way: in the middle where there is room, else at the side that has more.
