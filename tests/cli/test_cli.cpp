@@ -174,6 +174,21 @@ TEST_CASE("a recording is replayed to the same picture") {
     CHECK(fileText(folder / "a.png") == fileText(folder / "b.png"));
 }
 
+TEST_CASE("a recording of a doll of hulls is replayed to the same picture, hulls and all, and is no doll of capsules") {
+    const ScratchFolder folder;
+    const std::string common = "render " + kMannequinArgument + " --scene stairs --size 160x120 --debug solids ";
+    const CommandResult recorded =
+        lutkaCommand(common + "--hulls --seconds 1 --record " + (folder / "run") + " -o " + (folder / "a.png"));
+    NEEDS_DISPLAY_OF(recorded);
+    REQUIRE(recorded.code == 0);
+    const std::string replay = "--replay " + (folder / "run") + " -o ";
+    REQUIRE(lutkaCommand(common + "--hulls " + replay + (folder / "b.png")).code == 0);
+    REQUIRE(lutkaCommand(common + replay + (folder / "c.png")).code == 0);
+    CHECK(fileText(folder / "a.png").size() > 2000);
+    CHECK(fileText(folder / "a.png") == fileText(folder / "b.png"));
+    CHECK(fileText(folder / "a.png") != fileText(folder / "c.png"));
+}
+
 TEST_CASE("what is not a humanoid is refused with 3 and a reason") {
     NEEDS_ZOO();
     for (const char* model : {"fox/Fox.glb", "webxr_hand/hand_left.glb", "nonhum_static_mannequin/m2m_mannequin.glb",

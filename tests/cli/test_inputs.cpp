@@ -35,6 +35,28 @@ TEST_CASE("a run that kept its inputs is simulated again from them and compared"
     CHECK(lutkaCommand(model + " --replay " + inputs).code == 3);
 }
 
+TEST_CASE("a run of hulls that kept its inputs is simulated again from them by each solver") {
+    const ScratchFolder folder;
+    const std::string inputs = folder / "hulls.inputs.json";
+    const std::string profile = folder / "hulls.ragdoll.json";
+    REQUIRE(lutkaCommand("build " + kMannequinArgument + " --hulls -o " + profile).code == 0);
+    const std::string model = "simulate " + kMannequinArgument;
+    for (const char* solver : {"crowd", "bullet"}) {
+        INFO(solver);
+        REQUIRE(lutkaCommand(model + " --hulls --scene stairs --seconds 1 --solver " + solver + " --record " + inputs)
+                    .code == 0);
+        const CommandResult again = lutkaCommand(model + " --hulls --replay " + inputs);
+        INFO(again.err);
+        CHECK(again.code == 0);
+        CHECK_THAT(again.out, Catch::Contains("60 steps"));
+        // A profile brings its hulls along, to the last bit.
+        CHECK(lutkaCommand(model + " --profile " + profile + " --replay " + inputs).code == 0);
+        const CommandResult other = lutkaCommand(model + " --replay " + inputs);
+        CHECK(other.code == 3);
+        CHECK_THAT(other.err, Catch::Contains("another profile"));
+    }
+}
+
 TEST_CASE("a run from inputs that differ ends with the step and the body") {
     const ScratchFolder folder;
     const std::string inputs = folder / "fall.inputs.json";
