@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "editor/ui/panels.hpp"
 #include "editor/ui/part_fields.hpp"
 #include "editor/ui/style.hpp"
@@ -123,10 +125,14 @@ void drawTable(const PanelContext& context) {
     if (ImGui::Button("Collisions …")) context.state.showCollisions = true;
     tooltip("Which bodies collide with which");
     if (!ImGui::BeginTable("##bodies", 3, ImGuiTableFlags_RowBg)) return;
-    // Names get what figures leave.
-    ImGui::TableSetupColumn("Body", ImGuiTableColumnFlags_WidthStretch);
+    // Names get what figures leave, and in a narrow panel enough to tell them apart.
+    constexpr float least = 0.41F;
+    const float all = ImGui::GetContentRegionAvail().x;
+    const float figures = ImGui::CalcTextSize("10.00 kg").x + ImGui::CalcTextSize("±85  ±85  ±75°").x +
+                          4.0F * ImGui::GetStyle().CellPadding.x;
+    ImGui::TableSetupColumn("Body", ImGuiTableColumnFlags_WidthFixed, std::max(all - figures, least * all));
     ImGui::TableSetupColumn("Mass", ImGuiTableColumnFlags_WidthFixed);
-    ImGui::TableSetupColumn("Flex, side, twist", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("Flex, side, twist", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableHeadersRow();
     for (int i = 0; i < static_cast<int>(profile.bodies.size()); ++i) {
         ImGui::TableNextRow();
@@ -153,7 +159,9 @@ void drawTable(const PanelContext& context) {
                 ? fmt::format("{:.0f}° to {:.0f}°", degrees(range.flexion.low), degrees(range.flexion.high))
                 : fmt::format("±{:.0f}  ±{:.0f}  ±{:.0f}°", degrees(c.cone.swingZ), degrees(c.cone.swingY),
                               degrees(c.cone.twist));
-        ImGui::TextColored(mutedColor(), "%s", limits.c_str());
+        const std::string seen = nameWithin(limits, ImGui::GetContentRegionAvail().x);
+        ImGui::TextColored(mutedColor(), "%s", seen.c_str());
+        if (seen != limits) tooltip(limits);
     }
     ImGui::EndTable();
 }
