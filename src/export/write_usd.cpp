@@ -30,8 +30,9 @@ class UsdWriter {
         for (const ConstraintProfile& constraint : profile_.constraints)
             joint(constraint);
         end();
-        return {text_.take(),
-                {"USD's own library has not checked this file", "a cone is three limited angles; joints have no friction"}};
+        return {
+            text_.take(),
+            {"USD's own library has not checked this file", "a cone is three limited angles; joints have no friction"}};
     }
 
   private:
