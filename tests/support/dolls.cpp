@@ -247,4 +247,15 @@ RagdollProfile makePair(const HingeLimits& limits, float massKg) {
     return pairOf(constraint, massKg);
 }
 
+std::vector<vec3> pointsOnEllipsoid(const vec3& half, int count, Random& random) {
+    std::vector<vec3> points;
+    while (static_cast<int>(points.size()) < count) {
+        const float x = random.uniform(-1, 1);
+        const float y = random.uniform(-1, 1);
+        const vec3 p(x, y, random.uniform(-1, 1));
+        if (glm::length(p) > 0.1F && glm::length(p) < 1.0F) points.push_back(half * glm::normalize(p));
+    }
+    return points;
+}
+
 }  // namespace lutka::test

@@ -8,6 +8,7 @@
 #include "physics/collision/shape.hpp"
 #include "physics/collision/static_distance.hpp"
 #include "support/catch.hpp"
+#include "support/dolls.hpp"
 
 using namespace lutka;
 using namespace lutka::physics;
@@ -29,17 +30,6 @@ vec3 anywhere(Random& random, float reach) {
     const float x = random.uniform(-reach, reach);
     const float y = random.uniform(-reach, reach);
     return {x, y, random.uniform(-reach, reach)};
-}
-
-std::vector<vec3> spreadOnEllipsoid(const vec3& half, int count, Random& random) {
-    std::vector<vec3> points;
-    while (static_cast<int>(points.size()) < count) {
-        const float x = random.uniform(-1, 1);
-        const float y = random.uniform(-1, 1);
-        const vec3 p(x, y, random.uniform(-1, 1));
-        if (glm::length(p) > 0.1F && glm::length(p) < 1.0F) points.push_back(half * glm::normalize(p));
-    }
-    return points;
 }
 
 float mostOutside(const ConvexHull& hull, std::span<const vec3> points) {
@@ -114,7 +104,7 @@ TEST_CASE("a hull that is no box reaches as far as its corners, each way by itse
 
 TEST_CASE("a hull of many points is reduced to few, which lie near them") {
     Random random(11);
-    const std::vector<vec3> points = spreadOnEllipsoid({0.08F, 0.25F, 0.07F}, 2000, random);
+    const std::vector<vec3> points = test::pointsOnEllipsoid({0.08F, 0.25F, 0.07F}, 2000, random);
     float before = 1.0F;
     for (const int most : {8, 16, 32}) {
         const ReducedHull reduced = reduceHull(points, 1e-4F, most);

@@ -7,6 +7,7 @@
 #include "core/random.hpp"
 #include "physics/collision/shape.hpp"
 #include "support/catch.hpp"
+#include "support/dolls.hpp"
 
 using namespace lutka;
 using namespace lutka::physics;
@@ -20,17 +21,6 @@ std::vector<vec3> boxCorners(const vec3& half, const vec3& middle = vec3(0)) {
             for (const float z : {-half.z, half.z})
                 corners.push_back(middle + vec3(x, y, z));
     return corners;
-}
-
-std::vector<vec3> onEllipsoid(const vec3& half, int count, Random& random) {
-    std::vector<vec3> points;
-    while (static_cast<int>(points.size()) < count) {
-        const float x = random.uniform(-1, 1);
-        const float y = random.uniform(-1, 1);
-        const vec3 p(x, y, random.uniform(-1, 1));
-        if (glm::length(p) > 0.1F && glm::length(p) < 1.0F) points.push_back(half * glm::normalize(p));
-    }
-    return points;
 }
 
 float farthestOut(const ConvexHull& hull, std::span<const vec3> points) {
@@ -79,7 +69,7 @@ TEST_CASE("what is turned comes back along its principal axes") {
 TEST_CASE("edges join two sides, sides are planar, and Euler's formula holds") {
     Random random(3);
     for (int trial = 0; trial < 20; ++trial) {
-        const ConvexHullPtr hull = makeConvexHull(onEllipsoid({0.1F, 0.3F, 0.2F}, 8 + trial, random));
+        const ConvexHullPtr hull = makeConvexHull(test::pointsOnEllipsoid({0.1F, 0.3F, 0.2F}, 8 + trial, random));
         REQUIRE(hull != nullptr);
         const auto count = [](const auto& list) { return static_cast<int>(list.size()); };
         CHECK(count(hull->points()) - count(hull->edges()) + count(hull->faces()) == 2);
@@ -96,7 +86,7 @@ TEST_CASE("edges join two sides, sides are planar, and Euler's formula holds") {
 TEST_CASE("a hull made of a hull's corners is the same, to the last bit") {
     Random random(5);
     for (int trial = 0; trial < 20; ++trial) {
-        const ConvexHullPtr first = makeConvexHull(onEllipsoid({0.1F, 0.3F, 0.2F}, 60, random));
+        const ConvexHullPtr first = makeConvexHull(test::pointsOnEllipsoid({0.1F, 0.3F, 0.2F}, 60, random));
         const ConvexHullPtr again = makeConvexHull(first->points());
         CHECK(sameHull(first, again));
     }
@@ -119,7 +109,7 @@ TEST_CASE("the mirror image of a hull is its counterpart's, a scaled one stays a
     Random random(17);
     BodyShape shape;
     static_cast<PrimitiveShape&>(shape) =
-        centredHull(*makeConvexHull(onEllipsoid({0.1F, 0.3F, 0.2F}, 20, random))).shape;
+        centredHull(*makeConvexHull(test::pointsOnEllipsoid({0.1F, 0.3F, 0.2F}, 20, random))).shape;
     const BodyShape other = mirrored(shape);
     for (int i = 0; i < static_cast<int>(shape.hull->points().size()); ++i) {
         const vec3 point = shape.hull->points()[i];
