@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "support/catch.hpp"
 #include "support/dolls.hpp"
@@ -15,6 +16,19 @@ DollSource::DollSource(physics::RagdollProfile p) : character(makeBiped()), prof
     auto bound = physics::bindRig(profile, character.skeleton);
     REQUIRE(bound);
     rig = std::move(bound).value();
+}
+
+exporting::Exported exportedAs(exporting::ExportFormat format, const DollSource& doll) {
+    auto exported = exporting::exportRagdoll(format, doll.source());
+    REQUIRE(exported);
+    return std::move(exported).value();
+}
+
+int occurrences(const std::string& text, const std::string& what) {
+    int found = 0;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+        ++found;
+    return found;
 }
 
 float poseDifference(const RigidTransform& a, const RigidTransform& b) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "export/export_ragdoll.hpp"
 
 namespace lutka::test {
@@ -16,6 +18,12 @@ class DollSource {
     physics::RagdollProfile profile;
     physics::Rig rig;
 };
+
+/// The doll in that format; REQUIREs that it can be written.
+[[nodiscard]] exporting::Exported exportedAs(exporting::ExportFormat format, const DollSource& doll);
+
+/// How often `what` stands in `text`.
+[[nodiscard]] int occurrences(const std::string& text, const std::string& what);
 
 /// Worst difference of two poses: metres, and the distance of unit quaternions.
 [[nodiscard]] float poseDifference(const RigidTransform& a, const RigidTransform& b);

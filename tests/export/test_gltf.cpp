@@ -19,9 +19,7 @@ using namespace lutka::test;
 namespace {
 
 std::string written(const DollSource& doll, ExportFormat format) {
-    auto exported = exportRagdoll(format, doll.source());
-    REQUIRE(exported);
-    return exported.value().bytes;
+    return exportedAs(format, doll).bytes;
 }
 
 struct ReadBack {

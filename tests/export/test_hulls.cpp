@@ -42,17 +42,7 @@ physics::RagdollProfile headOfHulls() {
 }
 
 Exported hullsAs(ExportFormat format) {
-    const DollSource doll(headOfHulls());
-    auto exported = exportRagdoll(format, doll.source());
-    REQUIRE(exported);
-    return std::move(exported).value();
-}
-
-int timesIn(const std::string& text, const std::string& what) {
-    int found = 0;
-    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
-        ++found;
-    return found;
+    return exportedAs(format, DollSource(headOfHulls()));
 }
 
 const physics::ConvexHull& headsHull(const DollSource& doll) {
@@ -86,10 +76,10 @@ TEST_CASE("hulls: both Godots get their corners") {
     const DollSource doll(headOfHulls());
     const std::string corners = pointsText(headsHull(doll), ", ");
     const std::string four = hullsAs(ExportFormat::godot4).bytes;
-    CHECK(timesIn(four, "type=\"ConvexPolygonShape3D\"") == 2);
+    CHECK(occurrences(four, "type=\"ConvexPolygonShape3D\"") == 2);
     CHECK(four.find("points = PackedVector3Array( " + corners + " )") != std::string::npos);
     const std::string three = hullsAs(ExportFormat::godot3).bytes;
-    CHECK(timesIn(three, "type=\"ConvexPolygonShape\"") == 2);
+    CHECK(occurrences(three, "type=\"ConvexPolygonShape\"") == 2);
     CHECK(three.find("points = PoolVector3Array( " + corners + " )") != std::string::npos);
 }
 
@@ -114,19 +104,19 @@ TEST_CASE("hulls: URDF has what stands best for them, and says so") {
 
 TEST_CASE("hulls: USD has a mesh whose convex hull collides") {
     const std::string usd = hullsAs(ExportFormat::usd).bytes;
-    CHECK(timesIn(usd, "def Mesh \"shape") == 2);
-    CHECK(timesIn(usd, "physics:approximation = \"convexHull\"") == 2);
-    CHECK(timesIn(usd, "\"PhysicsMeshCollisionAPI\"") == 2);
-    CHECK(timesIn(usd, "int[] faceVertexIndices") == 2);
+    CHECK(occurrences(usd, "def Mesh \"shape") == 2);
+    CHECK(occurrences(usd, "physics:approximation = \"convexHull\"") == 2);
+    CHECK(occurrences(usd, "\"PhysicsMeshCollisionAPI\"") == 2);
+    CHECK(occurrences(usd, "int[] faceVertexIndices") == 2);
 }
 
 TEST_CASE("hulls: Blender and Bullet build them of their corners") {
     const DollSource doll(headOfHulls());
     const std::string blender = hullsAs(ExportFormat::blender).bytes;
-    CHECK(timesIn(blender, "'CONVEX_HULL', [(") == 1);  // a body has one shape there
+    CHECK(occurrences(blender, "'CONVEX_HULL', [(") == 1);  // a body has one shape there
     const std::string bullet = hullsAs(ExportFormat::bullet).bytes;
-    CHECK(timesIn(bullet, "hull({btVector3(") == 2);
-    CHECK(timesIn(bullet, "std::unique_ptr<btCollisionShape> hull(") == 1);
+    CHECK(occurrences(bullet, "hull({btVector3(") == 2);
+    CHECK(occurrences(bullet, "std::unique_ptr<btCollisionShape> hull(") == 1);
     const DollSource plain;
     CHECK(exportRagdoll(ExportFormat::bullet, plain.source()).value().bytes.find("hull(") == std::string::npos);
 }

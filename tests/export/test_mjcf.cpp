@@ -18,9 +18,7 @@ quat quaternionOf(const std::vector<float>& v, std::size_t at = 0) {
 }
 
 std::string mjcfOf(const DollSource& doll) {
-    auto exported = exporting::exportRagdoll(exporting::ExportFormat::mjcf, doll.source());
-    REQUIRE(exported);
-    return exported.value().bytes;
+    return exportedAs(exporting::ExportFormat::mjcf, doll).bytes;
 }
 
 // World frames of all bodies in a keyframe, by MuJoCo's rules: joints turn the body about their axis through their

@@ -40,22 +40,12 @@ physics::RagdollProfile headOfThree() {
     return profile;
 }
 
-Exported exportedAs(ExportFormat format) {
-    const DollSource doll(headOfThree());
-    auto exported = exportRagdoll(format, doll.source());
-    REQUIRE(exported);
-    return std::move(exported).value();
+Exported threeAs(ExportFormat format) {
+    return exportedAs(format, DollSource(headOfThree()));
 }
 
 std::string textAs(ExportFormat format) {
-    return exportedAs(format).bytes;
-}
-
-int occurrences(const std::string& text, const std::string& what) {
-    int found = 0;
-    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
-        ++found;
-    return found;
+    return threeAs(format).bytes;
 }
 
 vec3 vec3From(const std::vector<float>& v) {
@@ -150,7 +140,7 @@ TEST_CASE("several shapes: Bullet's C++ joins them, USD places them, Blender say
     CHECK(usd.find("def Cube \"shape3\"") != std::string::npos);
     CHECK(occurrences(usd, "[\"xformOp:translate\", \"xformOp:orient\", \"xformOp:scale\"]") == 1);
 
-    const auto warnings = exportedAs(ExportFormat::blender).warnings;
+    const auto warnings = threeAs(ExportFormat::blender).warnings;
     CHECK(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
         return warning.find("head") != std::string::npos && warning.find("left out") != std::string::npos;
     }));

@@ -14,19 +14,6 @@ using namespace lutka::test;
 
 namespace {
 
-Exported exportedAs(ExportFormat format, const DollSource& doll) {
-    auto exported = exportRagdoll(format, doll.source());
-    REQUIRE(exported);
-    return std::move(exported).value();
-}
-
-int count(const std::string& text, const std::string& what) {
-    int found = 0;
-    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
-        ++found;
-    return found;
-}
-
 // The number after a key, in the part of the text that begins with `from`.
 float numberAfter(const std::string& text, const std::string& from, const std::string& key) {
     const std::size_t start = text.find(from);
@@ -106,7 +93,7 @@ TEST_CASE("Godot: joints have clockwise limits in degrees, and every pair that m
     for (const ExportFormat format : {ExportFormat::godot4, ExportFormat::godot3}) {
         const std::string text = exportedAs(format, doll).bytes;
         const bool four = format == ExportFormat::godot4;
-        CHECK(count(text, four ? "type=\"PhysicalBone3D\"" : "type=\"PhysicalBone\"") == 16);
+        CHECK(occurrences(text, four ? "type=\"PhysicalBone3D\"" : "type=\"PhysicalBone\"") == 16);
         CHECK(numberAfter(text, node, "angular_limit_upper = ") ==
               Approx(degrees(bind - hinge->hinge.lower)).margin(1e-3));
         CHECK(numberAfter(text, node, "angular_limit_lower = ") ==
@@ -119,7 +106,7 @@ TEST_CASE("Godot: joints have clockwise limits in degrees, and every pair that m
         const std::string list = text.substr(text.find("exceptions = "),
                                              text.find('\n', text.find("exceptions = ")) - text.find("exceptions = "));
         const auto pairs = doll.profile.constraints.size() + doll.profile.filteredPairs.size();
-        CHECK(count(list, "\"") == static_cast<int>(4 * pairs));
+        CHECK(occurrences(list, "\"") == static_cast<int>(4 * pairs));
     }
 }
 
@@ -133,8 +120,8 @@ TEST_CASE("Godot: a foot on an IK root hangs on its lower leg, and names become 
 TEST_CASE("Blender: a table of bodies and one of joints, ranges from the bind pose, z up") {
     const DollSource doll;
     const std::string text = exportedAs(ExportFormat::blender, doll).bytes;
-    CHECK(count(text, "'CAPSULE', (") == 16);
-    CHECK(count(text, ", True, (") + count(text, ", False, (") == 15);
+    CHECK(occurrences(text, "'CAPSULE', (") == 16);
+    CHECK(occurrences(text, ", True, (") + occurrences(text, ", False, (") == 15);
     // The hips' height is the third number of their place.
     const float height = (standingFromModel(doll.source()) * doll.rig.bindModelFromBody[0]).translation.y;
     std::smatch place;
@@ -148,13 +135,13 @@ TEST_CASE("Bullet and USD: every body, joint and pair is there, in their units")
     profile.filteredPairs = {{0, 2}, {1, 4}};
     const DollSource doll(profile);
     const std::string bullet = exportedAs(ExportFormat::bullet, doll).bytes;
-    CHECK(count(bullet, "addBody(*doll") == 16);
-    CHECK(count(bullet, "addHinge(*doll") + count(bullet, "addCone(*doll") == 15);
-    CHECK(count(bullet, "setIgnoreCollisionCheck") == 2);
+    CHECK(occurrences(bullet, "addBody(*doll") == 16);
+    CHECK(occurrences(bullet, "addHinge(*doll") + occurrences(bullet, "addCone(*doll") == 15);
+    CHECK(occurrences(bullet, "setIgnoreCollisionCheck") == 2);
     const std::string usd = exportedAs(ExportFormat::usd, doll).bytes;
-    CHECK(count(usd, "def Capsule") == 16);
-    CHECK(count(usd, "def PhysicsRevoluteJoint") + count(usd, "def PhysicsJoint") == 15);
-    CHECK(count(usd, "{\n") == count(usd, "}\n"));
+    CHECK(occurrences(usd, "def Capsule") == 16);
+    CHECK(occurrences(usd, "def PhysicsRevoluteJoint") + occurrences(usd, "def PhysicsJoint") == 15);
+    CHECK(occurrences(usd, "{\n") == occurrences(usd, "}\n"));
     CHECK_THAT(usd, Catch::Contains("rel physics:filteredPairs = [</Ragdoll/" + bodyName(profile, 2) + ">]"));
     const auto& c = profile.constraints[0];
     REQUIRE(c.kind == physics::ConstraintProfile::Kind::coneTwist);
