@@ -132,9 +132,9 @@ TEST_CASE("glTF: joints have both frames, and equal names of limits as the draft
     for (std::size_t i = 0; i < doll.profile.constraints.size(); ++i) {
         const auto& c = doll.profile.constraints[i];
         const auto& limits = physics["physicsJoints"][i]["limits"];
-        CHECK(limits[0]["linearAxes"] == nlohmann::json({0, 1, 2}));
+        CHECK(limits[0]["linearAxes"] == nlohmann::ordered_json({0, 1, 2}));
         if (c.kind != physics::ConstraintProfile::Kind::hinge) continue;
-        CHECK(limits[3]["angularAxes"] == nlohmann::json({2}));
+        CHECK(limits[3]["angularAxes"] == nlohmann::ordered_json({2}));
         CHECK(limits[3]["min"].get<float>() == c.hinge.lower);
         CHECK(limits[3]["max"].get<float>() == c.hinge.upper);
     }
