@@ -1,6 +1,7 @@
 #include "animation/clip_reference.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 
 namespace lutka::animation {
@@ -20,12 +21,49 @@ int clipOfNumber(std::span<const Clip> clips, std::string_view reference) {
     return whole && number >= 1 && number <= clips.size() ? static_cast<int>(number) - 1 : -1;
 }
 
+bool sameLetters(std::string_view a, std::string_view b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+// Exporters put the armature's name before that of the action, which is what people know: "Armature|Walk".
+bool isAction(std::string_view name, std::string_view reference) {
+    const std::size_t bar = name.rfind('|');
+    return bar != std::string_view::npos && sameLetters(name.substr(bar + 1), reference);
+}
+
+bool endsInWords(std::string_view name, std::string_view reference) {
+    if (name.size() <= reference.size()) return false;
+    const std::size_t first = name.size() - reference.size();
+    if (!sameLetters(name.substr(first), reference)) return false;
+    const auto before = static_cast<unsigned char>(name[first - 1]);
+    const auto start = static_cast<unsigned char>(name[first]);
+    return std::isalnum(before) == 0 || std::isalnum(start) == 0 || std::isdigit(before) != std::isdigit(start) ||
+           (std::islower(before) != 0 && std::isupper(start) != 0);
+}
+
+template <typename Matches>
+int onlyOne(std::span<const Clip> clips, const Matches& matches) {
+    int only = -1;
+    for (std::size_t clip = 0; clip < clips.size(); ++clip) {
+        if (!matches(clips[clip].name)) continue;
+        if (only >= 0) return -1;
+        only = static_cast<int>(clip);
+    }
+    return only;
+}
+
 }  // namespace
 
 int clipMeant(std::span<const Clip> clips, std::string_view reference) {
     if (reference.empty()) return -1;
-    const int numbered = clipOfNumber(clips, reference);
-    return numbered >= 0 ? numbered : firstNamed(clips, reference);
+    if (const int numbered = clipOfNumber(clips, reference); numbered >= 0) return numbered;
+    if (const int named = firstNamed(clips, reference); named >= 0) return named;
+    for (bool (*meant)(std::string_view, std::string_view) : {sameLetters, isAction, endsInWords}) {
+        const int only = onlyOne(clips, [&](std::string_view name) { return meant(name, reference); });
+        if (only >= 0) return only;
+    }
+    return -1;
 }
 
 std::string clipReference(std::span<const Clip> clips, std::size_t clip) {

@@ -8,7 +8,9 @@
 
 namespace lutka::animation {
 
-/// The clip that a text means: for "#3" the third where there are so many, else the first of that name; -1: none.
+/// The clip that a text means: for "#3" the third where there are so many, else the first of that name. Where none has
+/// it, the only clip that has it without regard to case, else after its last '|' ("walk" for "Armature|Walk"), else as
+/// the last whole words of its name ("walk" for "Armature|Man_Walk", not for "Sleepwalk"). -1: none, or several.
 [[nodiscard]] int clipMeant(std::span<const Clip> clips, std::string_view reference);
 /// The text that means a clip: its name, or, where it has none or one that means another, "#" with its number, counted
 /// from 1.

@@ -23,10 +23,11 @@ Result<const Clip*> clipNamed(const Character& character, const std::string& nam
                  known.empty() ? "the file has no clips" : "the clips are " + known};
 }
 
-// "a@1" may be a clip's own name, which a command line reads as one second into "a". Where no clip is called "a", it
-// is.
+// "a@1" may be a clip's own name, which a command line reads as one second into "a". Where no clip is called just "a",
+// it is.
 ClipStart withWholeName(const Character& character, const ClipStart& start) {
-    if (animation::clipMeant(character.clips, start.clip) >= 0) return start;
+    const auto isNamedSo = [&](const Clip& clip) { return clip.name == start.clip; };
+    if (std::any_of(character.clips.begin(), character.clips.end(), isNamedSo)) return start;
     for (const Clip& clip : character.clips) {
         if (!clip.name.starts_with(start.clip + "@")) continue;
         const char* number = clip.name.c_str() + start.clip.size() + 1;

@@ -39,3 +39,31 @@ TEST_CASE("what means no clip means none, and a number goes before a name") {
         CHECK(clipMeant(clips, text) == -1);
     CHECK(clipMeant({}, "#1") == -1);
 }
+
+TEST_CASE("a clip is found by what people call it, where only one can be meant") {
+    const auto clips = clipsNamed({"HumanArmature|Man_Walk", "HumanArmature|Man_RunJump", "Rig|Idle", "Sleepwalk",
+                                   "take 01", "Hero_SwordSlash", "Hero_PunchLeft", "Hero_PunchRight"});
+    CHECK(clipMeant(clips, "walk") == 0);
+    CHECK(clipMeant(clips, "Man_Walk") == 0);
+    CHECK(clipMeant(clips, "man_walk") == 0);
+    CHECK(clipMeant(clips, "jump") == 1);
+    CHECK(clipMeant(clips, "idle") == 2);
+    CHECK(clipMeant(clips, "sleepwalk") == 3);
+    CHECK(clipMeant(clips, "Take 01") == 4);
+    CHECK(clipMeant(clips, "sword slash") == -1);
+    CHECK(clipMeant(clips, "swordslash") == 5);
+    for (const char* text : {"punch", "hero", "unjump", "|", "alk", "1", "Man"})
+        CHECK(clipMeant(clips, text) == -1);
+}
+
+TEST_CASE("the nearer meaning of a clip's name goes before the farther one") {
+    const auto clips = clipsNamed({"Rig|Old_Walk", "Rig|Walk", "WALK", "walk back", "Fox_Run", "Cow_Run"});
+    CHECK(clipMeant(clips, "Rig|Walk") == 1);
+    CHECK(clipMeant(clips, "walk") == 2);
+    CHECK(clipMeant(clips, "back") == 3);
+    CHECK(clipMeant(clips, "run") == -1);
+    for (std::size_t i = 0; i < clips.size(); ++i)
+        CHECK(clipMeant(clips, clipReference(clips, i)) == static_cast<int>(i));
+    const auto armatures = clipsNamed({"A|walk", "B|walk", "Man_Walk"});
+    CHECK(clipMeant(armatures, "walk") == -1);
+}
