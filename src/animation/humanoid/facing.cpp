@@ -230,6 +230,7 @@ class FacingFinder {
         float counted = 0.0F;
         bool sayParts = true;
         for (const LimbCandidate* limb : {&legs_, &arms_}) {
+            const float others = agree;
             for (std::size_t slot = 0; slot < limb->pairs.size(); ++slot) {
                 const int index = limb->pairs[slot];
                 if (index == kNoPair) continue;
@@ -240,6 +241,7 @@ class FacingFinder {
                 sayParts = sayParts && pair(index).names[partsOf(limb->kind)[slot]] > 0.0F;
                 agree += plus == Side::left || minus == Side::right ? 1.0F : -1.0F;
             }
+            facing_.namesSplit = others * (agree - others) < 0.0F;
         }
         const bool every = sayParts && counted >= kFewestOfEveryLimb && std::abs(agree) >= counted;
         if (counted > 0.0F) facing_.names = (every ? kNamesOfEveryLimb : kNames) * agree / counted;

@@ -11,6 +11,7 @@ namespace lutka::animation {
 struct Facing {
     float shape = 0.0F;       ///< From feet, knees, elbows, head and thumbs.
     float names = 0.0F;       ///< From left and right in the names, were they right.
+    bool namesSplit = false;  ///< Names of the one pair of limbs call the other half left than those of the other pair.
     float prior = 0.0F;       ///< Most files face +Z.
     std::string reason;       ///< What spoke loudest.
     std::string shapeReason;  ///< What spoke loudest of the shape.

@@ -128,7 +128,12 @@ void addWarnings(const Figure& figure, HumanoidMap& map) {
         map.warnings.emplace_back(rig.vertices.empty() ? "the skeleton has no skin: shapes come from the joints alone"
                                                        : "the figure has no skin, only rigid parts");
     }
-    if (figure.facing.namesDisagree()) {
+    if (figure.facing.namesSplit) {
+        map.warnings.push_back(
+            fmt::format("the names call the arm of the one half left and the leg of the other: some of them are wrong, "
+                        "so look which way it faces ({})",
+                        figure.facing.reason));
+    } else if (figure.facing.namesDisagree()) {
         map.warnings.push_back(
             fmt::format("left and right in the names disagree with the geometry, which is followed ({})",
                         figure.facing.shapeReason));

@@ -64,6 +64,25 @@ TEST_CASE("where names tell all limbs, a fighter's poses cost no limb", "[named]
     }
 }
 
+TEST_CASE("names that exchange the arms but not the legs are told", "[named]") {
+    SyntheticRig rig = makeSyntheticRig("cmu", {});
+    const auto saysSo = [](const animation::HumanoidMap& map) {
+        return std::any_of(map.warnings.begin(), map.warnings.end(),
+                           [](const std::string& text) { return text.find("some of them are wrong") != text.npos; });
+    };
+    CHECK_FALSE(saysSo(animation::mapHumanoid(rig.character)));
+    std::vector<std::string>& names = rig.character.skeleton.names;
+    for (const auto& [left, right] : {std::pair(Role::leftShoulder, Role::rightShoulder),
+                                      std::pair(Role::leftUpperArm, Role::rightUpperArm),
+                                      std::pair(Role::leftLowerArm, Role::rightLowerArm),
+                                      std::pair(Role::leftHand, Role::rightHand)}) {
+        std::swap(names[jointOf(rig, left)], names[jointOf(rig, right)]);
+    }
+    const animation::HumanoidMap map = animation::mapHumanoid(rig.character);
+    CHECK(map.humanoid);
+    CHECK(saysSo(map));
+}
+
 TEST_CASE("hips that hang on the trunk and carry the legs are the hips by their name", "[named]") {
     // As a robot is rigged whose body is the root.
     std::vector<JointSpec> joints{{"root", animation::kNoJoint, vec3(0)},
