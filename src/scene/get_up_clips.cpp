@@ -99,9 +99,15 @@ Lying lyingOf(const RagdollAsset& asset, std::span<const RigidTransform> worldFr
     return left.y < 0.0F ? Lying::leftSide : Lying::rightSide;
 }
 
-Result<Clip> clipOf(const RagdollAsset& asset, const RagdollAsset* donor, std::string_view name) {
+int ownClip(const RagdollAsset& asset, std::string_view name, bool exactly) {
+    const int meant = animation::clipMeant(asset.character.clips, name);
+    const bool alike = meant >= 0 && !name.starts_with('#') && asset.character.clips[meant].name != name;
+    return exactly && alike ? -1 : meant;
+}
+
+Result<Clip> clipOf(const RagdollAsset& asset, const RagdollAsset* donor, std::string_view name, bool exactly) {
     const std::vector<Clip>& own = asset.character.clips;
-    if (const int at = animation::clipMeant(own, name); at >= 0) return own[at];
+    if (const int at = ownClip(asset, name, exactly && donor != nullptr); at >= 0) return own[at];
     if (donor != nullptr) {
         const std::vector<Clip>& given = donor->character.clips;
         // By its name alone: a number means one of the character's own.

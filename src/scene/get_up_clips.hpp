@@ -18,10 +18,12 @@ enum class Lying { prone, supine, leftSide, rightSide };
 /// By where the front of the body with the most mass of hips and chest looks; `worldFromBody` is one a body.
 [[nodiscard]] Lying lyingOf(const RagdollAsset& asset, std::span<const RigidTransform> worldFromBody);
 
+/// The character's own clip that is called so, `exactly` or as animation::clipMeant() understands it; -1: none.
+[[nodiscard]] int ownClip(const RagdollAsset& asset, std::string_view name, bool exactly);
 /// The clip of that name: the character's own, else the donor's retargeted. Fails with ErrorCode::usage when neither
 /// has it, or as retargetClip() does.
 [[nodiscard]] Result<animation::Clip> clipOf(const RagdollAsset& asset, const RagdollAsset* donor,
-                                             std::string_view name);
+                                             std::string_view name, bool exactly = false);
 
 /// The ways of a character from lying to standing, and which of them begins most like a pose.
 class GetUpClips {

@@ -92,14 +92,17 @@ Result<std::unique_ptr<PuppetCast>> PuppetCast::create(std::span<const RagdollAs
     }
     if (auto known = checkLed(assets, play.led); !known) return known.error();
     std::unique_ptr<PuppetCast> cast(new PuppetCast(assets, scenario, std::move(play)));
-    if (cast->play_.getUp && cast->play_.start.clip.empty()) cast->play_.start.clip = "idle";
+    PuppetPlay& own = cast->play_;
+    own.namedByScene = own.namedByScene || own.start.clip.empty();
+    if (own.getUp && own.start.clip.empty()) own.start.clip = "idle";
     std::unique_ptr<RagdollAsset> donor;
-    cast->play_.borrows = cast->play_.borrows || cast->play_.getUp;
-    const std::string& clip = cast->play_.start.clip;
+    own.borrows = own.borrows || own.getUp;
+    const std::string& clip = own.start.clip;
     const auto lacks = [&](const RagdollAsset* asset) {
-        return (cast->play_.getUp && !GetUpClips::hasOwn(*asset)) || (!clip.empty() && !clipOf(*asset, nullptr, clip));
+        return (own.getUp && !GetUpClips::hasOwn(*asset)) ||
+               (!clip.empty() && ownClip(*asset, clip, own.namedByScene) < 0);
     };
-    if (cast->play_.borrows && std::any_of(assets.begin(), assets.end(), lacks)) {
+    if (own.borrows && std::any_of(assets.begin(), assets.end(), lacks)) {
         const auto file = findAsset(kDonor);
         if (!file) return file.error();
         auto loaded = loadRagdoll(file.value());
@@ -122,7 +125,7 @@ Result<void> PuppetCast::findClips(const RagdollAsset& asset, const RagdollAsset
     if (play_.start.clip.empty()) return {};
     float seconds = 0.0F;
     animation::Clip clip;
-    auto borrowed = clipOf(asset, donor, play_.start.clip);
+    auto borrowed = clipOf(asset, donor, play_.start.clip, play_.namedByScene);
     // One that is there and can't be had says why.
     if (donor != nullptr && !borrowed && borrowed.error().code != ErrorCode::usage) return borrowed.error();
     if (donor != nullptr && borrowed) {

@@ -58,6 +58,21 @@ std::unique_ptr<scene::Simulation> falls(SolverKind solver, int dolls, float sec
 
 }  // namespace
 
+TEST_CASE("a scene's clip is the character's own only by its very name, one that was asked for by what it means") {
+    const scene::RagdollAsset& donor = getUpMannequin();
+    auto loaded = scene::loadRagdoll(donor.character.file);
+    REQUIRE(loaded);
+    scene::RagdollAsset& hero = *loaded.value();
+    for (animation::Clip& clip : hero.character.clips)
+        if (clip.name == "walk") clip.name = "Rig|Walk";
+    CHECK(scene::clipOf(hero, &donor, "walk", true).value().name == "walk");
+    CHECK(scene::clipOf(hero, &donor, "walk", false).value().name == "Rig|Walk");
+    CHECK(scene::clipOf(hero, nullptr, "walk", true).value().name == "Rig|Walk");
+    CHECK(scene::clipOf(hero, &donor, "Rig|Walk", true).value().name == "Rig|Walk");
+    CHECK(scene::clipOf(hero, &donor, "#1", true).value().name == hero.character.clips[0].name);
+    CHECK_FALSE(scene::clipOf(hero, &donor, "fly").ok());
+}
+
 TEST_CASE(
     "how a figure lies is told from its trunk, and the frame that it lies like is found with its place and heading") {
     const scene::RagdollAsset& asset = getUpMannequin();

@@ -50,18 +50,28 @@ bool isLeaf(const RigFeatures& rig, int joint) {
                         [&](int child) { return rig.carriesSkin(child); });
 }
 
-// A leaf on the way from its parent to one of the parent's other children only turns with the limb.
-bool isTwist(const RigFeatures& rig, int joint) {
+bool isOnWay(const RigFeatures& rig, int joint, int from, int to) {
     constexpr float kAside = 0.06F;  // of the way's length
+    const vec3 way = rig.positions[to] - rig.positions[from];
+    const float square = glm::dot(way, way);
+    if (square <= 0.0F) return false;
+    const vec3 offset = rig.positions[joint] - rig.positions[from];
+    const float along = glm::dot(offset, way) / square;
+    return along > -0.05F && along < 0.98F && glm::length(offset - along * way) < kAside * std::sqrt(square);
+}
+
+// A leaf on the way from its parent to one of the parent's other children only turns with the limb. So does one that is
+// called a twist on the way from its parent to its only child.
+bool isTwist(const RigFeatures& rig, int joint) {
     const int parent = rig.parents[joint];
-    if (parent == kNoJoint || !isLeaf(rig, joint)) return false;
-    const vec3 offset = rig.positions[joint] - rig.positions[parent];
+    if (parent == kNoJoint) return false;
+    if (!isLeaf(rig, joint)) {
+        const bool named = rig.names[joint].helper && !rig.names[joint].control;
+        const auto& children = rig.children[joint];
+        return named && children.size() == 1 && isOnWay(rig, joint, parent, children.front());
+    }
     return std::any_of(rig.children[parent].begin(), rig.children[parent].end(), [&](int other) {
-        const vec3 way = rig.positions[other] - rig.positions[parent];
-        const float square = glm::dot(way, way);
-        if (other == joint || isLeaf(rig, other) || square <= 0.0F) return false;
-        const float along = glm::dot(offset, way) / square;
-        return along > -0.05F && along < 0.98F && glm::length(offset - along * way) < kAside * std::sqrt(square);
+        return other != joint && !isLeaf(rig, other) && isOnWay(rig, joint, parent, other);
     });
 }
 

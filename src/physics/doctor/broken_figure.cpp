@@ -27,6 +27,7 @@ constexpr float kSmallSkin = 0.45F;      // of the shape's length: the diagonal 
 constexpr float kMostSmall = 0.5F;       // of the bodies that have skin
 constexpr float kBeside = 0.03F;         // of the height, beyond the box of a body's own skin
 constexpr float kLeastSkin = 0.1F;       // of the shape's surface, below which its skin tells nothing
+constexpr float kWithin = 0.5F;          // of the body's least half extent, likewise
 constexpr float kMostTouching = 0.05F;   // of the skin of a body beside it, within …
 constexpr float kTouching = 0.02F;       // … this share of the height of the shape's surface
 
@@ -209,7 +210,9 @@ void findBodiesBesideSkin(const BodyPlan& plan, std::span<const PlacedShape> sha
         const SkinBox box = boxOf(body);
         const vec3 beyond = glm::max(box.low - middle, middle - box.high);
         const float distance = std::max({beyond.x, beyond.y, beyond.z});
-        if (distance <= kBeside * plan.heightM) continue;
+        // The middle of a bear's neck may lie behind the collar of skin that follows it.
+        const float within = kWithin * std::min({half.x, half.y, half.z});
+        if (distance <= std::max(kBeside * plan.heightM, within)) continue;
         if (touchingShare(body, shapes[i], plan.heightM) > kMostTouching) continue;
         findings.push_back(error("body-beside-skin", body.name,
                                  fmt::format("its middle is {:.0f} % of the height beside its skin, at most {:.0f}",

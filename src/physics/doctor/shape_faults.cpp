@@ -10,14 +10,15 @@
 namespace lutka::physics {
 namespace {
 
-void addSizeFault(const BodyShape& shape, float heightM, std::vector<ShapeFault>& faults) {
+void addSizeFault(const BodyShape& shape, bool creature, float heightM, std::vector<ShapeFault>& faults) {
     constexpr float kTiny = 0.008F;
-    constexpr float kHuge = 0.32F;
+    const float most = creature ? 0.5F : 0.32F;
     const float radius = std::min(halfWidth(shape, {1, 0, 0}), halfWidth(shape, {0, 0, 1}));
     const float share = radius / heightM;
-    if (share >= kTiny && share <= kHuge) return;
-    faults.push_back({share < kTiny ? "body-tiny" : "body-huge",
-                      fmt::format("{:.1f} % of the height thick, expected 0.8 to 32", 100.0F * share)});
+    if (share >= kTiny && share <= most) return;
+    faults.push_back(
+        {share < kTiny ? "body-tiny" : "body-huge",
+         fmt::format("{:.1f} % of the height thick, expected 0.8 to {:.0f}", 100.0F * share, 100.0F * most)});
 }
 
 void addSkinFaults(const PlannedBody& body, const PlacedShape& shape, float heightM, std::vector<ShapeFault>& faults) {
@@ -51,7 +52,7 @@ bool isShapeFault(std::string_view code) {
 
 std::vector<ShapeFault> shapeFaults(const PlannedBody& body, const PlacedShape& shape, float heightM) {
     std::vector<ShapeFault> faults;
-    addSizeFault(shape.shape, heightM, faults);
+    addSizeFault(shape.shape, body.segment.has_value(), heightM, faults);
     addSkinFaults(body, shape, heightM, faults);
     return faults;
 }

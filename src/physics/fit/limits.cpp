@@ -73,17 +73,22 @@ std::string widenCone(ConeTwistLimits& limits, const SwingTwist& pose, bool isFa
         note = fmt::format("{}: cone of {:.0f} by {:.0f} degrees widened {:.2f} times to hold the bind pose", child,
                            degrees(limits.swingY), degrees(limits.swingZ), factor);
         const ConeTwistLimits before = limits;
-        limits.swingY *= factor;
-        limits.swingZ *= factor;
-        // A narrow cone need not widen its wide side as much: what fills half of each axis fills the ellipse.
-        const float root = std::sqrt(2.0F) * (angle + radians(kSpare)) / angle;
-        const float y = std::max(before.swingY, root * std::abs(pose.swing.y));
-        const float z = std::max(before.swingZ, root * std::abs(pose.swing.z));
+        const auto widenTo = [&](float swingY, float swingZ) {
+            limits.swingY = std::max(before.swingY, swingY);
+            limits.swingZ = std::max(before.swingZ, swingZ);
+        };
+        const auto isTooFar = [&] {
+            return std::max(limits.swingY + std::abs(pose.swing.y), limits.swingZ + std::abs(pose.swing.z)) > kFarthest;
+        };
+        widenTo(factor * before.swingY, factor * before.swingZ);
         const float widest = std::max(limits.swingY, limits.swingZ);
-        if ((isFar || widest > radians(kWidest)) && std::max(y, z) < widest) {
-            limits.swingY = y;
-            limits.swingZ = z;
-        }
+        // A narrow cone need not widen its wide side as much: what fills half of each axis fills the ellipse.
+        const float spare = (angle + radians(kSpare)) / angle;
+        const vec3 half = std::sqrt(2.0F) * spare * glm::abs(pose.swing);
+        const bool narrower = std::max({half.y, half.z, before.swingY, before.swingZ}) < widest;
+        if ((isFar || widest > radians(kWidest) || isTooFar()) && narrower) widenTo(half.y, half.z);
+        // A circle reaches no farther than the pose itself.
+        if (isTooFar()) widenTo(spare * angle, spare * angle);
         limits.swingY = std::min(limits.swingY, radians(kWidest));
         limits.swingZ = std::min(limits.swingZ, radians(kWidest));
     }

@@ -26,6 +26,10 @@ float distanceOf(const std::vector<PlacedShape>& shapes, int a, int b) {
     return distanceBetween(shapes[a].shape, shapes[a].standardFromBody, shapes[b].shape, shapes[b].standardFromBody);
 }
 
+bool isTrunkSegment(const PlannedBody& body) {
+    return body.segment && body.segment->kind == animation::Segment::Kind::trunk;
+}
+
 // The orientations that a constraint's child takes relative to the parent's frame, over its range.
 std::vector<quat> sampleRange(const ConstraintProfile& constraint) {
     const auto aboutZ = [](float angle) { return rotationOf({{0, 0, angle}, 0.0F}); };
@@ -78,6 +82,15 @@ std::vector<int> parentsOfBodies(const RagdollProfile& profile) {
 void separateShapes(const BodyPlan& plan, std::vector<PlacedShape>& shapes) {
     const int count = static_cast<int>(shapes.size());
     const auto linked = [&](int a, int b) { return plan.bodies[a].parent == b || plan.bodies[b].parent == a; };
+    // A creature's trunk is thicker than its joints are apart: along it, beside where a limb leaves it, and where one
+    // body lies between two, the limits keep shapes apart.
+    const auto heldApart = [&](int a, int b) {
+        const PlannedBody& above = plan.bodies[a];
+        const PlannedBody& below = plan.bodies[b];
+        if (!above.segment || !below.segment) return false;
+        const int trunks = (isTrunkSegment(above) ? 1 : 0) + (isTrunkSegment(below) ? 1 : 0);
+        return trunks == 2 || (trunks == 1 && above.parent == below.parent) || plan.bodies[below.parent].parent == a;
+    };
     // Which of a body's shapes lies in the other is not told: the thinnest has least to give.
     const auto radiusOf = [&](int body) {
         float least = thicknessOf(shapes[body].shape);
@@ -95,7 +108,7 @@ void separateShapes(const BodyPlan& plan, std::vector<PlacedShape>& shapes) {
             const bool aGives = plan.bodies[a].segment || !plan.bodies[b].segment;
             const bool bGives = plan.bodies[b].segment || !plan.bodies[a].segment;
             const float share = overlap / ((aGives ? radiusOf(a) : 0.0F) + (bGives ? radiusOf(b) : 0.0F));
-            if (share > kLargestShrink) continue;
+            if (share > kLargestShrink || (aGives && bGives && heldApart(a, b))) continue;
             if (aGives) shares[a] = std::max(shares[a], share);
             if (bGives) shares[b] = std::max(shares[b], share);
         }

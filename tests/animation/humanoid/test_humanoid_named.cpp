@@ -72,10 +72,9 @@ TEST_CASE("names that exchange the arms but not the legs are told", "[named]") {
     };
     CHECK_FALSE(saysSo(animation::mapHumanoid(rig.character)));
     std::vector<std::string>& names = rig.character.skeleton.names;
-    for (const auto& [left, right] : {std::pair(Role::leftShoulder, Role::rightShoulder),
-                                      std::pair(Role::leftUpperArm, Role::rightUpperArm),
-                                      std::pair(Role::leftLowerArm, Role::rightLowerArm),
-                                      std::pair(Role::leftHand, Role::rightHand)}) {
+    for (const auto& [left, right] :
+         {std::pair(Role::leftShoulder, Role::rightShoulder), std::pair(Role::leftUpperArm, Role::rightUpperArm),
+          std::pair(Role::leftLowerArm, Role::rightLowerArm), std::pair(Role::leftHand, Role::rightHand)}) {
         std::swap(names[jointOf(rig, left)], names[jointOf(rig, right)]);
     }
     const animation::HumanoidMap map = animation::mapHumanoid(rig.character);

@@ -100,6 +100,26 @@ TEST_CASE("a creature that faces another way is told by its head and tail") {
     CHECK(rig.segments[segmentNamed(rig, "paw_fore_l")].side == Side::left);
 }
 
+TEST_CASE("twist joints in a row between two joints of a limb belong to the limb, and links of a tail do not") {
+    // As rigs of Advanced Skeleton are exported.
+    std::vector<test::JointSpec> joints{
+        {"Shoulder_L", -1, {0, 1, 0}},      {"ShoulderPart1_L", 0, {0, 1, 0.2F}}, {"Elbow_L", 1, {0, 1, 0.4F}},
+        {"ElbowPart1_L", 2, {0, 1, 0.5F}},  {"ElbowPart2_L", 3, {0, 1, 0.6F}},    {"Wrist_L", 4, {0, 1, 0.7F}},
+        {"TailPart1", 0, {0, 0.9F, -0.2F}}, {"TailPart2", 6, {0, 0.7F, -0.3F}},   {"TailPart3", 7, {0, 0.7F, -0.6F}}};
+    std::vector<test::TubeSpec> tubes;
+    for (int i = 0; i < static_cast<int>(joints.size()); ++i)
+        tubes.push_back({i, joints[i].position + vec3(0, 0, i < 6 ? 0.1F : -0.2F), 0.05F});
+    const SegmentedRig rig = segmentRig(test::makeFigure("limb", joints, tubes));
+    for (const char* name : {"Shoulder_L", "Elbow_L", "Wrist_L", "TailPart2", "TailPart3"}) {
+        INFO(name);
+        CHECK(segmentNamed(rig, name) >= 0);
+    }
+    for (const char* name : {"ShoulderPart1_L", "ElbowPart1_L", "ElbowPart2_L"}) {
+        INFO(name);
+        CHECK(segmentNamed(rig, name) < 0);
+    }
+}
+
 TEST_CASE("joints too short for a body are merged, and a finer rig keeps to the number asked for") {
     std::vector<test::JointSpec> joints{{"link 0", -1, {0, 1, 0}}};
     std::vector<test::TubeSpec> tubes{{0, {0, 1, 0.01F}, 0.02F}};

@@ -60,6 +60,38 @@ TEST_CASE("any rig becomes a valid ragdoll without roles that comes back from it
           "paw_fore_r");
 }
 
+TEST_CASE("a trunk thicker than its joints are apart keeps its thickness") {
+    std::vector<test::JointSpec> joints;
+    std::vector<test::TubeSpec> tubes;
+    constexpr int kLinks = 6;
+    for (int i = 0; i < kLinks; ++i) {
+        const float z = 0.3F * static_cast<float>(i);
+        joints.push_back({i == kLinks - 1 ? "head" : "spine" + std::to_string(i), i - 1, {0, 1, z}});
+        tubes.push_back({i, {0, 1, z + 0.3F}, 0.45F});
+    }
+    for (const float side : {1.0F, -1.0F}) {
+        for (const int above : {0, kLinks - 2}) {
+            const float z = joints[above].position.z;
+            const std::string end = (above == 0 ? "_hind" : "_fore") + std::string(side > 0.0F ? "_l" : "_r");
+            joints.push_back({"thigh" + end, above, {side * 0.3F, 0.8F, z}});
+            joints.push_back({"shin" + end, static_cast<int>(joints.size()) - 1, {side * 0.3F, 0.4F, z}});
+            tubes.push_back({static_cast<int>(joints.size()) - 2, {side * 0.3F, 0.4F, z}, 0.12F});
+            tubes.push_back({static_cast<int>(joints.size()) - 1, {side * 0.3F, 0, z}, 0.1F});
+        }
+    }
+    const animation::Character bear = test::makeFigure("bear", joints, tubes);
+    animation::HumanoidMap map;
+    map.standardFromModel = animation::segmentRig(bear).standardFromModel;
+    const RagdollProfile profile = fitRagdoll(bear, map, Creature::anyRig()).value();
+    for (int link = 1; link < kLinks - 1; ++link) {
+        const int body = bodyNamed(profile, "spine" + std::to_string(link));
+        REQUIRE(body >= 0);
+        INFO(profile.bodies[body].name);
+        CHECK(profile.bodies[body].shape.radius > 0.4F);
+    }
+    CHECK_FALSE(diagnose(profile, bear, map).hasErrors());
+}
+
 TEST_CASE("a creature's shapes lie in its skin and are alike on both sides") {
     const Creature creature;
     for (std::size_t i = 0; i < creature.profile.bodies.size(); ++i) {

@@ -190,6 +190,35 @@ TEST_CASE("a bind pose far beyond the anatomy is held by a cone that does not re
     }
 }
 
+TEST_CASE("no bind pose makes a cone that reaches round the back") {
+    // Wrists, ankles, shoulders and hips, bent about all axes by all angles.
+    for (const ConeTwistLimits& cone : {ConeTwistLimits{radians(25.0F), radians(75.0F), radians(80.0F)},
+                                        ConeTwistLimits{radians(20.0F), radians(35.0F), radians(20.0F)},
+                                        ConeTwistLimits{radians(85.0F), radians(85.0F), radians(70.0F)}}) {
+        float furthest = 0.0F;
+        for (int degree = 5; degree < 180; degree += 5) {
+            for (int around = 0; around < 360; around += 10) {
+                const float angle = radians(static_cast<float>(degree));
+                const float way = radians(static_cast<float>(around));
+                const SwingTwist pose{angle * vec3(0, std::cos(way), std::sin(way)), 0.0F};
+                ConstraintProfile constraint;
+                constraint.kind = ConstraintProfile::Kind::coneTwist;
+                constraint.cone = cone;
+                const RigidTransform parent;
+                const RigidTransform child{rotationOf(pose), vec3(0)};
+                static_cast<void>(widenToHold(constraint, parent, child, "hand"));
+                const SwingTwist held = swingTwist(glm::conjugate(constraint.parentFromFrame.rotation) *
+                                                   child.rotation * constraint.childFromFrame.rotation);
+                INFO(degree << " degrees towards " << around);
+                CHECK(std::hypot(held.swing.y / constraint.cone.swingY, held.swing.z / constraint.cone.swingZ) < 1);
+                furthest = std::max({furthest, constraint.cone.swingY + std::abs(held.swing.y),
+                                     constraint.cone.swingZ + std::abs(held.swing.z)});
+            }
+        }
+        CHECK(degrees(furthest) < 230.0F);
+    }
+}
+
 TEST_CASE("a twist nearly half a turn from a man's is counted from the bind pose") {
     // A walker's knees, which bend forwards.
     const BindPose pose{"walker", {{"leftLowerLeg", {1, 0, 0}, -60}, {"rightLowerLeg", {1, 0, 0}, -60}}};
