@@ -93,14 +93,12 @@ Result<std::unique_ptr<PuppetCast>> PuppetCast::create(std::span<const RagdollAs
     if (auto known = checkLed(assets, play.led); !known) return known.error();
     std::unique_ptr<PuppetCast> cast(new PuppetCast(assets, scenario, std::move(play)));
     PuppetPlay& own = cast->play_;
-    own.namedByScene = own.namedByScene || own.start.clip.empty();
     if (own.getUp && own.start.clip.empty()) own.start.clip = "idle";
     std::unique_ptr<RagdollAsset> donor;
     own.borrows = own.borrows || own.getUp;
-    const std::string& clip = own.start.clip;
     const auto lacks = [&](const RagdollAsset* asset) {
-        return (own.getUp && !GetUpClips::hasOwn(*asset)) ||
-               (!clip.empty() && ownClip(*asset, clip, own.namedByScene) < 0);
+        const bool has = own.start.clip.empty() || ownClip(*asset, own.start.clip, !own.clipOfUser) >= 0;
+        return !has || (own.getUp && !GetUpClips::hasOwn(*asset));
     };
     if (own.borrows && std::any_of(assets.begin(), assets.end(), lacks)) {
         const auto file = findAsset(kDonor);
@@ -125,7 +123,7 @@ Result<void> PuppetCast::findClips(const RagdollAsset& asset, const RagdollAsset
     if (play_.start.clip.empty()) return {};
     float seconds = 0.0F;
     animation::Clip clip;
-    auto borrowed = clipOf(asset, donor, play_.start.clip, play_.namedByScene);
+    auto borrowed = clipOf(asset, donor, play_.start.clip, !play_.clipOfUser);
     // One that is there and can't be had says why.
     if (donor != nullptr && !borrowed && borrowed.error().code != ErrorCode::usage) return borrowed.error();
     if (donor != nullptr && borrowed) {

@@ -35,8 +35,9 @@ struct PuppetPlay {
     vec3 gravity{0, -9.81F, 0};  ///< Of the world: what muscles that carry it work against.
     bool meetsGround = true;     ///< On ground that is not level the clip's feet are fitted to it (TerrainWalk).
     bool borrows = false;        ///< Clips that a character lacks are the mannequin's, retargeted; with getUp always.
-    /// A scene named the clip for whatever character comes: only one of just that name goes before the mannequin's.
-    bool namedByScene = false;
+    /// Whether the clip was asked for of this character: then one of its own that is only called alike goes before the
+    /// mannequin's. A scene names a clip for whatever character comes.
+    bool clipOfUser = false;
 };
 
 /// Where a doll is in what it follows: a cast in its place goes on from there.

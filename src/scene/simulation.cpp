@@ -73,7 +73,6 @@ SimulationOptions simulationOptionsOf(const EntityScene& scene) {
         play.limp = puppets.limp;
         play.pace = puppets.pace;
         play.borrows = true;
-        play.namedByScene = true;
     }
     return options;
 }

@@ -51,7 +51,6 @@ TEST_CASE("figures of any proportions walk within two degrees of a clip that the
             scene::PuppetPlay play;
             play.start.clip = "walk";
             play.borrows = true;
-            play.namedByScene = true;
             const auto simulation = playIn(*asset, std::move(ground), play, solver, 3.0F);
             const scene::PuppetFigures figures = simulation->puppets()->figures();
             INFO(figures.rmsDeg << " rms, " << figures.maxDeg << " at most at " << figures.worstJoint
@@ -115,7 +114,6 @@ TEST_CASE("figures of any proportions stand, and a push of 20 N s on the chest f
             scene::PuppetPlay play;
             play.start.clip = "idle";
             play.borrows = true;
-            play.namedByScene = true;
             play.pinForceN = 0.0F;
             for (int way = 0; way < kWays; ++way) {
                 ground.dolls.emplace_back().worldFromModel = {

@@ -321,6 +321,7 @@ void SimulateOptions::addTo(const Command& app) {
 scene::PuppetPlay SimulateOptions::puppetPlay() const {
     scene::PuppetPlay play;
     if (!clip.empty()) play.start = parseClipStart(clip);
+    play.clipOfUser = !clip.empty();
     play.borrows = getUp;
     play.ownMuscles = puppet.empty() || puppet == "profile";
     const std::string_view muscles = play.ownMuscles ? "powered" : std::string_view(puppet);
