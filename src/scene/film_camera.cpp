@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "scene/draw_simulation.hpp"
 #include "scene/scene_extent.hpp"
@@ -41,6 +42,20 @@ bool showsAll(const render::Camera& camera, std::span<const vec3> points, float 
     });
 }
 
+// How far skin reaches from the middle of the body that it is nearest to: horns, wings and hats as well as hands.
+float reachOfSkin(const RagdollAsset& asset) {
+    float reach = 0.0F;
+    for (const animation::SkinnedMesh& mesh : asset.character.meshes) {
+        for (const vec3& position : mesh.positions) {
+            float nearest = std::numeric_limits<float>::max();
+            for (const RigidTransform& body : asset.rig.bindModelFromBody)
+                nearest = std::min(nearest, glm::distance(position, body.translation));
+            reach = std::max(reach, nearest);
+        }
+    }
+    return reach;
+}
+
 }  // namespace
 
 FilmCamera::FilmCamera(const Scenario& scenario, float aspect)
@@ -76,8 +91,10 @@ void FilmCamera::followAlone(Simulation& simulation, float alpha, float seconds)
     }
     begun_ = true;
     constexpr float outline = 1.25F;  // bodies' centres end short of the figure's own
+    const float half = glm::distance(low, high) * 0.5F;
+    const float radius = std::max(half * outline, half + reachOfSkin(simulation.assetOf(*alone_)));
     const float distance = camera.distance;
-    render::frameSphere(camera, centre, glm::distance(low, high) * 0.5F * outline, aspect_);
+    render::frameSphere(camera, centre, radius, aspect_);
     if (keepsDistance_) camera.distance = distance;
 }
 

@@ -112,6 +112,28 @@ TEST_CASE("the camera comes nearer to a doll that lies, never by a leap, and sho
     }
 }
 
+TEST_CASE("a doll that is followed stays whole in the picture, horns and all") {
+    const auto asset = test::bipedRagdoll();
+    std::vector<vec3>& skin = asset->character.meshes.front().positions;
+    vec3& horn = *std::max_element(skin.begin(), skin.end(), [](const vec3& a, const vec3& b) { return a.y < b.y; });
+    horn.y += 0.9F;
+    const int head = physics::bodyOf(asset->profile, physics::Role::head);
+    const vec3 inHead = inverse(asset->rig.bindModelFromBody[head]) * horn;
+    const auto simulation = simulationOf(*asset, "drop");
+    FilmCamera film(simulation->scenario(), kFilm.aspect());
+    film.followDoll(0);
+    film.update(*simulation, 1.0F, 0.0F);
+    for (int frame = 0; frame < 4 * static_cast<int>(kFramesPerSecond); ++frame) {
+        simulation->step();
+        simulation->step();
+        film.update(*simulation, 1.0F, 1.0F / kFramesPerSecond);
+        const auto seen = render::project(film.camera, simulation->worldFromBody(0)[head] * inHead, kFilm);
+        INFO(frame);
+        REQUIRE(seen.has_value());
+        REQUIRE((seen->x > 0 && seen->x < kFilm.width && seen->y > 0 && seen->y < kFilm.height));
+    }
+}
+
 TEST_CASE("a film of several dolls has them all in the picture, also where some walk on and some lie behind") {
     const auto asset = test::bipedRagdoll();
     for (const ScenarioInfo& info : scenarioRegistry()) {
