@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 
 #include "scene/draw_simulation.hpp"
 #include "scene/scene_extent.hpp"
@@ -42,18 +41,23 @@ bool showsAll(const render::Camera& camera, std::span<const vec3> points, float 
     });
 }
 
-// How far skin reaches from the middle of the body that it is nearest to: horns, wings and hats as well as hands.
-float reachOfSkin(const RagdollAsset& asset) {
-    float reach = 0.0F;
+// Of a ball that holds bodies and skin however limbs turn: by body, how far the skin that is nearest to it reaches from
+// it, horns, wings and hats as well as hands.
+float radiusAround(const vec3& centre, std::span<const RigidTransform> worldFromBody, const RagdollAsset& asset) {
+    const std::vector<RigidTransform>& bind = asset.rig.bindModelFromBody;
+    std::vector<float> reach(bind.size(), 0.0F);
     for (const animation::SkinnedMesh& mesh : asset.character.meshes) {
         for (const vec3& position : mesh.positions) {
-            float nearest = std::numeric_limits<float>::max();
-            for (const RigidTransform& body : asset.rig.bindModelFromBody)
-                nearest = std::min(nearest, glm::distance(position, body.translation));
-            reach = std::max(reach, nearest);
+            const auto away = [&](const RigidTransform& body) { return glm::distance(position, body.translation); };
+            const auto nearest = std::ranges::min_element(bind, {}, away);
+            float& most = reach[static_cast<std::size_t>(nearest - bind.begin())];
+            most = std::max(most, away(*nearest));
         }
     }
-    return reach;
+    float radius = 0.0F;
+    for (std::size_t body = 0; body < reach.size(); ++body)
+        radius = std::max(radius, glm::distance(centre, worldFromBody[body].translation) + reach[body]);
+    return radius;
 }
 
 }  // namespace
@@ -91,8 +95,8 @@ void FilmCamera::followAlone(Simulation& simulation, float alpha, float seconds)
     }
     begun_ = true;
     constexpr float outline = 1.25F;  // bodies' centres end short of the figure's own
-    const float half = glm::distance(low, high) * 0.5F;
-    const float radius = std::max(half * outline, half + reachOfSkin(simulation.assetOf(*alone_)));
+    const float radius =
+        std::max(glm::distance(low, high) * 0.5F * outline, radiusAround(centre, bodies, simulation.assetOf(*alone_)));
     const float distance = camera.distance;
     render::frameSphere(camera, centre, radius, aspect_);
     if (keepsDistance_) camera.distance = distance;

@@ -15,11 +15,11 @@ TEST_CASE("a script poses an arm, Esc puts it back, the release keeps it, and un
     const Scratch scratch;
     Script script;
     Pictures pictures{scratch, script, ""};
-    script.click(690, 245);  // the left hand
+    script.click(686, 247);  // the left hand
     pictures.take("before.png");
-    script.drag(690, 245, 690, 130).key(Key::escape).release();
+    script.drag(686, 247, 686, 130).key(Key::escape).release();
     pictures.take("cancelled.png");
-    script.drag(690, 245, 690, 130).wait(10).release();
+    script.drag(686, 247, 686, 130).wait(10).release();
     pictures.take("posed.png");
     script.key(Key::z, kControl);
     pictures.take("undone.png");
