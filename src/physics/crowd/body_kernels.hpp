@@ -90,14 +90,28 @@ static int findBodyPairs(const BoxLanes* a, int groupsA, const BoxLanes* b, int 
     return count;
 }
 
+// m/s, of any point of the surface.
+LUTKA_LANES F speedBound(const BodyLanes& body, const BodyConstants& constants) {
+    const V3 velocity = load(body.velocity);
+    const V3 angular = load(body.angular);
+    return squareRoot(dot(velocity, velocity)) + squareRoot(dot(angular, angular)) * all(constants.reach);
+}
+
+static void limitRoom(const BatchView& batch, const float (&normal)[3], float offset, float margin, float seconds) {
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        BodyLanes& body = batch.bodies[b];
+        const BodyConstants& constants = batch.bodyConstants[b];
+        const F between = dot(all(normal), load(body.position)) - all(offset + constants.size);
+        const F covered = all(margin) + speedBound(body, constants) * all(seconds);
+        store(body.room, least(load(body.room), most(covered, between)));
+    }
+}
+
 static unsigned findNearPlane(const BatchView& batch, int index, const float (&point)[3], float radius,
                               const float (&normal)[3], float offset, float margin, float seconds) {
     const BodyLanes& body = batch.bodies[index];
     const V3 core = load(body.position) + axesOf(body) * all(point);
-    const V3 velocity = load(body.velocity);
-    const V3 angular = load(body.angular);
-    const F speed =
-        squareRoot(dot(velocity, velocity)) + squareRoot(dot(angular, angular)) * all(batch.bodyConstants[index].reach);
+    const F speed = speedBound(body, batch.bodyConstants[index]);
     return bits(dot(all(normal), core) - all(offset + radius) < all(margin) + speed * all(seconds));
 }
 
@@ -179,6 +193,7 @@ static void findMotion(const BatchView& batch, Wide& speed2, Wide& turn2) {
 // body and is forgotten.
 LUTKA_LANES void advanceBody(BodyLanes& body, const BodyConstants& constants, F dt) {
     store(body.position, load(body.position) + load(body.velocity) * dt);
+    store(body.room, load(body.room) - speedBound(body, constants) * dt);
     const Axes axes = axesOf(body);
     const V3 inertia = all(constants.inertia);
     const V3 inverseInertia = all(constants.inverseInertia);

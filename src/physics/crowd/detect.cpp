@@ -26,8 +26,7 @@ StepBody stepBody(const CrowdState& state, const Doll& doll, int body) {
     step.radius = constants.radius;
     step.halfLength = topology.isCore(body) ? constants.extent[1] : kBoxCore;  // of several shapes, too
     step.swing = glm::length(moving.angularVelocity) * constants.reach;
-    step.size = constants.reach + constants.radius;
-    if (topology.shapeCount(body) > 1) step.size = boundingRadius(topology.shapes[body]);
+    step.size = constants.size;
     return step;
 }
 

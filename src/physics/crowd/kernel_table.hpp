@@ -23,9 +23,9 @@ static void begin(const BatchView& batch, const SubstepParams& params) {
     showBodies(batch);
 }
 
-static constexpr Kernels kTable{&refresh,       &findBounds,    &findSelfPairs, &findBodyPairs, &touchCores,
-                                &touchOwnCores, &findNearPlane, &joinBounds,    &findMotion,    &begin,
-                                &solve,         &mend,          &advance,       &beginPairs,    &solvePairs,
-                                &mendPairs,     &pressAgain,    &carryPairs};
+static constexpr Kernels kTable{
+    &refresh,   &findBounds, &findSelfPairs, &findBodyPairs, &touchCores, &touchOwnCores, &findNearPlane,
+    &limitRoom, &joinBounds, &findMotion,    &begin,         &solve,      &outruns,       &solveAgain,
+    &mend,      &advance,    &beginPairs,    &solvePairs,    &mendPairs,  &pressAgain,    &carryPairs};
 
 }  // namespace lutka::physics::crowd::LUTKA_KERNELS

@@ -38,6 +38,7 @@ struct BodyLanes {
     Wide3 axisX, axisY, axisZ;            ///< The columns of the rotation, kept in step with `rotation`.
     Wide4 rotation;
     Wide3 loose;         ///< The velocity that pushes on single bodies gave: what differs is the joints' doing.
+    Wide room;           ///< Metres that its surface may still move before a static contact could be missing.
     Wide3 spin;          ///< What half a substep of free motion adds to the turning rate.
     Wide3 halfTurn;      ///< Half the substep times both: with it
     Wide chord;          ///< and this factor an arm comes to where it is half way: see `halfWay`.
@@ -78,6 +79,7 @@ struct BodyConstants {
     float extent[3];  ///< Half extents of the core along the body's axes: a capsule's segment, a box.
     float radius;     ///< Around the core.
     float reach;      ///< Greatest distance of the core from the centre.
+    float size;       ///< Greatest distance of the surface, of all its shapes, from the centre.
     float armReach;   ///< Greatest distance of a joint's anchor from the centre.
 };
 
@@ -434,6 +436,9 @@ struct Kernels {
     /// offset) than `margin` and the way that the body's motion can take it in `seconds`.
     unsigned (*findNearPlane)(const BatchView& batch, int body, const float (&point)[3], float radius,
                               const float (&normal)[3], float offset, float margin, float seconds);
+    /// Lowers the room of each body (BodyLanes::room) to what a search for contacts with a plane has covered: `margin`
+    /// and the way that its motion can take it in `seconds`, or all that lies between it and the plane.
+    void (*limitRoom)(const BatchView& batch, const float (&normal)[3], float offset, float margin, float seconds);
     /// Bounds of each doll: those of its bodies.
     void (*joinBounds)(const BatchView& batch, Wide3& low, Wide3& high);
     /// Squares of the largest speed and turning rate among a doll's bodies.
@@ -443,6 +448,11 @@ struct Kernels {
     /// Solves all joints of each doll at once with the limits, friction and static contacts that hold. `first`: brings
     /// in last substep's impulses; otherwise does nothing where no contact was pressed again.
     void (*solve)(const BatchView& batch, const SubstepParams& params, int first);
+    /// Whether a body, as it moves now, could meet static geometry in this substep that it has no contact with, or one
+    /// that was left out for being too far off when the substep began.
+    int (*outruns)(const BatchView& batch, const SubstepParams& params);
+    /// Solves once more, with static contacts that have been found anew.
+    void (*solveAgain)(const BatchView& batch, const SubstepParams& params);
     /// Adds to the velocities, not to the steady ones, what mends errors of position; does nothing where there are none
     /// unless `pushed`, which says that something else has added to the velocities in the same way.
     void (*mend)(const BatchView& batch, const SubstepParams& params, int pushed);

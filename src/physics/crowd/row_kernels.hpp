@@ -253,8 +253,6 @@ struct Loaded {
     V3 impulse, torque;
 };
 
-constexpr float kMendReach = 3.0F;  // m/s that mending moves a point with at most
-
 // A spring whose impulse is bounded, of a pull or a motor: what it is to give in this pass. Its direction stays for the
 // substep, since what the bound itself has moved says nothing about it.
 LUTKA_LANES V3 springTarget(const V3& before, const V3& wanted, F bound, F gain, const Pass& pass) {
@@ -310,6 +308,16 @@ LUTKA_LANES void mendStatic(const StaticContactLanes& contact, const StaticMotio
     Symmetric k{zero, zero, zero, zero, zero, zero};
     addSquare(k, motion.normal, mended.gain);
     addPoint(loaded.inertia, motion.arm, k);
+}
+
+// As holdPassed(): static contacts that mending would run through hold in its next pass.
+LUTKA_LANES Mask holdMet(const BodyLanes& body, StaticContactLanes& contact, const SubstepParams& params) {
+    const V3 moving = load(body.velocity) + cross(load(body.angular), load(contact.arm));
+    const F left = dot(load(contact.normal), moving) + most(load(contact.bias), all(0.0F));
+    const F gain = load(contact.normalGain);
+    const Mask met = (left < all(-params.contactTolerance)) & ~(gain > all(0.0F));
+    if (bits(met) != 0) store(contact.normalGain, met ? load(contact.normalWeight) : gain);
+    return met;
 }
 
 // Decides which rows of a contact hold, and adds them. A contact that presses in no lane, and did not in the pass

@@ -57,16 +57,19 @@ void keepStatics(CrowdState& state, Batch& batch) {
     }
 }
 
+// Looks for a batch's static contacts once more within a step, of which `seconds` are left.
+void findStaticsAgain(CrowdState& state, Batch& batch, const Topology& topology, float seconds, float substep) {
+    keepStatics(state, batch);
+    if (state.settings.contactReports) closeSums(state, batch);
+    findBounds(state, batch, topology, seconds);
+    findStatics(state, batch, topology, seconds, substep);
+    if (state.settings.contactReports) openSums(batch);
+}
+
 // The faces and edges that bodies are near now: a body may have slid over an edge.
 void refreshStatics(CrowdState& state, Job& job, float seconds, float substep) {
     for (std::size_t i = 0; i < job.batches.size(); ++i) {
-        Batch& batch = *job.batches[i];
-        if (!batch.nearShapes) continue;
-        keepStatics(state, batch);
-        if (state.settings.contactReports) closeSums(state, batch);
-        findBounds(state, batch, *job.topologies[i], seconds);
-        findStatics(state, batch, *job.topologies[i], seconds, substep);
-        if (state.settings.contactReports) openSums(batch);
+        if (job.batches[i]->nearShapes) findStaticsAgain(state, *job.batches[i], *job.topologies[i], seconds, substep);
     }
 }
 
@@ -95,6 +98,7 @@ class JobSubstep {
             if (kernels.pressAgain(pairs, params_) == 0) break;
             forBatches([&](const BatchView& view) { kernels.solve(view, params_, 0); });
         }
+        holdOutrun();
         for (const Batch* batch : job_.batches)
             job_.motorWork += workOfMotors(*batch);
         for (const Batch* batch : job_.batches)
@@ -120,11 +124,29 @@ class JobSubstep {
                 blocks + job_.pairs.size()};
     }
 
+    // A body may have been struck towards static geometry that it was far from when contacts were looked for. It would
+    // be through before the next search.
+    void holdOutrun() {
+        forIndices([&](std::size_t i) {
+            Batch& batch = *job_.batches[i];
+            const Topology& topology = *job_.topologies[i];
+            if (state_.kernels->outruns(batch.view(topology), params_) == 0) return;
+            findStaticsAgain(state_, batch, topology, params_.remaining, params_.dt);
+            state_.kernels->solveAgain(batch.view(topology), params_);
+        });
+    }
+
     template <class Work>
     void forBatches(const Work& work) {
+        forIndices([&](std::size_t i) { work(job_.batches[i]->view(*job_.topologies[i])); });
+    }
+
+    // Of the job's batches.
+    template <class Work>
+    void forIndices(const Work& work) {
         const auto range = [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
-                work(job_.batches[i]->view(*job_.topologies[i]));
+                work(i);
         };
         if (job_.batches.size() >= kSplitJob)
             state_.inParallel(job_.batches.size(), 4, range);

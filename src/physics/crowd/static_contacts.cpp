@@ -35,6 +35,16 @@ bool nearStatic(const PlacedStatic& geometry, const vec3& low, const vec3& high)
     return glm::dot(normal, lowest - geometry.shape.worldFromShape.translation) <= 0.0F;
 }
 
+// A plane as the kernels take it: the solid is normal · p <= offset.
+struct HalfSpace {
+    explicit HalfSpace(const PlacedStatic& plane)
+        : normal{plane.axes[1].x, plane.axes[1].y, plane.axes[1].z},
+          offset(glm::dot(plane.axes[1], plane.shape.worldFromShape.translation)) {}
+
+    float normal[3];
+    float offset;
+};
+
 void spread(Wide& to, float value) {
     for (float& lane : to.lane)
         lane = value;
@@ -100,15 +110,43 @@ class StaticContacts {
                 findOf(body, lane);
         }
         batch_.firstContact[topology_.bodyCount()] = static_cast<int>(batch_.contacts.size());
+        giveRoom();
     }
 
   private:
+    // How far the bodies may go until they must be looked at again.
+    void giveRoom() {
+        // Whatever comes near something else than planes is looked at again in every substep; until then it may go as
+        // far as that is away, beyond what the bounds were grown by.
+        Wide apart;
+        for (int lane = 0; lane < kLanes; ++lane)
+            apart.lane[lane] = state_.tuning.staticMargin + apartFromShapes(lane < batch_.used ? lane : 0);
+        for (BodyLanes& body : batch_.bodies)
+            body.room = apart;
+        const BatchView view = batch_.view(topology_);
+        for (const PlacedStatic& geometry : state_.statics) {
+            if (geometry.shape.kind != StaticShape::Kind::plane) continue;
+            const HalfSpace plane(geometry);
+            state_.kernels->limitRoom(view, plane.normal, plane.offset, state_.tuning.staticMargin, kForesight * dt_);
+        }
+    }
+
+    // Metres between the doll's bounds and the nearest static that is no plane.
+    float apartFromShapes(int lane) const {
+        const Bounds bounds = worldBounds(state_.dolls[batch_.doll[lane]], dt_, farther_);
+        float apart = kFarM;
+        for (const PlacedStatic& geometry : state_.statics) {
+            if (geometry.shape.kind == StaticShape::Kind::plane) continue;
+            const vec3 gap = glm::max(geometry.low - bounds.high, bounds.low - geometry.high);
+            apart = std::min(apart, std::max({gap.x, gap.y, gap.z, 0.0F}));
+        }
+        return apart;
+    }
+
     // Planes are the same for all lanes.
     void findOnPlane(int body, int index) {
-        const PlacedStatic& plane = state_.statics[index];
-        const vec3 normal = plane.axes[1];
-        const float normalLanes[3] = {normal.x, normal.y, normal.z};
-        const float offset = glm::dot(normal, plane.shape.worldFromShape.translation);
+        const HalfSpace plane(state_.statics[index]);
+        const vec3 normal = state_.statics[index].axes[1];
         const BatchView view = batch_.view(topology_);
         for (int shape = 0; shape < topology_.shapeCount(body); ++shape) {
             const CorePoints points = corePoints(topology_.shapeOf(body, shape));
@@ -116,9 +154,10 @@ class StaticContacts {
                 const vec3 local = topology_.inBody(body, shape, points.local[i]);
                 const float point[3] = {local.x, local.y, local.z};
                 const unsigned lanes =
-                    state_.kernels->findNearPlane(view, body, point, points.radius, normalLanes, offset,
+                    state_.kernels->findNearPlane(view, body, point, points.radius, plane.normal, plane.offset,
                                                   state_.tuning.staticMargin, kForesight * dt_);
-                if (lanes != 0) putPlane({body, shape}, index, lanes, {local, points.radius, normal, offset, 0.0F, i});
+                if (lanes != 0)
+                    putPlane({body, shape}, index, lanes, {local, points.radius, normal, plane.offset, 0.0F, i});
             }
         }
     }

@@ -7,6 +7,8 @@
 
 namespace lutka::physics::crowd::LUTKA_KERNELS {
 
+constexpr float kMendReach = 3.0F;  // m/s that mending moves a point with at most
+
 // The speed that a contact's row asks to be added to the normal speed: room to close, or overlap to mend.
 LUTKA_LANES F contactBias(F separation, const SubstepParams& params, int useBias) {
     const F zero = all(0.0F);
@@ -73,16 +75,42 @@ LUTKA_LANES void beginStatic(StaticContactLanes& contact, const BatchView& batch
     contact.near = bits((impulse > zero) | (approach + bias < all(params.nearSpeed))) != 0 ? 1 : 0;
     contact.engaged = 0;
     store(contact.normalGain, zero);
+    store(contact.bias, bias);
     if (contact.near == 0) return;
     const V3 arm = armOf(contact, body, core);
     store(contact.arm, arm);
-    store(contact.bias, bias);
     store(contact.normalImpulse, impulse);
     store(contact.frictionImpulse, across(load(contact.frictionImpulse), normal));
     if (params.warmStart != 0 || !wasNear) weighContact(contact, batch, arm, params);
     const Mask coming = (separation > zero) & (impulse <= zero);
     store(contact.normalWeight,
           load(contact.normalMass) * (coming ? all(params.firstTouch) : all(params.contactStiffness)));
+}
+
+// Those that were left out when the substep began, since nothing would speed a body up by so much.
+LUTKA_LANES Mask meetsFarOnes(const BatchView& batch, int index, const F& speed) {
+    const BodyLanes& body = batch.bodies[index];
+    Mask meets = noLanes();
+    for (int i = batch.firstContact[index]; i < batch.firstContact[index + 1]; ++i) {
+        const StaticContactLanes& contact = batch.contacts[i];
+        if (contact.near != 0) continue;
+        const F bias = load(contact.bias);
+        if (bits(bias < speed) == 0) continue;
+        const V3 core = axesOf(body) * load(contact.localPoint);
+        const F approach = dot(load(contact.normal), load(body.velocity) + cross(load(body.angular), core));
+        meets |= approach + bias < all(0.0F);
+    }
+    return meets;
+}
+
+static int outruns(const BatchView& batch, const SubstepParams& params) {
+    Mask outrun = noLanes();
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        const F speed = speedBound(batch.bodies[b], batch.bodyConstants[b]);
+        outrun |= load(batch.bodies[b].room) < (speed + all(kMendReach)) * all(params.dt);
+        outrun |= meetsFarOnes(batch, b, speed);
+    }
+    return bits(outrun) != 0 ? 1 : 0;
 }
 
 // What each body rests on: the static contact that presses most, or what is left of other bodies (passSupport).

@@ -38,6 +38,7 @@ BodyConstants constantsOf(const BodyShape& shape, float massKg, const vec3& iner
     copy(constants.extent, extent);
     constants.radius = shape.isAngular() ? 0.0F : shape.radius;
     constants.reach = shape.kind == BodyShape::Kind::hull ? shape.hull->reach() : glm::length(extent);
+    constants.size = shape.more.empty() ? constants.reach + constants.radius : boundingRadius(shape);
     // Turning moves the cores of the others as well.
     for (const AddedShape& added : shape.more) {
         const float core =

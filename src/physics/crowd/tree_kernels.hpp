@@ -151,10 +151,15 @@ LUTKA_LANES Mask moveBody(const BatchView& batch, int index, const Motion& chang
     const V3 off = angular - load(body.aim);
     const F missed = all(0.5F * params.dt * params.dt * batch.bodyConstants[index].armReach);
     pass.astray |= dot(off, off) * dot(angular, angular) * (missed * missed) > all(params.aimGap * params.aimGap);
-    if (pass.mending) return noLanes();
+    Mask wrong = noLanes();
+    if (pass.mending) {
+        for (int i = batch.firstContact[index]; i < batch.firstContact[index + 1]; ++i) {
+            if (batch.contacts[i].near != 0) wrong |= holdMet(body, batch.contacts[i], params);
+        }
+        return wrong;
+    }
     store(body.steadyVelocity, velocity);
     store(body.steadyAngular, angular);
-    Mask wrong = noLanes();
     for (int i = batch.firstContact[index]; i < batch.firstContact[index + 1]; ++i) {
         if (batch.contacts[i].near != 0) wrong |= updateStatic(body, batch.contacts[i], params, pass);
     }
@@ -178,8 +183,10 @@ LUTKA_LANES Mask substitute(const BatchView& batch, int index, const SubstepPara
     const V3 velocity = anchor + load(eliminated.anchorChange) - cross(turn, load(joint.childArm));
     Mask wrong = moveBody(batch, constants.child, {velocity, turn}, params, pass);
     if (pass.mending) {
-        return holdPassed(
-            joint, load(batch.bodies[constants.child].angular) - load(batch.bodies[constants.parent].angular), params);
+        return wrong |
+               holdPassed(joint,
+                          load(batch.bodies[constants.child].angular) - load(batch.bodies[constants.parent].angular),
+                          params);
     }
     const V3 relative =
         load(batch.bodies[constants.child].steadyAngular) - load(batch.bodies[constants.parent].steadyAngular);
@@ -303,6 +310,13 @@ static void solve(const BatchView& batch, const SubstepParams& params, int first
     if (first == 0 && !pressed) return;
     if (first != 0) takeSupports(batch);
     solveAll(batch, params, first);
+    showMotions(batch);
+}
+
+static void solveAgain(const BatchView& batch, const SubstepParams& params) {
+    for (int i = 0; i < batch.contactCount; ++i)
+        beginStatic(batch.contacts[i], batch, params);
+    solveAll(batch, params, 0);
     showMotions(batch);
 }
 
