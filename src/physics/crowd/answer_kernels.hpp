@@ -12,14 +12,6 @@
 
 namespace lutka::physics::crowd::LUTKA_KERNELS {
 
-// Puts the velocities into rows that were read before, with a note for the body's doll that it has to answer.
-LUTKA_LANES void writePressed(const PairBodies& bodies, Indices index, const Columns& before, const V3& velocity,
-                              const V3& angular, const Mask& pressed) {
-    Columns row = columnsOf(velocity, angular);
-    row.column[6] = pressed ? all(1.0F) : before.column[6];
-    writeRows(bodies.motions, index, 0, row);
-}
-
 // One sweep over what is still wrong by more than a little. Friction waits for the next substep.
 static int pressAgain(const PairsView& view, const SubstepParams& params) {
     const PairBodies& bodies = view.bodies;
@@ -50,8 +42,9 @@ static int pressAgain(const PairsView& view, const SubstepParams& params) {
         const Columns b = readRows(bodies.motions, pair.bodyB, 0);
         PairVelocities v{first3(a), second3(a), first3(b), second3(b)};
         pushRest(pair, bodies, v, load(pair.normal) * push, push);
-        writePressed(bodies, pair.bodyA, a, v.velocityA, v.angularA, push != zero);
-        writePressed(bodies, pair.bodyB, b, v.velocityB, v.angularB, push != zero);
+        // Their dolls have to answer.
+        writeNoted(bodies, pair.bodyA, kPressedColumn, a, v.velocityA, v.angularA, push != zero);
+        writeNoted(bodies, pair.bodyB, kPressedColumn, b, v.velocityB, v.angularB, push != zero);
     }
     return found;
 }

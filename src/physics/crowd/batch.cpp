@@ -46,7 +46,8 @@ BatchView Batch::view(const Topology& topology) {
             paired.data(),
             static_cast<int>(paired.size()),
             firstBody,
-            pairBodies};
+            pairBodies,
+            &struck};
 }
 
 void writeLane(Batch& batch, int lane, std::span<const BodyState> bodies) {

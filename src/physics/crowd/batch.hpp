@@ -47,6 +47,7 @@ struct Batch {
     std::vector<int> paired;     ///< those that they do.
     int firstBody[kLanes]{};
     PairBodies pairBodies{};
+    Wide struck{};  ///< See BatchView.
 
     [[nodiscard]] BatchView view(const Topology& topology);
 };

@@ -35,6 +35,13 @@ LUTKA_LANES void storeVelocities(const PairContactLanes& pair, const PairBodies&
     writeRows(bodies.motions, pair.bodyA, 0, columnsOf(v.velocityA, v.angularA));
     writeRows(bodies.motions, pair.bodyB, 0, columnsOf(v.velocityB, v.angularB));
 }
+// Puts velocities into rows that were read before, with a note of 1 in one more column.
+LUTKA_LANES void writeNoted(const PairBodies& bodies, Indices index, int column, const Columns& before,
+                            const V3& velocity, const V3& angular, const Mask& noted) {
+    Columns row = columnsOf(velocity, angular);
+    row.column[column] = noted ? all(1.0F) : before.column[column];
+    writeRows(bodies.motions, index, 0, row);
+}
 // An impulse of size `size` along the normal, without what supports hold against.
 LUTKA_LANES void pressPair(const PairContactLanes& pair, PairVelocities& v, F size) {
     v.velocityA = v.velocityA + load(pair.pushA) * (size * load(pair.inverseMassA));
@@ -237,13 +244,17 @@ static void carryPairs(const PairsView& view) {
         const F pressed = load(pair.carriedNormal);
         const F total = load(pair.normalImpulse);
         if (bits((pressed > all(0.0F)) | (total > all(0.0F))) == 0) continue;
-        PairVelocities v = velocitiesOf(pair, bodies);
+        const Columns a = readRows(bodies.motions, pair.bodyA, 0);
+        const Columns b = readRows(bodies.motions, pair.bodyB, 0);
+        PairVelocities v{first3(a), second3(a), first3(b), second3(b)};
         const V3 whole = load(pair.normal) * total;
         const F swept = total - pressed;
         pushRest(pair, bodies, v, whole, swept);
         rubPair(pair, v, 0, load(pair.tangent[0]), load(pair.carriedTangent[0]));
         rubPair(pair, v, 1, load(pair.tangent[1]), load(pair.carriedTangent[1]));
-        storeVelocities(pair, bodies, v);
+        const Mask strikes = total * load(pair.strikes) > all(0.0F);
+        writeNoted(bodies, pair.bodyA, kStruckColumn, a, v.velocityA, v.angularA, strikes);
+        writeNoted(bodies, pair.bodyB, kStruckColumn, b, v.velocityB, v.angularB, strikes);
     }
 }
 

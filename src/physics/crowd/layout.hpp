@@ -53,7 +53,7 @@ struct alignas(32) BodyMotion {
     float velocity[3];
     float angular[3];
     float pressed;  ///< 1 once a contact was pressed again since the doll has last answered; else 0.
-    float unused;
+    float struck;   ///< 1 where a contact with another doll presses, in this substep's first sweep; else 0.
 };
 
 /// What else they need of it, in rows of the same kind. What rests on a body passes its support on.
@@ -366,6 +366,7 @@ struct BatchView {
     int pairedCount;
     const int* firstBody;  ///< One a lane: where its doll's bodies begin in `pairBodies`.
     PairBodies pairBodies;
+    Wide* struck;  ///< 1 where another doll presses the lane's doll in this substep, else 0.
 };
 
 /// A pair of bodies of one doll that may collide, and the lanes in which their bounds meet.

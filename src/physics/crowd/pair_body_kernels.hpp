@@ -41,6 +41,10 @@ LUTKA_LANES void writeRows(Record* records, Indices index, int row, Columns c) {
         storeLanes(reinterpret_cast<float*>(records + index[lane]) + row * kLanes, c.column[lane]);
 }
 
+// The columns of BodyMotion's notes.
+constexpr int kPressedColumn = 6;
+constexpr int kStruckColumn = 7;
+
 // The rows of BodyFrame.
 constexpr int kPlaceRow = 0;
 constexpr int kInertiaRow = 1;
@@ -84,9 +88,13 @@ static void showBodies(const BatchView& batch) {
     }
 }
 
-// What pair contacts have made of the bodies' velocities. Returns whether any was pressed again.
-static bool takeMotions(const BatchView& batch) {
-    Mask pressed = noLanes();
+// What pair contacts have made of the bodies' velocities: the lanes in which any was pressed again, and those in which
+// another doll presses.
+struct Taken {
+    Mask pressed, struck;
+};
+static Taken takeMotions(const BatchView& batch) {
+    Taken taken{noLanes(), noLanes()};
     for (int i = 0; i < batch.pairedCount; ++i) {
         int index[kLanes];
         placesOf(batch, batch.paired[i], index);
@@ -94,9 +102,10 @@ static bool takeMotions(const BatchView& batch) {
         BodyLanes& body = batch.bodies[batch.paired[i]];
         store(body.velocity, first3(motion));
         store(body.angular, second3(motion));
-        pressed |= motion.column[6] > all(0.0F);
+        taken.pressed |= motion.column[kPressedColumn] > all(0.0F);
+        taken.struck |= motion.column[kStruckColumn] > all(0.0F);
     }
-    return bits(pressed) != 0;
+    return taken;
 }
 
 static void takeSupports(const BatchView& batch) {

@@ -306,9 +306,12 @@ static void solveAll(const BatchView& batch, const SubstepParams& params, int fi
 }
 
 static void solve(const BatchView& batch, const SubstepParams& params, int first) {
-    const bool pressed = takeMotions(batch);
-    if (first == 0 && !pressed) return;
-    if (first != 0) takeSupports(batch);
+    const Taken taken = takeMotions(batch);
+    if (first == 0 && bits(taken.pressed) == 0) return;
+    if (first != 0) {
+        store(*batch.struck, taken.struck ? all(1.0F) : all(0.0F));
+        takeSupports(batch);
+    }
     solveAll(batch, params, first);
     showMotions(batch);
 }
