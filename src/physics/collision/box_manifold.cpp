@@ -75,15 +75,42 @@ Segment edgeTowards(const BoxPlace& box, int axis, const vec3& direction) {
     return {box.position + box.axes * (middle - half), box.position + box.axes * (middle + half)};
 }
 
+// Where two edges touch: found(s, t, index), parameters along both. Edges that cross do so where they are nearest. Of
+// edges that are nearly parallel that is one end or the other, at a breath; these touch at both ends of what they
+// share.
+template <class Found>
+void touchEdges(const Segment& a, const Segment& b, Found found) {
+    constexpr float kParallel = 0.2F;  // sine
+    const vec3 alongA = a.end - a.start;
+    const vec3 alongB = b.end - b.start;
+    const float a2 = glm::dot(alongA, alongA);
+    const float b2 = glm::dot(alongB, alongB);
+    const vec3 across = glm::cross(alongA, alongB);
+    const float first = glm::dot(b.start - a.start, alongA) / a2;
+    const float last = glm::dot(b.end - a.start, alongA) / a2;
+    const float from = std::clamp(std::min(first, last), 0.0F, 1.0F);
+    const float to = std::clamp(std::max(first, last), 0.0F, 1.0F);
+    if (glm::dot(across, across) > kParallel * kParallel * a2 * b2 || (to - from) * std::sqrt(a2) < kSamePlace) {
+        const SegmentPair at = closestBetweenSegments(a, b);
+        found(at.s, at.t, 0);
+        return;
+    }
+    for (int end = 0; end < 2; ++end) {
+        const float s = end == 0 ? from : to;
+        found(s, std::clamp(glm::dot(a.at(s) - b.start, alongB) / b2, 0.0F, 1.0F), end);
+    }
+}
+
 }  // namespace
 
 BoxAxis leastOverlap(const BoxPlace& a, const BoxPlace& b, bool edgesLast) {
     constexpr float kEdgeBias = 0.001F;  // metres, and the share of the depth, by which edges must be shallower
     constexpr float kEdgeShare = 0.1F;
     const vec3 offset = a.position - b.position;
-    BoxAxis best;
-    best.distance = -std::numeric_limits<float>::max();
-    const auto tryAxis = [&](const vec3& axis, float bias, BoxAxis found) {
+    BoxAxis face;
+    BoxAxis edge;
+    face.distance = edge.distance = -std::numeric_limits<float>::max();
+    const auto tryAxis = [&](const vec3& axis, BoxAxis found, BoxAxis& best) {
         const float length = glm::length(axis);
         if (length < 1e-4F) return;  // parallel edges: the faces' axes cover them
         float reach = 0.0F;
@@ -93,25 +120,27 @@ BoxAxis leastOverlap(const BoxPlace& a, const BoxPlace& b, bool edgesLast) {
         }
         const float apart = glm::dot(offset, axis);
         found.distance = (std::abs(apart) - reach) / length;
-        if (found.distance - bias <= best.distance) return;
+        if (found.distance <= best.distance) return;
         found.normal = (apart < 0.0F ? -1.0F : 1.0F) / length * axis;
         best = found;
     };
     for (int i = 0; i < 3; ++i) {
-        tryAxis(a.axes[i], 0.0F, {.faceOfA = i});
-        tryAxis(b.axes[i], 0.0F, {.faceOfB = i});
+        tryAxis(a.axes[i], {.faceOfA = i}, face);
+        tryAxis(b.axes[i], {.faceOfB = i}, face);
     }
-    const float bias = edgesLast ? kEdgeBias - kEdgeShare * std::min(best.distance, 0.0F) : 0.0F;
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j)
-            tryAxis(glm::cross(a.axes[i], b.axes[j]), bias, {.edgeOfA = i, .edgeOfB = j});
+            tryAxis(glm::cross(a.axes[i], b.axes[j]), {.edgeOfA = i, .edgeOfB = j}, edge);
     }
-    return best;
+    // Among edges the shallowest counts, by however little.
+    const float bias = edgesLast ? kEdgeBias - kEdgeShare * std::min(face.distance, 0.0F) : 0.0F;
+    return edge.distance - bias > face.distance ? edge : face;
 }
 
 BoxManifold touchBoxes(const BoxPlace& a, const BoxPlace& b, float reach) {
     constexpr int kOfB = 8;  // features of B's faces begin here, those of edges after them
     constexpr int kOfEdges = 16;
+    constexpr int kEdgePairs = 9;
     BoxManifold manifold;
     const BoxAxis axis = leastOverlap(a, b, true);
     if (axis.distance >= kSamePlace) return manifold;
@@ -128,8 +157,11 @@ BoxManifold touchBoxes(const BoxPlace& a, const BoxPlace& b, float reach) {
     } else {
         const Segment ofA = edgeTowards(a, axis.edgeOfA, -axis.normal);
         const Segment ofB = edgeTowards(b, axis.edgeOfB, axis.normal);
-        const SegmentPair at = closestBetweenSegments(ofA, ofB);
-        add(inBox(a, ofA.at(at.s)), inBox(b, ofB.at(at.t)), axis.distance, kOfEdges + 3 * axis.edgeOfA + axis.edgeOfB);
+        const int feature = kOfEdges + 3 * axis.edgeOfA + axis.edgeOfB;
+        touchEdges(ofA, ofB, [&](float s, float t, int end) {
+            const float distance = glm::dot(axis.normal, ofA.at(s) - ofB.at(t));
+            add(inBox(a, ofA.at(s)), inBox(b, ofB.at(t)), distance, feature + end * kEdgePairs);
+        });
     }
     return manifold;
 }

@@ -45,7 +45,8 @@ struct BoxManifold {
 
 /// One normal for all points: that of the least overlap. Of a face they are the corners of the other box's face,
 /// clipped by its sides, that lie below it or less than `reach` metres above; of two edges it is where they are
-/// nearest. Empty where the boxes are kSamePlace or more apart.
+/// nearest, or both ends of what they share where they are nearly parallel. Empty where the boxes are kSamePlace or
+/// more apart.
 [[nodiscard]] BoxManifold touchBoxes(const BoxPlace& a, const BoxPlace& b, float reach);
 
 }  // namespace lutka::physics

@@ -19,6 +19,14 @@ struct StaticPush {
     float impulse = 0.0F;  ///< N s
 };
 
+/// How a body that is near static geometry other than planes moved when its contacts were looked for.
+struct NearMotion {
+    int body = 0;
+    int lane = 0;
+    vec3 velocity{0, 0, 0};
+    vec3 angular{0, 0, 0};
+};
+
 /// Up to kLanes awake dolls of one topology, one a lane. Lanes [0, used) hold dolls; the rest repeat lane 0, so that
 /// the kernels find sound numbers everywhere.
 struct Batch {
@@ -35,6 +43,7 @@ struct Batch {
     std::vector<int> nearStatics[kLanes];  ///< and the others, lane by lane.
     std::vector<std::uint64_t> carriedKeys[kLanes];  ///< Of the contacts that its dolls keep, in their order, likewise.
     std::vector<unsigned char> selfMasks;            ///< One a pair of the topology, likewise.
+    std::vector<NearMotion> nearMotions;
     bool nearShapes = false;           ///< Whether some of its dolls are near static geometry other than planes.
     std::vector<DragLanes> drags;      ///< Of this step, one a pull.
     std::vector<MotorLanes> motors;    ///< Of this step, one a joint, or none at all.

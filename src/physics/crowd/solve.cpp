@@ -130,9 +130,14 @@ class JobSubstep {
         forIndices([&](std::size_t i) {
             Batch& batch = *job_.batches[i];
             const Topology& topology = *job_.topologies[i];
-            if (state_.kernels->outruns(batch.view(topology), params_) == 0) return;
-            findStaticsAgain(state_, batch, topology, params_.remaining, params_.dt);
-            state_.kernels->solveAgain(batch.view(topology), params_);
+            constexpr int kTries = 2;
+            for (int tried = 0; tried < kTries; ++tried) {
+                if (state_.kernels->outruns(batch.view(topology), params_) == 0 &&
+                    !straysIntoStatics(state_, batch, topology, params_.dt))
+                    return;
+                findStaticsAgain(state_, batch, topology, params_.remaining, params_.dt);
+                state_.kernels->solveAgain(batch.view(topology), params_);
+            }
         });
     }
 

@@ -83,6 +83,7 @@ class StaticContacts {
         batch_.contacts.clear();
         batch_.nearShapes = false;
         batch_.nearPlanes.clear();
+        batch_.nearMotions.clear();
         for (std::vector<int>& near : batch_.nearStatics)
             near.clear();
         for (int lane = 0; lane < batch_.used; ++lane) {
@@ -198,11 +199,12 @@ class StaticContacts {
         const vec3 low = readVector(lanes.low, lane) - moved;
         const vec3 high = readVector(lanes.high, lane) + moved;
         std::size_t slot = firstSlot_;
+        const BodyState moving = readBody(lanes, lane);
         for (const int index : batch_.nearStatics[lane]) {
             const PlacedStatic& geometry = state_.statics[index];
             if (!nearStatic(geometry, low, high)) continue;
-            const float range = state_.tuning.staticMargin +
-                                kForesight * dt_ * speedBound(readBody(lanes, lane), topology_.bodies[body]);
+            const float range =
+                state_.tuning.staticMargin + kForesight * dt_ * speedBound(moving, topology_.bodies[body]);
             for (int shape = 0; shape < topology_.shapeCount(body); ++shape) {
                 const PlacedShape placed = placedShape(state_, doll, body, shape);
                 const StaticTouches found = touchStatic(placed, geometry, range);
@@ -211,6 +213,8 @@ class StaticContacts {
                 foresee({body, shape}, lane, index, placed, found, slot);
             }
         }
+        if (slot != firstSlot_)
+            batch_.nearMotions.push_back({body, lane, moving.linearVelocity, moving.angularVelocity});
     }
 
     // The half spaces that a body is about to be in: where it passes an edge within a substep, the one that is nearest
@@ -281,7 +285,46 @@ class StaticContacts {
     std::size_t cursor_[kLanes]{};  // into Batch::carriedKeys
 };
 
+// Whether one of the body's contacts keeps that point out of that half space.
+bool isHeld(const Batch& batch, const NearMotion& at, const StaticTouch& touch, const vec3& local) {
+    StaticTouches known;
+    known.capacity = 1;
+    for (int i = batch.firstContact[at.body]; i < batch.firstContact[at.body + 1]; ++i) {
+        const StaticContactLanes& contact = batch.contacts[i];
+        if (contact.key[at.lane] == 0) continue;
+        known.count = 1;
+        known.points[0].local = readVector(contact.localPoint, at.lane);
+        known.points[0].normal = readVector(contact.normal, at.lane);
+        if (saysTheSame(known, local, touch.normal)) return true;
+    }
+    return false;
+}
+
 }  // namespace
+
+bool straysIntoStatics(const CrowdState& state, const Batch& batch, const Topology& topology, float substep) {
+    constexpr float kDeepM = 0.001F;
+    for (const NearMotion& at : batch.nearMotions) {
+        const BodyState body = readBody(batch.bodies[at.body], at.lane);
+        const float strayed = glm::length(body.linearVelocity - at.velocity) +
+                              glm::length(body.angularVelocity - at.angular) * topology.bodies[at.body].reach;
+        if (strayed * substep < kDeepM) continue;
+        const Doll& doll = state.dolls[batch.doll[at.lane]];
+        for (const int index : batch.nearStatics[at.lane]) {
+            for (int shape = 0; shape < topology.shapeCount(at.body); ++shape) {
+                const PlacedShape next = movedOn(placedShape(state, doll, at.body, shape), body, vec3(0), substep);
+                const StaticTouches met = touchStatic(next, state.statics[index], 0.0F);
+                for (int i = 0; i < met.count; ++i) {
+                    const StaticTouch& touch = met.points[i];
+                    if (touch.separation < -kDeepM &&
+                        !isHeld(batch, at, touch, topology.inBody(at.body, shape, touch.local)))
+                        return true;
+                }
+            }
+        }
+    }
+    return false;
+}
 
 void findStatics(CrowdState& state, Batch& batch, const Topology& topology, float dt, float substep) {
     StaticContacts(state, batch, topology, dt, substep).find();

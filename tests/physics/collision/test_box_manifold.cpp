@@ -84,6 +84,38 @@ TEST_CASE("a box flat on another is held at four corners, one across an edge at 
         CHECK(std::abs(std::abs(across.points[i].onA.z) - 0.3F) < 1e-5F);
 }
 
+TEST_CASE("where edges are shallower than faces, the shallowest of them counts") {
+    RandomBoxes random;
+    int edges = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const BoxPlace a = random.near(0.5F);
+        const BoxPlace b = random.near(0.5F);
+        const BoxAxis chosen = leastOverlap(a, b, true);
+        if (chosen.edgeOfA < 0 || chosen.distance >= 0.0F) continue;
+        ++edges;
+        CHECK(chosen.distance == leastOverlap(a, b).distance);
+    }
+    CHECK(edges > 100);
+}
+
+TEST_CASE("nearly parallel edges touch at both ends of what they share") {
+    const mat3 onEdge = glm::mat3_cast(glm::angleAxis(kPi / 4, vec3(0, 0, 1)));
+    const float reach = 0.1F * std::sqrt(2.0F);
+    for (const float turn : {-0.03F, 0.05F, 0.1F}) {
+        CAPTURE(turn);
+        const mat3 turned = glm::mat3_cast(glm::angleAxis(turn, vec3(0, 1, 0))) * onEdge;
+        const BoxPlace upper{{0.1F, 0.1F, 0.3F}, {0, 2 * reach - 0.01F, 0}, turned};
+        const BoxManifold along = touchBoxes(upper, {{0.1F, 0.1F, 0.5F}, {0, 0, 0}, onEdge}, kReach);
+        REQUIRE(along.count == 2);
+        CHECK(along.points[0].feature != along.points[1].feature);
+        CHECK(along.normal.y == Approx(1.0F));
+        for (int i = 0; i < 2; ++i) {
+            CHECK(std::abs(along.points[i].onA.z) == Approx(0.3F).margin(1e-4));
+            CHECK(along.points[i].distance == Approx(-0.01F).margin(1e-5));
+        }
+    }
+}
+
 TEST_CASE("edges that cross touch in one point across both") {
     const mat3 onEdge = glm::mat3_cast(glm::angleAxis(kPi / 4, vec3(0, 0, 1)));
     const mat3 across = glm::mat3_cast(glm::angleAxis(kPi / 2, vec3(0, 1, 0))) * onEdge;
