@@ -226,11 +226,12 @@ static bool needsMending(const BatchView& batch, const SubstepParams& params) {
     return bits(off) != 0;
 }
 
-// Foresees the arms anew in some lanes.
-static void aim(const BatchView& batch, const SubstepParams& params, const Mask& lanes) {
+// Foresees the arms anew in some lanes, by `share` of what the rates have changed.
+static void aim(const BatchView& batch, const SubstepParams& params, const Mask& lanes, float share) {
     for (int b = 0; b < batch.bodyCount; ++b) {
         BodyLanes& body = batch.bodies[b];
-        const V3 angular = choose(lanes, load(body.angular), load(body.aim));
+        const V3 before = load(body.aim);
+        const V3 angular = choose(lanes, before + (load(body.angular) - before) * all(share), before);
         aimBody(body, batch.bodyConstants[b], angular, load(body.steadyAngular), all(0.5F * params.dt));
     }
     for (int j = 0; j < batch.jointCount; ++j) {
@@ -266,7 +267,7 @@ static void mend(const BatchView& batch, const SubstepParams& params, int pushed
         pass.astray = noLanes();
         unsolved = sweep(batch, params, pass, Fresh::since) | pass.astray;
         if (bits(unsolved) == 0) return;
-        if (i + 1 < kPasses && bits(pass.astray) != 0) aim(batch, params, pass.astray);
+        if (i + 1 < kPasses && bits(pass.astray) != 0) aim(batch, params, pass.astray, 1.0F);
     }
     leaveSteady(batch, unsolved);
 }
@@ -285,19 +286,24 @@ static void gatherLoose(const BatchView& batch, bool isFirst) {
     }
 }
 
-static void solveAll(const BatchView& batch, const SubstepParams& params, int first) {
-    gatherLoose(batch, first != 0);
-    Pass pass{false, all(first != 0 ? 0.0F : 1.0F), first == 0, noLanes(), load(batch.rest->stiction), noLanes()};
+// What is solved for: all pushes of the substep, those that were pressed since, or contacts that were found since.
+enum class Solving { first, answer, again };
+
+static void solveAll(const BatchView& batch, const SubstepParams& params, Solving what) {
+    const bool isFirst = what == Solving::first;
+    gatherLoose(batch, isFirst);
+    Pass pass{false, all(isFirst ? 0.0F : 1.0F), !isFirst, noLanes(), load(batch.rest->stiction), noLanes()};
     Fresh fresh = Fresh::since;
     for (int i = 0; i < params.passes; ++i) {
         pass.astray = noLanes();
         const Mask wrong = sweep(batch, params, pass, fresh);
         const bool astray = bits(pass.astray) != 0;
         if (bits(wrong) == 0 && !astray) return;
-        if (astray) aim(batch, params, ~noLanes());
         // At other arms the joints push otherwise: an answer to further pushes is solved from the beginning, or what
-        // was pushed at the old arms would be left over as energy.
-        const bool anew = astray && first == 0;
+        // was pushed at the old arms would be left over as energy. Taken whole each time, the arms of a light limb
+        // under a great load go to and fro by more and more.
+        const bool anew = astray && what == Solving::answer;
+        if (astray) aim(batch, params, ~noLanes(), anew && i > 0 ? 0.5F : 1.0F);
         fresh = anew ? Fresh::whole : Fresh::nothing;
         pass.applied = all(anew ? 0.0F : 1.0F);
         pass.begun = true;
@@ -312,14 +318,14 @@ static void solve(const BatchView& batch, const SubstepParams& params, int first
         store(*batch.struck, taken.struck ? all(1.0F) : all(0.0F));
         takeSupports(batch);
     }
-    solveAll(batch, params, first);
+    solveAll(batch, params, first != 0 ? Solving::first : Solving::answer);
     showMotions(batch);
 }
 
 static void solveAgain(const BatchView& batch, const SubstepParams& params) {
     for (int i = 0; i < batch.contactCount; ++i)
         beginStatic(batch.contacts[i], batch, params);
-    solveAll(batch, params, 0);
+    solveAll(batch, params, Solving::again);
     showMotions(batch);
 }
 
