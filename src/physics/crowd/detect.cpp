@@ -405,39 +405,45 @@ void placeNearDolls(CrowdState& state) {
     });
 }
 
-// The contacts between dolls, piece by piece, so that their order does not depend on the threads; all contacts joined.
-void collideAllDolls(CrowdState& state, float dt) {
-    constexpr std::size_t kPiece = 64;  // pairs of dolls
-    const std::size_t pieces = (state.dollPairs.size() + kPiece - 1) / kPiece;
-    if (state.dollTouches.size() < pieces) state.dollTouches.resize(pieces);
-    state.inParallel(pieces, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t piece = begin; piece < end; ++piece) {
-            PieceTouches& out = state.dollTouches[piece];
-            giveBackRoom(out.touches, out.touches.size());
-            out.touches.clear();
-            TouchSearch search(state, dt, out.touches);
-            for (std::size_t i = piece * kPiece; i < std::min((piece + 1) * kPiece, state.dollPairs.size()); ++i) {
-                const auto& [a, b] = state.dollPairs[i];
-                if (!state.dolls[a].asleep() && !state.dolls[b].asleep())
-                    collideDolls(state, a, b, dt, out.near, search);
-            }
-            search.flush();
-        }
-    });
-    std::size_t found = 0;
-    const auto join = [&](const auto& use) {
-        for (std::size_t i = 0; i < state.active.size(); ++i)
-            use(state.selfTouches[i]);
-        for (std::size_t piece = 0; piece < pieces; ++piece)
-            use(state.dollTouches[piece].touches);
-    };
-    join([&](const std::vector<PairTouch>& touches) { found += touches.size(); });
-    state.touches.clear();
-    giveBackRoom(state.touches, found);
-    makeRoom(state.touches, found);
-    join([&](const std::vector<PairTouch>& touches) {
+// The pairs of dolls that one piece of work looks at.
+constexpr std::size_t kPiece = 64;
+
+void collidePiece(CrowdState& state, std::size_t piece, float dt, PieceTouches& out) {
+    out.touches.clear();
+    TouchSearch search(state, dt, out.touches);
+    for (std::size_t i = piece * kPiece; i < std::min((piece + 1) * kPiece, state.dollPairs.size()); ++i) {
+        const auto& [a, b] = state.dollPairs[i];
+        if (!state.dolls[a].asleep() && !state.dolls[b].asleep()) collideDolls(state, a, b, dt, out.near, search);
+    }
+    search.flush();
+}
+
+// All contacts between bodies, those within dolls first. Those between dolls are found piece by piece and joined in
+// that order, so that it does not depend on the threads. A few pieces a thread are at work at a time: room for the
+// contacts of all of them would be as much again as the contacts themselves.
+void joinContacts(CrowdState& state, float dt) {
+    constexpr std::size_t kPiecesAThread = 8;
+    const auto take = [&](const std::vector<PairTouch>& touches) {
+        makeRoom(state.touches, state.touches.size() + touches.size());
         state.touches.insert(state.touches.end(), touches.begin(), touches.end());
-    });
+    };
+    giveBackRoom(state.touches, state.touches.size());
+    state.touches.clear();
+    for (std::size_t i = 0; i < state.active.size(); ++i)
+        take(state.selfTouches[i]);
+    const std::size_t pieces = (state.dollPairs.size() + kPiece - 1) / kPiece;
+    const auto threads = static_cast<std::size_t>(state.pool.threads());
+    const std::size_t most = threads > 1 ? kPiecesAThread * threads : 1;
+    state.dollTouches.resize(std::max(state.dollTouches.size(), std::min(pieces, most)));
+    for (std::size_t first = 0; first < pieces; first += most) {
+        const std::size_t count = std::min(pieces - first, most);
+        state.inParallel(count, 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                collidePiece(state, first + i, dt, state.dollTouches[i]);
+        });
+        for (std::size_t i = 0; i < count; ++i)
+            take(state.dollTouches[i].touches);
+    }
 }
 
 }  // namespace
@@ -453,7 +459,7 @@ void findContacts(CrowdState& state, float dt) {
             findSelfContacts(state, batch, batch.view(topology), topology, dt, state.selfTouches[i]);
         }
     });
-    collideAllDolls(state, dt);
+    joinContacts(state, dt);
 }
 
 }  // namespace lutka::physics::crowd

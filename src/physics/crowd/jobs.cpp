@@ -224,6 +224,9 @@ void makeJobs(CrowdState& state) {
     Packer packer(state);
     for (std::size_t i = 0; i < state.jobCount; ++i)
         packer.pack(state.jobs[i]);
+    // Jobs become fewer as a heap grows together.
+    for (std::size_t i = state.jobCount; i < state.jobs.size(); ++i)
+        giveBackRoom(state.jobs[i].pairs, 0);
 }
 
 }  // namespace lutka::physics::crowd

@@ -68,7 +68,7 @@ void makeRoom(std::vector<T>& items, std::size_t count) {
 /// Gives back what is far more than `count` need, contents and all: a heap has thrice the contacts while it falls.
 template <class T>
 void giveBackRoom(std::vector<T>& items, std::size_t count) {
-    if (items.capacity() > 2 * count + 64) items = {};
+    if (items.capacity() > count + count / 2 + 64) items = {};
 }
 
 /// All dolls of one topology: awake ones fill the batches in order.
@@ -174,7 +174,7 @@ struct Swept {
     bool asleep = false;
 };
 
-/// A piece of the pairs of dolls: what was found, and room to look for it.
+/// Of a piece of the pairs of dolls: what was found, and room to look for it.
 struct PieceTouches {
     std::vector<PairTouch> touches;
     std::vector<BodyPair> near;
@@ -227,7 +227,7 @@ struct CrowdState {
     std::vector<BodyFrame> frames;                    ///< Likewise.
     std::vector<BoxLanes> stepBoxes;                  ///< From Doll::firstBox on, of the same dolls.
     std::vector<char> isNear;                         ///< One a doll: whether its bounds meet another's.
-    std::vector<PieceTouches> dollTouches;            ///< One a piece of `dollPairs`.
+    std::vector<PieceTouches> dollTouches;            ///< Of the pieces of `dollPairs` that are at work.
     std::vector<int> sweep;                           ///< Dolls by the low end of their bounds along x.
     std::vector<std::pair<int, int>> dollPairs;
     std::vector<PairTouch> touches;  ///< Of this step; after it with its impulses.
