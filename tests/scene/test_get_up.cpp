@@ -131,8 +131,8 @@ TEST_CASE("limp dolls fall, get up, and go on standing in both solvers, no joint
         INFO(up.mostStepDeg << " degrees in a step at " << up.stepJoint << ", feet slid " << up.mostSlideM << " m");
         CHECK(up.stood == 9);
         CHECK(up.mostSeconds <= 4.0F);
-        CHECK(up.mostStepDeg <= 15.0F);
-        CHECK(up.mostSlideM <= (solver == SolverKind::crowd ? 0.05F : 0.15F));
+        CHECK(up.mostStepDeg <= 10.0F);
+        CHECK(up.mostSlideM <= 0.05F);
         for (int doll = 0; doll < simulation->dollCount(); ++doll) {
             CHECK(simulation->puppets()->puppet(doll).state() == PuppetState::animated);
             CHECK(simulation->worldFromBody(doll).front().translation.y > 0.85F);

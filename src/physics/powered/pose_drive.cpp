@@ -14,10 +14,24 @@ constexpr float kCarries = 3.0F;  // times what gravity takes of a limb that is 
 constexpr float kGravity = 9.81F;
 constexpr float kFar = radians(40.0F);
 constexpr float kLost = radians(90.0F);
-constexpr float kHandBrake = 8.0F;  // on the damping of wrists, which the floor bends far and lets go of at once
+constexpr float kEndBrake = 8.0F;    // on the damping of wrists, ankles and neck: the floor turns what ends a limb,
+                                     // with the weight of the whole doll, and lets go of it at once
+constexpr float kNeckTorque = 4.0F;  // on the neck's bound: a large head is no longer thrown by a trunk that comes up
 
-bool isHand(const BodyProfile& body) {
-    return body.role == Role::leftHand || body.role == Role::rightHand;
+void leashEnd(const BodyProfile& body, JointMotor& motor) {
+    switch (body.role.value_or(Role::hips)) {
+        case Role::head:
+            motor.maxTorqueNm *= kNeckTorque;
+            [[fallthrough]];
+        case Role::leftHand:
+        case Role::rightHand:
+        case Role::leftFoot:
+        case Role::rightFoot:
+            motor.damping *= kEndBrake;
+            return;
+        default:
+            return;
+    }
 }
 
 // The child's frame in the parent's.
@@ -191,7 +205,7 @@ void PoseDrive::drive(World& world, DollId doll, const MuscleSettings& muscles, 
             const vec3 turn = glm::conjugate(parentFrameOf(constraint)) * stance->turn[i];
             motor.target = glm::normalize(glm::angleAxis(glm::length(turn), glm::normalize(turn)) * motor.target);
         }
-        if (leashes && isHand(profile_.bodies[constraint.child])) motor.damping *= kHandBrake;
+        if (leashes) leashEnd(profile_.bodies[constraint.child], motor);
         if (leashes) leashTo(constraint, inertia, motor);
         if (carriesDoll) {
             if (stance->axis[i] != vec3(0)) giveTorque(constraint, stance->axis[i], stance->torque[i], motor);

@@ -265,6 +265,50 @@ TEST_CASE("an arm on a leash comes from one end of its range to the other") {
     }
 }
 
+TEST_CASE("a foot on a leash that is trodden on with the weight of a doll turns by less than ten degrees in a step") {
+    const RagdollProfile profile = makeDoll();
+    for (const SolverKind solver : kOurSolvers) {
+        INFO(physics::solverName(solver));
+        physics::WorldSettings settings;
+        settings.gravity = vec3(0);
+        const auto world = worldOf(solver, settings);
+        const auto start = standingDoll(profile, {0, 1, 0});
+        const physics::DollId doll = world->addDoll(profile, start);
+        PoseDrive drive(profile, start);
+        drive.setMostLead(radians(15.0F));
+        drive.setMostSpeed(radians(450.0F));
+        std::vector<RigidTransform> pose;
+        for (const BodyState& body : start)
+            pose.push_back(body.worldFromBody);
+        const int end = physics::bodyOf(profile, Role::leftFoot);
+        const int above = profile.constraints[end - 1].parent;
+        const auto turnOf = [&] {
+            const auto bodies = bodiesOfDoll(*world, 0);
+            return glm::conjugate(bodies[above].worldFromBody.rotation) * bodies[end].worldFromBody.rotation;
+        };
+        float most = 0.0F;
+        float whole = 0.0F;
+        const quat first = turnOf();
+        quat last = first;
+        for (int i = 0; i < 30; ++i) {
+            drive.drive(*world, doll, musclesOf(MusclePreset::powered), pose, pose, kFrame);
+            // What a doll of 75 kg weighs, at the tip, for a tenth of a second.
+            if (i < 6)
+                world->applyImpulse(doll, end, vec3(0, 0, 75.0F * 9.81F * kFrame),
+                                    bodiesOfDoll(*world, 0)[end].worldFromBody * vec3(0, 0.12F, 0));
+            world->step(kFrame);
+            const quat now = turnOf();
+            most = std::max(most, degrees(glm::length(rotationVector(glm::normalize(now * glm::conjugate(last))))));
+            whole = std::max(whole, degrees(glm::length(rotationVector(glm::normalize(now * glm::conjugate(first))))));
+            last = now;
+        }
+        INFO(most << " degrees in a step, " << whole << " in all");
+        CHECK(whole > 2.0F);
+        CHECK(most < 10.0F);
+        CHECK(whole < 20.0F);
+    }
+}
+
 TEST_CASE("a head too large for an adult's neck is carried by what it weighs") {
     RagdollProfile profile = makeDoll();
     const int head = physics::bodyOf(profile, Role::head);
