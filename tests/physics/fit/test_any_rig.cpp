@@ -87,7 +87,7 @@ TEST_CASE("a trunk thicker than its joints are apart keeps its thickness") {
         const int body = bodyNamed(profile, "spine" + std::to_string(link));
         REQUIRE(body >= 0);
         INFO(profile.bodies[body].name);
-        CHECK(profile.bodies[body].shape.radius > 0.4F);
+        CHECK(profile.bodies[body].shape.radius > 0.36F);
     }
     CHECK_FALSE(diagnose(profile, bear, map).hasErrors());
 }
