@@ -14,23 +14,21 @@ constexpr float kCarries = 3.0F;  // times what gravity takes of a limb that is 
 constexpr float kGravity = 9.81F;
 constexpr float kFar = radians(40.0F);
 constexpr float kLost = radians(90.0F);
-constexpr float kEndBrake = 8.0F;    // on the damping of wrists, ankles and neck: the floor turns what ends a limb,
-                                     // with the weight of the whole doll, and lets go of it at once
+constexpr float kLimbBrake = 3.0F;   // on the damping of joints on a leash,
+constexpr float kEndBrake = 16.0F;   // of those above what ends a limb: the floor turns it with the weight of the whole
+                                     // doll and lets go of it at once
 constexpr float kNeckTorque = 4.0F;  // on the neck's bound: a large head is no longer thrown by a trunk that comes up
 
-void leashEnd(const BodyProfile& body, JointMotor& motor) {
+bool isEnd(const BodyProfile& body) {
     switch (body.role.value_or(Role::hips)) {
         case Role::head:
-            motor.maxTorqueNm *= kNeckTorque;
-            [[fallthrough]];
         case Role::leftHand:
         case Role::rightHand:
         case Role::leftFoot:
         case Role::rightFoot:
-            motor.damping *= kEndBrake;
-            return;
+            return true;
         default:
-            return;
+            return false;
     }
 }
 
@@ -146,6 +144,20 @@ void PoseDrive::giveTorque(const ConstraintProfile& constraint, const vec3& worl
     if (angle > 1e-6F) motor.target = glm::normalize(glm::angleAxis(std::min(angle, 0.5F), lead / angle) * now);
 }
 
+// As that of a joint with all its strength, also while the doll's still grows.
+void PoseDrive::brake(int constraint, const MuscleSettings& muscles, float ratio, JointMotor& motor) const {
+    const BodyProfile& body = profile_.bodies[profile_.constraints[constraint].child];
+    const bool endsLimb = isEnd(body) || joints_[constraint].below.size() == 1;
+    if (!endsLimb) {
+        motor.damping *= kLimbBrake;
+        return;
+    }
+    const float critical = 2.0F * std::sqrt(stiffnessOf(constraint, muscles) * joints_[constraint].inertia);
+    motor.damping = kEndBrake * ratio * critical;
+    motor.maxTorqueNm = torqueBoundOf(constraint, muscles);
+    if (body.role == Role::head) motor.maxTorqueNm *= kNeckTorque;
+}
+
 // The target no farther than mostLead_ from where the joint is, nor farther and faster than drives it at mostSpeed_:
 // with a spring k, a damper d and a rate v of the target the joint comes to v + k / d times the lead.
 void PoseDrive::leashTo(const ConstraintProfile& constraint, float inertia, JointMotor& motor) {
@@ -205,7 +217,7 @@ void PoseDrive::drive(World& world, DollId doll, const MuscleSettings& muscles, 
             const vec3 turn = glm::conjugate(parentFrameOf(constraint)) * stance->turn[i];
             motor.target = glm::normalize(glm::angleAxis(glm::length(turn), glm::normalize(turn)) * motor.target);
         }
-        if (leashes) leashEnd(profile_.bodies[constraint.child], motor);
+        if (leashes) brake(i, muscles, ratio, motor);
         if (leashes) leashTo(constraint, inertia, motor);
         if (carriesDoll) {
             if (stance->axis[i] != vec3(0)) giveTorque(constraint, stance->axis[i], stance->torque[i], motor);

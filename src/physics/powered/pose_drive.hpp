@@ -29,8 +29,8 @@ class PoseDrive {
     /// it is at first: never changed. What is held back by force then comes along gently once it is let go.
     void setMostLead(float lead) { mostLead_ = lead; }
     /// Likewise of the speed that a motor drives its joint to while nothing else holds it: the target's rate and the
-    /// spring's pull over the damper together, rad/s, > 0; unbounded at first. With either bound wrists are damped
-    /// more.
+    /// spring's pull over the damper together, rad/s, > 0; unbounded at first. With either bound joints are damped
+    /// more, most of all those above a hand, a foot or a head.
     void setMostSpeed(float speed) { mostSpeed_ = speed; }
     static constexpr float kUnbounded = 1e9F;
     /// Whether a joint with a bound on lead or speed that is very far from its target goes there by the middle of its
@@ -62,6 +62,7 @@ class PoseDrive {
     [[nodiscard]] quat parentFrameOf(const ConstraintProfile& constraint) const;
     [[nodiscard]] quat turnNow(const ConstraintProfile& constraint) const;
     void giveTorque(const ConstraintProfile& constraint, const vec3& worldAxis, float torque, JointMotor& motor) const;
+    void brake(int constraint, const MuscleSettings& muscles, float ratio, JointMotor& motor) const;
     void leashTo(const ConstraintProfile& constraint, float inertia, JointMotor& motor);
 
     const RagdollProfile& profile_;

@@ -77,6 +77,11 @@ bool ReachablePose::collide(int a, int b) const {
            profile_.filteredPairs.end();
 }
 
+bool ReachablePose::isTrunk(int body) const {
+    const auto& role = profile_.bodies[body].role;
+    return role.has_value() && animation::isTrunk(*role);
+}
+
 void ReachablePose::addLimb(const std::array<Role, 3>& roles, bool isLeg) {
     Limb limb;
     limb.upper = bodyOf(profile_, roles[0]);
@@ -94,7 +99,7 @@ void ReachablePose::addLimb(const std::array<Role, 3>& roles, bool isLeg) {
     limbs_.push_back(std::move(limb));
 }
 
-// Arms make way for everything, legs for each other.
+// Arms make way for everything, legs for each other; a leg that is folded into the trunk opens its knee.
 void ReachablePose::planMeetings() {
     for (Limb& limb : limbs_) {
         for (const int own : {limb.upper, limb.lower, limb.end}) {
@@ -103,6 +108,7 @@ void ReachablePose::planMeetings() {
                 const bool onLeg = limbOf_[other] >= 0 && limbs_[limbOf_[other]].isLeg;
                 const bool onArm = limbOf_[other] >= 0 && !onLeg;
                 if (limb.isLeg ? onLeg : !onArm) limb.meets.emplace_back(own, other);
+                if (limb.isLeg && own != limb.upper && isTrunk(other)) limb.folds.emplace_back(own, other);
             }
         }
     }
@@ -171,12 +177,13 @@ void ReachablePose::turnLimb(const Limb& limb, const quat& turn, std::span<Rigid
     }
 }
 
-// Turns the limb out of what it is deepest in; whether it is in anything.
-bool ReachablePose::pushOut(const Limb& limb, std::span<RigidTransform> bodies) const {
-    const vec3 pivot = bodies[limb.upper] * jointOf(limb.upper).childFromFrame.translation;
-    vec3 axis(0);
-    float angle = 0.0F;
-    for (const auto& meeting : limb.meets) {
+// The turn about `pivot` that takes a limb's bodies out of what they are deepest in, at once; along `axis` alone where
+// one is given (unit). Its angle is 0 where they are in nothing.
+ReachablePose::Turn ReachablePose::turnOut(std::span<const std::pair<int, int>> meetings, const vec3& pivot,
+                                           const std::optional<vec3>& axis,
+                                           std::span<const RigidTransform> bodies) const {
+    Turn turn;
+    for (const auto& meeting : meetings) {
         const int own = meeting.first;
         const int other = meeting.second;
         const BodyShape& shape = profile_.bodies[own].shape;
@@ -186,19 +193,55 @@ bool ReachablePose::pushOut(const Limb& limb, std::span<RigidTransform> bodies) 
                                                       geometryOf(its, bodies[other] * otherFrom), 0.0F);
                 for (int i = 0; i < list.count; ++i) {
                     const SurfaceContact& contact = list.contacts[i];
-                    const vec3 way = glm::cross(contact.position - pivot, contact.normal);
+                    vec3 way = glm::cross(contact.position - pivot, contact.normal);
+                    if (axis) way = *axis * glm::dot(*axis, way);
                     const float lever = glm::length(way);
                     if (-contact.distance < kDeepEnoughM || lever < kLeastLeverM) continue;
-                    if (-contact.distance / lever <= angle) continue;
-                    angle = -contact.distance / lever;
-                    axis = way / lever;
+                    if (-contact.distance / lever <= turn.angle) continue;
+                    turn = {way / lever, -contact.distance / lever};
                 }
             });
         });
     }
-    if (angle <= 0.0F) return false;
+    turn.angle = std::min(turn.angle, kMostPush);
+    return turn;
+}
+
+// Turns the limb out of what it is deepest in; whether it is in anything.
+bool ReachablePose::pushOut(const Limb& limb, std::span<RigidTransform> bodies) const {
+    const vec3 pivot = bodies[limb.upper] * jointOf(limb.upper).childFromFrame.translation;
+    const Turn turn = turnOut(limb.meets, pivot, std::nullopt, bodies);
+    if (turn.angle <= 0.0F) return false;
     const float share = limb.isLeg ? 0.5F : 1.0F;  // the other leg does the same
-    turnLimb(limb, glm::angleAxis(std::min(share * angle, kMostPush), axis), bodies);
+    turnLimb(limb, glm::angleAxis(share * turn.angle, turn.axis), bodies);
+    closeJoints(bodies);
+    return true;
+}
+
+// Opens the knee of a leg whose shin or foot is in the trunk; whether it is. A fat shin that is in it beside the knee
+// is turned out by the hip.
+bool ReachablePose::unfold(const Limb& limb, std::span<RigidTransform> bodies) const {
+    const ConstraintProfile& knee = jointOf(limb.lower);
+    const quat& thigh = bodies[limb.upper].rotation;
+    const vec3 axis = thigh * (knee.parentFromFrame.rotation * vec3(0, 0, 1));
+    const vec3 pivot = bodies[limb.lower] * knee.childFromFrame.translation;
+    const Turn turn = turnOut(limb.folds, pivot, axis, bodies);
+    const vec3 hip = bodies[limb.upper] * jointOf(limb.upper).childFromFrame.translation;
+    if (turn.angle <= 0.0F) {
+        const Turn aside = turnOut(limb.folds, hip, std::nullopt, bodies);
+        if (aside.angle <= 0.0F) return false;
+        turnLimb(limb, glm::angleAxis(aside.angle, aside.axis), bodies);
+        closeJoints(bodies);
+        return true;
+    }
+    // The way that leads the foot away from the hip, also where the shin is so deep in that out would be beyond.
+    const vec3 shank = bodies[limb.end].translation - pivot;
+    const float opens = glm::dot(glm::cross(axis, shank), pivot - hip) < 0.0F ? -1.0F : 1.0F;
+    const quat wanted = glm::angleAxis(opens * turn.angle, axis) * bodies[limb.lower].rotation;
+    const quat shin = glm::normalize(thigh * withinLimits(knee, glm::conjugate(thigh) * wanted));
+    const quat done = shin * glm::conjugate(bodies[limb.lower].rotation);
+    for (const int body : limb.bodies)
+        if (hangsOn(body, limb.lower)) bodies[body].rotation = glm::normalize(done * bodies[body].rotation);
     closeJoints(bodies);
     return true;
 }
@@ -224,8 +267,10 @@ void ReachablePose::apply(std::span<RigidTransform> bodies) {
     closeJoints(bodies);
     for (int push = 0; push < kMostPushes; ++push) {
         bool isIn = false;
-        for (const Limb& limb : limbs_)
+        for (const Limb& limb : limbs_) {
             isIn = pushOut(limb, bodies) || isIn;
+            isIn = unfold(limb, bodies) || isIn;
+        }
         if (!isIn) break;
     }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -10,16 +11,16 @@
 
 namespace lutka::physics {
 
-/// Makes poses of a doll such that it can take them: no joint beyond its limits, and no arm in the trunk or a leg in
-/// the other one. A motor that is led beyond a limit or into a body only leans on it, and what holds the doll has to
-/// bear that.
+/// Makes poses of a doll such that it can take them: no joint beyond its limits, and no arm or shin in the trunk and
+/// no leg in the other one. A motor that is led beyond a limit or into a body only leans on it, and what holds the doll
+/// has to bear that.
 ///
 /// - Arms and legs with a hinge in their middle keep the place of their end as far as they can: the hinge takes the
 ///   angle at which the end is as far from the shoulder or hip, and the upper part aims it. Hands and feet keep their
 ///   turn in the world as far as their own limits let them.
 /// - All other joints take the nearest turn within their limits, and what hangs on them goes along.
-/// - Limbs that are in something are turned out of it about the shoulder or hip. Where that would break a limit the
-///   limit wins.
+/// - Limbs that are in something are turned out of it about the shoulder or hip; a leg that is folded into the trunk
+///   opens its knee. Where that would break a limit the limit wins.
 class ReachablePose {
   public:
     /// `keeps`: one a body, which of them stay as they are turned, such as kinematic ones; empty: none. The profile
@@ -34,24 +35,35 @@ class ReachablePose {
     /// no end of a limb with a hinge. Allocates nothing.
     bool moveEnd(int body, const vec3& shift, std::span<RigidTransform> bodies) const;
 
+    /// Places all bodies but the root from their rotations, so that the joints are closed.
+    void closeJoints(std::span<RigidTransform> bodies) const;
+
   private:
     struct Limb {
         int upper = -1, lower = -1, end = -1;  // bodies; the lower one hangs on a hinge
         bool isLeg = false;
         std::vector<int> bodies;                 // upper and all that hangs on it, parents first
         std::vector<std::pair<int, int>> meets;  // one of `bodies`, and what it may run into
+        std::vector<std::pair<int, int>> folds;  // of a leg: shin or foot, and a part of the trunk
+    };
+    struct Turn {
+        vec3 axis{0, 0, 1};  // unit
+        float angle = 0.0F;  // radians, >= 0
     };
     [[nodiscard]] const ConstraintProfile& jointOf(int body) const { return profile_.constraints[body - 1]; }
     [[nodiscard]] bool isKept(int body) const { return !keeps_.empty() && keeps_[body]; }
     [[nodiscard]] bool hangsOn(int body, int above) const;
     [[nodiscard]] bool collide(int a, int b) const;
+    [[nodiscard]] bool isTrunk(int body) const;
     void addLimb(const std::array<Role, 3>& roles, bool isLeg);
     void planMeetings();
     void bend(const Limb& limb, const quat& upper, const quat& lower, const quat& end, const vec3& shift,
               std::span<RigidTransform> bodies) const;
-    void closeJoints(std::span<RigidTransform> bodies) const;
     void turnLimb(const Limb& limb, const quat& turn, std::span<RigidTransform> bodies) const;
+    [[nodiscard]] Turn turnOut(std::span<const std::pair<int, int>> meetings, const vec3& pivot,
+                               const std::optional<vec3>& axis, std::span<const RigidTransform> bodies) const;
     bool pushOut(const Limb& limb, std::span<RigidTransform> bodies) const;
+    bool unfold(const Limb& limb, std::span<RigidTransform> bodies) const;
 
     const RagdollProfile& profile_;
     std::vector<bool> keeps_;

@@ -143,3 +143,35 @@ TEST_CASE("an arm in the trunk is turned out of it, and one that is kept stays t
     ReachablePose(profile, keeps).apply(kept);
     CHECK(kept[forearm].rotation == inside[forearm].rotation);
 }
+
+TEST_CASE("a leg whose foot is folded into the trunk opens its knee") {
+    RagdollProfile profile = makeDoll();
+    const int hips = physics::bodyOf(profile, Role::hips);
+    const int thigh = physics::bodyOf(profile, Role::leftUpperLeg);
+    const int shin = physics::bodyOf(profile, Role::leftLowerLeg);
+    const int foot = physics::bodyOf(profile, Role::leftFoot);
+    const auto depth = [&](const std::vector<RigidTransform>& pose) {
+        return -physics::distanceBetween(profile.bodies[foot].shape, pose[foot], profile.bodies[hips].shape,
+                                         pose[hips]);
+    };
+    const physics::ConstraintProfile& knee = profile.constraints[shin - 1];
+    // With its knee at a limit.
+    const auto bent = [&](float angle) {
+        auto pose = standingPose(profile);
+        const auto now = physics::measureConstraint(knee, pose[thigh], pose[shin]);
+        const vec3 axis = pose[thigh].rotation * (knee.parentFromFrame.rotation * vec3(0, 0, 1));
+        for (const int body : {shin, foot})
+            pose[body].rotation = glm::angleAxis(angle - now.hingeAngle, axis) * pose[body].rotation;
+        closeJointsOf(profile, pose);
+        return pose;
+    };
+    auto folded = bent(knee.hinge.lower);
+    if (depth(bent(knee.hinge.upper)) > depth(folded)) folded = bent(knee.hinge.upper);
+    profile.bodies[hips].shape.radius += 0.03F - depth(folded);
+    auto pose = folded;
+    ReachablePose(profile).apply(pose);
+    INFO(depth(folded) << " m deep, " << depth(pose) << " after");
+    CHECK(depth(folded) > 0.02F);
+    CHECK(depth(pose) < 2e-3F);
+    CHECK(degrees(worstOf(profile, pose).violation) < 0.1F);
+}
