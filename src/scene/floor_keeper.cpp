@@ -5,6 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "animation/ik/two_bone.hpp"
+#include "animation/retarget/anatomical_rig.hpp"
 #include "physics/collision/shape.hpp"
 
 namespace lutka::scene {
@@ -13,6 +14,8 @@ namespace {
 using physics::Role;
 
 constexpr float kMostOverM = 0.02F;  // of a clearance, that the whole figure is lifted for
+
+constexpr float kSwingOverM = 0.01F;
 
 struct LimbRoles {
     Role upper, lower, end;
@@ -25,7 +28,20 @@ constexpr std::array<LimbRoles, 4> kLimbs{{{Role::leftUpperArm, Role::leftLowerA
 
 }  // namespace
 
-FloorKeeper::FloorKeeper(const RagdollAsset& asset) : asset_(&asset), reachable_(asset.profile) {
+float standingFloorOf(const RagdollAsset& asset) {
+    const vec3 down = glm::conjugate(asset.profile.standardFromModel) * vec3(0, -1, 0);
+    float lowest = 1e9F;
+    for (std::size_t body = 0; body < asset.profile.bodies.size(); ++body) {
+        const RigidTransform& bind = asset.rig.bindModelFromBody[body];
+        const vec3 inBody = glm::conjugate(bind.rotation) * down;
+        lowest = std::min(lowest, glm::dot(bind.translation, -down) -
+                                      physics::supportExtent(asset.profile.bodies[body].shape, inBody));
+    }
+    return std::max(animation::floorOf(asset.character, asset.map), lowest);
+}
+
+FloorKeeper::FloorKeeper(const RagdollAsset& asset)
+    : asset_(&asset), reachable_(asset.profile), swings_(asset.profile.bodies.size(), 0.0F) {
     for (const LimbRoles& roles : kLimbs) {
         Limb limb;
         limb.upper = physics::bodyOf(asset.profile, roles.upper);
@@ -39,6 +55,12 @@ FloorKeeper::FloorKeeper(const RagdollAsset& asset) : asset_(&asset), reachable_
                            (glm::conjugate(asset.profile.standardFromModel) * vec3(0, 0, roles.ahead));
         limb.isLeg = roles.ahead > 0.0F;
         limbs_.push_back(limb);
+    }
+    for (const LimbRoles& roles : kLimbs) {
+        if (roles.ahead < 0.0F || physics::bodyOf(asset.profile, roles.end) >= 0) continue;
+        const int lower = physics::bodyOf(asset.profile, roles.lower);
+        const int end = lower >= 0 ? lower : physics::bodyOf(asset.profile, roles.upper);
+        if (end >= 0) swings_[end] = kSwingOverM;
     }
 }
 

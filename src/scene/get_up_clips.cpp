@@ -118,8 +118,7 @@ Result<Clip> clipOf(const RagdollAsset& asset, const RagdollAsset* donor, std::s
                  "name one of the character's own clips"};
 }
 
-GetUpClips::GetUpClips(const RagdollAsset& asset)
-    : asset_(&asset), floor_(animation::floorOf(asset.character, asset.map)) {}
+GetUpClips::GetUpClips(const RagdollAsset& asset) : asset_(&asset), floor_(standingFloorOf(asset)) {}
 
 bool GetUpClips::hasOwn(const RagdollAsset& asset) {
     return std::any_of(asset.character.clips.begin(), asset.character.clips.end(),

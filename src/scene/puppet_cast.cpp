@@ -176,7 +176,7 @@ void PuppetCast::begin(physics::World& world, std::span<const physics::DollId> d
         actor.assetIndex = placement.asset;
         actor.floor = floors_[placement.asset].get();
         actor.worldFromModel = placement.worldFromModel;
-        actor.soles = animation::floorOf(actor.asset->character, actor.asset->map);
+        actor.soles = standingFloorOf(*actor.asset);
         actor.base = placement.worldFromModel.translation.y + actor.soles;
         if (!isLevel_) actor.terrain = TerrainWalk::of(*actor.asset);
         actor.root = std::max(physics::bodyOf(actor.asset->profile, physics::Role::hips), 0);
@@ -275,7 +275,8 @@ void PuppetCast::startClip(Actor& actor, float seconds, physics::World& world, p
     world.setBodies(doll, bodies_);
 }
 
-// How far above the ground that the doll stands on in its bind pose its lowest body stays throughout the clip, metres.
+// How far above the ground that the doll stands on in its bind pose, or above what it is to keep over it, its lowest
+// body stays throughout the clip, metres.
 float PuppetCast::clearance(const Actor& actor) {
     constexpr float kStep = 1.0F / 60.0F;
     const animation::Skeleton& skeleton = actor.asset->character.skeleton;
@@ -288,7 +289,8 @@ float PuppetCast::clearance(const Actor& actor) {
         bodies_.resize(actor.asset->profile.bodies.size());
         physics::bodiesFromPose(actor.asset->rig, joints_, standing, bodies_);
         for (std::size_t i = 0; i < bodies_.size(); ++i)
-            lowest = std::min(lowest, actor.floor->lowestOf(static_cast<int>(i), bodies_[i].worldFromBody));
+            lowest = std::min(lowest, actor.floor->lowestOf(static_cast<int>(i), bodies_[i].worldFromBody) -
+                                          actor.floor->swings()[i]);
     }
     return lowest;
 }

@@ -41,7 +41,11 @@ TEST_CASE("figures of any proportions walk within two degrees of a clip that the
     NEEDS_ZOO();
     for (const char* file :
          {"cesium_man_glb/CesiumMan.glb", "makehuman_mixamo/makehuman_mixamo.glb", "kenney_medium/characterMedium.fbx",
-          "kaykit_rogue/Rogue_Hooded.glb", "lumberjack_rigify/lumberjack.glb", "quaternius_man_fbx/Male_Casual.fbx"}) {
+          "kaykit_rogue/Rogue_Hooded.glb", "lumberjack_rigify/lumberjack.glb", "quaternius_man_fbx/Male_Casual.fbx",
+          "godot_platformer_robot/platformer_player.glb",                 // shins that fold into the hips
+          "quaternius_platformer_ik/platformer_game_pack_Character.glb",  // arms that swing through the belly
+          "ozz_pab_skeleton_zup_dae/skeleton_zup.dae",                    // no skin: its bodies end above its soles
+          "quaternius_skeleton/q_skeleton.fbx", "hl1_man/man.mdl"}) {     // no feet, no knees
         const auto asset = figure(file);
         for (const SolverKind solver : {SolverKind::crowd, SolverKind::bullet}) {
             INFO(file << ", " << physics::solverName(solver));
