@@ -11,7 +11,7 @@ namespace {
 constexpr float kStraight = 0.9992F;   // of a leg's reach, which it is not stretched beyond: a knee bent by 4.6 degrees
 constexpr float kDropSeconds = 0.12F;  // how far to either side a drop of the hips is spread
 
-constexpr float kMostLift = 0.25F;  // leg lengths that the hips are moved up or down by
+constexpr float kMostMove = 0.25F;  // leg lengths that the hips are moved by
 
 // A stretch of frames in which one point of the foot stands.
 struct Stand {
@@ -119,11 +119,12 @@ std::vector<float> mostOfNeighbours(const std::vector<float>& values, int reach)
     return most;
 }
 
-std::vector<float> meanOfNeighbours(const std::vector<float>& values, int reach) {
+template <typename Value>
+std::vector<Value> meanOfNeighbours(const std::vector<Value>& values, int reach) {
     const int count = static_cast<int>(values.size());
-    std::vector<float> out(values.size());
+    std::vector<Value> out(values.size());
     for (int i = 0; i < count; ++i) {
-        float sum = 0.0F;
+        Value sum(0);
         for (int j = i - reach; j <= i + reach; ++j)
             sum += values[std::clamp(j, 0, count - 1)];
         out[i] = sum / static_cast<float>(2 * reach + 1);
@@ -138,38 +139,39 @@ float dropFor(const vec3& hip, const vec3& ankle, float reach) {
     return std::max(hip.y - (ankle.y + rise), 0.0F);
 }
 
-/// What the feet that stand need of the hips' height, frame by frame.
-class HipsHeight {
+/// What the feet that stand need of the hips' place, frame by frame.
+class HipsPlace {
   public:
-    explicit HipsHeight(std::size_t frames) : sums_(frames, 0.0F), counts_(frames, 0) {}
+    explicit HipsPlace(std::size_t frames) : sums_(frames, vec3(0)), counts_(frames, 0) {}
 
-    void add(std::size_t frame, float lift) {
-        sums_[frame] += lift;
+    void add(std::size_t frame, const vec3& shift) {
+        sums_[frame] += shift;
         ++counts_[frame];
     }
 
-    // The mean of those that stand; in between on a straight way from one to the next.
-    [[nodiscard]] std::vector<float> smoothed(int reach, float most) const {
+    // The mean of those that stand, no farther than `most`; in between on a straight way from one to the next.
+    [[nodiscard]] std::vector<vec3> smoothed(int reach, float most) const {
         const int count = static_cast<int>(sums_.size());
-        std::vector<float> lifts(sums_.size(), 0.0F);
+        std::vector<vec3> shifts(sums_.size(), vec3(0));
         int before = -1;
         for (int frame = 0; frame < count; ++frame) {
             if (counts_[frame] == 0) continue;
-            lifts[frame] = std::clamp(sums_[frame] / static_cast<float>(counts_[frame]), -most, most);
+            const vec3 mean = sums_[frame] / static_cast<float>(counts_[frame]);
+            shifts[frame] = mean * std::min(1.0F, most / std::max(glm::length(mean), 1e-9F));
             for (int between = before + 1; between < frame; ++between) {
                 const float share =
                     before < 0 ? 1.0F : static_cast<float>(between - before) / static_cast<float>(frame - before);
-                lifts[between] = (before < 0 ? 0.0F : lifts[before] * (1.0F - share)) + lifts[frame] * share;
+                shifts[between] = (before < 0 ? vec3(0) : shifts[before] * (1.0F - share)) + shifts[frame] * share;
             }
             before = frame;
         }
         for (int frame = before + 1; before >= 0 && frame < count; ++frame)
-            lifts[frame] = lifts[before];
-        return meanOfNeighbours(meanOfNeighbours(lifts, reach), reach);
+            shifts[frame] = shifts[before];
+        return meanOfNeighbours(meanOfNeighbours(shifts, reach), reach);
     }
 
   private:
-    std::vector<float> sums_;
+    std::vector<vec3> sums_;
     std::vector<int> counts_;
 };
 
@@ -190,7 +192,7 @@ std::vector<FootShift> keepFeet(const AnatomicalRig& target, const FootMotion& m
     const auto stands = [&](std::size_t side, std::size_t frame) {
         return contacts[side].heel[frame] || contacts[side].ball[frame];
     };
-    HipsHeight height(frames);
+    HipsPlace place(frames);
     for (std::size_t side = 0; side < 2; ++side) {
         const AnatomicalRig::Foot& foot = target.feet[side];
         const FootTrack& track = motion.tracks[side];
@@ -203,23 +205,23 @@ std::vector<FootShift> keepFeet(const AnatomicalRig& target, const FootMotion& m
             const float depth = depthOf(foot, track.ankle[frame] + shift, track.ball[frame] + shift,
                                         motion.up[side][frame], target.floor);
             shift.y += std::max(depth, 0.0F);
-            if (stands(side, frame)) height.add(frame, shift.y);
+            if (stands(side, frame)) place.add(frame, shift);
         }
     }
-    // Hips and feet up or down together leave the legs as they are.
-    const std::vector<float> lifts = height.smoothed(reach, kMostLift * target.legLength);
+    // Hips and feet moved together leave the legs as they are.
+    const std::vector<vec3> moves = place.smoothed(reach, kMostMove * target.legLength);
     std::vector<float> drops(frames, 0.0F);
     for (std::size_t frame = 0; frame < frames; ++frame) {
         for (std::size_t side = 0; side < 2; ++side) {
             if (!stands(side, frame)) continue;
-            const vec3 hip = motion.hips[side][frame] + vec3(0, lifts[frame], 0);
+            const vec3 hip = motion.hips[side][frame] + moves[frame];
             const vec3 ankle = motion.tracks[side].ankle[frame] + shifts[frame].feet[side];
             drops[frame] = std::max(drops[frame], dropFor(hip, ankle, motion.legReach[side] * kStraight));
         }
     }
     const std::vector<float> smooth = meanOfNeighbours(mostOfNeighbours(drops, reach), reach);
     for (std::size_t frame = 0; frame < frames; ++frame) {
-        shifts[frame].hips = vec3(0, lifts[frame] - smooth[frame], 0);
+        shifts[frame].hips = moves[frame] - vec3(0, smooth[frame], 0);
         for (vec3& foot : shifts[frame].feet)
             foot -= shifts[frame].hips;
     }

@@ -19,7 +19,7 @@ struct FootMotion {
 /// How the feet are to be moved so that they stand where the source's do: a point that stands in the source is held to
 /// one place and its height on the floor for as long, a heel that comes down before its ball takes over from it without
 /// a step, and between contacts the foot comes back to its own way within `blendSeconds`. No part of a sole goes below
-/// the floor. The hips go up and down with what the standing feet need, and down where a leg is too short, smoothly
+/// the floor. The hips move with what the standing feet need in the mean, and down where a leg is too short, smoothly
 /// over time. One shift a frame.
 [[nodiscard]] std::vector<FootShift> keepFeet(const AnatomicalRig& target, const FootMotion& motion,
                                               const std::array<FootContact, 2>& contacts, float framesPerSecond,
