@@ -152,6 +152,21 @@ TEST_CASE("a doll that is struck down on its way up lies, and gets up again") {
     CHECK(twice->puppets()->puppet(0).state() == PuppetState::animated);
 }
 
+TEST_CASE("hits on the way up and while the clip is blended into move no joint by more than ten degrees in a step") {
+    for (const SolverKind solver : {SolverKind::crowd, SolverKind::bullet}) {
+        for (const float at : {1.7F, 2.6F, 3.5F, 4.4F}) {
+            INFO(physics::solverName(solver) << ", hit at " << at << " s");
+            const auto simulation = falls(solver, 4, 11.0F, {{Role::upperChest, at, {0, 0, 20}}});
+            const scene::GetUpFigures up = simulation->puppets()->getUpFigures();
+            INFO(up.mostStepDeg << " degrees at " << up.stepJoint);
+            CHECK(up.mostStepDeg <= 10.0F);
+            for (int doll = 0; doll < simulation->dollCount(); ++doll)
+                CHECK(simulation->puppets()->puppet(doll).state() == PuppetState::animated);
+            CHECK(simulation->quality().nonFinite == 0);
+        }
+    }
+}
+
 TEST_CASE("hands and feet in the floor are lifted by their limbs, the rest with the whole figure") {
     const scene::RagdollAsset& asset = getUpMannequin();
     const scene::FloorKeeper keeper(asset);

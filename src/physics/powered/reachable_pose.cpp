@@ -88,14 +88,15 @@ void ReachablePose::addLimb(const std::array<Role, 3>& roles, bool isLeg) {
     limb.lower = bodyOf(profile_, roles[1]);
     limb.end = bodyOf(profile_, roles[2]);
     limb.isLeg = isLeg;
-    const bool isChain = limb.upper > 0 && limb.lower > 0 && limb.end > 0 && jointOf(limb.lower).parent == limb.upper &&
-                         jointOf(limb.end).parent == limb.lower &&
-                         jointOf(limb.lower).kind == ConstraintProfile::Kind::hinge;
-    if (!isChain || isKept(limb.upper) || isKept(limb.lower) || isKept(limb.end)) return;
+    limb.isChain = limb.upper > 0 && limb.lower > 0 && limb.end > 0 && jointOf(limb.lower).parent == limb.upper &&
+                   jointOf(limb.end).parent == limb.lower && jointOf(limb.lower).kind == ConstraintProfile::Kind::hinge;
+    if (limb.upper <= 0) return;
+    for (const int body : {limb.upper, limb.lower, limb.end})
+        if (body > 0 && isKept(body)) return;
     for (int body = limb.upper; body < static_cast<int>(profile_.bodies.size()); ++body)
         if (hangsOn(body, limb.upper)) limb.bodies.push_back(body);
     for (const int body : {limb.upper, limb.lower, limb.end})
-        limbOf_[body] = static_cast<int>(limbs_.size());
+        if (body > 0) limbOf_[body] = static_cast<int>(limbs_.size());
     limbs_.push_back(std::move(limb));
 }
 
@@ -103,12 +104,14 @@ void ReachablePose::addLimb(const std::array<Role, 3>& roles, bool isLeg) {
 void ReachablePose::planMeetings() {
     for (Limb& limb : limbs_) {
         for (const int own : {limb.upper, limb.lower, limb.end}) {
+            if (own <= 0) continue;
             for (int other = 0; other < static_cast<int>(profile_.bodies.size()); ++other) {
                 if (hangsOn(other, limb.upper) || !collide(own, other)) continue;
                 const bool onLeg = limbOf_[other] >= 0 && limbs_[limbOf_[other]].isLeg;
                 const bool onArm = limbOf_[other] >= 0 && !onLeg;
                 if (limb.isLeg ? onLeg : !onArm) limb.meets.emplace_back(own, other);
-                if (limb.isLeg && own != limb.upper && isTrunk(other)) limb.folds.emplace_back(own, other);
+                if (limb.isLeg && limb.isChain && own != limb.upper && isTrunk(other))
+                    limb.folds.emplace_back(own, other);
             }
         }
     }
@@ -144,7 +147,7 @@ void ReachablePose::bend(const Limb& limb, const quat& upper, const quat& lower,
 
 bool ReachablePose::moveEnd(int body, const vec3& shift, std::span<RigidTransform> bodies) const {
     const int index = limbOf_[body];
-    if (index < 0 || limbs_[index].end != body) return false;
+    if (index < 0 || !limbs_[index].isChain || limbs_[index].end != body) return false;
     const Limb& limb = limbs_[index];
     const quat upper = bodies[limb.upper].rotation;
     const quat lower = bodies[limb.lower].rotation;
@@ -168,10 +171,10 @@ void ReachablePose::turnLimb(const Limb& limb, const quat& turn, std::span<Rigid
     const quat wanted = glm::conjugate(parent) * (turn * bodies[limb.upper].rotation);
     const quat turned = glm::normalize(parent * withinLimits(top, wanted));
     const quat done = turned * glm::conjugate(bodies[limb.upper].rotation);
-    const quat foot = bodies[limb.end].rotation;
+    const quat foot = limb.isChain ? bodies[limb.end].rotation : quat(1, 0, 0, 0);
     for (const int body : limb.bodies)
         bodies[body].rotation = glm::normalize(done * bodies[body].rotation);
-    if (limb.isLeg) {
+    if (limb.isLeg && limb.isChain) {
         const quat& shin = bodies[limb.lower].rotation;
         bodies[limb.end].rotation = glm::normalize(shin * withinLimits(jointOf(limb.end), glm::conjugate(shin) * foot));
     }
@@ -252,7 +255,7 @@ void ReachablePose::apply(std::span<RigidTransform> bodies) {
     for (int body = 1; body < static_cast<int>(bodies.size()); ++body) {
         if (isKept(body)) continue;
         const int limb = limbOf_[body];
-        if (limb >= 0) {
+        if (limb >= 0 && limbs_[limb].isChain) {
             if (limbs_[limb].upper != body) continue;
             const int parent = jointOf(body).parent;
             const quat carried = bodies[parent].rotation * glm::conjugate(before_[parent]);
@@ -269,7 +272,7 @@ void ReachablePose::apply(std::span<RigidTransform> bodies) {
         bool isIn = false;
         for (const Limb& limb : limbs_) {
             isIn = pushOut(limb, bodies) || isIn;
-            isIn = unfold(limb, bodies) || isIn;
+            if (!limb.folds.empty()) isIn = unfold(limb, bodies) || isIn;
         }
         if (!isIn) break;
     }

@@ -19,7 +19,8 @@ namespace lutka::physics {
 ///   angle at which the end is as far from the shoulder or hip, and the upper part aims it. Hands and feet keep their
 ///   turn in the world as far as their own limits let them.
 /// - All other joints take the nearest turn within their limits, and what hangs on them goes along.
-/// - Limbs that are in something are turned out of it about the shoulder or hip; a leg that is folded into the trunk
+/// - Limbs, whole or not, that are in something are turned out of it about the shoulder or hip; a leg that is folded
+/// into the trunk
 ///   opens its knee. Where that would break a limit the limit wins.
 class ReachablePose {
   public:
@@ -40,8 +41,9 @@ class ReachablePose {
 
   private:
     struct Limb {
-        int upper = -1, lower = -1, end = -1;  // bodies; the lower one hangs on a hinge
+        int upper = -1, lower = -1, end = -1;  // bodies; -1: figures of few joints lack some
         bool isLeg = false;
+        bool isChain = false;                    // it has all three, the lower one on a hinge
         std::vector<int> bodies;                 // upper and all that hangs on it, parents first
         std::vector<std::pair<int, int>> meets;  // one of `bodies`, and what it may run into
         std::vector<std::pair<int, int>> folds;  // of a leg: shin or foot, and a part of the trunk

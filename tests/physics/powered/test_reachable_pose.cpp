@@ -137,6 +137,13 @@ TEST_CASE("an arm in the trunk is turned out of it, and one that is kept stays t
     CHECK(deepest(pose) < 2e-3F);
     CHECK(degrees(worstOf(profile, pose).violation) < 0.1F);
 
+    // An arm that has no hand is a limb as well.
+    RagdollProfile handless = profile;
+    handless.bodies[physics::bodyOf(profile, Role::leftHand)].role.reset();
+    pose = inside;
+    ReachablePose(handless).apply(pose);
+    CHECK(deepest(pose) < 2e-3F);
+
     std::vector<bool> keeps(profile.bodies.size(), false);
     keeps[upperArm] = keeps[forearm] = keeps[physics::bodyOf(profile, Role::leftHand)] = true;
     auto kept = inside;
