@@ -16,6 +16,7 @@ using physics::Role;
 constexpr float kMostOverM = 0.02F;  // of a clearance, that the whole figure is lifted for
 
 constexpr float kSwingOverM = 0.01F;
+constexpr float kShortM = 0.02F;  // bodies that end no higher than this over the soles stand on them
 
 struct LimbRoles {
     Role upper, lower, end;
@@ -37,7 +38,8 @@ float standingFloorOf(const RagdollAsset& asset) {
         lowest = std::min(lowest, glm::dot(bind.translation, -down) -
                                       physics::supportExtent(asset.profile.bodies[body].shape, inBody));
     }
-    return std::max(animation::floorOf(asset.character, asset.map), lowest);
+    const float soles = animation::floorOf(asset.character, asset.map);
+    return lowest > soles + kShortM ? lowest : soles;
 }
 
 FloorKeeper::FloorKeeper(const RagdollAsset& asset)

@@ -13,7 +13,7 @@ namespace lutka::scene {
 using GroundHeight = std::function<float(const vec3& worldPoint)>;
 
 /// What a figure's bodies stand on in its bind pose: the height of its soles over the model's origin, or of its lowest
-/// body where that ends above them (skeletons without a skin), metres, in standard space.
+/// body where that ends well above them (skeletons without a skin), metres, in standard space.
 [[nodiscard]] float standingFloorOf(const RagdollAsset& asset);
 
 /// Keeps a pose of bodies out of the floor: hands and feet are lifted by two bones each, feet as far as the joints'

@@ -13,10 +13,9 @@
 namespace lutka::scene {
 namespace {
 
-constexpr float kJump = radians(240.0F);   // a second: a correction that turns faster than this
-constexpr float kUnturned = 1.0F - 1e-7F;  // cosine of half the turn
-constexpr float kSpreadSeconds = 0.1F;     // is spread over so long before and after
-constexpr float kStandingShare = 0.25F;    // of the frames, in which a clip stands most lightly
+constexpr float kJump = radians(240.0F);  // a second: a correction that turns faster than this
+constexpr float kSpreadSeconds = 0.1F;    // is spread over so long before and after
+constexpr float kStandingShare = 0.25F;   // of the frames, in which a clip stands most lightly
 
 // Frames of a clip as bodies over level ground.
 class ClipBodies {
@@ -24,7 +23,8 @@ class ClipBodies {
     ClipBodies(const RagdollAsset& asset, const animation::Clip& clip, std::vector<bool> keeps)
         : asset_(asset),
           clip_(clip),
-          reachable_(asset.profile, std::move(keeps)),
+          keeps_(std::move(keeps)),
+          reachable_(asset.profile, keeps_),
           standing_{asset.map.standardFromModel, vec3(0, -standingFloorOf(asset), 0)},
           model_(asset.character.skeleton.parents.size()),
           pose_(model_.size()),
@@ -99,7 +99,8 @@ class ClipBodies {
         const physics::ConstraintProfile& constraint = asset_.profile.constraints[joint];
         quat turn = relative(wanted_, joint);
         // What is spread is out of the limits where it is another frame's.
-        if (std::abs(correction.w) < kUnturned) turn = physics::withinLimits(constraint, correction * turn);
+        const bool isKept = !keeps_.empty() && keeps_[static_cast<std::size_t>(constraint.child)];
+        if (!isKept) turn = physics::withinLimits(constraint, correction * turn);
         bodies_[constraint.child].rotation = glm::normalize(bodies_[constraint.parent].rotation * turn);
     }
     [[nodiscard]] const quat& correctionOf(int frame, std::size_t joint) const {
@@ -152,6 +153,7 @@ class ClipBodies {
 
     const RagdollAsset& asset_;
     const animation::Clip& clip_;
+    std::vector<bool> keeps_;
     physics::ReachablePose reachable_;
     RigidTransform standing_;
     std::vector<RigidTransform> model_, pose_;
