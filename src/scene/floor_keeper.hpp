@@ -30,6 +30,10 @@ class FloorKeeper {
     /// How high over the ground a walking figure's bodies are to stay, metres, one a body: a leg that has no foot can't
     /// be lifted as it swings and would be caught; all else 0.
     [[nodiscard]] std::span<const float> swings() const { return swings_; }
+    /// lowestOf() less that.
+    [[nodiscard]] float heightOver(int body, const RigidTransform& worldFromBody) const {
+        return lowestOf(body, worldFromBody) - swings_[body];
+    }
     /// Places all bodies but the root from their rotations, so that the joints are closed.
     void closeJoints(std::span<RigidTransform> worldFromBody) const;
     /// The height of a body's lowest point.

@@ -275,8 +275,7 @@ void PuppetCast::startClip(Actor& actor, float seconds, physics::World& world, p
     world.setBodies(doll, bodies_);
 }
 
-// How far above the ground that the doll stands on in its bind pose, or above what it is to keep over it, its lowest
-// body stays throughout the clip, metres.
+// How far its lowest body stays above the ground of its bind pose, or what it is to keep over it, metres.
 float PuppetCast::clearance(const Actor& actor) {
     constexpr float kStep = 1.0F / 60.0F;
     const animation::Skeleton& skeleton = actor.asset->character.skeleton;
@@ -289,8 +288,7 @@ float PuppetCast::clearance(const Actor& actor) {
         bodies_.resize(actor.asset->profile.bodies.size());
         physics::bodiesFromPose(actor.asset->rig, joints_, standing, bodies_);
         for (std::size_t i = 0; i < bodies_.size(); ++i)
-            lowest = std::min(lowest, actor.floor->lowestOf(static_cast<int>(i), bodies_[i].worldFromBody) -
-                                          actor.floor->swings()[i]);
+            lowest = std::min(lowest, actor.floor->heightOver(static_cast<int>(i), bodies_[i].worldFromBody));
     }
     return lowest;
 }
