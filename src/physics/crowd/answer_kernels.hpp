@@ -19,11 +19,11 @@ static int pressAgain(const PairsView& view, const SubstepParams& params) {
     const F tolerance = all(params.answerSpeed);
     int found = 0;
     for (int i = 0; i < view.liveCount; ++i) {
-        PairContactLanes& pair = view.pairs[view.live[i]];
+        PairContactLanes& pair = pairAt(view, view.live[i]);
         PairVelocities v = velocitiesOf(pair, bodies);
         const F before = load(pair.normalImpulse);
         const F off = dot(load(pair.normal), slidingOf(pair, v)) + contactBias(load(pair.separation), params, 0);
-        const Mask wrong = (load(pair.strikes) > zero) & ((off < -tolerance) | ((before > zero) & (off > tolerance)));
+        const Mask wrong = (strikes(pair)) & ((off < -tolerance) | ((before > zero) & (off > tolerance)));
         if (bits(wrong) == 0) continue;
         makeReady(pair, bodies);
         const F total = wrong ? most(before - load(pair.normalMass) * off, zero) : before;
@@ -36,7 +36,7 @@ static int pressAgain(const PairsView& view, const SubstepParams& params) {
     }
     // Supports get what was held back from them, as in carryPairs().
     for (int i = 0; i < found; ++i) {
-        const PairContactLanes& pair = view.pairs[view.changed[i]];
+        const PairContactLanes& pair = pairAt(view, view.changed[i]);
         const F push = load(pair.carriedNormal);
         const Columns a = readRows(bodies.motions, pair.bodyA, 0);
         const Columns b = readRows(bodies.motions, pair.bodyB, 0);

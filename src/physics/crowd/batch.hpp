@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <span>
 #include <vector>
 
@@ -71,6 +72,12 @@ inline void writeVector(Wide3& to, int lane, const vec3& v) {
     to.x.lane[lane] = v.x;
     to.y.lane[lane] = v.y;
     to.z.lane[lane] = v.z;
+}
+/// The friction of a prepared contact on its body A, N s, world axes.
+[[nodiscard]] inline vec3 frictionOf(const PairContactLanes& pair, int lane) {
+    const vec3 tangent = readVector(pair.tangent, lane);
+    return tangent * pair.tangentImpulse[0].lane[lane] +
+           glm::cross(readVector(pair.normal, lane), tangent) * pair.tangentImpulse[1].lane[lane];
 }
 [[nodiscard]] inline BodyState readBody(const BodyLanes& body, int lane) {
     const Wide4& q = body.rotation;

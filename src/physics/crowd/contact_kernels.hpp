@@ -19,8 +19,8 @@ LUTKA_LANES V3 supportOf(const PairBodies& bodies, Indices index) {
 // From the centre to a point of the core.
 LUTKA_LANES V3 coreOf(const PairBodies& bodies, Indices index, const V3& axisY, const V3& local, int onAxisY) {
     if (onAxisY != 0) return axisY * local.y;
-    return second3(readRows(bodies.frames, index, kSupportRow)) * local.x + axisY * local.y +
-           first3(readRows(bodies.frames, index, kAxisZRow)) * local.z;
+    const V3 axisX = second3(readRows(bodies.frames, index, kSupportRow));
+    return axisX * local.x + axisY * local.y + cross(axisX, axisY) * local.z;
 }
 
 struct PairVelocities {
@@ -56,8 +56,11 @@ LUTKA_LANES void rubPair(const PairContactLanes& pair, PairVelocities& v, int in
     v.angularA = v.angularA + load(pair.rubA[index]) * size;
     v.angularB = v.angularB - load(pair.rubB[index]) * size;
 }
+LUTKA_LANES V3 slidingAt(const V3& armA, const V3& armB, const PairVelocities& v) {
+    return v.velocityA + cross(v.angularA, armA) - (v.velocityB + cross(v.angularB, armB));
+}
 LUTKA_LANES V3 slidingOf(const PairContactLanes& pair, const PairVelocities& v) {
-    return v.velocityA + cross(v.angularA, load(pair.armA)) - (v.velocityB + cross(v.angularB, load(pair.armB)));
+    return slidingAt(load(pair.armA), load(pair.armB), v);
 }
 
 // What is left of a push along `direction` where a support holds against it.
@@ -74,9 +77,22 @@ LUTKA_LANES V3 turnBy(const V3& lever, const Symmetric& inverseInertia, const F&
     return choose(inverseMass > zero, inverseInertia * lever, {zero, zero, zero});
 }
 
+LUTKA_LANES PairContactLanes& pairAt(const PairsView& view, int block) {
+    return view.chunks[block / kPairChunk][block % kPairChunk];
+}
+
+// Those between dolls with joints.
+LUTKA_LANES Mask strikes(const PairContactLanes& pair) {
+    return load(pair.kind) > all(1.0F);
+}
+// The lanes that have a contact.
+LUTKA_LANES Mask hasContact(const PairContactLanes& pair) {
+    return load(pair.friction) > all(0.0F);
+}
+
 // What a contact presses harder by than the masses of its two bodies ask.
 LUTKA_LANES F eagerness(const PairContactLanes& pair, float rate) {
-    return all(1.0F) + load(pair.eager) * all(rate - 1.0F);
+    return load(pair.kind) > all(0.0F) ? all(rate) : all(1.0F);
 }
 
 // What a support holds back is a guess, and a push that counts on too much of it is never taken back in time: a pair
@@ -89,11 +105,11 @@ LUTKA_LANES void preparePair(PairContactLanes& pair, const PairBodies& bodies, b
     V3 direction[3];
     direction[0] = load(pair.normal);
     tangentsOf(direction[0], direction[1], direction[2]);
-    const V3 kept = isFirst ? load(pair.frictionImpulse)
-                            : load(pair.tangent[0]) * load(pair.tangentImpulse[0]) +
-                                  load(pair.tangent[1]) * load(pair.tangentImpulse[1]);
-    store(pair.tangent[0], direction[1]);
-    store(pair.tangent[1], direction[2]);
+    const V3 before = load(pair.tangent);
+    const V3 kept =
+        isFirst ? before
+                : before * load(pair.tangentImpulse[0]) + cross(direction[0], before) * load(pair.tangentImpulse[1]);
+    store(pair.tangent, direction[1]);
     store(pair.tangentImpulse[0], dot(kept, direction[1]));
     store(pair.tangentImpulse[1], dot(kept, direction[2]));
     const V3 armA = load(pair.armA);
@@ -111,7 +127,7 @@ LUTKA_LANES void preparePair(PairContactLanes& pair, const PairBodies& bodies, b
     const V3 leverB = cross(armB, direction[0]);
     const F free =
         massA + massB + dot(leverA, turnBy(leverA, inertiaA, massA)) + dot(leverB, turnBy(leverB, inertiaB, massB));
-    const Mask moves = (load(pair.active) > zero) & (free > zero);
+    const Mask moves = hasContact(pair) & (free > zero);
     const F leastYield = most(free * all(kLeastYield), all(1e-12F));
     for (int i = 0; i < 3; ++i) {
         const V3& onA = i == 0 ? pushA : direction[i];
@@ -136,7 +152,10 @@ LUTKA_LANES void makeReady(PairContactLanes& pair, const PairBodies& bodies) {
 
 // Places a contact where its bodies are now: the touching points, how far apart the surfaces are, the arms. Both bodies
 // are pushed at one point, so that no torque comes from nowhere.
-LUTKA_LANES void placePair(PairContactLanes& pair, const PairBodies& bodies, bool isFirst) {
+struct Arms {
+    V3 a, b;
+};
+LUTKA_LANES Arms placePair(PairContactLanes& pair, const PairBodies& bodies, bool isFirst) {
     const F radius = load(pair.radius);
     V3 coreA, coreB;
     const Columns placeA = readRows(bodies.frames, pair.bodyA, kPlaceRow);
@@ -146,8 +165,8 @@ LUTKA_LANES void placePair(PairContactLanes& pair, const PairBodies& bodies, boo
     const V3 axisB = second3(placeB);
     if (pair.follows != 0 && !isFirst) {
         const F one = all(1.0F), two = all(2.0F), zero = all(0.0F);
-        const F halfA = load(pair.halfA);
-        const F halfB = load(pair.halfB);
+        const F halfA = placeA.column[kHalfColumn];
+        const F halfB = placeB.column[kHalfColumn];
         const NearestPoints at = nearestPoints(between, axisA * halfA, {zero, zero, zero}, axisB * halfB);
         // Cores that have passed through each other go back where they came from.
         const V3 before = load(pair.normal);
@@ -155,7 +174,7 @@ LUTKA_LANES void placePair(PairContactLanes& pair, const PairBodies& bodies, boo
         const F side = through ? -one : one;
         const F alongA = (two * at.s - one) * halfA;
         const F alongB = (two * at.t - one) * halfB;
-        const Mask used = load(pair.active) > zero;
+        const Mask used = hasContact(pair);
         store(pair.normal, choose(used, at.normal * side, before));
         store(pair.localA.y, alongA);
         store(pair.localB.y, alongB);
@@ -168,8 +187,7 @@ LUTKA_LANES void placePair(PairContactLanes& pair, const PairBodies& bodies, boo
     const V3 apart = between + (coreA - coreB);
     store(pair.separation, dot(load(pair.normal), apart) - radius);
     const V3 middle = apart * all(0.5F);
-    store(pair.armA, coreA - middle);
-    store(pair.armB, coreB + middle);
+    return {coreA - middle, coreB + middle};
 }
 
 // What rests on something that is held is held itself, less firmly.
@@ -194,15 +212,17 @@ static void beginPairs(PairsView& view, const SubstepParams& params) {
     const bool isFirst = params.warmStart != 0;
     const PairBodies& bodies = view.bodies;
     view.liveCount = 0;
-    for (int i = 0; i < view.count; ++i) {
-        PairContactLanes& pair = view.pairs[i];
-        placePair(pair, bodies, isFirst);
+    for (int i = view.first; i < view.first + view.count; ++i) {
+        PairContactLanes& pair = pairAt(view, i);
+        const Arms arms = placePair(pair, bodies, isFirst);
         const V3 normal = load(pair.normal);
-        const F start = dot(normal, slidingOf(pair, velocitiesOf(pair, bodies)));
+        const F start = dot(normal, slidingAt(arms.a, arms.b, velocitiesOf(pair, bodies)));
         const F pressed = load(pair.normalImpulse);
         const F left = start + contactBias(load(pair.separation), params, 0);
         const Mask meets = (pressed > all(0.0F)) | (left < all(0.0F));
         if (bits(meets | (left < all(params.nearSpeed))) == 0) continue;  // nor did it press before
+        store(pair.armA, arms.a);
+        store(pair.armB, arms.b);
         view.live[view.liveCount++] = i;
         pair.ready = bits(meets) != 0 ? 1 : 0;
         if (pair.ready != 0) preparePair(pair, bodies, isFirst);
@@ -240,7 +260,7 @@ LUTKA_LANES void pushRest(const PairContactLanes& pair, const PairBodies& bodies
 static void carryPairs(const PairsView& view) {
     const PairBodies& bodies = view.bodies;
     for (int i = 0; i < view.liveCount; ++i) {
-        const PairContactLanes& pair = view.pairs[view.live[i]];
+        const PairContactLanes& pair = pairAt(view, view.live[i]);
         const F pressed = load(pair.carriedNormal);
         const F total = load(pair.normalImpulse);
         if (bits((pressed > all(0.0F)) | (total > all(0.0F))) == 0) continue;
@@ -250,11 +270,12 @@ static void carryPairs(const PairsView& view) {
         const V3 whole = load(pair.normal) * total;
         const F swept = total - pressed;
         pushRest(pair, bodies, v, whole, swept);
-        rubPair(pair, v, 0, load(pair.tangent[0]), load(pair.carriedTangent[0]));
-        rubPair(pair, v, 1, load(pair.tangent[1]), load(pair.carriedTangent[1]));
-        const Mask strikes = total * load(pair.strikes) > all(0.0F);
-        writeNoted(bodies, pair.bodyA, kStruckColumn, a, v.velocityA, v.angularA, strikes);
-        writeNoted(bodies, pair.bodyB, kStruckColumn, b, v.velocityB, v.angularB, strikes);
+        const V3 tangent = load(pair.tangent);
+        rubPair(pair, v, 0, tangent, load(pair.carriedTangent[0]));
+        rubPair(pair, v, 1, cross(load(pair.normal), tangent), load(pair.carriedTangent[1]));
+        const Mask struck = strikes(pair) & (total > all(0.0F));
+        writeNoted(bodies, pair.bodyA, kStruckColumn, a, v.velocityA, v.angularA, struck);
+        writeNoted(bodies, pair.bodyB, kStruckColumn, b, v.velocityB, v.angularB, struck);
     }
 }
 
@@ -262,7 +283,7 @@ static int solvePairs(const PairsView& view, const SubstepParams& params) {
     const PairBodies& bodies = view.bodies;
     Mask pressed = noLanes();
     for (int i = 0; i < view.liveCount; ++i) {
-        PairContactLanes& pair = view.pairs[view.live[i]];
+        PairContactLanes& pair = pairAt(view, view.live[i]);
         PairVelocities v = velocitiesOf(pair, bodies);
         const V3 normal = load(pair.normal);
         const V3 sliding = slidingOf(pair, v);
@@ -270,8 +291,8 @@ static int solvePairs(const PairsView& view, const SubstepParams& params) {
         const F bias = contactBias(load(pair.separation), params, 0);
         if (bits((carried > all(0.0F)) | (dot(normal, sliding) + bias < all(0.0F))) == 0) continue;
         makeReady(pair, bodies);
-        const V3 t1 = load(pair.tangent[0]);
-        const V3 t2 = load(pair.tangent[1]);
+        const V3 t1 = load(pair.tangent);
+        const V3 t2 = cross(normal, t1);
         const F before1 = load(pair.tangentImpulse[0]);
         const F before2 = load(pair.tangentImpulse[1]);
         const Tangents after =
@@ -297,9 +318,9 @@ static int mendPairs(const PairsView& view, const SubstepParams& params) {
     const PairBodies& bodies = view.bodies;
     Mask any = noLanes();
     for (int i = 0; i < view.liveCount; ++i) {
-        PairContactLanes& pair = view.pairs[view.live[i]];
+        PairContactLanes& pair = pairAt(view, view.live[i]);
         const F zero = all(0.0F);
-        const Mask overlaps = (load(pair.separation) < all(-params.slop - params.mendGap)) & (load(pair.active) > zero);
+        const Mask overlaps = (load(pair.separation) < all(-params.slop - params.mendGap)) & hasContact(pair);
         if (bits(overlaps) == 0) continue;
         makeReady(pair, bodies);
         any |= overlaps;

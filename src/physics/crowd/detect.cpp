@@ -214,7 +214,7 @@ namespace {
 
 void findSelfContacts(CrowdState& state, Batch& batch, const BatchView& view, const Topology& topology, float dt,
                       std::vector<PairTouch>& out) {
-    out.clear();
+    renewRoom(out, out.size());
     const TouchRange range = touchRange(state, dt);
     const std::vector<SelfPair>& pairs = topology.selfPairs;
     std::vector<unsigned char>& masks = batch.selfMasks;
@@ -424,10 +424,9 @@ void collidePiece(CrowdState& state, std::size_t piece, float dt, PieceTouches& 
 void joinContacts(CrowdState& state, float dt) {
     constexpr std::size_t kPiecesAThread = 8;
     const auto take = [&](const std::vector<PairTouch>& touches) {
-        makeRoom(state.touches, state.touches.size() + touches.size());
-        state.touches.insert(state.touches.end(), touches.begin(), touches.end());
+        for (const PairTouch& touch : touches)
+            state.touches.push_back(touch);
     };
-    giveBackRoom(state.touches, state.touches.size());
     state.touches.clear();
     for (std::size_t i = 0; i < state.active.size(); ++i)
         take(state.selfTouches[i]);

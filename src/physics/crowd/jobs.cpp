@@ -23,8 +23,6 @@ void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTou
     writeVector(pair.localB, lane, touch.touch.localB);
     const PrimitiveShape& shapeA = state.groupOf(a).topology.shapeOf(touch.bodyA, touch.shapeA);
     const PrimitiveShape& shapeB = state.groupOf(b).topology.shapeOf(touch.bodyB, touch.shapeB);
-    pair.halfA.lane[lane] = coreHalf(shapeA);
-    pair.halfB.lane[lane] = coreHalf(shapeB);
     // Only a core about its body's centre can be followed.
     const bool follows = !shapeA.isAngular() && !shapeB.isAngular() && touch.shapeA == 0 && touch.shapeB == 0;
     if (!follows) pair.follows = 0;
@@ -40,11 +38,9 @@ void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTou
     pair.friction.lane[lane] = kFriction;
     pair.normalImpulse.lane[lane] = touch.carried.normal;
     pair.approach.lane[lane] = touch.carried.approach;
-    writeVector(pair.frictionImpulse, lane, touch.carried.friction);
-    pair.active.lane[lane] = 1.0F;
+    writeVector(pair.tangent, lane, touch.carried.friction);
     const auto isJointed = [&](const Doll& doll) { return !state.groupOf(doll).topology.joints.empty(); };
-    pair.eager.lane[lane] = isJointed(a) && isJointed(b) ? 1.0F : 0.0F;
-    pair.strikes.lane[lane] = touch.dollA != touch.dollB ? pair.eager.lane[lane] : 0.0F;
+    if (isJointed(a) && isJointed(b)) pair.kind.lane[lane] = touch.dollA != touch.dollB ? 2.0F : 1.0F;
     const auto onAxisY = [](const vec3& local) { return local.x == 0.0F && local.z == 0.0F; };
     if (!onAxisY(touch.touch.localA) || !onAxisY(touch.touch.localB)) pair.onAxisY = 0;
 }
@@ -64,27 +60,39 @@ class Packer {
         usedBy_.resize(static_cast<std::size_t>(state.bodyTotal), 0);
     }
 
-    void pack(Job& job) {
-        job.touchOfLane.clear();
-        openWindow(job);
-        putPressingFirst(job.touches);
-        for (std::size_t i = 0; i < job.touches.size(); ++i) {
-            if (place(job, job.touches[i])) continue;
-            forget(job, i);
-            openWindow(job);
-            place(job, job.touches[i]);
+    void pack() {
+        touchOfLane_.clear();
+        for (std::size_t i = 0; i < state_.jobCount; ++i) {
+            state_.jobs[i].firstBlock = touchOfLane_.size();
+            placeAll(state_.jobs[i]);
+            state_.jobs[i].blockCount = touchOfLane_.size() - state_.jobs[i].firstBlock;
         }
-        forget(job, job.touches.size());
-        giveBackRoom(job.pairs, job.touchOfLane.size());
-        makeRoom(job.pairs, job.touchOfLane.size());
-        job.pairs.resize(job.touchOfLane.size());
-        state_.inParallel(job.pairs.size(), 64, [&](std::size_t begin, std::size_t end) {
+        const std::size_t count = touchOfLane_.size();
+        state_.pairs.clear();
+        state_.pairs.resize(count);
+        state_.pairChunks.clear();
+        for (std::size_t i = 0; i < count; i += kPairChunk)
+            state_.pairChunks.push_back(&state_.pairs[i]);
+        state_.liveBlocks.resize(2 * count);
+        state_.inParallel(count, 64, [&](std::size_t begin, std::size_t end) {
             for (std::size_t block = begin; block < end; ++block)
-                fill(job, block);
+                fill(block);
         });
     }
 
   private:
+    void placeAll(Job& job) {
+        openWindow();
+        putPressingFirst(job.touches);
+        for (std::size_t i = 0; i < job.touches.size(); ++i) {
+            if (place(job.touches[i])) continue;
+            forget(job, i);
+            openWindow();
+            place(job.touches[i]);
+        }
+        forget(job, job.touches.size());
+    }
+
     // What will hardly press shares blocks, which are left early. std::stable_partition would allocate.
     void putPressingFirst(std::vector<int>& touches) {
         std::vector<int>& later = state_.scratch.later;
@@ -112,13 +120,13 @@ class Packer {
         if (end == job.touches.size()) placed_ = 0;
     }
 
-    void openWindow(const Job& job) {
-        first_ = job.touchOfLane.size();
+    void openWindow() {
+        first_ = touchOfLane_.size();
         full_ = 0;
     }
 
     // False: no block of the window will do.
-    bool place(Job& job, int index) {
+    bool place(int index) {
         const PairTouch& touch = state_.touches[index];
         std::uint64_t& usedA = used(touch.dollA, touch.bodyA);
         std::uint64_t& usedB = used(touch.dollB, touch.bodyB);
@@ -126,11 +134,11 @@ class Packer {
         if (~taken == 0) return false;
         const int bit = std::countr_one(taken);
         const std::size_t block = first_ + static_cast<std::size_t>(bit);
-        if (job.touchOfLane.size() == block) {
-            job.touchOfLane.emplace_back().fill(-1);
+        if (touchOfLane_.size() == block) {
+            touchOfLane_.emplace_back().fill(-1);
             filled_[bit] = 0;
         }
-        job.touchOfLane[block][filled_[bit]++] = index;
+        touchOfLane_[block][filled_[bit]++] = index;
         const std::uint64_t mask = std::uint64_t{1} << static_cast<unsigned>(bit);
         usedA |= mask;
         usedB |= mask;
@@ -138,17 +146,18 @@ class Packer {
         return true;
     }
 
-    void fill(Job& job, std::size_t block) {
-        PairContactLanes& pair = job.pairs[block];
+    void fill(std::size_t block) {
+        PairContactLanes& pair = state_.pairs[block];
         emptyBlock(pair);
         for (int lane = 0; lane < kLanes; ++lane) {
-            const int index = job.touchOfLane[block][lane];
-            fillLane(state_, pair, lane, state_.touches[index >= 0 ? index : job.touchOfLane[block][0]]);
-            if (index < 0) pair.active.lane[lane] = pair.strikes.lane[lane] = 0.0F;
+            const int index = touchOfLane_[block][lane];
+            fillLane(state_, pair, lane, state_.touches[index >= 0 ? index : touchOfLane_[block][0]]);
+            if (index < 0) pair.friction.lane[lane] = pair.kind.lane[lane] = 0.0F;
         }
     }
 
     CrowdState& state_;
+    std::vector<std::array<int, kLanes>>& touchOfLane_ = state_.touchOfLane;
     std::vector<std::uint64_t>& usedBy_;  // one a body of the world: the blocks of the window that have it
     std::size_t placed_ = 0;              // the window's first contact
     std::size_t first_ = 0;               // the window's first block
@@ -221,12 +230,7 @@ void makeJobs(CrowdState& state) {
     const auto jobOf = [&](int doll) -> Job& { return state.jobs[state.batchOf(state.dolls[doll]).job]; };
     for (const ForceRecord& record : state.forces)
         jobOf(record.doll).forces.push_back(&record);
-    Packer packer(state);
-    for (std::size_t i = 0; i < state.jobCount; ++i)
-        packer.pack(state.jobs[i]);
-    // Jobs become fewer as a heap grows together.
-    for (std::size_t i = state.jobCount; i < state.jobs.size(); ++i)
-        giveBackRoom(state.jobs[i].pairs, 0);
+    Packer(state).pack();
 }
 
 }  // namespace lutka::physics::crowd

@@ -57,11 +57,12 @@ struct alignas(32) BodyMotion {
 };
 
 /// What else they need of it, in rows of the same kind. What rests on a body passes its support on.
-struct alignas(64) BodyFrame {
-    float position[3], axisY[3], unused0[2];
+struct alignas(32) BodyFrame {
+    float position[3], axisY[3];
+    float half;  ///< Half length of its core along the body's y, where that is a capsule or sphere.
+    float unused0;
     float inverseInertia[6], unused1[2];  ///< As in WideSymmetric.
     float support[3], axisX[3], unused2[2];
-    float axisZ[3], unused3[5];
 };
 
 /// One of each a body of the world. Jobs share no body.
@@ -249,43 +250,43 @@ struct PairContactLanes {
     int bodyA[kLanes];  ///< Into PairBodies.
     int bodyB[kLanes];
     Wide3 normal;  ///< From B to A.
-    Wide3 armA, armB;
     Wide separation;
     Wide normalImpulse;
-    Wide strikes;  ///< 1 where both are of different dolls with joints: these are pressed again once the dolls have
-                   ///< answered (answer_kernels.hpp).
+    Wide radius;           ///< Sum of both.
+    Wide approach;         ///< Relative speed along the normal at the start of the last substep.
+    Wide friction;         ///< 0 where the lane is empty.
+    Wide3 localA, localB;  ///< The touching points of the cores.
+    int onAxisY;           ///< Whether all touching points lie on the bodies' y, as those of capsules do.
+    int follows;  ///< Whether all are of capsules and spheres: points and normal are found anew in every substep.
+    int ready;    ///< Whether directions and masses are those of this substep.
     // what a push needs,
+    Wide3 armA, armB;
+    Wide kind;  ///< 2 between dolls with joints: these are pressed again once the dolls have answered
+                ///< (answer_kernels.hpp). 1 between bodies of one, 0 where a body has no other jointed to it.
     Wide normalMass;
     Wide inverseMassA, inverseMassB;
     Wide3 pushA, pushB;  ///< The normal without the part that is held against by what a body rests on.
     Wide3 turnA, turnB;  ///< Inverse inertia times (arm × push).
-    Wide active;         ///< 1, or 0 where the lane is empty.
-    Wide eager;          ///< 1 where both bodies have others jointed to them, which lag behind a push; else 0.
     Wide carriedNormal;  ///< What the substep before left of the impulses; later what the last sweep added.
-    int ready;           ///< Whether directions and masses are those of this substep.
-    int onAxisY;         ///< Whether all touching points lie on the bodies' y, as those of capsules do.
-    int follows;  ///< Whether all are of capsules and spheres: points and normal are found anew in every substep.
-    // what friction does,
+    // and what friction does.
     Wide carriedTangent[2];
-    Wide3 tangent[2];
+    Wide3 tangent;  ///< The first of two; until it is prepared in a step the friction of the step before, N s, in world
+                    ///< axes.
     Wide3 rubA[2], rubB[2];  ///< Inverse inertia times (arm × tangent).
     Wide tangentMass[2];
     Wide tangentImpulse[2];
-    Wide friction;
-    // and what is looked at once a substep.
-    Wide3 localA, localB;   ///< The touching points of the cores.
-    Wide halfA, halfB;      ///< Half lengths of the cores along the bodies' y, where `follows`.
-    Wide radius;            ///< Sum of both.
-    Wide approach;          ///< Relative speed along the normal at the start of the last substep.
-    Wide3 frictionImpulse;  ///< World axes, what is carried from the step before.
 };
 
-/// The pair contacts of a job as the kernels see them.
+/// How many blocks of pair contacts lie side by side.
+inline constexpr int kPairChunk = 64;
+
+/// The pair contacts of a job as the kernels see them: `count` blocks from `first` on, in pieces of kPairChunk.
 struct PairsView {
-    PairContactLanes* pairs;
+    PairContactLanes* const* chunks;
+    int first;
     int count;
     PairBodies bodies;
-    int* live;  ///< Blocks that may be met in this substep, in their order; room for all.
+    int* live;  ///< Blocks, counted as `first` is, that may be met in this substep, in their order; room for all.
     int liveCount;
     int* changed;  ///< Room for as many more.
 };

@@ -49,7 +49,7 @@ constexpr int kStruckColumn = 7;
 constexpr int kPlaceRow = 0;
 constexpr int kInertiaRow = 1;
 constexpr int kSupportRow = 2;
-constexpr int kAxisZRow = 3;
+constexpr int kHalfColumn = 6;  // of kPlaceRow
 
 LUTKA_LANES Columns columnsOf(const V3& first, const V3& second) {
     const F zero = all(0.0F);
@@ -78,13 +78,13 @@ static void showBodies(const BatchView& batch) {
         int index[kLanes];
         placesOf(batch, batch.paired[i], index);
         const BodyLanes& body = batch.bodies[batch.paired[i]];
-        const V3 none = {all(0.0F), all(0.0F), all(0.0F)};
         const Symmetric inertia = load(body.inverseInertia);
-        writeRows(frames, index, kPlaceRow, columnsOf(load(body.position), load(body.axisY)));
+        Columns place = columnsOf(load(body.position), load(body.axisY));
+        place.column[kHalfColumn] = all(batch.bodyConstants[batch.paired[i]].extent[1]);
+        writeRows(frames, index, kPlaceRow, place);
         writeRows(frames, index, kInertiaRow,
                   columnsOf({inertia.xx, inertia.yy, inertia.zz}, {inertia.xy, inertia.xz, inertia.yz}));
         writeRows(frames, index, kSupportRow, columnsOf(load(body.support), load(body.axisX)));
-        writeRows(frames, index, kAxisZRow, columnsOf(load(body.axisZ), none));
     }
 }
 

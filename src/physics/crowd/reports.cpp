@@ -26,11 +26,11 @@ void reportStatics(CrowdState& state, const Batch& batch) {
     }
 }
 
-void reportPairs(CrowdState& state, const Job& job) {
-    for (std::size_t block = 0; block < job.pairs.size(); ++block) {
+void reportPairs(CrowdState& state) {
+    for (std::size_t block = 0; block < state.pairs.size(); ++block) {
         for (int lane = 0; lane < kLanes; ++lane) {
-            const int index = job.touchOfLane[block][lane];
-            const float impulse = job.impulseSums[block].lane[lane];
+            const int index = state.touchOfLane[block][lane];
+            const float impulse = state.impulseSums[block].lane[lane];
             if (index < 0 || impulse <= 0.0F) continue;
             const PairTouch& touch = state.touches[index];
             ContactReport report;
@@ -59,17 +59,16 @@ void beginReports(CrowdState& state) {
         batch->pushes.clear();
         openSums(*batch);
     }
-    for (std::size_t i = 0; i < state.jobCount; ++i)
-        state.jobs[i].impulseSums.assign(state.jobs[i].pairs.size(), Wide{});
+    state.impulseSums.assign(state.pairs.size(), Wide{});
 }
 
-void sumImpulses(Job& job) {
+void sumImpulses(CrowdState& state, const Job& job) {
     for (Batch* batch : job.batches) {
         for (std::size_t i = 0; i < batch->contacts.size(); ++i)
             add(batch->contacts[i].normalImpulse, batch->impulseSums[i]);
     }
-    for (std::size_t i = 0; i < job.pairs.size(); ++i)
-        add(job.pairs[i].normalImpulse, job.impulseSums[i]);
+    for (std::size_t i = job.firstBlock; i < job.firstBlock + job.blockCount; ++i)
+        add(state.pairs[i].normalImpulse, state.impulseSums[i]);
 }
 
 void openSums(Batch& batch) {
@@ -102,8 +101,7 @@ void makeReports(CrowdState& state) {
         closeSums(state, *batch);
         reportStatics(state, *batch);
     }
-    for (std::size_t i = 0; i < state.jobCount; ++i)
-        reportPairs(state, state.jobs[i]);
+    reportPairs(state);
 }
 
 }  // namespace lutka::physics::crowd

@@ -113,15 +113,19 @@ class JobSubstep {
             forBatches([&](const BatchView& view) { kernels.mend(view, params_, pushed); });
         }
         forBatches([&](const BatchView& view) { kernels.advance(view, params_); });
-        if (state_.settings.contactReports) sumImpulses(job_);
+        if (state_.settings.contactReports) sumImpulses(state_, job_);
     }
 
   private:
     PairsView viewOfPairs() {
-        job_.blocks.resize(2 * job_.pairs.size());
-        int* blocks = job_.blocks.data();
-        return {job_.pairs.data(),         static_cast<int>(job_.pairs.size()), pairBodiesOf(state_), blocks, 0,
-                blocks + job_.pairs.size()};
+        int* lists = state_.liveBlocks.data() + 2 * job_.firstBlock;
+        return {state_.pairChunks.data(),
+                static_cast<int>(job_.firstBlock),
+                static_cast<int>(job_.blockCount),
+                pairBodiesOf(state_),
+                lists,
+                0,
+                lists + job_.blockCount};
     }
 
     // A body may have been struck towards static geometry that it was far from when contacts were looked for. It would
@@ -177,19 +181,18 @@ void forJobs(CrowdState& state, const Work& work) {
 }
 
 // Of some blocks.
-void keepPairs(CrowdState& state, const Job& job, std::size_t begin, std::size_t end) {
+void keepPairs(CrowdState& state, std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block) {
-        const PairContactLanes& pair = job.pairs[block];
+        const PairContactLanes& pair = state.pairs[block];
         for (int lane = 0; lane < kLanes; ++lane) {
-            const int index = job.touchOfLane[block][lane];
+            const int index = state.touchOfLane[block][lane];
             if (index < 0) continue;
             PairTouch& touch = state.touches[index];
             touch.carried.normal = pair.normalImpulse.lane[lane];
             touch.carried.approach = pair.approach.lane[lane];
-            touch.carried.friction = readVector(pair.tangent[0], lane) * pair.tangentImpulse[0].lane[lane] +
-                                     readVector(pair.tangent[1], lane) * pair.tangentImpulse[1].lane[lane];
             touch.touch.separation = pair.separation.lane[lane];
             touch.touch.normal = readVector(pair.normal, lane);
+            touch.carried.friction = frictionOf(pair, lane);
             touch.touch.localA = readVector(pair.localA, lane);
             touch.touch.localB = readVector(pair.localB, lane);
         }
@@ -244,11 +247,7 @@ void keepImpulses(CrowdState& state) {
         for (std::size_t i = begin; i < end; ++i)
             keepStatics(state, *state.active[i]);
     });
-    for (std::size_t i = 0; i < state.jobCount; ++i) {
-        const Job& job = state.jobs[i];
-        state.inParallel(job.pairs.size(), 64,
-                         [&](std::size_t begin, std::size_t end) { keepPairs(state, job, begin, end); });
-    }
+    state.inParallel(state.pairs.size(), 64, [&](std::size_t begin, std::size_t end) { keepPairs(state, begin, end); });
     state.carried.assign(state.touches);
 }
 

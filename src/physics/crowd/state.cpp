@@ -29,9 +29,11 @@ CrowdState::CrowdState(const WorldSettings& given, const CrowdTuning& tuned)
       kernels(&kernelsOf(tuned.instructionSet.value_or(bestInstructionSet()))),
       pool(given.threads) {}
 
-void CarriedPairs::assign(const std::vector<PairTouch>& touches) {
+void CarriedPairs::assign(const TouchList& touches) {
     const auto presses = [](const PairTouch& touch) { return touch.carried.normal > 0.0F; };
-    const auto count = static_cast<std::size_t>(std::count_if(touches.begin(), touches.end(), presses));
+    std::size_t count = 0;
+    for (const PairTouch& touch : touches)
+        count += presses(touch) ? 1 : 0;
     std::size_t size = 16;
     while (size < 2 * count)
         size *= 2;
@@ -201,7 +203,7 @@ void removeDoll(CrowdState& state, int index) {
     if (state.dolls[index].asleep()) wakeIsland(state, index);
     leaveLane(state, index);
     const auto touches = [&](const PairTouch& touch) { return touch.dollA == index || touch.dollB == index; };
-    std::erase_if(state.touches, touches);
+    state.touches.removeIf(touches);
     state.carried.assign(state.touches);  // a doll in the same place must not inherit them
     std::erase(state.sweep, index);
     std::erase_if(state.motors, [&](const MotorRecord& record) { return record.doll == index; });

@@ -8,6 +8,7 @@
 
 #include "core/task_pool.hpp"
 #include "physics/crowd/batch.hpp"
+#include "physics/crowd/chunked.hpp"
 #include "physics/crowd/kernels.hpp"
 #include "physics/crowd/narrowphase.hpp"
 #include "physics/crowd/tuning.hpp"
@@ -65,10 +66,14 @@ void makeRoom(std::vector<T>& items, std::size_t count) {
     if (items.capacity() < count) items.reserve(count + count / 8 + 4);
 }
 
-/// Gives back what is far more than `count` need, contents and all: a heap has thrice the contacts while it falls.
+/// Empties `items` and has room for `count`, without much more than that: a heap has thrice the contacts while it
+/// falls.
 template <class T>
-void giveBackRoom(std::vector<T>& items, std::size_t count) {
-    if (items.capacity() > count + count / 2 + 64) items = {};
+void renewRoom(std::vector<T>& items, std::size_t count) {
+    items.clear();
+    if (items.capacity() >= count && items.capacity() <= count + count / 2 + 64) return;
+    items = std::vector<T>();  // given back first; `{}` would keep it
+    makeRoom(items, count);
 }
 
 /// All dolls of one topology: awake ones fill the batches in order.
@@ -89,10 +94,12 @@ struct PairTouch {
     int shapeA = 0, shapeB = 0;  ///< Which of the bodies' shapes.
 };
 
+using TouchList = Chunked<PairTouch, 512>;
+
 /// The contacts between bodies of the last step, by key.
 class CarriedPairs {
   public:
-    void assign(const std::vector<PairTouch>& touches);
+    void assign(const TouchList& touches);
     /// Null when there was no such contact.
     [[nodiscard]] const CarriedContact* find(std::uint64_t key) const;
 
@@ -149,14 +156,12 @@ struct Job {
     std::vector<Batch*> batches;
     std::vector<const Topology*> topologies;  ///< One a batch.
     std::vector<int> touches;                 ///< Into CrowdState::touches.
-    std::vector<PairContactLanes> pairs;
-    std::vector<int> blocks;                           ///< Room for the lists of PairsView.
-    std::vector<std::array<int, kLanes>> touchOfLane;  ///< One a pair block; -1 where a lane is empty.
+    std::size_t firstBlock = 0;               ///< Its pair contacts, in CrowdState::pairs.
+    std::size_t blockCount = 0;
     std::vector<DragRecord*> drags;
     std::vector<const ForceRecord*> forces;
     double dragWork = 0.0;
-    double motorWork = 0.0;         ///< And of forces.
-    std::vector<Wide> impulseSums;  ///< One a pair block, of a step's substeps; for reports.
+    double motorWork = 0.0;  ///< And of forces.
 };
 
 /// The friction of every body: Bullet's default. As there, a contact's is the product of both sides'.
@@ -230,7 +235,12 @@ struct CrowdState {
     std::vector<PieceTouches> dollTouches;            ///< Of the pieces of `dollPairs` that are at work.
     std::vector<int> sweep;                           ///< Dolls by the low end of their bounds along x.
     std::vector<std::pair<int, int>> dollPairs;
-    std::vector<PairTouch> touches;  ///< Of this step; after it with its impulses.
+    TouchList touches;  ///< Of this step; after it with its impulses.
+    Chunked<PairContactLanes, kPairChunk> pairs;
+    std::vector<PairContactLanes*> pairChunks;         ///< Where their pieces are.
+    std::vector<std::array<int, kLanes>> touchOfLane;  ///< One a pair block; -1 where a lane is empty.
+    std::vector<Wide> impulseSums;                     ///< One a pair block, of a step's substeps; for reports.
+    std::vector<int> liveBlocks;                       ///< Two a pair block: room for the lists of PairsView.
     CarriedPairs carried;
     std::vector<Job> jobs;
     std::size_t jobCount = 0;

@@ -78,16 +78,14 @@ double workOfPushes(const CrowdState& state, const Job& job) {
         const vec3 angular = readVector(target.turnBefore, lane) + readVector(batch.bodies[body].steadyAngular, lane);
         work += static_cast<double>(0.5F * glm::dot(impulse, velocity + glm::cross(angular, arm)));
     };
-    for (std::size_t block = 0; block < job.pairs.size(); ++block) {
-        const PairContactLanes& pair = job.pairs[block];
+    for (std::size_t block = job.firstBlock; block < job.firstBlock + job.blockCount; ++block) {
+        const PairContactLanes& pair = state.pairs[block];
         for (int lane = 0; lane < kLanes; ++lane) {
-            const int index = job.touchOfLane[block][lane];
+            const int index = state.touchOfLane[block][lane];
             const float pressed = pair.normalImpulse.lane[lane];
             if (index < 0 || pressed <= 0.0F) continue;
             const PairTouch& touch = state.touches[index];
-            const vec3 onA = readVector(pair.normal, lane) * pressed +
-                             readVector(pair.tangent[0], lane) * pair.tangentImpulse[0].lane[lane] +
-                             readVector(pair.tangent[1], lane) * pair.tangentImpulse[1].lane[lane];
+            const vec3 onA = readVector(pair.normal, lane) * pressed + frictionOf(pair, lane);
             pushes(touch.dollA, touch.bodyA, readVector(pair.armA, lane), -onA);
             pushes(touch.dollB, touch.bodyB, readVector(pair.armB, lane), onA);
         }
