@@ -87,20 +87,32 @@ LUTKA_LANES void beginStatic(StaticContactLanes& contact, const BatchView& batch
           load(contact.normalMass) * (coming ? all(params.firstTouch) : all(params.contactStiffness)));
 }
 
-// Those that were left out when the substep began, since nothing would speed a body up by so much.
+// Whether a contact that was left out when the substep began, since nothing would speed a body up by so much, is met
+// after all. `speed`: of any point of the body.
+LUTKA_LANES Mask meetsFar(const StaticContactLanes& contact, const BodyLanes& body, const F& speed) {
+    const F bias = load(contact.bias);
+    if (bits(bias < speed) == 0) return noLanes();
+    const V3 core = axesOf(body) * load(contact.localPoint);
+    const F approach = dot(load(contact.normal), load(body.velocity) + cross(load(body.angular), core));
+    return approach + bias < all(0.0F);
+}
+
 LUTKA_LANES Mask meetsFarOnes(const BatchView& batch, int index, const F& speed) {
-    const BodyLanes& body = batch.bodies[index];
     Mask meets = noLanes();
     for (int i = batch.firstContact[index]; i < batch.firstContact[index + 1]; ++i) {
-        const StaticContactLanes& contact = batch.contacts[i];
-        if (contact.near != 0) continue;
-        const F bias = load(contact.bias);
-        if (bits(bias < speed) == 0) continue;
-        const V3 core = axesOf(body) * load(contact.localPoint);
-        const F approach = dot(load(contact.normal), load(body.velocity) + cross(load(body.angular), core));
-        meets |= approach + bias < all(0.0F);
+        if (batch.contacts[i].near == 0) meets |= meetsFar(batch.contacts[i], batch.bodies[index], speed);
     }
     return meets;
+}
+
+// Takes in a contact that was left out.
+LUTKA_LANES void bringNear(StaticContactLanes& contact, const BatchView& batch, const SubstepParams& params) {
+    const BodyLanes& body = batch.bodies[contact.body];
+    const V3 arm = armOf(contact, body, axesOf(body) * load(contact.localPoint));
+    contact.near = 1;
+    store(contact.arm, arm);
+    weighContact(contact, batch, arm, params);
+    store(contact.normalWeight, load(contact.normalMass) * all(params.contactStiffness));
 }
 
 static int outruns(const BatchView& batch, const SubstepParams& params) {

@@ -153,8 +153,14 @@ LUTKA_LANES Mask moveBody(const BatchView& batch, int index, const Motion& chang
     pass.astray |= dot(off, off) * dot(angular, angular) * (missed * missed) > all(params.aimGap * params.aimGap);
     Mask wrong = noLanes();
     if (pass.mending) {
+        const F speed = speedBound(body, batch.bodyConstants[index]);
         for (int i = batch.firstContact[index]; i < batch.firstContact[index + 1]; ++i) {
-            if (batch.contacts[i].near != 0) wrong |= holdMet(body, batch.contacts[i], params);
+            StaticContactLanes& contact = batch.contacts[i];
+            if (contact.near == 0) {
+                if (bits(meetsFar(contact, body, speed)) == 0) continue;
+                bringNear(contact, batch, params);
+            }
+            wrong |= holdMet(body, contact, params);
         }
         return wrong;
     }
