@@ -318,7 +318,8 @@ struct SubstepTuning {
     float stiffest = 300.0F;          ///< up to this weight over the body's mass.
     float firstTouch = 40.0F;         ///< Of both while they are still ahead: a wrong guess there pulls.
     float grip = 1.0F;                ///< The same of friction. More: quicker to grip, chatters.
-    float pushSpeed = 3.0F;           ///< m/s, largest speed that overlap is pushed apart with.
+    float pushSpeed = 2.0F;           ///< m/s, largest speed that overlap is pushed apart with,
+    float dollPushSpeed = 3.0F;       ///< and that of dolls with dolls. More: single falls gain energy by the first.
     float limitSpeed = 25.0F;         ///< rad/s, the same for limits.
     float slop = 0.0005F;             ///< Metres of overlap left alone, so that resting contacts stay.
     float rollingLever = 0.004F;      ///< Metres, rolling resistance: flesh is no ideal cylinder.
