@@ -256,8 +256,7 @@ void PuppetCast::resume(int doll, const PuppetMemory& memory) {
 }
 
 void PuppetCast::startClip(Actor& actor, float seconds, physics::World& world, physics::DollId doll) {
-    // Shapes reach a little beyond the skin, and clips put feet into the ground: a pinned doll would tread on it with
-    // all the force that it has.
+    // Shapes reach a little beyond the skin, and clips put feet into the ground: a pinned doll would tread on it.
     actor.lift = std::max(-clearance(actor), 0.0F);
     if (!play_.limp) actor.worldFromModel.translation.y += actor.lift;
     actor.player = std::make_unique<animation::ClipPlayer>(*actor.library, std::vector<animation::LayerSettings>{},
