@@ -18,6 +18,14 @@ DollSource::DollSource(physics::RagdollProfile p) : character(makeBiped()), prof
     rig = std::move(bound).value();
 }
 
+physics::AddedShape hornOfHead() {
+    physics::AddedShape horn;
+    horn.radius = 0.03F;
+    horn.halfLength = 0.08F;
+    horn.bodyFromShape = {glm::angleAxis(0.6F, glm::normalize(vec3(1, 2, 0.5F))), {0.05F, 0.1F, -0.02F}};
+    return horn;
+}
+
 exporting::Exported exportedAs(exporting::ExportFormat format, const DollSource& doll) {
     auto exported = exporting::exportRagdoll(format, doll.source());
     REQUIRE(exported);

@@ -19,6 +19,10 @@ class DollSource {
     physics::Rig rig;
 };
 
+/// A capsule aslant in makeDoll()'s head, which is body kHornedBody.
+[[nodiscard]] physics::AddedShape hornOfHead();
+inline constexpr int kHornedBody = 3;
+
 /// The doll in that format; REQUIREs that it can be written.
 [[nodiscard]] exporting::Exported exportedAs(exporting::ExportFormat format, const DollSource& doll);
 

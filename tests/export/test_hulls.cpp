@@ -22,18 +22,13 @@ using namespace lutka::test;
 
 namespace {
 
-constexpr int kHullBody = 3;
-
 // The doll with a hull as its head, and another in it.
 physics::RagdollProfile headOfHulls() {
     physics::RagdollProfile profile = makeDoll();
-    physics::BodyProfile& head = profile.bodies[kHullBody];
-    physics::AddedShape horn;
-    horn.radius = 0.03F;
-    horn.halfLength = 0.08F;
+    physics::BodyProfile& head = profile.bodies[kHornedBody];
+    physics::AddedShape horn = hornOfHead();
     horn.hull = physics::hullWithin(horn);
     horn.kind = physics::PrimitiveShape::Kind::hull;
-    horn.bodyFromShape = {glm::angleAxis(0.6F, glm::normalize(vec3(1, 2, 0.5F))), {0.05F, 0.1F, -0.02F}};
     head.shape.hull = physics::hullWithin(head.shape);
     head.shape.kind = physics::PrimitiveShape::Kind::hull;
     head.shape.more = {horn};
@@ -46,7 +41,7 @@ Exported hullsAs(ExportFormat format) {
 }
 
 const physics::ConvexHull& headsHull(const DollSource& doll) {
-    return *doll.profile.bodies[kHullBody].shape.hull;
+    return *doll.profile.bodies[kHornedBody].shape.hull;
 }
 
 }  // namespace
@@ -140,13 +135,13 @@ TEST_CASE("hulls: the glTF's come back, and draw nothing") {
         const int head = physics::bodyNamed(back, "head");
         REQUIRE(head >= 0);
         const physics::BodyShape& got = back.bodies[head].shape;
-        const physics::BodyShape& wanted = doll.profile.bodies[kHullBody].shape;
+        const physics::BodyShape& wanted = doll.profile.bodies[kHornedBody].shape;
         REQUIRE(got.kind == physics::PrimitiveShape::Kind::hull);
         REQUIRE(got.more.size() == 1);
         REQUIRE(got.more[0].kind == physics::PrimitiveShape::Kind::hull);
         CHECK(physics::sameHull(got.hull, wanted.hull));
         CHECK(physics::sameHull(got.more[0].hull, wanted.more[0].hull));
         CHECK(poseDifference(got.more[0].bodyFromShape, wanted.more[0].bodyFromShape) < 1e-5F);
-        CHECK(poseDifference(back.bodies[head].jointFromBody, doll.profile.bodies[kHullBody].jointFromBody) < 1e-5F);
+        CHECK(poseDifference(back.bodies[head].jointFromBody, doll.profile.bodies[kHornedBody].jointFromBody) < 1e-5F);
     }
 }

@@ -21,16 +21,11 @@ using namespace lutka::test;
 
 namespace {
 
-constexpr int kHeadBody = 3;
-
 // The doll with a capsule aslant and a box in its head.
 physics::RagdollProfile headOfThree() {
     physics::RagdollProfile profile = makeDoll();
-    physics::BodyProfile& head = profile.bodies[kHeadBody];
-    physics::AddedShape horn;
-    horn.radius = 0.03F;
-    horn.halfLength = 0.08F;
-    horn.bodyFromShape = {glm::angleAxis(0.6F, glm::normalize(vec3(1, 2, 0.5F))), {0.05F, 0.1F, -0.02F}};
+    physics::BodyProfile& head = profile.bodies[kHornedBody];
+    const physics::AddedShape horn = hornOfHead();
     physics::AddedShape hat;
     hat.kind = physics::PrimitiveShape::Kind::box;
     hat.halfExtents = {0.1F, 0.03F, 0.12F};
@@ -64,7 +59,7 @@ TEST_CASE("several shapes: MJCF has a geom for each, in its place") {
         if (ofHead) geoms.push_back(&tag);
     }
     REQUIRE(geoms.size() == 3);
-    const physics::BodyShape& shape = doll.profile.bodies[kHeadBody].shape;
+    const physics::BodyShape& shape = doll.profile.bodies[kHornedBody].shape;
     CHECK(glm::distance(vec3From(geoms[1]->numbers("pos")), shape.more[0].bodyFromShape.translation) < 1e-6F);
     const auto q = geoms[1]->numbers("quat");
     // Their capsules lie along z.
@@ -79,7 +74,7 @@ TEST_CASE("several shapes: URDF has a collision for each, three for a capsule") 
     const auto ofHead = std::count_if(tags.begin(), tags.end(), [&](const XmlTag& tag) {
         return tag.name == "collision" && tags[tag.parent]["name"] == "head";
     });
-    const bool capsule = headOfThree().bodies[kHeadBody].shape.kind == physics::PrimitiveShape::Kind::capsule;
+    const bool capsule = headOfThree().bodies[kHornedBody].shape.kind == physics::PrimitiveShape::Kind::capsule;
     CHECK(ofHead == (capsule ? 3 : 1) + 3 + 1);
 }
 
@@ -113,7 +108,7 @@ TEST_CASE("several shapes: the glTF's further colliders come back") {
         const int head = physics::bodyNamed(back, "head");
         REQUIRE(head >= 0);
         const physics::BodyShape& got = back.bodies[head].shape;
-        const physics::BodyShape& wanted = doll.profile.bodies[kHeadBody].shape;
+        const physics::BodyShape& wanted = doll.profile.bodies[kHornedBody].shape;
         REQUIRE(got.more.size() == 2);
         for (std::size_t i = 0; i < 2; ++i) {
             CHECK(got.more[i].kind == wanted.more[i].kind);
@@ -122,7 +117,7 @@ TEST_CASE("several shapes: the glTF's further colliders come back") {
         CHECK(got.more[0].radius == Approx(wanted.more[0].radius).margin(1e-5));
         CHECK(got.more[0].halfLength == Approx(wanted.more[0].halfLength).margin(1e-5));
         CHECK(glm::distance(got.more[1].halfExtents, wanted.more[1].halfExtents) < 1e-5F);
-        CHECK(glm::distance(back.bodies[head].inertia, doll.profile.bodies[kHeadBody].inertia) < 1e-5F);
+        CHECK(glm::distance(back.bodies[head].inertia, doll.profile.bodies[kHornedBody].inertia) < 1e-5F);
         CHECK(back.bodies[0].shape.more.empty());
     }
 }
