@@ -45,11 +45,14 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
                                               {"stiffen", &tuning.stiffen},
                                               {"stiffest", &tuning.stiffest},
                                               {"sleepSpeed", &tuning.sleepSpeed},
+                                              {"substepSpeed", &tuning.substepSpeed},
+                                              {"substepTurn", &tuning.substepTurn},
                                               {"angularDamping", &tuning.angularDamping},
                                               {"leastGyration", &tuning.leastGyration}};
-    const std::map<std::string, int*> whole{{"substeps", &tuning.substeps},         {"passes", &tuning.passes},
-                                            {"patience", &tuning.patience},         {"mendEvery", &tuning.mendEvery},
-                                            {"answerSweeps", &tuning.answerSweeps}, {"mendSweeps", &tuning.mendSweeps}};
+    const std::map<std::string, int*> whole{{"substeps", &tuning.substeps},    {"calmSubsteps", &tuning.calmSubsteps},
+                                            {"passes", &tuning.passes},        {"patience", &tuning.patience},
+                                            {"mendEvery", &tuning.mendEvery},  {"answerSweeps", &tuning.answerSweeps},
+                                            {"mendSweeps", &tuning.mendSweeps}};
     if (const auto real = reals.find(name); real != reals.end())
         *real->second = value;
     else if (const auto number = whole.find(name); number != whole.end())

@@ -71,7 +71,8 @@ void readLane(const Batch& batch, int lane, std::span<BodyState> bodies) {
 }
 
 void awaken(RestLanes& rest, int lane) {
-    rest.brake.lane[lane] = rest.stiction.lane[lane] = 1.0F;
+    rest.brake.lane[lane] = 0.0F;
+    rest.stiction.lane[lane] = 1.0F;
 }
 
 void copyRest(const RestLanes& from, int fromLane, RestLanes& to, int toLane) {

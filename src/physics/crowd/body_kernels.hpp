@@ -145,12 +145,13 @@ LUTKA_LANES V3 halfWay(const BodyLanes& body, const V3& arm) {
 
 LUTKA_LANES void applyForces(const BatchView& batch, const SubstepParams& params) {
     const V3 gain = all(params.gravity) * all(params.dt);
-    const F brake = load(batch.rest->brake);
+    const F brake = all(1.0F) / (all(1.0F) + load(batch.rest->brake) * all(params.dt));
     const F linear = brake * all(params.linearDamping);
     const F angular = brake * all(params.angularDamping);
     for (int b = 0; b < batch.bodyCount; ++b) {
         BodyLanes& body = batch.bodies[b];
-        const V3 velocity = (load(body.velocity) + gain) * linear;
+        // What brakes does not hold up: gravity acts in full, or what lies would press by less than its weight.
+        const V3 velocity = load(body.velocity) * linear + gain;
         const V3 turn = load(body.angular) * angular;
         store(body.velocity, velocity);
         store(body.angular, turn);

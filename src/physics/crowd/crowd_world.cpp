@@ -8,6 +8,7 @@
 
 #include "core/assert.hpp"
 #include "physics/crowd/detect.hpp"
+#include "physics/crowd/drag.hpp"
 #include "physics/crowd/jobs.hpp"
 #include "physics/crowd/motor.hpp"
 #include "physics/crowd/reports.hpp"
@@ -167,7 +168,8 @@ void CrowdWorld::advance(float dt, const std::function<void()>& afterSubstep) {
     for (const TargetRecord& record : state_.targets)
         wakeDoll(record.doll);
     gatherActive(state_);
-    placeTargets(state_, dt / static_cast<float>(substepsPerStep()));
+    const float substep = dt / static_cast<float>(substepsPerStep());  // of dolls with pulls, muscles and frames
+    placeTargets(state_, substep);
     state_.reports.clear();
     if (state_.active.empty()) {  // all asleep: nothing can change
         times_ = {};
@@ -182,6 +184,8 @@ void CrowdWorld::advance(float dt, const std::function<void()>& afterSubstep) {
     const auto paired = Clock::now();
     findContacts(state_, dt);
     const auto found = Clock::now();
+    placeDrags(state_, substep);
+    placeMotors(state_, substep);
     makeJobs(state_);
     beginReports(state_);
     Clock::duration outside{0};

@@ -7,6 +7,7 @@
 
 #include "physics/collision/shape.hpp"
 #include "physics/crowd/static_contacts.hpp"
+#include "physics/crowd/substeps.hpp"
 
 namespace lutka::physics::crowd {
 namespace {
@@ -291,8 +292,12 @@ bool pushes(const CrowdState& state, int moverIndex, int sleeperIndex, float dt)
 
 void findBounds(CrowdState& state, float dt) {
     state.inParallel(state.active.size(), 4, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            findBounds(state, *state.active[i], state.activeGroup[i]->topology, dt);
+        for (std::size_t i = begin; i < end; ++i) {
+            Batch& batch = *state.active[i];
+            const Topology& topology = state.activeGroup[i]->topology;
+            findBounds(state, batch, topology, dt);
+            batch.substeps = substepsFor(state, batch, topology);
+        }
     });
 }
 
@@ -454,7 +459,7 @@ void findContacts(CrowdState& state, float dt) {
         for (std::size_t i = begin; i < end; ++i) {
             Batch& batch = *state.active[i];
             const Topology& topology = state.activeGroup[i]->topology;
-            findStatics(state, batch, topology, dt, dt / static_cast<float>(state.tuning.substeps));
+            findStatics(state, batch, topology, dt, dt / static_cast<float>(batch.substeps));
             findSelfContacts(state, batch, batch.view(topology), topology, dt, state.selfTouches[i]);
         }
     });

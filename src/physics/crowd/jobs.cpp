@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "physics/crowd/substeps.hpp"
 #include "physics/crowd/target.hpp"
 
 namespace lutka::physics::crowd {
@@ -230,6 +231,8 @@ void makeJobs(CrowdState& state) {
     const auto jobOf = [&](int doll) -> Job& { return state.jobs[state.batchOf(state.dolls[doll]).job]; };
     for (const ForceRecord& record : state.forces)
         jobOf(record.doll).forces.push_back(&record);
+    for (std::size_t i = 0; i < state.jobCount; ++i)
+        setSubsteps(state, state.jobs[i]);
     Packer(state).pack();
 }
 

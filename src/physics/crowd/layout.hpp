@@ -341,10 +341,11 @@ struct SubstepParams : SubstepTuning {
     int warmStart;         ///< The first substep of a step makes the carried friction impulses its own.
 };
 
-/// What brings dolls to rest, one a lane; 1 for those that move.
+/// What brings dolls to rest, one a lane.
 struct RestLanes {
-    Wide brake;     ///< Factor on all speeds a substep.
-    Wide stiction;  ///< Factor on all friction: static friction is greater than sliding friction.
+    Wide brake;  ///< 1/s: how fast all speeds decay; 0 for dolls that move.
+    Wide
+        stiction;  ///< Factor on all friction: static friction is greater than sliding friction; 1 for dolls that move.
 };
 
 /// A batch as the kernels see it.

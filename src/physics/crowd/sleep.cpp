@@ -12,7 +12,6 @@ void measureRest(CrowdState& state, Batch& batch, const Topology& topology, floa
     Wide speed2;
     Wide turn2;
     state.kernels->findMotion(batch.view(topology), speed2, turn2);
-    const float substep = dt / static_cast<float>(tuning.substeps);
     for (int lane = 0; lane < batch.used; ++lane) {
         Doll& doll = state.dolls[batch.doll[lane]];
         const bool still = speed2.lane[lane] < tuning.sleepSpeed * tuning.sleepSpeed &&
@@ -21,7 +20,7 @@ void measureRest(CrowdState& state, Batch& batch, const Topology& topology, floa
         // The brake fades in below the calm speed, so that nothing changes abruptly.
         const float speed = std::sqrt(std::max(speed2.lane[lane], turn2.lane[lane] * 0.04F));
         const float share = doll.touching ? std::clamp(1.0F - speed / tuning.calmSpeed, 0.0F, 1.0F) : 0.0F;
-        batch.rest.brake.lane[lane] = std::exp(-tuning.calmDamping * share * substep);
+        batch.rest.brake.lane[lane] = tuning.calmDamping * share;
         batch.rest.stiction.lane[lane] = 1.0F + (tuning.stiction - 1.0F) * share;
     }
 }

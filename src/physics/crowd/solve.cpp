@@ -10,6 +10,7 @@
 #include "physics/crowd/motor.hpp"
 #include "physics/crowd/reports.hpp"
 #include "physics/crowd/static_contacts.hpp"
+#include "physics/crowd/substeps.hpp"
 #include "physics/crowd/target.hpp"
 
 namespace lutka::physics::crowd {
@@ -66,10 +67,13 @@ void findStaticsAgain(CrowdState& state, Batch& batch, const Topology& topology,
     if (state.settings.contactReports) openSums(batch);
 }
 
-// The faces and edges that bodies are near now: a body may have slid over an edge.
-void refreshStatics(CrowdState& state, Job& job, float seconds, float substep) {
+// The faces and edges that bodies are near now: a body may have slid over an edge. In the first substep those that were
+// found for one of this length stay.
+void refreshStatics(CrowdState& state, Job& job, float seconds, float substep, bool isFirst) {
     for (std::size_t i = 0; i < job.batches.size(); ++i) {
-        if (job.batches[i]->nearShapes) findStaticsAgain(state, *job.batches[i], *job.topologies[i], seconds, substep);
+        Batch& batch = *job.batches[i];
+        if (!batch.nearShapes || (isFirst && batch.substeps == job.substeps)) continue;
+        findStaticsAgain(state, batch, *job.topologies[i], seconds, substep);
     }
 }
 
@@ -202,12 +206,11 @@ void keepPairs(CrowdState& state, std::size_t begin, std::size_t end) {
 }  // namespace
 
 void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSubstep) {
-    const int substeps = state.tuning.substeps;
-    SubstepParams first = paramsOf(state, dt / static_cast<float>(substeps));
-    SubstepParams others = first;
-    first.warmStart = 1;
-    placeDrags(state, first.dt);
-    placeMotors(state, first.dt);
+    const int parts = state.tuning.substeps;
+    std::vector<SubstepParams>& paramsFor = state.scratch.paramsFor;
+    paramsFor.resize(static_cast<std::size_t>(parts) + 1);
+    for (int substeps = 1; substeps <= parts; ++substeps)
+        paramsFor[substeps] = paramsOf(state, dt / static_cast<float>(substeps));
     for (std::size_t i = 0; i < state.jobCount; ++i)
         state.jobs[i].dragWork = state.jobs[i].motorWork = 0.0;
     // In the order of the jobs, so that the sum is the same at every thread count.
@@ -220,21 +223,28 @@ void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSu
         }
     };
     const auto substep = [&](Job& job, int index) {
-        SubstepParams params = index == 0 ? first : others;
-        params.remaining = dt * static_cast<float>(substeps - index) / static_cast<float>(substeps);
-        if (index > 0) refreshStatics(state, job, params.remaining, params.dt);
-        const bool mends = (substeps - 1 - index) % state.tuning.mendEvery == 0;
+        const int left = job.substeps - index;
+        SubstepParams params = paramsFor[job.substeps];
+        params.warmStart = index == 0 ? 1 : 0;
+        params.remaining = params.dt * static_cast<float>(left);
+        if (index == 0) fitImpulses(state, job, params.dt);
+        refreshStatics(state, job, params.remaining, params.dt, index == 0);
+        const bool mends = (left - 1) % state.tuning.mendEvery == 0;
         JobSubstep(state, job, params, mends).run();
     };
     if (afterSubstep) {
-        for (int i = 0; i < substeps; ++i) {
-            forJobs(state, [&](Job& job) { substep(job, i); });
+        for (int i = 0; i < parts; ++i) {
+            // A job of fewer substeps is behind by less than one of them.
+            forJobs(state, [&](Job& job) {
+                const int done = i * job.substeps / parts;
+                if (done < (i + 1) * job.substeps / parts) substep(job, done);
+            });
             takeDragWork();
             afterSubstep();
         }
     } else {
         forJobs(state, [&](Job& job) {
-            for (int i = 0; i < substeps; ++i)
+            for (int i = 0; i < job.substeps; ++i)
                 substep(job, i);
         });
     }

@@ -6,8 +6,9 @@
 
 namespace lutka::physics::crowd {
 
-/// Runs the substeps of a step of `dt` s over all jobs; `afterSubstep`, when set, is called after each substep with all
-/// jobs at the same time. The results do not depend on whether it is set.
+/// Runs the substeps of a step of `dt` s over all jobs. `afterSubstep`, when set, is called CrowdTuning::substeps times
+/// at equal distances; a job that has fewer substeps is then where its last one ended. The results do not depend on
+/// whether it is set.
 void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSubstep);
 
 /// Takes the contacts' impulses over into what the next step starts from.

@@ -46,6 +46,7 @@ struct Doll {
     int firstBox = 0;               ///< Into CrowdState::stepBoxes.
     int boxes = 0;                  ///< How many it has there.
     std::vector<BodyState> frozen;  ///< The bodies while asleep.
+    float substepSeconds = 1.0F;    ///< Of the last substep: what it carries to the next step are impulses of it.
     float restSeconds = 0.0F;       ///< For how long it has been below the sleeping speeds.
     std::int64_t island = -1;       ///< Dolls that fell asleep together share a number; they wake together.
     bool touching = false;          ///< Whether anything held it in the last step.
@@ -160,6 +161,7 @@ struct Job {
     std::size_t blockCount = 0;
     std::vector<DragRecord*> drags;
     std::vector<const ForceRecord*> forces;
+    int substeps = 0;  ///< Of this step.
     double dragWork = 0.0;
     double motorWork = 0.0;  ///< And of forces.
 };
@@ -191,10 +193,11 @@ struct Scratch {
     std::vector<std::pair<int, int>> found;  ///< Pairs of dolls in the order of the sweep.
     std::vector<int> firstOf, next;          ///< Places of a doll's pairs.
     UnionFind sets;
-    std::vector<int> jobOf;             ///< One a representative of `sets`.
-    std::vector<std::uint64_t> usedBy;  ///< One a body of the world, 0 between packings; see Packer.
-    std::vector<int> later;             ///< Touches that will hardly press.
-    std::vector<char> restless;         ///< One a doll.
+    std::vector<int> jobOf;                ///< One a representative of `sets`.
+    std::vector<std::uint64_t> usedBy;     ///< One a body of the world, 0 between packings; see Packer.
+    std::vector<int> later;                ///< Touches that will hardly press.
+    std::vector<char> restless;            ///< One a doll.
+    std::vector<SubstepParams> paramsFor;  ///< By the number of substeps that a step has.
 };
 
 /// Everything in a crowd world. The steps of the simulation are free functions over it, each in its own file.

@@ -9,8 +9,11 @@ namespace lutka::physics::crowd {
 
 /// What decides quality and cost: of a substep (SubstepTuning), and of all that lies around it.
 struct CrowdTuning : SubstepTuning {
-    int substeps = 6;   ///< A step; >= 1. More: stiffer joints, shallower contacts, cost in proportion.
-    int mendEvery = 1;  ///< Errors of position are mended in every so many substeps, the last among them.
+    int substeps = 6;           ///< A step; >= 1. More: stiffer joints, shallower contacts, cost in proportion.
+    int calmSubsteps = 3;       ///< A step in which nothing moves fast, >= 1; no more than `substeps`.
+    float substepSpeed = 0.5F;  ///< m/s of a body for each substep that a step needs: above six times that it has six.
+    float substepTurn = 3.0F;   ///< rad/s, likewise.
+    int mendEvery = 1;          ///< Errors of position are mended in every so many substeps, the last among them.
 
     float jointErp = 0.3F;        ///< Part of a joint's gap mended in a substep, (0, 1].
     float limitErp = 0.3F;        ///< The same for limits.

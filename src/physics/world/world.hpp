@@ -80,6 +80,7 @@ class World : public WorldView {
     void removeDoll(DollId doll);
 
     /// One frame of `dt` seconds in `substepsPerStep()` equal substeps; `afterSubstep`, when set, is called after each.
+    /// The crowd may take fewer, longer ones where nothing moves fast; what it has not moved yet is then where it was.
     void step(float dt, const std::function<void()>& afterSubstep = {});
     /// Dolls whose motion stopped making sense at the end of a step: not finite, faster than DollGuard::kMostSpeed, or
     /// with more energy than DollGuard::kMostGain allows. Each was put back to where it was before that step and to

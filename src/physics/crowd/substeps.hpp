@@ -1,0 +1,17 @@
+#pragma once
+
+#include "physics/crowd/state.hpp"
+
+namespace lutka::physics::crowd {
+
+/// How many substeps a step of the batch needs by how its dolls move now: CrowdTuning::substeps where anything is fast,
+/// fewer where all is slow.
+[[nodiscard]] int substepsFor(const CrowdState& state, Batch& batch, const Topology& topology);
+
+/// Sets Job::substeps: the most that a batch of the job needs, all where muscles, pulls, frames or forces act.
+void setSubsteps(const CrowdState& state, Job& job);
+
+/// Impulses that are carried from step to step are those of one substep: fits them to one of `seconds`.
+void fitImpulses(CrowdState& state, Job& job, float seconds);
+
+}  // namespace lutka::physics::crowd

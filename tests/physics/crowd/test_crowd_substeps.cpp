@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "crowd_scene.hpp"
+#include "support/catch.hpp"
+#include "support/dolls.hpp"
+
+using namespace lutka;
+using namespace lutka::test;
+using physics::createCrowdWorld;
+using physics::WorldSettings;
+
+TEST_CASE("a step has as many substeps as its motion needs") {
+    physics::crowd::CrowdTuning tuning;
+    tuning.angularDamping = 0.0F;
+    const auto world = createCrowdWorld(WorldSettings{}, tuning);
+    const physics::RagdollProfile rod = makeRod(0.2F, 0.05F, 2.0F);
+    world->addDoll(rod, std::vector<physics::BodyState>(1, physics::BodyState{}));
+    float speed = 0.0F;
+    float fallen = 0.0F;
+    for (int i = 0; i < 60; ++i) {
+        const int substeps =
+            std::clamp(static_cast<int>(std::ceil(speed / tuning.substepSpeed)), tuning.calmSubsteps, tuning.substeps);
+        for (int k = 0; k < substeps; ++k) {
+            const float seconds = kStep / static_cast<float>(substeps);
+            speed += 9.81F * seconds;
+            fallen += speed * seconds;
+        }
+        world->step(kStep);
+        // One substep more or less in any step would be off by 0.1 mm.
+        REQUIRE(bodiesOf(*world, 0)[0].worldFromBody.translation.y == Approx(-fallen).margin(2e-5));
+    }
+}
+
+TEST_CASE("what lies in a heap feels nothing of longer and shorter substeps") {
+    WorldSettings settings;
+    settings.sleeping = false;
+    physics::crowd::CrowdTuning tuning;
+    tuning.calmSubsteps = tuning.substeps;
+    const auto world = createCrowdWorld(settings, tuning);
+    std::vector<physics::StaticShape> statics;
+    const physics::RagdollProfile profile = makeDoll();
+    fillPit(*world, profile, 6, statics);
+    for (int i = 0; i < 8 * 60; ++i)
+        world->step(kStep);
+    const auto fastest = [&] {
+        float speed = 0.0F;
+        for (int doll = 0; doll < 6; ++doll)
+            for (const physics::BodyState& body : bodiesOf(*world, doll))
+                speed = std::max(speed, glm::length(body.linearVelocity));
+        return speed;
+    };
+    REQUIRE(fastest() < 0.01F);
+    for (int i = 0; i < 20; ++i) {
+        world->setSubsteps(i % 2 == 0 ? 2 : 6);
+        world->step(kStep);
+        // What contacts carry is fitted to the substep's length: without that it is 14 cm/s.
+        CHECK(fastest() < 0.03F);
+    }
+}
+
+TEST_CASE("watching the substeps changes no bit, however many a step has") {
+    const auto hash = [](bool watched) {
+        WorldSettings settings;
+        settings.sleeping = false;
+        const auto world = createCrowdWorld(settings);
+        std::vector<physics::StaticShape> statics;
+        const physics::RagdollProfile profile = makeDoll();
+        fillPit(*world, profile, 9, statics);
+        int parts = 0;
+        for (int i = 0; i < 240; ++i)
+            world->step(kStep, watched ? std::function<void()>([&] { ++parts; }) : std::function<void()>());
+        CHECK(parts == (watched ? 240 * world->substepsPerStep() : 0));
+        return stateHash(*world);
+    };
+    CHECK(hash(true) == hash(false));
+}
