@@ -34,6 +34,7 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
                                               {"limitSpeed", &tuning.limitSpeed},
                                               {"slop", &tuning.slop},
                                               {"staticMargin", &tuning.staticMargin},
+                                              {"shapeMargin", &tuning.shapeMargin},
                                               {"pairMargin", &tuning.pairMargin},
                                               {"rollingLever", &tuning.rollingLever},
                                               {"linearDamping", &tuning.linearDamping},

@@ -296,7 +296,7 @@ void findBounds(CrowdState& state, float dt) {
             Batch& batch = *state.active[i];
             const Topology& topology = state.activeGroup[i]->topology;
             findBounds(state, batch, topology, dt);
-            batch.substeps = substepsFor(state, batch, topology);
+            findPace(state, batch, topology);
         }
     });
 }

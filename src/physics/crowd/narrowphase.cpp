@@ -166,8 +166,8 @@ void touchStaticBox(const PlacedShape& body, const PlacedStatic& box, float rang
     const vec3& halfExtents = box.shape.halfExtents;
     const vec3 centre = (body.position - box.shape.worldFromShape.translation) * box.axes;
     const mat3 boxFromBody = glm::transpose(box.axes) * body.axes;
-    const CorePoints points = corePoints(*body.shape);
     if (body.shape->kind == Kind::box) {
+        const CorePoints points = corePoints(*body.shape);
         out.capacity = ContactList::kMax;
         const BoxManifold manifold = touchBoxes(placeOf(body), placeOf(box), range);
         for (int i = 0; i < manifold.count; ++i) {
@@ -187,14 +187,15 @@ void touchStaticBox(const PlacedShape& body, const PlacedStatic& box, float rang
         touchStaticEdges(body, box, least, range, out);
         return;
     }
-    const vec3 first = points.local[0];
-    const vec3 last = points.local[points.count - 1];
+    const vec3 last(0, coreHalf(*body.shape), 0);
+    const vec3 first = -last;
+    const float radius = body.shape->radius;
     const Segment core{centre + boxFromBody * first, centre + boxFromBody * last};
-    const CoreTouches touches = touchBox(core, halfExtents, points.radius + range);
+    const CoreTouches touches = touchBox(core, halfExtents, radius + range);
     for (int i = 0; i < touches.count; ++i) {
         const auto& [along, surface, part] = touches.points[i];
         const vec3 inBox = part == 1 ? core.end : core.at(along);
-        addHalfSpace(first + along * (last - first), points.radius, inBox, surface, box, part, out);
+        addHalfSpace(first + along * (last - first), radius, inBox, surface, box, part, out);
     }
 }
 

@@ -67,12 +67,12 @@ void findStaticsAgain(CrowdState& state, Batch& batch, const Topology& topology,
     if (state.settings.contactReports) openSums(batch);
 }
 
-// The faces and edges that bodies are near now: a body may have slid over an edge. In the first substep those that were
-// found for one of this length stay.
+// The faces and edges that bodies are near now: a body may have slid over an edge, unless it is still. In the first
+// substep those that were found for one of this length stay.
 void refreshStatics(CrowdState& state, Job& job, float seconds, float substep, bool isFirst) {
     for (std::size_t i = 0; i < job.batches.size(); ++i) {
         Batch& batch = *job.batches[i];
-        if (!batch.nearShapes || (isFirst && batch.substeps == job.substeps)) continue;
+        if (!batch.nearShapes || (isFirst ? batch.substeps == job.substeps : batch.isStill)) continue;
         findStaticsAgain(state, batch, *job.topologies[i], seconds, substep);
     }
 }

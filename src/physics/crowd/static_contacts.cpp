@@ -204,9 +204,11 @@ class StaticContacts {
             const PlacedStatic& geometry = state_.statics[index];
             if (!nearStatic(geometry, low, high)) continue;
             const float range =
-                state_.tuning.staticMargin + kForesight * dt_ * speedBound(moving, topology_.bodies[body]);
+                state_.tuning.shapeMargin + kForesight * substep_ * speedBound(moving, topology_.bodies[body]);
             for (int shape = 0; shape < topology_.shapeCount(body); ++shape) {
                 const PlacedShape placed = placedShape(state_, doll, body, shape);
+                const vec3 reach = halfBounds(placed) + range;
+                if (!meet(placed.position - reach, placed.position + reach, geometry.low, geometry.high)) continue;
                 const StaticTouches found = touchStatic(placed, geometry, range);
                 for (int i = 0; i < found.count; ++i)
                     put(slot++, {body, shape}, lane, index, found.points[i]);

@@ -56,7 +56,8 @@ void fitBatch(CrowdState& state, Batch& batch, float seconds) {
 
 }  // namespace
 
-int substepsFor(const CrowdState& state, Batch& batch, const Topology& topology) {
+void findPace(const CrowdState& state, Batch& batch, const Topology& topology) {
+    constexpr float kStill = 0.2F;  // of the speeds that ask for a substep
     const CrowdTuning& tuning = state.tuning;
     Wide speed2;
     Wide turn2;
@@ -66,10 +67,10 @@ int substepsFor(const CrowdState& state, Batch& batch, const Topology& topology)
     float units2 = 0.0F;
     for (int lane = 0; lane < batch.used; ++lane)
         units2 = std::max({units2, speed2.lane[lane] / unit2, turn2.lane[lane] / turnUnit2});
-    int substeps = std::min(tuning.calmSubsteps, tuning.substeps);
-    while (substeps < tuning.substeps && static_cast<float>(substeps * substeps) < units2)
-        ++substeps;
-    return substeps;
+    batch.isStill = units2 < kStill * kStill;
+    batch.substeps = std::min(tuning.calmSubsteps, tuning.substeps);
+    while (batch.substeps < tuning.substeps && static_cast<float>(batch.substeps * batch.substeps) < units2)
+        ++batch.substeps;
 }
 
 void setSubsteps(const CrowdState& state, Job& job) {

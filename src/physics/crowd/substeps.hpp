@@ -4,9 +4,9 @@
 
 namespace lutka::physics::crowd {
 
-/// How many substeps a step of the batch needs by how its dolls move now: CrowdTuning::substeps where anything is fast,
-/// fewer where all is slow.
-[[nodiscard]] int substepsFor(const CrowdState& state, Batch& batch, const Topology& topology);
+/// Sets by how its dolls move now how many substeps a step of the batch needs (CrowdTuning::substeps where anything is
+/// fast, fewer where all is slow) and whether it hardly moves at all.
+void findPace(const CrowdState& state, Batch& batch, const Topology& topology);
 
 /// Sets Job::substeps: the most that a batch of the job needs, all where muscles, pulls, frames or forces act.
 void setSubsteps(const CrowdState& state, Job& job);

@@ -19,6 +19,7 @@ struct CrowdTuning : SubstepTuning {
     float limitErp = 0.3F;        ///< The same for limits.
     float contactErp = 0.3F;      ///< The same for overlap.
     float staticMargin = 0.05F;   ///< Metres beyond the predicted motion within which contacts are made, with statics
+    float shapeMargin = 0.015F;   ///< likewise with statics that are no planes, beyond the motion of a substep,
     float pairMargin = 0.015F;    ///< and between bodies. Static ones are cheap while nothing presses.
     float leastGyration = 0.05F;  ///< Metres, of a figure 1.75 m tall: no body has a smaller radius of gyration about
                                   ///< any axis; thin hands and feet are given more inertia. More: tighter, stiffer.
