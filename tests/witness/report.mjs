@@ -110,6 +110,7 @@ for (const [name, options] of Object.entries({
 
 // A library of two, with one that is refused.
 const library = path.join(folder, `${stem}.library`);
+fs.rmSync(library, { recursive: true, force: true });
 fs.mkdirSync(library, { recursive: true });
 // With what lies beside the model under names that begin like its own: it may be a part of it.
 const parts = fs.readdirSync(path.dirname(model)).filter((name) => name.startsWith(stem));
