@@ -9,9 +9,11 @@ namespace lutka::animation {
 namespace {
 
 constexpr float kStraight = 0.9992F;   // of a leg's reach, which it is not stretched beyond: a knee bent by 4.6 degrees
-constexpr float kDropSeconds = 0.12F;  // how far to either side a drop of the hips is spread
+constexpr float kDropSeconds = 0.08F;  // how far to either side a drop of the hips is spread
 
-constexpr float kMostMove = 0.25F;  // leg lengths that the hips are moved by
+constexpr float kMostMove = 0.25F;           // leg lengths that the hips are moved by
+constexpr float kMostTurn = radians(45.0F);  // that they are turned by
+constexpr float kAllExcess = 0.3F;           // of excess width, from which on they are turned by all that feet need
 
 // A stretch of frames in which one point of the foot stands.
 struct Stand {
@@ -175,24 +177,17 @@ class HipsPlace {
     std::vector<int> counts_;
 };
 
-}  // namespace
-
-float depthOf(const AnatomicalRig::Foot& foot, const vec3& ankle, const vec3& ball, const vec3& up, float floor) {
-    const float heel = ankle.y - foot.ankleHeight * up.y;
-    const float front = ball.y - foot.ballHeight * up.y;
-    return floor - std::min(heel, front);
+bool stands(const FootContact& contact, std::size_t frame) {
+    return contact.heel[frame] || contact.ball[frame];
 }
 
-std::vector<FootShift> keepFeet(const AnatomicalRig& target, const FootMotion& motion,
-                                const std::array<FootContact, 2>& contacts, float framesPerSecond, float blendSeconds) {
+// What the feet are to be moved by where the hips stay.
+std::vector<FootShift> shiftsOfFeet(const AnatomicalRig& target, const FootMotion& motion,
+                                    const std::array<FootContact, 2>& contacts, float framesPerSecond,
+                                    float blendSeconds) {
     const std::size_t frames = motion.tracks[0].ankle.size();
     std::vector<FootShift> shifts(frames);
     const int blend = static_cast<int>(std::lround(blendSeconds * framesPerSecond));
-    const int reach = std::max(static_cast<int>(kDropSeconds * framesPerSecond), 1);
-    const auto stands = [&](std::size_t side, std::size_t frame) {
-        return contacts[side].heel[frame] || contacts[side].ball[frame];
-    };
-    HipsPlace place(frames);
     for (std::size_t side = 0; side < 2; ++side) {
         const AnatomicalRig::Foot& foot = target.feet[side];
         const FootTrack& track = motion.tracks[side];
@@ -205,15 +200,54 @@ std::vector<FootShift> keepFeet(const AnatomicalRig& target, const FootMotion& m
             const float depth = depthOf(foot, track.ankle[frame] + shift, track.ball[frame] + shift,
                                         motion.up[side][frame], target.floor);
             shift.y += std::max(depth, 0.0F);
-            if (stands(side, frame)) place.add(frame, shift);
         }
     }
+    return shifts;
+}
+
+int spreadOf(float framesPerSecond) {
+    return std::max(static_cast<int>(kDropSeconds * framesPerSecond), 1);
+}
+
+}  // namespace
+
+float depthOf(const AnatomicalRig::Foot& foot, const vec3& ankle, const vec3& ball, const vec3& up, float floor) {
+    const float heel = ankle.y - foot.ankleHeight * up.y;
+    const float front = ball.y - foot.ballHeight * up.y;
+    return floor - std::min(heel, front);
+}
+
+std::vector<vec3> hipsTurns(const AnatomicalRig& target, const FootMotion& motion,
+                            const std::array<FootContact, 2>& contacts, float excessWidth, float framesPerSecond,
+                            float blendSeconds) {
+    const std::vector<FootShift> shifts = shiftsOfFeet(target, motion, contacts, framesPerSecond, blendSeconds);
+    const float share = std::clamp(excessWidth / kAllExcess, 0.0F, 1.0F);
+    HipsPlace turns(shifts.size());
+    for (std::size_t frame = 0; frame < shifts.size(); ++frame) {
+        if (!stands(contacts[0], frame) || !stands(contacts[1], frame)) continue;
+        const vec3 line = motion.hips[0][frame] - motion.hips[1][frame];
+        const vec3 wanted = line + shifts[frame].feet[0] - shifts[frame].feet[1];
+        if (glm::length(line) < 1e-6F || glm::length(wanted) < 1e-6F) continue;
+        turns.add(frame, share * rotationVector(rotationBetween(line, wanted)));
+    }
+    return turns.smoothed(spreadOf(framesPerSecond), kMostTurn);
+}
+
+std::vector<FootShift> keepFeet(const AnatomicalRig& target, const FootMotion& motion,
+                                const std::array<FootContact, 2>& contacts, float framesPerSecond, float blendSeconds) {
+    std::vector<FootShift> shifts = shiftsOfFeet(target, motion, contacts, framesPerSecond, blendSeconds);
+    const std::size_t frames = shifts.size();
+    const int reach = spreadOf(framesPerSecond);
+    HipsPlace place(frames);
+    for (std::size_t frame = 0; frame < frames; ++frame)
+        for (std::size_t side = 0; side < 2; ++side)
+            if (stands(contacts[side], frame)) place.add(frame, shifts[frame].feet[side]);
     // Hips and feet moved together leave the legs as they are.
     const std::vector<vec3> moves = place.smoothed(reach, kMostMove * target.legLength);
     std::vector<float> drops(frames, 0.0F);
     for (std::size_t frame = 0; frame < frames; ++frame) {
         for (std::size_t side = 0; side < 2; ++side) {
-            if (!stands(side, frame)) continue;
+            if (!stands(contacts[side], frame)) continue;
             const vec3 hip = motion.hips[side][frame] + moves[frame];
             const vec3 ankle = motion.tracks[side].ankle[frame] + shifts[frame].feet[side];
             drops[frame] = std::max(drops[frame], dropFor(hip, ankle, motion.legReach[side] * kStraight));

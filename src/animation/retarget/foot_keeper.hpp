@@ -25,6 +25,14 @@ struct FootMotion {
                                               const std::array<FootContact, 2>& contacts, float framesPerSecond,
                                               float blendSeconds = 0.2F);
 
+/// How the hips are to be turned on top of what they do, a rotation vector a frame (FootShift::hipsTurn), so that feet
+/// that both stand need not be held by the legs: hips that are wide for the length of the legs draw the feet farther
+/// apart than the source's as they turn. `excessWidth`, of their width, [0, 1): by how much they are wider than the
+/// source's in proportion; with 0 they stay as they turn. In between they go on a straight way, smoothly over time.
+[[nodiscard]] std::vector<vec3> hipsTurns(const AnatomicalRig& target, const FootMotion& motion,
+                                          const std::array<FootContact, 2>& contacts, float excessWidth,
+                                          float framesPerSecond, float blendSeconds = 0.2F);
+
 /// How deep the lowest part of a sole (under heel and ball) is below the floor; negative above it.
 [[nodiscard]] float depthOf(const AnatomicalRig::Foot& foot, const vec3& ankle, const vec3& ball, const vec3& up,
                             float floor);

@@ -36,23 +36,17 @@ class Crossing {
 
     // Without keeping the feet: what they do in both figures.
     void look() {
-        const AnatomicalRig& target = retargeter_.target();
-        for (int frame = 0; frame < clip_.frameCount; ++frame) {
-            retargeter_.pose(sourceFrame(frame), {}, pose_);
-            for (std::size_t side = 0; side < 2; ++side) {
-                addTo(source_[side], retargeter_.source().feet[side], retargeter_.sourcePose());
-                addTo(motion_.tracks[side], target.feet[side], retargeter_.targetPose());
-                const auto of = [&](Role left) { return target.jointOf(side == 0 ? left : mirrored(left)); };
-                const auto pose = retargeter_.targetPose();
-                motion_.hips[side].push_back(pose[of(Role::leftUpperLeg)].translation);
-                const AnatomicalRig::Foot& foot = target.feet[side];
-                motion_.up[side].push_back(pose[foot.joint].rotation * foot.upInJoint);
-                const vec3& knee = pose[of(Role::leftLowerLeg)].translation;
-                motion_.legReach[side] = glm::distance(pose[of(Role::leftUpperLeg)].translation, knee) +
-                                         glm::distance(knee, pose[foot.joint].translation);
-            }
-        }
+        watch();
         setFloor(floorOfMotion(retargeter_.source(), source_));
+    }
+
+    // Hips that are wide for the legs turn less.
+    void turnHips() {
+        const float width = widthOf(retargeter_.target());
+        const float excess = width > 0.0F ? 1.0F - widthOf(retargeter_.source()) * retargeter_.scale() / width : 0.0F;
+        if (excess <= 0.0F) return;
+        turns_ = hipsTurns(retargeter_.target(), motion_, contacts_, excess, clip_.framesPerSecond);
+        watch();
     }
 
     void findContacts(const ContactSettings& settings) {
@@ -72,6 +66,8 @@ class Crossing {
         // Legs without knees reach the floor at one place only, which pose() has put them to.
         if (keep && !retargeter_.target().hasStiffLegs())
             shifts = keepFeet(retargeter_.target(), motion_, contacts_, clip_.framesPerSecond);
+        for (std::size_t frame = 0; frame < turns_.size(); ++frame)
+            shifts[frame].hipsTurn = turns_[frame];
         RetargetMeter meter(retargeter_, contacts_, placement_.sourceFloor);
         for (int frame = 0; frame < clip_.frameCount; ++frame) {
             retargeter_.pose(sourceFrame(frame), placement_, shifts[frame], pose_);
@@ -83,6 +79,32 @@ class Crossing {
     }
 
   private:
+    static float widthOf(const AnatomicalRig& rig) {
+        return glm::distance(rig.bindOf(Role::leftUpperLeg), rig.bindOf(Role::rightUpperLeg));
+    }
+    // What both figures do with the feet as they are.
+    void watch() {
+        source_ = {};
+        motion_ = {};
+        const AnatomicalRig& target = retargeter_.target();
+        for (int frame = 0; frame < clip_.frameCount; ++frame) {
+            FootShift shift;
+            if (!turns_.empty()) shift.hipsTurn = turns_[static_cast<std::size_t>(frame)];
+            retargeter_.pose(sourceFrame(frame), placement_, shift, pose_);
+            for (std::size_t side = 0; side < 2; ++side) {
+                addTo(source_[side], retargeter_.source().feet[side], retargeter_.sourcePose());
+                addTo(motion_.tracks[side], target.feet[side], retargeter_.targetPose());
+                const auto of = [&](Role left) { return target.jointOf(side == 0 ? left : mirrored(left)); };
+                const auto pose = retargeter_.targetPose();
+                motion_.hips[side].push_back(pose[of(Role::leftUpperLeg)].translation);
+                const AnatomicalRig::Foot& foot = target.feet[side];
+                motion_.up[side].push_back(pose[foot.joint].rotation * foot.upInJoint);
+                const vec3& knee = pose[of(Role::leftLowerLeg)].translation;
+                motion_.legReach[side] = glm::distance(pose[of(Role::leftUpperLeg)].translation, knee) +
+                                         glm::distance(knee, pose[foot.joint].translation);
+            }
+        }
+    }
     // What was seen of the target is where it stands on that floor.
     void setFloor(float height) {
         const vec3 sunk(0, (height - placement_.sourceFloor) * retargeter_.scale(), 0);
@@ -107,6 +129,7 @@ class Crossing {
     std::array<FootTrack, 2> source_;
     FootMotion motion_;
     std::array<FootContact, 2> contacts_;
+    std::vector<vec3> turns_;  // of the hips, one a frame; empty: none
 };
 
 }  // namespace
@@ -117,6 +140,7 @@ Result<RetargetedClip> retargetClip(Retargeter& retargeter, const Clip& clip, co
     Crossing crossing(retargeter, clip);
     crossing.look();
     crossing.findContacts(options.contacts);
+    if (options.keepFeet && !retargeter.target().hasStiffLegs()) crossing.turnHips();
     return crossing.take(options.keepFeet);
 }
 

@@ -271,9 +271,19 @@ quat Retargeter::rotationOf(const Driven& driven) const {
     return targetStandard_[driven.base].rotation * driven.baseFromJoint.rotation;
 }
 
-void Retargeter::turnJoints() {
-    for (const Driven& driven : driven_)
-        targetStandard_[driven.joint].rotation = glm::normalize(rotationOf(driven));
+void Retargeter::turnJoints(const vec3& hipsTurn) {
+    const float angle = glm::length(hipsTurn);
+    for (const Driven& driven : driven_) {
+        quat& rotation = targetStandard_[driven.joint].rotation;
+        rotation = glm::normalize(rotationOf(driven));
+        if (angle < 1e-6F || (driven.by != Driven::By::hips && driven.by != Driven::By::trunk)) continue;
+        // Less and less of it up to the neck; a joint that carries the legs goes with the hips.
+        const auto at = std::find_if(target_.trunk.begin(), target_.trunk.end(),
+                                     [&](const auto& joint) { return joint.joint == driven.joint; });
+        const bool carriesLegs = isAncestorOrSelf(*target_.skeleton, driven.joint, target_.jointOf(Role::leftUpperLeg));
+        const float share = at == target_.trunk.end() || carriesLegs ? 1.0F : 1.0F - at->at;
+        rotation = glm::normalize(glm::angleAxis(angle * share, hipsTurn / angle) * rotation);
+    }
 }
 
 // Down from the hips, with the rotations that are there.
@@ -416,7 +426,7 @@ void Retargeter::pose(std::span<const RigidTransform> sourceParentFromJoint, con
     const RigidTransform standardFromModel{source_.standardFromModel, vec3(0)};
     for (RigidTransform& frame : sourceStandard_)
         frame = standardFromModel * frame;
-    turnJoints();
+    turnJoints(shift.hipsTurn);
     placeJoints(placement, shift.hips);
     leanTrunk();
     bendLeg(0, shift.feet[0]);

@@ -13,9 +13,11 @@ struct RetargetPlacement {
     float sourceFloor = 0.0F;  ///< Standard height of the floor that the source walks on, metres.
 };
 
-/// How far the target's legs are moved after all else: by foot, in standard space.
+/// How the target's hips and legs are moved after all else, in standard space.
 struct FootShift {
     vec3 hips{0, 0, 0};          ///< Added to the hips' place.
+    vec3 hipsTurn{0, 0, 0};      ///< Rotation vector: the hips are turned by it on top of all else, about the middle of
+                                 ///< the hip joints; the trunk above takes it back from joint to joint.
     std::array<vec3, 2> feet{};  ///< Added to the ankles' places, left and right; the knees give way.
 };
 
@@ -80,7 +82,7 @@ class Retargeter {
     [[nodiscard]] quat sourceAxes(Role role) const;
     [[nodiscard]] quat twistOf(const Driven& driven) const;
     [[nodiscard]] quat rotationOf(const Driven& driven) const;
-    void turnJoints();
+    void turnJoints(const vec3& hipsTurn);
     void placeJoints(const RetargetPlacement& placement, const vec3& hipsShift);
     void leanTrunk();
     void bendLeg(int side, const vec3& shift);

@@ -1,5 +1,7 @@
 #include "animation/retarget/retarget_clip.hpp"
 
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
 #include <limits>
 
 #include "support/catch.hpp"
@@ -48,6 +50,41 @@ TEST_CASE("feet that stand stay where they are and out of the floor on figures o
             }
         }
     }
+}
+
+TEST_CASE("hips that are wide over short legs turn less, so that legs point as the source's and feet stay") {
+    test::HumanoidSpec narrow;
+    narrow.hipWidth = 0.02F;
+    const test::TestHumanoid source = test::makeHumanoid(narrow);
+    test::HumanoidSpec stubby;
+    stubby.hipWidth = 0.25F;
+    stubby.legShare = 0.5F;
+    const test::TestHumanoid target = test::makeHumanoid(stubby);
+    // Hips that turn by 20 degrees to either side over legs that stay as they are.
+    Clip clip;
+    clip.name = "turn";
+    clip.framesPerSecond = 30.0F;
+    clip.frameCount = 91;
+    for (int frame = 0; frame < clip.frameCount; ++frame) {
+        std::vector<RigidTransform> pose = source.character.skeleton.nodeParentFromJoint;
+        const float yaw = radians(20.0F) * std::sin(2.0F * kPi * static_cast<float>(frame) / 90.0F);
+        const vec3 up(0, 1, 0);
+        turnInStandard(source, Role::hips, glm::angleAxis(yaw, up), pose);
+        for (const Role thigh : {Role::leftUpperLeg, Role::rightUpperLeg})
+            turnInStandard(source, thigh, glm::angleAxis(-yaw, up), pose);
+        clip.parentFromJoint.append(pose);
+    }
+    auto retargeter = Retargeter::make(source.character, source.map, target.character, target.map);
+    REQUIRE(retargeter);
+    const auto made = retargetClip(retargeter.value(), clip);
+    REQUIRE(made);
+    const RetargetFigures& figures = made.value().figures;
+    INFO(figures.meanLimbDeg() << " degrees, " << figures.slideCm.most << " cm");
+    CHECK(figures.contacts >= 2);
+    CHECK(figures.meanLimbDeg() < 0.5);
+    CHECK(figures.slideCm.most < 0.1);
+    for (const DirectionError& error : figures.directions)
+        if (error.part == "trunk" || error.part == "face") CHECK(error.degrees.most < 0.5);
 }
 
 TEST_CASE("a figure without toes stands on a ball that is thought up, its heel free to rise") {

@@ -34,9 +34,11 @@ RetargetFigures figuresOf(const Figure& source, const Clip& clip, const Figure& 
     return made.value().figures;
 }
 
-constexpr std::array kTargets{"makehuman_mixamo/makehuman_mixamo.glb", "rocketbox_male/Male_Adult_17.fbx",
-                              "mesh2motion_human/m2m_addon.glb",       "kaykit_rogue/Rogue_Hooded.glb",
-                              "sl_male_bento/male_bento.dae",          "makehuman_cmu_zup/makehuman_cmu_zup.glb"};
+constexpr std::array kTargets{
+    "makehuman_mixamo/makehuman_mixamo.glb", "rocketbox_male/Male_Adult_17.fbx",
+    "mesh2motion_human/m2m_addon.glb",       "kaykit_rogue/Rogue_Hooded.glb",
+    "sl_male_bento/male_bento.dae",          "makehuman_cmu_zup/makehuman_cmu_zup.glb",
+    "lumberjack_rigify/lumberjack.glb",      "quaternius_platformer_ik/platformer_game_pack_Character.glb"};
 
 }  // namespace
 
