@@ -17,6 +17,7 @@ constexpr float kMaxError = 0.10F;         // of the mirrored position, of the s
 constexpr float kMinSeparation = 0.012F;   // of the spread; nearer joints lie in the plane
 constexpr float kOnlyChildLengths = 0.9F;  // … where each parent has no other child: one arm is longer
 constexpr float kMostLengthCost = 1.0F;    // of unequal lengths, where only children or names make the pair
+constexpr float kTreeDistance = 0.01F;     // decides between a limb and its copy in another skeleton
 constexpr float kChildLengths = 0.18F;     // log ratio of bone lengths of a pair found by structure
 
 vec3 mirrored(vec3 point) {
@@ -76,9 +77,28 @@ class PairFinder {
         return glm::length(error) < 0.05F * framed_.spread;
     }
 
+    [[nodiscard]] float ownSeparation(int a, int b) const {
+        return std::abs(framed_.positions[a].x - framed_.positions[b].x);
+    }
+
+    // Limbs may start in the middle: then what is below them tells.
     [[nodiscard]] float separation(int a, int b) const {
-        return std::max(std::abs(framed_.positions[a].x - framed_.positions[b].x),
-                        std::abs(centroids_[a].x - centroids_[b].x));
+        return std::max(ownSeparation(a, b), std::abs(centroids_[a].x - centroids_[b].x));
+    }
+
+    // Named as a part of the trunk: two of these in one place are a spine and its copy (of a control rig), no limbs.
+    [[nodiscard]] bool isTrunk(int joint) const {
+        constexpr float kNamed = 1.0F;
+        constexpr std::array<Part, 5> kTrunk{Part::hips, Part::trunk, Part::chest, Part::neck, Part::head};
+        const NameEvidence& said = rig_.names[joint];
+        const auto tells = [&](Part part) { return said.parts[part] >= kNamed; };
+        return said.side == Side::center && std::any_of(kTrunk.begin(), kTrunk.end(), tells);
+    }
+
+    // How many joints lie on the way from one to the other; two hierarchies count as children of one joint.
+    [[nodiscard]] int treeDistance(int a, int b) const {
+        const int common = rig_.commonAncestor(a, b);
+        return rig_.depth[a] + rig_.depth[b] - (common == kNoJoint ? -2 : 2 * rig_.depth[common]);
     }
 
     [[nodiscard]] float structureCost(int a, int b) const {
@@ -86,7 +106,7 @@ class PairFinder {
         const float depths = static_cast<float>(std::abs(rig_.depth[a] - rig_.depth[b]));
         const float weights = std::log((rig_.subtreeWeight[a] + 0.002F) / (rig_.subtreeWeight[b] + 0.002F));
         return 0.6F * std::abs(sizes) + 0.25F * depths + 0.25F * std::min(std::abs(weights), 3.0F) +
-               nameCost(rig_.names[a], rig_.names[b]);
+               nameCost(rig_.names[a], rig_.names[b]) + kTreeDistance * static_cast<float>(treeDistance(a, b));
     }
 
     void add(int a, int b) {
@@ -139,6 +159,7 @@ class PairFinder {
                 const float error =
                     glm::distance(mirrored(framed_.positions[a]), framed_.positions[b]) / framed_.spread;
                 if (error > kMaxError || separation(a, b) < kMinSeparation * framed_.spread) continue;
+                if (isTrunk(a) && isTrunk(b) && ownSeparation(a, b) < kMinSeparation * framed_.spread) continue;
                 const bool above = rig_.isAncestorOrSelf(a, b) || rig_.isAncestorOrSelf(b, a);
                 if (above && nameCost(rig_.names[a], rig_.names[b]) >= 0.0F) continue;
                 const float below = glm::distance(mirrored(centroids_[a]), centroids_[b]) / framed_.spread;

@@ -158,9 +158,29 @@ bool namesVertebra(std::string_view name) {
     return groups > 0;
 }
 
+// "Bip01FBXASC032LFBXASC032Thigh": how FBX writes characters that its older versions had no names with, as three
+// digits.
+std::string withoutFbxEscapes(std::string_view name) {
+    constexpr std::string_view kMark = "FBXASC";
+    constexpr std::size_t kDigits = 3;
+    std::string out;
+    while (!name.empty()) {
+        const std::string_view digits = name.size() < kMark.size() ? "" : name.substr(kMark.size(), kDigits);
+        const bool isEscape = name.starts_with(kMark) && digits.size() == kDigits &&
+                              std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+        const int code = isEscape ? std::atoi(std::string(digits).c_str()) : 0;
+        const bool known = code >= ' ' && code < 127;  // ASCII that is printed
+        out += known ? static_cast<char>(code) : isEscape ? ' ' : name.front();
+        name.remove_prefix(isEscape ? kMark.size() + kDigits : 1);
+    }
+    return out;
+}
+
 }  // namespace
 
-NameTokens tokenise(std::string_view name) {
+NameTokens tokenise(std::string_view escaped) {
+    const std::string whole = withoutFbxEscapes(escaped);
+    std::string_view name = whole;
     while (!name.empty() && (name.back() == ':' || name.back() == '|' || name.back() == ' '))
         name.remove_suffix(1);
     if (const auto colon = name.find_last_of(":|"); colon != std::string_view::npos) name.remove_prefix(colon + 1);

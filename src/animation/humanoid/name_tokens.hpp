@@ -18,7 +18,8 @@ struct NameTokens {
 
 /// Takes a name apart: namespaces (up to the last ':' or '|') are dropped, the rest is split at separators, at changes
 /// of case and between letters and digits; glued words are cut by the lexicon ("luparm" → left, {up, arm}). Full-width
-/// characters and accents are folded, Chinese and Japanese body words are translated.
-[[nodiscard]] NameTokens tokenise(std::string_view name);
+/// characters and accents are folded, Chinese and Japanese body words are translated. Characters that FBX wrote as
+/// numbers ("FBXASC032" for a blank) are those characters.
+[[nodiscard]] NameTokens tokenise(std::string_view escaped);
 
 }  // namespace lutka::animation

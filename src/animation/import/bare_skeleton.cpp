@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,8 @@ namespace {
 constexpr double kMostOneWay = 0.82;
 constexpr double kMostOneAxis = 0.93;
 constexpr std::size_t kFewestNodes = 8;
-constexpr int kFramesToChooseFrom = 60;  // of each clip
+constexpr std::size_t kFewestNodesAMesh = 8;  // above it the meshes are a face or a weapon, not a figure of rigid parts
+constexpr int kFramesToChooseFrom = 60;       // of each clip
 constexpr std::size_t kClipsLookedAt = 8;
 
 // The first node that several limbs hang on: what is above it only leads to the figure. Cameras and lights are no
@@ -42,6 +44,16 @@ std::size_t firstFork(std::span<const int> parents) {
 int indexOfAxis(std::optional<UpAxis> up) {
     if (up == UpAxis::positiveX || up == UpAxis::negativeX) return 0;
     return up == UpAxis::positiveZ || up == UpAxis::negativeZ ? 2 : 1;
+}
+
+// Whether no mesh tells where the figure's joints are: a skin would, and so would the parts of a robot.
+bool isBare(const SourceScene& scene) {
+    std::set<int> carriers;
+    for (const SourceInstance& instance : scene.instances) {
+        if (instance.skin >= 0) return false;
+        carriers.insert(instance.node);
+    }
+    return carriers.size() * kFewestNodesAMesh <= scene.nodes.size();
 }
 
 struct Frame {
@@ -116,7 +128,7 @@ double plainness(std::span<const int> parents, std::span<const dmat4> scene, int
 }
 
 void poseBareSkeleton(SourceScene& scene) {
-    if (!scene.instances.empty() || scene.clips.empty() || scene.nodes.size() < kFewestNodes) return;
+    if (!isBare(scene) || scene.clips.empty() || scene.nodes.size() < kFewestNodes) return;
     std::vector<int> parents;
     std::vector<dmat4> own;
     for (const SourceNode& node : scene.nodes) {

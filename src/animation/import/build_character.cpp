@@ -59,10 +59,10 @@ int rootOfFigure(const Skeleton& skeleton) {
     return figure;
 }
 
-// Whether the points lie about the joints: a sphere at the hips of a bare skeleton is no figure's skin.
-bool cover(const std::vector<vec3>& points, const std::vector<vec3>& joints) {
+// Whether the points lie about at least a share of the joints: a sphere at the hips of a bare skeleton is no figure's
+// skin, and neither is a face, though many joints move hair.
+bool cover(const std::vector<vec3>& points, const std::vector<vec3>& joints, double leastShare) {
     constexpr float kMargin = 0.2F;  // of the points' box, on each side
-    constexpr double kLeastShare = 0.3;
     vec3 low(std::numeric_limits<float>::max());
     vec3 high(std::numeric_limits<float>::lowest());
     for (const vec3& point : points) {
@@ -73,7 +73,7 @@ bool cover(const std::vector<vec3>& points, const std::vector<vec3>& joints) {
     const auto inside = std::count_if(joints.begin(), joints.end(), [&](const vec3& joint) {
         return glm::all(glm::greaterThan(joint, low - margin)) && glm::all(glm::lessThan(joint, high + margin));
     });
-    return static_cast<double>(inside) >= kLeastShare * static_cast<double>(joints.size());
+    return static_cast<double>(inside) >= leastShare * static_cast<double>(joints.size());
 }
 
 // Marks the joints below `root` that are the figure's: all but single nodes on it, far from where most of them are
@@ -132,7 +132,11 @@ FigurePoints pointsOfFigure(Character& character, std::span<const dmat4> bind) {
         if (deforms) points.emplace_back(bind[joint][3]);
         if (ofFigure[static_cast<std::size_t>(joint)]) joints.emplace_back(bind[joint][3]);
     }
-    if (!points.empty() && (joints.size() < kFewestJointsOfFigure || cover(points, joints))) return {points, true};
+    constexpr double kLeastOfSkin = 0.3;
+    constexpr double kLeastOfParts = 0.6;
+    const double least = skinned ? kLeastOfSkin : kLeastOfParts;
+    if (!points.empty() && (joints.size() < kFewestJointsOfFigure || cover(points, joints, least)))
+        return {points, true};
     if (!points.empty()) {
         character.warnings.emplace_back(
             "the meshes lie about hardly any of the skeleton's joints: the figure's height is that of the joints");

@@ -192,6 +192,35 @@ TEST_CASE("the mesh that hangs on the joint of its name does not take its role",
     CHECK(animation::mapHumanoid(cop.character).jointOf(Role::hips) == pelvis);
 }
 
+TEST_CASE("a control rig that copies the skeleton in its place takes no trunk away", "[named]") {
+    // As motion builders write it. The copy has no fingers on one side, so that it is no image of itself.
+    SyntheticRig rig = bareRig("valve", {.armsDown = 0.25F});
+    animation::Skeleton& skeleton = rig.character.skeleton;
+    const int count = skeleton.jointCount();
+    std::vector<int> copyOf(static_cast<std::size_t>(count), animation::kNoJoint);
+    for (int joint = 0; joint < count; ++joint) {
+        const std::string& name = skeleton.names[joint];
+        if (name.find("L_Finger") != std::string::npos) continue;
+        const int parent = skeleton.parents[joint];
+        copyOf[joint] = skeleton.jointCount();
+        skeleton.names.push_back(name + " 1");
+        skeleton.parents.push_back(parent == animation::kNoJoint ? animation::kNoJoint : copyOf[parent]);
+        skeleton.bindModelFromJoint.push_back(skeleton.bindModelFromJoint[joint]);
+        skeleton.nodeParentFromJoint.push_back(skeleton.nodeParentFromJoint[joint]);
+        skeleton.skinWeight.push_back(0.0F);
+    }
+    const animation::HumanoidMap map = animation::mapHumanoid(rig.character);
+    CAPTURE(map.warnings);
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(Role::spine) != map.jointOf(Role::hips));
+    std::vector<std::string> names = skeleton.names;
+    for (std::string& name : names)
+        name = name.substr(0, name.find(" 1"));  // copies do as well
+    const Score score = scoreMap(rig.truth, map, names);
+    INFO(score.faults);
+    CHECK(score.right == score.of);
+}
+
 TEST_CASE("trousers with the skeleton of the whole figure map as it", "[named]") {
     for (const bool legs : {true, false}) {
         INFO((legs ? "trousers" : "a shirt"));

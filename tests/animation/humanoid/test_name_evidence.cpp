@@ -60,6 +60,8 @@ TEST_CASE("names of every spelling give side and part", "[names]") {
         {"L_Sune", Side::left, Part::lowerLeg},
         {"Kosi", Side::center, Part::hips},
         {"CC_Base_NeckTwist01", Side::center, Part::neck},
+        {"Bip01FBXASC032LFBXASC032Thigh", Side::left, Part::upperLeg},
+        {"rigFBXASC058RightFBXASC046Hand", Side::right, Part::hand},
     };
     for (const Reading& reading : readings) {
         INFO(reading.name);

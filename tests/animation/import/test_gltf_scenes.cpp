@@ -74,9 +74,11 @@ TEST_CASE("a figure that is inside out is turned, with a word") {
     }
 }
 
-TEST_CASE("joints without places of their own take those of the clip's plainest frame") {
-    // As exporters of clips alone write them: no mesh, no pose of the nodes, all of it in the channels.
-    const TemporaryFolder folder;
+namespace {
+
+// A skeleton as exporters of clips alone write it: no pose of the nodes, all of it in the channels. It crouches, then
+// stands.
+GltfFile makeRise() {
     GltfFile file;
     struct Limb {
         const char* name;
@@ -98,7 +100,6 @@ TEST_CASE("joints without places of their own take those of the clip's plainest 
                                   {"RightArm", 1, {-0.2F, 0.25F, 0}},
                                   {"RightForeArm", 12, {-0.28F, 0, 0}},
                                   {"RightHand", 13, {-0.25F, 0, 0}}};
-    // It crouches, then stands.
     const std::vector<float> times{0, 1};
     nlohmann::json clip = {{"name", "rise"}};
     for (const Limb& limb : limbs) {
@@ -112,6 +113,11 @@ TEST_CASE("joints without places of their own take those of the clip's plainest 
             {{"sampler", clip["samplers"].size() - 1}, {"target", {{"node", node}, {"path", "translation"}}}});
     }
     file.json["animations"].push_back(clip);
+    return file;
+}
+
+void checkStands(const GltfFile& file) {
+    const TemporaryFolder folder;
     file.saveBinary(folder / "rise.glb");
     const Character character = imported(folder / "rise.glb");
     CHECK(warns(character, "no figure"));
@@ -120,4 +126,21 @@ TEST_CASE("joints without places of their own take those of the clip's plainest 
     };
     CHECK(glm::distance(at("LeftFoot"), vec3(0.1F, 0.08F, 0)) < 0.05F);
     CHECK(glm::distance(at("RightHand"), vec3(-0.73F, 1.45F, 0)) < 0.05F);
+}
+
+}  // namespace
+
+TEST_CASE("joints without places of their own take those of the clip's plainest frame") {
+    checkStands(makeRise());
+}
+
+TEST_CASE("a rigid face says nothing of where a bare skeleton's joints are, nor how tall it is") {
+    GltfFile file = makeRise();
+    // Locks of hair that make half of all joints.
+    for (int lock = 0; lock < 15; ++lock)
+        file.addNode("Lock" + std::to_string(lock), 2);
+    constexpr float kSize = 0.1F;
+    const int face = addPostMesh(file, makePost(), glm::scale(mat4(1.0F), vec3(kSize)), false);
+    file.json["nodes"][2]["mesh"] = face;
+    checkStands(file);
 }
