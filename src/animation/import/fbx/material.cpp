@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "animation/import/srgb.hpp"
+#include "animation/import/uri.hpp"
 
 namespace lutka::animation::rig_import::fbx {
 namespace {
@@ -57,6 +58,9 @@ constexpr std::array<std::string_view, 6> kEmissivePictures = {"EmissiveColor",
                                                                "Maya|TEX_emissive_map|file",
                                                                "3dsMax|Parameters|emit_color_map",
                                                                "3dsMax|main|emit_color_map"};
+
+constexpr std::array<std::string_view, 4> kBaseColorWords = {"diffuse", "albedo", "basecolor", "base_color"};
+constexpr std::array<std::string_view, 1> kNormalWords = {"normal"};
 
 std::optional<double> firstNumber(const Properties& properties, std::span<const std::string_view> names) {
     for (const std::string_view name : names) {
@@ -218,6 +222,27 @@ int MaterialReader::loadTexture(int texture) {
     return index;
 }
 
+std::vector<std::string_view> MaterialReader::propertiesWithPictures(int material) const {
+    std::vector<std::string_view> out;
+    for (const Connection& connection : objects_.childrenOf(material)) {
+        const std::string_view kind = objects_[connection.child].kind;
+        if ((kind == "Texture" || kind == "LayeredTexture") && !connection.property.empty())
+            out.push_back(connection.property);
+    }
+    return out;
+}
+
+// Shaders that people write name their pictures as they like; most say the plain word.
+MaterialReader::Picture MaterialReader::pictureSaying(int material, std::span<const std::string_view> words) {
+    std::vector<std::string_view> fitting;
+    for (const std::string_view property : propertiesWithPictures(material)) {
+        const std::string last = lowerCased(std::string(property.substr(property.find_last_of('|') + 1)));
+        const auto says = [&](std::string_view word) { return last.find(word) != std::string::npos; };
+        if (std::any_of(words.begin(), words.end(), says) && !says("mask")) fitting.push_back(property);
+    }
+    return picture(material, fitting);
+}
+
 MaterialReader::Picture MaterialReader::picture(int material, std::span<const std::string_view> properties) {
     Picture out;
     for (const std::string_view property : properties) {
@@ -237,12 +262,21 @@ MaterialReader::Picture MaterialReader::picture(int material, std::span<const st
 
 void MaterialReader::readPictures(int material, ReadMaterial& out) {
     Material& made = out.material;
-    const Picture base = picture(material, kBaseColorPictures);
+    Picture base = picture(material, kBaseColorPictures);
+    const bool known = base.named;
+    if (!known) base = pictureSaying(material, kBaseColorWords);
     made.baseColorTexture = base.texture;
     out.uvSet = base.uvSet;
-    made.normalTexture = picture(material, kNormalPictures).texture;
-    made.emissiveTexture = picture(material, kEmissivePictures).texture;
+    Picture normal = picture(material, kNormalPictures);
+    if (!known && !normal.named) normal = pictureSaying(material, kNormalWords);
+    made.normalTexture = normal.texture;
+    const Picture emissive = picture(material, kEmissivePictures);
+    made.emissiveTexture = emissive.texture;
     if (made.emissiveTexture != Material::kNoTexture) made.emissive = vec3(1);
+    if (!base.named && !normal.named && !emissive.named) {
+        for (const std::string_view property : propertiesWithPictures(material))
+            unread_.emplace(property);
+    }
     if (!base.named) return;
     // A picture replaces the colour. One that is not there leaves the colour that it would have replaced, often black:
     // neutral is visible.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,12 +30,15 @@ struct ReadMaterial {
 };
 
 /// Reads Lambert and Phong materials and the physically based ones of Maya (Standard Surface, Arnold, Stingray), 3ds
-/// Max (Physical, PBR, glTF) and Blender. Colours are taken as linear, except those of 3ds Max, which writes sRGB.
+/// Max (Physical, PBR, glTF) and Blender. Of shaders that it does not know, pictures whose property says base colour,
+/// diffuse, albedo or normal are taken. Colours are taken as linear, except those of 3ds Max, which writes sRGB.
 class MaterialReader {
   public:
     MaterialReader(const Document& document, const Objects& objects, PictureLoader load);
 
     [[nodiscard]] ReadMaterial read(int material);
+    /// The properties with pictures of materials of which no picture was known, in the order of the alphabet.
+    [[nodiscard]] const std::set<std::string>& unread() const { return unread_; }
 
   private:
     struct Picture {
@@ -44,6 +48,8 @@ class MaterialReader {
     };
 
     [[nodiscard]] Picture picture(int material, std::span<const std::string_view> properties);
+    [[nodiscard]] std::vector<std::string_view> propertiesWithPictures(int material) const;
+    [[nodiscard]] Picture pictureSaying(int material, std::span<const std::string_view> words);
     [[nodiscard]] int loadTexture(int texture);
     void readFactors(const Properties& properties, Material& out) const;
     void readTransparency(const Properties& properties, Material& out) const;
@@ -54,6 +60,7 @@ class MaterialReader {
     PictureLoader load_;
     std::map<int, int> known_;  // texture object → texture
     std::map<std::string, std::vector<std::uint8_t>> decoded_;
+    std::set<std::string> unread_;
     bool linear_ = true;
     bool blender_ = false;
 };

@@ -113,6 +113,11 @@ class SceneReader {
         }
         for (std::string& sentence : repairs.sentences())
             scene_.warnings.push_back(std::move(sentence));
+        if (!materials_.unread().empty()) {
+            scene_.warnings.push_back(
+                fmt::format("left out: pictures of shaders that are not known, by their properties {}",
+                            fmt::join(materials_.unread(), ", ")));
+        }
         if (!dualQuaternionMeshes_.empty()) {
             scene_.warnings.push_back(fmt::format(
                 "skinned by dual quaternions in the file: {}; files are written, and pictures drawn, with linear "

@@ -191,6 +191,39 @@ TEST_CASE("the vertex colours of an FBX are sRGB and become linear") {
     CHECK(glm::distance(colors[3], vec4(0.0F, 0.0509F, 1.0F, 0.5F)) < 1e-3F);
 }
 
+TEST_CASE("pictures of an FBX shader that is not known are taken by what their properties say, or told") {
+    const auto warnings = [](const std::string& property) {
+        std::vector<FbxRecord> sections = skinnedSquare({}, dmat4(1.0), dmat4(1.0));
+        for (FbxRecord& section : sections) {
+            if (section.name == "Objects") {
+                section.children.push_back(
+                    {"Material", {std::int64_t{6}, std::string("Material::Coat"), std::string()}, {}});
+                section.children.push_back({"Texture",
+                                            {std::int64_t{7}, std::string("Texture::Cloth"), std::string()},
+                                            {FbxRecord{"RelativeFilename", {std::string("cloth.png")}, {}}}});
+            } else {
+                section.children.push_back(fbxLink(6, 1));
+                section.children.push_back(fbxLink(7, 6, property));
+            }
+        }
+        const SourceScene scene = readAll(sections);
+        std::string out;
+        for (const std::string& warning : scene.warnings)
+            out += warning + "\n";
+        return out;
+    };
+    // The picture is looked for, and is not there.
+    for (const char* property : {"Maya|DiffuseTexture", "Maya|NormalTexture", "Shader|Albedo_Map", "DiffuseColor"}) {
+        INFO(property);
+        CHECK(warnings(property).find("cloth.png") != std::string::npos);
+        CHECK(warnings(property).find("shaders") == std::string::npos);
+    }
+    CHECK(warnings("Maya|FalloffTexture").find("cloth.png") == std::string::npos);
+    CHECK(warnings("Maya|FalloffTexture").find("shaders that are not known, by their properties Maya|FalloffTexture") !=
+          std::string::npos);
+    CHECK(warnings("Maya|DiffuseMask").find("Maya|DiffuseMask") != std::string::npos);
+}
+
 TEST_CASE("FBX clips turn about the rotation's pivot, in the node's euler angles, between pre- and post-rotation") {
     const FbxRecord curve{
         "AnimationCurve",
