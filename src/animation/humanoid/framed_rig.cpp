@@ -39,12 +39,20 @@ class PairFinder {
     explicit PairFinder(FramedRig& framed) : framed_(framed), rig_(*framed.rig) {
         framed_.pairOf.assign(framed_.positions.size(), -1);
         centroids_.assign(framed_.positions.size(), vec3(0));
+        sizes_.assign(framed_.positions.size(), 0.0F);
         for (int joint = rig_.count() - 1; joint >= 0; --joint) {
+            const int parent = rig_.parents[joint];
             centroids_[joint] += framed_.positions[joint];
-            if (rig_.parents[joint] != kNoJoint) centroids_[rig_.parents[joint]] += centroids_[joint];
+            sizes_[joint] += 1.0F;
+            // What hangs rigidly on a joint that moves skin is held or worn, on one side as a rule.
+            const bool worn = rig_.skinned && rig_.rigidPart[joint] && parent != kNoJoint && !rig_.rigidPart[parent] &&
+                              rig_.directWeight[parent] > 0.0F;
+            if (parent == kNoJoint || worn) continue;
+            centroids_[parent] += centroids_[joint];
+            sizes_[parent] += sizes_[joint];
         }
         for (int joint = 0; joint < rig_.count(); ++joint)
-            centroids_[joint] /= static_cast<float>(rig_.subtreeSize(joint));
+            centroids_[joint] /= sizes_[joint];
     }
 
     void find() {
@@ -102,7 +110,7 @@ class PairFinder {
     }
 
     [[nodiscard]] float structureCost(int a, int b) const {
-        const float sizes = std::log(static_cast<float>(rig_.subtreeSize(a)) / static_cast<float>(rig_.subtreeSize(b)));
+        const float sizes = std::log(sizes_[a] / sizes_[b]);
         const float depths = static_cast<float>(std::abs(rig_.depth[a] - rig_.depth[b]));
         const float weights = std::log((rig_.subtreeWeight[a] + 0.002F) / (rig_.subtreeWeight[b] + 0.002F));
         return 0.6F * std::abs(sizes) + 0.25F * depths + 0.25F * std::min(std::abs(weights), 3.0F) +
@@ -233,7 +241,8 @@ class PairFinder {
 
     FramedRig& framed_;
     const RigFeatures& rig_;
-    std::vector<vec3> centroids_;
+    std::vector<vec3> centroids_;  // of what hangs on a joint, with itself; nothing that is held
+    std::vector<float> sizes_;     // in joints, likewise
 };
 
 void readSkin(FramedRig& framed) {

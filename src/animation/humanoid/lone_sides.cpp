@@ -14,7 +14,10 @@ int nextOnSide(const FramedRig& framed, int joint, Part part) {
     for (const int child : rig.children[joint]) {
         const NameEvidence& name = rig.names[child];
         const bool otherPart = name.meaningful && name.parts[part] < kOtherPart;
-        if (framed.pairOf[child] >= 0 || otherPart || name.helper || rig.shadow[child] || !rig.carriesSkin(child))
+        // A rigid mesh on a joint that moves skin is held in the hand.
+        const bool held = rig.skinned && rig.rigidPart[child] && rig.directWeight[joint] > 0.0F && !name.meaningful;
+        if (framed.pairOf[child] >= 0 || otherPart || held || name.helper || rig.shadow[child] ||
+            !rig.carriesSkin(child))
             continue;
         const float score = rig.subtreeWeight[child] + kNameToSkin * name.parts[part] + 1e-6F;
         if (score <= bestScore) continue;

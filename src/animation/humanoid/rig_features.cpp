@@ -7,16 +7,42 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <map>
+#include <numeric>
 
 namespace lutka::animation {
 namespace {
 
 constexpr std::size_t kMaxVertices = 12000;
 
-void readWeights(const Skeleton& skeleton, RigFeatures& rig) {
+// What a rigid mesh counts for on a skinned figure, of the figure's own vertices: a sword of many is no half of it.
+constexpr float kMostOfRigidMesh = 0.25F;
+
+// Vertices of a mesh that count. Figures of rigid parts alone count whole.
+std::vector<std::size_t> countedVertices(const Character& character) {
+    std::size_t skinned = 0;
+    for (const SkinnedMesh& mesh : character.meshes)
+        skinned += mesh.rigid ? 0 : mesh.positions.size();
+    const auto most = static_cast<std::size_t>(kMostOfRigidMesh * static_cast<float>(skinned));
+    std::vector<std::size_t> counted;
+    for (const SkinnedMesh& mesh : character.meshes) {
+        const bool limited = mesh.rigid && skinned > 0;
+        counted.push_back(limited ? std::min(mesh.positions.size(), most) : mesh.positions.size());
+    }
+    return counted;
+}
+
+void readWeights(const Character& character, RigFeatures& rig) {
+    const Skeleton& skeleton = character.skeleton;
     const int count = rig.count();
     rig.ownWeight = skeleton.skinWeight;
-    rig.subtreeWeight = skeleton.skinWeight;
+    const std::vector<std::size_t> counted = countedVertices(character);
+    for (std::size_t i = 0; i < character.meshes.size(); ++i) {
+        const SkinnedMesh& mesh = character.meshes[i];
+        if (mesh.joints.empty() || counted[i] == mesh.positions.size()) continue;
+        float& weight = rig.ownWeight[mesh.joints[0][0]];
+        weight = std::max(weight - static_cast<float>(mesh.positions.size() - counted[i]), 0.0F);
+    }
+    rig.subtreeWeight = rig.ownWeight;
     float total = 0.0F;
     for (int joint = count - 1; joint >= 0; --joint) {
         total += rig.ownWeight[joint];
@@ -80,11 +106,13 @@ void placeParts(const Character& character, RigFeatures& rig) {
 }
 
 void readVertices(const Character& character, RigFeatures& rig) {
-    std::size_t total = 0;
-    for (const SkinnedMesh& mesh : character.meshes)
-        total += mesh.positions.size();
-    const std::size_t stride = total / kMaxVertices + 1;
-    for (const SkinnedMesh& mesh : character.meshes) {
+    const std::vector<std::size_t> counted = countedVertices(character);
+    const std::size_t total = std::accumulate(counted.begin(), counted.end(), std::size_t{0});
+    const std::size_t most = total / kMaxVertices + 1;
+    for (std::size_t part = 0; part < character.meshes.size(); ++part) {
+        const SkinnedMesh& mesh = character.meshes[part];
+        const std::size_t share = mesh.positions.size() / std::max<std::size_t>(counted[part], 1);
+        const std::size_t stride = most * std::max<std::size_t>(share, 1);
         for (std::size_t place = 0; place < mesh.positions.size(); place += stride) {
             const std::size_t i = mesh.fileOrder.empty() ? place : mesh.fileOrder[place];
             if (i < mesh.joints.size() && mesh.joints[i][0] < rig.positions.size()) {
@@ -285,7 +313,7 @@ RigFeatures readRig(const Character& character, bool useNames) {
     for (const RigidTransform& frame : skeleton.bindModelFromJoint)
         rig.positions.push_back(frame.translation);
     walkTree(rig);
-    readWeights(skeleton, rig);
+    readWeights(character, rig);
     readRigidParts(character, rig);
     placeParts(character, rig);
     readVertices(character, rig);

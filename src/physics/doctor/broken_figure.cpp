@@ -132,12 +132,16 @@ void findSkinElsewhere(const BodyPlan& plan, std::span<const PlacedShape> shapes
     }
 }
 
-// By the weights: the fit itself parts the skin of a trunk among its bodies by height.
+// By the weights: the fit itself parts the skin of a trunk among its bodies by height. A dense sword in the hand of a
+// figure with a skin is no skin.
 void findSkinOnOneJoint(const animation::Character& character, const BodyPlan& plan, std::vector<Finding>& findings) {
     if (plan.bodies.size() < kManyBodies) return;
     std::vector<double> weights(character.skeleton.names.size(), 0.0);
     double total = 0.0;
+    const bool skinned = std::any_of(character.meshes.begin(), character.meshes.end(),
+                                     [](const animation::SkinnedMesh& mesh) { return !mesh.rigid; });
     for (const animation::SkinnedMesh& mesh : character.meshes) {
+        if (skinned && mesh.rigid) continue;
         for (std::size_t v = 0; v < mesh.weights.size(); ++v) {
             for (std::size_t i = 0; i < mesh.weights[v].size(); ++i) {
                 weights[mesh.joints[v][i]] += mesh.weights[v][i];

@@ -23,7 +23,69 @@ int jointPlaying(const SyntheticRig& rig, Role role) {
     return animation::findJoint(rig.character.skeleton, rig.truth.roles[indexOf(role)]->front());
 }
 
+// A rigid sword in the hand: a hilt of few vertices, and on it a blade of many, whose joint lies away from the hand.
+void giveSword(animation::Character& figure, int hand) {
+    const vec3 grip = figure.skeleton.bindModelFromJoint[hand].translation;
+    int parent = hand;
+    for (const bool blade : {false, true}) {
+        const vec3 place = grip + (blade ? vec3(0.65F, 0.05F, 0.75F) : vec3(0, -0.05F, 0.12F));
+        const auto node = static_cast<std::uint16_t>(figure.skeleton.jointCount());
+        animation::SkinnedMesh part;
+        part.rigid = true;
+        for (int i = 0; i < (blade ? 5000 : 24); ++i)
+            part.positions.push_back(place + 0.1F * vec3(i % 2, i / 2 % 2, i / 4 % 2));
+        part.joints.assign(part.positions.size(), {node, 0, 0, 0});
+        part.weights.assign(part.positions.size(), {1, 0, 0, 0});
+        part.indices = {0, 1, 2};
+        figure.skeleton.names.push_back("part_" + std::to_string(node));
+        figure.skeleton.parents.push_back(parent);
+        figure.skeleton.bindModelFromJoint.push_back({quat(1, 0, 0, 0), place});
+        figure.skeleton.nodeParentFromJoint.emplace_back();
+        figure.skeleton.skinWeight.push_back(static_cast<float>(part.positions.size()));
+        figure.meshes.push_back(std::move(part));
+        parent = node;
+    }
+}
+
 }  // namespace
+
+TEST_CASE("a dense sword in a hand is no half of a figure of few corners, and goes on with no arm", "[blocks]") {
+    // A figure of blocks without names, each arm of one joint.
+    const auto figureWithSword = [](int hand) {
+        std::vector<JointSpec> joints{
+            {"b0", animation::kNoJoint, vec3(0, 0.8F, 0)}, {"b1", 0, vec3(0, 1.0F, 0)}, {"b2", 1, vec3(0, 1.4F, 0)}};
+        std::vector<TubeSpec> tubes{
+            {0, vec3(0, 1.0F, 0), 0.15F}, {1, vec3(0, 1.4F, 0), 0.2F}, {2, vec3(0, 1.75F, 0), 0.2F}};
+        for (const float side : {1.0F, -1.0F}) {
+            const auto add = [&](int parent, const vec3& place, const vec3& end, float radius) {
+                joints.push_back({"b" + std::to_string(joints.size()), parent, vec3(side, 1, 1) * place});
+                tubes.push_back({static_cast<int>(joints.size()) - 1, vec3(side, 1, 1) * end, radius});
+                return static_cast<int>(joints.size()) - 1;
+            };
+            const int clavicle = add(1, vec3(0, 1.4F, 0), vec3(0.2F, 1.2F, 0), 0.1F);
+            add(clavicle, vec3(0.2F, 1.2F, 0), vec3(0.75F, 1.2F, 0), 0.08F);
+            add(add(0, vec3(0.12F, 0.8F, 0), vec3(0.12F, 0.4F, 0), 0.08F), vec3(0.12F, 0.4F, 0), vec3(0.12F, 0, 0),
+                0.08F);
+        }
+        animation::Character figure = makeFigure("blocks", joints, tubes);
+        if (hand >= 0) giveSword(figure, hand);
+        return figure;
+    };
+    const HumanoidMap plain = animation::mapHumanoid(figureWithSword(-1));
+    REQUIRE(plain.humanoid);
+    for (const Role arm : {Role::leftUpperArm, Role::rightUpperArm}) {
+        INFO(animation::roleName(arm));
+        const HumanoidMap map = animation::mapHumanoid(figureWithSword(plain.jointOf(arm)));
+        REQUIRE(map.humanoid);
+        CHECK(map.jointOf(Role::leftLowerArm) == animation::kNoJoint);
+        CHECK(map.jointOf(Role::rightLowerArm) == animation::kNoJoint);
+        for (int index = 0; index < animation::kRoleCount; ++index) {
+            const auto role = static_cast<Role>(index);
+            INFO(animation::roleName(role));
+            if (plain.jointOf(role) != animation::kNoJoint) CHECK(map.jointOf(role) == plain.jointOf(role));
+        }
+    }
+}
 
 TEST_CASE("rigid parts whose nodes lie on the other side do not draw their limbs there", "[poses]") {
     // As a modelling program leaves them that mirrored the parts of one half.

@@ -312,6 +312,21 @@ TEST_CASE("the doctor certifies no figure whose skin hangs on one joint") {
     checkBroken(patient.look(), "skin-on-one-joint", "hips");
 }
 
+TEST_CASE("a dense sword in a hand is no skin on one joint") {
+    Patient patient;
+    animation::SkinnedMesh sword = patient.character.meshes[0];
+    sword.rigid = true;
+    const auto hand = static_cast<std::uint16_t>(findJoint(patient.character.skeleton, "rightHand"));
+    const vec3 grip = patient.character.skeleton.bindModelFromJoint[hand].translation;
+    sword.positions.assign(40 * sword.positions.size(), grip);
+    sword.normals.assign(sword.positions.size(), vec3(0, 1, 0));
+    sword.uvs.assign(sword.positions.size(), vec2(0));
+    sword.joints.assign(sword.positions.size(), {hand, 0, 0, 0});
+    sword.weights.assign(sword.positions.size(), {1, 0, 0, 0});
+    patient.character.meshes.push_back(std::move(sword));
+    CHECK(find(patient.look(), "skin-on-one-joint") == nullptr);
+}
+
 TEST_CASE("the doctor certifies no figure whose skin hangs on joints of other limbs") {
     Patient patient;
     const int count = patient.character.skeleton.jointCount();
