@@ -256,7 +256,7 @@ Result<AnatomicalRig> makeAnatomicalRig(const Character& character, const Humano
     rig.joint = ends.joint;
     for (const RigidTransform& bind : rig.skeleton->bindModelFromJoint)
         rig.standardBind.push_back({rig.standardFromModel * bind.rotation, rig.standardFromModel * bind.translation});
-    rig.floor = floorOf(character, map);
+    rig.floor = ends.ankleHeight ? rig.bindOf(Role::leftFoot).y - *ends.ankleHeight : floorOf(character, map);
     rig.legLength = legLengthOf(rig);
     if (!(rig.legLength > kNoLength)) return refuse("has legs without length", "check its bind pose");
     setAllAxes(rig);

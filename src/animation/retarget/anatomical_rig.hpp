@@ -54,7 +54,7 @@ struct AnatomicalRig {
     std::vector<TrunkJoint> trunk;                                              ///< Begins with the hips.
     std::array<Foot, 2> feet;                                                   ///< Left, right.
     std::array<std::array<std::vector<FingerJoint>, kFingerCount>, 2> fingers;  ///< Left, right.
-    float floor = 0.0F;                        ///< Standard height of the soles in the bind pose.
+    float floor = 0.0F;                        ///< Standard height of the soles in the bind pose, its own or added.
     float legLength = 0.0F;                    ///< From the hip joint over the knee to the ankle, mean of both, metres.
     std::vector<RigidTransform> standardBind;  ///< Standard from joint in the bind pose, one a joint.
 
@@ -67,6 +67,8 @@ struct AnatomicalRig {
     [[nodiscard]] bool hasStiffLegs() const {
         return std::any_of(stiffLimbs.begin(), stiffLimbs.end(), [](const StiffLimb& limb) { return limb.leg; });
     }
+    /// Whether the figure has legs of its own.
+    [[nodiscard]] bool hasLegs() const { return !isAdded(Role::leftUpperLeg); }
     /// Of the ankles over the soles, mean of both.
     [[nodiscard]] float ankleHeight() const { return (feet[0].ankleHeight + feet[1].ankleHeight) * 0.5F; }
     /// The neck, or the head of a figure without one.

@@ -27,6 +27,12 @@ constexpr float kAnkleOfLeg = (0.245F + 0.246F) / (0.245F + 0.246F + 0.039F);
 // The chin above the shoulders, of the way up to them from the hips (ibid.: 0.870, 0.818 and 0.530 of the height).
 constexpr float kHeadOfTrunk = (0.870F - 0.818F) / (0.818F - 0.530F);
 
+// Of the way from the hips up to the shoulders (ibid.).
+constexpr float kThighOfTrunk = 0.245F / (0.818F - 0.530F);
+constexpr float kShinOfTrunk = 0.246F / (0.818F - 0.530F);
+constexpr float kAnkleHeightOfTrunk = 0.039F / (0.818F - 0.530F);
+constexpr float kHipsOfShoulders = 0.5F;  // ours: how far apart the hip joints are, against the shoulders
+
 // What a joint with all below it has of the figure: points of the skin that it moves most, else the joints below.
 std::vector<vec3> pointsOf(const Character& character, int joint) {
     std::vector<vec3> points;
@@ -74,6 +80,7 @@ class LimbCompleter {
         for (const LimbRoles& limb : kWholeLimbs)
             addTo(limb);
         if (map_.jointOf(Role::head) == kNoJoint) addHead();
+        addLegs();
         out_.skeleton = longer_ ? std::move(longer_)
                                 : std::shared_ptr<const Skeleton>(std::shared_ptr<void>(), &character_.skeleton);
         return std::move(out_);
@@ -95,6 +102,34 @@ class LimbCompleter {
         if (top == kNoJoint || hips == kNoJoint || left == kNoJoint || right == kNoJoint) return;
         const vec3 shoulders = 0.5F * (placeOf(left) + placeOf(right));
         add(Role::head, top, shoulders + kHeadOfTrunk * (shoulders - placeOf(hips)));
+    }
+
+    // Straight down from the hips, to where a human's would reach.
+    void addLegs() {
+        const int left = map_.jointOf(Role::leftUpperArm);
+        const int right = map_.jointOf(Role::rightUpperArm);
+        const int hips = map_.jointOf(Role::hips);
+        for (const LimbRoles& limb : kWholeLimbs) {
+            if (!limb.leg) continue;
+            const std::array roles{limb.upper, limb.lower, limb.end};
+            if (std::any_of(roles.begin(), roles.end(), [&](Role role) { return map_.jointOf(role) != kNoJoint; }))
+                return;
+        }
+        if (hips == kNoJoint || left == kNoJoint || right == kNoJoint) return;
+        const vec3 shoulders = 0.5F * (placeOf(left) + placeOf(right));
+        const float trunk = glm::distance(shoulders, placeOf(hips));
+        if (!(trunk > 0.0F)) return;
+        const quat modelFromStandard = glm::conjugate(map_.standardFromModel);
+        const vec3 down = modelFromStandard * vec3(0, -trunk, 0);
+        for (const LimbRoles& limb : kWholeLimbs) {
+            if (!limb.leg) continue;
+            const vec3& arm = placeOf(sideOf(limb.upper) == Side::left ? left : right);
+            const float aside = (map_.standardFromModel * (arm - shoulders)).x;
+            const vec3 hip = placeOf(hips) + modelFromStandard * vec3(kHipsOfShoulders * aside, 0, 0);
+            const vec3 knee = hip + kThighOfTrunk * down;
+            add(limb.end, add(limb.lower, add(limb.upper, hips, hip), knee), knee + kShinOfTrunk * down);
+        }
+        out_.ankleHeight = kAnkleHeightOfTrunk * trunk;
     }
 
     void addTo(const LimbRoles& limb) {

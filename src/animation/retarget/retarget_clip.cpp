@@ -63,8 +63,10 @@ class Crossing {
         out.clip.framesPerSecond = clip_.framesPerSecond;
         out.clip.frameCount = clip_.frameCount;
         std::vector<FootShift> shifts(static_cast<std::size_t>(clip_.frameCount));
-        // Legs without knees reach the floor at one place only, which pose() has put them to.
-        if (keep && !retargeter_.target().hasStiffLegs())
+        // Legs without knees reach the floor at one place only, which pose() has put them to; and who has none, stands
+        // on none.
+        const bool haveLegs = retargeter_.source().hasLegs() && retargeter_.target().hasLegs();
+        if (keep && haveLegs && !retargeter_.target().hasStiffLegs())
             shifts = keepFeet(retargeter_.target(), motion_, contacts_, clip_.framesPerSecond);
         for (std::size_t frame = 0; frame < turns_.size(); ++frame)
             shifts[frame].hipsTurn = turns_[frame];

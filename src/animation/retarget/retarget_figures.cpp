@@ -82,6 +82,11 @@ void RetargetMeter::addDirections() {
         });
     };
     for (const Role role : kLimbs) {
+        const bool ofLeg = isEitherSide(role, Role::leftUpperLeg) || isEitherSide(role, Role::leftLowerLeg);
+        if (ofLeg && !(from.hasLegs() && to.hasLegs())) {
+            ++part;
+            continue;
+        }
         Role end = *endOfBone(role);
         // Of a limb without a middle the whole way is compared, once.
         if (isStiff(role)) {
@@ -155,8 +160,10 @@ void RetargetMeter::addFeet(const AnatomicalRig& rig, std::span<const RigidTrans
 void RetargetMeter::add() {
     constexpr float kCm = 100.0F;
     addDirections();
-    addFeet(retargeter_.source(), retargeter_.sourcePose(), sourceFloor_, retargeter_.scale() * kCm, source_);
-    addFeet(retargeter_.target(), retargeter_.targetPose(), retargeter_.target().floor, kCm, target_);
+    if (retargeter_.source().hasLegs() && retargeter_.target().hasLegs()) {
+        addFeet(retargeter_.source(), retargeter_.sourcePose(), sourceFloor_, retargeter_.scale() * kCm, source_);
+        addFeet(retargeter_.target(), retargeter_.targetPose(), retargeter_.target().floor, kCm, target_);
+    }
     ++frame_;
 }
 

@@ -151,8 +151,16 @@ TEST_CASE("what can't be added is told by its role") {
         humanoid.map.missing = {Role::head};
         CHECK_THAT(refusal(), Catch::Contains("head"));
     }
-    SECTION("a whole leg") {
-        takeAway(humanoid.map, {Role::leftUpperLeg, Role::leftLowerLeg, Role::leftFoot});
+    SECTION("one whole leg") {
+        for (const Role role : {Role::leftUpperLeg, Role::leftLowerLeg, Role::leftFoot}) {
+            humanoid.map.roles[indexOf(role)].reset();
+            humanoid.map.missing.push_back(role);
+        }
+        CHECK_THAT(refusal(), Catch::Contains("leftUpperLeg"));
+    }
+    SECTION("legs without arms") {
+        takeAway(humanoid.map, {Role::leftUpperLeg, Role::leftLowerLeg, Role::leftFoot, Role::leftUpperArm,
+                                Role::leftLowerArm, Role::leftHand});
         CHECK_THAT(refusal(), Catch::Contains("UpperLeg"));
     }
 }
@@ -199,4 +207,51 @@ TEST_CASE("a figure without an arm walks, and its clips play on a whole one") {
         CHECK(std::none_of(made.directions.begin(), made.directions.end(),
                            [](const auto& part) { return part.part == "leftUpperArm"; }));
     }
+}
+
+TEST_CASE("a ghost without legs goes along as if it had them, and whole figures stand to its clips") {
+    const test::TestHumanoid whole = test::makeHumanoid({});
+    test::TestHumanoid ghost = test::makeHumanoid(
+        {.modelFromStandard = glm::angleAxis(kPi * 0.5F, vec3(1, 0, 0)), .scale = 0.5F, .axesSeed = 3});
+    const Clip walkOfWhole = test::makeWalk(whole);
+    const Clip walkOfGhost = test::makeWalk(ghost);  // which asks for all limbs
+    takeAway(ghost.map, {Role::leftUpperLeg, Role::leftLowerLeg, Role::leftFoot, Role::leftToes});
+    const auto rig = makeAnatomicalRig(ghost.character, ghost.map);
+    REQUIRE(rig);
+    CHECK_FALSE(rig.value().hasLegs());
+    // A human's leg for this trunk, nearly the one that was taken away.
+    CHECK(rig.value().legLength > 0.5F * 0.5F);
+    CHECK(rig.value().legLength < 0.5F * 1.1F);
+    CHECK(rig.value().bindOf(Role::leftFoot).x > 0.02F);
+
+    const auto retargeted = [](const test::TestHumanoid& from, const Clip& walk, const test::TestHumanoid& to,
+                               auto look) {
+        auto retargeter = Retargeter::make(from.character, from.map, to.character, to.map);
+        REQUIRE(retargeter);
+        const auto made = retargetClip(retargeter.value(), walk);
+        REQUIRE(made);
+        CHECK(made.value().figures.meanLimbDeg() < 1.0);
+        CHECK(made.value().figures.contacts == 0);
+        for (const auto& part : made.value().figures.directions)
+            CHECK(part.part.find("Leg") == std::string::npos);
+        look(retargeter.value());
+    };
+    // Its hips are as high over where its soles would be as the whole figure's are over its own.
+    retargeted(whole, walkOfWhole, ghost, [](const Retargeter& made) {
+        const auto heightOfHips = [](const AnatomicalRig& of, std::span<const RigidTransform> pose) {
+            const vec3 middle = 0.5F * (pose[of.jointOf(Role::leftUpperLeg)].translation +
+                                        pose[of.jointOf(Role::rightUpperLeg)].translation);
+            return (middle.y - of.floor - of.ankleHeight()) / of.legLength;
+        };
+        CHECK(heightOfHips(made.target(), made.targetPose()) ==
+              Approx(heightOfHips(made.source(), made.sourcePose())).margin(0.02));
+    });
+    // Legs that nothing moves hang straight, with the feet at the floor.
+    retargeted(ghost, walkOfGhost, whole, [](const Retargeter& made) {
+        const AnatomicalRig& to = made.target();
+        const auto at = [&](Role role) { return made.targetPose()[to.jointOf(role)].translation; };
+        const vec3 thigh = at(Role::leftLowerLeg) - at(Role::leftUpperLeg);
+        CHECK(degreesBetween(thigh, at(Role::leftFoot) - at(Role::leftLowerLeg)) < 2.0F);
+        CHECK(lowestFoot(to, made.targetPose()) == Approx(to.floor + to.ankleHeight()).margin(0.1F * to.legLength));
+    });
 }
