@@ -127,6 +127,30 @@ double plainness(std::span<const int> parents, std::span<const dmat4> scene, int
     return (hips[up] - low) / longest + straight / std::max(tips, 1.0);
 }
 
+double stretch(std::span<const int> parents, std::span<const dmat4> scene) {
+    constexpr double kLong = 0.6;  // of the longest way: from a head to an ankle, though toes and hands are farther
+    const std::size_t fork = firstFork(parents);
+    std::vector<double> way(scene.size(), 0.0);  // from the fork
+    std::size_t end = fork + 1;
+    double longest = 0.0;
+    double second = 0.0;
+    for (; end < scene.size() && parents[end] >= static_cast<int>(fork); ++end) {
+        const auto parent = static_cast<std::size_t>(parents[end]);
+        way[end] = way[parent] + glm::distance(dvec3(scene[end][3]), dvec3(scene[parent][3]));
+        second = std::max(second, std::min(longest, way[end]));
+        longest = std::max(longest, way[end]);
+    }
+    double most = 0.0;
+    for (std::size_t a = fork + 1; a < end; ++a) {
+        for (std::size_t b = fork + 1; b < a; ++b) {
+            const double both = way[a] + way[b];
+            if (!(both > kLong * (longest + second))) continue;
+            most = std::max(most, glm::distance(dvec3(scene[a][3]), dvec3(scene[b][3])) / both);
+        }
+    }
+    return most;
+}
+
 void poseBareSkeleton(SourceScene& scene) {
     if (!isBare(scene) || scene.clips.empty() || scene.nodes.size() < kFewestNodes) return;
     std::vector<int> parents;

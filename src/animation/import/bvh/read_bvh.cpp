@@ -28,6 +28,9 @@ constexpr double kOnFloor = 0.15;
 constexpr double kOffFloor = 0.35;
 constexpr std::size_t kFramesLookedAt = 40;
 constexpr std::size_t kFramesToChooseFrom = 300;
+// stretch() of a zero pose that is taken, and of a frame that is in place of one that is bent more.
+constexpr double kStraightEnough = 0.8;
+constexpr double kStraight = 0.85;
 
 std::vector<int> parentsOf(const BvhDocument& document) {
     std::vector<int> parents;
@@ -84,29 +87,32 @@ std::vector<dmat4> restPose(const BvhDocument& document, std::vector<std::string
     std::vector<dmat4> zero = zeroPose(document);
     const std::vector<int> parents = parentsOf(document);
     const std::size_t frames = document.frameCount();
-    if (frames == 0 || parents.size() < 4 || spreadsOut(parents, sceneFromNodes(parents, zero))) return zero;
+    if (frames == 0 || parents.size() < 4) return zero;
+    const std::vector<dmat4> zeroInScene = sceneFromNodes(parents, zero);
+    const bool isFigure = spreadsOut(parents, zeroInScene);
+    if (isFigure && stretch(parents, zeroInScene) >= kStraightEnough) return zero;
     const int up = upAxisOf(document);
     const std::size_t step = std::max<std::size_t>(1, frames / kFramesToChooseFrom);
     std::optional<std::size_t> chosen;
     double best = 0.0;
     for (std::size_t frame = 0; frame < frames; frame += step) {
         const std::vector<dmat4> scene = sceneFromNodes(parents, poseAt(document, frame));
-        if (!spreadsOut(parents, scene)) continue;
+        if (!spreadsOut(parents, scene) || (isFigure && stretch(parents, scene) < kStraight)) continue;
         const double score = plainness(parents, scene, up);
         // The earliest of those that are about as good: many captures begin with a pose for the purpose.
         if (chosen && score < kClearlyPlainer * best) continue;
         chosen = frame;
         best = score;
     }
+    if (!chosen && isFigure) return zero;  // an animal, or one who sits
     if (!chosen) {
         warnings.emplace_back(
             "the file's zero pose is no figure (its bones all point along one axis), nor is any frame");
         return zero;
     }
     warnings.push_back(
-        fmt::format("the file's zero pose is no figure (its bones all point along one axis); frame {} of "
-                    "the motion is taken in its place",
-                    *chosen));
+        fmt::format("the file's zero pose is no figure ({}); frame {} of the motion is taken in its place",
+                    isFigure ? "it is bent over" : "its bones all point along one axis", *chosen));
     return poseAt(document, *chosen);
 }
 

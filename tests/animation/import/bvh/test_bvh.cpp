@@ -100,6 +100,55 @@ TEST_CASE("a BVH zero pose along one axis gives way to the frame that shows the 
     CHECK(glm::distance(dvec3(at[6][3]), dvec3(-60, 90, 0)) < 1e-4);  // the right arm's
 }
 
+TEST_CASE("a BVH zero pose that is bent over gives way to a frame that stands, an animal's does not") {
+    // Trunk and arms point ahead in the zero pose; the motion lifts the chest by as much as is said.
+    const auto figure = [](double lifted) {
+        std::ostringstream out;
+        const auto open = [&](const char* name, const char* offset) {
+            out << "JOINT " << name << "\n{\nOFFSET " << offset << "\nCHANNELS 3 Zrotation Xrotation Yrotation\n";
+        };
+        const auto close = [&](const char* end) { out << "End Site\n{\nOFFSET " << end << "\n}\n}\n"; };
+        out << "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation "
+               "Yrotation\n";
+        open("Spine", "0 10 0");
+        open("Neck", "45 5 0");
+        close("20 0 0");
+        open("LeftArm", "40 0 -18");
+        open("LeftForeArm", "0 0 -28");
+        close("0 0 -40");
+        out << "}\n";
+        open("RightArm", "40 0 18");
+        open("RightForeArm", "0 0 28");
+        close("0 0 40");
+        out << "}\n}\n";
+        for (const char* side : {"10", "-10"}) {
+            open(side[0] == '-' ? "LeftUpLeg" : "RightUpLeg", (std::string("0 -5 ") + side).c_str());
+            open(side[0] == '-' ? "LeftLeg" : "RightLeg", "0 -42 0");
+            close("0 -42 0");
+            out << "}\n";
+        }
+        out << "}\nMOTION\nFrames: 2\nFrame Time: 0.03\n";
+        for (const double angle : {0.0, lifted}) {
+            out << "0 90 0 0 0 0 " << angle;
+            for (int channel = 7; channel < 36; ++channel)
+                out << " 0";
+            out << "\n";
+        }
+        return out.str();
+    };
+    const auto headOf = [](const SourceScene& scene) {
+        return scene.nodes[0].parentFromNode * scene.nodes[1].parentFromNode * scene.nodes[2].parentFromNode[3];
+    };
+    const Result<SourceScene> upright = readText(figure(85.0));
+    REQUIRE(upright);
+    CHECK(warns(upright.value(), "bent over"));
+    CHECK(warns(upright.value(), "frame 1"));
+    CHECK(headOf(upright.value()).y - upright.value().nodes[0].parentFromNode[3].y > 50.0);
+    const Result<SourceScene> animal = readText(figure(10.0));
+    REQUIRE(animal);
+    CHECK_FALSE(warns(animal.value(), "zero pose"));
+}
+
 TEST_CASE("a joint without a name gets one, so that it has a path") {
     const TemporaryFolder folder;
     std::ofstream(folder / "nameless.bvh")
