@@ -14,6 +14,7 @@ constexpr float kUnionClearly = 0.65F;  // of the distance that one capsule leav
 constexpr float kThirdClearly = 0.8F;   // of the distance that two leave
 constexpr float kShareWon = 0.1F;       // of the skin
 constexpr float kWellCovered = 0.97F;   // of the skin: nothing to win
+constexpr float kVolumeLost = 0.02F;    // of what the skin encloses, at most
 constexpr int kAlongX = 0;
 constexpr int kAlongY = 1;
 
@@ -63,6 +64,30 @@ class UnionSearch {
     template <class Shape>
     [[nodiscard]] float shareNear(const Shape& shape) const {
         return sample_.shareWithin(bounds_.nearM, [&](const vec3& point) { return distanceFrom(shape, point); });
+    }
+
+    // Of what lies between the skin and the upright through its middle: capsules that cling to the skin may leave the
+    // body hollow.
+    template <class Shape>
+    [[nodiscard]] float shareInside(const Shape& shape) const {
+        constexpr std::array kWays{0.2F, 0.4F, 0.6F, 0.8F};  // from the upright; a way's share grows with it
+        vec3 middle(0);
+        float area = 0.0F;
+        for (const SkinPoint& point : sample_.points()) {
+            middle += point.area * point.position;
+            area += point.area;
+        }
+        middle /= std::max(area, 1e-12F);
+        float inside = 0.0F;
+        float whole = 0.0F;
+        for (const SkinPoint& point : sample_.points()) {
+            const vec3 within(middle.x, point.position.y, middle.z);
+            for (const float way : kWays) {
+                whole += point.area * way;
+                if (distanceFrom(shape, glm::mix(within, point.position, way)) <= 0.0F) inside += point.area * way;
+            }
+        }
+        return whole > 0.0F ? inside / whole : 0.0F;
     }
 
     // The one along an axis that fills the skin's box.
@@ -185,12 +210,14 @@ std::optional<std::vector<Capsule>> fitSeveralCapsules(const std::vector<SkinPoi
     const Capsule alone{axesFromStandard * single.start, axesFromStandard * single.end, single.radius};
     const float near = search.shareNear(alone);
     if (near + kShareWon > kWellCovered) return std::nullopt;
+    const float inside = search.shareInside(alone);
     float limit = kUnionClearly * search.cost(alone);  // what a union may cost at most
     float least = limit;                               // the best one's cost
     Members best;
     const auto consider = [&](Members members) {
         const float cost = search.cost(members);
         if (cost > std::min(limit, least) || search.shareNear(members) < near + kShareWon) return;
+        if (search.shareInside(members) < inside - kVolumeLost) return;
         best = std::move(members);
         least = cost;
     };

@@ -20,9 +20,9 @@ struct CapsuleBounds {
 };
 
 /// Two or three capsules in place of `single` where their union lies clearly nearer to the skin: its mean distance is
-/// at most 0.65 of the single one's, and the share of the skin within `nearM` a tenth of all the skin more. A third
-/// must do as much as to leave 0.8 of the distance of two. The first is the largest, or the one between a pair. At most
-/// `most` of them, 2 or 3.
+/// at most 0.65 of the single one's, the share of the skin within `nearM` a tenth of all the skin more, and they hold
+/// no less of what the skin encloses, but for 2 %. A third must do as much as to leave 0.8 of the distance of two. The
+/// first is the largest, or the one between a pair. At most `most` of them, 2 or 3.
 ///
 /// A coordinate search over centres, half lengths and radii of all together, from one that stands or lies across and
 /// others where it leaves skin uncovered.

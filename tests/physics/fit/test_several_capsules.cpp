@@ -87,6 +87,51 @@ TEST_CASE("shoulders beside a chest are a pair of mirror images, the middle one 
     CHECK((!two || two->size() == 2));
 }
 
+TEST_CASE("capsules that cling to the skin may not leave a body hollow") {
+    // Skirts: cones of an oval cut, open at both ends.
+    int several = 0;
+    for (const float height : {0.2F, 0.3F, 0.45F}) {
+        for (const float hem : {0.2F, 0.3F, 0.4F}) {
+            for (const float depth : {0.5F, 0.75F, 1.0F}) {
+                constexpr float kWaist = 0.13F;
+                std::vector<SkinPoint> skin;
+                std::vector<vec3> inside;
+                for (int ring = 0; ring <= 16; ++ring) {
+                    const float down = static_cast<float>(ring) / 16.0F;
+                    const float radius = kWaist + (hem - kWaist) * down;
+                    for (int step = 0; step < 32; ++step) {
+                        const float turn = 2.0F * kPi * static_cast<float>(step) / 32.0F;
+                        const vec3 way(std::cos(turn), 0, depth * std::sin(turn));
+                        const vec3 middle(0, (0.5F - down) * height, 0);
+                        skin.push_back({middle + radius * way, radius});
+                        for (const float share : {0.1F, 0.3F, 0.5F, 0.7F, 0.9F})
+                            inside.push_back(middle + radius * std::sqrt(share) * way);
+                    }
+                }
+                const float radius = 0.5F * (kWaist + hem);
+                const vec3 end(0, std::max(0.5F * height - radius, 0.0F), 0);
+                const Capsule single{-end, end, radius};
+                const auto covered = [&](const std::vector<Capsule>& capsules) {
+                    const auto count = std::count_if(inside.begin(), inside.end(), [&](const vec3& point) {
+                        return std::any_of(capsules.begin(), capsules.end(), [&](const Capsule& capsule) {
+                            return distanceFrom(capsule, point) <= 0.0F;
+                        });
+                    });
+                    return static_cast<float>(count) / static_cast<float>(inside.size());
+                };
+                for (const bool symmetric : {false, true}) {
+                    const auto found = fitSeveralCapsules(skin, single, boundsOf(symmetric), 3);
+                    if (!found) continue;
+                    ++several;
+                    INFO(height << " high, hem " << hem << " by " << depth * hem);
+                    CHECK(covered(*found) > covered({single}) - 0.1F);
+                }
+            }
+        }
+    }
+    CHECK(several > 0);
+}
+
 TEST_CASE("skin that one capsule covers keeps it") {
     const Capsule chest{{0, 0, 0}, {0, 0.5F, 0}, 0.16F};
     const auto skin = skinOf({chest});
