@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "animation/humanoid/limb_evidence.hpp"
+#include "animation/humanoid/name_lexicon.hpp"
 
 namespace lutka::animation {
 namespace {
@@ -46,6 +47,14 @@ class LimbFinder {
     }
 
   private:
+    // "forearm" below "forearm", or "forearm_seg", which says no more.
+    [[nodiscard]] static bool isSecondSegment(const NameEvidence& above, const NameEvidence& name) {
+        if (!name.meaningful || name.side != above.side || name.words.size() < above.words.size()) return false;
+        if (!std::equal(above.words.begin(), above.words.end(), name.words.begin())) return false;
+        return std::none_of(name.words.begin() + static_cast<std::ptrdiff_t>(above.words.size()), name.words.end(),
+                            [](const std::string& word) { return conceptOf(word).has_value(); });
+    }
+
     [[nodiscard]] const JointPair& at(int pair) const { return framed_.pairs[pair]; }
 
     [[nodiscard]] float skinTerm(int pair) const {
@@ -61,8 +70,7 @@ class LimbFinder {
         const int joint = at(pair).joints[0];
         const int parent = rig.parents[joint];
         const NameEvidence& name = rig.names[joint];
-        const bool second = parent != kNoJoint && name.meaningful && !name.bareLimb &&
-                            name.words == rig.names[parent].words && name.side == rig.names[parent].side;
+        const bool second = parent != kNoJoint && !name.bareLimb && isSecondSegment(rig.names[parent], name);
         return at(pair).names[parts_[slot]] + (second ? kSecondSegment : 0.0F);
     }
 

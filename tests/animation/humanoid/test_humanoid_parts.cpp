@@ -234,6 +234,50 @@ TEST_CASE("a forearm that hangs on the other arm is still that forearm, and noth
     }
 }
 
+TEST_CASE("forearms and shins of two segments begin at the elbow and the knee, whatever the second is called",
+          "[poses]") {
+    for (const char* second : {"_seg", "_b", "2", "_extra_01"}) {
+        for (const float bend : {0.0F, 0.05F, 0.1F}) {
+            INFO(second << " bent by " << bend);
+            std::vector<JointSpec> joints{{"pelvis", animation::kNoJoint, vec3(0, 0.9F, 0)},
+                                          {"spine", 0, vec3(0, 1.1F, 0)},
+                                          {"chest", 1, vec3(0, 1.25F, 0)},
+                                          {"head", 2, vec3(0, 1.5F, 0)}};
+            std::vector<TubeSpec> tubes{{0, vec3(0, 1.1F, 0), 0.15F},
+                                        {1, vec3(0, 1.25F, 0), 0.15F},
+                                        {2, vec3(0, 1.45F, 0), 0.16F},
+                                        {3, vec3(0, 1.75F, 0), 0.1F}};
+            for (const float side : {1.0F, -1.0F}) {
+                const std::string end = side > 0.0F ? "_l" : "_r";
+                const auto add = [&](const std::string& name, int parent, const vec3& place, const vec3& to) {
+                    joints.push_back({name, parent, vec3(side, 1, 1) * place});
+                    tubes.push_back({static_cast<int>(joints.size()) - 1, vec3(side, 1, 1) * to, 0.05F});
+                    return static_cast<int>(joints.size()) - 1;
+                };
+                const vec3 wrist(0.77F, 1.4F - bend, 0);
+                const vec3 ankle(0.1F, 0.08F, -bend);
+                const int arm = add("upperarm" + end, 2, vec3(0.2F, 1.4F, 0), vec3(0.48F, 1.4F, 0));
+                const int forearm = add("lowerarm" + end, arm, vec3(0.48F, 1.4F, 0), vec3(0.62F, 1.4F, 0));
+                const int far = add("lowerarm" + end + second, forearm, vec3(0.62F, 1.4F, 0), wrist);
+                add("hand" + end, far, wrist, wrist + vec3(0.15F, -bend, 0));
+                const int thigh = add("thigh" + end, 0, vec3(0.1F, 0.88F, 0), vec3(0.1F, 0.48F, 0));
+                const int shin = add("calf" + end, thigh, vec3(0.1F, 0.48F, 0), vec3(0.1F, 0.28F, 0));
+                const int low = add("calf" + end + second, shin, vec3(0.1F, 0.28F, 0), ankle);
+                add("foot" + end, low, ankle, ankle + vec3(0, -0.06F, 0.16F));
+            }
+            const animation::Character figure = makeFigure("segments", joints, tubes);
+            const HumanoidMap map = animation::mapHumanoid(figure);
+            REQUIRE(map.humanoid);
+            CHECK(map.missing.empty());
+            const auto nameOfRole = [&](Role role) { return figure.skeleton.names[map.jointOf(role)]; };
+            CHECK(nameOfRole(Role::leftLowerArm) == "lowerarm_l");
+            CHECK(nameOfRole(Role::rightHand) == "hand_r");
+            CHECK(nameOfRole(Role::rightLowerLeg) == "calf_r");
+            CHECK(nameOfRole(Role::leftFoot) == "foot_l");
+        }
+    }
+}
+
 TEST_CASE("a head that starts where the clavicles do is no end marker of theirs", "[blocks]") {
     // A squat creature of few joints: clavicles and head all start in one point at the top of the spine.
     std::vector<JointSpec> joints{{"Armature", -1, {0, 0, 0}},
