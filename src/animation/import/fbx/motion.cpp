@@ -107,15 +107,18 @@ std::optional<AnimatedPart> MotionReader::readTakePart(const Record& channel, in
     if (name != "T" && name != "R" && name != "S") return std::nullopt;
     out.part = name == "T" ? Part::translation : (name == "R" ? Part::rotation : Part::scaling);
     out.defaults = dvec3(name == "S" ? 1.0 : 0.0);
+    bool states = false;  // a take's value counts without any keys
     for (const Record& coordinate : channel.children) {
         const std::string_view axis = coordinate.name == "Channel" ? coordinate.text(0) : std::string_view{};
         if (axis.size() != 1 || axis[0] < 'X' || axis[0] > 'Z') continue;
         const int place = axis[0] - 'X';
-        if (const Record* value = coordinate.child("Default"); value != nullptr)
+        if (const Record* value = coordinate.child("Default"); value != nullptr) {
             out.defaults[place] = value->number(0, out.defaults[place]);
+            states = true;
+        }
         out.curves[static_cast<std::size_t>(place)] = readChannel(coordinate, ticks_);
     }
-    return hasCurves(out) ? std::optional(std::move(out)) : std::nullopt;
+    return states || hasCurves(out) ? std::optional(std::move(out)) : std::nullopt;
 }
 
 Motion MotionReader::readTake(const Record& take) const {

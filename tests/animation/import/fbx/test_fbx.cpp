@@ -10,6 +10,7 @@
 #include <glm/trigonometric.hpp>
 #include <random>
 
+#include "animation/import/clip_sampling.hpp"
 #include "animation/import/fbx/fbx_writer.hpp"
 #include "animation/import/fbx/read_fbx.hpp"
 #include "animation/import/fbx/triangulate.hpp"
@@ -258,6 +259,36 @@ TEST_CASE("FBX clips turn about the rotation's pivot, in the node's euler angles
         if (frame > 0) CHECK(glm::dot(last, rotation) > 0.0);
         last = rotation;
     }
+}
+
+TEST_CASE("what an FBX 6 take states without keys holds while it plays") {
+    const auto word = [](const char* name, const char* value, std::vector<FbxRecord> children) {
+        return FbxRecord{name, {std::string(value)}, std::move(children)};
+    };
+    const auto still = [&](const char* axis, double value) {
+        return word("Channel", axis, {FbxRecord{"Default", {value}, {}}});
+    };
+    std::vector<FbxRecord> sections = document({model(1, "Hips", {}), model(2, "Brow", {{"Lcl Rotation", {0, 0, 90}}})},
+                                               {fbxLink(1, 0), fbxLink(2, 1)});
+    const FbxRecord moving = word("Channel", "Y",
+                                  {FbxRecord{"Default", {5.0}, {}}, FbxRecord{"KeyVer", {std::int64_t{4005}}, {}},
+                                   FbxRecord{"KeyCount", {std::int64_t{2}}, {}},
+                                   FbxRecord{"Key", {0.0, 5.0, std::string("L"), kTicks, 7.0, std::string("L")}, {}}});
+    const FbxRecord hips{
+        "Model",
+        {std::int64_t{1}},
+        {word("Channel", "Transform", {word("Channel", "T", {still("X", 0), moving, still("Z", 0)})})}};
+    const FbxRecord brow{
+        "Model",
+        {std::int64_t{2}},
+        {word("Channel", "Transform", {word("Channel", "R", {still("X", 0), still("Y", 30), still("Z", 0)})})}};
+    sections.push_back(
+        {"Takes", {}, {word("Take", "Take 001", {FbxRecord{"LocalTime", {0.0, kTicks}, {}}, hips, brow})}});
+    const SourceScene scene = readAll(sections);
+    REQUIRE(scene.clips.size() == 1);
+    const std::vector<dmat4> pose = parentFromNodes(scene, scene.clips[0], 0.5);
+    CHECK(pose[1][3].y == Approx(6.0));
+    CHECK(difference(pose[2], turn(30, 1)) < 1e-6);
 }
 
 TEST_CASE("a geometric transform moves a skinned FBX mesh in its node and is no part of its joints") {
