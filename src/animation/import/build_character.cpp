@@ -222,6 +222,24 @@ void takeMaterials(SourceScene& source, Character& character) {
     }
 }
 
+// A single unseen mesh is meant so (the glass of an eye); of a whole figure it is what an exporter took the colour's
+// fourth number for.
+void showUnseen(Character& character) {
+    constexpr float kSeen = 0.01F;  // of the colour's alpha, where the material blends
+    const auto isUnseen = [&](const SkinnedMesh& mesh) {
+        const Material& material = character.materials[static_cast<std::size_t>(mesh.material)];
+        if (material.alphaMode == Material::AlphaMode::opaque) return false;
+        const bool cut = material.alphaMode == Material::AlphaMode::mask;
+        return material.baseColor.a < (cut ? std::max(material.alphaCutoff, kSeen) : kSeen);
+    };
+    if (character.meshes.empty() || !std::all_of(character.meshes.begin(), character.meshes.end(), isUnseen)) return;
+    for (Material& material : character.materials) {
+        material.alphaMode = Material::AlphaMode::opaque;
+        material.baseColor.a = 1.0F;
+    }
+    character.warnings.emplace_back("all materials of the figure are fully transparent: they were made opaque");
+}
+
 void takeFigures(const FigureChoice& choice, const NodeTree& tree, Character& character) {
     for (const SourceFigure& source : choice.figures) {
         FigureInfo figure{source.name, {}, source.vertices};
@@ -284,6 +302,7 @@ Result<Character> buildCharacter(SourceScene source, const std::filesystem::path
         orderForSkinning(mesh);
     if (!hasSoundPlaces(character.meshes)) return tooLarge("vertices", file);
     takeMaterials(source, character);
+    showUnseen(character);
     for (const auto& [role, node] : source.vrmHumanoid)
         character.vrmHumanoid[role] = tree.nodes[node].joint;
     buildMotion(source, tree, bind, units, character);

@@ -144,3 +144,34 @@ TEST_CASE("a rigid face says nothing of where a bare skeleton's joints are, nor 
     file.json["nodes"][2]["mesh"] = face;
     checkStands(file);
 }
+
+TEST_CASE("a figure whose materials all have alpha 0 is shown, with a word; a single unseen part stays unseen") {
+    const auto rigOf = [](const char* mode, std::initializer_list<float> alphas) {
+        GltfFile file = makePostRig();
+        const nlohmann::json post = file.json["meshes"][0]["primitives"][0];
+        file.json["meshes"][0]["primitives"] = nlohmann::json::array();
+        for (const float alpha : alphas) {
+            nlohmann::json primitive = post;
+            primitive["material"] = file.json["materials"].size();
+            file.json["meshes"][0]["primitives"].push_back(primitive);
+            file.json["materials"].push_back(
+                {{"alphaMode", mode}, {"pbrMetallicRoughness", {{"baseColorFactor", {0.1, 0.2, 0.3, alpha}}}}});
+        }
+        const TemporaryFolder folder;
+        file.saveBinary(folder / "rig.glb");
+        return imported(folder / "rig.glb");
+    };
+    for (const char* mode : {"MASK", "BLEND"}) {
+        INFO(mode);
+        const Character unseen = rigOf(mode, {0.0F, 0.0F});
+        CHECK(warns(unseen, "fully transparent"));
+        for (const Material& material : unseen.materials) {
+            CHECK(material.alphaMode == Material::AlphaMode::opaque);
+            CHECK(material.baseColor == vec4(0.1F, 0.2F, 0.3F, 1.0F));
+        }
+        const Character glass = rigOf(mode, {0.0F, 1.0F});
+        CHECK_FALSE(warns(glass, "fully transparent"));
+        CHECK(glass.materials[0].baseColor.a == 0.0F);
+    }
+    CHECK_FALSE(warns(rigOf("OPAQUE", {0.0F, 0.0F}), "fully transparent"));
+}
