@@ -22,6 +22,7 @@ constexpr float kNamedHips = 4.0F;
 constexpr float kNamedTrunk = 3.0F;       // a name's score from which it says which part of the trunk this is
 constexpr float kNamedHead = 4.0F;        // a name's score from which it says head and nothing else
 constexpr float kNamedPose = -2.0F;       // the most that the place of a head so named may cost
+constexpr float kOfTwoSkeletons = -4.0F;  // of a trunk and what hangs on it, of its copy
 constexpr float kArmsAboveChest = -1.5F;  // the arms hang on a joint between chest and neck
 constexpr float kCarriesFace = 3.0F;      // eyes or ears hang on it
 constexpr float kWholeHead = 0.8F;        // of the skin above the arms
@@ -248,6 +249,7 @@ class TrunkFinder {
     }
 
     [[nodiscard]] int armRoot() const { return framed_.pairs[arms_.first].joints[0]; }
+    [[nodiscard]] int legRoot() const { return framed_.pairs[legs_.first].joints[0]; }
 
     [[nodiscard]] float chestScore(const TrunkCandidate& trunk) const {
         const int chest = trunk.chest;
@@ -279,9 +281,23 @@ class TrunkFinder {
         // Hips without skin below a trunk that is no higher are a control of that trunk.
         const bool low = place.y - legs_.root.y < 0.3F * length_;
         if (low && chest != trunk.hips && rig_.skinned && ownSkin(trunk.hips) <= 0.0F) score += 1.5F * kUnskinnedTrunk;
+        if (isCopyOfWhatCarries(chest, armRoot())) score += kOfTwoSkeletons;
+        if (isCopyOfWhatCarries(trunk.hips, legRoot())) score += kOfTwoSkeletons;
+        if (isCopyOfWhatCarries(trunk.hips, chest)) score += kOfTwoSkeletons;
         if (trunk.head == kNoJoint) return score;
+        if (isCopyOfWhatCarries(chest, trunk.head)) score += kOfTwoSkeletons;
         score += near((position(trunk.head).y - place.y) / length_, 0.6F, 0.25F, isNamedHead(trunk.head) ? 1.5F : 4.0F);
         return score + neckScore(trunk);
+    }
+
+    // `below` hangs on another joint in this one's place: one of the two is a control rig's. A skin tells better which.
+    [[nodiscard]] bool isCopyOfWhatCarries(int joint, int below) const {
+        constexpr float kSamePlace = 0.01F;  // of the trunk
+        if (rig_.skinned || rig_.isAncestorOrSelf(joint, below)) return false;
+        return std::any_of(central_.begin(), central_.end(), [&](int other) {
+            return other != joint && rig_.isAncestorOrSelf(other, below) && !rig_.isAncestorOrSelf(other, joint) &&
+                   glm::distance(position(other), position(joint)) < kSamePlace * length_;
+        });
     }
 
     // A trunk that carries its hips: robots whose body is the root. The hips are named so and carry the legs alone.

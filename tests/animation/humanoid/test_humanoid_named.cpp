@@ -219,6 +219,11 @@ TEST_CASE("a control rig that copies the skeleton in its place takes no trunk aw
     const Score score = scoreMap(rig.truth, map, names);
     INFO(score.faults);
     CHECK(score.right == score.of);
+    // All of it is of one of the two.
+    for (const Role role : {Role::head, Role::leftHand, Role::rightUpperArm})
+        CHECK(animation::isAncestorOrSelf(skeleton, map.jointOf(Role::chest), map.jointOf(role)));
+    for (const Role role : {Role::chest, Role::leftFoot, Role::rightUpperLeg})
+        CHECK(animation::isAncestorOrSelf(skeleton, map.jointOf(Role::hips), map.jointOf(role)));
 }
 
 TEST_CASE("trousers with the skeleton of the whole figure map as it", "[named]") {
