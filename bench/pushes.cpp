@@ -1,5 +1,5 @@
-// pushes: what a doll that stands by itself takes without a step: the greatest push on its chest from each of eight
-// directions up to which it stays up, N s, as CSV, a row a model (docs/puppets.md).
+// pushes: what a doll that stands by itself takes: the greatest push on its chest from each of eight directions up to
+// which it stays up, N s, as CSV, a row a model; or how many of so many pushes from anywhere (docs/puppets.md).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/random.hpp"
 #include "scene/simulation.hpp"
 
 namespace {
@@ -26,11 +27,13 @@ struct Arguments {
     std::vector<float> pushes{2, 5, 8, 10, 15, 20, 25, 30, 40, 50};
     float seconds = 9.0F;
     bool perMass = false;
+    int random = 0;  // pushes of each strength
+    std::uint64_t seed = 1;
 };
 
 // One doll, which is pushed once.
 struct Trial {
-    int way = 0;
+    float angle = 0.0F;  // of the push from ahead to the left
     float push = 0.0F;
     bool stood = true;
     float footM = 0.0F;  // farthest that a foot was from where it stood before the push
@@ -58,14 +61,19 @@ int run(const Arguments& arguments, const std::string& model) {
     const scene::Figure figure = scene::figureOf(*asset.value());
     const float scale = arguments.perMass ? asset.value()->profile.totalMassKg / 75.0F : 1.0F;
     std::vector<Trial> trials{{}};  // the first is not pushed
-    for (int way = 0; way < kWays; ++way)
+    Random random(arguments.seed);
+    const int ways = arguments.random > 0 ? arguments.random : kWays;
+    for (int way = 0; way < ways; ++way) {
+        const float turn =
+            arguments.random > 0 ? random.uniform(0.0F, 2.0F * kPi) : kPi / 4.0F * static_cast<float>(way);
         for (const float push : arguments.pushes)
-            trials.push_back({way, push});
+            trials.push_back({turn, push});
+    }
     for (std::size_t i = 0; i < trials.size(); ++i) {
         scene::Placement& doll = scenario.dolls.emplace_back();
         doll.worldFromModel = {figure.standardFromModel, vec3(4.0F * static_cast<float>(i % 9), -figure.bounds.low.y,
                                                               4.0F * static_cast<float>(i / 9))};
-        const float angle = kPi / 4.0F * static_cast<float>(trials[i].way);
+        const float angle = trials[i].angle;
         if (i > 0)
             play.hits.push_back({physics::Role::upperChest, kPushAt,
                                  scale * trials[i].push * vec3(std::sin(angle), 0, std::cos(angle)),
@@ -99,15 +107,32 @@ int run(const Arguments& arguments, const std::string& model) {
     fmt::print("{},{},{:.1f},{}", std::filesystem::path(model).filename().string(), arguments.solver,
                asset.value()->profile.totalMassKg, trials[0].stood ? "stands" : "falls");
     float footM = 0.0F;
-    for (int way = 0; way < kWays; ++way) {
-        float most = 0.0F;
-        for (const Trial& trial : trials) {
-            if (trial.push == 0.0F || trial.way != way) continue;
-            if (!trial.stood) break;
-            most = trial.push;
-            footM = std::max(footM, trial.footM);
+    const std::size_t strengths = arguments.pushes.size();
+    const auto trialOf = [&](std::size_t way, std::size_t strength) -> const Trial& {
+        return trials[1 + way * strengths + strength];
+    };
+    if (arguments.random > 0) {
+        for (std::size_t strength = 0; strength < strengths; ++strength) {
+            int taken = 0;
+            for (int way = 0; way < ways; ++way) {
+                const Trial& trial = trialOf(static_cast<std::size_t>(way), strength);
+                if (!trial.stood) continue;
+                ++taken;
+                footM = std::max(footM, trial.footM);
+            }
+            fmt::print(",{}", taken);
         }
-        fmt::print(",{}", most);
+    } else {
+        for (std::size_t way = 0; way < kWays; ++way) {
+            float most = 0.0F;
+            for (std::size_t strength = 0; strength < strengths; ++strength) {
+                const Trial& trial = trialOf(way, strength);
+                if (!trial.stood) break;
+                most = trial.push;
+                footM = std::max(footM, trial.footM);
+            }
+            fmt::print(",{}", most);
+        }
     }
     fmt::print(",{:.1f}\n", footM * 100.0F);
     return 0;
@@ -124,8 +149,12 @@ int main(int argc, char** argv) {
     app.add_option("--pushes", arguments.pushes, "N s, growing")->delimiter(',');
     app.add_option("--seconds", arguments.seconds);
     app.add_flag("--per-mass", arguments.perMass, "pushes are those of a doll of 75 kg");
+    app.add_option("--random", arguments.random, "so many of each push, from anywhere: how many are taken");
+    app.add_option("--seed", arguments.seed);
     CLI11_PARSE(app, argc, argv);
-    fmt::print("model,solver,mass_kg,unpushed,ahead,45,left,135,back,225,right,315,foot_cm\n");
+    fmt::print("model,solver,mass_kg,unpushed,{},foot_cm\n", arguments.random > 0
+                                                                 ? fmt::format("{}", fmt::join(arguments.pushes, ","))
+                                                                 : std::string("ahead,45,left,135,back,225,right,315"));
     int failed = 0;
     for (const std::string& model : arguments.models) {
         failed |= run(arguments, model);

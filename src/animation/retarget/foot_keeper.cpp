@@ -8,8 +8,8 @@
 namespace lutka::animation {
 namespace {
 
-constexpr float kStraight = 0.9992F;   // of a leg's reach, which it is not stretched beyond: a knee bent by 4.6 degrees
-constexpr float kDropSeconds = 0.08F;  // how far to either side a drop of the hips is spread
+constexpr float kStraight = 0.9992F;  // of a leg's reach, which it is not stretched beyond: a knee bent by 4.6 degrees
+constexpr float kDropSeconds = 0.1F;  // how far to either side a drop of the hips is spread
 
 constexpr float kMostMove = 0.25F;           // leg lengths that the hips are moved by
 constexpr float kMostTurn = radians(45.0F);  // that they are turned by

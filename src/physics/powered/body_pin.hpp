@@ -10,6 +10,8 @@ namespace lutka::physics {
 /// What it adds from outside is counted in World::dragWork(). The world must outlive it.
 class BodyPin {
   public:
+    static constexpr float kReachM = 0.15F;  ///< About half a pelvis.
+
     /// It pulls from the first follow() on. Refused calls leave it without effect.
     BodyPin(World& world, DollId doll, int body);
     ~BodyPin();
@@ -17,8 +19,10 @@ class BodyPin {
     BodyPin& operator=(const BodyPin&) = delete;
 
     /// For the coming step of `dt` > 0 s, in which the frame moves from `from` to `to` (world), with at most
-    /// `maxForceN`.
-    void follow(const RigidTransform& from, const RigidTransform& to, float dt, float maxForceN);
+    /// `maxForceN`. It pulls at `reachM` > 0 metres around the centre: the more, the greater the torques that it holds
+    /// the orientation with.
+    void follow(const RigidTransform& from, const RigidTransform& to, float dt, float maxForceN,
+                float reachM = kReachM);
 
   private:
     World& world_;

@@ -38,6 +38,8 @@ class PoseDrive {
     void setGoesByMiddle(bool goes) { goesByMiddle_ = goes; }
     /// The farthest that a joint was from its target in the last drive() with a bound on lead or speed, radians.
     [[nodiscard]] float farthest() const { return farthest_; }
+    /// The farthest that two bodies' centres were apart at first: about the doll's height, metres.
+    [[nodiscard]] float height() const { return heightM_; }
     /// Takes all motors away.
     void release(World& world, DollId doll) const;
 

@@ -11,6 +11,10 @@ namespace lutka::physics {
 namespace {
 
 constexpr float kUnfelt = 0.01F;  // of the strength: what is still lost then is not felt
+// On the way up: a root that is turned farther from its pose is pulled at more than the usual reach,
+constexpr float kBehind = radians(25.0F);
+constexpr float kFarBehind = radians(40.0F);  // one that is so far at
+constexpr float kMostReach = 0.25F;           // of the doll's height.
 
 float eased(float t) {
     const float clamped = std::clamp(t, 0.0F, 1.0F);
@@ -224,8 +228,18 @@ void Puppet::pull(std::span<const RigidTransform> from, std::span<const RigidTra
             continue;
         }
         if (pin == nullptr) pin = std::make_unique<BodyPin>(world_, doll_, body);
-        pin->follow(from[at], to[at], dt, force);
+        pin->follow(from[at], to[at], dt, force, getsUp ? reachOf(from[at]) : BodyPin::kReachM);
     }
+}
+
+// How far from the root's centre it is pulled up: where it can't follow its pose, a heavy trunk on short limbs, from
+// farther and farther, so that its pin turns it.
+float Puppet::reachOf(const RigidTransform& pose) const {
+    // bodies_ are those of now: isTooMuch() has asked for them.
+    const quat off = bodies_[root_].worldFromBody.rotation * glm::conjugate(pose.rotation);
+    const float behind = (glm::length(rotationVector(glm::normalize(off))) - kBehind) / (kFarBehind - kBehind);
+    const float most = std::max(kMostReach * drive_.height(), BodyPin::kReachM);
+    return BodyPin::kReachM + (most - BodyPin::kReachM) * std::clamp(behind, 0.0F, 1.0F);
 }
 
 // By a pin or a led body, to the pose itself.

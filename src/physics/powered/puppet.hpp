@@ -102,6 +102,7 @@ class Puppet {
     void lead(std::span<const RigidTransform> from, std::span<const RigidTransform> to, float dt);
     void draw(int body, BodyTarget& target);
     void pull(std::span<const RigidTransform> from, std::span<const RigidTransform> to, float dt);
+    [[nodiscard]] float reachOf(const RigidTransform& pose) const;
     [[nodiscard]] bool isHeld() const;
     void letGo();
     [[nodiscard]] bool isTooMuch(std::span<const RigidTransform> pose);

@@ -150,6 +150,46 @@ TEST_CASE("a puppet that gets up does so until it stands, and a hit that is too 
     }
 }
 
+TEST_CASE("the hips' pin turns up a trunk that has nearly all the mass") {
+    for (const SolverKind solver : kOurSolvers) {
+        INFO(physics::solverName(solver));
+        RagdollProfile profile = makeDoll();
+        const int hips = physics::bodyOf(profile, Role::hips);
+        const int chest = physics::bodyOf(profile, Role::chest);
+        // On its back in the air, so that nothing but the pin holds it.
+        const auto start = standingDoll(profile, {0, 1.0F, 0}, glm::angleAxis(-kPi / 2, vec3(1, 0, 0)));
+        profile.totalMassKg = 0.0F;
+        for (physics::BodyProfile& body : profile.bodies) {
+            const float factor = body.role == Role::chest ? 80.0F / body.massKg : 0.2F;
+            body.massKg *= factor;
+            body.inertia *= factor;
+            profile.totalMassKg += body.massKg;
+        }
+        const float lever =
+            std::abs(start[chest].worldFromBody.translation.z - start[hips].worldFromBody.translation.z);
+        CHECK(80.0F * 9.81F * lever > 250.0F);
+        const auto world = worldOf(solver);
+        const physics::DollId doll = world->addDoll(profile, start);
+        Puppet puppet(*world, doll, profile, hips, start, {});
+        std::vector<RigidTransform> pose;
+        for (const BodyState& body : start)
+            pose.push_back(body.worldFromBody);
+        puppet.goLimp();
+        puppet.getUp(0.05F);
+        float off = 0.0F;
+        for (int i = 0; i < 90; ++i) {
+            puppet.prepare(pose, pose, kFrame);
+            world->step(kFrame);
+            const quat now = bodyOfDoll(*world, 0, hips).worldFromBody.rotation;
+            off = std::max(
+                off, degrees(glm::length(rotationVector(glm::normalize(now * glm::conjugate(pose[hips].rotation))))));
+        }
+        INFO(off << " degrees, lever " << lever);
+        CHECK(puppet.state() == PuppetState::gettingUp);
+        CHECK(off < 45.0F);
+    }
+}
+
 TEST_CASE("what acts by itself weakens a puppet as a hit does, and pushes it no further") {
     Stage stage(SolverKind::crowd, {});
     stage.step(30);
