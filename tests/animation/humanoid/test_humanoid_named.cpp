@@ -13,6 +13,7 @@
 namespace lutka::test {
 namespace {
 
+using animation::HumanoidMap;
 using animation::Role;
 
 // As a clip without its skin is exported: the first frame is all the pose that there is.

@@ -145,7 +145,7 @@ TEST_CASE("a rigid face says nothing of where a bare skeleton's joints are, nor 
     checkStands(file);
 }
 
-TEST_CASE("a figure whose materials all have alpha 0 is shown, with a word; a single unseen part stays unseen") {
+TEST_CASE("a figure whose materials all have alpha 0 is shown, with a word, and a single unseen part stays unseen") {
     const auto rigOf = [](const char* mode, std::initializer_list<float> alphas) {
         GltfFile file = makePostRig();
         const nlohmann::json post = file.json["meshes"][0]["primitives"][0];
