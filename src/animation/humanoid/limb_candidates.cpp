@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 #include "animation/humanoid/limb_evidence.hpp"
-#include "animation/humanoid/name_lexicon.hpp"
 
 namespace lutka::animation {
 namespace {
@@ -47,14 +46,6 @@ class LimbFinder {
     }
 
   private:
-    // "forearm" below "forearm", or "forearm_seg", which says no more.
-    [[nodiscard]] static bool isSecondSegment(const NameEvidence& above, const NameEvidence& name) {
-        if (!name.meaningful || name.side != above.side || name.words.size() < above.words.size()) return false;
-        if (!std::equal(above.words.begin(), above.words.end(), name.words.begin())) return false;
-        return std::none_of(name.words.begin() + static_cast<std::ptrdiff_t>(above.words.size()), name.words.end(),
-                            [](const std::string& word) { return conceptOf(word).has_value(); });
-    }
-
     [[nodiscard]] const JointPair& at(int pair) const { return framed_.pairs[pair]; }
 
     [[nodiscard]] float skinTerm(int pair) const {

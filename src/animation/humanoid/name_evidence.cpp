@@ -216,4 +216,11 @@ NameEvidence nameEvidence(std::string_view name) {
     return evidence;
 }
 
+bool isSecondSegment(const NameEvidence& above, const NameEvidence& name) {
+    if (!name.meaningful || name.side != above.side || name.words.size() < above.words.size()) return false;
+    if (!std::equal(above.words.begin(), above.words.end(), name.words.begin())) return false;
+    return std::none_of(name.words.begin() + static_cast<std::ptrdiff_t>(above.words.size()), name.words.end(),
+                        [](const std::string& word) { return conceptOf(word).has_value(); });
+}
+
 }  // namespace lutka::animation

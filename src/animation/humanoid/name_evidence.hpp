@@ -31,4 +31,7 @@ struct NameEvidence {
 
 [[nodiscard]] NameEvidence nameEvidence(std::string_view name);
 
+/// Whether a joint is named like the one above it, or with words more that say nothing: "forearm_seg" below "forearm".
+[[nodiscard]] bool isSecondSegment(const NameEvidence& above, const NameEvidence& name);
+
 }  // namespace lutka::animation
