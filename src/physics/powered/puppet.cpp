@@ -11,7 +11,8 @@ namespace lutka::physics {
 namespace {
 
 constexpr float kUnfelt = 0.01F;  // of the strength: what is still lost then is not felt
-// On the way up: a root that is turned farther from its pose is pulled at more than the usual reach,
+// On the way up again after it failed: a root that is turned farther from its pose is pulled at more than the usual
+// reach,
 constexpr float kBehind = radians(25.0F);
 constexpr float kFarBehind = radians(40.0F);  // one that is so far at
 constexpr float kMostReach = 0.25F;           // of the doll's height.
@@ -72,6 +73,8 @@ Puppet::Puppet(World& world, DollId doll, const RagdollProfile& profile, int roo
 void Puppet::change(PuppetState state) {
     if (state == state_) return;
     const PuppetState before = std::exchange(state_, state);
+    if (state == PuppetState::animated) failedToRise_ = false;
+    if (before == PuppetState::gettingUp && state == PuppetState::limp) failedToRise_ = true;
     if (state == PuppetState::limp) {
         drive_.release(world_, doll_);
         letGo();
@@ -228,7 +231,7 @@ void Puppet::pull(std::span<const RigidTransform> from, std::span<const RigidTra
             continue;
         }
         if (pin == nullptr) pin = std::make_unique<BodyPin>(world_, doll_, body);
-        pin->follow(from[at], to[at], dt, force, getsUp ? reachOf(from[at]) : BodyPin::kReachM);
+        pin->follow(from[at], to[at], dt, force, getsUp && failedToRise_ ? reachOf(from[at]) : BodyPin::kReachM);
     }
 }
 

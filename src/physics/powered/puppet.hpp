@@ -125,6 +125,7 @@ class Puppet {
     std::vector<BodyState> bodies_;           // scratch
     float back_ = 1.0F;                       // how much of its strength it has while it returns
     float backSeconds_ = 1.0F;
+    bool failedToRise_ = false;   // it went limp on its last way up
     bool isLeashed_ = false;      // to getUpLead and getUpSpeed
     bool standsByItself_ = true;  // gettingUp ends when its strength is back
     std::function<void(PuppetState, PuppetState)> listener_;

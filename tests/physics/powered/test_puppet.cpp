@@ -150,7 +150,7 @@ TEST_CASE("a puppet that gets up does so until it stands, and a hit that is too 
     }
 }
 
-TEST_CASE("the hips' pin turns up a trunk that has nearly all the mass") {
+TEST_CASE("once it failed to rise the hips' pin turns up a trunk that has nearly all the mass") {
     for (const SolverKind solver : kOurSolvers) {
         INFO(physics::solverName(solver));
         RagdollProfile profile = makeDoll();
@@ -174,6 +174,8 @@ TEST_CASE("the hips' pin turns up a trunk that has nearly all the mass") {
         std::vector<RigidTransform> pose;
         for (const BodyState& body : start)
             pose.push_back(body.worldFromBody);
+        puppet.goLimp();
+        puppet.getUp(0.05F);
         puppet.goLimp();
         puppet.getUp(0.05F);
         float off = 0.0F;
