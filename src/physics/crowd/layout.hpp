@@ -341,11 +341,10 @@ struct SubstepParams : SubstepTuning {
     int warmStart;         ///< The first substep of a step makes the carried friction impulses its own.
 };
 
-/// What brings dolls to rest, one a lane.
+/// What brings dolls to rest, one a lane; 0 and 1 for those that move.
 struct RestLanes {
-    Wide brake;  ///< 1/s: how fast all speeds decay; 0 for dolls that move.
-    Wide
-        stiction;  ///< Factor on all friction: static friction is greater than sliding friction; 1 for dolls that move.
+    Wide brake;     ///< 1/s: how fast all speeds decay.
+    Wide stiction;  ///< Factor on all friction: static friction is greater than sliding friction.
 };
 
 /// A batch as the kernels see it.
