@@ -44,10 +44,9 @@ class PairFinder {
             const int parent = rig_.parents[joint];
             centroids_[joint] += framed_.positions[joint];
             sizes_[joint] += 1.0F;
-            // What hangs rigidly on a joint that moves skin is held or worn, on one side as a rule.
-            const bool worn = rig_.skinned && rig_.rigidPart[joint] && parent != kNoJoint && !rig_.rigidPart[parent] &&
-                              rig_.directWeight[parent] > 0.0F;
-            if (parent == kNoJoint || worn) continue;
+            if (parent == kNoJoint) continue;
+            // Held or worn on one side, as a rule.
+            if (rig_.hangsRigidlyOnSkin(joint) && !rig_.rigidPart[parent]) continue;
             centroids_[parent] += centroids_[joint];
             sizes_[parent] += sizes_[joint];
         }

@@ -14,8 +14,7 @@ int nextOnSide(const FramedRig& framed, int joint, Part part) {
     for (const int child : rig.children[joint]) {
         const NameEvidence& name = rig.names[child];
         const bool otherPart = name.meaningful && name.parts[part] < kOtherPart;
-        // A rigid mesh on a joint that moves skin is held in the hand.
-        const bool held = rig.skinned && rig.rigidPart[child] && rig.directWeight[joint] > 0.0F && !name.meaningful;
+        const bool held = rig.hangsRigidlyOnSkin(child) && !name.meaningful;  // in the hand
         if (framed.pairOf[child] >= 0 || otherPart || held || name.helper || rig.shadow[child] ||
             !rig.carriesSkin(child))
             continue;

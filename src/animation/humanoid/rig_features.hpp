@@ -39,6 +39,11 @@ struct RigFeatures {
     }
     /// Whether the joint or one below it moves skin; true of all where there is no skin.
     [[nodiscard]] bool carriesSkin(int joint) const { return !skinned || subtreeWeight[joint] > 0.0F; }
+    /// Whether it carries a mesh without a skin on a joint that moves skin: as a rule something held or worn.
+    [[nodiscard]] bool hangsRigidlyOnSkin(int joint) const {
+        const int parent = parents[joint];
+        return skinned && rigidPart[joint] && parent != kNoJoint && directWeight[parent] > 0.0F;
+    }
     /// kNoJoint when they have no common root.
     [[nodiscard]] int commonAncestor(int a, int b) const;
 };
