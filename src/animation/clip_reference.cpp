@@ -1,4 +1,5 @@
 #include "animation/clip_reference.hpp"
+#include "core/letter_case.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -21,21 +22,16 @@ int clipOfNumber(std::span<const Clip> clips, std::string_view reference) {
     return whole && number >= 1 && number <= clips.size() ? static_cast<int>(number) - 1 : -1;
 }
 
-bool sameLetters(std::string_view a, std::string_view b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
-
 // Exporters put the armature's name before that of the action, which is what people know: "Armature|Walk".
 bool isAction(std::string_view name, std::string_view reference) {
     const std::size_t bar = name.rfind('|');
-    return bar != std::string_view::npos && sameLetters(name.substr(bar + 1), reference);
+    return bar != std::string_view::npos && sameButCase(name.substr(bar + 1), reference);
 }
 
 bool endsInWords(std::string_view name, std::string_view reference) {
     if (name.size() <= reference.size()) return false;
     const std::size_t first = name.size() - reference.size();
-    if (!sameLetters(name.substr(first), reference)) return false;
+    if (!sameButCase(name.substr(first), reference)) return false;
     const auto before = static_cast<unsigned char>(name[first - 1]);
     const auto start = static_cast<unsigned char>(name[first]);
     return std::isalnum(before) == 0 || std::isalnum(start) == 0 || std::isdigit(before) != std::isdigit(start) ||
@@ -59,7 +55,7 @@ int clipMeant(std::span<const Clip> clips, std::string_view reference) {
     if (reference.empty()) return -1;
     if (const int numbered = clipOfNumber(clips, reference); numbered >= 0) return numbered;
     if (const int named = firstNamed(clips, reference); named >= 0) return named;
-    for (bool (*meant)(std::string_view, std::string_view) : {sameLetters, isAction, endsInWords}) {
+    for (bool (*meant)(std::string_view, std::string_view) : {sameButCase, isAction, endsInWords}) {
         const int only = onlyOne(clips, [&](std::string_view name) { return meant(name, reference); });
         if (only >= 0) return only;
     }

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
+#include "core/letter_case.hpp"
 #include "export/write_blender.hpp"
 #include "export/write_bullet.hpp"
 #include "export/write_gltf.hpp"
@@ -28,11 +28,6 @@ constexpr std::array kFormats{
     ExportFormatInfo{ExportFormat::bullet, "bullet", ".cpp", "C++ that builds it with plain Bullet"},
     ExportFormatInfo{ExportFormat::usd, "usd", ".usda", "UsdPhysics, unverified"},
 };
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
 
 bool endsWith(const std::string& text, std::string_view ending) {
     return text.size() > ending.size() && text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
@@ -90,7 +85,7 @@ std::optional<ExportFormat> exportFormatNamed(std::string_view name) {
 }
 
 std::optional<ExportFormat> exportFormatOf(const std::filesystem::path& file) {
-    const std::string name = lower(file.filename().string());
+    const std::string name = lowerCased(file.filename().string());
     for (const ExportFormatInfo& info : kFormats)
         if (endsWith(name, info.ending)) return info.format;
     return std::nullopt;

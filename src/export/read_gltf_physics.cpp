@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <map>
@@ -12,6 +11,7 @@
 
 #include "core/files.hpp"
 #include "core/json/json_text.hpp"
+#include "core/letter_case.hpp"
 #include "export/gltf_names.hpp"
 #include "export/gltf_scene.hpp"
 #include "physics/collision/shape.hpp"
@@ -37,8 +37,7 @@ constexpr float kSameTurn = 1e-3F;
 
 /// The JSON of a .glb or .gltf file as text; empty when it has none of our concern.
 std::string jsonOf(const std::filesystem::path& file) {
-    std::string ending = file.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string ending = lowerCased(file.extension().string());
     if (ending != ".glb" && ending != ".gltf" && ending != ".vrm") return {};
     std::ifstream in(file, std::ios::binary);
     std::array<unsigned char, 20> head{};

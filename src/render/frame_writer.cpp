@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/assert.hpp"
 #include "core/files.hpp"
+#include "core/letter_case.hpp"
 #include "core/temporary_file.hpp"
 #include "render/child_process.hpp"
 #include "render/video_end.hpp"
@@ -22,9 +22,7 @@ namespace fs = std::filesystem;
 enum class Format { mp4, gif, pngs };
 
 std::optional<Format> formatOf(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lowerCased(file.extension().string());
     if (extension == ".mp4") return Format::mp4;
     if (extension == ".gif") return Format::gif;
     if (extension == ".png") return Format::pngs;

@@ -13,6 +13,7 @@
 #include "animation/clip_reference.hpp"
 #include "animation/pose.hpp"
 #include "animation/retarget/retarget_clip.hpp"
+#include "core/letter_case.hpp"
 #include "scene/reachable_clip.hpp"
 
 namespace lutka::scene {
@@ -30,8 +31,7 @@ constexpr std::size_t kPointsOfBody = 3;
 std::string plainName(std::string_view name) {
     std::string plain;
     for (const char c : name)
-        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
-            plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0) plain += lowerCased(c);
     return plain;
 }
 

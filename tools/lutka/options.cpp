@@ -5,13 +5,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
 
 #include "animation/humanoid/roles.hpp"
 #include "core/files.hpp"
+#include "core/letter_case.hpp"
 #include "core/utf8.hpp"
 #include "interrupt.hpp"
 #include "scene/load_words.hpp"
@@ -26,11 +26,6 @@ std::vector<std::string> solverNames() {
     for (const physics::SolverEntry& entry : physics::kSolvers)
         names.emplace_back(entry.name);
     return names;
-}
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
 }
 
 std::vector<std::string> presetNames() {
@@ -127,7 +122,7 @@ void ModelOptions::addTo(const Command& app, bool required) {
 animation::ImportOptions ModelOptions::import() const {
     animation::ImportOptions options;
     options.metresPerFileUnit = scale;
-    if (!up.empty()) options.up = scene::meaningOf(scene::kUpAxisWords, lower(up));
+    if (!up.empty()) options.up = scene::meaningOf(scene::kUpAxisWords, lowerCased(up));
     options.figure = figure;
     options.loadTextures = textures;
     options.allowOutside = allowOutside;

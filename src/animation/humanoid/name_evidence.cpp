@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <bitset>
-#include <cctype>
 #include <initializer_list>
 #include <string>
 
 #include "animation/humanoid/name_lexicon.hpp"
 #include "animation/humanoid/name_tokens.hpp"
+#include "core/letter_case.hpp"
 
 namespace lutka::animation {
 namespace {
@@ -169,9 +169,7 @@ bool hasWord(const std::vector<std::string>& words, std::string_view word) {
 // Words that mean a part in French only, where the side is told in French: "main gauche" is a hand, "arme droite" a
 // weapon.
 void readFrench(std::string_view name, std::vector<std::string>& words) {
-    std::string lower(name);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string lower = lowerCased(name);
     if (lower.find("gauche") == std::string::npos && lower.find("droit") == std::string::npos) return;
     std::replace(words.begin(), words.end(), std::string("main"), std::string("hand"));
     std::replace(words.begin(), words.end(), std::string("arme"), std::string("weapon"));

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "animation/humanoid/name_lexicon.hpp"
+#include "core/letter_case.hpp"
 
 namespace lutka::animation {
 namespace {
@@ -92,14 +93,6 @@ std::vector<std::string_view> splitAtCase(std::string_view name) {
         begin = here == CharClass::other ? at + 1 : at;
     }
     return tokens;
-}
-
-std::string lowered(std::string_view token) {
-    std::string word(token);
-    for (char& c : word) {
-        if (classOf(c) == CharClass::upper) c = static_cast<char>(c - 'A' + 'a');
-    }
-    return word;
 }
 
 // Whether a word may stand glued inside another: short ones only where they are common in rigs.
@@ -195,7 +188,7 @@ NameTokens tokenise(std::string_view escaped) {
             tokens.numbers.push_back(std::atoi(std::string(token.substr(0, 6)).c_str()));
             continue;
         }
-        const std::string word = lowered(token);
+        const std::string word = lowerCased(token);
         std::vector<std::string> pieces;
         if (conceptOf(word) || word.size() < 3 || !segment(word, pieces)) pieces = {word};
         for (const std::string& piece : pieces)

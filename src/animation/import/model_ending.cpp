@@ -1,8 +1,8 @@
 #include "animation/import/model_ending.hpp"
+#include "core/letter_case.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string>
 #include <string_view>
 
@@ -17,9 +17,7 @@ constexpr std::array<std::string_view, 18> kModelEndings = {".glb", ".gltf", ".v
 }  // namespace
 
 bool hasModelEnding(const std::filesystem::path& file) {
-    std::string ending = file.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string ending = lowerCased(file.extension().string());
     return std::find(kModelEndings.begin(), kModelEndings.end(), ending) != kModelEndings.end();
 }
 

@@ -19,8 +19,8 @@
 #include "animation/import/gltf/read_gltf.hpp"
 #include "animation/import/source_limits.hpp"
 #include "animation/import/unread_format.hpp"
-#include "animation/import/uri.hpp"
 #include "core/input_file.hpp"
+#include "core/letter_case.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "animation/import/uri.hpp"
 #include "core/files.hpp"
+#include "core/letter_case.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {

@@ -1,4 +1,5 @@
 #include "animation/import/units.hpp"
+#include "core/letter_case.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +8,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
-
-#include "animation/import/uri.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {

@@ -1,10 +1,9 @@
 #include "animation/import/unread_format.hpp"
+#include "core/letter_case.hpp"
 
 #include <algorithm>
 #include <array>
 #include <string>
-
-#include "animation/import/uri.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {

@@ -1,6 +1,5 @@
 #include "animation/import/uri.hpp"
 
-#include <algorithm>
 #include <cctype>
 
 namespace lutka::animation::rig_import {
@@ -19,11 +18,6 @@ std::string decodePercents(const std::string& uri) {
         }
     }
     return out;
-}
-
-std::string lowerCased(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
 }
 
 }  // namespace lutka::animation::rig_import

@@ -1,12 +1,12 @@
 #include "animation/segments/appendages.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <glm/geometric.hpp>
 #include <vector>
 
 #include "animation/segments/segment_sides.hpp"
 #include "animation/segments/segment_tree.hpp"
+#include "core/letter_case.hpp"
 
 namespace lutka::animation {
 namespace {
@@ -39,8 +39,7 @@ const std::array<KindWords, 7>& kindWords() {
 }
 
 std::optional<AppendageKind> kindByName(const std::string& name, const NameEvidence& evidence) {
-    std::string lower = name;
-    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string lower = lowerCased(name);
     for (const KindWords& entry : kindWords()) {
         const bool word = std::any_of(evidence.words.begin(), evidence.words.end(), [&](const std::string& one) {
             return std::find(entry.words.begin(), entry.words.end(), one) != entry.words.end();

@@ -1,25 +1,19 @@
 #include "editor/files/file_list.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 
 #include "animation/import/model_ending.hpp"
+#include "core/letter_case.hpp"
 
 namespace lutka::editor {
 namespace {
 
 constexpr std::string_view kRecordingEnd = ".recording";
 
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
 // A profile or a scene; other JSON is none of ours.
 bool isOurs(const std::filesystem::path& file) {
-    const std::string name = lower(file.filename().string());
+    const std::string name = lowerCased(file.filename().string());
     return name.ends_with(".ragdoll.json") || name.ends_with(".scene.json");
 }
 
@@ -48,7 +42,7 @@ bool isModel(const std::filesystem::path& file) {
 }
 
 bool passes(FileFilter filter, const std::filesystem::path& file) {
-    const std::string end = lower(file.extension().string());
+    const std::string end = lowerCased(file.extension().string());
     switch (filter) {
         case FileFilter::models:
             return isOurs(file) || isModel(file);
@@ -81,7 +75,7 @@ std::vector<FileEntry> listFolder(const std::filesystem::path& folder, FileFilte
     }
     std::sort(entries.begin(), entries.end(), [](const FileEntry& a, const FileEntry& b) {
         if (a.folder != b.folder) return a.folder;
-        return std::pair(lower(a.name), a.name) < std::pair(lower(b.name), b.name);
+        return std::pair(lowerCased(a.name), a.name) < std::pair(lowerCased(b.name), b.name);
     });
     return entries;
 }

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <vector>
 
+#include "core/letter_case.hpp"
 #include "editor/ui/style.hpp"
 
 namespace lutka::editor {
@@ -60,9 +60,8 @@ void tooltip(const std::string& text) {
 
 // ASCII letters without their case; others as they are.
 bool containsText(std::string_view text, std::string_view part) {
-    const auto lower = [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); };
     return std::search(text.begin(), text.end(), part.begin(), part.end(),
-                       [&](char a, char b) { return lower(a) == lower(b); }) != text.end();
+                       [](char a, char b) { return lowerCased(a) == lowerCased(b); }) != text.end();
 }
 
 std::string cutInTheMiddle(std::string_view text, float room, const std::function<float(std::string_view)>& widthOf) {

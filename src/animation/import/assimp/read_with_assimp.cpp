@@ -13,8 +13,8 @@
 #include "animation/import/assimp/mesh_instances.hpp"
 #include "animation/import/assimp/scene_file.hpp"
 #include "animation/import/assimp/scene_nodes.hpp"
-#include "animation/import/uri.hpp"
 #include "core/files.hpp"
+#include "core/letter_case.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {

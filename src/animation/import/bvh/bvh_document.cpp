@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -11,6 +10,7 @@
 #include <optional>
 
 #include "animation/import/source_limits.hpp"
+#include "core/letter_case.hpp"
 
 namespace lutka::animation::rig_import::bvh {
 namespace {
@@ -22,17 +22,12 @@ bool isBlank(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\0';
 }
 
-bool sameWord(std::string_view a, std::string_view b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
-
 std::optional<Channel> channelNamed(std::string_view word) {
     if (word.size() < 2) return std::nullopt;
-    const int axis = std::tolower(static_cast<unsigned char>(word[0])) - 'x';
+    const int axis = lowerCased(word[0]) - 'x';
     if (axis < 0 || axis > 2) return std::nullopt;
-    if (sameWord(word.substr(1), "rotation")) return Channel{axis, true};
-    if (sameWord(word.substr(1), "position")) return Channel{axis, false};
+    if (sameButCase(word.substr(1), "rotation")) return Channel{axis, true};
+    if (sameButCase(word.substr(1), "position")) return Channel{axis, false};
     return std::nullopt;
 }
 
@@ -43,7 +38,7 @@ class BvhParser {
     }
 
     std::optional<Error> parse() {
-        if (!sameWord(word(), "HIERARCHY")) fail("does not begin with HIERARCHY");
+        if (!sameButCase(word(), "HIERARCHY")) fail("does not begin with HIERARCHY");
         while (!failed_ && readRoot()) {
         }
         if (!failed_) readMotion();
@@ -98,14 +93,14 @@ class BvhParser {
 
     void expect(std::string_view wanted) {
         const std::string_view found = word();
-        if (!sameWord(found, wanted)) fail(fmt::format("'{}' stands where {} should", found.substr(0, 20), wanted));
+        if (!sameButCase(found, wanted)) fail(fmt::format("'{}' stands where {} should", found.substr(0, 20), wanted));
     }
 
     // One ROOT with all below it; false at MOTION and at the end.
     bool readRoot() {
         const std::string_view kind = word();
-        if (kind.empty() || sameWord(kind, "MOTION")) return false;
-        if (!sameWord(kind, "ROOT") && !sameWord(kind, "JOINT")) {
+        if (kind.empty() || sameButCase(kind, "MOTION")) return false;
+        if (!sameButCase(kind, "ROOT") && !sameButCase(kind, "JOINT")) {
             fail(fmt::format("'{}' stands where ROOT or MOTION should", kind.substr(0, 20)));
             return false;
         }
@@ -133,14 +128,14 @@ class BvhParser {
         const std::string_view kind = word();
         if (kind == "}") {
             open.pop_back();
-        } else if (sameWord(kind, "OFFSET")) {
+        } else if (sameButCase(kind, "OFFSET")) {
             for (int axis = 0; axis < 3; ++axis)
                 document.joints[joint].offset[axis] = number();
-        } else if (sameWord(kind, "CHANNELS")) {
+        } else if (sameButCase(kind, "CHANNELS")) {
             readChannels(document.joints[joint]);
-        } else if (sameWord(kind, "JOINT") || sameWord(kind, "End")) {
+        } else if (sameButCase(kind, "JOINT") || sameButCase(kind, "End")) {
             std::string name = restOfLine();
-            if (sameWord(kind, "End")) name = "EndSite_" + document.joints[joint].name;
+            if (sameButCase(kind, "End")) name = "EndSite_" + document.joints[joint].name;
             addJoint(std::move(name), open.back());
             if (static_cast<int>(open.size()) >= kMaxDepth)
                 return fail(fmt::format("joints nested deeper than {}", kMaxDepth));
@@ -179,8 +174,8 @@ class BvhParser {
             }
             const std::optional<double> value = asNumber(token);
             if (!value) break;
-            const bool frames = sameWord(std::string_view(label).substr(0, 6), "Frames");
-            const bool time = sameWord(std::string_view(label).substr(0, 9), "FrameTime");
+            const bool frames = sameButCase(std::string_view(label).substr(0, 6), "Frames");
+            const bool time = sameButCase(std::string_view(label).substr(0, 9), "FrameTime");
             if (frames) stated = *value;
             if (time && *value > 0.0 && *value < 60.0) document.frameSeconds = *value;
             if (!frames && !time) return fail(fmt::format("'{}' stands where Frames or Frame Time should", label));
@@ -236,7 +231,7 @@ glm::dmat4 BvhDocument::parentFromJoint(std::size_t joint, std::size_t frame) co
 bool isBvh(std::string_view beginning) {
     if (beginning.starts_with("\xEF\xBB\xBF")) beginning.remove_prefix(3);
     const std::size_t start = beginning.find_first_not_of(" \t\r\n");
-    return start != std::string_view::npos && sameWord(beginning.substr(start, 9), "HIERARCHY");
+    return start != std::string_view::npos && sameButCase(beginning.substr(start, 9), "HIERARCHY");
 }
 
 Result<BvhDocument> parseBvh(std::string_view text, const std::string& location) {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "animation/import/srgb.hpp"
-#include "animation/import/uri.hpp"
+#include "core/letter_case.hpp"
 
 namespace lutka::animation::rig_import::fbx {
 namespace {
