@@ -19,13 +19,18 @@ void clear(Wide& wide, int lane) {
     wide.lane[lane] = 0.0F;
 }
 
+// What a sweep needs of the tree is not needed after it: all batches of a thread share the room, which so stays in the
+// nearest caches.
+TreeLanes* treeRoom(std::size_t bodies) {
+    thread_local std::vector<TreeLanes> room;
+    if (room.size() < bodies) room.resize(bodies);
+    return room.data();
+}
+
 }  // namespace
 
 Batch::Batch(const Topology& topology)
-    : bodies(topology.bodies.size()),
-      joints(topology.joints.size()),
-      tree(topology.bodies.size()),
-      firstContact(topology.bodies.size() + 1, 0) {}
+    : bodies(topology.bodies.size()), joints(topology.joints.size()), firstContact(topology.bodies.size() + 1, 0) {}
 
 BatchView Batch::view(const Topology& topology) {
     return {topology.bodyCount(),
@@ -36,7 +41,7 @@ BatchView Batch::view(const Topology& topology) {
             firstContact.data(),
             bodies.data(),
             joints.data(),
-            tree.data(),
+            treeRoom(bodies.size()),
             contacts.data(),
             static_cast<int>(drags.size()),
             drags.data(),

@@ -35,7 +35,6 @@ struct Batch {
 
     std::vector<BodyLanes> bodies;  ///< One a body.
     std::vector<JointLanes> joints;
-    std::vector<TreeLanes> tree;               ///< One a body.
     std::vector<StaticContactLanes> contacts;  ///< Of this step, body by body.
     std::vector<int> firstContact;             ///< See BatchView.
     std::vector<Wide> impulseSums;             ///< One a contact, of the substeps since they were found; for reports.
