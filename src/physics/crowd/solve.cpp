@@ -67,30 +67,25 @@ void findStaticsAgain(CrowdState& state, Batch& batch, const Topology& topology,
     if (state.settings.contactReports) openSums(batch);
 }
 
-// The faces and edges that bodies are near now: a body may have slid over an edge, unless it is still. In the first
-// substep those that were found for one of this length stay.
-void refreshStatics(CrowdState& state, Job& job, float seconds, float substep, bool isFirst) {
-    for (std::size_t i = 0; i < job.batches.size(); ++i) {
-        Batch& batch = *job.batches[i];
-        if (!batch.nearShapes || (isFirst ? batch.substeps == job.substeps : batch.isStill)) continue;
-        findStaticsAgain(state, batch, *job.topologies[i], seconds, substep);
-    }
-}
-
 // One job's substep. `forBatches` runs a piece of work for every batch of the job, on one thread or several.
 class JobSubstep {
   public:
     JobSubstep(CrowdState& state, Job& job, const SubstepParams& params, bool mends)
         : state_(state), job_(job), params_(params), mends_(mends) {}
 
-    void run() {
+    /// `next`: what the next substep needs, or null where something else comes first. Its batches are begun at once
+    /// then, while they are at hand.
+    void run(bool begun, const SubstepParams* next) {
         const Kernels& kernels = *state_.kernels;
         // Before the substep begins, so that the first guess of what holds sees them, as it sees gravity.
-        for (const ForceRecord* force : job_.forces)
-            job_.motorWork += applyForce(state_, *force, params_.dt);
-        for (DragRecord* drag : job_.drags)
-            beginDrag(state_, *drag);
-        forBatches([&](const BatchView& view) { kernels.begin(view, params_); });
+        if (!begun) {
+            forIndices([&](std::size_t i) { refreshStatics(i, params_); });
+            for (const ForceRecord* force : job_.forces)
+                job_.motorWork += applyForce(state_, *force, params_.dt);
+            for (DragRecord* drag : job_.drags)
+                beginDrag(state_, *drag);
+            forBatches([&](const BatchView& view) { kernels.begin(view, params_); });
+        }
         // What touches other bodies works on single bodies; a pass over the dolls must follow before anything moves.
         PairsView pairs = viewOfPairs();
         kernels.beginPairs(pairs, params_);
@@ -110,13 +105,19 @@ class JobSubstep {
         if (!state_.targets.empty()) job_.dragWork += workOfPushes(state_, job_);
         for (DragRecord* drag : job_.drags)
             job_.dragWork += endDrag(state_, *drag);
+        int pushed = 0;
         if (mends_) {
-            const int pushed = kernels.mendPairs(pairs, params_);
+            pushed = kernels.mendPairs(pairs, params_);
             for (int i = 1; i < params_.mendSweeps && pushed != 0; ++i)
                 kernels.mendPairs(pairs, params_);
-            forBatches([&](const BatchView& view) { kernels.mend(view, params_, pushed); });
         }
-        forBatches([&](const BatchView& view) { kernels.advance(view, params_); });
+        forIndices([&](std::size_t i) {
+            if (mends_) kernels.mend(viewOf(i), params_, pushed);
+            kernels.advance(viewOf(i), params_);
+            if (next == nullptr) return;
+            refreshStatics(i, *next);
+            kernels.begin(viewOf(i), *next);
+        });
         if (state_.settings.contactReports) sumImpulses(state_, job_);
     }
 
@@ -130,6 +131,15 @@ class JobSubstep {
                 lists,
                 0,
                 lists + job_.blockCount};
+    }
+
+    // The faces and edges that bodies are near now: a body may have slid over an edge, unless it is still. In the first
+    // substep of a step those that were found for one of this length stay.
+    void refreshStatics(std::size_t i, const SubstepParams& params) {
+        Batch& batch = *job_.batches[i];
+        const bool isFirst = params.warmStart != 0;
+        if (!batch.nearShapes || (isFirst ? batch.substeps == job_.substeps : batch.isStill)) return;
+        findStaticsAgain(state_, batch, *job_.topologies[i], params.remaining, params.dt);
     }
 
     // A body may have been struck towards static geometry that it was far from when contacts were looked for. It would
@@ -149,9 +159,11 @@ class JobSubstep {
         });
     }
 
+    BatchView viewOf(std::size_t i) { return job_.batches[i]->view(*job_.topologies[i]); }
+
     template <class Work>
     void forBatches(const Work& work) {
-        forIndices([&](std::size_t i) { work(job_.batches[i]->view(*job_.topologies[i])); });
+        forIndices([&](std::size_t i) { work(viewOf(i)); });
     }
 
     // Of the job's batches.
@@ -222,15 +234,23 @@ void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSu
             state.jobs[i].dragWork = state.jobs[i].motorWork = 0.0;
         }
     };
-    const auto substep = [&](Job& job, int index) {
-        const int left = job.substeps - index;
+    const auto paramsAt = [&](const Job& job, int index) {
         SubstepParams params = paramsFor[job.substeps];
         params.warmStart = index == 0 ? 1 : 0;
-        params.remaining = params.dt * static_cast<float>(left);
+        params.remaining = params.dt * static_cast<float>(job.substeps - index);
+        return params;
+    };
+    // Whether nothing has to come between two substeps of a job.
+    const auto runsOn = [&](const Job& job) {
+        return !afterSubstep && !state.settings.contactReports && job.forces.empty() && job.drags.empty();
+    };
+    const auto substep = [&](Job& job, int index) {
+        const int left = job.substeps - index;
+        const SubstepParams params = paramsAt(job, index);
+        const SubstepParams next = paramsAt(job, index + 1);
         if (index == 0) fitImpulses(state, job, params.dt);
-        refreshStatics(state, job, params.remaining, params.dt, index == 0);
         const bool mends = (left - 1) % state.tuning.mendEvery == 0;
-        JobSubstep(state, job, params, mends).run();
+        JobSubstep(state, job, params, mends).run(index > 0 && runsOn(job), left > 1 && runsOn(job) ? &next : nullptr);
     };
     if (afterSubstep) {
         for (int i = 0; i < parts; ++i) {
