@@ -168,8 +168,7 @@ void CrowdWorld::advance(float dt, const std::function<void()>& afterSubstep) {
     for (const TargetRecord& record : state_.targets)
         wakeDoll(record.doll);
     gatherActive(state_);
-    const float substep = dt / static_cast<float>(substepsPerStep());  // of dolls with pulls, muscles and frames
-    placeTargets(state_, substep);
+    placeTargets(state_, dt / static_cast<float>(substepsPerStep()));
     state_.reports.clear();
     if (state_.active.empty()) {  // all asleep: nothing can change
         times_ = {};
@@ -184,9 +183,9 @@ void CrowdWorld::advance(float dt, const std::function<void()>& afterSubstep) {
     const auto paired = Clock::now();
     findContacts(state_, dt);
     const auto found = Clock::now();
-    placeDrags(state_, substep);
-    placeMotors(state_, substep);
     makeJobs(state_);
+    placeDrags(state_, dt);
+    placeMotors(state_, dt);
     beginReports(state_);
     Clock::duration outside{0};
     solveJobs(state_, dt, timed(afterSubstep, outside));

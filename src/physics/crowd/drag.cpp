@@ -36,10 +36,11 @@ void placeDrags(CrowdState& state, float dt) {
         writeVector(lanes.target, doll.lane, record.drag.worldTarget);
         writeVector(lanes.rate, doll.lane, record.drag.worldVelocity);
         const float mass = massOf(state.groupOf(doll).topology);
-        const float answer = dt * omega * (dt * omega + 2.0F * kDamping);
+        const float substep = dt / static_cast<float>(state.jobs[batch.job].substeps);
+        const float answer = substep * omega * (substep * omega + 2.0F * kDamping);
         lanes.weight.lane[doll.lane] = mass * answer;
-        lanes.pull.lane[doll.lane] = dt * omega * omega / answer;
-        lanes.bound.lane[doll.lane] = record.drag.maxForceN * dt;
+        lanes.pull.lane[doll.lane] = substep * omega * omega / answer;
+        lanes.bound.lane[doll.lane] = record.drag.maxForceN * substep;
         lanes.gain.lane[doll.lane] = record.bounded ? 0.0F : lanes.weight.lane[doll.lane];
     }
 }

@@ -4,7 +4,7 @@
 
 namespace lutka::physics::crowd {
 
-/// Puts all pulls into the lanes of their dolls, for a step of substeps of `dt` s.
+/// Puts all pulls into the lanes of their dolls, for a step of `dt` s. Call it after makeJobs().
 void placeDrags(CrowdState& state, float dt);
 
 /// Before and after a substep's velocities are solved: the work that the pull has done on the doll, joules, is returned

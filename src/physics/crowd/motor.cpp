@@ -13,11 +13,30 @@ bool before(const MotorRecord& record, std::pair<int, int> wanted) {
     return std::pair(record.doll, record.constraint) < wanted;
 }
 
-void writeLanes(MotorLanes& lanes, int lane, const MotorRecord& record, const Topology& topology, float dt) {
+// What the motors of a doll have in common in a step.
+struct Setting {
+    int doll = -1;
+    Batch* batch = nullptr;  // null: it sleeps
+    const Topology* topology = nullptr;
+    float substep = 0.0F;
+    float firmest = 0.0F;
+};
+
+Setting settingOf(CrowdState& state, int index, float dt) {
+    const Doll& doll = state.dolls[index];
+    if (doll.asleep()) return {index};
+    Batch& batch = state.batchOf(doll);
+    const Topology& topology = state.groupOf(doll).topology;
+    return {index, &batch, &topology, dt / static_cast<float>(state.jobs[batch.job].substeps),
+            firmestRow(topology).moment};
+}
+
+void writeLanes(MotorLanes& lanes, int lane, const MotorRecord& record, const Setting& setting) {
     const JointMotor& motor = record.motor;
+    const float dt = setting.substep;
     const float firmness = motor.damping + dt * motor.stiffness;
     if (firmness <= 0.0F || motor.maxTorqueNm <= 0.0F) return;
-    const bool isHinge = topology.joints[record.constraint].isHinge != 0;
+    const bool isHinge = setting.topology->joints[record.constraint].isHinge != 0;
     const quat target = isHinge ? glm::angleAxis(motor.angle, vec3(0, 0, 1)) : glm::normalize(motor.target);
     lanes.active = 1;
     lanes.target.x.lane[lane] = target.x;
@@ -25,7 +44,7 @@ void writeLanes(MotorLanes& lanes, int lane, const MotorRecord& record, const To
     lanes.target.z.lane[lane] = target.z;
     lanes.target.w.lane[lane] = target.w;
     writeVector(lanes.rate, lane, isHinge ? vec3(0, 0, motor.rate.z) : motor.rate);
-    lanes.weight.lane[lane] = std::min(dt * firmness, firmestRow(topology).moment);
+    lanes.weight.lane[lane] = std::min(dt * firmness, setting.firmest);
     lanes.pull.lane[lane] = motor.stiffness / firmness;
     lanes.bound.lane[lane] = motor.maxTorqueNm * dt;
     lanes.gain.lane[lane] = record.bounded ? 0.0F : lanes.weight.lane[lane];
@@ -36,12 +55,13 @@ void writeLanes(MotorLanes& lanes, int lane, const MotorRecord& record, const To
 void placeMotors(CrowdState& state, float dt) {
     for (Batch* batch : state.active)
         batch->motors.clear();
+    Setting setting;
     for (const MotorRecord& record : state.motors) {
-        const Doll& doll = state.dolls[record.doll];
-        if (doll.asleep()) continue;
-        Batch& batch = state.batchOf(doll);
-        if (batch.motors.empty()) batch.motors.resize(batch.joints.size());  // of zeros
-        writeLanes(batch.motors[record.constraint], doll.lane, record, state.groupOf(doll).topology, dt);
+        if (record.doll != setting.doll) setting = settingOf(state, record.doll, dt);
+        if (setting.batch == nullptr) continue;
+        std::vector<MotorLanes>& motors = setting.batch->motors;
+        if (motors.empty()) motors.resize(setting.batch->joints.size());  // of zeros
+        writeLanes(motors[record.constraint], state.dolls[record.doll].lane, record, setting);
     }
 }
 
@@ -69,14 +89,21 @@ const MotorRecord* findMotor(const CrowdState& state, int doll, int constraint) 
 }
 
 void setMotor(CrowdState& state, int doll, int constraint, const std::optional<JointMotor>& motor) {
-    auto at = std::lower_bound(state.motors.begin(), state.motors.end(), std::pair(doll, constraint), before);
-    const bool known = at != state.motors.end() && at->doll == doll && at->constraint == constraint;
+    const auto isWanted = [&](auto at) {
+        return at != state.motors.end() && at->doll == doll && at->constraint == constraint;
+    };
+    // Most often they are set one after the other.
+    auto at = state.motors.begin() + static_cast<std::ptrdiff_t>(std::min(state.nextMotor, state.motors.size()));
+    if (!isWanted(at))
+        at = std::lower_bound(state.motors.begin(), state.motors.end(), std::pair(doll, constraint), before);
+    const bool known = isWanted(at);
     if (!motor) {
         if (known) state.motors.erase(at);
         return;
     }
     if (!known) at = state.motors.insert(at, MotorRecord{doll, constraint, {}, false});
     at->motor = *motor;
+    state.nextMotor = static_cast<std::size_t>(at - state.motors.begin()) + 1;
 }
 
 }  // namespace lutka::physics::crowd

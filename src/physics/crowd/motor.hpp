@@ -4,7 +4,7 @@
 
 namespace lutka::physics::crowd {
 
-/// Puts the motors of awake dolls into their batches' lanes, for substeps of `dt` s.
+/// Puts the motors of awake dolls into their batches' lanes, for a step of `dt` s. Call it after makeJobs().
 void placeMotors(CrowdState& state, float dt);
 /// What a batch's motors did in the last substep, J.
 [[nodiscard]] double workOfMotors(const Batch& batch);

@@ -219,6 +219,7 @@ struct CrowdState {
     std::vector<DragRecord> drags;          ///< In the order of the world's drags.
     double dragWork = 0.0;
     std::vector<MotorRecord> motors;    ///< By doll and constraint.
+    std::size_t nextMotor = 0;          ///< After the one that was set last.
     std::vector<TargetRecord> targets;  ///< By doll and body.
     std::vector<ForceRecord> forces;    ///< Of the coming step.
     double motorWork = 0.0;             ///< And of forces.

@@ -75,9 +75,9 @@ void findPace(const CrowdState& state, Batch& batch, const Topology& topology) {
 
 void setSubsteps(const CrowdState& state, Job& job) {
     const int all = state.tuning.substeps;
-    job.substeps = job.drags.empty() && job.forces.empty() ? 1 : all;
+    job.substeps = job.forces.empty() ? 1 : all;
     for (const Batch* batch : job.batches)
-        job.substeps = std::max(job.substeps, batch->motors.empty() && batch->targets.empty() ? batch->substeps : all);
+        job.substeps = std::max(job.substeps, batch->targets.empty() ? batch->substeps : all);
 }
 
 void fitImpulses(CrowdState& state, Job& job, float seconds) {

@@ -228,7 +228,8 @@ void PoseDrive::drive(World& world, DollId doll, const MuscleSettings& muscles, 
             const float angle = glm::length(lead);
             if (angle > 1e-6F) motor.target = glm::angleAxis(std::min(angle, 1.0F), lead / angle) * motor.target;
         }
-        motor.angle = 2.0F * std::atan2(motor.target.z, motor.target.w);
+        if (constraint.kind == ConstraintProfile::Kind::hinge)
+            motor.angle = 2.0F * std::atan2(motor.target.z, motor.target.w);
         world.setMotor(doll, i, motor);
     }
 }

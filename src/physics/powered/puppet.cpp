@@ -84,7 +84,8 @@ void Puppet::change(PuppetState state) {
 
 float Puppet::lossOf(int body) const {
     const Loss& loss = losses_[body];
-    const float over = settings_.recoverySeconds > 0.0F ? loss.seconds / settings_.recoverySeconds : 1.0F;
+    if (loss.amount <= 0.0F || loss.seconds >= settings_.recoverySeconds) return 0.0F;
+    const float over = loss.seconds / settings_.recoverySeconds;
     return loss.amount * (1.0F - eased(over));
 }
 
