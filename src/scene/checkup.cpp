@@ -66,6 +66,45 @@ std::vector<Quality> dropThrice(const RagdollAsset& asset, const DropObserver& o
     return drops;
 }
 
+constexpr int kWalkSteps = 180;
+constexpr float kHitSeconds = 1.0F;
+
+Result<std::unique_ptr<Simulation>> walking(const RagdollAsset& asset, std::vector<PuppetHit> hits) {
+    const Figure figure = figureOf(asset);
+    Scenario ground;
+    ground.statics.emplace_back();
+    ground.dolls.emplace_back().worldFromModel = {figure.standardFromModel, vec3(0, -figure.bounds.low.y, 0)};
+    SimulationOptions options;
+    PuppetPlay& play = options.puppet.emplace();
+    play.start.clip = "walk";
+    play.borrows = true;
+    play.ownMuscles = true;
+    play.hits = std::move(hits);
+    auto simulation = Simulation::create(asset, std::move(ground), options);
+    if (!simulation) return simulation.error();
+    for (int step = 0; step < kWalkSteps; ++step)
+        simulation.value()->step();
+    return std::move(simulation).value();
+}
+
+void walk(const RagdollAsset& asset, Checkup& checkup) {
+    if (!asset.map.humanoid) return;
+    const auto simulation = walking(asset, {});
+    if (!simulation) {
+        checkup.noWalk = simulation.error().message;
+        return;
+    }
+    const physics::World& world = simulation.value()->world();
+    WalkCheck& check = checkup.walk.emplace();
+    check.figures = simulation.value()->puppets()->figures();
+    check.motorWorkJ = world.motorWork();
+    check.pinWorkJ = world.dragWork();
+    check.pinImpulseNs = world.dragImpulse();
+    const vec3 impulse(0, 0, -10.0F * asset.profile.totalMassKg / 75.0F);
+    const auto hit = walking(asset, {{"upperChest", kHitSeconds, impulse}});
+    if (hit) check.recoverySeconds = hit.value()->puppets()->figures().recoverySeconds;
+}
+
 void judgeDrops(Checkup& checkup) {
     int kept = 0;
     for (const Measure& measure : kMeasures) {
@@ -113,6 +152,7 @@ Checkup examine(const RagdollAsset& asset, const DropObserver& observe) {
     if (checkup.diagnosis.hasErrors()) return checkup;
     checkup.drops = dropThrice(asset, observe);
     judgeDrops(checkup);
+    walk(asset, checkup);
     return checkup;
 }
 

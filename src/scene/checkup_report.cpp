@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "scene/checkup.hpp"
+#include "scene/puppet_report.hpp"
 #include "scene/quality_json.hpp"
 
 namespace lutka::scene {
@@ -16,6 +17,26 @@ Json findingJson(const physics::Finding& finding) {
             {"measure", finding.measure},
             {"mend", finding.mend},
             {"mendable", finding.mendable}};
+}
+
+Json walkJson(const WalkCheck& walk) {
+    return {{"trackingErrorDeg", trackingJson(walk.figures)},
+            {"rootErrorM", walk.figures.rootM},
+            {"footSlideM", walk.figures.footSlideM},
+            {"motorWorkJ", walk.motorWorkJ},
+            {"pinWorkJ", walk.pinWorkJ},
+            {"pinImpulseNs", walk.pinImpulseNs},
+            {"recoverySeconds", secondsJson(walk.recoverySeconds)}};
+}
+
+std::string walkText(const WalkCheck& walk) {
+    const PuppetFigures& figures = walk.figures;
+    std::string text =
+        fmt::format("  walks      {:.2f} deg RMS off the clip, {:.1f} at most ({}), hips within {:.1f} cm",
+                    figures.rmsDeg, figures.maxDeg, figures.worstJoint, figures.rootM * 1e2F);
+    text += fmt::format(", feet slide {:.1f} cm", figures.footSlideM * 1e2F);
+    if (walk.recoverySeconds >= 0.0F) text += fmt::format(", itself {:.2f} s after a hit", walk.recoverySeconds);
+    return text + "\n";
 }
 
 }  // namespace
@@ -41,6 +62,8 @@ std::string checkupJson(const RagdollAsset& asset, const Checkup& checkup) {
     json["drops"] = Json::array();
     for (const physics::Quality& drop : checkup.drops)
         json["drops"].push_back(qualityJson(drop));
+    json["walk"] = checkup.walk ? walkJson(*checkup.walk) : Json();
+    if (!checkup.noWalk.empty()) json["noWalk"] = checkup.noWalk;
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -60,6 +83,8 @@ std::string checkupText(const RagdollAsset& asset, const Checkup& checkup) {
         text += fmt::format("  measured   {:<28} {:8.2f} {} ({} allowed)\n", bound.name, bound.worst, bound.unit,
                             bound.bound);
     }
+    if (checkup.walk) text += walkText(*checkup.walk);
+    if (!checkup.noWalk.empty()) text += fmt::format("  walks      not: {}\n", checkup.noWalk);
     if (checkup.drops.empty()) text += "  measured   nothing: there are errors\n";
     for (const auto& finding : checkup.diagnosis.findings) {
         text += fmt::format("  {:<10} {} at {}: {}", physics::severityName(finding.severity), finding.code,

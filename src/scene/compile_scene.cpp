@@ -125,7 +125,8 @@ class Compiler {
         placement.look = lookOf(id);
         placement.strength = ragdoll.strength;
         for (const RagdollHit& hit : ragdoll.hits)
-            out_.hits.push_back({hit.body, hit.seconds, hit.impulse, static_cast<int>(out_.dolls.size())});
+            out_.hits.push_back({std::string(animation::roleName(hit.body)), hit.seconds, hit.impulse,
+                                 static_cast<int>(out_.dolls.size())});
         for (const std::string& body : ragdoll.pins)
             out_.pins.push_back({static_cast<int>(out_.dolls.size()), body});
         out_.dolls.push_back(placement);

@@ -29,13 +29,16 @@ std::string bodiesOf(const physics::RagdollProfile& profile) {
     return "its bodies are " + names;
 }
 
-// The body that a blow to a role's part meets; rigs divide the trunk into one to three, so that a part of it that has
-// no body of its own is in the next one below. -1: none.
-int bodyMet(const physics::RagdollProfile& profile, animation::Role role) {
-    int body = physics::bodyOf(profile, role);
-    while (body < 0 && animation::isSpine(role)) {
-        role = *animation::parentRole(role);
-        body = physics::bodyOf(profile, role);
+// The body that a blow to a part meets; rigs divide the trunk into one to three, so that a part of it that has no body
+// of its own is in the next one below. -1: none.
+int bodyMet(const physics::RagdollProfile& profile, std::string_view name) {
+    for (std::size_t body = 0; body < profile.bodies.size(); ++body)
+        if (profile.bodies[body].name == name) return static_cast<int>(body);
+    auto role = animation::roleFromName(name);
+    int body = role ? physics::bodyOf(profile, *role) : -1;
+    while (body < 0 && role && animation::isSpine(*role)) {
+        role = animation::parentRole(*role);
+        body = physics::bodyOf(profile, *role);
     }
     return body;
 }
@@ -84,10 +87,10 @@ Result<std::unique_ptr<PuppetCast>> PuppetCast::create(std::span<const RagdollAs
                                                        const Scenario& scenario, PuppetPlay play) {
     for (const PuppetHit& hit : play.hits) {
         const bool known = std::any_of(assets.begin(), assets.end(), [&](const RagdollAsset* asset) {
-            return bodyMet(asset->profile, hit.role) >= 0;
+            return bodyMet(asset->profile, hit.body) >= 0;
         });
         if (known) continue;
-        return Error{ErrorCode::usage, fmt::format("no doll has a body for {}", animation::roleName(hit.role)),
+        return Error{ErrorCode::usage, fmt::format("no doll has a body {}", hit.body),
                      assets.front()->character.file.string(), bodiesOf(assets.front()->profile)};
     }
     if (auto known = checkLed(assets, play.led); !known) return known.error();
@@ -163,8 +166,9 @@ PuppetCast::PuppetCast(std::span<const RagdollAsset* const> assets, const Scenar
 void PuppetCast::begin(physics::World& world, std::span<const physics::DollId> dolls) {
     end();
     world_ = &world;
-    seconds_ = squares_ = gapsM_ = 0.0;
-    count_ = standing_ = 0;
+    seconds_ = gapsM_ = 0.0;
+    standing_ = 0;
+    tallies_.assign(assets_.size(), {});
     worst_ = {};
     risen_ = {};
     risenSeconds_ = matchedM_ = 0.0;
@@ -213,6 +217,7 @@ physics::PuppetSettings PuppetCast::settingsOf(const RagdollAsset& asset, int ro
     if (play_.ownMuscles && settings.muscles.bodies.empty())
         for (const physics::BodyProfile& body : profile.bodies)
             settings.muscles.bodies.push_back(body.muscle);
+    if (play_.carriesGravity) settings.muscles.carriedGravity = play_.gravity;
     settings.gravity = std::max(-play_.gravity.y, 0.1F);
     settings.pinForceN = play_.pinForceN.value_or(profile.bodies[root].pinForceN.value_or(settings.pinForceN));
     for (const physics::BodyProfile& body : profile.bodies)
@@ -332,7 +337,7 @@ void PuppetCast::hitDue(float dt) {
         const auto at = static_cast<double>(hit.seconds);
         if (at < seconds_ || at >= seconds_ + static_cast<double>(dt)) continue;
         for (Actor& actor : actors_) {
-            const int body = bodyMet(actor.asset->profile, hit.role);
+            const int body = bodyMet(actor.asset->profile, hit.body);
             if (body < 0 || (hit.doll >= 0 && &actor != &actors_[hit.doll])) continue;
             bodies_.resize(actor.asset->profile.bodies.size());
             world_->getBodies(actor.puppet->doll(), bodies_);
@@ -398,23 +403,6 @@ std::optional<animation::GroundHit> PuppetCast::footing(const vec3& point) const
     return groundOn(point + vec3(0, kAboveM, 0), point - vec3(0, kBelowM, 0));
 }
 
-// How near feet that stand in the clip are to the ground. Bodies are in frames_ after a step.
-void PuppetCast::measureFooting(const Actor& actor) {
-    if (!actor.terrain || actor.rising || actor.puppet->state() != PuppetState::animated) return;
-    for (int leg = 0; leg < 2; ++leg) {
-        const int foot = actor.feet[leg].body;
-        if (foot < 0 || !actor.terrain->stands(leg)) continue;
-        float nearest = 1e9F;
-        for (const physics::StaticShape& shape : statics_)
-            nearest = std::min(
-                nearest, physics::distanceToStatic(actor.asset->profile.bodies[foot].shape, frames_[foot], shape));
-        worst_.footGapM = std::max(worst_.footGapM, nearest);
-        worst_.footDepthM = std::max(worst_.footDepthM, -nearest);
-        gapsM_ += static_cast<double>(std::max(nearest, 0.0F));
-        ++standing_;
-    }
-}
-
 // What flies against a puppet weakens it as a hit does.
 void PuppetCast::feelContacts() {
     using Side = physics::ContactReport::Side;
@@ -452,49 +440,6 @@ void PuppetCast::feelGround(Actor& actor) {
         feel(report.b, report.a, -report.normal.y);
     }
     actor.puppet->setGrounded(grounded);
-}
-
-void PuppetCast::measure() {
-    feelContacts();
-    for (Actor& actor : actors_) {
-        if (actor.puppet->state() == physics::PuppetState::limp) continue;
-        const physics::RagdollProfile& profile = actor.asset->profile;
-        bodies_.resize(profile.bodies.size());
-        world_->getBodies(actor.puppet->doll(), bodies_);
-        frames_.clear();
-        for (const BodyState& body : bodies_)
-            frames_.push_back(body.worldFromBody);
-        errors_.resize(profile.constraints.size());
-        if (actor.rising) measureRising(actor);
-        measureFeet(actor);
-        measureFooting(actor);
-        for (std::size_t i = 0; i < frames_.size(); ++i)
-            if (actor.puppet->weightOf(static_cast<int>(i)) >= 1.0F)
-                worst_.ledM = std::max(worst_.ledM, glm::distance(frames_[i].translation, actor.to[i].translation));
-        physics::jointErrors(profile, actor.to, frames_, errors_);
-        for (std::size_t i = 0; i < errors_.size(); ++i) {
-            const float degreesOff = degrees(errors_[i]);
-            squares_ += static_cast<double>(degreesOff) * static_cast<double>(degreesOff);
-            ++count_;
-            if (degreesOff <= worst_.maxDeg) continue;
-            worst_.maxDeg = degreesOff;
-            worst_.worstJoint = profile.bodies[profile.constraints[i].child].name;
-        }
-        worst_.rootM =
-            std::max(worst_.rootM, glm::distance(frames_[actor.root].translation, actor.to[actor.root].translation));
-    }
-}
-
-PuppetFigures PuppetCast::figures() const {
-    PuppetFigures figures = worst_;
-    figures.clipReachDeg = reach_.clipReachDeg;
-    figures.clipReachJoint = reach_.clipReachJoint;
-    figures.rmsDeg = count_ > 0 ? static_cast<float>(std::sqrt(squares_ / static_cast<double>(count_))) : 0.0F;
-    figures.footGapMeanM = standing_ > 0 ? static_cast<float>(gapsM_ / static_cast<double>(standing_)) : 0.0F;
-    figures.limp = static_cast<int>(std::count_if(actors_.begin(), actors_.end(), [](const Actor& actor) {
-        return actor.puppet->state() == physics::PuppetState::limp;
-    }));
-    return figures;
 }
 
 }  // namespace lutka::scene

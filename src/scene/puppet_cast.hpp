@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "animation/playback/clip_player.hpp"
@@ -29,6 +30,7 @@ struct PuppetPlay {
     float pace = 0.0F;   ///< m/s ahead, for clips that walk in place.
     /// The muscles are each profile's own where it has some; `puppet.muscles.strength` is a factor on them.
     bool ownMuscles = false;
+    bool carriesGravity = false;  ///< Joints carry what hangs on them, whatever the profile says.
     /// N, of the hips' pin; unset: the profile's, else `puppet.pinForceN`.
     std::optional<float> pinForceN;
     std::vector<LedPart> led;    ///< Bodies that follow the clip themselves; the others by their muscles.
@@ -62,15 +64,23 @@ struct GetUpFigures {
     float meanDistanceM = 0.0F;  ///< Of the pose lain in from the frame that it went on from.
 };
 
+/// How far one joint was from the pose's angle.
+struct JointFigures {
+    std::string name;  ///< Of the body below it.
+    float rmsDeg = 0.0F;
+    float maxDeg = 0.0F;
+};
+
 /// How well the dolls kept to their poses, over all of them and all steps in which they were not limp.
 struct PuppetFigures {
     float rmsDeg = 0.0F;  ///< Of all joints' angles from the pose's.
     float maxDeg = 0.0F;
-    std::string worstJoint;      ///< The body below the joint of `maxDeg`.
-    float clipReachDeg = 0.0F;   ///< Most that a joint of the clip was turned by, so that the doll can follow it.
-    std::string clipReachJoint;  ///< The body below it.
-    float rootM = 0.0F;          ///< Farthest that a pinned root body was from its pose.
-    float ledM = 0.0F;           ///< And any kinematic body.
+    std::string worstJoint;            ///< The body below the joint of `maxDeg`.
+    std::vector<JointFigures> joints;  ///< Each of them, over all characters that have a body of that name.
+    float clipReachDeg = 0.0F;         ///< Most that a joint of the clip was turned by, so that the doll can follow it.
+    std::string clipReachJoint;        ///< The body below it.
+    float rootM = 0.0F;                ///< Farthest that a pinned root body was from its pose.
+    float ledM = 0.0F;                 ///< And any kinematic body.
     /// On ground that is not level, of feet that stand in the clip: the mean and the most that they were above it, and
     /// the deepest in it.
     float footGapMeanM = 0.0F;
@@ -152,7 +162,16 @@ class PuppetCast {
         };
         std::array<Foot, 2> feet;
     };
+    // A joint's angles from the pose's, degrees.
+    struct JointTally {
+        double squares = 0.0;
+        long long count = 0;
+        float maxDeg = 0.0F;
+        void add(const JointTally& other);
+        [[nodiscard]] float rmsDeg() const;
+    };
     PuppetCast(std::span<const RagdollAsset* const> assets, const Scenario& scenario, PuppetPlay play);
+    [[nodiscard]] std::vector<std::pair<std::string, JointTally>> jointTallies() const;
     [[nodiscard]] physics::PuppetSettings settingsOf(const RagdollAsset& asset, int root) const;
     void startClip(Actor& actor, float seconds, physics::World& world, physics::DollId doll);
     [[nodiscard]] float clearance(const Actor& actor);
@@ -202,10 +221,9 @@ class PuppetCast {
     std::vector<physics::BodyState> bodies_;
     std::vector<RigidTransform> frames_;
     std::vector<float> errors_, clearance_;
-    double squares_ = 0.0;
+    std::vector<std::vector<JointTally>> tallies_;  // one an asset, of a tally a constraint
     double gapsM_ = 0.0;
     long long standing_ = 0;  // feet, in all steps
-    long long count_ = 0;
     PuppetFigures worst_;
     PuppetFigures reach_;  // its clipReachDeg and clipReachJoint, of all assets
     GetUpFigures risen_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "physics/doctor/doctor.hpp"
+#include "scene/puppet_report.hpp"
 #include "scene/quality_json.hpp"
 
 namespace lutka::scene {
@@ -67,65 +68,6 @@ std::string castText(const Simulation& simulation) {
                        simulation.bodyCount());
 }
 
-nlohmann::ordered_json puppetJson(const Simulation& simulation) {
-    const PuppetCast& cast = *simulation.puppets();
-    const PuppetFigures figures = cast.figures();
-    const physics::PuppetSettings first = cast.settingsOfFirst();
-    nlohmann::ordered_json json = {
-        {"clip", cast.settings().start.clip},
-        {"strength", first.muscles.strength},
-        {"frequencyHz", first.muscles.frequencyHz},
-        {"dampingRatio", first.muscles.dampingRatio},
-        {"pinForceN", first.pinForceN},
-        {"kinematicBodies", std::count_if(first.led.begin(), first.led.end(), [](float w) { return w >= 1.0F; })},
-        {"trackingErrorDeg", {{"rms", figures.rmsDeg}, {"max", figures.maxDeg}, {"worst", figures.worstJoint}}},
-        {"clipTurned", {{"maxDeg", figures.clipReachDeg}, {"joint", figures.clipReachJoint}}},
-        {"rootErrorM", figures.rootM},
-        {"ledErrorM", figures.ledM},
-        {"footSlideM", figures.footSlideM},
-        {"footing", {{"gapMeanM", figures.footGapMeanM}, {"gapM", figures.footGapM}, {"depthM", figures.footDepthM}}},
-        {"motorWorkJ", simulation.world().motorWork()},
-        {"pinWorkJ", simulation.world().dragWork()},
-        {"hitWorkJ", simulation.world().impulseWork()},
-        {"knockOuts", figures.knockOuts},
-        {"limp", figures.limp},
-        {"recoverySeconds",
-         figures.recoverySeconds < 0.0F ? nlohmann::ordered_json() : nlohmann::ordered_json(figures.recoverySeconds)}};
-    if (cast.settings().getUp) {
-        const GetUpFigures up = cast.getUpFigures();
-        json["getUp"] = {{"begun", up.begun},
-                         {"stood", up.stood},
-                         {"seconds", {{"mean", up.meanSeconds}, {"max", up.mostSeconds}}},
-                         {"largestStepDeg", up.mostStepDeg},
-                         {"largestStepJoint", up.stepJoint},
-                         {"footSlideM", up.mostSlideM},
-                         {"poseDistanceM", up.meanDistanceM}};
-    }
-    return json;
-}
-
-std::string puppetText(const Simulation& simulation) {
-    const PuppetFigures figures = simulation.puppets()->figures();
-    std::string text = fmt::format("  behind the pose    {:7.2f} deg RMS, {:.2f} deg at most ({}), root {:.1f} cm\n",
-                                   figures.rmsDeg, figures.maxDeg, figures.worstJoint, figures.rootM * 1e2F);
-    if (figures.clipReachDeg > 1.0F)
-        text += fmt::format("  the clip itself    {:7.1f} deg at most beyond what its joints can do ({})\n",
-                            figures.clipReachDeg, figures.clipReachJoint);
-    text += fmt::format("  feet slid          {:7.1f} cm at most while they stood\n", figures.footSlideM * 1e2F);
-    text += fmt::format("  work               {:7.1f} J by muscles, {:.1f} J by pins\n", simulation.world().motorWork(),
-                        simulation.world().dragWork());
-    if (figures.knockOuts > 0)
-        text += fmt::format("  knocked out        {:7} times, {} limp now\n", figures.knockOuts, figures.limp);
-    if (simulation.puppets()->settings().getUp) {
-        const GetUpFigures up = simulation.puppets()->getUpFigures();
-        text += fmt::format("  got up             {:7} of {} times, in {:.2f} s, {:.2f} s at most\n", up.stood,
-                            up.begun, up.meanSeconds, up.mostSeconds);
-        text += fmt::format("  on the way         {:7.1f} deg in a step at most ({}), feet slid {:.1f} cm\n",
-                            up.mostStepDeg, up.stepJoint, up.mostSlideM * 1e2F);
-    }
-    return text;
-}
-
 }  // namespace
 
 std::string reportJson(const Simulation& simulation) {
@@ -164,7 +106,7 @@ std::string reportJson(const Simulation& simulation) {
     json["quality"] = simulation.shedder() == nullptr && simulation.clipCast() == nullptr
                           ? qualityJson(simulation.quality())
                           : nlohmann::ordered_json();
-    if (simulation.puppets() != nullptr) json["puppet"] = puppetJson(simulation);
+    if (simulation.puppets() != nullptr) json["puppet"] = puppetJson(*simulation.puppets(), simulation.world());
     if (const LoadShedder* shedder = simulation.shedder()) {
         const LoadShedder::Counts counts = shedder->counts();
         json["shed"] = {{"lod", counts.lod},
@@ -209,7 +151,7 @@ std::string reportText(const Simulation& simulation) {
         text += fmt::format("  into each other    {:7.2f} mm at most, {:.2f} mm p99 of those that touch\n",
                             q.dollPenetrationM.max * 1e3F, q.dollPenetrationM.p99 * 1e3F);
     }
-    if (simulation.puppets() != nullptr) text += puppetText(simulation);
+    if (simulation.puppets() != nullptr) text += puppetText(*simulation.puppets(), simulation.world());
     text += fmt::format("  energy growth      {:7.2f} J of {:.0f} J\n", q.energyGrowthJ, q.initialEnergyJ);
     text += q.settleSeconds ? fmt::format("  at rest            {:7.2f} s after the first contact\n", *q.settleSeconds)
                             : fmt::format("  not at rest        {:7.3f} m/s at the end\n", q.residualSpeedMps);

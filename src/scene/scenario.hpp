@@ -37,10 +37,12 @@ struct Placement {
 
 /// A push on the dolls of a scene at a moment.
 struct PuppetHit {
-    physics::Role role = physics::Role::chest;  ///< Dolls without that body are spared.
-    float seconds = 0.0F;                       ///< Since the start, >= 0.
-    vec3 impulse{0, 0, 0};                      ///< N s, as the figure faces: Y up, +Z ahead; at the body's centre.
-    int doll = -1;                              ///< Which one; -1: all.
+    /// A body's name, or that of a role; what a part of the trunk without a body gets the next one below does. Dolls
+    /// without it are spared.
+    std::string body = "chest";
+    float seconds = 0.0F;   ///< Since the start, >= 0.
+    vec3 impulse{0, 0, 0};  ///< N s, as the figure faces: Y up, +Z ahead; at the body's centre.
+    int doll = -1;          ///< Which one; -1: all.
 };
 
 /// A body of a doll held at a world point from the start (the scene `hang`).

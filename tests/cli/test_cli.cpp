@@ -237,6 +237,11 @@ TEST_CASE("check finds nothing wrong with the mannequin and an error in a profil
     const Json good = Json::parse(sound.out);
     CHECK(good["score"].get<double>() > 90);
     CHECK(good["drops"].size() == 3);
+    const Json walk = good["walk"];
+    CHECK(walk["trackingErrorDeg"]["rms"].get<double>() < 2.0);
+    CHECK(walk["trackingErrorDeg"]["joints"].size() == 15);
+    CHECK(walk["rootErrorM"].get<double>() < 0.02);
+    CHECK(walk["recoverySeconds"].get<double>() < 0.5);
 
     const ScratchFolder folder;
     const std::string profile = folder / "faulty.ragdoll.json";

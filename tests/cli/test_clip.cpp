@@ -82,6 +82,31 @@ TEST_CASE("retarget says what it lacks") {
               .code == 5);
 }
 
+TEST_CASE("a hit goes where it is told to by a word, by a vector, or from ahead") {
+    const auto hashOf = [](const std::string& hit) {
+        const CommandResult result = lutkaCommand("simulate " + kMannequinArgument +
+                                                  " --clip idle --puppet powered --seconds 0.5 --json --hit " + hit);
+        REQUIRE(result.code == 0);
+        return Json::parse(result.out)["stateHash"].get<std::string>();
+    };
+    CHECK(hashOf("head@0.2:8:left") == hashOf("head@0.2:8,0,0"));
+    CHECK(hashOf("head@0.2:8:0,3,0") == hashOf("head@0.2:8:up"));
+    CHECK(hashOf("head@0.2:8") == hashOf("head@0.2:8:back"));
+    CHECK(hashOf("head@0.2:8") != hashOf("head@0.2:8:ahead"));
+    for (const char* hit : {"head@0.2:8:nowhere", "head@0.2:8:0,0,0", "head@0.2:8,0,0:up", "@0.2:8", "head@0.2"})
+        CHECK(lutkaCommand("simulate " + kMannequinArgument + " --clip idle --puppet weak --hit " + hit).code == 2);
+}
+
+TEST_CASE("joints that carry gravity sag less") {
+    const auto offOf = [](const std::string& more) {
+        const CommandResult result =
+            lutkaCommand("simulate " + kMannequinArgument + " --clip idle --puppet weak --seconds 2 --json" + more);
+        REQUIRE(result.code == 0);
+        return Json::parse(result.out)["puppet"]["trackingErrorDeg"]["rms"].get<double>();
+    };
+    CHECK(offOf(" --carry-gravity") < 0.5 * offOf(""));
+}
+
 TEST_CASE("simulate --puppet follows the clip with muscles, is hit, and reports how closely") {
     const std::string walk = "simulate " + kMannequinArgument + " --clip walk --puppet ";
     const CommandResult plain = lutkaCommand(walk + "powered --seconds 2 --json");
@@ -90,6 +115,11 @@ TEST_CASE("simulate --puppet follows the clip with muscles, is hit, and reports 
     CHECK(report["clip"] == "walk");
     CHECK(report["trackingErrorDeg"]["rms"].get<double>() < 2.0);
     CHECK(report["knockOuts"] == 0);
+    REQUIRE(report["trackingErrorDeg"]["joints"].size() == 15);
+    const Json& worst = report["trackingErrorDeg"]["joints"][report["trackingErrorDeg"]["worst"].get<std::string>()];
+    CHECK(worst["max"] == report["trackingErrorDeg"]["max"]);
+    CHECK(worst["rms"].get<double>() > report["trackingErrorDeg"]["rms"].get<double>());
+    CHECK(report["pinImpulseNs"].get<double>() > 100.0);
     const CommandResult hit = lutkaCommand(walk + "powered --seconds 2 --hit leftLowerArm@0.5:8 --json");
     REQUIRE(hit.code == 0);
     CHECK(Json::parse(hit.out)["puppet"]["trackingErrorDeg"]["max"].get<double>() > 15.0);

@@ -146,7 +146,7 @@ TEST_CASE("a doll that is struck down on its way up lies, and gets up again") {
     const auto once = falls(SolverKind::crowd, 1, 3.5F);
     REQUIRE(once->puppets()->puppet(0).state() == PuppetState::gettingUp);
     const auto twice =
-        falls(SolverKind::crowd, 1, 12.0F, {{Role::hips, 3.5F, {0, 0, 400}}, {Role::upperChest, 3.5F, {0, 0, 400}}});
+        falls(SolverKind::crowd, 1, 12.0F, {{"hips", 3.5F, {0, 0, 400}}, {"upperChest", 3.5F, {0, 0, 400}}});
     CHECK(twice->puppets()->getUpFigures().begun >= 2);
     CHECK(twice->puppets()->figures().knockOuts >= 1);
     CHECK(twice->puppets()->puppet(0).state() == PuppetState::animated);
@@ -156,7 +156,7 @@ TEST_CASE("hits on the way up and while the clip is blended into move no joint b
     for (const SolverKind solver : {SolverKind::crowd, SolverKind::bullet}) {
         for (const float at : {1.7F, 2.6F, 3.5F, 4.4F}) {
             INFO(physics::solverName(solver) << ", hit at " << at << " s");
-            const auto simulation = falls(solver, 4, 11.0F, {{Role::upperChest, at, {0, 0, 20}}});
+            const auto simulation = falls(solver, 4, 11.0F, {{"upperChest", at, {0, 0, 20}}});
             const scene::GetUpFigures up = simulation->puppets()->getUpFigures();
             INFO(up.mostStepDeg << " degrees at " << up.stepJoint);
             CHECK(up.mostStepDeg <= 10.0F);

@@ -127,8 +127,7 @@ TEST_CASE("figures of any proportions stand, and a push of 20 N s on the chest f
                 ground.dolls.emplace_back().worldFromModel = {
                     about.standardFromModel, vec3(3.0F * static_cast<float>(way), -about.bounds.low.y, 0)};
                 const float angle = 2.0F * kPi / kWays * static_cast<float>(way);
-                play.hits.push_back(
-                    {physics::Role::upperChest, 3.0F, 20.0F * vec3(std::sin(angle), 0, std::cos(angle)), way});
+                play.hits.push_back({"upperChest", 3.0F, 20.0F * vec3(std::sin(angle), 0, std::cos(angle)), way});
             }
             const auto simulation = playIn(asset, std::move(ground), play, solver, 7.0F);
             const float standing = about.bounds.low.y;

@@ -104,6 +104,7 @@ void visitSettings(Options& options, const Visit& visit) {
     visit("in-place", options.clipInPlace);
     visit("puppet", options.puppet);
     visit("strength", options.strength);
+    visit("carry-gravity", options.carriesGravity);
     visit("pin", options.pinForceN);
     visit("kinematic", options.kinematic);
     visit("hit", options.hits);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "animation/humanoid/roles.hpp"
@@ -67,21 +68,42 @@ std::vector<float> numbersOf(const std::string& text) {
     }
 }
 
-// ROLE@SECONDS:NS, from ahead, or ROLE@SECONDS:X,Y,Z.
+// Which way a hit goes, as the figure faces, by a word or as X,Y,Z of any length.
+std::optional<vec3> directionOf(const std::string& text) {
+    constexpr std::pair<std::string_view, vec3> words[] = {{"ahead", {0, 0, 1}}, {"back", {0, 0, -1}},
+                                                           {"left", {1, 0, 0}},  {"right", {-1, 0, 0}},
+                                                           {"up", {0, 1, 0}},    {"down", {0, -1, 0}}};
+    for (const auto& [word, direction] : words)
+        if (text == word) return direction;
+    const std::vector<float> numbers = numbersOf(text);
+    if (numbers.size() != 3) return std::nullopt;
+    const vec3 given(numbers[0], numbers[1], numbers[2]);
+    if (glm::length(given) < 1e-6F) return std::nullopt;
+    return glm::normalize(given);
+}
+
+// What stands behind BODY@SECONDS: NS, from ahead, NS:DIRECTION or X,Y,Z.
+std::optional<vec3> impulseOf(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const std::vector<float> numbers = numbersOf(text.substr(0, colon));
+    if (colon == std::string::npos && numbers.size() == 3) return vec3(numbers[0], numbers[1], numbers[2]);
+    if (numbers.size() != 1) return std::nullopt;
+    const auto direction = colon == std::string::npos ? vec3(0, 0, -1) : directionOf(text.substr(colon + 1));
+    return direction ? std::optional(numbers[0] * *direction) : std::nullopt;
+}
+
+// BODY@SECONDS:IMPULSE; a body's name may hold both signs.
 scene::PuppetHit parseHit(const std::string& text) {
-    const std::size_t at = text.find('@');
-    const std::size_t colon = text.find(':', at == std::string::npos ? 0 : at);
-    const auto role = animation::roleFromName(text.substr(0, at));
-    if (at != std::string::npos && colon != std::string::npos && role) {
+    const std::size_t at = text.rfind('@');
+    const std::size_t colon = at == std::string::npos ? at : text.find(':', at);
+    if (colon != std::string::npos && at > 0) {
         const std::vector<float> seconds = numbersOf(text.substr(at + 1, colon - at - 1));
-        const std::vector<float> impulse = numbersOf(text.substr(colon + 1));
-        if (seconds.size() == 1 && seconds[0] >= 0.0F && (impulse.size() == 1 || impulse.size() == 3)) {
-            return {*role, seconds[0],
-                    impulse.size() == 1 ? vec3(0, 0, -impulse[0]) : vec3(impulse[0], impulse[1], impulse[2])};
-        }
+        const std::optional<vec3> impulse = impulseOf(text.substr(colon + 1));
+        if (seconds.size() == 1 && seconds[0] >= 0.0F && impulse) return {text.substr(0, at), seconds[0], *impulse};
     }
     leave({ErrorCode::usage, fmt::format("'{}' is no hit", text), "--hit",
-           "give a body part, a moment and an impulse in N s, as head@1.5:5 or leftLowerArm@0.5:0,0,10"});
+           "give a body, a moment, an impulse in N s and, if not from ahead, which way it goes (ahead, back, left, "
+           "right, up, down or X,Y,Z): head@1.5:5, head@1.5:5:left or leftLowerArm@0.5:10:0,1,1"});
 }
 
 // PART or PART:WEIGHT.
@@ -265,6 +287,8 @@ void SimulateOptions::addTo(const Command& app) {
             .oneOf({"limp", "weak", "powered", "stiff", "profile"})
             .needs(clipOption);
     app.option("--strength", strength, "factor on the muscles' strength").range(0.0, 1e6).needs(puppetOption);
+    app.flag("--carry-gravity", carriesGravity, "joints carry what hangs on them instead of sagging")
+        .needs(puppetOption);
     app.option("--pin", pinForceN, "newtons that hold the hips to the clip at most; 0: it stands or falls")
         .range(0.0, 1e6)
         .needs(puppetOption);
@@ -273,7 +297,10 @@ void SimulateOptions::addTo(const Command& app) {
                "NAME:WEIGHT below 1 draws them there")
         .commaSeparated(0)
         .needs(puppetOption);
-    app.option("--hit", hits, "push a body: ROLE@SECONDS:NS or ROLE@SECONDS:X,Y,Z in N s, +Z ahead; may be repeated")
+    app.option("--hit", hits,
+               "push a body: BODY@SECONDS:NS[:DIRECTION], which way it goes as ahead, back (default), left, right, up, "
+               "down or "
+               "X,Y,Z with +Z ahead; or BODY@SECONDS:X,Y,Z in N s; may be repeated")
         .oneValueEach()
         .needs(puppetOption);
     const Option getUpFlag =
@@ -324,6 +351,7 @@ scene::PuppetPlay SimulateOptions::puppetPlay() const {
     play.puppet.muscles =
         physics::musclesOf(static_cast<physics::MusclePreset>(preset - physics::kMusclePresetNames.begin()));
     play.puppet.muscles.strength = strength;
+    play.carriesGravity = carriesGravity;
     play.pinForceN = pinForceN;
     for (const std::string& part : kinematic)
         play.led.push_back(parseLed(part));

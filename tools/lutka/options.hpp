@@ -102,6 +102,7 @@ struct SimulateOptions {
     std::string
         puppet;  ///< A muscle preset or `profile`: the clip is followed instead of played, as the next three say.
     float strength = 1.0F;
+    bool carriesGravity = false;
     std::optional<float> pinForceN;
     std::vector<std::string> kinematic;
     std::vector<std::string> hits;

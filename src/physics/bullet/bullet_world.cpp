@@ -28,6 +28,7 @@ class BulletWorld final : public World {
 
     [[nodiscard]] int substepsPerStep() const override { return isStock() ? 1 : tuning_.substeps; }
     [[nodiscard]] double dragWork() const override { return dragWork_; }
+    [[nodiscard]] double dragImpulse() const override { return dragImpulse_; }
     [[nodiscard]] double motorWork() const override { return motorWork_; }
     void getContacts(std::vector<ContactPoint>& contacts) const override;
     [[nodiscard]] std::span<const ContactReport> contactReports() const override { return gatherer_.reports(); }
@@ -102,6 +103,7 @@ class BulletWorld final : public World {
     std::vector<std::unique_ptr<Ragdoll>> dolls_;
     std::vector<PulledBody> drags_;
     double dragWork_ = 0.0;
+    double dragImpulse_ = 0.0;              // N s
     std::vector<MotorConstraint*> motors_;  // of all dolls
     std::vector<Force> forces_;
     double motorWork_ = 0.0;
@@ -204,8 +206,18 @@ void BulletWorld::addWork(float dt) {
         const auto done = static_cast<double>(glm::dot(impulse, mean));
         return std::isfinite(done) ? done : 0.0;
     };
-    for (const PulledBody& drag : drags_)
-        dragWork_ += work(drag.constraint->force() * dt);
+    vec3 onBody(0);  // what its pulls have given it together: those of a body come one after the other
+    for (std::size_t i = 0; i < drags_.size(); ++i) {
+        const vec3 impulse = drags_[i].constraint->force() * dt;
+        dragWork_ += work(impulse);
+        onBody += impulse;
+        if (i + 1 < drags_.size() && drags_[i + 1].doll == drags_[i].doll &&
+            drags_[i + 1].constraint->drag().body == drags_[i].constraint->drag().body)
+            continue;
+        const auto given = static_cast<double>(glm::length(onBody));
+        if (std::isfinite(given)) dragImpulse_ += given;
+        onBody = vec3(0);
+    }
     for (const auto& doll : dolls_)
         if (doll->led().any()) dragWork_ += doll->led().work();
     for (const MotorConstraint* motor : motors_)

@@ -44,6 +44,7 @@ class CrowdWorld final : public World {
 
     [[nodiscard]] int substepsPerStep() const override { return state_.tuning.substeps; }
     [[nodiscard]] double dragWork() const override { return state_.dragWork; }
+    [[nodiscard]] double dragImpulse() const override { return state_.dragImpulse; }
     [[nodiscard]] double motorWork() const override { return state_.motorWork; }
     void getContacts(std::vector<ContactPoint>& contacts) const override;
     [[nodiscard]] std::span<const ContactReport> contactReports() const override { return state_.reports; }

@@ -54,7 +54,7 @@ void beginDrag(CrowdState& state, DragRecord& record) {
                     glm::cross(readVector(body.angular, doll.lane), axes * record.drag.bodyPoint);
 }
 
-double endDrag(CrowdState& state, DragRecord& record) {
+DragDeed endDrag(CrowdState& state, DragRecord& record) {
     const Doll& doll = dollOf(state, record);
     const Batch& batch = state.batchOf(doll);
     const BodyLanes& body = batch.bodies[record.drag.body];
@@ -62,7 +62,8 @@ double endDrag(CrowdState& state, DragRecord& record) {
     record.bounded = lanes.gain.lane[doll.lane] == 0.0F;
     const vec3 after = readVector(body.steadyVelocity, doll.lane) +
                        glm::cross(readVector(body.steadyAngular, doll.lane), readVector(lanes.arm, doll.lane));
-    return static_cast<double>(glm::dot(readVector(lanes.impulse, doll.lane), 0.5F * (record.before + after)));
+    const vec3 impulse = readVector(lanes.impulse, doll.lane);
+    return {static_cast<double>(glm::dot(impulse, 0.5F * (record.before + after))), impulse};
 }
 
 }  // namespace lutka::physics::crowd

@@ -7,9 +7,13 @@ namespace lutka::physics::crowd {
 /// Puts all pulls into the lanes of their dolls, for a step of `dt` s. Call it after makeJobs().
 void placeDrags(CrowdState& state, float dt);
 
-/// Before and after a substep's velocities are solved: the work that the pull has done on the doll, joules, is returned
-/// by the latter.
+/// What a pull did in a substep.
+struct DragDeed {
+    double work = 0.0;      ///< On the doll, joules.
+    vec3 impulse{0, 0, 0};  ///< N s
+};
+/// Before and after a substep's velocities are solved.
 void beginDrag(CrowdState& state, DragRecord& record);
-[[nodiscard]] double endDrag(CrowdState& state, DragRecord& record);
+[[nodiscard]] DragDeed endDrag(CrowdState& state, DragRecord& record);
 
 }  // namespace lutka::physics::crowd

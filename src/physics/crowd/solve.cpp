@@ -103,8 +103,7 @@ class JobSubstep {
         for (const Batch* batch : job_.batches)
             job_.dragWork += workOfTargets(*batch);
         if (!state_.targets.empty()) job_.dragWork += workOfPushes(state_, job_);
-        for (DragRecord* drag : job_.drags)
-            job_.dragWork += endDrag(state_, *drag);
+        endDrags();
         int pushed = 0;
         if (mends_) {
             pushed = kernels.mendPairs(pairs, params_);
@@ -140,6 +139,20 @@ class JobSubstep {
         const bool isFirst = params.warmStart != 0;
         if (!batch.nearShapes || (isFirst ? batch.substeps == job_.substeps : batch.isStill)) return;
         findStaticsAgain(state_, batch, *job_.topologies[i], params.remaining, params.dt);
+    }
+
+    void endDrags() {
+        vec3 onBody(0);  // what its pulls have given it together: those of a body come one after the other
+        for (std::size_t i = 0; i < job_.drags.size(); ++i) {
+            const DragRecord& drag = *job_.drags[i];
+            const DragDeed deed = endDrag(state_, *job_.drags[i]);
+            job_.dragWork += deed.work;
+            onBody += deed.impulse;
+            const DragRecord* next = i + 1 < job_.drags.size() ? job_.drags[i + 1] : nullptr;
+            if (next != nullptr && next->doll == drag.doll && next->drag.body == drag.drag.body) continue;
+            job_.dragImpulse += static_cast<double>(glm::length(onBody));
+            onBody = vec3(0);
+        }
     }
 
     // A body may have been struck towards static geometry that it was far from when contacts were looked for. It would
@@ -224,14 +237,15 @@ void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSu
     for (int substeps = 1; substeps <= parts; ++substeps)
         paramsFor[substeps] = paramsOf(state, dt / static_cast<float>(substeps));
     for (std::size_t i = 0; i < state.jobCount; ++i)
-        state.jobs[i].dragWork = state.jobs[i].motorWork = 0.0;
+        state.jobs[i].dragWork = state.jobs[i].dragImpulse = state.jobs[i].motorWork = 0.0;
     // In the order of the jobs, so that the sum is the same at every thread count.
     const auto takeDragWork = [&] {
         for (std::size_t i = 0; i < state.jobCount; ++i) {
             // A doll that is about to be put back (World::caught) must not spoil the sums for good.
             if (std::isfinite(state.jobs[i].dragWork)) state.dragWork += state.jobs[i].dragWork;
+            if (std::isfinite(state.jobs[i].dragImpulse)) state.dragImpulse += state.jobs[i].dragImpulse;
             if (std::isfinite(state.jobs[i].motorWork)) state.motorWork += state.jobs[i].motorWork;
-            state.jobs[i].dragWork = state.jobs[i].motorWork = 0.0;
+            state.jobs[i].dragWork = state.jobs[i].dragImpulse = state.jobs[i].motorWork = 0.0;
         }
     };
     const auto paramsAt = [&](const Job& job, int index) {

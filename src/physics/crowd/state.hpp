@@ -163,6 +163,7 @@ struct Job {
     std::vector<const ForceRecord*> forces;
     int substeps = 0;  ///< Of this step.
     double dragWork = 0.0;
+    double dragImpulse = 0.0;
     double motorWork = 0.0;  ///< And of forces.
 };
 
@@ -223,6 +224,7 @@ struct CrowdState {
     std::vector<TargetRecord> targets;  ///< By doll and body.
     std::vector<ForceRecord> forces;    ///< Of the coming step.
     double motorWork = 0.0;             ///< And of forces.
+    double dragImpulse = 0.0;           ///< N s, see WorldView::dragImpulse().
     std::vector<ContactReport> reports;
     int bodyTotal = 0;
     int boxTotal = 0;  ///< BoxLanes.

@@ -94,6 +94,9 @@ class WorldView {
     [[nodiscard]] virtual int substepsPerStep() const = 0;
     /// Work done by drags since the world was made, joules.
     [[nodiscard]] virtual double dragWork() const { return 0.0; }
+    /// What drags have given their bodies since the world was made, N s: of each body the length of the sum of its
+    /// drags' impulses in a substep, added up. Without what leads bodies to frames.
+    [[nodiscard]] virtual double dragImpulse() const { return 0.0; }
     /// Work done by motors and applied forces since the world was made, joules.
     [[nodiscard]] virtual double motorWork() const { return 0.0; }
     /// Work done by impulses (World::applyImpulse) since the world was made, joules.

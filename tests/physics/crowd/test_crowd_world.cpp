@@ -185,6 +185,7 @@ TEST_CASE("the work of a drag is the energy that a lifted rod gains") {
     const float gained = 2.0F * 9.81F * body.worldFromBody.translation.y +
                          0.5F * 2.0F * glm::dot(body.linearVelocity, body.linearVelocity);
     CHECK(world->dragWork() == Approx(gained).epsilon(0.005));
+    CHECK(world->dragImpulse() == Approx(2.0 * 9.81 * 4.0).epsilon(0.005));  // its weight, for four seconds
     CHECK(body.worldFromBody.translation.y == Approx(1.5F).margin(0.02));
 }
 

@@ -68,6 +68,21 @@ class Stage {
 
 }  // namespace
 
+TEST_CASE("what a pin gives a doll that hangs by its hips is the doll's weight") {
+    for (const SolverKind solver : kOurSolvers) {
+        INFO(physics::solverName(solver));
+        Stage stage(solver, {}, {0, 1, 0});
+        stage.step(60);
+        const double before = stage.world().dragImpulse();
+        stage.step(60);
+        double massKg = 0.0;
+        const RagdollProfile doll = makeDoll();
+        for (const physics::BodyProfile& body : doll.bodies)
+            massKg += static_cast<double>(body.massKg);
+        CHECK(stage.world().dragImpulse() - before == Approx(massKg * 9.81).epsilon(0.01));
+    }
+}
+
 TEST_CASE("a hit on the forearm moves the arm and not the pelvis, and the arm is back within half a second") {
     for (const SolverKind solver : kOurSolvers) {
         INFO(physics::solverName(solver));
