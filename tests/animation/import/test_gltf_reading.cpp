@@ -217,6 +217,17 @@ TEST_CASE("a buffer is found by its percent-encoded name, and not outside of the
     }
 }
 
+TEST_CASE("a data URI is one in capitals, too") {
+    const TemporaryFolder folder;
+    makePostRig().saveText(folder / "rig.gltf");
+    std::ifstream in(folder / "rig.gltf");
+    std::string text((std::istreambuf_iterator<char>(in)), {});
+    const std::string head = "data:application/octet-stream;base64,";
+    text.replace(text.find(head), head.size(), "DATA:Application/Octet-Stream;Charset=utf-8;BASE64,");
+    std::ofstream(folder / "capitals.gltf") << text;
+    CHECK(imported(folder / "capitals.gltf").meshes[0].positions == imported(folder / "rig.gltf").meshes[0].positions);
+}
+
 TEST_CASE("a shared node, a ring of nodes and a deep chain are refused by name of the limit") {
     const TemporaryFolder folder;
     const auto refusedFor = [&](const GltfFile& file, const std::string& word) {

@@ -48,6 +48,37 @@ TEST_CASE("cameras beside a skeleton and its effectors do not enter its height")
         CHECK(glm::length(frame.translation) < 3.0F);
 }
 
+TEST_CASE("a figure is found in another scene than the one that the file shows, and its joints outside of any") {
+    const TemporaryFolder folder;
+    const Character plain = [&] {
+        makePostRig().saveBinary(folder / "plain.glb");
+        return imported(folder / "plain.glb");
+    }();
+    const auto check = [&](const GltfFile& file, bool told) {
+        file.saveBinary(folder / "scenes.glb");
+        const Character character = imported(folder / "scenes.glb");
+        REQUIRE(character.meshes.size() == plain.meshes.size());
+        CHECK(character.meshes[0].positions == plain.meshes[0].positions);
+        CHECK(warns(character, "holds no figure") == told);
+    };
+    const nlohmann::json figure = makePostRig().json["scenes"][0];
+    GltfFile stage = makePostRig();
+    const int prop = stage.addNode("Lamp", -1);
+    stage.json["scenes"] = {{{"nodes", {prop}}}, figure};
+    stage.json.erase("scene");
+    check(stage, false);
+    stage.json["scene"] = 1;
+    check(stage, false);
+    stage.json["scene"] = 0;
+    check(stage, true);
+
+    GltfFile meshAlone = makePostRig();
+    for (int node = 0; node < static_cast<int>(meshAlone.json["nodes"].size()); ++node) {
+        if (meshAlone.json["nodes"][node].contains("skin")) meshAlone.json["scenes"] = {{{"nodes", {node}}}};
+    }
+    check(meshAlone, false);
+}
+
 TEST_CASE("a figure that is inside out is turned, with a word") {
     const TemporaryFolder folder;
     // A post with a lid and a bottom, and the same with all triangles the other way round.

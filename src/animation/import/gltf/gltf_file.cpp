@@ -106,11 +106,16 @@ std::vector<std::uint8_t> decodeBase64(std::string_view text) {
 
 }  // namespace
 
+bool isDataUri(const std::string& uri) {
+    return lowerCased(uri.substr(0, 5)) == "data:";
+}
+
 std::optional<std::vector<std::uint8_t>> decodeDataUri(const std::string& uri) {
-    if (!uri.starts_with("data:")) return std::nullopt;
+    if (!isDataUri(uri)) return std::nullopt;
     const std::size_t comma = uri.find(',');
     if (comma == std::string::npos) throw Damage{"a data URI has no data"};
-    if (uri.substr(0, comma).find(";base64") != std::string::npos)
+    // Media types and their parameters are the same in capitals.
+    if (lowerCased(uri.substr(0, comma)).find(";base64") != std::string::npos)
         return decodeBase64(std::string_view(uri).substr(comma + 1));
     const std::string plain = decodePercents(uri.substr(comma + 1));
     return std::vector<std::uint8_t>(plain.begin(), plain.end());

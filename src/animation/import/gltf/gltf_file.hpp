@@ -15,6 +15,8 @@
 
 namespace lutka::animation::rig_import::gltf {
 
+/// Whether a URI holds its data itself.
+[[nodiscard]] bool isDataUri(const std::string& uri);
 /// The bytes of a data URI; nothing when it is another URI. Throws Damage when its base64 is broken.
 [[nodiscard]] std::optional<std::vector<std::uint8_t>> decodeDataUri(const std::string& uri);
 

@@ -60,6 +60,18 @@ std::optional<std::vector<double>> numbersOf(const json& object, const char* key
     return numbers;
 }
 
+std::vector<int> indicesOf(const nlohmann::json& object, const char* key, std::size_t count) {
+    std::vector<int> indices;
+    const nlohmann::json* array = arrayOf(object, key);
+    if (array == nullptr) return indices;
+    for (const nlohmann::json& entry : *array) {
+        if (!entry.is_number_unsigned() || entry.get<std::size_t>() >= count)
+            throw Damage{fmt::format("\"{}\" names node {}, of which there are {}", key, entry.dump(), count)};
+        indices.push_back(entry.get<int>());
+    }
+    return indices;
+}
+
 std::string textOf(const json& object, const char* key) {
     const json* value = member(object, key);
     return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();

@@ -31,6 +31,8 @@ struct Damage {
 /// So many finite numbers; nothing where there is no such array.
 [[nodiscard]] std::optional<std::vector<double>> numbersOf(const nlohmann::json& object, const char* key,
                                                            std::size_t count);
+/// Indices below `count`; none where there is no such array. Throws Damage where an entry is no such index.
+[[nodiscard]] std::vector<int> indicesOf(const nlohmann::json& object, const char* key, std::size_t count);
 [[nodiscard]] std::string textOf(const nlohmann::json& object, const char* key);
 [[nodiscard]] bool truthOf(const nlohmann::json& object, const char* key, bool otherwise);
 /// The block of an extension; null where there is none.

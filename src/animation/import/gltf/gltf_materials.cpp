@@ -143,7 +143,7 @@ class MaterialReader {
         }
         const json& picture = file_.element("images", *image);
         const std::string uri = textOf(picture, "uri");
-        const bool inside = uri.empty() || uri.starts_with("data:");
+        const bool inside = uri.empty() || isDataUri(uri);
         return loader_.load(inside ? kEmbedded + std::to_string(*image) : uri);
     }
 

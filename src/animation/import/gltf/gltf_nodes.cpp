@@ -46,36 +46,6 @@ SourceNode nodeOf(const json& source, int index, int parent) {
     return node;
 }
 
-std::vector<int> indicesOf(const json& object, const char* key, std::size_t count) {
-    std::vector<int> indices;
-    const json* array = arrayOf(object, key);
-    if (array == nullptr) return indices;
-    for (const json& entry : *array) {
-        if (!entry.is_number_unsigned() || entry.get<std::size_t>() >= count)
-            throw Damage{fmt::format("\"{}\" names node {}, of which there are {}", key, entry.dump(), count)};
-        indices.push_back(entry.get<int>());
-    }
-    return indices;
-}
-
-std::vector<int> rootsOf(const GltfFile& file) {
-    const std::size_t count = file.count("nodes");
-    if (file.count("scenes") > 0) {
-        const int scene = indexOf(file.json(), "scene", file.count("scenes")).value_or(0);
-        return indicesOf(file.element("scenes", scene), "nodes", count);
-    }
-    std::vector<bool> isChild(count, false);
-    for (std::size_t node = 0; node < count; ++node) {
-        for (const int child : indicesOf(file.element("nodes", static_cast<int>(node)), "children", count))
-            isChild[child] = true;
-    }
-    std::vector<int> roots;
-    for (std::size_t node = 0; node < count; ++node) {
-        if (!isChild[node]) roots.push_back(static_cast<int>(node));
-    }
-    return roots;
-}
-
 // The node's part of KHR_physics_rigid_bodies; an empty object where it has none.
 json physicsOf(const json& node) {
     const auto extensions = node.find("extensions");
@@ -122,7 +92,7 @@ NodeMap addNodes(const GltfFile& file, SourceScene& out) {
         int depth;
     };
     const std::size_t count = file.count("nodes");
-    const std::vector<int> roots = rootsOf(file);
+    const std::vector<int> roots = rootsOf(file, out.warnings);
     const std::vector<bool> leftOut = physicsFrames(file);
     NodeMap map(count, -1);
     std::vector<Pending> pending;

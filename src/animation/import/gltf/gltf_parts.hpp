@@ -13,7 +13,12 @@ namespace lutka::animation::rig_import::gltf {
 /// glTF node index → node of the plain scene; -1 for those that are not in the scene that is shown.
 using NodeMap = std::vector<int>;
 
-/// Adds the nodes of the file's default scene (of all scenes where none is there), depth first.
+/// The nodes that have no parent, of the scene that is read: the default one, or the first where the file names none.
+/// Where that scene holds no skinned mesh and another does, that one is read, and a warning tells it if the file named
+/// the first. The tops of trees that hold joints of a skin in it come along, though the scene leaves them out.
+[[nodiscard]] std::vector<int> rootsOf(const GltfFile& file, std::vector<std::string>& warnings);
+
+/// Adds the nodes of the scene that is read (of all nodes where the file has no scenes), depth first.
 [[nodiscard]] NodeMap addNodes(const GltfFile& file, SourceScene& out);
 
 /// Adds the materials, and with `loadTextures` their pictures.

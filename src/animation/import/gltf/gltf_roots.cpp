@@ -1,0 +1,115 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "animation/import/gltf/gltf_parts.hpp"
+
+namespace lutka::animation::rig_import::gltf {
+namespace {
+
+// The tree of all nodes, whatever scene they are in.
+struct NodeTree {
+    std::vector<std::vector<int>> children;
+    std::vector<int> parents;  // -1: none
+};
+
+NodeTree treeOf(const GltfFile& file) {
+    NodeTree tree;
+    const std::size_t count = file.count("nodes");
+    tree.parents.assign(count, -1);
+    for (std::size_t node = 0; node < count; ++node) {
+        tree.children.push_back(indicesOf(file.element("nodes", static_cast<int>(node)), "children", count));
+        for (const int child : tree.children.back())
+            tree.parents[child] = static_cast<int>(node);
+    }
+    return tree;
+}
+
+// Which nodes are at or below these; a ring ends where it began.
+std::vector<bool> reachedFrom(const NodeTree& tree, const std::vector<int>& roots) {
+    std::vector<bool> reached(tree.parents.size(), false);
+    std::vector<int> pending = roots;
+    while (!pending.empty()) {
+        const int node = pending.back();
+        pending.pop_back();
+        if (reached[node]) continue;
+        reached[node] = true;
+        pending.insert(pending.end(), tree.children[node].begin(), tree.children[node].end());
+    }
+    return reached;
+}
+
+// The skins of the meshes among these nodes.
+std::set<int> skinsAmong(const GltfFile& file, const std::vector<bool>& reached) {
+    std::set<int> skins;
+    for (int node = 0; node < static_cast<int>(reached.size()); ++node) {
+        if (!reached[node]) continue;
+        const nlohmann::json& source = file.element("nodes", node);
+        const std::optional<int> skin = indexOf(source, "skin", file.count("skins"));
+        if (skin && source.contains("mesh")) skins.insert(*skin);
+    }
+    return skins;
+}
+
+std::vector<int> sceneRoots(const GltfFile& file, int scene) {
+    return indicesOf(file.element("scenes", scene), "nodes", file.count("nodes"));
+}
+
+// The scene that is read. A file may hold its figure in another scene than the one that it shows: a stage, an empty
+// default.
+int sceneOf(const GltfFile& file, const NodeTree& tree, std::vector<std::string>& warnings) {
+    const std::size_t count = file.count("scenes");
+    const std::optional<int> named = indexOf(file.json(), "scene", count);
+    const auto hasFigure = [&](int scene) {
+        return !skinsAmong(file, reachedFrom(tree, sceneRoots(file, scene))).empty();
+    };
+    const int first = named.value_or(0);
+    if (count == 1 || hasFigure(first)) return first;
+    for (int scene = 0; scene < static_cast<int>(count); ++scene) {
+        if (!hasFigure(scene)) continue;
+        if (named)
+            warnings.push_back(
+                fmt::format("the file shows scene {}, which holds no figure: took scene {}", first, scene));
+        return scene;
+    }
+    return first;
+}
+
+// Adds the tops of the trees that hold the joints of skins which these nodes use.
+void bringJoints(const GltfFile& file, const NodeTree& tree, std::vector<int>& roots) {
+    const std::vector<bool> reached = reachedFrom(tree, roots);
+    std::vector<int> tops;
+    for (const int skin : skinsAmong(file, reached)) {
+        for (const int joint : indicesOf(file.element("skins", skin), "joints", reached.size())) {
+            if (reached[joint]) continue;
+            int top = joint;
+            for (std::size_t step = 0; step < reached.size() && tree.parents[top] >= 0;
+                 ++step)  // as often as a ring is long
+                top = tree.parents[top];
+            if (std::find(tops.begin(), tops.end(), top) == tops.end()) tops.push_back(top);
+        }
+    }
+    if (tops.empty()) return;
+    const std::vector<bool> below = reachedFrom(tree, tops);
+    std::erase_if(roots, [&](int root) { return below[root]; });
+    roots.insert(roots.end(), tops.begin(), tops.end());
+}
+
+}  // namespace
+
+std::vector<int> rootsOf(const GltfFile& file, std::vector<std::string>& warnings) {
+    const NodeTree tree = treeOf(file);
+    std::vector<int> roots;
+    if (file.count("scenes") > 0) {
+        roots = sceneRoots(file, sceneOf(file, tree, warnings));
+        bringJoints(file, tree, roots);
+        return roots;
+    }
+    for (std::size_t node = 0; node < tree.parents.size(); ++node) {
+        if (tree.parents[node] < 0) roots.push_back(static_cast<int>(node));
+    }
+    return roots;
+}
+
+}  // namespace lutka::animation::rig_import::gltf
