@@ -103,6 +103,52 @@ TEST_CASE("a polylist's count is that of its polygons, and colours have four num
     CHECK(tidyCollada("<polylist><vcount>3</vcount>") == "<polylist><vcount>3</vcount>");
 }
 
+TEST_CASE("a skin without a bind shape matrix has the identity") {
+    using rig_import::tidyCollada;
+    const std::string identity = "<bind_shape_matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</bind_shape_matrix>";
+    CHECK(tidyCollada("<skin source=\"#g\"><source id=\"j\">") ==
+          "<skin source=\"#g\">" + identity + "<source id=\"j\">");
+    CHECK(tidyCollada("<skin><!-- none --><source>") == "<skin><!-- none -->" + identity + "<source>");
+    const std::string whole = "<skin><!-- one --><bind_shape_matrix>2 0 0 0</bind_shape_matrix><source>";
+    CHECK(tidyCollada(whole) == whole);
+}
+
+TEST_CASE("weights stand as pairs of joint and weight, whatever their order was") {
+    using rig_import::tidyCollada;
+    const auto weights = [](const std::string& inputs, const std::string& numbers) {
+        return "<vertex_weights count=\"2\">" + inputs + "<vcount>2 1</vcount><v>" + numbers + "</v></vertex_weights>";
+    };
+    const std::string joint = "<input semantic=\"JOINT\" source=\"#j\" offset=\"0\"/>";
+    const std::string weight = "<input semantic=\"WEIGHT\" source=\"#w\" offset=\"1\"/>";
+    const std::string whole = weights(joint + weight, "5 0 6 1 7 2");
+    CHECK(tidyCollada(whole) == whole);
+    CHECK(tidyCollada(weights("<input semantic=\"WEIGHT\" source=\"#w\" offset=\"0\"/>"
+                              "<input semantic=\"JOINT\" source=\"#j\" offset=\"1\"/>",
+                              "0 5 1 6\n2 7 ")) == weights(weight + joint, "5 0 6 1 7 2"));
+    CHECK(tidyCollada(weights("<input semantic=\"EXTRA\" source=\"#e\" offset=\"0\"/>"
+                              "<input offset=\"2\" semantic=\"JOINT\" source=\"#j\"/>" +
+                                  weight,
+                              "9 0 5 9 1 6 9 2 7 9")) ==
+          weights("<input offset=\"0\" semantic=\"JOINT\" source=\"#j\"/>" + weight, "5 0 6 1 7 2"));
+    const std::string elsewhere = "<joints>" + weight + "</joints><v>9 0 5</v>";
+    CHECK(tidyCollada(elsewhere) == elsewhere);
+}
+
+TEST_CASE("Collada's animations that move nothing in the scene are told") {
+    const TemporaryFolder folder;
+    std::string text = triangle("");
+    text.insert(text.find("<library_visual_scenes>"),
+                "<library_animations><animation id=\"a\"><source id=\"t\"><float_array id=\"ta\" count=\"1\">0"
+                "</float_array><technique_common><accessor source=\"#ta\" count=\"1\" stride=\"1\"><param "
+                "name=\"TIME\" type=\"float\"/></accessor></technique_common></source><sampler id=\"s\"><input "
+                "semantic=\"INPUT\" source=\"#t\"/><input semantic=\"OUTPUT\" source=\"#t\"/></sampler><channel "
+                "source=\"#s\" target=\"elsewhere/translate.X\"/></animation></library_animations>");
+    std::ofstream(folder / "moved.dae", std::ios::binary) << text;
+    CHECK(warns(imported(folder / "moved.dae"), "animations"));
+    std::ofstream(folder / "still.dae", std::ios::binary) << triangle("");
+    CHECK_FALSE(warns(imported(folder / "still.dae"), "animations"));
+}
+
 TEST_CASE("tidying leaves tags, comments and character data as they are") {
     using rig_import::tidyCollada;
     CHECK(tidyCollada("<a b=' > '  c=\"'>\">\n 1 \t 2 </a>") == "<a b=' > '  c=\"'>\">1 2</a>");

@@ -1,9 +1,12 @@
 #include "animation/import/assimp/collada_text.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 namespace lutka::animation::rig_import {
 namespace {
@@ -11,6 +14,7 @@ namespace {
 constexpr std::string_view kBlanks = " \t\r\n";
 constexpr std::string_view kLittleEndianMark = "\xFF\xFE";
 constexpr std::string_view kBigEndianMark = "\xFE\xFF";
+constexpr std::string_view kNoBindShape = "<bind_shape_matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</bind_shape_matrix>";
 
 bool isUtf16(std::string_view bytes) {
     return bytes.starts_with(kLittleEndianMark) || bytes.starts_with(kBigEndianMark);
@@ -110,12 +114,67 @@ void setCount(std::string& out, std::size_t tag, std::size_t count) {
     out.replace(value, end - value, std::to_string(count));
 }
 
+// The value of an attribute in a tag; empty where it has none, or one with entities.
+std::string_view attributeOf(std::string_view tag, std::string_view name) {
+    const std::string start = " " + std::string(name) + "=\"";
+    const std::size_t found = tag.find(start);
+    if (found == std::string_view::npos) return {};
+    const std::string_view value = tag.substr(found + start.size());
+    const std::string_view text = value.substr(0, value.find('"'));
+    return text.find('&') == std::string_view::npos ? text : std::string_view{};
+}
+
+// The order of the numbers of a <v>: Assimp takes pairs of a joint and a weight alone.
+struct WeightOrder {
+    std::size_t joint = 0;
+    std::size_t weight = 1;
+    std::size_t stride = 2;
+};
+
+// An input of <vertex_weights> in Assimp's order; empty where it has no use for it.
+std::string orderedInput(std::string_view tag, WeightOrder& order) {
+    std::size_t offset = 0;
+    const std::string_view text = attributeOf(tag, "offset");
+    if (std::from_chars(text.data(), text.data() + text.size(), offset).ec != std::errc()) return std::string(tag);
+    constexpr std::size_t kMostInputs = 64;
+    order.stride = std::max(order.stride, std::min(offset, kMostInputs) + 1);
+    const std::string_view semantic = attributeOf(tag, "semantic");
+    if (semantic != "JOINT" && semantic != "WEIGHT") return {};
+    const bool isJoint = semantic == "JOINT";
+    (isJoint ? order.joint : order.weight) = offset;
+    std::string out(tag);
+    out.replace(static_cast<std::size_t>(text.data() - tag.data()), text.size(), isJoint ? "0" : "1");
+    return out;
+}
+
+std::string orderedWeights(std::string_view text, const WeightOrder& order) {
+    std::string out;
+    std::vector<std::string_view> words;
+    for (std::size_t at = text.find_first_not_of(kBlanks); at != std::string_view::npos;) {
+        const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
+        words.push_back(text.substr(at, end - at));
+        at = text.find_first_not_of(kBlanks, end);
+        if (words.size() < order.stride) continue;
+        for (const std::size_t index : {order.joint, order.weight}) {
+            if (!out.empty()) out += ' ';
+            out += words[std::min(index, words.size() - 1)];
+        }
+        words.clear();
+    }
+    return out;
+}
+
 // Writes the text of elements and their tags, and knows in which element it is.
 class TidyWriter {
   public:
     explicit TidyWriter(std::size_t size) { out_.reserve(size); }
 
     void text(std::string_view text) {
+        const bool pairs = order_.joint == 0 && order_.weight == 1 && order_.stride == 2;
+        if (tag_ == "<v" && inWeights_ && !pairs) {
+            out_ += orderedWeights(text, order_);
+            return;
+        }
         appendTidy(text, out_);
         if (tag_ == "<vcount" && polygons_ != std::string::npos) setCount(out_, polygons_, wordsIn(text));
         // One exporter leaves the opacity out.
@@ -124,6 +183,18 @@ class TidyWriter {
 
     void markup(std::string_view markup) {
         tag_ = markup.substr(0, markup.find_first_of(" \t\r\n/>", 1));
+        if (skinBegins_ && !tag_.starts_with("<!")) {
+            // The matrix is the first in its skin where it is there; without one it is the identity.
+            if (tag_ != "<bind_shape_matrix") out_ += kNoBindShape;
+            skinBegins_ = false;
+        }
+        if (tag_ == "<skin") skinBegins_ = true;
+        if (tag_ == "<vertex_weights") order_ = WeightOrder{};
+        if (tag_ == "<vertex_weights" || markup == "</vertex_weights>") inWeights_ = tag_ == "<vertex_weights";
+        if (tag_ == "<input" && inWeights_) {
+            out_ += orderedInput(markup, order_);
+            return;
+        }
         if (tag_ == "<polylist") polygons_ = out_.size();
         if (markup == "</polylist>") polygons_ = std::string::npos;
         out_ += markup;
@@ -134,6 +205,9 @@ class TidyWriter {
   private:
     std::string out_;
     std::string_view tag_;
+    bool skinBegins_ = false;
+    bool inWeights_ = false;
+    WeightOrder order_;
     std::size_t polygons_ = std::string::npos;  // where the tag of the polygons begins that the text is in
 };
 
@@ -147,16 +221,6 @@ std::string tidyText(std::string_view text) {
         at = end;
     }
     return out.take();
-}
-
-// The value of an attribute in a tag; empty where it has none, or one with entities.
-std::string_view attributeOf(std::string_view tag, std::string_view name) {
-    const std::string start = " " + std::string(name) + "=\"";
-    const std::size_t found = tag.find(start);
-    if (found == std::string_view::npos) return {};
-    const std::string_view value = tag.substr(found + start.size());
-    const std::string_view text = value.substr(0, value.find('"'));
-    return text.find('&') == std::string_view::npos ? text : std::string_view{};
 }
 
 std::string lettersOf(std::string_view text) {

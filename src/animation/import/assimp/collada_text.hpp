@@ -11,7 +11,8 @@ namespace lutka::animation::rig_import {
 
 /// A Collada document as Assimp 5.2.5 takes it, which refuses numbers with blanks before them and UTF-16: UTF-8, each
 /// element's text without blanks at its ends, and blanks, tabs and line breaks within it as one blank. A
-/// polylist's count is that of its vcount, and a colour of three numbers gets its fourth. Other tags, comments and
+/// polylist's count is that of its vcount, a colour of three numbers gets its fourth, a skin without a bind shape
+/// matrix the identity, and its weights stand as pairs of joint and weight. Other tags, comments and
 /// character data stay as they are.
 [[nodiscard]] std::string tidyCollada(std::string_view bytes);
 

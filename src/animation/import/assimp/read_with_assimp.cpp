@@ -59,12 +59,16 @@ SourceConvention conventionOf(const aiScene& scene, const std::filesystem::path&
     return convention;
 }
 
-// Assimp calls nodes by the ids of the document.
-void nameByDocument(const std::filesystem::path& file, SourceScene& out) {
+// What Assimp leaves out of a document: names of nodes, which it calls by their ids, and clips of nodes that stand in
+// a library.
+void completeByDocument(const std::filesystem::path& file, SourceScene& out) {
     if (lowerCased(file.extension().string()) != ".dae") return;
     const Result<std::vector<unsigned char>> bytes = readFile(file);
     if (!bytes) return;
-    const auto names = colladaNodeNames({reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size()});
+    const std::string_view text(reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size());
+    if (out.clips.empty() && text.find("<channel ") != std::string_view::npos)
+        out.warnings.emplace_back("left out: animations, for they move nothing that stands in the scene itself");
+    const auto names = colladaNodeNames(text);
     std::set<std::string> taken;
     for (const SourceNode& node : out.nodes)
         taken.insert(node.name);
@@ -90,7 +94,7 @@ Result<SourceScene> readWithAssimp(const std::filesystem::path& file, const Impo
     addMeshes(scene, nodes, out);
     addClips(scene, nodes, out);
     convertMaterials(scene, folder, options.loadTextures, out);
-    nameByDocument(file, out);
+    completeByDocument(file, out);
     if (const std::set<std::string>& refused = opened.value().denied->outside; !refused.empty()) {
         out.warnings.push_back(fmt::format(
             "{} files that the model names lie outside of its folder and were left out: {}; --allow-outside takes them",
