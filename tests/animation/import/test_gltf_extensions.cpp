@@ -77,7 +77,8 @@ GltfFile withPicture() {
 }
 
 // Takes an accessor's bytes through meshoptimizer's codec for vertices; `stride` bytes each.
-void packWithMeshopt(GltfFile& file, const char* attribute, const void* values, std::size_t count, std::size_t stride) {
+void packWithMeshopt(GltfFile& file, const char* attribute, const void* values, std::size_t count, std::size_t stride,
+                     const char* filter = "NONE") {
     std::vector<std::uint8_t> packed(meshopt_encodeVertexBufferBound(count, stride));
     packed.resize(meshopt_encodeVertexBuffer(packed.data(), packed.size(), values, count, stride));
     const int bytes = file.addComponents<std::uint8_t>(packed, 5121, "SCALAR", packed.size(), false);
@@ -85,6 +86,7 @@ void packWithMeshopt(GltfFile& file, const char* attribute, const void* values, 
     view["byteStride"] = stride;
     view["count"] = count;
     view["mode"] = "ATTRIBUTES";
+    view["filter"] = filter;
     // What readers without the extension would see: nothing of use.
     file.json["bufferViews"].push_back({{"buffer", 0},
                                         {"byteOffset", 0},
@@ -228,6 +230,42 @@ TEST_CASE("buffers packed by meshoptimizer are unpacked") {
     const Character plain = readBack(makePostRig());
     CHECK(trianglesOf(character) == trianglesOf(plain));
     CHECK(character.skeleton.skinWeight == plain.skeleton.skinWeight);
+}
+
+TEST_CASE("filters of packed buffers are undone, and those that are not known are refused by name") {
+    const Post post = makePost();
+    std::vector<float> normals;  // of four components, as the filter takes them
+    for (const vec3& p : post.positions) {
+        const vec3 n = glm::normalize(p - vec3(0, 0.9F, 0));
+        normals.insert(normals.end(), {n.x, n.y, n.z, 0.0F});
+    }
+    std::vector<vec3> positions(post.positions.size());
+    meshopt_encodeFilterExp(positions.data(), positions.size(), sizeof(vec3), 23, &post.positions[0].x);
+    std::vector<std::int8_t> octahedral(normals.size());
+    meshopt_encodeFilterOct(octahedral.data(), positions.size(), 4, 8, normals.data());
+    const auto packed = [&](const char* filter) {
+        GltfFile file = makePostRig();
+        primitiveOf(file)["attributes"]["NORMAL"] =
+            file.addComponents<std::int8_t>(octahedral, 5120, "VEC3", positions.size(), true);
+        packWithMeshopt(file, "POSITION", positions.data(), positions.size(), sizeof(vec3), filter);
+        packWithMeshopt(file, "NORMAL", octahedral.data(), positions.size(), 4, "OCTAHEDRAL");
+        file.json["extensionsUsed"] =
+            file.json["extensionsRequired"] = {"KHR_mesh_quantization", "EXT_meshopt_compression"};
+        return file;
+    };
+    const Character character = readBack(packed("EXPONENTIAL"));
+    const Character plain = readBack(makePostRig());
+    const auto& mesh = character.meshes[0];
+    REQUIRE(mesh.positions.size() == plain.meshes[0].positions.size());
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        CHECK(glm::distance(mesh.positions[v], plain.meshes[0].positions[v]) < 1e-5F);
+        CHECK(glm::dot(mesh.normals[v], glm::normalize(mesh.positions[v] - vec3(0, 0.9F, 0))) > 0.999F);
+    }
+    const TemporaryFolder folder;
+    packed("COLOR").saveBinary(folder / "color.glb");
+    const Result<Character> refused = animation::importCharacter(folder / "color.glb");
+    REQUIRE_FALSE(refused.ok());
+    CHECK_THAT(refused.error().message, Catch::Contains("COLOR"));
 }
 
 TEST_CASE("meshes packed by draco are unpacked") {

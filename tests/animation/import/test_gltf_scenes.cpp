@@ -72,6 +72,10 @@ TEST_CASE("a figure is found in another scene than the one that the file shows, 
     stage.json["scene"] = 0;
     check(stage, true);
 
+    GltfFile library = makePostRig();
+    library.json["scenes"] = {nlohmann::json::object()};
+    check(library, false);
+
     GltfFile meshAlone = makePostRig();
     for (int node = 0; node < static_cast<int>(meshAlone.json["nodes"].size()); ++node) {
         if (meshAlone.json["nodes"][node].contains("skin")) meshAlone.json["scenes"] = {{{"nodes", {node}}}};

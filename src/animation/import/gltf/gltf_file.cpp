@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr std::size_t kMaxUnpackedBytes = std::size_t{1} << 30U;  // of a compressed view
+constexpr const char* kUncompressed = "export it again without KHR_meshopt_compression";
 
 // Read here, or without bearing on shape and motion.
 bool isUnderstood(std::string_view extension) {
@@ -227,8 +228,16 @@ std::vector<std::uint8_t> GltfFile::decompressed(const nlohmann::json& block) {
         failed = meshopt_decodeIndexBuffer(out.data(), elements, stride, packed.data(), packed.size());
     if (mode == "INDICES" && (stride == 2 || stride == 4))
         failed = meshopt_decodeIndexSequence(out.data(), elements, stride, packed.data(), packed.size());
+    // The codec for vertices states its version in its first byte; version 1 came with KHR_meshopt_compression.
+    constexpr unsigned kVersion = 0xFU;
+    if (failed != 0 && mode == "ATTRIBUTES" && !packed.empty() && (packed[0] & kVersion) > 0)
+        throw Damage{"a view is compressed by a version of meshoptimizer's codec that can't be read", kUncompressed};
     if (failed != 0) throw Damage{"a compressed view is damaged"};
     const std::string filter = textOf(block, "filter");
+    static const std::set<std::string> known{"", "NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"};
+    if (known.count(filter) == 0)
+        throw Damage{fmt::format("a compressed view has the filter \"{}\", which can't be read", filter),
+                     kUncompressed};
     if (filter == "OCTAHEDRAL" && (stride == 4 || stride == 8)) meshopt_decodeFilterOct(out.data(), elements, stride);
     if (filter == "QUATERNION" && stride == 8) meshopt_decodeFilterQuat(out.data(), elements, stride);
     if (filter == "EXPONENTIAL" && stride % 4 == 0) meshopt_decodeFilterExp(out.data(), elements, stride);

@@ -13,9 +13,10 @@ namespace lutka::animation::rig_import::gltf {
 /// glTF node index → node of the plain scene; -1 for those that are not in the scene that is shown.
 using NodeMap = std::vector<int>;
 
-/// The nodes that have no parent, of the scene that is read: the default one, or the first where the file names none.
-/// Where that scene holds no skinned mesh and another does, that one is read, and a warning tells it if the file named
-/// the first. The tops of trees that hold joints of a skin in it come along, though the scene leaves them out.
+/// The nodes that have no parent, of the scene that is read: the default one, or the first where the file names none;
+/// of the whole file where that scene is empty or there is none. Where that scene holds no skinned mesh and another
+/// does, that one is read, and a warning tells it if the file named the first. The tops of trees that hold joints of a
+/// skin in it come along, though the scene leaves them out.
 [[nodiscard]] std::vector<int> rootsOf(const GltfFile& file, std::vector<std::string>& warnings);
 
 /// Adds the nodes of the scene that is read (of all nodes where the file has no scenes), depth first.

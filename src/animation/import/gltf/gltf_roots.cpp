@@ -104,7 +104,7 @@ std::vector<int> rootsOf(const GltfFile& file, std::vector<std::string>& warning
     if (file.count("scenes") > 0) {
         roots = sceneRoots(file, sceneOf(file, tree, warnings));
         bringJoints(file, tree, roots);
-        return roots;
+        if (!roots.empty()) return roots;
     }
     for (std::size_t node = 0; node < tree.parents.size(); ++node) {
         if (tree.parents[node] < 0) roots.push_back(static_cast<int>(node));
