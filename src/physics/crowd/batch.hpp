@@ -41,6 +41,8 @@ struct Batch {
     std::vector<StaticPush> pushes;        ///< Of contacts that were found anew since, and at last of all; for reports.
     std::vector<int> nearPlanes;           ///< Statics that some lane is near, while contacts are found,
     std::vector<int> nearStatics[kLanes];  ///< and the others, lane by lane.
+    std::vector<unsigned char> planeLanes;  ///< In which lanes: one a plane and point of the topology, plane by plane.
+    std::vector<unsigned char> planeLanesBefore;     ///< Of the search before.
     std::vector<std::uint64_t> carriedKeys[kLanes];  ///< Of the contacts that its dolls keep, in their order, likewise.
     std::vector<unsigned char> selfMasks;            ///< One a pair of the topology, likewise.
     std::vector<NearMotion> nearMotions;

@@ -107,12 +107,17 @@ static void limitRoom(const BatchView& batch, const float (&normal)[3], float of
     }
 }
 
-static unsigned findNearPlane(const BatchView& batch, int index, const float (&point)[3], float radius,
-                              const float (&normal)[3], float offset, float margin, float seconds) {
-    const BodyLanes& body = batch.bodies[index];
-    const V3 core = load(body.position) + axesOf(body) * all(point);
-    const F speed = speedBound(body, batch.bodyConstants[index]);
-    return bits(dot(all(normal), core) - all(offset + radius) < all(margin) + speed * all(seconds));
+static void findNearPlane(const BatchView& batch, const PlanePoint* points, int count, const float (&normal)[3],
+                          float offset, float margin, float seconds, unsigned char* lanes) {
+    F reach = all(0.0F);
+    for (int i = 0; i < count; ++i) {
+        const PlanePoint& point = points[i];
+        const BodyLanes& body = batch.bodies[point.body];
+        if (i == 0 || point.body != points[i - 1].body)
+            reach = all(margin) + speedBound(body, batch.bodyConstants[point.body]) * all(seconds);
+        const V3 core = load(body.position) + axesOf(body) * all(point.local);
+        lanes[i] = static_cast<unsigned char>(bits(dot(all(normal), core) - all(offset + point.radius) < reach));
+    }
 }
 
 // What half a substep of free motion (`half` seconds) adds to the turning rate: the angular momentum stays, the rate

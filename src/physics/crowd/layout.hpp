@@ -377,6 +377,15 @@ struct SelfPair {
     int b;
 };
 
+/// A point that a body can meet a plane with: a corner of a shape, or an end of its core with a radius around it.
+struct PlanePoint {
+    int body;
+    int shape;       ///< Which of the body's shapes.
+    int feature;     ///< Which point of it.
+    float local[3];  ///< Body space.
+    float radius;
+};
+
 /// The boxes around eight bodies of one doll, one a lane. Lanes without a body hold an empty box (low above high).
 struct BoxLanes {
     Wide3 low, high;
@@ -435,10 +444,10 @@ struct Kernels {
     /// The same of two bodies of one doll, in all lanes.
     unsigned (*touchOwnCores)(const BatchView& batch, const SelfPair& pair, const TouchRange& range,
                               CoreTouchLanes& out);
-    /// A bit mask of the lanes in which a point of a body, with a radius around it, is nearer to a plane (normal · p =
-    /// offset) than `margin` and the way that the body's motion can take it in `seconds`.
-    unsigned (*findNearPlane)(const BatchView& batch, int body, const float (&point)[3], float radius,
-                              const float (&normal)[3], float offset, float margin, float seconds);
+    /// For each of some points, which come body by body, a bit mask of the lanes in which it is nearer to a plane
+    /// (normal · p = offset) than `margin` and the way that the body's motion can take it in `seconds`.
+    void (*findNearPlane)(const BatchView& batch, const PlanePoint* points, int count, const float (&normal)[3],
+                          float offset, float margin, float seconds, unsigned char* lanes);
     /// Lowers the room of each body (BodyLanes::room) to what a search for contacts with a plane has covered: `margin`
     /// and the way that its motion can take it in `seconds`, or all that lies between it and the plane.
     void (*limitRoom)(const BatchView& batch, const float (&normal)[3], float offset, float margin, float seconds);

@@ -61,6 +61,15 @@ void setImpulses(StaticContactLanes& contact, int lane, const CarriedStatic& car
     writeVector(contact.rollImpulse, lane, carried.roll);
 }
 
+// Makes a lane repeat lane 0, of which only what differs from lane to lane on a plane is taken.
+void copyContact(StaticContactLanes& contact, int lane) {
+    contact.offset.lane[lane] = contact.offset.lane[0];
+    contact.key[lane] = contact.key[0];
+    contact.normalImpulse.lane[lane] = contact.normalImpulse.lane[0];
+    writeVector(contact.frictionImpulse, lane, readVector(contact.frictionImpulse, 0));
+    writeVector(contact.rollImpulse, lane, readVector(contact.rollImpulse, 0));
+}
+
 // Puts a contact into a lane that has none.
 void setContact(StaticContactLanes& contact, int lane, const StaticTouch& touch, float friction, std::uint64_t key,
                 const CarriedStatic* carried) {
@@ -80,7 +89,8 @@ class StaticContacts {
         : state_(state), batch_(batch), topology_(topology), dt_(dt), substep_(substep) {}
 
     void find() {
-        batch_.contacts.clear();
+        const bool onlyPlanes = nearPlanesOnly();
+        const std::size_t planes = batch_.nearPlanes.size();
         batch_.nearShapes = false;
         batch_.nearPlanes.clear();
         batch_.nearMotions.clear();
@@ -88,9 +98,6 @@ class StaticContacts {
             near.clear();
         for (int lane = 0; lane < batch_.used; ++lane) {
             const Doll& doll = state_.dolls[batch_.doll[lane]];
-            batch_.carriedKeys[lane].clear();
-            for (const CarriedStatic& touch : doll.statics)
-                batch_.carriedKeys[lane].push_back(touch.contact.key);
             const Bounds bounds = worldBounds(doll, dt_, farther_);
             for (int i = 0; i < static_cast<int>(state_.statics.size()); ++i) {
                 if (!state_.statics[i].shape.filter.collidesWith(doll.filter)) continue;
@@ -101,20 +108,135 @@ class StaticContacts {
                 if (!isPlane || std::find(near.begin(), near.end(), i) == near.end()) near.push_back(i);
             }
         }
+        const bool samePoints = findNearPlanes();
+        if (!(samePoints && onlyPlanes && nearPlanesOnly() && planes == batch_.nearPlanes.size() && renew()))
+            findAnew();
+        giveRoom();
+    }
+
+  private:
+    bool nearPlanesOnly() const {
+        return std::all_of(std::begin(batch_.nearStatics), std::end(batch_.nearStatics),
+                           [](const std::vector<int>& near) { return near.empty(); });
+    }
+
+    // Which points are near which planes. Returns whether these are those of the search before, in whatever lanes.
+    bool findNearPlanes() {
+        const std::size_t count = topology_.points.size();
+        std::vector<unsigned char>& lanes = batch_.planeLanes;
+        std::vector<unsigned char>& before = batch_.planeLanesBefore;
+        std::swap(lanes, before);
+        lanes.resize(count * batch_.nearPlanes.size());
+        const BatchView view = batch_.view(topology_);
+        for (std::size_t i = 0; i < batch_.nearPlanes.size(); ++i) {
+            const HalfSpace plane(state_.statics[batch_.nearPlanes[i]]);
+            state_.kernels->findNearPlane(view, topology_.points.data(), static_cast<int>(count), plane.normal,
+                                          plane.offset, state_.tuning.staticMargin, kForesight * dt_,
+                                          lanes.data() + i * count);
+        }
+        return std::equal(lanes.begin(), lanes.end(), before.begin(), before.end(),
+                          [](unsigned char a, unsigned char b) { return (a == 0) == (b == 0); });
+    }
+
+    // Calls `visit` with each point that is near a plane, the plane and the lanes, in the order of the contacts, from
+    // the point `place` of the topology on to the end of its body.
+    template <class Visit>
+    void visitBody(std::size_t& place, int body, Visit visit) const {
+        const std::vector<PlanePoint>& points = topology_.points;
+        std::size_t end = place;
+        while (end < points.size() && points[end].body == body)
+            ++end;
+        for (std::size_t plane = 0; plane < batch_.nearPlanes.size(); ++plane) {
+            for (std::size_t i = place; i < end; ++i) {
+                const unsigned lanes = batch_.planeLanes[plane * points.size() + i];
+                if (lanes != 0) visit(points[i], batch_.nearPlanes[plane], lanes);
+            }
+        }
+        place = end;
+    }
+
+    void findAnew() {
+        batch_.contacts.clear();
+        for (int lane = 0; lane < batch_.used; ++lane) {
+            batch_.carriedKeys[lane].clear();
+            for (const CarriedStatic& touch : state_.dolls[batch_.doll[lane]].statics)
+                batch_.carriedKeys[lane].push_back(touch.contact.key);
+        }
+        std::size_t place = 0;
         for (int body = 0; body < topology_.bodyCount(); ++body) {
-            firstSlot_ = batch_.contacts.size();
-            batch_.firstContact[body] = static_cast<int>(firstSlot_);
-            for (const int plane : batch_.nearPlanes)
-                findOnPlane(body, plane);
+            batch_.firstContact[body] = static_cast<int>(batch_.contacts.size());
+            visitBody(place, body, [&](const PlanePoint& point, int plane, unsigned lanes) {
+                putPlane(emptyContact(body), point, plane, lanes);
+            });
             firstSlot_ = batch_.contacts.size();
             for (int lane = 0; lane < batch_.used; ++lane)
                 findOf(body, lane);
         }
         batch_.firstContact[topology_.bodyCount()] = static_cast<int>(batch_.contacts.size());
-        giveRoom();
     }
 
-  private:
+    // What lies still has the contacts of the search before: they stay where they are, with all that they carry. False
+    // where they do not fit what the dolls have kept of them, since a doll has come, gone or been placed.
+    bool renew() {
+        std::size_t place = 0;
+        std::size_t slot = 0;
+        std::size_t kept[kLanes]{};
+        bool fits = true;
+        for (int body = 0; body < topology_.bodyCount(); ++body) {
+            visitBody(place, body, [&](const PlanePoint& point, int plane, unsigned) {
+                fits = fits && slot < batch_.contacts.size() && isKept(batch_.contacts[slot], point, plane, kept);
+                ++slot;
+            });
+        }
+        for (int lane = 0; lane < batch_.used; ++lane)
+            fits = fits && kept[lane] == state_.dolls[batch_.doll[lane]].statics.size();
+        if (!fits || slot != batch_.contacts.size()) return false;
+        place = slot = 0;
+        for (int body = 0; body < topology_.bodyCount(); ++body) {
+            visitBody(place, body, [&](const PlanePoint& point, int plane, unsigned lanes) {
+                renewContact(batch_.contacts[slot++], point, plane, lanes);
+            });
+        }
+        return true;
+    }
+
+    // Whether a contact is of that point and plane, and its impulses are those that the dolls have kept next: `kept`
+    // counts them.
+    bool isKept(const StaticContactLanes& contact, const PlanePoint& point, int plane,
+                std::size_t (&kept)[kLanes]) const {
+        const StaticShape& shape = state_.statics[plane].shape;
+        if (contact.body != point.body || readVector(contact.normal, 0) != state_.statics[plane].axes[1] ||
+            contact.friction.lane[0] != shape.friction * kBodyFriction ||
+            readVector(contact.localPoint, 0) != vec3(point.local[0], point.local[1], point.local[2]))
+            return false;
+        const std::uint64_t key = staticKey(plane, point.body, point.shape, point.feature);
+        for (int lane = 0; lane < batch_.used; ++lane) {
+            if (contact.key[lane] == 0 || contact.normalImpulse.lane[lane] <= 0.0F) continue;
+            const std::vector<CarriedStatic>& statics = state_.dolls[batch_.doll[lane]].statics;
+            if (contact.key[lane] != key || kept[lane] == statics.size()) return false;
+            const CarriedContact& carried = statics[kept[lane]++].contact;
+            if (carried.key != key || carried.normal != contact.normalImpulse.lane[lane]) return false;
+        }
+        return true;
+    }
+
+    void renewContact(StaticContactLanes& contact, const PlanePoint& point, int index, unsigned lanes) {
+        const PlacedStatic& plane = state_.statics[index];
+        const float offset = HalfSpace(plane).offset;
+        const std::uint64_t key = staticKey(index, point.body, point.shape, point.feature);
+        contact.near = 0;
+        for (int lane = 0; lane < batch_.used; ++lane) {
+            const bool meets = touches(plane, point.body, lane, lanes);
+            if (!meets || contact.key[lane] == 0 || contact.normalImpulse.lane[lane] <= 0.0F)
+                setImpulses(contact, lane, {});
+            contact.offset.lane[lane] = meets ? offset : -kFarM;
+            contact.key[lane] = meets ? key : 0;
+        }
+        for (int lane = batch_.used; lane < kLanes; ++lane) {
+            copyContact(contact, lane);
+        }
+    }
+
     // How far the bodies may go until they must be looked at again.
     void giveRoom() {
         // Whatever comes near something else than planes is looked at again in every substep; until then it may go as
@@ -144,47 +266,32 @@ class StaticContacts {
         return apart;
     }
 
-    // Planes are the same for all lanes.
-    void findOnPlane(int body, int index) {
-        const HalfSpace plane(state_.statics[index]);
-        const vec3 normal = state_.statics[index].axes[1];
-        const BatchView view = batch_.view(topology_);
-        for (int shape = 0; shape < topology_.shapeCount(body); ++shape) {
-            const CorePoints points = corePoints(topology_.shapeOf(body, shape));
-            for (int i = 0; i < points.count; ++i) {
-                const vec3 local = topology_.inBody(body, shape, points.local[i]);
-                const float point[3] = {local.x, local.y, local.z};
-                const unsigned lanes =
-                    state_.kernels->findNearPlane(view, body, point, points.radius, plane.normal, plane.offset,
-                                                  state_.tuning.staticMargin, kForesight * dt_);
-                if (lanes != 0)
-                    putPlane({body, shape}, index, lanes, {local, points.radius, normal, plane.offset, 0.0F, i});
-            }
-        }
-    }
-
     // One of a body's shapes.
     struct ShapeRef {
         int body;
         int shape;
     };
 
+    // Whether the lane's doll is to touch a plane with a point that is near it in `lanes`.
+    bool touches(const PlacedStatic& plane, int body, int lane, unsigned lanes) const {
+        return (lanes >> static_cast<unsigned>(lane) & 1U) != 0 &&
+               plane.shape.filter.collidesWith(state_.dolls[batch_.doll[lane]].filter) &&
+               !isKinematic(batch_, body, lane);
+    }
+
     // The same point of a body in all `lanes`.
-    void putPlane(const ShapeRef& of, int index, unsigned lanes, const StaticTouch& touch) {
-        const int body = of.body;
-        StaticContactLanes& contact = emptyContact(body);
-        const StaticShape& plane = state_.statics[index].shape;
-        spread(contact.localPoint, touch.local);
-        spread(contact.normal, touch.normal);
-        spread(contact.radius, touch.radius);
-        spread(contact.friction, plane.friction * kBodyFriction);
-        const std::uint64_t key = staticKey(index, body, of.shape, touch.feature);
+    void putPlane(StaticContactLanes& contact, const PlanePoint& point, int index, unsigned lanes) {
+        const PlacedStatic& plane = state_.statics[index];
+        const float offset = HalfSpace(plane).offset;
+        spread(contact.localPoint, {point.local[0], point.local[1], point.local[2]});
+        spread(contact.normal, plane.axes[1]);
+        spread(contact.radius, point.radius);
+        spread(contact.friction, plane.shape.friction * kBodyFriction);
+        const std::uint64_t key = staticKey(index, point.body, point.shape, point.feature);
         for (int lane = 0; lane < kLanes; ++lane) {
             const int from = lane < batch_.used ? lane : 0;
-            const Doll& doll = state_.dolls[batch_.doll[from]];
-            if ((lanes >> static_cast<unsigned>(from) & 1U) == 0 || !plane.filter.collidesWith(doll.filter)) continue;
-            if (isKinematic(batch_, body, from)) continue;
-            contact.offset.lane[lane] = touch.offset;
+            if (!touches(plane, point.body, from, lanes)) continue;
+            contact.offset.lane[lane] = offset;
             contact.key[lane] = key;
             const CarriedStatic* carried = carriedStatic(from, key);
             if (carried != nullptr) setImpulses(contact, lane, *carried);

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "physics/collision/shape.hpp"
+#include "physics/crowd/narrowphase.hpp"
 
 namespace lutka::physics::crowd {
 namespace {
@@ -76,6 +77,19 @@ bool mayCollide(const RagdollProfile& profile, int a, int b) {
     return !linked && std::find(filtered.begin(), filtered.end(), std::pair(a, b)) == filtered.end();
 }
 
+void addPoints(Topology& topology) {
+    for (int body = 0; body < topology.bodyCount(); ++body) {
+        for (int shape = 0; shape < topology.shapeCount(body); ++shape) {
+            const CorePoints points = corePoints(topology.shapeOf(body, shape));
+            for (int i = 0; i < points.count; ++i) {
+                PlanePoint point{body, shape, i, {}, points.radius};
+                copy(point.local, topology.inBody(body, shape, points.local[i]));
+                topology.points.push_back(point);
+            }
+        }
+    }
+}
+
 bool sameKind(const PrimitiveShape& a, const PrimitiveShape& b) {
     return a.kind == b.kind && sameHull(a.hull, b.hull);
 }
@@ -124,6 +138,7 @@ Topology makeTopology(const RagdollProfile& profile, float leastGyration) {
             if (mayCollide(profile, a, b)) topology.selfPairs.push_back({a, b});
         }
     }
+    addPoints(topology);
     return topology;
 }
 
@@ -132,6 +147,7 @@ Topology makeTopology(const DynamicProp& prop) {
     topology.bodies.push_back(constantsOf(prop.shape, prop.massKg, shapeInertia(prop.shape, prop.massKg)));
     topology.shapes.push_back(prop.shape);
     topology.anyAdded = !prop.shape.more.empty();
+    addPoints(topology);
     return topology;
 }
 

@@ -14,6 +14,7 @@ struct Topology {
     std::vector<JointConstants> joints;
     std::vector<BodyShape> shapes;    ///< One a body; the constants and the kernels know its main shape alone.
     bool anyAdded = false;            ///< Whether any body has more than one shape.
+    std::vector<PlanePoint> points;   ///< Of all shapes, body by body.
     std::vector<SelfPair> selfPairs;  ///< Bodies that may collide: neither linked nor filtered.
 
     [[nodiscard]] int bodyCount() const { return static_cast<int>(bodies.size()); }
