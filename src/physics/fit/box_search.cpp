@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <utility>
 
 #include "physics/collision/shape_distance.hpp"
 #include "physics/fit/fit_shapes.hpp"
@@ -14,14 +15,16 @@ namespace lutka::physics {
 namespace {
 
 constexpr std::size_t kMostBoxPoints = 400;
-constexpr float kBoxClearly = 0.5F;    // of the distance that the capsule leaves
-constexpr float kBoxNear = 0.9F;       // of the skin
-constexpr float kBoxItself = 0.25F;    // of that distance: the skin is a box
-constexpr float kBoxRounded = 0.12F;   // of its thinnest half: what a box leaves of a round part is more
-constexpr float kBoxWon = 0.15F;       // of the skin, that the capsule leaves
-constexpr float kBoxThickness = 0.4F;  // of its second side: plates slip through one another
-constexpr int kTurns = 18;             // in a quarter: every five degrees
-constexpr float kBoxTail = 0.01F;      // of the skin, that a box of quantiles leaves out on each side
+constexpr float kBoxClearly = 0.5F;           // of the distance that the capsule leaves
+constexpr float kBoxNear = 0.9F;              // of the skin
+constexpr float kBoxItself = 0.25F;           // of that distance: the skin is a box
+constexpr float kBoxRounded = 0.12F;          // of its thinnest half: what a box leaves of a round part is more
+constexpr float kBoxWon = 0.15F;              // of the skin, that the capsule leaves
+constexpr float kBoxThickness = 0.4F;         // of its second side: plates slip through one another
+constexpr int kTurns = 18;                    // in a quarter: every five degrees
+constexpr float kUprightWorthTrying = 0.98F;  // of the cost along the limb, by the boxes of quantiles
+constexpr float kUprightClearly = 0.7F;       // of the cost along the limb
+constexpr float kBoxTail = 0.01F;             // of the skin, that a box of quantiles leaves out on each side
 
 // A box about `center` along the axes of the points.
 struct BoxTrial {
@@ -116,28 +119,47 @@ class BoxSearch {
     SkinSample sample_;  // in the box's axes
 };
 
-}  // namespace
-
-std::optional<PlacedBox> fitBox(const std::vector<SkinPoint>& points, const Capsule& capsule, const BoxBounds& bounds) {
+// Of the turns about `turnAxis` the one whose box of quantiles is nearest.
+std::pair<BoxSearch, float> nearestTurn(const std::vector<SkinPoint>& points, const quat& standardFromAxes,
+                                        const BoxBounds& bounds) {
     std::optional<BoxSearch> nearest;
     float least = 0.0F;
     for (int turn = 0; turn < kTurns; ++turn) {
         const float angle = static_cast<float>(turn) * (0.5F * kPi / kTurns);
-        BoxSearch search(points, bounds.standardFromAxes * glm::angleAxis(angle, bounds.turnAxis), bounds);
+        BoxSearch search(points, standardFromAxes * glm::angleAxis(angle, bounds.turnAxis), bounds);
         const float cost = search.cost(search.boxOfQuantiles());
         if (nearest && cost >= least) continue;
         nearest = std::move(search);
         least = cost;
     }
-    const BoxTrial box = nearest->run();
-    const Capsule other = nearest->inAxes(capsule);
-    const float near = nearest->shareNear(box);
-    const float left = nearest->cost(box);
-    const bool wins = near >= nearest->shareNear(other) + kBoxWon;
-    const bool clearly = left <= (wins ? kBoxClearly : kBoxItself) * nearest->cost(other);
+    return {std::move(*nearest), least};
+}
+
+// Whether the skin is that box, and not the capsule.
+bool standsForSkin(const BoxSearch& search, const BoxTrial& box, const Capsule& capsule) {
+    const Capsule other = search.inAxes(capsule);
+    const float near = search.shareNear(box);
+    const float left = search.cost(box);
+    const bool wins = near >= search.shareNear(other) + kBoxWon;
+    const bool clearly = left <= (wins ? kBoxClearly : kBoxItself) * search.cost(other);
     const float thinnest = std::min({box.half.x, box.half.y, box.half.z});
-    if (!clearly || left > kBoxRounded * thinnest || near < kBoxNear || isPlate(box.half)) return std::nullopt;
-    return nearest->inStandard(box);
+    return clearly && left <= kBoxRounded * thinnest && near >= kBoxNear && !isPlate(box.half);
+}
+
+}  // namespace
+
+std::optional<PlacedBox> fitBox(const std::vector<SkinPoint>& points, const Capsule& capsule, const BoxBounds& bounds) {
+    const auto [along, least] = nearestTurn(points, bounds.standardFromAxes, bounds);
+    const BoxTrial box = along.run();
+    if (!standsForSkin(along, box, capsule)) return std::nullopt;
+    if (bounds.alsoUpright) {
+        const auto [upright, uprightLeast] = nearestTurn(points, quat(1, 0, 0, 0), bounds);
+        if (uprightLeast < kUprightWorthTrying * least) {
+            const BoxTrial other = upright.run();
+            if (upright.cost(other) < kUprightClearly * along.cost(box)) return upright.inStandard(other);
+        }
+    }
+    return along.inStandard(box);
 }
 
 }  // namespace lutka::physics

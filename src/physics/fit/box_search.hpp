@@ -21,7 +21,8 @@ struct PlacedBox {
 struct BoxBounds {
     quat standardFromAxes{1, 0, 0, 0};  ///< The box's axes, but for a turn about `turnAxis` that the search finds.
     vec3 turnAxis{0, 1, 0};             ///< In the box's axes: x or y.
-    bool symmetric = false;             ///< Its middle stands at x = middleX.
+    bool alsoUpright = false;  ///< A box may stand along the standard stance's axes, where that is clearly nearer.
+    bool symmetric = false;    ///< Its middle stands at x = middleX.
     float middleX = 0.0F;
     float smallestHalf = 0.01F;  ///< Metres.
     float largestHalf = 1.0F;    ///< Metres.
@@ -34,8 +35,8 @@ struct BoxBounds {
 /// `nearM` that were not), and at most 0.12 of the box's thinnest half, which no round part keeps to; at least 0.9 of
 /// the skin is within `nearM`. Plates, thinner than 0.4 of their width, stay capsules: they slip through one another.
 ///
-/// The turn is the one of 18 in a quarter about the axis whose box of the skin's quantiles is nearest; then a
-/// coordinate search over middle and half extents.
+/// The turn is the one of 18 in a quarter about the axis whose box of the skin's quantiles is nearest (a limb whose
+/// joints lie at the corners of its blocks has its box upright); then a coordinate search over middle and half extents.
 [[nodiscard]] std::optional<PlacedBox> fitBox(const std::vector<SkinPoint>& points, const Capsule& capsule,
                                               const BoxBounds& bounds);
 

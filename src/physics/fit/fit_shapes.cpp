@@ -132,6 +132,7 @@ class BodyFit {
                                   : stands ? rotation_
                                            : axesAlong(body_.direction());
         bounds.turnAxis = stands ? vec3(1, 0, 0) : vec3(0, 1, 0);
+        bounds.alsoUpright = !stands;
         bounds.symmetric = central_;
         bounds.middleX = plan_.middleX;
         bounds.smallestHalf = kSmallestRadius * plan_.heightM;

@@ -1,6 +1,7 @@
 #include "physics/fit/box_search.hpp"
 
 #include <glm/gtc/quaternion.hpp>
+#include <glm/gtx/quaternion.hpp>
 
 #include "physics/fit/fit_shapes.hpp"
 #include "support/catch.hpp"
@@ -51,6 +52,21 @@ BoxBounds bounds() {
 }
 
 }  // namespace
+
+TEST_CASE("a block whose joints lie askew in it becomes an upright box, and not one along the joints") {
+    const vec3 half(0.16F, 0.19F, 0.16F);
+    const std::vector<SkinPoint> skin = skinOfBox(half, {quat(1, 0, 0, 0), {0.5F, 1.2F, 0.0F}});
+    const vec3 shoulder(0.475F, 1.36F, 0.0F);
+    const vec3 elbow(0.5F, 1.2F, 0.0F);
+    BoxBounds limits = bounds();
+    limits.standardFromAxes = glm::rotation(vec3(0, 1, 0), glm::normalize(elbow - shoulder));
+    limits.alsoUpright = true;
+    const auto box = fitBox(skin, Capsule{shoulder, elbow, 0.1F}, limits);
+    REQUIRE(box);
+    CHECK(std::abs((box->standardFromBox.rotation * vec3(0, 1, 0)).y) > 0.999F);
+    CHECK(box->halfExtents.x == Approx(half.x).margin(0.005));
+    CHECK(box->halfExtents.y == Approx(half.y).margin(0.005));
+}
 
 TEST_CASE("a block becomes the box that it is, however it is turned about the limb") {
     const vec3 half(0.08F, 0.2F, 0.06F);
