@@ -244,6 +244,17 @@ TEST_CASE("a shared node, a ring of nodes and a deep chain are refused by name o
     GltfFile ring = makePostRig();
     ring.json["nodes"][3]["children"].push_back(1);
     refusedFor(ring, "two parents");
+    // Joints that no scene holds come along with their skin; here they hang on each other.
+    GltfFile apart = makePostRig();
+    for (int i = 0; i < static_cast<int>(apart.json["nodes"].size()); ++i) {
+        if (apart.json["nodes"][i].contains("skin")) apart.json["scenes"] = {{{"nodes", {i}}}};
+    }
+    const int joint = apart.json["skins"][0]["joints"][0];
+    const int last = apart.addNode("last", joint);
+    apart.json["nodes"][last]["children"] = {joint};
+    apart.json["skins"][0]["joints"].push_back(last);
+    apart.json["skins"][0].erase("inverseBindMatrices");
+    refusedFor(apart, "two parents");
     GltfFile chain;
     for (int i = 0; i < 5000; ++i)
         chain.addNode("link", i - 1);

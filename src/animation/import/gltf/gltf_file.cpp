@@ -13,6 +13,7 @@
 #include "animation/import/source_limits.hpp"
 #include "animation/import/uri.hpp"
 #include "core/files.hpp"
+#include "core/letter_case.hpp"
 
 namespace lutka::animation::rig_import::gltf {
 namespace {

@@ -80,14 +80,18 @@ int sceneOf(const GltfFile& file, const NodeTree& tree, std::vector<std::string>
 void bringJoints(const GltfFile& file, const NodeTree& tree, std::vector<int>& roots) {
     const std::vector<bool> reached = reachedFrom(tree, roots);
     std::vector<int> tops;
+    std::vector<int> walkOf(reached.size(), -1);  // which joint's way up came by; so every node is walked once
     for (const int skin : skinsAmong(file, reached)) {
         for (const int joint : indicesOf(file.element("skins", skin), "joints", reached.size())) {
-            if (reached[joint]) continue;
+            if (reached[joint] || walkOf[joint] >= 0) continue;
             int top = joint;
-            for (std::size_t step = 0; step < reached.size() && tree.parents[top] >= 0;
-                 ++step)  // as often as a ring is long
+            walkOf[top] = joint;
+            while (tree.parents[top] >= 0 && walkOf[tree.parents[top]] < 0) {
                 top = tree.parents[top];
-            if (std::find(tops.begin(), tops.end(), top) == tops.end()) tops.push_back(top);
+                walkOf[top] = joint;
+            }
+            const bool wasWalked = tree.parents[top] >= 0 && walkOf[tree.parents[top]] != joint;
+            if (!wasWalked) tops.push_back(top);  // or a place in a ring, which is refused where nodes are added
         }
     }
     if (tops.empty()) return;
