@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
     options.puppet.emplace();
     options.puppet->start.clip = "walk";
     options.puppet->puppet.muscles = physics::musclesOf(physics::MusclePreset::powered);
-    options.puppet->hits = {{physics::Role::leftLowerArm, 1.0F, {0, 0, 8}}};  // N s, after a second
+    options.puppet->hits = {{"leftLowerArm", 1.0F, {0, 0, 8}}};  // N s, after a second
     auto simulation = scene::Simulation::create(asset, std::move(ground), options);
     if (!simulation) {
         std::fprintf(stderr, "%s\n", simulation.error().text().c_str());
