@@ -7,26 +7,29 @@
 namespace lutka::physics {
 namespace {
 
-// Half m v² plus half I w², in the bodies' principal axes; not finite when any number of the states is not.
-float kineticEnergy(const RagdollProfile& profile, std::span<const BodyState> bodies) {
-    float energy = 0.0F;
+// How a doll moves, at most.
+struct Motion {
+    float energy = 0.0F;    // joules: half m v² plus half I w², each body turning about its most inert axis
+    float fastest2 = 0.0F;  // m²/s², of any body's centre
+};
+
+// Its energy is not finite when any number of the states is not.
+Motion motionOf(const RagdollProfile& profile, std::span<const BodyState> bodies) {
+    Motion motion;
     float nothing = 0.0F;  // 0 times what does not enter the energy: not a number where that is not finite
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const BodyState& body = bodies[i];
         const vec3& at = body.worldFromBody.translation;
-        nothing += 0.0F * (at.x + at.y + at.z);
-        const vec3 turn = glm::conjugate(body.worldFromBody.rotation) * body.angularVelocity;
-        energy += profile.bodies[i].massKg * glm::dot(body.linearVelocity, body.linearVelocity) +
-                  glm::dot(profile.bodies[i].inertia, turn * turn);
+        const quat& turn = body.worldFromBody.rotation;
+        nothing += 0.0F * (at.x + at.y + at.z + turn.x + turn.y + turn.z + turn.w);
+        const vec3& inertia = profile.bodies[i].inertia;
+        const float speed2 = glm::dot(body.linearVelocity, body.linearVelocity);
+        motion.fastest2 = std::max(motion.fastest2, speed2);
+        motion.energy += profile.bodies[i].massKg * speed2 + std::max({inertia.x, inertia.y, inertia.z}) *
+                                                                 glm::dot(body.angularVelocity, body.angularVelocity);
     }
-    return 0.5F * energy + nothing;
-}
-
-float fastest2(std::span<const BodyState> bodies) {
-    float most = 0.0F;
-    for (const BodyState& body : bodies)
-        most = std::max(most, glm::dot(body.linearVelocity, body.linearVelocity));
-    return most;
+    motion.energy = 0.5F * motion.energy + nothing;
+    return motion;
 }
 
 }  // namespace
@@ -50,7 +53,7 @@ void DollGuard::add(DollId id, const RagdollProfile& profile, std::span<const Bo
     entries_.push_back({id,
                         &profile,
                         {bodies.begin(), bodies.end()},
-                        kineticEnergy(profile, bodies),
+                        motionOf(profile, bodies).energy,
                         0.5F * mass * kMostGain * kMostGain,
                         true});
     scratch_.resize(std::max(scratch_.size(), bodies.size()));
@@ -64,7 +67,7 @@ void DollGuard::remove(int doll) {
 void DollGuard::begin(int doll, std::span<const BodyState> bodies) {
     Entry& entry = entries_[doll];
     std::copy(bodies.begin(), bodies.end(), entry.good.begin());
-    entry.energy = kineticEnergy(*entry.profile, bodies);
+    entry.energy = motionOf(*entry.profile, bodies).energy;
     entry.known = true;
 }
 
@@ -74,13 +77,13 @@ std::span<BodyState> DollGuard::scratch(int doll) {
 
 bool DollGuard::judge(int doll, std::span<const BodyState> bodies, double seconds) {
     Entry& entry = entries_[doll];
-    const float energy = kineticEnergy(*entry.profile, bodies);
-    if (!std::isfinite(energy)) {
+    const Motion motion = motionOf(*entry.profile, bodies);
+    if (!std::isfinite(motion.energy)) {
         note(entry, CaughtDoll::Why::notFinite, seconds);
         return false;
     }
-    const float gain = energy - entry.energy;
-    if (fastest2(bodies) > kMostSpeed * kMostSpeed) {
+    const float gain = motion.energy - entry.energy;
+    if (motion.fastest2 > kMostSpeed * kMostSpeed) {
         note(entry, CaughtDoll::Why::tooFast, seconds);
         return false;
     }
@@ -89,7 +92,7 @@ bool DollGuard::judge(int doll, std::span<const BodyState> bodies, double second
         return false;
     }
     std::copy(bodies.begin(), bodies.end(), entry.good.begin());
-    entry.energy = energy;
+    entry.energy = motion.energy;
     return true;
 }
 

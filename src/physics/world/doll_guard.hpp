@@ -54,7 +54,7 @@ class DollGuard {
         DollId id;
         const RagdollProfile* profile;
         std::vector<BodyState> good;
-        float energy = 0.0F;    // kinetic, of `good`, joules
+        float energy = 0.0F;    // kinetic, of `good`, joules, at most: as if all turned about their most inert axes
         float mostGain = 0.0F;  // joules
         bool known = true;
     };
