@@ -24,6 +24,7 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
                                               {"supportKept", &tuning.supportKept},
                                               {"nearSpeed", &tuning.nearSpeed},
                                               {"answerSpeed", &tuning.answerSpeed},
+                                              {"sideways", &tuning.sideways},
                                               {"contactTolerance", &tuning.contactTolerance},
                                               {"limitTolerance", &tuning.limitTolerance},
                                               {"firstTouch", &tuning.firstTouch},

@@ -35,8 +35,8 @@ vec3 vectorOf(const float (&v)[3]) {
     return {v[0], v[1], v[2]};
 }
 
-TouchRange touchRange(const CrowdState& state, float dt) {
-    return {state.tuning.pairMargin, kForesight * dt};
+TouchRange touchRange(const CrowdState& state, float dt, float sideways = 1.0F) {
+    return {state.tuning.pairMargin, kForesight * dt, sideways};
 }
 float distanceIn(const TouchRange& range, const StepBody& a, const StepBody& b) {
     return range.margin +
@@ -117,7 +117,7 @@ BodyTouch touchOf(const CoreTouchLanes& found, int lane) {
 class TouchSearch {
   public:
     TouchSearch(const CrowdState& state, float dt, std::vector<PairTouch>& out)
-        : state_(state), range_(touchRange(state, dt)), out_(out) {}
+        : state_(state), range_(touchRange(state, dt, state.tuning.sideways)), out_(out) {}
 
     void add(const BodyRef& a, const StepBody& stepA, const BodyRef& b, const StepBody& stepB) {
         a_[count_] = a;

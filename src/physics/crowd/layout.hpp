@@ -411,10 +411,12 @@ struct alignas(64) StepBody {
 };
 inline constexpr float kBoxCore = -1.0F;
 
-/// How near two bodies must be for a contact: `margin` metres and the way that they can make in `seconds`.
+/// How near two bodies must be for a contact: `margin` metres and the way that they can make in `seconds`, of which
+/// what does not bring them together counts by the share `sideways`.
 struct TouchRange {
     float margin;
     float seconds;
+    float sideways;
 };
 
 /// Where the cores of eight pairs of bodies are nearest.

@@ -60,7 +60,9 @@ LUTKA_LANES unsigned touch(const Cores& a, const Cores& b, const TouchRange& ran
     const NearestPoints at = nearestPoints(a.centre, a.half, b.centre, b.half);
     const F radius = a.radius + b.radius;
     const V3 relative = a.velocity - b.velocity;
-    const F speed = squareRoot(dot(relative, relative)) + (a.swing + b.swing);
+    const F closing = most(-dot(at.normal, relative), all(0.0F));
+    const F linear = closing + (squareRoot(dot(relative, relative)) - closing) * all(range.sideways);
+    const F speed = linear + (a.swing + b.swing);
     store(out.normal, at.normal);
     store(out.alongA, (two * at.s - one) * a.halfLength);
     store(out.alongB, (two * at.t - one) * b.halfLength);

@@ -21,6 +21,8 @@ struct CrowdTuning : SubstepTuning {
     float staticMargin = 0.05F;   ///< Metres beyond the predicted motion within which contacts are made, with statics
     float shapeMargin = 0.015F;   ///< likewise with statics that are no planes, beyond the motion of a substep,
     float pairMargin = 0.015F;    ///< and between bodies. Static ones are cheap while nothing presses.
+    float sideways = 0.5F;        ///< Part of a predicted motion between dolls that counts although it does not bring
+                                  ///< two bodies together, [0, 1]. Less: fewer contacts; 1: as within a doll.
     float leastGyration = 0.05F;  ///< Metres, of a figure 1.75 m tall: no body has a smaller radius of gyration about
                                   ///< any axis; thin hands and feet are given more inertia. More: tighter, stiffer.
     float linearDamping = 0.0F;   ///< 1/s; speed decays by exp(-d t).
