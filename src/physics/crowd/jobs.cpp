@@ -233,6 +233,11 @@ void makeJobs(CrowdState& state) {
         jobOf(record.doll).forces.push_back(&record);
     for (std::size_t i = 0; i < state.jobCount; ++i)
         setSubsteps(state, state.jobs[i]);
+    // A muscle or pull at its bound works against what may give way at once, however calm the doll is yet.
+    for (const MotorRecord& record : state.motors)
+        if (record.bounded && !state.dolls[record.doll].asleep()) jobOf(record.doll).substeps = state.tuning.substeps;
+    for (const DragRecord& record : state.drags)
+        if (record.bounded) jobOf(record.doll).substeps = state.tuning.substeps;
     Packer(state).pack();
 }
 
