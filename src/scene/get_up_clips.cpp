@@ -41,8 +41,8 @@ float hipsHeight(const RagdollAsset& asset, const Clip& clip, float seconds) {
     animation::sampleClip(clip, seconds, pose);
     const vec3 up = glm::conjugate(asset.profile.standardFromModel) * vec3(0, 1, 0);
     const int joint = asset.rig.jointOfBody.front();
-    const float floor = animation::floorOf(asset.character, asset.map);
-    return glm::dot(animation::modelFrameOf(asset.character.skeleton, pose, joint).translation, up) - floor;
+    return glm::dot(animation::modelFrameOf(asset.character.skeleton, pose, joint).translation, up) -
+           standingFloorOf(asset);
 }
 
 // Whether the trunk is nearer to the ground than to the upright: who sits stands up, but does not get up.

@@ -186,6 +186,7 @@ class PuppetCast {
     void beginRising(Actor& actor, float dt);
     void rise(Actor& actor, float dt);
     [[nodiscard]] float paceOf(Actor& actor);
+    void holdFeet(Actor& actor);
     void standUp(Actor& actor, float dt);
     void blendInto(Actor& actor, std::span<const RigidTransform> rawBefore, std::span<const RigidTransform> raw,
                    float dt);

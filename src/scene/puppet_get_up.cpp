@@ -278,6 +278,22 @@ float PuppetCast::paceOf(Actor& actor) {
     return keepsUp * (kSlowStart + (1.0F - kSlowStart) * actor.blend.share());
 }
 
+// The pin carries most of the doll on its way up, so that the ground holds a foot with little: a hip that turns a heavy
+// trunk would push it away. It is held as by the friction of its share of the weight.
+void PuppetCast::holdFeet(Actor& actor) {
+    constexpr float kGrip = 0.25F;  // of the doll's weight
+    float mass = 0.0F;
+    for (const physics::BodyProfile& body : actor.asset->profile.bodies)
+        mass += body.massKg;
+    for (const Actor::Foot& foot : actor.feet) {
+        if (!foot.stands) continue;
+        // As it is turned now, or the pull would snap a light foot over; bodies_ are those of now.
+        const RigidTransform& now = bodies_[foot.body].worldFromBody;
+        actor.puppet->hold(foot.body, {now.rotation, {foot.at.x, now.translation.y, foot.at.z}},
+                           kGrip * mass * glm::length(play_.gravity));
+    }
+}
+
 void PuppetCast::rise(Actor& actor, float dt) {
     GetUpClips& clips = *getUps_[actor.assetIndex];
     actor.risingSeconds += dt;
@@ -289,6 +305,7 @@ void PuppetCast::rise(Actor& actor, float dt) {
         return;
     }
     show(actor, dt);
+    holdFeet(actor);
 }
 
 // On with the clip, over the place where it stands and as it heads.

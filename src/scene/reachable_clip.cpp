@@ -45,20 +45,6 @@ class ClipBodies {
             turnJoint(joint, corrections_[static_cast<std::size_t>(frame) * joints_ + joint]);
         reachable_.closeJoints(bodies_);
     }
-    // What makes each frame reachable, joint by joint. A limb that the clip leads through a body leaves it on another
-    // side from one frame to the next: what jumps so is spread over the frames around.
-    void correct() {
-        corrections_.reserve(static_cast<std::size_t>(clip_.frameCount) * joints_);
-        for (int frame = 0; frame < clip_.frameCount; ++frame) {
-            readWanted(frame);
-            reachable_.apply(bodies_);
-            for (std::size_t joint = 0; joint < joints_; ++joint)
-                corrections_.push_back(relative(bodies_, joint) * glm::conjugate(relative(wanted_, joint)));
-        }
-        const int spread = static_cast<int>(std::lround(kSpreadSeconds * clip_.framesPerSecond));
-        for (std::size_t joint = 0; joint < joints_ && spread > 0; ++joint)
-            if (jumps(joint)) spreadOut(joint, spread);
-    }
     // Local to the joints.
     [[nodiscard]] std::span<const RigidTransform> pose(int frame) {
         const animation::Skeleton& skeleton = asset_.character.skeleton;
@@ -84,6 +70,20 @@ class ClipBodies {
     }
 
   private:
+    // What makes each frame reachable, joint by joint. A limb that the clip leads through a body leaves it on another
+    // side from one frame to the next: what jumps so is spread over the frames around.
+    void correct() {
+        corrections_.reserve(static_cast<std::size_t>(clip_.frameCount) * joints_);
+        for (int frame = 0; frame < clip_.frameCount; ++frame) {
+            readWanted(frame);
+            reachable_.apply(bodies_);
+            for (std::size_t joint = 0; joint < joints_; ++joint)
+                corrections_.push_back(relative(bodies_, joint) * glm::conjugate(relative(wanted_, joint)));
+        }
+        const int spread = static_cast<int>(std::lround(kSpreadSeconds * clip_.framesPerSecond));
+        for (std::size_t joint = 0; joint < joints_ && spread > 0; ++joint)
+            if (jumps(joint)) spreadOut(joint, spread);
+    }
     void readWanted(int frame) {
         animation::localToModel(asset_.character.skeleton, localOf(frame), model_);
         physics::bodiesFromPose(asset_.rig, model_, standing_, states_);

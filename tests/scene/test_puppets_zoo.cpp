@@ -69,24 +69,25 @@ TEST_CASE("figures of any proportions walk within two degrees of a clip that the
 
 TEST_CASE("figures of any proportions get up: short legs, a large head, a heavy trunk, an origin at the hips") {
     NEEDS_ZOO();
+    constexpr int kDolls = 20;
     for (const char* file :
          {"kaykit_rogue/Rogue_Hooded.glb", "bvh_boxing/Boxing_Toes.bvh", "lumberjack_rigify/lumberjack.glb",
           "quaternius_platformer_ik/platformer_game_pack_Character.glb", "hl1_man/man.mdl",
-          "kenney_medium/characterMedium.fbx"}) {
+          "kenney_medium/characterMedium.fbx", "vrm_addon_example/Example.glb"}) {
         const auto asset = figure(file);
         for (const SolverKind solver : {SolverKind::crowd, SolverKind::bullet}) {
             INFO(file << ", " << physics::solverName(solver));
-            auto scenario = scene::makeScenario({.name = "spread", .count = 10, .seed = 1}, *asset);
+            auto scenario = scene::makeScenario({.name = "spread", .count = kDolls, .seed = 1}, *asset);
             REQUIRE(scenario.ok());
             scene::PuppetPlay play;
             play.getUp = play.limp = true;
             const auto simulation = playIn(*asset, std::move(scenario).value(), play, solver, 10.0F);
             const scene::GetUpFigures up = simulation->puppets()->getUpFigures();
             INFO(up.begun << " begun, " << up.stood << " stood, " << up.mostSeconds << " s at most; " << up.mostStepDeg
-                          << " degrees in a step at " << up.stepJoint);
-            CHECK(up.stood >= 9);
-            CHECK(up.begun <= 12);
-            CHECK(up.mostSlideM <= 0.06F);
+                          << " degrees in a step at " << up.stepJoint << "; feet slid " << up.mostSlideM);
+            CHECK(up.stood >= kDolls - 1);
+            CHECK(up.begun <= kDolls + 2);
+            CHECK(up.mostSlideM <= 0.05F);
             CHECK(up.mostStepDeg <= 10.0F);
             CHECK(simulation->quality().nonFinite == 0);
             const vec3 up3 = glm::conjugate(asset->profile.standardFromModel) * vec3(0, 1, 0);
@@ -97,7 +98,7 @@ TEST_CASE("figures of any proportions get up: short legs, a large head, a heavy 
                 upright +=
                     hips > 0.85F * (glm::dot(asset->rig.bindModelFromBody.front().translation, up3) - standing) ? 1 : 0;
             }
-            CHECK(upright >= 9);
+            CHECK(upright >= kDolls - 1);
         }
     }
 }

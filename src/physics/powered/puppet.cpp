@@ -63,6 +63,7 @@ Puppet::Puppet(World& world, DollId doll, const RagdollProfile& profile, int roo
       drive_(profile, bodies),
       balance_(profile),
       pins_(profile.bodies.size()),
+      holds_(profile.bodies.size()),
       weights_(settings.led.empty() ? std::vector<float>(profile.bodies.size(), 0.0F) : settings.led),
       isThere_(profile.bodies.size(), true),
       losses_(profile.bodies.size()),
@@ -134,6 +135,10 @@ void Puppet::stand() {
     if (state_ != PuppetState::gettingUp) return;
     back_ = 1.0F;
     change(PuppetState::reacting);
+}
+
+void Puppet::hold(int body, const RigidTransform& worldFromBody, float forceN) {
+    holds_[body] = {worldFromBody, forceN};
 }
 
 void Puppet::approach() {
@@ -225,6 +230,9 @@ void Puppet::pull(std::span<const RigidTransform> from, std::span<const RigidTra
         const auto at = static_cast<std::size_t>(body);
         float force = at < settings_.pins.size() && !getsUp ? settings_.pins[at] : 0.0F;
         if (body == root_) force = getsUp ? settings_.getUpForceN : settings_.pinForceN;
+        const Hold hold = std::exchange(holds_[at], {});
+        const bool holds = getsUp && body != root_ && hold.forceN > 0.0F;
+        if (holds) force = hold.forceN;
         force *= strengthLeft(body);
         std::unique_ptr<BodyPin>& pin = pins_[at];
         if (force <= 0.0F || weights_[at] > 0.0F) {
@@ -232,7 +240,10 @@ void Puppet::pull(std::span<const RigidTransform> from, std::span<const RigidTra
             continue;
         }
         if (pin == nullptr) pin = std::make_unique<BodyPin>(world_, doll_, body);
-        pin->follow(from[at], to[at], dt, force, getsUp && failedToRise_ ? reachOf(from[at]) : BodyPin::kReachM);
+        if (holds)
+            pin->follow(hold.worldFromBody, hold.worldFromBody, dt, force);
+        else
+            pin->follow(from[at], to[at], dt, force, getsUp && failedToRise_ ? reachOf(from[at]) : BodyPin::kReachM);
     }
 }
 

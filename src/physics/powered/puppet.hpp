@@ -70,6 +70,9 @@ class Puppet {
     /// The same for a way to its feet: it is gettingUp until stand() is called.
     void getUp(float seconds);
     void stand();
+    /// In the coming step a body is held where it is with at most so much, N, while it gets up: its pin carries the
+    /// doll then, so that a foot has too little weight on it to stay where it stands.
+    void hold(int body, const RigidTransform& worldFromBody, float forceN);
     /// Led bodies may be away from their pose: they are drawn to it, at leadSpeed and leadTurn at most.
     void approach();
 
@@ -95,6 +98,11 @@ class Puppet {
         float amount = 0.0F;   // of the strength, when it was hit last
         float seconds = 0.0F;  // since then
     };
+    // Where a body is held in the coming step; with no force it is not.
+    struct Hold {
+        RigidTransform worldFromBody;
+        float forceN = 0.0F;
+    };
     void change(PuppetState state);
     [[nodiscard]] float lossOf(int body) const;
     void beginReturn(float seconds, bool standsByItself);
@@ -116,6 +124,7 @@ class Puppet {
     Balance balance_;
     std::array<bool, 2> grounded_{false, false};
     std::vector<std::unique_ptr<BodyPin>> pins_;  // one a body, null where nothing pulls
+    std::vector<Hold> holds_;                     // one a body
     std::vector<float> weights_;                  // one a body: with which it is led now
     PuppetState state_ = PuppetState::animated;
     std::vector<bool> isThere_;               // likewise: whether it has come to its pose since its weight grew

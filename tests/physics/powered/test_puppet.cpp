@@ -68,6 +68,34 @@ class Stage {
 
 }  // namespace
 
+TEST_CASE("a foot that is held while the doll gets up is not pushed away from where it stands") {
+    for (const SolverKind solver : kOurSolvers) {
+        const auto pushed = [&](float holdN, bool getsUp) {
+            Stage stage(solver, {}, {0, 0.5F, 0});  // no ground holds the foot
+            const int foot = stage.body(Role::leftFoot);
+            const RigidTransform place = bodyOfDoll(stage.world(), 0, foot).worldFromBody;
+            stage.puppet().goLimp();
+            if (getsUp)
+                stage.puppet().getUp(0.01F);
+            else
+                stage.puppet().comeBack(0.01F);
+            for (int i = 0; i < 30; ++i) {
+                stage.puppet().hold(foot, place, holdN);
+                stage.world().applyForce(stage.world().dolls()[0], foot, {100, 0, 0},
+                                         bodyOfDoll(stage.world(), 0, foot).worldFromBody.translation);
+                stage.step();
+            }
+            return bodyOfDoll(stage.world(), 0, foot).worldFromBody.translation.x - place.translation.x;
+        };
+        INFO(physics::solverName(solver));
+        const float free = pushed(0.0F, true);
+        CHECK(free > 0.02F);
+        CHECK(pushed(400.0F, true) < 0.25F * free);
+        // It is held on its way to its feet alone.
+        CHECK(pushed(400.0F, false) > 0.5F * free);
+    }
+}
+
 TEST_CASE("what a pin gives a doll that hangs by its hips is the doll's weight") {
     for (const SolverKind solver : kOurSolvers) {
         INFO(physics::solverName(solver));
