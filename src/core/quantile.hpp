@@ -1,16 +1,18 @@
 #pragma once
 
 #include <algorithm>
-#include <span>
+#include <array>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
 namespace lutka {
 
-/// The value below which `share` (in [0, 1]) of the points' area lies: robust against dense or stray vertices.
+/// The values below which shares (each in [0, 1]) of the points' area lie: robust against dense or stray vertices.
 /// `value` maps a point to a number; points need a member `area`. At least one point; equal areas where all are 0.
-template <class Point, class Value>
-[[nodiscard]] float quantileOf(const std::vector<Point>& points, float share, Value value) {
+template <std::size_t Count, class Point, class Value>
+[[nodiscard]] std::array<float, Count> quantilesOf(const std::vector<Point>& points,
+                                                   const std::array<float, Count>& shares, Value value) {
     std::vector<std::pair<float, float>> sorted;
     sorted.reserve(points.size());
     float total = 0.0F;
@@ -21,12 +23,24 @@ template <class Point, class Value>
     const bool weighted = total > 0.0F;
     if (!weighted) total = static_cast<float>(points.size());
     std::sort(sorted.begin(), sorted.end());
-    float below = 0.0F;
-    for (const auto& [at, area] : sorted) {
-        below += weighted ? area : 1.0F;
-        if (below >= share * total) return at;
+    std::array<float, Count> result{};
+    for (std::size_t i = 0; i < Count; ++i) {
+        float below = 0.0F;
+        result[i] = sorted.back().first;
+        for (const auto& [at, area] : sorted) {
+            below += weighted ? area : 1.0F;
+            if (below < shares[i] * total) continue;
+            result[i] = at;
+            break;
+        }
     }
-    return sorted.back().first;
+    return result;
+}
+
+/// The value of one share.
+template <class Point, class Value>
+[[nodiscard]] float quantileOf(const std::vector<Point>& points, float share, Value value) {
+    return quantilesOf(points, std::array<float, 1>{share}, value)[0];
 }
 
 }  // namespace lutka

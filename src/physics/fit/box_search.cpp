@@ -49,8 +49,7 @@ class BoxSearch {
           sample_(points, {glm::conjugate(standardFromAxes), vec3(0)}, kMostBoxPoints) {}
 
     [[nodiscard]] BoxTrial boxOfQuantiles() const {
-        const vec3 low = sample_.quantiles(kBoxTail);
-        const vec3 high = sample_.quantiles(1.0F - kBoxTail);
+        const auto [low, high] = sample_.quantiles(kBoxTail, 1.0F - kBoxTail);
         return settled({0.5F * (low + high), 0.5F * (high - low)});
     }
 

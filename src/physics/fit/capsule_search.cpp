@@ -81,13 +81,12 @@ float CapsuleSearch::radiusAboutAxis(float fromY, float toY) const {
     return quantileOf(between, 0.5F, [](const SkinPoint& p) { return std::hypot(p.position.x, p.position.z); });
 }
 
-vec3 CapsuleSearch::quantiles(float share) const {
-    return sample_.quantiles(share);
+std::pair<vec3, vec3> CapsuleSearch::quantiles(float low, float high) const {
+    return sample_.quantiles(low, high);
 }
 
 CapsuleTrial CapsuleSearch::boundingTrial() const {
-    const vec3 low = quantiles(0.06F);
-    const vec3 high = quantiles(0.94F);
+    const auto [low, high] = quantiles(0.06F, 0.94F);
     CapsuleTrial trial;
     trial.center = 0.5F * (low + high);
     trial.radius = 0.25F * (high.x - low.x + high.z - low.z);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "core/rigid_transform.hpp"
@@ -35,8 +36,8 @@ class CapsuleSearch {
     [[nodiscard]] float radiusAboutAxis(float fromY, float toY) const;
     /// The capsule of the points' robust bounding box.
     [[nodiscard]] CapsuleTrial boundingTrial() const;
-    /// The same quantile of the points' three coordinates, in the search's axes.
-    [[nodiscard]] vec3 quantiles(float share) const;
+    /// The corners between two quantiles of the points' three coordinates, in the search's axes.
+    [[nodiscard]] std::pair<vec3, vec3> quantiles(float low, float high) const;
 
     [[nodiscard]] vec3 inSearch(const vec3& standardDirection) const;
     [[nodiscard]] vec3 toSearch(const vec3& standardPoint) const;

@@ -251,8 +251,9 @@ class BodyFit {
 
     // Anywhere, as long as its tips stay with the skin.
     [[nodiscard]] Capsule fitFree(const CapsuleSearch& search) const {
-        const float low = search.quantiles(0.01F).y;
-        const float high = search.quantiles(0.99F).y;
+        const auto ends = search.quantiles(0.01F, 0.99F);
+        const float low = ends.first.y;
+        const float high = ends.second.y;
         return search.run(search.boundingTrial(), [&](CapsuleTrial& t) {
             keepCentral(t, search);
             const float spare = 0.1F * t.radius;
@@ -270,8 +271,9 @@ class BodyFit {
     // Along the sole and touching it, from heel to toe tip.
     [[nodiscard]] Capsule fitFoot() const {
         const CapsuleSearch search = searchAlong(body_.start, axesAlong(rotation_ * vec3(0, 0, 1)));
-        const vec3 low = search.quantiles(0.02F);
-        const vec3 high = search.quantiles(0.98F);
+        const auto corners = search.quantiles(0.02F, 0.98F);
+        const vec3 low = corners.first;
+        const vec3 high = corners.second;
         const vec3 up = search.inSearch(rotation_ * vec3(0, 1, 0));
         // The search's axes across the foot: which of x and z is up depends on the heading.
         const int vertical = std::abs(up.x) > std::abs(up.z) ? 0 : 2;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
+#include <tuple>
 
 #include "physics/fit/skin_sample.hpp"
 
@@ -51,10 +52,9 @@ float distanceFrom(const Members& members, const vec3& point) {
 class UnionSearch {
   public:
     UnionSearch(const std::vector<SkinPoint>& points, const CapsuleBounds& bounds)
-        : bounds_(bounds),
-          sample_(points, inverse(bounds.standardFromAxes), kMostUnionPoints),
-          low_(sample_.quantiles(0.01F)),
-          high_(sample_.quantiles(0.99F)) {}
+        : bounds_(bounds), sample_(points, inverse(bounds.standardFromAxes), kMostUnionPoints) {
+        std::tie(low_, high_) = sample_.quantiles(0.01F, 0.99F);
+    }
 
     template <class Shape>
     [[nodiscard]] float cost(const Shape& shape) const {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/quantile.hpp"
@@ -49,12 +51,16 @@ class SkinSample {
         return area_ > 0.0F ? near / area_ : 0.0F;
     }
 
-    /// The same quantile of the points' three coordinates.
-    [[nodiscard]] vec3 quantiles(float share) const {
-        vec3 result(0);
-        for (int axis = 0; axis < 3; ++axis)
-            result[axis] = quantileOf(points_, share, [axis](const SkinPoint& p) { return p.position[axis]; });
-        return result;
+    /// The corners between two quantiles of the points' three coordinates.
+    [[nodiscard]] std::pair<vec3, vec3> quantiles(float low, float high) const {
+        std::pair<vec3, vec3> corners;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto ends = quantilesOf(points_, std::array<float, 2>{low, high},
+                                          [axis](const SkinPoint& p) { return p.position[axis]; });
+            corners.first[axis] = ends[0];
+            corners.second[axis] = ends[1];
+        }
+        return corners;
     }
 
   private:
