@@ -15,13 +15,13 @@ struct Entry {
 
 // One line a concept and language group. Words shorter than three letters match whole tokens only.
 constexpr Entry kEntries[] = {
-    {Concept::upper, "upper up uper upr uppr ober superior sup inner"},
-    {Concept::lower, "lower low lo lwr down dn fore lowr unter inferior inf outer"},
+    {Concept::upper, "ust upper up uper upr uppr ober superior sup inner"},
+    {Concept::lower, "alt lower low lo lwr down dn fore lowr unter inferior inf outer"},
     {Concept::leftSide,
-     "left l lft lf lt izq izquierda izquierdo links linke linker gauche sinistra sinistro sx esquerda "
+     "sol left l lft lf lt izq izquierda izquierdo links linke linker gauche sinistra sinistro sx esquerda "
      "esquerdo hidari"},
     {Concept::rightSide,
-     "right r rgt rt rht derecha derecho der rechts rechte rechter droite droit destra destro dx direita "
+     "sag right r rgt rt rht derecha derecho der rechts rechte rechter droite droit destra destro dx direita "
      "direito migi"},
     {Concept::noise,
      "joint jnt jt jnts bone bones bip biped valvebiped valve mixamorig mixamo rig skeleton skel sk base "
@@ -29,41 +29,41 @@ constexpr Entry kEntries[] = {
      "object node nodes rootjoint"},
     {Concept::root, "root master cog reference trajectory motion world origin global center centre"},
     {Concept::hips,
-     "hips pelvis pelvic cadera caderas becken huefte hufte bassin hanches bacino anca quadril pelve "
+     "kalca hips pelvis pelvic cadera caderas becken huefte hufte bassin hanches bacino anca quadril pelve "
      "lowertorso hipsbone koshi kosi"},
     {Concept::hip, "hip hanche"},
     {Concept::spine,
      "spine spina spinal back lowerback backbone vertebra lumbar columna columnavertebral "
      "wirbelsaeule wirbelsaule wirbel ruecken rucken rugge colonne colonna coluna espinha thoracic thorasic"},
     {Concept::abdomen,
-     "abdomen waist belly stomach tummy abs abdominal bauch taille ventre vientre cintura addome barriga "
+     "bel abdomen waist belly stomach tummy abs abdominal bauch taille ventre vientre cintura addome barriga "
      "midriff"},
     {Concept::torso, "torso trunk tronco torse rumpf"},
     {Concept::body, "body cuerpo koerper koerpe korper corps corpo"},
     {Concept::chest,
-     "chest ribcage ribs rib thorax pecho brust brustkorb poitrine petto peito torax sternum breastbone mune"},
-    {Concept::neck, "neck cervical cuello hals cou collo pescoco nacken kubi"},
-    {Concept::head, "head skull cranium cabeza kopf schaedel tete testa cabeca noggin atama"},
+     "gogus chest ribcage ribs rib thorax pecho brust brustkorb poitrine petto peito torax sternum breastbone mune"},
+    {Concept::neck, "boyun neck cervical cuello hals cou collo pescoco nacken kubi"},
+    {Concept::head, "kafa head skull cranium cabeza kopf schaedel tete testa cabeca noggin atama"},
     {Concept::clavicle,
      "clavicle clavical clav clavicule clavicula collar collarbone colar scapula shoulderblade "
      "schluesselbein clavicola clv"},
-    {Concept::shoulder, "shoulder shoulders hombro schulter epaule spalla ombro kata"},
-    {Concept::arm, "arm brazo bras braccio braco ude"},
+    {Concept::shoulder, "omuz shoulder shoulders hombro schulter epaule spalla ombro kata"},
+    {Concept::arm, "kol arm brazo bras braccio braco ude"},
     {Concept::upperArm, "upperarm uparm uparms oberarm shldr humerus bicep biceps upperarms ueude ninoude"},
     {Concept::forearm,
      "forearm forearms lowerarm loarm lowarm antebrazo unterarm avantbras avambraccio antebraco radius ulna "
      "farm forarm shitaude sitaude maeude zenwan"},
-    {Concept::elbow, "elbow elbows codo ellbogen ellenbogen coude gomito cotovelo hiji hizi"},
-    {Concept::wrist, "wrist wrists muneca handgelenk poignet polso pulso tekubi"},
-    {Concept::hand, "hand hands palm fist mano mao faust hnd te"},
-    {Concept::leg, "leg legs pierna bein jambe gamba perna ashi asi"},
-    {Concept::thigh, "thigh thighs femur upleg upperleg muslo oberschenkel cuisse coscia coxa thg momo futomomo"},
+    {Concept::elbow, "dirsek elbow elbows codo ellbogen ellenbogen coude gomito cotovelo hiji hizi"},
+    {Concept::wrist, "bilek wrist wrists muneca handgelenk poignet polso pulso tekubi"},
+    {Concept::hand, "el hand hands palm fist mano mao faust hnd te"},
+    {Concept::leg, "bacak leg legs pierna bein jambe gamba perna ashi asi"},
+    {Concept::thigh, "uyluk thigh thighs femur upleg upperleg muslo oberschenkel cuisse coscia coxa thg momo futomomo"},
     {Concept::shin,
-     "shin shins calf calves crus tibia lowerleg lowleg loleg pantorrilla espinilla unterschenkel mollet "
+     "baldir shin shins calf calves crus tibia lowerleg lowleg loleg pantorrilla espinilla unterschenkel mollet "
      "polpaccio panturrilha canela downleg sune fukurahagi"},
-    {Concept::knee, "knee knees rodilla knie genou ginocchio joelho hiza"},
+    {Concept::knee, "diz knee knees rodilla knie genou ginocchio joelho hiza"},
     {Concept::ankle, "ankle ankles tobillo knoechel knochel fussgelenk cheville caviglia tornozelo ashikubi asikubi"},
-    {Concept::foot, "foot feet pie fuss pied piede pe"},
+    {Concept::foot, "ayak foot feet pie fuss pied piede pe"},
     {Concept::heel, "heel talon tacon ferse tallone kakato"},
     {Concept::toes, "toe toes toebase ball dedospie zehe zehen orteil orteils punta tsumasaki tumasaki"},
     {Concept::twist,
@@ -74,7 +74,7 @@ constexpr Entry kEntries[] = {
      "loc grp group offset snap camera light lamp assimp prerotation translation parent switch dummy nurbs"},
     {Concept::end, "end nub tip site endsite leaf null headtop toetip effectorend terminal"},
     {Concept::finger,
-     "finger fingers thumb thumbs index middle mid ring pinky pinkie little digit phalanx phalange metacarpal "
+     "parmak finger fingers thumb thumbs index middle mid ring pinky pinkie little digit phalanx phalange metacarpal "
      "carpal knuckle knuckles indexfinger middlefinger ringfinger finger0 daumen zeigefinger mittelfinger "
      "ringfinger pulgar indice menique dedo doigt dito thumb1 bigtoe smalltoe palmfinger"},
     {Concept::face,
