@@ -33,7 +33,7 @@ TEST_CASE("a step has as many substeps as its motion needs") {
     }
 }
 
-TEST_CASE("a pull at its bound gives its force in steps of few substeps, too") {
+TEST_CASE("a pull at its bound gives its force, in all substeps however slow the body is") {
     physics::crowd::CrowdTuning tuning;
     tuning.angularDamping = 0.0F;
     WorldSettings settings;
@@ -50,8 +50,8 @@ TEST_CASE("a pull at its bound gives its force in steps of few substeps, too") {
         world->step(kStep);
     const physics::BodyState body = bodiesOf(*world, 0)[0];
     CHECK(body.linearVelocity.y == Approx(0.5F).epsilon(1e-4));
-    // It is slow, so that a step has the fewest: of six each it would have come 0.7 mm less far.
-    const auto substeps = static_cast<float>(30 * tuning.calmSubsteps);
+    // In the fewest substeps it would have come 0.7 mm farther.
+    const auto substeps = static_cast<float>(30 * tuning.substeps);
     CHECK(body.worldFromBody.translation.y == Approx(0.125F * (1.0F + 1.0F / substeps)).margin(1e-5));
 }
 
