@@ -75,7 +75,7 @@ int run(const Arguments& arguments, const std::string& model) {
                                                               4.0F * static_cast<float>(i / 9))};
         const float angle = trials[i].angle;
         if (i > 0)
-            play.hits.push_back({physics::Role::upperChest, kPushAt,
+            play.hits.push_back({"upperChest", kPushAt,
                                  scale * trials[i].push * vec3(std::sin(angle), 0, std::cos(angle)),
                                  static_cast<int>(i)});
     }
