@@ -63,6 +63,30 @@ TEST_CASE("a pinned puppet walks within two degrees of its clip, its pelvis with
     }
 }
 
+TEST_CASE("a walking figure whose bodies follow the clip themselves is let go of with the velocities of its frames") {
+    for (const SolverKind solver : {SolverKind::crowd, SolverKind::bullet}) {
+        INFO(physics::solverName(solver));
+        PuppetPlay play;
+        play.start.clip = "walk";
+        play.led = {{"all", 1.0F}};
+        const auto simulation = simulate(play, solver, 0.25F);
+        scene::PuppetCast& cast = *simulation->puppets();
+        for (int step = 0; step < 60; ++step)
+            simulation->step();
+        const auto first = cast.pose(0, 0.0F);
+        const std::vector<RigidTransform> from(first.begin(), first.end());
+        const auto to = cast.pose(0);
+        cast.puppet(0).goLimp();
+        std::vector<physics::BodyState> bodies(to.size());
+        simulation->world().getBodies(cast.puppet(0).doll(), bodies);
+        for (std::size_t i = 0; i < to.size(); ++i) {
+            const vec3 frame = (to[i].translation - from[i].translation) * 60.0F;
+            INFO(mannequin().profile.bodies[i].name << " at " << glm::length(frame) << " m/s");
+            CHECK(glm::distance(bodies[i].linearVelocity, frame) <= 0.01F * std::max(glm::length(frame), 0.1F));
+        }
+    }
+}
+
 TEST_CASE("a clip that puts feet into the floor walks on it: neither in it nor over it") {
     PuppetPlay play;
     play.start.clip = "walk";

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -132,6 +133,7 @@ struct TargetRecord {
     int doll = 0;  ///< Into CrowdState::dolls.
     int body = 0;
     BodyTarget target;
+    std::optional<BodyTarget> followed;  ///< In the last step.
 };
 
 /// A force that acts throughout a step.

@@ -42,13 +42,24 @@ void writeLanes(TargetLanes& lanes, int lane, const BodyTarget& target, const To
     lanes.pull.lane[lane] = omega / (dt * omega + 2.0F);
 }
 
+// A kinematic body that is let go of goes on as its frame moved. Its lanes have, besides, a part of what gravity gave
+// it in the last substep: its row is heavy, and not infinitely so.
+void letGo(CrowdState& state, const TargetRecord& record) {
+    if (!record.followed || record.followed->weight < 1.0F) return;
+    const Doll& doll = state.dolls[record.doll];
+    BodyLanes& body = state.batchOf(doll).bodies[record.body];
+    writeVector(body.velocity, doll.lane, record.followed->linearVelocity);
+    writeVector(body.angular, doll.lane, record.followed->angularVelocity);
+}
+
 }  // namespace
 
 void placeTargets(CrowdState& state, float dt) {
     for (const auto& group : state.groups)
         for (Batch& batch : group->batches)
             batch.targets.clear();
-    for (const TargetRecord& record : state.targets) {
+    for (TargetRecord& record : state.targets) {
+        record.followed = record.target;
         const Doll& doll = state.dolls[record.doll];
         Batch& batch = state.batchOf(doll);
         const Topology& topology = state.groupOf(doll).topology;
@@ -100,11 +111,12 @@ bool isKinematic(const Batch& batch, int body, int lane) {
 void setTarget(CrowdState& state, int doll, int body, const std::optional<BodyTarget>& target) {
     auto at = std::lower_bound(state.targets.begin(), state.targets.end(), std::pair(doll, body), isBefore);
     const bool known = at != state.targets.end() && at->doll == doll && at->body == body;
+    if (known && (!target || target->weight < 1.0F)) letGo(state, *at);
     if (!target) {
         if (known) state.targets.erase(at);
         return;
     }
-    if (!known) at = state.targets.insert(at, TargetRecord{doll, body, {}});
+    if (!known) at = state.targets.insert(at, TargetRecord{doll, body, {}, {}});
     at->target = *target;
 }
 
