@@ -19,6 +19,7 @@ constexpr float kBoxClearly = 0.5F;           // of the distance that the capsul
 constexpr float kBoxNear = 0.9F;              // of the skin
 constexpr float kBoxItself = 0.25F;           // of that distance: the skin is a box
 constexpr float kBoxRounded = 0.12F;          // of its thinnest half: what a box leaves of a round part is more
+constexpr float kHopeless = 1.5F;             // of that distance, by the box of quantiles
 constexpr float kBoxWon = 0.15F;              // of the skin, that the capsule leaves
 constexpr float kBoxThickness = 0.4F;         // of its second side: plates slip through one another
 constexpr int kTurns = 18;                    // in a quarter: every five degrees
@@ -149,6 +150,8 @@ bool standsForSkin(const BoxSearch& search, const BoxTrial& box, const Capsule& 
 
 std::optional<PlacedBox> fitBox(const std::vector<SkinPoint>& points, const Capsule& capsule, const BoxBounds& bounds) {
     const auto [along, least] = nearestTurn(points, bounds.standardFromAxes, bounds);
+    // Most limbs are round: their box of quantiles is so much farther from the skin that no search makes it the nearer.
+    if (least > kHopeless * along.cost(along.inAxes(capsule))) return std::nullopt;
     const BoxTrial box = along.run();
     if (!standsForSkin(along, box, capsule)) return std::nullopt;
     if (bounds.alsoUpright) {
