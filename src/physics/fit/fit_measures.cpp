@@ -1,6 +1,7 @@
 #include "physics/fit/fit_measures.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -18,11 +19,13 @@ struct Crossing {
     int turn;
 };
 
-// A grid of rays along the standard stance's Z, one a cell, each at a random place of its cell.
+// A grid of rays along the standard stance's Z, one a cell, each at a random place of its cell. Files can hold any
+// triangles: what would take more than some seconds or some hundred MB is given up.
 class RayGrid {
   public:
     RayGrid(const vec3& low, const vec3& high, float cell)
         : low_(low),
+          high_(high),
           cell_(cell),
           columns_(1 + static_cast<int>((high.x - low.x) / cell)),
           rows_(1 + static_cast<int>((high.y - low.y) / cell)),
@@ -35,11 +38,16 @@ class RayGrid {
         }
     }
 
+    [[nodiscard]] bool isExhausted() const { return cellsLeft_ < 0 || crossingsLeft_ < 0 || pointsLeft_ < 0; }
+
     void addTriangle(const vec3& a, const vec3& b, const vec3& c) {
         const vec3 low = glm::min(a, glm::min(b, c));
         const vec3 high = glm::max(a, glm::max(b, c));
         const float doubled = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
         if (doubled == 0.0F) return;
+        cellsLeft_ -= static_cast<std::int64_t>(clampedRow(high.y) - clampedRow(low.y) + 1) *
+                      (clampedColumn(high.x) - clampedColumn(low.x) + 1);
+        if (isExhausted()) return;
         for (int row = clampedRow(low.y); row <= clampedRow(high.y); ++row) {
             for (int column = clampedColumn(low.x); column <= clampedColumn(high.x); ++column) {
                 const vec2 p = rayAt(column, row);
@@ -47,6 +55,7 @@ class RayGrid {
                 const float v = ((c.x - p.x) * (a.y - p.y) - (a.x - p.x) * (c.y - p.y)) / doubled;
                 if (u < 0.0F || v < 0.0F || u + v > 1.0F) continue;
                 const float depth = u * a.z + v * b.z + (1.0F - u - v) * c.z;
+                --crossingsLeft_;
                 // A triangle that shows its front to +Z is left by the ray.
                 crossings_[indexOf(column, row)].push_back({depth, doubled > 0.0F ? -1 : 1});
             }
@@ -78,8 +87,10 @@ class RayGrid {
         for (std::size_t i = 0; i + 1 < ray.size(); ++i) {
             inside += ray[i].turn;
             if (inside == 0) continue;
-            const float first = (std::ceil(ray[i].depth / cell_ - phase) + phase) * cell_;
-            for (float z = first; z < ray[i + 1].depth; z += cell_)
+            const float begin = std::max(ray[i].depth, low_.z);
+            const float end = std::min(ray[i + 1].depth, high_.z);
+            const float first = (std::ceil(begin / cell_ - phase) + phase) * cell_;
+            for (float z = first; z < end && --pointsLeft_ >= 0; z += cell_)
                 visit(vec3(p, z));
         }
     }
@@ -97,12 +108,15 @@ class RayGrid {
         return vec2(low_) + cell_ * (vec2(column, row) + places_[indexOf(column, row)]);
     }
 
-    vec3 low_;
+    vec3 low_, high_;
     float cell_;
     int columns_;
     int rows_;
     std::vector<std::vector<Crossing>> crossings_;
     std::vector<vec2> places_;  // of each ray in its cell, [0, 1)
+    std::int64_t cellsLeft_ = 400'000'000;
+    std::int64_t crossingsLeft_ = 16'000'000;
+    std::int64_t pointsLeft_ = 4'000'000;
 };
 
 bool isCovered(std::span<const PlacedShape> shapes, const std::vector<RigidTransform>& bodyFromStandard,
@@ -153,7 +167,7 @@ std::optional<float> volumeCovered(const animation::Character& character, float 
         covered += isCovered(shapes, bodyFromStandard, point) ? 1 : 0;
     });
     constexpr std::size_t kFewest = 500;
-    if (inside < kFewest) return std::nullopt;
+    if (inside < kFewest || grid.isExhausted()) return std::nullopt;
     return static_cast<float>(covered) / static_cast<float>(inside);
 }
 

@@ -17,7 +17,8 @@ struct FitMeasures {
     /// Share of the skin's vertices within 2 % of the height of the surface of the body that owns them, [0, 1].
     float skinNear = 0.0F;
     /// Share of the volume inside the skin that lies in some body, [0, 1]; unset where the skin encloses none (open or
-    /// inside-out meshes). Estimated on about 50,000 points of a jittered grid with a fixed seed, to about 1 %.
+    /// inside-out meshes), or more than can be measured in some seconds (triangles far larger than the figure).
+    /// Estimated on about 50,000 points of a jittered grid with a fixed seed, to about 1 %.
     std::optional<float> volumeCovered;
     float overlapM = 0.0F;  ///< Deepest overlap of two bodies that are neither linked nor filtered, metres.
 };

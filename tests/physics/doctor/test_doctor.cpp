@@ -1,6 +1,7 @@
 #include "physics/doctor/doctor.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "physics/collision/shape.hpp"
@@ -402,4 +403,31 @@ TEST_CASE("volume covered is the share that a shape of known size takes") {
     const float tube = section * (0.75F * length + 0.25F * length * (1.0F + 0.5F + 0.25F) / 3.0F);
     const float ball = 4.0F / 3.0F * kPi * 0.045F * 0.045F * 0.045F;
     CHECK(*diagnosis.fit.volumeCovered == Approx(ball / tube).epsilon(0.1));
+}
+
+TEST_CASE("triangles far larger than the figure are measured as far as it reaches, or not at all") {
+    const float sound = Patient().look().fit.volumeCovered.value();
+    // A closed tetrahedron, of which one corner is so far away that a cell of the grid is less than a float can tell.
+    const auto addTetrahedron = [](animation::SkinnedMesh& mesh, const std::array<vec3, 4>& corners) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.insert(mesh.positions.end(), corners.begin(), corners.end());
+        mesh.normals.insert(mesh.normals.end(), 4, vec3(0, 1, 0));
+        mesh.joints.insert(mesh.joints.end(), 4, mesh.joints[0]);
+        mesh.weights.insert(mesh.weights.end(), 4, mesh.weights[0]);
+        for (const std::uint32_t corner : {0U, 2U, 1U, 0U, 1U, 3U, 1U, 2U, 3U, 2U, 0U, 3U})
+            mesh.indices.push_back(first + corner);
+    };
+    Patient spiked;
+    addTetrahedron(spiked.character.meshes[0],
+                   {vec3(3.0F, 0, 0), vec3(3.05F, 0, 0), vec3(3.0F, 0.05F, 0), vec3(3.0F, 0, 1e7F)});
+    const auto covered = spiked.look().fit.volumeCovered;
+    REQUIRE(covered);
+    CHECK(*covered > 0.5F * sound);
+    CHECK(*covered <= sound);
+
+    Patient buried;
+    for (int i = 0; i < 3000; ++i)
+        addTetrahedron(buried.character.meshes[0],
+                       {vec3(-90, -90, -90), vec3(90, -90, -90), vec3(0, 90, -90), vec3(0, 0, 90)});
+    CHECK_FALSE(buried.look().fit.volumeCovered);
 }
