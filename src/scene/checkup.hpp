@@ -22,8 +22,8 @@ struct MeasuredBound {
     float bound = 0;   ///< Above it there is a finding.
 };
 
-/// How the doll follows our mannequin's walk for three seconds with its profile's muscles (`powered` where it has
-/// none), its hips held to the clip.
+/// How the doll follows its clip `walk`, or our mannequin's, for three seconds with its profile's muscles (`powered`
+/// where it has none), its hips held to the clip.
 struct WalkCheck {
     PuppetFigures figures;
     double motorWorkJ = 0.0;

@@ -32,10 +32,10 @@ std::string bodiesOf(const physics::RagdollProfile& profile) {
 // The body that a blow to a part meets; rigs divide the trunk into one to three, so that a part of it that has no body
 // of its own is in the next one below. -1: none.
 int bodyMet(const physics::RagdollProfile& profile, std::string_view name) {
-    for (std::size_t body = 0; body < profile.bodies.size(); ++body)
-        if (profile.bodies[body].name == name) return static_cast<int>(body);
+    int body = physics::bodyNamed(profile, name);
+    if (body >= 0) return body;
     auto role = animation::roleFromName(name);
-    int body = role ? physics::bodyOf(profile, *role) : -1;
+    if (role) body = physics::bodyOf(profile, *role);
     while (body < 0 && role && animation::isSpine(*role)) {
         role = animation::parentRole(*role);
         body = physics::bodyOf(profile, *role);

@@ -282,15 +282,12 @@ float PuppetCast::paceOf(Actor& actor) {
 // trunk would push it away. It is held as by the friction of its share of the weight.
 void PuppetCast::holdFeet(Actor& actor) {
     constexpr float kGrip = 0.25F;  // of the doll's weight
-    float mass = 0.0F;
-    for (const physics::BodyProfile& body : actor.asset->profile.bodies)
-        mass += body.massKg;
     for (const Actor::Foot& foot : actor.feet) {
         if (!foot.stands) continue;
         // As it is turned now, or the pull would snap a light foot over; bodies_ are those of now.
         const RigidTransform& now = bodies_[foot.body].worldFromBody;
         actor.puppet->hold(foot.body, {now.rotation, {foot.at.x, now.translation.y, foot.at.z}},
-                           kGrip * mass * glm::length(play_.gravity));
+                           kGrip * actor.asset->profile.totalMassKg * glm::length(play_.gravity));
     }
 }
 
