@@ -38,10 +38,14 @@ struct Arguments {
     bool measure = true;
 };
 
-double cpuMs() {
+double msOf(clockid_t clock) {
     timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    clock_gettime(clock, &now);
     return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+double cpuMs() {
+    return msOf(CLOCK_PROCESS_CPUTIME_ID);
 }
 
 // One world with the scene's contents, and what is known of its run.
@@ -52,6 +56,8 @@ struct Run {
     std::unique_ptr<physics::QualityMeter> meter;
     double seconds = 0;
     std::vector<double> ms;
+    double steppingMs = 0;  // of the processor, by the thread that steps the world; measuring counts
+    double wallMs = 0;      // likewise
     std::size_t contacts = 0;
 };
 
@@ -119,6 +125,8 @@ void printTrace(const Run& run, int step) {
 void step(Run& run, bool measure) {
     double measuring = 0;
     const double before = cpuMs();
+    const double steppingBefore = msOf(CLOCK_THREAD_CPUTIME_ID);
+    const double wallBefore = msOf(CLOCK_MONOTONIC);
     const float dt = kDt / static_cast<float>(run.stepsPerFrame);
     const double substep = static_cast<double>(dt) / run.world->substepsPerStep();
     for (int i = 0; i < run.stepsPerFrame; ++i) {
@@ -132,6 +140,8 @@ void step(Run& run, bool measure) {
             measuring += cpuMs() - start;
         });
     }
+    run.wallMs += msOf(CLOCK_MONOTONIC) - wallBefore;
+    run.steppingMs += msOf(CLOCK_THREAD_CPUTIME_ID) - steppingBefore;
     run.ms.push_back(cpuMs() - before - measuring);
     std::vector<physics::ContactPoint> contacts;
     if (measure) run.world->getContacts(contacts);
@@ -158,7 +168,7 @@ void print(const Run& run, const Run& first, const std::string& scene, int seed,
     fmt::print(
         "{},{},{},{},{:.4f},{:.2f},{:.2f},{:.2f},{:.2f},{:.3f},{:.2f},{:.2f},{:.1f},{:.1f},{:.2f},{:.2f},{:.2f},{},{},{"
         "},"
-        "{:.2f},{:.1f},{:.1f},{:.1f},{:.1f}\n",
+        "{:.2f},{:.1f},{:.1f},{:.1f},{:.1f},{:.4f},{:.4f}\n",
         run.solver, scene, arguments.count, seed, mean(run.ms), mean(first.ms) / mean(run.ms),
         ratios[ratios.size() / 2], quality.jointSeparationM.max * 1e3F, quality.jointSeparationM.p99 * 1e3F,
         quality.jointSeparationM.mean * 1e3F, quality.limitViolationDeg.max, quality.limitViolationDeg.p99,
@@ -166,7 +176,8 @@ void print(const Run& run, const Run& first, const std::string& scene, int seed,
         100.0F * quality.energyGrowthJ / std::max(quality.initialEnergyJ, 1e-3F), quality.settleSeconds.value_or(-1.0F),
         quality.residualSpeedMps * 1e3F, quality.nonFinite, asleep,
         run.contacts / std::max<std::size_t>(run.ms.size(), 1), quality.limitViolationDeg.lasting,
-        quality.dollPenetrationM.max * 1e3F, quality.dollPenetrationM.p99 * 1e3F, atEnd.max, atEnd.p99);
+        quality.dollPenetrationM.max * 1e3F, quality.dollPenetrationM.p99 * 1e3F, atEnd.max, atEnd.p99,
+        run.steppingMs / static_cast<double>(run.ms.size()), run.wallMs / static_cast<double>(run.ms.size()));
     std::fflush(stdout);
 }
 
@@ -232,8 +243,7 @@ int main(int argc, char** argv) {
     fmt::print(
         "solver,scene,count,seed,ms,meanRatio,medianRatio,sepMaxMm,sepP99Mm,sepMeanMm,limitMaxDeg,limitP99Deg,floorMm,"
         "selfMm,energyPercent,settleS,residualMmps,nonFinite,asleep,contacts,limitLastingDeg,dollMaxMm,dollP99Mm,"
-        "endMaxMm,"
-        "endP99Mm\n");
+        "endMaxMm,endP99Mm,steppingMs,wallMs\n");
     for (const std::string& scene : arguments.scenes) {
         for (int seed = arguments.firstSeed; seed < arguments.firstSeed + arguments.seeds; ++seed)
             runScene(*figure, scene, seed, arguments);
