@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/task_arena.hpp"
+#include "core/task_rounds.hpp"
 
 namespace lutka {
 namespace {
@@ -79,6 +80,14 @@ void TaskPool::parallelFor(std::size_t count, std::size_t grain,
         return;
     }
     arena_->threads->run(count, grain, body);
+}
+
+void TaskPool::parallelRounds(int rounds, int items, const std::function<void(int, int)>& body) const {
+    if (rounds <= 0 || items <= 0) return;
+    TaskRounds work(rounds, items);
+    // Whoever is free takes part, and whoever comes late finds nothing left.
+    const auto take = [&](std::size_t, std::size_t) { work.work(body); };
+    parallelFor(static_cast<std::size_t>(std::min(threads_, (items + 1) / 2)), 1, std::cref(take));
 }
 
 }  // namespace lutka

@@ -90,3 +90,47 @@ TEST_CASE("two threads may give one team work at a time") {
     other.join();
     CHECK(done == 2 * 100 * 50);
 }
+
+TEST_CASE("rounds on a row of items: none beside one at work, each after its neighbours' calls that come before it") {
+    constexpr int kRounds = 4;
+    for (const int threads : {1, 2, 5}) {
+        const TaskPool pool(threads);
+        for (const int items : {1, 2, 3, 17}) {
+            // What each call saw of its item and of those beside it: how many calls these had had.
+            std::vector<int> calls(items, 0);
+            std::vector<std::atomic<bool>> busy(items);
+            std::atomic<int> wrong = 0;
+            for (int again = 0; again < 20; ++again) {
+                std::fill(calls.begin(), calls.end(), 0);
+                pool.parallelRounds(kRounds, items, [&](int round, int item) {
+                    busy[item] = true;
+                    const int beside = item % 2 == 0 ? round : round + 1;
+                    for (const int other : {item - 1, item + 1}) {
+                        if (other < 0 || other >= items) continue;
+                        if (busy[other] || calls[other] != beside) ++wrong;
+                    }
+                    if (calls[item]++ != round) ++wrong;
+                    busy[item] = false;
+                });
+                CHECK(std::count(calls.begin(), calls.end(), kRounds) == items);
+            }
+            CHECK(wrong == 0);
+        }
+    }
+}
+
+TEST_CASE("rounds of nothing call nothing, and what a round throws reaches the caller") {
+    for (const int threads : {1, 3}) {
+        const TaskPool pool(threads);
+        std::atomic<int> calls = 0;
+        pool.parallelRounds(0, 5, [&](int, int) { ++calls; });
+        pool.parallelRounds(5, 0, [&](int, int) { ++calls; });
+        CHECK(calls == 0);
+        const auto failing = [](int round, int item) {
+            if (round == 1 && item == 2) throw std::runtime_error("item 2");
+        };
+        CHECK_THROWS_WITH(pool.parallelRounds(3, 8, failing), "item 2");
+        pool.parallelRounds(3, 8, [&](int, int) { ++calls; });
+        CHECK(calls == 24);
+    }
+}

@@ -13,11 +13,11 @@
 namespace lutka::physics::crowd::LUTKA_KERNELS {
 
 // One sweep over what is still wrong by more than a little. Friction waits for the next substep.
-static int pressAgain(const PairsView& view, const SubstepParams& params) {
+static void pressAgain(PairsView& view, const SubstepParams& params) {
     const PairBodies& bodies = view.bodies;
     const F zero = all(0.0F);
     const F tolerance = all(params.answerSpeed);
-    int found = 0;
+    view.changedCount = 0;
     for (int i = 0; i < view.liveCount; ++i) {
         PairContactLanes& pair = pairAt(view, view.live[i]);
         PairVelocities v = velocitiesOf(pair, bodies);
@@ -28,14 +28,19 @@ static int pressAgain(const PairsView& view, const SubstepParams& params) {
         makeReady(pair, bodies);
         const F total = wrong ? most(before - load(pair.normalMass) * off, zero) : before;
         if (bits(total != before) == 0) continue;
-        view.changed[found++] = view.live[i];
+        view.changed[view.changedCount++] = view.live[i];
         store(pair.normalImpulse, total);
         store(pair.carriedNormal, total - before);  // has been carried, and is free
         pressPair(pair, v, total - before);
         storeVelocities(pair, bodies, v);
     }
-    // Supports get what was held back from them, as in carryPairs().
-    for (int i = 0; i < found; ++i) {
+}
+
+// Supports get what was held back from them, as in carryPairs().
+static void pressRest(const PairsView& view) {
+    const PairBodies& bodies = view.bodies;
+    const F zero = all(0.0F);
+    for (int i = 0; i < view.changedCount; ++i) {
         const PairContactLanes& pair = pairAt(view, view.changed[i]);
         const F push = load(pair.carriedNormal);
         const Columns a = readRows(bodies.motions, pair.bodyA, 0);
@@ -46,7 +51,6 @@ static int pressAgain(const PairsView& view, const SubstepParams& params) {
         writeNoted(bodies, pair.bodyA, kPressedColumn, a, v.velocityA, v.angularA, push != zero);
         writeNoted(bodies, pair.bodyB, kPressedColumn, b, v.velocityB, v.angularB, push != zero);
     }
-    return found;
 }
 
 }  // namespace lutka::physics::crowd::LUTKA_KERNELS

@@ -280,7 +280,7 @@ struct PairContactLanes {
 /// How many blocks of pair contacts lie side by side.
 inline constexpr int kPairChunk = 64;
 
-/// The pair contacts of a job as the kernels see them: `count` blocks from `first` on, in pieces of kPairChunk.
+/// Pair contacts of a job as the kernels see them: `count` blocks from `first` on, in pieces of kPairChunk.
 struct PairsView {
     PairContactLanes* const* chunks;
     int first;
@@ -288,7 +288,8 @@ struct PairsView {
     PairBodies bodies;
     int* live;  ///< Blocks, counted as `first` is, that may be met in this substep, in their order; room for all.
     int liveCount;
-    int* changed;  ///< Room for as many more.
+    int* changed;  ///< Those that were pressed again; room for as many.
+    int changedCount;
 };
 
 /// What decides quality and cost within a substep; the same for all of them. The defaults are the outcome of the sweep
@@ -478,8 +479,10 @@ struct Kernels {
     int (*solvePairs)(const PairsView& view, const SubstepParams& params);
     /// Adds to the velocities what mends overlaps; returns whether there was any.
     int (*mendPairs)(const PairsView& view, const SubstepParams& params);
-    /// Presses the contacts between dolls anew after these have answered; returns how many blocks have changed.
-    int (*pressAgain)(const PairsView& view, const SubstepParams& params);
+    /// Presses the contacts between dolls anew after these have answered. Sets the view's changed blocks.
+    void (*pressAgain)(PairsView& view, const SubstepParams& params);
+    /// Gives the supports what that held back from them.
+    void (*pressRest)(const PairsView& view);
     /// Pushes the bodies with what the substep before left of the impulses.
     void (*carryPairs)(const PairsView& view);
 };

@@ -7,6 +7,7 @@
 #include "physics/crowd/detect.hpp"
 #include "physics/crowd/drag.hpp"
 #include "physics/crowd/force.hpp"
+#include "physics/crowd/jobs.hpp"
 #include "physics/crowd/motor.hpp"
 #include "physics/crowd/reports.hpp"
 #include "physics/crowd/static_contacts.hpp"
@@ -15,9 +16,6 @@
 
 namespace lutka::physics::crowd {
 namespace {
-
-// Jobs with this many batches are split over the threads phase by phase; below it the hand-over costs more.
-constexpr std::size_t kSplitJob = 16;
 
 SubstepParams paramsOf(const CrowdState& state, float dt) {
     const CrowdTuning& tuning = state.tuning;
@@ -87,14 +85,18 @@ class JobSubstep {
             forBatches([&](const BatchView& view) { kernels.begin(view, params_); });
         }
         // What touches other bodies works on single bodies; a pass over the dolls must follow before anything moves.
-        PairsView pairs = viewOfPairs();
-        kernels.beginPairs(pairs, params_);
-        kernels.solvePairs(pairs, params_);
-        kernels.carryPairs(pairs);
+        forParts(
+            state_, job_, [&](PairPart& part) { kernels.beginPairs(part.view, params_); },
+            [&](PairPart& part) { kernels.solvePairs(part.view, params_); },
+            [&](PairPart& part) { kernels.carryPairs(part.view); });
         forBatches([&](const BatchView& view) { kernels.solve(view, params_, 1); });
         for (int i = 0; i < params_.answerSweeps; ++i) {
             // The contacts that the dolls' answer has left wrong, and their dolls' answer to that.
-            if (kernels.pressAgain(pairs, params_) == 0) break;
+            forParts(
+                state_, job_, [&](PairPart& part) { kernels.pressAgain(part.view, params_); },
+                [&](PairPart& part) { kernels.pressRest(part.view); });
+            const auto isRight = [](const PairPart& part) { return part.view.changedCount == 0; };
+            if (std::all_of(job_.parts.begin(), job_.parts.end(), isRight)) break;
             forBatches([&](const BatchView& view) { kernels.solve(view, params_, 0); });
         }
         holdOutrun();
@@ -104,14 +106,9 @@ class JobSubstep {
             job_.dragWork += workOfTargets(*batch);
         if (!state_.targets.empty()) job_.dragWork += workOfPushes(state_, job_);
         endDrags();
-        int pushed = 0;
-        if (mends_) {
-            pushed = kernels.mendPairs(pairs, params_);
-            for (int i = 1; i < params_.mendSweeps && pushed != 0; ++i)
-                kernels.mendPairs(pairs, params_);
-        }
+        const bool pushed = mends_ && mendPairs();
         forIndices([&](std::size_t i) {
-            if (mends_) kernels.mend(viewOf(i), params_, pushed);
+            if (mends_) kernels.mend(viewOf(i), params_, pushed ? 1 : 0);
             kernels.advance(viewOf(i), params_);
             if (next == nullptr) return;
             refreshStatics(i, *next);
@@ -121,17 +118,6 @@ class JobSubstep {
     }
 
   private:
-    PairsView viewOfPairs() {
-        int* lists = state_.liveBlocks.data() + 2 * job_.firstBlock;
-        return {state_.pairChunks.data(),
-                static_cast<int>(job_.firstBlock),
-                static_cast<int>(job_.blockCount),
-                pairBodiesOf(state_),
-                lists,
-                0,
-                lists + job_.blockCount};
-    }
-
     // The faces and edges that bodies are near now: a body may have slid over an edge, unless it is still. In the first
     // substep of a step those that were found for one of this length stay.
     void refreshStatics(std::size_t i, const SubstepParams& params) {
@@ -139,6 +125,19 @@ class JobSubstep {
         const bool isFirst = params.warmStart != 0;
         if (!batch.nearShapes || (isFirst ? batch.substeps == job_.substeps : batch.isStill)) return;
         findStaticsAgain(state_, batch, *job_.topologies[i], params.remaining, params.dt);
+    }
+
+    // Whether there was anything to mend.
+    bool mendPairs() {
+        const auto mend = [&](PairPart& part) { part.overlaps = state_.kernels->mendPairs(part.view, params_) != 0; };
+        forParts(state_, job_, mend);
+        const auto overlaps = [](const PairPart& part) { return part.overlaps; };
+        if (std::none_of(job_.parts.begin(), job_.parts.end(), overlaps)) return false;
+        for (int i = 1; i < params_.mendSweeps; ++i)
+            forParts(state_, job_, [&](PairPart& part) {
+                if (part.overlaps) state_.kernels->mendPairs(part.view, params_);
+            });
+        return true;
     }
 
     void endDrags() {
@@ -186,8 +185,8 @@ class JobSubstep {
             for (std::size_t i = begin; i < end; ++i)
                 work(i);
         };
-        if (job_.batches.size() >= kSplitJob)
-            state_.inParallel(job_.batches.size(), 4, range);
+        if (isSplit(job_))
+            state_.inParallel(job_.batches.size(), 1, range);
         else
             range(0, job_.batches.size());
     }
@@ -197,17 +196,6 @@ class JobSubstep {
     const SubstepParams& params_;
     bool mends_;
 };
-
-// Runs the work for all jobs: small ones side by side, then the large ones, each of which uses all threads itself.
-template <class Work>
-void forJobs(CrowdState& state, const Work& work) {
-    state.inParallel(state.jobCount, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            if (state.jobs[i].batches.size() < kSplitJob) work(state.jobs[i]);
-    });
-    for (std::size_t i = 0; i < state.jobCount; ++i)
-        if (state.jobs[i].batches.size() >= kSplitJob) work(state.jobs[i]);
-}
 
 // Of some blocks.
 void keepPairs(CrowdState& state, std::size_t begin, std::size_t end) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -154,11 +155,27 @@ struct ForceRecord {
     return static_cast<int>(key >> 40U) - 1;
 }
 
+/// A contact between bodies, in short.
+struct TouchBrief {
+    int bodyA = 0, bodyB = 0;  ///< Among all bodies of the world.
+    bool presses = false;      ///< Or is likely to.
+};
+
+/// A part of a job's contacts between bodies: see partTouches().
+struct PairPart {
+    std::size_t firstTouch = 0;  ///< Into Job::touches.
+    std::size_t touchCount = 0;
+    PairsView view{};       ///< Its blocks.
+    bool overlaps = false;  ///< Whether the mending of this substep has found any overlap.
+};
+
 /// Batches that touch each other, solved as one; jobs share nothing and can run at the same time.
 struct Job {
     std::vector<Batch*> batches;
     std::vector<const Topology*> topologies;  ///< One a batch.
     std::vector<int> touches;                 ///< Into CrowdState::touches.
+    std::vector<PairPart> parts;              ///< Of its contacts; those that are no neighbours share no body.
+    std::size_t firstPart = 0;                ///< Among those of all jobs.
     std::size_t firstBlock = 0;               ///< Its pair contacts, in CrowdState::pairs.
     std::size_t blockCount = 0;
     std::vector<DragRecord*> drags;
@@ -168,6 +185,11 @@ struct Job {
     double dragImpulse = 0.0;
     double motorWork = 0.0;  ///< And of forces.
 };
+
+/// Whether each phase of a job's substep is split over the threads; with fewer batches the hand-over costs more.
+[[nodiscard]] inline bool isSplit(const Job& job) {
+    return job.batches.size() >= 16;
+}
 
 /// The friction of every body: Bullet's default. As there, a contact's is the product of both sides'.
 inline constexpr float kBodyFriction = 0.5F;
@@ -190,6 +212,9 @@ struct PieceTouches {
     std::vector<BodyPair> near;
 };
 
+/// Which touches lie in the lanes of some blocks; -1 where a lane is empty.
+using BlockTouches = std::vector<std::array<int, kLanes>>;
+
 /// What the parts of a step work with; kept so that a step allocates nothing.
 struct Scratch {
     std::vector<Swept> swept;
@@ -197,8 +222,9 @@ struct Scratch {
     std::vector<int> firstOf, next;          ///< Places of a doll's pairs.
     UnionFind sets;
     std::vector<int> jobOf;                ///< One a representative of `sets`.
-    std::vector<std::uint64_t> usedBy;     ///< One a body of the world, 0 between packings; see Packer.
-    std::vector<int> later;                ///< Touches that will hardly press.
+    std::vector<std::uint64_t> usedBy;     ///< One a body of the world, 0 between packings; see packTouches().
+    std::vector<int> sorted;               ///< A job's touches.
+    std::vector<BlockTouches> blocksOf;    ///< Of each part of all jobs.
     std::vector<char> restless;            ///< One a doll.
     std::vector<SubstepParams> paramsFor;  ///< By the number of substeps that a step has.
 };
@@ -245,10 +271,12 @@ struct CrowdState {
     std::vector<std::pair<int, int>> dollPairs;
     TouchList touches;  ///< Of this step; after it with its impulses.
     Chunked<PairContactLanes, kPairChunk> pairs;
-    std::vector<PairContactLanes*> pairChunks;         ///< Where their pieces are.
-    std::vector<std::array<int, kLanes>> touchOfLane;  ///< One a pair block; -1 where a lane is empty.
-    std::vector<Wide> impulseSums;                     ///< One a pair block, of a step's substeps; for reports.
-    std::vector<int> liveBlocks;                       ///< Two a pair block: room for the lists of PairsView.
+    std::vector<TouchBrief> briefs;             ///< One a touch.
+    std::vector<std::uint8_t> binOf;            ///< One a body of the world: see partTouches().
+    std::vector<PairContactLanes*> pairChunks;  ///< Where their pieces are.
+    BlockTouches touchOfLane;                   ///< One a pair block.
+    std::vector<Wide> impulseSums;              ///< One a pair block, of a step's substeps; for reports.
+    std::vector<int> liveBlocks;                ///< Two a pair block: room for the lists of PairsView.
     CarriedPairs carried;
     std::vector<Job> jobs;
     std::size_t jobCount = 0;

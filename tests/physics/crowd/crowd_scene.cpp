@@ -52,7 +52,8 @@ StaticShape staticBox(const vec3& centre, const vec3& halfExtents) {
     return shape;
 }
 
-void fillPit(physics::World& world, const RagdollProfile& profile, int count, std::vector<StaticShape>& statics) {
+void fillPit(physics::World& world, const RagdollProfile& profile, int count, std::vector<StaticShape>& statics,
+             float apart) {
     statics = {floorPlane(), staticBox({3.5F, 4, 0}, {0.5F, 4, 4}), staticBox({-3.5F, 4, 0}, {0.5F, 4, 4}),
                staticBox({0, 4, 3.5F}, {4, 4, 0.5F}), staticBox({0, 4, -3.5F}, {4, 4, 0.5F})};
     for (const StaticShape& shape : statics)
@@ -60,7 +61,7 @@ void fillPit(physics::World& world, const RagdollProfile& profile, int count, st
     Random random(7);
     for (int i = 0; i < count; ++i) {
         const int place = i % 16;
-        const vec3 offset(1.2F * static_cast<float>(place % 4) - 1.8F, 0.4F + 2.1F * static_cast<float>(i / 16),
+        const vec3 offset(1.2F * static_cast<float>(place % 4) - 1.8F, 0.4F + apart * static_cast<float>(i / 16),
                           1.2F * static_cast<float>(place / 4) - 1.8F);
         const vec3 axis(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.1F, 1));
         world.addDoll(profile, placedDoll(profile, offset, glm::angleAxis(random.uniform(0, 3), glm::normalize(axis))));

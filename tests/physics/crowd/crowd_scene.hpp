@@ -24,9 +24,10 @@ inline constexpr float kStep = 1.0F / 60.0F;
 [[nodiscard]] physics::StaticShape floorPlane();
 [[nodiscard]] physics::StaticShape staticBox(const vec3& centre, const vec3& halfExtents);
 
-/// A floor with four walls, 6 × 6 m inside, and `count` dolls above it in layers of 4 × 4, turned at random.
+/// A floor with four walls, 6 × 6 m inside, and `count` dolls above it in layers of 4 × 4, turned at random; the layers
+/// `apart` metres from each other.
 void fillPit(physics::World& world, const physics::RagdollProfile& profile, int count,
-             std::vector<physics::StaticShape>& statics);
+             std::vector<physics::StaticShape>& statics, float apart = 2.1F);
 
 /// Mass, centre of mass, momentum and angular momentum about the origin of one doll.
 struct Totals {

@@ -1,0 +1,166 @@
+#include "physics/crowd/parts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace lutka::physics::crowd {
+namespace {
+
+// Metres: contacts nearer than this are likely to press.
+constexpr float kNear = 0.005F;
+// Positions along the axis are told apart by so many steps.
+constexpr int kBins = 256;
+// A job has no more parts than about so many: enough for a dozen threads.
+constexpr std::size_t kMostParts = 32;
+static_assert(2 * kMostParts <= static_cast<std::size_t>(TaskPool::kMostItems));
+
+// Which bodies each contact pushes, and whether it is likely to press.
+void findBriefs(CrowdState& state) {
+    state.briefs.resize(state.touches.size());
+    state.inParallel(state.touches.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const PairTouch& touch = state.touches[i];
+            state.briefs[i] = {state.dolls[touch.dollA].firstBody + touch.bodyA,
+                               state.dolls[touch.dollB].firstBody + touch.bodyB,
+                               touch.carried.normal > 0.0F || touch.touch.separation < kNear};
+        }
+    });
+}
+
+// An axis and a stretch of it.
+struct Stretch {
+    int axis = 0;
+    float low = 0.0F;
+    float high = 0.0F;
+};
+
+// Where the contacts of a job lie, by a sample of them. A few that lie far off do not count for much.
+Stretch stretchOf(const CrowdState& state, const Job& job) {
+    constexpr std::size_t kEvery = 32;
+    constexpr float kReach = 3.0F;  // mean distances from the mean
+    const std::size_t count = (job.touches.size() + kEvery - 1) / kEvery;
+    const auto placeOf = [&](std::size_t i) {
+        const PairTouch& touch = state.touches[job.touches[i * kEvery]];
+        const Doll& doll = state.dolls[touch.dollA];
+        return readVector(state.batchOf(doll).bodies[touch.bodyA].position, doll.lane);
+    };
+    vec3 sum(0);
+    for (std::size_t i = 0; i < count; ++i)
+        sum += placeOf(i);
+    const vec3 mean = sum / static_cast<float>(count);
+    vec3 off(0);
+    for (std::size_t i = 0; i < count; ++i)
+        off += glm::abs(placeOf(i) - mean);
+    off /= static_cast<float>(count);
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+        if (off[i] > off[axis]) axis = i;
+    return {axis, mean[axis] - kReach * off[axis], mean[axis] + kReach * off[axis]};
+}
+
+// Where along it each body is that a contact of the job pushes. What is not finite comes first.
+void findBins(CrowdState& state, const Job& job, const Stretch& stretch) {
+    const float scale = static_cast<float>(kBins) / std::max(stretch.high - stretch.low, 1e-6F);
+    state.inParallel(job.batches.size(), 8, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Batch& batch = *job.batches[i];
+            for (const int body : batch.paired) {
+                const Wide3& position = batch.bodies[body].position;
+                const Wide& along = stretch.axis == 0 ? position.x : stretch.axis == 1 ? position.y : position.z;
+                for (int lane = 0; lane < batch.used; ++lane) {
+                    const float at = (along.lane[lane] - stretch.low) * scale;
+                    const float last = static_cast<float>(kBins - 1);
+                    state.binOf[static_cast<std::size_t>(batch.firstBody[lane] + body)] =
+                        at > 0.0F ? static_cast<std::uint8_t>(std::min(at, last)) : std::uint8_t{0};
+                }
+            }
+        }
+    });
+}
+
+// Of the contacts that begin in each bin: how many press and do not, and the last bin that one of them reaches.
+struct Bins {
+    std::array<std::array<int, 2>, kBins> count{};
+    std::array<int, kBins> reach{};
+};
+
+struct Span {
+    int first, last;
+};
+Span spanOf(const CrowdState& state, const TouchBrief& brief) {
+    const auto [first, last] = std::minmax(state.binOf[brief.bodyA], state.binOf[brief.bodyB]);
+    return {first, last};
+}
+
+// Numbers the parts by bins. Returns how many there are.
+int cutBins(const Bins& bins, std::size_t touches, std::array<int, kBins>& partOf) {
+    const int enough = static_cast<int>(touches / kMostParts);
+    int part = 0;
+    int inPart = 0;
+    int reach = 0;       // of all contacts so far
+    int reachAtCut = 0;  // of those that begin before this part
+    for (int bin = 0; bin < kBins; ++bin) {
+        if (bin > reachAtCut && inPart > enough) {
+            ++part;
+            inPart = 0;
+            reachAtCut = reach;
+        }
+        partOf[bin] = part;
+        inPart += bins.count[bin][0] + bins.count[bin][1];
+        reach = std::max(reach, bins.reach[bin]);
+    }
+    return part + 1;
+}
+
+void partJob(CrowdState& state, Job& job) {
+    Bins bins;
+    std::array<int, kBins> partOf{};
+    const bool cut = isSplit(job) && !job.touches.empty();
+    const auto binOf = [&](const TouchBrief& brief) { return cut ? spanOf(state, brief) : Span{0, 0}; };
+    if (cut) findBins(state, job, stretchOf(state, job));
+    for (const int index : job.touches) {
+        const TouchBrief& brief = state.briefs[index];
+        const Span span = binOf(brief);
+        ++bins.count[span.first][brief.presses ? 0 : 1];
+        bins.reach[span.first] = std::max(bins.reach[span.first], span.last);
+    }
+    const int parts = cut ? cutBins(bins, job.touches.size(), partOf) : 1;
+    // Sorted by counting, part by part, those that press first. What will hardly press shares blocks, which are left
+    // early.
+    std::array<std::array<std::size_t, 2>, kBins> next{};
+    for (int bin = 0; bin < kBins; ++bin)
+        for (int kind = 0; kind < 2; ++kind)
+            next[partOf[bin]][kind] += static_cast<std::size_t>(bins.count[bin][kind]);
+    job.parts.resize(static_cast<std::size_t>(parts));
+    std::size_t end = 0;
+    for (int i = 0; i < parts; ++i) {
+        job.parts[i] = {};
+        job.parts[i].firstTouch = end;
+        for (std::size_t& place : next[i]) {
+            const std::size_t count = place;
+            place = end;
+            end += count;
+        }
+        job.parts[i].touchCount = end - job.parts[i].firstTouch;
+    }
+    std::vector<int>& sorted = state.scratch.sorted;
+    sorted.resize(job.touches.size());
+    for (const int index : job.touches) {
+        const TouchBrief& brief = state.briefs[index];
+        sorted[next[partOf[binOf(brief).first]][brief.presses ? 0 : 1]++] = index;
+    }
+    job.touches.swap(sorted);
+}
+
+}  // namespace
+
+void partTouches(CrowdState& state) {
+    findBriefs(state);
+    state.binOf.resize(static_cast<std::size_t>(state.bodyTotal));
+    for (std::size_t i = 0; i < state.jobCount; ++i)
+        partJob(state, state.jobs[i]);
+}
+
+}  // namespace lutka::physics::crowd
