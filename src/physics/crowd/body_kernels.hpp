@@ -90,6 +90,21 @@ static int findBodyPairs(const BoxLanes* a, int groupsA, const BoxLanes* b, int 
     return count;
 }
 
+static int findBoxesAfter(const BoxLanes* boxes, int count, int from, int* out) {
+    const BoxLanes& own = boxes[from / kLanes];
+    const int lane = from % kLanes;
+    const V3 low{all(own.low.x.lane[lane]), all(own.low.y.lane[lane]), all(own.low.z.lane[lane])};
+    const V3 high{all(own.high.x.lane[lane]), all(own.high.y.lane[lane]), all(own.high.z.lane[lane])};
+    unsigned after = ~1U << static_cast<unsigned>(lane);  // in the first eight
+    int found = 0;
+    for (int i = from / kLanes; i * kLanes < count && boxes[i].low.x.lane[0] <= own.high.x.lane[lane]; ++i) {
+        for (unsigned met = meeting(boxes[i], low, high) & after; met != 0; met &= met - 1)
+            out[found++] = i * kLanes + __builtin_ctz(met);
+        after = ~0U;
+    }
+    return found;
+}
+
 // m/s, of any point of the surface.
 LUTKA_LANES F speedBound(const BodyLanes& body, const BodyConstants& constants) {
     const V3 velocity = load(body.velocity);

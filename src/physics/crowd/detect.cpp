@@ -303,15 +303,21 @@ void findBounds(CrowdState& state, float dt) {
 
 namespace {
 
+// Meets nothing.
+constexpr Bounds kNowhere{vec3(1e30F), vec3(-1e30F)};
+
+void writeBox(BoxLanes& boxes, int lane, const Bounds& bounds) {
+    writeVector(boxes.low, lane, bounds.low);
+    writeVector(boxes.high, lane, bounds.high);
+}
+
 // The bounds of all dolls by their low end along x. They come in the order of the step before, which is nearly that of
 // this one: sorting by insertion looks at each a few times.
 void sortAlongX(CrowdState& state, float dt) {
     std::vector<Swept>& swept = state.scratch.swept;
     swept.resize(state.sweep.size());
-    for (std::size_t i = 0; i < swept.size(); ++i) {
-        const Doll& doll = state.dolls[state.sweep[i]];
-        swept[i] = {worldBounds(doll, dt), state.sweep[i], doll.asleep()};
-    }
+    for (std::size_t i = 0; i < swept.size(); ++i)
+        swept[i] = {worldBounds(state.dolls[state.sweep[i]], dt), state.sweep[i]};
     for (std::size_t i = 1; i < swept.size(); ++i) {
         if (swept[i - 1].bounds.low.x <= swept[i].bounds.low.x) continue;
         const Swept moving = swept[i];
@@ -320,13 +326,18 @@ void sortAlongX(CrowdState& state, float dt) {
             swept[to] = swept[to - 1];
         swept[to] = moving;
     }
-    for (std::size_t i = 0; i < swept.size(); ++i)
-        state.sweep[i] = swept[i].doll;
+    state.sweptBoxes.resize((swept.size() + kLanes - 1) / kLanes);
+    for (std::size_t i = 0; i < state.sweptBoxes.size() * kLanes; ++i) {
+        const bool isDoll = i < swept.size();
+        if (isDoll) state.sweep[i] = swept[i].doll;
+        writeBox(state.sweptBoxes[i / kLanes], static_cast<int>(i % kLanes), isDoll ? swept[i].bounds : kNowhere);
+    }
 }
 
-bool mayTouch(const CrowdState& state, const Swept& a, const Swept& b) {
-    if ((a.asleep && b.asleep) || !meet(a.bounds.low, a.bounds.high, b.bounds.low, b.bounds.high)) return false;
-    return state.dolls[a.doll].filter.collidesWith(state.dolls[b.doll].filter);
+bool mayTouch(const CrowdState& state, int a, int b) {
+    const Doll& first = state.dolls[a];
+    const Doll& second = state.dolls[b];
+    return !(first.asleep() && second.asleep()) && first.filter.collidesWith(second.filter);
 }
 
 // The pairs found into CrowdState::dollPairs, in the order of their dolls: by counting for the first, by sorting the
@@ -342,20 +353,26 @@ void orderPairs(CrowdState& state) {
     state.dollPairs.resize(found.size());
     for (const std::pair<int, int>& pair : found)
         state.dollPairs[state.scratch.next[pair.first]++] = pair;
-    for (std::size_t i = 0; i + 1 < firstOf.size(); ++i)
-        std::sort(state.dollPairs.begin() + firstOf[i], state.dollPairs.begin() + firstOf[i + 1]);
+    state.inParallel(state.dolls.size(), 32, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            std::sort(state.dollPairs.begin() + firstOf[i], state.dollPairs.begin() + firstOf[i + 1]);
+    });
 }
 
 }  // namespace
 
 void sweepDolls(CrowdState& state, float dt) {
     sortAlongX(state, dt);
-    const std::vector<Swept>& swept = state.scratch.swept;
+    const std::vector<int>& sweep = state.sweep;
+    std::vector<int>& near = state.scratch.nearAlongX;
+    near.resize(state.sweptBoxes.size() * kLanes);
     state.scratch.found.clear();
-    for (std::size_t i = 0; i < swept.size(); ++i) {
-        for (std::size_t k = i + 1; k < swept.size() && swept[k].bounds.low.x <= swept[i].bounds.high.x; ++k)
-            if (mayTouch(state, swept[i], swept[k]))
-                state.scratch.found.push_back(std::minmax(swept[i].doll, swept[k].doll));
+    for (std::size_t i = 0; i < sweep.size(); ++i) {
+        const int count = state.kernels->findBoxesAfter(state.sweptBoxes.data(), static_cast<int>(sweep.size()),
+                                                        static_cast<int>(i), near.data());
+        for (int k = 0; k < count; ++k)
+            if (mayTouch(state, sweep[i], sweep[near[k]]))
+                state.scratch.found.push_back(std::minmax(sweep[i], sweep[near[k]]));
     }
     orderPairs(state);
 }
@@ -382,14 +399,15 @@ void wakeTouched(CrowdState& state, float dt) {
 namespace {
 
 void placeDoll(CrowdState& state, const Doll& doll) {
-    constexpr float kEmpty = 1e30F;
     const Batch& batch = state.batchOf(doll);
     const int bodies = state.groupOf(doll).topology.bodyCount();
     for (int body = 0; body < doll.boxes * kLanes; ++body) {
         BoxLanes& boxes = state.stepBoxes[doll.firstBox + body / kLanes];
         const bool isBody = body < bodies;
-        writeVector(boxes.low, body % kLanes, isBody ? readVector(batch.bodies[body].low, doll.lane) : vec3(kEmpty));
-        writeVector(boxes.high, body % kLanes, isBody ? readVector(batch.bodies[body].high, doll.lane) : vec3(-kEmpty));
+        writeBox(boxes, body % kLanes,
+                 isBody ? Bounds{readVector(batch.bodies[body].low, doll.lane),
+                                 readVector(batch.bodies[body].high, doll.lane)}
+                        : kNowhere);
         if (isBody) state.stepBodies[doll.firstBody + body] = stepBody(state, doll, body);
     }
 }
@@ -423,18 +441,34 @@ void collidePiece(CrowdState& state, std::size_t piece, float dt, PieceTouches& 
     search.flush();
 }
 
+// Puts lists of contacts behind those that there are, in their order. `listOf(i)` is one of `count`.
+template <class ListOf>
+void append(CrowdState& state, std::size_t count, const ListOf& listOf) {
+    std::vector<std::size_t>& place = state.scratch.placeOfList;
+    place.resize(count);
+    std::size_t total = state.touches.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        place[i] = total;
+        total += listOf(i).size();
+    }
+    state.touches.resize(total);
+    state.inParallel(count, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            std::size_t to = place[i];
+            for (const PairTouch& touch : listOf(i))
+                state.touches[to++] = touch;
+        }
+    });
+}
+
 // All contacts between bodies, those within dolls first. Those between dolls are found piece by piece and joined in
 // that order, so that it does not depend on the threads. A few pieces a thread are at work at a time: room for the
 // contacts of all of them would be as much again as the contacts themselves.
 void joinContacts(CrowdState& state, float dt) {
     constexpr std::size_t kPiecesAThread = 8;
-    const auto take = [&](const std::vector<PairTouch>& touches) {
-        for (const PairTouch& touch : touches)
-            state.touches.push_back(touch);
-    };
     state.touches.clear();
-    for (std::size_t i = 0; i < state.active.size(); ++i)
-        take(state.selfTouches[i]);
+    append(
+        state, state.active.size(), [&](std::size_t i) -> const auto& { return state.selfTouches[i]; });
     const std::size_t pieces = (state.dollPairs.size() + kPiece - 1) / kPiece;
     const auto threads = static_cast<std::size_t>(state.pool.threads());
     const std::size_t most = threads > 1 ? kPiecesAThread * threads : 1;
@@ -445,8 +479,8 @@ void joinContacts(CrowdState& state, float dt) {
             for (std::size_t i = begin; i < end; ++i)
                 collidePiece(state, first + i, dt, state.dollTouches[i]);
         });
-        for (std::size_t i = 0; i < count; ++i)
-            take(state.dollTouches[i].touches);
+        append(
+            state, count, [&](std::size_t i) -> const auto& { return state.dollTouches[i].touches; });
     }
 }
 
@@ -455,7 +489,7 @@ void joinContacts(CrowdState& state, float dt) {
 void findContacts(CrowdState& state, float dt) {
     if (state.selfTouches.size() < state.active.size()) state.selfTouches.resize(state.active.size());
     placeNearDolls(state);
-    state.inParallel(state.active.size(), 2, [&](std::size_t begin, std::size_t end) {
+    state.inParallel(state.active.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             Batch& batch = *state.active[i];
             const Topology& topology = state.activeGroup[i]->topology;

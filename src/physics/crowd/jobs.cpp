@@ -9,13 +9,34 @@
 namespace lutka::physics::crowd {
 namespace {
 
+// Metres: contacts nearer than this are likely to press.
+constexpr float kNear = 0.005F;
+
+void findBriefs(CrowdState& state) {
+    state.briefs.resize(state.touches.size());
+    state.inParallel(state.touches.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const PairTouch& touch = state.touches[i];
+            state.briefs[i] = {touch.dollA, touch.dollB, state.dolls[touch.dollA].firstBody + touch.bodyA,
+                               state.dolls[touch.dollB].firstBody + touch.bodyB,
+                               touch.carried.normal > 0.0F || touch.touch.separation < kNear};
+        }
+    });
+}
+
 void assignBatches(CrowdState& state) {
     for (std::size_t i = 0; i < state.active.size(); ++i)
         state.active[i]->job = static_cast<int>(i);
     UnionFind& sets = state.scratch.sets;
     sets.reset(state.active.size());
-    for (const PairTouch& touch : state.touches)
-        sets.join(state.batchOf(state.dolls[touch.dollA]).job, state.batchOf(state.dolls[touch.dollB]).job);
+    int dollA = -1;
+    int dollB = -1;
+    for (const TouchBrief& brief : state.briefs) {
+        if (brief.dollA == dollA && brief.dollB == dollB) continue;  // those of two dolls come one after the other
+        dollA = brief.dollA;
+        dollB = brief.dollB;
+        sets.join(state.batchOf(state.dolls[dollA]).job, state.batchOf(state.dolls[dollB]).job);
+    }
     std::vector<int>& jobOf = state.scratch.jobOf;
     jobOf.assign(state.active.size(), -1);
     state.jobCount = 0;
@@ -39,34 +60,44 @@ void assignBatches(CrowdState& state) {
         state.active[i]->job = jobOf[sets.find(static_cast<int>(i))];
 }
 
-// Which bodies of each batch pair contacts push, and where they are kept meanwhile.
+// Each job's contacts, which bodies of each batch they push, and where these are kept meanwhile.
 void findPaired(CrowdState& state) {
     state.motions.resize(static_cast<std::size_t>(state.bodyTotal));
     state.frames.resize(static_cast<std::size_t>(state.bodyTotal));
-    for (Batch* batch : state.active) {
-        batch->paired.clear();
-        batch->isPaired.assign(batch->bodies.size(), 0);
-        batch->pairBodies = pairBodiesOf(state);
-        for (int lane = 0; lane < kLanes; ++lane)
-            batch->firstBody[lane] = state.dolls[batch->doll[lane < batch->used ? lane : 0]].firstBody;
+    state.isPaired.assign(static_cast<std::size_t>(state.bodyTotal), 0);
+    int doll = -1;
+    std::vector<int>* touches = nullptr;
+    for (std::size_t i = 0; i < state.briefs.size(); ++i) {
+        const TouchBrief& brief = state.briefs[i];
+        state.isPaired[brief.bodyA] = state.isPaired[brief.bodyB] = 1;
+        if (brief.dollA != doll) {
+            doll = brief.dollA;
+            touches = &state.jobs[state.batchOf(state.dolls[doll]).job].touches;
+        }
+        touches->push_back(static_cast<int>(i));
     }
-    const auto add = [&](int doll, int body) { state.batchOf(state.dolls[doll]).isPaired[body] = 1; };
-    for (const PairTouch& touch : state.touches) {
-        add(touch.dollA, touch.bodyA);
-        add(touch.dollB, touch.bodyB);
-    }
-    for (Batch* batch : state.active)
-        for (std::size_t body = 0; body < batch->isPaired.size(); ++body)
-            if (batch->isPaired[body] != 0) batch->paired.push_back(static_cast<int>(body));
+    state.inParallel(state.active.size(), 8, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            Batch& batch = *state.active[i];
+            batch.paired.clear();
+            batch.pairBodies = pairBodiesOf(state);
+            for (int lane = 0; lane < kLanes; ++lane)
+                batch.firstBody[lane] = state.dolls[batch.doll[lane < batch.used ? lane : 0]].firstBody;
+            for (int body = 0; body < static_cast<int>(batch.bodies.size()); ++body) {
+                const auto isPaired = [&](int first) { return state.isPaired[first + body] != 0; };
+                if (std::any_of(std::begin(batch.firstBody), std::end(batch.firstBody), isPaired))
+                    batch.paired.push_back(body);
+            }
+        }
+    });
 }
 
 }  // namespace
 
 void makeJobs(CrowdState& state) {
+    findBriefs(state);
     assignBatches(state);
     findPaired(state);
-    for (std::size_t i = 0; i < state.touches.size(); ++i)
-        state.jobs[state.batchOf(state.dolls[state.touches[i].dollA]).job].touches.push_back(static_cast<int>(i));
     for (DragRecord& record : state.drags) {
         const Doll& doll = state.dolls[record.doll];
         state.jobs[state.batchOf(doll).job].drags.push_back(&record);

@@ -19,6 +19,19 @@ void forJobs(CrowdState& state, const Work& work) {
         if (isSplit(state.jobs[i])) work(state.jobs[i]);
 }
 
+/// Calls work(i) for all batches of a job by their place in it: on all threads where the job is split.
+template <class Work>
+void forBatches(const CrowdState& state, const Job& job, const Work& work) {
+    const auto range = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            work(i);
+    };
+    if (isSplit(job))
+        state.inParallel(job.batches.size(), 1, range);
+    else
+        range(0, job.batches.size());
+}
+
 /// Calls works(part) for all parts of a job's contacts, one of the works after the other, in each every other part
 /// first; what shares no body side by side. The order of what shares bodies does not depend on the threads.
 template <class... Works>

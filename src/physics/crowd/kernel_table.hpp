@@ -23,9 +23,10 @@ static void begin(const BatchView& batch, const SubstepParams& params) {
     showBodies(batch);
 }
 
-static constexpr Kernels kTable{
-    &refresh,    &findBounds, &findSelfPairs, &findBodyPairs, &touchCores, &touchOwnCores, &findNearPlane, &limitRoom,
-    &joinBounds, &findMotion, &begin,         &solve,         &outruns,    &solveAgain,    &mend,          &advance,
-    &beginPairs, &solvePairs, &mendPairs,     &pressAgain,    &pressRest,  &carryPairs};
+static constexpr Kernels kTable{&refresh,    &findBounds,    &findSelfPairs, &findBodyPairs, &findBoxesAfter,
+                                &touchCores, &touchOwnCores, &findNearPlane, &limitRoom,     &joinBounds,
+                                &findMotion, &begin,         &solve,         &outruns,       &solveAgain,
+                                &mend,       &advance,       &beginPairs,    &solvePairs,    &mendPairs,
+                                &pressAgain, &pressRest,     &carryPairs};
 
 }  // namespace lutka::physics::crowd::LUTKA_KERNELS

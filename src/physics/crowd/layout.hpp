@@ -387,7 +387,7 @@ struct PlanePoint {
     float radius;
 };
 
-/// The boxes around eight bodies of one doll, one a lane. Lanes without a body hold an empty box (low above high).
+/// Boxes around bodies or dolls, one a lane. Lanes without one hold an empty box (low above high).
 struct BoxLanes {
     Wide3 low, high;
 };
@@ -441,6 +441,9 @@ struct Kernels {
     /// and `high` bound the whole of `b`. Returns how many there are; `out` has room for every pair.
     int (*findBodyPairs)(const BoxLanes* a, int groupsA, const BoxLanes* b, int groupsB, const float (&apart)[3],
                          const float (&low)[3], const float (&high)[3], BodyPair* out);
+    /// Of `count` boxes, sorted by their low ends along x, those after number `from` that meet it. Returns how many;
+    /// `out` has room for all. Lanes after the last hold an empty box.
+    int (*findBoxesAfter)(const BoxLanes* boxes, int count, int from, int* out);
     /// The nearest points of eight pairs of capsules or spheres. Returns a bit mask of the pairs that are in range.
     unsigned (*touchCores)(const StepBody* const (&a)[kLanes], const StepBody* const (&b)[kLanes],
                            const TouchRange& range, CoreTouchLanes& out);

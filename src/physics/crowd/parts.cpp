@@ -2,32 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numeric>
 
 namespace lutka::physics::crowd {
 namespace {
 
-// Metres: contacts nearer than this are likely to press.
-constexpr float kNear = 0.005F;
 // Positions along the axis are told apart by so many steps.
 constexpr int kBins = 256;
 // A job has no more parts than about so many: enough for a dozen threads.
 constexpr std::size_t kMostParts = 32;
 static_assert(2 * kMostParts <= static_cast<std::size_t>(TaskPool::kMostItems));
-
-// Which bodies each contact pushes, and whether it is likely to press.
-void findBriefs(CrowdState& state) {
-    state.briefs.resize(state.touches.size());
-    state.inParallel(state.touches.size(), 1024, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const PairTouch& touch = state.touches[i];
-            state.briefs[i] = {state.dolls[touch.dollA].firstBody + touch.bodyA,
-                               state.dolls[touch.dollB].firstBody + touch.bodyB,
-                               touch.carried.normal > 0.0F || touch.touch.separation < kNear};
-        }
-    });
-}
 
 // An axis and a stretch of it.
 struct Stretch {
@@ -157,7 +140,6 @@ void partJob(CrowdState& state, Job& job) {
 }  // namespace
 
 void partTouches(CrowdState& state) {
-    findBriefs(state);
     state.binOf.resize(static_cast<std::size_t>(state.bodyTotal));
     for (std::size_t i = 0; i < state.jobCount; ++i)
         partJob(state, state.jobs[i]);

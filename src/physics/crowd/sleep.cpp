@@ -28,9 +28,9 @@ void measureRest(CrowdState& state, Batch& batch, const Topology& topology, floa
 }  // namespace
 
 void settle(CrowdState& state, float dt) {
-    for (const PairTouch& touch : state.touches) {
-        if (touch.carried.normal <= 0.0F || touch.dollA == touch.dollB) continue;
-        state.dolls[touch.dollA].touching = state.dolls[touch.dollB].touching = true;
+    for (const TouchBrief& brief : state.briefs) {
+        if (!brief.presses || brief.dollA == brief.dollB) continue;
+        state.dolls[brief.dollA].touching = state.dolls[brief.dollB].touching = true;
     }
     state.inParallel(state.active.size(), 8, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
@@ -40,9 +40,8 @@ void settle(CrowdState& state, float dt) {
 
     UnionFind& islands = state.scratch.sets;
     islands.reset(state.dolls.size());
-    for (const PairTouch& touch : state.touches) {
-        if (touch.carried.normal > 0.0F) islands.join(touch.dollA, touch.dollB);
-    }
+    for (const TouchBrief& brief : state.briefs)
+        if (brief.presses) islands.join(brief.dollA, brief.dollB);
     std::vector<char>& restless = state.scratch.restless;
     restless.assign(state.dolls.size(), 0);
     for (const DragRecord& record : state.drags)

@@ -65,7 +65,7 @@ void findStaticsAgain(CrowdState& state, Batch& batch, const Topology& topology,
     if (state.settings.contactReports) openSums(batch);
 }
 
-// One job's substep. `forBatches` runs a piece of work for every batch of the job, on one thread or several.
+// One job's substep.
 class JobSubstep {
   public:
     JobSubstep(CrowdState& state, Job& job, const SubstepParams& params, bool mends)
@@ -77,19 +77,19 @@ class JobSubstep {
         const Kernels& kernels = *state_.kernels;
         // Before the substep begins, so that the first guess of what holds sees them, as it sees gravity.
         if (!begun) {
-            forIndices([&](std::size_t i) { refreshStatics(i, params_); });
+            forBatches(state_, job_, [&](std::size_t i) { refreshStatics(i, params_); });
             for (const ForceRecord* force : job_.forces)
                 job_.motorWork += applyForce(state_, *force, params_.dt);
             for (DragRecord* drag : job_.drags)
                 beginDrag(state_, *drag);
-            forBatches([&](const BatchView& view) { kernels.begin(view, params_); });
+            forViews([&](const BatchView& view) { kernels.begin(view, params_); });
         }
         // What touches other bodies works on single bodies; a pass over the dolls must follow before anything moves.
         forParts(
             state_, job_, [&](PairPart& part) { kernels.beginPairs(part.view, params_); },
             [&](PairPart& part) { kernels.solvePairs(part.view, params_); },
             [&](PairPart& part) { kernels.carryPairs(part.view); });
-        forBatches([&](const BatchView& view) { kernels.solve(view, params_, 1); });
+        forViews([&](const BatchView& view) { kernels.solve(view, params_, 1); });
         for (int i = 0; i < params_.answerSweeps; ++i) {
             // The contacts that the dolls' answer has left wrong, and their dolls' answer to that.
             forParts(
@@ -97,7 +97,7 @@ class JobSubstep {
                 [&](PairPart& part) { kernels.pressRest(part.view); });
             const auto isRight = [](const PairPart& part) { return part.view.changedCount == 0; };
             if (std::all_of(job_.parts.begin(), job_.parts.end(), isRight)) break;
-            forBatches([&](const BatchView& view) { kernels.solve(view, params_, 0); });
+            forViews([&](const BatchView& view) { kernels.solve(view, params_, 0); });
         }
         holdOutrun();
         for (const Batch* batch : job_.batches)
@@ -107,7 +107,7 @@ class JobSubstep {
         if (!state_.targets.empty()) job_.dragWork += workOfPushes(state_, job_);
         endDrags();
         const bool pushed = mends_ && mendPairs();
-        forIndices([&](std::size_t i) {
+        forBatches(state_, job_, [&](std::size_t i) {
             if (mends_) kernels.mend(viewOf(i), params_, pushed ? 1 : 0);
             kernels.advance(viewOf(i), params_);
             if (next == nullptr) return;
@@ -157,7 +157,7 @@ class JobSubstep {
     // A body may have been struck towards static geometry that it was far from when contacts were looked for. It would
     // be through before the next search.
     void holdOutrun() {
-        forIndices([&](std::size_t i) {
+        forBatches(state_, job_, [&](std::size_t i) {
             Batch& batch = *job_.batches[i];
             const Topology& topology = *job_.topologies[i];
             constexpr int kTries = 2;
@@ -174,21 +174,8 @@ class JobSubstep {
     BatchView viewOf(std::size_t i) { return job_.batches[i]->view(*job_.topologies[i]); }
 
     template <class Work>
-    void forBatches(const Work& work) {
-        forIndices([&](std::size_t i) { work(viewOf(i)); });
-    }
-
-    // Of the job's batches.
-    template <class Work>
-    void forIndices(const Work& work) {
-        const auto range = [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                work(i);
-        };
-        if (isSplit(job_))
-            state_.inParallel(job_.batches.size(), 1, range);
-        else
-            range(0, job_.batches.size());
+    void forViews(const Work& work) {
+        forBatches(state_, job_, [&](std::size_t i) { work(viewOf(i)); });
     }
 
     CrowdState& state_;
@@ -206,6 +193,7 @@ void keepPairs(CrowdState& state, std::size_t begin, std::size_t end) {
             if (index < 0) continue;
             PairTouch& touch = state.touches[index];
             touch.carried.normal = pair.normalImpulse.lane[lane];
+            state.briefs[index].presses = touch.carried.normal > 0.0F;
             touch.carried.approach = pair.approach.lane[lane];
             touch.touch.separation = pair.separation.lane[lane];
             touch.touch.normal = readVector(pair.normal, lane);
@@ -280,7 +268,7 @@ void keepImpulses(CrowdState& state) {
             keepStatics(state, *state.active[i]);
     });
     state.inParallel(state.pairs.size(), 64, [&](std::size_t begin, std::size_t end) { keepPairs(state, begin, end); });
-    state.carried.assign(state.touches);
+    state.carried.assign(state.touches, state.pool);
 }
 
 }  // namespace lutka::physics::crowd

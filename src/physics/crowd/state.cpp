@@ -1,6 +1,7 @@
 #include "physics/crowd/state.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <glm/common.hpp>
 
 #include "core/assert.hpp"
@@ -29,24 +30,36 @@ CrowdState::CrowdState(const WorldSettings& given, const CrowdTuning& tuned)
       kernels(&kernelsOf(tuned.instructionSet.value_or(bestInstructionSet()))),
       pool(given.threads) {}
 
-void CarriedPairs::assign(const TouchList& touches) {
+void CarriedPairs::assign(const TouchList& touches, const TaskPool& pool) {
+    constexpr std::size_t kGrain = 1024;
     const auto presses = [](const PairTouch& touch) { return touch.carried.normal > 0.0F; };
-    std::size_t count = 0;
-    for (const PairTouch& touch : touches)
-        count += presses(touch) ? 1 : 0;
+    std::atomic<std::size_t> count = 0;
+    const auto countPressing = [&](std::size_t begin, std::size_t end) {
+        std::size_t own = 0;
+        for (std::size_t i = begin; i < end; ++i)
+            own += presses(touches[i]) ? 1 : 0;
+        count += own;
+    };
+    pool.parallelFor(touches.size(), kGrain, std::cref(countPressing));
     std::size_t size = 16;
     while (size < 2 * count)
         size *= 2;
     keys_.assign(size, 0);
     contacts_.resize(size);
-    for (const PairTouch& touch : touches) {
-        if (!presses(touch)) continue;
-        std::size_t at = slotOf(touch.carried.key, size);
-        while (keys_[at] != 0)
-            at = (at + 1) & (size - 1);
-        keys_[at] = touch.carried.key;
-        contacts_[at] = touch.carried;
-    }
+    // Which place a key gets depends on the threads, whether and where it is found does not.
+    const auto put = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const PairTouch& touch = touches[i];
+            if (!presses(touch)) continue;
+            std::size_t at = slotOf(touch.carried.key, size);
+            for (std::uint64_t empty = 0; !std::atomic_ref(keys_[at]).compare_exchange_strong(
+                     empty, touch.carried.key, std::memory_order_relaxed);
+                 empty = 0)
+                at = (at + 1) & (size - 1);
+            contacts_[at] = touch.carried;
+        }
+    };
+    pool.parallelFor(touches.size(), kGrain, std::cref(put));
 }
 
 const CarriedContact* CarriedPairs::find(std::uint64_t key) const {
@@ -204,7 +217,7 @@ void removeDoll(CrowdState& state, int index) {
     leaveLane(state, index);
     const auto touches = [&](const PairTouch& touch) { return touch.dollA == index || touch.dollB == index; };
     state.touches.removeIf(touches);
-    state.carried.assign(state.touches);  // a doll in the same place must not inherit them
+    state.carried.assign(state.touches, state.pool);  // a doll in the same place must not inherit them
     std::erase(state.sweep, index);
     std::erase_if(state.motors, [&](const MotorRecord& record) { return record.doll == index; });
     std::erase_if(state.targets, [&](const TargetRecord& record) { return record.doll == index; });

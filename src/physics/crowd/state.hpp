@@ -102,7 +102,7 @@ using TouchList = Chunked<PairTouch, 512>;
 /// The contacts between bodies of the last step, by key.
 class CarriedPairs {
   public:
-    void assign(const TouchList& touches);
+    void assign(const TouchList& touches, const TaskPool& pool);
     /// Null when there was no such contact.
     [[nodiscard]] const CarriedContact* find(std::uint64_t key) const;
 
@@ -157,8 +157,9 @@ struct ForceRecord {
 
 /// A contact between bodies, in short.
 struct TouchBrief {
+    int dollA = 0, dollB = 0;
     int bodyA = 0, bodyB = 0;  ///< Among all bodies of the world.
-    bool presses = false;      ///< Or is likely to.
+    bool presses = false;      ///< After the step: whether it did in its last substep. Before: or is likely to.
 };
 
 /// A part of a job's contacts between bodies: see partTouches().
@@ -203,7 +204,6 @@ struct Bounds {
 struct Swept {
     Bounds bounds;
     int doll = 0;
-    bool asleep = false;
 };
 
 /// Of a piece of the pairs of dolls: what was found, and room to look for it.
@@ -218,12 +218,14 @@ using BlockTouches = std::vector<std::array<int, kLanes>>;
 /// What the parts of a step work with; kept so that a step allocates nothing.
 struct Scratch {
     std::vector<Swept> swept;
+    std::vector<int> nearAlongX;             ///< Dolls after one in the sweep that it meets.
     std::vector<std::pair<int, int>> found;  ///< Pairs of dolls in the order of the sweep.
     std::vector<int> firstOf, next;          ///< Places of a doll's pairs.
     UnionFind sets;
     std::vector<int> jobOf;                ///< One a representative of `sets`.
     std::vector<std::uint64_t> usedBy;     ///< One a body of the world, 0 between packings; see packTouches().
     std::vector<int> sorted;               ///< A job's touches.
+    std::vector<std::size_t> placeOfList;  ///< Among the touches.
     std::vector<BlockTouches> blocksOf;    ///< Of each part of all jobs.
     std::vector<char> restless;            ///< One a doll.
     std::vector<SubstepParams> paramsFor;  ///< By the number of substeps that a step has.
@@ -267,11 +269,13 @@ struct CrowdState {
     std::vector<BoxLanes> stepBoxes;                  ///< From Doll::firstBox on, of the same dolls.
     std::vector<char> isNear;                         ///< One a doll: whether its bounds meet another's.
     std::vector<PieceTouches> dollTouches;            ///< Of the pieces of `dollPairs` that are at work.
-    std::vector<int> sweep;                           ///< Dolls by the low end of their bounds along x.
+    std::vector<int> sweep;                           ///< Dolls by the low end of their bounds along x,
+    std::vector<BoxLanes> sweptBoxes;                 ///< and these bounds.
     std::vector<std::pair<int, int>> dollPairs;
     TouchList touches;  ///< Of this step; after it with its impulses.
     Chunked<PairContactLanes, kPairChunk> pairs;
     std::vector<TouchBrief> briefs;             ///< One a touch.
+    std::vector<char> isPaired;                 ///< One a body of the world: whether a contact of this step pushes it.
     std::vector<std::uint8_t> binOf;            ///< One a body of the world: see partTouches().
     std::vector<PairContactLanes*> pairChunks;  ///< Where their pieces are.
     BlockTouches touchOfLane;                   ///< One a pair block.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "physics/crowd/jobs.hpp"
+
 namespace lutka::physics::crowd {
 namespace {
 
@@ -19,14 +21,15 @@ bool isOne(const Wide& wide) {
     return std::all_of(std::begin(wide.lane), std::end(wide.lane), [](float value) { return value == 1.0F; });
 }
 
-void fitPairs(CrowdState& state, const Job& job, float seconds) {
-    for (std::size_t block = job.firstBlock; block < job.firstBlock + job.blockCount; ++block) {
+void fitPairs(CrowdState& state, const PairPart& part, float seconds) {
+    const auto first = static_cast<std::size_t>(part.view.first);
+    for (std::size_t block = first; block < first + static_cast<std::size_t>(part.view.count); ++block) {
         const std::array<int, kLanes>& touches = state.touchOfLane[block];
         Wide by;
         for (int lane = 0; lane < kLanes; ++lane) {
             // Both dolls were in one job when they touched.
             const int index = touches[lane] >= 0 ? touches[lane] : touches[0];
-            by.lane[lane] = seconds / state.dolls[state.touches[index].dollA].substepSeconds;
+            by.lane[lane] = seconds / state.dolls[state.briefs[index].dollA].substepSeconds;
         }
         if (isOne(by)) continue;
         scale(state.pairs[block].normalImpulse, by);
@@ -81,9 +84,8 @@ void setSubsteps(const CrowdState& state, Job& job) {
 }
 
 void fitImpulses(CrowdState& state, Job& job, float seconds) {
-    fitPairs(state, job, seconds);
-    for (Batch* batch : job.batches)
-        fitBatch(state, *batch, seconds);
+    forParts(state, job, [&](const PairPart& part) { fitPairs(state, part, seconds); });
+    forBatches(state, job, [&](std::size_t i) { fitBatch(state, *job.batches[i], seconds); });
 }
 
 }  // namespace lutka::physics::crowd
