@@ -441,6 +441,13 @@ void collidePiece(CrowdState& state, std::size_t piece, float dt, PieceTouches& 
     search.flush();
 }
 
+TouchBrief briefOf(const CrowdState& state, const PairTouch& touch) {
+    constexpr float kNear = 0.005F;  // metres: what is nearer is likely to press
+    return {touch.dollA, touch.dollB, state.dolls[touch.dollA].firstBody + touch.bodyA,
+            state.dolls[touch.dollB].firstBody + touch.bodyB,
+            touch.carried.normal > 0.0F || touch.touch.separation < kNear};
+}
+
 // Puts lists of contacts behind those that there are, in their order. `listOf(i)` is one of `count`.
 template <class ListOf>
 void append(CrowdState& state, std::size_t count, const ListOf& listOf) {
@@ -452,11 +459,15 @@ void append(CrowdState& state, std::size_t count, const ListOf& listOf) {
         total += listOf(i).size();
     }
     state.touches.resize(total);
+    makeRoom(state.briefs, total);
+    state.briefs.resize(total);
     state.inParallel(count, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             std::size_t to = place[i];
-            for (const PairTouch& touch : listOf(i))
+            for (const PairTouch& touch : listOf(i)) {
+                state.briefs[to] = briefOf(state, touch);
                 state.touches[to++] = touch;
+            }
         }
     });
 }

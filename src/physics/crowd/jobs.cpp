@@ -9,21 +9,6 @@
 namespace lutka::physics::crowd {
 namespace {
 
-// Metres: contacts nearer than this are likely to press.
-constexpr float kNear = 0.005F;
-
-void findBriefs(CrowdState& state) {
-    state.briefs.resize(state.touches.size());
-    state.inParallel(state.touches.size(), 1024, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const PairTouch& touch = state.touches[i];
-            state.briefs[i] = {touch.dollA, touch.dollB, state.dolls[touch.dollA].firstBody + touch.bodyA,
-                               state.dolls[touch.dollB].firstBody + touch.bodyB,
-                               touch.carried.normal > 0.0F || touch.touch.separation < kNear};
-        }
-    });
-}
-
 void assignBatches(CrowdState& state) {
     for (std::size_t i = 0; i < state.active.size(); ++i)
         state.active[i]->job = static_cast<int>(i);
@@ -95,7 +80,6 @@ void findPaired(CrowdState& state) {
 }  // namespace
 
 void makeJobs(CrowdState& state) {
-    findBriefs(state);
     assignBatches(state);
     findPaired(state);
     for (DragRecord& record : state.drags) {

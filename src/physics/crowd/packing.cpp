@@ -43,10 +43,12 @@ void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTou
     if (!onAxisY(touch.touch.localA) || !onAxisY(touch.touch.localB)) pair.onAxisY = 0;
 }
 
-// A block without contacts.
+// A block without contacts, as far as fillLane() and the first substep do not set it: most of it is written when it is
+// first needed.
 void emptyBlock(PairContactLanes& pair) {
-    pair = {};
     pair.onAxisY = pair.follows = 1;
+    pair.ready = 0;
+    pair.kind = pair.normalMass = pair.tangentImpulse[0] = pair.tangentImpulse[1] = {};
 }
 
 // Gives each contact of a part the first open block that has room and neither of its bodies: a greedy colouring whose
@@ -114,6 +116,7 @@ class Packer {
 };
 
 void fillBlock(CrowdState& state, std::size_t block) {
+    fetchTouches(state, block + 1);
     PairContactLanes& pair = state.pairs[block];
     emptyBlock(pair);
     for (int lane = 0; lane < kLanes; ++lane) {

@@ -63,9 +63,9 @@ void findBins(CrowdState& state, const Job& job, const Stretch& stretch) {
     });
 }
 
-// Of the contacts that begin in each bin: how many press and do not, and the last bin that one of them reaches.
+// Of the contacts that begin in each bin: how many press, how many do not, and the last bin that one of them reaches.
 struct Bins {
-    std::array<std::array<int, 2>, kBins> count{};
+    std::array<int, 2 * kBins> count{};
     std::array<int, kBins> reach{};
 };
 
@@ -73,8 +73,9 @@ struct Span {
     int first, last;
 };
 Span spanOf(const CrowdState& state, const TouchBrief& brief) {
-    const auto [first, last] = std::minmax(state.binOf[brief.bodyA], state.binOf[brief.bodyB]);
-    return {first, last};
+    const int a = state.binOf[brief.bodyA];
+    const int b = state.binOf[brief.bodyB];
+    return {std::min(a, b), std::max(a, b)};
 }
 
 // Numbers the parts by bins. Returns how many there are.
@@ -91,49 +92,56 @@ int cutBins(const Bins& bins, std::size_t touches, std::array<int, kBins>& partO
             reachAtCut = reach;
         }
         partOf[bin] = part;
-        inPart += bins.count[bin][0] + bins.count[bin][1];
+        inPart += bins.count[2 * bin] + bins.count[2 * bin + 1];
         reach = std::max(reach, bins.reach[bin]);
     }
     return part + 1;
 }
 
-void partJob(CrowdState& state, Job& job) {
+// The bins that the contacts of a job begin in; and of each contact twice its bin, and 1 more where it hardly presses.
+Bins countBins(CrowdState& state, const Job& job, bool cut) {
     Bins bins;
-    std::array<int, kBins> partOf{};
-    const bool cut = isSplit(job) && !job.touches.empty();
-    const auto binOf = [&](const TouchBrief& brief) { return cut ? spanOf(state, brief) : Span{0, 0}; };
-    if (cut) findBins(state, job, stretchOf(state, job));
-    for (const int index : job.touches) {
-        const TouchBrief& brief = state.briefs[index];
-        const Span span = binOf(brief);
-        ++bins.count[span.first][brief.presses ? 0 : 1];
+    std::vector<std::uint16_t>& keys = state.scratch.keys;
+    keys.resize(job.touches.size());
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const TouchBrief& brief = state.briefs[job.touches[i]];
+        const Span span = cut ? spanOf(state, brief) : Span{0, 0};
+        const int kind = brief.presses ? 0 : 1;
+        keys[i] = static_cast<std::uint16_t>(2 * span.first + kind);
+        ++bins.count[keys[i]];
         bins.reach[span.first] = std::max(bins.reach[span.first], span.last);
     }
-    const int parts = cut ? cutBins(bins, job.touches.size(), partOf) : 1;
-    // Sorted by counting, part by part, those that press first. What will hardly press shares blocks, which are left
-    // early.
-    std::array<std::array<std::size_t, 2>, kBins> next{};
-    for (int bin = 0; bin < kBins; ++bin)
-        for (int kind = 0; kind < 2; ++kind)
-            next[partOf[bin]][kind] += static_cast<std::size_t>(bins.count[bin][kind]);
-    job.parts.resize(static_cast<std::size_t>(parts));
-    std::size_t end = 0;
-    for (int i = 0; i < parts; ++i) {
-        job.parts[i] = {};
-        job.parts[i].firstTouch = end;
-        for (std::size_t& place : next[i]) {
-            const std::size_t count = place;
-            place = end;
+    return bins;
+}
+
+void partJob(CrowdState& state, Job& job) {
+    const bool cut = isSplit(job) && !job.touches.empty();
+    if (cut) findBins(state, job, stretchOf(state, job));
+    const Bins bins = countBins(state, job, cut);
+    std::array<int, kBins> partOf{};
+    job.parts.assign(static_cast<std::size_t>(cut ? cutBins(bins, job.touches.size(), partOf) : 1), {});
+    // Sorted by counting: part by part, those that press first, since what will hardly press shares blocks, which are
+    // left early.
+    std::array<int, 2 * kBins> slotOf{};
+    std::array<int, 2 * kBins> next{};  // place of each slot's next contact
+    for (int key = 0; key < 2 * kBins; ++key) {
+        slotOf[key] = 2 * partOf[key / 2] + key % 2;
+        next[slotOf[key]] += bins.count[key];
+    }
+    int end = 0;
+    for (std::size_t i = 0; i < job.parts.size(); ++i) {
+        job.parts[i].firstTouch = static_cast<std::size_t>(end);
+        for (int kind = 0; kind < 2; ++kind) {
+            const int count = next[2 * i + kind];
+            next[2 * i + kind] = end;
             end += count;
         }
-        job.parts[i].touchCount = end - job.parts[i].firstTouch;
+        job.parts[i].touchCount = static_cast<std::size_t>(end) - job.parts[i].firstTouch;
     }
     std::vector<int>& sorted = state.scratch.sorted;
     sorted.resize(job.touches.size());
-    for (const int index : job.touches) {
-        const TouchBrief& brief = state.briefs[index];
-        sorted[next[partOf[binOf(brief).first]][brief.presses ? 0 : 1]++] = index;
-    }
+    for (std::size_t i = 0; i < sorted.size(); ++i)
+        sorted[next[slotOf[state.scratch.keys[i]]]++] = job.touches[i];
     job.touches.swap(sorted);
 }
 

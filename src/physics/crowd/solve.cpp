@@ -1,6 +1,7 @@
 #include "physics/crowd/solve.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -9,6 +10,7 @@
 #include "physics/crowd/force.hpp"
 #include "physics/crowd/jobs.hpp"
 #include "physics/crowd/motor.hpp"
+#include "physics/crowd/packing.hpp"
 #include "physics/crowd/reports.hpp"
 #include "physics/crowd/static_contacts.hpp"
 #include "physics/crowd/substeps.hpp"
@@ -184,22 +186,33 @@ class JobSubstep {
     bool mends_;
 };
 
+// How many contacts of some blocks press.
+std::size_t countPressing(const CrowdState& state, std::size_t begin, std::size_t end) {
+    std::size_t count = 0;
+    for (std::size_t block = begin; block < end; ++block)
+        for (const float impulse : state.pairs[block].normalImpulse.lane)
+            count += impulse > 0.0F ? 1 : 0;
+    return count;
+}
+
 // Of some blocks.
 void keepPairs(CrowdState& state, std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block) {
+        fetchTouches(state, block + 1);
         const PairContactLanes& pair = state.pairs[block];
         for (int lane = 0; lane < kLanes; ++lane) {
             const int index = state.touchOfLane[block][lane];
             if (index < 0) continue;
             PairTouch& touch = state.touches[index];
             touch.carried.normal = pair.normalImpulse.lane[lane];
-            state.briefs[index].presses = touch.carried.normal > 0.0F;
             touch.carried.approach = pair.approach.lane[lane];
             touch.touch.separation = pair.separation.lane[lane];
             touch.touch.normal = readVector(pair.normal, lane);
             touch.carried.friction = frictionOf(pair, lane);
             touch.touch.localA = readVector(pair.localA, lane);
             touch.touch.localB = readVector(pair.localB, lane);
+            state.briefs[index].presses = touch.carried.normal > 0.0F;
+            if (touch.carried.normal > 0.0F) state.carried.add(touch.carried);
         }
     }
 }
@@ -267,8 +280,11 @@ void keepImpulses(CrowdState& state) {
         for (std::size_t i = begin; i < end; ++i)
             keepStatics(state, *state.active[i]);
     });
+    std::atomic<std::size_t> pressing = 0;
+    state.inParallel(state.pairs.size(), 64,
+                     [&](std::size_t begin, std::size_t end) { pressing += countPressing(state, begin, end); });
+    state.carried.renew(pressing);
     state.inParallel(state.pairs.size(), 64, [&](std::size_t begin, std::size_t end) { keepPairs(state, begin, end); });
-    state.carried.assign(state.touches, state.pool);
 }
 
 }  // namespace lutka::physics::crowd

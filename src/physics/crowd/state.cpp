@@ -30,36 +30,21 @@ CrowdState::CrowdState(const WorldSettings& given, const CrowdTuning& tuned)
       kernels(&kernelsOf(tuned.instructionSet.value_or(bestInstructionSet()))),
       pool(given.threads) {}
 
-void CarriedPairs::assign(const TouchList& touches, const TaskPool& pool) {
-    constexpr std::size_t kGrain = 1024;
-    const auto presses = [](const PairTouch& touch) { return touch.carried.normal > 0.0F; };
-    std::atomic<std::size_t> count = 0;
-    const auto countPressing = [&](std::size_t begin, std::size_t end) {
-        std::size_t own = 0;
-        for (std::size_t i = begin; i < end; ++i)
-            own += presses(touches[i]) ? 1 : 0;
-        count += own;
-    };
-    pool.parallelFor(touches.size(), kGrain, std::cref(countPressing));
+void CarriedPairs::renew(std::size_t count) {
     std::size_t size = 16;
     while (size < 2 * count)
         size *= 2;
     keys_.assign(size, 0);
     contacts_.resize(size);
-    // Which place a key gets depends on the threads, whether and where it is found does not.
-    const auto put = [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const PairTouch& touch = touches[i];
-            if (!presses(touch)) continue;
-            std::size_t at = slotOf(touch.carried.key, size);
-            for (std::uint64_t empty = 0; !std::atomic_ref(keys_[at]).compare_exchange_strong(
-                     empty, touch.carried.key, std::memory_order_relaxed);
-                 empty = 0)
-                at = (at + 1) & (size - 1);
-            contacts_[at] = touch.carried;
-        }
-    };
-    pool.parallelFor(touches.size(), kGrain, std::cref(put));
+}
+
+void CarriedPairs::add(const CarriedContact& contact) {
+    const std::size_t size = keys_.size();
+    std::size_t at = slotOf(contact.key, size);
+    for (std::uint64_t there = 0;
+         !std::atomic_ref(keys_[at]).compare_exchange_strong(there, contact.key, std::memory_order_relaxed); there = 0)
+        at = (at + 1) & (size - 1);
+    contacts_[at] = contact;
 }
 
 const CarriedContact* CarriedPairs::find(std::uint64_t key) const {
@@ -212,12 +197,22 @@ void putToSleep(CrowdState& state, int index) {
     boundFrozen(state, doll);
 }
 
+namespace {
+
+void carryAgain(CrowdState& state) {
+    state.carried.renew(state.touches.size());
+    for (const PairTouch& touch : state.touches)
+        if (touch.carried.normal > 0.0F) state.carried.add(touch.carried);
+}
+
+}  // namespace
+
 void removeDoll(CrowdState& state, int index) {
     if (state.dolls[index].asleep()) wakeIsland(state, index);
     leaveLane(state, index);
     const auto touches = [&](const PairTouch& touch) { return touch.dollA == index || touch.dollB == index; };
     state.touches.removeIf(touches);
-    state.carried.assign(state.touches, state.pool);  // a doll in the same place must not inherit them
+    carryAgain(state);  // a doll in the same place must not inherit them
     std::erase(state.sweep, index);
     std::erase_if(state.motors, [&](const MotorRecord& record) { return record.doll == index; });
     std::erase_if(state.targets, [&](const TargetRecord& record) { return record.doll == index; });

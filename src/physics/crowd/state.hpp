@@ -99,10 +99,14 @@ struct PairTouch {
 
 using TouchList = Chunked<PairTouch, 512>;
 
-/// The contacts between bodies of the last step, by key.
+/// The contacts between bodies that pressed at the end of the last step, by key.
 class CarriedPairs {
   public:
-    void assign(const TouchList& touches, const TaskPool& pool);
+    /// Forgets all, and has room for `count`.
+    void renew(std::size_t count);
+    /// Several threads may do this at the same time: which place a contact gets then depends on them, whether and where
+    /// it is found does not.
+    void add(const CarriedContact& contact);
     /// Null when there was no such contact.
     [[nodiscard]] const CarriedContact* find(std::uint64_t key) const;
 
@@ -224,6 +228,7 @@ struct Scratch {
     UnionFind sets;
     std::vector<int> jobOf;                ///< One a representative of `sets`.
     std::vector<std::uint64_t> usedBy;     ///< One a body of the world, 0 between packings; see packTouches().
+    std::vector<std::uint16_t> keys;       ///< One a touch of a job: see partTouches().
     std::vector<int> sorted;               ///< A job's touches.
     std::vector<std::size_t> placeOfList;  ///< Among the touches.
     std::vector<BlockTouches> blocksOf;    ///< Of each part of all jobs.
