@@ -68,21 +68,27 @@ LUTKA_LANES unsigned meeting(const BoxLanes& boxes, const V3& low, const V3& hig
                 (low.y <= load(boxes.high.y)) & (load(boxes.low.z) <= high.z) & (low.z <= load(boxes.high.z)));
 }
 
-static int findBodyPairs(const BoxLanes* a, int groupsA, const BoxLanes* b, int groupsB, const float (&apart)[3],
-                         const float (&low)[3], const float (&high)[3], BodyPair* out) {
+static int findBodyPairs(const DollBoxes& a, const DollBoxes& b, const float (&apart)[3], BodyPair* out) {
     int count = 0;
-    const V3 lowest = all(low) - all(apart);
-    const V3 highest = all(high) + all(apart);
-    for (int i = 0; i < groupsA; ++i) {
-        for (unsigned near = meeting(a[i], lowest, highest); near != 0; near &= near - 1) {
+    const V3 lowA = all(a.low) - all(apart), highA = all(a.high) + all(apart);
+    const V3 lowB = all(b.low) - all(apart), highB = all(b.high) + all(apart);
+    // The groups of B between the first and the last that are near A: each is asked for every body of A that is near B.
+    int first = 0;
+    while (first < b.groups && meeting(b.boxes[first], lowA, highA) == 0)
+        ++first;
+    int end = b.groups;
+    while (end > first && meeting(b.boxes[end - 1], lowA, highA) == 0)
+        --end;
+    for (int i = 0; i < a.groups && first < end; ++i) {
+        for (unsigned near = meeting(a.boxes[i], lowB, highB); near != 0; near &= near - 1) {
             const int lane = __builtin_ctz(near);
-            const BoxLanes& group = a[i];
+            const BoxLanes& group = a.boxes[i];
             const V3 from{all(group.low.x.lane[lane] - apart[0]), all(group.low.y.lane[lane] - apart[1]),
                           all(group.low.z.lane[lane] - apart[2])};
             const V3 to{all(group.high.x.lane[lane] + apart[0]), all(group.high.y.lane[lane] + apart[1]),
                         all(group.high.z.lane[lane] + apart[2])};
-            for (int j = 0; j < groupsB; ++j) {
-                for (unsigned met = meeting(b[j], from, to); met != 0; met &= met - 1)
+            for (int j = first; j < end; ++j) {
+                for (unsigned met = meeting(b.boxes[j], from, to); met != 0; met &= met - 1)
                     out[count++] = {i * kLanes + lane, j * kLanes + __builtin_ctz(met)};
             }
         }

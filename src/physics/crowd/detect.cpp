@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <numeric>
 
 #include "physics/collision/shape.hpp"
+#include "physics/crowd/broadphase.hpp"
 #include "physics/crowd/static_contacts.hpp"
 #include "physics/crowd/substeps.hpp"
 
@@ -247,11 +247,14 @@ void collideDolls(const CrowdState& state, int indexA, int indexB, float dt, std
     // How far the two roots move against each other.
     const vec3 moved = glm::abs(a.rootVelocity - b.rootVelocity) * (kForesight * dt);
     const float apart[3] = {moved.x, moved.y, moved.z};
-    const float low[3] = {b.low.x, b.low.y, b.low.z};
-    const float high[3] = {b.high.x, b.high.y, b.high.z};
+    const auto boxesOf = [&](const Doll& doll) {
+        return DollBoxes{&state.stepBoxes[doll.firstBox],
+                         doll.boxes,
+                         {doll.low.x, doll.low.y, doll.low.z},
+                         {doll.high.x, doll.high.y, doll.high.z}};
+    };
     near.resize(static_cast<std::size_t>(a.boxes) * static_cast<std::size_t>(b.boxes) * kLanes * kLanes);
-    const int count = state.kernels->findBodyPairs(&state.stepBoxes[a.firstBox], a.boxes, &state.stepBoxes[b.firstBox],
-                                                   b.boxes, apart, low, high, near.data());
+    const int count = state.kernels->findBodyPairs(boxesOf(a), boxesOf(b), apart, near.data());
     const StepBody* bodiesA = &state.stepBodies[a.firstBody];
     const StepBody* bodiesB = &state.stepBodies[b.firstBody];
     for (int i = 0; i < count; ++i) {
@@ -299,82 +302,6 @@ void findBounds(CrowdState& state, float dt) {
             findPace(state, batch, topology);
         }
     });
-}
-
-namespace {
-
-// Meets nothing.
-constexpr Bounds kNowhere{vec3(1e30F), vec3(-1e30F)};
-
-void writeBox(BoxLanes& boxes, int lane, const Bounds& bounds) {
-    writeVector(boxes.low, lane, bounds.low);
-    writeVector(boxes.high, lane, bounds.high);
-}
-
-// The bounds of all dolls by their low end along x. They come in the order of the step before, which is nearly that of
-// this one: sorting by insertion looks at each a few times.
-void sortAlongX(CrowdState& state, float dt) {
-    std::vector<Swept>& swept = state.scratch.swept;
-    swept.resize(state.sweep.size());
-    for (std::size_t i = 0; i < swept.size(); ++i)
-        swept[i] = {worldBounds(state.dolls[state.sweep[i]], dt), state.sweep[i]};
-    for (std::size_t i = 1; i < swept.size(); ++i) {
-        if (swept[i - 1].bounds.low.x <= swept[i].bounds.low.x) continue;
-        const Swept moving = swept[i];
-        std::size_t to = i;
-        for (; to > 0 && swept[to - 1].bounds.low.x > moving.bounds.low.x; --to)
-            swept[to] = swept[to - 1];
-        swept[to] = moving;
-    }
-    state.sweptBoxes.resize((swept.size() + kLanes - 1) / kLanes);
-    for (std::size_t i = 0; i < state.sweptBoxes.size() * kLanes; ++i) {
-        const bool isDoll = i < swept.size();
-        if (isDoll) state.sweep[i] = swept[i].doll;
-        writeBox(state.sweptBoxes[i / kLanes], static_cast<int>(i % kLanes), isDoll ? swept[i].bounds : kNowhere);
-    }
-}
-
-bool mayTouch(const CrowdState& state, int a, int b) {
-    const Doll& first = state.dolls[a];
-    const Doll& second = state.dolls[b];
-    return !(first.asleep() && second.asleep()) && first.filter.collidesWith(second.filter);
-}
-
-// The pairs found into CrowdState::dollPairs, in the order of their dolls: by counting for the first, by sorting the
-// few that share it for the second.
-void orderPairs(CrowdState& state) {
-    const std::vector<std::pair<int, int>>& found = state.scratch.found;
-    std::vector<int>& firstOf = state.scratch.firstOf;
-    firstOf.assign(state.dolls.size() + 1, 0);
-    for (const std::pair<int, int>& pair : found)
-        ++firstOf[static_cast<std::size_t>(pair.first) + 1];
-    std::partial_sum(firstOf.begin(), firstOf.end(), firstOf.begin());
-    state.scratch.next.assign(firstOf.begin(), firstOf.end() - 1);
-    state.dollPairs.resize(found.size());
-    for (const std::pair<int, int>& pair : found)
-        state.dollPairs[state.scratch.next[pair.first]++] = pair;
-    state.inParallel(state.dolls.size(), 32, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            std::sort(state.dollPairs.begin() + firstOf[i], state.dollPairs.begin() + firstOf[i + 1]);
-    });
-}
-
-}  // namespace
-
-void sweepDolls(CrowdState& state, float dt) {
-    sortAlongX(state, dt);
-    const std::vector<int>& sweep = state.sweep;
-    std::vector<int>& near = state.scratch.nearAlongX;
-    near.resize(state.sweptBoxes.size() * kLanes);
-    state.scratch.found.clear();
-    for (std::size_t i = 0; i < sweep.size(); ++i) {
-        const int count = state.kernels->findBoxesAfter(state.sweptBoxes.data(), static_cast<int>(sweep.size()),
-                                                        static_cast<int>(i), near.data());
-        for (int k = 0; k < count; ++k)
-            if (mayTouch(state, sweep[i], sweep[near[k]]))
-                state.scratch.found.push_back(std::minmax(sweep[i], sweep[near[k]]));
-    }
-    orderPairs(state);
 }
 
 void wakeTouched(CrowdState& state, float dt) {

@@ -17,9 +17,6 @@ void findBounds(CrowdState& state, float dt);
 /// The same of one batch, from where its dolls are now.
 void findBounds(CrowdState& state, Batch& batch, const Topology& topology, float dt);
 
-/// Pairs of dolls whose bounds meet, at least one of them awake, by index: a sweep along x.
-void sweepDolls(CrowdState& state, float dt);
-
 /// Wakes the sleeping dolls that an awake one is about to push, and brings bounds and pairs up to date.
 void wakeTouched(CrowdState& state, float dt);
 

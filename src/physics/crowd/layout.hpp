@@ -392,6 +392,14 @@ struct BoxLanes {
     Wide3 low, high;
 };
 
+/// Those of a doll's bodies, and what bounds them all.
+struct DollBoxes {
+    const BoxLanes* boxes;
+    int groups;  ///< BoxLanes.
+    float low[3];
+    float high[3];
+};
+
 /// Two bodies whose boxes meet, by their number in each doll.
 struct BodyPair {
     int a;
@@ -437,10 +445,9 @@ struct Kernels {
     void (*findBounds)(const BatchView& batch, float dt, float margin);
     /// Writes a bit mask of lanes whose bounds meet for every pair.
     void (*findSelfPairs)(const BatchView& batch, const SelfPair* pairs, int count, unsigned char* masks);
-    /// The bodies of two dolls whose boxes meet once those of `a` are grown by `apart`; `groups` counts BoxLanes, `low`
-    /// and `high` bound the whole of `b`. Returns how many there are; `out` has room for every pair.
-    int (*findBodyPairs)(const BoxLanes* a, int groupsA, const BoxLanes* b, int groupsB, const float (&apart)[3],
-                         const float (&low)[3], const float (&high)[3], BodyPair* out);
+    /// The bodies of two dolls whose boxes meet once those of `a` are grown by `apart`. Returns how many there are;
+    /// `out` has room for every pair.
+    int (*findBodyPairs)(const DollBoxes& a, const DollBoxes& b, const float (&apart)[3], BodyPair* out);
     /// Of `count` boxes, sorted by their low ends along x, those after number `from` that meet it. Returns how many;
     /// `out` has room for all. Lanes after the last hold an empty box.
     int (*findBoxesAfter)(const BoxLanes* boxes, int count, int from, int* out);

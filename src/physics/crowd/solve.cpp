@@ -195,7 +195,8 @@ std::size_t countPressing(const CrowdState& state, std::size_t begin, std::size_
     return count;
 }
 
-// Of some blocks.
+// Of some blocks. Nobody asks where contacts are that press no more, except for reports, which name what pressed
+// before.
 void keepPairs(CrowdState& state, std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block) {
         fetchTouches(state, block + 1);
@@ -203,6 +204,8 @@ void keepPairs(CrowdState& state, std::size_t begin, std::size_t end) {
         for (int lane = 0; lane < kLanes; ++lane) {
             const int index = state.touchOfLane[block][lane];
             if (index < 0) continue;
+            const bool presses = pair.normalImpulse.lane[lane] > 0.0F;
+            if (!presses && !state.briefs[index].presses && !state.settings.contactReports) continue;
             PairTouch& touch = state.touches[index];
             touch.carried.normal = pair.normalImpulse.lane[lane];
             touch.carried.approach = pair.approach.lane[lane];
@@ -211,8 +214,8 @@ void keepPairs(CrowdState& state, std::size_t begin, std::size_t end) {
             touch.carried.friction = frictionOf(pair, lane);
             touch.touch.localA = readVector(pair.localA, lane);
             touch.touch.localB = readVector(pair.localB, lane);
-            state.briefs[index].presses = touch.carried.normal > 0.0F;
-            if (touch.carried.normal > 0.0F) state.carried.add(touch.carried);
+            state.briefs[index].presses = presses;
+            if (presses) state.carried.add(touch.carried);
         }
     }
 }

@@ -204,10 +204,24 @@ struct Bounds {
     vec3 low, high;
 };
 
+/// Bounds that meet nothing.
+inline constexpr Bounds kNowhere{vec3(1e30F), vec3(-1e30F)};
+
+inline void writeBox(BoxLanes& boxes, int lane, const Bounds& bounds) {
+    writeVector(boxes.low, lane, bounds.low);
+    writeVector(boxes.high, lane, bounds.high);
+}
+
 /// A doll's place in the sweep along x.
 struct Swept {
     Bounds bounds;
     int doll = 0;
+};
+
+/// Of a piece of the sweep: pairs of dolls that meet, and room to look for them.
+struct SweptPairs {
+    std::vector<std::pair<int, int>> pairs;
+    std::vector<int> near;  ///< Places in the sweep.
 };
 
 /// Of a piece of the pairs of dolls: what was found, and room to look for it.
@@ -222,9 +236,8 @@ using BlockTouches = std::vector<std::array<int, kLanes>>;
 /// What the parts of a step work with; kept so that a step allocates nothing.
 struct Scratch {
     std::vector<Swept> swept;
-    std::vector<int> nearAlongX;             ///< Dolls after one in the sweep that it meets.
-    std::vector<std::pair<int, int>> found;  ///< Pairs of dolls in the order of the sweep.
-    std::vector<int> firstOf, next;          ///< Places of a doll's pairs.
+    std::vector<SweptPairs> sweptPairs;  ///< Of the pieces of the sweep.
+    std::vector<int> firstOf, next;      ///< Places of a doll's pairs.
     UnionFind sets;
     std::vector<int> jobOf;                ///< One a representative of `sets`.
     std::vector<std::uint64_t> usedBy;     ///< One a body of the world, 0 between packings; see packTouches().
