@@ -19,6 +19,7 @@ class SkinSample {
     /// At most `most` of the points, evenly from their order; at least one.
     SkinSample(const std::vector<SkinPoint>& points, const RigidTransform& axesFromStandard, std::size_t most) {
         const std::size_t stride = (points.size() + most - 1) / most;
+        points_.reserve(points.size() / stride + 1);
         const bool weighted = std::any_of(points.begin(), points.end(), [](const auto& p) { return p.area > 0.0F; });
         for (std::size_t i = 0; i < points.size(); i += stride) {
             points_.push_back({axesFromStandard * points[i].position, weighted ? points[i].area : 1.0F});
