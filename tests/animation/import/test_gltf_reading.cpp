@@ -87,6 +87,22 @@ TEST_CASE("normalised weights and quantised positions are read as the fractions 
     CHECK(largestDifference(bindVertices(character), bindVertices(expected)) < 1e-3F);
 }
 
+TEST_CASE("a stride that leads out of the buffer is refused, however large") {
+    // The way to the last of so many elements is 2 to the 64th, which is 0 in a size.
+    const TemporaryFolder folder;
+    GltfFile file = makePostRig();
+    const int accessor = file.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
+    file.json["accessors"][accessor]["count"] = (1U << 24U) + 1;
+    const int view = file.json["accessors"][accessor]["bufferView"];
+    for (const std::uint64_t stride : {std::uint64_t{1} << 40U, std::uint64_t{1'000'000'000'000'000}}) {
+        file.json["bufferViews"][view]["byteStride"] = stride;
+        file.saveBinary(folder / "rig.glb");
+        const auto character = importCharacter(folder / "rig.glb");
+        REQUIRE_FALSE(character);
+        CHECK(character.error().message.find("ends before its accessor's 16777217 elements do") != std::string::npos);
+    }
+}
+
 TEST_CASE("rotations in shorts turn as far as floats do") {
     const TemporaryFolder folder;
     GltfFile file = makePostRig();

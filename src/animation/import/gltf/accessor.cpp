@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <type_traits>
 
 namespace lutka::animation::rig_import::gltf {
@@ -137,9 +138,16 @@ Layout layoutOf(const json& accessor) {
     return layout;
 }
 
-// Calls `take(element, bytes of it)` for `count` elements of a view.
-template <class Take>
-void forEachElement(GltfFile& file, const json& place, std::size_t count, std::size_t elementBytes, const Take& take) {
+// Elements in a buffer view.
+struct Elements {
+    const std::uint8_t* first = nullptr;
+    std::size_t stride = 0;  // bytes from one to the next
+
+    [[nodiscard]] const std::uint8_t* at(std::size_t element) const { return first + element * stride; }
+};
+
+// `count` elements of the view that `place` names. Throws where it ends before they do.
+Elements elementsAt(GltfFile& file, const json& place, std::size_t count, std::size_t elementBytes) {
     const std::optional<int> view = indexOf(place, "bufferView", file.count("bufferViews"));
     if (!view) throw Damage{"sparse data without a buffer view"};
     const std::span<const std::uint8_t> bytes = file.viewBytes(*view);
@@ -149,34 +157,40 @@ void forEachElement(GltfFile& file, const json& place, std::size_t count, std::s
     if (packed == nullptr) packed = extensionOf(source, "KHR_meshopt_compression");
     std::size_t stride = sizeOf(packed != nullptr ? *packed : source, "byteStride", 0);
     if (stride == 0) stride = elementBytes;
-    if (count == 0) return;
-    const std::size_t last = (count - 1) * stride + elementBytes;
-    if (offset > bytes.size() || last > bytes.size() - offset)
+    if (count == 0) return {};
+    // By division: a stride may be any number, and the product beyond all numbers.
+    const bool holdsOne = offset <= bytes.size() && elementBytes <= bytes.size() - offset;
+    if (!holdsOne || (bytes.size() - offset - elementBytes) / stride < count - 1)
         throw Damage{fmt::format("buffer view {} ends before its accessor's {} elements do", *view, count)};
-    for (std::size_t element = 0; element < count; ++element)
-        take(element, bytes.data() + offset + element * stride);
+    return {bytes.data() + offset, stride};
 }
 
-// Calls `take(element, bytes of it)` for what the accessor holds: its view's elements, then its sparse ones.
-template <class Take>
-void readElements(GltfFile& file, const json& accessor, const Layout& layout, const Take& take) {
-    const json* sparse = member(accessor, "sparse");
+// The elements of the accessor's own view; nothing where it has none. Bounds the count before anything is made that
+// large.
+std::optional<Elements> elementsOf(GltfFile& file, const json& accessor, const Layout& layout) {
     if (member(accessor, "bufferView") != nullptr)
-        forEachElement(file, accessor, layout.count, layout.elementBytes(), take);
-    else if (layout.count > kMaxElementsOfNothing)
+        return elementsAt(file, accessor, layout.count, layout.elementBytes());
+    if (layout.count > kMaxElementsOfNothing)
         throw Damage{fmt::format("an accessor of {} elements has no data", layout.count)};
+    return std::nullopt;
+}
+
+// Calls `take(element, bytes of it)` for the elements that a sparse accessor replaces.
+template <class Take>
+void readSparse(GltfFile& file, const json& accessor, const Layout& layout, const Take& take) {
+    const json* sparse = member(accessor, "sparse");
     if (sparse == nullptr) return;
     const json* indices = member(*sparse, "indices");
     const json* values = member(*sparse, "values");
     const std::size_t count = sizeOf(*sparse, "count", 0);
     if (indices == nullptr || values == nullptr || count > layout.count) throw Damage{"a sparse accessor is damaged"};
     const Component component = componentOf(*indices);
-    std::vector<std::uint32_t> places;
-    forEachElement(file, *indices, count, bytesOf(component),
-                   [&](std::size_t, const std::uint8_t* bytes) { places.push_back(integerAt(bytes, component)); });
-    forEachElement(file, *values, count, layout.elementBytes(), [&](std::size_t i, const std::uint8_t* bytes) {
-        if (places[i] < layout.count) take(places[i], bytes);
-    });
+    const Elements places = elementsAt(file, *indices, count, bytesOf(component));
+    const Elements replaced = elementsAt(file, *values, count, layout.elementBytes());
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t place = integerAt(places.at(i), component);
+        if (place < layout.count) take(place, replaced.at(i));
+    }
 }
 
 void checkWidth(std::size_t has, std::size_t wanted, const char* what) {
@@ -188,24 +202,26 @@ void checkWidth(std::size_t has, std::size_t wanted, const char* what) {
 Numbers readNumbers(GltfFile& file, int accessor) {
     const json& source = file.element("accessors", accessor);
     const Layout layout = layoutOf(source);
-    if (member(source, "bufferView") == nullptr && layout.count > kMaxElementsOfNothing)
-        throw Damage{fmt::format("an accessor of {} elements has no data", layout.count)};
+    const std::optional<Elements> elements = elementsOf(file, source, layout);
+    const std::size_t width = layout.shape.width;
     Numbers numbers;
     numbers.count = layout.count;
-    numbers.width = layout.shape.width;
-    // The view's length bounds the count before anything is made that large.
-    if (member(source, "bufferView") != nullptr)
-        forEachElement(file, source, layout.count, layout.elementBytes(), [](std::size_t, const std::uint8_t*) {});
-    numbers.values.assign(layout.count * layout.shape.width, 0.0F);
-    readElements(file, source, layout, [&](std::size_t element, const std::uint8_t* bytes) {
-        if (layout.component == Component::f32) {  // without gaps, matrices' columns too
-            std::memcpy(&numbers.values[element * layout.shape.width], bytes, layout.shape.width * sizeof(float));
-            return;
-        }
-        for (std::size_t i = 0; i < layout.shape.width; ++i)
-            numbers.values[element * layout.shape.width + i] =
-                numberAt(bytes + layout.offsetOf(i), layout.component, layout.normalised);
-    });
+    numbers.width = width;
+    numbers.values.assign(layout.count * width, 0.0F);
+    const bool plain = layout.component == Component::f32;  // without gaps, matrices' columns too
+    const auto take = [&](std::size_t element, const std::uint8_t* bytes) {
+        float* const out = &numbers.values[element * width];
+        if (plain) std::memcpy(out, bytes, width * sizeof(float));
+        for (std::size_t i = 0; i < width && !plain; ++i)
+            out[i] = numberAt(bytes + layout.offsetOf(i), layout.component, layout.normalised);
+    };
+    if (elements && plain && elements->stride == width * sizeof(float)) {
+        std::memcpy(numbers.values.data(), elements->first, numbers.values.size() * sizeof(float));
+    } else if (elements) {
+        for (std::size_t element = 0; element < layout.count; ++element)
+            take(element, elements->at(element));
+    }
+    readSparse(file, source, layout, take);
     return numbers;
 }
 
@@ -218,14 +234,15 @@ std::vector<std::uint32_t> readIntegers(GltfFile& file, int accessor, std::size_
     const json& source = file.element("accessors", accessor);
     const Layout layout = layoutOf(source);
     checkWidth(layout.shape.width, width, what);
-    std::vector<std::uint32_t> integers;
-    if (member(source, "bufferView") == nullptr)
-        integers.resize(std::min(layout.count, kMaxElementsOfNothing) * width, 0);
-    readElements(file, source, layout, [&](std::size_t element, const std::uint8_t* bytes) {
-        if (integers.size() < (element + 1) * width) integers.resize((element + 1) * width);
+    const std::optional<Elements> elements = elementsOf(file, source, layout);
+    std::vector<std::uint32_t> integers(layout.count * width, 0U);
+    const auto take = [&](std::size_t element, const std::uint8_t* bytes) {
         for (std::size_t i = 0; i < width; ++i)
             integers[element * width + i] = integerAt(bytes + layout.offsetOf(i), layout.component);
-    });
+    };
+    for (std::size_t element = 0; elements && element < layout.count; ++element)
+        take(element, elements->at(element));
+    readSparse(file, source, layout, take);
     return integers;
 }
 
