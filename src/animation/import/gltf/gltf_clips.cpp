@@ -30,6 +30,8 @@ void takeKeys(const Numbers& times, const Numbers& values, SourceChannel& channe
     const std::size_t perKey = parts * values.width;
     const std::size_t keys = std::min(times.count, values.count / parts);
     if (keys < times.count) file.leaveOut("keys of animations that have no value");
+    channel.times.reserve(keys);
+    channel.values.reserve(keys * perKey);
     for (std::size_t key = 0; key < keys; ++key) {
         const double time = times.at(key, 0);
         if (!std::isfinite(time) || (!channel.times.empty() && time < channel.times.back())) {

@@ -142,8 +142,8 @@ void GltfFile::readContainer() {
             at += 8;
             const std::size_t there = std::min(length, bytes.size() - at);
             const std::span<const std::uint8_t> chunk(bytes.data() + at, there);
-            if (kind == 0x4E4F534A && text.empty()) text = chunk;                                   // "JSON"
-            if (kind == 0x004E4942 && binary_.empty()) binary_.assign(chunk.begin(), chunk.end());  // "BIN"
+            if (kind == 0x4E4F534A && text.empty()) text = chunk;        // "JSON"
+            if (kind == 0x004E4942 && binary_.empty()) binary_ = chunk;  // "BIN"
             at += there;
         }
     }
@@ -153,6 +153,7 @@ void GltfFile::readContainer() {
         throw Damage{fmt::format("its JSON is nested deeper than {}", kMaxJsonDepth), "export only the character"};
     json_ = nlohmann::json::parse(text.begin(), text.end(), nullptr, false);
     if (json_.is_discarded() || !json_.is_object()) throw Damage{"the glTF's JSON is broken or cut off"};
+    if (!binary_.empty()) container_ = std::move(bytes);  // a vector that is moved stays where it is
     const nlohmann::json* asset = member(json_, "asset");
     std::string version = asset == nullptr ? "" : textOf(*asset, "version");
     // Early writers of glTF 1.0 made it a number.

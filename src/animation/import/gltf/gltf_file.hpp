@@ -51,7 +51,8 @@ class GltfFile {
     std::filesystem::path file_;
     ModelFolder folder_;
     nlohmann::json json_;
-    std::vector<std::uint8_t> binary_;  ///< The .glb's own buffer.
+    std::vector<std::uint8_t> container_;   ///< The whole .glb.
+    std::span<const std::uint8_t> binary_;  ///< The .glb's own buffer in it.
     std::map<int, std::vector<std::uint8_t>> buffers_;
     std::map<int, std::vector<std::uint8_t>> unpackedViews_;
     std::set<std::string> leftOut_;
