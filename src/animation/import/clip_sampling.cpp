@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -161,6 +163,34 @@ struct Timing {
     int frames = 0;
 };
 
+// Whether a frame turns and scales alone, and that by one number.
+bool scalesEvenly(const dmat4& frame) {
+    constexpr double kRounding = 1e-4;
+    const dmat3 square = glm::transpose(dmat3(frame)) * dmat3(frame);
+    const dmat3 off = square - dmat3(square[0][0]);
+    const dvec3 most = glm::max(glm::abs(off[0]), glm::max(glm::abs(off[1]), glm::abs(off[2])));
+    return std::max({most.x, most.y, most.z}) <= kRounding * square[0][0];
+}
+
+// Whether all nodes scale evenly, and by as much all the time: then turning them neither stretches nor shears a skin,
+// and one frame tells the scale of all.
+bool scalesSteadily(const ClipFile& file, const SourceClip& clip) {
+    constexpr double kRounding = 1e-4;
+    for (const NodeTree::Node& node : file.tree.nodes) {
+        if (!scalesEvenly(node.parentFromNode)) return false;
+    }
+    for (const SourceChannel& channel : clip.channels) {
+        if (channel.path != SourceChannel::Path::scale) continue;
+        if (channel.interpolation == SourceChannel::Interpolation::cubicSpline) return false;
+        const dvec3 own = file.own[static_cast<std::size_t>(channel.node)].scale;
+        for (std::size_t key = 0; key < channel.times.size(); ++key) {
+            const dvec3 off = glm::abs(dvec3(keyAt(channel, key)) - own);
+            if (!(std::max({off.x, off.y, off.z}) <= kRounding * std::abs(own.x))) return false;
+        }
+    }
+    return true;
+}
+
 // The frames to look at for scale that has to be dropped: a share of all, and those where a scale is at its farthest
 // from where it starts.
 std::vector<int> tellingFrames(const SourceClip& clip, const Timing& timing) {
@@ -292,7 +322,9 @@ Clip makeClip(const std::shared_ptr<const ClipFile>& file, const SourceClip& ani
     Clip clip = outlineOf(animation, joints, budget, timing, warnings);
     ClipSampler sampler(*file, animation);
     timing.commonScale = commonScale(*file, sampler.at(timing.start), clip.name, warnings);
-    const double worst = sampler.droppedScale(tellingFrames(animation, timing), timing);
+    const std::vector<int> frames =
+        scalesSteadily(*file, animation) ? std::vector<int>{0} : tellingFrames(animation, timing);
+    const double worst = sampler.droppedScale(frames, timing);
     if (worst > kVisibleScaleOfClip) {
         warnings.push_back(
             fmt::format("clip '{}' scales joints by up to {:.0f} %; the scale was dropped", clip.name, 100.0 * worst));

@@ -457,21 +457,6 @@ TEST_CASE("a clip is sampled to the known keyframes") {
     CHECK(std::abs(pose[middle].rotation.w) > 1.0F - 1e-5F);
 }
 
-TEST_CASE("scale in a clip is dropped with its figure") {
-    GltfFile file = makePostRig();
-    file.json["nodes"][3].erase("matrix");
-    file.json["nodes"][3]["translation"] = {0, 0.6, 0};
-    const std::vector<float> times = {0.0F, 1.0F};
-    const std::vector<float> scales = {1, 1, 1, 1.5F, 1.5F, 1.5F};
-    file.json["animations"] = {
-        {{"name", "swell"},
-         {"samplers", {{{"input", file.addFloats(times, "SCALAR")}, {"output", file.addFloats(scales, "VEC3")}}}},
-         {"channels", {{{"sampler", 0}, {"target", {{"node", 3}, {"path", "scale"}}}}}}}};
-    const Character character = importedRig(file);
-    REQUIRE(character.clips.size() == 1);
-    CHECK(warns(character, "'swell' scales joints by up to 50 %"));
-}
-
 TEST_CASE("a clip keeps the file's time, but does not wait for a far first key") {
     struct Case {
         float first;

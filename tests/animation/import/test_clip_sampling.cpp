@@ -1,0 +1,68 @@
+// Scale in clips, which rigid joints can't have: it is told wherever it shows, however it comes about.
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "animation/import/checks.hpp"
+#include "animation/import/gltf_file.hpp"
+#include "support/catch.hpp"
+
+using namespace lutka;
+using namespace lutka::animation;
+using namespace lutka::test;
+
+namespace {
+
+constexpr int kMiddle = 2;  // nodes of the post's rig
+constexpr int kHigh = 3;
+
+// A clip "swell" that scales a joint, which loses its matrix for it.
+GltfFile rigScaledBy(const std::vector<float>& keys, const std::string& interpolation) {
+    GltfFile file = makePostRig();
+    file.json["nodes"][kHigh].erase("matrix");
+    file.json["nodes"][kHigh]["translation"] = {0, 0.6, 0};
+    const std::vector<float> times = {0.0F, 1.0F};
+    file.json["animations"] = {{{"name", "swell"},
+                                {"samplers",
+                                 {{{"input", file.addFloats(times, "SCALAR")},
+                                   {"output", file.addFloats(keys, "VEC3")},
+                                   {"interpolation", interpolation}}}},
+                                {"channels", {{{"sampler", 0}, {"target", {{"node", kHigh}, {"path", "scale"}}}}}}}};
+    return file;
+}
+
+Character sampledRig(const GltfFile& file) {
+    const TemporaryFolder folder;
+    file.saveText(folder / "rig.gltf");
+    Character character = imported(folder / "rig.gltf");
+    checkInvariants(character);
+    REQUIRE(character.clips.size() == 1);
+    return character;
+}
+
+}  // namespace
+
+TEST_CASE("scale in a clip is dropped with its figure") {
+    const Character character = sampledRig(rigScaledBy({1, 1, 1, 1.5F, 1.5F, 1.5F}, "LINEAR"));
+    CHECK(warns(character, "'swell' scales joints by up to 50 %"));
+}
+
+TEST_CASE("a clip that keys the scale that its joints have is told nothing of") {
+    CHECK(sampledRig(rigScaledBy({1, 1, 1, 1, 1, 1.00001F}, "LINEAR")).warnings.empty());
+}
+
+TEST_CASE("a scale that keys hold and tangents do not is dropped with its figure") {
+    const std::vector<float> swelling = {0, 0, 0, 1, 1, 1, 4, 4, 4, -4, -4, -4, 1, 1, 1, 0, 0, 0};
+    CHECK(warns(sampledRig(rigScaledBy(swelling, "CUBICSPLINE")), "'swell' scales joints by up to 100 %"));
+}
+
+TEST_CASE("a joint that turns below an uneven scale shears, which is dropped with its figure") {
+    GltfFile file = makePostRig(glm::scale(mat4(1.0F), vec3(1, 2, 1)));
+    const float half = std::sqrt(0.5F);
+    const std::vector<float> times = {0.0F, 1.0F};
+    const std::vector<float> turn = {0, 0, 0, 1, half, 0, 0, half};
+    file.json["nodes"][kMiddle].erase("matrix");
+    file.json["nodes"][kMiddle]["translation"] = {0, 0.3, 0};
+    file.addTurn("turn", kMiddle, times, file.addFloats(turn, "VEC4"), "LINEAR");
+    CHECK(warns(sampledRig(file), "'turn' scales joints by up to 100 %"));
+}
