@@ -2,28 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 namespace lutka::animation::rig_import {
 namespace {
 
-struct Key {
+// Where a vertex belongs: by how many joints move it, then by these, then by where it was.
+struct Place {
     int count = 0;
-    std::array<std::uint16_t, kMaxInfluences> joints{};  // those that count
+    std::uint64_t joints = 0;  // sixteen bits each, the strongest highest; of those that count
+    std::uint32_t vertex = 0;
 
-    [[nodiscard]] bool operator<(const Key& other) const {
-        return std::tie(count, joints) < std::tie(other.count, other.joints);
+    [[nodiscard]] bool operator<(const Place& other) const {
+        return std::tie(count, joints, vertex) < std::tie(other.count, other.joints, other.vertex);
     }
 };
 
-Key keyOf(const SkinnedMesh& mesh, std::size_t vertex) {
-    Key key;
-    while (key.count < kMaxInfluences && mesh.weights[vertex][key.count] > 0.0F) {
-        key.joints[key.count] = mesh.joints[vertex][key.count];
-        ++key.count;
+Place placeOf(const SkinnedMesh& mesh, std::uint32_t vertex) {
+    Place place;
+    place.vertex = vertex;
+    while (place.count < kMaxInfluences && mesh.weights[vertex][place.count] > 0.0F) {
+        const std::uint64_t joint = mesh.joints[vertex][place.count];
+        ++place.count;
+        place.joints |= joint << static_cast<unsigned>(16 * (kMaxInfluences - place.count));
     }
-    return key;
+    return place;
 }
 
 template <class T>
@@ -64,20 +67,22 @@ void orderForSkinning(SkinnedMesh& mesh) {
     flush(mesh.positions);
     flush(mesh.normals);
     flush(mesh.tangents);
-    std::vector<Key> keys;
-    keys.reserve(mesh.positions.size());
-    for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex)
-        keys.push_back(keyOf(mesh, vertex));
-    std::vector<std::uint32_t> order(mesh.positions.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
+    std::vector<Place> places;
+    places.reserve(mesh.positions.size());
+    for (std::uint32_t vertex = 0; vertex < mesh.positions.size(); ++vertex)
+        places.push_back(placeOf(mesh, vertex));
+    std::sort(places.begin(), places.end());
+    std::vector<std::uint32_t> order;
+    order.reserve(places.size());
+    for (const Place& place : places)
+        order.push_back(place.vertex);
     takeVertices(mesh, order);
-    std::vector<std::uint32_t> placeOf(order.size());
+    std::vector<std::uint32_t> newIndex(order.size());
     for (std::uint32_t place = 0; place < order.size(); ++place)
-        placeOf[order[place]] = place;
+        newIndex[order[place]] = place;
     for (std::uint32_t& index : mesh.indices)
-        index = placeOf[index];
-    mesh.fileOrder = std::move(placeOf);
+        index = newIndex[index];
+    mesh.fileOrder = std::move(newIndex);
 }
 
 }  // namespace lutka::animation::rig_import

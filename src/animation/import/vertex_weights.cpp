@@ -25,9 +25,20 @@ void add(std::vector<Influence>& influences, int joint, double weight) {
     influences.push_back({joint, weight});
 }
 
+// Those of the same weight stay in their order.
+void sortByWeight(std::vector<Influence>& influences) {
+    constexpr std::size_t kFew = 16;  // so many are in place before a sort has got its memory
+    const auto heavier = [](const Influence& a, const Influence& b) { return a.weight > b.weight; };
+    if (influences.size() > kFew) {
+        std::stable_sort(influences.begin(), influences.end(), heavier);
+        return;
+    }
+    for (auto next = influences.begin(); next != influences.end(); ++next)
+        std::rotate(std::upper_bound(influences.begin(), next, *next, heavier), next, next + 1);
+}
+
 VertexSkin strongest(std::vector<Influence>& influences, WeightRepairs& repairs) {
-    std::stable_sort(influences.begin(), influences.end(),
-                     [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
+    sortByWeight(influences);
     double all = 0.0;
     for (const Influence& influence : influences)
         all += influence.weight;
