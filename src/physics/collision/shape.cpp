@@ -145,7 +145,7 @@ vec3 shapeInertia(const BodyShape& shape, float massKg) {
 }
 
 float signedDistance(const PrimitiveShape& shape, const vec3& bodyPoint) {
-    if (shape.kind == PrimitiveShape::Kind::box) return distanceToBox(bodyPoint, shape.halfExtents).distance;
+    if (shape.kind == PrimitiveShape::Kind::box) return distanceFromBox(bodyPoint, shape.halfExtents);
     if (shape.kind == PrimitiveShape::Kind::hull) return distanceToHull(bodyPoint, *shape.hull).distance;
     const float half = shape.kind == PrimitiveShape::Kind::capsule ? shape.halfLength : 0.0F;
     const vec3 onAxis(0, std::clamp(bodyPoint.y, -half, half), 0);

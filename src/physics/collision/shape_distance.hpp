@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "core/rigid_transform.hpp"
@@ -32,6 +34,15 @@ struct SurfaceDistance {
     vec3 normal{0, 1, 0};
 };
 [[nodiscard]] SurfaceDistance distanceToBox(const vec3& point, const vec3& halfExtents);
+
+/// Its distance alone, at a fraction of the cost.
+[[nodiscard]] inline float distanceFromBox(const vec3& point, const vec3& halfExtents) {
+    const vec3 beyond(std::abs(point.x) - halfExtents.x, std::abs(point.y) - halfExtents.y,
+                      std::abs(point.z) - halfExtents.z);
+    const vec3 outside(std::max(beyond.x, 0.0F), std::max(beyond.y, 0.0F), std::max(beyond.z, 0.0F));
+    const float gap = std::sqrt(outside.x * outside.x + outside.y * outside.y + outside.z * outside.z);
+    return gap > 0.0F ? gap : std::max({beyond.x, beyond.y, beyond.z});
+}
 
 /// One of a box's eight corners in its own frame: bit 0 of `index` tells the side along x, 1 along y, 2 along z.
 [[nodiscard]] vec3 boxCorner(const vec3& halfExtents, int index);

@@ -34,7 +34,7 @@ struct BoxTrial {
 };
 
 float distanceFrom(const BoxTrial& box, const vec3& point) {
-    return distanceToBox(point - box.center, box.half).distance;
+    return distanceFromBox(point - box.center, box.half);
 }
 
 bool isPlate(vec3 half) {

@@ -4,6 +4,8 @@
 #include <array>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <optional>
+#include <span>
 
 #include "core/quantile.hpp"
 #include "physics/collision/shape.hpp"
@@ -433,13 +435,12 @@ PlacedBox mirroredBox(const BodyPlan& plan, const PlacedBox& box, const PlannedB
 
 // Bodies whose skin is a box, as in figures made of blocks, become one, both of a pair or none. What they touch beside
 // them separateShapes() parts.
-void takeBoxes(const BodyPlan& plan, const Anatomy& anatomy, const std::vector<Capsule>& capsules,
+void takeBoxes(const BodyPlan& plan, std::span<const std::optional<BodyFit>> fits, const std::vector<Capsule>& capsules,
                std::vector<PlacedShape>& shapes) {
     for (int body = 0; body < static_cast<int>(plan.bodies.size()); ++body) {
         const PlannedBody& planned = plan.bodies[body];
         const bool paired = plan.symmetric && planned.side != Side::center && planned.mirror >= 0;
-        if (paired && planned.side == Side::right) continue;
-        const auto box = BodyFit(plan, anatomy, body).fitBox(capsules[body]);
+        const auto box = fits[body] ? fits[body]->fitBox(capsules[body]) : std::nullopt;
         if (!box) continue;
         shapes[body] = placeBox(*box);
         if (!paired) continue;
@@ -448,13 +449,13 @@ void takeBoxes(const BodyPlan& plan, const Anatomy& anatomy, const std::vector<C
     }
 }
 
-void addFurtherShapes(const BodyPlan& plan, const Anatomy& anatomy, int most, const std::vector<Capsule>& capsules,
-                      std::vector<PlacedShape>& shapes) {
+void addFurtherShapes(const BodyPlan& plan, std::span<const std::optional<BodyFit>> fits, int most,
+                      const std::vector<Capsule>& capsules, std::vector<PlacedShape>& shapes) {
     for (int body = 0; body < static_cast<int>(plan.bodies.size()); ++body) {
         const PlannedBody& planned = plan.bodies[body];
         if (plan.symmetric && planned.side != Side::center && planned.mirror >= 0) continue;
         if (shapes[body].shape.kind == BodyShape::Kind::box) continue;
-        const auto several = BodyFit(plan, anatomy, body).fitSeveral(capsules[body], most);
+        const auto several = fits[body]->fitSeveral(capsules[body], most);
         if (!several) continue;
         PlacedShape wanted = placeCapsules(*several);
         if (!comesIntoOthers(plan, shapes, body, wanted)) shapes[body] = std::move(wanted);
@@ -465,21 +466,22 @@ void addFurtherShapes(const BodyPlan& plan, const Anatomy& anatomy, int most, co
 
 std::vector<PlacedShape> fitShapes(const BodyPlan& plan, const Anatomy& anatomy, int mostShapes) {
     std::vector<Capsule> capsules(plan.bodies.size());
+    std::vector<std::optional<BodyFit>> fits(plan.bodies.size());  // of those that are not mirrored from the left
     for (int body = 0; body < static_cast<int>(plan.bodies.size()); ++body) {
         const PlannedBody& planned = plan.bodies[body];
         if (plan.symmetric && planned.side == Side::right && planned.mirror >= 0) {
             const int left = planned.mirror;
             capsules[body] = mirroredCapsule(plan, capsules[left], plan.bodies[left], planned);
         } else {
-            capsules[body] = BodyFit(plan, anatomy, body).fit();
+            capsules[body] = fits[body].emplace(plan, anatomy, body).fit();
         }
     }
     std::vector<PlacedShape> shapes;
     shapes.reserve(capsules.size());
     for (const Capsule& capsule : capsules)
         shapes.push_back(placeCapsule(capsule));
-    takeBoxes(plan, anatomy, capsules, shapes);
-    addFurtherShapes(plan, anatomy, mostShapes, capsules, shapes);
+    takeBoxes(plan, fits, capsules, shapes);
+    addFurtherShapes(plan, fits, mostShapes, capsules, shapes);
     takeHulls(plan, shapes);
     separateShapes(plan, shapes);
     return shapes;
