@@ -47,7 +47,9 @@ class TrunkFinder {
         if (rig_.parents[leg[0]] == rig_.parents[leg[1]]) thighParent_ = rig_.parents[leg[0]];
         trunkRoot_ =
             legParent_ == kNoJoint || armParent_ == kNoJoint ? kNoJoint : rig_.commonAncestor(legParent_, armParent_);
+        isCentral_.reserve(static_cast<std::size_t>(rig_.count()));
         for (int joint = 0; joint < rig_.count(); ++joint) {
+            isCentral_.push_back(standsInTheMiddle(joint));
             if (isCentral(joint)) central_.push_back(joint);
         }
     }
@@ -56,20 +58,26 @@ class TrunkFinder {
         TrunkCandidate best;
         const std::vector<Scored> heads = likelyHeads(ban.head);
         const std::vector<int> chests = possibleChests(ban.chest);
+        std::vector<float> neckScores;  // of every head on every chest, whatever the hips
+        for (const Scored& head : heads) {
+            for (const int chest : chests)
+                neckScores.push_back(neckScore(chest, head.joint));
+        }
         for (const auto& [hips, hipsScore] : likelyHips(ban.hips)) {
+            auto neck = neckScores.begin();
             for (const auto& [head, headScore] : heads) {
                 for (const int chest : chests) {
                     TrunkCandidate candidate;
                     candidate.hips = hips;
                     candidate.chest = chest;
                     candidate.head = head;
-                    candidate.score = hipsScore + headScore + chestScore(candidate);
+                    candidate.score = hipsScore + headScore + chestScore(candidate, *neck++);
                     if (candidate.score > best.score) best = candidate;
                 }
             }
         }
         if (best.hips == kNoJoint) return best;
-        best.neck = lowestNeck(best);
+        best.neck = lowestOf(necksOf(best.chest, best.head));
         account(best);
         return best;
     }
@@ -123,7 +131,8 @@ class TrunkFinder {
     [[nodiscard]] const vec3& position(int joint) const { return framed_.positions[joint]; }
     [[nodiscard]] float name(int joint, Part part) const { return rig_.names[joint].parts[part]; }
 
-    [[nodiscard]] bool isCentral(int joint) const {
+    [[nodiscard]] bool isCentral(int joint) const { return isCentral_[static_cast<std::size_t>(joint)]; }
+    [[nodiscard]] bool standsInTheMiddle(int joint) const {
         const int pair = framed_.pairOf[joint];
         if (pair >= 0 && (legs_.uses(pair) || arms_.uses(pair))) return false;
         // A dancer's or fallen figure's trunk may lie to the side; its names tell.
@@ -251,7 +260,7 @@ class TrunkFinder {
     [[nodiscard]] int armRoot() const { return framed_.pairs[arms_.first].joints[0]; }
     [[nodiscard]] int legRoot() const { return framed_.pairs[legs_.first].joints[0]; }
 
-    [[nodiscard]] float chestScore(const TrunkCandidate& trunk) const {
+    [[nodiscard]] float chestScore(const TrunkCandidate& trunk, float neckScore) const {
         const int chest = trunk.chest;
         const vec3& place = position(chest);
         if (chest == trunk.head) return -kFarAway;
@@ -287,7 +296,7 @@ class TrunkFinder {
         if (trunk.head == kNoJoint) return score;
         if (isCopyOfWhatCarries(chest, trunk.head)) score += kOfTwoSkeletons;
         score += near((position(trunk.head).y - place.y) / length_, 0.6F, 0.25F, isNamedHead(trunk.head) ? 1.5F : 4.0F);
-        return score + neckScore(trunk);
+        return score + neckScore;
     }
 
     // `below` hangs on another joint in this one's place: one of the two is a control rig's. A skin tells better which.
@@ -307,35 +316,33 @@ class TrunkFinder {
     }
 
     // How many joints lie between chest and head, and what they are called.
-    [[nodiscard]] float neckScore(const TrunkCandidate& trunk) const {
-        const std::vector<int> necks = necksOf(trunk);
+    [[nodiscard]] float neckScore(int chest, int head) const {
+        if (head == kNoJoint) return 0.0F;
+        const std::vector<int> necks = necksOf(chest, head);
         constexpr float kByCount[] = {-0.9F, 0.0F, -0.2F, -0.5F};
         float score = kByCount[std::min<std::size_t>(necks.size(), 3)];
-        if (!necks.empty()) score += name(lowestNeck(trunk), Part::neck);
-        const int lowest = necks.empty() ? kNoJoint : lowestNeck(trunk);
-        const bool carries = lowest != kNoJoint && armParent_ != kNoJoint && armParent_ != trunk.chest &&
-                             armParent_ != lowest && rig_.isAncestorOrSelf(trunk.chest, armParent_) &&
-                             rig_.isAncestorOrSelf(armParent_, lowest);
-        if (carries) score += kArmsAboveChest;
-        return score;
+        const int lowest = lowestOf(necks);
+        if (lowest == kNoJoint) return score;
+        score += name(lowest, Part::neck);
+        const bool carries = armParent_ != kNoJoint && armParent_ != chest && armParent_ != lowest &&
+                             rig_.isAncestorOrSelf(chest, armParent_) && rig_.isAncestorOrSelf(armParent_, lowest);
+        return carries ? score + kArmsAboveChest : score;
     }
 
-    [[nodiscard]] std::vector<int> necksOf(const TrunkCandidate& trunk) const {
+    [[nodiscard]] std::vector<int> necksOf(int chest, int head) const {
         std::vector<int> necks;
-        if (trunk.head == kNoJoint) return necks;
-        for (int joint = rig_.parents[trunk.head]; joint != kNoJoint && joint != trunk.chest;
-             joint = rig_.parents[joint]) {
-            if (rig_.isAncestorOrSelf(joint, trunk.chest)) break;
-            const bool between = position(joint).y > position(trunk.chest).y - 0.02F * length_;
+        if (head == kNoJoint) return necks;
+        for (int joint = rig_.parents[head]; joint != kNoJoint && joint != chest; joint = rig_.parents[joint]) {
+            if (rig_.isAncestorOrSelf(joint, chest)) break;
+            const bool between = position(joint).y > position(chest).y - 0.02F * length_;
             if (isCentral(joint) && between) necks.push_back(joint);
         }
         return necks;
     }
 
-    [[nodiscard]] int lowestNeck(const TrunkCandidate& trunk) const {
+    [[nodiscard]] int lowestOf(const std::vector<int>& necks) const {
         int best = kNoJoint;
         float bestScore = -kFarAway;
-        const std::vector<int> necks = necksOf(trunk);
         // What carries the arms is the trunk, unless its name says neck or nothing else is one.
         const auto carriesArms = [&](int joint) {
             return rig_.isAncestorOrSelf(joint, armRoot()) && name(joint, Part::neck) <= 0.0F;
@@ -361,6 +368,7 @@ class TrunkFinder {
     int thighParent_ = kNoJoint;  // of both, where it is one
     int armParent_ = kNoJoint;
     int trunkRoot_ = kNoJoint;
+    std::vector<bool> isCentral_;
     std::vector<int> central_;
 };
 
