@@ -83,6 +83,7 @@ void mergeVertices(SkinnedMesh& mesh) {
         newIndex[v] = first == v ? static_cast<std::uint32_t>(kept.size()) : newIndex[first];
         if (first == v) kept.push_back(v);
     }
+    if (kept.size() == mesh.positions.size()) return;
     for (std::uint32_t& v : mesh.indices)
         v = newIndex[v];
     takeVertices(mesh, kept);

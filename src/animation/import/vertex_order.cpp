@@ -7,26 +7,40 @@
 namespace lutka::animation::rig_import {
 namespace {
 
-// Where a vertex belongs: by how many joints move it, then by these, then by where it was.
-struct Place {
+// Vertices that follow each other and belong to one place: by how many joints move them, then by these, then by where
+// they were.
+struct Run {
     int count = 0;
     std::uint64_t joints = 0;  // sixteen bits each, the strongest highest; of those that count
-    std::uint32_t vertex = 0;
+    std::uint32_t first = 0;
+    std::uint32_t length = 1;
 
-    [[nodiscard]] bool operator<(const Place& other) const {
-        return std::tie(count, joints, vertex) < std::tie(other.count, other.joints, other.vertex);
+    [[nodiscard]] bool operator<(const Run& other) const {
+        return std::tie(count, joints, first) < std::tie(other.count, other.joints, other.first);
     }
 };
 
-Place placeOf(const SkinnedMesh& mesh, std::uint32_t vertex) {
-    Place place;
-    place.vertex = vertex;
-    while (place.count < kMaxInfluences && mesh.weights[vertex][place.count] > 0.0F) {
-        const std::uint64_t joint = mesh.joints[vertex][place.count];
-        ++place.count;
-        place.joints |= joint << static_cast<unsigned>(16 * (kMaxInfluences - place.count));
+Run runOf(const SkinnedMesh& mesh, std::uint32_t vertex) {
+    Run run;
+    run.first = vertex;
+    while (run.count < kMaxInfluences && mesh.weights[vertex][run.count] > 0.0F) {
+        const std::uint64_t joint = mesh.joints[vertex][run.count];
+        ++run.count;
+        run.joints |= joint << static_cast<unsigned>(16 * (kMaxInfluences - run.count));
     }
-    return place;
+    return run;
+}
+
+std::vector<Run> runsOf(const SkinnedMesh& mesh) {
+    std::vector<Run> runs;
+    for (std::uint32_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
+        const Run next = runOf(mesh, vertex);
+        if (!runs.empty() && runs.back().count == next.count && runs.back().joints == next.joints)
+            ++runs.back().length;
+        else
+            runs.push_back(next);
+    }
+    return runs;
 }
 
 template <class T>
@@ -67,15 +81,14 @@ void orderForSkinning(SkinnedMesh& mesh) {
     flush(mesh.positions);
     flush(mesh.normals);
     flush(mesh.tangents);
-    std::vector<Place> places;
-    places.reserve(mesh.positions.size());
-    for (std::uint32_t vertex = 0; vertex < mesh.positions.size(); ++vertex)
-        places.push_back(placeOf(mesh, vertex));
-    std::sort(places.begin(), places.end());
+    std::vector<Run> runs = runsOf(mesh);
+    std::sort(runs.begin(), runs.end());
     std::vector<std::uint32_t> order;
-    order.reserve(places.size());
-    for (const Place& place : places)
-        order.push_back(place.vertex);
+    order.reserve(mesh.positions.size());
+    for (const Run& run : runs) {
+        for (std::uint32_t i = 0; i < run.length; ++i)
+            order.push_back(run.first + i);
+    }
     takeVertices(mesh, order);
     std::vector<std::uint32_t> newIndex(order.size());
     for (std::uint32_t place = 0; place < order.size(); ++place)
