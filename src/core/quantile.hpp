@@ -55,7 +55,7 @@ template <std::size_t Count, class Point, class Value>
     for (std::size_t i = 0; i < Count; ++i) {
         const bool low = shares[i] <= 0.5F;
         const float share = low ? shares[i] : 1.0F - shares[i];
-        const auto likely = 8 + static_cast<std::size_t>(2.0F * share * static_cast<float>(points.size()));
+        const auto likely = 4 + static_cast<std::size_t>(1.5F * share * static_cast<float>(points.size()));
         float passed = 0.0F;
         if (low) {
             result[i] = walkInOrder(entries, likely, std::less<Entry>(), [&](const Entry& entry) {
