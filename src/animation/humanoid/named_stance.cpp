@@ -38,6 +38,12 @@ bool namesHips(const RigFeatures& rig) {
            rig.names[parent].side == Side::center && rig.names[parent].parts[Part::hips] >= 0.0F;
 }
 
+// Where the spine is numbered up to the head, eyes and ears tell that there is one.
+bool namesHead(const RigFeatures& rig) {
+    if (namedJoint(rig, Part::head, Side::center, kNamedTrunkEnd) != kNoJoint) return true;
+    return std::count_if(rig.names.begin(), rig.names.end(), [](const NameEvidence& name) { return name.face; }) >= 2;
+}
+
 bool namesWholeFigure(const RigFeatures& rig) {
     constexpr std::array<Part, 6> kLimbs{Part::upperArm, Part::lowerArm, Part::hand,
                                          Part::upperLeg, Part::lowerLeg, Part::foot};
@@ -45,7 +51,7 @@ bool namesWholeFigure(const RigFeatures& rig) {
         if (namedJoint(rig, part, Side::left, kNamedLimb) == kNoJoint) return false;
         if (namedJoint(rig, part, Side::right, kNamedLimb) == kNoJoint) return false;
     }
-    return namesHips(rig) && namedJoint(rig, Part::head, Side::center, kNamedTrunkEnd) != kNoJoint;
+    return namesHips(rig) && namesHead(rig);
 }
 
 }  // namespace

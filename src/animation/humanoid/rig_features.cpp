@@ -135,7 +135,9 @@ void findShadows(RigFeatures& rig) {
             // A leaf that moves much of the skin is a part of its own: a head that starts where the clavicles do.
             const bool leafOfMore = rig.children[joint].empty() && !rig.children[other].empty() &&
                                     (!rig.skinned || rig.rigidPart[joint] || rig.directWeight[joint] < kOwnPart);
-            rig.shadow[joint] = (otherSkinned && rig.directWeight[joint] <= 0.0F) ||
+            // Nor is a joint the shadow of a leaf that moves its skin for it.
+            const bool movesForIt = rig.parents[other] == joint && rig.children[other].empty();
+            rig.shadow[joint] = (otherSkinned && !movesForIt && rig.directWeight[joint] <= 0.0F) ||
                                 (leafOfMore && (otherSkinned || partOfOther || !rig.skinned));
         }
     }

@@ -25,8 +25,11 @@ constexpr float kNamedPose = -2.0F;       // the most that the place of a head s
 constexpr float kOfTwoSkeletons = -4.0F;  // of a trunk and what hangs on it, of its copy
 constexpr float kArmsAboveChest = -1.5F;  // the arms hang on a joint between chest and neck
 constexpr float kCarriesFace = 3.0F;      // eyes or ears hang on it
+constexpr float kGoesOnAlike = -1.0F;     // the joint above it is named as its next segment
 constexpr float kWholeHead = 0.8F;        // of the skin above the arms
 constexpr float kWholePose = -1.0F;       // the most that the place of what keeps so much may cost
+constexpr float kSamePlace = 0.01F;       // of the trunk: a copy's
+constexpr float kSameJoint = 0.03F;       // … and of a part that has a joint of its own
 constexpr std::size_t kHeadsTried = 6;
 constexpr std::size_t kHipsTried = 4;
 constexpr float kFarAway = 1e8F;
@@ -52,6 +55,7 @@ class TrunkFinder {
             isCentral_.push_back(standsInTheMiddle(joint));
             if (isCentral(joint)) central_.push_back(joint);
         }
+        findStrayFaces();
     }
 
     TrunkCandidate find(const TrunkBan& ban) {
@@ -212,6 +216,7 @@ class TrunkFinder {
                                               : pose);
             if (skinAbove > 0.0F) score += 2.0F * std::min(retainedSkin(joint) / (0.4F * skinAbove), 1.0F);
             if (carriesFace(joint)) score += kCarriesFace;
+            if (!isNamedHead(joint) && goesOnAlike(joint)) score += kGoesOnAlike;
             // Arms on the head: a head that is the trunk, too, has that name.
             if (rig_.isAncestorOrSelf(joint, armRoot())) score -= isNamedHead(joint) ? 1.0F : 6.0F;
             heads.push_back({joint, score});
@@ -231,20 +236,62 @@ class TrunkFinder {
     // A head that is thrust forward is still one by its name.
     [[nodiscard]] bool isNamedHead(int joint) const { return name(joint, Part::head) >= kNamedHead; }
 
-    // Two joints of a face hang on it: eyes, ears.
-    [[nodiscard]] bool carriesFace(int joint) const {
-        const auto isFace = [&](int child) { return rig_.names[child].face; };
-        return std::count_if(rig_.children[joint].begin(), rig_.children[joint].end(), isFace) >= 2;
+    // "spine.005" goes on as "spine.006": where the spine is numbered up to the head, the last one is the head.
+    [[nodiscard]] bool goesOnAlike(int joint) const {
+        return std::any_of(rig_.children[joint].begin(), rig_.children[joint].end(), [&](int child) {
+            return isCentral(child) && rig_.carriesSkin(child) && position(child).y > position(joint).y &&
+                   !isInPlaceOf(child, joint) && isSecondSegment(rig_.names[joint], rig_.names[child]);
+        });
+    }
+
+    // Two joints of a face hang on it: eyes, ears. A face in its place is part of it.
+    [[nodiscard]] bool carriesFace(int joint) const { return !rig_.names[joint].face && facesOn(joint) >= 2; }
+
+    // Flattened rigs hang the joints of the face on the root: they belong to what is nearest to them.
+    void findStrayFaces() {
+        strayFaces_.assign(static_cast<std::size_t>(rig_.count()), 0);
+        for (int face = 0; face < rig_.count(); ++face) {
+            const int parent = rig_.parents[face];
+            if (!rig_.names[face].face || position(face).y < arms_.root.y) continue;
+            if (parent != kNoJoint && !rig_.isAncestorOrSelf(parent, armRoot())) continue;
+            int nearest = kNoJoint;
+            float least = kFarAway;
+            for (const int joint : central_) {
+                const float distance = glm::distance(position(joint), position(face));
+                if (rig_.names[joint].face || distance >= least) continue;
+                least = distance;
+                nearest = joint;
+            }
+            if (nearest != kNoJoint) ++strayFaces_[nearest];
+        }
+    }
+
+    [[nodiscard]] int facesOn(int joint) const {
+        int faces = strayFaces_[joint];
+        for (const int child : rig_.children[joint]) {
+            if (rig_.names[child].face) ++faces;
+            if (isInPlaceOf(child, joint)) faces += facesOn(child);
+        }
+        return faces;
+    }
+
+    [[nodiscard]] bool isInPlaceOf(int joint, int other, float tolerance = kSameJoint) const {
+        return glm::distance(position(joint), position(other)) < tolerance * length_;
     }
 
     // Skin at and below a joint, without what goes on upwards along the middle: much for a head, little for a neck.
-    [[nodiscard]] float retainedSkin(int joint) const {
+    [[nodiscard]] float retainedSkin(int joint) const { return rig_.subtreeWeight[joint] - skinOnwards(joint); }
+
+    // What hangs in the joint's own place is a part of it and goes nowhere.
+    [[nodiscard]] float skinOnwards(int joint) const {
         float onward = 0.0F;
         for (const int child : rig_.children[joint]) {
+            if (!isCentral(child)) continue;
             const bool part = rig_.rigidPart[child] && rig_.children[child].empty() && !rig_.rigidPart[joint];
-            if (isCentral(child)) onward = std::max(onward, (part ? 0.3F : 1.0F) * rig_.subtreeWeight[child]);
+            const float weight = isInPlaceOf(child, joint) ? skinOnwards(child) : rig_.subtreeWeight[child];
+            onward = std::max(onward, (part ? 0.3F : 1.0F) * weight);
         }
-        return rig_.subtreeWeight[joint] - onward;
+        return onward;
     }
 
     // Central joints from the thighs up to somewhat above the arms: no face, no tail.
@@ -301,11 +348,10 @@ class TrunkFinder {
 
     // `below` hangs on another joint in this one's place: one of the two is a control rig's. A skin tells better which.
     [[nodiscard]] bool isCopyOfWhatCarries(int joint, int below) const {
-        constexpr float kSamePlace = 0.01F;  // of the trunk
         if (rig_.skinned || rig_.isAncestorOrSelf(joint, below)) return false;
         return std::any_of(central_.begin(), central_.end(), [&](int other) {
             return other != joint && rig_.isAncestorOrSelf(other, below) && !rig_.isAncestorOrSelf(other, joint) &&
-                   glm::distance(position(other), position(joint)) < kSamePlace * length_;
+                   isInPlaceOf(other, joint, kSamePlace);
         });
     }
 
@@ -370,6 +416,7 @@ class TrunkFinder {
     int trunkRoot_ = kNoJoint;
     std::vector<bool> isCentral_;
     std::vector<int> central_;
+    std::vector<int> strayFaces_;  // per joint
 };
 
 }  // namespace

@@ -310,4 +310,21 @@ TEST_CASE("a head that starts where the clavicles do is no end marker of theirs"
     CHECK(map[Role::leftLowerLeg]);
 }
 
+TEST_CASE("joints of a face that hang on the root tell which joint is the head", "[blocks]") {
+    SyntheticRig rig = makeSyntheticRig("rigify deforming joints");
+    animation::Skeleton& skeleton = rig.character.skeleton;
+    const auto weigh = [&](const char* joint, float vertices) {
+        skeleton.skinWeight[animation::findJoint(skeleton, joint)] = vertices;
+    };
+    // Most of the head's skin is the face's, so that the joint below moves more than the head itself does.
+    weigh("DEF-spine.005", 660);
+    weigh("DEF-spine.006", 150);
+    const int head = animation::findJoint(skeleton, "DEF-spine.006");
+    for (int number = 0; number < skeleton.jointCount(); ++number) {
+        std::string& name = skeleton.names[number];
+        if (name.starts_with("DEF-spine")) name = "joint" + std::to_string(number);
+    }
+    CHECK(animation::mapHumanoid(rig.character).jointOf(Role::head) == head);
+}
+
 }  // namespace lutka::test
