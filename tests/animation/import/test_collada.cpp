@@ -1,7 +1,9 @@
 // Collada as exporters write it: blanks and line breaks around numbers, other encodings.
 
+#include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <string>
 
 #include "animation/import/assimp/collada_text.hpp"
@@ -73,6 +75,71 @@ void checkTriangle(const std::filesystem::path& folderFile, const std::string& t
     CHECK(material.baseColor.g < 0.1F);
 }
 
+std::string numbersOf(const glm::mat4& matrix) {
+    std::string out;
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column)
+            out += std::to_string(matrix[column][row]) + " ";
+    return out;
+}
+
+// A strip 1.8 tall in the armature's space on two joints at 0.2 and 1.0, as Blender writes it: the bind shape matrix
+// says how the mesh stands in the armature, which stands at `armature` itself.
+std::string skinnedStrip(const glm::mat4& armature, const std::string& tool,
+                         const glm::mat4& bindShape = glm::mat4(1.0F)) {
+    const auto at = [](float height) { return glm::translate(glm::mat4(1.0F), vec3(0, height, 0)); };
+    const std::string xyz =
+        "<param name=\"X\" type=\"float\"/><param name=\"Y\" type=\"float\"/><param name=\"Z\" "
+        "type=\"float\"/></accessor></technique_common></source>";
+    return "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
+           "version=\"1.4.1\"><asset><contributor><authoring_tool>" +
+           tool +
+           "</authoring_tool></contributor><unit meter=\"1\" name=\"meter\"/><up_axis>Y_UP</up_axis></asset>"
+           "<library_geometries><geometry id=\"g\"><mesh><source id=\"p\"><float_array id=\"pa\" count=\"18\">"
+           "-0.1 0 0 0.1 0 0 -0.1 0.9 0 0.1 0.9 0 -0.1 1.8 0 0.1 1.8 0</float_array><technique_common>"
+           "<accessor source=\"#pa\" count=\"6\" stride=\"3\">" +
+           xyz +
+           "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices><triangles count=\"4\">"
+           "<input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 1 2 1 3 2 2 3 4 3 5 4</p></triangles></mesh>"
+           "</geometry></library_geometries><library_controllers><controller id=\"c\"><skin source=\"#g\">"
+           "<bind_shape_matrix>" +
+           numbersOf(bindShape) +
+           "</bind_shape_matrix><source id=\"j\"><Name_array "
+           "id=\"ja\" count=\"2\">low high</Name_array><technique_common><accessor source=\"#ja\" count=\"2\">"
+           "<param name=\"JOINT\" type=\"name\"/></accessor></technique_common></source><source id=\"b\"><float_array "
+           "id=\"ba\" count=\"32\">" +
+           numbersOf(glm::inverse(armature * at(0.2F))) + numbersOf(glm::inverse(armature * at(1.0F))) +
+           "</float_array><technique_common><accessor source=\"#ba\" count=\"2\" stride=\"16\"><param "
+           "name=\"TRANSFORM\" type=\"float4x4\"/></accessor></technique_common></source><source id=\"w\"><float_array "
+           "id=\"wa\" count=\"1\">1</float_array><technique_common><accessor source=\"#wa\" count=\"1\" "
+           "stride=\"1\"><param name=\"WEIGHT\" type=\"float\"/></accessor></technique_common></source><joints>"
+           "<input semantic=\"JOINT\" source=\"#j\"/><input semantic=\"INV_BIND_MATRIX\" source=\"#b\"/></joints>"
+           "<vertex_weights count=\"6\"><input semantic=\"JOINT\" source=\"#j\" offset=\"0\"/><input "
+           "semantic=\"WEIGHT\" source=\"#w\" offset=\"1\"/><vcount>1 1 1 1 1 1</vcount>"
+           "<v>0 0 0 0 0 0 1 0 1 0 1 0</v></vertex_weights></skin></controller></library_controllers>"
+           "<library_visual_scenes><visual_scene id=\"s\"><node id=\"rig\" name=\"rig\"><matrix>" +
+           numbersOf(armature) + "</matrix><node id=\"low\" sid=\"low\" name=\"low\" type=\"JOINT\"><matrix>" +
+           numbersOf(at(0.2F)) + "</matrix><node id=\"high\" sid=\"high\" name=\"high\" type=\"JOINT\"><matrix>" +
+           numbersOf(at(0.8F)) +
+           "</matrix></node></node><node id=\"body\" name=\"body\"><instance_controller url=\"#c\"><skeleton>#low"
+           "</skeleton></instance_controller></node></node></visual_scene></library_visual_scenes><scene>"
+           "<instance_visual_scene url=\"#s\"/></scene></COLLADA>";
+}
+
+// How far the lowest vertices' middle lies from the lower joint, of the strip's length.
+float soleToJoint(const Character& character) {
+    const std::vector<vec3>& places = character.meshes.at(0).positions;
+    vec3 low = places[0];
+    vec3 high = places[0];
+    for (const vec3& place : places) {
+        low = glm::min(low, place);
+        high = glm::max(high, place);
+    }
+    const vec3 sole = 0.5F * (places[0] + places[1]);
+    const int joint = findJoint(character.skeleton, "low");
+    return glm::distance(sole, character.skeleton.bindModelFromJoint[joint].translation) / glm::distance(low, high);
+}
+
 }  // namespace
 
 TEST_CASE("Collada's numbers may stand between blanks, tabs and line breaks") {
@@ -111,6 +178,25 @@ TEST_CASE("a skin without a bind shape matrix has the identity") {
     CHECK(tidyCollada("<skin><!-- none --><source>") == "<skin><!-- none -->" + identity + "<source>");
     const std::string whole = "<skin><!-- one --><bind_shape_matrix>2 0 0 0</bind_shape_matrix><source>";
     CHECK(tidyCollada(whole) == whole);
+}
+
+TEST_CASE("skins that Blender wrote lie on their joints wherever the armature stands") {
+    const TemporaryFolder folder;
+    const glm::mat4 one(1.0F);
+    const glm::mat4 armatures[] = {one, glm::translate(one, vec3(40, 3, -25)), glm::scale(one, vec3(0.01F)),
+                                   glm::rotate(one, 1.57F, vec3(1, 0, 0)), glm::scale(one, vec3(1, 1.3F, 1))};
+    for (const glm::mat4& armature : armatures) {
+        std::ofstream(folder / "strip.dae", std::ios::binary) << skinnedStrip(armature, "Blender 3.4.1");
+        const Character character = imported(folder / "strip.dae");
+        checkInvariants(character);
+        CHECK(soleToJoint(character) == Approx(0.2F / std::hypot(1.8F, 0.2F)).epsilon(0.02));
+    }
+    // Old versions wrote how the mesh stands in the scene.
+    std::ofstream(folder / "strip.dae", std::ios::binary) << skinnedStrip(armatures[1], "Blender 2.57", armatures[1]);
+    CHECK(soleToJoint(imported(folder / "strip.dae")) < 0.2F);
+    // Of others the matrix is what it says: this skin stands where it stands.
+    std::ofstream(folder / "strip.dae", std::ios::binary) << skinnedStrip(armatures[1], "FBX COLLADA exporter");
+    CHECK(soleToJoint(imported(folder / "strip.dae")) > 10.0F);
 }
 
 TEST_CASE("weights stand as pairs of joint and weight, whatever their order was") {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "animation/import/assimp/clip_conversion.hpp"
+#include "animation/import/assimp/collada_bind_shape.hpp"
 #include "animation/import/assimp/collada_text.hpp"
 #include "animation/import/assimp/flat_hierarchy.hpp"
 #include "animation/import/assimp/material_conversion.hpp"
@@ -59,8 +60,8 @@ SourceConvention conventionOf(const aiScene& scene, const std::filesystem::path&
     return convention;
 }
 
-// What Assimp leaves out of a document: names of nodes, which it calls by their ids, and clips of nodes that stand in
-// a library.
+// What Assimp leaves out of a document: who wrote it, names of nodes, which it calls by their ids, and clips of nodes
+// that stand in a library.
 void completeByDocument(const std::filesystem::path& file, SourceScene& out) {
     if (lowerCased(file.extension().string()) != ".dae") return;
     const Result<std::vector<unsigned char>> bytes = readFile(file);
@@ -68,6 +69,7 @@ void completeByDocument(const std::filesystem::path& file, SourceScene& out) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size());
     if (out.clips.empty() && text.find("<channel ") != std::string_view::npos)
         out.warnings.emplace_back("left out: animations, for they move nothing that stands in the scene itself");
+    completeBindShapes(text, out);
     const auto names = colladaNodeNames(text);
     std::set<std::string> taken;
     for (const SourceNode& node : out.nodes)
