@@ -9,6 +9,8 @@
 #include <map>
 #include <numeric>
 
+#include "animation/humanoid/name_lexicon.hpp"
+
 namespace lutka::animation {
 namespace {
 
@@ -248,6 +250,26 @@ void flattenNumberedLimbs(RigFeatures& rig) {
     }
 }
 
+// "arm_end": a tip, unless something of the figure goes on below it. Then it is where the limb ends: hand or foot.
+void readLimbEnds(RigFeatures& rig) {
+    constexpr float kEndOfLimb = 3.0F;
+    constexpr float kOfOtherPart = -2.5F;
+    const auto says = [&](int joint, Concept meaning) {
+        const std::vector<std::string>& words = rig.names[joint].words;
+        return std::any_of(words.begin(), words.end(),
+                           [&](const std::string& word) { return conceptOf(word) == meaning; });
+    };
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        NameEvidence& name = rig.names[joint];
+        if (!name.bareLimb || !says(joint, Concept::end)) continue;
+        const auto goesOn = [&](int child) { return rig.carriesSkin(child) && !says(child, Concept::end); };
+        if (!std::any_of(rig.children[joint].begin(), rig.children[joint].end(), goesOn)) continue;
+        name.parts.values.fill(kOfOtherPart);
+        name.parts[says(joint, Concept::arm) ? Part::hand : Part::foot] = kEndOfLimb;
+        name.helper = false;
+    }
+}
+
 }  // namespace
 
 namespace {
@@ -325,6 +347,7 @@ RigFeatures readRig(const Character& character, bool useNames) {
     readNamesInChains(rig);
     leaveNamesToPivots(rig);
     flattenNumberedLimbs(rig);
+    readLimbEnds(rig);
     doubtPartialSkin(rig);
     findShadows(rig);
     return rig;

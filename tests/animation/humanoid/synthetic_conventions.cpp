@@ -415,11 +415,7 @@ shoulder.@ spine.003 clavicle Shoulder
 upper_arm.@ shoulder.@ upperArm UpperArm
 forearm.@ upper_arm.@ elbow LowerArm
 hand.@ forearm.@ hand Hand
-palm.01.@ hand.@ palm -
-f_index.01.@ palm.01.@ finger1 -
-thumb.01.@ hand.@ thumb1 -
-breast.@ spine.003 bust -
-pelvis.@ spine pelvisSide -
+f_index.01.@ hand.@ finger1 -
 thigh.@ spine thigh UpperLeg
 shin.@ thigh.@ knee LowerLeg
 foot.@ shin.@ ankle Foot
@@ -439,16 +435,13 @@ DEF-shoulder.@ rig clavicle Shoulder
 DEF-upper_arm.@ rig upperArm UpperArm
 DEF-upper_arm.@.001 DEF-upper_arm.@ upperArmTwist -
 DEF-forearm.@ DEF-upper_arm.@.001 elbow LowerArm
-DEF-forearm.@.001 DEF-forearm.@ forearmTwist -
-DEF-hand.@ DEF-forearm.@.001 hand Hand
-DEF-palm.01.@ DEF-hand.@ palm -
-DEF-f_index.01.@ DEF-palm.01.@ finger1 -
+DEF-hand.@ DEF-forearm.@ hand Hand
+DEF-f_index.01.@ DEF-hand.@ finger1 -
 DEF-pelvis.@ rig hips -
 DEF-thigh.@ rig thigh UpperLeg
 DEF-thigh.@.001 DEF-thigh.@ thighTwist -
 DEF-shin.@ DEF-thigh.@.001 knee LowerLeg
-DEF-shin.@.001 DEF-shin.@ calfTwist -
-DEF-foot.@ DEF-shin.@.001 ankle Foot
+DEF-foot.@ DEF-shin.@ ankle Foot
 DEF-toe.@ DEF-foot.@ toes Toes)"},
     {"leaves that move the skin", "L", "R", R"(Root - (floor) -
 COM Root (hips) -
@@ -460,8 +453,7 @@ Pelvis_skin Pelvis hips -
 @Leg_Calf_skin @Leg_Calf knee -
 @Leg_Foot @Leg_Calf ankle Foot
 @Leg_Toe1 @Leg_Foot toes Toes
-SPINE1 COM (waist) +
-Spine1_skin SPINE1 waist -
+SPINE1 COM waist +
 SPINE2 SPINE1 (spine) +
 Spine2_skin SPINE2 spine -
 Chest SPINE2 (upperChest) *
@@ -476,8 +468,27 @@ Head_skin HEAD head -
 @Arm_ForeArm1_skin @Arm_ForeArm1 elbow -
 @Arm_ForeArm2 @Arm_ForeArm1 forearmTwist -
 @Arm_Hand @Arm_ForeArm2 hand Hand
-@Arm_Finger11 @Arm_Hand thumb1 -
 @Arm_Finger21 @Arm_Hand finger1 -)"},
+    {"mgear", "L", "R", R"(jnt_org - (floor) -
+spine_C0_0_jnt jnt_org hips hips
+spine_C0_1_jnt spine_C0_0_jnt spine +
+spine_C0_2_jnt spine_C0_1_jnt upperChest *
+neck_C0_0_jnt spine_C0_2_jnt neck neck
+neck_C0_head_jnt neck_C0_0_jnt head head
+shoulder_@0_0_jnt spine_C0_2_jnt clavicle Shoulder
+arm_@0_0_jnt shoulder_@0_0_jnt upperArm UpperArm
+arm_@0_1_jnt arm_@0_0_jnt upperArmTwist -
+arm_@0_2_jnt arm_@0_1_jnt elbow LowerArm
+arm_@0_3_jnt arm_@0_2_jnt forearmTwist -
+arm_@0_end_jnt arm_@0_3_jnt hand Hand
+finger_@0_0_jnt arm_@0_end_jnt finger1 -
+thumb_@0_0_jnt arm_@0_end_jnt thumb1 -
+leg_@0_0_jnt spine_C0_0_jnt thigh UpperLeg
+leg_@0_1_jnt leg_@0_0_jnt thighTwist -
+leg_@0_2_jnt leg_@0_1_jnt knee LowerLeg
+leg_@0_3_jnt leg_@0_2_jnt calfTwist -
+leg_@0_end_jnt leg_@0_3_jnt ankle Foot
+foot_@0_0_jnt leg_@0_end_jnt toes Toes)"},
 };
 
 }  // namespace

@@ -396,8 +396,9 @@ TEST_CASE("a goblin whose forearms end at the ground is a figure by its names, a
 
 TEST_CASE("who bows deeply is a figure by his names, and stands upright on his legs", "[named]") {
     for (const std::string& convention : syntheticConventions()) {
-        // Their legs do not hang on their hips.
-        if (convention == "rigify control rig" || convention == "rigify deforming joints") continue;
+        // Their legs do not hang on their hips; the third has numbers for parts.
+        if (convention == "rigify control rig" || convention == "rigify deforming joints" || convention == "mgear")
+            continue;
         for (const float bow : {0.8F, 1.2F, 1.6F}) {
             for (const bool armsHang : {false, true}) {
                 INFO(convention << " bows by " << bow << (armsHang ? ", arms down" : ""));
