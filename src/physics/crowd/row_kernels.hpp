@@ -117,8 +117,13 @@ LUTKA_LANES Mask holdPassed(JointLanes& joint, const V3& relative, const Substep
         LimitRow& row = joint.limit[i];
         const F gain = load(row.gain);
         const F left = dot(load(row.axis), relative) + most(load(row.bias), zero);
-        const Mask passed = (left < all(-params.limitTolerance)) & ~(gain > zero);
-        store(row.gain, passed ? load(row.weight) : gain);
+        const Mask passed = left < all(-params.limitTolerance);
+        if (bits(passed) == 0) continue;
+        // One that holds and gives way has more behind it than its two bodies: it becomes stiffer.
+        const F weight = load(row.weight);
+        const Mask held = gain > zero;
+        store(row.weight, (passed & held) ? weight * all(params.stiffen) : weight);
+        store(row.gain, (passed & ~held) ? weight : gain);
         wrong |= passed;
     }
     return wrong;

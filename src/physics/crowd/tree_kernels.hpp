@@ -232,14 +232,8 @@ static bool needsMending(const BatchView& batch, const SubstepParams& params) {
     return bits(off) != 0;
 }
 
-// Foresees the arms anew in some lanes, by `share` of what the rates have changed.
-static void aim(const BatchView& batch, const SubstepParams& params, const Mask& lanes, float share) {
-    for (int b = 0; b < batch.bodyCount; ++b) {
-        BodyLanes& body = batch.bodies[b];
-        const V3 before = load(body.aim);
-        const V3 angular = choose(lanes, before + (load(body.angular) - before) * all(share), before);
-        aimBody(body, batch.bodyConstants[b], angular, load(body.steadyAngular), all(0.5F * params.dt));
-    }
+// The arms of all rows, as the bodies' aims foresee them.
+static void aimRows(const BatchView& batch, const SubstepParams& params) {
     for (int j = 0; j < batch.jointCount; ++j) {
         const JointConstants& constants = batch.jointConstants[j];
         aimJoint(batch.joints[j], constants, batch.bodies[constants.parent], batch.bodies[constants.child], params);
@@ -252,6 +246,28 @@ static void aim(const BatchView& batch, const SubstepParams& params, const Mask&
     }
     for (int i = 0; i < batch.dragCount; ++i)
         aimDrag(batch.drags[i], batch.bodies[batch.drags[i].body]);
+}
+
+// Foresees the arms anew in some lanes, by `share` of what the rates have changed.
+static void aim(const BatchView& batch, const SubstepParams& params, const Mask& lanes, float share) {
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        BodyLanes& body = batch.bodies[b];
+        const V3 before = load(body.aim);
+        const V3 angular = choose(lanes, before + (load(body.angular) - before) * all(share), before);
+        aimBody(body, batch.bodyConstants[b], angular, load(body.steadyAngular), all(0.5F * params.dt));
+    }
+    aimRows(batch, params);
+}
+
+// Foresees them as if nothing but what was done to the single bodies turned them, in some lanes.
+static void aimLoose(const BatchView& batch, const SubstepParams& params, const Mask& lanes) {
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        BodyLanes& body = batch.bodies[b];
+        const V3 angular = choose(lanes, load(body.looseAngular), load(body.aim));
+        const V3 steady = choose(lanes, load(body.looseAngular), load(body.steadyAngular));
+        aimBody(body, batch.bodyConstants[b], angular, steady, all(0.5F * params.dt));
+    }
+    aimRows(batch, params);
 }
 
 // Takes back all mending in some lanes.
@@ -295,26 +311,65 @@ static void gatherLoose(const BatchView& batch, bool isFirst) {
 // What is solved for: all pushes of the substep, those that were pressed since, or contacts that were found since.
 enum class Solving { first, answer, again };
 
-static void solveAll(const BatchView& batch, const SubstepParams& params, Solving what) {
-    const bool isFirst = what == Solving::first;
-    gatherLoose(batch, isFirst);
-    Pass pass{false, all(isFirst ? 0.0F : 1.0F), !isFirst, noLanes(), load(batch.rest->stiction), noLanes()};
-    Fresh fresh = Fresh::since;
+// Passes until the guesses are right. `aims`: whether the arms are foreseen anew where bodies turn otherwise than
+// foreseen. Returns whether they were.
+static bool guess(const BatchView& batch, const SubstepParams& params, Solving what, Pass& pass, Fresh fresh,
+                  bool aims) {
+    bool aimed = false;
     for (int i = 0; i < params.passes; ++i) {
         pass.astray = noLanes();
         const Mask wrong = sweep(batch, params, pass, fresh);
-        const bool astray = bits(pass.astray) != 0;
-        if (bits(wrong) == 0 && !astray) return;
+        const bool astray = aims && bits(pass.astray) != 0;
+        if (bits(wrong) == 0 && !astray) return aimed;
         // At other arms the joints push otherwise: an answer to further pushes is solved from the beginning, or what
         // was pushed at the old arms would be left over as energy. Taken whole each time, the arms of a light limb
         // under a great load go to and fro by more and more.
-        const bool anew = astray && what == Solving::answer;
+        const bool anew = astray && what != Solving::first;
         if (astray) aim(batch, params, ~noLanes(), anew && i > 0 ? 0.5F : 1.0F);
+        aimed = aimed || astray;
         fresh = anew ? Fresh::whole : Fresh::nothing;
         pass.applied = all(anew ? 0.0F : 1.0F);
         pass.begun = true;
         if (i + 1 >= params.patience) pass.late |= wrong;
     }
+    return aimed;
+}
+
+LUTKA_LANES F kineticEnergy(const BatchView& batch, Wide3 BodyLanes::*velocity, Wide3 BodyLanes::*angular) {
+    F energy = all(0.0F);
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        const BodyLanes& body = batch.bodies[b];
+        const V3 moving = load(body.*velocity);
+        const V3 turning = load(body.*angular);
+        energy = energy + all(0.5F * batch.bodyConstants[b].mass) * dot(moving, moving) +
+                 all(0.5F) * dot(load(body.inertia) * turning, turning);
+    }
+    return energy;
+}
+
+// The lanes that have more energy than what was done to their single bodies gave them. Rows that only hold take some
+// away.
+static Mask gainsEnergy(const BatchView& batch) {
+    constexpr float kShare = 0.003F;  // of rounding, and of arms that are not quite those of the motion
+    constexpr float kJoules = 0.1F;
+    if (batch.motors != nullptr || batch.targets != nullptr || batch.dragCount > 0) return noLanes();
+    const F given = kineticEnergy(batch, &BodyLanes::loose, &BodyLanes::looseAngular);
+    const F kept = kineticEnergy(batch, &BodyLanes::steadyVelocity, &BodyLanes::steadyAngular);
+    return kept > given * all(1.0F + kShare) + all(kJoules);
+}
+
+static void solveAll(const BatchView& batch, const SubstepParams& params, Solving what) {
+    const bool isFirst = what == Solving::first;
+    gatherLoose(batch, isFirst);
+    Pass pass{false, all(isFirst ? 0.0F : 1.0F), !isFirst, noLanes(), load(batch.rest->stiction), noLanes()};
+    if (!guess(batch, params, what, pass, Fresh::since, true)) return;
+    // Arms that are foreseen by what their own pushes give may turn a light limb faster and faster: one hand in some
+    // thousand falls was sped up to 360 rad/s. Arms that stay cannot.
+    const Mask gains = gainsEnergy(batch);
+    if (bits(gains) == 0) return;
+    aimLoose(batch, params, gains);
+    Pass whole{false, all(0.0F), true, noLanes(), pass.stiction, noLanes()};
+    guess(batch, params, what, whole, Fresh::whole, false);
 }
 
 static void solve(const BatchView& batch, const SubstepParams& params, int first) {
