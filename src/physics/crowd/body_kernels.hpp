@@ -70,16 +70,8 @@ LUTKA_LANES unsigned meeting(const BoxLanes& boxes, const V3& low, const V3& hig
 
 static int findBodyPairs(const DollBoxes& a, const DollBoxes& b, const float (&apart)[3], BodyPair* out) {
     int count = 0;
-    const V3 lowA = all(a.low) - all(apart), highA = all(a.high) + all(apart);
     const V3 lowB = all(b.low) - all(apart), highB = all(b.high) + all(apart);
-    // The groups of B between the first and the last that are near A: each is asked for every body of A that is near B.
-    int first = 0;
-    while (first < b.groups && meeting(b.boxes[first], lowA, highA) == 0)
-        ++first;
-    int end = b.groups;
-    while (end > first && meeting(b.boxes[end - 1], lowA, highA) == 0)
-        --end;
-    for (int i = 0; i < a.groups && first < end; ++i) {
+    for (int i = 0; i < a.groups; ++i) {
         for (unsigned near = meeting(a.boxes[i], lowB, highB); near != 0; near &= near - 1) {
             const int lane = __builtin_ctz(near);
             const BoxLanes& group = a.boxes[i];
@@ -87,7 +79,7 @@ static int findBodyPairs(const DollBoxes& a, const DollBoxes& b, const float (&a
                           all(group.low.z.lane[lane] - apart[2])};
             const V3 to{all(group.high.x.lane[lane] + apart[0]), all(group.high.y.lane[lane] + apart[1]),
                         all(group.high.z.lane[lane] + apart[2])};
-            for (int j = first; j < end; ++j) {
+            for (int j = 0; j < b.groups; ++j) {
                 for (unsigned met = meeting(b.boxes[j], from, to); met != 0; met &= met - 1)
                     out[count++] = {i * kLanes + lane, j * kLanes + __builtin_ctz(met)};
             }

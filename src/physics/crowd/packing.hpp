@@ -7,8 +7,9 @@ namespace lutka::physics::crowd {
 /// Packs the contacts of each part of each job (see partTouches()) into blocks of lanes in which no body comes twice.
 void packTouches(CrowdState& state);
 
-/// Has the contacts of a block brought near, if there is such a block: they lie far from each other.
-inline void fetchTouches(const CrowdState& state, std::size_t block) {
+/// Has the contacts of a block brought near, if there is such a block: they lie far from each other. Always inlined: to
+/// GCC a function that only does this has no effect, and it leaves out calls of it.
+[[gnu::always_inline]] inline void fetchTouches(const CrowdState& state, std::size_t block) {
     constexpr std::size_t kLine = 64;
     if (block >= state.touchOfLane.size()) return;
     for (const int index : state.touchOfLane[block]) {
