@@ -157,6 +157,9 @@ void Retargeter::planTrunk() {
         Driven& driven = plan(joint.joint, driven_.empty() ? kNoJoint : driven_.back().joint);
         driven.by = driven_.size() == 1 ? Driven::By::hips : Driven::By::trunk;
         driven.jointFromAnatomy = joint.jointFromAnatomy;
+        // Less and less of it up to the neck; a joint that carries the legs goes with the hips.
+        const bool carriesLegs = isAncestorOrSelf(*target_.skeleton, joint.joint, target_.jointOf(Role::leftUpperLeg));
+        driven.hipsTurn = carriesLegs ? 1.0F : 1.0F - joint.at;
         const auto above =
             std::find_if(from.begin(), from.end(), [&](const auto& other) { return other.at > joint.at; });
         driven.trunk = static_cast<std::size_t>(above - from.begin()) - 1;
@@ -277,12 +280,7 @@ void Retargeter::turnJoints(const vec3& hipsTurn) {
         quat& rotation = targetStandard_[driven.joint].rotation;
         rotation = glm::normalize(rotationOf(driven));
         if (angle < 1e-6F || (driven.by != Driven::By::hips && driven.by != Driven::By::trunk)) continue;
-        // Less and less of it up to the neck; a joint that carries the legs goes with the hips.
-        const auto at = std::find_if(target_.trunk.begin(), target_.trunk.end(),
-                                     [&](const auto& joint) { return joint.joint == driven.joint; });
-        const bool carriesLegs = isAncestorOrSelf(*target_.skeleton, driven.joint, target_.jointOf(Role::leftUpperLeg));
-        const float share = at == target_.trunk.end() || carriesLegs ? 1.0F : 1.0F - at->at;
-        rotation = glm::normalize(glm::angleAxis(angle * share, hipsTurn / angle) * rotation);
+        rotation = glm::normalize(glm::angleAxis(angle * driven.hipsTurn, hipsTurn / angle) * rotation);
     }
 }
 

@@ -67,6 +67,7 @@ class Retargeter {
         Role role = Role::hips;      // role, and of twist: the bone's
         std::size_t trunk = 0;       // lower neighbour in the source's trunk
         float share = 0.0F;          // trunk: between neighbours; twist: of the bone's whole
+        float hipsTurn = 0.0F;       // hips and trunk: its part of a turn of the hips
         int sourceJoint = kNoJoint;  // finger
         quat sourceFromAnatomy{1, 0, 0, 0};
     };
