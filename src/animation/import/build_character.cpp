@@ -76,10 +76,11 @@ bool cover(const std::vector<vec3>& points, const std::vector<vec3>& joints, dou
     return static_cast<double>(inside) >= leastShare * static_cast<double>(joints.size());
 }
 
-// Marks the joints below `root` that are the figure's: all but single nodes on it, far from where most of them are
+// Marks the joints that are the figure's: all below its root but single nodes on it, far from where most of them are
 // (cameras and lights beside several hierarchies).
-std::vector<bool> jointsOfFigure(const Skeleton& skeleton, int root, std::span<const dmat4> bind) {
+std::vector<bool> jointsOfFigure(const Skeleton& skeleton, std::span<const dmat4> bind) {
     constexpr double kFar = 4.0;  // of the distance from the middle that four in five keep
+    const int root = rootOfFigure(skeleton);
     const auto count = static_cast<std::size_t>(skeleton.jointCount());
     std::vector<bool> of(count, false);
     std::vector<bool> isLeaf(count, true);
@@ -111,14 +112,14 @@ std::vector<bool> jointsOfFigure(const Skeleton& skeleton, int root, std::span<c
 
 struct FigurePoints {
     std::vector<vec3> points;
-    bool meshesCover = true;  // the meshes lie about the skeleton: they tell which of its joints are the figure's
+    std::vector<bool> joints;  // marks those of the figure
+    bool meshesCover = true;   // the meshes lie about the skeleton: they tell which of its joints are the figure's
 };
 
 // What the height of the figure is measured on: skins and their joints, else rigid meshes; the joints, too, where these
 // cover few of them or are not there.
 FigurePoints pointsOfFigure(Character& character, std::span<const dmat4> bind) {
     std::vector<vec3> points;
-    const int root = rootOfFigure(character.skeleton);
     bool skinned = false;
     for (const SkinnedMesh& mesh : character.meshes)
         skinned = skinned || !mesh.rigid;
@@ -126,7 +127,7 @@ FigurePoints pointsOfFigure(Character& character, std::span<const dmat4> bind) {
         if (skinned == !mesh.rigid) points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
     }
     std::vector<vec3> joints;
-    const std::vector<bool> ofFigure = jointsOfFigure(character.skeleton, root, bind);
+    const std::vector<bool> ofFigure = jointsOfFigure(character.skeleton, bind);
     for (int joint = 0; joint < character.skeleton.jointCount(); ++joint) {
         const bool deforms = character.skeleton.skinWeight[joint] > 0.0F && skinned;
         if (deforms) points.emplace_back(bind[joint][3]);
@@ -136,13 +137,13 @@ FigurePoints pointsOfFigure(Character& character, std::span<const dmat4> bind) {
     constexpr double kLeastOfParts = 0.6;
     const double least = skinned ? kLeastOfSkin : kLeastOfParts;
     if (!points.empty() && (joints.size() < kFewestJointsOfFigure || cover(points, joints, least)))
-        return {points, true};
+        return {points, ofFigure, true};
     if (!points.empty()) {
         character.warnings.emplace_back(
             "the meshes lie about hardly any of the skeleton's joints: the figure's height is that of the joints");
     }
     points.insert(points.end(), joints.begin(), joints.end());
-    return {points, false};
+    return {points, ofFigure, false};
 }
 
 void settleMeshes(const UnitsAndAxes& units, std::vector<SkinnedMesh>& meshes) {
@@ -161,15 +162,16 @@ void settleMeshes(const UnitsAndAxes& units, std::vector<SkinnedMesh>& meshes) {
 // Joints that move no skin and stand far from all that do (the root of an armature that was moved) would make the
 // figure as large as the way there: they stand at the origin instead. Of a file without a skin, or with one that covers
 // hardly any joints (a plane beside an armature), all joints below the figure's root count as its own.
-void bringAlong(const UnitsAndAxes& units, const Skeleton& skeleton, bool skinCovers, std::span<dmat4> bind) {
+void bringAlong(const UnitsAndAxes& units, const Skeleton& skeleton, const FigurePoints& figure,
+                std::span<dmat4> bind) {
     constexpr double kFar = 4.0;  // reaches of the skin's joints
     const dmat4 modelFromScene = units.modelFromScene();
     const auto away = [&](std::size_t joint) { return glm::length(dvec3(modelFromScene * bind[joint][3])); };
     const auto weighs = [](float weight) { return weight > 0.0F; };
-    const bool skinned = skinCovers && std::any_of(skeleton.skinWeight.begin(), skeleton.skinWeight.end(), weighs);
-    const std::vector<bool> ofFigure = jointsOfFigure(skeleton, rootOfFigure(skeleton), bind);
+    const bool skinned =
+        figure.meshesCover && std::any_of(skeleton.skinWeight.begin(), skeleton.skinWeight.end(), weighs);
     const auto isOfFigure = [&](std::size_t joint) {
-        return skinned ? weighs(skeleton.skinWeight[joint]) : static_cast<bool>(ofFigure[joint]);
+        return skinned ? weighs(skeleton.skinWeight[joint]) : static_cast<bool>(figure.joints[joint]);
     };
     double reach = 0.0;
     for (std::size_t joint = 0; joint < bind.size(); ++joint) {
@@ -296,7 +298,7 @@ Result<Character> buildCharacter(SourceScene source, const std::filesystem::path
     const UnitsAndAxes units =
         settleUnits(source.convention, figure.points, subjectOf(tree.jointNames), options, character.warnings);
     character.units = units.info;
-    bringAlong(units, character.skeleton, figure.meshesCover, bind);
+    bringAlong(units, character.skeleton, figure, bind);
     settleMeshes(units, character.meshes);
     for (SkinnedMesh& mesh : character.meshes)
         orderForSkinning(mesh);
