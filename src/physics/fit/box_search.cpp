@@ -56,12 +56,12 @@ class BoxSearch {
 
     template <class Shape>
     [[nodiscard]] float cost(const Shape& shape) const {
-        return sample_.cost(bounds_.cutoff, [&](const vec3& point) { return distanceFrom(shape, point); });
+        return sample_.cost(bounds_.cutoff, shape);
     }
 
     template <class Shape>
     [[nodiscard]] float shareNear(const Shape& shape) const {
-        return sample_.shareWithin(bounds_.nearM, [&](const vec3& point) { return distanceFrom(shape, point); });
+        return sample_.shareWithin(bounds_.nearM, shape);
     }
 
     // A capsule in the search's axes.

@@ -23,11 +23,7 @@ CapsuleSearch::CapsuleSearch(const std::vector<SkinPoint>& points, const RigidTr
       cutoff_(cutoff) {}
 
 float CapsuleSearch::cost(const CapsuleTrial& trial) const {
-    return sample_.cost(cutoff_, [&](const vec3& point) {
-        const vec3 d = point - trial.center;
-        const float beyond = std::max(0.0F, std::abs(d.y) - trial.halfLength);
-        return std::sqrt(d.x * d.x + beyond * beyond + d.z * d.z) - trial.radius;
-    });
+    return sample_.cost(cutoff_, trial);
 }
 
 float CapsuleSearch::cost(const Capsule& capsule) const {

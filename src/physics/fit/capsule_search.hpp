@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -17,6 +19,13 @@ struct CapsuleTrial {
     float halfLength = 0.0F;
     float radius = 0.0F;
 };
+
+/// Signed distance of a point of the search's axes from the surface, metres; negative inside.
+[[nodiscard]] inline float distanceFrom(const CapsuleTrial& trial, const vec3& point) {
+    const vec3 d = point - trial.center;
+    const float beyond = std::max(0.0F, std::abs(d.y) - trial.halfLength);
+    return std::sqrt(d.x * d.x + beyond * beyond + d.z * d.z) - trial.radius;
+}
 
 /// Finds the capsule whose surface lies nearest to skin points: a coordinate search with shrinking steps over centre,
 /// half length and radius, the direction of the axis being given. The points are thinned to a few hundred.

@@ -58,12 +58,12 @@ class UnionSearch {
 
     template <class Shape>
     [[nodiscard]] float cost(const Shape& shape) const {
-        return sample_.cost(bounds_.cutoff, [&](const vec3& point) { return distanceFrom(shape, point); });
+        return sample_.cost(bounds_.cutoff, shape);
     }
 
     template <class Shape>
     [[nodiscard]] float shareNear(const Shape& shape) const {
-        return sample_.shareWithin(bounds_.nearM, [&](const vec3& point) { return distanceFrom(shape, point); });
+        return sample_.shareWithin(bounds_.nearM, shape);
     }
 
     // Of what lies between the skin and the upright through its middle: capsules that cling to the skin may leave the

@@ -29,26 +29,27 @@ class SkinSample {
 
     [[nodiscard]] const std::vector<SkinPoint>& points() const { return points_; }
 
-    /// Area-weighted mean distance of the points from a surface, metres, each cut off at `cutoff`. `signedDistance`
-    /// gives a point's, negative inside. Skin inside the shape, where the shape stands out of it, weighs more.
-    template <class Distance>
-    [[nodiscard]] float cost(float cutoff, Distance signedDistance) const {
+    /// Area-weighted mean distance of the points from a shape's surface, metres, each cut off at `cutoff`. A point's is
+    /// what distanceFrom(shape, point) beside the shape's type gives, negative inside. Skin inside the shape, where the
+    /// shape stands out of it, weighs more.
+    template <class Shape>
+    [[nodiscard]] float cost(float cutoff, const Shape& shape) const {
         constexpr float kProtrusion = 1.5F;
         float sum = 0.0F;
         for (const SkinPoint& point : points_) {
-            const float apart = signedDistance(point.position);
+            const float apart = distanceFrom(shape, point.position);
             const float distance = apart < 0.0F ? -kProtrusion * apart : apart;
             sum += point.area * std::min(distance, cutoff);
         }
         return area_ > 0.0F ? sum / area_ : 0.0F;
     }
 
-    /// The share of the skin within `reach` metres of a surface, [0, 1].
-    template <class Distance>
-    [[nodiscard]] float shareWithin(float reach, Distance signedDistance) const {
+    /// The share of the skin within `reach` metres of the surface, [0, 1].
+    template <class Shape>
+    [[nodiscard]] float shareWithin(float reach, const Shape& shape) const {
         float near = 0.0F;
         for (const SkinPoint& point : points_)
-            near += std::abs(signedDistance(point.position)) <= reach ? point.area : 0.0F;
+            near += std::abs(distanceFrom(shape, point.position)) <= reach ? point.area : 0.0F;
         return area_ > 0.0F ? near / area_ : 0.0F;
     }
 
