@@ -145,14 +145,19 @@ void judgeDrops(Checkup& checkup) {
 
 }  // namespace
 
-Checkup examine(const RagdollAsset& asset, const DropObserver& observe) {
+Checkup examineFalls(const RagdollAsset& asset, const DropObserver& observe) {
     Checkup checkup;
     checkup.diagnosis = physics::diagnose(asset.profile, asset.character, asset.map);
     checkup.score = kStaticShare * checkup.diagnosis.score;
     if (checkup.diagnosis.hasErrors()) return checkup;
     checkup.drops = dropThrice(asset, observe);
     judgeDrops(checkup);
-    walk(asset, checkup);
+    return checkup;
+}
+
+Checkup examine(const RagdollAsset& asset, const DropObserver& observe) {
+    Checkup checkup = examineFalls(asset, observe);
+    if (!checkup.bounds.empty()) walk(asset, checkup);  // it has fallen
     return checkup;
 }
 

@@ -49,6 +49,8 @@ using DropObserver = std::function<void(int drop, Simulation& simulation)>;
 /// Diagnoses the profile, lets it fall three times for six seconds in the scene `drop`, and walk. When the static
 /// findings hold errors there is neither: a profile that isn't sound isn't simulated.
 [[nodiscard]] Checkup examine(const RagdollAsset& asset, const DropObserver& observe = {});
+/// The same without the walk, which has no part in the score.
+[[nodiscard]] Checkup examineFalls(const RagdollAsset& asset, const DropObserver& observe = {});
 
 [[nodiscard]] std::string checkupJson(const RagdollAsset& asset, const Checkup& checkup);
 [[nodiscard]] std::string checkupText(const RagdollAsset& asset, const Checkup& checkup);

@@ -70,7 +70,7 @@ Result<reporting::LibraryRow> examineOne(const ReportCommandOptions& options, co
     try {
         const auto asset = scene::loadRagdoll(file, options.ragdoll.load());
         if (!asset) return asset.error();
-        auto row = reporting::libraryRow(name, *asset.value(), scene::examine(*asset.value()));
+        auto row = reporting::libraryRow(name, *asset.value(), scene::examineFalls(*asset.value()));
         if (photographer != nullptr) row.thumbnail = photographer->thumbnail(*asset.value());
         return row;
     } catch (const std::exception& unexpected) {
