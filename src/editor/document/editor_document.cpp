@@ -23,10 +23,6 @@ Error outOfRange(const std::vector<std::string>& problems) {
     return {ErrorCode::usage, fmt::format("{}", fmt::join(problems, "; ")), "", "choose a value inside the range"};
 }
 
-std::string partName(const physics::RagdollProfile& profile, int body) {
-    return profile.bodies[body].name;
-}
-
 }  // namespace
 
 Result<std::unique_ptr<EditorDocument>> EditorDocument::open(const std::filesystem::path& model,
@@ -52,6 +48,12 @@ EditorDocument::EditorDocument(std::unique_ptr<scene::RagdollAsset> asset) : ass
     beginHere();
     const Result<void> started = startScene({});
     LUTKA_ASSERT(started.ok());
+}
+
+void EditorDocument::beginHere() {
+    saved_.begin(physics::profileToJson(state_.profile));
+    unsaved_ = false;
+    tellScene();
 }
 
 void EditorDocument::remember(const std::filesystem::path& file) {
@@ -209,7 +211,7 @@ Result<void> EditorDocument::editPart(int body, const std::string& what, const s
                                       const std::function<void(PartEdits&)>& change) {
     LUTKA_ASSERT(body >= 0 && body < static_cast<int>(profile().bodies.size()));
     const std::string& name = profile().bodies[body].name;
-    return apply(fmt::format("{} of {}", what, partName(profile(), body)), group,
+    return apply(fmt::format("{} of {}", what, profile().bodies[body].name), group,
                  [&](DocumentState& next) -> Result<void> {
                      change(next.edits[name]);
                      if (symmetric_) mirrorOnto(next, std::span(&body, 1));

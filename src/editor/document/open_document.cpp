@@ -82,10 +82,4 @@ Opened openScene(const std::filesystem::path& file, const scene::EntityScene& sc
     return std::unique_ptr<EditorDocument>();
 }
 
-void EditorDocument::beginHere() {
-    saved_.begin(physics::profileToJson(state_.profile));
-    unsaved_ = false;
-    tellScene();
-}
-
 }  // namespace lutka::editor
