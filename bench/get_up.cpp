@@ -6,11 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "scene/simulation.hpp"
+#include "puppet_simulation.hpp"
 
 namespace {
 
@@ -74,29 +73,19 @@ class Watch {
 };
 
 int run(const Arguments& arguments) {
-    auto asset = scene::loadRagdoll(arguments.model);
-    if (!asset) {
-        fmt::print(stderr, "{}\n", asset.error().text());
-        return 1;
-    }
+    const auto asset = orTell(scene::loadRagdoll(arguments.model));
+    if (asset == nullptr) return 1;
     auto scenario =
-        scene::makeScenario({"spread", arguments.falls, static_cast<std::uint64_t>(arguments.seed)}, *asset.value());
-    scene::SimulationOptions options;
-    options.world.solver = physics::solverNamed(arguments.solver).value_or(options.world.solver);
-    options.measure = false;
+        scene::makeScenario({"spread", arguments.falls, static_cast<std::uint64_t>(arguments.seed)}, *asset);
     scene::PuppetPlay play;
     play.getUp = true;
     play.limp = true;
-    options.puppet = play;
-    auto simulation = scene::Simulation::create(*asset.value(), std::move(scenario).value(), options);
-    if (!simulation) {
-        fmt::print(stderr, "{}\n", simulation.error().text());
-        return 1;
-    }
-    Watch watch(*simulation.value());
+    const auto simulation = simulatePuppets(*asset, std::move(scenario).value(), play, arguments.solver);
+    if (simulation == nullptr) return 1;
+    Watch watch(*simulation);
     const int steps = static_cast<int>(arguments.seconds * 60.0F);
     for (int step = 0; step < steps; ++step) {
-        simulation.value()->step();
+        simulation->step();
         watch.look();
     }
     int stood = 0;
@@ -109,7 +98,7 @@ int run(const Arguments& arguments) {
         fmt::print("# doll {} lay on its {}: {} tries, rest at {:.2f} s, stood at {:.2f} s\n", i, lyingName(fall.lying),
                    fall.tries, fall.restedAt, fall.stoodAt);
     }
-    const scene::GetUpFigures up = simulation.value()->puppets()->getUpFigures();
+    const scene::GetUpFigures up = simulation->puppets()->getUpFigures();
     fmt::print("model,solver,falls,stood,begun,mean_s,most_s,step_deg,step_joint,slide_cm,distance_m\n");
     fmt::print("{},{},{},{},{},{:.2f},{:.2f},{:.2f},{},{:.2f},{:.3f}\n", arguments.model, arguments.solver,
                arguments.falls, stood, up.begun, up.meanSeconds, up.mostSeconds, up.mostStepDeg, up.stepJoint,

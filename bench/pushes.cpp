@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "scene/simulation.hpp"
+#include "puppet_simulation.hpp"
 
 namespace {
 
@@ -47,19 +47,16 @@ std::vector<vec3> feetOf(const scene::RagdollAsset& asset, std::span<const Rigid
 }
 
 int run(const Arguments& arguments, const std::string& model) {
-    auto asset = scene::loadRagdoll(model);
-    if (!asset) {
-        fmt::print(stderr, "{}\n", asset.error().text());
-        return 1;
-    }
+    const auto asset = orTell(scene::loadRagdoll(model));
+    if (asset == nullptr) return 1;
     scene::Scenario scenario;
     scenario.statics.emplace_back();
     scene::PuppetPlay play;
     play.start.clip = arguments.clip;
     play.borrows = true;
     play.pinForceN = 0.0F;
-    const scene::Figure figure = scene::figureOf(*asset.value());
-    const float scale = arguments.perMass ? asset.value()->profile.totalMassKg / 75.0F : 1.0F;
+    const scene::Figure figure = scene::figureOf(*asset);
+    const float scale = arguments.perMass ? asset->profile.totalMassKg / 75.0F : 1.0F;
     std::vector<Trial> trials{{}};  // the first is not pushed
     Random random(arguments.seed);
     const int ways = arguments.random > 0 ? arguments.random : kWays;
@@ -79,16 +76,9 @@ int run(const Arguments& arguments, const std::string& model) {
                                  scale * trials[i].push * vec3(std::sin(angle), 0, std::cos(angle)),
                                  static_cast<int>(i)});
     }
-    scene::SimulationOptions options;
-    options.world.solver = physics::solverNamed(arguments.solver).value_or(options.world.solver);
-    options.measure = false;
-    options.puppet = play;
-    auto made = scene::Simulation::create(*asset.value(), std::move(scenario), options);
-    if (!made) {
-        fmt::print(stderr, "{}\n", made.error().text());
-        return 1;
-    }
-    scene::Simulation& simulation = *made.value();
+    const auto made = simulatePuppets(*asset, std::move(scenario), play, arguments.solver);
+    if (made == nullptr) return 1;
+    scene::Simulation& simulation = *made;
     std::vector<std::vector<vec3>> feet(trials.size());
     const float standing = simulation.worldFromBody(0).front().translation.y;
     for (int step = 0; step < static_cast<int>(arguments.seconds * 60.0F); ++step) {
@@ -96,7 +86,7 @@ int run(const Arguments& arguments, const std::string& model) {
         for (std::size_t i = 0; i < trials.size(); ++i) {
             Trial& trial = trials[i];
             const auto bodies = simulation.worldFromBody(static_cast<int>(i));
-            const auto now = feetOf(*asset.value(), bodies);
+            const auto now = feetOf(*asset, bodies);
             if (simulation.seconds() < kPushAt) feet[i] = now;
             for (std::size_t side = 0; side < now.size(); ++side)
                 trial.footM = std::max(trial.footM, glm::distance(now[side], feet[i][side]));
@@ -105,7 +95,7 @@ int run(const Arguments& arguments, const std::string& model) {
         }
     }
     fmt::print("{},{},{:.1f},{}", std::filesystem::path(model).filename().string(), arguments.solver,
-               asset.value()->profile.totalMassKg, trials[0].stood ? "stands" : "falls");
+               asset->profile.totalMassKg, trials[0].stood ? "stands" : "falls");
     float footM = 0.0F;
     const std::size_t strengths = arguments.pushes.size();
     const auto trialOf = [&](std::size_t way, std::size_t strength) -> const Trial& {
