@@ -20,7 +20,7 @@ std::uint64_t fold(const std::vector<T>& values, std::uint32_t v, std::uint64_t 
     if (values.empty()) return hash;
     std::array<std::uint32_t, sizeof(T) / sizeof(std::uint32_t)> words{};
     static_assert(sizeof(words) == sizeof(T));
-    std::memcpy(words.data(), &values[v], sizeof(T));
+    std::memcpy(words.data(), static_cast<const void*>(&values[v]), sizeof(T));
     for (const std::uint32_t word : words) {
         hash = (hash ^ word) * 0x9E3779B97F4A7C15ULL;
         hash ^= hash >> 32U;  // what differs in the upper bits alone shall in the lower, which the table goes by
