@@ -8,11 +8,10 @@
 #include "physics/bullet/convert.hpp"
 #include "physics/bullet/fetch_ahead.hpp"
 
-// Taking bodies, constraints and contacts in, and giving the outcome back; substep_sweeps.cpp does the solving.
 namespace lutka::physics {
 namespace {
 
-constexpr int kFixed = 0;  // index of the body that never moves
+constexpr int kFixed = SubstepRows::kFixed;
 
 F4 toF4(const btVector3& v) {
     return F4{v.x(), v.y(), v.z(), 0.0F};
@@ -64,33 +63,34 @@ M4 turnBy(const SolverBody& body, const F4& arm) {
 int SubstepSolver::indexOf(const btCollisionObject& object) const {
     // A body of an earlier substep that sleeps now, or was never here, must not be taken for another.
     const int index = object.getCompanionId();
-    const bool mine = index > kFixed && index < static_cast<int>(bodies_.size()) && bodies_[index].body == &object;
+    const bool mine =
+        index > kFixed && index < static_cast<int>(rows_.bodies.size()) && rows_.bodies[index].body == &object;
     return mine ? index : kFixed;
 }
 
 void SubstepSolver::takeBodies(std::span<btRigidBody* const> bodies) {
     unsorted_.clear();
     islandOfTag_.clear();
-    islands_.clear();
+    rows_.islands.clear();
     for (btRigidBody* body : bodies) {
         if (!body->isActive() || body->isStaticOrKinematicObject()) continue;
         SolverBody& taken = unsorted_.emplace_back();
         taken.body = body;
         taken.island = islandOf(body->getIslandTag());
-        ++islands_[taken.island].bodies;
+        ++rows_.islands[taken.island].bodies;
     }
-    bodies_.resize(1 + unsorted_.size());
-    bodies_[kFixed] = SolverBody{};
+    rows_.bodies.resize(1 + unsorted_.size());
+    rows_.bodies[kFixed] = SolverBody{};
     int at = kFixed + 1;
-    for (Island& island : islands_) {
+    for (Island& island : rows_.islands) {
         island.firstBody = at;
         at += std::exchange(island.bodies, 0);
     }
     for (const SolverBody& body : unsorted_) {
-        Island& island = islands_[body.island];
+        Island& island = rows_.islands[body.island];
         const int index = island.firstBody + island.bodies++;
         body.body->setCompanionId(index);
-        bodies_[index] = body;
+        rows_.bodies[index] = body;
     }
 }
 
@@ -109,8 +109,8 @@ void SubstepSolver::takeBody(SolverBody& taken, float seconds) {
 int SubstepSolver::islandOf(int tag) {
     if (tag >= static_cast<int>(islandOfTag_.size())) islandOfTag_.resize(tag + 1, -1);
     if (tag >= 0 && islandOfTag_[tag] >= 0) return islandOfTag_[tag];
-    const int island = static_cast<int>(islands_.size());
-    islands_.emplace_back();
+    const int island = static_cast<int>(rows_.islands.size());
+    rows_.islands.emplace_back();
     if (tag >= 0) islandOfTag_[tag] = island;
     return island;
 }
@@ -142,7 +142,7 @@ void SubstepSolver::takeTouches(btDispatcher& dispatcher) {
     const auto key = [&](const Touch& touch) {
         return std::tuple(touch.a, touch.b, placeOf(touch.what->getBody0()), placeOf(touch.what->getBody1()));
     };
-    for (const Island& island : islands_) {
+    for (const Island& island : rows_.islands) {
         const std::span touches = std::span(touches_).subspan(island.firstTouch, island.touches);
         std::sort(touches.begin(), touches.end(), [&](const Touch& x, const Touch& y) { return key(x) < key(y); });
     }
@@ -151,26 +151,26 @@ void SubstepSolver::takeTouches(btDispatcher& dispatcher) {
 template <class T>
 void SubstepSolver::sortByIsland(std::vector<T>& all, std::vector<T>& sorted, int Island::*first, int Island::*count) {
     for (const T& one : all)
-        ++(islandOfPair(one.a, one.b).*count);
+        ++(rows_.islandOfPair(one.a, one.b).*count);
     int at = 0;
-    for (Island& island : islands_) {
+    for (Island& island : rows_.islands) {
         island.*first = at;
         at += std::exchange(island.*count, 0);
     }
     sorted.resize(all.size());
     for (const T& one : all) {
-        Island& island = islandOfPair(one.a, one.b);
+        Island& island = rows_.islandOfPair(one.a, one.b);
         sorted[island.*first + (island.*count)++] = one;
     }
 }
 
 void SubstepSolver::takeRows(std::span<Island> islands, float seconds) {
-    joints_.clear();
-    points_.clear();
-    frictions_.clear();
-    angulars_.clear();
-    generals_.clear();
-    contacts_.clear();
+    rows_.joints.clear();
+    rows_.points.clear();
+    rows_.frictions.clear();
+    rows_.angulars.clear();
+    rows_.generals.clear();
+    rows_.contacts.clear();
     for (Island& island : islands) {
         takeBodiesOf(island, seconds);
         takeLinksOf(island, seconds);
@@ -179,7 +179,7 @@ void SubstepSolver::takeRows(std::span<Island> islands, float seconds) {
 }
 
 void SubstepSolver::takeBodiesOf(const Island& island, float seconds) {
-    const std::span bodies = bodiesOf(island);
+    const std::span bodies = rows_.bodiesOf(island);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (i + 1 < bodies.size()) fetchAhead(bodies[i + 1].body, sizeof(btRigidBody));
         takeBody(bodies[i], seconds);
@@ -187,7 +187,7 @@ void SubstepSolver::takeBodiesOf(const Island& island, float seconds) {
 }
 
 void SubstepSolver::takeLinksOf(Island& island, float seconds) {
-    island.firstJoint = static_cast<int>(joints_.size());
+    island.firstJoint = static_cast<int>(rows_.joints.size());
     const std::span links = std::span(links_).subspan(island.firstLink, island.links);
     for (std::size_t i = 0; i < links.size(); ++i) {
         const Link& link = links[i];
@@ -197,11 +197,11 @@ void SubstepSolver::takeLinksOf(Island& island, float seconds) {
         else
             takeConstraint(link, seconds);
     }
-    island.joints = static_cast<int>(joints_.size()) - island.firstJoint;
+    island.joints = static_cast<int>(rows_.joints.size()) - island.firstJoint;
 }
 
 void SubstepSolver::takeTouchesOf(Island& island, float seconds) {
-    island.firstContact = static_cast<int>(contacts_.size());
+    island.firstContact = static_cast<int>(rows_.contacts.size());
     const std::span touches = std::span(touches_).subspan(island.firstTouch, island.touches);
     for (std::size_t k = 0; k < touches.size(); ++k) {
         const Touch& touch = touches[k];
@@ -209,7 +209,7 @@ void SubstepSolver::takeTouchesOf(Island& island, float seconds) {
         for (int i = 0; i < touch.what->getNumContacts(); ++i)
             takeContact(touch.what->getContactPoint(i), touch.a, touch.b, seconds);
     }
-    island.contacts = static_cast<int>(contacts_.size()) - island.firstContact;
+    island.contacts = static_cast<int>(rows_.contacts.size()) - island.firstContact;
 }
 
 void SubstepSolver::takeRagdollJoint(RagdollJoint& constraint, const Link& link, float seconds) {
@@ -219,25 +219,25 @@ void SubstepSolver::takeRagdollJoint(RagdollJoint& constraint, const Link& link,
     constraint.prepare();
     joint.constraint = &constraint;
     joint.ragdoll = &constraint;
-    joint.point = static_cast<int>(points_.size());
-    joint.firstAngular = static_cast<int>(angulars_.size());
+    joint.point = static_cast<int>(rows_.points.size());
+    joint.firstAngular = static_cast<int>(rows_.angulars.size());
     const int rows = static_cast<int>(constraint.angularRows().size());
     const int frictionRows = constraint.frictionRows();
     joint.angulars = rows - frictionRows;
     takePoint(constraint, joint, 1.0F / seconds);
     if (frictionRows > 0) {
-        joint.friction = static_cast<int>(frictions_.size());
+        joint.friction = static_cast<int>(rows_.frictions.size());
         takeFriction(constraint, joint, 1.0F / seconds);
     }
     for (int i = frictionRows; i < rows; ++i)
         takeAngular(constraint, joint, i, 1.0F / seconds);
-    joints_.push_back(joint);
+    rows_.joints.push_back(joint);
 }
 
 void SubstepSolver::takeFriction(const RagdollJoint& constraint, const Joint& joint, float rate) {
-    TurnFriction& friction = frictions_.emplace_back();
-    const M4& a = bodies_[joint.a].inverseInertia;
-    const M4& b = bodies_[joint.b].inverseInertia;
+    TurnFriction& friction = rows_.frictions.emplace_back();
+    const M4& a = rows_.bodies[joint.a].inverseInertia;
+    const M4& b = rows_.bodies[joint.b].inverseInertia;
     friction.mass = inverseOfSymmetric({a.x + b.x, a.y + b.y, a.z + b.z});
     friction.bound = constraint.targetOf(constraint.angularRows()[0], rate).high;
     if (!tuning_.warmStart) return;
@@ -246,11 +246,11 @@ void SubstepSolver::takeFriction(const RagdollJoint& constraint, const Joint& jo
 }
 
 void SubstepSolver::takePoint(const RagdollJoint& constraint, const Joint& joint, float rate) {
-    PointRows& rows = points_.emplace_back();
+    PointRows& rows = rows_.points.emplace_back();
     rows.armA = toF4(constraint.parentArm());
     rows.armB = toF4(constraint.childArm());
-    const SolverBody& a = bodies_[joint.a];
-    const SolverBody& b = bodies_[joint.b];
+    const SolverBody& a = rows_.bodies[joint.a];
+    const SolverBody& b = rows_.bodies[joint.b];
     rows.turnA = turnBy(a, rows.armA);
     rows.turnB = turnBy(b, rows.armB);
     // Change of the anchors' relative velocity by an impulse between them.
@@ -269,10 +269,10 @@ void SubstepSolver::takePoint(const RagdollJoint& constraint, const Joint& joint
 void SubstepSolver::takeAngular(const RagdollJoint& constraint, const Joint& joint, int index, float rate) {
     const RagdollJoint::AngularRow& given = constraint.angularRows()[index];
     const RagdollJoint::AngularTarget wanted = constraint.targetOf(given, rate);
-    AngularRow& row = angulars_.emplace_back();
+    AngularRow& row = rows_.angulars.emplace_back();
     row.axis = toF4(given.axis);
-    row.turnA = bodies_[joint.a].inverseInertia * row.axis;
-    row.turnB = bodies_[joint.b].inverseInertia * row.axis;
+    row.turnA = rows_.bodies[joint.a].inverseInertia * row.axis;
+    row.turnB = rows_.bodies[joint.b].inverseInertia * row.axis;
     row.inverseEffectiveMass = inverseOf(dot(row.axis, row.turnA + row.turnB), 0.0F);
     row.duty = constraint.dutyOf(3 + index);
     row.mendTarget = wanted.speed;
@@ -323,14 +323,14 @@ void SubstepSolver::takeConstraint(const Link& link, float seconds) {
     if (joint.generals == 0) return;
     joint.a = link.a;
     joint.b = link.b;
-    joint.firstGeneral = static_cast<int>(generals_.size());
+    joint.firstGeneral = static_cast<int>(rows_.generals.size());
     joint.constraint = link.what;
     joint.warm = dynamic_cast<WarmStarted*>(link.what);
-    const SolverBody& a = bodies_[joint.a];
-    const SolverBody& b = bodies_[joint.b];
+    const SolverBody& a = rows_.bodies[joint.a];
+    const SolverBody& b = rows_.bodies[joint.b];
     for (int i = 0; i < joint.generals; ++i) {
         const btSolverConstraint& given = scratch_[i];
-        GeneralRow& row = generals_.emplace_back();
+        GeneralRow& row = rows_.generals.emplace_back();
         row.linearA = toF4(given.m_contactNormal1);
         row.angularA = toF4(given.m_relpos1CrossNormal);
         row.linearB = toF4(given.m_contactNormal2);
@@ -352,11 +352,11 @@ void SubstepSolver::takeConstraint(const Link& link, float seconds) {
         if (joint.warm != nullptr && tuning_.warmStart)
             row.impulse = std::clamp(joint.warm->storedImpulse(i), row.low, row.high);
     }
-    joints_.push_back(joint);
+    rows_.joints.push_back(joint);
 }
 
 void SubstepSolver::takeContact(btManifoldPoint& point, int a, int b, float seconds) {
-    ContactRows& contact = contacts_.emplace_back();
+    ContactRows& contact = rows_.contacts.emplace_back();
     // Always the same way round as long as the two touch, so that impulses mean the same in the next substep.
     const bool swapped = a == kFixed;
     if (swapped) std::swap(a, b);
@@ -364,8 +364,8 @@ void SubstepSolver::takeContact(btManifoldPoint& point, int a, int b, float seco
     contact.b = b;
     contact.point = &point;
     contact.friction = point.m_combinedFriction;
-    const SolverBody& bodyA = bodies_[a];
-    const SolverBody& bodyB = bodies_[b];
+    const SolverBody& bodyA = rows_.bodies[a];
+    const SolverBody& bodyB = rows_.bodies[b];
     const F4 normal = swapped ? -toF4(point.m_normalWorldOnB) : toF4(point.m_normalWorldOnB);
     const F4 middle = allF4(0.5F) * (toF4(point.getPositionWorldOnA()) + toF4(point.getPositionWorldOnB()));
     contact.armA = middle - toF4(bodyA.body->getCenterOfMassPosition());
@@ -406,7 +406,7 @@ void SubstepSolver::storeFeedback(const Joint& joint, float seconds) const {
         onB.angular += row.angularB * allF4(row.impulse / seconds);
     };
     for (int i = 0; i < joint.generals; ++i)
-        add(generals_[joint.firstGeneral + i]);
+        add(rows_.generals[joint.firstGeneral + i]);
     feedback->m_appliedForceBodyA = toBullet(onA.linear);
     feedback->m_appliedTorqueBodyA = toBullet(onA.angular);
     feedback->m_appliedForceBodyB = toBullet(onB.linear);
@@ -414,32 +414,32 @@ void SubstepSolver::storeFeedback(const Joint& joint, float seconds) const {
 }
 
 void SubstepSolver::store(std::span<const Island> islands, float seconds) {
-    for (const Joint& joint : joints_) {
+    for (const Joint& joint : rows_.joints) {
         if (joint.ragdoll != nullptr) {
             for (int i = 0; i < 3; ++i)
-                joint.ragdoll->storeImpulse(i, points_[joint.point].impulse[i]);
+                joint.ragdoll->storeImpulse(i, rows_.points[joint.point].impulse[i]);
             const int others = joint.friction >= 0 ? 6 : 3;
             for (int i = 3; i < others; ++i)
-                joint.ragdoll->storeImpulse(i, frictions_[joint.friction].impulse[i - 3]);
+                joint.ragdoll->storeImpulse(i, rows_.frictions[joint.friction].impulse[i - 3]);
             for (int i = 0; i < joint.angulars; ++i)
-                joint.ragdoll->storeImpulse(others + i, angulars_[joint.firstAngular + i].impulse);
+                joint.ragdoll->storeImpulse(others + i, rows_.angulars[joint.firstAngular + i].impulse);
             joint.ragdoll->finishStoring();
             continue;
         }
         storeFeedback(joint, seconds);
         if (joint.warm == nullptr) continue;
         for (int i = 0; i < joint.generals; ++i)
-            joint.warm->storeImpulse(i, generals_[joint.firstGeneral + i].impulse);
+            joint.warm->storeImpulse(i, rows_.generals[joint.firstGeneral + i].impulse);
         joint.warm->finishStoring();
     }
-    for (const ContactRows& contact : contacts_) {
+    for (const ContactRows& contact : rows_.contacts) {
         contact.point->m_appliedImpulse = contact.normal.impulse;
         contact.point->m_appliedImpulseLateral1 = contact.tangents[0].impulse;
         contact.point->m_appliedImpulseLateral2 = contact.tangents[1].impulse;
         setRollingImpulse(*contact.point, contact.rolling);
     }
     for (const Island& island : islands) {
-        for (const SolverBody& body : bodiesOf(island)) {
+        for (const SolverBody& body : rows_.bodiesOf(island)) {
             body.body->setLinearVelocity(toBullet(body.velocity));
             body.body->setAngularVelocity(toBullet(body.turn));
         }
@@ -448,7 +448,7 @@ void SubstepSolver::store(std::span<const Island> islands, float seconds) {
 
 void SubstepSolver::move(std::span<const Island> islands, float seconds) {
     for (const Island& island : islands) {
-        for (const SolverBody& body : bodiesOf(island)) {
+        for (const SolverBody& body : rows_.bodiesOf(island)) {
             btTransform moved;
             btTransformUtil::integrateTransform(body.body->getWorldTransform(), toBullet(body.velocity),
                                                 toBullet(body.turn), seconds, moved);
@@ -462,19 +462,20 @@ void SubstepSolver::solve(std::span<btRigidBody* const> bodies, std::span<btType
     takeBodies(bodies);
     takeLinks(constraints);
     takeTouches(dispatcher);
-    for (std::size_t first = 0; first < islands_.size(); first += kTogether)
-        solve(std::span(islands_).subspan(first, std::min(kTogether, islands_.size() - first)), seconds);
+    for (std::size_t first = 0; first < rows_.islands.size(); first += SubstepSweeps::kTogether)
+        solve(std::span(rows_.islands).subspan(first, std::min(SubstepSweeps::kTogether, rows_.islands.size() - first)),
+              seconds);
 }
 
 void SubstepSolver::solve(std::span<Island> islands, float seconds) {
     takeRows(islands, seconds);
     for (Island& island : islands)
-        calm(island, seconds);
-    if (tuning_.warmStart) warmStart(islands);
-    iterate(islands, false);
-    bounce();
+        sweeps_.calm(island, seconds);
+    if (tuning_.warmStart) sweeps_.warmStart(islands);
+    sweeps_.iterate(islands, false);
+    sweeps_.bounce();
     store(islands, seconds);
-    iterate(islands, true);
+    sweeps_.iterate(islands, true);
     move(islands, seconds);
 }
 
