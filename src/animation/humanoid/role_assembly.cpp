@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "animation/humanoid/role_hierarchy.hpp"
+#include "animation/humanoid/segment_pivots.hpp"
 #include "animation/humanoid/stray_joints.hpp"
 
 namespace lutka::animation {
@@ -40,6 +41,7 @@ class RoleAssembler {
         bindLimb(figure_.legs, kLegs, figure_.margins.legs, "leg");
         bindLimb(figure_.arms, kArms, figure_.margins.arms, "arm");
         bindStrayJoints(rig_, probability(kLoneMargin) * sideTrust_, map_);
+        bindSegmentPivots(rig_, map_);
         distrustAstray();
         map_.standardFromModel = standardStance();
         return map_;

@@ -110,26 +110,47 @@ void makeChain(Binding& b, const std::vector<int>& between, int upperBody, int l
     }
 }
 
+// Gives a joint on the line from one body's joint to the next one's its part of the twist; false when it lies
+// elsewhere.
+bool takesTwist(Binding& b, int joint, int upperBody, int lowerBody) {
+    const vec3 start = b.position(b.rig.jointOfBody[upperBody]);
+    const vec3 axis = b.position(b.rig.jointOfBody[lowerBody]) - start;
+    const float length = glm::length(axis);
+    if (length < 1e-6F) return false;
+    const vec3 offset = b.position(joint) - start;
+    const float along = glm::dot(offset, axis) / (length * length);
+    const bool onTheLine = glm::length(offset - along * axis) < 0.02F * length && along > 0.05F && along < 1.05F;
+    if (!onTheLine) return false;
+    Rig::Joint& helper = b.rig.joints[joint];
+    helper.drive = JointDrive::chain;
+    helper.upperBody = upperBody;
+    helper.body = lowerBody;
+    helper.share = std::min(along, 1.0F);
+    helper.twistAxis = axis / length;
+    return true;
+}
+
 // Twist helpers beside the way: a limb's unmapped child that lies on the line to the next body takes its part of the
 // twist as well.
 void makeTwistHelpers(Binding& b, int upperBody, int lowerBody) {
     if (isTrunkLink(b.profile.bodies[lowerBody]) || isLimbRoot(b.profile, lowerBody, upperBody)) return;
     const int upper = b.rig.jointOfBody[upperBody];
-    const vec3 axis = b.position(b.rig.jointOfBody[lowerBody]) - b.position(upper);
-    const float length = glm::length(axis);
-    if (length < 1e-6F) return;
     for (int joint = upper + 1; joint < b.skeleton.jointCount(); ++joint) {
-        Rig::Joint& helper = b.rig.joints[joint];
-        if (b.skeleton.parents[joint] != upper || b.isMapped(joint) || helper.drive == JointDrive::chain) continue;
-        const vec3 offset = b.position(joint) - b.position(upper);
-        const float along = glm::dot(offset, axis) / (length * length);
-        const bool onTheLine = glm::length(offset - along * axis) < 0.02F * length && along > 0.05F && along < 1.05F;
-        if (!onTheLine) continue;
-        helper.drive = JointDrive::chain;
-        helper.upperBody = upperBody;
-        helper.body = lowerBody;
-        helper.share = std::min(along, 1.0F);
-        helper.twistAxis = axis / length;
+        const bool beside = b.skeleton.parents[joint] == upper && !b.isMapped(joint);
+        if (beside && b.rig.joints[joint].drive != JointDrive::chain) takesTwist(b, joint, upperBody, lowerBody);
+    }
+}
+
+// Halves of a segment that hang side by side ("arm_twist" at the shoulder, "arm_stretch" halfway down, which carries
+// the forearm): the half between two bodies goes with the upper one and takes its part of the twist.
+void makeHalves(Binding& b, int upperBody, int lowerBody) {
+    if (isTrunkLink(b.profile.bodies[lowerBody]) || isLimbRoot(b.profile, lowerBody, upperBody)) return;
+    const int upper = b.rig.jointOfBody[upperBody];
+    const int lower = b.rig.jointOfBody[lowerBody];
+    for (int joint = b.skeleton.parents[lower]; joint != kNoJoint; joint = b.skeleton.parents[joint]) {
+        const bool free = !b.isMapped(joint) && b.rig.joints[joint].drive == JointDrive::follower;
+        if (!free || !takesTwist(b, joint, upperBody, lowerBody)) return;
+        b.setBase(joint, upper);
     }
 }
 
@@ -228,6 +249,7 @@ void bindBases(Binding& b) {
             makeChain(b, between, parentBody, body);
         } else {
             b.setBase(joint, b.rig.jointOfBody[parentBody]);
+            makeHalves(b, parentBody, body);
             detached.push_back(joint);
         }
         makeTwistHelpers(b, parentBody, body);

@@ -327,4 +327,30 @@ TEST_CASE("joints of a face that hang on the root tell which joint is the head",
     CHECK(animation::mapHumanoid(rig.character).jointOf(Role::head) == head);
 }
 
+TEST_CASE("arms and thighs of two joints side by side begin at the pivot", "[blocks]") {
+    SyntheticRig rig = makeSyntheticRig("daz genesis 8");
+    animation::Skeleton& skeleton = rig.character.skeleton;
+    const std::vector<std::string> known = skeleton.names;
+    for (const std::string side : {"l", "r"}) {
+        const auto joint = [&](const char* part) { return animation::findJoint(skeleton, side + part); };
+        const std::pair<int, const char*> fresh[] = {{joint("Collar"), "shoulder."},
+                                                     {joint("ShldrBend"), "arm_twist."},
+                                                     {joint("ShldrTwist"), "arm_stretch."},
+                                                     {joint("ForearmBend"), "forearm_stretch."},
+                                                     {joint("ForearmTwist"), "forearm_twist."},
+                                                     {joint("Hand"), "hand."},
+                                                     {joint("ThighBend"), "thigh_twist."},
+                                                     {joint("ThighTwist"), "thigh_stretch."},
+                                                     {joint("Shin"), "leg_stretch."},
+                                                     {joint("Foot"), "foot."}};
+        for (const auto& [half, pivot] : {std::pair("ShldrTwist", "ShldrBend"), std::pair("ThighTwist", "ThighBend")})
+            skeleton.parents[joint(half)] = skeleton.parents[joint(pivot)];
+        for (const auto& [index, name] : fresh)
+            skeleton.names[index] = name + side;
+    }
+    const Score score = scoreMap(rig.truth, animation::mapHumanoid(rig.character), known);
+    INFO(score.faults);
+    CHECK(score.right == score.of);
+}
+
 }  // namespace lutka::test

@@ -207,6 +207,29 @@ TEST_CASE("twist joints of a limb share the twist and not the bend", "[rig]") {
     }
 }
 
+TEST_CASE("the lower half of a segment that hangs beside the upper one goes with it", "[rig]") {
+    const Skeleton skeleton = test::makeSkeleton({{"shoulder", -1, {-0.1F, 0, 0}},
+                                                  {"arm_twist", 0, {0, 0, 0}},
+                                                  {"arm_stretch", 0, {0.15F, 0, 0}},
+                                                  {"forearm", 2, {0.3F, 0, 0}}});
+    RagdollProfile profile = test::makePair(physics::ConeTwistLimits{1, 1, 1});
+    profile.bodies[0].joint = profile.bodies[0].jointPath = "arm_twist";
+    profile.bodies[1].joint = profile.bodies[1].jointPath = "forearm";
+    setRole(profile.bodies[1], Role::leftHand);
+    const Rig rig = boundTo(skeleton, profile);
+    std::vector<BodyState> bodies(2);
+    bodiesFromPose(rig, skeleton.bindModelFromJoint, {}, bodies);
+    std::vector<RigidTransform> worldFromBody = transformsOf(bodies);
+    const quat bend = glm::angleAxis(0.7F, vec3(0, 0, 1));
+    const quat twist = glm::angleAxis(1.0F, vec3(1, 0, 0));
+    worldFromBody[1].rotation = bend * twist * worldFromBody[1].rotation;
+    std::vector<RigidTransform> pose(4);
+    poseFromBodies(rig, skeleton, worldFromBody, {}, pose);
+    CHECK(glm::distance(pose[2].translation, vec3(0.15F, 0, 0)) < 1e-5F);
+    CHECK(angleBetween(pose[2].rotation, glm::angleAxis(0.5F, vec3(1, 0, 0))) < 1e-3F);
+    CHECK(glm::distance(pose[3].translation, vec3(0.3F, 0, 0)) < 1e-5F);
+}
+
 TEST_CASE("roots above the hips move with them", "[rig]") {
     const Skeleton skeleton = bipedWith({}, {{"armature", -1, {0, 0, 0}}, {"root", 0, {0, 0.1F, 0}}});
     const Rig rig = boundTo(skeleton, dollWithoutPaths());
