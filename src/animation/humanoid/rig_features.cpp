@@ -137,8 +137,9 @@ void findShadows(RigFeatures& rig) {
             // A leaf that moves much of the skin is a part of its own: a head that starts where the clavicles do.
             const bool leafOfMore = rig.children[joint].empty() && !rig.children[other].empty() &&
                                     (!rig.skinned || rig.rigidPart[joint] || rig.directWeight[joint] < kOwnPart);
-            // Nor is a joint the shadow of a leaf that moves its skin for it.
-            const bool movesForIt = rig.parents[other] == joint && rig.children[other].empty();
+            // Nor is a joint, but a control, the shadow of a leaf that moves its skin for it.
+            const bool movesForIt =
+                !rig.names[joint].helper && rig.parents[other] == joint && rig.children[other].empty();
             rig.shadow[joint] = (otherSkinned && !movesForIt && rig.directWeight[joint] <= 0.0F) ||
                                 (leafOfMore && (otherSkinned || partOfOther || !rig.skinned));
         }
