@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 
 #include "core/random.hpp"
-#include "scene/body_bounds.hpp"
 #include "scene/entity_colors.hpp"
+#include "scene/free_places.hpp"
 
 namespace lutka::scene {
 namespace {
@@ -158,6 +158,23 @@ void addPitWall(Context& context, const vec3& centre, const vec3& halfExtents) {
     look.castsShadow = false;
 }
 
+// Any turn in which the figure is clear of those that are placed; where there is none, the one of several that comes
+// nearest to it.
+quat freeTurn(Context& context, FreePlaces& placed, const vec3& centre) {
+    constexpr int kTries = 40;
+    quat best = anyTurn(context);
+    float least = placed.depthAt(centre, best);
+    for (int i = 1; i < kTries && least > 0.0F; ++i) {
+        const quat turn = anyTurn(context);
+        const float depth = placed.depthAt(centre, turn);
+        if (depth >= least) continue;
+        best = turn;
+        least = depth;
+    }
+    placed.take(centre, best);
+    return best;
+}
+
 void pile(Context& context) {
     look(context, 30, 24);
     constexpr float wall = 0.5F;
@@ -169,6 +186,7 @@ void pile(Context& context) {
     }
     constexpr int side = 4;
     constexpr int layer = side * side;
+    FreePlaces placed(context.figure);
     for (int i = 0; i < context.count; ++i) {
         vec3 centre = gridPlace(i % layer, layer, kPitSpacing);
         // Drawn in statements of their own: compilers differ in the order of a call's arguments.
@@ -177,7 +195,7 @@ void pile(Context& context) {
         centre += vec3(aside, 0, ahead);
         const int storey = i / layer;
         centre.y = 1.3F + kLayerHeight * static_cast<float>(storey);
-        placeCentre(context, centre, anyTurn(context));
+        placeCentre(context, centre, freeTurn(context, placed, centre));
     }
     context.scene.simulation.focusRadius = 5.0F;
     context.scene.simulation.seconds = 8.0F + 0.02F * static_cast<float>(context.count);
@@ -434,35 +452,6 @@ std::string knownNames() {
 
 std::span<const ScenarioInfo> scenarioRegistry() {
     return kRegistry;
-}
-
-FigureBounds figureBounds(const physics::RagdollProfile& profile, const physics::Rig& rig) {
-    FigureBounds bounds{vec3(1e9F), vec3(-1e9F)};
-    const auto boxOf = [&](std::size_t body) {
-        const RigidTransform standardFromBody =
-            RigidTransform{profile.standardFromModel, vec3(0)} * rig.bindModelFromBody[body];
-        const vec3 half = halfAabbOf(profile.bodies[body].shape, standardFromBody.rotation);
-        return FigureBounds{standardFromBody.translation - half, standardFromBody.translation + half};
-    };
-    for (std::size_t body = 0; body < profile.bodies.size(); ++body) {
-        const FigureBounds box = boxOf(body);
-        bounds.low = glm::min(bounds.low, box.low);
-        bounds.high = glm::max(bounds.high, box.high);
-    }
-    // It stands on what comes within a twentieth of its height to the ground.
-    const float ground = bounds.low.y + 0.05F * (bounds.high.y - bounds.low.y);
-    const vec3 middle = 0.5F * (bounds.low + bounds.high);
-    for (std::size_t body = 0; body < profile.bodies.size(); ++body) {
-        const FigureBounds box = boxOf(body);
-        if (box.low.y > ground) continue;
-        const vec3 reach = glm::max(glm::abs(box.low - middle), glm::abs(box.high - middle));
-        bounds.stance = std::max(bounds.stance, std::hypot(reach.x, reach.z));
-    }
-    return bounds;
-}
-
-Figure figureOf(const RagdollAsset& asset) {
-    return {figureBounds(asset.profile, asset.rig), asset.profile.standardFromModel};
 }
 
 Result<EntityScene> makeScene(std::string_view name, int count, std::uint64_t seed, const FigureBounds& figure) {

@@ -12,6 +12,7 @@
 #include "render/camera.hpp"
 #include "render/light.hpp"
 #include "scene/entity_scene.hpp"
+#include "scene/figure_bounds.hpp"
 #include "scene/ragdoll_asset.hpp"
 
 namespace lutka::scene {
@@ -84,23 +85,6 @@ struct ScenarioInfo {
 
 /// drop, spread, pile, stairs, ramp, hang, throw, balls, walk, push, getup, march.
 [[nodiscard]] std::span<const ScenarioInfo> scenarioRegistry();
-
-/// The standing figure's extent in its standard stance (Y up, facing +Z), relative to the rotated model's origin.
-struct FigureBounds {
-    vec3 low{0, 0, 0};
-    vec3 high{0, 0, 0};
-    float stance = 0.0F;  ///< Metres from the middle, level, that what it stands on reaches: the wider, the deeper a
-                          ///< tilted figure dips.
-};
-/// Over the surfaces of all bodies in the bind pose.
-[[nodiscard]] FigureBounds figureBounds(const physics::RagdollProfile& profile, const physics::Rig& rig);
-
-/// What a scene has to know of a character to place it.
-struct Figure {
-    FigureBounds bounds;
-    quat standardFromModel{1, 0, 0, 0};
-};
-[[nodiscard]] Figure figureOf(const RagdollAsset& asset);
 
 /// The named scene for `count` characters of one figure, `count` in [1, 10000], whose models are left empty. Seed 0
 /// stands exactly upright; other seeds turn, tilt and nudge the figures. Fails with ErrorCode::usage for an unknown
