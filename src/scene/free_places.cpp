@@ -31,8 +31,8 @@ float FreePlaces::depthIn(const Placed& a, const Placed& b) const {
         for (std::size_t k = 0; k < figure_.bodies.size(); ++k) {
             const RigidTransform& placeB = b.worldFromBody[k];
             if (glm::distance(placeA.translation, placeB.translation) > radius_[i] + radius_[k]) continue;
-            depth = std::max(depth, -physics::distanceBetween(figure_.bodies[i].shape, placeA, figure_.bodies[k].shape,
-                                                              placeB));
+            depth = std::max(
+                depth, -physics::distanceBetween(figure_.bodies[i].shape, placeA, figure_.bodies[k].shape, placeB));
         }
     }
     return depth;

@@ -24,8 +24,8 @@ float deepestStart(const RagdollAsset& asset, const Scenario& scenario) {
         for (std::size_t b = a + 1; b < scenario.dolls.size(); ++b) {
             for (std::size_t i = 0; i < bodies.size(); ++i) {
                 for (std::size_t k = 0; k < bodies.size(); ++k)
-                    deepest = std::max(deepest, -physics::distanceBetween(bodies[i].shape, place(a, i), bodies[k].shape,
-                                                                          place(b, k)));
+                    deepest = std::max(
+                        deepest, -physics::distanceBetween(bodies[i].shape, place(a, i), bodies[k].shape, place(b, k)));
             }
         }
     }

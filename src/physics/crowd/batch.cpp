@@ -19,6 +19,9 @@ void clear(Wide& wide, int lane) {
     wide.lane[lane] = 0.0F;
 }
 
+// Metres: farther than anything moves that is followed.
+constexpr float kAnywhere = 1e3F;
+
 // What a sweep needs of the tree is not needed after it: all batches of a thread share the room, which so stays in the
 // nearest caches.
 TreeLanes* treeRoom(std::size_t bodies) {
@@ -63,6 +66,7 @@ void writeLane(Batch& batch, int lane, std::span<const BodyState> bodies) {
         writeVector(to.velocity, lane, bodies[b].linearVelocity);
         writeVector(to.angular, lane, bodies[b].angularVelocity);
         writeVector(to.support, lane, vec3(0));
+        to.way.lane[lane] = kAnywhere;
         to.rotation.x.lane[lane] = q.x;
         to.rotation.y.lane[lane] = q.y;
         to.rotation.z.lane[lane] = q.z;

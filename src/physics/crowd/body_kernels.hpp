@@ -193,6 +193,19 @@ static void joinBounds(const BatchView& batch, Wide3& low, Wide3& high) {
     store(high, most3);
 }
 
+static void takeWay(const BatchView& batch, Wide& way, Wide& speed) {
+    F farthest = all(0.0F);
+    F fastest = all(0.0F);
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        BodyLanes& body = batch.bodies[b];
+        farthest = most(farthest, load(body.way));
+        fastest = most(fastest, speedBound(body, batch.bodyConstants[b]));
+        store(body.way, all(0.0F));
+    }
+    store(way, farthest);
+    store(speed, fastest);
+}
+
 static void findMotion(const BatchView& batch, Wide& speed2, Wide& turn2) {
     F fastest = all(0.0F);
     F quickest = all(0.0F);
@@ -212,7 +225,9 @@ static void findMotion(const BatchView& batch, Wide& speed2, Wide& turn2) {
 // body and is forgotten.
 LUTKA_LANES void advanceBody(BodyLanes& body, const BodyConstants& constants, F dt) {
     store(body.position, load(body.position) + load(body.velocity) * dt);
-    store(body.room, load(body.room) - speedBound(body, constants) * dt);
+    const F moved = speedBound(body, constants) * dt;
+    store(body.room, load(body.room) - moved);
+    store(body.way, load(body.way) + moved);
     const Axes axes = axesOf(body);
     const V3 inertia = all(constants.inertia);
     const V3 inverseInertia = all(constants.inverseInertia);

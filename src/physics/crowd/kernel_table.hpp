@@ -25,8 +25,8 @@ static void begin(const BatchView& batch, const SubstepParams& params) {
 
 static constexpr Kernels kTable{&refresh,    &findBounds,    &findSelfPairs, &findBodyPairs, &findBoxesAfter,
                                 &touchCores, &touchOwnCores, &findNearPlane, &limitRoom,     &joinBounds,
-                                &findMotion, &begin,         &solve,         &outruns,       &solveAgain,
-                                &mend,       &advance,       &beginPairs,    &solvePairs,    &mendPairs,
-                                &pressAgain, &pressRest,     &carryPairs};
+                                &takeWay,    &findMotion,    &begin,         &solve,         &outruns,
+                                &solveAgain, &mend,          &advance,       &beginPairs,    &solvePairs,
+                                &mendPairs,  &pressAgain,    &pressRest,     &carryPairs};
 
 }  // namespace lutka::physics::crowd::LUTKA_KERNELS

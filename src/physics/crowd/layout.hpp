@@ -39,6 +39,7 @@ struct BodyLanes {
     Wide4 rotation;
     Wide3 loose;         ///< The velocity that pushes on single bodies gave: what differs is the joints' doing.
     Wide room;           ///< Metres that its surface may still move before a static contact could be missing.
+    Wide way;            ///< Metres that its surface has moved at most since Kernels::takeWay was last asked.
     Wide3 spin;          ///< What half a substep of free motion adds to the turning rate.
     Wide3 halfTurn;      ///< Half the substep times both: with it
     Wide chord;          ///< and this factor an arm comes to where it is half way: see `halfWay`.
@@ -466,6 +467,9 @@ struct Kernels {
     void (*limitRoom)(const BatchView& batch, const float (&normal)[3], float offset, float margin, float seconds);
     /// Bounds of each doll: those of its bodies.
     void (*joinBounds)(const BatchView& batch, Wide3& low, Wide3& high);
+    /// Of each doll, how far the surface of any of its bodies has moved at most since this was last asked, metres, and
+    /// how fast any moves now, m/s.
+    void (*takeWay)(const BatchView& batch, Wide& way, Wide& speed);
     /// Squares of the largest speed and turning rate among a doll's bodies.
     void (*findMotion)(const BatchView& batch, Wide& speed2, Wide& turn2);
     /// Gravity and damping, this substep's Jacobians and masses, then last substep's impulses.

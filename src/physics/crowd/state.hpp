@@ -55,6 +55,8 @@ struct Doll {
     vec3 low{0, 0, 0};              ///< Bounds for the step as seen from the root: see Kernels::findBounds.
     vec3 high{0, 0, 0};
     vec3 rootVelocity{0, 0, 0};
+    double way = 0.0;             ///< Metres that any of its bodies has moved at most, in sum since it was added,
+    float reachesFarther = 0.0F;  ///< and that its bounds for the step reach beyond its bodies as they lie.
     CollisionFilter filter;
     bool removed = false;      ///< Its place waits for another with as many bodies.
     ContactReport::Side side;  ///< What the world calls it.
@@ -224,6 +226,15 @@ struct SweptPairs {
     std::vector<int> near;  ///< Places in the sweep.
 };
 
+/// Which bodies of two dolls may be near each other for some steps to come. Dolls of a heap that lie nearly still are
+/// not looked through body by body in every step.
+struct NearBodies {
+    std::pair<int, int> dolls{-1, -1};
+    bool holds = false;  ///< Whether it was looked for.
+    double way = 0.0;    ///< Sum of both dolls' ways then.
+    std::vector<std::array<std::uint8_t, 2>> pairs;
+};
+
 /// Of a piece of the pairs of dolls: what was found, and room to look for it.
 struct PieceTouches {
     std::vector<PairTouch> touches;
@@ -246,6 +257,7 @@ struct Scratch {
     std::vector<std::size_t> placeOfList;  ///< Among the touches.
     std::vector<BlockTouches> blocksOf;    ///< Of each part of all jobs.
     std::vector<char> restless;            ///< One a doll.
+    std::vector<NearBodies> nearBefore;    ///< Of the step before.
     std::vector<SubstepParams> paramsFor;  ///< By the number of substeps that a step has.
 };
 
@@ -290,7 +302,8 @@ struct CrowdState {
     std::vector<int> sweep;                           ///< Dolls by the low end of their bounds along x,
     std::vector<BoxLanes> sweptBoxes;                 ///< and these bounds.
     std::vector<std::pair<int, int>> dollPairs;
-    TouchList touches;  ///< Of this step; after it with its impulses.
+    std::vector<NearBodies> nearBodies;  ///< One each.
+    TouchList touches;                   ///< Of this step; after it with its impulses.
     Chunked<PairContactLanes, kPairChunk> pairs;
     std::vector<TouchBrief> briefs;             ///< One a touch.
     std::vector<char> isPaired;                 ///< One a body of the world: whether a contact of this step pushes it.

@@ -3,6 +3,7 @@
 
 #include "crowd_scene.hpp"
 #include "physics/bullet/bullet_world.hpp"
+#include "physics/collision/shape.hpp"
 #include "support/catch.hpp"
 #include "support/dolls.hpp"
 
@@ -30,6 +31,18 @@ float lowestPoint(const physics::RagdollProfile& profile, const std::vector<Body
         low = std::min(low, at.translation.y - std::abs((at.rotation * vec3(0, shape.halfLength, 0)).y) - shape.radius);
     }
     return low;
+}
+
+// How deep the first two dolls lie in each other, metres.
+float depthOf(const physics::World& world, const physics::RagdollProfile& profile) {
+    const std::vector<BodyState> a = bodiesOf(world, 0);
+    const std::vector<BodyState> b = bodiesOf(world, 1);
+    float depth = 0.0F;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        for (std::size_t k = 0; k < b.size(); ++k)
+            depth = std::max(depth, -physics::distanceBetween(profile.bodies[i].shape, a[i].worldFromBody,
+                                                              profile.bodies[k].shape, b[k].worldFromBody));
+    return depth;
 }
 
 }  // namespace
@@ -85,6 +98,41 @@ TEST_CASE("a doll spawned inside another is pushed out calmly") {
     CHECK(fastest < 6.0F);
     CHECK(highestBody(*world, 0) < 0.8F);
     CHECK(highestBody(*world, 1) < 0.8F);
+}
+
+// Which bodies of two dolls that lie nearly still may be near each other is looked for once in several steps.
+TEST_CASE("a doll that creeps towards another, or is put onto it, is met") {
+    const physics::RagdollProfile profile = makeDoll();
+    WorldSettings settings;
+    settings.gravity = vec3(0);
+    settings.sleeping = false;
+    const std::vector<BodyState> standing = placedDoll(profile, vec3(0));
+    // Level, its legs above the other's arm: the bounds of the two meet, their bodies do not.
+    const auto above = [&](float height, float speed) {
+        return placedDoll(profile, {0.5F, 0.52F + height, 0.5F}, glm::angleAxis(radians(90.0F), vec3(1, 0, 0)),
+                          {0, -speed, 0});
+    };
+    const auto creeping = createCrowdWorld(settings);
+    creeping->addDoll(profile, standing);
+    creeping->addDoll(profile, above(0.3F, 0.06F));
+    float deepest = 0.0F;
+    for (int i = 0; i < 400; ++i) {  // 40 cm
+        creeping->step(kStep);
+        deepest = std::max(deepest, depthOf(*creeping, profile));
+    }
+    CHECK(deepest < 0.002F);
+    CHECK(bodiesOf(*creeping, 0)[0].linearVelocity.y < -1e-4F);  // carried along
+
+    const auto put = createCrowdWorld(settings);
+    put->addDoll(profile, standing);
+    const physics::DollId second = put->addDoll(profile, above(0.3F, 0.0F));
+    for (int i = 0; i < 10; ++i)
+        put->step(kStep);
+    put->setBodies(second, above(0.09F, 0.0F));
+    REQUIRE(depthOf(*put, profile) > 0.01F);
+    for (int i = 0; i < 60; ++i)
+        put->step(kStep);
+    CHECK(depthOf(*put, profile) < 0.002F);
 }
 
 TEST_CASE("a pile of thirty dolls stays within its bounds") {
