@@ -55,7 +55,7 @@ void findBins(CrowdState& state, const Job& job, const Stretch& stretch) {
                 for (int lane = 0; lane < batch.used; ++lane) {
                     const float at = (along.lane[lane] - stretch.low) * scale;
                     const float last = static_cast<float>(kBins - 1);
-                    state.binOf[static_cast<std::size_t>(batch.firstBody[lane] + body)] =
+                    state.binOf[static_cast<std::size_t>(batch.firstBody[lane]) + static_cast<std::size_t>(body)] =
                         at > 0.0F ? static_cast<std::uint8_t>(std::min(at, last)) : std::uint8_t{0};
                 }
             }
