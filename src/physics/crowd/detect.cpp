@@ -446,7 +446,6 @@ void append(CrowdState& state, std::size_t count, const ListOf& listOf) {
         total += listOf(i).size();
     }
     state.touches.resize(total);
-    makeRoom(state.briefs, total);
     state.briefs.resize(total);
     state.inParallel(count, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -465,6 +464,7 @@ void append(CrowdState& state, std::size_t count, const ListOf& listOf) {
 void joinContacts(CrowdState& state, float dt) {
     constexpr std::size_t kPiecesAThread = 8;
     state.touches.clear();
+    state.briefs.clear();
     append(
         state, state.active.size(), [&](std::size_t i) -> const auto& { return state.selfTouches[i]; });
     const std::size_t pieces = (state.dollPairs.size() + kPiece - 1) / kPiece;

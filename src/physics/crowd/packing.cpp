@@ -105,7 +105,7 @@ class Packer {
         return true;
     }
 
-    const std::vector<TouchBrief>& briefs_;
+    const BriefList& briefs_;
     std::span<const int> touches_;
     BlockTouches& blocks_;
     std::vector<std::uint64_t>& usedBy_;  // one a body of the world: the blocks of the window that have it

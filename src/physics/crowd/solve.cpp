@@ -190,8 +190,10 @@ class JobSubstep {
 std::size_t countPressing(const CrowdState& state, std::size_t begin, std::size_t end) {
     std::size_t count = 0;
     for (std::size_t block = begin; block < end; ++block)
-        for (const float impulse : state.pairs[block].normalImpulse.lane)
-            count += impulse > 0.0F ? 1 : 0;
+        for (int lane = 0; lane < kLanes; ++lane) {
+            const bool isContact = state.touchOfLane[block][lane] >= 0;  // an empty lane repeats another
+            count += isContact && state.pairs[block].normalImpulse.lane[lane] > 0.0F ? 1 : 0;
+        }
     return count;
 }
 

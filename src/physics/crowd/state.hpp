@@ -168,6 +168,8 @@ struct TouchBrief {
     bool presses = false;      ///< After the step: whether it did in its last substep. Before: or is likely to.
 };
 
+using BriefList = Chunked<TouchBrief, 2048>;
+
 /// A part of a job's contacts between bodies: see partTouches().
 struct PairPart {
     std::size_t firstTouch = 0;  ///< Into Job::touches.
@@ -305,7 +307,7 @@ struct CrowdState {
     std::vector<NearBodies> nearBodies;  ///< One each.
     TouchList touches;                   ///< Of this step; after it with its impulses.
     Chunked<PairContactLanes, kPairChunk> pairs;
-    std::vector<TouchBrief> briefs;             ///< One a touch.
+    BriefList briefs;                           ///< One a touch.
     std::vector<char> isPaired;                 ///< One a body of the world: whether a contact of this step pushes it.
     std::vector<std::uint8_t> binOf;            ///< One a body of the world: see partTouches().
     std::vector<PairContactLanes*> pairChunks;  ///< Where their pieces are.
