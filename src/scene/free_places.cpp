@@ -4,15 +4,15 @@
 #include <glm/geometric.hpp>
 
 #include "physics/collision/shape.hpp"
+#include "physics/world/doll_overlap.hpp"
 
 namespace lutka::scene {
 
 FreePlaces::FreePlaces(const FigureBounds& figure) : figure_(figure) {
     const Placed alone = bodiesAt(vec3(0), quat(1, 0, 0, 0));
-    for (std::size_t i = 0; i < figure.bodies.size(); ++i) {
-        radius_.push_back(physics::boundingRadius(figure.bodies[i].shape));
-        reach_ = std::max(reach_, glm::length(alone.worldFromBody[i].translation) + radius_[i]);
-    }
+    for (std::size_t i = 0; i < figure.bodies.size(); ++i)
+        reach_ = std::max(
+            reach_, glm::length(alone.worldFromBody[i].translation) + physics::boundingRadius(figure.bodies[i].shape));
 }
 
 FreePlaces::Placed FreePlaces::bodiesAt(const vec3& centre, const quat& turn) const {
@@ -24,18 +24,13 @@ FreePlaces::Placed FreePlaces::bodiesAt(const vec3& centre, const quat& turn) co
 }
 
 float FreePlaces::depthIn(const Placed& a, const Placed& b) const {
-    float depth = 0.0F;
+    physics::DollOverlap overlap;
     for (std::size_t i = 0; i < figure_.bodies.size(); ++i) {
-        const RigidTransform& placeA = a.worldFromBody[i];
-        if (glm::distance(placeA.translation, b.centre) > radius_[i] + reach_) continue;
-        for (std::size_t k = 0; k < figure_.bodies.size(); ++k) {
-            const RigidTransform& placeB = b.worldFromBody[k];
-            if (glm::distance(placeA.translation, placeB.translation) > radius_[i] + radius_[k]) continue;
-            depth = std::max(
-                depth, -physics::distanceBetween(figure_.bodies[i].shape, placeA, figure_.bodies[k].shape, placeB));
-        }
+        overlap.add(0, figure_.bodies[i].shape, a.worldFromBody[i]);
+        overlap.add(1, figure_.bodies[i].shape, b.worldFromBody[i]);
     }
-    return depth;
+    overlap.depths();
+    return overlap.deepest();
 }
 
 float FreePlaces::depthAt(const vec3& centre, const quat& turn) const {

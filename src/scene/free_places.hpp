@@ -26,8 +26,7 @@ class FreePlaces {
     [[nodiscard]] float depthIn(const Placed& a, const Placed& b) const;
 
     const FigureBounds& figure_;
-    std::vector<float> radius_;  // of a sphere about each body's centre
-    float reach_ = 0.0F;         // of the figure from its middle
+    float reach_ = 0.0F;  // of the figure from its middle
     std::vector<Placed> taken_;
 };
 

@@ -1,9 +1,8 @@
 #include "scene/free_places.hpp"
 
-#include <algorithm>
 #include <cmath>
 
-#include "physics/collision/shape.hpp"
+#include "physics/world/doll_overlap.hpp"
 #include "scene/scenario.hpp"
 #include "support/catch.hpp"
 #include "support/ragdolls.hpp"
@@ -13,23 +12,16 @@ using namespace lutka::scene;
 
 namespace {
 
-// How deep any two of a scene's figures lie in each other where they start, metres: body by body, from the placements.
+// How deep any two of a scene's figures lie in each other where they start, metres, from the placements.
 float deepestStart(const RagdollAsset& asset, const Scenario& scenario) {
-    float deepest = 0.0F;
-    const auto& bodies = asset.profile.bodies;
-    const auto place = [&](std::size_t doll, std::size_t body) {
-        return scenario.dolls[doll].worldFromModel * asset.rig.bindModelFromBody[body];
-    };
-    for (std::size_t a = 0; a < scenario.dolls.size(); ++a) {
-        for (std::size_t b = a + 1; b < scenario.dolls.size(); ++b) {
-            for (std::size_t i = 0; i < bodies.size(); ++i) {
-                for (std::size_t k = 0; k < bodies.size(); ++k)
-                    deepest = std::max(
-                        deepest, -physics::distanceBetween(bodies[i].shape, place(a, i), bodies[k].shape, place(b, k)));
-            }
-        }
+    physics::DollOverlap overlap;
+    for (std::size_t doll = 0; doll < scenario.dolls.size(); ++doll) {
+        for (std::size_t body = 0; body < asset.profile.bodies.size(); ++body)
+            overlap.add(static_cast<int>(doll), asset.profile.bodies[body].shape,
+                        scenario.dolls[doll].worldFromModel * asset.rig.bindModelFromBody[body]);
     }
-    return deepest;
+    overlap.depths();
+    return overlap.deepest();
 }
 
 }  // namespace

@@ -6,16 +6,18 @@
 
 namespace lutka::physics {
 
+void DollOverlap::add(int doll, const BodyShape& shape, const RigidTransform& worldFromBody) {
+    const mat3 bodyFromWorld = glm::mat3_cast(glm::conjugate(worldFromBody.rotation));
+    const vec3& centre = worldFromBody.translation;
+    vec3 half;
+    for (int axis = 0; axis < 3; ++axis)
+        half[axis] = halfWidth(shape, bodyFromWorld[axis]) + 0.5F * kNear;
+    bodies_.push_back({&shape, worldFromBody, centre - half, centre + half, doll});
+}
+
 void DollOverlap::add(int doll, const RagdollProfile& profile, std::span<const BodyState> bodies) {
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const BodyShape& shape = profile.bodies[i].shape;
-        const RigidTransform& placed = bodies[i].worldFromBody;
-        const mat3 bodyFromWorld = glm::mat3_cast(glm::conjugate(placed.rotation));
-        vec3 half;
-        for (int axis = 0; axis < 3; ++axis)
-            half[axis] = halfWidth(shape, bodyFromWorld[axis]) + 0.5F * kNear;
-        bodies_.push_back({&shape, placed, placed.translation - half, placed.translation + half, doll});
-    }
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        add(doll, profile.bodies[i].shape, bodies[i].worldFromBody);
 }
 
 void DollOverlap::measure(const Body& a, const Body& b) {

@@ -14,10 +14,12 @@ class DollOverlap {
     static constexpr float kNear = 0.01F;  ///< Metres: pairs farther apart are not counted.
 
     void clear() { bodies_.clear(); }
-    /// A doll's bodies, all of them finite; the profile must live until depths() is called.
+    /// A body of a doll, where it is finite; the shape must live until depths() is called.
+    void add(int doll, const BodyShape& shape, const RigidTransform& worldFromBody);
+    /// All bodies of a doll, likewise.
     void add(int doll, const RagdollProfile& profile, std::span<const BodyState> bodies);
-    /// The depth of each pair that is near, metres: 0 where the two are apart. Valid until the next call.
-    [[nodiscard]] std::span<const float> depths();
+    /// Measures: the depth of each pair that is near, metres; 0 where the two are apart. Valid until the next call.
+    std::span<const float> depths();
     /// The largest of the last depths().
     [[nodiscard]] float deepest() const;
 

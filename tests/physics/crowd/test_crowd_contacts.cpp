@@ -3,7 +3,7 @@
 
 #include "crowd_scene.hpp"
 #include "physics/bullet/bullet_world.hpp"
-#include "physics/collision/shape.hpp"
+#include "physics/world/doll_overlap.hpp"
 #include "support/catch.hpp"
 #include "support/dolls.hpp"
 
@@ -35,14 +35,12 @@ float lowestPoint(const physics::RagdollProfile& profile, const std::vector<Body
 
 // How deep the first two dolls lie in each other, metres.
 float depthOf(const physics::World& world, const physics::RagdollProfile& profile) {
-    const std::vector<BodyState> a = bodiesOf(world, 0);
-    const std::vector<BodyState> b = bodiesOf(world, 1);
-    float depth = 0.0F;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        for (std::size_t k = 0; k < b.size(); ++k)
-            depth = std::max(depth, -physics::distanceBetween(profile.bodies[i].shape, a[i].worldFromBody,
-                                                              profile.bodies[k].shape, b[k].worldFromBody));
-    return depth;
+    physics::DollOverlap overlap;
+    const std::vector<BodyState> bodies[2]{bodiesOf(world, 0), bodiesOf(world, 1)};
+    for (int doll = 0; doll < 2; ++doll)
+        overlap.add(doll, profile, bodies[doll]);
+    overlap.depths();
+    return overlap.deepest();
 }
 
 }  // namespace
