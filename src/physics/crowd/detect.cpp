@@ -6,6 +6,7 @@
 
 #include "physics/collision/shape.hpp"
 #include "physics/crowd/broadphase.hpp"
+#include "physics/crowd/near_bodies.hpp"
 #include "physics/crowd/static_contacts.hpp"
 #include "physics/crowd/substeps.hpp"
 
@@ -240,53 +241,14 @@ void findSelfContacts(CrowdState& state, Batch& batch, const BatchView& view, co
     }
 }
 
-// Metres that the bodies of two dolls may come nearer to each other until they are looked through again.
-constexpr float kNearBodies = 0.02F;
-
-// The bodies of two dolls whose bounds, grown by `farther`, meet; returns how many pairs of `near` there are.
-int findBodyPairs(const CrowdState& state, const Doll& a, const Doll& b, float dt, float farther,
-                  std::vector<BodyPair>& near) {
-    // How far the two roots move against each other.
-    const vec3 moved = glm::abs(a.rootVelocity - b.rootVelocity) * (kForesight * dt) + farther;
-    const float apart[3] = {moved.x, moved.y, moved.z};
-    const auto boxesOf = [&](const Doll& doll) {
-        return DollBoxes{&state.stepBoxes[doll.firstBox],
-                         doll.boxes,
-                         {doll.low.x, doll.low.y, doll.low.z},
-                         {doll.high.x, doll.high.y, doll.high.z}};
-    };
-    near.resize(static_cast<std::size_t>(a.boxes) * static_cast<std::size_t>(b.boxes) * kLanes * kLanes);
-    return state.kernels->findBodyPairs(boxesOf(a), boxesOf(b), apart, near.data());
-}
-
 void collideDolls(const CrowdState& state, NearBodies& kept, float dt, std::vector<BodyPair>& near,
                   TouchSearch& search) {
-    const auto [indexA, indexB] = kept.dolls;
-    const Doll& a = state.dolls[indexA];
-    const Doll& b = state.dolls[indexB];
-    const StepBody* bodiesA = &state.stepBodies[a.firstBody];
-    const StepBody* bodiesB = &state.stepBodies[b.firstBody];
-    const auto add = [&, a = indexA, b = indexB](int bodyA, int bodyB) {
-        search.add({a, bodyA}, bodiesA[bodyA], {b, bodyB}, bodiesB[bodyB]);
-    };
-    const float farther = a.reachesFarther + b.reachesFarther;
-    const double way = a.way + b.way;
-    if (!kept.holds || way - kept.way + static_cast<double>(farther) > static_cast<double>(kNearBodies)) {
-        // What moves fast would have to be looked through again in the next step anyhow.
-        kept.holds = farther < 0.25F * kNearBodies;
-        const int count = findBodyPairs(state, a, b, dt, kept.holds ? kNearBodies : 0.0F, near);
-        kept.way = way;
-        kept.pairs.clear();
-        for (int i = 0; i < count; ++i) {
-            if (kept.holds)
-                kept.pairs.push_back({static_cast<std::uint8_t>(near[i].a), static_cast<std::uint8_t>(near[i].b)});
-            else
-                add(near[i].a, near[i].b);
-        }
-    }
-    if (!kept.holds) return;
-    for (const auto& [bodyA, bodyB] : kept.pairs)
-        add(bodyA, bodyB);
+    const int count = findNearBodies(state, kept, dt, near);
+    const auto [a, b] = kept.dolls;
+    const StepBody* bodiesA = &state.stepBodies[state.dolls[a].firstBody];
+    const StepBody* bodiesB = &state.stepBodies[state.dolls[b].firstBody];
+    for (int i = 0; i < count; ++i)
+        search.add({a, near[i].a}, bodiesA[near[i].a], {b, near[i].b}, bodiesB[near[i].b]);
 }
 
 // Whether an awake doll is about to push a sleeping one.
@@ -315,19 +277,6 @@ bool pushes(const CrowdState& state, int moverIndex, int sleeperIndex, float dt)
         }
     }
     return false;
-}
-
-// How far each doll has moved since the last search, and how far its bounds look ahead.
-void takeWays(CrowdState& state, Batch& batch, const Topology& topology, float dt) {
-    Wide way;
-    Wide speed;
-    state.kernels->takeWay(batch.view(topology), way, speed);
-    for (int lane = 0; lane < batch.used; ++lane) {
-        Doll& doll = state.dolls[batch.doll[lane]];
-        doll.way += static_cast<double>(way.lane[lane]);
-        // Against the root's motion, and with it.
-        doll.reachesFarther = 3.0F * kForesight * dt * speed.lane[lane];
-    }
 }
 
 }  // namespace
@@ -393,25 +342,6 @@ void placeNearDolls(CrowdState& state) {
             placeDoll(state, doll);
         }
     });
-}
-
-// What is known of pairs of dolls that still meet stays; both lists are in the order of the dolls.
-void keepNearBodies(CrowdState& state) {
-    std::vector<NearBodies>& before = state.scratch.nearBefore;
-    std::swap(before, state.nearBodies);
-    state.nearBodies.resize(state.dollPairs.size());
-    for (std::size_t i = 0; i < state.dollPairs.size(); ++i) {
-        state.nearBodies[i].dolls = state.dollPairs[i];
-        state.nearBodies[i].holds = false;
-    }
-    std::size_t at = 0;
-    for (NearBodies& known : before) {
-        if (!known.holds) continue;
-        while (at < state.dollPairs.size() && state.dollPairs[at] < known.dolls)
-            ++at;
-        if (at == state.dollPairs.size()) return;
-        if (state.dollPairs[at] == known.dolls) std::swap(state.nearBodies[at], known);
-    }
 }
 
 // The pairs of dolls that one piece of work looks at.

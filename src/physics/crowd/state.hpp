@@ -232,7 +232,7 @@ struct SweptPairs {
 /// not looked through body by body in every step.
 struct NearBodies {
     std::pair<int, int> dolls{-1, -1};
-    bool holds = false;  ///< Whether it was looked for.
+    bool holds = false;  ///< Whether `pairs` can be relied on while the dolls move little.
     double way = 0.0;    ///< Sum of both dolls' ways then.
     std::vector<std::array<std::uint8_t, 2>> pairs;
 };

@@ -1,0 +1,84 @@
+#include "physics/crowd/near_bodies.hpp"
+
+#include <glm/common.hpp>
+
+#include "physics/crowd/detect.hpp"
+
+namespace lutka::physics::crowd {
+namespace {
+
+// Metres that the bodies of two dolls may come nearer to each other until they are looked through again.
+constexpr float kSpare = 0.02F;
+
+// The bodies of two dolls whose bounds, grown by `farther`, meet.
+int findBodyPairs(const CrowdState& state, const Doll& a, const Doll& b, float dt, float farther,
+                  std::vector<BodyPair>& near) {
+    // How far the two roots move against each other.
+    const vec3 moved = glm::abs(a.rootVelocity - b.rootVelocity) * (kForesight * dt) + farther;
+    const float apart[3] = {moved.x, moved.y, moved.z};
+    const auto boxesOf = [&](const Doll& doll) {
+        return DollBoxes{&state.stepBoxes[doll.firstBox],
+                         doll.boxes,
+                         {doll.low.x, doll.low.y, doll.low.z},
+                         {doll.high.x, doll.high.y, doll.high.z}};
+    };
+    return state.kernels->findBodyPairs(boxesOf(a), boxesOf(b), apart, near.data());
+}
+
+}  // namespace
+
+void takeWays(CrowdState& state, Batch& batch, const Topology& topology, float dt) {
+    Wide way;
+    Wide speed;
+    state.kernels->takeWay(batch.view(topology), way, speed);
+    for (int lane = 0; lane < batch.used; ++lane) {
+        Doll& doll = state.dolls[batch.doll[lane]];
+        doll.way += static_cast<double>(way.lane[lane]);
+        // The bounds of a body reach as far as it moves against the root, at twice the speed at most; and those of the
+        // doll as far as the root moves.
+        doll.reachesFarther = 3.0F * kForesight * dt * speed.lane[lane];
+    }
+}
+
+void keepNearBodies(CrowdState& state) {
+    std::vector<NearBodies>& before = state.scratch.nearBefore;
+    std::swap(before, state.nearBodies);
+    state.nearBodies.resize(state.dollPairs.size());
+    for (std::size_t i = 0; i < state.dollPairs.size(); ++i) {
+        state.nearBodies[i].dolls = state.dollPairs[i];
+        state.nearBodies[i].holds = false;
+    }
+    std::size_t at = 0;  // both lists are in the order of the dolls
+    for (NearBodies& known : before) {
+        if (!known.holds) continue;
+        while (at < state.dollPairs.size() && state.dollPairs[at] < known.dolls)
+            ++at;
+        if (at == state.dollPairs.size()) return;
+        if (state.dollPairs[at] == known.dolls) std::swap(state.nearBodies[at], known);
+    }
+}
+
+int findNearBodies(const CrowdState& state, NearBodies& kept, float dt, std::vector<BodyPair>& near) {
+    const Doll& a = state.dolls[kept.dolls.first];
+    const Doll& b = state.dolls[kept.dolls.second];
+    const float farther = a.reachesFarther + b.reachesFarther;
+    const double way = a.way + b.way;
+    near.resize(static_cast<std::size_t>(a.boxes) * static_cast<std::size_t>(b.boxes) * kLanes * kLanes);
+    if (kept.holds && way - kept.way + static_cast<double>(farther) <= static_cast<double>(kSpare)) {
+        int count = 0;
+        for (const auto& [bodyA, bodyB] : kept.pairs)
+            near[count++] = {bodyA, bodyB};
+        return count;
+    }
+    // What moves fast would have to be looked through again in the next step anyhow.
+    kept.holds = farther < 0.25F * kSpare;
+    const int count = findBodyPairs(state, a, b, dt, kept.holds ? kSpare : 0.0F, near);
+    if (!kept.holds) return count;
+    kept.way = way;
+    kept.pairs.clear();
+    for (int i = 0; i < count; ++i)
+        kept.pairs.push_back({static_cast<std::uint8_t>(near[i].a), static_cast<std::uint8_t>(near[i].b)});
+    return count;
+}
+
+}  // namespace lutka::physics::crowd
