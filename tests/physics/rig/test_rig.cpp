@@ -95,6 +95,26 @@ int jointNamed(const Skeleton& skeleton, std::string_view name) {
     return animation::findJoint(skeleton, name);
 }
 
+// The pose of a skeleton along x with bodies at two of its joints, of which the second is bent by 0.7 about z and
+// twisted by 1 about x.
+std::vector<RigidTransform> bentAndTwisted(const Skeleton& skeleton, const std::string& first,
+                                           const std::string& second) {
+    RagdollProfile profile = test::makePair(physics::ConeTwistLimits{1, 1, 1});
+    profile.bodies[0].joint = profile.bodies[0].jointPath = first;
+    profile.bodies[1].joint = profile.bodies[1].jointPath = second;
+    setRole(profile.bodies[1], Role::leftHand);
+    const Rig rig = boundTo(skeleton, profile);
+    std::vector<BodyState> bodies(2);
+    bodiesFromPose(rig, skeleton.bindModelFromJoint, {}, bodies);
+    std::vector<RigidTransform> worldFromBody = transformsOf(bodies);
+    const quat bend = glm::angleAxis(0.7F, vec3(0, 0, 1));
+    const quat twist = glm::angleAxis(1.0F, vec3(1, 0, 0));
+    worldFromBody[1].rotation = bend * twist * worldFromBody[1].rotation;
+    std::vector<RigidTransform> pose(static_cast<std::size_t>(skeleton.jointCount()));
+    poseFromBodies(rig, skeleton, worldFromBody, {}, pose);
+    return pose;
+}
+
 }  // namespace
 
 TEST_CASE("the bind pose comes back through the bodies", "[rig]") {
@@ -189,19 +209,7 @@ TEST_CASE("twist joints of a limb share the twist and not the bend", "[rig]") {
         INFO((inTheChain ? "between the two joints" : "beside the way"));
         const Skeleton skeleton = test::makeSkeleton(
             {{"arm", -1, {0, 0, 0}}, {"twist", 0, {0.15F, 0, 0}}, {"hand", inTheChain ? 1 : 0, {0.3F, 0, 0}}});
-        RagdollProfile profile = test::makePair(physics::ConeTwistLimits{1, 1, 1});
-        profile.bodies[0].joint = profile.bodies[0].jointPath = "arm";
-        profile.bodies[1].joint = profile.bodies[1].jointPath = "hand";
-        setRole(profile.bodies[1], Role::leftHand);
-        const Rig rig = boundTo(skeleton, profile);
-        std::vector<BodyState> bodies(2);
-        bodiesFromPose(rig, skeleton.bindModelFromJoint, {}, bodies);
-        std::vector<RigidTransform> worldFromBody = transformsOf(bodies);
-        const quat bend = glm::angleAxis(0.7F, vec3(0, 0, 1));
-        const quat twist = glm::angleAxis(1.0F, vec3(1, 0, 0));
-        worldFromBody[1].rotation = bend * twist * worldFromBody[1].rotation;
-        std::vector<RigidTransform> pose(3);
-        poseFromBodies(rig, skeleton, worldFromBody, {}, pose);
+        const std::vector<RigidTransform> pose = bentAndTwisted(skeleton, "arm", "hand");
         CHECK(angleBetween(pose[1].rotation, glm::angleAxis(0.5F, vec3(1, 0, 0))) < 1e-3F);
         CHECK(glm::distance(pose[2].translation, vec3(0.3F, 0, 0)) < 1e-5F);
     }
@@ -212,19 +220,7 @@ TEST_CASE("the lower half of a segment that hangs beside the upper one goes with
                                                   {"arm_twist", 0, {0, 0, 0}},
                                                   {"arm_stretch", 0, {0.15F, 0, 0}},
                                                   {"forearm", 2, {0.3F, 0, 0}}});
-    RagdollProfile profile = test::makePair(physics::ConeTwistLimits{1, 1, 1});
-    profile.bodies[0].joint = profile.bodies[0].jointPath = "arm_twist";
-    profile.bodies[1].joint = profile.bodies[1].jointPath = "forearm";
-    setRole(profile.bodies[1], Role::leftHand);
-    const Rig rig = boundTo(skeleton, profile);
-    std::vector<BodyState> bodies(2);
-    bodiesFromPose(rig, skeleton.bindModelFromJoint, {}, bodies);
-    std::vector<RigidTransform> worldFromBody = transformsOf(bodies);
-    const quat bend = glm::angleAxis(0.7F, vec3(0, 0, 1));
-    const quat twist = glm::angleAxis(1.0F, vec3(1, 0, 0));
-    worldFromBody[1].rotation = bend * twist * worldFromBody[1].rotation;
-    std::vector<RigidTransform> pose(4);
-    poseFromBodies(rig, skeleton, worldFromBody, {}, pose);
+    const std::vector<RigidTransform> pose = bentAndTwisted(skeleton, "arm_twist", "forearm");
     CHECK(glm::distance(pose[2].translation, vec3(0.15F, 0, 0)) < 1e-5F);
     CHECK(angleBetween(pose[2].rotation, glm::angleAxis(0.5F, vec3(1, 0, 0))) < 1e-3F);
     CHECK(glm::distance(pose[3].translation, vec3(0.3F, 0, 0)) < 1e-5F);
