@@ -43,15 +43,20 @@ std::optional<PlacedShape> fitHull(const BodyPlan& plan, const PlannedBody& body
 }
 
 void takeHulls(const BodyPlan& plan, std::vector<PlacedShape>& shapes) {
-    for (std::size_t index = 0; index < plan.bodies.size(); ++index) {
-        const PlannedBody& body = plan.bodies[index];
-        if (!body.asHull) continue;
-        const bool paired = plan.symmetric && body.side == animation::Side::right && body.mirror >= 0;
-        const PlacedShape* left = paired ? &shapes[static_cast<std::size_t>(body.mirror)] : nullptr;
-        if (left != nullptr && left->shape.kind == PrimitiveShape::Kind::hull) {
-            shapes[index] = mirroredHull(plan, *left, plan.bodies[static_cast<std::size_t>(body.mirror)], body);
-        } else if (auto hull = fitHull(plan, body, shapes[index])) {
-            shapes[index] = std::move(*hull);
+    const auto isMirrored = [&](const PlannedBody& body) {
+        return plan.symmetric && body.side == animation::Side::right && body.mirror >= 0;
+    };
+    // The left one may come after the right one.
+    for (const bool mirrored : {false, true}) {
+        for (std::size_t index = 0; index < plan.bodies.size(); ++index) {
+            const PlannedBody& body = plan.bodies[index];
+            if (!body.asHull || isMirrored(body) != mirrored) continue;
+            const PlacedShape* left = mirrored ? &shapes[static_cast<std::size_t>(body.mirror)] : nullptr;
+            if (left != nullptr && left->shape.kind == PrimitiveShape::Kind::hull) {
+                shapes[index] = mirroredHull(plan, *left, plan.bodies[static_cast<std::size_t>(body.mirror)], body);
+            } else if (auto hull = fitHull(plan, body, shapes[index])) {
+                shapes[index] = std::move(*hull);
+            }
         }
     }
 }

@@ -92,6 +92,40 @@ TEST_CASE("a trunk thicker than its joints are apart keeps its thickness") {
     CHECK_FALSE(diagnose(profile, bear, map).hasErrors());
 }
 
+TEST_CASE(
+    "limbs whose first joints cross in the middle of the trunk have shapes, wherever their left ones are listed") {
+    std::vector<test::JointSpec> joints{
+        {"abdomen", -1, {0, 1, -0.5F}}, {"thorax", 0, {0, 1, 0}}, {"head", 1, {0, 1, 0.5F}}};
+    std::vector<test::TubeSpec> tubes{{0, {0, 1, 0}, 0.2F}, {1, {0, 1, 0.5F}, 0.2F}, {2, {0, 1, 1}, 0.25F}};
+    for (const float side : {-1.0F, 1.0F}) {
+        int above = 1;
+        for (int place = 0; place < 3; ++place) {
+            // The first joint lies a little on the other side, so that what hangs on the right one is the left limb.
+            const float x = side * (place == 0 ? -0.005F : 0.4F * static_cast<float>(place));
+            const std::string name = "leg" + std::to_string(place) + (side > 0.0F ? ".L" : ".R");
+            joints.push_back({name, above, {x, 1, 0.1F}});
+            above = static_cast<int>(joints.size()) - 1;
+            tubes.push_back({above, {side * 0.4F * static_cast<float>(place + 1), 1, 0.1F}, 0.06F});
+        }
+    }
+    const animation::Character spider = test::makeFigure("spider", joints, tubes);
+    animation::HumanoidMap map;
+    map.standardFromModel = animation::segmentRig(spider).standardFromModel;
+    for (const bool hulls : {false, true}) {
+        FitOptions options = Creature::anyRig();
+        options.hulls = hulls;
+        const auto profile = fitRagdoll(spider, map, options);
+        REQUIRE(profile);
+        const int left = bodyNamed(profile.value(), "leg1.L");
+        const int right = bodyNamed(profile.value(), "leg1.R");
+        REQUIRE(left > right);
+        REQUIRE(right >= 0);
+        const BodyShape& shape = profile.value().bodies[right].shape;
+        CHECK(thicknessOf(shape) > 0.03F);
+        CHECK(thicknessOf(shape) == Approx(thicknessOf(profile.value().bodies[left].shape)));
+    }
+}
+
 TEST_CASE("a creature's shapes lie in its skin and are alike on both sides") {
     const Creature creature;
     for (std::size_t i = 0; i < creature.profile.bodies.size(); ++i) {
