@@ -36,16 +36,27 @@ float angleTo(const vec3& direction, const vec3& axis) {
     return length > 0.0F ? std::acos(std::clamp(glm::dot(direction, axis) / length, -1.0F, 1.0F)) : 0.0F;
 }
 
-// Share of the placed limb joints whose names are those of animals' limbs.
-float creatureShare(const FramedRig& framed, const LimbCandidate& limb) {
+// Share of the placed limb joints whose names are such.
+template <class Names>
+float shareNamed(const FramedRig& framed, const LimbCandidate& limb, const Names& areSuch) {
     int named = 0;
     int placed = 0;
     for (const int pair : limb.pairs) {
         if (pair == kNoPair) continue;
         ++placed;
-        if (framed.rig->names[framed.pairs[pair].joints[0]].creature) ++named;
+        if (areSuch(framed.rig->names[framed.pairs[pair].joints[0]])) ++named;
     }
     return placed > 0 ? static_cast<float>(named) / static_cast<float>(placed) : 0.0F;
+}
+
+float creatureShare(const FramedRig& framed, const LimbCandidate& limb) {
+    return shareNamed(framed, limb, [](const NameEvidence& name) { return name.creature; });
+}
+
+// Arms that are called just "leg": one of several pairs of them. Who copies legs to make arms keeps the names of parts.
+bool areLegsByName(const FramedRig& framed, const LimbCandidate& arms) {
+    const auto isLeg = [](const NameEvidence& name) { return name.bareLimb && name.parts[Part::upperLeg] > 0.0F; };
+    return shareNamed(framed, arms, isLeg) >= 1.0F;
 }
 
 // Share of the joints below a limb's first pair that are named as an animal's: wings that hang on shoulders. What hangs
@@ -146,7 +157,10 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     if (figure.leans && !(figure.legs.named && figure.arms.named)) return "no figure stands upright in it";
     if (figure.prior < 0.0F && !figure.leans && trailsTail(figure, framed))
         return "it lies, and its tail is an animal's";
-    if (figure.leans && (tilt > kMostBend || legTilt > kMostBend)) return "the trunk and the legs are not in one line";
+    // Nor is one that was turned to stand, where its limbs bear no clear names: a frog sits as a man lies.
+    const bool turned = figure.prior < 0.0F && !figure.posed && !(figure.legs.named && figure.arms.named);
+    if ((figure.leans || turned) && (tilt > kMostBend || legTilt > kMostBend))
+        return "the trunk and the legs are not in one line";
     // The names tell a seated or kneeling figure, as long as its trunk is upright.
     const bool named = figure.legs.named && figure.arms.named && (figure.prior >= 0.0F || figure.posed);
     if (figure.posed && !named) return "its names are not those of its limbs";
@@ -167,6 +181,7 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     if (hands < kLeastHandHeight && !named && !upright) return "the hands stand on the ground: a four-legged animal";
     if (creatureShare(framed, figure.arms) > 0.6F || creaturesBelow(framed, figure.arms) > 0.5F)
         return "what would be the arms are named as wings or front legs";
+    if (figure.prior < 0.0F && areLegsByName(framed, figure.arms)) return "what would be the arms are named as legs";
     if (creatureShare(framed, figure.legs) > 0.6F) return "what would be the legs are named as an animal's";
     if (isScattered(figure, framed)) return "its parts hang on nothing and are named as no limbs";
     // Names alone never make a humanoid, but they carry one that is put together oddly.

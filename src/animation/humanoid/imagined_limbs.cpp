@@ -29,7 +29,7 @@ class Imaginer {
         const bool legs = isTold(kLeg);
         if (arms == legs || !isAbsent(arms ? kLeg : kArm) || namesAnimal()) return std::nullopt;
         if (isToldTwice(arms ? kArm[0] : kLeg[0])) return std::nullopt;
-        const int hips = named(Part::hips, Side::center, kToldTrunkPart);
+        const int hips = lowestOfTrunk();
         const int top = topOfTrunk();
         if (hips == kNoJoint || top == kNoJoint || top == hips) return std::nullopt;
         const vec3 rise = rig_.positions[top] - rig_.positions[hips];
@@ -87,6 +87,20 @@ class Imaginer {
     [[nodiscard]] bool namesAnimal() const {
         return std::any_of(rig_.names.begin(), rig_.names.end(),
                            [](const NameEvidence& name) { return name.creature || name.tail; });
+    }
+
+    // The hips, else what the spine hangs on, where that is called a root and moves skin of its own.
+    [[nodiscard]] int lowestOfTrunk() const {
+        const int hips = named(Part::hips, Side::center, kToldTrunkPart);
+        if (hips != kNoJoint) return hips;
+        for (int joint = 0; joint < rig_.count(); ++joint) {
+            const NameEvidence& name = rig_.names[joint];
+            const int root = rig_.parents[joint];
+            if (name.helper || name.side != Side::center || root == kNoJoint) continue;
+            if (name.parts[Part::trunk] < kToldTrunkPart || rig_.names[root].parts[Part::hips] <= 0.0F) continue;
+            if (!rig_.skinned || rig_.directWeight[root] > 0.0F) return root;
+        }
+        return kNoJoint;
     }
 
     // The head, else the neck, else the highest of at least two joints of a spine.

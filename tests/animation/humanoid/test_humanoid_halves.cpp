@@ -96,6 +96,33 @@ TEST_CASE("curves that drive the arms are no second pair of them", "[halves]") {
     CHECK(map.jointOf(Role::leftUpperLeg) == animation::kNoJoint);
 }
 
+TEST_CASE("where a giant's legs hang on its root, the root of the spine is its hips", "[halves]") {
+    std::vector<JointSpec> joints{{"root", -1, {0, 0.75F, 0}},
+                                  {"spine", 0, {0, 0.95F, 0}},
+                                  {"chest", 1, {0, 1.25F, 0}},
+                                  {"head", 2, {0, 1.55F, 0}}};
+    std::vector<TubeSpec> skin{
+        {0, {0, 0, 0}, 0.3F}, {1, {0, 1.25F, 0}, 0.3F}, {2, {0, 1.5F, 0}, 0.3F}, {3, {0, 1.9F, 0}, 0.15F}};
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string end = side > 0.0F ? ".L" : ".R";
+        int above = 2;
+        const std::vector<vec3> places{{0.4F, 1.5F, 0}, {0.7F, 1.2F, 0}, {0.6F, 0.9F, 0.2F}, {0.6F, 0.7F, 0.3F}};
+        std::size_t place = 0;
+        for (const char* name : {"upper_arm", "forearm", "hand"}) {
+            joints.push_back({name + end, above, places[place] * vec3(side, 1, 1)});
+            above = static_cast<int>(joints.size()) - 1;
+            skin.push_back({above, places[++place] * vec3(side, 1, 1), 0.08F});
+        }
+    }
+    const HumanoidMap map = animation::mapHumanoid(makeFigure("giant", joints, skin));
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(Role::hips) == 0);
+    CHECK(map.jointOf(Role::head) == 3);
+    CHECK(map.jointOf(Role::leftUpperArm) == 4);
+    CHECK(map.jointOf(Role::rightHand) == 9);
+    CHECK(tells(map, "the figure has no joints of a left leg"));
+}
+
 TEST_CASE("half a figure without names is none", "[halves]") {
     SyntheticRig rig = makeSyntheticRig("vroid");
     cutOff(rig, Role::leftUpperLeg);
