@@ -202,7 +202,7 @@ class LimbFinder {
         const int middle = candidate.pairs[1];
         candidate.missing = 0.0F;
         for (const int end : next_[middle]) {
-            if (end == root || !mayFollow(middle, end, 2)) continue;
+            if (end == root || !mayFollow(middle, end, 2) || framed_.rig->isOneOfFingers(at(end).joints[0])) continue;
             const float ratio = framed_.segment(root, middle) / framed_.segment(middle, end);
             if (ratio < kLeastRatio || ratio > kMostRatio) continue;
             candidate.pairs[2] = end;

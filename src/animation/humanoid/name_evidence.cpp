@@ -197,6 +197,7 @@ NameEvidence nameEvidence(std::string_view name) {
     evidence.tail = !worn && (hasWord(tokens.words, "tail") || hasWord(tokens.words, "tails"));
     evidence.bareLimb = evidence.parts[Part::upperArm] == kBareLimb || evidence.parts[Part::upperLeg] == kBareLimb;
     evidence.face = concepts.has(Concept::face);
+    evidence.finger = concepts.has(Concept::finger) && !concepts.has(Concept::toes);
     evidence.thumb = hasWord(tokens.words, "thumb") || hasWord(tokens.words, "thumbs");
     evidence.onBack = std::any_of(tokens.words.begin(), tokens.words.end(), isCarriedOnBack);
     evidence.helper = concepts.hasAny({Concept::twist, Concept::control, Concept::end, Concept::prop});

@@ -21,6 +21,7 @@ struct NameEvidence {
     bool helper = false;        ///< Twist, control, tip, prop: sits at a body part without being it.
     bool bareLimb = false;      ///< Only "arm" or "leg", without a word for which part of it.
     bool face = false;          ///< Eye, jaw, nose …: in front of the head.
+    bool finger = false;        ///< Any of the hand's, thumbs and their palms among them.
     bool thumb = false;
     bool onBack = false;  ///< What figures carry on their backs: capes, packs, wings.
     bool tail = false;

@@ -90,7 +90,8 @@ constexpr Entry kEntries[] = {
      "buttock buttocks glute glutes groin genital genitals nipple"},
     {Concept::prop,
      "weapon sword gun rifle shield prop props attach attachment mount holder slot socket att knife bow arrow quiver "
-     "staff axe hammer pistol bullet equip item backpack holster magic camerabone propjoint scabbard blade"},
+     "wield wielditem staff axe hammer pistol bullet equip item backpack holster magic camerabone propjoint scabbard "
+     "blade"},
     {Concept::creature,
      "tail tails wing wings hind hindleg hindlimb hindlimbs hoof paw paws foreleg frontleg fin fins feather feathers "
      "beak claw "

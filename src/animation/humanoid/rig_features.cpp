@@ -301,6 +301,16 @@ float spreadOf(const RigFeatures& rig) {
     return count > 0.0F ? 2.0F * std::sqrt(square / count) : 0.0F;
 }
 
+bool RigFeatures::isOneOfFingers(int joint) const {
+    constexpr float kApart = 0.2F;  // of the way from the joint above
+    const int parent = parents[joint];
+    if (!names[joint].finger || parent == kNoJoint) return false;
+    const float least = kApart * glm::distance(positions[parent], positions[joint]);
+    return std::any_of(children[parent].begin(), children[parent].end(), [&](int other) {
+        return names[other].finger && glm::distance(positions[other], positions[joint]) > least;
+    });
+}
+
 int RigFeatures::commonAncestor(int a, int b) const {
     while (a != kNoJoint && !isAncestorOrSelf(a, b))
         a = parents[a];

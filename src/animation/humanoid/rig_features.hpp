@@ -44,6 +44,9 @@ struct RigFeatures {
         const int parent = parents[joint];
         return skinned && rigidPart[joint] && parent != kNoJoint && directWeight[parent] > 0.0F;
     }
+    /// Whether other fingers hang beside this one and start elsewhere: none of them is the hand. One that starts where
+    /// all do may be.
+    [[nodiscard]] bool isOneOfFingers(int joint) const;
     /// kNoJoint when they have no common root.
     [[nodiscard]] int commonAncestor(int a, int b) const;
 };

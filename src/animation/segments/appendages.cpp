@@ -101,7 +101,7 @@ class AppendageSearch {
         if (!rig_.skinned || !rig_.carriesSkin(joint) || measures_.reach[joint] < kLeastReach * measures_.size)
             return true;
         if (kind) return false;
-        if (name.face || name.helper || name.thumb || isAlongLimb(joint)) return true;
+        if (name.face || name.helper || name.finger || isAlongLimb(joint)) return true;
         // Fingers and toes are parts of hands and feet; what reaches far beyond them is held.
         const Role part = partAbove(joint);
         const bool end = isEitherSide(part, Role::leftHand) || isEitherSide(part, Role::leftFoot) ||

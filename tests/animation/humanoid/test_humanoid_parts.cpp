@@ -353,4 +353,32 @@ TEST_CASE("arms and thighs of two joints side by side begin at the pivot", "[blo
     CHECK(score.right == score.of);
 }
 
+TEST_CASE("where fingers hang on the forearm and start apart, none of them is the hand", "[blocks]") {
+    for (const bool apart : {true, false}) {
+        INFO((apart ? "apart" : "all at the wrist"));
+        SyntheticRig rig = makeSyntheticRig("xsens");
+        animation::Skeleton& skeleton = rig.character.skeleton;
+        const int thumb = jointPlaying(rig, Role::leftHand);
+        for (const Role role : {Role::leftHand, Role::rightHand}) {
+            const int hand = jointPlaying(rig, role);
+            const std::string side = role == Role::leftHand ? ".L" : ".R";
+            skeleton.names[hand] = "Thumb_1" + side;
+            for (int finger = 1; finger < 3; ++finger) {
+                RigidTransform place = skeleton.bindModelFromJoint[hand];
+                if (apart) place.translation.z += 0.08F * static_cast<float>(finger);
+                skeleton.names.push_back("Finger_" + std::to_string(finger) + "_1" + side);
+                skeleton.parents.push_back(skeleton.parents[hand]);
+                skeleton.bindModelFromJoint.push_back(place);
+                skeleton.nodeParentFromJoint.emplace_back();
+                skeleton.skinWeight.push_back(5);
+            }
+        }
+        const HumanoidMap map = animation::mapHumanoid(rig.character);
+        REQUIRE(map.humanoid);
+        CHECK(map[Role::leftLowerArm]);
+        // The one that moves the palm stands for the hand.
+        CHECK(map.jointOf(Role::leftHand) == (apart ? animation::kNoJoint : thumb));
+    }
+}
+
 }  // namespace lutka::test

@@ -78,7 +78,7 @@ TEST_CASE("helpers, fingers, faces and props speak for no part", "[names]") {
     for (const char* name :
          {"upperarm_twist_01_l", "LeftFootIK", "kneePoleTarget.L", "ik_hand_gun", "Bip01 HeadNub", "LeftHandThumb1",
           "L_Eye", "HeadTop_End", "handslot.r", "LeftCollar_Att", "MCH-spine.001", "hair_01", "Tail1", "左足ＩＫ",
-          "左腕捩", "Hips_$AssimpFbx$_Rotation", "FrontLeg.R", "breast.L"}) {
+          "左腕捩", "Hips_$AssimpFbx$_Rotation", "FrontLeg.R", "breast.L", "wield"}) {
         INFO(name);
         for (const float score : nameEvidence(name).parts.values)
             CHECK(score <= 0.0F);
