@@ -8,6 +8,9 @@
 #include <glm/vector_relational.hpp>
 #include <map>
 #include <numeric>
+#include <set>
+#include <string>
+#include <string_view>
 
 #include "animation/humanoid/name_lexicon.hpp"
 
@@ -143,6 +146,21 @@ void findShadows(RigFeatures& rig) {
             rig.shadow[joint] = (otherSkinned && !movesForIt && rig.directWeight[joint] <= 0.0F) ||
                                 (leafOfMore && (otherSkinned || partOfOther || !rig.skinned));
         }
+    }
+}
+
+// "c_spine_01.x" beside "spine_01.x": the first drives the second, and so does whatever else bears that prefix.
+void readControlPrefix(const std::vector<std::string>& names, RigFeatures& rig) {
+    constexpr std::string_view kPrefix = "c_";
+    constexpr int kFewest = 3;
+    const std::set<std::string_view> all(names.begin(), names.end());
+    const auto driven = std::count_if(names.begin(), names.end(), [&](std::string_view name) {
+        return name.starts_with(kPrefix) && all.count(name.substr(kPrefix.size())) > 0;
+    });
+    if (driven < kFewest) return;
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        if (names[joint].starts_with(kPrefix))
+            rig.names[joint] = nameEvidence("ctrl_" + names[joint].substr(kPrefix.size()));
     }
 }
 
@@ -354,6 +372,7 @@ RigFeatures readRig(const Character& character, bool useNames) {
     readVertices(character, rig);
     rig.names.resize(rig.positions.size());
     if (useNames) std::transform(skeleton.names.begin(), skeleton.names.end(), rig.names.begin(), nameEvidence);
+    if (useNames) readControlPrefix(skeleton.names, rig);
     believeSkinnedControls(rig);
     readNamesInChains(rig);
     leaveNamesToPivots(rig);

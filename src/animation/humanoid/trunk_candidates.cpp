@@ -177,6 +177,7 @@ class TrunkFinder {
             if (trunkRoot_ != kNoJoint && rig_.isAncestorOrSelf(joint, trunkRoot_)) score += 1.5F;
             if (joint == trunkRoot_) score += 0.6F;
             if (joint == trunkRoot_ && joint == thighParent_ && legs_.told && !namesHips) score += kCarriesThighs;
+            if (carriesLegsBelowControl(joint) && !namesHips) score += kCarriesThighs;
             if (rig_.skinned && ownSkin(joint) <= 0.0F) score += kUnskinnedHips;
             // The joint above would be the hips if it moves skin at the same height.
             const int parent = rig_.parents[joint];
@@ -332,7 +333,8 @@ class TrunkFinder {
             score += named ? std::max(height, kNamedPose) : height;
         }
         // Hips that are named so and carry the legs may hang beside the spine, on a joint of the whole body.
-        const bool beside = trunk.hips == legParent_ && name(trunk.hips, Part::hips) >= kNamedHips;
+        const bool beside = (trunk.hips == legParent_ && name(trunk.hips, Part::hips) >= kNamedHips) ||
+                            carriesLegsBelowControl(trunk.hips);
         if (rig_.isAncestorOrSelf(trunk.hips, chest) || beside) score += 1.5F;
         // Hips without skin below a trunk that is no higher are a control of that trunk.
         const bool low = place.y - legs_.root.y < 0.3F * length_;
@@ -344,6 +346,12 @@ class TrunkFinder {
         if (isCopyOfWhatCarries(chest, trunk.head)) score += kOfTwoSkeletons;
         score += near((position(trunk.head).y - place.y) / length_, 0.6F, 0.25F, isNamedHead(trunk.head) ? 1.5F : 4.0F);
         return score + neckScore;
+    }
+
+    // What carries told legs and hangs, beside the spine, on a control of the whole body.
+    [[nodiscard]] bool carriesLegsBelowControl(int joint) const {
+        return joint == legParent_ && legs_.told && trunkRoot_ != kNoJoint && joint != trunkRoot_ &&
+               rig_.names[trunkRoot_].helper && rig_.isAncestorOrSelf(trunkRoot_, joint);
     }
 
     // `below` hangs on another joint in this one's place: one of the two is a control rig's. A skin tells better which.

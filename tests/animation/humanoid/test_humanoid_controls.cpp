@@ -1,0 +1,129 @@
+// Rigs that hold their controls beside the joints that move the skin.
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "animation/humanoid/map_humanoid.hpp"
+#include "support/catch.hpp"
+#include "support/rigs.hpp"
+
+namespace lutka::test {
+namespace {
+
+using animation::HumanoidMap;
+using animation::Role;
+
+// A rig by the names of its joints; '@' stands for the side, and makes two joints of one.
+class NamedRig {
+  public:
+    void add(const std::string& name, const std::string& parent, const vec3& place) {
+        if (name.find('@') == std::string::npos) return addOne(name, parent, place);
+        addOne(onSide(name, "l"), onSide(parent, "l"), place);
+        addOne(onSide(name, "r"), onSide(parent, "r"), place * vec3(-1, 1, 1));
+    }
+
+    // The same with a tube of skin up to `end`.
+    void add(const std::string& name, const std::string& parent, const vec3& place, const vec3& end, float radius) {
+        add(name, parent, place);
+        if (name.find('@') == std::string::npos) {
+            skin_.push_back({indexOf_.at(name), end, radius});
+        } else {
+            skin_.push_back({indexOf_.at(onSide(name, "l")), end, radius});
+            skin_.push_back({indexOf_.at(onSide(name, "r")), end * vec3(-1, 1, 1), radius});
+        }
+    }
+
+    [[nodiscard]] HumanoidMap map() const { return animation::mapHumanoid(makeFigure("figure", joints_, skin_)); }
+
+    [[nodiscard]] std::string nameOf(const HumanoidMap& map, Role role) const {
+        const int joint = map.jointOf(role);
+        return joint == animation::kNoJoint ? "none" : joints_[static_cast<std::size_t>(joint)].name;
+    }
+
+  private:
+    static std::string onSide(std::string name, const char* side) {
+        const std::size_t at = name.find('@');
+        return at == std::string::npos ? name : name.replace(at, 1, side);
+    }
+
+    void addOne(const std::string& name, const std::string& parent, const vec3& place) {
+        indexOf_[name] = static_cast<int>(joints_.size());
+        joints_.push_back({name, parent.empty() ? -1 : indexOf_.at(parent), place});
+    }
+
+    std::vector<JointSpec> joints_;
+    std::vector<TubeSpec> skin_;
+    std::map<std::string, int> indexOf_;
+};
+
+constexpr vec3 kHip{0.1F, 0.92F, 0};
+constexpr vec3 kKnee{0.1F, 0.5F, 0.01F};
+constexpr vec3 kAnkle{0.1F, 0.08F, -0.02F};
+constexpr vec3 kShoulder{0.18F, 1.42F, 0};
+constexpr vec3 kElbow{0.46F, 1.42F, -0.01F};
+constexpr vec3 kWrist{0.72F, 1.42F, 0};
+
+}  // namespace
+
+TEST_CASE("a foot that hangs on its control as a leaf is the foot, not the control in its place", "[controls]") {
+    NamedRig rig;
+    rig.add("root", "", {0, 0, 0});
+    rig.add("torso", "root", {0, 0.95F, 0}, {0, 1.45F, 0}, 0.14F);
+    rig.add("hips", "torso", {0, 0.95F, 0}, {0, 0.85F, 0}, 0.14F);
+    rig.add("upperleg.@", "hips", kHip, kKnee, 0.07F);
+    rig.add("lowerleg.@", "upperleg.@", kKnee, kAnkle, 0.05F);
+    rig.add("neck", "torso", {0, 1.5F, 0}, {0, 1.58F, 0}, 0.05F);
+    rig.add("head", "neck", {0, 1.58F, 0}, {0, 1.78F, 0}, 0.09F);
+    rig.add("upperarm.@", "torso", kShoulder, kElbow, 0.05F);
+    rig.add("lowerarm.@", "upperarm.@", kElbow, kWrist, 0.04F);
+    rig.add("hand.@", "lowerarm.@", kWrist, kWrist + vec3(0.15F, 0, 0), 0.04F);
+    rig.add("foot_IK.@", "root", kAnkle);
+    rig.add("foot.@", "foot_IK.@", kAnkle, {0.1F, 0.03F, 0.15F}, 0.05F);
+    rig.add("knee.@", "foot_IK.@", kKnee + vec3(0, 0, 0.4F));
+    const HumanoidMap map = rig.map();
+    REQUIRE(map.humanoid);
+    CHECK(rig.nameOf(map, Role::leftFoot) == "foot.l");
+    CHECK(rig.nameOf(map, Role::rightFoot) == "foot.r");
+    CHECK(rig.nameOf(map, Role::leftLowerLeg) == "lowerleg.l");
+}
+
+TEST_CASE("where a prefix tells which joint drives which, what bears it takes no role", "[controls]") {
+    NamedRig rig;
+    rig.add("c_traj", "", {0, 0, 0});
+    rig.add("c_root_master.x", "c_traj", {0, 0.96F, 0});
+    rig.add("c_root.x", "c_root_master.x", {0, 0.96F, 0});
+    rig.add("root.x", "c_root.x", {0, 0.96F, 0});
+    rig.add("c_root_bend.x", "root.x", {0, 0.96F, 0}, {0, 0.85F, 0}, 0.14F);
+    rig.add("c_thigh_b.@", "root.x", kHip + vec3(-0.03F, 0.05F, 0));
+    rig.add("thigh.@", "c_thigh_b.@", kHip, kKnee, 0.07F);
+    rig.add("leg.@", "thigh.@", kKnee, kAnkle, 0.05F);
+    rig.add("foot.@", "leg.@", kAnkle, {0.1F, 0.03F, 0.15F}, 0.05F);
+    const std::vector<std::pair<std::string, float>> spine{{"spine_01.x", 1.05F}, {"spine_02.x", 1.28F}};
+    std::string above = "c_root_master.x";
+    for (const auto& [name, height] : spine) {
+        rig.add("c_" + name, above, {0, height, 0});
+        rig.add(name, "c_" + name, {0, height, 0}, {0, height + 0.2F, 0}, 0.14F);
+        above = name;
+    }
+    rig.add("c_neck.x", above, {0, 1.5F, 0});
+    rig.add("neck.x", "c_neck.x", {0, 1.5F, 0}, {0, 1.58F, 0}, 0.05F);
+    rig.add("head.x", "neck.x", {0, 1.58F, 0}, {0, 1.78F, 0}, 0.09F);
+    rig.add("c_shoulder.@", above, {0.04F, 1.4F, 0});
+    rig.add("shoulder.@", "c_shoulder.@", {0.04F, 1.4F, 0}, kShoulder, 0.05F);
+    rig.add("arm.@", "shoulder.@", kShoulder, kElbow, 0.05F);
+    rig.add("forearm.@", "arm.@", kElbow, kWrist, 0.04F);
+    rig.add("hand.@", "forearm.@", kWrist, kWrist + vec3(0.15F, 0, 0), 0.04F);
+    const HumanoidMap map = rig.map();
+    REQUIRE(map.humanoid);
+    CHECK(rig.nameOf(map, Role::hips) == "root.x");
+    CHECK(rig.nameOf(map, Role::leftUpperLeg) == "thigh.l");
+    CHECK(rig.nameOf(map, Role::rightUpperLeg) == "thigh.r");
+    CHECK(rig.nameOf(map, Role::spine) == "spine_01.x");
+    CHECK(rig.nameOf(map, Role::chest) == "spine_02.x");
+    CHECK(rig.nameOf(map, Role::neck) == "neck.x");
+    CHECK(rig.nameOf(map, Role::leftShoulder) == "shoulder.l");
+}
+
+}  // namespace lutka::test
