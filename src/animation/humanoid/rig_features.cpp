@@ -150,7 +150,7 @@ void findShadows(RigFeatures& rig) {
 }
 
 // "c_spine_01.x" beside "spine_01.x": the first drives the second, and so does whatever else bears that prefix.
-void readControlPrefix(const std::vector<std::string>& names, RigFeatures& rig) {
+void readDrivingPrefix(const std::vector<std::string>& names, RigFeatures& rig) {
     constexpr std::string_view kPrefix = "c_";
     constexpr int kFewest = 3;
     const std::set<std::string_view> all(names.begin(), names.end());
@@ -161,6 +161,20 @@ void readControlPrefix(const std::vector<std::string>& names, RigFeatures& rig) 
     for (int joint = 0; joint < rig.count(); ++joint) {
         if (names[joint].starts_with(kPrefix))
             rig.names[joint] = nameEvidence("ctrl_" + names[joint].substr(kPrefix.size()));
+    }
+}
+
+// Where many joints say that they deform the skin and others that they are the machinery behind, what says neither is a
+// control for the animator. Without a skin one is as good as the other.
+void readDeformingPrefix(const std::vector<std::string>& names, RigFeatures& rig) {
+    constexpr int kFewest = 12;
+    const auto count = [&](std::string_view prefix) {
+        return std::count_if(names.begin(), names.end(),
+                             [&](std::string_view name) { return name.starts_with(prefix); });
+    };
+    if (!rig.skinned || count("DEF-") < kFewest || count("MCH-") < kFewest) return;
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        if (!names[joint].starts_with("DEF-")) rig.names[joint] = nameEvidence("ctrl_" + names[joint]);
     }
 }
 
@@ -372,7 +386,10 @@ RigFeatures readRig(const Character& character, bool useNames) {
     readVertices(character, rig);
     rig.names.resize(rig.positions.size());
     if (useNames) std::transform(skeleton.names.begin(), skeleton.names.end(), rig.names.begin(), nameEvidence);
-    if (useNames) readControlPrefix(skeleton.names, rig);
+    if (useNames) {
+        readDrivingPrefix(skeleton.names, rig);
+        readDeformingPrefix(skeleton.names, rig);
+    }
     believeSkinnedControls(rig);
     readNamesInChains(rig);
     leaveNamesToPivots(rig);

@@ -126,4 +126,35 @@ TEST_CASE("where a prefix tells which joint drives which, what bears it takes no
     CHECK(rig.nameOf(map, Role::leftShoulder) == "shoulder.l");
 }
 
+TEST_CASE("beside joints that say that they deform the skin, an animator's head is no head", "[controls]") {
+    NamedRig rig;
+    rig.add("root", "", {0, 0, 0});
+    rig.add("MCH-torso.parent", "root", {0, 0.95F, 0});
+    rig.add("DEF-spine", "root", {0, 0.95F, 0}, {0, 1.1F, 0}, 0.14F);
+    rig.add("DEF-spine.001", "DEF-spine", {0, 1.1F, 0}, {0, 1.3F, 0}, 0.14F);
+    rig.add("DEF-spine.002", "DEF-spine.001", {0, 1.3F, 0}, {0, 1.45F, 0}, 0.14F);
+    rig.add("DEF-spine.003", "DEF-spine.002", {0, 1.5F, 0}, {0, 1.58F, 0}, 0.05F);
+    rig.add("DEF-spine.004", "DEF-spine.003", {0, 1.58F, 0}, {0, 1.78F, 0}, 0.09F);
+    // A pose that was saved has taken the animator's head, which carries the face, a little away.
+    rig.add("MCH-ROT-neck", "MCH-torso.parent", {0, 1.5F, 0.02F});
+    rig.add("neck", "MCH-ROT-neck", {0, 1.5F, 0.02F});
+    rig.add("MCH-ROT-head", "neck", {0, 1.6F, 0.02F});
+    rig.add("head", "MCH-ROT-head", {0, 1.6F, 0.02F});
+    rig.add("DEF-jaw", "head", {0, 1.6F, 0.05F}, {0, 1.58F, 0.12F}, 0.04F);
+    rig.add("DEF-ear.@", "head", {0.08F, 1.68F, 0}, {0.1F, 1.72F, 0}, 0.02F);
+    for (int i = 0; i < 10; ++i)
+        rig.add("MCH-WGT." + std::to_string(i), "root", {0, 0.1F * static_cast<float>(i), 0.5F});
+    rig.add("DEF-upper_arm.@", "DEF-spine.002", kShoulder, kElbow, 0.05F);
+    rig.add("DEF-forearm.@", "DEF-upper_arm.@", kElbow, kWrist, 0.04F);
+    rig.add("DEF-hand.@", "DEF-forearm.@", kWrist, kWrist + vec3(0.15F, 0, 0), 0.04F);
+    rig.add("DEF-thigh.@", "DEF-spine", kHip, kKnee, 0.07F);
+    rig.add("DEF-shin.@", "DEF-thigh.@", kKnee, kAnkle, 0.05F);
+    rig.add("DEF-foot.@", "DEF-shin.@", kAnkle, {0.1F, 0.03F, 0.15F}, 0.05F);
+    const HumanoidMap map = rig.map();
+    REQUIRE(map.humanoid);
+    CHECK(rig.nameOf(map, Role::head) == "DEF-spine.004");
+    CHECK(rig.nameOf(map, Role::hips) == "DEF-spine");
+    CHECK(rig.nameOf(map, Role::rightFoot) == "DEF-foot.r");
+}
+
 }  // namespace lutka::test
