@@ -73,12 +73,9 @@ class LimbFinder {
     void findRelations() {
         const int count = static_cast<int>(framed_.pairs.size());
         above_.resize(framed_.pairs.size());
-        below_.resize(framed_.pairs.size());
         for (int upper = 0; upper < count; ++upper) {
             for (int lower = 0; lower < count; ++lower) {
-                if (!framed_.isAbove(upper, lower)) continue;
-                below_[upper].push_back(lower);
-                above_[lower].push_back(upper);
+                if (framed_.isAbove(upper, lower)) above_[lower].push_back(upper);
             }
         }
         reach_.assign(framed_.pairs.size(), -1.0F);
@@ -352,13 +349,18 @@ class LimbFinder {
     void addToes(LimbCandidate& leg, float height) const {
         const int foot = leg.pairs[2];
         float best = 0.0F;
-        for (const int pair : below_[foot]) {
+        for (int pair = 0; pair < static_cast<int>(framed_.pairs.size()); ++pair) {
+            // In a flat hierarchy names tell whose toes they are.
+            const bool below = framed_.isAbove(foot, pair);
+            const bool told = isNamed(foot, 2) && at(pair).names[parts_[3]] >= kSurelyNamed;
+            if (!below && !(told && mayContinueDetached(foot, pair))) continue;
             const vec3 away = at(pair).position - at(foot).position;
             const float distance = framed_.segment(foot, pair) / height;
             if (distance < kShortestToes || away.y > kHighestToes * leg.length) continue;
             const float sideways = std::abs(away.x) / (glm::length(away) + 1e-6F);
             const float score = kToes + placing(pair, 3) + terms::kToeDistance.near(distance) +
-                                terms::kToesSideways.atMost(sideways) + skipped(foot, pair, false);
+                                terms::kToesSideways.atMost(sideways) +
+                                (below ? skipped(foot, pair, false) : kDetachedNamed);
             if (score <= best) continue;
             best = score;
             leg.pairs[3] = pair;
@@ -480,9 +482,8 @@ class LimbFinder {
     std::array<Part, 4> parts_;
     std::vector<float> place_;
     std::vector<std::vector<int>> above_;  // per pair: the pairs above it in the tree
-    std::vector<std::vector<int>> below_;
-    std::vector<float> links_;            // linkTerm() of every two pairs
-    std::vector<std::vector<int>> next_;  // per pair: those that may follow it in a limb
+    std::vector<float> links_;             // linkTerm() of every two pairs
+    std::vector<std::vector<int>> next_;   // per pair: those that may follow it in a limb
     std::vector<std::vector<int>> clavicles_;
     mutable std::vector<float> reach_;  // reachBeyond() of every pair once asked for, -1 before
     std::vector<bool> endsThere_;       // per pair: no skinned pair below it

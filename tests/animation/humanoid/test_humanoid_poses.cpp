@@ -214,6 +214,9 @@ TEST_CASE("a flat hierarchy maps by names and places", "[poses]") {
     for (int joint = 1; joint < skeleton.jointCount(); ++joint)
         skeleton.parents[joint] = 0;
     checkWhole(rig);
+    const HumanoidMap map = animation::mapHumanoid(rig.character);
+    for (const Role toes : {Role::leftToes, Role::rightToes})
+        CHECK(map.jointOf(toes) == jointOf(rig, toes));
 }
 
 TEST_CASE("a hierarchy that does not hang together takes the confidence down, a flat one only a little", "[poses]") {
