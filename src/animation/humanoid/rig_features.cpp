@@ -12,29 +12,13 @@
 #include <string>
 #include <string_view>
 
+#include "animation/counted_vertices.hpp"
 #include "animation/humanoid/name_lexicon.hpp"
 
 namespace lutka::animation {
 namespace {
 
 constexpr std::size_t kMaxVertices = 12000;
-
-// What a rigid mesh counts for on a skinned figure, of the figure's own vertices: a sword of many is no half of it.
-constexpr float kMostOfRigidMesh = 0.25F;
-
-// Vertices of a mesh that count. Figures of rigid parts alone count whole.
-std::vector<std::size_t> countedVertices(const Character& character) {
-    std::size_t skinned = 0;
-    for (const SkinnedMesh& mesh : character.meshes)
-        skinned += mesh.rigid ? 0 : mesh.positions.size();
-    const auto most = static_cast<std::size_t>(kMostOfRigidMesh * static_cast<float>(skinned));
-    std::vector<std::size_t> counted;
-    for (const SkinnedMesh& mesh : character.meshes) {
-        const bool limited = mesh.rigid && skinned > 0;
-        counted.push_back(limited ? std::min(mesh.positions.size(), most) : mesh.positions.size());
-    }
-    return counted;
-}
 
 void readWeights(const Character& character, RigFeatures& rig) {
     const Skeleton& skeleton = character.skeleton;

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "animation/counted_vertices.hpp"
 #include "core/random.hpp"
 #include "physics/collision/shape.hpp"
 #include "physics/fit/separate_shapes.hpp"
@@ -195,18 +196,24 @@ FitMeasures measureSkin(const animation::Character& character, const BodyPlan& p
     FitMeasures measures;
     const std::vector<RigidTransform> bodyFromStandard = inverses(shapes);
     const mat3 toStandard = glm::mat3_cast(standardFromModel);
-    int near = 0;
-    for (const animation::SkinnedMesh& mesh : character.meshes) {
+    const std::vector<std::size_t> counted = animation::countedVertices(character);
+    double near = 0.0;
+    double all = 0.0;
+    for (std::size_t part = 0; part < character.meshes.size(); ++part) {
+        const animation::SkinnedMesh& mesh = character.meshes[part];
+        const double each =
+            static_cast<double>(counted[part]) / static_cast<double>(std::max<std::size_t>(mesh.positions.size(), 1));
         const std::vector<int> owners = ownersOfVertices(plan, mesh, toStandard);
         for (std::size_t vertex = 0; vertex < owners.size(); ++vertex) {
             const vec3 point = bodyFromStandard[owners[vertex]] * (toStandard * mesh.positions[vertex]);
             const float distance = std::abs(signedDistance(shapes[owners[vertex]].shape, point));
-            near += distance <= kNearSkin * plan.heightM ? 1 : 0;
+            near += distance <= kNearSkin * plan.heightM ? each : 0.0;
             ++measures.vertices;
         }
+        all += each * static_cast<double>(owners.size());
     }
     if (measures.vertices == 0) return measures;
-    measures.skinNear = static_cast<float>(near) / static_cast<float>(measures.vertices);
+    measures.skinNear = static_cast<float>(near / all);
     measures.volumeCovered = volumeCovered(character, plan.heightM, toStandard, shapes);
     return measures;
 }

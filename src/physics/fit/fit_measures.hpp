@@ -14,7 +14,8 @@ namespace lutka::physics {
 /// How well the shapes of a profile stand for the character's body, in the bind pose.
 struct FitMeasures {
     int vertices = 0;  ///< Of the skin; 0: there is none, and the shares mean nothing.
-    /// Share of the skin's vertices within 2 % of the height of the surface of the body that owns them, [0, 1].
+    /// Share of the skin's vertices (as animation::countedVertices() counts them) within 2 % of the height of the
+    /// surface of the body that owns them, [0, 1].
     float skinNear = 0.0F;
     /// Share of the volume inside the skin that lies in some body, [0, 1]; unset where the skin encloses none (open or
     /// inside-out meshes), or more than can be measured in some seconds (triangles far larger than the figure).

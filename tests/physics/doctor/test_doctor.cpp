@@ -313,19 +313,35 @@ TEST_CASE("the doctor certifies no figure whose skin hangs on one joint") {
     checkBroken(patient.look(), "skin-on-one-joint", "hips");
 }
 
-TEST_CASE("a dense sword in a hand is no skin on one joint") {
-    Patient patient;
-    animation::SkinnedMesh sword = patient.character.meshes[0];
+namespace {
+
+// A rigid sword of 40 times the figure's vertices, so far from the right hand.
+animation::SkinnedMesh denseSword(const animation::Character& character, const vec3& away) {
+    animation::SkinnedMesh sword = character.meshes[0];
     sword.rigid = true;
-    const auto hand = static_cast<std::uint16_t>(findJoint(patient.character.skeleton, "rightHand"));
-    const vec3 grip = patient.character.skeleton.bindModelFromJoint[hand].translation;
-    sword.positions.assign(40 * sword.positions.size(), grip);
+    const auto hand = static_cast<std::uint16_t>(findJoint(character.skeleton, "rightHand"));
+    const vec3 grip = character.skeleton.bindModelFromJoint[hand].translation;
+    sword.positions.assign(40 * sword.positions.size(), grip + away);
     sword.normals.assign(sword.positions.size(), vec3(0, 1, 0));
     sword.uvs.assign(sword.positions.size(), vec2(0));
     sword.joints.assign(sword.positions.size(), {hand, 0, 0, 0});
     sword.weights.assign(sword.positions.size(), {1, 0, 0, 0});
-    patient.character.meshes.push_back(std::move(sword));
+    return sword;
+}
+
+}  // namespace
+
+TEST_CASE("a dense sword in a hand is no skin on one joint") {
+    Patient patient;
+    patient.character.meshes.push_back(denseSword(patient.character, vec3(0)));
     CHECK(find(patient.look(), "skin-on-one-joint") == nullptr);
+}
+
+TEST_CASE("a dense sword in a hand is a fifth of the skin at most that is near its body or not") {
+    Patient patient;
+    const float without = patient.look().fit.skinNear;
+    patient.character.meshes.push_back(denseSword(patient.character, vec3(0, 0.3F, 0.4F)));
+    CHECK(patient.look().fit.skinNear == Approx(0.8F * without).epsilon(0.01F));
 }
 
 TEST_CASE("the doctor certifies no figure whose skin hangs on joints of other limbs") {
