@@ -12,6 +12,7 @@
 #include "physics/fit/body_tips.hpp"
 #include "physics/fit/box_search.hpp"
 #include "physics/fit/capsule_search.hpp"
+#include "physics/fit/few_points.hpp"
 #include "physics/fit/fit_measures.hpp"
 #include "physics/fit/hull_fit.hpp"
 #include "physics/fit/principal_axes.hpp"
@@ -103,6 +104,10 @@ class BodyFit {
     }
 
     [[nodiscard]] Capsule fit() const {
+        // A segment is where its skin is, not where its joint points.
+        if (points_.size() < kFewestShapePoints && body_.segment && !points_.empty()) {
+            return capsuleAlong(points_, {central_, plan_.middleX, kSmallestRadius * plan_.heightM, largestRadius()});
+        }
         if (points_.size() < kFewestShapePoints) return byProportions();
         if (isFoot()) return fitFoot();
         if (isTrunk(body_.role) || body_.role == Role::head) return fitStandingOrLying();

@@ -126,6 +126,33 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("a body of few points lies along them, wherever its joint is") {
+    // One side of a crate, whose joint lies in the crate's middle as all its others do.
+    animation::Character crate = test::makeFigure(
+        "crate", {{"floor", -1, {0, 0.2F, -0.5F}}, {"plate", 0, {0, 0.2F, 0}}}, {{0, {0, 0.2F, 0.5F}, 0.3F}});
+    animation::SkinnedMesh& skin = crate.meshes.front();
+    const auto first = static_cast<std::uint32_t>(skin.positions.size());
+    const std::vector<vec3> corners{{-0.3F, 1.2F, -0.5F}, {0.3F, 1.2F, -0.5F}, {0, 1.2F, 0.5F}};
+    for (const vec3& corner : corners) {
+        skin.positions.push_back(corner);
+        skin.normals.emplace_back(0, 1, 0);
+        skin.joints.push_back({1, 0, 0, 0});
+        skin.weights.push_back({1, 0, 0, 0});
+    }
+    skin.indices.insert(skin.indices.end(), {first, first + 1, first + 2});
+    skin.uvs.clear();
+    skin.tangents.clear();
+    skin.fileOrder.clear();
+    crate.skeleton.skinWeight[1] = 3;
+    animation::HumanoidMap map;
+    map.standardFromModel = animation::segmentRig(crate).standardFromModel;
+    const RagdollProfile profile = fitRagdoll(crate, map, Creature::anyRig()).value();
+    REQUIRE(bodyNamed(profile, "plate") >= 0);
+    const Diagnosis diagnosis = diagnose(profile, crate, map);
+    for (const Finding& finding : diagnosis.findings)
+        CHECK(finding.code != "body-beside-skin");
+}
+
 TEST_CASE("a creature's shapes lie in its skin and are alike on both sides") {
     const Creature creature;
     for (std::size_t i = 0; i < creature.profile.bodies.size(); ++i) {
