@@ -14,10 +14,11 @@ constexpr float kCarries = 3.0F;  // times what gravity takes of a limb that is 
 constexpr float kGravity = 9.81F;
 constexpr float kFar = radians(40.0F);
 constexpr float kLost = radians(90.0F);
-constexpr float kLimbBrake = 3.0F;   // on the damping of joints on a leash,
-constexpr float kEndBrake = 16.0F;   // of those above what ends a limb: the floor turns it with the weight of the whole
-                                     // doll and lets go of it at once
-constexpr float kNeckTorque = 4.0F;  // on the neck's bound: a large head is no longer thrown by a trunk that comes up
+constexpr float kLimbBrake = 3.0F;  // on the damping of joints on a leash,
+constexpr float kEndBrake = 16.0F;  // of those above what ends a limb: the floor turns it with the weight of the whole
+                                    // doll and lets go of it at once
+constexpr float kEndTorque = 4.0F;  // on their bounds: a large head is no longer thrown by a trunk that comes up, nor a
+                                    // hand turned by the floor that it comes down on
 
 bool isEnd(const BodyProfile& body) {
     switch (body.role.value_or(Role::hips)) {
@@ -154,8 +155,7 @@ void PoseDrive::brake(int constraint, const MuscleSettings& muscles, float ratio
     }
     const float critical = 2.0F * std::sqrt(stiffnessOf(constraint, muscles) * joints_[constraint].inertia);
     motor.damping = kEndBrake * ratio * critical;
-    motor.maxTorqueNm = torqueBoundOf(constraint, muscles);
-    if (body.role == Role::head) motor.maxTorqueNm *= kNeckTorque;
+    motor.maxTorqueNm = kEndTorque * torqueBoundOf(constraint, muscles);
 }
 
 // The target no farther than mostLead_ from where the joint is, nor farther and faster than drives it at mostSpeed_:
