@@ -162,33 +162,6 @@ TEST_CASE("an output that can't be written ends with 5 and leaves nothing") {
     CHECK(fileText(folder / "file") == "in the way");
 }
 
-TEST_CASE("a recording is replayed to the same picture") {
-    const ScratchFolder folder;
-    const std::string common = "render " + kMannequinArgument + " --size 160x120 ";
-    const CommandResult recorded =
-        lutkaCommand(common + "--seconds 1 --record " + (folder / "run") + " -o " + (folder / "a.png"));
-    NEEDS_DISPLAY_OF(recorded);
-    REQUIRE(recorded.code == 0);
-    REQUIRE(lutkaCommand(common + "--replay " + (folder / "run") + " -o " + (folder / "b.png")).code == 0);
-    CHECK(fileText(folder / "a.png").size() > 2000);
-    CHECK(fileText(folder / "a.png") == fileText(folder / "b.png"));
-}
-
-TEST_CASE("a recording of a doll of hulls is replayed to the same picture, hulls and all, and is no doll of capsules") {
-    const ScratchFolder folder;
-    const std::string common = "render " + kMannequinArgument + " --scene stairs --size 160x120 --debug solids ";
-    const CommandResult recorded =
-        lutkaCommand(common + "--hulls --seconds 1 --record " + (folder / "run") + " -o " + (folder / "a.png"));
-    NEEDS_DISPLAY_OF(recorded);
-    REQUIRE(recorded.code == 0);
-    const std::string replay = "--replay " + (folder / "run") + " -o ";
-    REQUIRE(lutkaCommand(common + "--hulls " + replay + (folder / "b.png")).code == 0);
-    REQUIRE(lutkaCommand(common + replay + (folder / "c.png")).code == 0);
-    CHECK(fileText(folder / "a.png").size() > 2000);
-    CHECK(fileText(folder / "a.png") == fileText(folder / "b.png"));
-    CHECK(fileText(folder / "a.png") != fileText(folder / "c.png"));
-}
-
 TEST_CASE("what is not a humanoid is refused with 3 and a reason") {
     NEEDS_ZOO();
     for (const char* model : {"fox/Fox.glb", "webxr_hand/hand_left.glb", "nonhum_static_mannequin/m2m_mannequin.glb",
@@ -280,19 +253,6 @@ TEST_CASE("build shows the limits that the clips ask for beside the anatomy's") 
     REQUIRE(result.code == 0);
     CHECK(contains(result.out, "ANATOMY"));
     CHECK(contains(result.out, "CLIPS"));
-}
-
-TEST_CASE("a recording brings its own scene and number of dolls, and one of other bodies is refused") {
-    const ScratchFolder folder;
-    const std::string recording = folder / "three";
-    REQUIRE(
-        lutkaCommand("simulate " + kMannequinArgument + " --seconds 0.2 --scene stairs --count 3 --record " + recording)
-            .code == 0);
-    CHECK(lutkaCommand("simulate " + kMannequinArgument + " --replay " + recording).code == 0);
-    CHECK(lutkaCommand("simulate " + kMannequinArgument + " --scene drop --count 1 --replay " + recording).code == 0);
-    const CommandResult other = lutkaCommand("simulate " + kMannequinArgument + " --bodies toes --replay " + recording);
-    CHECK(other.code == 3);
-    CHECK(contains(other.err, "16 bodies"));
 }
 
 TEST_CASE("an output never destroys an input or another output") {
