@@ -258,17 +258,23 @@ Figure findFigure(const RigFeatures& rig) {
         for (const UpAxis& up : leaningUps(plane))
             readUpright(rig, plane, agreement(plane), up, best);
     }
-    if (const std::optional<Stance> stance = stanceOfNames(rig)) {
-        Figure figure = readInStance(rig, *stance, {stance->up, kLeanPrior, false, true}, 0.0F);
-        // What names tell whole needs not be likelier than what is refused: a bow stands in line with nothing.
-        const bool told = figure.refusal.empty() && !best.refusal.empty();
-        if (told || better(figure, best)) best = std::move(figure);
-    }
+    const std::optional<Stance> stance = stanceOfNames(rig);
+    Figure posed;
+    if (stance) posed = readInStance(rig, *stance, {stance->up, kLeanPrior, false, true}, 0.0F);
+    // Of fewer joints, names are fewer, too: where such a figure lies straight its feet tell more of its sides.
+    const bool ofAllJoints = posed.legs.named && posed.arms.named;
+    // What names tell whole needs not be likelier than what is refused: a bow stands in line with nothing.
+    const auto takePosed = [&] {
+        const bool told = posed.refusal.empty() && !best.refusal.empty();
+        if (told || better(posed, best)) best = std::move(posed);
+    };
+    if (stance && ofAllJoints) takePosed();
     for (const UpAxis& up : lying) {
         if (best.refusal.empty()) break;
         for (const MirrorPlane& plane : planes)
             readUpright(rig, plane, agreement(plane), up, best);
     }
+    if (stance && !ofAllJoints && !best.refusal.empty()) takePosed();
     return best;
 }
 

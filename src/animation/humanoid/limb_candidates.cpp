@@ -235,6 +235,7 @@ class LimbFinder {
         candidate.told =
             lower != kNoPair && isNamed(upper, 0) && isNamed(lower, 1) && (end == kNoPair || isNamed(end, 2));
         candidate.named = candidate.told && end != kNoPair;
+        candidate.whole = candidate.named || (candidate.told && endsThere_[lower]);
         if (kind_ == LimbKind::leg) {
             scoreLeg(candidate);
         } else {
@@ -338,12 +339,12 @@ class LimbFinder {
 
     // A limb whose names are clear may be posed in any way.
     [[nodiscard]] static float poseOf(const LimbCandidate& limb, float pose) {
-        return limb.named ? std::max(pose, kNamedPose) : pose;
+        return limb.whole ? std::max(pose, kNamedPose) : pose;
     }
 
     // Chibis and giants have limbs of any proportions.
     [[nodiscard]] static float proportionsOf(const LimbCandidate& limb, float proportions) {
-        return limb.named ? std::max(proportions, kNamedProportions) : proportions;
+        return limb.whole ? std::max(proportions, kNamedProportions) : proportions;
     }
 
     void addToes(LimbCandidate& leg, float height) const {

@@ -25,7 +25,8 @@ struct LimbCandidate {
     vec3 tip{0};           ///< Foot or hand, or the end of what there is.
 
     bool told = false;   ///< Two or three joints, all named as the parts that they are.
-    bool named = false;  ///< As `told`, with all three there: their pose and proportions prove little.
+    bool named = false;  ///< As `told`, with all three there.
+    bool whole = false;  ///< As `told`, with all that there is: its pose and proportions prove little.
     /// Joints that only one side has (the other limb is a stump), by side ([0] at +x) and slot; kNoJoint elsewhere.
     std::array<std::array<int, 4>, 2> lone{
         {{kNoJoint, kNoJoint, kNoJoint, kNoJoint}, {kNoJoint, kNoJoint, kNoJoint, kNoJoint}}};

@@ -24,34 +24,61 @@ int namedJoint(const RigFeatures& rig, Part part, Side side, float least) {
     return best;
 }
 
+// Of avatars that could have one the joints are there, and move nothing.
 bool hasTail(const RigFeatures& rig) {
-    return std::any_of(rig.names.begin(), rig.names.end(), [](const NameEvidence& name) { return name.tail; });
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        if (rig.names[joint].tail && rig.carriesSkin(joint)) return true;
+    }
+    return false;
 }
 
-// Many rigs call the hips "root" or count them to the spine: then they are the joint that both thighs hang on.
-bool namesHips(const RigFeatures& rig) {
-    if (namedJoint(rig, Part::hips, Side::center, kNamedTrunkEnd) != kNoJoint) return true;
+bool isNamedHips(const RigFeatures& rig) {
+    return namedJoint(rig, Part::hips, Side::center, kNamedTrunkEnd) != kNoJoint;
+}
+
+bool isNamedHead(const RigFeatures& rig) {
+    return namedJoint(rig, Part::head, Side::center, kNamedTrunkEnd) != kNoJoint;
+}
+
+// Many rigs call the hips "root" or count them to the spine: then they are the joint that both thighs hang on, with so
+// many joints (halves of the pelvis) between at most.
+bool carriesThighs(const RigFeatures& rig, int mostBetween) {
     const int left = namedJoint(rig, Part::upperLeg, Side::left, kNamedLimb);
     const int right = namedJoint(rig, Part::upperLeg, Side::right, kNamedLimb);
-    const int parent = left == kNoJoint ? kNoJoint : rig.parents[left];
-    return parent != kNoJoint && right != kNoJoint && rig.parents[right] == parent &&
-           rig.names[parent].side == Side::center && rig.names[parent].parts[Part::hips] >= 0.0F;
+    if (left == kNoJoint || right == kNoJoint) return false;
+    const int above = rig.commonAncestor(left, right);
+    return above != kNoJoint && std::max(rig.depth[left], rig.depth[right]) - rig.depth[above] <= mostBetween + 1 &&
+           rig.names[above].side == Side::center && rig.names[above].parts[Part::hips] >= 0.0F;
 }
 
 // Where the spine is numbered up to the head, eyes and ears tell that there is one.
-bool namesHead(const RigFeatures& rig) {
-    if (namedJoint(rig, Part::head, Side::center, kNamedTrunkEnd) != kNoJoint) return true;
+bool hasFace(const RigFeatures& rig) {
     return std::count_if(rig.names.begin(), rig.names.end(), [](const NameEvidence& name) { return name.face; }) >= 2;
 }
 
+bool namesTrunk(const RigFeatures& rig) {
+    if (isNamedHead(rig)) return isNamedHips(rig) || carriesThighs(rig, 1);
+    return hasFace(rig) && (isNamedHips(rig) || carriesThighs(rig, 0));
+}
+
+// A limb of two joints ends at the second: nothing that moves skin hangs on it.
+bool endsAt(const RigFeatures& rig, int joint) {
+    const std::vector<int>& below = rig.children[joint];
+    return std::none_of(below.begin(), below.end(), [&](int child) { return rig.carriesSkin(child); });
+}
+
+bool namesLimb(const RigFeatures& rig, const std::array<Part, 3>& parts, Side side) {
+    const int lower = namedJoint(rig, parts[1], side, kNamedLimb);
+    if (lower == kNoJoint || namedJoint(rig, parts[0], side, kNamedLimb) == kNoJoint) return false;
+    return namedJoint(rig, parts[2], side, kNamedLimb) != kNoJoint || endsAt(rig, lower);
+}
+
 bool namesWholeFigure(const RigFeatures& rig) {
-    constexpr std::array<Part, 6> kLimbs{Part::upperArm, Part::lowerArm, Part::hand,
-                                         Part::upperLeg, Part::lowerLeg, Part::foot};
-    for (const Part part : kLimbs) {
-        if (namedJoint(rig, part, Side::left, kNamedLimb) == kNoJoint) return false;
-        if (namedJoint(rig, part, Side::right, kNamedLimb) == kNoJoint) return false;
+    for (const auto& limb : {std::array{Part::upperArm, Part::lowerArm, Part::hand},
+                             std::array{Part::upperLeg, Part::lowerLeg, Part::foot}}) {
+        if (!namesLimb(rig, limb, Side::left) || !namesLimb(rig, limb, Side::right)) return false;
     }
-    return namesHips(rig) && namesHead(rig);
+    return namesTrunk(rig);
 }
 
 }  // namespace

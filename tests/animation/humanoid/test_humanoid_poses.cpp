@@ -242,6 +242,31 @@ TEST_CASE("a hierarchy that does not hang together takes the confidence down, a 
     CHECK(flatWhole > 0.6F * whole);
 }
 
+// A joint with a little skin in the place of the one that the role's hangs on.
+void insertAbove(SyntheticRig& rig, Role role, const char* name) {
+    animation::Skeleton& skeleton = rig.character.skeleton;
+    const int below = jointOf(rig, role);
+    const int above = skeleton.parents[below];
+    const auto insert = [&](auto& values, const auto& value) { values.insert(values.begin() + below, value); };
+    for (int& parent : skeleton.parents)
+        parent += parent >= below ? 1 : 0;
+    insert(skeleton.names, name);
+    insert(skeleton.parents, above);
+    insert(skeleton.bindModelFromJoint, RigidTransform(skeleton.bindModelFromJoint[above]));
+    insert(skeleton.nodeParentFromJoint, RigidTransform());
+    insert(skeleton.skinWeight, 20.0F);
+    skeleton.parents[below + 1] = below;
+}
+
+SyntheticRig crouching(SyntheticRig rig) {
+    turnBoth(rig, Role::hips, 0.9F);
+    turnBoth(rig, Role::leftUpperLeg, -2.2F);
+    turnBoth(rig, Role::leftLowerLeg, 1.9F);
+    turn(rig, Role::leftUpperArm, -1.3F, vec3(0, 0, 1));
+    turn(rig, Role::rightUpperArm, 0.7F, vec3(0, 1, 0));
+    return rig;
+}
+
 TEST_CASE("a figure that sits cross-legged or crouches maps by its names", "[poses]") {
     SyntheticRig crossed = makeSyntheticRig(kConvention);
     turn(crossed, Role::leftUpperLeg, -1.4F, vec3(1, 0, 0));
@@ -249,13 +274,40 @@ TEST_CASE("a figure that sits cross-legged or crouches maps by its names", "[pos
     turn(crossed, Role::leftLowerLeg, -1.9F, vec3(0, 1, 0));
     turn(crossed, Role::rightLowerLeg, 1.9F, vec3(0, 1, 0));
     checkWhole(crossed);
-    SyntheticRig crouched = makeSyntheticRig(kConvention);
-    turnBoth(crouched, Role::hips, 0.9F);
-    turnBoth(crouched, Role::leftUpperLeg, -2.2F);
-    turnBoth(crouched, Role::leftLowerLeg, 1.9F);
-    turn(crouched, Role::leftUpperArm, -1.3F, vec3(0, 0, 1));
-    turn(crouched, Role::rightUpperArm, 0.7F, vec3(0, 1, 0));
-    checkWhole(crouched);
+    checkWhole(crouching(makeSyntheticRig(kConvention)));
+}
+
+TEST_CASE("a figure without joints of hands and feet crouches, too", "[poses]") {
+    SyntheticRig rig = makeSyntheticRig(kConvention);
+    for (const Role role : {Role::leftHand, Role::rightHand, Role::leftFoot, Role::rightFoot})
+        cutOff(rig, role);
+    checkWhatIsLeft(crouching(std::move(rig)));
+}
+
+TEST_CASE("a figure crouches whose hips are called root and carry a half of the pelvis for each leg", "[poses]") {
+    SyntheticRig rig = makeSyntheticRig(kConvention);
+    rig.character.skeleton.names[jointOf(rig, Role::hips)] = "root";
+    rig.truth.roles[indexOf(Role::hips)] = std::vector<std::string>{"root"};
+    insertAbove(rig, Role::leftUpperLeg, "pelvis.L");
+    insertAbove(rig, Role::rightUpperLeg, "pelvis.R");
+    checkWhole(crouching(std::move(rig)));
+}
+
+TEST_CASE("a figure crouches that could have a tail, whose joints move nothing", "[poses]") {
+    SyntheticRig rig = makeSyntheticRig(kConvention);
+    animation::Skeleton& skeleton = rig.character.skeleton;
+    const int hips = jointOf(rig, Role::hips);
+    int above = hips;
+    for (const char* name : {"mTail1", "mTail2"}) {
+        skeleton.names.emplace_back(name);
+        skeleton.parents.push_back(above);
+        skeleton.bindModelFromJoint.push_back(skeleton.bindModelFromJoint[above]);
+        skeleton.bindModelFromJoint.back().translation.z -= 0.2F;
+        skeleton.nodeParentFromJoint.push_back({quat(1, 0, 0, 0), vec3(0, 0, -0.2F)});
+        skeleton.skinWeight.push_back(0.0F);
+        above = skeleton.jointCount() - 1;
+    }
+    checkWhole(crouching(std::move(rig)));
 }
 
 TEST_CASE("a figure that lies in some pose maps by its names", "[poses]") {
