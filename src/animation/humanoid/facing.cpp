@@ -12,6 +12,7 @@ namespace {
 // and less than several together: conversions that mirrored the mesh and kept the names do exist.
 constexpr float kNames = 2.6F;
 constexpr float kNamesOfEveryLimb = 4.8F;
+constexpr float kNamesOfBlocks = 3.6F;
 constexpr float kFewestOfEveryLimb = 4.0F;  // pairs of joints
 // What hats and hair can mislead (the head's reach, where its skin is finer) says no more than this together.
 constexpr float kMostOfHead = 3.0F;
@@ -243,8 +244,12 @@ class FacingFinder {
             }
             facing_.namesSplit = others * (agree - others) < 0.0F;
         }
-        const bool every = sayParts && counted >= kFewestOfEveryLimb && std::abs(agree) >= counted;
-        if (counted > 0.0F) facing_.names = (every ? kNamesOfEveryLimb : kNames) * agree / counted;
+        const bool ofBlocks = legs_.jointCount() == 1 && arms_.jointCount() == 1 && counted >= 2.0F;
+        const bool agrees = sayParts && std::abs(agree) >= counted;
+        const float weight = agrees && counted >= kFewestOfEveryLimb ? kNamesOfEveryLimb
+                             : agrees && ofBlocks                    ? kNamesOfBlocks
+                                                                     : kNames;
+        if (counted > 0.0F) facing_.names = weight * agree / counted;
         facing_.shapeReason = facing_.reason;
         if (std::abs(facing_.names) > loudest_ + 1.0F) facing_.reason = "left and right in the names say so";
     }

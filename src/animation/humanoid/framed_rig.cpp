@@ -116,8 +116,12 @@ class PairFinder {
                nameCost(rig_.names[a], rig_.names[b]) + kTreeDistance * static_cast<float>(treeDistance(a, b));
     }
 
+    // Where joints start well apart, whatever hangs on them: legs may be crossed at the knees.
     void add(int a, int b) {
-        if (centroids_[a].x + framed_.positions[a].x < centroids_[b].x + framed_.positions[b].x) std::swap(a, b);
+        constexpr float kApart = 0.05F;
+        const float own = framed_.positions[a].x - framed_.positions[b].x;
+        const float below = centroids_[a].x - centroids_[b].x;
+        if ((std::abs(own) > kApart * framed_.spread ? own : own + below) < 0.0F) std::swap(a, b);
         addInOrder(a, b);
     }
 

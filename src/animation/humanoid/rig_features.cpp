@@ -203,11 +203,21 @@ void doubtPartialSkin(RigFeatures& rig) {
 }
 
 // A word of two meanings has one where its neighbour has the other: a shoulder above an arm is the clavicle and that
-// arm the upper arm, a leg below a thigh is the shin.
+// arm the upper arm, one above an elbow is the upper arm itself; a leg below a thigh is the shin.
 void readNamesInChains(RigFeatures& rig) {
     constexpr float kSurely = 4.0F;
     constexpr float kSurelyNot = -2.5F;
     constexpr float kMaybe = 2.0F;
+    // An elbow first: beside it may hang what stands for the arm's volume.
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        const int parent = rig.parents[joint];
+        if (parent == kNoJoint || rig.names[parent].side != rig.names[joint].side) continue;
+        PartScores& upper = rig.names[parent].parts;
+        const bool isShoulder = upper[Part::clavicle] >= kMaybe && upper[Part::clavicle] < kSurely;
+        if (!isShoulder || rig.names[joint].parts[Part::lowerArm] < kSurely) continue;
+        upper[Part::upperArm] = std::max(upper[Part::upperArm], kSurely);
+        upper[Part::clavicle] = kSurelyNot;
+    }
     for (int joint = 0; joint < rig.count(); ++joint) {
         const int parent = rig.parents[joint];
         if (parent == kNoJoint || rig.names[parent].side != rig.names[joint].side) continue;
