@@ -61,6 +61,32 @@ double rateFor(double keysPerSecond, double least) {
     return keysPerSecond * std::max(1.0, std::ceil(least / keysPerSecond - 0.01));
 }
 
+// Whether frames at that rate fall on all keys, but for rounding.
+bool hitsAllKeys(const SourceClip& clip, double start, double rate) {
+    constexpr double kMostMissed = 2e-5;  // seconds
+    const auto isHit = [&](double time) {
+        const double frames = (time - start) * rate;
+        return std::abs(frames - std::round(frames)) <= kMostMissed * rate;
+    };
+    return std::all_of(clip.channels.begin(), clip.channels.end(), [&](const SourceChannel& channel) {
+        return channel.times.size() < 2 || std::all_of(channel.times.begin(), channel.times.end(), isHit);
+    });
+}
+
+// That of the nearest keys where it has all of them, else a usual one that does; else one that ends on the last key.
+double frameRateOf(const SourceClip& clip, const KeyTimes& times) {
+    const double least = times.spline ? kLeastSplineRate : kLeastRate;
+    const double seconds = times.last - times.start();
+    if (!(seconds > 0.0)) return least;
+    const double rate = rateFor(1.0 / times.smallestGap, least);
+    if (hitsAllKeys(clip, times.start(), rate)) return rate;
+    for (const double usual : {30.0, 48.0, 50.0, 60.0, 120.0}) {
+        if (usual >= least && hitsAllKeys(clip, times.start(), usual)) return usual;
+    }
+    const double exact = std::max(1.0, std::round(seconds * rate)) / seconds;
+    return exact <= kMostRate ? exact : rate;
+}
+
 int widthOf(SourceChannel::Path path) {
     return path == SourceChannel::Path::rotation ? 4 : 3;
 }
@@ -277,8 +303,7 @@ Clip outlineOf(const SourceClip& source, std::size_t joints, std::size_t budget,
     const double seconds = std::max(0.0, times.last - times.start());
     Clip clip;
     clip.name = source.name;
-    const double rate =
-        rateFor(times.last > times.first ? 1.0 / times.smallestGap : 0.0, times.spline ? kLeastSplineRate : kLeastRate);
+    const double rate = frameRateOf(source, times);
     clip.framesPerSecond = static_cast<float>(rate);
     const double wanted = std::floor(seconds * rate + 1.0 + 1e-3);
     const std::size_t affordable = std::min<std::size_t>(budget / joints, kMaxFrames);

@@ -1,4 +1,5 @@
-// Scale in clips, which rigid joints can't have: it is told wherever it shows, however it comes about.
+// Frames of clips: which rate has all keys. Scale in clips, which rigid joints can't have: it is told wherever it
+// shows, however it comes about.
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -41,6 +42,36 @@ Character sampledRig(const GltfFile& file) {
 }
 
 }  // namespace
+
+TEST_CASE("a clip whose keys are far apart, at no common distance, ends on its last key") {
+    struct Keys {
+        std::vector<float> times;
+        float rate;
+        int frames;
+    };
+    const float half = std::sqrt(0.5F);
+    for (const auto& [times, rate, frames] :
+         {Keys{{0, 31 / 24.0F, 90 / 24.0F}, 48.0F, 181}, Keys{{0, 0.4F, 1.1F}, 30.0F, 34},
+          Keys{{0, 0.613F, 1.717F}, 53 / 1.717F, 54}}) {
+        GltfFile file = makePostRig();
+        file.json["nodes"][kMiddle].erase("matrix");
+        file.json["nodes"][kMiddle]["translation"] = {0, 0.3, 0};
+        const std::vector<float> turns = {0, 0, 0, 1, 0, 0, half, half, half, 0, 0, half};
+        file.addTurn("turn", kMiddle, times, file.addFloats(turns, "VEC4"), "LINEAR");
+        const Character character = sampledRig(file);
+        const Clip& clip = character.clips[0];
+        INFO("keys to " << times.back());
+        CHECK(clip.framesPerSecond == Approx(rate));
+        CHECK(clip.frameCount == frames);
+        CHECK(static_cast<float>(clip.frameCount - 1) / clip.framesPerSecond == Approx(times.back()));
+        const auto joints = static_cast<std::size_t>(character.skeleton.jointCount());
+        const std::size_t last = joints * static_cast<std::size_t>(clip.frameCount - 1);
+        const int turned = findJoint(character.skeleton, file.json["nodes"][kMiddle]["name"].get<std::string>());
+        REQUIRE(turned != kNoJoint);
+        const quat end = clip.parentFromJoint[last + static_cast<std::size_t>(turned)].rotation;
+        CHECK(std::abs(glm::dot(end, quat(half, half, 0, 0))) == Approx(1.0F).margin(1e-6));
+    }
+}
 
 TEST_CASE("scale in a clip is dropped with its figure") {
     const Character character = sampledRig(rigScaledBy({1, 1, 1, 1.5F, 1.5F, 1.5F}, "LINEAR"));
