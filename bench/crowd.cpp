@@ -2,6 +2,7 @@
 // turn within one process, so that what else the machine does hits all alike. One CSV row a solver and scene.
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <time.h>
 
 #include <CLI/CLI.hpp>
@@ -48,6 +49,12 @@ double cpuMs() {
     return msOf(CLOCK_PROCESS_CPUTIME_ID);
 }
 
+// Bytes that the process has asked the heap for and not given back.
+std::ptrdiff_t heapInUse() {
+    const auto info = ::mallinfo2();
+    return static_cast<std::ptrdiff_t>(info.uordblks + info.hblkhd);
+}
+
 // One world with the scene's contents, and what is known of its run.
 struct Run {
     std::string solver;
@@ -56,8 +63,10 @@ struct Run {
     std::unique_ptr<physics::QualityMeter> meter;
     double seconds = 0;
     std::vector<double> ms;
-    double steppingMs = 0;  // of the processor, by the thread that steps the world; measuring counts
-    double wallMs = 0;      // likewise
+    double steppingMs = 0;         // of the processor, by the thread that steps the world; measuring counts
+    double wallMs = 0;             // likewise
+    std::ptrdiff_t heldBytes = 0;  // by the world, without the meter
+    std::ptrdiff_t peakBytes = 0;  // after any step
     std::size_t contacts = 0;
 };
 
@@ -124,6 +133,8 @@ void printTrace(const Run& run, int step) {
 
 void step(Run& run, bool measure) {
     double measuring = 0;
+    std::ptrdiff_t metersBytes = 0;
+    const std::ptrdiff_t bytesBefore = heapInUse();
     const double before = cpuMs();
     const double steppingBefore = msOf(CLOCK_THREAD_CPUTIME_ID);
     const double wallBefore = msOf(CLOCK_MONOTONIC);
@@ -136,13 +147,17 @@ void step(Run& run, bool measure) {
         }
         run.world->step(dt, [&] {
             const double start = cpuMs();
+            const std::ptrdiff_t bytes = heapInUse();
             run.meter->sample(run.seconds += substep);
+            metersBytes += heapInUse() - bytes;
             measuring += cpuMs() - start;
         });
     }
     run.wallMs += msOf(CLOCK_MONOTONIC) - wallBefore;
     run.steppingMs += msOf(CLOCK_THREAD_CPUTIME_ID) - steppingBefore;
     run.ms.push_back(cpuMs() - before - measuring);
+    run.heldBytes += heapInUse() - bytesBefore - metersBytes;
+    run.peakBytes = std::max(run.peakBytes, run.heldBytes);
     std::vector<physics::ContactPoint> contacts;
     if (measure) run.world->getContacts(contacts);
     run.contacts += contacts.size();
@@ -168,7 +183,7 @@ void print(const Run& run, const Run& first, const std::string& scene, int seed,
     fmt::print(
         "{},{},{},{},{:.4f},{:.2f},{:.2f},{:.2f},{:.2f},{:.3f},{:.2f},{:.2f},{:.1f},{:.1f},{:.2f},{:.2f},{:.2f},{},{},{"
         "},"
-        "{:.2f},{:.1f},{:.1f},{:.1f},{:.1f},{:.4f},{:.4f}\n",
+        "{:.2f},{:.1f},{:.1f},{:.1f},{:.1f},{:.4f},{:.4f},{:.1f}\n",
         run.solver, scene, arguments.count, seed, mean(run.ms), mean(first.ms) / mean(run.ms),
         ratios[ratios.size() / 2], quality.jointSeparationM.max * 1e3F, quality.jointSeparationM.p99 * 1e3F,
         quality.jointSeparationM.mean * 1e3F, quality.limitViolationDeg.max, quality.limitViolationDeg.p99,
@@ -177,7 +192,8 @@ void print(const Run& run, const Run& first, const std::string& scene, int seed,
         quality.residualSpeedMps * 1e3F, quality.nonFinite, asleep,
         run.contacts / std::max<std::size_t>(run.ms.size(), 1), quality.limitViolationDeg.lasting,
         quality.dollPenetrationM.max * 1e3F, quality.dollPenetrationM.p99 * 1e3F, atEnd.max, atEnd.p99,
-        run.steppingMs / static_cast<double>(run.ms.size()), run.wallMs / static_cast<double>(run.ms.size()));
+        run.steppingMs / static_cast<double>(run.ms.size()), run.wallMs / static_cast<double>(run.ms.size()),
+        static_cast<double>(run.peakBytes) / 1024.0 / arguments.count);
     std::fflush(stdout);
 }
 
@@ -194,8 +210,10 @@ void runScene(const scene::RagdollAsset& figure, const std::string& scene, int s
         run.solver = solver;
         if (solver.starts_with("stock") && solver.size() > 5)
             run.stepsPerFrame = std::max(std::stoi(solver.substr(5)), 1);
+        const std::ptrdiff_t bytesBefore = heapInUse();
         run.world = makeWorld(solver, arguments);
         fill(*run.world, figure, scenario.value());
+        run.heldBytes = heapInUse() - bytesBefore;
         run.meter = std::make_unique<physics::QualityMeter>(*run.world, scenario.value().statics, vec3(0, -9.81F, 0));
         runs.push_back(std::move(run));
     }
@@ -243,7 +261,7 @@ int main(int argc, char** argv) {
     fmt::print(
         "solver,scene,count,seed,ms,meanRatio,medianRatio,sepMaxMm,sepP99Mm,sepMeanMm,limitMaxDeg,limitP99Deg,floorMm,"
         "selfMm,energyPercent,settleS,residualMmps,nonFinite,asleep,contacts,limitLastingDeg,dollMaxMm,dollP99Mm,"
-        "endMaxMm,endP99Mm,steppingMs,wallMs\n");
+        "endMaxMm,endP99Mm,steppingMs,wallMs,peakKiB\n");
     for (const std::string& scene : arguments.scenes) {
         for (int seed = arguments.firstSeed; seed < arguments.firstSeed + arguments.seeds; ++seed)
             runScene(*figure, scene, seed, arguments);

@@ -61,10 +61,17 @@ std::uint64_t pairKey(const CrowdState& state, const BodyRef& a, const BodyRef& 
 
 void addTouch(const CrowdState& state, const BodyRef& a, const BodyRef& b, int index, const BodyTouch& at,
               std::vector<PairTouch>& out) {
-    PairTouch touch{a.doll, a.body, b.doll, b.body, at, {}, a.shape, b.shape};
-    const std::uint64_t key = pairKey(state, a, b, index);
-    if (const CarriedContact* carried = state.carried.find(key)) touch.carried = *carried;
-    touch.carried.key = key;
+    PairTouch touch{a.doll,
+                    b.doll,
+                    static_cast<std::uint16_t>(a.body),
+                    static_cast<std::uint16_t>(b.body),
+                    static_cast<std::uint8_t>(a.shape),
+                    static_cast<std::uint8_t>(b.shape),
+                    at,
+                    {}};
+    touch.carried.key = pairKey(state, a, b, index);
+    if (const CarriedPush* push = state.carried.find(touch.carried.key))
+        static_cast<CarriedPush&>(touch.carried) = *push;
     makeRoom(out, out.size() + 1);
     out.push_back(touch);
 }
@@ -345,7 +352,7 @@ void placeNearDolls(CrowdState& state) {
 }
 
 // The pairs of dolls that one piece of work looks at.
-constexpr std::size_t kPiece = 64;
+constexpr std::size_t kPiece = 32;
 
 void collidePiece(CrowdState& state, std::size_t piece, float dt, PieceTouches& out) {
     out.touches.clear();
@@ -392,7 +399,7 @@ void append(CrowdState& state, std::size_t count, const ListOf& listOf) {
 // that order, so that it does not depend on the threads. A few pieces a thread are at work at a time: room for the
 // contacts of all of them would be as much again as the contacts themselves.
 void joinContacts(CrowdState& state, float dt) {
-    constexpr std::size_t kPiecesAThread = 8;
+    constexpr std::size_t kPiecesAThread = 4;
     state.touches.clear();
     state.briefs.clear();
     append(

@@ -41,21 +41,27 @@ void takeWays(CrowdState& state, Batch& batch, const Topology& topology, float d
 }
 
 void keepNearBodies(CrowdState& state) {
-    std::vector<NearBodies>& before = state.scratch.nearBefore;
-    std::swap(before, state.nearBodies);
-    state.nearBodies.resize(state.dollPairs.size());
-    for (std::size_t i = 0; i < state.dollPairs.size(); ++i) {
-        state.nearBodies[i].dolls = state.dollPairs[i];
-        state.nearBodies[i].holds = false;
-    }
-    std::size_t at = 0;  // both lists are in the order of the dolls
-    for (NearBodies& known : before) {
-        if (!known.holds) continue;
-        while (at < state.dollPairs.size() && state.dollPairs[at] < known.dolls)
+    std::vector<NearBodies>& known = state.nearBodies;
+    std::vector<std::size_t>& place = state.scratch.placeOfNear;
+    place.clear();
+    // What is kept moves to the front, in its order, which is that of the pairs too. Then each goes to its place from
+    // the last on, so that none is in the way of another.
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < known.size() && at < state.dollPairs.size(); ++i) {
+        if (!known[i].holds) continue;
+        while (at < state.dollPairs.size() && state.dollPairs[at] < known[i].dolls)
             ++at;
-        if (at == state.dollPairs.size()) return;
-        if (state.dollPairs[at] == known.dolls) std::swap(state.nearBodies[at], known);
+        if (at == state.dollPairs.size() || state.dollPairs[at] != known[i].dolls) continue;
+        if (i != place.size()) std::swap(known[place.size()], known[i]);
+        place.push_back(at);
     }
+    known.resize(place.size());  // gives back the lists of those that have moved apart
+    makeRoom(known, state.dollPairs.size());
+    known.resize(state.dollPairs.size());
+    for (std::size_t i = place.size(); i-- > 0;)
+        if (place[i] != i) std::swap(known[place[i]], known[i]);
+    for (std::size_t i = 0; i < known.size(); ++i)
+        known[i].dolls = state.dollPairs[i];
 }
 
 int findNearBodies(const CrowdState& state, NearBodies& kept, float dt, std::vector<BodyPair>& near) {

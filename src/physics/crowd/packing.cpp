@@ -94,6 +94,7 @@ class Packer {
         const int bit = std::countr_one(taken);
         const std::size_t block = first_ + static_cast<std::size_t>(bit);
         if (blocks_.size() == block) {
+            makeRoom(blocks_, block + 1);
             blocks_.emplace_back().fill(-1);
             filled_[bit] = 0;
         }

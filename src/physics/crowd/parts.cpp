@@ -142,7 +142,8 @@ void partJob(CrowdState& state, Job& job) {
     sorted.resize(job.touches.size());
     for (std::size_t i = 0; i < sorted.size(); ++i)
         sorted[next[slotOf[state.scratch.keys[i]]]++] = job.touches[i];
-    job.touches.swap(sorted);
+    // Swapped, each job in turn would keep room for the largest one's.
+    std::copy(sorted.begin(), sorted.end(), job.touches.begin());
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ void keepStatics(CrowdState& state, Batch& batch) {
             if (contact.key[lane] == 0 || normal <= 0.0F) continue;
             Doll& doll = state.dolls[batch.doll[lane]];
             doll.touching = true;
-            doll.statics.push_back({{contact.key[lane], normal, readVector(contact.frictionImpulse, lane)},
+            doll.statics.push_back({{{normal, readVector(contact.frictionImpulse, lane)}, contact.key[lane]},
                                     readVector(contact.rollImpulse, lane),
                                     contact.body,
                                     readVector(contact.localPoint, lane),

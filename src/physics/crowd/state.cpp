@@ -35,7 +35,7 @@ void CarriedPairs::renew(std::size_t count) {
     while (size < 2 * count)
         size *= 2;
     keys_.assign(size, 0);
-    contacts_.resize(size);
+    pushes_.resize(size);
 }
 
 void CarriedPairs::add(const CarriedContact& contact) {
@@ -44,14 +44,14 @@ void CarriedPairs::add(const CarriedContact& contact) {
     for (std::uint64_t there = 0;
          !std::atomic_ref(keys_[at]).compare_exchange_strong(there, contact.key, std::memory_order_relaxed); there = 0)
         at = (at + 1) & (size - 1);
-    contacts_[at] = contact;
+    pushes_[at] = contact;
 }
 
-const CarriedContact* CarriedPairs::find(std::uint64_t key) const {
+const CarriedPush* CarriedPairs::find(std::uint64_t key) const {
     if (keys_.empty()) return nullptr;
     std::size_t at = slotOf(key, keys_.size());
     while (keys_[at] != 0) {
-        if (keys_[at] == key) return &contacts_[at];
+        if (keys_[at] == key) return &pushes_[at];
         at = (at + 1) & (keys_.size() - 1);
     }
     return nullptr;

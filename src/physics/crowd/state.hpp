@@ -20,11 +20,13 @@
 namespace lutka::physics::crowd {
 
 /// What a contact carries from one step to the next: impulses of one substep.
-struct CarriedContact {
-    std::uint64_t key = 0;
+struct CarriedPush {
     float normal = 0.0F;     ///< N s
     vec3 friction{0, 0, 0};  ///< N s, world axes.
     float approach = 0.0F;   ///< Of a contact between bodies, m/s: see PairContactLanes.
+};
+struct CarriedContact : CarriedPush {
+    std::uint64_t key = 0;  ///< Which contact.
 };
 
 /// The same of a contact with static geometry, and what a report of it needs.
@@ -92,11 +94,11 @@ struct Group {
 
 /// A contact of this step between two bodies.
 struct PairTouch {
-    int dollA = 0, bodyA = 0;
-    int dollB = 0, bodyB = 0;
-    BodyTouch touch;  ///< Its points in the bodies' spaces.
+    int dollA = 0, dollB = 0;
+    std::uint16_t bodyA = 0, bodyB = 0;
+    std::uint8_t shapeA = 0, shapeB = 0;  ///< Which of the bodies' shapes.
+    BodyTouch touch;                      ///< Its points in the bodies' spaces.
     CarriedContact carried;
-    int shapeA = 0, shapeB = 0;  ///< Which of the bodies' shapes.
 };
 
 using TouchList = Chunked<PairTouch, 512>;
@@ -110,12 +112,12 @@ class CarriedPairs {
     /// it is found does not.
     void add(const CarriedContact& contact);
     /// Null when there was no such contact.
-    [[nodiscard]] const CarriedContact* find(std::uint64_t key) const;
+    [[nodiscard]] const CarriedPush* find(std::uint64_t key) const;
 
   private:
     // Open addressing, a power of two; key 0 is empty. Most contacts are new and look at a key only.
     std::vector<std::uint64_t> keys_;
-    std::vector<CarriedContact> contacts_;
+    std::vector<CarriedPush> pushes_;
 };
 
 /// A pull on a body.
@@ -259,7 +261,7 @@ struct Scratch {
     std::vector<std::size_t> placeOfList;  ///< Among the touches.
     std::vector<BlockTouches> blocksOf;    ///< Of each part of all jobs.
     std::vector<char> restless;            ///< One a doll.
-    std::vector<NearBodies> nearBefore;    ///< Of the step before.
+    std::vector<std::size_t> placeOfNear;  ///< One a NearBodies that is kept: see keepNearBodies().
     std::vector<SubstepParams> paramsFor;  ///< By the number of substeps that a step has.
 };
 

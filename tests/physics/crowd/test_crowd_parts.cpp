@@ -15,22 +15,30 @@ using namespace lutka::physics::crowd;
 
 namespace {
 
-// Dolls in and beside each other, turned at random: one job of many batches.
-std::unique_ptr<CrowdState> heap(const physics::RagdollProfile& profile, int dolls, int threads) {
+void findJobs(CrowdState& state) {
+    gatherActive(state);
+    findBounds(state, kStep);
+    sweepDolls(state, kStep);
+    findContacts(state, kStep);
+    makeJobs(state);
+}
+
+std::unique_ptr<CrowdState> emptyState(int threads) {
     physics::WorldSettings settings;
     settings.threads = threads;
-    auto state = std::make_unique<CrowdState>(settings, CrowdTuning{});
+    return std::make_unique<CrowdState>(settings, CrowdTuning{});
+}
+
+// Dolls in and beside each other, turned at random: one job of many batches.
+std::unique_ptr<CrowdState> heap(const physics::RagdollProfile& profile, int dolls, int threads) {
+    auto state = emptyState(threads);
     Random random(3);
     for (int i = 0; i < dolls; ++i) {
         const vec3 offset(random.uniform(-2, 2), random.uniform(0, 1), random.uniform(-4, 4));
         const quat turn = glm::angleAxis(random.uniform(0, 3), glm::normalize(vec3(1, random.uniform(-1, 1), 0.3F)));
         addDoll(*state, makeTopology(profile, 0.05F), &profile, placedDoll(profile, offset, turn));
     }
-    gatherActive(*state);
-    findBounds(*state, kStep);
-    sweepDolls(*state, kStep);
-    findContacts(*state, kStep);
-    makeJobs(*state);
+    findJobs(*state);
     return state;
 }
 
@@ -110,4 +118,27 @@ TEST_CASE("every contact lies in one lane of its part's blocks, and no block has
         found.push_back(state->touchOfLane);
     }
     CHECK(found[0] == found[1]);
+}
+
+TEST_CASE("a job has no room for the contacts of another") {
+    const physics::RagdollProfile profile = makeDoll();
+    const auto state = emptyState(1);
+    const auto add = [&](const vec3& at) {
+        addDoll(*state, makeTopology(profile, 0.05F), &profile, placedDoll(profile, at, quat(1, 0, 0, 0)));
+    };
+    // A batch of dolls a heap, each in one place, so that the first has many contacts and the others few.
+    constexpr int kHeaps = 12;
+    for (int i = 0; i < kHeaps * kLanes; ++i) {
+        const auto heap = static_cast<float>(i / kLanes);
+        add({30.0F * heap, 0, heap == 0.0F || i % kLanes == 0 ? 0.0F : 3.0F * static_cast<float>(i % kLanes)});
+    }
+    for (int step = 0; step < 3; ++step)
+        findJobs(*state);
+    REQUIRE(state->jobCount == kHeaps);
+    std::size_t room = 0;
+    for (const Job& job : state->jobs)
+        room += job.touches.capacity();
+    CAPTURE(state->touches.size(), room);
+    CHECK(state->jobs[0].touches.size() > state->touches.size() / 2);
+    CHECK(room < 3 * state->touches.size());
 }
