@@ -1,5 +1,6 @@
 #include "physics/crowd/near_bodies.hpp"
 
+#include <algorithm>
 #include <glm/common.hpp>
 
 #include "physics/crowd/detect.hpp"
@@ -8,7 +9,7 @@ namespace lutka::physics::crowd {
 namespace {
 
 // Metres that the bodies of two dolls may come nearer to each other until they are looked through again.
-constexpr float kSpare = 0.02F;
+constexpr float kSpare = 0.04F;
 
 // The bodies of two dolls whose bounds, grown by `farther`, meet.
 int findBodyPairs(const CrowdState& state, const Doll& a, const Doll& b, float dt, float farther,
@@ -23,6 +24,33 @@ int findBodyPairs(const CrowdState& state, const Doll& a, const Doll& b, float d
                          {doll.high.x, doll.high.y, doll.high.z}};
     };
     return state.kernels->findBodyPairs(boxesOf(a), boxesOf(b), apart, near.data());
+}
+
+// Leaves out of the first `count` pairs those whose surfaces cannot touch until both dolls have come nearer by kSpare:
+// the bounds of a limb that lies askew are mostly air. Returns how many are left.
+int leaveNear(const CrowdState& state, const Doll& a, const Doll& b, int count, std::vector<BodyPair>& near) {
+    constexpr float kRounding = 1e-3F;
+    const TouchRange range{state.tuning.pairMargin + kSpare + kRounding, 0.0F, 1.0F};
+    const StepBody* bodiesA = &state.stepBodies[a.firstBody];
+    const StepBody* bodiesB = &state.stepBodies[b.firstBody];
+    int left = 0;
+    for (int first = 0; first < count; first += kLanes) {
+        const StepBody* ofA[kLanes];
+        const StepBody* ofB[kLanes];
+        const int here = std::min(count - first, kLanes);
+        for (int lane = 0; lane < kLanes; ++lane) {
+            const BodyPair& pair = near[first + (lane < here ? lane : 0)];
+            ofA[lane] = bodiesA + pair.a;
+            ofB[lane] = bodiesB + pair.b;
+        }
+        CoreTouchLanes found;
+        const unsigned inRange = state.kernels->touchCores(ofA, ofB, range, found);
+        for (int lane = 0; lane < here; ++lane) {
+            const bool isBox = ofA[lane]->halfLength == kBoxCore || ofB[lane]->halfLength == kBoxCore;
+            if (isBox || (inRange >> static_cast<unsigned>(lane) & 1U) != 0) near[left++] = near[first + lane];
+        }
+    }
+    return left;
 }
 
 }  // namespace
@@ -78,8 +106,9 @@ int findNearBodies(const CrowdState& state, NearBodies& kept, float dt, std::vec
     }
     // What moves fast would have to be looked through again in the next step anyhow.
     kept.holds = farther < 0.25F * kSpare;
-    const int count = findBodyPairs(state, a, b, dt, kept.holds ? kSpare : 0.0F, near);
-    if (!kept.holds) return count;
+    const int bounded = findBodyPairs(state, a, b, dt, kept.holds ? kSpare : 0.0F, near);
+    if (!kept.holds) return bounded;
+    const int count = leaveNear(state, a, b, bounded, near);
     kept.way = way;
     kept.pairs.clear();
     for (int i = 0; i < count; ++i)
