@@ -49,11 +49,17 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
                                               {"sleepSpeed", &tuning.sleepSpeed},
                                               {"substepSpeed", &tuning.substepSpeed},
                                               {"substepTurn", &tuning.substepTurn},
+                                              {"spared", &tuning.spared},
+                                              {"deepShare", &tuning.deepShare},
                                               {"angularDamping", &tuning.angularDamping},
                                               {"leastGyration", &tuning.leastGyration}};
-    const std::map<std::string, int*> whole{{"substeps", &tuning.substeps},    {"calmSubsteps", &tuning.calmSubsteps},
-                                            {"passes", &tuning.passes},        {"patience", &tuning.patience},
-                                            {"mendEvery", &tuning.mendEvery},  {"answerSweeps", &tuning.answerSweeps},
+    const std::map<std::string, int*> whole{{"substeps", &tuning.substeps},
+                                            {"calmSubsteps", &tuning.calmSubsteps},
+                                            {"passes", &tuning.passes},
+                                            {"patience", &tuning.patience},
+                                            {"mendEvery", &tuning.mendEvery},
+                                            {"restSubsteps", &tuning.restSubsteps},
+                                            {"answerSweeps", &tuning.answerSweeps},
                                             {"mendSweeps", &tuning.mendSweeps}};
     if (const auto real = reals.find(name); real != reals.end())
         *real->second = value;

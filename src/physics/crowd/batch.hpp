@@ -53,10 +53,11 @@ struct Batch {
     RestLanes rest{};
     int doll[kLanes]{};  ///< Which doll is in which lane.
     int used = 0;
-    bool isStill = false;     ///< Whether nothing of it moves by more than some millimetres in this step.
-    int substeps = 0;         ///< What a step of it needs by its dolls' motion.
-    int job = 0;              ///< Which job of this step solves it.
-    std::vector<int> paired;  ///< The bodies that pair contacts push in this step, in some lane.
+    bool isStill = false;      ///< Whether nothing of it moves by more than some millimetres in this step.
+    int substeps = 0;          ///< What a step of it needs by its dolls' motion,
+    int substepsOf[kLanes]{};  ///< and of each of them.
+    int job = 0;               ///< Which job of this step solves it.
+    std::vector<int> paired;   ///< The bodies that pair contacts push in this step, in some lane.
     int firstBody[kLanes]{};
     PairBodies pairBodies{};
     Wide struck{};  ///< See BatchView.

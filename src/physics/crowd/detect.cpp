@@ -367,9 +367,13 @@ void collidePiece(CrowdState& state, std::size_t piece, float dt, PieceTouches& 
 
 TouchBrief briefOf(const CrowdState& state, const PairTouch& touch) {
     constexpr float kNear = 0.005F;  // metres: what is nearer is likely to press
-    return {touch.dollA, touch.dollB, state.dolls[touch.dollA].firstBody + touch.bodyA,
+    constexpr float kDeep = 0.005F;
+    return {touch.dollA,
+            touch.dollB,
+            state.dolls[touch.dollA].firstBody + touch.bodyA,
             state.dolls[touch.dollB].firstBody + touch.bodyB,
-            touch.carried.normal > 0.0F || touch.touch.separation < kNear};
+            touch.carried.normal > 0.0F || touch.touch.separation < kNear,
+            touch.touch.separation < -kDeep};
 }
 
 // Puts lists of contacts behind those that there are, in their order. `listOf(i)` is one of `count`.

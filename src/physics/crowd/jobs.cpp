@@ -34,6 +34,7 @@ void assignBatches(CrowdState& state) {
             fresh.batches.clear();
             fresh.topologies.clear();
             fresh.touches.clear();
+            fresh.deepTouches = 0;
             fresh.drags.clear();
             fresh.forces.clear();
         }
@@ -51,15 +52,16 @@ void findPaired(CrowdState& state) {
     state.frames.resize(static_cast<std::size_t>(state.bodyTotal));
     state.isPaired.assign(static_cast<std::size_t>(state.bodyTotal), 0);
     int doll = -1;
-    std::vector<int>* touches = nullptr;
+    Job* job = nullptr;
     for (std::size_t i = 0; i < state.briefs.size(); ++i) {
         const TouchBrief& brief = state.briefs[i];
         state.isPaired[brief.bodyA] = state.isPaired[brief.bodyB] = 1;
         if (brief.dollA != doll) {
             doll = brief.dollA;
-            touches = &state.jobs[state.batchOf(state.dolls[doll]).job].touches;
+            job = &state.jobs[state.batchOf(state.dolls[doll]).job];
         }
-        touches->push_back(static_cast<int>(i));
+        job->touches.push_back(static_cast<int>(i));
+        job->deepTouches += brief.isDeep ? 1 : 0;
     }
     state.inParallel(state.active.size(), 8, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {

@@ -168,6 +168,7 @@ struct TouchBrief {
     int dollA = 0, dollB = 0;
     int bodyA = 0, bodyB = 0;  ///< Among all bodies of the world.
     bool presses = false;      ///< After the step: whether it did in its last substep. Before: or is likely to.
+    bool isDeep = false;       ///< Whether its bodies lay more than millimetres in each other when the step began.
 };
 
 using BriefList = Chunked<TouchBrief, 2048>;
@@ -191,7 +192,8 @@ struct Job {
     std::size_t blockCount = 0;
     std::vector<DragRecord*> drags;
     std::vector<const ForceRecord*> forces;
-    int substeps = 0;  ///< Of this step.
+    int deepTouches = 0;  ///< How many of its contacts lie deep.
+    int substeps = 0;     ///< Of this step.
     double dragWork = 0.0;
     double dragImpulse = 0.0;
     double motorWork = 0.0;  ///< And of forces.

@@ -67,20 +67,45 @@ void findPace(const CrowdState& state, Batch& batch, const Topology& topology) {
     state.kernels->findMotion(batch.view(topology), speed2, turn2);
     const float unit2 = tuning.substepSpeed * tuning.substepSpeed;
     const float turnUnit2 = tuning.substepTurn * tuning.substepTurn;
-    float units2 = 0.0F;
-    for (int lane = 0; lane < batch.used; ++lane)
-        units2 = std::max({units2, speed2.lane[lane] / unit2, turn2.lane[lane] / turnUnit2});
-    batch.isStill = units2 < kStill * kStill;
-    batch.substeps = std::min(tuning.calmSubsteps, tuning.substeps);
-    while (batch.substeps < tuning.substeps && static_cast<float>(batch.substeps * batch.substeps) < units2)
-        ++batch.substeps;
+    batch.isStill = true;
+    batch.substeps = 0;
+    for (int lane = 0; lane < batch.used; ++lane) {
+        const float units2 = std::max(speed2.lane[lane] / unit2, turn2.lane[lane] / turnUnit2);
+        const bool isStill = units2 < kStill * kStill;
+        int& substeps = batch.substepsOf[lane];
+        // What lies still and may not fall asleep is cheap in this way; where it may, it would only come to rest later.
+        const bool rests = isStill && !state.settings.sleeping;
+        substeps = std::min(rests ? tuning.restSubsteps : tuning.calmSubsteps, tuning.substeps);
+        while (substeps < tuning.substeps && static_cast<float>(substeps * substeps) < units2)
+            ++substeps;
+        batch.isStill = batch.isStill && isStill;
+        batch.substeps = std::max(batch.substeps, substeps);
+    }
 }
 
 void setSubsteps(const CrowdState& state, Job& job) {
-    const int all = state.tuning.substeps;
+    const CrowdTuning& tuning = state.tuning;
+    const int all = tuning.substeps;
     job.substeps = job.forces.empty() ? 1 : all;
-    for (const Batch* batch : job.batches)
-        job.substeps = std::max(job.substeps, batch->targets.empty() ? batch->substeps : all);
+    int dolls = 0;
+    std::vector<int> needing(static_cast<std::size_t>(all) + 1, 0);  // dolls by the number that they need
+    for (const Batch* batch : job.batches) {
+        if (!batch->targets.empty()) job.substeps = all;
+        dolls += batch->used;
+        for (int lane = 0; lane < batch->used; ++lane)
+            ++needing[batch->substepsOf[lane]];
+    }
+    // One hand that twitches in a heap at rest would have all of it take twice the time. Where dolls lie deep in each
+    // other, all substeps are needed to push them apart.
+    const bool spares =
+        static_cast<float>(job.deepTouches) <= tuning.deepShare * static_cast<float>(job.touches.size());
+    int left = spares ? static_cast<int>(tuning.spared * static_cast<float>(dolls)) : 0;
+    int more = 0;  // dolls that need more than one substep less
+    for (int substeps = all; substeps > job.substeps; --substeps) {
+        more += needing[substeps];
+        left -= more;
+        if (left < 0) job.substeps = substeps;
+    }
 }
 
 void fitImpulses(CrowdState& state, Job& job, float seconds) {

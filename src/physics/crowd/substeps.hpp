@@ -8,7 +8,8 @@ namespace lutka::physics::crowd {
 /// fast, fewer where all is slow) and whether it hardly moves at all.
 void findPace(const CrowdState& state, Batch& batch, const Topology& topology);
 
-/// Sets Job::substeps: the most that a batch of the job needs, all where frames or forces act.
+/// Sets Job::substeps: about the most that any doll of the job needs (CrowdTuning::spared), all where frames or forces
+/// act.
 void setSubsteps(const CrowdState& state, Job& job);
 
 /// Impulses that are carried from step to step are those of one substep: fits them to one of `seconds`.

@@ -11,8 +11,11 @@ namespace lutka::physics::crowd {
 struct CrowdTuning : SubstepTuning {
     int substeps = 6;           ///< A step; >= 1. More: stiffer joints, shallower contacts, cost in proportion.
     int calmSubsteps = 3;       ///< A step in which nothing moves fast, >= 1; no more than `substeps`.
+    int restSubsteps = 2;       ///< A step in which hardly anything moves in a world where nothing sleeps, likewise.
     float substepSpeed = 0.5F;  ///< m/s of a body for each substep that a step needs: above six times that it has six.
     float substepTurn = 3.0F;   ///< rad/s, likewise.
+    float spared = 0.2F;        ///< Substeps that the dolls of a job may be short of, a doll in the mean, while
+    float deepShare = 0.01F;    ///< no more than this share of its contacts lie deep (TouchBrief), [0, 1].
     int mendEvery = 1;          ///< Errors of position are mended in every so many substeps, the last among them.
 
     float jointErp = 0.3F;        ///< Part of a joint's gap mended in a substep, (0, 1].

@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "crowd_scene.hpp"
+#include "physics/crowd/substeps.hpp"
 #include "support/catch.hpp"
 #include "support/dolls.hpp"
 
@@ -14,14 +15,19 @@ using physics::WorldSettings;
 TEST_CASE("a step has as many substeps as its motion needs") {
     physics::crowd::CrowdTuning tuning;
     tuning.angularDamping = 0.0F;
-    const auto world = createCrowdWorld(WorldSettings{}, tuning);
+    WorldSettings settings;
+    settings.sleeping = GENERATE(true, false);
+    CAPTURE(settings.sleeping);
+    const auto world = createCrowdWorld(settings, tuning);
     const physics::RagdollProfile rod = makeRod(0.2F, 0.05F, 2.0F);
     world->addDoll(rod, std::vector<physics::BodyState>(1, physics::BodyState{}));
     float speed = 0.0F;
     float fallen = 0.0F;
     for (int i = 0; i < 60; ++i) {
+        // Where nothing sleeps, what is still has fewer: here the first step.
+        const int least = i == 0 && !settings.sleeping ? tuning.restSubsteps : tuning.calmSubsteps;
         const int substeps =
-            std::clamp(static_cast<int>(std::ceil(speed / tuning.substepSpeed)), tuning.calmSubsteps, tuning.substeps);
+            std::clamp(static_cast<int>(std::ceil(speed / tuning.substepSpeed)), least, tuning.substeps);
         for (int k = 0; k < substeps; ++k) {
             const float seconds = kStep / static_cast<float>(substeps);
             speed += 9.81F * seconds;
@@ -31,6 +37,39 @@ TEST_CASE("a step has as many substeps as its motion needs") {
         // One substep more or less in any step would be off by 0.1 mm.
         REQUIRE(bodiesOf(*world, 0)[0].worldFromBody.translation.y == Approx(-fallen).margin(2e-5));
     }
+}
+
+TEST_CASE("a few dolls of a calm heap may have fewer substeps than they need, unless many lie deep in each other") {
+    using namespace physics::crowd;
+    const CrowdState state(WorldSettings{}, CrowdTuning{});
+    const Topology topology = makeTopology(makeDoll(), 0.05F);
+    std::vector<Batch> batches(5, Batch(topology));
+    Job job;
+    job.touches.resize(500);
+    for (Batch& batch : batches) {
+        batch.used = kLanes;
+        std::fill(std::begin(batch.substepsOf), std::end(batch.substepsOf), 3);
+        job.batches.push_back(&batch);
+    }
+    const auto substepsWith = [&](int deepTouches) {
+        job.deepTouches = deepTouches;
+        setSubsteps(state, job);
+        return job.substeps;
+    };
+    REQUIRE(state.tuning.spared * 40.0F == Approx(8.0F));
+    batches[1].substepsOf[3] = 6;
+    batches[4].substepsOf[7] = 6;
+    CHECK(substepsWith(0) == 3);  // six too few in sum
+    batches[2].substepsOf[0] = 6;
+    CHECK(substepsWith(0) == 4);  // nine would be
+    CHECK(substepsWith(6) == 6);
+    for (Batch& batch : batches)
+        batch.substepsOf[5] = 5;
+    CHECK(substepsWith(0) == 5);
+    job.batches.resize(1);
+    batches[0].used = 4;
+    batches[0].substepsOf[1] = 5;
+    CHECK(substepsWith(0) == 5);  // of four dolls none may be short
 }
 
 TEST_CASE("a pull at its bound gives its force, in all substeps however slow the body is") {
