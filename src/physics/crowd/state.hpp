@@ -264,6 +264,7 @@ struct Scratch {
     std::vector<BlockTouches> blocksOf;    ///< Of each part of all jobs.
     std::vector<char> restless;            ///< One a doll.
     std::vector<std::size_t> placeOfNear;  ///< One a NearBodies that is kept: see keepNearBodies().
+    std::vector<int> needing;              ///< Dolls of a job by the number of substeps that they need.
     std::vector<SubstepParams> paramsFor;  ///< By the number of substeps that a step has.
 };
 

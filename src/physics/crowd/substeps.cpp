@@ -83,12 +83,13 @@ void findPace(const CrowdState& state, Batch& batch, const Topology& topology) {
     }
 }
 
-void setSubsteps(const CrowdState& state, Job& job) {
+void setSubsteps(CrowdState& state, Job& job) {
     const CrowdTuning& tuning = state.tuning;
     const int all = tuning.substeps;
     job.substeps = job.forces.empty() ? 1 : all;
     int dolls = 0;
-    std::vector<int> needing(static_cast<std::size_t>(all) + 1, 0);  // dolls by the number that they need
+    std::vector<int>& needing = state.scratch.needing;
+    needing.assign(static_cast<std::size_t>(all) + 1, 0);
     for (const Batch* batch : job.batches) {
         if (!batch->targets.empty()) job.substeps = all;
         dolls += batch->used;

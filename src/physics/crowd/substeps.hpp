@@ -10,7 +10,7 @@ void findPace(const CrowdState& state, Batch& batch, const Topology& topology);
 
 /// Sets Job::substeps: about the most that any doll of the job needs (CrowdTuning::spared), all where frames or forces
 /// act.
-void setSubsteps(const CrowdState& state, Job& job);
+void setSubsteps(CrowdState& state, Job& job);
 
 /// Impulses that are carried from step to step are those of one substep: fits them to one of `seconds`.
 void fitImpulses(CrowdState& state, Job& job, float seconds);
