@@ -2,8 +2,6 @@
 // hips.
 #include <cmath>
 
-#include <string_view>
-
 #include "core/files.hpp"
 #include "scene/reachable_clip.hpp"
 #include "scene/simulation.hpp"
@@ -96,10 +94,7 @@ TEST_CASE("figures of any proportions get up: short legs, a large head, a heavy 
             CHECK(up.stood >= kDolls - 1);
             CHECK(up.begun <= kDolls + 2);
             CHECK(up.mostSlideM <= 0.05F);
-            // An arm of one piece that lay under the trunk still jumps as it comes free: 9 to 14 degrees over five
-            // seeds.
-            const bool isStiff = std::string_view(file) == "hl1_man/man.mdl";
-            CHECK(up.mostStepDeg <= (isStiff ? 15.0F : 10.0F));
+            CHECK(up.mostStepDeg <= 10.0F);
             CHECK(simulation->quality().nonFinite == 0);
             const vec3 up3 = glm::conjugate(asset->profile.standardFromModel) * vec3(0, 1, 0);
             const float standing = scene::figureOf(*asset).bounds.low.y;

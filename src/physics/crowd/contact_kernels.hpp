@@ -326,7 +326,9 @@ static int mendPairs(const PairsView& view, const SubstepParams& params) {
         any |= overlaps;
         PairVelocities v = velocitiesOf(pair, bodies);
         const V3 normal = load(pair.normal);
-        const F fastest = strikes(pair) ? all(params.dollPushSpeed) : all(params.pushSpeed);
+        const Mask hasMuscles = (load(pair.kind) > zero) & (load(pair.kind) < all(1.0F));
+        const F own = hasMuscles ? all(params.drivenPushSpeed) : all(params.pushSpeed);
+        const F fastest = strikes(pair) ? all(params.dollPushSpeed) : own;
         const F apart = most((load(pair.separation) + all(params.slop)) * all(params.contactRate), -fastest);
         const F off = dot(normal, slidingOf(pair, v)) + apart * eagerness(pair, params.mendHaste);
         const F push = most(load(pair.normalMass) * -off * eagerness(pair, params.mendRate), zero);

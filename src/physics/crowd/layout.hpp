@@ -265,7 +265,8 @@ struct PairContactLanes {
     // what a push needs,
     Wide3 armA, armB;
     Wide kind;  ///< 2 between dolls with joints: these are pressed again once the dolls have answered
-                ///< (answer_kernels.hpp). 1 between bodies of one, 0 where a body has no other jointed to it.
+                ///< (answer_kernels.hpp). 1 between bodies of one, 0.5 where that has muscles, 0 where a body has no
+                ///< other jointed to it.
     Wide normalMass;
     Wide inverseMassA, inverseMassB;
     Wide3 pushA, pushB;  ///< The normal without the part that is held against by what a body rests on.

@@ -99,9 +99,11 @@ void setMotor(CrowdState& state, int doll, int constraint, const std::optional<J
     const bool known = isWanted(at);
     if (!motor) {
         if (known) state.motors.erase(at);
+        if (known) --state.dolls[doll].motors;
         return;
     }
     if (!known) at = state.motors.insert(at, MotorRecord{doll, constraint, {}, false});
+    if (!known) ++state.dolls[doll].motors;
     at->motor = *motor;
     state.nextMotor = static_cast<std::size_t>(at - state.motors.begin()) + 1;
 }

@@ -38,7 +38,8 @@ void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTou
     pair.approach.lane[lane] = touch.carried.approach;
     writeVector(pair.tangent, lane, touch.carried.friction);
     const auto isJointed = [&](const Doll& doll) { return !state.groupOf(doll).topology.joints.empty(); };
-    if (isJointed(a) && isJointed(b)) pair.kind.lane[lane] = touch.dollA != touch.dollB ? 2.0F : 1.0F;
+    if (isJointed(a) && isJointed(b))
+        pair.kind.lane[lane] = touch.dollA != touch.dollB ? 2.0F : a.motors > 0 ? 0.5F : 1.0F;
     const auto onAxisY = [](const vec3& local) { return local.x == 0.0F && local.z == 0.0F; };
     if (!onAxisY(touch.touch.localA) || !onAxisY(touch.touch.localB)) pair.onAxisY = 0;
 }

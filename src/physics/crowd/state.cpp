@@ -215,6 +215,7 @@ void removeDoll(CrowdState& state, int index) {
     carryAgain(state);  // a doll in the same place must not inherit them
     std::erase(state.sweep, index);
     std::erase_if(state.motors, [&](const MotorRecord& record) { return record.doll == index; });
+    state.dolls[index].motors = 0;
     std::erase_if(state.targets, [&](const TargetRecord& record) { return record.doll == index; });
     std::erase_if(state.forces, [&](const ForceRecord& record) { return record.doll == index; });
     Doll& doll = state.dolls[index];

@@ -31,11 +31,12 @@ struct SubstepTuning {
     float grip = 1.0F;                ///< The same of friction. More: quicker to grip, chatters.
     float pushSpeed = 2.0F;           ///< m/s, largest speed that overlap is pushed apart with,
     float dollPushSpeed = 3.0F;       ///< and that of dolls with dolls. More: single falls gain energy by the first.
-    float limitSpeed = 25.0F;         ///< rad/s, the same for limits.
-    float slop = 0.0005F;             ///< Metres of overlap left alone, so that resting contacts stay.
-    float rollingLever = 0.004F;      ///< Metres, rolling resistance: flesh is no ideal cylinder.
-    float jointStiction = 3.0F;       ///< Friction of a joint at rest over that of one that turns, less 1;
-    float stictionRate = 4.0F;        ///< fades out up to so many rad/s.
+    float drivenPushSpeed = 0.1F;  ///< Likewise of bodies of one doll with muscles: it is seen where all else is calm.
+    float limitSpeed = 25.0F;      ///< rad/s, the same for limits.
+    float slop = 0.0005F;          ///< Metres of overlap left alone, so that resting contacts stay.
+    float rollingLever = 0.004F;   ///< Metres, rolling resistance: flesh is no ideal cylinder.
+    float jointStiction = 3.0F;    ///< Friction of a joint at rest over that of one that turns, less 1;
+    float stictionRate = 4.0F;     ///< fades out up to so many rad/s.
 };
 
 /// What a substep needs.
