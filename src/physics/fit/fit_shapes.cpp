@@ -16,6 +16,7 @@
 #include "physics/fit/fit_measures.hpp"
 #include "physics/fit/hull_fit.hpp"
 #include "physics/fit/principal_axes.hpp"
+#include "physics/fit/radius_share.hpp"
 #include "physics/fit/separate_shapes.hpp"
 #include "physics/fit/several_capsules.hpp"
 
@@ -40,35 +41,6 @@ constexpr float kRadiusOfLength = 0.15F;  // of a segment without skin
 constexpr float kHeelInset = 0.6F;
 constexpr float kHeelBeyond = 0.012F;
 constexpr float kFootRadius = 0.35F;  // at most, of the foot's length
-
-// Radius of a man's segment as a share of his height, and for what has no second joint its length.
-float radiusShare(Role role) {
-    switch (sideOf(role) == Side::right ? mirrored(role) : role) {
-        case Role::hips:
-        case Role::spine:
-        case Role::chest:
-        case Role::upperChest:
-            return 0.068F;
-        case Role::head:
-            return 0.05F;
-        case Role::neck:
-            return 0.033F;
-        case Role::leftShoulder:
-            return 0.03F;
-        case Role::leftUpperArm:
-            return 0.028F;
-        case Role::leftLowerArm:
-            return 0.023F;
-        case Role::leftUpperLeg:
-            return 0.045F;
-        case Role::leftLowerLeg:
-            return 0.032F;
-        case Role::leftToes:
-            return 0.015F;
-        default:
-            return 0.02F;
-    }
-}
 
 // The limits that keep a searched capsule what its segment is: `settle` clamps a trial.
 void settleLimb(CapsuleTrial& trial, float length) {
@@ -99,6 +71,7 @@ class BodyFit {
         : plan_(plan), body_(plan.bodies[body]), rotation_(anatomy.standardFromAnatomy[body]) {
         points_ = skinNearSegment(plan, body_);
         central_ = plan.symmetric && body_.mirror == body;
+        standsOn_ = isLastOfLeg(body);
         if (plan.symmetric && body_.mirror >= 0) addMirrored();
         if (points_.size() >= kFewestShapePoints) spread_ = principalAxes(points_).spread[1];
     }
@@ -146,7 +119,11 @@ class BodyFit {
         bounds.largestHalf = largestRadius() + body_.length();
         bounds.cutoff = cutoff();
         bounds.nearM = kNearSkin * plan_.heightM;
-        const std::optional<PlacedBox> box = physics::fitBox(points_, capsule, bounds);
+        std::optional<PlacedBox> box = physics::fitBox(points_, capsule, bounds);
+        if (!box && body_.segment && !central_) {
+            bounds.standardFromAxes = axesAlong(principalAxes(points_).axis[0]);
+            box = physics::fitBox(points_, capsule, bounds);
+        }
         // About a joint that bends, a limb's box about one of its ends would turn into its neighbour.
         constexpr float kOfLength = 0.2F;
         const float middle = box ? glm::dot(box->standardFromBox.translation - body_.start, body_.direction()) : 0.0F;
@@ -167,10 +144,20 @@ class BodyFit {
     // The lowest body of a leg. It stays round where it meets the ground: on flat ends a limp figure would go on
     // standing.
     [[nodiscard]] bool isWhatStands() const {
+        if (body_.segment) return standsOn_;
         const auto has = [&](Role left) { return plan_.bodyOf(left) >= 0 && plan_.bodyOf(mirrored(left)) >= 0; };
         const bool shin = isEitherSide(body_.role, Role::leftLowerLeg) && !has(Role::leftFoot);
         const bool leg = isEitherSide(body_.role, Role::leftUpperLeg) && !has(Role::leftLowerLeg);
         return isFoot() || shin || leg;
+    }
+    // A creature's limb that goes down and that nothing hangs on.
+    [[nodiscard]] bool isLastOfLeg(int index) const {
+        constexpr float kDown = 0.8F;
+        using Kind = animation::Segment::Kind;
+        if (!body_.segment || (body_.segment->kind != Kind::limbRoot && body_.segment->kind != Kind::limb))
+            return false;
+        return body_.direction().y < -kDown && std::none_of(plan_.bodies.begin(), plan_.bodies.end(),
+                                                            [&](const PlannedBody& b) { return b.parent == index; });
     }
     [[nodiscard]] float largestRadius() const {
         const bool head = body_.role == Role::head;
@@ -357,6 +344,7 @@ class BodyFit {
     quat rotation_;
     std::vector<SkinPoint> points_;
     bool central_ = false;
+    bool standsOn_ = false;
     float spread_ = 0.0F;  // of the points, the second largest
 };
 
