@@ -86,11 +86,21 @@ class AppendageSearch {
   private:
     [[nodiscard]] vec3 standing(int joint) const { return map_.standardFromModel * rig_.positions[joint]; }
 
-    // The part whose joint is nearest above; a joint above the hips itself is theirs.
+    // The part whose joint is nearest above. What hangs on none (a hat on the root) is the part's whose joint it lies
+    // nearest to; joints above the hips are theirs.
     [[nodiscard]] Role partAbove(int joint) const {
         for (int at = joint; at != kNoJoint; at = rig_.parents[at])
             if (roleOf_[at] >= 0) return roleAt(roleOf_[at]);
-        return Role::hips;
+        if (holdsRole_[joint]) return Role::hips;
+        int nearest = kNoJoint;
+        for (int other = 0; other < rig_.count(); ++other) {
+            if (roleOf_[other] < 0) continue;
+            const bool nearer =
+                nearest == kNoJoint || glm::distance(rig_.positions[other], rig_.positions[joint]) <
+                                           glm::distance(rig_.positions[nearest], rig_.positions[joint]);
+            if (nearer) nearest = other;
+        }
+        return nearest == kNoJoint ? Role::hips : roleAt(roleOf_[nearest]);
     }
 
     // Neither an appendage nor above a role's joint.
