@@ -168,6 +168,26 @@ animation::Character makeBipedWithAppendages() {
     return makeFigure("biped with appendages", joints, tubes);
 }
 
+void addRoot(animation::Character& figure, animation::HumanoidMap& map) {
+    animation::Skeleton& skeleton = figure.skeleton;
+    skeleton.names.insert(skeleton.names.begin(), "Scene");
+    skeleton.bindModelFromJoint.insert(skeleton.bindModelFromJoint.begin(), RigidTransform{});
+    skeleton.nodeParentFromJoint.insert(skeleton.nodeParentFromJoint.begin(), RigidTransform{});
+    skeleton.skinWeight.insert(skeleton.skinWeight.begin(), 0.0F);
+    for (int& parent : skeleton.parents)
+        ++parent;
+    skeleton.parents.insert(skeleton.parents.begin(), animation::kNoJoint);
+    for (animation::SkinnedMesh& mesh : figure.meshes) {
+        for (auto& joints : mesh.joints) {
+            for (std::uint16_t& joint : joints)
+                ++joint;
+        }
+    }
+    for (auto& role : map.roles) {
+        if (role) ++role->joint;
+    }
+}
+
 animation::HumanoidMap mapOfBiped(const animation::Character& biped) {
     animation::HumanoidMap map;
     map.humanoid = true;

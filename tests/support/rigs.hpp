@@ -40,6 +40,9 @@ struct TubeSpec {
 /// makeBiped() with a tail of three joints, two ears, hair of two joints, fingers and a sword in the right hand.
 [[nodiscard]] animation::Character makeBipedWithAppendages();
 
+/// A joint "Scene" without skin above all that the figure has; its joints, and those of the map, move up by one.
+void addRoot(animation::Character& figure, animation::HumanoidMap& map);
+
 /// The map of makeBiped(), exact.
 [[nodiscard]] animation::HumanoidMap mapOfBiped(const animation::Character& biped);
 

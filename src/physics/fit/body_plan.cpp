@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "core/assert.hpp"
 #include "core/quantile.hpp"
@@ -188,13 +189,28 @@ bool isLeg(std::optional<Role> role) {
            isEitherSide(role, Role::leftFoot);
 }
 
-// The segments that hang on a part with a role, which is known only when every joint has its body.
+// The body of a part whose segment is nearest.
+int nearestPart(const BodyPlan& plan, const vec3& point) {
+    const auto distanceTo = [&](const PlannedBody& body) {
+        return body.role ? distanceToSegment(point, body.start, body.end) : std::numeric_limits<float>::max();
+    };
+    const auto nearest = std::min_element(
+        plan.bodies.begin(), plan.bodies.end(),
+        [&](const PlannedBody& first, const PlannedBody& second) { return distanceTo(first) < distanceTo(second); });
+    return static_cast<int>(nearest - plan.bodies.begin());
+}
+
+// The segments that hang on a part with a role, which is known only when every joint has its body. What hangs above the
+// hips, on the root of the file, is the part's that it lies at.
 void hangSegments(BodyPlan& plan, const Character& character) {
     if (plan.bodies.empty() || !plan.bodies[0].role) return;
     for (PlannedBody& body : plan.bodies) {
         if (!body.segment || body.parent >= 0) continue;
         const int above = character.skeleton.parents[body.joint];
-        body.parent = above == kNoJoint ? 0 : plan.bodyOfJoint[above];
+        const int hips = plan.bodies[0].joint;
+        const bool beside =
+            above == kNoJoint || (above != hips && animation::isAncestorOrSelf(character.skeleton, above, hips));
+        body.parent = beside ? nearestPart(plan, body.start) : plan.bodyOfJoint[above];
     }
 }
 

@@ -40,21 +40,8 @@ TEST_CASE("tail, ears, hair and a sword are found on a humanoid, fingers are non
 TEST_CASE("ears and hair that hang on the root of the file are the head's") {
     Character figure = test::makeBipedWithAppendages();
     HumanoidMap map = test::mapOfBiped(figure);
-    // A root above all that the file has.
+    test::addRoot(figure, map);
     Skeleton& skeleton = figure.skeleton;
-    skeleton.names.insert(skeleton.names.begin(), "Scene");
-    skeleton.bindModelFromJoint.insert(skeleton.bindModelFromJoint.begin(), RigidTransform{});
-    skeleton.nodeParentFromJoint.insert(skeleton.nodeParentFromJoint.begin(), RigidTransform{});
-    skeleton.skinWeight.insert(skeleton.skinWeight.begin(), 0.0F);
-    for (int& parent : skeleton.parents)
-        ++parent;
-    skeleton.parents.insert(skeleton.parents.begin(), kNoJoint);
-    for (SkinnedMesh& mesh : figure.meshes)
-        for (auto& joints : mesh.joints)
-            for (std::uint16_t& joint : joints)
-                ++joint;
-    for (auto& role : map.roles)
-        if (role) ++role->joint;
     for (int joint = 1; joint < skeleton.jointCount(); ++joint) {
         const std::string& name = skeleton.names[joint];
         if (name == "ear_L" || name == "ear_R" || name == "ponytail1") skeleton.parents[joint] = 0;

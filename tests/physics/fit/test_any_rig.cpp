@@ -382,6 +382,22 @@ TEST_CASE("appendages become bodies on the part that they hang on, and the human
     }
 }
 
+TEST_CASE("an appendage that hangs on the root of the file is a body on the part that it lies at") {
+    animation::Character figure = test::makeBipedWithAppendages();
+    animation::HumanoidMap map = test::mapOfBiped(figure);
+    test::addRoot(figure, map);
+    animation::Skeleton& skeleton = figure.skeleton;
+    skeleton.parents[static_cast<std::size_t>(animation::findJoint(skeleton, "ponytail1"))] = 0;
+    FitOptions options;
+    options.appendages = {animation::AppendageKind::hair};
+    const RagdollProfile profile = fitRagdoll(figure, map, options).value();
+    const int hair = bodyNamed(profile, "ponytail1");
+    REQUIRE(hair > 0);
+    CHECK(
+        profile.bodies[static_cast<std::size_t>(profile.constraints[static_cast<std::size_t>(hair - 1)].parent)].name ==
+        "head");
+}
+
 TEST_CASE("a rig without a joint and a map without roles are refused in words") {
     const auto nothing = fitRagdoll(animation::Character{}, {}, Creature::anyRig());
     REQUIRE_FALSE(nothing);
