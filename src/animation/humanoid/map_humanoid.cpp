@@ -188,6 +188,8 @@ Reading readFigure(const RigFeatures& rig) {
     for (const CompletedRig& completed : reading.completed) {
         Figure figure = findFigure(completed.rig);
         if (!figure.refusal.empty() || !isHonest(completed, figure)) continue;
+        // Animals lie: what has to be turned has limbs of its own.
+        if (figure.prior < 0.0F && !reading.figure.refusal.empty()) continue;
         const bool stands = reading.figure.refusal.empty() && !completed.imagined;
         if (stands ? figure.score < reading.figure.score + kImagined
                    : figure.shapeScore() < leastShapeOf(completed, figure))

@@ -1,4 +1,5 @@
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "animation/humanoid/map_humanoid.hpp"
@@ -53,7 +54,45 @@ animation::Character flatSpider() {
     return makeFigure("spider", joints, skin);
 }
 
+// Its legs, whose sides are named badly, lie behind it.
+animation::Character treeFrog() {
+    std::vector<JointSpec> joints{{"Hip_J", -1, {0, 0.14F, -0.42F}},
+                                  {"Spine01_J", 0, {0, 0.21F, -0.33F}},
+                                  {"Spine02_J", 1, {0, 0.28F, -0.17F}},
+                                  {"Head_J", 2, {0, 0.24F, -0.05F}}};
+    std::vector<TubeSpec> skin{{0, {0, 0.2F, -0.33F}, 0.1F},
+                               {1, {0, 0.27F, -0.17F}, 0.1F},
+                               {2, {0, 0.25F, -0.05F}, 0.1F},
+                               {3, {0, 0.25F, 0.15F}, 0.1F}};
+    const auto chain = [&](int above, const std::vector<std::pair<std::string, vec3>>& parts) {
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            const auto joint = static_cast<int>(joints.size());
+            const vec3& at = parts[i].second;
+            skin.push_back({joint, i + 1 < parts.size() ? parts[i + 1].second : at + vec3(0, 0, 0.05F), 0.03F});
+            joints.push_back({parts[i].first, i == 0 ? above : joint - 1, at});
+        }
+    };
+    for (const float side : {1.0F, -1.0F}) {
+        const bool left = side > 0.0F;
+        const std::string start = left ? "L_" : "R_";
+        const vec3 sign(side, 1, 1);
+        chain(0, {{left ? "L_Leg_J" : "R_Reg_J", sign * vec3(0.06F, 0.14F, -0.46F)},
+                  {start + "Knee_J", sign * vec3(0.3F, 0.07F, -0.57F)},
+                  {start + "Ankle_J", sign * vec3(0.25F, 0.01F, -0.81F)},
+                  {"L_Foot_J", sign * vec3(0.37F, 0.01F, -0.92F)}});
+        chain(2, {{start + "Clavicle_J", sign * vec3(0.05F, 0.17F, -0.15F)},
+                  {start + "Shoulder_J", sign * vec3(0.12F, 0.17F, -0.15F)},
+                  {start + "Elbow_J", sign * vec3(0.24F, 0.08F, -0.15F)},
+                  {start + "Hand", sign * vec3(0.36F, 0.02F, -0.06F)}});
+    }
+    return makeFigure("tree frog", joints, skin);
+}
+
 }  // namespace
+
+TEST_CASE("a frog that lies is no figure that lacks a leg", "[lookalikes]") {
+    CHECK_FALSE(animation::mapHumanoid(treeFrog()).humanoid);
+}
 
 TEST_CASE("a frog of blocks, whose joints have a man's names, is no figure on its back", "[lookalikes]") {
     const animation::HumanoidMap map = animation::mapHumanoid(blockFrog());
