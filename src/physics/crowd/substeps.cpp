@@ -87,14 +87,15 @@ void setSubsteps(CrowdState& state, Job& job) {
     const CrowdTuning& tuning = state.tuning;
     const int all = tuning.substeps;
     job.substeps = job.forces.empty() ? 1 : all;
-    int dolls = 0;
+    int dolls = 0;  // without props
     std::vector<int>& needing = state.scratch.needing;
     needing.assign(static_cast<std::size_t>(all) + 1, 0);
-    for (const Batch* batch : job.batches) {
-        if (!batch->targets.empty()) job.substeps = all;
-        dolls += batch->used;
-        for (int lane = 0; lane < batch->used; ++lane)
-            ++needing[batch->substepsOf[lane]];
+    for (std::size_t i = 0; i < job.batches.size(); ++i) {
+        const Batch& batch = *job.batches[i];
+        if (!batch.targets.empty()) job.substeps = all;
+        dolls += job.topologies[i]->joints.empty() ? 0 : batch.used;
+        for (int lane = 0; lane < batch.used; ++lane)
+            ++needing[batch.substepsOf[lane]];
     }
     // One hand that twitches in a heap at rest would have all of it take twice the time. Where dolls lie deep in each
     // other, all substeps are needed to push them apart.

@@ -50,6 +50,7 @@ TEST_CASE("a few dolls of a calm heap may have fewer substeps than they need, un
         batch.used = kLanes;
         std::fill(std::begin(batch.substepsOf), std::end(batch.substepsOf), 3);
         job.batches.push_back(&batch);
+        job.topologies.push_back(&topology);
     }
     const auto substepsWith = [&](int deepTouches) {
         job.deepTouches = deepTouches;
@@ -60,6 +61,10 @@ TEST_CASE("a few dolls of a calm heap may have fewer substeps than they need, un
     batches[1].substepsOf[3] = 6;
     batches[4].substepsOf[7] = 6;
     CHECK(substepsWith(0) == 3);  // six too few in sum
+    const Topology rod = makeTopology(makeRod(0.2F, 0.05F, 2.0F), 0.05F);
+    std::fill(job.topologies.begin(), job.topologies.end(), &rod);
+    CHECK(substepsWith(0) == 6);  // props count for nothing: a doll among balls is no heap
+    std::fill(job.topologies.begin(), job.topologies.end(), &topology);
     batches[2].substepsOf[0] = 6;
     CHECK(substepsWith(0) == 4);  // nine would be
     CHECK(substepsWith(6) == 6);
