@@ -24,6 +24,10 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
                                               {"supportKept", &tuning.supportKept},
                                               {"nearSpeed", &tuning.nearSpeed},
                                               {"answerSpeed", &tuning.answerSpeed},
+                                              {"ownDepth", &tuning.ownDepth},
+                                              {"ownMass", &tuning.ownMass},
+                                              {"ownBlow", &tuning.ownBlow},
+                                              {"ownLoad", &tuning.ownLoad},
                                               {"sideways", &tuning.sideways},
                                               {"contactTolerance", &tuning.contactTolerance},
                                               {"limitTolerance", &tuning.limitTolerance},
@@ -60,6 +64,7 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
                                             {"mendEvery", &tuning.mendEvery},
                                             {"restSubsteps", &tuning.restSubsteps},
                                             {"answerSweeps", &tuning.answerSweeps},
+                                            {"ownSweeps", &tuning.ownSweeps},
                                             {"mendSweeps", &tuning.mendSweeps}};
     if (const auto real = reals.find(name); real != reals.end())
         *real->second = value;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Further sweeps over the contacts between dolls, each after the dolls have answered the one before.
+/// Further sweeps over the contacts of dolls, each after the dolls have answered the one before.
 ///
 /// A sweep pushes as the masses of single bodies ask. Joints only make a body move less under a push, never more, so
 /// that the contacts are not pressed by more than the dolls can bear: each sweep and answer together come nearer to
@@ -12,8 +12,36 @@
 
 namespace lutka::physics::crowd::LUTKA_KERNELS {
 
+// What a sweep asks of the contacts within dolls.
+struct OwnAnswer {
+    Mask wrong;
+    F mass;   // kg, that they are pressed with
+    F bound;  // N s, up to which
+};
+
+// Only what would be deep by the substep's end is pressed, and only what was pressed is released. What hangs on the two
+// bodies is many times their mass: the last push and what it has changed say how many. For one contact that is a secant
+// step; several of one doll show what they do together.
+LUTKA_LANES OwnAnswer answerOfOwn(const PairContactLanes& pair, F approach, F off, const SubstepParams& params,
+                                  int sweep) {
+    const F zero = all(0.0F);
+    const F tolerance = all(params.answerSpeed);
+    const F before = load(pair.normalImpulse);
+    const F mass = load(pair.normalMass);
+    const F deep = approach + (load(pair.separation) + all(params.ownDepth)) * all(params.inverseDt);
+    const Mask sinks = isOwn(pair) & (deep < zero) & (approach < -tolerance);
+    // Two contacts that wedge a limb between them press each other ever harder.
+    const F bound = most(before, mass * all(params.ownMass * params.ownBlow));
+    if (sweep == 0 || pair.answered != sweep) return {sinks, mass, bound};
+    const F pushed = load(pair.carriedNormal);
+    const F gained = off - load(pair.carriedTangent[0]);
+    const F shown = clampLanes(pushed / most(magnitude(gained), all(1e-6F)), mass, mass * all(params.ownMass));
+    const Mask leaves = isOwn(pair) & (pushed != zero) & (before > zero) & (off > tolerance);
+    return {sinks | leaves, pushed * gained > zero ? shown : mass, bound};
+}
+
 // One sweep over what is still wrong by more than a little. Friction waits for the next substep.
-static void pressAgain(PairsView& view, const SubstepParams& params) {
+static void pressAgain(PairsView& view, const SubstepParams& params, int sweep) {
     const PairBodies& bodies = view.bodies;
     const F zero = all(0.0F);
     const F tolerance = all(params.answerSpeed);
@@ -22,15 +50,21 @@ static void pressAgain(PairsView& view, const SubstepParams& params) {
         PairContactLanes& pair = pairAt(view, view.live[i]);
         PairVelocities v = velocitiesOf(pair, bodies);
         const F before = load(pair.normalImpulse);
-        const F off = dot(load(pair.normal), slidingOf(pair, v)) + contactBias(load(pair.separation), params, 0);
-        const Mask wrong = (strikes(pair)) & ((off < -tolerance) | ((before > zero) & (off > tolerance)));
-        if (bits(wrong) == 0) continue;
+        const F approach = dot(load(pair.normal), slidingOf(pair, v));
+        const F off = approach + contactBias(load(pair.separation), params, 0);
+        const Mask wrong = (off < -tolerance) | ((before > zero) & (off > tolerance));
+        if (bits(wrong & (load(pair.kind) > zero)) == 0) continue;
         makeReady(pair, bodies);
-        const F total = wrong ? most(before - load(pair.normalMass) * off, zero) : before;
+        const Mask struck = sweep < params.answerSweeps ? wrong & strikes(pair) : noLanes();
+        const OwnAnswer own = answerOfOwn(pair, approach, off, params, sweep);
+        const F asked = most(before - (own.wrong ? own.mass : load(pair.normalMass)) * off, zero);
+        const F total = own.wrong ? least(asked, own.bound) : (struck ? asked : before);
         if (bits(total != before) == 0) continue;
         view.changed[view.changedCount++] = view.live[i];
+        pair.answered = sweep + 1;
         store(pair.normalImpulse, total);
         store(pair.carriedNormal, total - before);  // has been carried, and is free
+        store(pair.carriedTangent[0], off);         // likewise
         pressPair(pair, v, total - before);
         storeVelocities(pair, bodies, v);
     }

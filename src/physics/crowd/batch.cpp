@@ -55,6 +55,8 @@ BatchView Batch::view(const Topology& topology) {
             static_cast<int>(paired.size()),
             firstBody,
             pairBodies,
+            &answered,
+            &energy,
             &struck};
 }
 

@@ -60,7 +60,9 @@ struct Batch {
     std::vector<int> paired;   ///< The bodies that pair contacts push in this step, in some lane.
     int firstBody[kLanes]{};
     PairBodies pairBodies{};
-    Wide struck{};  ///< See BatchView.
+    Wide answered{};  ///< See BatchView.
+    Wide energy{};    ///< See BatchView.
+    Wide struck{};    ///< See BatchView.
 
     [[nodiscard]] BatchView view(const Topology& topology);
 };

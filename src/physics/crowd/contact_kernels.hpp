@@ -85,6 +85,10 @@ LUTKA_LANES PairContactLanes& pairAt(const PairsView& view, int block) {
 LUTKA_LANES Mask strikes(const PairContactLanes& pair) {
     return load(pair.kind) > all(1.0F);
 }
+// Those between bodies of one doll.
+LUTKA_LANES Mask isOwn(const PairContactLanes& pair) {
+    return load(pair.kind) == all(1.0F);
+}
 // The lanes that have a contact.
 LUTKA_LANES Mask hasContact(const PairContactLanes& pair) {
     return load(pair.friction) > all(0.0F);
@@ -208,6 +212,19 @@ LUTKA_LANES void passSupport(const PairContactLanes& pair, const PairBodies& bod
     writeRows(bodies.frames, pair.bodyB, kSupportRow, columnsOf(choose(liftsB, -normal * firmA, b), second3(rowB)));
 }
 
+// The mass that a contact within a doll has shown: a whole limb may hang on its bodies.
+LUTKA_LANES F shownMass(const PairContactLanes& pair, F pressed, const SubstepParams& params) {
+    constexpr float kSlow = 0.1F;  // m/s: what comes slower shows no mass
+    const F mass = load(pair.normalMass);
+    return clampLanes(pressed / most(-load(pair.approach), all(kSlow)), mass, mass * all(params.ownMass));
+}
+
+// What such a contact may carry into the next substep, N s. A load builds up, a blow is over: what answers pressed with
+// to stop a blow would drive the bodies apart.
+LUTKA_LANES F grownLoad(const PairContactLanes& pair, const SubstepParams& params) {
+    return all(2.0F) * load(pair.load) + load(pair.normalMass) * all(params.ownLoad);
+}
+
 static void beginPairs(PairsView& view, const SubstepParams& params) {
     const bool isFirst = params.warmStart != 0;
     const PairBodies& bodies = view.bodies;
@@ -224,19 +241,25 @@ static void beginPairs(PairsView& view, const SubstepParams& params) {
         store(pair.armA, arms.a);
         store(pair.armB, arms.b);
         view.live[view.liveCount++] = i;
+        pair.answered = 0;
         pair.ready = bits(meets) != 0 ? 1 : 0;
         if (pair.ready != 0) preparePair(pair, bodies, isFirst);
         // What changed the bodies' speeds was a hit and is over; what held them against a load goes on.
-        const F steady = pressed - load(pair.normalMass) * (start - load(pair.approach));
+        const F mass = load(pair.normalMass);
+        const Mask own = isOwn(pair);
+        const F steady = pressed - (own ? shownMass(pair, pressed, params) : mass) * (start - load(pair.approach));
+        const F borne = (own & (isFirst ? noLanes() : ~noLanes())) ? least(pressed, grownLoad(pair, params)) : pressed;
         // Bodies that part already bear no load either: pushing on would speed them up.
-        const F held = least(most(steady, all(0.0F)), pressed) * stays(start, kSlipSpeed);
+        const F held = least(most(steady, all(0.0F)), borne) * stays(start, kSlipSpeed);
+        store(pair.load, held);
         store(pair.approach, start);
         store(pair.normalImpulse, held);
         store(pair.carriedNormal, held);
         const Mask presses = held > all(0.0F);
         if (bits(presses) != 0) passSupport(pair, bodies, presses, params);
         for (int k = 0; k < 2; ++k) {  // friction ends with the load
-            const F rubbed = held > all(0.0F) ? load(pair.tangentImpulse[k]) : all(0.0F);
+            const F share = own ? held / most(pressed, all(1e-9F)) : all(1.0F);
+            const F rubbed = held > all(0.0F) ? load(pair.tangentImpulse[k]) * share : all(0.0F);
             store(pair.tangentImpulse[k], rubbed);
             store(pair.carriedTangent[k], rubbed);
         }
@@ -332,7 +355,11 @@ static int mendPairs(const PairsView& view, const SubstepParams& params) {
         const F apart = most((load(pair.separation) + all(params.slop)) * all(params.contactRate), -fastest);
         const F off = dot(normal, slidingOf(pair, v)) + apart * eagerness(pair, params.mendHaste);
         const F push = most(load(pair.normalMass) * -off * eagerness(pair, params.mendRate), zero);
-        pressPair(pair, v, overlaps ? push : zero);
+        const F size = overlaps ? push : zero;
+        pressPair(pair, v, size);
+        // What pushes one side of a doll alone pushes all of it, and the other side after it: own contacts push both.
+        const F onOwn = isOwn(pair) ? size : zero;
+        if (bits(onOwn > zero) != 0) pushRest(pair, bodies, v, normal * onOwn, onOwn);
         storeVelocities(pair, bodies, v);
     }
     return bits(any) != 0 ? 1 : 0;

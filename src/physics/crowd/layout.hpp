@@ -260,20 +260,21 @@ struct PairContactLanes {
     Wide friction;         ///< 0 where the lane is empty.
     Wide3 localA, localB;  ///< The touching points of the cores.
     int onAxisY;           ///< Whether all touching points lie on the bodies' y, as those of capsules do.
-    int follows;  ///< Whether all are of capsules and spheres: points and normal are found anew in every substep.
-    int ready;    ///< Whether directions and masses are those of this substep.
+    int follows;   ///< Whether all are of capsules and spheres: points and normal are found anew in every substep.
+    int ready;     ///< Whether directions and masses are those of this substep.
+    int answered;  ///< The sweep, counted from 1, in which it was last pressed again in this substep; 0: in none.
+    Wide load;     ///< What was carried into this substep: see grownLoad() in contact_kernels.hpp.
     // what a push needs,
     Wide3 armA, armB;
-    Wide kind;  ///< 2 between dolls with joints: these are pressed again once the dolls have answered
-                ///< (answer_kernels.hpp). 1 between bodies of one, 0.5 where that has muscles, 0 where a body has no
-                ///< other jointed to it.
+    Wide kind;  ///< 2 between dolls with joints, 1 between bodies of one, 0.5 where that has muscles: these are pressed
+                ///< again once the dolls have answered (answer_kernels.hpp). 0 where a body has no other jointed to it.
     Wide normalMass;
     Wide inverseMassA, inverseMassB;
     Wide3 pushA, pushB;  ///< The normal without the part that is held against by what a body rests on.
     Wide3 turnA, turnB;  ///< Inverse inertia times (arm × push).
     Wide carriedNormal;  ///< What the substep before left of the impulses; later what the last sweep added.
     // and what friction does.
-    Wide carriedTangent[2];
+    Wide carriedTangent[2];  ///< Later, in the first: what the contact was wrong by, m/s, when it was pressed again.
     Wide3 tangent;  ///< The first of two; until it is prepared in a step the friction of the step before, N s, in world
                     ///< axes.
     Wide3 rubA[2], rubB[2];  ///< Inverse inertia times (arm × tangent).
@@ -323,7 +324,9 @@ struct BatchView {
     int pairedCount;
     const int* firstBody;  ///< One a lane: where its doll's bodies begin in `pairBodies`.
     PairBodies pairBodies;
-    Wide* struck;  ///< 1 where another doll presses the lane's doll in this substep, else 0.
+    Wide* answered;  ///< 1 where the lane's doll has answered to contacts that were pressed again, else 0.
+    Wide* energy;    ///< J, kinetic, of each doll at the substep's start.
+    Wide* struck;    ///< 1 where another doll presses the lane's doll in this substep, else 0.
 };
 
 /// A pair of bodies of one doll that may collide, and the lanes in which their bounds meet.
@@ -446,8 +449,9 @@ struct Kernels {
     int (*solvePairs)(const PairsView& view, const SubstepParams& params);
     /// Adds to the velocities what mends overlaps; returns whether there was any.
     int (*mendPairs)(const PairsView& view, const SubstepParams& params);
-    /// Presses the contacts between dolls anew after these have answered. Sets the view's changed blocks.
-    void (*pressAgain)(PairsView& view, const SubstepParams& params);
+    /// Presses contacts anew after the dolls have answered, for the time `sweep`, counted from 0. Sets the view's
+    /// changed blocks.
+    void (*pressAgain)(PairsView& view, const SubstepParams& params, int sweep);
     /// Gives the supports what that held back from them.
     void (*pressRest)(const PairsView& view);
     /// Pushes the bodies with what the substep before left of the impulses.

@@ -49,7 +49,7 @@ void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTou
 void emptyBlock(PairContactLanes& pair) {
     pair.onAxisY = pair.follows = 1;
     pair.ready = 0;
-    pair.kind = pair.normalMass = pair.tangentImpulse[0] = pair.tangentImpulse[1] = {};
+    pair.kind = pair.load = pair.normalMass = pair.tangentImpulse[0] = pair.tangentImpulse[1] = {};
 }
 
 // Gives each contact of a part the first open block that has room and neither of its bodies: a greedy colouring whose

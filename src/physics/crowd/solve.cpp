@@ -92,10 +92,10 @@ class JobSubstep {
             [&](PairPart& part) { kernels.solvePairs(part.view, params_); },
             [&](PairPart& part) { kernels.carryPairs(part.view); });
         forViews([&](const BatchView& view) { kernels.solve(view, params_, 1); });
-        for (int i = 0; i < params_.answerSweeps; ++i) {
+        for (int i = 0; i < answers(); ++i) {
             // The contacts that the dolls' answer has left wrong, and their dolls' answer to that.
             forParts(
-                state_, job_, [&](PairPart& part) { kernels.pressAgain(part.view, params_); },
+                state_, job_, [&](PairPart& part) { kernels.pressAgain(part.view, params_, i); },
                 [&](PairPart& part) { kernels.pressRest(part.view); });
             const auto isRight = [](const PairPart& part) { return part.view.changedCount == 0; };
             if (std::all_of(job_.parts.begin(), job_.parts.end(), isRight)) break;
@@ -120,6 +120,11 @@ class JobSubstep {
     }
 
   private:
+    // How often contacts are pressed again at most. In a heap more would cost each of its dolls a look.
+    int answers() const {
+        return job_.batches.size() == 1 ? std::max(params_.answerSweeps, params_.ownSweeps) : params_.answerSweeps;
+    }
+
     // The faces and edges that bodies are near now: a body may have slid over an edge, unless it is still. In the first
     // substep of a step those that were found for one of this length stay.
     void refreshStatics(std::size_t i, const SubstepParams& params) {
@@ -210,6 +215,10 @@ void keepPairs(CrowdState& state, std::size_t begin, std::size_t end) {
             if (!presses && !state.briefs[index].presses && !state.settings.contactReports) continue;
             PairTouch& touch = state.touches[index];
             touch.carried.normal = pair.normalImpulse.lane[lane];
+            if (pair.kind.lane[lane] == 1.0F)  // as grownLoad() has it within a step
+                touch.carried.normal =
+                    std::min(touch.carried.normal,
+                             2.0F * pair.load.lane[lane] + pair.normalMass.lane[lane] * state.tuning.ownLoad);
             touch.carried.approach = pair.approach.lane[lane];
             touch.touch.separation = pair.separation.lane[lane];
             touch.touch.normal = readVector(pair.normal, lane);

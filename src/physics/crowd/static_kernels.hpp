@@ -59,6 +59,11 @@ LUTKA_LANES V3 armOf(const StaticContactLanes& contact, const BodyLanes& body, c
     return halfWay(body, core) - load(contact.normal) * load(contact.radius);
 }
 
+// The lanes in which contacts within the doll were pressed again, and no other doll presses.
+LUTKA_LANES Mask answersItself(const BatchView& batch) {
+    return load(*batch.answered) > load(*batch.struck);
+}
+
 LUTKA_LANES void beginStatic(StaticContactLanes& contact, const BatchView& batch, const SubstepParams& params) {
     const BodyLanes& body = batch.bodies[contact.body];
     const F zero = all(0.0F);
@@ -80,7 +85,9 @@ LUTKA_LANES void beginStatic(StaticContactLanes& contact, const BatchView& batch
     const V3 arm = armOf(contact, body, core);
     store(contact.arm, arm);
     store(contact.normalImpulse, impulse);
-    store(contact.frictionImpulse, across(load(contact.frictionImpulse), normal));
+    // What a blow pressed with, answer by answer, is no load, and friction of its size would drive the doll on.
+    const V3 rubbed = across(load(contact.frictionImpulse), normal);
+    store(contact.frictionImpulse, choose(answersItself(batch), V3{zero, zero, zero}, rubbed));
     if (params.warmStart != 0 || !wasNear) weighContact(contact, batch, arm, params);
     const Mask coming = (separation > zero) & (impulse <= zero);
     store(contact.normalWeight,

@@ -347,13 +347,14 @@ LUTKA_LANES F kineticEnergy(const BatchView& batch, Wide3 BodyLanes::*velocity, 
     return energy;
 }
 
-// The lanes that have more energy than what was done to their single bodies gave them. Rows that only hold take some
-// away.
+// The lanes that have more energy than what was done to their single bodies gave them, or than they began the substep
+// with where no other doll pushes. Rows that only hold take some away.
 static Mask gainsEnergy(const BatchView& batch) {
     constexpr float kShare = 0.003F;  // of rounding, and of arms that are not quite those of the motion
     constexpr float kJoules = 0.1F;
     if (batch.motors != nullptr || batch.targets != nullptr || batch.dragCount > 0) return noLanes();
-    const F given = kineticEnergy(batch, &BodyLanes::loose, &BodyLanes::looseAngular);
+    const F loose = kineticEnergy(batch, &BodyLanes::loose, &BodyLanes::looseAngular);
+    const F given = load(*batch.struck) > all(0.0F) ? loose : least(loose, load(*batch.energy));
     const F kept = kineticEnergy(batch, &BodyLanes::steadyVelocity, &BodyLanes::steadyAngular);
     return kept > given * all(1.0F + kShare) + all(kJoules);
 }
@@ -364,10 +365,11 @@ static void solveAll(const BatchView& batch, const SubstepParams& params, Solvin
     Pass pass{false, all(isFirst ? 0.0F : 1.0F), !isFirst, noLanes(), load(batch.rest->stiction), noLanes()};
     if (!guess(batch, params, what, pass, Fresh::since, true)) return;
     // Arms that are foreseen by what their own pushes give may turn a light limb faster and faster: one hand in some
-    // thousand falls was sped up to 360 rad/s. Arms that stay cannot.
+    // thousand falls was sped up to 360 rad/s. Arms that stay cannot. They are those of free motion, but where contacts
+    // within the doll were pressed again: what those pushed a single body with says nothing about how it turns.
     const Mask gains = gainsEnergy(batch);
     if (bits(gains) == 0) return;
-    aimLoose(batch, params, gains);
+    aimLoose(batch, params, gains & ~answersItself(batch));
     Pass whole{false, all(0.0F), true, noLanes(), pass.stiction, noLanes()};
     guess(batch, params, what, whole, Fresh::whole, false);
 }
@@ -378,6 +380,10 @@ static void solve(const BatchView& batch, const SubstepParams& params, int first
     if (first != 0) {
         store(*batch.struck, taken.struck ? all(1.0F) : all(0.0F));
         takeSupports(batch);
+        store(*batch.answered, all(0.0F));
+        store(*batch.energy, kineticEnergy(batch, &BodyLanes::steadyVelocity, &BodyLanes::steadyAngular));
+    } else {
+        store(*batch.answered, taken.pressed ? all(1.0F) : load(*batch.answered));
     }
     solveAll(batch, params, first != 0 ? Solving::first : Solving::answer);
     showMotions(batch);
