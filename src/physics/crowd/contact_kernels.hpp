@@ -85,7 +85,7 @@ LUTKA_LANES PairContactLanes& pairAt(const PairsView& view, int block) {
 LUTKA_LANES Mask strikes(const PairContactLanes& pair) {
     return load(pair.kind) > all(1.0F);
 }
-// Those between bodies of one doll.
+// Those between bodies of one limp doll.
 LUTKA_LANES Mask isOwn(const PairContactLanes& pair) {
     return load(pair.kind) == all(1.0F);
 }

@@ -266,8 +266,9 @@ struct PairContactLanes {
     Wide load;     ///< What was carried into this substep: see grownLoad() in contact_kernels.hpp.
     // what a push needs,
     Wide3 armA, armB;
-    Wide kind;  ///< 2 between dolls with joints, 1 between bodies of one, 0.5 where that has muscles: these are pressed
-                ///< again once the dolls have answered (answer_kernels.hpp). 0 where a body has no other jointed to it.
+    Wide kind;  ///< 2 between dolls with joints, 1 between bodies of one: these are pressed again once the dolls have
+                ///< answered (answer_kernels.hpp). 0.5 between bodies of one that has muscles, which a push that comes
+                ///< late throws; 0 where a body has no other jointed to it.
     Wide normalMass;
     Wide inverseMassA, inverseMassB;
     Wide3 pushA, pushB;  ///< The normal without the part that is held against by what a body rests on.
