@@ -74,7 +74,9 @@ void findPace(const CrowdState& state, Batch& batch, const Topology& topology) {
         const bool isStill = units2 < kStill * kStill;
         int& substeps = batch.substepsOf[lane];
         // What lies still and may not fall asleep is cheap in this way; where it may, it would only come to rest later.
-        const bool rests = isStill && !state.settings.sleeping;
+        // Muscles and pulls may begin to move it at once.
+        const bool isDriven = !state.motors.empty() || !state.drags.empty() || !state.targets.empty();
+        const bool rests = isStill && !state.settings.sleeping && !isDriven;
         substeps = std::min(rests ? tuning.restSubsteps : tuning.calmSubsteps, tuning.substeps);
         while (substeps < tuning.substeps && static_cast<float>(substeps * substeps) < units2)
             ++substeps;
