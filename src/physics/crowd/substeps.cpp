@@ -74,9 +74,8 @@ void findPace(const CrowdState& state, Batch& batch, const Topology& topology) {
         const bool isStill = units2 < kStill * kStill;
         int& substeps = batch.substepsOf[lane];
         // What lies still and may not fall asleep is cheap in this way; where it may, it would only come to rest later.
-        // Muscles and pulls may begin to move it at once.
-        const bool isDriven = !state.motors.empty() || !state.drags.empty() || !state.targets.empty();
-        const bool rests = isStill && !state.settings.sleeping && !isDriven;
+        // Muscles may begin to move it at once.
+        const bool rests = isStill && !state.settings.sleeping && state.dolls[batch.doll[lane]].motors == 0;
         substeps = std::min(rests ? tuning.restSubsteps : tuning.calmSubsteps, tuning.substeps);
         while (substeps < tuning.substeps && static_cast<float>(substeps * substeps) < units2)
             ++substeps;
@@ -89,7 +88,10 @@ void setSubsteps(CrowdState& state, Job& job) {
     const CrowdTuning& tuning = state.tuning;
     const int all = tuning.substeps;
     job.substeps = job.forces.empty() ? 1 : all;
+    // A pull may begin to move what lies still.
+    if (!job.drags.empty()) job.substeps = std::max(job.substeps, std::min(tuning.calmSubsteps, all));
     int dolls = 0;  // without props
+    bool isDriven = !job.drags.empty();
     std::vector<int>& needing = state.scratch.needing;
     needing.assign(static_cast<std::size_t>(all) + 1, 0);
     for (std::size_t i = 0; i < job.batches.size(); ++i) {
@@ -98,13 +100,15 @@ void setSubsteps(CrowdState& state, Job& job) {
         dolls += job.topologies[i]->joints.empty() ? 0 : batch.used;
         for (int lane = 0; lane < batch.used; ++lane)
             ++needing[batch.substepsOf[lane]];
+        for (int lane = 0; lane < batch.used; ++lane)
+            isDriven = isDriven || state.dolls[batch.doll[lane]].motors > 0;
     }
     // One hand that twitches in a heap at rest would have all of it take twice the time. Where dolls lie deep in each
     // other, all substeps are needed to push them apart.
     // Dolls of a single batch may be far from each other, and what muscles and pulls drive needs its own.
-    const bool isHeap = job.batches.size() > 1 && state.motors.empty() && state.drags.empty();
     const bool spares =
-        isHeap && static_cast<float>(job.deepTouches) <= tuning.deepShare * static_cast<float>(job.touches.size());
+        job.batches.size() > 1 && !isDriven &&
+        static_cast<float>(job.deepTouches) <= tuning.deepShare * static_cast<float>(job.touches.size());
     int left = spares ? static_cast<int>(tuning.spared * static_cast<float>(dolls)) : 0;
     int more = 0;  // dolls that need more than one substep less
     for (int substeps = all; substeps > job.substeps; --substeps) {

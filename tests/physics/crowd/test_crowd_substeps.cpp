@@ -41,7 +41,8 @@ TEST_CASE("a step has as many substeps as its motion needs") {
 
 TEST_CASE("a few dolls of a calm heap may have fewer substeps than they need, unless many lie deep in each other") {
     using namespace physics::crowd;
-    const CrowdState state(WorldSettings{}, CrowdTuning{});
+    CrowdState state(WorldSettings{}, CrowdTuning{});
+    state.dolls.resize(1);  // of which all lanes are
     const Topology topology = makeTopology(makeDoll(), 0.05F);
     std::vector<Batch> batches(5, Batch(topology));
     Job job;
@@ -68,6 +69,9 @@ TEST_CASE("a few dolls of a calm heap may have fewer substeps than they need, un
     batches[2].substepsOf[0] = 6;
     CHECK(substepsWith(0) == 4);  // nine would be
     CHECK(substepsWith(6) == 6);
+    state.dolls[0].motors = 1;
+    CHECK(substepsWith(0) == 6);  // muscles need their own
+    state.dolls[0].motors = 0;
     for (Batch& batch : batches)
         batch.substepsOf[5] = 5;
     CHECK(substepsWith(0) == 5);
