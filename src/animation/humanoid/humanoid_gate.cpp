@@ -13,9 +13,8 @@ constexpr float kMostTilt = radians(40.0F);  // of the trunk from upright; hunch
 constexpr float kUprightTrunk = radians(20.0F);
 constexpr float kMostHeadTilt = radians(42.0F);  // … of a head without a name from above the shoulders
 constexpr float kMostBend = radians(22.0F);      // of trunk and legs of a figure that leans as a whole
-constexpr float kToldTurned = 15.0F;            // of all its names, where what was turned to stand needs not be in line
-constexpr float kMostLegTilt = radians(50.0F);  // of the legs from straight down
-constexpr float kLeastHandHeight = 0.16F;       // above the feet, as a share of the way up to the arms' roots
+constexpr float kMostLegTilt = radians(50.0F);   // of the legs from straight down
+constexpr float kLeastHandHeight = 0.16F;        // above the feet, as a share of the way up to the arms' roots
 // Figures of blocks have one joint a limb and any proportions; names of arms and legs tell them.
 constexpr float kNamedBlock = 2.0F;
 constexpr float kBlocksShape = 1.0F;
@@ -158,9 +157,8 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     if (figure.leans && !(figure.legs.named && figure.arms.named)) return "no figure stands upright in it";
     if (figure.prior < 0.0F && !figure.leans && trailsTail(figure, framed))
         return "it lies, and its tail is an animal's";
-    // Nor is one that was turned to stand, where names do not tell it: a frog sits as a man lies.
-    const float names = figure.legs.names + figure.arms.names + figure.trunk.names;
-    const bool turned = figure.prior < 0.0F && !figure.posed && names < kToldTurned;
+    // Nor is one that was turned to stand, where its limbs bear no clear names: a frog sits as a man lies.
+    const bool turned = figure.prior < 0.0F && !figure.posed && !(figure.legs.named && figure.arms.named);
     if ((figure.leans || turned) && (tilt > kMostBend || legTilt > kMostBend))
         return "the trunk and the legs are not in one line";
     // The names tell a seated or kneeling figure, as long as its trunk is upright.
@@ -188,6 +186,7 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     if (creatureShare(framed, figure.legs) > 0.6F) return "what would be the legs are named as an animal's";
     if (isScattered(figure, framed)) return "its parts hang on nothing and are named as no limbs";
     // Names alone never make a humanoid, but they carry one that is put together oddly.
+    const float names = figure.legs.names + figure.arms.names + figure.trunk.names;
     const float whole = figure.score - figure.prior - names;
     if (names <= 0.0F && figure.shapeScore() + 0.5F * whole < leastUnnamed(figure))
         return "no figure stands upright in it";
