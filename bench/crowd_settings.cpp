@@ -25,6 +25,7 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
                                               {"nearSpeed", &tuning.nearSpeed},
                                               {"answerSpeed", &tuning.answerSpeed},
                                               {"ownDepth", &tuning.ownDepth},
+                                              {"ownSpeed", &tuning.ownSpeed},
                                               {"ownMass", &tuning.ownMass},
                                               {"ownBlow", &tuning.ownBlow},
                                               {"ownLoad", &tuning.ownLoad},

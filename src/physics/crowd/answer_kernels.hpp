@@ -29,7 +29,7 @@ LUTKA_LANES OwnAnswer answerOfOwn(const PairContactLanes& pair, F approach, F of
     const F before = load(pair.normalImpulse);
     const F mass = load(pair.normalMass);
     const F deep = approach + (load(pair.separation) + all(params.ownDepth)) * all(params.inverseDt);
-    const Mask sinks = isOwn(pair) & (deep < zero) & (approach < -tolerance);
+    const Mask sinks = isOwn(pair) & (deep < zero) & (approach < all(-params.ownSpeed));
     // Two contacts that wedge a limb between them press each other ever harder.
     const F bound = most(before, mass * all(params.ownMass * params.ownBlow));
     if (sweep == 0 || pair.answered != sweep) return {sinks, mass, bound};

@@ -20,6 +20,7 @@ struct SubstepTuning {
                                 ///< as many as `answerSweeps`. Less: blows drive limbs deeper into the trunk.
     float ownDepth = 0.002F;    ///< Metres that such a contact may go deep by the substep's end before it is one of
                                 ///< them. More: fewer answers, deeper limbs.
+    float ownSpeed = 0.1F;      ///< m/s that it closes with, else it is none of them. Less: some figures never rest.
     float ownMass = 8.0F;       ///< By how much more than its two bodies' masses ask one is pressed at most, as the
                                 ///< answers show what hangs on them.
     float ownBlow = 10.0F;      ///< m/s that it is pressed against at most, at that mass.

@@ -94,7 +94,7 @@ TEST_CASE("a doll that is caught again and again leaves those beyond its reach t
         worlds[with]->addStatic({});
         for (const float x : {0.0F, 12.0F})
             worlds[with]->addDoll(profile, standingDoll(profile, {x, 0.5F, 0}));
-        if (with == 1) bad = worlds[with]->addDoll(heavier, standingDoll(profile, {-2000, 2, 0}));
+        if (with == 1) bad = worlds[with]->addDoll(heavier, standingDoll(profile, {-2e4F, 2, 0}));
     }
     for (int step = 0; step < 12; ++step) {
         const auto bodies = bodiesOfDoll(*worlds[1], 2);
