@@ -74,9 +74,8 @@ class LimbFinder {
         const int count = static_cast<int>(framed_.pairs.size());
         above_.resize(framed_.pairs.size());
         for (int upper = 0; upper < count; ++upper) {
-            for (int lower = 0; lower < count; ++lower) {
+            for (int lower = 0; lower < count; ++lower)
                 if (framed_.isAbove(upper, lower)) above_[lower].push_back(upper);
-            }
         }
         reach_.assign(framed_.pairs.size(), -1.0F);
     }
