@@ -44,7 +44,7 @@ void CarriedPairs::add(const CarriedContact& contact) {
     for (std::uint64_t there = 0;
          !std::atomic_ref(keys_[at]).compare_exchange_strong(there, contact.key, std::memory_order_relaxed); there = 0)
         at = (at + 1) & (size - 1);
-    pushes_[at] = contact;
+    pushes_[at] = static_cast<const CarriedPush&>(contact);
 }
 
 const CarriedPush* CarriedPairs::find(std::uint64_t key) const {
