@@ -98,10 +98,10 @@ void setSubsteps(CrowdState& state, Job& job) {
         const Batch& batch = *job.batches[i];
         if (!batch.targets.empty()) job.substeps = all;
         dolls += job.topologies[i]->joints.empty() ? 0 : batch.used;
-        for (int lane = 0; lane < batch.used; ++lane)
+        for (int lane = 0; lane < batch.used; ++lane) {
             ++needing[batch.substepsOf[lane]];
-        for (int lane = 0; lane < batch.used; ++lane)
             isDriven = isDriven || state.dolls[batch.doll[lane]].motors > 0;
+        }
     }
     // One hand that twitches in a heap at rest would have all of it take twice the time. Where dolls lie deep in each
     // other, all substeps are needed to push them apart.

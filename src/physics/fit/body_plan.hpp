@@ -50,6 +50,10 @@ struct BodyPlan {
     /// -1 where there is none of that name.
     [[nodiscard]] int bodyNamed(std::string_view name) const;
     [[nodiscard]] vec3 mirror(const vec3& point) const { return {2.0F * middleX - point.x, point.y, point.z}; }
+    /// Whether its shape is made of its left counterpart's, which may come after it.
+    [[nodiscard]] bool isMirrored(const PlannedBody& body) const {
+        return symmetric && body.side == animation::Side::right && body.mirror >= 0;
+    }
 };
 inline constexpr float kSymmetryTolerance = 0.02F;
 

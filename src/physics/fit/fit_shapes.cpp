@@ -460,17 +460,15 @@ void addFurtherShapes(const BodyPlan& plan, std::span<const std::optional<BodyFi
 std::vector<PlacedShape> fitShapes(const BodyPlan& plan, const Anatomy& anatomy, int mostShapes) {
     std::vector<Capsule> capsules(plan.bodies.size());
     std::vector<std::optional<BodyFit>> fits(plan.bodies.size());  // of those that are not mirrored from the left
-    const auto isMirrored = [&](const PlannedBody& body) {
-        return plan.symmetric && body.side == Side::right && body.mirror >= 0;
-    };
     for (int body = 0; body < static_cast<int>(plan.bodies.size()); ++body) {
-        if (!isMirrored(plan.bodies[body])) capsules[body] = fits[body].emplace(plan, anatomy, body).fit();
+        if (!plan.isMirrored(plan.bodies[body])) capsules[body] = fits[body].emplace(plan, anatomy, body).fit();
     }
     // The left one may come after the right one.
     for (int body = 0; body < static_cast<int>(plan.bodies.size()); ++body) {
         const PlannedBody& planned = plan.bodies[body];
         const int left = planned.mirror;
-        if (isMirrored(planned)) capsules[body] = mirroredCapsule(plan, capsules[left], plan.bodies[left], planned);
+        if (plan.isMirrored(planned))
+            capsules[body] = mirroredCapsule(plan, capsules[left], plan.bodies[left], planned);
     }
     std::vector<PlacedShape> shapes;
     shapes.reserve(capsules.size());

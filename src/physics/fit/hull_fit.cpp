@@ -43,14 +43,11 @@ std::optional<PlacedShape> fitHull(const BodyPlan& plan, const PlannedBody& body
 }
 
 void takeHulls(const BodyPlan& plan, std::vector<PlacedShape>& shapes) {
-    const auto isMirrored = [&](const PlannedBody& body) {
-        return plan.symmetric && body.side == animation::Side::right && body.mirror >= 0;
-    };
     // The left one may come after the right one.
     for (const bool mirrored : {false, true}) {
         for (std::size_t index = 0; index < plan.bodies.size(); ++index) {
             const PlannedBody& body = plan.bodies[index];
-            if (!body.asHull || isMirrored(body) != mirrored) continue;
+            if (!body.asHull || plan.isMirrored(body) != mirrored) continue;
             const PlacedShape* left = mirrored ? &shapes[static_cast<std::size_t>(body.mirror)] : nullptr;
             if (left != nullptr && left->shape.kind == PrimitiveShape::Kind::hull) {
                 shapes[index] = mirroredHull(plan, *left, plan.bodies[static_cast<std::size_t>(body.mirror)], body);
