@@ -5,6 +5,7 @@
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <vector>
 
 #include "core/assert.hpp"
 
@@ -124,20 +125,41 @@ void frameSphere(Camera& camera, const vec3& center, float radius, float aspect,
 namespace {
 
 struct AxisReach {
+    float lowSlope = 0.0F;
+    float highSlope = 0.0F;
     float high = -1e30F;  // max of x - high slope * f
     float low = 1e30F;    // min of x - low slope * f
 
-    void add(float across, float farther, float lowSlope, float highSlope) {
+    void add(float across, float farther) {
         high = std::max(high, across - highSlope * farther);
         low = std::min(low, across - lowSlope * farther);
     }
-    [[nodiscard]] float distance(float lowSlope, float highSlope) const {
-        return (high - low) / (highSlope - lowSlope);
-    }
-    [[nodiscard]] float eye(float lowSlope, float highSlope, float distance) const {
-        return 0.5F * (high + low) - 0.5F * (highSlope + lowSlope) * distance;
-    }
+    [[nodiscard]] float distance() const { return (high - low) / (highSlope - lowSlope); }
+    /// Of the places that see all from a distance no less than distance(): from the lowest to the highest.
+    [[nodiscard]] float lowestEye(float distance) const { return high - highSlope * distance; }
+    [[nodiscard]] float highestEye(float distance) const { return low - lowSlope * distance; }
 };
+
+// From where both edges are as far from what is nearest to them: seen from afar that is another place than half way
+// between the lowest and the highest, since what is near moves faster across the picture. `points`: the picture's x, y
+// and how much farther away than the middle.
+float evenEye(std::span<const vec3> points, int axis, const AxisReach& reach, float distance) {
+    float low = reach.lowestEye(distance);
+    float high = reach.highestEye(distance);
+    constexpr int halvings = 12;  // to less than a pixel
+    for (int i = 0; i < halvings; ++i) {
+        const float eye = 0.5F * (low + high);
+        float most = -1e30F;
+        float least = 1e30F;
+        for (const vec3& point : points) {
+            const float slope = (point[axis] - eye) / (point.z + distance);
+            most = std::max(most, slope);
+            least = std::min(least, slope);
+        }
+        (reach.highSlope - most > least - reach.lowSlope ? high : low) = eye;
+    }
+    return 0.5F * (low + high);
+}
 
 }  // namespace
 
@@ -147,12 +169,14 @@ void framePoints(Camera& camera, std::span<const vec3> points, float aspect, con
     const mat3 axes = worldFromViewAxes(camera);
     const float vertical = std::tan(0.5F * camera.fieldOfView);
     const float horizontal = vertical * aspect;
-    const vec2 low(horizontal * (2.0F * insets.left - 1.0F), vertical * (2.0F * insets.bottom - 1.0F));
-    const vec2 high(horizontal * (1.0F - 2.0F * insets.right), vertical * (1.0F - 2.0F * insets.top));
+    std::array<AxisReach, 2> reach{
+        AxisReach{horizontal * (2.0F * insets.left - 1.0F), horizontal * (1.0F - 2.0F * insets.right)},
+        AxisReach{vertical * (2.0F * insets.bottom - 1.0F), vertical * (1.0F - 2.0F * insets.top)}};
     vec3 middle(0);
     for (const vec3& point : points)
         middle += point / static_cast<float>(points.size());
-    std::array<AxisReach, 2> reach;
+    std::vector<vec3> placed;  // across, up and farther away than the middle
+    placed.reserve(points.size());
     float nearest = 0.0F;  // towards the eye, from the middle
     for (const vec3& point : points) {
         const vec3 seen = glm::transpose(axes) * (point - middle);
@@ -160,14 +184,16 @@ void framePoints(Camera& camera, std::span<const vec3> points, float aspect, con
         const float farther = camera.orthographic ? 0.0F : -seen.z;
         nearest = std::max(nearest, seen.z);
         for (int axis = 0; axis < 2; ++axis)
-            reach[axis].add(seen[axis], farther, low[axis], high[axis]);
+            reach[axis].add(seen[axis], farther);
+        placed.emplace_back(seen.x, seen.y, farther);
     }
-    float distance = std::max(reach[0].distance(low.x, high.x), reach[1].distance(low.y, high.y));
+    float distance = std::max(reach[0].distance(), reach[1].distance());
     constexpr float room = 0.05F;  // metres between the eye and what is nearest
     if (!camera.orthographic) distance = std::max(distance, nearest + room);
     camera.distance = std::clamp(distance, kNearestDistance, kFarthestDistance);
-    camera.target = middle + axes[0] * reach[0].eye(low.x, high.x, camera.distance) +
-                    axes[1] * reach[1].eye(low.y, high.y, camera.distance);
+    camera.target = middle;
+    for (int axis = 0; axis < 2; ++axis)
+        camera.target += axes[axis] * evenEye(placed, axis, reach[axis], camera.distance);
 }
 
 }  // namespace lutka::render

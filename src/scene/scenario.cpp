@@ -25,9 +25,12 @@ const quat kUpright(1, 0, 0, 0);
 struct Context {
     int count;
     Random random;
-    bool isSeedZero;  // the start that is the same by hand: nearly upright, nothing random
+    bool isSeedZero;
     FigureBounds figure;
     EntityScene& scene;
+
+    // The start that is laid down by hand: nearly upright, nothing random. Further dolls beside it would fall in step.
+    [[nodiscard]] bool isByHand(int doll) const { return isSeedZero && doll == 0; }
 };
 
 Collider& addStatic(Context& context, const char* name, const RigidTransform& world, const Collider& collider) {
@@ -76,9 +79,9 @@ constexpr float kLargestTilt = radians(10.0F);
 // Seed 0 leans this far to the front and the left.
 const quat kSeedZeroLean = glm::angleAxis(radians(4.0F), glm::normalize(vec3(1, 0, -0.6F)));
 
-// Seed 0: kSeedZeroLean. Others: any heading, up to kLargestTilt.
-quat smallTurn(Context& context) {
-    if (context.isSeedZero) return kSeedZeroLean;
+// By hand: kSeedZeroLean. Else any heading, up to kLargestTilt.
+quat smallTurn(Context& context, int doll) {
+    if (context.isByHand(doll)) return kSeedZeroLean;
     const quat yaw = glm::angleAxis(context.random.uniform(-kPi, kPi), vec3(0, 1, 0));
     const float heading = context.random.uniform(-kPi, kPi);
     const float tilt = context.random.uniform(0.0F, kLargestTilt);
@@ -100,8 +103,8 @@ quat anyTurn(Context& context) {
             std::sqrt(u) * std::sin(b)};
 }
 
-vec3 nudge(Context& context, float speed) {
-    if (context.isSeedZero) return vec3(0);
+vec3 nudge(Context& context, int doll, float speed) {
+    if (context.isByHand(doll)) return vec3(0);
     return {context.random.uniform(-speed, speed), 0, context.random.uniform(-speed, speed)};
 }
 
@@ -133,8 +136,8 @@ void drop(Context& context) {
     addFloor(context);
     for (int i = 0; i < context.count; ++i) {
         const vec3 foot = gridPlace(i, context.count, kSpacing) + vec3(0, 1, 0);
-        Ragdoll& doll = placeFeet(context, foot, smallTurn(context));
-        doll.angularVelocity = nudge(context, 1.0F);
+        Ragdoll& doll = placeFeet(context, foot, smallTurn(context, i));
+        doll.angularVelocity = nudge(context, i, 1.0F);
     }
     context.scene.simulation.focus = {0, 1.3F, 0};  // from the floor to the crown at the start
     focusOnGrid(context, kSpacing);
@@ -218,10 +221,10 @@ void stairs(Context& context) {
     const float clearance = std::max(0.08F, dip(context, pitch));
     for (int i = 0; i < context.count; ++i) {
         const float across = (static_cast<float>(i) - static_cast<float>(context.count - 1) * 0.5F) * 1.6F;
-        const float heading = context.isSeedZero ? 0.1F : context.random.uniform(-0.5F, 0.5F);
+        const float heading = context.isByHand(i) ? 0.1F : context.random.uniform(-0.5F, 0.5F);
         const quat lean = glm::angleAxis(pitch, vec3(1, 0, 0)) * glm::angleAxis(heading, vec3(0, 1, 0));
         Ragdoll& doll = placeFeet(context, {across, top + clearance, -0.1F}, lean);
-        doll.linearVelocity = vec3(0, 0, 1.6F) + nudge(context, 0.3F);
+        doll.linearVelocity = vec3(0, 0, 1.6F) + nudge(context, i, 0.3F);
     }
     context.scene.simulation.focus = {0, 1.2F, front * 0.5F};
     context.scene.simulation.focusRadius = 2.9F;
@@ -243,7 +246,7 @@ void ramp(Context& context) {
     for (int i = 0; i < context.count; ++i) {
         const float across = (static_cast<float>(i) - static_cast<float>(context.count - 1) * 0.5F) * 1.6F;
         const vec3 surface = tilt * vec3(0, 0, -half * 0.6F) + vec3(0, half * std::sin(slope.angle), 0);
-        placeFeet(context, surface + vec3(across, 0.2F, 0), smallTurn(context));
+        placeFeet(context, surface + vec3(across, 0.2F, 0), smallTurn(context, i));
     }
     context.scene.simulation.focus = {0, 1.4F, 0.6F};
     context.scene.simulation.focusRadius = 3.6F;
@@ -255,7 +258,8 @@ void hang(Context& context) {
     addFloor(context);
     for (int i = 0; i < context.count; ++i) {
         const vec3 foot = gridPlace(i, context.count, kSpacing) + vec3(0, 1.2F, 0);
-        placeFeet(context, foot, smallTurn(context)).pins.emplace_back(animation::roleName(animation::Role::leftHand));
+        placeFeet(context, foot, smallTurn(context, i))
+            .pins.emplace_back(animation::roleName(animation::Role::leftHand));
     }
     SceneSimulation& simulation = context.scene.simulation;
     simulation.focus = {0, 1.7F, 0};
@@ -276,7 +280,7 @@ void throwAtWall(Context& context) {
     for (int i = 0; i < context.count; ++i) {
         const float across = (static_cast<float>(i) - static_cast<float>(context.count - 1) * 0.5F) * kSpacing;
         const quat turn =
-            context.isSeedZero ? kSeedZeroLean * glm::angleAxis(radians(70), vec3(1, 0, 0)) : anyTurn(context);
+            context.isByHand(i) ? kSeedZeroLean * glm::angleAxis(radians(70), vec3(1, 0, 0)) : anyTurn(context);
         placeCentre(context, {across, height, ahead}, turn).linearVelocity = {0, 0, 8};
     }
     context.scene.simulation.focus = {0, 1.0F, 0.9F};
@@ -304,7 +308,7 @@ void balls(Context& context) {
     const float clearance = std::max(0.05F, dip(context, kLargestTilt));
     for (int i = 0; i < context.count; ++i) {
         const vec3 foot = gridPlace(i, context.count, kSpacing) + vec3(0, clearance, 0);
-        placeFeet(context, foot, smallTurn(context));
+        placeFeet(context, foot, smallTurn(context, i));
         for (int ball = 0; ball < 6; ++ball) {
             const float heading = context.random.uniform(-kPi, kPi);
             const vec3 out(std::cos(heading), 0, std::sin(heading));
@@ -324,9 +328,9 @@ ScenePuppets& actors(Context& context, const char* clip) {
     return puppets;
 }
 
-// Where one stands, a hair above the floor; seeds but 0 shift it a little.
-vec3 standAt(Context& context, const vec3& place) {
-    return place + vec3(0, 0.002F, 0) + nudge(context, 0.1F);
+// Where one stands, a hair above the floor; shifted a little where it is not laid down by hand.
+vec3 standAt(Context& context, int doll, const vec3& place) {
+    return place + vec3(0, 0.002F, 0) + nudge(context, doll, 0.1F);
 }
 
 constexpr float kWalkSpeed = 0.95F;  // m/s, of the mannequin's clip
@@ -345,7 +349,7 @@ void walk(Context& context) {
     constexpr float start = -2.0F;
     for (int i = 0; i < context.count; ++i) {
         const float across = (static_cast<float>(i) - static_cast<float>(context.count - 1) * 0.5F) * kSpacing;
-        const vec3 foot = standAt(context, {across, 0, start});
+        const vec3 foot = standAt(context, i, {across, 0, start});
         placeFeet(context, foot, kUpright);
         // One at the shoulder, one from ahead, and three at once that are too much. Short flights: those of a second or
         // more come down so steeply that what a solver adds to their way makes them miss.
@@ -353,7 +357,7 @@ void walk(Context& context) {
         const auto at = [&](float seconds, float height) {
             return foot + vec3(0, height * size, kWalkSpeed * seconds);
         };
-        const float side = context.isSeedZero || context.random.uniform(-1, 1) > 0 ? 1.0F : -1.0F;
+        const float side = context.isByHand(i) || context.random.uniform(-1, 1) > 0 ? 1.0F : -1.0F;
         throwBall(context, at(0.6F, 1.35F), at(0.6F, 1.3F) + vec3(3.0F * side, 0, 0.4F), 0.6F);
         throwBall(context, at(1.1F, 1.25F), at(1.1F, 1.2F) + vec3(0.6F * side, 0, 6.0F), 1.1F);
         constexpr Ball kHeavy{.radius = 0.14F, .massKg = 6.0F};
@@ -372,8 +376,8 @@ void push(Context& context) {
     actors(context, "idle");
     constexpr int directions = 8;
     for (int i = 0; i < context.count; ++i) {
-        Ragdoll& doll = placeFeet(context, standAt(context, gridPlace(i, context.count, kSpacing)), kUpright);
-        const float first = context.isSeedZero ? 0.0F : context.random.uniform(0, 2 * kPi);
+        Ragdoll& doll = placeFeet(context, standAt(context, i, gridPlace(i, context.count, kSpacing)), kUpright);
+        const float first = context.isByHand(i) ? 0.0F : context.random.uniform(0, 2 * kPi);
         for (int k = 0; k < directions; ++k) {
             const float angle = first + 2 * kPi * static_cast<float>(k) / static_cast<float>(directions);
             doll.hits.push_back({physics::Role::upperChest, 0.6F + 1.1F * static_cast<float>(k),
@@ -402,7 +406,7 @@ void march(Context& context) {
     actors(context, "walk").pace = kWalkSpeed;
     for (int i = 0; i < context.count; ++i) {
         Ragdoll& doll =
-            placeFeet(context, standAt(context, gridPlace(i, context.count, 1.8F) + vec3(0, 0, -3.0F)), kUpright);
+            placeFeet(context, standAt(context, i, gridPlace(i, context.count, 1.8F) + vec3(0, 0, -3.0F)), kUpright);
         const float angle = context.random.uniform(0, 2 * kPi);
         const bool hard = context.random.uniform(0, 1) < 0.35F;
         const float seconds = context.random.uniform(0.5F, 4.0F);

@@ -86,9 +86,9 @@ struct ScenarioInfo {
 /// drop, spread, pile, stairs, ramp, hang, throw, balls, walk, push, getup, march.
 [[nodiscard]] std::span<const ScenarioInfo> scenarioRegistry();
 
-/// The named scene for `count` characters of one figure, `count` in [1, 10000], whose models are left empty. Seed 0
-/// stands exactly upright; other seeds turn, tilt and nudge the figures. Fails with ErrorCode::usage for an unknown
-/// name (the known ones are listed) or count.
+/// The named scene for `count` characters of one figure, `count` in [1, 10000], whose models are left empty. With
+/// seed 0 the first figure starts nearly upright; those beside it, and all of other seeds, are turned, tilted and
+/// nudged. Fails with ErrorCode::usage for an unknown name (the known ones are listed) or count.
 [[nodiscard]] Result<EntityScene> makeScene(std::string_view name, int count, std::uint64_t seed,
                                             const FigureBounds& figure);
 

@@ -168,6 +168,9 @@ TEST_CASE("points are framed by the free part of the picture, whatever lies over
             const bool across = low.x < left + 0.5F && high.x > right - 0.5F;
             const bool upright = low.y < top + 0.5F && high.y > bottom - 0.5F;
             CHECK((across || upright));
+            // In the middle of what is free, the other way, too.
+            CHECK(low.x - left == Approx(right - high.x).margin(1.0F));
+            CHECK(low.y - top == Approx(bottom - high.y).margin(1.0F));
         }
     }
 }

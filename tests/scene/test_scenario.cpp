@@ -92,6 +92,17 @@ TEST_CASE("the same seed gives the same start and another seed another one") {
     }
 }
 
+TEST_CASE("with seed 0, too, no two dolls of a scene fall in step") {
+    const auto asset = test::bipedRagdoll();
+    for (const std::string_view name : {"drop", "ramp", "hang", "balls", "stairs", "throw"}) {
+        INFO(name);
+        const auto dolls = make(*asset, name, 4, 0).dolls;
+        CHECK(dolls[0].worldFromModel.rotation == make(*asset, name, 1, 0).dolls[0].worldFromModel.rotation);
+        for (std::size_t i = 1; i < dolls.size(); ++i)
+            CHECK(dolls[i].worldFromModel.rotation != dolls[i - 1].worldFromModel.rotation);
+    }
+}
+
 TEST_CASE("a figure that faces elsewhere in its file stands the same way in a scene") {
     const FigureBounds figure{{-0.8F, 0, -0.1F}, {0.8F, 1.75F, 0.1F}};
     const quat turned = glm::angleAxis(1.0F, vec3(0, 1, 0));
