@@ -15,6 +15,7 @@ namespace lutka::physics {
 namespace {
 
 constexpr std::size_t kMostBoxPoints = 400;
+constexpr float kProtrusion = 1.5F;           // of the weight of skin outside: a round part has a box's corners
 constexpr float kBoxClearly = 0.5F;           // of the distance that the capsule leaves
 constexpr float kBoxNear = 0.9F;              // of the skin
 constexpr float kBoxItself = 0.25F;           // of that distance: the skin is a box
@@ -56,7 +57,7 @@ class BoxSearch {
 
     template <class Shape>
     [[nodiscard]] float cost(const Shape& shape) const {
-        return sample_.cost(bounds_.cutoff, shape);
+        return sample_.cost(bounds_.cutoff, shape, kProtrusion);
     }
 
     template <class Shape>

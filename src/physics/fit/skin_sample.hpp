@@ -31,14 +31,13 @@ class SkinSample {
 
     /// Area-weighted mean distance of the points from a shape's surface, metres, each cut off at `cutoff`. A point's is
     /// what distanceFrom(shape, point) beside the shape's type gives, negative inside. Skin inside the shape, where the
-    /// shape stands out of it, weighs more.
+    /// shape stands out of it, counts `protrusion` times.
     template <class Shape>
-    [[nodiscard]] float cost(float cutoff, const Shape& shape) const {
-        constexpr float kProtrusion = 1.5F;
+    [[nodiscard]] float cost(float cutoff, const Shape& shape, float protrusion = 1.0F) const {
         float sum = 0.0F;
         for (const SkinPoint& point : points_) {
             const float apart = distanceFrom(shape, point.position);
-            const float distance = apart < 0.0F ? -kProtrusion * apart : apart;
+            const float distance = apart < 0.0F ? -protrusion * apart : apart;
             sum += point.area * std::min(distance, cutoff);
         }
         return area_ > 0.0F ? sum / area_ : 0.0F;
