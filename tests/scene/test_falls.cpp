@@ -54,6 +54,21 @@ TEST_CASE("a hand that carries the whole figure keeps its limit") {
     }
 }
 
+// From the same wall a figure as tall as a hand falls as fast as a man: its limbs turn eight times as far in a substep,
+// and stayed 17 degrees past their limits.
+TEST_CASE("a figure as tall as a hand keeps its limits") {
+    scene::LoadOptions options;
+    options.import.metresPerFileUnit = 0.12F;
+    const auto asset = scene::loadRagdoll(LUTKA_ASSETS_DIR "/models/mannequin.glb", options);
+    REQUIRE(asset.ok());
+    CHECK(asset.value()->profile.heightM < 0.25F);
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        const test::Fall fall = fallOf(*asset.value(), physics::SolverKind::crowd, "throw", seed, 2.0F);
+        CAPTURE(seed, fall.worstJoint);
+        CHECK(fall.quality.limitViolationDeg.lasting < 3.0F);
+    }
+}
+
 // Arms that were foreseen by what their own pushes gave turned a hand or foot faster and faster, to 350 rad/s in one
 // substep: 18 and 7 % of the energy, and a wrist 5 mm apart.
 TEST_CASE("no impact gives a figure energy") {

@@ -116,6 +116,9 @@ Result<Fall> fall(const scene::RagdollAsset& asset, std::unique_ptr<physics::Wor
 Result<std::unique_ptr<scene::RagdollAsset>> loadFigure(const std::string& file) {
     scene::LoadOptions options;
     options.import.loadTextures = false;
+    auto loaded = scene::loadRagdoll(file, options);
+    if (loaded || !scene::wantsAnyRig(loaded.error())) return loaded;
+    options.fit.rig = physics::RigKind::any;
     return scene::loadRagdoll(file, options);
 }
 

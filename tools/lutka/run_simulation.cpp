@@ -22,7 +22,7 @@ namespace lutka::cli {
 namespace {
 
 // Outside of this, contact margins and sleeping speeds, which are lengths and speeds of a person's size, mean little.
-constexpr float kLeastHeightM = 0.3F;
+constexpr float kLeastHeightM = 0.2F;
 constexpr float kMostHeightM = 5.0F;
 
 // Writing is the last thing of a long run: what can't be written is better known before it.

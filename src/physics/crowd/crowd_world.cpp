@@ -16,6 +16,7 @@
 #include "physics/crowd/sleep.hpp"
 #include "physics/crowd/solve.hpp"
 #include "physics/crowd/state.hpp"
+#include "physics/crowd/substeps.hpp"
 #include "physics/crowd/target.hpp"
 
 namespace lutka::physics {
@@ -41,7 +42,8 @@ std::function<void()> timed(const std::function<void()>& call, Clock::duration& 
 
 class CrowdWorld final : public World {
   public:
-    CrowdWorld(const WorldSettings& settings, const CrowdTuning& tuning) : state_(settings, tuning) {}
+    CrowdWorld(const WorldSettings& settings, const CrowdTuning& tuning)
+        : state_(settings, tuning), ownSubsteps_(tuning.substeps) {}
 
     [[nodiscard]] int substepsPerStep() const override { return state_.tuning.substeps; }
     [[nodiscard]] double dragWork() const override { return state_.dragWork; }
@@ -104,6 +106,7 @@ class CrowdWorld final : public World {
     void rayAgainstDoll(int index, const vec3& from, const vec3& to, std::optional<RayHit>& nearest) const;
 
     CrowdState state_;
+    int ownSubsteps_;  // of figures that are not small
     StepTimes times_;
 };
 
@@ -162,6 +165,10 @@ void CrowdWorld::addDollAs(DollId id, const RagdollProfile& profile, std::span<c
     const int index = crowd::addDoll(state_, makeTopology(profile, state_.tuning.leastGyration), &profile, bodies);
     state_.dolls[index].side = {Side::Kind::doll, id, {}, {}, 0};
     state_.ragdolls.push_back(index);
+    if (!state_.settings.substeps) {
+        const float wanted = std::ceil(static_cast<float>(ownSubsteps_) / state_.dolls[index].pace);
+        state_.tuning.substeps = std::max(state_.tuning.substeps, static_cast<int>(wanted));
+    }
 }
 
 void CrowdWorld::advance(float dt, const std::function<void()>& afterSubstep) {

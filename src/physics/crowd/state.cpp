@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 
 #include "core/assert.hpp"
+#include "physics/crowd/substeps.hpp"
 
 namespace lutka::physics::crowd {
 namespace {
@@ -61,6 +62,7 @@ int addDoll(CrowdState& state, Topology topology, const RagdollProfile* profile,
     Doll doll;
     doll.profile = profile;
     doll.group = groupFor(state, topology);
+    if (profile != nullptr) doll.pace = paceOf(profile->heightM);
     doll.frozen.assign(bodies.begin(), bodies.end());
     doll.boxes = (static_cast<int>(bodies.size()) + kLanes - 1) / kLanes;
     auto place = std::find_if(state.dolls.begin(), state.dolls.end(),

@@ -50,6 +50,7 @@ struct Doll {
     int firstBox = 0;               ///< Into CrowdState::stepBoxes.
     int boxes = 0;                  ///< How many it has there.
     std::vector<BodyState> frozen;  ///< The bodies while asleep.
+    float pace = 1.0F;              ///< See paceOf().
     float substepSeconds = 1.0F;    ///< Of the last substep: what it carries to the next step are impulses of it.
     float restSeconds = 0.0F;       ///< For how long it has been below the sleeping speeds.
     std::int64_t island = -1;       ///< Dolls that fell asleep together share a number; they wake together.

@@ -59,6 +59,12 @@ void fitBatch(CrowdState& state, Batch& batch, float seconds) {
 
 }  // namespace
 
+float paceOf(float heightM) {
+    constexpr float kTunedM = 0.75F;
+    constexpr float kLeast = 0.25F;
+    return std::clamp(heightM / kTunedM, kLeast, 1.0F);
+}
+
 void findPace(const CrowdState& state, Batch& batch, const Topology& topology) {
     constexpr float kStill = 0.2F;  // of the speeds that ask for a substep
     const CrowdTuning& tuning = state.tuning;
@@ -70,7 +76,8 @@ void findPace(const CrowdState& state, Batch& batch, const Topology& topology) {
     batch.isStill = true;
     batch.substeps = 0;
     for (int lane = 0; lane < batch.used; ++lane) {
-        const float units2 = std::max(speed2.lane[lane] / unit2, turn2.lane[lane] / turnUnit2);
+        const float pace = state.dolls[batch.doll[lane]].pace;
+        const float units2 = std::max(speed2.lane[lane] / unit2, turn2.lane[lane] / turnUnit2) / (pace * pace);
         const bool isStill = units2 < kStill * kStill;
         int& substeps = batch.substepsOf[lane];
         // What lies still and may not fall asleep is cheap in this way; where it may, it would only come to rest later.

@@ -4,6 +4,11 @@
 
 namespace lutka::physics::crowd {
 
+/// How large a figure is for the pace of its substeps: its height over 0.75 m, in [0.25, 1]. From the same table a hand
+/// falls as fast as a man, and turns its fingers eight times as far in a substep. So a small figure needs its share of
+/// a substep's speeds (CrowdTuning::substepSpeed), and more substeps at most.
+[[nodiscard]] float paceOf(float heightM);
+
 /// Sets by how its dolls move now how many substeps a step of the batch needs (CrowdTuning::substeps where anything is
 /// fast, fewer where all is slow) and whether it hardly moves at all.
 void findPace(const CrowdState& state, Batch& batch, const Topology& topology);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "crowd_scene.hpp"
 #include "physics/crowd/substeps.hpp"
@@ -37,6 +38,24 @@ TEST_CASE("a step has as many substeps as its motion needs") {
         // One substep more or less in any step would be off by 0.1 mm.
         REQUIRE(bodiesOf(*world, 0)[0].worldFromBody.translation.y == Approx(-fallen).margin(2e-5));
     }
+}
+
+TEST_CASE("a world with a small figure has as many more substeps as that is smaller, unless it is told how many") {
+    const auto substepsWith = [](float heightM, const std::optional<int>& told) {
+        WorldSettings settings;
+        settings.substeps = told;
+        const auto world = createCrowdWorld(settings);
+        physics::RagdollProfile rod = makeRod(0.2F, 0.05F, 2.0F);
+        rod.heightM = heightM;
+        world->addDoll(rod, std::vector<physics::BodyState>(1, physics::BodyState{}));
+        return world->substepsPerStep();
+    };
+    const int own = physics::crowd::CrowdTuning{}.substeps;
+    CHECK(substepsWith(1.75F, std::nullopt) == own);
+    CHECK(substepsWith(0.75F, std::nullopt) == own);
+    CHECK(substepsWith(0.375F, std::nullopt) == 2 * own);
+    CHECK(substepsWith(0.01F, std::nullopt) == 4 * own);
+    CHECK(substepsWith(0.01F, 5) == 5);
 }
 
 TEST_CASE("a few dolls of a calm heap may have fewer substeps than they need, unless many lie deep in each other") {
