@@ -33,6 +33,7 @@ LUTKA_LANES OwnAnswer answerOfOwn(const PairContactLanes& pair, F approach, F of
     // Two contacts that wedge a limb between them press each other ever harder.
     const F bound = most(before, mass * all(params.ownMass * params.ownBlow));
     if (sweep == 0 || pair.answered != sweep) return {sinks, mass, bound};
+    // Zero where only others of its block were pressed: what a lane is told does not depend on these.
     const F pushed = load(pair.carriedNormal);
     const F gained = off - load(pair.carriedTangent[0]);
     const F shown = clampLanes(pushed / most(magnitude(gained), all(1e-6F)), mass, mass * all(params.ownMass));
@@ -53,12 +54,13 @@ static void pressAgain(PairsView& view, const SubstepParams& params, int sweep) 
         const F approach = dot(load(pair.normal), slidingOf(pair, v));
         const F off = approach + contactBias(load(pair.separation), params, 0);
         const Mask wrong = (off < -tolerance) | ((before > zero) & (off > tolerance));
-        if (bits(wrong & (load(pair.kind) > zero)) == 0) continue;
+        if (bits(wrong & isOfDolls(pair)) == 0) continue;
         makeReady(pair, bodies);
         const Mask struck = sweep < params.answerSweeps ? wrong & strikes(pair) : noLanes();
         const OwnAnswer own = answerOfOwn(pair, approach, off, params, sweep);
-        const F asked = most(before - (own.wrong ? own.mass : load(pair.normalMass)) * off, zero);
-        const F total = own.wrong ? least(asked, own.bound) : (struck ? asked : before);
+        const Mask pressed = sweep < params.ownSweeps ? own.wrong : noLanes();
+        const F asked = most(before - (pressed ? own.mass : load(pair.normalMass)) * off, zero);
+        const F total = pressed ? least(asked, own.bound) : (struck ? asked : before);
         if (bits(total != before) == 0) continue;
         view.changed[view.changedCount++] = view.live[i];
         pair.answered = sweep + 1;

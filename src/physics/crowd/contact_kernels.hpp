@@ -4,6 +4,7 @@
 /// comes before the normal row, so that overlap has the last word; both tangents are solved at once and share one
 /// circular bound.
 
+#include "physics/crowd/own_load.hpp"
 #include "physics/crowd/pair_body_kernels.hpp"
 #include "physics/crowd/touch_kernels.hpp"
 #include "physics/crowd/tree_kernels.hpp"
@@ -83,11 +84,19 @@ LUTKA_LANES PairContactLanes& pairAt(const PairsView& view, int block) {
 
 // Those between dolls with joints.
 LUTKA_LANES Mask strikes(const PairContactLanes& pair) {
-    return load(pair.kind) > all(1.0F);
+    return load(pair.kind) == all(PairKind::dolls);
 }
-// Those between bodies of one limp doll.
+// Those between bodies of one limp doll,
 LUTKA_LANES Mask isOwn(const PairContactLanes& pair) {
-    return load(pair.kind) == all(1.0F);
+    return load(pair.kind) == all(PairKind::own);
+}
+// and of one that has muscles.
+LUTKA_LANES Mask isDriven(const PairContactLanes& pair) {
+    return load(pair.kind) == all(PairKind::driven);
+}
+// All of these.
+LUTKA_LANES Mask isOfDolls(const PairContactLanes& pair) {
+    return load(pair.kind) != all(PairKind::other);
 }
 // The lanes that have a contact.
 LUTKA_LANES Mask hasContact(const PairContactLanes& pair) {
@@ -96,7 +105,7 @@ LUTKA_LANES Mask hasContact(const PairContactLanes& pair) {
 
 // What a contact presses harder by than the masses of its two bodies ask.
 LUTKA_LANES F eagerness(const PairContactLanes& pair, float rate) {
-    return load(pair.kind) > all(0.0F) ? all(rate) : all(1.0F);
+    return isOfDolls(pair) ? all(rate) : all(1.0F);
 }
 
 // What a support holds back is a guess, and a push that counts on too much of it is never taken back in time: a pair
@@ -219,12 +228,6 @@ LUTKA_LANES F shownMass(const PairContactLanes& pair, F pressed, const SubstepPa
     return clampLanes(pressed / most(-load(pair.approach), all(kSlow)), mass, mass * all(params.ownMass));
 }
 
-// What such a contact may carry into the next substep, N s. A load builds up, a blow is over: what answers pressed with
-// to stop a blow would drive the bodies apart.
-LUTKA_LANES F grownLoad(const PairContactLanes& pair, const SubstepParams& params) {
-    return all(2.0F) * load(pair.load) + load(pair.normalMass) * all(params.ownLoad);
-}
-
 static void beginPairs(PairsView& view, const SubstepParams& params) {
     const bool isFirst = params.warmStart != 0;
     const PairBodies& bodies = view.bodies;
@@ -248,7 +251,9 @@ static void beginPairs(PairsView& view, const SubstepParams& params) {
         const F mass = load(pair.normalMass);
         const Mask own = isOwn(pair);
         const F steady = pressed - (own ? shownMass(pair, pressed, params) : mass) * (start - load(pair.approach));
-        const F borne = (own & (isFirst ? noLanes() : ~noLanes())) ? least(pressed, grownLoad(pair, params)) : pressed;
+        // What comes from the step before is no more than that already.
+        const Mask grows = own & (isFirst ? noLanes() : ~noLanes());
+        const F borne = grows ? least(pressed, grownLoad(load(pair.load), mass, params.ownLoad)) : pressed;
         // Bodies that part already bear no load either: pushing on would speed them up.
         const F held = least(most(steady, all(0.0F)), borne) * stays(start, kSlipSpeed);
         store(pair.load, held);
@@ -349,8 +354,7 @@ static int mendPairs(const PairsView& view, const SubstepParams& params) {
         any |= overlaps;
         PairVelocities v = velocitiesOf(pair, bodies);
         const V3 normal = load(pair.normal);
-        const Mask hasMuscles = (load(pair.kind) > zero) & (load(pair.kind) < all(1.0F));
-        const F own = hasMuscles ? all(params.drivenPushSpeed) : all(params.pushSpeed);
+        const F own = isDriven(pair) ? all(params.drivenPushSpeed) : all(params.pushSpeed);
         const F fastest = strikes(pair) ? all(params.dollPushSpeed) : own;
         const F apart = most((load(pair.separation) + all(params.slop)) * all(params.contactRate), -fastest);
         const F off = dot(normal, slidingOf(pair, v)) + apart * eagerness(pair, params.mendHaste);

@@ -245,6 +245,14 @@ struct TargetLanes {
     int active;        ///< Whether any lane has one.
 };
 
+/// What a contact between two bodies is, as a number of a lane.
+struct PairKind {
+    static constexpr float other = 0.0F;   ///< One of them has no other jointed to it. Empty lanes, too.
+    static constexpr float driven = 1.0F;  ///< Of one doll that has muscles: a push that comes late would throw a limb.
+    static constexpr float own = 2.0F;     ///< Of one limp doll, and
+    static constexpr float dolls = 3.0F;   ///< of two: these are pressed again once the dolls have answered.
+};
+
 /// Eight contacts between two bodies each, of any dolls; no body comes twice, so that they are solved at once. Lanes
 /// without a contact come last and repeat lane 0, but for `active`: they push nothing, and lane 0 is written after
 /// them.
@@ -262,13 +270,11 @@ struct PairContactLanes {
     int onAxisY;           ///< Whether all touching points lie on the bodies' y, as those of capsules do.
     int follows;   ///< Whether all are of capsules and spheres: points and normal are found anew in every substep.
     int ready;     ///< Whether directions and masses are those of this substep.
-    int answered;  ///< The sweep, counted from 1, in which it was last pressed again in this substep; 0: in none.
-    Wide load;     ///< What was carried into this substep: see grownLoad() in contact_kernels.hpp.
+    int answered;  ///< The sweep, counted from 1, in which any was last pressed again in this substep; 0: in none.
+    Wide load;     ///< What was carried into this substep: see grownLoad().
     // what a push needs,
     Wide3 armA, armB;
-    Wide kind;  ///< 2 between dolls with joints, 1 between bodies of one: these are pressed again once the dolls have
-                ///< answered (answer_kernels.hpp). 0.5 between bodies of one that has muscles, which a push that comes
-                ///< late throws; 0 where a body has no other jointed to it.
+    Wide kind;  ///< A PairKind.
     Wide normalMass;
     Wide inverseMassA, inverseMassB;
     Wide3 pushA, pushB;  ///< The normal without the part that is held against by what a body rests on.

@@ -39,7 +39,9 @@ void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTou
     writeVector(pair.tangent, lane, touch.carried.friction);
     const auto isJointed = [&](const Doll& doll) { return !state.groupOf(doll).topology.joints.empty(); };
     if (isJointed(a) && isJointed(b))
-        pair.kind.lane[lane] = touch.dollA != touch.dollB ? 2.0F : a.motors > 0 ? 0.5F : 1.0F;
+        pair.kind.lane[lane] = touch.dollA != touch.dollB ? PairKind::dolls
+                               : a.motors > 0             ? PairKind::driven
+                                                          : PairKind::own;
     const auto onAxisY = [](const vec3& local) { return local.x == 0.0F && local.z == 0.0F; };
     if (!onAxisY(touch.touch.localA) || !onAxisY(touch.touch.localB)) pair.onAxisY = 0;
 }
@@ -124,7 +126,9 @@ void fillBlock(CrowdState& state, std::size_t block) {
     for (int lane = 0; lane < kLanes; ++lane) {
         const int index = state.touchOfLane[block][lane];
         fillLane(state, pair, lane, state.touches[index >= 0 ? index : state.touchOfLane[block][0]]);
-        if (index < 0) pair.friction.lane[lane] = pair.kind.lane[lane] = 0.0F;
+        if (index >= 0) continue;
+        pair.friction.lane[lane] = 0.0F;
+        pair.kind.lane[lane] = PairKind::other;
     }
 }
 

@@ -10,6 +10,7 @@
 #include "physics/crowd/force.hpp"
 #include "physics/crowd/jobs.hpp"
 #include "physics/crowd/motor.hpp"
+#include "physics/crowd/own_load.hpp"
 #include "physics/crowd/packing.hpp"
 #include "physics/crowd/reports.hpp"
 #include "physics/crowd/static_contacts.hpp"
@@ -215,10 +216,10 @@ void keepPairs(CrowdState& state, std::size_t begin, std::size_t end) {
             if (!presses && !state.briefs[index].presses && !state.settings.contactReports) continue;
             PairTouch& touch = state.touches[index];
             touch.carried.normal = pair.normalImpulse.lane[lane];
-            if (pair.kind.lane[lane] == 1.0F)  // as grownLoad() has it within a step
+            if (pair.kind.lane[lane] == PairKind::own)
                 touch.carried.normal =
                     std::min(touch.carried.normal,
-                             2.0F * pair.load.lane[lane] + pair.normalMass.lane[lane] * state.tuning.ownLoad);
+                             grownLoad(pair.load.lane[lane], pair.normalMass.lane[lane], state.tuning.ownLoad));
             touch.carried.approach = pair.approach.lane[lane];
             touch.touch.separation = pair.separation.lane[lane];
             touch.touch.normal = readVector(pair.normal, lane);

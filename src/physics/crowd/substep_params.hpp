@@ -16,8 +16,8 @@ struct SubstepTuning {
     int answerSweeps = 2;       ///< At most, over the contacts between dolls after these have answered; 0: none. More:
                                 ///< stiffer heaps, and the dolls' cost again for each.
     float answerSpeed = 0.02F;  ///< m/s by which a contact may be wrong to be left out of them. Less: the same.
-    int ownSweeps = 12;         ///< The same over contacts between bodies of one doll, in a job of one batch; in others
-                                ///< as many as `answerSweeps`. Less: blows drive limbs deeper into the trunk.
+    int ownSweeps = 12;         ///< The same over contacts between bodies of one doll; in a job of several batches no
+                                ///< more than `answerSweeps`. Less: blows drive limbs deeper into the trunk.
     float ownDepth = 0.002F;    ///< Metres that such a contact may go deep by the substep's end before it is one of
                                 ///< them. More: fewer answers, deeper limbs.
     float ownSpeed = 0.1F;      ///< m/s that it closes with, else it is none of them. Less: some figures never rest.

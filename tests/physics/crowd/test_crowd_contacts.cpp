@@ -282,6 +282,28 @@ TEST_CASE(
     CHECK(again < 0.8F * once);
 }
 
+TEST_CASE("contacts within a doll are pressed again as often as it says, whatever those between dolls are") {
+    const physics::RagdollProfile profile = makeDoll();
+    const auto fallen = [&](int own, int answers) {
+        physics::crowd::CrowdTuning tuning;
+        tuning.ownSweeps = own;
+        tuning.answerSweeps = answers;
+        const auto world = createCrowdWorld(WorldSettings{}, tuning);
+        world->addStatic(floorPlane());
+        for (int i = 0; i < 8; ++i) {
+            const float along = static_cast<float>(i);
+            const quat turn = glm::angleAxis(0.8F * along, glm::normalize(vec3(1, 0.3F, 0.2F * along)));
+            world->addDoll(profile, placedDoll(profile, {10.0F * along, 1.5F, 0}, turn, {0, -8, 4}));
+        }
+        for (int i = 0; i < 60; ++i)
+            world->step(kStep);
+        return stateHash(*world);
+    };
+    CHECK(fallen(0, 2) == fallen(0, 0));
+    CHECK(fallen(1, 2) == fallen(1, 0));
+    CHECK(fallen(1, 0) != fallen(0, 0));  // so there are such contacts
+}
+
 TEST_CASE("what is struck in the middle of a step does not pass static geometry that it was far from") {
     // The ball arrives within a step, at one substep or another, and the rod is through the wall before the step ends.
     const bool isPlane = GENERATE(true, false);
