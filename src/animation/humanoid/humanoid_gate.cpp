@@ -36,12 +36,13 @@ float angleTo(const vec3& direction, const vec3& axis) {
     return length > 0.0F ? std::acos(std::clamp(glm::dot(direction, axis) / length, -1.0F, 1.0F)) : 0.0F;
 }
 
-// Share of the placed limb joints whose names are such.
+// Share of the placed limb joints whose names are such; clavicles and toes count for nothing: wings hang on shoulders.
 template <class Names>
 float shareNamed(const FramedRig& framed, const LimbCandidate& limb, const Names& areSuch) {
     int named = 0;
     int placed = 0;
-    for (const int pair : limb.pairs) {
+    for (std::size_t slot = 0; slot < 3; ++slot) {
+        const int pair = limb.pairs[slot];
         if (pair == kNoPair) continue;
         ++placed;
         if (areSuch(framed.rig->names[framed.pairs[pair].joints[0]])) ++named;
@@ -57,6 +58,21 @@ float creatureShare(const FramedRig& framed, const LimbCandidate& limb) {
 bool areLegsByName(const FramedRig& framed, const LimbCandidate& arms) {
     const auto isLeg = [](const NameEvidence& name) { return name.bareLimb && name.parts[Part::upperLeg] > 0.0F; };
     return shareNamed(framed, arms, isLeg) >= 1.0F;
+}
+
+// Two joints of the limb hang side by side and are named as limbs, alike but for their numbers: several legs, of one
+// joint each, which follow each other when the animal is turned.
+bool areSeveral(const FramedRig& framed, const LimbCandidate& limb) {
+    const RigFeatures& rig = *framed.rig;
+    for (std::size_t slot = 1; slot < 3; ++slot) {
+        if (limb.pairs[slot - 1] == kNoPair || limb.pairs[slot] == kNoPair) continue;
+        const int upper = framed.pairs[limb.pairs[slot - 1]].joints[0];
+        const int lower = framed.pairs[limb.pairs[slot]].joints[0];
+        if (rig.parents[upper] == rig.parents[lower] && rig.names[upper].bareLimb &&
+            rig.names[upper].words == rig.names[lower].words)
+            return true;
+    }
+    return false;
 }
 
 // Share of the joints below a limb's first pair that are named as an animal's: wings that hang on shoulders. What hangs
@@ -184,6 +200,8 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
         return "what would be the arms are named as wings or front legs";
     if (figure.prior < 0.0F && areLegsByName(framed, figure.arms)) return "what would be the arms are named as legs";
     if (creatureShare(framed, figure.legs) > 0.6F) return "what would be the legs are named as an animal's";
+    if (figure.prior < 0.0F && areSeveral(framed, figure.legs))
+        return "what would be a leg is several legs side by side";
     if (isScattered(figure, framed)) return "its parts hang on nothing and are named as no limbs";
     // Names alone never make a humanoid, but they carry one that is put together oddly.
     const float names = figure.legs.names + figure.arms.names + figure.trunk.names;

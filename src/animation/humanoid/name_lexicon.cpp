@@ -82,8 +82,7 @@ constexpr Entry kEntries[] = {
      "tongue nose nostril nostrils cheek cheeks ear ears teeth tooth face facial forehead temple masseter "
      "caninus lash lashes ojo auge auges mandible snout muzzle horn horns beard moustache mustache uppertooth "
      "pupil iris"},
-    {Concept::hair,
-     "hair hairs bang bangs pony ponytail braid braids fringe hat cap helmet hood antenna headband crown halo"},
+    {Concept::hair, "hair hairs bang bangs pony ponytail braid braids fringe hat cap helmet hood headband crown halo"},
     {Concept::cloth,
      "skirt cape cloak coat dress sleeve sleeves cloth clothes scarf belt strap straps robe bag pouch tie "
      "ribbon apron jacket shirt pants tassel hem breast breasts boob boobs pec pecs pectoral bust butt "
@@ -95,7 +94,8 @@ constexpr Entry kEntries[] = {
     {Concept::creature,
      "tail tails wing wings hind hindleg hindlimb hindlimbs hoof paw paws foreleg frontleg fin fins feather feathers "
      "beak claw "
-     "claws tentacle backleg front rear trunk2 withers fetlock mane"},
+     "claws tentacle tentacles antenna antennae antennas feeler feelers proboscis stinger backleg front rear trunk2 "
+     "withers fetlock mane"},
 };
 
 std::unordered_map<std::string_view, Concept> makeIndex() {

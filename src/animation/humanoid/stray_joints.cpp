@@ -54,7 +54,9 @@ void bindStrayJoints(const RigFeatures& rig, float confidence, HumanoidMap& map)
         if (nameAbove.side != Side::center && sideOf(*above) != Side::center && nameAbove.side != sideOf(role))
             continue;
         const int joint = onlyNamed(rig, map, role);
-        if (joint == kNoJoint || !isAsFarAsOnOtherSide(rig, map, role, *above, joint)) continue;
+        // "leg" above "leg.001" and "leg.002" is where the leg starts, and no foot.
+        if (joint == kNoJoint || rig.isAncestorOrSelf(joint, map.jointOf(*above))) continue;
+        if (!isAsFarAsOnOtherSide(rig, map, role, *above, joint)) continue;
         map.roles[index] = RoleBinding{joint, confidence, "the only joint with such a name, though it hangs elsewhere"};
     }
 }

@@ -89,6 +89,53 @@ TEST_CASE("a foot that hangs on its control as a leaf is the foot, not the contr
     CHECK(rig.nameOf(map, Role::leftLowerLeg) == "lowerleg.l");
 }
 
+TEST_CASE("what a leg's control points at is no knee of a leg without one", "[controls]") {
+    NamedRig rig;
+    rig.add("root", "", {0, 0, 0});
+    rig.add("Control", "root", {0, 0.02F, 0.1F});
+    rig.add("@_Knee", "Control", {0.12F, 0.33F, 0.64F});
+    rig.add("@_Elbow", "Control", {0.36F, 1.03F, 0.38F});
+    rig.add("Hip", "Control", {0, 0.3F, 0.07F}, {0, 0.6F, 0.02F}, 0.25F);
+    rig.add("Chest", "Hip", {0, 0.65F, 0.02F}, {0, 1.2F, 0.03F}, 0.25F);
+    rig.add("Head", "Chest", {0, 1.44F, 0.07F}, {0, 1.7F, 0.1F}, 0.2F);
+    rig.add("@_Upper_Arm", "Hip", {0.38F, 1.09F, 0}, {0.67F, 0.94F, 0}, 0.09F);
+    rig.add("@_Lower_Arm", "@_Upper_Arm", {0.67F, 0.94F, 0}, {0.86F, 0.77F, 0}, 0.08F);
+    rig.add("@_Hand", "@_Lower_Arm", {0.86F, 0.77F, 0}, {1.0F, 0.63F, 0}, 0.08F);
+    rig.add("@_Thigh", "Hip", {0.22F, 0.29F, 0}, {0.22F, 0.06F, 0}, 0.14F);
+    rig.add("@_Foot", "@_Thigh", {0.22F, 0.05F, 0}, {0.22F, 0.03F, 0.2F}, 0.1F);
+    const HumanoidMap map = rig.map();
+    REQUIRE(map.humanoid);
+    CHECK(rig.nameOf(map, Role::leftLowerLeg) == "none");
+    CHECK(rig.nameOf(map, Role::rightLowerLeg) == "none");
+    CHECK(rig.nameOf(map, Role::leftFoot) == "l_Foot");
+    CHECK(rig.nameOf(map, Role::rightLowerArm) == "r_Lower_Arm");
+    for (const std::string& word : map.warnings)
+        CHECK(word.find("only a part of the figure has skin") == std::string::npos);
+}
+
+TEST_CASE("what a leg starts at is no foot of it", "[controls]") {
+    NamedRig rig;
+    rig.add("root", "", {0, 0, 0});
+    rig.add("leg_@.003", "root", {0.2F, 0.01F, 0.07F});
+    rig.add("hips", "root", {0, 0.41F, 0});
+    rig.add("core", "hips", {0, 0.41F, 0}, {0, 0.5F, 0.05F}, 0.15F);
+    rig.add("core.001", "core", {0, 0.5F, 0.07F}, {0, 0.64F, 0.1F}, 0.17F);
+    rig.add("core.002", "core.001", {0, 0.64F, 0.13F}, {0, 0.8F, 0.15F}, 0.2F);
+    rig.add("head", "core.002", {0, 0.86F, 0.18F}, {0, 0.74F, 0.4F}, 0.12F);
+    rig.add("arm_@", "core.002", {0, 0.86F, 0.18F}, {0.29F, 0.85F, 0.14F}, 0.1F);
+    rig.add("arm_@.001", "arm_@", {0.29F, 0.85F, 0.14F}, {0.51F, 0.64F, 0}, 0.1F);
+    rig.add("arm_@.002", "arm_@.001", {0.51F, 0.64F, 0}, {0.6F, 0.35F, 0}, 0.1F);
+    rig.add("leg_@", "hips", {0, 0.41F, 0}, {0.15F, 0.4F, 0}, 0.08F);
+    rig.add("leg_@.001", "leg_@", {0.15F, 0.4F, 0}, {0.2F, 0.24F, 0.07F}, 0.08F);
+    rig.add("leg_@.002", "leg_@.001", {0.2F, 0.24F, 0.07F}, {0.2F, 0.03F, 0.07F}, 0.08F);
+    const HumanoidMap map = rig.map();
+    REQUIRE(map.humanoid);
+    CHECK(rig.nameOf(map, Role::leftUpperLeg) == "leg_l.001");
+    CHECK(rig.nameOf(map, Role::leftLowerLeg) == "leg_l.002");
+    CHECK(rig.nameOf(map, Role::leftFoot) == "none");
+    CHECK(rig.nameOf(map, Role::rightFoot) == "none");
+}
+
 TEST_CASE("where a prefix tells which joint drives which, what bears it takes no role", "[controls]") {
     NamedRig rig;
     rig.add("c_traj", "", {0, 0, 0});

@@ -85,6 +85,17 @@ TEST_CASE("helpers, fingers, faces and props speak for no part", "[names]") {
     }
 }
 
+TEST_CASE("wings, feelers and tentacles are an animal's", "[names]") {
+    for (const char* name : {"wing.l", "L_antenna_jnt", "feeler_R", "Tentacles.003", "FrontLeg.R", "Tail1"}) {
+        INFO(name);
+        CHECK(nameEvidence(name).creature);
+    }
+    for (const char* name : {"hair_tail_L", "forearm.l", "ponytail"}) {
+        INFO(name);
+        CHECK_FALSE(nameEvidence(name).creature);
+    }
+}
+
 TEST_CASE("names without meaning say nothing", "[names]") {
     for (const char* name : {"joint_17", "nodes[3]", "Bone.012", "", "x", "Object_5", "\xFF\xC3"}) {
         const animation::NameEvidence evidence = nameEvidence(name);
