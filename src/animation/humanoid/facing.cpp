@@ -65,10 +65,11 @@ class FacingFinder {
     void readFeet() {
         const auto& [upper, lower, foot, toes] = legs_.pairs;
         if (foot == kNoPair) {
-            // A leg of one joint goes straight down from it, as blocks do; a shin may slope.
+            // A leg of one joint goes straight down from it, as blocks do, and tells nothing in the splits; a shin may
+            // slope.
             if (lower != kNoPair) {
                 readFootlessSoles(lower);
-            } else {
+            } else if (!goesAside(upper)) {
                 readSoles(upper);
             }
             return;
@@ -88,6 +89,15 @@ class FacingFinder {
             readTips(foot, ankle);
         }
         readSoles(foot);
+    }
+
+    // Whether the middle of its skin lies more than 30 degrees to the side of the way down from the joint.
+    [[nodiscard]] bool goesAside(int pairIndex) const {
+        constexpr float kMostAside = 0.577F;
+        const int joint = pair(pairIndex).joints[0];
+        if (framed_.subtreeSkin[joint].count == 0) return false;
+        const vec3 down = framed_.subtreeSkin[joint].mean() - framed_.positions[joint];
+        return std::abs(down.x) > kMostAside * std::abs(down.y) + 0.1F * legs_.length;
     }
 
     // Angle of the shin to straight down, in the plane of symmetry; above 0 where the foot lies ahead of the knee.

@@ -31,11 +31,12 @@ struct Combination {
 float bindingTerms(const FramedRig& framed, const LimbCandidate& legs, const LimbCandidate& arms) {
     const float rise = arms.root.y - legs.root.y;
     // Of the hips above the ground; a seated figure's, whose names are clear, would be as high as its legs are long.
-    const float height = std::max(legs.root.y - framed.floor, (legs.named ? 0.95F : 0.3F) * legs.length);
+    const auto clear = [&](const LimbCandidate& limb) { return limb.named || (framed.stance.byNames && limb.whole); };
+    const float height = std::max(legs.root.y - framed.floor, (clear(legs) ? 0.95F : 0.3F) * legs.length);
     const float slack = legs.jointCount() == 1 || arms.jointCount() == 1 ? 2.0F : 1.0F;
     float score = rise > 0.05F * height ? near(std::log(rise / height), std::log(0.65F), 0.5F * slack) : -8.0F;
     score += near(std::log(arms.length / height), std::log(0.62F), 0.4F * slack);
-    score += atLeast((arms.tip.y - framed.floor) / legs.length, 0.45F, 0.15F, legs.named && arms.named ? 2.0F : 8.0F);
+    score += atLeast((arms.tip.y - framed.floor) / legs.length, 0.45F, 0.15F, clear(legs) && clear(arms) ? 2.0F : 8.0F);
     const float tilt = std::atan2(std::abs(arms.root.z - legs.root.z), std::max(rise, 1e-6F));
     score += atMost(tilt, radians(12.0F), radians(14.0F), 10.0F);
     if (framed.rig->skinned) {

@@ -98,17 +98,29 @@ float creaturesBelow(const FramedRig& framed, const LimbCandidate& limb) {
     return all > 0 ? static_cast<float>(named) / static_cast<float>(all) : 0.0F;
 }
 
+// Where a limb ends. Of one joint it is twice as far away as the middle of its skin, wherever that points.
+vec3 endOf(const FramedRig& framed, const LimbCandidate& limb) {
+    const int joint = framed.pairs[limb.first].joints[0];
+    if (limb.jointCount() > 1 || framed.subtreeSkin[joint].count == 0) return limb.tip;
+    return limb.root + 2.0F * (framed.subtreeSkin[joint].mean() - framed.positions[joint]);
+}
+
 // Straight arms and straight legs side by side, across the trunk, which end at one height: names of a human do not make
 // an animal one. The hands of one who bows hang above the ground.
-bool isOnAllFours(const Figure& figure) {
+bool isOnAllFours(const Figure& figure, const FramedRig& framed) {
     constexpr float kStraight = 0.8F;     // of the limb's length
     constexpr float kAboveGround = 0.2F;  // of the legs' length
-    const vec3 legs = figure.legs.tip - figure.legs.root;
-    const vec3 arms = figure.arms.tip - figure.arms.root;
-    const float above = glm::dot(figure.legs.tip - figure.arms.tip, legs) / std::max(glm::dot(legs, legs), 1e-9F);
+    const vec3 foot = endOf(framed, figure.legs);
+    const vec3 hand = endOf(framed, figure.arms);
+    const vec3 legs = foot - figure.legs.root;
+    const vec3 arms = hand - figure.arms.root;
+    const float above = glm::dot(foot - hand, legs) / std::max(glm::dot(legs, legs), 1e-9F);
     if (above > kAboveGround) return false;
-    return glm::length(legs) > kStraight * figure.legs.length && glm::length(arms) > kStraight * figure.arms.length &&
-           angleTo(legs, vec3(0, -1, 0)) > kMostLegTilt && angleTo(arms, legs) < kMostTilt;
+    const auto straight = [](const LimbCandidate& limb, const vec3& along) {
+        return limb.jointCount() == 1 || glm::length(along) > kStraight * limb.length;
+    };
+    return straight(figure.legs, legs) && straight(figure.arms, arms) && angleTo(legs, vec3(0, -1, 0)) > kMostLegTilt &&
+           angleTo(arms, legs) < kMostTilt;
 }
 
 // Parts that neither hang on each other nor bear a limb's name: props side by side, whatever pattern they lie in.
@@ -181,7 +193,7 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     const bool named = figure.posed ? figure.legs.whole && figure.arms.whole
                                     : figure.legs.named && figure.arms.named && figure.prior >= 0.0F;
     if (figure.posed && !named) return "its names are not those of its limbs";
-    if (figure.posed && isOnAllFours(figure)) return "it stands on all fours, whatever its names say";
+    if (figure.posed && isOnAllFours(figure, framed)) return "it stands on all fours, whatever its names say";
     if (tilt > kMostTilt) {
         return fmt::format("the trunk lies at {:.0f} degrees from upright: an animal, not a standing figure",
                            degrees(tilt));

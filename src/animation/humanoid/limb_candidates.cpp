@@ -234,12 +234,11 @@ class LimbFinder {
         candidate.told =
             lower != kNoPair && isNamed(upper, 0) && isNamed(lower, 1) && (end == kNoPair || isNamed(end, 2));
         candidate.named = candidate.told && end != kNoPair;
-        candidate.whole = candidate.named || (candidate.told && endsThere_[lower]);
-        if (kind_ == LimbKind::leg) {
-            scoreLeg(candidate);
-        } else {
-            scoreArm(candidate);
-        }
+        // Of blocks the names tell the stance, and then that a limb has one joint.
+        const bool block = framed_.stance.byNames && lower == kNoPair && end == kNoPair && isNamed(upper, 0);
+        const int last = block ? upper : lower;
+        candidate.whole = candidate.named || ((candidate.told || block) && endsThere_[last]);
+        kind_ == LimbKind::leg ? scoreLeg(candidate) : scoreArm(candidate);
         candidate.score += leftOver(candidate);
         nameByWords(candidate);
         for (int slot = 0; slot < 3; ++slot) {

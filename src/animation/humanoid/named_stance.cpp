@@ -61,15 +61,17 @@ bool namesTrunk(const RigFeatures& rig) {
     return hasFace(rig) && (isNamedHips(rig) || carriesThighs(rig, 0));
 }
 
-// A limb of two joints ends at the second: nothing that moves skin hangs on it.
+// A limb of one or two joints ends at the last: nothing that moves skin hangs on it.
 bool endsAt(const RigFeatures& rig, int joint) {
     const std::vector<int>& below = rig.children[joint];
     return std::none_of(below.begin(), below.end(), [&](int child) { return rig.carriesSkin(child); });
 }
 
 bool namesLimb(const RigFeatures& rig, const std::array<Part, 3>& parts, Side side) {
+    const int upper = namedJoint(rig, parts[0], side, kNamedLimb);
     const int lower = namedJoint(rig, parts[1], side, kNamedLimb);
-    if (lower == kNoJoint || namedJoint(rig, parts[0], side, kNamedLimb) == kNoJoint) return false;
+    if (upper == kNoJoint) return false;
+    if (lower == kNoJoint) return endsAt(rig, upper);
     return namedJoint(rig, parts[2], side, kNamedLimb) != kNoJoint || endsAt(rig, lower);
 }
 

@@ -1,0 +1,96 @@
+#include <glm/gtc/quaternion.hpp>
+#include <string>
+#include <vector>
+
+#include "animation/humanoid/map_humanoid.hpp"
+#include "rig_variations.hpp"
+#include "support/catch.hpp"
+#include "support/rigs.hpp"
+
+// Figures of blocks, with one joint for each limb, in poses.
+namespace lutka::test {
+namespace {
+
+using animation::HumanoidMap;
+using animation::Role;
+
+const quat kUpright(1, 0, 0, 0);
+
+quat aboutX(float angle) {
+    return glm::angleAxis(radians(angle), vec3(1, 0, 0));
+}
+
+// Its legs and arms point that way on the left, its head to the crown; the whole is turned as told. It faces +Z.
+struct BlockPose {
+    vec3 leg{0, -1, 0};
+    vec3 arm{0, -1, 0};
+    quat whole = kUpright;
+    vec3 crown{0, 1.95F, 0};
+};
+
+animation::Character blocks(const BlockPose& pose) {
+    std::vector<JointSpec> joints{{"character", -1, {0, 0, 0}},        {"Body", 0, {0, 0.75F, 0}},
+                                  {"Head", 1, {0, 1.5F, 0}},           {"Arm_Left", 1, {0.33F, 1.4F, 0}},
+                                  {"Arm_Right", 1, {-0.33F, 1.4F, 0}}, {"Leg_Left", 1, {0.12F, 0.75F, 0}},
+                                  {"Leg_Right", 1, {-0.12F, 0.75F, 0}}};
+    std::vector<TubeSpec> skin{{1, {0, 1.5F, 0}, 0.2F}, {2, pose.crown, 0.22F}};
+    for (const int joint : {3, 4, 5, 6}) {
+        vec3 way = 0.73F * glm::normalize(joint < 5 ? pose.arm : pose.leg);
+        if (joint == 4 || joint == 6) way.x = -way.x;
+        skin.push_back({joint, joints[static_cast<std::size_t>(joint)].position + way, 0.1F});
+    }
+    return rotated(makeFigure("blocks", joints, skin), pose.whole);
+}
+
+void checkMap(const BlockPose& pose) {
+    const HumanoidMap map = animation::mapHumanoid(blocks(pose));
+    INFO((map.warnings.empty() ? std::string() : map.warnings.front()));
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(Role::hips) == 1);
+    CHECK(map.jointOf(Role::head) == 2);
+    CHECK(map.jointOf(Role::leftUpperArm) == 3);
+    CHECK(map.jointOf(Role::rightUpperArm) == 4);
+    CHECK(map.jointOf(Role::leftUpperLeg) == 5);
+    CHECK(map.jointOf(Role::rightUpperLeg) == 6);
+}
+
+}  // namespace
+
+TEST_CASE("blocks with names of arms and legs map in any pose", "[blocks]") {
+    checkMap({});
+    SECTION("sitting on the floor") {
+        checkMap({.leg = {0, 0, 1}});
+    }
+    SECTION("kneeling") {
+        checkMap({.leg = {0, -0.1F, -1}});
+    }
+    SECTION("bowing") {
+        checkMap({.leg = {0, -0.5F, -0.87F}, .arm = {0, -0.5F, -0.87F}, .whole = aboutX(60)});
+    }
+    SECTION("leaning") {
+        checkMap({.whole = aboutX(45)});
+    }
+    SECTION("leaning to the side") {
+        checkMap({.whole = glm::angleAxis(radians(40.0F), vec3(0, 0, 1))});
+    }
+    SECTION("lying with the knees up") {
+        checkMap({.leg = {0, -0.4F, 0.9F}, .whole = aboutX(-90)});
+    }
+}
+
+TEST_CASE("legs of one joint in the splits do not tell the front", "[blocks]") {
+    checkMap({.leg = {1, -0.5F, -0.2F}, .crown = {0, 1.95F, -0.15F}});
+}
+
+TEST_CASE("blocks whose soles lie a little behind keep the sides of their names", "[blocks]") {
+    checkMap({.leg = {0, -1, -0.1F}});
+}
+
+TEST_CASE("blocks that stand on all fours are an animal with the names of a man", "[blocks][refusal]") {
+    // The same figure, level, on straight arms and legs.
+    const animation::Character animal = blocks({.leg = {0, 0, 1}, .arm = {0, 0, 1}, .whole = aboutX(90)});
+    CHECK_FALSE(animation::mapHumanoid(animal).humanoid);
+    CHECK_FALSE(animation::mapHumanoid(withoutNames(animal)).humanoid);
+}
+
+}  // namespace lutka::test
