@@ -72,6 +72,17 @@ bool fits(const Motion& motion, double start, double rate) {
     return off * 50 <= all;
 }
 
+// Poses are often saved as clips of minutes.
+bool standsStill(const Motion& motion) {
+    const auto moves = [](const std::optional<Curve>& curve) { return curve && curve->moves(); };
+    return std::none_of(motion.layers.begin(), motion.layers.end(), [&](const MotionLayer& layer) {
+        return moves(layer.weights) ||
+               std::any_of(layer.parts.begin(), layer.parts.end(), [&](const AnimatedPart& part) {
+                   return std::any_of(part.curves.begin(), part.curves.end(), moves);
+               });
+    });
+}
+
 struct Timing {
     double start = 0.0;  // seconds
     double rate = kLeastRate;
@@ -99,7 +110,7 @@ Timing timingOf(const Motion& motion, double fileRate) {
         }
     }
     const double frames = std::floor(std::max(0.0, stop - timing.start) * timing.rate + 1e-3) + 1.0;
-    timing.frames = static_cast<int>(std::min(frames, static_cast<double>(kMaxFrames) + 1.0));
+    timing.frames = standsStill(motion) ? 1 : static_cast<int>(std::min(frames, static_cast<double>(kMaxFrames) + 1.0));
     return timing;
 }
 

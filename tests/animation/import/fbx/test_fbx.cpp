@@ -261,6 +261,38 @@ TEST_CASE("FBX clips turn about the rotation's pivot, in the node's euler angles
     }
 }
 
+TEST_CASE("an FBX clip that stands still is one frame, however long it says it is") {
+    constexpr double kHours = 3.0 * 3600.0;  // more frames than any clip may have
+    const auto read = [&](double second) {
+        const FbxRecord curve{
+            "AnimationCurve",
+            {std::int64_t{11}, std::string("AnimCurve::"), std::string()},
+            {row("KeyTime", {0.0, kTicks}), row("KeyValueFloat", {10.0, second}), wholes("KeyAttrFlags", {4}),
+             row("KeyAttrDataFloat", {0, 0, 0, 0}), wholes("KeyAttrRefCount", {2})}};
+        const FbxRecord curveNode{
+            "AnimationCurveNode", {std::int64_t{10}, std::string("AnimCurveNode::R"), std::string()}, {}};
+        const FbxRecord stack{"AnimationStack",
+                              {std::int64_t{8}, std::string("AnimStack::Pose"), std::string()},
+                              {fbxProperties({{"LocalStop", {kHours * kTicks}}})}};
+        return readAll(document(
+            {model(7, "Arm", {}),
+             stack,
+             {"AnimationLayer", {std::int64_t{9}, std::string("AnimLayer::Base"), std::string()}, {}},
+             curveNode,
+             curve},
+            {fbxLink(7, 0), fbxLink(9, 8), fbxLink(10, 9), fbxLink(10, 7, "Lcl Rotation"), fbxLink(11, 10, "d|X")}));
+    };
+    const SourceScene still = read(10.0);
+    REQUIRE(still.clips.size() == 1);
+    REQUIRE(still.clips[0].channels.size() == 3);
+    CHECK(still.clips[0].channels[1].times.size() == 1);
+    CHECK(difference(parentFromNodes(still, still.clips[0], 0.0)[1], turn(10, 0)) < 1e-6);
+    CHECK(still.warnings.empty());
+    const SourceScene moving = read(20.0);
+    REQUIRE(moving.warnings.size() == 1);
+    CHECK(moving.warnings[0].find("is too long") != std::string::npos);
+}
+
 TEST_CASE("what an FBX 6 take states without keys holds while it plays") {
     const auto word = [](const char* name, const char* value, std::vector<FbxRecord> children) {
         return FbxRecord{name, {std::string(value)}, std::move(children)};
