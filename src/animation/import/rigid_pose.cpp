@@ -56,7 +56,14 @@ double RigidPoser::commonScale(std::span<const dmat4> sceneFromNode, std::span<c
     if (scales.empty()) return 1.0;
     const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
     std::nth_element(scales.begin(), middle, scales.end());
-    return *middle > 1e-9 && std::isfinite(*middle) ? *middle : 1.0;
+    const double scale = *middle;
+    if (!(scale > 1e-9) || !std::isfinite(scale)) return 1.0;
+    // Another unit is that of nearly all joints; what shrinks within a figure is no unit.
+    constexpr double kAlike = 0.05;
+    constexpr double kNearlyAll = 0.75;
+    const auto alike = std::count_if(scales.begin(), scales.end(),
+                                     [&](double other) { return std::abs(other / scale - 1.0) <= kAlike; });
+    return static_cast<double>(alike) >= kNearlyAll * static_cast<double>(scales.size()) ? scale : 1.0;
 }
 
 }  // namespace lutka::animation::rig_import

@@ -24,7 +24,7 @@ class RigidPoser {
                 std::span<RigidTransform> modelFromJoint) const;
 
     /// The median of the joints' scales in that pose against the bind pose, over the joints with `matters` set; 1
-    /// without any.
+    /// without any, or where a quarter of them differ from it.
     [[nodiscard]] double commonScale(std::span<const dmat4> sceneFromNode, std::span<const bool> matters) const;
 
   private:

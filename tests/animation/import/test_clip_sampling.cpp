@@ -14,21 +14,22 @@ using namespace lutka::test;
 
 namespace {
 
-constexpr int kMiddle = 2;  // nodes of the post's rig
+constexpr int kLow = 1;  // nodes of the post's rig
+constexpr int kMiddle = 2;
 constexpr int kHigh = 3;
 
 // A clip "swell" that scales a joint, which loses its matrix for it.
-GltfFile rigScaledBy(const std::vector<float>& keys, const std::string& interpolation) {
+GltfFile rigScaledBy(const std::vector<float>& keys, const std::string& interpolation, int node = kHigh) {
     GltfFile file = makePostRig();
-    file.json["nodes"][kHigh].erase("matrix");
-    file.json["nodes"][kHigh]["translation"] = {0, 0.6, 0};
+    file.json["nodes"][node].erase("matrix");
+    file.json["nodes"][node]["translation"] = {0, node == kLow ? 0.0 : 0.6, 0};
     const std::vector<float> times = {0.0F, 1.0F};
     file.json["animations"] = {{{"name", "swell"},
                                 {"samplers",
                                  {{{"input", file.addFloats(times, "SCALAR")},
                                    {"output", file.addFloats(keys, "VEC3")},
                                    {"interpolation", interpolation}}}},
-                                {"channels", {{{"sampler", 0}, {"target", {{"node", kHigh}, {"path", "scale"}}}}}}}};
+                                {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", "scale"}}}}}}}};
     return file;
 }
 
@@ -85,6 +86,30 @@ TEST_CASE("a clip that keys the scale that its joints have is told nothing of") 
 TEST_CASE("a scale that keys hold and tangents do not is dropped with its figure") {
     const std::vector<float> swelling = {0, 0, 0, 1, 1, 1, 4, 4, 4, -4, -4, -4, 1, 1, 1, 0, 0, 0};
     CHECK(warns(sampledRig(rigScaledBy(swelling, "CUBICSPLINE")), "'swell' scales joints by up to 100 %"));
+}
+
+TEST_CASE("a clip of another size than its figure is brought to it, a part that shrinks in one is not") {
+    const std::vector<float> half(6, 0.5F);
+    const auto topOf = [](const Character& character) {
+        const Clip& clip = character.clips[0];
+        const auto joints = static_cast<std::size_t>(character.skeleton.jointCount());
+        std::vector<RigidTransform> modelFromJoint(joints);
+        localToModel(character.skeleton, std::span(clip.parentFromJoint).first(joints), modelFromJoint);
+        return modelFromJoint[static_cast<std::size_t>(findJoint(character.skeleton, "high"))].translation.y;
+    };
+    const auto bindOf = [](const Character& character, const char* name) {
+        const int joint = findJoint(character.skeleton, name);
+        return character.skeleton.bindModelFromJoint[static_cast<std::size_t>(joint)].translation.y;
+    };
+    const Character whole = sampledRig(rigScaledBy(half, "LINEAR", kLow));
+    const float bindTop = bindOf(whole, "high");
+    CHECK(warns(whole, "'swell' is 0.5 times the size of the bind pose"));
+    CHECK(topOf(whole) == Approx(bindTop));
+    const Character part = sampledRig(rigScaledBy(half, "LINEAR", kMiddle));
+    const float middle = bindOf(part, "middle");
+    CHECK(warns(part, "'swell' scales joints by up to 50 %"));
+    CHECK_FALSE(warns(part, "times the size of the bind pose"));
+    CHECK(topOf(part) == Approx(middle + 0.5F * (bindTop - middle)));
 }
 
 TEST_CASE("a joint that turns below an uneven scale shears, which is dropped with its figure") {
