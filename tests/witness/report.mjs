@@ -113,7 +113,9 @@ const library = path.join(folder, `${stem}.library`);
 fs.rmSync(library, { recursive: true, force: true });
 fs.mkdirSync(library, { recursive: true });
 // With what lies beside the model under names that begin like its own: it may be a part of it.
-const parts = fs.readdirSync(path.dirname(model)).filter((name) => name.startsWith(stem));
+const models = ['.glb', '.gltf', '.vrm', '.fbx', '.dae', '.bvh'];
+const isOther = (name) => name !== path.basename(model) && models.includes(path.extname(name).toLowerCase());
+const parts = fs.readdirSync(path.dirname(model)).filter((name) => name.startsWith(stem) && !isOther(name));
 for (const name of ['a', 'b']) {
   fs.mkdirSync(path.join(library, name), { recursive: true });
   for (const part of parts) fs.copyFileSync(path.join(path.dirname(model), part), path.join(library, name, part));
