@@ -43,5 +43,7 @@ checks.that(Object.values(last).every((b) => [...b.p, ...b.q].every(Number.isFin
 checks.that(start < 1e-3, `the start is ours: off by ${start}`);
 checks.fact(`separation ${(1000 * separation).toFixed(1)} mm at most, past limits ${deg(violations[Math.floor(0.99 * violations.length)])} degrees p99, ${deg(violations.at(-1))} at most`);
 checks.fact(`rests at ${rest.toFixed(3)} m, ours at ${ours.toFixed(3)} m`);
-checks.that(Math.abs(rest - ours) < 0.05, `height of the centre of mass at rest: ${rest}, ours ${ours}`);
+// Ours begins upright: a creature may come to rest on another side.
+const most = process.env.LUTKA_RIG === 'any' ? 0.15 * profile.heightM : 0.05;
+checks.that(Math.abs(rest - ours) < most, `height of the centre of mass at rest: ${rest}, ours ${ours}`);
 checks.end();

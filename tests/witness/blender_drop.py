@@ -1,12 +1,12 @@
 # Runs in Blender after an exported script: `blender -b --python-exit-code 1 --python blender_drop.py -- DOLL.py OUT.json`.
-# Lays the doll on its back 1 m up, steps 6 s and tells every body's place, as (x, y, z) and (x, y, z, w) of our body frame.
+# Lays the doll on its back 1 m up, or higher where it hangs down farther, steps 6 s and tells every body's place, as (x, y, z) and (x, y, z, w) of our body frame.
 import json
 import runpy
 import sys
 from math import pi
 
 import bpy
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 
 script, out = sys.argv[sys.argv.index('--') + 1:]
 for thing in list(bpy.data.objects):
@@ -14,8 +14,10 @@ for thing in list(bpy.data.objects):
 built = runpy.run_path(script, run_name='doll')
 bodies = built['build']()
 built['add_floor']()
-turn = Matrix.Translation((0, 0, 1)) @ Matrix.Rotation(-pi / 2, 4, 'X')
 bpy.context.view_layer.update()
+lying = Matrix.Rotation(-pi / 2, 4, 'X')
+lowest = min((lying @ body.matrix_world @ Vector(corner)).z for body in bodies.values() for corner in body.bound_box)
+turn = Matrix.Translation((0, 0, max(1, 0.2 - lowest))) @ lying
 for thing in bpy.data.objects:
     if thing.name != 'floor':
         thing.matrix_world = turn @ thing.matrix_world
