@@ -93,13 +93,18 @@ class PairFinder {
         return std::max(ownSeparation(a, b), std::abs(centroids_[a].x - centroids_[b].x));
     }
 
-    // Named as a part of the trunk: two of these in one place are a spine and its copy (of a control rig), no limbs.
+    // Named as a part of the trunk.
     [[nodiscard]] bool isTrunk(int joint) const {
         constexpr float kNamed = 1.0F;
         constexpr std::array<Part, 5> kTrunk{Part::hips, Part::trunk, Part::chest, Part::neck, Part::head};
         const NameEvidence& said = rig_.names[joint];
         const auto tells = [&](Part part) { return said.parts[part] >= kNamed; };
         return said.side == Side::center && std::any_of(kTrunk.begin(), kTrunk.end(), tells);
+    }
+
+    // What lies in one place with a part of the trunk is its copy or its control (of a control rig), no limb.
+    [[nodiscard]] bool isTrunkAndCopy(int a, int b) const {
+        return (isTrunk(a) || isTrunk(b)) && ownSeparation(a, b) < kMinSeparation * framed_.spread;
     }
 
     // How many joints lie on the way from one to the other; two hierarchies count as children of one joint.
@@ -170,7 +175,7 @@ class PairFinder {
                 const float error =
                     glm::distance(mirrored(framed_.positions[a]), framed_.positions[b]) / framed_.spread;
                 if (error > kMaxError || separation(a, b) < kMinSeparation * framed_.spread) continue;
-                if (isTrunk(a) && isTrunk(b) && ownSeparation(a, b) < kMinSeparation * framed_.spread) continue;
+                if (isTrunkAndCopy(a, b)) continue;
                 const bool above = rig_.isAncestorOrSelf(a, b) || rig_.isAncestorOrSelf(b, a);
                 if (above && nameCost(rig_.names[a], rig_.names[b]) >= 0.0F) continue;
                 const float below = glm::distance(mirrored(centroids_[a]), centroids_[b]) / framed_.spread;
@@ -195,7 +200,7 @@ class PairFinder {
         for (const int a : rig_.children[parentA]) {
             for (const int b : rig_.children[parentB]) {
                 if (a == b || (parentA == parentB && a > b)) continue;
-                if (framed_.pairOf[a] >= 0 || framed_.pairOf[b] >= 0) continue;
+                if (framed_.pairOf[a] >= 0 || framed_.pairOf[b] >= 0 || isTrunkAndCopy(a, b)) continue;
                 const float lengthA = glm::distance(framed_.positions[a], framed_.positions[parentA]);
                 const float lengthB = glm::distance(framed_.positions[b], framed_.positions[parentB]);
                 const float floor = 0.01F * framed_.spread;

@@ -136,6 +136,52 @@ TEST_CASE("what a leg starts at is no foot of it", "[controls]") {
     CHECK(rig.nameOf(map, Role::rightFoot) == "none");
 }
 
+TEST_CASE("hips are no pair with the control in their place, whatever hangs on either", "[controls]") {
+    NamedRig rig;
+    rig.add("RootNode", "", {0, 0, 0});
+    rig.add("Rig_Reference", "RootNode", {0, 0, 0});
+    rig.add("Rig_Hips", "Rig_Reference", {0, 0.9F, 0.1F}, {0, 0.85F, 0}, 0.14F);
+    rig.add("Rig_Spine", "Rig_Hips", {0, 1.0F, 0.04F});
+    rig.add("Rig_Spine1", "Rig_Spine", {0, 1.1F, 0.01F}, {0, 1.2F, 0}, 0.12F);
+    rig.add("Rig_Spine2", "Rig_Spine1", {0, 1.25F, 0}, {0, 1.45F, 0}, 0.15F);
+    rig.add("Rig_Neck", "Rig_Spine2", {0, 1.5F, 0}, {0, 1.58F, 0}, 0.05F);
+    rig.add("Rig_Head", "Rig_Neck", {0, 1.58F, 0}, {0, 1.78F, 0}, 0.09F);
+    rig.add("Rig_@_Arm", "Rig_Spine2", kShoulder, kElbow, 0.05F);
+    rig.add("Rig_@_ForeArm", "Rig_@_Arm", kElbow, kWrist, 0.04F);
+    rig.add("Rig_@_Hand", "Rig_@_ForeArm", kWrist, kWrist + vec3(0.15F, 0, 0), 0.04F);
+    rig.add("Rig_@_UpLeg", "Rig_Hips", kHip, kKnee, 0.07F);
+    rig.add("Rig_@_Leg", "Rig_@_UpLeg", kKnee, kAnkle, 0.05F);
+    rig.add("Rig_@_Foot", "Rig_@_Leg", kAnkle, {0.1F, 0.03F, 0.15F}, 0.05F);
+    rig.add("Rig_r_Hand_tip", "Rig_r_Hand", {-0.9F, 1.42F, 0});
+    // Of the controls' copy only the first two joints were saved in their places.
+    rig.add("Rig_Ctrl_Reference", "RootNode", {0, 0, 0});
+    rig.add("Rig_Ctrl_Hips", "Rig_Ctrl_Reference", {0, 0.9F, 0.1F});
+    const vec3 lost(0.2F, 1.0F, 0.0F);
+    const auto copy = [&](const std::string& name, const std::string& parent) {
+        rig.add("Rig_Ctrl_" + name, "Rig_Ctrl_" + parent, lost);
+    };
+    for (const char* side : {"l_", "r_"}) {
+        copy(std::string(side) + "UpLeg", "Hips");
+        copy(std::string(side) + "Leg", std::string(side) + "UpLeg");
+        copy(std::string(side) + "Foot", std::string(side) + "Leg");
+    }
+    copy("Spine", "Hips");
+    copy("Spine1", "Spine");
+    copy("Spine2", "Spine1");
+    copy("Neck", "Spine2");
+    copy("Head", "Neck");
+    for (const char* side : {"l_", "r_"}) {
+        copy(std::string(side) + "Arm", "Spine2");
+        copy(std::string(side) + "ForeArm", std::string(side) + "Arm");
+        copy(std::string(side) + "Hand", std::string(side) + "ForeArm");
+    }
+    const HumanoidMap map = rig.map();
+    REQUIRE(map.humanoid);
+    CHECK(rig.nameOf(map, Role::hips) == "Rig_Hips");
+    CHECK(rig.nameOf(map, Role::chest) == "Rig_Spine2");
+    CHECK(rig.nameOf(map, Role::leftUpperLeg) == "Rig_l_UpLeg");
+}
+
 TEST_CASE("where a prefix tells which joint drives which, what bears it takes no role", "[controls]") {
     NamedRig rig;
     rig.add("c_traj", "", {0, 0, 0});
