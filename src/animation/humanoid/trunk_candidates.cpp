@@ -101,6 +101,7 @@ class TrunkFinder {
             const bool otherPart = name.meaningful && name.parts[Part::trunk] < 0.0F && name.parts[Part::chest] < 0.0F;
             if (isCentral(joint) && between && !name.helper && !otherPart) joints.push_back(joint);
         }
+        if (joints.empty() && rig_.parents[trunk.chest] == rig_.parents[trunk.hips]) joints = spineBeside(trunk, low);
         // Unskinned joints only where the spine has no others.
         const auto skinned = [&](int joint) { return ownSkin(joint) > 0.0F; };
         if (std::any_of(joints.begin(), joints.end(), skinned)) {
@@ -112,6 +113,20 @@ class TrunkFinder {
     }
 
   private:
+    // In a flat hierarchy the spine's joints hang beside hips and chest: names tell them. Highest first.
+    [[nodiscard]] std::vector<int> spineBeside(const TrunkCandidate& trunk, float low) const {
+        std::vector<int> joints;
+        if (rig_.parents[trunk.chest] == kNoJoint) return joints;
+        for (const int joint : rig_.children[rig_.parents[trunk.chest]]) {
+            const bool between = position(joint).y > low && position(joint).y < position(trunk.chest).y;
+            const bool other = joint != trunk.hips && joint != trunk.chest && joint != trunk.head;
+            if (other && between && isCentral(joint) && isNamedTrunk(joint) && name(joint, Part::trunk) > 0.0F)
+                joints.push_back(joint);
+        }
+        std::sort(joints.begin(), joints.end(), [this](int a, int b) { return position(a).y > position(b).y; });
+        return joints;
+    }
+
     // What of the score comes from names and from joints that are not there.
     void account(TrunkCandidate& trunk) const {
         trunk.names = name(trunk.hips, Part::hips) + name(trunk.chest, Part::chest);
