@@ -113,17 +113,28 @@ class TrunkFinder {
     }
 
   private:
-    // In a flat hierarchy the spine's joints hang beside hips and chest: names tell them. Highest first.
+    // In a flat hierarchy the spine's joints hang beside hips and chest: names tell them. Highest first; of those at
+    // one height (a belly before the back) the one with more skin.
     [[nodiscard]] std::vector<int> spineBeside(const TrunkCandidate& trunk, float low) const {
-        std::vector<int> joints;
-        if (rig_.parents[trunk.chest] == kNoJoint) return joints;
+        constexpr float kApart = 0.1F;  // of the trunk
+        std::vector<int> found;
+        if (rig_.parents[trunk.chest] == kNoJoint) return found;
+        const float high = position(trunk.chest).y - kApart * length_;
         for (const int joint : rig_.children[rig_.parents[trunk.chest]]) {
-            const bool between = position(joint).y > low && position(joint).y < position(trunk.chest).y;
-            const bool other = joint != trunk.hips && joint != trunk.chest && joint != trunk.head;
+            const bool between = position(joint).y > low && position(joint).y < high;
+            const bool other = joint != trunk.hips && joint != trunk.head;
             if (other && between && isCentral(joint) && isNamedTrunk(joint) && name(joint, Part::trunk) > 0.0F)
-                joints.push_back(joint);
+                found.push_back(joint);
         }
-        std::sort(joints.begin(), joints.end(), [this](int a, int b) { return position(a).y > position(b).y; });
+        std::sort(found.begin(), found.end(), [this](int a, int b) { return position(a).y > position(b).y; });
+        std::vector<int> joints;
+        for (const int joint : found) {
+            if (joints.empty() || position(joints.back()).y - position(joint).y > kApart * length_) {
+                joints.push_back(joint);
+            } else if (ownSkin(joint) > ownSkin(joints.back())) {
+                joints.back() = joint;
+            }
+        }
         return joints;
     }
 

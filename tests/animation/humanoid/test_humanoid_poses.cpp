@@ -214,8 +214,16 @@ TEST_CASE("a flat hierarchy maps by names and places", "[poses]") {
     for (int joint = 1; joint < skeleton.jointCount(); ++joint)
         skeleton.parents[joint] = 0;
     checkWhole(rig);
-    const HumanoidMap map = animation::mapHumanoid(rig.character);
     const HumanoidMap hanging = animation::mapHumanoid(makeSyntheticRig(kConvention).character);
+    // A belly before the spine is none of its joints.
+    skeleton.names.emplace_back("belly");
+    skeleton.parents.push_back(0);
+    skeleton.bindModelFromJoint.push_back(skeleton.bindModelFromJoint[jointOf(rig, Role::hips)]);
+    skeleton.bindModelFromJoint.back().translation =
+        skeleton.bindModelFromJoint[hanging.jointOf(Role::spine)].translation + vec3(0, 0.01F, 0.1F);
+    skeleton.nodeParentFromJoint.emplace_back();
+    skeleton.skinWeight.push_back(20.0F);
+    const HumanoidMap map = animation::mapHumanoid(rig.character);
     for (const Role role : {Role::leftToes, Role::rightToes, Role::spine, Role::chest, Role::upperChest})
         CHECK(map.jointOf(role) == hanging.jointOf(role));
 }
