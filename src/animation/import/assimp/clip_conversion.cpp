@@ -10,8 +10,9 @@
 namespace lutka::animation::rig_import {
 namespace {
 
-// Assimp's own default for files that don't say how long a tick is.
+// Assimp's own default for files that don't say how long a tick is, and DirectX's.
 constexpr double kDefaultTicksPerSecond = 25.0;
+constexpr double kDirectXTicksPerSecond = 4800.0;
 
 // The nodes that a skin moves.
 std::vector<bool> skinnedNodes(const SourceScene& scene) {
@@ -79,11 +80,46 @@ void silenceHelpers(const SourceScene& scene, int node, SourceClip& clip) {
     }
 }
 
+// Calls visit with the times of all keys of each part of each channel.
+template <class Visit>
+void forEachTrack(const aiAnimation& animation, Visit visit) {
+    const auto timesOf = [&](const auto* keys, unsigned count) {
+        std::vector<double> times;
+        times.reserve(count);
+        for (unsigned i = 0; i < count; ++i)
+            times.push_back(keys[i].mTime);
+        visit(times);
+    };
+    for (unsigned c = 0; c < animation.mNumChannels; ++c) {
+        const aiNodeAnim& channel = *animation.mChannels[c];
+        timesOf(channel.mPositionKeys, channel.mNumPositionKeys);
+        timesOf(channel.mRotationKeys, channel.mNumRotationKeys);
+        timesOf(channel.mScalingKeys, channel.mNumScalingKeys);
+    }
+}
+
+// Where a .x says nothing, exporters mean frames or DirectX's own ticks: those where no keys of a track are nearer to
+// each other than 1/120 s of them, which would be more than a second of frames. Two keys tell nothing.
+double unstatedTicksPerSecond(const aiAnimation& animation) {
+    constexpr double kLeastGap = kDirectXTicksPerSecond / 120.0;
+    constexpr std::size_t kFewestKeys = 3;
+    bool told = false;
+    bool dense = false;
+    forEachTrack(animation, [&](const std::vector<double>& times) {
+        if (times.size() < kFewestKeys) return;
+        told = true;
+        for (std::size_t i = 1; i < times.size(); ++i)
+            dense = dense || times[i] - times[i - 1] < kLeastGap;
+    });
+    return told && !dense ? kDirectXTicksPerSecond : kDefaultTicksPerSecond;
+}
+
 SourceClip clipOf(const aiAnimation& animation, const SceneNodes& nodes, const std::vector<bool>& skinned,
                   const SourceScene& scene) {
     SourceClip clip;
     clip.name = animation.mName.C_Str();
-    const double tick = 1.0 / (animation.mTicksPerSecond > 0.0 ? animation.mTicksPerSecond : kDefaultTicksPerSecond);
+    const double tick =
+        1.0 / (animation.mTicksPerSecond > 0.0 ? animation.mTicksPerSecond : unstatedTicksPerSecond(animation));
     const std::vector<int> nodeOf = nodesOfChannels(animation, nodes, skinned);
     for (unsigned c = 0; c < animation.mNumChannels; ++c) {
         if (nodeOf[c] < 0) continue;
