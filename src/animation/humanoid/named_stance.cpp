@@ -36,8 +36,21 @@ bool isNamedHips(const RigFeatures& rig) {
     return namedJoint(rig, Part::hips, Side::center, kNamedTrunkEnd) != kNoJoint;
 }
 
+// A limb of one or two joints ends at the last: nothing that moves skin hangs on it.
+bool endsAt(const RigFeatures& rig, int joint) {
+    const std::vector<int>& below = rig.children[joint];
+    return std::none_of(below.begin(), below.end(), [&](int child) { return rig.carriesSkin(child); });
+}
+
+// The last of a neck's joints carries the head.
 bool isNamedHead(const RigFeatures& rig) {
-    return namedJoint(rig, Part::head, Side::center, kNamedTrunkEnd) != kNoJoint;
+    if (namedJoint(rig, Part::head, Side::center, kNamedTrunkEnd) != kNoJoint) return true;
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        const NameEvidence& name = rig.names[joint];
+        const bool neck = name.side == Side::center && !name.helper && name.parts[Part::neck] >= kNamedTrunkEnd;
+        if (neck && rig.carriesSkin(joint) && endsAt(rig, joint)) return true;
+    }
+    return false;
 }
 
 // Many rigs call the hips "root" or count them to the spine: then they are the joint that both thighs hang on, with so
@@ -59,12 +72,6 @@ bool hasFace(const RigFeatures& rig) {
 bool namesTrunk(const RigFeatures& rig) {
     if (isNamedHead(rig)) return isNamedHips(rig) || carriesThighs(rig, 1);
     return hasFace(rig) && (isNamedHips(rig) || carriesThighs(rig, 0));
-}
-
-// A limb of one or two joints ends at the last: nothing that moves skin hangs on it.
-bool endsAt(const RigFeatures& rig, int joint) {
-    const std::vector<int>& below = rig.children[joint];
-    return std::none_of(below.begin(), below.end(), [&](int child) { return rig.carriesSkin(child); });
 }
 
 bool namesLimb(const RigFeatures& rig, const std::array<Part, 3>& parts, Side side) {

@@ -88,6 +88,13 @@ TEST_CASE("a figure crouches whose hips are called root and carry a half of the 
     checkWhole(crouching(std::move(rig)));
 }
 
+TEST_CASE("a figure crouches whose head is called the last joint of its neck", "[poses]") {
+    SyntheticRig rig = makeSyntheticRig("xsens");
+    rig.character.skeleton.names[jointOf(rig, Role::head)] = "Neck2";
+    rig.truth.roles[indexOf(Role::head)] = std::vector<std::string>{"Neck2"};
+    checkWhole(crouching(std::move(rig)));
+}
+
 TEST_CASE("a figure crouches that could have a tail, whose joints move nothing", "[poses]") {
     SyntheticRig rig = makeSyntheticRig(kPosturesOf);
     animation::Skeleton& skeleton = rig.character.skeleton;
