@@ -79,6 +79,13 @@ LUTKA_LANES unsigned bits(const Mask& mask) {
     return set;
 #endif
 }
+/// The lanes whose bits are set.
+LUTKA_LANES Mask lanesOf(unsigned set) {
+    Mask mask = noLanes();
+    for (int lane = 0; lane < LUTKA_LANE_COUNT; ++lane)
+        mask[lane] = (set >> static_cast<unsigned>(lane) & 1U) != 0 ? -1 : 0;
+    return mask;
+}
 
 struct V3 {
     F x, y, z;

@@ -41,6 +41,13 @@ LUTKA_LANES OwnAnswer answerOfOwn(const PairContactLanes& pair, F approach, F of
     return {sinks | leaves, pushed * gained > zero ? shown : mass, bound};
 }
 
+// The lanes in which a contact within a doll was part of a sweep that has given the doll energy: together they were too
+// much.
+LUTKA_LANES Mask overshoots(const PairContactLanes& pair, const PairBodies& bodies) {
+    const F rises = readRows(bodies.frames, pair.bodyA, kPlaceRow).column[kRisesColumn];
+    return isOwn(pair) & (rises > all(0.0F)) & (load(pair.carriedNormal) != all(0.0F));
+}
+
 // One sweep over what is still wrong by more than a little. Friction waits for the next substep.
 static void pressAgain(PairsView& view, const SubstepParams& params, int sweep) {
     const PairBodies& bodies = view.bodies;
@@ -54,13 +61,15 @@ static void pressAgain(PairsView& view, const SubstepParams& params, int sweep) 
         const F approach = dot(load(pair.normal), slidingOf(pair, v));
         const F off = approach + contactBias(load(pair.separation), params, 0);
         const Mask wrong = (off < -tolerance) | ((before > zero) & (off > tolerance));
-        if (bits(wrong & isOfDolls(pair)) == 0) continue;
+        const Mask over = sweep > 0 && pair.answered == sweep ? overshoots(pair, bodies) : noLanes();
+        if (bits((wrong & isOfDolls(pair)) | over) == 0) continue;
         makeReady(pair, bodies);
         const Mask struck = sweep < params.answerSweeps ? wrong & strikes(pair) : noLanes();
         const OwnAnswer own = answerOfOwn(pair, approach, off, params, sweep);
         const Mask pressed = sweep < params.ownSweeps ? own.wrong : noLanes();
         const F asked = most(before - (pressed ? own.mass : load(pair.normalMass)) * off, zero);
-        const F total = pressed ? least(asked, own.bound) : (struck ? asked : before);
+        const F answered = pressed ? least(asked, own.bound) : (struck ? asked : before);
+        const F total = over ? most(before - all(0.5F) * load(pair.carriedNormal), zero) : answered;
         if (bits(total != before) == 0) continue;
         view.changed[view.changedCount++] = view.live[i];
         pair.answered = sweep + 1;

@@ -163,6 +163,8 @@ LUTKA_LANES void makeReady(PairContactLanes& pair, const PairBodies& bodies) {
     preparePair(pair, bodies, false);
 }
 
+constexpr unsigned kAllLanes = (1U << kLanes) - 1U;
+
 // Places a contact where its bodies are now: the touching points, how far apart the surfaces are, the arms. Both bodies
 // are pushed at one point, so that no torque comes from nowhere.
 struct Arms {
@@ -176,7 +178,12 @@ LUTKA_LANES Arms placePair(PairContactLanes& pair, const PairBodies& bodies, boo
     const V3 between = first3(placeA) - first3(placeB);
     const V3 axisA = second3(placeA);
     const V3 axisB = second3(placeB);
-    if (pair.follows != 0 && !isFirst) {
+    const unsigned followed = isFirst ? 0U : pair.follows;
+    if (followed != kAllLanes) {
+        coreA = coreOf(bodies, pair.bodyA, axisA, load(pair.localA), pair.onAxisY);
+        coreB = coreOf(bodies, pair.bodyB, axisB, load(pair.localB), pair.onAxisY);
+    }
+    if (followed != 0) {
         const F one = all(1.0F), two = all(2.0F), zero = all(0.0F);
         const F halfA = placeA.column[kHalfColumn];
         const F halfB = placeB.column[kHalfColumn];
@@ -187,15 +194,21 @@ LUTKA_LANES Arms placePair(PairContactLanes& pair, const PairBodies& bodies, boo
         const F side = through ? -one : one;
         const F alongA = (two * at.s - one) * halfA;
         const F alongB = (two * at.t - one) * halfB;
-        const Mask used = hasContact(pair);
-        store(pair.normal, choose(used, at.normal * side, before));
-        store(pair.localA.y, alongA);
-        store(pair.localB.y, alongB);
-        coreA = axisA * alongA;
-        coreB = axisB * alongB;
-    } else {
-        coreA = coreOf(bodies, pair.bodyA, axisA, load(pair.localA), pair.onAxisY);
-        coreB = coreOf(bodies, pair.bodyB, axisB, load(pair.localB), pair.onAxisY);
+        const V3 normal = choose(hasContact(pair), at.normal * side, before);
+        if (followed == kAllLanes) {
+            store(pair.normal, normal);
+            store(pair.localA.y, alongA);
+            store(pair.localB.y, alongB);
+            coreA = axisA * alongA;
+            coreB = axisB * alongB;
+        } else {
+            const Mask follows = lanesOf(followed);
+            store(pair.normal, choose(follows, normal, before));
+            store(pair.localA.y, follows ? alongA : load(pair.localA.y));
+            store(pair.localB.y, follows ? alongB : load(pair.localB.y));
+            coreA = choose(follows, axisA * alongA, coreA);
+            coreB = choose(follows, axisB * alongB, coreB);
+        }
     }
     const V3 apart = between + (coreA - coreB);
     store(pair.separation, dot(load(pair.normal), apart) - radius);

@@ -221,27 +221,68 @@ Bounds worldBounds(const Doll& doll, float dt, float farther) {
 
 namespace {
 
+// m/s: what is stopped from that speed within a step lets the other bodies of its doll come nearer by as much.
+constexpr float kHardHit = 5.0F;
+
+// The lanes whose limp doll is about to hit static geometry hard.
+unsigned hardHits(const CrowdState& state, const Batch& batch, float dt) {
+    unsigned hits = 0;
+    const auto isFast = [&](int lane) {
+        return batch.substepsOf[lane] == state.tuning.substeps && state.dolls[batch.doll[lane]].motors == 0;
+    };
+    const auto add = [&](int lane, float speed) {
+        hits |= (speed > kHardHit ? 1U : 0U) << static_cast<unsigned>(lane);
+    };
+    for (const NearMotion& at : batch.nearMotions)
+        if (isFast(at.lane)) add(at.lane, glm::length(at.velocity));
+    for (int lane = 0; lane < batch.used; ++lane) {
+        if (!isFast(lane)) continue;
+        for (const StaticContactLanes& contact : batch.contacts) {
+            if (contact.key[lane] == 0) continue;
+            const vec3 normal = readVector(contact.normal, lane);
+            const BodyState body = readBody(batch.bodies[contact.body], lane);
+            const vec3 arm = body.worldFromBody.rotation * readVector(contact.localPoint, lane);
+            const float approach = -glm::dot(normal, body.linearVelocity + glm::cross(body.angularVelocity, arm));
+            const float separation = glm::dot(normal, body.worldFromBody.translation + arm) -
+                                     contact.offset.lane[lane] - contact.radius.lane[lane];
+            if (separation < kForesight * approach * dt) add(lane, approach);
+        }
+    }
+    return hits;
+}
+
 void findSelfContacts(CrowdState& state, Batch& batch, const BatchView& view, const Topology& topology, float dt,
                       std::vector<PairTouch>& out) {
     renewRoom(out, out.size());
     const TouchRange range = touchRange(state, dt);
+    const unsigned hits = hardHits(state, batch, dt);
+    TouchRange farther = range;
+    farther.margin += kHardHit * dt;
     const std::vector<SelfPair>& pairs = topology.selfPairs;
     std::vector<unsigned char>& masks = batch.selfMasks;
     masks.resize(pairs.size());
     state.kernels->findSelfPairs(view, pairs.data(), static_cast<int>(pairs.size()), masks.data());
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (masks[i] == 0) continue;
+        const unsigned meeting = masks[i] | hits;
+        if (meeting == 0) continue;
         const auto [bodyA, bodyB] = pairs[i];
         CoreTouchLanes found;
         const bool cores = topology.isCore(bodyA) && topology.isCore(bodyB);
-        const unsigned near = masks[i] & (!cores ? ~0U : state.kernels->touchOwnCores(view, pairs[i], range, found));
+        const auto nearLanes = [&](const TouchRange& within, unsigned lanes) {
+            if (lanes == 0) return 0U;
+            return cores ? lanes & state.kernels->touchOwnCores(view, pairs[i], within, found) : lanes;
+        };
+        unsigned near = nearLanes(range, meeting & ~hits);
+        near |= nearLanes(farther, hits);
         for (int lane = 0; lane < batch.used; ++lane) {
-            if ((near >> static_cast<unsigned>(lane) & 1U) == 0) continue;
+            const unsigned bit = 1U << static_cast<unsigned>(lane);
+            if ((near & bit) == 0) continue;
             const BodyRef a{batch.doll[lane], bodyA};
             const BodyRef b{batch.doll[lane], bodyB};
             const Doll& doll = state.dolls[a.doll];
             if (!cores)
-                collideShapes(state, a, stepBody(state, doll, bodyA), b, stepBody(state, doll, bodyB), range, out);
+                collideShapes(state, a, stepBody(state, doll, bodyA), b, stepBody(state, doll, bodyB),
+                              (hits & bit) != 0 ? farther : range, out);
             else
                 addTouch(state, a, b, 0, touchOf(found, lane), out);
         }
@@ -433,7 +474,7 @@ void findContacts(CrowdState& state, float dt) {
         for (std::size_t i = begin; i < end; ++i) {
             Batch& batch = *state.active[i];
             const Topology& topology = state.activeGroup[i]->topology;
-            findStatics(state, batch, topology, dt, dt / static_cast<float>(batch.substeps));
+            findStatics(state, batch, topology, {dt, dt / static_cast<float>(batch.substeps)});
             findSelfContacts(state, batch, batch.view(topology), topology, dt, state.selfTouches[i]);
         }
     });

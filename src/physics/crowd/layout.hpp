@@ -62,8 +62,8 @@ struct alignas(32) BodyMotion {
 /// What else they need of it, in rows of the same kind. What rests on a body passes its support on.
 struct alignas(32) BodyFrame {
     float position[3], axisY[3];
-    float half;  ///< Half length of its core along the body's y, where that is a capsule or sphere.
-    float unused0;
+    float half;   ///< Half length of its core along the body's y, where that is a capsule or sphere.
+    float rises;  ///< 1 where its doll has more energy after its last answer than before it; else 0.
     float inverseInertia[6], unused1[2];  ///< As in WideSymmetric.
     float support[3], axisX[3], unused2[2];
 };
@@ -268,10 +268,11 @@ struct PairContactLanes {
     Wide friction;         ///< 0 where the lane is empty.
     Wide3 localA, localB;  ///< The touching points of the cores.
     int onAxisY;           ///< Whether all touching points lie on the bodies' y, as those of capsules do.
-    int follows;   ///< Whether all are of capsules and spheres: points and normal are found anew in every substep.
-    int ready;     ///< Whether directions and masses are those of this substep.
-    int answered;  ///< The sweep, counted from 1, in which any was last pressed again in this substep; 0: in none.
-    Wide load;     ///< What was carried into this substep: see grownLoad().
+    unsigned follows;  ///< A bit mask of the lanes of capsules and spheres: points and normal are found anew in every
+                       ///< substep.
+    int ready;         ///< Whether directions and masses are those of this substep.
+    int answered;      ///< The sweep, counted from 1, in which any was last pressed again in this substep; 0: in none.
+    Wide load;         ///< What was carried into this substep: see grownLoad().
     // what a push needs,
     Wide3 armA, armB;
     Wide kind;  ///< A PairKind.

@@ -23,7 +23,7 @@ void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTou
     const PrimitiveShape& shapeB = state.groupOf(b).topology.shapeOf(touch.bodyB, touch.shapeB);
     // Only a core about its body's centre can be followed.
     const bool follows = !shapeA.isAngular() && !shapeB.isAngular() && touch.shapeA == 0 && touch.shapeB == 0;
-    if (!follows) pair.follows = 0;
+    if (!follows) pair.follows &= ~(1U << static_cast<unsigned>(lane));
     pair.radius.lane[lane] = touch.touch.radius;
     writeVector(pair.normal, lane, touch.touch.normal);
     const auto inverseMassOf = [&](const Doll& doll, int body) {
@@ -49,7 +49,8 @@ void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTou
 // A block without contacts, as far as fillLane() and the first substep do not set it: most of it is written when it is
 // first needed.
 void emptyBlock(PairContactLanes& pair) {
-    pair.onAxisY = pair.follows = 1;
+    pair.onAxisY = 1;
+    pair.follows = (1U << kLanes) - 1U;
     pair.ready = 0;
     pair.kind = pair.load = pair.normalMass = pair.tangentImpulse[0] = pair.tangentImpulse[1] = {};
 }

@@ -50,6 +50,7 @@ constexpr int kPlaceRow = 0;
 constexpr int kInertiaRow = 1;
 constexpr int kSupportRow = 2;
 constexpr int kHalfColumn = 6;  // of kPlaceRow
+constexpr int kRisesColumn = 7;
 
 LUTKA_LANES Columns columnsOf(const V3& first, const V3& second) {
     const F zero = all(0.0F);
@@ -86,6 +87,15 @@ static void showBodies(const BatchView& batch) {
                   columnsOf({inertia.xx, inertia.yy, inertia.zz}, {inertia.xy, inertia.xz, inertia.yz}));
         writeRows(frames, index, kSupportRow, columnsOf(load(body.support), load(body.axisX)));
     }
+}
+
+// Marks the bodies of the dolls in some lanes (BodyFrame::rises).
+static void showRises(const BatchView& batch, const Mask& rises) {
+    const unsigned lanes = bits(rises);
+    for (int i = 0; i < batch.pairedCount; ++i)
+        for (int lane = 0; lane < kLanes; ++lane)
+            batch.pairBodies.frames[batch.firstBody[lane] + batch.paired[i]].rises =
+                (lanes >> static_cast<unsigned>(lane) & 1U) != 0 ? 1.0F : 0.0F;
 }
 
 // What pair contacts have made of the bodies' velocities: the lanes in which any was pressed again, and those in which

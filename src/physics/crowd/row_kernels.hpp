@@ -69,7 +69,10 @@ struct OneSided {
 };
 LUTKA_LANES OneSided decideOneSided(F impulse, F rate, F bias, F weight, F gain, const Pass& pass) {
     const F zero = all(0.0F);
-    const Mask reached = impulse - weight * (rate + oneSidedBias(bias, noLanes(), pass)) > zero;
+    // What holds is judged with the weight that it has been solved with, and not with one that has grown since: many
+    // times a row's true mass makes of a slow parting a pull.
+    const F solved = gain > zero ? gain : weight;
+    const Mask reached = impulse - solved * (rate + oneSidedBias(bias, noLanes(), pass)) > zero;
     const Mask holds = reached | (pass.late & (gain > zero));
     const F wanted = impulse - weight * (rate + oneSidedBias(bias, holds, pass));
     return {holds, holds ? weight : zero, (holds ? wanted : zero) - impulse * pass.applied};

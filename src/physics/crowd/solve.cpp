@@ -10,6 +10,7 @@
 #include "physics/crowd/force.hpp"
 #include "physics/crowd/jobs.hpp"
 #include "physics/crowd/motor.hpp"
+#include "physics/crowd/own_contacts.hpp"
 #include "physics/crowd/own_load.hpp"
 #include "physics/crowd/packing.hpp"
 #include "physics/crowd/reports.hpp"
@@ -59,12 +60,12 @@ void keepStatics(CrowdState& state, Batch& batch) {
     }
 }
 
-// Looks for a batch's static contacts once more within a step, of which `seconds` are left.
-void findStaticsAgain(CrowdState& state, Batch& batch, const Topology& topology, float seconds, float substep) {
+// Looks for a batch's static contacts once more within a step.
+void findStaticsAgain(CrowdState& state, Batch& batch, const Topology& topology, const StaticSearch& search) {
     keepStatics(state, batch);
     if (state.settings.contactReports) closeSums(state, batch);
-    findBounds(state, batch, topology, seconds);
-    findStatics(state, batch, topology, seconds, substep);
+    findBounds(state, batch, topology, search.seconds);
+    findStatics(state, batch, topology, search);
     if (state.settings.contactReports) openSums(batch);
 }
 
@@ -87,6 +88,8 @@ class JobSubstep {
                 beginDrag(state_, *drag);
             forViews([&](const BatchView& view) { kernels.begin(view, params_); });
         }
+        if (params_.warmStart == 0 && !isSplit(job_))
+            refreshOwn(state_, job_, params_.dt * static_cast<float>(job_.substeps) - params_.remaining);
         // What touches other bodies works on single bodies; a pass over the dolls must follow before anything moves.
         forParts(
             state_, job_, [&](PairPart& part) { kernels.beginPairs(part.view, params_); },
@@ -132,7 +135,7 @@ class JobSubstep {
         Batch& batch = *job_.batches[i];
         const bool isFirst = params.warmStart != 0;
         if (!batch.nearShapes || (isFirst ? batch.substeps == job_.substeps : batch.isStill)) return;
-        findStaticsAgain(state_, batch, *job_.topologies[i], params.remaining, params.dt);
+        findStaticsAgain(state_, batch, *job_.topologies[i], {params.remaining, params.dt});
     }
 
     // Whether there was anything to mend.
@@ -173,7 +176,7 @@ class JobSubstep {
                 if (state_.kernels->outruns(batch.view(topology), params_) == 0 &&
                     !straysIntoStatics(state_, batch, topology, params_.dt))
                     return;
-                findStaticsAgain(state_, batch, topology, params_.remaining, params_.dt);
+                findStaticsAgain(state_, batch, topology, {params_.remaining, params_.dt, true});
                 state_.kernels->solveAgain(batch.view(topology), params_);
             }
         });

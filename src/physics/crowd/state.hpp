@@ -165,6 +165,11 @@ struct ForceRecord {
     return static_cast<int>(key >> 40U) - 1;
 }
 
+/// Which of its shapes' points a contact between bodies is, by its key.
+[[nodiscard]] constexpr int indexOfKey(std::uint64_t key) {
+    return static_cast<int>(key & 0xFU);
+}
+
 /// A contact between bodies, in short.
 struct TouchBrief {
     int dollA = 0, dollB = 0;

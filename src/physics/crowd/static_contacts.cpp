@@ -85,8 +85,13 @@ void setContact(StaticContactLanes& contact, int lane, const StaticTouch& touch,
 // The static contacts of one batch: body by body, each lane's next contact into the next of the body's slots.
 class StaticContacts {
   public:
-    StaticContacts(CrowdState& state, Batch& batch, const Topology& topology, float dt, float substep)
-        : state_(state), batch_(batch), topology_(topology), dt_(dt), substep_(substep) {}
+    StaticContacts(CrowdState& state, Batch& batch, const Topology& topology, const StaticSearch& search)
+        : state_(state),
+          batch_(batch),
+          topology_(topology),
+          dt_(search.seconds),
+          substep_(search.substep),
+          keepsPressing_(search.keepsPressing) {}
 
     void find() {
         const bool onlyPlanes = nearPlanesOnly();
@@ -169,8 +174,10 @@ class StaticContacts {
                 putPlane(emptyContact(body), point, plane, lanes);
             });
             firstSlot_ = batch_.contacts.size();
-            for (int lane = 0; lane < batch_.used; ++lane)
-                findOf(body, lane);
+            for (int lane = 0; lane < batch_.used; ++lane) {
+                const std::size_t slot = findOf(body, lane);
+                if (keepsPressing_) keepPressing(body, lane, slot);
+            }
         }
         batch_.firstContact[topology_.bodyCount()] = static_cast<int>(batch_.contacts.size());
     }
@@ -298,8 +305,9 @@ class StaticContacts {
         }
     }
 
-    void findOf(int body, int lane) {
-        if (batch_.nearStatics[lane].empty() || isKinematic(batch_, body, lane)) return;
+    // Returns the slot after the lane's last contact.
+    std::size_t findOf(int body, int lane) {
+        if (batch_.nearStatics[lane].empty() || isKinematic(batch_, body, lane)) return firstSlot_;
         const Doll& doll = state_.dolls[batch_.doll[lane]];
         const BodyLanes& lanes = batch_.bodies[body];
         const vec3 moved = glm::abs(doll.rootVelocity) * (kForesight * dt_) + farther_;
@@ -307,9 +315,11 @@ class StaticContacts {
         const vec3 high = readVector(lanes.high, lane) + moved;
         std::size_t slot = firstSlot_;
         const BodyState moving = readBody(lanes, lane);
+        bool isNear = false;
         for (const int index : batch_.nearStatics[lane]) {
             const PlacedStatic& geometry = state_.statics[index];
             if (!nearStatic(geometry, low, high)) continue;
+            isNear = true;
             const float range =
                 state_.tuning.shapeMargin + kForesight * substep_ * speedBound(moving, topology_.bodies[body]);
             for (int shape = 0; shape < topology_.shapeCount(body); ++shape) {
@@ -322,8 +332,23 @@ class StaticContacts {
                 foresee({body, shape}, lane, index, placed, found, slot);
             }
         }
-        if (slot != firstSlot_)
-            batch_.nearMotions.push_back({body, lane, moving.linearVelocity, moving.angularVelocity});
+        // Without a contact, too: an impact elsewhere may turn it towards what it is near.
+        if (isNear) batch_.nearMotions.push_back({body, lane, moving.linearVelocity, moving.angularVelocity});
+        return slot;
+    }
+
+    // A contact that has stopped a body within the substep is farther off than the body, as it moves now, can reach.
+    void keepPressing(int body, int lane, std::size_t slot) {
+        const auto isFound = [&](std::uint64_t key) {
+            return std::any_of(batch_.contacts.begin() + batch_.firstContact[body], batch_.contacts.end(),
+                               [&](const StaticContactLanes& contact) { return contact.key[lane] == key; });
+        };
+        for (const CarriedStatic& pressed : state_.dolls[batch_.doll[lane]].statics) {
+            if (pressed.body != body || isFound(pressed.contact.key)) continue;
+            const StaticTouch touch{
+                .local = pressed.local, .radius = pressed.radius, .normal = pressed.normal, .offset = pressed.offset};
+            putAt(slot++, body, lane, geometryOfKey(pressed.contact.key), touch, pressed.contact.key);
+        }
     }
 
     // The half spaces that a body is about to be in: where it passes an edge within a substep, the one that is nearest
@@ -347,8 +372,12 @@ class StaticContacts {
 
     void put(std::size_t slot, const ShapeRef& of, int lane, int geometry, StaticTouch touch) {
         touch.local = topology_.inBody(of.body, of.shape, touch.local);
-        if (slot == batch_.contacts.size()) emptyContact(of.body);
-        const std::uint64_t key = staticKey(geometry, of.body, of.shape, touch.feature);
+        putAt(slot, of.body, lane, geometry, touch, staticKey(geometry, of.body, of.shape, touch.feature));
+    }
+
+    // `touch.local` in the body's space.
+    void putAt(std::size_t slot, int body, int lane, int geometry, const StaticTouch& touch, std::uint64_t key) {
+        if (slot == batch_.contacts.size()) emptyContact(body);
         const CarriedStatic* carried = carriedStatic(lane, key);
         const float friction = state_.statics[geometry].shape.friction * kBodyFriction;
         setContact(batch_.contacts[slot], lane, touch, friction, key, carried);
@@ -389,6 +418,7 @@ class StaticContacts {
     const Topology& topology_;
     float dt_;
     float substep_;
+    bool keepsPressing_;
     float farther_ = state_.tuning.staticMargin - state_.tuning.pairMargin;  // than the bodies' own bounds reach
     std::size_t firstSlot_ = 0;
     std::size_t cursor_[kLanes]{};  // into Batch::carriedKeys
@@ -435,8 +465,8 @@ bool straysIntoStatics(const CrowdState& state, const Batch& batch, const Topolo
     return false;
 }
 
-void findStatics(CrowdState& state, Batch& batch, const Topology& topology, float dt, float substep) {
-    StaticContacts(state, batch, topology, dt, substep).find();
+void findStatics(CrowdState& state, Batch& batch, const Topology& topology, const StaticSearch& search) {
+    StaticContacts(state, batch, topology, search).find();
 }
 
 }  // namespace lutka::physics::crowd

@@ -29,6 +29,12 @@ struct Topology {
     }
     /// Whether the kernels see the whole of the body: a capsule or a sphere and nothing else.
     [[nodiscard]] bool isCore(int body) const { return !shapes[body].isAngular() && shapes[body].more.empty(); }
+    /// Whether they see all of all bodies.
+    [[nodiscard]] bool hasOnlyCores() const {
+        for (int body = 0; body < bodyCount(); ++body)
+            if (!isCore(body)) return false;
+        return true;
+    }
 };
 
 /// `leastGyration`: see CrowdTuning.

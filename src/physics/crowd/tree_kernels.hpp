@@ -347,6 +347,10 @@ LUTKA_LANES F kineticEnergy(const BatchView& batch, Wide3 BodyLanes::*velocity, 
     return energy;
 }
 
+LUTKA_LANES F keptEnergy(const BatchView& batch) {
+    return kineticEnergy(batch, &BodyLanes::steadyVelocity, &BodyLanes::steadyAngular);
+}
+
 // The lanes that have more energy than what was done to their single bodies gave them, or than they began the substep
 // with where no other doll pushes. Rows that only hold take some away.
 static Mask gainsEnergy(const BatchView& batch) {
@@ -355,8 +359,7 @@ static Mask gainsEnergy(const BatchView& batch) {
     if (batch.motors != nullptr || batch.targets != nullptr || batch.dragCount > 0) return noLanes();
     const F loose = kineticEnergy(batch, &BodyLanes::loose, &BodyLanes::looseAngular);
     const F given = load(*batch.struck) > all(0.0F) ? loose : least(loose, load(*batch.energy));
-    const F kept = kineticEnergy(batch, &BodyLanes::steadyVelocity, &BodyLanes::steadyAngular);
-    return kept > given * all(1.0F + kShare) + all(kJoules);
+    return keptEnergy(batch) > given * all(1.0F + kShare) + all(kJoules);
 }
 
 static void solveAll(const BatchView& batch, const SubstepParams& params, Solving what) {
@@ -367,26 +370,40 @@ static void solveAll(const BatchView& batch, const SubstepParams& params, Solvin
     // Arms that are foreseen by what their own pushes give may turn a light limb faster and faster: one hand in some
     // thousand falls was sped up to 360 rad/s. Arms that stay cannot. They are those of free motion, but where contacts
     // within the doll were pressed again: what those pushed a single body with says nothing about how it turns.
-    const Mask gains = gainsEnergy(batch);
+    Mask gains = gainsEnergy(batch);
     if (bits(gains) == 0) return;
-    aimLoose(batch, params, gains & ~answersItself(batch));
-    Pass whole{false, all(0.0F), true, noLanes(), pass.stiction, noLanes()};
-    guess(batch, params, what, whole, Fresh::whole, false);
+    const auto again = [&](bool aims) {
+        aimLoose(batch, params, gains & ~answersItself(batch));
+        Pass whole{false, all(0.0F), true, noLanes(), pass.stiction, noLanes()};
+        guess(batch, params, Solving::again, whole, Fresh::whole, aims);
+    };
+    // By half of what changes each time the arms may come to rest all the same, and a joint does not open.
+    if (isFirst) {
+        again(true);
+        gains = gainsEnergy(batch);
+        if (bits(gains) == 0) return;
+    }
+    again(false);
 }
 
 static void solve(const BatchView& batch, const SubstepParams& params, int first) {
     const Taken taken = takeMotions(batch);
     if (first == 0 && bits(taken.pressed) == 0) return;
+    const F before = first != 0 ? all(0.0F) : keptEnergy(batch);
     if (first != 0) {
         store(*batch.struck, taken.struck ? all(1.0F) : all(0.0F));
         takeSupports(batch);
         store(*batch.answered, all(0.0F));
-        store(*batch.energy, kineticEnergy(batch, &BodyLanes::steadyVelocity, &BodyLanes::steadyAngular));
+        store(*batch.energy, keptEnergy(batch));
     } else {
         store(*batch.answered, taken.pressed ? all(1.0F) : load(*batch.answered));
     }
     solveAll(batch, params, first != 0 ? Solving::first : Solving::answer);
     showMotions(batch);
+    if (first != 0) return;
+    constexpr float kShare = 0.01F;
+    constexpr float kJoules = 0.2F;
+    showRises(batch, answersItself(batch) & (keptEnergy(batch) > before * all(1.0F + kShare) + all(kJoules)));
 }
 
 static void solveAgain(const BatchView& batch, const SubstepParams& params) {
