@@ -23,14 +23,17 @@ float moved(const CrowdState& state, const Doll& doll, const PairTouch& touch, f
 void refresh(const CrowdState& state, const Doll& doll, const PairTouch& touch, PairContactLanes& pair, int lane) {
     constexpr float kRangeM = 0.3F;  // farther than a contact is foreseen
     const Topology& topology = state.groupOf(doll).topology;
-    const Touches<BodyTouch> found = touchBodies(placedShape(state, doll, touch.bodyA, touch.shapeA),
-                                                 placedShape(state, doll, touch.bodyB, touch.shapeB), kRangeM);
+    Touches<BodyTouch> found = touchBodies(placedShape(state, doll, touch.bodyA, touch.shapeA),
+                                           placedShape(state, doll, touch.bodyB, touch.shapeB), kRangeM);
     const int index = indexOfKey(touch.carried.key);
     if (index >= found.count) {
         pair.radius.lane[lane] = -1.0F;
         pair.normalImpulse.lane[lane] = 0.0F;
         return;
     }
+    // Shapes that were apart had one contact: it is for the deepest point.
+    std::sort(std::begin(found.points), std::begin(found.points) + found.count,
+              [](const BodyTouch& a, const BodyTouch& b) { return a.separation < b.separation; });
     const BodyTouch& at = found.points[index];
     writeVector(pair.localA, lane, topology.inBody(touch.bodyA, touch.shapeA, at.localA));
     writeVector(pair.localB, lane, topology.inBody(touch.bodyB, touch.shapeB, at.localB));

@@ -124,9 +124,12 @@ class JobSubstep {
     }
 
   private:
-    // How often contacts are pressed again at most. In a heap more would cost each of its dolls a look.
+    // How often contacts are pressed again at most. In a heap more would cost each of its dolls a look; props answer
+    // nothing.
     int answers() const {
-        return job_.batches.size() == 1 ? std::max(params_.answerSweeps, params_.ownSweeps) : params_.answerSweeps;
+        const auto isJointed = [](const Topology* topology) { return !topology->joints.empty(); };
+        const bool isHeap = std::count_if(job_.topologies.begin(), job_.topologies.end(), isJointed) > 1;
+        return isHeap ? params_.answerSweeps : std::max(params_.answerSweeps, params_.ownSweeps);
     }
 
     // The faces and edges that bodies are near now: a body may have slid over an edge, unless it is still. In the first
