@@ -144,8 +144,7 @@ TEST_CASE("limbs that a hard hit throws together meet within the step") {
 }
 
 // The one contact that two boxes had while they were apart stayed at a corner, while an arm came down flat: 31 and 35
-// mm. With balls about there were two answers in place of twelve, as in a heap: a ball that pressed an arm into the
-// trunk gave the figure energy.
+// mm. With balls about there are as many answers as without.
 TEST_CASE("boxes of a figure that come down flat upon each other meet at their deepest point, balls or not") {
     NEEDS_ZOO();
     const auto figure = test::loadFigure(test::zooFile("minetest_character/character.b3d").string());
