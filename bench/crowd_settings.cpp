@@ -20,6 +20,7 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
                                               {"aimGap", &tuning.aimGap},
                                               {"mendRate", &tuning.mendRate},
                                               {"mendHaste", &tuning.mendHaste},
+                                              {"dollPushSpeed", &tuning.dollPushSpeed},
                                               {"supportPassed", &tuning.supportPassed},
                                               {"supportKept", &tuning.supportKept},
                                               {"nearSpeed", &tuning.nearSpeed},

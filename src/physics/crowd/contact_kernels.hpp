@@ -355,7 +355,7 @@ static int solvePairs(const PairsView& view, const SubstepParams& params) {
     return bits(pressed) != 0 ? 1 : 0;
 }
 
-static int mendPairs(const PairsView& view, const SubstepParams& params) {
+static int mendPairs(const PairsView& view, const SubstepParams& params, int sweep) {
     const PairBodies& bodies = view.bodies;
     Mask any = noLanes();
     for (int i = 0; i < view.liveCount; ++i) {
@@ -371,8 +371,14 @@ static int mendPairs(const PairsView& view, const SubstepParams& params) {
         const F fastest = strikes(pair) ? all(params.dollPushSpeed) : own;
         const F apart = most((load(pair.separation) + all(params.slop)) * all(params.contactRate), -fastest);
         const F off = dot(normal, slidingOf(pair, v)) + apart * eagerness(pair, params.mendHaste);
-        const F push = most(load(pair.normalMass) * -off * eagerness(pair, params.mendRate), zero);
-        const F size = overlaps ? push : zero;
+        // Between dolls what was too much is given back: a foot between two trunks would be thrown to and fro. Within a
+        // doll too little is left of a push once all of the doll has answered.
+        const Mask gathers = strikes(pair);
+        const F before = sweep > 0 ? load(pair.carriedNormal) : zero;
+        const F rate = gathers ? all(1.0F) : eagerness(pair, params.mendRate);
+        const F total = most(before - load(pair.normalMass) * off * rate, zero);
+        const F size = overlaps ? total - before : zero;
+        store(pair.carriedNormal, gathers & overlaps ? total : zero);  // is free again
         pressPair(pair, v, size);
         // What pushes one side of a doll alone pushes all of it, and the other side after it: own contacts push both.
         const F onOwn = isOwn(pair) ? size : zero;

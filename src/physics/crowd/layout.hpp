@@ -455,8 +455,8 @@ struct Kernels {
     void (*beginPairs)(PairsView& view, const SubstepParams& params);
     /// One sweep; returns whether any contact presses, or did before.
     int (*solvePairs)(const PairsView& view, const SubstepParams& params);
-    /// Adds to the velocities what mends overlaps; returns whether there was any.
-    int (*mendPairs)(const PairsView& view, const SubstepParams& params);
+    /// Adds to the velocities what mends overlaps, for the time `sweep`, counted from 0; returns whether there was any.
+    int (*mendPairs)(const PairsView& view, const SubstepParams& params, int sweep);
     /// Presses contacts anew after the dolls have answered, for the time `sweep`, counted from 0. Sets the view's
     /// changed blocks.
     void (*pressAgain)(PairsView& view, const SubstepParams& params, int sweep);

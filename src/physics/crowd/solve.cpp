@@ -143,13 +143,15 @@ class JobSubstep {
 
     // Whether there was anything to mend.
     bool mendPairs() {
-        const auto mend = [&](PairPart& part) { part.overlaps = state_.kernels->mendPairs(part.view, params_) != 0; };
+        const auto mend = [&](PairPart& part) {
+            part.overlaps = state_.kernels->mendPairs(part.view, params_, 0) != 0;
+        };
         forParts(state_, job_, mend);
         const auto overlaps = [](const PairPart& part) { return part.overlaps; };
         if (std::none_of(job_.parts.begin(), job_.parts.end(), overlaps)) return false;
         for (int i = 1; i < params_.mendSweeps; ++i)
             forParts(state_, job_, [&](PairPart& part) {
-                if (part.overlaps) state_.kernels->mendPairs(part.view, params_);
+                if (part.overlaps) state_.kernels->mendPairs(part.view, params_, i);
             });
         return true;
     }

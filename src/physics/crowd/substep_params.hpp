@@ -8,7 +8,8 @@ struct SubstepTuning {
     int passes = 8;          ///< At most, with bias in a substep, >= 1: until the guess of what holds is right.
     int patience = 3;        ///< Passes after which rows that will not come to rest are only added any more.
     float aimGap = 0.0003F;  ///< Metres by which an anchor may miss in a substep before its arm is foreseen anew.
-    float mendRate = 1.6F;   ///< By how much more the sweeps that mend overlap press than the two bodies' masses ask.
+    float mendRate = 1.6F;   ///< By how much more the sweeps that mend overlap within a doll press than the two bodies'
+                             ///< masses ask.
     float mendHaste = 3.0F;  ///< Factor on the speed with which overlap of jointed bodies is mended.
     int mendSweeps = 2;      ///< Over the contacts between bodies, in each mending.
     float supportPassed = 0.97F;  ///< How firmly what rests on a body is held, of how firmly that body is, [0, 1).
@@ -40,7 +41,7 @@ struct SubstepTuning {
     float firstTouch = 40.0F;         ///< Of both while they are still ahead: a wrong guess there pulls.
     float grip = 1.0F;                ///< The same of friction. More: quicker to grip, chatters.
     float pushSpeed = 2.0F;           ///< m/s, largest speed that overlap is pushed apart with,
-    float dollPushSpeed = 3.0F;       ///< and that of dolls with dolls. More: single falls gain energy by the first.
+    float dollPushSpeed = 6.0F;       ///< and that of dolls with dolls. More: single falls gain energy by the first.
     float drivenPushSpeed = 0.1F;  ///< Likewise of bodies of one doll with muscles: it is seen where all else is calm.
     float limitSpeed = 25.0F;      ///< rad/s, the same for limits.
     float slop = 0.0005F;          ///< Metres of overlap left alone, so that resting contacts stay.
