@@ -61,7 +61,8 @@ static void pressAgain(PairsView& view, const SubstepParams& params, int sweep) 
         const F approach = dot(load(pair.normal), slidingOf(pair, v));
         const F off = approach + contactBias(load(pair.separation), params, 0);
         const Mask wrong = (off < -tolerance) | ((before > zero) & (off > tolerance));
-        const Mask over = sweep > 0 && pair.answered == sweep ? overshoots(pair, bodies) : noLanes();
+        const bool takesBack = sweep > 0 && sweep < params.ownSweeps && pair.answered == sweep;
+        const Mask over = takesBack ? overshoots(pair, bodies) : noLanes();
         if (bits((wrong & isOfDolls(pair)) | over) == 0) continue;
         makeReady(pair, bodies);
         const Mask struck = sweep < params.answerSweeps ? wrong & strikes(pair) : noLanes();
