@@ -351,15 +351,29 @@ LUTKA_LANES F keptEnergy(const BatchView& batch) {
     return kineticEnergy(batch, &BodyLanes::steadyVelocity, &BodyLanes::steadyAngular);
 }
 
+// What the pulls have given in this substep, joules: each its impulse times the mean of its point's velocity without
+// and with all that was solved for.
+LUTKA_LANES F workOfDrags(const BatchView& batch) {
+    F work = all(0.0F);
+    for (int i = 0; i < batch.dragCount; ++i) {
+        const DragLanes& drag = batch.drags[i];
+        const BodyLanes& body = batch.bodies[drag.body];
+        const V3 velocity = load(body.loose) + load(body.steadyVelocity);
+        const V3 angular = load(body.looseAngular) + load(body.steadyAngular);
+        work = work + all(0.5F) * dot(load(drag.impulse), velocity + cross(angular, load(drag.arm)));
+    }
+    return work;
+}
+
 // The lanes that have more energy than what was done to their single bodies gave them, or than they began the substep
 // with where no other doll pushes. Rows that only hold take some away.
 static Mask gainsEnergy(const BatchView& batch) {
     constexpr float kShare = 0.003F;  // of rounding, and of arms that are not quite those of the motion
     constexpr float kJoules = 0.1F;
-    if (batch.motors != nullptr || batch.targets != nullptr || batch.dragCount > 0) return noLanes();
+    if (batch.motors != nullptr || batch.targets != nullptr) return noLanes();
     const F loose = kineticEnergy(batch, &BodyLanes::loose, &BodyLanes::looseAngular);
     const F given = load(*batch.struck) > all(0.0F) ? loose : least(loose, load(*batch.energy));
-    return keptEnergy(batch) > given * all(1.0F + kShare) + all(kJoules);
+    return keptEnergy(batch) > (given + workOfDrags(batch)) * all(1.0F + kShare) + all(kJoules);
 }
 
 static void solveAll(const BatchView& batch, const SubstepParams& params, Solving what) {
