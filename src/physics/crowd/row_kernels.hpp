@@ -339,8 +339,13 @@ LUTKA_LANES void askStatic(const BodyLanes& body, StaticContactLanes& contact, c
         return;
     }
     const F impulse = load(contact.normalImpulse);
-    const OneSided presses = decideOneSided(impulse, motion.rate, load(contact.bias), load(contact.normalWeight),
-                                            load(contact.normalGain), pass);
+    // What comes slowly to a surface ahead may just meet it or just miss it. Guessed to hold, it pulls all else down to
+    // the surface; what does meet it is held from the next pass or substep on.
+    const F bias = load(contact.bias);
+    const Mask mayMiss = (bias > zero) & (impulse <= zero) & (motion.rate > all(-params.contactTolerance));
+    const F rate = pass.begun ? motion.rate : (mayMiss ? zero : motion.rate);
+    const OneSided presses =
+        decideOneSided(impulse, rate, bias, load(contact.normalWeight), load(contact.normalGain), pass);
     const int engaged = bits(presses.holds | (impulse != zero)) != 0 ? 1 : 0;
     if (engaged == 0 && contact.engaged == 0) return;
     contact.engaged = engaged;
