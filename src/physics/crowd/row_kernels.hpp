@@ -16,6 +16,7 @@ struct Pass {
     Mask late;
     F stiction;   ///< Factor on all friction.
     Mask astray;  ///< Gathers the lanes in which a body turns at another rate than its arms were foreseen with.
+    Mask alone;   ///< Lanes in which no other doll pushes.
 };
 
 // What the rows of a joint add to the equations: a torque on the child, and a weight matrix of the relative turning.
@@ -342,7 +343,7 @@ LUTKA_LANES void askStatic(const BodyLanes& body, StaticContactLanes& contact, c
     // What comes slowly to a surface ahead may just meet it or just miss it. Guessed to hold, it pulls all else down to
     // the surface; what does meet it is held from the next pass or substep on.
     const F bias = load(contact.bias);
-    const Mask mayMiss = (bias > zero) & (impulse <= zero) & (motion.rate > all(-params.contactTolerance));
+    const Mask mayMiss = pass.alone & (bias > zero) & (impulse <= zero) & (motion.rate > all(-params.contactTolerance));
     const F rate = pass.begun ? motion.rate : (mayMiss ? zero : motion.rate);
     const OneSided presses =
         decideOneSided(impulse, rate, bias, load(contact.normalWeight), load(contact.normalGain), pass);

@@ -282,7 +282,7 @@ static void leaveSteady(const BatchView& batch, const Mask& lanes) {
 static void mend(const BatchView& batch, const SubstepParams& params, int pushed) {
     if (pushed != 0) takeMotions(batch);
     if (pushed == 0 && !needsMending(batch, params)) return;
-    Pass pass{true, all(1.0F), true, noLanes(), all(1.0F), noLanes()};
+    Pass pass{true, all(1.0F), true, noLanes(), all(1.0F), noLanes(), noLanes()};
     constexpr int kPasses = 4;
     Mask unsolved = noLanes();
     for (int i = 0; i < kPasses; ++i) {
@@ -379,7 +379,8 @@ static Mask gainsEnergy(const BatchView& batch) {
 static void solveAll(const BatchView& batch, const SubstepParams& params, Solving what) {
     const bool isFirst = what == Solving::first;
     gatherLoose(batch, isFirst);
-    Pass pass{false, all(isFirst ? 0.0F : 1.0F), !isFirst, noLanes(), load(batch.rest->stiction), noLanes()};
+    const Mask alone = load(*batch.struck) <= all(0.0F);
+    Pass pass{false, all(isFirst ? 0.0F : 1.0F), !isFirst, noLanes(), load(batch.rest->stiction), noLanes(), alone};
     if (!guess(batch, params, what, pass, Fresh::since, true)) return;
     // Arms that are foreseen by what their own pushes give may turn a light limb faster and faster: one hand in some
     // thousand falls was sped up to 360 rad/s. Arms that stay cannot. They are those of free motion, but where contacts
@@ -388,7 +389,7 @@ static void solveAll(const BatchView& batch, const SubstepParams& params, Solvin
     if (bits(gains) == 0) return;
     const auto again = [&](bool aims) {
         aimLoose(batch, params, gains & ~answersItself(batch));
-        Pass whole{false, all(0.0F), true, noLanes(), pass.stiction, noLanes()};
+        Pass whole{false, all(0.0F), true, noLanes(), pass.stiction, noLanes(), alone};
         guess(batch, params, Solving::again, whole, Fresh::whole, aims);
     };
     // By half of what changes each time the arms may come to rest all the same, and a joint does not open.
