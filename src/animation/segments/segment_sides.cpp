@@ -13,6 +13,7 @@ namespace {
 
 constexpr float kPairApart = 0.03F;     // of the size, between a joint and its counterpart's mirror image
 constexpr float kInTheMiddle = 0.02F;   // of the size, from the plane
+constexpr float kRounding = 1e-5F;      // of the size: of places in a file, through units and rotations
 constexpr float kSteepestPlane = 0.3F;  // of the normal's y: a mirror plane stands upright
 constexpr float kLeastAgreement = 0.3F;
 
@@ -115,6 +116,11 @@ class Sides {
                own.words == other.words && own.numbers == other.numbers;
     }
 
+    // The signs of places that differ from zero by rounding tell no sides.
+    [[nodiscard]] bool acrossTheMiddle(float x, float otherX) const {
+        return x * otherX < 0.0F && std::min(std::abs(x), std::abs(otherX)) > kRounding * size_;
+    }
+
     // The likeliest counterpart of a segment that has none: by its place across the plane, else by its name.
     void pair(int segment) {
         int best = -1;
@@ -125,7 +131,7 @@ class Sides {
             const vec3 at = place(other);
             float apart = glm::distance(vec3(-own.x, own.y, own.z), at);
             if (namedAlike(segment, other)) apart = std::min(apart, 0.5F * kPairApart * size_);
-            if (own.x * at.x >= 0.0F || apart >= least) continue;
+            if (!acrossTheMiddle(own.x, at.x) || apart >= least) continue;
             least = apart;
             best = other;
         }

@@ -300,7 +300,24 @@ void findEnds(BodyPlan& plan, const Character& character, const HumanoidMap& map
     }
 }
 
+// Where all joints of a figure, or those of all its pairs, stand in one place (parts that were modelled where they
+// belong, with their joints left at the origin), the joints tell nothing about where the figure's middle is.
+bool tellsMiddle(const BodyPlan& plan) {
+    if (plan.bodies.size() == 1) return true;
+    const float apart = kSymmetryTolerance * plan.heightM;
+    bool pairs = false;
+    bool spread = false;
+    for (const PlannedBody& body : plan.bodies) {
+        spread = spread || glm::distance(body.start, plan.bodies[0].start) > apart;
+        if (body.side != animation::Side::left || body.mirror < 0) continue;
+        if (glm::distance(body.start, plan.bodies[body.mirror].start) > apart) return true;
+        pairs = true;
+    }
+    return spread && !pairs;
+}
+
 bool isSymmetric(const BodyPlan& plan) {
+    if (!tellsMiddle(plan)) return false;
     for (const PlannedBody& body : plan.bodies) {
         // What hangs on a humanoid says nothing about its symmetry.
         if (body.side != animation::Side::left || (body.segment && (body.mirror < 0 || plan.bodies[0].role))) continue;

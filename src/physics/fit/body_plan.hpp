@@ -40,7 +40,7 @@ struct BodyPlan {
     float heightM = 0.0F;             ///< Of the standing figure: crown to sole.
     float middleX = 0.0F;             ///< The plane of symmetry, in the standard stance's axes.
     /// Whether every joint of a left body lies within kSymmetryTolerance · height of its right counterpart's mirror
-    /// image. Left and right shapes are then made equal.
+    /// image, and the joints tell where the middle is at all. Left and right shapes are then made equal.
     bool symmetric = false;
     /// Where the trunk's skin was split by height because the rig leaves a trunk body next to none: the upper bounds of
     /// the trunk bodies from the hips on, but for the topmost; empty where the rig's own weights decide.

@@ -128,6 +128,36 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("parts whose joints all stand at the origin keep their places, for such joints tell nothing of a middle") {
+    const std::vector<test::JointSpec> joints{{"Root", -1, {}},
+                                              {"Chassis", 0, {0.4F, 0.8F, 0.3F}},
+                                              {"LauncherLeft", 0, {0.7F, 1.3F, 0.3F}},
+                                              {"LauncherRight", 0, {0.1F, 1.3F, 0.3F}},
+                                              {"Gun", 0, {0.6F, 1, 0.5F}}};
+    const std::vector<test::TubeSpec> tubes{{1, {0.4F, 1.2F, 0.3F}, 0.2F},
+                                            {2, {0.7F, 1.3F, 0.7F}, 0.1F},
+                                            {3, {0.1F, 1.3F, 0.7F}, 0.1F},
+                                            {4, {0.6F, 1, 0.9F}, 0.05F}};
+    animation::Character mech = test::makeFigure("mech", joints, tubes);
+    for (std::size_t joint = 0; joint < joints.size(); ++joint) {
+        // As files have it, to the bits of a float: the signs tell no sides.
+        const float rounding = joints[joint].name == "LauncherLeft" ? 1e-8F : -1e-8F;
+        mech.skeleton.bindModelFromJoint[joint] = {quat(1, 0, 0, 0), vec3(rounding, 0, 0)};
+        mech.skeleton.nodeParentFromJoint[joint] = {};
+    }
+    animation::HumanoidMap map;
+    map.standardFromModel = animation::segmentRig(mech).standardFromModel;
+    const RagdollProfile profile = fitRagdoll(mech, map, Creature::anyRig()).value();
+    for (const test::TubeSpec& tube : tubes) {
+        const test::JointSpec& part = joints[tube.joint];
+        INFO(part.name);
+        const int body = bodyNamed(profile, part.name);
+        REQUIRE(body >= 0);
+        const vec3 middle = 0.5F * (part.position + tube.end);
+        CHECK(glm::distance(profile.bodies[body].jointFromBody.translation, middle) < 0.05F);
+    }
+}
+
 TEST_CASE("a body of few points lies along them, wherever its joint is") {
     // One side of a crate, whose joint lies in the crate's middle as all its others do.
     animation::Character crate = test::makeFigure(
