@@ -150,6 +150,27 @@ TEST_CASE("a script selects a body, types its mass and saves it, all in one fram
     CHECK(now.bodies[physics::bodyOf(now, Role::leftLowerLeg)].massKg == Approx(7.5F));
 }
 
+TEST_CASE("a tab opens though the mouse comes to it from another and presses in one frame") {
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
+    const Scratch scratch;
+    Script script;
+    Pictures pictures{scratch, script, ""};
+    script.key(Key::space).wait(2);
+    pictures.take("skeleton.png");
+    script.move(44, 43).wait(1);                 // over the tab Skeleton
+    script.atOnce().click(190, 43).leisurely();  // the tab Scene
+    pictures.take("at_once.png");
+    script.click(190, 43);
+    pictures.take("at_leisure.png");
+    const Outcome outcome = play(scratch, script, pictures.arguments);
+    NEEDS_DISPLAY_OF(outcome);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    const auto panel = [&](const char* a, const char* b) { return pictures.apart(a, b, 10, 90, 290, 570); };
+    CHECK(panel("skeleton.png", "at_once.png") > 0.03F);
+    CHECK(panel("at_once.png", "at_leisure.png") < 0.002F);
+}
+
 TEST_CASE("the list of joints begins where the joint of the role is, and takes its neighbour by a click") {
     if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;

@@ -169,16 +169,18 @@ std::vector<std::span<const InputEvent>> inputSteps(std::span<const InputEvent> 
     std::vector<std::span<const InputEvent>> steps;
     std::size_t first = 0;
     bool acted = false;  // whether the present step has its press, release or key
+    bool moved = false;  // whether it has a movement of the mouse
     for (std::size_t i = 0; i < events.size(); ++i) {
         const InputEvent::Kind kind = events[i].kind;
         const bool text = kind == InputEvent::Kind::text;
         const bool button = kind == InputEvent::Kind::mouseButton;
         const bool key = kind == InputEvent::Kind::key && events[i].pressed;
-        if (acted && !text) {
+        if ((acted && !text) || (moved && button && events[i].pressed)) {
             steps.push_back(events.subspan(first, i - first));
             first = i;
-            acted = false;
+            acted = moved = false;
         }
+        moved = moved || kind == InputEvent::Kind::mouseMove;
         acted = acted || button || key || text;
     }
     steps.push_back(events.subspan(first));

@@ -74,7 +74,8 @@ struct InputEvent {
 [[nodiscard]] InputEvent windowClosed();
 
 /// A frame's events in steps of which each is one press, release or key with what belongs to it: movements before, text
-/// after. In order, all of them; one empty step for no event.
+/// after. The way to a press is a step of its own: tabs take a press only when the mouse was seen over them before it.
+/// In order, all of them; one empty step for no event.
 [[nodiscard]] std::vector<std::span<const InputEvent>> inputSteps(std::span<const InputEvent> events);
 
 }  // namespace lutka::editor
