@@ -178,8 +178,9 @@ std::string findingsHtml(const physics::Diagnosis& diagnosis) {
     for (const physics::Finding& finding : diagnosis.findings) {
         const char* severity = physics::severityName(finding.severity);
         out +=
-            fmt::format("<li class=\"{0}\"><span class=\"badge {0}\">{0}</span><div><p><b>{1}</b> at {2}: {3}</p>",
-                        severity, htmlEscaped(finding.code), htmlEscaped(finding.place), htmlEscaped(finding.measure));
+            fmt::format("<li class=\"{0}\"><span class=\"badge {0}\">{0}</span><div><p><b>{1}</b>{2}: {3}</p>",
+                        severity, htmlEscaped(finding.code),
+                        finding.place.empty() ? "" : " at " + htmlEscaped(finding.place), htmlEscaped(finding.measure));
         if (!finding.mend.empty()) {
             out += fmt::format("<p class=\"mend\">{}{}</p>", htmlEscaped(finding.mend),
                                finding.mendable ? " <code>lutka check --fix</code> does it." : "");

@@ -87,8 +87,8 @@ std::string checkupText(const RagdollAsset& asset, const Checkup& checkup) {
     if (!checkup.noWalk.empty()) text += fmt::format("  walks      not: {}\n", checkup.noWalk);
     if (checkup.drops.empty()) text += "  measured   nothing: there are errors\n";
     for (const auto& finding : checkup.diagnosis.findings) {
-        text += fmt::format("  {:<10} {} at {}: {}", physics::severityName(finding.severity), finding.code,
-                            finding.place, finding.measure);
+        text += fmt::format("  {:<10} {}{}: {}", physics::severityName(finding.severity), finding.code,
+                            finding.place.empty() ? "" : " at " + finding.place, finding.measure);
         if (!finding.mend.empty())
             text += fmt::format(" -> {}{}", finding.mend, finding.mendable ? " (--fix does it)" : "");
         text += "\n";

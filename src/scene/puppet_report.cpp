@@ -54,8 +54,10 @@ nlohmann::ordered_json puppetJson(const PuppetCast& cast, const physics::WorldVi
 
 std::string puppetText(const PuppetCast& cast, const physics::WorldView& world) {
     const PuppetFigures figures = cast.figures();
-    std::string text = fmt::format("  behind the pose    {:7.2f} deg RMS, {:.2f} deg at most ({}), root {:.1f} cm\n",
-                                   figures.rmsDeg, figures.maxDeg, figures.worstJoint, figures.rootM * 1e2F);
+    // A figure without a joint is one that nobody was measured for.
+    const auto at = [](const std::string& joint) { return joint.empty() ? joint : fmt::format(" ({})", joint); };
+    std::string text = fmt::format("  behind the pose    {:7.2f} deg RMS, {:.2f} deg at most{}, root {:.1f} cm\n",
+                                   figures.rmsDeg, figures.maxDeg, at(figures.worstJoint), figures.rootM * 1e2F);
     if (figures.clipReachDeg > 1.0F)
         text += fmt::format("  the clip itself    {:7.1f} deg at most beyond what its joints can do ({})\n",
                             figures.clipReachDeg, figures.clipReachJoint);
@@ -66,10 +68,11 @@ std::string puppetText(const PuppetCast& cast, const physics::WorldView& world) 
         text += fmt::format("  knocked out        {:7} times, {} limp now\n", figures.knockOuts, figures.limp);
     if (cast.settings().getUp) {
         const GetUpFigures up = cast.getUpFigures();
-        text += fmt::format("  got up             {:7} of {} times, in {:.2f} s, {:.2f} s at most\n", up.stood,
-                            up.begun, up.meanSeconds, up.mostSeconds);
-        text += fmt::format("  on the way         {:7.1f} deg in a step at most ({}), feet slid {:.1f} cm\n",
-                            up.mostStepDeg, up.stepJoint, up.mostSlideM * 1e2F);
+        if (up.begun == 0) return text + "  got up                   0 times begun\n";
+        text += fmt::format("  got up             {:7} of {} times", up.stood, up.begun);
+        if (up.stood > 0) text += fmt::format(", in {:.2f} s, {:.2f} s at most", up.meanSeconds, up.mostSeconds);
+        text += fmt::format("\n  on the way         {:7.1f} deg in a step at most{}, feet slid {:.1f} cm\n",
+                            up.mostStepDeg, at(up.stepJoint), up.mostSlideM * 1e2F);
     }
     return text;
 }

@@ -154,7 +154,7 @@ std::string reportText(const Simulation& simulation) {
     if (simulation.puppets() != nullptr) text += puppetText(*simulation.puppets(), simulation.world());
     text += fmt::format("  energy growth      {:7.2f} J of {:.0f} J\n", q.energyGrowthJ, q.initialEnergyJ);
     text += q.settleSeconds ? fmt::format("  at rest            {:7.2f} s after the first contact\n", *q.settleSeconds)
-                            : fmt::format("  not at rest        {:7.3f} m/s at the end\n", q.residualSpeedMps);
+                            : fmt::format("  not at rest        {:8.3f} m/s at the end\n", q.residualSpeedMps);
     text += fmt::format("  time a step        {:7.2f} ms in the median, {:.2f} ms p99\n", times.p50, times.p99);
     for (const physics::CaughtDoll& caught : simulation.world().caught())
         text += fmt::format("  CAUGHT             doll {} at {:.2f} s: {}; put back and to sleep\n",

@@ -142,6 +142,13 @@ TEST_CASE("limp dolls fall, get up, and go on standing in both solvers, no joint
     }
 }
 
+TEST_CASE("while nobody has got up the report tells no time of it and no joint") {
+    const std::string text = scene::reportText(*falls(SolverKind::crowd, 1, 0.1F));
+    CHECK(text.find("got up") != std::string::npos);
+    CHECK(text.find("0.00 s at most") == std::string::npos);
+    CHECK(text.find("()") == std::string::npos);
+}
+
 TEST_CASE("a doll that is struck down on its way up lies, and gets up again") {
     const auto once = falls(SolverKind::crowd, 1, 3.5F);
     REQUIRE(once->puppets()->puppet(0).state() == PuppetState::gettingUp);

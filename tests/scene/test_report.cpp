@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "scene/checkup.hpp"
 #include "support/catch.hpp"
 #include "support/ragdolls.hpp"
 
@@ -44,4 +45,28 @@ TEST_CASE("the report is one JSON document with every key of the contract") {
     CHECK(json["bodies"] == 2 * asset->profile.bodies.size());
     CHECK(json["quality"]["settleSeconds"].is_null());
     CHECK(json["stateHash"].get<std::string>().size() == 16);
+}
+
+TEST_CASE("the text's figures have their points below each other, also that of a doll that is not at rest") {
+    const auto asset = test::bipedRagdoll();
+    auto scenario = makeScenario({.name = "drop", .count = 1}, *asset);
+    REQUIRE(scenario);
+    const auto simulation = Simulation::create(*asset, std::move(scenario).value(), {});
+    REQUIRE(simulation);
+    for (int step = 0; step < 10; ++step)
+        simulation.value()->step();
+    const std::string text = reportText(*simulation.value());
+    const auto pointOf = [&](const char* what) {
+        const std::size_t line = text.find(what);
+        REQUIRE(line != std::string::npos);
+        return text.find('.', line) - line;
+    };
+    CHECK(pointOf("not at rest") == pointOf("energy growth"));
+}
+
+TEST_CASE("a finding about the whole ragdoll names no place") {
+    const auto asset = test::bipedRagdoll();
+    Checkup checkup;
+    checkup.diagnosis.findings = {{physics::Severity::info, "not-humanoid", "", "no body has a role", "", false, {}}};
+    CHECK(checkupText(*asset, checkup).find("not-humanoid: no body has a role") != std::string::npos);
 }

@@ -58,10 +58,11 @@ void reportModel(const ReportCommandOptions& options) {
     printWarnings(*asset);
     const auto photographer = photographerOf(options);
     const reporting::ModelFacts facts = reporting::gatherFacts(*asset, photographer.get());
+    const std::size_t findings = facts.checkup.diagnosis.findings.size();
     finish(options, reporting::modelReportHtml(*asset, facts, parts, LUTKA_VERSION),
            scene::checkupJson(*asset, facts.checkup),
-           fmt::format("{}: {:.0f} of 100, {} findings", asset->character.name, facts.checkup.score,
-                       facts.checkup.diagnosis.findings.size()));
+           fmt::format("{}: {:.0f} of 100, {} finding{}", asset->character.name, facts.checkup.score, findings,
+                       findings == 1 ? "" : "s"));
 }
 
 // What a model throws is its own affair: the others go on.
