@@ -44,7 +44,8 @@ void printRow(const scene::BenchResult& r) {
 }
 
 void printHeader(const BenchCommandOptions& options) {
-    tell("{} beside stock Bullet; median ms a step, sleeping {}\n", options.solver, options.sleeping ? "on" : "off");
+    tell("{} beside stock Bullet; median ms a step, sleeping {}; RATIO is the median of blocks of steps in turn\n",
+         options.solver, options.sleeping ? "on" : "off");
     tell("{:<8} {:>6} {:>7} {:>10} {:>10} {:>8} {:>9} {:>9} {:>9} {:>9} {:>8} {:>10} {:>9}\n", "SCENE", "DOLLS",
          "THREADS", "OURS", "STOCK", "RATIO", "SEP mm", "(stock)", "PEN mm", "(stock)", "CONTACTS", "DOLLSTEP/s",
          "REAL/CORE");

@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "commands.hpp"
 #include "core/files.hpp"
@@ -31,8 +34,11 @@ exporting::ExportFormat formatOf(const ExportCommandOptions& options) {
     const auto format =
         options.format.empty() ? exporting::exportFormatOf(options.out) : exporting::exportFormatNamed(options.format);
     if (format) return *format;
+    std::vector<std::string_view> endings;
+    for (const exporting::ExportFormatInfo& info : exporting::exportFormats())
+        if (std::find(endings.begin(), endings.end(), info.ending) == endings.end()) endings.push_back(info.ending);
     leave({ErrorCode::usage, fmt::format("the ending of '{}' names no format", options.out.string()), "--output",
-           "add --format, or end the name as `lutka export --help` says"});
+           fmt::format("end the name in one of {}, or add --format", fmt::join(endings, ", "))});
 }
 
 std::string factsJson(const ExportCommandOptions& options, exporting::ExportFormat format,

@@ -168,7 +168,7 @@ void runMap(const MapCommandOptions& options) {
     if (options.json && !(printed && map.humanoid)) fmt::print("{}", dump(json));
     if (!map.humanoid) {
         leave({ErrorCode::input, map.warnings.empty() ? "not a humanoid" : map.warnings.front(),
-               options.model.model.string(), "the other commands make a ragdoll of any skeleton with `--rig any`"});
+               options.model.model.string(), "with `--rig any` this and the other commands take any skeleton"});
     }
     if (!options.json && !printed) {
         printWarnings(character.value());

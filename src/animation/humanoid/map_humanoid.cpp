@@ -226,7 +226,8 @@ HumanoidMap mapHumanoid(const Character& character, const MapOptions& options) {
         LUTKA_ASSERT(!joint || (*joint >= 0 && *joint < skeleton.jointCount()));
     if (skeleton.jointCount() == 0) return refused("it has no joints");
     if (skeleton.jointCount() < kFewestJoints) {
-        return refused(fmt::format("{} joints are too few for a trunk, two arms and two legs", skeleton.jointCount()));
+        return refused(fmt::format("{} joint{} too few for a trunk, two arms and two legs", skeleton.jointCount(),
+                                   skeleton.jointCount() == 1 ? " is" : "s are"));
     }
     const FixedJoints ofFile = options.useFileHumanoid ? jointsOfFile(character) : FixedJoints{};
     FixedJoints known = ofFile;

@@ -121,17 +121,25 @@ std::string TextureLoader::hintAbove() const {
     return {};
 }
 
+namespace {
+
+std::string picturesWere(std::size_t count) {
+    return count == 1 ? "1 picture was" : fmt::format("{} pictures were", count);
+}
+
+}  // namespace
+
 std::vector<std::string> TextureLoader::sentences() const {
     std::vector<std::string> out = decoder_.sentences();
     if (!missing_.empty()) {
-        out.push_back(fmt::format("{} pictures were not found or can't be decoded and were left out: {}{}",
-                                  missing_.size(), fmt::join(missing_, ", "), hintAbove()));
+        out.push_back(fmt::format("{} not found or can't be decoded and left out: {}{}", picturesWere(missing_.size()),
+                                  fmt::join(missing_, ", "), hintAbove()));
     }
     if (!outside_.empty()) {
         out.push_back(
-            fmt::format("{} pictures lie outside of the model's folder and were left out: {}; put them "
-                        "beside the model, or --allow-outside takes them",
-                        outside_.size(), fmt::join(outside_, ", ")));
+            fmt::format("{} outside of the model's folder and left out: {}; put what is missing beside the model, or "
+                        "--allow-outside takes it",
+                        picturesWere(outside_.size()), fmt::join(outside_, ", ")));
     }
     if (!replaced_.empty()) {
         out.push_back(

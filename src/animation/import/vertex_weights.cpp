@@ -73,7 +73,7 @@ std::vector<std::string> WeightRepairs::sentences() const {
     if (dropped > 0) {
         out.push_back(
             fmt::format("{} of {} vertices had more than {} influences (up to {}); the weakest were dropped, "
-                        "at most {:.1f} % of a vertex's weight",
+                        "at most {:.2g} % of a vertex's weight",
                         dropped, vertices, kMaxInfluences, mostInfluences, 100.0 * largestDropped));
     }
     if (unweighted > 0) {

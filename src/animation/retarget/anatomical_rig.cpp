@@ -240,7 +240,10 @@ Result<AnatomicalRig> makeAnatomicalRig(const Character& character, const Humano
     const auto refuse = [&](std::string what, const char* mend) {
         return Error{ErrorCode::input, std::move(what), character.file.string(), mend};
     };
-    if (!map.humanoid) return refuse("is no humanoid", "map its joints, or take another model");
+    if (!map.humanoid)
+        return refuse(
+            "is no humanoid",
+            "map its joints, or take another model; of the scenes, those that walk and get up need a humanoid");
     LimbEnds ends = addLimbEnds(character, map);
     // A figure without an arm walks all the same.
     const auto needed = std::find_if_not(ends.missing.begin(), ends.missing.end(), isOfArm);
