@@ -16,7 +16,7 @@ struct Pass {
     Mask late;
     F stiction;   ///< Factor on all friction.
     Mask astray;  ///< Gathers the lanes in which a body turns at another rate than its arms were foreseen with.
-    Mask alone;   ///< Lanes in which no other doll pushes.
+    Mask alone;   ///< Lanes in which no other doll pushes, where the job is no heap.
 };
 
 // What the rows of a joint add to the equations: a torque on the child, and a weight matrix of the relative turning.

@@ -69,6 +69,12 @@ void findStaticsAgain(CrowdState& state, Batch& batch, const Topology& topology,
     if (state.settings.contactReports) openSums(batch);
 }
 
+// Whether dolls of several batches touch. Props, which answer nothing, make no heap.
+bool isHeap(const Job& job) {
+    const auto isJointed = [](const Topology* topology) { return !topology->joints.empty(); };
+    return std::count_if(job.topologies.begin(), job.topologies.end(), isJointed) > 1;
+}
+
 // One job's substep.
 class JobSubstep {
   public:
@@ -124,12 +130,9 @@ class JobSubstep {
     }
 
   private:
-    // How often contacts are pressed again at most. In a heap more would cost each of its dolls a look; props answer
-    // nothing.
+    // How often contacts are pressed again at most. In a heap more would cost each of its dolls a look.
     int answers() const {
-        const auto isJointed = [](const Topology* topology) { return !topology->joints.empty(); };
-        const bool isHeap = std::count_if(job_.topologies.begin(), job_.topologies.end(), isJointed) > 1;
-        return isHeap ? params_.answerSweeps : std::max(params_.answerSweeps, params_.ownSweeps);
+        return params_.isHeap != 0 ? params_.answerSweeps : std::max(params_.answerSweeps, params_.ownSweeps);
     }
 
     // The faces and edges that bodies are near now: a body may have slid over an edge, unless it is still. In the first
@@ -262,6 +265,7 @@ void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSu
     };
     const auto paramsAt = [&](const Job& job, int index) {
         SubstepParams params = paramsFor[job.substeps];
+        params.isHeap = isHeap(job) ? 1 : 0;
         params.warmStart = index == 0 ? 1 : 0;
         params.remaining = params.dt * static_cast<float>(job.substeps - index);
         return params;

@@ -61,6 +61,7 @@ struct SubstepParams : SubstepTuning {
     float limitRate;       ///< Likewise.
     float contactRate;     ///< Likewise.
     float remaining;       ///< Seconds from the substep's start to the step's end.
+    int isHeap;            ///< Whether the job is of several batches of dolls.
     int warmStart;         ///< The first substep of a step makes the carried friction impulses its own.
 };
 

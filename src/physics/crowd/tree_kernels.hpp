@@ -379,7 +379,7 @@ static Mask gainsEnergy(const BatchView& batch) {
 static void solveAll(const BatchView& batch, const SubstepParams& params, Solving what) {
     const bool isFirst = what == Solving::first;
     gatherLoose(batch, isFirst);
-    const Mask alone = load(*batch.struck) <= all(0.0F);
+    const Mask alone = params.isHeap != 0 ? noLanes() : load(*batch.struck) <= all(0.0F);
     Pass pass{false, all(isFirst ? 0.0F : 1.0F), !isFirst, noLanes(), load(batch.rest->stiction), noLanes(), alone};
     if (!guess(batch, params, what, pass, Fresh::since, true)) return;
     // Arms that are foreseen by what their own pushes give may turn a light limb faster and faster: one hand in some
