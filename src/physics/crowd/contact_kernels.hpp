@@ -163,8 +163,6 @@ LUTKA_LANES void makeReady(PairContactLanes& pair, const PairBodies& bodies) {
     preparePair(pair, bodies, false);
 }
 
-constexpr unsigned kAllLanes = (1U << kLanes) - 1U;
-
 // Places a contact where its bodies are now: the touching points, how far apart the surfaces are, the arms. Both bodies
 // are pushed at one point, so that no torque comes from nowhere.
 struct Arms {

@@ -11,6 +11,7 @@
 namespace lutka::physics::crowd {
 
 inline constexpr int kLanes = 8;
+inline constexpr unsigned kAllLanes = (1U << kLanes) - 1U;  ///< As a bit mask.
 
 /// One float a lane.
 struct alignas(32) Wide {

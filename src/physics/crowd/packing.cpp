@@ -50,7 +50,7 @@ void fillLane(CrowdState& state, PairContactLanes& pair, int lane, const PairTou
 // first needed.
 void emptyBlock(PairContactLanes& pair) {
     pair.onAxisY = 1;
-    pair.follows = (1U << kLanes) - 1U;
+    pair.follows = kAllLanes;
     pair.ready = 0;
     pair.kind = pair.load = pair.normalMass = pair.tangentImpulse[0] = pair.tangentImpulse[1] = {};
 }
