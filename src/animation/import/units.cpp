@@ -114,7 +114,8 @@ constexpr double kAnimalLength = 1.6;
 // inches, from motion capture.
 std::optional<double> usualUnit(double height, bool metric = false) {
     constexpr double kCmu = 0.0254 / 0.45;  // of the CMU motion capture database: inches, divided by 0.45
-    constexpr std::array<double, 9> kUnits = {1.0, 0.01, 0.1, 0.0254, 0.001, kCmu, 10.0, 100.0, 1000.0};
+    // CMU's before the decimetre: its people stand astride, and are no giants of 2.4 m.
+    constexpr std::array<double, 9> kUnits = {1.0, 0.01, kCmu, 0.1, 0.0254, 0.001, 10.0, 100.0, 1000.0};
     for (const auto& [least, most] : {std::pair{1.4, 2.1}, std::pair{0.8, 2.5}}) {
         for (const double unit : kUnits) {
             if (metric && (unit == kCmu || unit == 0.0254)) continue;

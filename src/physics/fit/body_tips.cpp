@@ -109,8 +109,14 @@ void findTips(BodyPlan& plan, const Character& character, const HumanoidMap& map
     for (PlannedBody& body : plan.bodies) {
         if (body.endsAtJoint) continue;
         std::vector<SkinPoint> points = skinNearSegment(plan, body);
-        if (points.size() < kFewestTipPoints) points = jointsBelow(character, map, body.joint);
-        const float least = 0.3F * proportionsOf(body.role).length * plan.heightM;
+        // The last joint of a chain without skin may be an eye or the stub that a file ends every chain with. Flesh
+        // does not end there.
+        float leastShare = 0.3F;
+        if (points.size() < kFewestTipPoints) {
+            points = jointsBelow(character, map, body.joint);
+            leastShare = 0.9F;
+        }
+        const float least = leastShare * proportionsOf(body.role).length * plan.heightM;
         vec3 direction = body.direction();
         if ((isEitherSide(body.role, Role::leftFoot) || isEitherSide(body.role, Role::leftToes)) && !points.empty()) {
             setFootTip(body, points, footHeading(body, points, character, map));

@@ -175,6 +175,30 @@ TEST_CASE("a figure without a skin gets a man's proportions") {
     }
 }
 
+TEST_CASE("a head and hands without a skin are as large as a man's, however short the file's last joints are") {
+    auto biped = test::makeBiped();
+    const auto map = test::mapOfBiped(biped);
+    biped.meshes.clear();
+    animation::Skeleton& skeleton = biped.skeleton;
+    for (const Role role : {Role::head, Role::leftHand, Role::rightHand}) {  // an eye, and stubs of fingers
+        const int parent = map.jointOf(role);
+        const RigidTransform beside{quat(1, 0, 0, 0), {0.01F, 0.02F, 0.03F}};
+        skeleton.names.push_back("end of " + skeleton.names[parent]);
+        skeleton.parents.push_back(parent);
+        skeleton.bindModelFromJoint.push_back(skeleton.bindModelFromJoint[parent] * beside);
+        skeleton.nodeParentFromJoint.push_back(beside);
+        skeleton.skinWeight.push_back(0.0F);
+    }
+    const RagdollProfile profile = fitRagdoll(biped, map).value();
+    const auto lengthOf = [&](Role role) {
+        const BodyShape& shape = profile.bodies[bodyOf(profile, role)].shape;
+        return 2.0F * (shape.halfLength + shape.radius);
+    };
+    CHECK(lengthOf(Role::head) > 0.12F * profile.heightM);
+    CHECK(profile.bodies[bodyOf(profile, Role::head)].shape.radius > 0.035F * profile.heightM);
+    CHECK(lengthOf(Role::leftHand) > 0.08F * profile.heightM);
+}
+
 namespace {
 
 // The biped turned and scaled as a whole, with the map that says so.

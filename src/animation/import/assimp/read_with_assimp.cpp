@@ -46,11 +46,19 @@ std::optional<UpAxis> fbxUp(const aiMetadata* metadata) {
 
 SourceConvention conventionOf(const aiScene& scene, const std::filesystem::path& file) {
     SourceConvention convention;
-    if (lowerCased(file.extension().string()) == ".dae") {  // Assimp converts both.
+    const std::string extension = lowerCased(file.extension().string());
+    if (extension == ".dae") {  // Assimp converts both.
         convention.metresPerUnit = 1.0;
         convention.unitSource = "Collada unit";
         convention.up = UpAxis::positiveY;
         convention.upSource = "Collada up_axis";
+        return convention;
+    }
+    if (extension == ".pmx" || extension == ".pmd") {
+        convention.metresPerUnit = 0.08;  // a figure of 20 units is 1.6 m tall; MMD Tools imports by it, too
+        convention.unitSource = "MikuMikuDance's unit";
+        convention.up = UpAxis::positiveY;
+        convention.upSource = "MikuMikuDance";
         return convention;
     }
     convention.metresPerUnit = fbxUnit(scene.mMetaData);

@@ -186,3 +186,18 @@ TEST_CASE("BVH joints nested beyond all measure are refused with the limit") {
     REQUIRE_FALSE(scene.ok());
     CHECK(scene.error().message.find("deeper than 4096") != std::string::npos);
 }
+
+TEST_CASE("a figure of the CMU captures is no giant because it stands astride") {
+    const ScratchFolder folder;
+    std::ofstream(folder / "astride.bvh")
+        << "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n"
+           "JOINT Spine\n{\nOFFSET 0 2 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET 0 7.2 "
+           "0\n}\n}\n"
+           "JOINT LeftLeg\n{\nOFFSET 2 -2 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET 5 -13 "
+           "0\n}\n}\n"
+           "JOINT RightLeg\n{\nOFFSET -2 -2 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET -5 -13 "
+           "0\n}\n}\n"
+           "}\nMOTION\nFrames: 1\nFrame Time: 0.01\n0 0 0 0 0 0 0 0 0 0 0 0\n";
+    const Character character = imported(folder / "astride.bvh");
+    CHECK(character.units.metresPerFileUnit == Approx(0.0254F / 0.45F));
+}
