@@ -5,6 +5,7 @@
 
 #include "core/quantile.hpp"
 #include "physics/fit/principal_axes.hpp"
+#include "physics/fit/trunk_roles.hpp"
 
 namespace lutka::physics {
 namespace {
@@ -39,13 +40,17 @@ float reachOf(const BodyPlan& plan, const PlannedBody& body) {
     return reach;
 }
 
-// The joints right below a body's joint (fingers, toe) tell its direction where there is no skin.
-std::vector<SkinPoint> jointsBelow(const Character& character, const HumanoidMap& map, int joint) {
+// The joints below a body's joint (fingers, toe) tell its direction where there is no skin, as far as it may reach:
+// some programs put a leaf behind the last joint of a chain, as far again as that is long.
+std::vector<SkinPoint> jointsBelow(const Character& character, const HumanoidMap& map, const BodyPlan& plan,
+                                   const PlannedBody& body) {
+    const float reach = reachOf(plan, body);
     std::vector<SkinPoint> points;
     const animation::Skeleton& skeleton = character.skeleton;
-    for (int child = joint + 1; child < skeleton.jointCount(); ++child) {
-        if (!isAncestorOrSelf(skeleton, joint, child)) continue;
-        points.push_back({map.standardFromModel * skeleton.bindModelFromJoint[child].translation, 0.0F});
+    for (int child = body.joint + 1; child < skeleton.jointCount(); ++child) {
+        if (!isAncestorOrSelf(skeleton, body.joint, child)) continue;
+        const vec3 position = map.standardFromModel * skeleton.bindModelFromJoint[child].translation;
+        if (glm::distance(position, body.start) < reach) points.push_back({position, 0.0F});
     }
     return points;
 }
@@ -97,6 +102,8 @@ void setFootTip(PlannedBody& foot, const std::vector<SkinPoint>& points, const v
 
 std::vector<SkinPoint> skinNearSegment(const BodyPlan& plan, const PlannedBody& body) {
     if (body.segment) return body.skin;  // what hangs on a creature is its own
+    const bool isWholeTop = isTrunk(body.role) && !body.endsAtJoint && plan.bodyOf(Role::head) < 0;
+    if (isWholeTop) return body.skin;  // a bean's trunk is its head as well
     const float reach = body.endsAtJoint ? body.length() + 0.08F * plan.heightM : reachOf(plan, body);
     std::vector<SkinPoint> near;
     for (const SkinPoint& point : body.skin) {
@@ -113,7 +120,7 @@ void findTips(BodyPlan& plan, const Character& character, const HumanoidMap& map
         // does not end there.
         float leastShare = 0.3F;
         if (points.size() < kFewestTipPoints) {
-            points = jointsBelow(character, map, body.joint);
+            points = jointsBelow(character, map, plan, body);
             leastShare = 0.9F;
         }
         const float least = leastShare * proportionsOf(body.role).length * plan.heightM;

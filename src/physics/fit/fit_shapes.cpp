@@ -28,7 +28,7 @@ using animation::Side;
 constexpr std::size_t kFewestShapePoints = 24;
 constexpr float kSmallestRadius = 0.01F;  // of the height, like the next
 constexpr float kLargestRadius = 0.15F;
-constexpr float kLargestTrunkRadius = 0.2F;
+constexpr float kLargestTrunkRadius = 0.35F;
 constexpr float kLargestHeadRadius = 0.3F;
 constexpr float kLargestSegmentRadius = 0.5F;
 // Skin further than this from the surface counts no more than that; of the height.

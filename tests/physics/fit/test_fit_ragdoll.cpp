@@ -175,28 +175,64 @@ TEST_CASE("a figure without a skin gets a man's proportions") {
     }
 }
 
-TEST_CASE("a head and hands without a skin are as large as a man's, however short the file's last joints are") {
+namespace {
+
+void addJoint(animation::Skeleton& skeleton, int parent, const vec3& beside) {
+    const RigidTransform frame{quat(1, 0, 0, 0), beside};
+    skeleton.names.push_back("end of " + skeleton.names[parent]);
+    skeleton.parents.push_back(parent);
+    skeleton.bindModelFromJoint.push_back(skeleton.bindModelFromJoint[parent] * frame);
+    skeleton.nodeParentFromJoint.push_back(frame);
+    skeleton.skinWeight.push_back(0.0F);
+}
+
+float lengthOf(const RagdollProfile& profile, Role role) {
+    const BodyShape& shape = profile.bodies[bodyOf(profile, role)].shape;
+    return 2.0F * (shape.halfLength + shape.radius);
+}
+
+}  // namespace
+
+TEST_CASE("a head and hands without a skin are as large as a man's, however short or long the file's last joints are") {
     auto biped = test::makeBiped();
     const auto map = test::mapOfBiped(biped);
     biped.meshes.clear();
-    animation::Skeleton& skeleton = biped.skeleton;
-    for (const Role role : {Role::head, Role::leftHand, Role::rightHand}) {  // an eye, and stubs of fingers
-        const int parent = map.jointOf(role);
-        const RigidTransform beside{quat(1, 0, 0, 0), {0.01F, 0.02F, 0.03F}};
-        skeleton.names.push_back("end of " + skeleton.names[parent]);
-        skeleton.parents.push_back(parent);
-        skeleton.bindModelFromJoint.push_back(skeleton.bindModelFromJoint[parent] * beside);
-        skeleton.nodeParentFromJoint.push_back(beside);
-        skeleton.skinWeight.push_back(0.0F);
+    for (const Role role : {Role::leftHand, Role::rightHand})  // stubs of fingers
+        addJoint(biped.skeleton, map.jointOf(role), {0.01F, 0.02F, 0.03F});
+    SECTION("an eye") {
+        addJoint(biped.skeleton, map.jointOf(Role::head), {0.03F, 0.05F, 0.06F});
+    }
+    SECTION("a leaf far above") {
+        addJoint(biped.skeleton, map.jointOf(Role::head), {0, 0.9F, 0});
     }
     const RagdollProfile profile = fitRagdoll(biped, map).value();
-    const auto lengthOf = [&](Role role) {
-        const BodyShape& shape = profile.bodies[bodyOf(profile, role)].shape;
-        return 2.0F * (shape.halfLength + shape.radius);
-    };
-    CHECK(lengthOf(Role::head) > 0.12F * profile.heightM);
+    CHECK(lengthOf(profile, Role::head) > 0.12F * profile.heightM);
+    CHECK(lengthOf(profile, Role::head) < 0.2F * profile.heightM);
     CHECK(profile.bodies[bodyOf(profile, Role::head)].shape.radius > 0.035F * profile.heightM);
-    CHECK(lengthOf(Role::leftHand) > 0.08F * profile.heightM);
+    CHECK(lengthOf(profile, Role::leftHand) > 0.08F * profile.heightM);
+}
+
+TEST_CASE("a trunk without a head reaches to the crown, and is as wide as its skin") {
+    auto biped = test::makeBiped();
+    auto map = test::mapOfBiped(biped);
+    std::vector<int> trunk{map.jointOf(Role::hips)};
+    for (const Role role : {Role::spine, Role::chest, Role::neck, Role::head}) {
+        trunk.push_back(map.jointOf(role));
+        map.roles[animation::indexOf(role)].reset();
+    }
+    const bool isEgg = GENERATE(false, true);
+    float widest = 0.0F;
+    animation::SkinnedMesh& mesh = biped.meshes[0];
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        if (std::find(trunk.begin(), trunk.end(), mesh.joints[i][0]) == trunk.end()) continue;
+        if (isEgg) mesh.positions[i] = {4.0F * mesh.positions[i].x, mesh.positions[i].y, 4.0F * mesh.positions[i].z};
+        widest = std::max(widest, mesh.positions[i].x);
+    }
+    const RagdollProfile profile = fitRagdoll(biped, map).value();
+    const BodyProfile& hips = profile.bodies[bodyOf(profile, Role::hips)];
+    const vec3 middle = biped.skeleton.bindModelFromJoint[map.jointOf(Role::hips)] * hips.jointFromBody.translation;
+    CHECK(middle.y + 0.5F * lengthOf(profile, Role::hips) > 0.92F * profile.heightM);
+    CHECK(hips.shape.radius > 0.75F * widest);
 }
 
 namespace {
