@@ -26,6 +26,7 @@ namespace {
 using animation::Side;
 
 constexpr std::size_t kFewestShapePoints = 24;
+constexpr std::size_t kCorners = 8;
 constexpr float kSmallestRadius = 0.01F;  // of the height, like the next
 constexpr float kLargestRadius = 0.15F;
 constexpr float kLargestTrunkRadius = 0.35F;
@@ -105,7 +106,9 @@ class BodyFit {
 
     // A box in place of `capsule` where the body's skin is one.
     [[nodiscard]] std::optional<PlacedBox> fitBox(const Capsule& capsule) const {
-        if (points_.size() < kFewestShapePoints || isWhatStands()) return std::nullopt;
+        // The corners of a creature's block say enough of it; a man's part of few points has a man's measures.
+        const std::size_t fewest = body_.segment ? kCorners : kFewestShapePoints;
+        if (points_.size() < fewest || isWhatStands()) return std::nullopt;
         BoxBounds bounds;
         const bool stands = central_ || isTrunk(body_.role) || body_.role == Role::head;
         bounds.standardFromAxes = central_ ? inMirrorPlane(rotation_)
@@ -120,15 +123,17 @@ class BodyFit {
         bounds.cutoff = cutoff();
         bounds.nearM = kNearSkin * plan_.heightM;
         std::optional<PlacedBox> box = physics::fitBox(points_, capsule, bounds);
-        if (!box && body_.segment && !central_) {
-            bounds.standardFromAxes = axesAlong(principalAxes(points_).axis[0]);
+        // A segment's joint may stand anywhere about its skin: along that, or upright.
+        const std::array<quat, 2> further{axesAlong(principalAxes(points_).axis[0]), quat(1, 0, 0, 0)};
+        for (std::size_t i = 0; i < further.size() && !box && body_.segment && !central_; ++i) {
+            bounds.standardFromAxes = further[i];
             box = physics::fitBox(points_, capsule, bounds);
         }
         // About a joint that bends, a limb's box about one of its ends would turn into its neighbour.
         constexpr float kOfLength = 0.2F;
         const float middle = box ? glm::dot(box->standardFromBox.translation - body_.start, body_.direction()) : 0.0F;
         const bool between = middle > kOfLength * body_.length() && middle < (1.0F - kOfLength) * body_.length();
-        return stands || between ? box : std::nullopt;
+        return stands || between || body_.parent < 0 ? box : std::nullopt;
     }
 
   private:

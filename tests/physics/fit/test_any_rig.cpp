@@ -185,6 +185,34 @@ TEST_CASE("a body of few points lies along them, wherever its joint is") {
         CHECK(finding.code != "body-beside-skin");
 }
 
+namespace {
+
+// A square bar between two points, which moves with a joint.
+void addBar(animation::Character& figure, int joint, const vec3& from, const vec3& to, float half) {
+    if (figure.meshes.empty()) figure.meshes.emplace_back().name = "bars";
+    animation::SkinnedMesh& mesh = figure.meshes[0];
+    const vec3 along = glm::normalize(to - from);
+    const vec3 across = glm::normalize(glm::cross(along, std::abs(along.z) < 0.9F ? vec3(0, 0, 1) : vec3(0, 1, 0)));
+    const vec3 other = glm::cross(along, across);
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (int corner = 0; corner < 8; ++corner) {
+        const vec3 end = (corner & 4) != 0 ? to : from;
+        const float u = (corner & 1) != 0 ? half : -half;
+        const float v = (corner & 2) != 0 ? half : -half;
+        mesh.positions.push_back(end + u * across + v * other);
+        mesh.normals.push_back(glm::normalize(u * across + v * other));
+        mesh.joints.push_back({static_cast<std::uint16_t>(joint), 0, 0, 0});
+        mesh.weights.push_back({1, 0, 0, 0});
+    }
+    constexpr std::array<std::uint32_t, 36> kFaces{0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                                                   2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+    for (const std::uint32_t index : kFaces)
+        mesh.indices.push_back(first + index);
+    figure.skeleton.skinWeight[static_cast<std::size_t>(joint)] = 8;
+}
+
+}  // namespace
+
 TEST_CASE("slanting blocks become boxes along them, and legs that stand stay round") {
     // A spider of blocks: four thin legs aslant, and below it, as a table's, four that stand.
     std::vector<test::JointSpec> joints{{"body", -1, {0, 1, 0}}};
@@ -194,37 +222,16 @@ TEST_CASE("slanting blocks become boxes along them, and legs that stand stay rou
         joints.push_back({"leg" + end, 0, {side * 0.25F, 0.8F, -0.3F}});
     }
     animation::Character block = test::makeFigure("block", joints, {});
-    animation::SkinnedMesh mesh;
-    mesh.name = "blocks";
-    const auto add = [&](int joint, const vec3& from, const vec3& to, float half) {
-        const vec3 along = glm::normalize(to - from);
-        const vec3 across = glm::normalize(glm::cross(along, std::abs(along.z) < 0.9F ? vec3(0, 0, 1) : vec3(0, 1, 0)));
-        const vec3 other = glm::cross(along, across);
-        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-        for (int corner = 0; corner < 8; ++corner) {
-            const vec3 end = (corner & 4) != 0 ? to : from;
-            const float u = (corner & 1) != 0 ? half : -half;
-            const float v = (corner & 2) != 0 ? half : -half;
-            mesh.positions.push_back(end + u * across + v * other);
-            mesh.normals.push_back(glm::normalize(u * across + v * other));
-            mesh.joints.push_back({static_cast<std::uint16_t>(joint), 0, 0, 0});
-            mesh.weights.push_back({1, 0, 0, 0});
-        }
-        constexpr std::array<std::uint32_t, 36> kFaces{0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
-                                                       2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
-        for (const std::uint32_t index : kFaces)
-            mesh.indices.push_back(first + index);
-        block.skeleton.skinWeight[static_cast<std::size_t>(joint)] = 8;
-    };
-    add(0, {0, 1, -0.5F}, {0, 1, 0.5F}, 0.3F);
+    block.meshes.clear();
+    addBar(block, 0, {0, 1, -0.5F}, {0, 1, 0.5F}, 0.3F);
     for (int joint = 1; joint < 5; ++joint) {
         const vec3 at = joints[static_cast<std::size_t>(joint)].position;
         const float side = at.x > 0.0F ? 1.0F : -1.0F;
         // A feeler's joint lies off its axis, so that the way from the joint to its middle is not along it.
-        if (joint % 2 == 1) add(joint, at + vec3(0, 0.06F, 0.05F), at + vec3(side * 0.8F, -0.5F, 0.4F), 0.06F);
-        if (joint % 2 == 0) add(joint, at, at + vec3(0, -0.8F, 0), 0.1F);
+        if (joint % 2 == 1)
+            addBar(block, joint, at + vec3(0, 0.06F, 0.05F), at + vec3(side * 0.8F, -0.5F, 0.4F), 0.06F);
+        if (joint % 2 == 0) addBar(block, joint, at, at + vec3(0, -0.8F, 0), 0.1F);
     }
-    block.meshes = {mesh};
     animation::HumanoidMap map;
     map.standardFromModel = animation::segmentRig(block).standardFromModel;
     const RagdollProfile profile = fitRagdoll(block, map, Creature::anyRig()).value();
@@ -233,6 +240,21 @@ TEST_CASE("slanting blocks become boxes along them, and legs that stand stay rou
         REQUIRE(bodyNamed(profile, "leg" + end) >= 0);
         CHECK(profile.bodies[bodyNamed(profile, "feeler" + end)].shape.kind == BodyShape::Kind::box);
         CHECK(profile.bodies[bodyNamed(profile, "leg" + end)].shape.kind == BodyShape::Kind::capsule);
+    }
+}
+
+TEST_CASE("a crate is a box wherever its joint stands") {
+    for (const vec3& corner : {vec3(0), vec3(-0.4F, 0, -0.4F), vec3(3, 0, 2)}) {
+        INFO(corner.x);
+        animation::Character crate = test::makeFigure("crate", {{"crate", -1, {0, 0, 0}}}, {});
+        crate.meshes.clear();
+        addBar(crate, 0, corner + vec3(0.4F, 0, 0.4F), corner + vec3(0.4F, 0.7F, 0.4F), 0.4F);
+        animation::HumanoidMap map;
+        map.standardFromModel = animation::segmentRig(crate).standardFromModel;
+        const RagdollProfile profile = fitRagdoll(crate, map, Creature::anyRig()).value();
+        REQUIRE(profile.bodies.size() == 1);
+        CHECK(profile.bodies[0].shape.kind == BodyShape::Kind::box);
+        CHECK(profile.bodies[0].massKg == Approx(0.8F * 0.8F * 0.7F * 1000.0F).epsilon(0.02));
     }
 }
 
