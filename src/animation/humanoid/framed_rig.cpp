@@ -322,6 +322,20 @@ bool FramedRig::isAbove(int upper, int lower) const {
            rig->isAncestorOrSelf(a.joints[1], b.joints[1]);
 }
 
+bool FramedRig::isTip(const JointPair& pair) const {
+    constexpr float kBeyond = 0.08F;  // of the way from the joint above
+    if (rig->vertices.empty()) return false;
+    return std::all_of(pair.joints.begin(), pair.joints.end(), [&](int joint) {
+        const int parent = rig->parents[joint];
+        const Box& skin = subtreeSkin[joint];
+        if (parent == kNoJoint) return false;
+        if (skin.count == 0) return true;  // the joint above moves these corners as much
+        const vec3 way = positions[joint] - positions[parent];
+        const vec3 most = glm::max((skin.low - positions[joint]) * way, (skin.high - positions[joint]) * way);
+        return most.x + most.y + most.z < kBeyond * glm::dot(way, way);
+    });
+}
+
 float FramedRig::segment(int pairA, int pairB) const {
     const auto& a = pairs[pairA].joints;
     const auto& b = pairs[pairB].joints;

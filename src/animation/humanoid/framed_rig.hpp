@@ -57,6 +57,8 @@ struct FramedRig {
 
     /// Whether both joints of pair `upper` are above those of pair `lower` in the tree.
     [[nodiscard]] bool isAbove(int upper, int lower) const;
+    /// Whether both joints are ends of blocks, which move the corners there: no skin goes on beyond them.
+    [[nodiscard]] bool isTip(const JointPair& pair) const;
     [[nodiscard]] float segment(int pairA, int pairB) const;  ///< Mean distance of the two sides.
 };
 

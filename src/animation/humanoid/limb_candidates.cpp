@@ -97,7 +97,7 @@ class LimbFinder {
     void findEnds() {
         endsThere_.assign(framed_.pairs.size(), true);
         for (const JointPair& pair : framed_.pairs) {
-            if (framed_.rig->skinned && pair.ownWeight <= 0.0F) continue;
+            if (framed_.rig->skinned && (pair.ownWeight <= 0.0F || framed_.isTip(pair))) continue;
             const int parent = framed_.rig->parents[pair.joints[0]];
             for (int joint = parent; joint != kNoJoint; joint = framed_.rig->parents[joint]) {
                 if (framed_.pairOf[joint] >= 0) endsThere_[framed_.pairOf[joint]] = false;
@@ -246,6 +246,7 @@ class LimbFinder {
             candidate.score += placing(candidate.pairs[slot], slot) + kJoint;
             candidate.names += nameTerm(candidate.pairs[slot], slot);
         }
+        if (candidate.score <= kImpossible) return;
         best_.push_back(candidate);
         if (best_.size() <= kHeldPerRoot) return;
         std::nth_element(best_.begin(), best_.begin() + kPerRoot, best_.end(), likelier);

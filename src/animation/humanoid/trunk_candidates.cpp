@@ -28,6 +28,8 @@ constexpr float kCarriesFace = 3.0F;      // eyes or ears hang on it
 constexpr float kGoesOnAlike = -1.0F;     // the joint above it is named as its next segment
 constexpr float kWholeHead = 0.8F;        // of the skin above the arms
 constexpr float kWholePose = -1.0F;       // the most that the place of what keeps so much may cost
+constexpr float kClearlyBelow = 0.4F;     // of the trunk: hips below the chest that they hang on
+constexpr float kUpright = 0.99F;         // cosine between the stance's up and the file's
 constexpr float kSamePlace = 0.01F;       // of the trunk: a copy's
 constexpr float kSameJoint = 0.03F;       // … and of a part that has a joint of its own
 constexpr std::size_t kHeadsTried = 6;
@@ -225,6 +227,7 @@ class TrunkFinder {
             const float lowest = !isNamedHead(joint) ? 0.15F : framed_.stance.byNames ? 1.0F : 0.5F;
             if (position(joint).y < arms_.root.y - lowest * length_ || joint == banned) continue;
             joints.push_back(joint);
+            if (carriesTrunk(joint)) skinAbove = std::max(skinAbove, retainedSkin(joint));
             if (rig_.isAncestorOrSelf(joint, armRoot())) continue;
             skinAbove = std::max(skinAbove, rig_.subtreeWeight[joint]);
             const bool above = position(joint).y > arms_.root.y + 0.25F * length_;
@@ -234,9 +237,10 @@ class TrunkFinder {
         for (const int joint : joints) {
             const float pose = near((position(joint).y - arms_.root.y) / length_, 0.32F, 0.2F, 5.0F) +
                                near((position(joint).z - arms_.root.z) / length_, 0.0F, 0.3F, 3.0F);
-            // So is the end of a long neck, where it keeps nearly all skin above the arms and names tell the limbs.
-            const bool keepsAll =
-                skinAbove > 0.0F && legs_.names + arms_.names > 0.0F && retainedSkin(joint) >= kWholeHead * skinAbove;
+            const bool first = carriesTrunk(joint);
+            // A head as well: the end of a long neck that keeps nearly all skin above the arms, where names tell limbs.
+            const bool keepsAll = first || (skinAbove > 0.0F && legs_.names + arms_.names > 0.0F &&
+                                            retainedSkin(joint) >= kWholeHead * skinAbove);
             float score = name(joint, Part::head) + skinTerm(joint) + centralTerm(joint) +
                           (isNamedHead(joint) ? std::max(pose, kNamedPose)
                            : keepsAll         ? std::max(pose, kWholePose)
@@ -245,7 +249,7 @@ class TrunkFinder {
             if (carriesFace(joint)) score += kCarriesFace;
             if (!isNamedHead(joint) && goesOnAlike(joint)) score += kGoesOnAlike;
             // Arms on the head: a head that is the trunk, too, has that name.
-            if (rig_.isAncestorOrSelf(joint, armRoot())) score -= isNamedHead(joint) ? 1.0F : 6.0F;
+            if (rig_.isAncestorOrSelf(joint, armRoot())) score -= first || isNamedHead(joint) ? 1.0F : 6.0F;
             heads.push_back({joint, score});
         }
         keepBest(heads, kHeadsTried);
@@ -338,7 +342,8 @@ class TrunkFinder {
         const int chest = trunk.chest;
         const vec3& place = position(chest);
         if (chest == trunk.head) return -kFarAway;
-        if (trunk.head != kNoJoint && rig_.isAncestorOrSelf(trunk.head, chest)) return -kFarAway;
+        const bool headFirst = trunk.head != kNoJoint && rig_.isAncestorOrSelf(trunk.head, chest);
+        if (headFirst && (chest != armParent_ || !carriesTrunk(trunk.head))) return -kFarAway;
         if (chest != trunk.hips && rig_.isAncestorOrSelf(chest, trunk.hips) && !isTurnedOver(chest, trunk.hips))
             return -kFarAway;
         float score = skinTerm(chest) + centralTerm(chest) + near((place.z - arms_.root.z) / length_, 0.0F, 0.3F, 4.0F);
@@ -370,7 +375,8 @@ class TrunkFinder {
         if (isCopyOfWhatCarries(trunk.hips, chest)) score += kOfTwoSkeletons;
         if (trunk.head == kNoJoint) return score;
         if (isCopyOfWhatCarries(chest, trunk.head)) score += kOfTwoSkeletons;
-        score += near((position(trunk.head).y - place.y) / length_, 0.6F, 0.25F, isNamedHead(trunk.head) ? 1.5F : 4.0F);
+        score += near((position(trunk.head).y - place.y) / length_, 0.6F, 0.25F,
+                      headFirst || isNamedHead(trunk.head) ? 1.5F : 4.0F);
         return score + neckScore;
     }
 
@@ -389,11 +395,25 @@ class TrunkFinder {
         });
     }
 
-    // A trunk that carries its hips: robots whose body is the root. The hips are named so and carry the legs alone.
+    // A trunk that carries its hips: robots whose body is the root. The hips are named so and carry the legs alone, or
+    // hang clearly below the chest with both thighs on them.
     [[nodiscard]] bool isTurnedOver(int chest, int hips) const {
-        return chest == armParent_ && hips == legParent_ && name(hips, Part::hips) >= kNamedHips &&
-               name(chest, Part::chest) >= kNamedChest;
+        if (chest != armParent_ || hips != legParent_) return false;
+        const bool named = name(hips, Part::hips) >= kNamedHips && name(chest, Part::chest) >= kNamedChest;
+        return named || (hips == thighParent_ && hangsBelow(hips, chest));
     }
+
+    // The lower of two joints that move skin hangs on the upper one: a tree that starts further up than at the hips. So
+    // do animals', whose trunk lies.
+    [[nodiscard]] bool hangsBelow(int lower, int upper) const {
+        if (framed_.stance.up.y < kUpright) return false;
+        const bool moves = !rig_.skinned || (rig_.directWeight[lower] > 0.0F && rig_.directWeight[upper] > 0.0F);
+        return moves && lower != upper && rig_.isAncestorOrSelf(upper, lower) &&
+               position(upper).y - position(lower).y > kClearlyBelow * length_;
+    }
+
+    // A head that everything hangs on: what carries the arms hangs below it.
+    [[nodiscard]] bool carriesTrunk(int head) const { return armParent_ != kNoJoint && hangsBelow(armParent_, head); }
 
     // How many joints lie between chest and head, and what they are called.
     [[nodiscard]] float neckScore(int chest, int head) const {
