@@ -13,11 +13,14 @@ constexpr float kLeastHubSkin = 0.005F;
 constexpr float kLeastRootSkin = 0.02F;
 constexpr float kMostOfSkin = 0.6F;
 
-// The joint under which all skin hangs; the first root where trees stand side by side.
+// The joint under which all skin hangs, or all rigid parts; the first root where trees stand side by side.
 int skinRoot(const RigFeatures& rig) {
+    const bool ofParts =
+        !rig.skinned && std::any_of(rig.rigidPart.begin(), rig.rigidPart.end(), [](bool part) { return part; });
     int root = kNoJoint;
     for (int joint = 0; joint < rig.count(); ++joint) {
         if (rig.skinned && rig.directWeight[joint] <= 0.0F) continue;
+        if (ofParts && !rig.rigidPart[joint]) continue;
         if (root == kNoJoint) root = joint;
         const int common = rig.commonAncestor(root, joint);
         if (common != kNoJoint) root = common;

@@ -196,3 +196,26 @@ TEST_CASE("joints of one name become bodies of different names") {
     // A role's name is kept for bodies that have the role.
     CHECK(rig.segments[2].name == "head 2");
 }
+
+TEST_CASE("a figure of rigid parts starts at the part that all others hang on, not at the scene's root") {
+    const std::vector<test::JointSpec> joints{{"RootNode", -1, {0, 0, 0}},
+                                              {"body", 0, {0.8F, 0.5F, 0}},
+                                              {"neck", 1, {0.8F, 0.5F, 0.2F}},
+                                              {"tail", 1, {0.8F, 0.5F, -0.2F}}};
+    Character creature;
+    creature.skeleton = test::makeSkeleton(joints);
+    for (std::size_t joint = 1; joint < joints.size(); ++joint) {
+        SkinnedMesh part;
+        part.rigid = true;
+        const vec3 at = joints[joint].position;
+        part.positions = {at, at + vec3(0.05F, 0.1F, 0), at + vec3(0, 0, joint == 3 ? -0.2F : 0.2F)};
+        part.joints.assign(3, {static_cast<std::uint16_t>(joint), 0, 0, 0});
+        part.weights.assign(3, {1.0F, 0.0F, 0.0F, 0.0F});
+        part.indices = {0, 1, 2};
+        creature.meshes.push_back(part);
+    }
+    const SegmentedRig rig = segmentRig(creature);
+    REQUIRE(rig.segments.size() == 3);
+    CHECK(rig.segments[0].name == "body");
+    CHECK(segmentNamed(rig, "RootNode") < 0);
+}

@@ -188,7 +188,7 @@ class ClipWriter {
 
     void addFrame(double seconds) {
         player_.pose(seconds, transforms_);
-        evaluateNodes(transforms_, tree_.parents, local_);
+        evaluateTree(tree_, transforms_, local_);
         for (std::size_t i = 0; i < tracks_.size(); ++i) {
             Track& track = tracks_[i];
             Trs trs = valueOf(track);

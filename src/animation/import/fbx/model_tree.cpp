@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "animation/import/source_limits.hpp"
 
 namespace lutka::animation::rig_import::fbx {
@@ -21,6 +24,7 @@ class TreeBuilder {
         NodeTransform root;
         root[Part::scaling] = dvec3(1);
         tree_.transforms.push_back(root);
+        tree_.origins.emplace_back(0);
     }
 
     // The models below; false when there are too many or they are nested too deep.
@@ -50,9 +54,23 @@ class TreeBuilder {
         tree_.names.push_back(object.name);
         tree_.parents.push_back(next.parent);
         tree_.transforms.push_back(transformOf(object.properties));
+        tree_.origins.push_back(carriesRigidMesh(next.model) ? pivotInNode(tree_.transforms.back()) : dvec3(0));
         tree_.nodeOfModel[next.model] = node;
         tree_.inOrder.emplace_back(next.model, node);
         return node;
+    }
+
+    // A mesh without a skin, of a model that is no joint of another mesh's.
+    [[nodiscard]] bool carriesRigidMesh(int model) const {
+        std::vector<int> owners = objects_.children(model, "Geometry", "Mesh");
+        if (objects_[model].record->child("Vertices") != nullptr) owners.push_back(model);
+        const auto hasSkin = [&](int owner) { return !objects_.children(owner, "Deformer", "Skin").empty(); };
+        const std::span<const Connection> above = objects_.parentsOf(model);
+        const auto isCluster = [&](const Connection& connection) {
+            return connection.parent >= 0 && objects_[connection.parent].kind == "Deformer";
+        };
+        return !owners.empty() && std::none_of(owners.begin(), owners.end(), hasSkin) &&
+               std::none_of(above.begin(), above.end(), isCluster);
     }
 
     // They repeat the figure joint by joint, and would be taken for a second one.
@@ -73,6 +91,7 @@ class TreeBuilder {
             kept.parents.push_back(parent < 0 ? -1 : newIndex[static_cast<std::size_t>(parent)]);
             kept.names.push_back(std::move(tree_.names[node]));
             kept.transforms.push_back(tree_.transforms[node]);
+            kept.origins.push_back(tree_.origins[node]);
         }
         for (const auto& [model, node] : tree_.inOrder) {
             const int index = newIndex[static_cast<std::size_t>(node)];
@@ -101,6 +120,16 @@ std::vector<int> topModels(const Objects& objects) {
 }
 
 }  // namespace
+
+void evaluateTree(const ModelTree& tree, std::span<const NodeTransform> transforms, std::span<dmat4> parentFromNode) {
+    evaluateNodes(transforms, tree.parents, parentFromNode);
+    for (std::size_t node = 0; node < tree.parents.size(); ++node) {
+        const int parent = tree.parents[node];
+        const dvec3 above = parent < 0 ? dvec3(0) : tree.origins[static_cast<std::size_t>(parent)];
+        parentFromNode[node] = glm::translate(parentFromNode[node], tree.origins[node]);
+        parentFromNode[node][3] -= glm::dvec4(above, 0.0);
+    }
+}
 
 Result<ModelTree> readModelTree(const Objects& objects, const std::string& location) {
     TreeBuilder builder(objects);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,9 +18,16 @@ struct ModelTree {
     std::vector<std::string> names;
     std::vector<int> parents;
     std::vector<NodeTransform> transforms;
+    /// The origin of the scene's node in the file's: the pivot that the node of a rigid mesh turns about, which is
+    /// where Maya's meshes with frozen transforms have their joint; else 0.
+    std::vector<dvec3> origins;
     std::map<int, int> nodeOfModel;            ///< Object index → node.
     std::vector<std::pair<int, int>> inOrder;  ///< Object index and node, in the order of the nodes.
 };
+
+/// The parent-relative frames of the scene's nodes where the tree's have these transforms: as evaluateNodes(), from
+/// origin to origin. One element a node in both spans.
+void evaluateTree(const ModelTree& tree, std::span<const NodeTransform> transforms, std::span<dmat4> parentFromNode);
 
 /// The handles of control rigs (effectors, which MotionBuilder saves along) are left out with what hangs on them,
 /// unless that is something else. Models that hang on no other one, or on each other in a ring, hang on the root. Fails

@@ -123,6 +123,12 @@ dmat4 localMatrix(const NodeTransform& transform) {
            glm::translate(one, -transform[Part::scalingPivot]);
 }
 
+dvec3 pivotInNode(const NodeTransform& transform) {
+    const dvec3 scaled =
+        transform[Part::rotationPivot] - transform[Part::scalingOffset] - transform[Part::scalingPivot];
+    return transform[Part::scalingPivot] + scaled / usableScale(transform[Part::scaling]);
+}
+
 dvec3 usableScale(dvec3 scale) {
     for (int i = 0; i < 3; ++i) {
         if (!(std::abs(scale[i]) > 1e-12)) scale[i] = 1.0;

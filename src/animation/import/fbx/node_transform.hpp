@@ -66,6 +66,9 @@ struct NodeTransform {
 /// T Roff Rp Rpre R Rpost⁻¹ Rp⁻¹ Soff Sp S Sp⁻¹ (FBX SDK, "Computing transformation matrices").
 [[nodiscard]] dmat4 localMatrix(const NodeTransform& transform);
 
+/// The place in the node's frame that its rotation leaves where it is.
+[[nodiscard]] dvec3 pivotInNode(const NodeTransform& transform);
+
 /// The scale with 1 in place of zeros, which can't be taken out again.
 [[nodiscard]] dvec3 usableScale(dvec3 scale);
 

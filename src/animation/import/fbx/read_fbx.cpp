@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 #include <map>
 #include <set>
@@ -55,7 +56,7 @@ class SceneReader {
         const Conventions conventions = conventionsOf(objects_.settings());
         scene_.convention = conventions.stated;
         std::vector<dmat4> parentFromNode(tree_.parents.size());
-        evaluateNodes(tree_.transforms, tree_.parents, parentFromNode);
+        evaluateTree(tree_, tree_.transforms, parentFromNode);
         parentFromNode[0] = conventions.sceneFromFile;
         for (std::size_t i = 0; i < tree_.parents.size(); ++i) {
             const int parent = tree_.parents[i];
@@ -139,8 +140,9 @@ class SceneReader {
             (void)materialAt(slots, static_cast<int>(slot));
             uvSets.push_back(uvSets_[slots[slot]]);
         }
+        const dmat4 originFromNode = glm::translate(dmat4(1.0), -tree_.origins[static_cast<std::size_t>(place.node)]);
         std::vector<MeshPart> parts =
-            geometries.read(place.owner, geometricMatrix(objects_[place.model].properties), uvSets);
+            geometries.read(place.owner, originFromNode * geometricMatrix(objects_[place.model].properties), uvSets);
         const std::size_t points = objects_[place.owner].record->numbersOf("Vertices").size() / 3;
         const std::optional<ReadSkin> skin =
             parts.empty() ? std::nullopt : readSkin(context, place.owner, place.model, points);

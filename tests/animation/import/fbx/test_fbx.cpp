@@ -11,6 +11,7 @@
 #include <random>
 
 #include "animation/import/clip_sampling.hpp"
+#include "animation/import/fbx/fbx_documents.hpp"
 #include "animation/import/fbx/fbx_writer.hpp"
 #include "animation/import/fbx/read_fbx.hpp"
 #include "animation/import/fbx/triangulate.hpp"
@@ -26,72 +27,6 @@ using glm::dvec3;
 using glm::dvec4;
 
 namespace {
-
-using Numbers = std::vector<std::pair<std::string, std::vector<double>>>;
-
-constexpr double kTicks = 46'186'158'000.0;
-
-FbxRecord row(const std::string& name, std::vector<double> numbers) {
-    return {name, {std::move(numbers)}, {}};
-}
-
-FbxRecord wholes(const std::string& name, std::vector<std::int32_t> numbers) {
-    return {name, {std::move(numbers)}, {}};
-}
-
-FbxRecord model(std::int64_t id, const std::string& name, const Numbers& properties) {
-    return {"Model", {id, "Model::" + name, std::string("LimbNode")}, {fbxProperties(properties)}};
-}
-
-std::vector<FbxRecord> document(std::vector<FbxRecord> objects, std::vector<FbxRecord> links) {
-    return {{"Objects", {}, std::move(objects)}, {"Connections", {}, std::move(links)}};
-}
-
-Result<SourceScene> readBytes(const std::string& bytes) {
-    const ScratchFolder folder;
-    const std::string file = folder / "document.fbx";
-    std::ofstream(file, std::ios::binary) << bytes;
-    return readFbx(file, {});
-}
-
-SourceScene readAll(const std::vector<FbxRecord>& sections) {
-    Result<SourceScene> scene = readBytes(asciiFbx(sections));
-    if (!scene) FAIL(scene.error().text());
-    return std::move(scene).value();
-}
-
-dmat4 turn(double degrees, int axis) {
-    dvec3 about(0);
-    about[axis] = 1.0;
-    return glm::rotate(dmat4(1.0), glm::radians(degrees), about);
-}
-
-dmat4 xyz(const dvec3& degrees) {
-    return turn(degrees.z, 2) * turn(degrees.y, 1) * turn(degrees.x, 0);
-}
-
-dmat4 move(const dvec3& by) {
-    return glm::translate(dmat4(1.0), by);
-}
-
-double difference(const dmat4& a, const dmat4& b) {
-    double worst = 0.0;
-    for (int column = 0; column < 4; ++column)
-        worst = std::max(worst, glm::length(a[column] - b[column]));
-    return worst;
-}
-
-const Numbers kPivots = {{"Lcl Translation", {1, 2, 3}}, {"Lcl Rotation", {10, 20, 30}}, {"Lcl Scaling", {2, 2, 2}},
-                         {"RotationOffset", {4, 5, 6}},  {"RotationPivot", {7, 8, 9}},   {"PreRotation", {15, 25, 35}},
-                         {"PostRotation", {40, 50, 60}}, {"ScalingOffset", {3, 1, 2}},   {"ScalingPivot", {5, 7, 6}},
-                         {"RotationActive", {1}}};
-
-// The FBX SDK's product, with `rotation` in the place of the node's own.
-dmat4 pivotsMatrix(const dvec3& rotation) {
-    return move({1, 2, 3}) * move({4, 5, 6}) * move({7, 8, 9}) * xyz({15, 25, 35}) * xyz(rotation) *
-           glm::inverse(xyz({40, 50, 60})) * move({-7, -8, -9}) * move({3, 1, 2}) * move({5, 7, 6}) *
-           glm::scale(dmat4(1.0), dvec3(2)) * move({-5, -7, -6});
-}
 
 // A square of side 2 about the origin, bound whole to joint 2.
 std::vector<FbxRecord> skinnedSquare(const Numbers& meshProperties, const dmat4& sceneFromJoint,
@@ -120,7 +55,7 @@ std::vector<FbxRecord> skinnedSquare(const Numbers& meshProperties, const dmat4&
 }  // namespace
 
 TEST_CASE("an FBX node stands where all its pivots put it, in every way of writing the document") {
-    const auto sections = document({model(7, "Arm", kPivots)}, {fbxLink(7, 0)});
+    const auto sections = document({model(7, "Arm", pivotsOfAllKinds())}, {fbxLink(7, 0)});
     for (const std::string& bytes :
          {asciiFbx(sections), binaryFbx(sections, 7400, false), binaryFbx(sections, 7500, true)}) {
         const Result<SourceScene> scene = readBytes(bytes);
@@ -223,42 +158,6 @@ TEST_CASE("pictures of an FBX shader that is not known are taken by what their p
     CHECK(warnings("Maya|FalloffTexture").find("shaders that are not known, by their properties Maya|FalloffTexture") !=
           std::string::npos);
     CHECK(warnings("Maya|DiffuseMask").find("Maya|DiffuseMask") != std::string::npos);
-}
-
-TEST_CASE("FBX clips turn about the rotation's pivot, in the node's euler angles, between pre- and post-rotation") {
-    const FbxRecord curve{
-        "AnimationCurve",
-        {std::int64_t{11}, std::string("AnimCurve::"), std::string()},
-        {row("KeyTime", {0.0, kTicks}), row("KeyValueFloat", {10.0, 370.0}), wholes("KeyAttrFlags", {4}),
-         row("KeyAttrDataFloat", {0, 0, 0, 0}), wholes("KeyAttrRefCount", {2})}};
-    const FbxRecord curveNode{"AnimationCurveNode",
-                              {std::int64_t{10}, std::string("AnimCurveNode::R"), std::string()},
-                              {fbxProperties({{"d|X", {10}}, {"d|Y", {20}}, {"d|Z", {30}}})}};
-    const SourceScene scene = readAll(document(
-        {model(7, "Arm", kPivots),
-         {"AnimationStack", {std::int64_t{8}, std::string("AnimStack::Wave"), std::string()}, {}},
-         {"AnimationLayer", {std::int64_t{9}, std::string("AnimLayer::Base"), std::string()}, {}},
-         curveNode,
-         curve},
-        {fbxLink(7, 0), fbxLink(9, 8), fbxLink(10, 9), fbxLink(10, 7, "Lcl Rotation"), fbxLink(11, 10, "d|X")}));
-    REQUIRE(scene.clips.size() == 1);
-    CHECK(scene.clips[0].name == "Wave");
-    REQUIRE(scene.clips[0].channels.size() == 3);
-    const SourceChannel& places = scene.clips[0].channels[0];
-    const SourceChannel& turns = scene.clips[0].channels[1];
-    REQUIRE(turns.times.size() == 31);
-    glm::dquat last(1, 0, 0, 0);
-    for (std::size_t frame = 0; frame < turns.times.size(); ++frame) {
-        // A whole turn between two keys: a reader that knew the keys' rotations only would stand still.
-        const dmat4 expected = pivotsMatrix({10.0 + 360.0 * turns.times[frame], 20, 30});
-        const float* q = &turns.values[4 * frame];
-        const glm::dquat rotation(q[3], q[0], q[1], q[2]);
-        dmat4 found = glm::mat4_cast(rotation) * glm::scale(dmat4(1.0), dvec3(2));
-        found[3] = dvec4(places.values[3 * frame], places.values[3 * frame + 1], places.values[3 * frame + 2], 1.0);
-        CHECK(difference(found, expected) < 1e-4);
-        if (frame > 0) CHECK(glm::dot(last, rotation) > 0.0);
-        last = rotation;
-    }
 }
 
 TEST_CASE("an FBX clip that stands still is one frame, however long it says it is") {
@@ -461,7 +360,7 @@ TEST_CASE("an FBX array that claims more than its bytes can hold is refused befo
 }
 
 TEST_CASE("damaged FBX documents are read or refused, and never more") {
-    const auto sections = skinnedSquare(kPivots, move({0, 5, 0}), move({0, -5, 0}));
+    const auto sections = skinnedSquare(pivotsOfAllKinds(), move({0, 5, 0}), move({0, -5, 0}));
     std::mt19937 random(7);
     int refused = 0;
     for (const std::string& whole :
