@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "animation/import/assimp/b3d_bytes.hpp"
 #include "animation/import/assimp/collada_text.hpp"
 #include "animation/import/source_limits.hpp"
 #include "core/files.hpp"
@@ -19,15 +20,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Empty when the file is no Collada.
-std::string tidiedText(const fs::path& file) {
+// Empty when the file is neither Collada nor B3D.
+std::string tidiedBytes(const fs::path& file) {
     std::string start(4096, '\0');
     std::ifstream in(file, std::ios::binary);
     in.read(start.data(), static_cast<std::streamsize>(start.size()));
-    if (!isCollada(std::string_view(start).substr(0, static_cast<std::size_t>(in.gcount())))) return {};
+    start.resize(static_cast<std::size_t>(in.gcount()));
+    const bool collada = isCollada(start);
+    if (!collada && !isB3d(start)) return {};
     const Result<std::vector<unsigned char>> bytes = readFile(file, kMaxFileBytes);
     if (!bytes) return {};
-    return tidyCollada({reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size()});
+    const std::string_view whole(reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size());
+    return collada ? tidyCollada(whole) : tidyB3d(whole);
 }
 
 }  // namespace
@@ -57,9 +61,9 @@ Assimp::IOStream* ConfinedFiles::Open(const char* file, const char* mode) {
     return DefaultIOSystem::Open(file, mode);
 }
 
-// The model as a text in memory when it is Collada; else nothing. Assimp opens it several times.
+// The model in memory when it is Collada or B3D; else nothing. Assimp opens it several times.
 Assimp::IOStream* ConfinedFiles::openTidied() {
-    if (!tidied_) tidied_ = tidiedText(model_);
+    if (!tidied_) tidied_ = tidiedBytes(model_);
     if (tidied_->empty()) return nullptr;
     return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(tidied_->data()), tidied_->size());
 }

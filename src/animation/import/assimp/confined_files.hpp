@@ -19,8 +19,8 @@ struct FilesDenied {
 };
 
 /// Assimp's door to the disk: opens the model and the ordinary files that its folder admits, for reading, up to
-/// kMaxFileBytes each; a Collada document as tidyCollada() has it. Whatever else a format names (a material library, an
-/// animation, a skin) is not there for it.
+/// kMaxFileBytes each; a Collada document as tidyCollada() has it, a B3D file as tidyB3d(). Whatever else a format
+/// names (a material library, an animation, a skin) is not there for it.
 class ConfinedFiles : public Assimp::DefaultIOSystem {
   public:
     /// `denied` is filled as files are asked for.
