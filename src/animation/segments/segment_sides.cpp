@@ -116,6 +116,23 @@ class Sides {
                own.words == other.words && own.numbers == other.numbers;
     }
 
+    // How far aside a segment is: its joint, or where that stands in the middle what hangs on it, as on hips that
+    // have a joint for each leg.
+    [[nodiscard]] float aside(int segment) const {
+        const int top = segments_[segment].joint;
+        const float own = place(segment).x;
+        if (std::abs(own) > kInTheMiddle * size_) return own;
+        float sum = 0.0F;
+        int below = 0;
+        for (int joint = 0; joint < rig_.count(); ++joint) {
+            if (joint == top || !rig_.isAncestorOrSelf(top, joint) || !rig_.carriesSkin(joint)) continue;
+            sum += (standard_ * rig_.positions[joint]).x - middle_;
+            ++below;
+        }
+        const float mean = below > 0 ? sum / static_cast<float>(below) : 0.0F;
+        return std::abs(mean) > kInTheMiddle * size_ ? mean : own;
+    }
+
     // The signs of places that differ from zero by rounding tell no sides.
     [[nodiscard]] bool acrossTheMiddle(float x, float otherX) const {
         return x * otherX < 0.0F && std::min(std::abs(x), std::abs(otherX)) > kRounding * size_;
@@ -126,19 +143,20 @@ class Sides {
         int best = -1;
         float least = kPairApart * size_;
         const vec3 own = place(segment);
+        const float ownAside = aside(segment);
         for (int other = segment + 1; other < count(); ++other) {
             if (segments_[other].mirror >= 0 || !hangAlike(segment, other)) continue;
             const vec3 at = place(other);
             float apart = glm::distance(vec3(-own.x, own.y, own.z), at);
             if (namedAlike(segment, other)) apart = std::min(apart, 0.5F * kPairApart * size_);
-            if (!acrossTheMiddle(own.x, at.x) || apart >= least) continue;
+            if (!acrossTheMiddle(ownAside, aside(other)) || apart >= least) continue;
             least = apart;
             best = other;
         }
         if (best < 0) return;
         segments_[segment].mirror = best;
         segments_[best].mirror = segment;
-        const bool left = own.x > 0.0F;
+        const bool left = ownAside > 0.0F;
         segments_[segment].side = left ? Side::left : Side::right;
         segments_[best].side = left ? Side::right : Side::left;
     }

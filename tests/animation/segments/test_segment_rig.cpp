@@ -219,3 +219,30 @@ TEST_CASE("a figure of rigid parts starts at the part that all others hang on, n
     CHECK(rig.segments[0].name == "body");
     CHECK(segmentNamed(rig, "RootNode") < 0);
 }
+
+TEST_CASE("hips with a joint for each leg in the middle are a pair, and the legs on them another") {
+    std::vector<test::JointSpec> joints{{"body", -1, {0, 1, 0}}};
+    std::vector<test::TubeSpec> tubes{{0, {0, 1.5F, 0}, 0.3F}};
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string end = side > 0.0F ? ".L" : ".R";
+        const auto add = [&](const std::string& name, int parent, const vec3& place, const vec3& tip) {
+            joints.push_back({name + end, parent, vec3(side, 1, 1) * place});
+            tubes.push_back({static_cast<int>(joints.size()) - 1, vec3(side, 1, 1) * tip, 0.08F});
+            return static_cast<int>(joints.size()) - 1;
+        };
+        const int hip = add("Pelvic", 0, {0, 0.9F, 0}, {0.25F, 0.9F, 0});
+        const int thigh = add("Thigh", hip, {0.3F, 0.9F, 0}, {0.3F, 0.5F, 0.1F});
+        add("Shin", thigh, {0.3F, 0.45F, 0.1F}, {0.3F, 0, 0});
+    }
+    const SegmentedRig rig = segmentRig(test::makeFigure("walker", joints, tubes));
+    for (const char* limb : {"Pelvic", "Thigh", "Shin"}) {
+        INFO(limb);
+        const int left = segmentNamed(rig, std::string(limb) + ".L");
+        const int right = segmentNamed(rig, std::string(limb) + ".R");
+        REQUIRE(left >= 0);
+        REQUIRE(right >= 0);
+        CHECK(rig.segments[left].mirror == right);
+        CHECK(rig.segments[left].side == Side::left);
+    }
+    CHECK(rig.segments[segmentNamed(rig, "Thigh.L")].kind == Segment::Kind::limb);
+}
