@@ -116,9 +116,9 @@ class Sides {
                own.words == other.words && own.numbers == other.numbers;
     }
 
-    // How far aside a segment is: its joint, or where that stands in the middle what hangs on it, as on hips that
-    // have a joint for each leg.
-    [[nodiscard]] float aside(int segment) const {
+    // How far aside what hangs on a segment's joint is, where that stands in the middle: of hips that have a joint for
+    // each leg.
+    [[nodiscard]] float asideBelow(int segment) const {
         const int top = segments_[segment].joint;
         const float own = place(segment).x;
         if (std::abs(own) > kInTheMiddle * size_) return own;
@@ -129,8 +129,7 @@ class Sides {
             sum += (standard_ * rig_.positions[joint]).x - middle_;
             ++below;
         }
-        const float mean = below > 0 ? sum / static_cast<float>(below) : 0.0F;
-        return std::abs(mean) > kInTheMiddle * size_ ? mean : own;
+        return below > 0 ? sum / static_cast<float>(below) : own;
     }
 
     // The signs of places that differ from zero by rounding tell no sides.
@@ -143,20 +142,22 @@ class Sides {
         int best = -1;
         float least = kPairApart * size_;
         const vec3 own = place(segment);
-        const float ownAside = aside(segment);
+        bool left = own.x > 0.0F;
         for (int other = segment + 1; other < count(); ++other) {
             if (segments_[other].mirror >= 0 || !hangAlike(segment, other)) continue;
             const vec3 at = place(other);
             float apart = glm::distance(vec3(-own.x, own.y, own.z), at);
-            if (namedAlike(segment, other)) apart = std::min(apart, 0.5F * kPairApart * size_);
-            if (!acrossTheMiddle(ownAside, aside(other)) || apart >= least) continue;
+            const bool alike = namedAlike(segment, other);
+            if (alike) apart = std::min(apart, 0.5F * kPairApart * size_);
+            const float x = alike ? asideBelow(segment) : own.x;
+            if (!acrossTheMiddle(x, alike ? asideBelow(other) : at.x) || apart >= least) continue;
             least = apart;
             best = other;
+            left = x > 0.0F;
         }
         if (best < 0) return;
         segments_[segment].mirror = best;
         segments_[best].mirror = segment;
-        const bool left = ownAside > 0.0F;
         segments_[segment].side = left ? Side::left : Side::right;
         segments_[best].side = left ? Side::right : Side::left;
     }

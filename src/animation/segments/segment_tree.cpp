@@ -13,19 +13,22 @@ constexpr float kLeastHubSkin = 0.005F;
 constexpr float kLeastRootSkin = 0.02F;
 constexpr float kMostOfSkin = 0.6F;
 
-// The joint under which all skin hangs, or all rigid parts; the first root where trees stand side by side.
+// The joint under which all skin hangs; the first root where trees stand side by side. Of rigid parts the first one, or
+// where the tree parts above it.
 int skinRoot(const RigFeatures& rig) {
-    const bool ofParts =
-        !rig.skinned && std::any_of(rig.rigidPart.begin(), rig.rigidPart.end(), [](bool part) { return part; });
     int root = kNoJoint;
     for (int joint = 0; joint < rig.count(); ++joint) {
         if (rig.skinned && rig.directWeight[joint] <= 0.0F) continue;
-        if (ofParts && !rig.rigidPart[joint]) continue;
         if (root == kNoJoint) root = joint;
         const int common = rig.commonAncestor(root, joint);
         if (common != kNoJoint) root = common;
     }
-    return std::max(root, 0);
+    root = std::max(root, 0);
+    const bool ofParts =
+        !rig.skinned && std::any_of(rig.rigidPart.begin(), rig.rigidPart.end(), [](bool part) { return part; });
+    while (ofParts && !rig.rigidPart[root] && rig.children[root].size() == 1)
+        root = rig.children[root].front();
+    return root;
 }
 
 // Where several branches meet in a control, it gives its place to the heaviest of them: where it moves hardly any skin
