@@ -205,8 +205,7 @@ class PairFinder {
                 const float lengthB = glm::distance(framed_.positions[b], framed_.positions[parentB]);
                 const float floor = 0.01F * framed_.spread;
                 const float lengths = std::abs(std::log((lengthA + floor) / (lengthB + floor)));
-                const bool apart =
-                    separation(a, b) > 0.05F * framed_.spread && centroids_[a].x * centroids_[b].x < 0.0F;
+                const bool apart = separation(a, b) > 0.05F * framed_.spread && areOnBothSides(a, b);
                 const bool named = nameCost(rig_.names[a], rig_.names[b]) < 0.0F;
                 const bool onlyTwo = parentA != parentB && isOnlyChild(parentA) && isOnlyChild(parentB);
                 if (lengths > (onlyTwo ? kOnlyChildLengths : kChildLengths) && !named) continue;
@@ -243,6 +242,15 @@ class PairFinder {
             std::swap(pair.joints[0], pair.joints[1]);
             pair.position = 0.5F * (framed_.positions[pair.joints[0]] + mirrored(framed_.positions[pair.joints[1]]));
         }
+    }
+
+    // What lies in the middle but for rounding is on no side.
+    [[nodiscard]] bool areOnBothSides(int a, int b) const {
+        constexpr float kRounding = 1e-3F;  // of the spread
+        const float least = kRounding * framed_.spread;
+        const float x = centroids_[a].x;
+        const float other = centroids_[b].x;
+        return x * other < 0.0F && std::min(std::abs(x), std::abs(other)) > least;
     }
 
     [[nodiscard]] bool isOnlyChild(int parent) const { return rig_.children[parent].size() == 1; }

@@ -220,6 +220,46 @@ void doubtPartialSkin(RigFeatures& rig) {
     if (rig.partlySkinned) rig.skinned = false;
 }
 
+// Bones that are called by the joint at their end: "wrist" at the elbow, "ankle" at the knee. What would be the hand or
+// foot lies about halfway down its limb, and another one hangs on it; so the bones above are shifted, too.
+void readNamesOfEnds(RigFeatures& rig) {
+    constexpr float kSurely = 4.0F;
+    constexpr float kMaybe = 2.0F;
+    constexpr float kSurelyNot = -2.5F;
+    constexpr float kHalfway = 0.8F;  // of the way from the joint above
+    struct Limb {
+        Part upper, middle, end;
+    };
+    const auto rename = [&](int joint, Part from, Part to) {
+        rig.names[joint].parts[from] = kSurelyNot;
+        rig.names[joint].parts[to] = kSurely;
+    };
+    for (const Limb& limb :
+         {Limb{Part::upperArm, Part::lowerArm, Part::hand}, Limb{Part::upperLeg, Part::lowerLeg, Part::foot}}) {
+        for (int joint = 0; joint < rig.count(); ++joint) {
+            const int parent = rig.parents[joint];
+            if (parent == kNoJoint || rig.names[joint].parts[limb.end] < kSurely) continue;
+            const Side side = rig.names[joint].side;
+            if (rig.names[parent].side != side) continue;
+            const PartScores& above = rig.names[parent].parts;
+            const bool middleAbove = above[limb.middle] >= kSurely;
+            if (!middleAbove && above[limb.upper] < kMaybe) continue;
+            const float least = kHalfway * glm::distance(rig.positions[parent], rig.positions[joint]);
+            const auto goesOn = [&](int child) {
+                return rig.names[child].parts[limb.end] >= kSurely && rig.names[child].side == side &&
+                       rig.carriesSkin(child) && glm::distance(rig.positions[joint], rig.positions[child]) > least;
+            };
+            if (std::none_of(rig.children[joint].begin(), rig.children[joint].end(), goesOn)) continue;
+            rename(joint, limb.end, limb.middle);
+            if (!middleAbove) continue;
+            rename(parent, limb.middle, limb.upper);
+            const int top = rig.parents[parent];
+            if (top != kNoJoint && rig.names[top].parts[Part::clavicle] >= kMaybe && limb.end == Part::hand)
+                rename(top, Part::upperArm, Part::clavicle);
+        }
+    }
+}
+
 // A word of two meanings has one where its neighbour has the other: a shoulder above an arm is the clavicle and that
 // arm the upper arm, one above an elbow is the upper arm itself; a leg below a thigh is the shin.
 void readNamesInChains(RigFeatures& rig) {
@@ -403,6 +443,7 @@ RigFeatures readRig(const Character& character, bool useNames) {
         readDeformingPrefix(skeleton.names, rig);
     }
     believeSkinnedControls(rig);
+    readNamesOfEnds(rig);
     readNamesInChains(rig);
     leaveNamesToPivots(rig);
     flattenNumberedLimbs(rig);

@@ -1,0 +1,90 @@
+#include <string>
+#include <vector>
+
+#include "animation/humanoid/map_humanoid.hpp"
+#include "support/catch.hpp"
+#include "support/rigs.hpp"
+
+// Names that tell the end of a bone, and ornaments beside the neck.
+namespace lutka::test {
+namespace {
+
+using animation::HumanoidMap;
+using animation::Role;
+
+struct PlacedJoints {
+    std::vector<JointSpec> joints;
+
+    int add(const std::string& name, int parent, const vec3& place) {
+        joints.push_back({name, parent, place});
+        return static_cast<int>(joints.size()) - 1;
+    }
+
+    [[nodiscard]] HumanoidMap map(bool skinned) const {
+        animation::Character character;
+        character.skeleton = makeSkeleton(joints);
+        character.skeleton.skinWeight.assign(joints.size(), skinned ? 100.0F : 0.0F);
+        return animation::mapHumanoid(character);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("bones that are called by the joint at their end are the parts that they are", "[named]") {
+    PlacedJoints rig;
+    const int hips = rig.add("Bone", -1, {0, 0.45F, 0});
+    const int neck = rig.add("Neck", hips, {0, 0.86F, 0});
+    rig.add("Head", neck, {0, 0.98F, 0});
+    std::vector<std::string> wanted;
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string end = side > 0.0F ? ".l" : ".r";
+        const auto at = [&](float x, float y, float z = 0.0F) { return vec3(side * x, y, z); };
+        const int shoulder = rig.add("Shoulder" + end, hips, at(0, 0.86F));
+        const int arm = rig.add("Elbow" + end, shoulder, at(0.237F, 0.865F));
+        const int forearm = rig.add("Wrist" + end, arm, at(0.394F, 0.816F, -0.02F));
+        const int hand = rig.add("Hand" + end, forearm, at(0.567F, 0.773F));
+        rig.add("Fingers" + end, hand, at(0.686F, 0.775F));
+        const int thigh = rig.add("Thigh" + end, hips, at(0.105F, 0.423F));
+        const int shin = rig.add("Ankle" + end, thigh, at(0.099F, 0.248F, 0.033F));
+        rig.add("Foot" + end, shin, at(0.092F, 0.07F, 0.02F));
+    }
+    const HumanoidMap map = rig.map(true);
+    REQUIRE(map.humanoid);
+    const auto nameOf = [&](Role role) {
+        const int joint = map.jointOf(role);
+        return joint == animation::kNoJoint ? std::string("none") : rig.joints[static_cast<std::size_t>(joint)].name;
+    };
+    CHECK(nameOf(Role::leftShoulder) == "Shoulder.l");
+    CHECK(nameOf(Role::leftUpperArm) == "Elbow.l");
+    CHECK(nameOf(Role::leftLowerArm) == "Wrist.l");
+    CHECK(nameOf(Role::leftHand) == "Hand.l");
+    CHECK(nameOf(Role::rightUpperLeg) == "Thigh.r");
+    CHECK(nameOf(Role::rightLowerLeg) == "Ankle.r");
+    CHECK(nameOf(Role::rightFoot) == "Foot.r");
+}
+
+TEST_CASE("a neck in the middle but for rounding is no pair with a rope that hangs as far aside", "[named]") {
+    PlacedJoints rig;
+    const int hips = rig.add("Hips", -1, {0, 1.036F, 0});
+    const int chest = rig.add("Spine1", rig.add("Spine", hips, {0, 1.15F, 0}), {0, 1.377F, -0.014F});
+    const int neck = rig.add("Neck", chest, {1e-6F, 1.694F, -0.076F});
+    const int head = rig.add("Head", neck, {1e-6F, 1.853F, -0.043F});
+    const int back = rig.add("BackRope1", chest, {-0.19F, 1.488F, -0.233F});
+    rig.add("BackRope3", rig.add("BackRope2", back, {-0.19F, 1.34F, -0.215F}), {-0.19F, 1.201F, -0.2F});
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string name = side > 0.0F ? "Left" : "Right";
+        const auto at = [&](float x, float y, float z = 0.0F) { return vec3(side * x, y, z); };
+        const int shoulder = rig.add(name + "Shoulder", chest, at(0.078F, 1.639F, -0.096F));
+        const int arm = rig.add(name + "Arm", shoulder, at(0.236F, 1.576F, -0.109F));
+        rig.add(name + "Hand", rig.add(name + "ForeArm", arm, at(0.458F, 1.576F, -0.109F)), at(0.74F, 1.576F, -0.109F));
+        const int thigh = rig.add(name + "UpLeg", hips, at(0.116F, 0.954F));
+        const int foot = rig.add(name + "Foot", rig.add(name + "Leg", thigh, at(0.116F, 0.541F)), at(0.116F, 0.128F));
+        rig.add(name + "ToeBase", foot, at(0.119F, 0, 0.103F));
+    }
+    const HumanoidMap map = rig.map(false);
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(Role::neck) == neck);
+    CHECK(map.jointOf(Role::head) == head);
+}
+
+}  // namespace lutka::test
