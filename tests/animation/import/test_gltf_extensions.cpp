@@ -96,16 +96,68 @@ void packWithMeshopt(GltfFile& file, const char* attribute, const void* values, 
     accessorOf(file, attribute)["bufferView"] = file.json["bufferViews"].size() - 1;
 }
 
-template <class T, std::size_t Width>
-std::uint32_t addToDraco(draco::Mesh& mesh, draco::GeometryAttribute::Type type, draco::DataType component,
-                         const std::vector<std::array<T, Width>>& values) {
-    draco::GeometryAttribute attribute;
-    attribute.Init(type, nullptr, static_cast<std::int8_t>(Width), component, false, sizeof(values[0]), 0);
-    const int id = mesh.AddAttribute(attribute, true, static_cast<std::uint32_t>(values.size()));
-    for (std::uint32_t i = 0; i < values.size(); ++i)
-        mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), values[i].data());
-    return mesh.attribute(id)->unique_id();
-}
+// The post's triangles and some of its attributes through draco.
+class DracoPost {
+  public:
+    DracoPost() {
+        mesh_.set_num_points(static_cast<std::uint32_t>(post_.positions.size()));
+        for (std::size_t i = 0; i < post_.indices.size(); i += 3) {
+            mesh_.AddFace({draco::PointIndex(post_.indices[i]), draco::PointIndex(post_.indices[i + 1]),
+                           draco::PointIndex(post_.indices[i + 2])});
+        }
+        std::vector<std::array<float, 3>> positions;
+        for (const vec3& p : post_.positions)
+            positions.push_back({p.x, p.y, p.z});
+        add("POSITION", draco::GeometryAttribute::POSITION, draco::DT_FLOAT32, positions);
+    }
+
+    template <class T, std::size_t Width>
+    void add(const char* name, draco::GeometryAttribute::Type type, draco::DataType component,
+             const std::vector<std::array<T, Width>>& values) {
+        draco::GeometryAttribute attribute;
+        attribute.Init(type, nullptr, static_cast<std::int8_t>(Width), component, false, sizeof(values[0]), 0);
+        const int id = mesh_.AddAttribute(attribute, true, static_cast<std::uint32_t>(values.size()));
+        for (std::uint32_t i = 0; i < values.size(); ++i)
+            mesh_.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), values[i].data());
+        ids_[name] = mesh_.attribute(id)->unique_id();
+    }
+
+    void addSkin() {
+        std::vector<std::array<std::uint8_t, 4>> joints;
+        std::vector<std::array<float, 4>> weights;
+        for (const HandSkin& skin : post_.skin) {
+            joints.push_back(skin.joints);
+            weights.push_back(skin.weights);
+        }
+        add("JOINTS_0", draco::GeometryAttribute::GENERIC, draco::DT_UINT8, joints);
+        add("WEIGHTS_0", draco::GeometryAttribute::GENERIC, draco::DT_FLOAT32, weights);
+    }
+
+    // The post's rig with what was added compressed and the rest as it is; the vertices keep their order.
+    GltfFile pack() const {
+        draco::Encoder encoder;
+        encoder.SetEncodingMethod(draco::MESH_SEQUENTIAL_ENCODING);
+        draco::EncoderBuffer packed;
+        REQUIRE(encoder.EncodeMeshToBuffer(mesh_, &packed).ok());
+        GltfFile file = makePostRig();
+        const std::vector<std::uint8_t> bytes(packed.data(), packed.data() + packed.size());
+        const int accessor = file.addComponents<std::uint8_t>(bytes, 5121, "SCALAR", bytes.size(), false);
+        const json view = file.json["accessors"][accessor]["bufferView"];
+        primitiveOf(file)["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", view}, {"attributes", ids_}};
+        for (const auto& [name, id] : ids_.items()) {
+            if (primitiveOf(file)["attributes"].contains(name)) accessorOf(file, name.c_str()).erase("bufferView");
+        }
+        file.json["extensionsUsed"] = file.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+        return file;
+    }
+
+    [[nodiscard]] std::size_t size() const { return post_.positions.size(); }
+
+  private:
+    Post post_ = makePost();
+    draco::Mesh mesh_;
+    json ids_;
+};
 
 }  // namespace
 
@@ -268,42 +320,38 @@ TEST_CASE("filters of packed buffers are undone, and those that are not known ar
     CHECK_THAT(refused.error().message, Catch::Contains("COLOR"));
 }
 
-TEST_CASE("meshes packed by draco are unpacked") {
-    const Post post = makePost();
-    std::vector<std::array<float, 3>> positions;
-    std::vector<std::array<std::uint8_t, 4>> joints;
-    std::vector<std::array<float, 4>> weights;
-    for (std::size_t v = 0; v < post.positions.size(); ++v) {
-        positions.push_back({post.positions[v].x, post.positions[v].y, post.positions[v].z});
-        joints.push_back(post.skin[v].joints);
-        weights.push_back(post.skin[v].weights);
-    }
-    draco::Mesh mesh;
-    mesh.set_num_points(static_cast<std::uint32_t>(positions.size()));
-    for (std::size_t i = 0; i < post.indices.size(); i += 3) {
-        mesh.AddFace({draco::PointIndex(post.indices[i]), draco::PointIndex(post.indices[i + 1]),
-                      draco::PointIndex(post.indices[i + 2])});
-    }
-    json block;
-    block["attributes"] = {
-        {"POSITION", addToDraco(mesh, draco::GeometryAttribute::POSITION, draco::DT_FLOAT32, positions)},
-        {"JOINTS_0", addToDraco(mesh, draco::GeometryAttribute::GENERIC, draco::DT_UINT8, joints)},
-        {"WEIGHTS_0", addToDraco(mesh, draco::GeometryAttribute::GENERIC, draco::DT_FLOAT32, weights)}};
-    draco::Encoder encoder;
-    draco::EncoderBuffer packed;
-    REQUIRE(encoder.EncodeMeshToBuffer(mesh, &packed).ok());
-    GltfFile file = makePostRig();
-    const std::vector<std::uint8_t> bytes(packed.data(), packed.data() + packed.size());
-    const int accessor = file.addComponents<std::uint8_t>(bytes, 5121, "SCALAR", bytes.size(), false);
-    block["bufferView"] = file.json["accessors"][accessor]["bufferView"];
-    for (const char* attribute : {"POSITION", "JOINTS_0", "WEIGHTS_0"})
-        accessorOf(file, attribute).erase("bufferView");
-    primitiveOf(file)["extensions"]["KHR_draco_mesh_compression"] = block;
-    file.json["extensionsUsed"] = file.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
-    const Character character = readBack(file);
+TEST_CASE("meshes packed by draco are unpacked, whatever part of their attributes is") {
     const Character plain = readBack(makePostRig());
-    CHECK(trianglesOf(character) == trianglesOf(plain));
-    CHECK(character.skeleton.skinWeight == plain.skeleton.skinWeight);
+    for (const bool withSkin : {true, false}) {
+        DracoPost post;
+        if (withSkin) post.addSkin();
+        const Character character = readBack(post.pack());
+        CHECK(trianglesOf(character) == trianglesOf(plain));
+        CHECK(character.skeleton.skinWeight == plain.skeleton.skinWeight);
+        CHECK_FALSE(character.meshes[0].rigid);
+    }
+}
+
+TEST_CASE("integers that draco packs are the fractions that their accessors call them") {
+    DracoPost post;
+    post.addSkin();
+    const std::vector<std::array<std::uint8_t, 3>> colors(post.size(), {255, 51, 0});
+    const std::vector<std::array<std::uint16_t, 2>> uvs(post.size(), {13107, 65535});
+    post.add("COLOR_0", draco::GeometryAttribute::COLOR, draco::DT_UINT8, colors);
+    post.add("TEXCOORD_0", draco::GeometryAttribute::TEX_COORD, draco::DT_UINT16, uvs);
+    GltfFile file = post.pack();
+    const auto declare = [&](const char* attribute, int component, const char* type) {
+        file.json["accessors"].push_back(
+            {{"componentType", component}, {"count", post.size()}, {"type", type}, {"normalized", true}});
+        primitiveOf(file)["attributes"][attribute] = file.json["accessors"].size() - 1;
+    };
+    declare("COLOR_0", 5121, "VEC3");
+    declare("TEXCOORD_0", 5123, "VEC2");
+    const Character character = readBack(file);
+    REQUIRE(character.meshes[0].colors.size() == post.size());
+    REQUIRE(character.meshes[0].uvs.size() == post.size());
+    CHECK(glm::distance(character.meshes[0].colors[3], vec4(1.0F, 0.2F, 0.0F, 1.0F)) < 1e-6F);
+    CHECK(glm::distance(character.meshes[0].uvs[3], vec2(0.2F, 1.0F)) < 1e-6F);
 }
 
 }  // namespace lutka::test

@@ -1,72 +1,105 @@
+#include "animation/import/gltf/gltf_draco.hpp"
+
 #include <draco/compression/decode.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-
-#include "animation/import/gltf/gltf_parts.hpp"
+#include <span>
 
 namespace lutka::animation::rig_import::gltf {
 namespace {
 
 using nlohmann::json;
 
-// The values of one attribute, `width` a vertex; draco's quantisation is undone by it, normalised integers are
-// fractions.
+// The attribute's components, vertex after vertex.
 template <class T>
-std::vector<T> valuesOf(const draco::Mesh& mesh, const json& ids, const char* name, int width) {
+std::vector<T> valuesOf(const draco::Mesh& mesh, const draco::PointAttribute& attribute) {
+    const int width = attribute.num_components();
     std::vector<T> values;
-    const json* id = member(ids, name);
-    if (id == nullptr || !id->is_number_unsigned()) return values;
-    const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(id->get<std::uint32_t>());
-    if (attribute == nullptr || attribute->num_components() > 4)
-        throw Damage{fmt::format("compressed {} are damaged", name)};
     values.reserve(static_cast<std::size_t>(mesh.num_points()) * static_cast<std::size_t>(width));
     std::array<T, 4> value{};
     for (draco::PointIndex point(0); point < mesh.num_points(); ++point) {
-        value = {};
-        if (!attribute->ConvertValue<T>(attribute->mapped_index(point), static_cast<std::int8_t>(width), value.data()))
-            throw Damage{fmt::format("compressed {} are damaged", name)};
+        if (!attribute.ConvertValue<T>(attribute.mapped_index(point), static_cast<std::int8_t>(width), value.data()))
+            throw Damage{"compressed attributes are damaged"};
         values.insert(values.end(), value.begin(), value.begin() + width);
     }
     return values;
 }
 
+// What the integers of a type are fractions of (section 3.11 of the specification); 0: none.
+float wholeOf(draco::DataType type) {
+    switch (type) {
+        case draco::DT_INT8:
+            return 127.0F;
+        case draco::DT_UINT8:
+            return 255.0F;
+        case draco::DT_INT16:
+            return 32767.0F;
+        case draco::DT_UINT16:
+            return 65535.0F;
+        default:
+            return 0.0F;
+    }
+}
+
 }  // namespace
 
-void readDraco(GltfFile& file, const json& block, SourceMesh& mesh, std::vector<std::uint32_t>& joints,
-               std::vector<float>& weights) {
+DracoPrimitive::DracoPrimitive(GltfFile& file, const json& block) {
     const std::optional<int> view = indexOf(block, "bufferView", file.count("bufferViews"));
     const json* ids = member(block, "attributes");
     if (!view || ids == nullptr) throw Damage{"a compressed mesh has no data"};
+    ids_ = *ids;
     const std::span<const std::uint8_t> bytes = file.viewBytes(*view);
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     draco::Decoder decoder;
-    const auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
+    auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
     if (!decoded.ok())
         throw Damage{fmt::format("a compressed mesh is damaged: {}", decoded.status().error_msg_string())};
-    const draco::Mesh& source = *decoded.value();
-    const auto points = static_cast<std::size_t>(source.num_points());
-    const std::vector<float> positions = valuesOf<float>(source, *ids, "POSITION", 3);
-    const std::vector<float> normals = valuesOf<float>(source, *ids, "NORMAL", 3);
-    const UvUse use = mesh.material >= 0 ? uvUseOf(file, mesh.material) : UvUse{};
-    const std::vector<float> uvs = valuesOf<float>(source, *ids, fmt::format("TEXCOORD_{}", use.set).c_str(), 2);
-    const std::vector<float> colors = valuesOf<float>(source, *ids, "COLOR_0", 4);
-    for (std::size_t v = 0; v < points && !positions.empty(); ++v) {
-        mesh.positions.emplace_back(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]);
-        if (!normals.empty()) mesh.normals.emplace_back(normals[3 * v], normals[3 * v + 1], normals[3 * v + 2]);
-        if (!uvs.empty()) mesh.uvs.emplace_back(use.transform * vec3(uvs[2 * v], uvs[2 * v + 1], 1));
-        if (!colors.empty())
-            mesh.colors.emplace_back(colors[4 * v], colors[4 * v + 1], colors[4 * v + 2], colors[4 * v + 3]);
+    mesh_ = std::move(decoded).value();
+}
+
+DracoPrimitive::DracoPrimitive(DracoPrimitive&&) noexcept = default;
+DracoPrimitive::~DracoPrimitive() = default;
+
+const draco::PointAttribute* DracoPrimitive::find(const std::string& attribute) const {
+    const json* id = member(ids_, attribute.c_str());
+    if (id == nullptr || !id->is_number_unsigned()) return nullptr;
+    const draco::PointAttribute* found = mesh_->GetAttributeByUniqueId(id->get<std::uint32_t>());
+    if (found == nullptr || found->num_components() < 1 || found->num_components() > 4)
+        throw Damage{fmt::format("compressed {} are damaged", attribute)};
+    return found;
+}
+
+std::optional<Numbers> DracoPrimitive::numbers(const std::string& attribute, bool normalised) const {
+    const draco::PointAttribute* source = find(attribute);
+    if (source == nullptr) return std::nullopt;
+    Numbers numbers;
+    numbers.values = valuesOf<float>(*mesh_, *source);
+    numbers.count = mesh_->num_points();
+    numbers.width = static_cast<std::size_t>(source->num_components());
+    const float whole = wholeOf(source->data_type());
+    if (!normalised || source->normalized() || whole == 0.0F) return numbers;
+    for (float& value : numbers.values)
+        value = std::max(value / whole, -1.0F);
+    return numbers;
+}
+
+std::optional<std::vector<std::uint32_t>> DracoPrimitive::integers(const std::string& attribute) const {
+    const draco::PointAttribute* source = find(attribute);
+    if (source == nullptr) return std::nullopt;
+    return valuesOf<std::uint32_t>(*mesh_, *source);
+}
+
+std::vector<std::uint32_t> DracoPrimitive::triangles() const {
+    std::vector<std::uint32_t> triangles;
+    triangles.reserve(3 * static_cast<std::size_t>(mesh_->num_faces()));
+    for (draco::FaceIndex face(0); face < mesh_->num_faces(); ++face) {
+        for (const draco::PointIndex& corner : mesh_->face(face))
+            triangles.push_back(corner.value());
     }
-    for (draco::FaceIndex face(0); face < source.num_faces(); ++face) {
-        for (const draco::PointIndex& corner : source.face(face))
-            mesh.indices.push_back(corner.value());
-    }
-    if (mesh.positions.empty()) mesh.indices.clear();
-    joints = valuesOf<std::uint32_t>(source, *ids, "JOINTS_0", 4);
-    weights = valuesOf<float>(source, *ids, "WEIGHTS_0", 4);
-    if (joints.size() != weights.size() || joints.size() != 4 * mesh.positions.size()) joints.clear();
+    return triangles;
 }
 
 }  // namespace lutka::animation::rig_import::gltf

@@ -5,6 +5,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "animation/import/gltf/accessor.hpp"
+#include "animation/import/gltf/gltf_draco.hpp"
 #include "animation/import/gltf/gltf_parts.hpp"
 #include "animation/import/source_limits.hpp"
 
@@ -23,10 +24,49 @@ struct VertexSkins {
     std::vector<float> weights;
 };
 
-std::optional<int> attribute(const GltfFile& file, const json& primitive, const std::string& name) {
-    const json* attributes = member(primitive, "attributes");
-    return attributes == nullptr ? std::nullopt : indexOf(*attributes, name.c_str(), file.count("accessors"));
-}
+// A primitive's attributes, in accessors or compressed.
+class Attributes {
+  public:
+    Attributes(GltfFile& file, const json& primitive) : file_(file), primitive_(primitive) {
+        const json* block = extensionOf(primitive, "KHR_draco_mesh_compression");
+        if (block != nullptr) packed_.emplace(file, *block);
+    }
+
+    [[nodiscard]] const std::optional<DracoPrimitive>& packed() const { return packed_; }
+    [[nodiscard]] bool has(const std::string& name) const { return accessorOf(name).has_value(); }
+
+    // Nothing where the primitive has no such attribute.
+    [[nodiscard]] std::optional<Numbers> numbers(const std::string& name) const {
+        const std::optional<int> accessor = accessorOf(name);
+        if (!accessor) return std::nullopt;
+        const bool normalised = truthOf(file_.element("accessors", *accessor), "normalized", false);
+        std::optional<Numbers> compressed = packed_ ? packed_->numbers(name, normalised) : std::nullopt;
+        return compressed ? *std::move(compressed) : readNumbers(file_, *accessor);
+    }
+
+    // The same, which must have that many components.
+    [[nodiscard]] std::optional<Numbers> numbers(const std::string& name, std::size_t width) const {
+        std::optional<Numbers> found = numbers(name);
+        if (found && found->width != width)
+            throw Damage{fmt::format("{} have {} components instead of {}", name, found->width, width)};
+        return found;
+    }
+
+    [[nodiscard]] std::vector<std::uint32_t> joints(const std::string& name) const {
+        std::optional<std::vector<std::uint32_t>> compressed = packed_ ? packed_->integers(name) : std::nullopt;
+        return compressed ? *std::move(compressed) : readIntegers(file_, *accessorOf(name), 4, name.c_str());
+    }
+
+  private:
+    [[nodiscard]] std::optional<int> accessorOf(const std::string& name) const {
+        const json* attributes = member(primitive_, "attributes");
+        return attributes == nullptr ? std::nullopt : indexOf(*attributes, name.c_str(), file_.count("accessors"));
+    }
+
+    GltfFile& file_;
+    const json& primitive_;
+    std::optional<DracoPrimitive> packed_;
+};
 
 std::vector<std::uint32_t> trianglesOf(const std::vector<std::uint32_t>& corners, std::size_t mode) {
     if (mode == kTriangles) return {corners.begin(), corners.end() - static_cast<std::ptrdiff_t>(corners.size() % 3)};
@@ -56,47 +96,46 @@ void readIndices(GltfFile& file, const json& primitive, std::size_t mode, Source
 }
 
 template <class T, class Make>
-void readPerVertex(GltfFile& file, const json& primitive, const char* name, std::size_t width, std::size_t count,
+void readPerVertex(const Attributes& attributes, const std::string& name, std::size_t width, std::size_t count,
                    std::vector<T>& out, const Make& make) {
-    const std::optional<int> accessor = attribute(file, primitive, name);
-    if (!accessor) return;
-    const Numbers numbers = readNumbers(file, *accessor, width, name);
-    if (numbers.count != count) throw Damage{fmt::format("{} has another count than POSITION", name)};
+    const std::optional<Numbers> numbers = attributes.numbers(name, width);
+    if (!numbers) return;
+    if (numbers->count != count) throw Damage{fmt::format("{} has another count than POSITION", name)};
     out.reserve(count);
     for (std::size_t v = 0; v < count; ++v)
-        out.push_back(make(numbers, v));
+        out.push_back(make(*numbers, v));
 }
 
-void readColors(GltfFile& file, const json& primitive, SourceMesh& mesh) {
-    const std::optional<int> accessor = attribute(file, primitive, "COLOR_0");
-    if (!accessor) return;
-    const Numbers numbers = readNumbers(file, *accessor);
-    if (numbers.count != mesh.positions.size() || numbers.width < 3) return;
-    for (std::size_t v = 0; v < numbers.count; ++v)
-        mesh.colors.emplace_back(numbers.vector3(v), numbers.width == 4 ? numbers.at(v, 3) : 1.0F);
+void readColors(const Attributes& attributes, SourceMesh& mesh) {
+    const std::optional<Numbers> numbers = attributes.numbers("COLOR_0");
+    if (!numbers || numbers->count != mesh.positions.size() || numbers->width < 3) return;
+    for (std::size_t v = 0; v < numbers->count; ++v)
+        mesh.colors.emplace_back(numbers->vector3(v), numbers->width == 4 ? numbers->at(v, 3) : 1.0F);
 }
 
-void readUvs(GltfFile& file, const json& primitive, SourceMesh& mesh) {
+void readUvs(GltfFile& file, const Attributes& attributes, SourceMesh& mesh) {
     UvUse use;
     if (mesh.material >= 0) use = uvUseOf(file, mesh.material);
-    if (!attribute(file, primitive, fmt::format("TEXCOORD_{}", use.set))) use.set = 0;
+    if (!attributes.has(fmt::format("TEXCOORD_{}", use.set))) use.set = 0;
     readPerVertex(
-        file, primitive, fmt::format("TEXCOORD_{}", use.set).c_str(), 2, mesh.positions.size(), mesh.uvs,
+        attributes, fmt::format("TEXCOORD_{}", use.set), 2, mesh.positions.size(), mesh.uvs,
         [&](const Numbers& n, std::size_t v) { return vec2(use.transform * vec3(n.at(v, 0), n.at(v, 1), 1)); });
 }
 
-void readSets(GltfFile& file, const json& primitive, std::size_t vertices, std::vector<VertexSkins>& sets) {
+std::vector<VertexSkins> readSets(const Attributes& attributes, std::size_t vertices) {
+    std::vector<VertexSkins> sets;
     for (std::size_t set = 0; set < kMaxInfluenceSets; ++set) {
-        const std::optional<int> joints = attribute(file, primitive, fmt::format("JOINTS_{}", set));
-        const std::optional<int> weights = attribute(file, primitive, fmt::format("WEIGHTS_{}", set));
-        if (!joints || !weights) return;
+        const std::string joints = fmt::format("JOINTS_{}", set);
+        const std::string weights = fmt::format("WEIGHTS_{}", set);
+        if (!attributes.has(joints) || !attributes.has(weights)) break;
         VertexSkins skins;
-        skins.joints = readIntegers(file, *joints, 4, "JOINTS");
-        skins.weights = readNumbers(file, *weights, 4, "WEIGHTS").values;
+        skins.joints = attributes.joints(joints);
+        skins.weights = attributes.numbers(weights, 4)->values;
         if (skins.joints.size() != 4 * vertices || skins.weights.size() != 4 * vertices)
             throw Damage{"JOINTS or WEIGHTS have another count than POSITION"};
         sets.push_back(std::move(skins));
     }
+    return sets;
 }
 
 void takeInfluences(const std::vector<VertexSkins>& sets, SourceMesh& mesh) {
@@ -149,25 +188,23 @@ std::optional<SourceMesh> readPrimitive(GltfFile& file, const json& primitive, c
     SourceMesh mesh;
     mesh.name = name;
     mesh.material = indexOf(primitive, "material", file.count("materials")).value_or(-1);
-    std::vector<VertexSkins> sets;
-    if (const json* block = extensionOf(primitive, "KHR_draco_mesh_compression")) {
-        VertexSkins skins;
-        readDraco(file, *block, mesh, skins.joints, skins.weights);
-        if (!skins.joints.empty()) sets.push_back(std::move(skins));
+    const Attributes attributes(file, primitive);
+    const std::optional<Numbers> positions = attributes.numbers("POSITION", 3);
+    if (!positions) return std::nullopt;
+    const std::size_t count = positions->count;
+    const auto three = [](const Numbers& n, std::size_t v) { return n.vector3(v); };
+    mesh.positions.reserve(count);
+    for (std::size_t v = 0; v < count; ++v)
+        mesh.positions.push_back(positions->vector3(v));
+    readPerVertex(attributes, "NORMAL", 3, count, mesh.normals, three);
+    readPerVertex(attributes, "TANGENT", 4, count, mesh.tangents,
+                  [](const Numbers& n, std::size_t v) { return vec4(n.vector3(v), n.at(v, 3)); });
+    readUvs(file, attributes, mesh);
+    readColors(attributes, mesh);
+    const std::vector<VertexSkins> sets = readSets(attributes, count);
+    if (attributes.packed()) {
+        mesh.indices = attributes.packed()->triangles();
     } else {
-        const std::optional<int> positions = attribute(file, primitive, "POSITION");
-        if (!positions) return std::nullopt;
-        const Numbers numbers = readNumbers(file, *positions, 3, "POSITION");
-        mesh.positions.reserve(numbers.count);
-        for (std::size_t v = 0; v < numbers.count; ++v)
-            mesh.positions.push_back(numbers.vector3(v));
-        const auto three = [](const Numbers& n, std::size_t v) { return n.vector3(v); };
-        readPerVertex(file, primitive, "NORMAL", 3, numbers.count, mesh.normals, three);
-        readPerVertex(file, primitive, "TANGENT", 4, numbers.count, mesh.tangents,
-                      [](const Numbers& n, std::size_t v) { return vec4(n.vector3(v), n.at(v, 3)); });
-        readUvs(file, primitive, mesh);
-        readColors(file, primitive, mesh);
-        readSets(file, primitive, numbers.count, sets);
         readIndices(file, primitive, mode, mesh);
     }
     applyMorphs(file, primitive, morphs, mesh);

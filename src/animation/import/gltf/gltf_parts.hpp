@@ -34,9 +34,6 @@ struct UvUse {
 
 /// Adds meshes (one a primitive), skins and where they hang.
 void addMeshes(GltfFile& file, const NodeMap& nodes, SourceScene& out);
-/// The triangles of a primitive in a compressed form (KHR_draco_mesh_compression) in place of its accessors.
-void readDraco(GltfFile& file, const nlohmann::json& block, SourceMesh& mesh, std::vector<std::uint32_t>& joints,
-               std::vector<float>& weights);
 
 /// Adds the animations; those of morph weights are left out and told.
 void addClips(GltfFile& file, const NodeMap& nodes, SourceScene& out);
