@@ -13,7 +13,8 @@ namespace {
 
 // How far the mesh node's frame may be from the joints' and still be taken for the bind pose's.
 constexpr double kSameScale = 1e-3;
-constexpr double kAngleTolerance = 0.8;   // 45 degrees
+constexpr double kAngleTolerance = 0.8;  // 45 degrees
+constexpr double kSameTurn = 1e-3;
 constexpr double kPlaceTolerance = 0.75;  // mesh sizes
 // How near two placings are that say the same, in mesh sizes, and the share of the weight that must.
 constexpr double kAlike = 0.01;
@@ -153,7 +154,10 @@ dmat4 chooseFrame(const MeshExtent& box, const dmat4& meshNode, const dmat4& joi
     if (!isInvertible(meshNode) || angleBetween(nearestRotation(meshNode), nearestRotation(joints)) > kAngleTolerance) {
         return joints;
     }
+    // Nothing to set upright, then, and where a quantised mesh has its origin says nothing.
+    const double turn = angleBetween(nearestRotation(meshNode), nearestRotation(joints));
     const dmat3 stretch = stretchOf(joints);
+    if (jointsAgree && turn < kSameTurn) return joints;
     if (!scalesEvenly(stretch) && stretchAlike(votes, joints) && disagreement(box, meshNode, joints) >= kAlike)
         return jointsAgree ? joints : stretchedFrame(box, meshNode, joints, stretch);
     const double ratio = meanScale(joints) / meanScale(meshNode);

@@ -42,12 +42,13 @@ std::string lowerExtension(const fs::path& file) {
     return lowerCased(file.extension().string());
 }
 
-// A binary container says so; a text is JSON under glTF's name (there are other formats in JSON).
+// A binary container says so; a text is JSON under a name of glTF's (there are other formats in JSON).
 bool isGltf(const fs::path& file, std::string_view start) {
     if (start.starts_with("glTF")) return true;
     const std::size_t first = start.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
     const std::string extension = lowerExtension(file);
-    return first != std::string_view::npos && start[first] == '{' && (extension == ".gltf" || extension == ".vrm");
+    return first != std::string_view::npos && start[first] == '{' &&
+           (extension == ".gltf" || extension == ".glb" || extension == ".vrm");
 }
 
 bool isBvh(const fs::path& file, std::string_view start) {

@@ -127,6 +127,13 @@ TEST_CASE("required extensions that only cost looks are let through") {
     CHECK_FALSE(warns(character, "KHR_materials_unlit"));
 }
 
+TEST_CASE("a glTF is told by its content, whichever of glTF's names it bears") {
+    const TemporaryFolder folder;
+    makePostRig().saveText(folder / "text.glb");
+    makePostRig().saveBinary(folder / "binary.gltf");
+    CHECK(imported(folder / "text.glb").skeleton.names == imported(folder / "binary.gltf").skeleton.names);
+}
+
 TEST_CASE("a .vrm is read as the glTF that it is, and its humanoid block too") {
     const TemporaryFolder folder;
     GltfFile file = makePostRig();

@@ -87,6 +87,39 @@ TEST_CASE("normalised weights and quantised positions are read as the fractions 
     CHECK(largestDifference(bindVertices(character), bindVertices(expected)) < 1e-3F);
 }
 
+TEST_CASE("the bind pose stands where the joints do, though a quantised mesh has its origin elsewhere") {
+    const TemporaryFolder folder;
+    makePostRig().saveBinary(folder / "plain.glb");
+    GltfFile file = makePostRig();
+    // Fractions of a box of 2.5 m from (-0.5, -0.7, -0.4) on, unpacked by the inverse bind matrices alone.
+    const vec3 corner(-0.5F, -0.7F, -0.4F);
+    const float side = 2.5F;
+    std::vector<std::uint16_t> positions;
+    const Post post = makePost();
+    for (const vec3& p : post.positions) {
+        for (int i = 0; i < 3; ++i)
+            positions.push_back(static_cast<std::uint16_t>(std::lround((p[i] - corner[i]) / side * 65535.0F)));
+        positions.push_back(0);  // elements start at multiples of four bytes
+    }
+    auto& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
+    attributes["POSITION"] = file.addComponents<std::uint16_t>(positions, 5123, "VEC3", post.positions.size(), true);
+    const int view = file.json["accessors"][attributes["POSITION"].get<int>()]["bufferView"];
+    file.json["bufferViews"][view]["byteStride"] = 8;
+    std::vector<float> matrices;
+    for (int joint = 0; joint < 3; ++joint) {
+        const mat4 jointFromMesh = glm::translate(mat4(1.0F), corner - vec3(0, 0.6F * static_cast<float>(joint), 0)) *
+                                   glm::scale(mat4(1.0F), vec3(side));
+        for (int i = 0; i < 16; ++i)
+            matrices.push_back(jointFromMesh[i / 4][i % 4]);
+    }
+    file.json["skins"][0]["inverseBindMatrices"] = file.addFloats(matrices, "MAT4");
+    file.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+    file.saveBinary(folder / "packed.glb");
+    const Character character = imported(folder / "packed.glb");
+    checkInvariants(character);
+    CHECK(largestDifference(bindVertices(character), bindVertices(imported(folder / "plain.glb"))) < 1e-4F);
+}
+
 TEST_CASE("a stride that leads out of the buffer is refused, however large") {
     // The way to the last of so many elements is 2 to the 64th, which is 0 in a size.
     const TemporaryFolder folder;
@@ -182,6 +215,30 @@ TEST_CASE("a joint may jump in one channel and move smoothly in the other") {
             CHECK(last[joint].translation.y == Approx(held ? 0.6F : 1.6F).margin(1e-3));
             CHECK(glm::distance(directionAt(character, joint, 1.0F), vec3(-1, 0, 0)) < 1e-3F);
         }
+    }
+}
+
+TEST_CASE("a channel that points at a node's part moves it as one that names them, others are told") {
+    const TemporaryFolder folder;
+    GltfFile file = makePostRig();
+    const std::vector<float> times = {0, 1};
+    file.addTurn("turn", 2, times, file.addFloats(quarterTurn(), "VEC4"), "LINEAR");
+    auto& channels = file.json["animations"][0]["channels"];
+    const auto pointTo = [&](const char* pointer) {
+        channels[0]["target"] = {{"path", "pointer"},
+                                 {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
+        file.saveBinary(folder / "rig.glb");
+        return imported(folder / "rig.glb");
+    };
+    const Character character = pointTo("/nodes/2/rotation");
+    const std::string name = file.json["nodes"][2]["name"];
+    CHECK(glm::distance(directionAt(character, jointNamed(character, name), 1.0F), vec3(-1, 0, 0)) < 1e-3F);
+    CHECK(character.warnings.empty());
+    for (const char* other :
+         {"/materials/0/alphaCutoff", "/nodes/99/rotation", "/nodes/2", "/nodes/two/rotation", ""}) {
+        const Character still = pointTo(other);
+        CHECK(still.clips.empty());
+        CHECK(warns(still, "animations of other things than nodes"));
     }
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "animation/import/gltf/accessor.hpp"
@@ -44,24 +45,52 @@ void takeKeys(const Numbers& times, const Numbers& values, SourceChannel& channe
     }
 }
 
+// What a channel moves: a node, and which part of it by glTF's name.
+struct Target {
+    int node = -1;
+    std::string path;
+};
+
+// The target of KHR_animation_pointer, a JSON pointer: "/nodes/3/rotation".
+std::optional<Target> pointedAt(const std::string& pointer, std::size_t nodes) {
+    constexpr std::string_view kNodes = "/nodes/";
+    if (!pointer.starts_with(kNodes)) return std::nullopt;
+    Target target;
+    const char* const first = pointer.data() + kNodes.size();
+    const char* const end = pointer.data() + pointer.size();
+    const auto [rest, error] = std::from_chars(first, end, target.node);
+    if (error != std::errc() || rest == end || *rest != '/') return std::nullopt;
+    if (target.node < 0 || static_cast<std::size_t>(target.node) >= nodes) return std::nullopt;
+    target.path = std::string(rest + 1, end);
+    return target;
+}
+
+std::optional<Target> targetOf(const json& channel, std::size_t nodes) {
+    const json* target = member(channel, "target");
+    if (target == nullptr) return std::nullopt;
+    if (const json* block = extensionOf(*target, "KHR_animation_pointer"))
+        return pointedAt(textOf(*block, "pointer"), nodes).value_or(Target{});
+    const std::optional<int> node = indexOf(*target, "node", nodes);
+    return node ? std::optional(Target{*node, textOf(*target, "path")}) : std::nullopt;
+}
+
 void addChannel(GltfFile& file, const json& animation, const json& source, const NodeMap& nodes, SourceClip& clip) {
-    const json* target = member(source, "target");
-    const std::optional<int> node = target == nullptr ? std::nullopt : indexOf(*target, "node", nodes.size());
-    if (!node) return;  // aimed at something else by an extension
-    const std::string name = textOf(*target, "path");
-    const std::optional<SourceChannel::Path> path = pathOf(name);
+    const std::optional<Target> target = targetOf(source, nodes.size());
+    if (!target) return;  // the specification has such a channel ignored
+    const std::optional<SourceChannel::Path> path = pathOf(target->path);
     if (!path) {
-        file.leaveOut(name == "weights" ? "animations of morph targets" : "animations of other things than nodes");
+        const bool morphs = target->path == "weights";
+        file.leaveOut(morphs ? "animations of morph targets" : "animations of other things than nodes");
         return;
     }
     const std::optional<int> samplerIndex = indexOf(source, "sampler", countOf(animation, "samplers"));
-    if (!samplerIndex || nodes[*node] < 0) return;
+    if (!samplerIndex || nodes[target->node] < 0) return;
     const json& sampler = animation.at("samplers").at(static_cast<std::size_t>(*samplerIndex));
     const std::optional<int> input = indexOf(sampler, "input", file.count("accessors"));
     const std::optional<int> output = indexOf(sampler, "output", file.count("accessors"));
     if (!input || !output) throw Damage{fmt::format("animation '{}' has a sampler without keys", clip.name)};
     SourceChannel channel;
-    channel.node = nodes[*node];
+    channel.node = nodes[target->node];
     channel.path = *path;
     channel.interpolation = interpolationOf(textOf(sampler, "interpolation"));
     const std::size_t width = *path == SourceChannel::Path::rotation ? 4 : 3;
