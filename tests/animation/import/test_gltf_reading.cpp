@@ -261,6 +261,38 @@ TEST_CASE("a skin without inverse bind matrices holds its vertices relative to t
           1e-4F);
 }
 
+TEST_CASE("joints beyond the last inverse bind matrix are bound where they stand, with a word") {
+    const TemporaryFolder folder;
+    GltfFile file = makePostRig();
+    file.saveBinary(folder / "plain.glb");
+    const int matrices = file.json["skins"][0]["inverseBindMatrices"];
+    file.json["accessors"][matrices]["count"] = 2;
+    file.saveBinary(folder / "rig.glb");
+    const Character character = imported(folder / "rig.glb");
+    checkInvariants(character);
+    CHECK(warns(character, "3 joints and 2 inverse bind matrices"));
+    const Character plain = imported(folder / "plain.glb");
+    CHECK(largestDifference(bindVertices(character), bindVertices(plain)) < 1e-5F);
+    CHECK(character.skeleton.skinWeight == plain.skeleton.skinWeight);
+}
+
+TEST_CASE("a skin of two joints a vertex may say so") {
+    const TemporaryFolder folder;
+    GltfFile file = makePostRig();
+    file.saveBinary(folder / "plain.glb");
+    std::vector<std::uint8_t> joints;
+    std::vector<float> weights;
+    for (const HandSkin& skin : makePost().skin) {
+        joints.insert(joints.end(), {skin.joints[0], skin.joints[1]});
+        weights.insert(weights.end(), {skin.weights[0], skin.weights[1]});
+    }
+    auto& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
+    attributes["JOINTS_0"] = file.addComponents<std::uint8_t>(joints, 5121, "VEC2", joints.size() / 2, false);
+    attributes["WEIGHTS_0"] = file.addFloats(weights, "VEC2");
+    file.saveBinary(folder / "rig.glb");
+    CHECK(imported(folder / "rig.glb").skeleton.skinWeight == imported(folder / "plain.glb").skeleton.skinWeight);
+}
+
 TEST_CASE("joints of one name are told apart by their index") {
     const TemporaryFolder folder;
     GltfFile file = makePostRig();

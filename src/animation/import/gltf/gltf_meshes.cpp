@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 #include "animation/import/gltf/accessor.hpp"
 #include "animation/import/gltf/gltf_draco.hpp"
@@ -18,9 +19,11 @@ constexpr std::size_t kMaxInfluenceSets = 4;  // JOINTS_0 … JOINTS_3
 
 enum Mode { kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
 
-// One skin's slots and weights of every vertex, set after set.
+// One set of slots and weights of every vertex. There are four a vertex by the specification; Unity's exporter of skins
+// with two writes two.
 struct VertexSkins {
-    std::vector<std::uint32_t> joints;  // four a vertex
+    std::size_t width = 4;
+    std::vector<std::uint32_t> joints;  // `width` a vertex
     std::vector<float> weights;
 };
 
@@ -52,9 +55,9 @@ class Attributes {
         return found;
     }
 
-    [[nodiscard]] std::vector<std::uint32_t> joints(const std::string& name) const {
+    [[nodiscard]] std::vector<std::uint32_t> integers(const std::string& name, std::size_t width) const {
         std::optional<std::vector<std::uint32_t>> compressed = packed_ ? packed_->integers(name) : std::nullopt;
-        return compressed ? *std::move(compressed) : readIntegers(file_, *accessorOf(name), 4, name.c_str());
+        return compressed ? *std::move(compressed) : readIntegers(file_, *accessorOf(name), width, name.c_str());
     }
 
   private:
@@ -129,9 +132,11 @@ std::vector<VertexSkins> readSets(const Attributes& attributes, std::size_t vert
         const std::string weights = fmt::format("WEIGHTS_{}", set);
         if (!attributes.has(joints) || !attributes.has(weights)) break;
         VertexSkins skins;
-        skins.joints = attributes.joints(joints);
-        skins.weights = attributes.numbers(weights, 4)->values;
-        if (skins.joints.size() != 4 * vertices || skins.weights.size() != 4 * vertices)
+        Numbers numbers = *attributes.numbers(weights);
+        skins.width = std::min<std::size_t>(numbers.width, 4);
+        skins.weights = std::move(numbers.values);
+        skins.joints = attributes.integers(joints, numbers.width);
+        if (numbers.width > 4 || numbers.count != vertices || skins.joints.size() != skins.weights.size())
             throw Damage{"JOINTS or WEIGHTS have another count than POSITION"};
         sets.push_back(std::move(skins));
     }
@@ -145,7 +150,7 @@ void takeInfluences(const std::vector<VertexSkins>& sets, SourceMesh& mesh) {
     mesh.influences.reserve(4 * mesh.positions.size());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         for (const VertexSkins& set : sets) {
-            for (std::size_t i = 4 * v; i < 4 * v + 4; ++i) {
+            for (std::size_t i = set.width * v; i < set.width * (v + 1); ++i) {
                 if (set.weights[i] != 0.0F) mesh.influences.push_back({set.joints[i], set.weights[i]});
             }
         }
@@ -220,14 +225,24 @@ glm::dmat4 matrixAt(const Numbers& numbers, std::size_t element) {
     return matrix;
 }
 
-SourceSkin readSkin(GltfFile& file, const json& source, const NodeMap& nodes) {
+glm::dmat4 sceneFromNode(const SourceScene& scene, int node) {
+    glm::dmat4 frame(1.0);
+    for (int at = node; at >= 0; at = scene.nodes[at].parent)
+        frame = scene.nodes[at].parentFromNode * frame;
+    return frame;
+}
+
+SourceSkin readSkin(GltfFile& file, const json& source, const NodeMap& nodes, SourceScene& out) {
     SourceSkin skin;
     const json* joints = arrayOf(source, "joints");
     if (joints == nullptr) throw Damage{"a skin has no joints"};
     Numbers matrices;
     const std::optional<int> accessor = indexOf(source, "inverseBindMatrices", file.count("accessors"));
     if (accessor) matrices = readNumbers(file, *accessor, 16, "inverse bind matrices");
-    if (accessor && matrices.count < joints->size()) throw Damage{"a skin has fewer inverse bind matrices than joints"};
+    if (accessor && matrices.count < joints->size())
+        out.warnings.push_back(
+            fmt::format("a skin has {} joints and {} inverse bind matrices: the last joints are bound where they stand",
+                        joints->size(), matrices.count));
     skin.verticesAreInJoints = !accessor;
     for (std::size_t i = 0; i < joints->size(); ++i) {
         const json& joint = (*joints)[i];
@@ -235,7 +250,11 @@ SourceSkin readSkin(GltfFile& file, const json& source, const NodeMap& nodes) {
             throw Damage{fmt::format("a skin names node {}, of which there are {}", joint.dump(), nodes.size())};
         const int node = nodes[joint.get<std::size_t>()];
         if (node < 0) throw Damage{fmt::format("a skin names node {}, which is not in the scene", joint.dump())};
-        skin.joints.push_back({node, accessor ? matrixAt(matrices, i) : glm::dmat4(1.0)});
+        if (accessor && i >= matrices.count) {
+            skin.joints.push_back({node, glm::inverse(sceneFromNode(out, node))});
+        } else {
+            skin.joints.push_back({node, accessor ? matrixAt(matrices, i) : glm::dmat4(1.0)});
+        }
     }
     return skin;
 }
@@ -275,7 +294,7 @@ void addMeshes(GltfFile& file, const NodeMap& nodes, SourceScene& out) {
         const std::optional<int> skin = indexOf(node, "skin", skinCount);
         if (skin && skinOf.count(*skin) == 0) {
             skinOf[*skin] = static_cast<int>(out.skins.size());
-            out.skins.push_back(readSkin(file, file.element("skins", *skin), nodes));
+            out.skins.push_back(readSkin(file, file.element("skins", *skin), nodes, out));
         }
         const json& source = file.element("meshes", *meshIndex);
         std::vector<double> morphs = weightsOf(node);
