@@ -86,18 +86,18 @@ class AppendageSearch {
   private:
     [[nodiscard]] vec3 standing(int joint) const { return map_.standardFromModel * rig_.positions[joint]; }
 
-    // The part whose joint is nearest above. What hangs on none (a hat on the root) is the part's whose joint it lies
-    // nearest to; joints above the hips are theirs.
+    // The part whose joint is nearest above. What hangs on none (a hat on the root) is the part's whose joint its skin
+    // lies nearest to (an armature of its own may stand at the origin); joints above the hips are theirs.
     [[nodiscard]] Role partAbove(int joint) const {
         for (int at = joint; at != kNoJoint; at = rig_.parents[at])
             if (roleOf_[at] >= 0) return roleAt(roleOf_[at]);
         if (holdsRole_[joint]) return Role::hips;
+        const vec3 place = middleOfSkin(joint).value_or(rig_.positions[joint]);
         int nearest = kNoJoint;
         for (int other = 0; other < rig_.count(); ++other) {
             if (roleOf_[other] < 0) continue;
-            const bool nearer =
-                nearest == kNoJoint || glm::distance(rig_.positions[other], rig_.positions[joint]) <
-                                           glm::distance(rig_.positions[nearest], rig_.positions[joint]);
+            const bool nearer = nearest == kNoJoint || glm::distance(rig_.positions[other], place) <
+                                                           glm::distance(rig_.positions[nearest], place);
             if (nearer) nearest = other;
         }
         return nearest == kNoJoint ? Role::hips : roleAt(roleOf_[nearest]);
@@ -155,8 +155,8 @@ class AppendageSearch {
         return kindByPlace(joint);
     }
 
-    // Mean of the skin at and below the joint, against the joint, in the standard stance's axes.
-    [[nodiscard]] vec3 way(int joint) const {
+    // Of what the joint and those below it move.
+    [[nodiscard]] std::optional<vec3> middleOfSkin(int joint) const {
         vec3 sum(0);
         float number = 0.0F;
         for (const RigFeatures::Vertex& vertex : rig_.vertices) {
@@ -164,8 +164,13 @@ class AppendageSearch {
             sum += vertex.position;
             number += 1.0F;
         }
-        if (number <= 0.0F) return vec3(0);
-        return map_.standardFromModel * (sum / number) - standing(joint);
+        return number > 0.0F ? std::optional<vec3>(sum / number) : std::nullopt;
+    }
+
+    // The middle of its skin, against the joint, in the standard stance's axes.
+    [[nodiscard]] vec3 way(int joint) const {
+        const std::optional<vec3> middle = middleOfSkin(joint);
+        return middle ? map_.standardFromModel * *middle - standing(joint) : vec3(0);
     }
 
     [[nodiscard]] AppendageKind kindByPlace(int joint) const {

@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "physics/fit/head_pieces.hpp"
+
 namespace lutka::physics {
 namespace {
 
@@ -118,16 +120,21 @@ std::vector<SkinPoint> gatherSkin(BodyPlan& plan, const animation::Character& ch
     for (const SkinnedMesh& mesh : character.meshes)
         vertices += mesh.positions.size();
     const auto aside = static_cast<int>(plan.bodies.size());
-    plan.bodies.emplace_back();
+    std::vector<std::vector<int>> owners;
     for (const SkinnedMesh& mesh : character.meshes) {
-        std::vector<int> owners = bodiesOfVertices(mesh, plan.bodyOfJoint);
-        for (std::size_t vertex = 0; vertex < owners.size(); ++vertex) {
-            if (hanging[mesh.joints[vertex][0]]) owners[vertex] = aside;
+        owners.push_back(bodiesOfVertices(mesh, plan.bodyOfJoint));
+        for (std::size_t vertex = 0; vertex < owners.back().size(); ++vertex) {
+            if (hanging[mesh.joints[vertex][0]]) owners.back()[vertex] = aside;
         }
+    }
+    hangPiecesOfHead(plan, character, toStandard, aside, owners);
+    plan.bodies.emplace_back();
+    for (std::size_t i = 0; i < owners.size(); ++i) {
+        const SkinnedMesh& mesh = character.meshes[i];
         if (vertices < kCoarse && !mesh.indices.empty()) {
-            addTrianglePoints(plan, mesh, owners, toStandard);
+            addTrianglePoints(plan, mesh, owners[i], toStandard);
         } else {
-            addVertices(plan, mesh, owners, toStandard);
+            addVertices(plan, mesh, owners[i], toStandard);
         }
     }
     std::vector<SkinPoint> hung = std::move(plan.bodies.back().skin);

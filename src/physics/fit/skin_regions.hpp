@@ -16,7 +16,8 @@ namespace lutka::physics {
 
 /// Fills the skin of the plan's bodies: the vertices, and for coarse meshes (below 5000 vertices in all) points on the
 /// triangles instead, so that a box of eight vertices has a surface. Returns
-/// the skin of the joints in `hanging` (one a joint), which goes to no body: see settleHeadSkin().
+/// the skin of the joints in `hanging` (one a joint) and of pieces that hang on the head (hangPiecesOfHead()), which
+/// goes to no body: see settleHeadSkin().
 [[nodiscard]] std::vector<SkinPoint> gatherSkin(BodyPlan& plan, const animation::Character& character,
                                                 const quat& standardFromModel, const std::vector<bool>& hanging);
 

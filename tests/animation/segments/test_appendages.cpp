@@ -53,6 +53,30 @@ TEST_CASE("ears and hair that hang on the root of the file are the head's") {
     CHECK(onHead == 3);
 }
 
+TEST_CASE("what hangs on an armature of its own is the part's that its skin lies at, wherever that armature stands") {
+    Character figure = test::makeBipedWithAppendages();
+    HumanoidMap map = test::mapOfBiped(figure);
+    test::addRoot(figure, map);
+    const int ponytail = findJoint(figure.skeleton, "ponytail1");
+    // Joints that move no skin and stand on the floor, between the feet.
+    const int armature = findJoint(figure.skeleton, "ponytail2");
+    REQUIRE(ponytail != kNoJoint);
+    REQUIRE(armature == ponytail + 1);
+    std::swap(figure.skeleton.names[ponytail], figure.skeleton.names[armature]);
+    figure.skeleton.names[ponytail] = "armature";
+    figure.skeleton.parents[ponytail] = 0;
+    figure.skeleton.bindModelFromJoint[ponytail].translation = vec3(0);
+    for (SkinnedMesh& mesh : figure.meshes) {
+        for (auto& joints : mesh.joints)
+            std::replace(joints.begin(), joints.end(), static_cast<std::uint16_t>(ponytail),
+                         static_cast<std::uint16_t>(armature));
+    }
+    for (const Appendage& one : findAppendages(figure, map)) {
+        if (one.joint == ponytail) CHECK(one.role == Role::head);
+    }
+    CHECK(findAppendages(figure, map).size() == 5);
+}
+
 TEST_CASE("without telling names appendages are told by where they hang and how they point") {
     Character figure = test::makeBipedWithAppendages();
     for (std::string& name : figure.skeleton.names)

@@ -125,6 +125,50 @@ TEST_CASE("the head's shape is that of the skull, with or without tails of hair"
     CHECK(tailed.y == Approx(bare.y).margin(0.01));
 }
 
+TEST_CASE("the head's shape is that of the skull, whatever is modelled as a piece of its own on the same joint") {
+    const auto shapeOfHead = [](const animation::Character& biped) {
+        const auto fitted = fitRagdoll(biped, test::mapOfBiped(biped), {});
+        REQUIRE(fitted);
+        const BodyShape& shape = fitted.value().bodies[bodyOf(fitted.value(), Role::head)].shape;
+        return vec2(shape.radius, shape.halfLength);
+    };
+    const vec2 bare = shapeOfHead(test::makeBiped());
+    // Ways of tubes from the head's joint on: horns, a top hat, a plait down the back.
+    const std::vector<std::vector<std::pair<vec3, vec3>>> things = {
+        {{vec3(0.07F, 0.2F, 0), vec3(0.35F, 0.7F, 0)}, {vec3(-0.07F, 0.2F, 0), vec3(-0.35F, 0.7F, 0)}},
+        {{vec3(0, 0.2F, 0), vec3(0, 0.8F, 0)}},
+        {{vec3(0, 0.15F, -0.1F), vec3(0, -0.7F, -0.3F)}}};
+    for (const auto& ways : things) {
+        animation::Character biped = test::makeBiped();
+        const int head = test::mapOfBiped(biped).jointOf(Role::head);
+        const vec3 place = biped.skeleton.bindModelFromJoint[head].translation;
+        animation::SkinnedMesh& mesh = biped.meshes[0];
+        for (const auto& [from, to] : ways) {
+            constexpr std::uint32_t kRings = 12;
+            const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+            for (std::uint32_t i = 0; i < 8 * kRings; ++i) {
+                const float angle = 0.25F * kPi * static_cast<float>(i % 8);
+                const vec3 out(std::cos(angle), 0, std::sin(angle));
+                const float along = static_cast<float>(i / 8) / static_cast<float>(kRings - 1);
+                mesh.positions.push_back(place + glm::mix(from, to, along) + 0.06F * out);
+                mesh.normals.push_back(out);
+                mesh.joints.push_back({static_cast<std::uint16_t>(head)});
+                mesh.weights.push_back({1.0F});
+                if (i < 8) continue;
+                const std::uint32_t next = i - i % 8 + (i + 1) % 8;
+                for (const std::uint32_t index : {i, next, next - 8U, i, next - 8U, i - 8U})
+                    mesh.indices.push_back(first + index);
+            }
+        }
+        mesh.uvs.clear();
+        mesh.tangents.clear();
+        mesh.fileOrder.clear();
+        const vec2 shape = shapeOfHead(biped);
+        CHECK(shape.x == Approx(bare.x).epsilon(0.15));
+        CHECK(shape.y == Approx(bare.y).margin(0.03));
+    }
+}
+
 TEST_CASE("a head whose skin hangs on the neck's joint is as large as that skin") {
     animation::Character biped = test::makeBiped();
     const animation::HumanoidMap map = test::mapOfBiped(biped);

@@ -1,0 +1,228 @@
+#include "physics/fit/head_pieces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+namespace lutka::physics {
+namespace {
+
+using animation::SkinnedMesh;
+
+constexpr float kMargin = 0.35F;      // of the skull's diagonal: hair and hats lie so near to it
+constexpr float kLargeEnough = 0.2F;  // of the largest piece's area: eyes and teeth are no skull
+constexpr float kAtJoint = 0.25F;     // of a piece's diagonal: so near it begins at the joint
+constexpr float kMostInside = 0.5F;   // of a piece's vertices: it is a part of the skull
+constexpr float kMostGrown = 1.6F;    // of the skull's diagonal: with the parts that lie on it
+
+struct Box {
+    vec3 low{1e9F};
+    vec3 high{-1e9F};
+
+    void add(const vec3& point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    [[nodiscard]] float diagonal() const { return glm::distance(low, high); }
+    [[nodiscard]] float distanceTo(const vec3& point) const {
+        return glm::length(glm::max(glm::max(low - point, point - high), vec3(0)));
+    }
+};
+
+// Connected skin of the head.
+struct Piece {
+    Box box;
+    float area = 0.0F;
+    vec3 sum{0};  // of its points
+    std::vector<vec3> points;
+};
+
+// Vertices of all meshes in one list; those in the same place are one, so that seams of UVs and materials do not part
+// the skin.
+class HeadSkin {
+  public:
+    HeadSkin(int head, const animation::Character& character, const mat3& standardFromModel,
+             const std::vector<std::vector<int>>& owners) {
+        for (std::size_t m = 0; m < owners.size(); ++m) {
+            const SkinnedMesh& mesh = character.meshes[m];
+            placeOf_.emplace_back(owners[m].size(), -1);
+            for (std::size_t v = 0; v < owners[m].size(); ++v) {
+                if (owners[m][v] == head) placeOf_[m][v] = placeAt(mesh.positions[v]);
+            }
+        }
+        groups_.resize(places_.size());
+        std::iota(groups_.begin(), groups_.end(), 0);
+        for (std::size_t m = 0; m < owners.size(); ++m)
+            join(character.meshes[m], placeOf_[m]);
+        gather(character, standardFromModel);
+    }
+
+    [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+    // -1: not the head's.
+    [[nodiscard]] int pieceOf(std::size_t mesh, std::size_t vertex) const {
+        const int place = placeOf_[mesh][vertex];
+        return place < 0 ? -1 : pieceOfGroup_[static_cast<std::size_t>(groups_[static_cast<std::size_t>(place)])];
+    }
+
+  private:
+    struct Hash {
+        std::size_t operator()(const vec3& p) const {
+            std::array<std::uint32_t, 3> bits{};
+            const vec3 positive = p + vec3(0.0F);  // -0 is 0
+            std::memcpy(bits.data(), &positive, sizeof(bits));
+            return ((bits[0] * 73856093ULL) ^ (bits[1] * 19349663ULL) ^ (bits[2] * 83492791ULL));
+        }
+    };
+
+    int placeAt(const vec3& position) {
+        const auto [found, isNew] = index_.try_emplace(position, static_cast<int>(places_.size()));
+        if (isNew) places_.push_back(position);
+        return found->second;
+    }
+
+    int groupOf(int place) {
+        int at = place;
+        while (groups_[static_cast<std::size_t>(at)] != at) {
+            int& up = groups_[static_cast<std::size_t>(at)];
+            up = groups_[static_cast<std::size_t>(up)];
+            at = up;
+        }
+        return at;
+    }
+
+    void join(const SkinnedMesh& mesh, const std::vector<int>& placeOf) {
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            const std::uint32_t* const corner = &mesh.indices[i];
+            int first = -1;
+            for (int k = 0; k < 3; ++k) {
+                const int place = placeOf[corner[k]];
+                if (place < 0) continue;
+                if (first >= 0) groups_[static_cast<std::size_t>(groupOf(place))] = groupOf(first);
+                first = place;
+            }
+        }
+    }
+
+    void gather(const animation::Character& character, const mat3& standardFromModel) {
+        pieceOfGroup_.assign(places_.size(), -1);
+        for (std::size_t place = 0; place < places_.size(); ++place) {
+            const int group = groupOf(static_cast<int>(place));
+            groups_[place] = group;
+            int& piece = pieceOfGroup_[static_cast<std::size_t>(group)];
+            if (piece < 0) {
+                piece = static_cast<int>(pieces_.size());
+                pieces_.emplace_back();
+            }
+            const vec3 point = standardFromModel * places_[place];
+            Piece& of = pieces_[static_cast<std::size_t>(piece)];
+            of.box.add(point);
+            of.sum += point;
+            of.points.push_back(point);
+        }
+        for (std::size_t m = 0; m < placeOf_.size(); ++m) {
+            const SkinnedMesh& mesh = character.meshes[m];
+            for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+                count(mesh, m, &mesh.indices[i]);
+        }
+    }
+
+    void count(const SkinnedMesh& mesh, std::size_t m, const std::uint32_t* corner) {
+        int piece = -1;
+        int corners = 0;
+        for (int k = 0; k < 3; ++k) {
+            const int of = pieceOf(m, corner[k]);
+            corners += of >= 0 ? 1 : 0;
+            piece = std::max(piece, of);
+        }
+        if (piece < 0) return;
+        const vec3& a = mesh.positions[corner[0]];
+        const vec3 twice = glm::cross(mesh.positions[corner[1]] - a, mesh.positions[corner[2]] - a);
+        Piece& of = pieces_[static_cast<std::size_t>(piece)];
+        of.area += 0.5F * glm::length(twice) * static_cast<float>(corners) / 3.0F;
+    }
+
+    std::unordered_map<vec3, int, Hash> index_;
+    std::vector<vec3> places_;
+    std::vector<std::vector<int>> placeOf_;  // one list a mesh: place of each vertex, -1: not the head's
+    std::vector<int> groups_;
+    std::vector<int> pieceOfGroup_;
+    std::vector<Piece> pieces_;
+};
+
+// The index of the skull itself: the largest of the pieces that begin at the head's joint and lie beyond it.
+std::optional<std::size_t> skullOf(const std::vector<Piece>& pieces, const PlannedBody& head) {
+    float largest = 0.0F;
+    for (const Piece& piece : pieces)
+        largest = std::max(largest, piece.area);
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const Piece& piece = pieces[i];
+        const vec3 middle = piece.sum / static_cast<float>(piece.points.size());
+        const bool begins = piece.box.distanceTo(head.start) <= kAtJoint * piece.box.diagonal();
+        const bool isBeyond = glm::dot(middle - head.start, head.end - head.start) > 0.0F;
+        if (!begins || !isBeyond || piece.area < kLargeEnough * largest) continue;
+        if (!best || piece.area > pieces[*best].area) best = i;
+    }
+    return best;
+}
+
+// How many of a piece's points lie within the margin of a box.
+float shareWithin(const Piece& piece, const Box& box, float margin) {
+    const auto inside = std::count_if(piece.points.begin(), piece.points.end(),
+                                      [&](const vec3& point) { return box.distanceTo(point) <= margin; });
+    return static_cast<float>(inside) / static_cast<float>(piece.points.size());
+}
+
+// How far from the skull each piece's skin still tells the head's shape: all of those that lie on it, hair that begins
+// on it up to a margin, of what only touches it nothing. `box` becomes that of the skull with what lies on it.
+std::vector<float> reachesOf(const std::vector<Piece>& pieces, std::size_t skull, Box& box) {
+    constexpr float kAll = 1e9F;
+    std::vector<float> reaches(pieces.size(), 0.0F);
+    reaches[skull] = kAll;
+    box = pieces[skull].box;
+    const float margin = kMargin * box.diagonal();
+    const float most = kMostGrown * box.diagonal();
+    for (bool grown = true; grown;) {
+        grown = false;
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            if (reaches[i] == kAll || shareWithin(pieces[i], box, margin) < kMostInside) continue;
+            Box larger = box;
+            larger.add(pieces[i].box.low);
+            larger.add(pieces[i].box.high);
+            const bool isWhole = larger.diagonal() <= most;
+            reaches[i] = isWhole ? kAll : margin;
+            if (isWhole) box = larger;
+            grown = grown || isWhole;
+        }
+    }
+    return reaches;
+}
+
+}  // namespace
+
+void hangPiecesOfHead(const BodyPlan& plan, const animation::Character& character, const mat3& standardFromModel,
+                      int aside, std::vector<std::vector<int>>& owners) {
+    const int head = plan.bodyOf(Role::head);
+    if (head < 0) return;
+    const HeadSkin skin(head, character, standardFromModel, owners);
+    const std::optional<std::size_t> skull = skullOf(skin.pieces(), plan.bodies[head]);
+    if (!skull || skin.pieces().size() < 2) return;
+    Box box;
+    const std::vector<float> reaches = reachesOf(skin.pieces(), *skull, box);
+    for (std::size_t m = 0; m < owners.size(); ++m) {
+        for (std::size_t v = 0; v < owners[m].size(); ++v) {
+            const int piece = skin.pieceOf(m, v);
+            if (piece < 0) continue;
+            const float distance = box.distanceTo(standardFromModel * character.meshes[m].positions[v]);
+            if (distance > reaches[static_cast<std::size_t>(piece)]) owners[m][v] = aside;
+        }
+    }
+}
+
+}  // namespace lutka::physics
