@@ -16,6 +16,7 @@ void printArray(const char* key, const mjtNum* values, int count, const char* af
 }  // namespace
 
 int main(int argc, char** argv) {
+    mju_user_warning = [](const char* text) { std::fprintf(stderr, "%s\n", text); };  // else on stdout, in the JSON
     char error[1000] = "no file";
     mjModel* m = argc == 2 ? mj_loadXML(argv[1], nullptr, error, sizeof error) : nullptr;
     if (m == nullptr) {

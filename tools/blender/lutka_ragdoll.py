@@ -348,6 +348,8 @@ class LUTKA_OT_ragdoll(bpy.types.Operator):
     bodies: BoolProperty(name="Rigid bodies", default=True, description="Make the ragdoll's rigid bodies and joints")
     drive: BoolProperty(name="Bones follow the bodies", default=False,
                         description="The bones copy the rigid bodies, in place of the baked action")
+    any_rig: BoolProperty(name="Any skeleton", default=False,
+                          description="A creature, a hand, a chain: bodies by the bones themselves, not by the parts of a human")
     folder: StringProperty(name="Keep files in", subtype="DIR_PATH", description="Empty: they are removed afterwards")
 
     @classmethod
@@ -371,7 +373,7 @@ class LUTKA_OT_ragdoll(bpy.types.Operator):
         model, profile, clip, script = (os.path.join(folder, name) for name in
                                         ("model.glb", "model.ragdoll.json", "fall.glb", "doll.py"))
         export_armature(context, armature, model)
-        run(context, "build", model, "-o", profile)
+        run(context, "build", model, "-o", profile, *(["--rig", "any"] if self.any_rig else []))
         run(context, "simulate", model, "--profile", profile, "--scene", self.scene, "--seed", self.seed,
             "--seconds", self.seconds, "--out", clip)
         placing = Placing(armature, Clip(clip))
