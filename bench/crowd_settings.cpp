@@ -38,6 +38,7 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
                                               {"contactStiffness", &tuning.contactStiffness},
                                               {"grip", &tuning.grip},
                                               {"pushSpeed", &tuning.pushSpeed},
+                                              {"ownPushSpeed", &tuning.ownPushSpeed},
                                               {"limitSpeed", &tuning.limitSpeed},
                                               {"slop", &tuning.slop},
                                               {"staticMargin", &tuning.staticMargin},

@@ -353,6 +353,15 @@ static int solvePairs(const PairsView& view, const SubstepParams& params) {
     return bits(pressed) != 0 ? 1 : 0;
 }
 
+// m/s that overlap is pushed apart with when it is mended.
+LUTKA_LANES F mendSpeed(const PairContactLanes& pair, const SubstepParams& params) {
+    const F limp = isOwn(pair) ? all(params.ownPushSpeed) : all(params.pushSpeed);
+    const F own = isDriven(pair) ? all(params.drivenPushSpeed) : limp;
+    const F fastest = strikes(pair) ? all(params.dollPushSpeed) : own;
+    const F apart = least(-(load(pair.separation) + all(params.slop)) * all(params.contactRate), fastest);
+    return apart * eagerness(pair, params.mendHaste);
+}
+
 static int mendPairs(const PairsView& view, const SubstepParams& params, int sweep) {
     const PairBodies& bodies = view.bodies;
     Mask any = noLanes();
@@ -360,22 +369,23 @@ static int mendPairs(const PairsView& view, const SubstepParams& params, int swe
         PairContactLanes& pair = pairAt(view, view.live[i]);
         const F zero = all(0.0F);
         const Mask overlaps = (load(pair.separation) < all(-params.slop - params.mendGap)) & hasContact(pair);
-        if (bits(overlaps) == 0) continue;
+        // What a push drives together within a doll may come no nearer than touching, or a hand in a gap would be
+        // thrown from one side of it into the other.
+        const Mask nears = sweep > 0 ? isOwn(pair) & hasContact(pair) & ~overlaps : noLanes();
+        const Mask mends = overlaps | nears;
+        if (bits(mends) == 0) continue;
         makeReady(pair, bodies);
         any |= overlaps;
         PairVelocities v = velocitiesOf(pair, bodies);
         const V3 normal = load(pair.normal);
-        const F own = isDriven(pair) ? all(params.drivenPushSpeed) : all(params.pushSpeed);
-        const F fastest = strikes(pair) ? all(params.dollPushSpeed) : own;
-        const F apart = most((load(pair.separation) + all(params.slop)) * all(params.contactRate), -fastest);
-        const F off = dot(normal, slidingOf(pair, v)) + apart * eagerness(pair, params.mendHaste);
         // Between dolls what was too much is given back: a foot between two trunks would be thrown to and fro. Within a
-        // doll too little is left of a push once all of the doll has answered.
+        // doll too little is left of a push once all of the doll has answered: more is asked for, and kept.
         const Mask gathers = strikes(pair);
+        const F wanted = mendSpeed(pair, params) * (gathers ? all(1.0F) : eagerness(pair, params.mendRate));
+        const F asked = overlaps ? wanted : -most(load(pair.separation), zero) * all(params.inverseDt);
         const F before = sweep > 0 ? load(pair.carriedNormal) : zero;
-        const F rate = gathers ? all(1.0F) : eagerness(pair, params.mendRate);
-        const F total = most(before - load(pair.normalMass) * off * rate, zero);
-        const F size = overlaps ? total - before : zero;
+        const F total = most(before - load(pair.normalMass) * (dot(normal, slidingOf(pair, v)) - asked), zero);
+        const F size = mends ? total - before : zero;
         store(pair.carriedNormal, gathers & overlaps ? total : zero);  // is free again
         pressPair(pair, v, size);
         // What pushes one side of a doll alone pushes all of it, and the other side after it: own contacts push both.

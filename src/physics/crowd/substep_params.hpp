@@ -42,6 +42,7 @@ struct SubstepTuning {
     float grip = 1.0F;                ///< The same of friction. More: quicker to grip, chatters.
     float pushSpeed = 2.0F;           ///< m/s, largest speed that overlap is pushed apart with,
     float dollPushSpeed = 6.0F;       ///< and that of dolls with dolls. More: single falls gain energy by the first.
+    float ownPushSpeed = 0.6F;     ///< Likewise of bodies of one limp doll. More: light limbs are thrown into others.
     float drivenPushSpeed = 0.1F;  ///< Likewise of bodies of one doll with muscles: it is seen where all else is calm.
     float limitSpeed = 25.0F;      ///< rad/s, the same for limits.
     float slop = 0.0005F;          ///< Metres of overlap left alone, so that resting contacts stay.

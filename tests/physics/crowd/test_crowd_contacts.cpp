@@ -386,3 +386,43 @@ TEST_CASE("a light limb between two heavy ones that overlap it is not thrown to 
         for (const BodyState& body : bodiesOf(*world, doll))
             CHECK(std::abs(body.worldFromBody.translation.y) > 0.098F);
 }
+
+TEST_CASE("a light limb between two heavy ones of its own doll is not thrown out of the one into the other") {
+    // Three limbs side by side at the end of a trunk, the middle one light and in both others.
+    const float overlap = GENERATE(0.01F, 0.02F, 0.03F);
+    CAPTURE(overlap);
+    physics::RagdollProfile doll = makePair(physics::ConeTwistLimits{radians(60), radians(60), radians(60)}, 10.0F);
+    doll.bodies[0].massKg = 30.0F;
+    const physics::BodyProfile limb = doll.bodies[1];
+    const physics::ConstraintProfile joint = doll.constraints[0];
+    doll.bodies[1].massKg = 0.4F;
+    for (const float side : {-1.0F, 1.0F}) {
+        doll.constraints.push_back(joint);
+        doll.constraints.back().child = static_cast<int>(doll.bodies.size());
+        doll.constraints.back().parentFromFrame =
+            joint.parentFromFrame * RigidTransform{quat(1, 0, 0, 0), {0, side * (0.1F - overlap), 0}};
+        doll.bodies.push_back(limb);
+    }
+    doll.totalMassKg = 50.4F;
+    std::vector<BodyState> bodies(doll.bodies.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        bodies[i].worldFromBody = doll.bodies[i].jointFromBody;
+    bodies[2].worldFromBody.translation.y -= 0.1F - overlap;
+    bodies[3].worldFromBody.translation.y += 0.1F - overlap;
+    // In the one by a little more than in the other.
+    bodies[1].worldFromBody = RigidTransform{glm::angleAxis(0.01F, vec3(0, 0, 1)), vec3(0)} * bodies[1].worldFromBody;
+    WorldSettings settings;
+    settings.gravity = vec3(0);
+    const auto world = createCrowdWorld(settings);
+    world->addDoll(doll, bodies);
+    float deepest = 0.0F;
+    for (int i = 0; i < 30; ++i)
+        world->step(kStep, [&] {
+            const std::vector<BodyState> now = bodiesOf(*world, 0);
+            for (const int other : {2, 3})
+                deepest =
+                    std::max(deepest, -physics::distanceBetween(doll.bodies[1].shape, now[1].worldFromBody,
+                                                                doll.bodies[other].shape, now[other].worldFromBody));
+        });
+    CHECK(deepest < overlap + 0.012F);  // 2.4 times the overlap where each pushes back what the other has pushed
+}
