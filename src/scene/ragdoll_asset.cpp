@@ -13,8 +13,8 @@ namespace lutka::scene {
 namespace {
 
 constexpr const char* kNotHumanoidMend =
-    "`lutka inspect` shows the joint tree; a humanoid has a trunk, two arms and two legs. `--rig any` makes a ragdoll "
-    "of any skeleton";
+    "`lutka inspect` shows the joint tree; a humanoid has a trunk, two arms and two legs. `--rig any`, in scenes and "
+    "lists \"rig\": \"any\", makes a ragdoll of any skeleton";
 
 Error notHumanoid(const animation::Character& character, const animation::HumanoidMap& map) {
     const std::string reason = map.warnings.empty() ? "not a humanoid" : map.warnings.front();

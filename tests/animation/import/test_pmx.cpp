@@ -1,5 +1,6 @@
 // Models of MikuMikuDance.
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -104,10 +105,9 @@ TEST_CASE("a unit of MikuMikuDance is 8 cm") {
     PmxFile(22.0F).save(folder / "post.pmx");
     const Character post = imported(folder / "post.pmx");
     CHECK(post.units.metresPerFileUnit == Approx(0.08F));
-    float top = 0.0F;
-    for (const SkinnedMesh& mesh : post.meshes) {
-        for (const vec3& position : mesh.positions)
-            top = std::max(top, position.y);
-    }
-    CHECK(top == Approx(1.76F));
+    REQUIRE(post.meshes.size() == 1);
+    const auto lower = [](const vec3& a, const vec3& b) { return a.y < b.y; };
+    const std::vector<vec3>& positions = post.meshes[0].positions;
+    const auto [lowest, highest] = std::minmax_element(positions.begin(), positions.end(), lower);
+    CHECK(highest->y - lowest->y == Approx(1.76F));
 }
