@@ -67,7 +67,7 @@ struct Diagnosis {
 /// - `skin-not-covered` a body more than 4 % of the height below its skin at over a quarter of it (both warnings;
 ///   mendable where another fit is without them)
 /// - `sides-differ` shape or mass of left and right differ by more than a tenth on a symmetric rig (warning)
-/// - `body-tiny`, `body-huge` radius below 0.8 % or above 32 % of the height (warning)
+/// - `body-tiny`, `body-huge` radius below 0.8 % of the height, or above what any fit gives (warning)
 /// - `chain-degenerate` two linked joints nearer than 0.5 % of the height (warning)
 /// - `not-humanoid` which of these checks do not apply to a ragdoll without roles: role-unmapped, roles-few,
 ///   joint-not-below, hinge-reversed and hinge-askew (info)

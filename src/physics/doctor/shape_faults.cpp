@@ -12,7 +12,8 @@ namespace {
 
 void addSizeFault(const BodyShape& shape, bool creature, float heightM, std::vector<ShapeFault>& faults) {
     constexpr float kTiny = 0.008F;
-    const float most = creature ? 0.5F : 0.32F;
+    constexpr float kRounding = 0.005F;
+    const float most = (creature ? kLargestSegmentRadius : kLargestTrunkRadius) + kRounding;
     const float radius = std::min(halfWidth(shape, {1, 0, 0}), halfWidth(shape, {0, 0, 1}));
     const float share = radius / heightM;
     if (share >= kTiny && share <= most) return;

@@ -40,6 +40,14 @@ float reachOf(const BodyPlan& plan, const PlannedBody& body) {
     return reach;
 }
 
+// As far as the body is long, and for a trunk that is wider than long as far as most of its skin is.
+float reachBetweenJoints(const BodyPlan& plan, const PlannedBody& body) {
+    const float reach = body.length() + 0.08F * plan.heightM;
+    if (!isTrunk(body.role) || body.skin.empty()) return reach;
+    const auto away = [&](const SkinPoint& point) { return glm::distance(point.position, body.start); };
+    return std::max(reach, 1.2F * quantileOf(body.skin, 0.5F, away));
+}
+
 // The joints below a body's joint (fingers, toe) tell its direction where there is no skin, as far as it may reach:
 // some programs put a leaf behind the last joint of a chain, as far again as that is long.
 std::vector<SkinPoint> jointsBelow(const Character& character, const HumanoidMap& map, const BodyPlan& plan,
@@ -104,7 +112,7 @@ std::vector<SkinPoint> skinNearSegment(const BodyPlan& plan, const PlannedBody& 
     if (body.segment) return body.skin;  // what hangs on a creature is its own
     const bool isWholeTop = isTrunk(body.role) && !body.endsAtJoint && plan.bodyOf(Role::head) < 0;
     if (isWholeTop) return body.skin;  // a bean's trunk is its head as well
-    const float reach = body.endsAtJoint ? body.length() + 0.08F * plan.heightM : reachOf(plan, body);
+    const float reach = body.endsAtJoint ? reachBetweenJoints(plan, body) : reachOf(plan, body);
     std::vector<SkinPoint> near;
     for (const SkinPoint& point : body.skin) {
         if (glm::distance(point.position, body.start) < reach) near.push_back(point);

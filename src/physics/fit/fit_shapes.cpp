@@ -29,9 +29,7 @@ constexpr std::size_t kFewestShapePoints = 24;
 constexpr std::size_t kCorners = 8;
 constexpr float kSmallestRadius = 0.01F;  // of the height, like the next
 constexpr float kLargestRadius = 0.15F;
-constexpr float kLargestTrunkRadius = 0.35F;
 constexpr float kLargestHeadRadius = 0.3F;
-constexpr float kLargestSegmentRadius = 0.5F;
 // Skin further than this from the surface counts no more than that; of the height.
 constexpr float kCutoff = 0.04F;
 // How far a limb's cap may reach past its joint, in radii: enough to close the knee, not to look like a sausage.

@@ -8,6 +8,11 @@
 
 namespace lutka::physics {
 
+/// The widest that a body may be, as a share of the figure's height: the trunk of a man that is an egg, and a segment
+/// of any rig.
+inline constexpr float kLargestTrunkRadius = 0.35F;
+inline constexpr float kLargestSegmentRadius = 0.5F;
+
 /// A capsule by the centres of its caps.
 struct Capsule {
     vec3 start{0, 0, 0};
@@ -24,7 +29,7 @@ struct Capsule {
 /// search that starts from robust quantiles. Limbs keep the axis from joint to joint, displaced towards the middle of
 /// the flesh, and end near the joints; trunk capsules stand or lie across, whichever fits better; the head stands; feet
 /// lie on the sole. Bodies with fewer than 24 points of skin get a man's proportions. Radii are kept between 1 % and 15
-/// % of the height (trunk 20, head 30 %). On a symmetric rig both sides are fitted as one and come out as mirror
+/// % of the height (trunk 35, head 30 %). On a symmetric rig both sides are fitted as one and come out as mirror
 /// images. Bodies whose skin is a block become boxes (fitBox()), but for feet and the lowest bodies of legs. A trunk or
 /// head that several capsules cover clearly better (fitSeveralCapsules()) gets up to `mostShapes` of them, where none
 /// of the further ones comes into a body that is not linked. Bodies that are asked for as hulls become them

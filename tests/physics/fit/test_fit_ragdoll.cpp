@@ -279,6 +279,21 @@ TEST_CASE("a trunk without a head reaches to the crown, and is as wide as its sk
     CHECK(hips.shape.radius > 0.75F * widest);
 }
 
+TEST_CASE("hips that are a wide cup below a trunk are as wide as their skin") {
+    auto biped = test::makeBiped();
+    const auto map = test::mapOfBiped(biped);
+    float widest = 0.0F;
+    animation::SkinnedMesh& mesh = biped.meshes[0];
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const int joint = mesh.joints[i][0];
+        if (joint != map.jointOf(Role::hips) && joint != map.jointOf(Role::spine)) continue;
+        mesh.positions[i] = {4.0F * mesh.positions[i].x, mesh.positions[i].y, 4.0F * mesh.positions[i].z};
+        if (joint == map.jointOf(Role::hips)) widest = std::max(widest, mesh.positions[i].x);
+    }
+    const RagdollProfile profile = fitRagdoll(biped, map).value();
+    CHECK(0.5F * lengthOf(profile, Role::hips) > 0.8F * widest);
+}
+
 namespace {
 
 // The biped turned and scaled as a whole, with the map that says so.
