@@ -158,6 +158,16 @@ float headTilt(const Figure& figure, const FramedRig& framed) {
     return far ? angleTo(way, vec3(0, 1, 0)) : 0.0F;
 }
 
+// A body that leans over its legs, ends in a tail and has stumps for arms.
+bool isBird(const Figure& figure, const FramedRig& framed, float tilt) {
+    const RigFeatures& rig = *framed.rig;
+    if (tilt < kUprightTrunk || figure.arms.told || figure.arms.named) return false;
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        if (rig.names[joint].tail && rig.skinned && rig.directWeight[joint] > 0.0F) return true;
+    }
+    return false;
+}
+
 float leastUnnamed(const Figure& figure) {
     const float least = figure.prior >= 0.0F ? kLeastUpright : figure.prior < kOddPrior ? kLeastOdd : kLeastTurned;
     return figure.trunk.head == kNoJoint ? std::max(least, kLeastHeadless) : least;
@@ -198,6 +208,7 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
         return fmt::format("the trunk lies at {:.0f} degrees from upright: an animal, not a standing figure",
                            degrees(tilt));
     }
+    if (isBird(figure, framed, tilt)) return "its trunk leans over its legs, it has a tail, and its arms have no parts";
     if (headTilt(figure, framed) > kMostHeadTilt)
         return "its head lies before its shoulders, not above them: an animal";
     if (legTilt > kMostLegTilt && !named) return "the legs do not go down";

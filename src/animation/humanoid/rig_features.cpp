@@ -220,6 +220,16 @@ void doubtPartialSkin(RigFeatures& rig) {
     if (rig.partlySkinned) rig.skinned = false;
 }
 
+// Whether a joint of that side, or one above it, is surely called one of the two parts.
+bool tellsLimb(const RigFeatures& rig, int joint, Side side, Part upper, Part middle) {
+    constexpr float kSurely = 4.0F;
+    for (; joint != kNoJoint && rig.names[joint].side == side; joint = rig.parents[joint]) {
+        const PartScores& parts = rig.names[joint].parts;
+        if (parts[upper] >= kSurely || parts[middle] >= kSurely) return true;
+    }
+    return false;
+}
+
 // Bones that are called by the joint at their end: "wrist" at the elbow, "ankle" at the knee. What would be the hand or
 // foot lies about halfway down its limb, and another one hangs on it; so the bones above are shifted, too.
 void readNamesOfEnds(RigFeatures& rig) {
@@ -244,6 +254,9 @@ void readNamesOfEnds(RigFeatures& rig) {
             const PartScores& above = rig.names[parent].parts;
             const bool middleAbove = above[limb.middle] >= kSurely;
             if (!middleAbove && above[limb.upper] < kMaybe) continue;
+            const int top = rig.parents[parent];
+            // All parts have their names already: a wrist in the middle of the forearm only turns with it.
+            if (middleAbove && tellsLimb(rig, top, side, limb.upper, limb.middle)) continue;
             const float least = kHalfway * glm::distance(rig.positions[parent], rig.positions[joint]);
             const auto goesOn = [&](int child) {
                 return rig.names[child].parts[limb.end] >= kSurely && rig.names[child].side == side &&
@@ -253,7 +266,6 @@ void readNamesOfEnds(RigFeatures& rig) {
             rename(joint, limb.end, limb.middle);
             if (!middleAbove) continue;
             rename(parent, limb.middle, limb.upper);
-            const int top = rig.parents[parent];
             if (top != kNoJoint && rig.names[top].parts[Part::clavicle] >= kMaybe && limb.end == Part::hand)
                 rename(top, Part::upperArm, Part::clavicle);
         }

@@ -63,6 +63,33 @@ TEST_CASE("bones that are called by the joint at their end are the parts that th
     CHECK(nameOf(Role::rightFoot) == "Foot.r");
 }
 
+TEST_CASE("a wrist in the middle of a forearm shifts no names where all parts have theirs", "[named]") {
+    PlacedJoints rig;
+    const int hips = rig.add("hips", -1, {0, 0.78F, 0});
+    const int chest = rig.add("chest", rig.add("waist", hips, {0, 0.9F, 0}), {0, 1.02F, 0});
+    rig.add("head", rig.add("neck", chest, {0, 1.15F, 0.03F}), {0, 1.25F, 0.08F});
+    std::vector<int> left;
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string start = side > 0.0F ? "l" : "r";
+        const auto at = [&](float x, float y, float z = 0.0F) { return vec3(side * x, y, z); };
+        const int arm = rig.add(start + "uparm", chest, at(0.139F, 1.099F));
+        const int forearm = rig.add(start + "loarm", arm, at(0.353F, 1.0F, -0.06F));
+        const int wrist = rig.add(start + "wrist", forearm, at(0.412F, 0.963F, -0.05F));
+        const int hand = rig.add(start + "hand", wrist, at(0.527F, 0.871F, 0.03F));
+        rig.add(start + "middle1", hand, at(0.596F, 0.798F, 0.07F));
+        const int thigh = rig.add(start + "upleg", hips, at(0.095F, 0.74F));
+        const int shin = rig.add(start + "loleg", thigh, at(0.131F, 0.448F, 0.1F));
+        rig.add(start + "ankle", shin, at(0.141F, 0.1F));
+        if (side > 0.0F) left = {arm, forearm, thigh, shin};
+    }
+    const HumanoidMap map = rig.map(true);
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(Role::leftUpperArm) == left[0]);
+    CHECK(map.jointOf(Role::leftLowerArm) == left[1]);
+    CHECK(map.jointOf(Role::leftUpperLeg) == left[2]);
+    CHECK(map.jointOf(Role::leftLowerLeg) == left[3]);
+}
+
 TEST_CASE("a neck in the middle but for rounding is no pair with a rope that hangs as far aside", "[named]") {
     PlacedJoints rig;
     const int hips = rig.add("Hips", -1, {0, 1.036F, 0});
