@@ -27,6 +27,7 @@ using animation::Side;
 
 constexpr std::size_t kFewestShapePoints = 24;
 constexpr std::size_t kCorners = 8;
+constexpr float kClearly = 0.85F;         // of a cost: another way to lie is clearly nearer
 constexpr float kSmallestRadius = 0.01F;  // of the height, like the next
 constexpr float kLargestRadius = 0.15F;
 constexpr float kLargestHeadRadius = 0.3F;
@@ -84,7 +85,7 @@ class BodyFit {
         if (isFoot()) return fitFoot();
         if (isTrunk(body_.role) || body_.role == Role::head) return fitStandingOrLying();
         if (body_.segment) return fitSegment();
-        return fitLimb();
+        return body_.endsAtJoint ? fitLimb() : fitEnd();
     }
 
     // Several in place of `single`, the body's capsule, where they cover its skin clearly better.
@@ -196,10 +197,23 @@ class BodyFit {
         });
     }
 
+    // The last body of a limb: along the way from its joint into its skin, or along the skin's own length where the
+    // joint stands beside it, as of a block that hangs before or behind its joint.
+    [[nodiscard]] Capsule fitEnd() const {
+        constexpr float kLong = 1.5F;  // ratio of the spreads
+        const Capsule limb = fitLimb();
+        const PrincipalAxes axes = principalAxes(points_);
+        if (axes.spread[0] < kLong * axes.spread[1]) return limb;
+        const CapsuleSearch search = searchAlong(body_.start, axesAlong(axes.axis[0]));
+        const Capsule own = fitFree(search);
+        const vec3 away = body_.start - own.start;
+        const float beside = glm::length(away - glm::dot(away, axes.axis[0]) * axes.axis[0]);
+        return beside > own.radius && search.cost(own) < kClearly * search.cost(limb) ? own : limb;
+    }
+
     // Along the segment like a limb, or anywhere along it or along the skin's own length, where that is clearly nearer:
     // a creature's trunk and head are longer and fatter than the way between their joints.
     [[nodiscard]] Capsule fitSegment() const {
-        constexpr float kClearly = 0.85F;
         const vec3 along = body_.direction();
         const CapsuleSearch search = searchAlong(body_.start, axesAlong(along));
         Capsule best = fitLimb();

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "animation/humanoid/map_humanoid.hpp"
 #include "support/catch.hpp"
 #include "support/rigs.hpp"
 
@@ -396,4 +397,30 @@ TEST_CASE("a map without hips and a total mass of nothing are refused") {
     FitOptions options;
     options.totalMassKg = 0.0F;
     CHECK_FALSE(fitRagdoll(biped, test::mapOfBiped(biped), options));
+}
+
+TEST_CASE("a block that hangs behind its joint is lain along, not aslant from the joint") {
+    constexpr float kBehind = -0.15F;
+    const std::vector<test::JointSpec> joints{{"Body", -1, {0, 0.75F, 0}},        {"Head", 0, {0, 1.5F, 0}},
+                                              {"Arm_Left", 0, {0.33F, 1.4F, 0}},  {"Arm_Right", 0, {-0.33F, 1.4F, 0}},
+                                              {"Leg_Left", 0, {0.12F, 0.75F, 0}}, {"Leg_Right", 0, {-0.12F, 0.75F, 0}}};
+    std::vector<test::TubeSpec> skin{{0, {0, 1.5F, 0}, 0.2F}, {1, {0, 1.9F, 0}, 0.2F}};
+    for (const int joint : {2, 3, 4, 5})
+        skin.push_back({joint, joints[static_cast<std::size_t>(joint)].position - vec3(0, 0.72F, 0), 0.1F});
+    animation::Character figure = test::makeFigure("blocks", joints, skin);
+    for (animation::SkinnedMesh& mesh : figure.meshes) {
+        for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
+            if (mesh.joints[vertex][0] >= 4) mesh.positions[vertex].z += kBehind;
+        }
+    }
+    const animation::HumanoidMap map = animation::mapHumanoid(figure);
+    REQUIRE(map.humanoid);
+    const RagdollProfile profile = fitRagdoll(figure, map, {}).value();
+    for (const BodyProfile& body : profile.bodies) {
+        if (body.role != Role::leftUpperLeg && body.role != Role::rightUpperLeg) continue;
+        const RigidTransform placed = modelFromBody(figure, body);
+        CHECK(std::abs((placed.rotation * vec3(0, 1, 0)).y) > 0.995F);
+        CHECK(placed.translation.z == Approx(kBehind).margin(0.03));
+        CHECK(placed.translation.y - body.shape.halfLength - body.shape.radius < 0.12F);
+    }
 }
