@@ -9,6 +9,7 @@
 #include "core/quantile.hpp"
 #include "physics/fit/body_tips.hpp"
 #include "physics/fit/head_skin.hpp"
+#include "physics/fit/held_skin.hpp"
 #include "physics/fit/skin_regions.hpp"
 
 namespace lutka::physics {
@@ -423,7 +424,8 @@ BodyPlan planBodies(const Character& character, const HumanoidMap& map, std::spa
     assignJoints(plan, character, map);
     hangSegments(plan, character);
     const std::vector<SkinPoint> hanging =
-        gatherSkin(plan, character, map.standardFromModel, jointsHangingOnHead(plan, character, map));
+        gatherSkin(plan, character, map.standardFromModel, jointsHangingOnHead(plan, character, map),
+                   jointsOfHeldWeapons(plan, character, map));
     hangOnHead(plan, hanging);
     plan.heightM = roles.empty() ? creatureSize(plan, character, map) : figureHeight(plan, jointSpan(plan));
     settleHeadSkin(plan, hanging);

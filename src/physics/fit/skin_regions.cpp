@@ -113,7 +113,7 @@ std::vector<int> bodiesOfVertices(const SkinnedMesh& mesh, const std::vector<int
 }
 
 std::vector<SkinPoint> gatherSkin(BodyPlan& plan, const animation::Character& character, const quat& standardFromModel,
-                                  const std::vector<bool>& hanging) {
+                                  const std::vector<bool>& hanging, const std::vector<bool>& held) {
     constexpr std::size_t kCoarse = 5000;
     const mat3 toStandard = glm::mat3_cast(standardFromModel);
     std::size_t vertices = 0;
@@ -125,10 +125,11 @@ std::vector<SkinPoint> gatherSkin(BodyPlan& plan, const animation::Character& ch
         owners.push_back(bodiesOfVertices(mesh, plan.bodyOfJoint));
         for (std::size_t vertex = 0; vertex < owners.back().size(); ++vertex) {
             if (hanging[mesh.joints[vertex][0]]) owners.back()[vertex] = aside;
+            if (held[mesh.joints[vertex][0]]) owners.back()[vertex] = aside + 1;
         }
     }
     hangPiecesOfHead(plan, character, toStandard, aside, owners);
-    plan.bodies.emplace_back();
+    plan.bodies.resize(plan.bodies.size() + 2);
     for (std::size_t i = 0; i < owners.size(); ++i) {
         const SkinnedMesh& mesh = character.meshes[i];
         if (vertices < kCoarse && !mesh.indices.empty()) {
@@ -137,8 +138,8 @@ std::vector<SkinPoint> gatherSkin(BodyPlan& plan, const animation::Character& ch
             addVertices(plan, mesh, owners[i], toStandard);
         }
     }
-    std::vector<SkinPoint> hung = std::move(plan.bodies.back().skin);
-    plan.bodies.pop_back();
+    std::vector<SkinPoint> hung = std::move(plan.bodies[static_cast<std::size_t>(aside)].skin);
+    plan.bodies.resize(static_cast<std::size_t>(aside));
     return hung;
 }
 

@@ -424,3 +424,29 @@ TEST_CASE("a block that hangs behind its joint is lain along, not aslant from th
         CHECK(placed.translation.y - body.shape.halfLength - body.shape.radius < 0.12F);
     }
 }
+
+TEST_CASE("a weapon that an arm holds makes no arm thicker") {
+    const auto armOf = [](bool armed) {
+        std::vector<test::JointSpec> joints{{"Body", -1, {0, 0.75F, 0}},        {"Head", 0, {0, 1.5F, 0}},
+                                            {"Arm_Left", 0, {0.33F, 1.4F, 0}},  {"Arm_Right", 0, {-0.33F, 1.4F, 0}},
+                                            {"Leg_Left", 0, {0.12F, 0.75F, 0}}, {"Leg_Right", 0, {-0.12F, 0.75F, 0}},
+                                            {"bow", 3, {-0.33F, 0.75F, 0.1F}}};
+        std::vector<test::TubeSpec> skin{{0, {0, 1.5F, 0}, 0.2F}, {1, {0, 1.9F, 0}, 0.2F}};
+        for (const int joint : {2, 3, 4, 5})
+            skin.push_back({joint, joints[static_cast<std::size_t>(joint)].position - vec3(0, 0.7F, 0), 0.07F});
+        if (armed) skin.push_back({6, {-0.33F, 0.9F, 0.7F}, 0.25F});
+        const animation::Character figure = test::makeFigure("archer", joints, skin);
+        const animation::HumanoidMap map = animation::mapHumanoid(figure);
+        REQUIRE(map.humanoid);
+        const RagdollProfile profile = fitRagdoll(figure, map, {}).value();
+        for (const BodyProfile& body : profile.bodies) {
+            if (body.role == Role::rightUpperArm) return body.shape;
+        }
+        FAIL("no right arm");
+        return BodyShape{};
+    };
+    const BodyShape armed = armOf(true);
+    const BodyShape unarmed = armOf(false);
+    CHECK(armed.radius == Approx(unarmed.radius).margin(0.005));
+    CHECK(armed.halfLength == Approx(unarmed.halfLength).margin(0.01));
+}

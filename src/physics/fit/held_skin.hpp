@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "physics/fit/body_plan.hpp"
+
+namespace lutka::physics {
+
+/// Which joints move a weapon (docs/creatures.md, "Appendages") that a humanoid's arm holds without a joint for the
+/// hand and without a body of its own: its skin is not the arm's. Where the arm's body has hardly any other, it is. One
+/// a joint of the skeleton.
+[[nodiscard]] std::vector<bool> jointsOfHeldWeapons(const BodyPlan& plan, const animation::Character& character,
+                                                    const animation::HumanoidMap& map);
+
+}  // namespace lutka::physics
