@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
 
+#include "animation/import/assimp/collada_links.hpp"
 #include "animation/import/assimp/collada_text.hpp"
 #include "animation/import/checks.hpp"
 #include "animation/import/gltf_file.hpp"
@@ -233,6 +234,98 @@ TEST_CASE("Collada's animations that move nothing in the scene are told") {
     CHECK(warns(imported(folder / "moved.dae"), "animations"));
     std::ofstream(folder / "still.dae", std::ios::binary) << triangle("");
     CHECK_FALSE(warns(imported(folder / "still.dae"), "animations"));
+}
+
+TEST_CASE("a node of a library that is shown once stands in the scene itself") {
+    using rig_import::linkedCollada;
+    const auto document = [](const std::string& library, const std::string& scene) {
+        return "<channel/><library_nodes>" + library + "</library_nodes><visual_scene>" + scene + "</visual_scene>";
+    };
+    const std::string joints = "<node id=\"a\"><matrix>1</matrix><node id=\"b\"/></node>";
+    const std::string shown = "<instance_node url=\"#a\"/>";
+    const std::string open = "<instance_node url=\"#a\"><extra/></instance_node>";
+    for (const std::string& link : {shown, open})
+        CHECK(linkedCollada(document(joints, "<node>" + link + "</node>")) ==
+              document("", "<node>" + joints + "</node>"));
+    CHECK(linkedCollada(document(joints, shown + shown)) == document(joints, shown + shown));
+    CHECK(linkedCollada(document(joints, "<node/>")) == document(joints, "<node/>"));
+    // Through a second library node; a ring is cut where it is nested too deep.
+    const std::string outer = "<node id=\"c\">" + shown + "</node>";
+    CHECK(linkedCollada(document(joints + outer, "<instance_node url=\"#c\"/>")) ==
+          document("", "<node id=\"c\">" + joints + "</node>"));
+    CHECK(linkedCollada(document("<node id=\"a\">" + shown + "</node>", "<node/>")).find("<visual_scene>") !=
+          std::string::npos);
+    CHECK(linkedCollada("<channel/><library_nodes><node id=\"a\"><instance_node url=\"#a\"/>").size() < 4000);
+}
+
+TEST_CASE("Collada's joints move though they stand in a library of nodes") {
+    const TemporaryFolder folder;
+    std::string text = skinnedStrip(glm::mat4(1.0F), "other");
+    const std::size_t joint = text.find("<node id=\"low\"");
+    const std::size_t body = text.find("<node id=\"body\"");
+    const std::string joints = text.substr(joint, body - joint);
+    text.replace(joint, body - joint, "<instance_node url=\"#low\"/>");
+    const auto source = [](const std::string& id, const std::string& numbers, const std::string& type, int stride) {
+        return "<source id=\"" + id + "\"><float_array id=\"" + id + "a\" count=\"" + std::to_string(2 * stride) +
+               "\">" + numbers + "</float_array><technique_common><accessor source=\"#" + id +
+               "a\" count=\"2\" stride=\"" + std::to_string(stride) + "\"><param name=\"P\" type=\"" + type +
+               "\"/></accessor></technique_common></source>";
+    };
+    const glm::mat4 raised = glm::translate(glm::mat4(1.0F), vec3(0, 1.3F, 0));
+    text.insert(text.find("<library_visual_scenes>"),
+                "<library_animations><animation id=\"a\">" + source("t", "0 1", "float", 1) +
+                    source("o", numbersOf(glm::translate(glm::mat4(1.0F), vec3(0, 0.8F, 0))) + numbersOf(raised),
+                           "float4x4", 16) +
+                    "<sampler id=\"q\"><input semantic=\"INPUT\" source=\"#t\"/><input semantic=\"OUTPUT\" "
+                    "source=\"#o\"/></sampler><channel source=\"#q\" target=\"high/matrix\"/></animation>"
+                    "</library_animations><library_nodes>" +
+                    joints + "</library_nodes>");
+    // Channels name transforms by their sids.
+    for (std::size_t at = text.find("<matrix>"); at != std::string::npos; at = text.find("<matrix>", at + 1))
+        text.replace(at, 8, "<matrix sid=\"matrix\">");
+    std::ofstream(folder / "library.dae", std::ios::binary) << text;
+    const Character character = imported(folder / "library.dae");
+    checkInvariants(character);
+    CHECK_FALSE(warns(character, "animations"));
+    REQUIRE(character.clips.size() == 1);
+    const int high = findJoint(character.skeleton, "high");
+    std::vector<RigidTransform> first(character.skeleton.parents.size());
+    std::vector<RigidTransform> last = first;
+    sampleClip(character.clips[0], 0.0F, first);
+    sampleClip(character.clips[0], 1.0F, last);
+    const float scale = character.units.metresPerFileUnit;
+    CHECK(glm::distance(first[high].translation, last[high].translation) == Approx(0.5F * scale).epsilon(1e-3));
+}
+
+TEST_CASE("a Collada skin over a morph, or a morph over a skin, keeps its mesh and its weights") {
+    const TemporaryFolder folder;
+    const std::string strip = skinnedStrip(glm::mat4(1.0F), "other");
+    std::ofstream(folder / "plain.dae", std::ios::binary) << strip;
+    const Character plain = imported(folder / "plain.dae");
+    const auto morphOver = [](const std::string& base, const std::string& weight) {
+        return "<controller id=\"m\"><morph source=\"#" + base +
+               "\" method=\"NORMALIZED\"><source id=\"mt\"><IDREF_array id=\"mta\" count=\"1\">g</IDREF_array>"
+               "<technique_common><accessor source=\"#mta\" count=\"1\"><param name=\"M\" type=\"IDREF\"/></accessor>"
+               "</technique_common></source><source id=\"mw\"><float_array id=\"mwa\" count=\"1\">" +
+               weight +
+               "</float_array><technique_common><accessor source=\"#mwa\" count=\"1\"><param name=\"W\" "
+               "type=\"float\"/></accessor></technique_common></source><targets><input semantic=\"MORPH_TARGET\" "
+               "source=\"#mt\"/><input semantic=\"MORPH_WEIGHT\" source=\"#mw\"/></targets></morph></controller>";
+    };
+    for (const bool overSkin : {false, true}) {
+        for (const std::string weight : {"0", "0.5"}) {
+            std::string text = strip;
+            const std::string link = overSkin ? "<instance_controller url=\"#c\"" : "<skin source=\"#g\"";
+            text[text.find(link) + link.size() - 2] = 'm';
+            text.insert(text.find("<controller"), morphOver(overSkin ? "c" : "g", weight));
+            std::ofstream(folder / "morph.dae", std::ios::binary) << text;
+            const Character character = imported(folder / "morph.dae");
+            REQUIRE(character.meshes.size() == 1);
+            CHECK(character.meshes[0].indices == plain.meshes[0].indices);
+            CHECK(character.skeleton.skinWeight == plain.skeleton.skinWeight);
+            CHECK(warns(character, "morph targets") == (weight != "0"));
+        }
+    }
 }
 
 TEST_CASE("tidying leaves tags, comments and character data as they are") {

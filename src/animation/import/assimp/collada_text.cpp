@@ -63,30 +63,6 @@ std::string utf8Of(std::string_view bytes) {
     return out;
 }
 
-// Where the tag, comment or section of character data that starts at `start` ends; the end of the text when it does
-// not.
-std::size_t endOfMarkup(std::string_view text, std::size_t start) {
-    const auto after = [&](std::string_view end) {
-        const std::size_t found = text.find(end, start);
-        return found == std::string_view::npos ? text.size() : found + end.size();
-    };
-    const std::string_view rest = text.substr(start);
-    if (rest.starts_with("<!--")) return after("-->");
-    if (rest.starts_with("<![CDATA[")) return after("]]>");
-    char quote = 0;  // a value may hold '>'
-    for (std::size_t at = start; at < text.size(); ++at) {
-        const char c = text[at];
-        if (quote != 0) {
-            if (c == quote) quote = 0;
-        } else if (c == '"' || c == '\'') {
-            quote = c;
-        } else if (c == '>') {
-            return at + 1;
-        }
-    }
-    return text.size();
-}
-
 void appendTidy(std::string_view text, std::string& out) {
     std::size_t at = text.find_first_not_of(kBlanks);
     for (bool first = true; at != std::string_view::npos; first = false) {
@@ -114,16 +90,6 @@ void setCount(std::string& out, std::size_t tag, std::size_t count) {
     out.replace(value, end - value, std::to_string(count));
 }
 
-// The value of an attribute in a tag; empty where it has none, or one with entities.
-std::string_view attributeOf(std::string_view tag, std::string_view name) {
-    const std::string start = " " + std::string(name) + "=\"";
-    const std::size_t found = tag.find(start);
-    if (found == std::string_view::npos) return {};
-    const std::string_view value = tag.substr(found + start.size());
-    const std::string_view text = value.substr(0, value.find('"'));
-    return text.find('&') == std::string_view::npos ? text : std::string_view{};
-}
-
 // The order of the numbers of a <v>: Assimp takes pairs of a joint and a weight alone.
 struct WeightOrder {
     std::size_t joint = 0;
@@ -134,11 +100,11 @@ struct WeightOrder {
 // An input of <vertex_weights> in Assimp's order; empty where it has no use for it.
 std::string orderedInput(std::string_view tag, WeightOrder& order) {
     std::size_t offset = 0;
-    const std::string_view text = attributeOf(tag, "offset");
+    const std::string_view text = colladaAttribute(tag, "offset");
     if (std::from_chars(text.data(), text.data() + text.size(), offset).ec != std::errc()) return std::string(tag);
     constexpr std::size_t kMostInputs = 64;
     order.stride = std::max(order.stride, std::min(offset, kMostInputs) + 1);
-    const std::string_view semantic = attributeOf(tag, "semantic");
+    const std::string_view semantic = colladaAttribute(tag, "semantic");
     if (semantic != "JOINT" && semantic != "WEIGHT") return {};
     const bool isJoint = semantic == "JOINT";
     (isJoint ? order.joint : order.weight) = offset;
@@ -216,7 +182,7 @@ std::string tidyText(std::string_view text) {
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t markup = std::min(text.find('<', at), text.size());
         out.text(text.substr(at, markup - at));
-        const std::size_t end = markup < text.size() ? endOfMarkup(text, markup) : markup;
+        const std::size_t end = markup < text.size() ? endOfColladaMarkup(text, markup) : markup;
         out.markup(text.substr(markup, end - markup));
         at = end;
     }
@@ -238,12 +204,12 @@ std::map<std::string, std::string> nodeNames(std::string_view text) {
     std::map<std::string, std::string> names;
     std::map<std::string, int> uses;
     for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
-        const std::size_t end = endOfMarkup(text, at);
+        const std::size_t end = endOfColladaMarkup(text, at);
         const std::string_view tag = text.substr(at, end - at);
         at = end;
         if (!tag.starts_with("<node ")) continue;
-        const std::string id(attributeOf(tag, "id"));
-        const std::string name(attributeOf(tag, "name"));
+        const std::string id(colladaAttribute(tag, "id"));
+        const std::string name(colladaAttribute(tag, "name"));
         ++uses[name];
         if (id.empty() || id.size() > kLongestName || name.size() > kLongestName || lettersOf(name).empty()) continue;
         if (lettersOf(id).find(lettersOf(name)) == std::string::npos) names[id] = name;
@@ -253,6 +219,37 @@ std::map<std::string, std::string> nodeNames(std::string_view text) {
 }
 
 }  // namespace
+
+std::size_t endOfColladaMarkup(std::string_view text, std::size_t start) {
+    const auto after = [&](std::string_view end) {
+        const std::size_t found = text.find(end, start);
+        return found == std::string_view::npos ? text.size() : found + end.size();
+    };
+    const std::string_view rest = text.substr(start);
+    if (rest.starts_with("<!--")) return after("-->");
+    if (rest.starts_with("<![CDATA[")) return after("]]>");
+    char quote = 0;  // a value may hold '>'
+    for (std::size_t at = start; at < text.size(); ++at) {
+        const char c = text[at];
+        if (quote != 0) {
+            if (c == quote) quote = 0;
+        } else if (c == '"' || c == '\'') {
+            quote = c;
+        } else if (c == '>') {
+            return at + 1;
+        }
+    }
+    return text.size();
+}
+
+std::string_view colladaAttribute(std::string_view tag, std::string_view name) {
+    const std::string start = " " + std::string(name) + "=\"";
+    const std::size_t found = tag.find(start);
+    if (found == std::string_view::npos) return {};
+    const std::string_view value = tag.substr(found + start.size());
+    const std::string_view text = value.substr(0, value.find('"'));
+    return text.find('&') == std::string_view::npos ? text : std::string_view{};
+}
 
 bool isCollada(std::string_view start) {
     return (isUtf16(start) ? utf8Of(start) : std::string(start)).find("<COLLADA") != std::string::npos;

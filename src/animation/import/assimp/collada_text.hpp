@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <string_view>
@@ -15,6 +16,13 @@ namespace lutka::animation::rig_import {
 /// matrix the identity, and its weights stand as pairs of joint and weight. Other tags, comments and
 /// character data stay as they are.
 [[nodiscard]] std::string tidyCollada(std::string_view bytes);
+
+/// Where the tag, comment or section of character data that starts at `start` ends; the end of the text when it does
+/// not.
+[[nodiscard]] std::size_t endOfColladaMarkup(std::string_view text, std::size_t start);
+
+/// The value of an attribute in a tag; empty where it has none, or one with entities.
+[[nodiscard]] std::string_view colladaAttribute(std::string_view tag, std::string_view name);
 
 /// The names of a document's nodes by their ids, of those whose id was made by a program and says nothing of the name
 /// ("id-bone-4" for "pelvis", as Godot writes it). Names that two nodes share are left out.

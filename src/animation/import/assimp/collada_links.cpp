@@ -1,0 +1,234 @@
+#include "animation/import/assimp/collada_links.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "animation/import/assimp/collada_text.hpp"
+
+namespace lutka::animation::rig_import {
+namespace {
+
+constexpr int kMostNested = 64;  // of library nodes in library nodes, of controllers over controllers
+
+// A tag with its place in the text.
+struct Tag {
+    std::size_t start = 0;
+    std::size_t end = 0;  // one past its '>'
+    std::string_view text;
+
+    [[nodiscard]] bool opens(std::string_view name) const {
+        return text.size() > name.size() + 1 && text.substr(1).starts_with(name) &&
+               std::string_view(" \t\r\n/>").find(text[name.size() + 1]) != std::string_view::npos;
+    }
+    [[nodiscard]] bool closes(std::string_view name) const {
+        return text.starts_with("</") && text.substr(2).starts_with(name) &&
+               std::string_view(" \t\r\n>").find(text[std::min(name.size() + 2, text.size() - 1)]) !=
+                   std::string_view::npos;
+    }
+    [[nodiscard]] bool isEmpty() const { return text.ends_with("/>"); }
+    // The target of a link into this document; empty where it is none.
+    [[nodiscard]] std::string target(std::string_view attribute) const {
+        const std::string_view value = colladaAttribute(text, attribute);
+        return value.starts_with('#') ? std::string(value.substr(1)) : std::string();
+    }
+};
+
+std::vector<Tag> tagsOf(std::string_view text) {
+    std::vector<Tag> tags;
+    for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
+        const std::size_t end = endOfColladaMarkup(text, at);
+        const std::string_view tag = text.substr(at, end - at);
+        if (!tag.starts_with("<!") && !tag.starts_with("<?")) tags.push_back({at, end, tag});
+        at = end;
+    }
+    return tags;
+}
+
+// One past the tag that closes the element which tag `first` opens; nothing where none does.
+std::optional<std::size_t> pastElement(const std::vector<Tag>& tags, std::size_t first, std::string_view name) {
+    int depth = 0;
+    for (std::size_t i = first; i < tags.size(); ++i) {
+        if (tags[i].opens(name) && !tags[i].isEmpty()) ++depth;
+        if (tags[i].closes(name)) --depth;
+        if (depth == 0) return i + 1;
+    }
+    return std::nullopt;
+}
+
+// Controllers by their ids: what each deforms, and whether as a morph.
+struct Controller {
+    std::string source;
+    bool isMorph = false;
+};
+
+std::map<std::string, Controller> controllersOf(const std::vector<Tag>& tags) {
+    std::map<std::string, Controller> controllers;
+    std::string id;
+    for (const Tag& tag : tags) {
+        if (tag.opens("controller")) id = colladaAttribute(tag.text, "id");
+        if (tag.closes("controller")) id.clear();
+        const bool isMorph = tag.opens("morph");
+        if (!id.empty() && (isMorph || tag.opens("skin"))) controllers[id] = {tag.target("source"), isMorph};
+    }
+    return controllers;
+}
+
+// What a link is to lead to, past all morph controllers, whose ids go to `passed`; empty where it may stay.
+std::string pastMorphs(const std::map<std::string, Controller>& controllers, const std::string& first, bool toSkin,
+                       std::set<std::string>& passed) {
+    std::string at = first;
+    std::vector<std::string> morphs;
+    for (int i = 0; i < kMostNested; ++i) {
+        const auto found = controllers.find(at);
+        if (found == controllers.end() || !found->second.isMorph) break;
+        morphs.push_back(at);
+        at = found->second.source;
+    }
+    const bool isSkin = controllers.count(at) > 0;
+    if (at == first || (toSkin && !isSkin)) return {};
+    passed.insert(morphs.begin(), morphs.end());
+    return at;
+}
+
+// Replaces parts of a text, in their order.
+class Edits {
+  public:
+    explicit Edits(const std::string& text) : text_(text) {}
+
+    void replace(std::size_t start, std::size_t end, std::string_view with) {
+        out_ += std::string_view(text_).substr(at_, start - at_);
+        out_ += with;
+        at_ = end;
+    }
+    [[nodiscard]] std::string take() {
+        out_ += std::string_view(text_).substr(at_);
+        return std::move(out_);
+    }
+
+  private:
+    const std::string& text_;
+    std::string out_;
+    std::size_t at_ = 0;
+};
+
+std::string withoutMorphs(const std::string& text) {
+    const std::vector<Tag> tags = tagsOf(text);
+    const std::map<std::string, Controller> controllers = controllersOf(tags);
+    std::map<std::size_t, std::string> links;  // tag → what it leads to
+    std::set<std::string> passed;
+    for (std::size_t i = 0; i < tags.size(); ++i) {
+        const bool isSkin = tags[i].opens("skin");
+        if (!isSkin && !tags[i].opens("instance_controller")) continue;
+        const std::string past = pastMorphs(controllers, tags[i].target(isSkin ? "source" : "url"), !isSkin, passed);
+        if (!past.empty()) links[i] = past;
+    }
+    Edits edits(text);
+    for (std::size_t i = 0; i < tags.size(); ++i) {
+        if (tags[i].opens("controller") && passed.count(std::string(colladaAttribute(tags[i].text, "id"))) > 0) {
+            const std::optional<std::size_t> past = pastElement(tags, i, "controller");
+            if (!past) break;
+            edits.replace(tags[i].start, tags[*past - 1].end, "");
+            i = *past - 1;
+        } else if (const auto link = links.find(i); link != links.end()) {
+            const std::string target = tags[i].target(tags[i].opens("skin") ? "source" : "url");
+            const std::size_t place = tags[i].start + tags[i].text.find('#' + target) + 1;
+            edits.replace(place, place + target.size(), link->second);
+        }
+    }
+    return edits.take();
+}
+
+// Nodes of the libraries that are shown once, and where.
+class LibraryNodes {
+  public:
+    explicit LibraryNodes(const std::string& text) : text_(text), tags_(tagsOf(text)) {
+        std::map<std::string, int> uses;
+        for (const Tag& tag : tags_) {
+            if (tag.opens("instance_node")) ++uses[tag.target("url")];
+        }
+        bool inLibrary = false;
+        for (std::size_t i = 0; i < tags_.size(); ++i) {
+            if (tags_[i].opens("library_nodes")) inLibrary = !tags_[i].isEmpty();
+            if (tags_[i].closes("library_nodes")) inLibrary = false;
+            if (!inLibrary || !tags_[i].opens("node")) continue;
+            const std::optional<std::size_t> past = pastElement(tags_, i, "node");
+            if (!past) break;
+            const std::string id(colladaAttribute(tags_[i].text, "id"));
+            if (!id.empty() && uses[id] == 1) moved_[id] = {i, *past};
+            i = *past - 1;  // those below it come along
+        }
+    }
+
+    [[nodiscard]] std::string moved() const {
+        if (moved_.empty()) return text_;
+        std::string out;
+        write(0, tags_.size(), 0, true, out);
+        return out;
+    }
+
+  private:
+    [[nodiscard]] std::size_t startOf(std::size_t tag) const {
+        return tag < tags_.size() ? tags_[tag].start : text_.size();
+    }
+
+    // The tags from `first` to `last` and the text between them.
+    void write(std::size_t first, std::size_t last, int depth, bool whole, std::string& out) const {
+        std::size_t at = whole ? 0 : startOf(first);
+        const auto copyTo = [&](std::size_t end) { out += std::string_view(text_).substr(at, end - at); };
+        for (std::size_t i = first; i < last; ++i) {
+            const Tag& tag = tags_[i];
+            const auto own =
+                tag.opens("node") ? moved_.find(std::string(colladaAttribute(tag.text, "id"))) : moved_.end();
+            if (own != moved_.end() && own->second.first == i && (i != first || whole)) {
+                copyTo(tag.start);  // it stands elsewhere
+                i = own->second.second - 1;
+                at = tags_[i].end;
+                continue;
+            }
+            const auto shown = tag.opens("instance_node") ? moved_.find(tag.target("url")) : moved_.end();
+            if (shown == moved_.end() || depth >= kMostNested) continue;
+            copyTo(tag.start);
+            write(shown->second.first, shown->second.second, depth + 1, false, out);
+            if (!tag.isEmpty()) i = pastElement(tags_, i, "instance_node").value_or(i + 1) - 1;
+            at = tags_[i].end;
+        }
+        copyTo(whole ? text_.size() : tags_[last - 1].end);
+    }
+
+    const std::string& text_;
+    std::vector<Tag> tags_;
+    std::map<std::string, std::pair<std::size_t, std::size_t>> moved_;  // id → its first tag, and the one past it
+};
+
+bool mentions(std::string_view text, std::string_view what) {
+    return text.find(what) != std::string_view::npos;
+}
+
+}  // namespace
+
+bool holdsMorphs(std::string_view text) {
+    if (!mentions(text, "<morph")) return false;
+    const std::vector<Tag> tags = tagsOf(text);
+    bool inMorph = false;
+    for (std::size_t i = 0; i + 1 < tags.size(); ++i) {
+        if (tags[i].opens("morph")) inMorph = true;
+        if (tags[i].closes("morph")) inMorph = false;
+        if (!inMorph || !tags[i].opens("float_array")) continue;  // the weights: targets are names
+        const std::string_view numbers = text.substr(tags[i].end, tags[i + 1].start - tags[i].end);
+        if (numbers.find_first_of("123456789") != std::string_view::npos) return true;
+    }
+    return false;
+}
+
+std::string linkedCollada(std::string text) {
+    if (mentions(text, "<morph")) text = withoutMorphs(text);
+    if (mentions(text, "<library_nodes") && mentions(text, "<channel")) text = LibraryNodes(text).moved();
+    return text;
+}
+
+}  // namespace lutka::animation::rig_import
