@@ -356,7 +356,8 @@ class LimbFinder {
             if (!below && !(told && mayContinueDetached(foot, pair))) continue;
             const vec3 away = at(pair).position - at(foot).position;
             const float distance = framed_.segment(foot, pair) / height;
-            if (distance < kShortestToes || away.y > kHighestToes * leg.length) continue;
+            // Toes by their names may point up: in a bow the legs slant in the trunk's upright.
+            if (distance < kShortestToes || (!told && away.y > kHighestToes * leg.length)) continue;
             const float sideways = std::abs(away.x) / (glm::length(away) + 1e-6F);
             const float score = kToes + placing(pair, 3) + terms::kToeDistance.near(distance) +
                                 terms::kToesSideways.atMost(sideways) +

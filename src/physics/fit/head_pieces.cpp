@@ -1,8 +1,8 @@
 #include "physics/fit/head_pieces.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstring>
+#include <bit>
+#include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
@@ -73,10 +73,10 @@ class HeadSkin {
   private:
     struct Hash {
         std::size_t operator()(const vec3& p) const {
-            std::array<std::uint32_t, 3> bits{};
-            const vec3 positive = p + vec3(0.0F);  // -0 is 0
-            std::memcpy(bits.data(), &positive, sizeof(bits));
-            return ((bits[0] * 73856093ULL) ^ (bits[1] * 19349663ULL) ^ (bits[2] * 83492791ULL));
+            const auto bits = [](float number) {
+                return std::uint64_t{std::bit_cast<std::uint32_t>(number + 0.0F)};  // -0 is 0
+            };
+            return (bits(p.x) * 73856093U) ^ (bits(p.y) * 19349663U) ^ (bits(p.z) * 83492791U);
         }
     };
 

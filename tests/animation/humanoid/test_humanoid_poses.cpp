@@ -383,6 +383,18 @@ TEST_CASE("a sprinter who leans far forward keeps head and neck", "[poses]") {
     checkWhole(rig);
 }
 
+TEST_CASE("toes are toes by their names in a bow, too", "[poses]") {
+    for (const float bow : {0.8F, 1.3F}) {
+        SyntheticRig rig = makeSyntheticRig(kConvention);
+        turn(rig, Role::hips, bow, vec3(1, 0, 0));
+        turnBoth(rig, Role::leftUpperLeg, -bow);
+        const HumanoidMap map = animation::mapHumanoid(rig.character);
+        REQUIRE(map.humanoid);
+        CHECK(map.jointOf(Role::leftToes) == jointOf(rig, Role::leftToes));
+        CHECK(map.jointOf(Role::rightToes) == jointOf(rig, Role::rightToes));
+    }
+}
+
 TEST_CASE("feet that cross stay on the sides of their legs", "[poses]") {
     SyntheticRig rig = makeSyntheticRig(kConvention);
     turn(rig, Role::leftUpperLeg, -0.18F, vec3(0, 0, 1));
