@@ -222,6 +222,21 @@ TEST_CASE("a texture transform is worked into the vertices") {
         CHECK(glm::distance(uv, vec2(0.1F + 3.0F * 0.5F, 0.2F - 2.0F * 0.25F)) < 1e-5F);
 }
 
+TEST_CASE("pictures that do not repeat are told where they are shown beyond their edges") {
+    const auto tells = [](int wrap, float offset) {
+        GltfFile file = withPicture();
+        file.json["samplers"] = {{{"wrapT", wrap}}};
+        file.json["textures"][0]["sampler"] = 0;
+        file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"] = {
+            {"offset", {0.0, offset}}};
+        return warns(readBack(file), "mirroring");
+    };
+    CHECK(tells(33648, 1.0F));
+    CHECK(tells(33071, -1.0F));
+    CHECK_FALSE(tells(33648, 0.0F));
+    CHECK_FALSE(tells(10497, 1.0F));
+}
+
 TEST_CASE("specular-glossiness becomes the nearest metallic-roughness") {
     GltfFile file = withPicture();
     const json picture = {{"index", 0}};

@@ -52,6 +52,17 @@ UvUse useOf(const json& texture) {
     return use;
 }
 
+// Whether a picture is repeated along both of its sides, which is what pictures are unless their sampler says else.
+bool repeats(const GltfFile& file, const json& reference) {
+    constexpr std::size_t kRepeat = 10497;
+    const std::optional<int> texture = indexOf(reference, "index", file.count("textures"));
+    if (!texture) return true;
+    const std::optional<int> index = indexOf(file.element("textures", *texture), "sampler", file.count("samplers"));
+    if (!index) return true;
+    const json& sampler = file.element("samplers", *index);
+    return sizeOf(sampler, "wrapS", kRepeat) == kRepeat && sizeOf(sampler, "wrapT", kRepeat) == kRepeat;
+}
+
 // The texture references of a material, the base colour's first.
 std::vector<const json*> texturesOf(const json& material) {
     std::vector<const json*> found;
@@ -182,7 +193,10 @@ std::optional<PictureDecoder::Decoded> embeddedPicture(GltfFile& file, const std
 
 UvUse uvUseOf(GltfFile& file, int material) {
     const std::vector<const json*> textures = texturesOf(file.element("materials", material));
-    return textures.empty() ? UvUse{} : useOf(*textures.front());
+    if (textures.empty()) return {};
+    UvUse use = useOf(*textures.front());
+    use.repeats = repeats(file, *textures.front());
+    return use;
 }
 
 void addMaterials(GltfFile& file, bool loadTextures, SourceScene& out) {

@@ -123,6 +123,12 @@ void readUvs(GltfFile& file, const Attributes& attributes, SourceMesh& mesh) {
     readPerVertex(
         attributes, fmt::format("TEXCOORD_{}", use.set), 2, mesh.positions.size(), mesh.uvs,
         [&](const Numbers& n, std::size_t v) { return vec2(use.transform * vec3(n.at(v, 0), n.at(v, 1), 1)); });
+    constexpr float kBeyond = 0.05F;  // less is the bleeding of an edge
+    const auto isBeyond = [](const vec2& uv) {
+        return std::min(uv.x, uv.y) < -kBeyond || std::max(uv.x, uv.y) > 1.0F + kBeyond;
+    };
+    if (!use.repeats && std::any_of(mesh.uvs.begin(), mesh.uvs.end(), isBeyond))
+        file.leaveOut("mirroring of pictures and holding them at their edges (beyond it they repeat)");
 }
 
 std::vector<VertexSkins> readSets(const Attributes& attributes, std::size_t vertices) {

@@ -29,6 +29,7 @@ void addMaterials(GltfFile& file, bool loadTextures, SourceScene& out);
 struct UvUse {
     int set = 0;
     mat3 transform{1.0F};
+    bool repeats = true;  ///< Else the first picture is mirrored or held at its edge beyond the unit square.
 };
 [[nodiscard]] UvUse uvUseOf(GltfFile& file, int material);
 
