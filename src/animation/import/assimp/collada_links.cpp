@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "animation/import/assimp/collada_tags.hpp"
 #include "animation/import/assimp/collada_text.hpp"
 
 namespace lutka::animation::rig_import {
@@ -15,61 +16,16 @@ namespace {
 
 constexpr int kMostNested = 64;  // of library nodes in library nodes, of controllers over controllers
 
-// A tag with its place in the text.
-struct Tag {
-    std::size_t start = 0;
-    std::size_t end = 0;  // one past its '>'
-    std::string_view text;
-
-    [[nodiscard]] bool opens(std::string_view name) const {
-        return text.size() > name.size() + 1 && text.substr(1).starts_with(name) &&
-               std::string_view(" \t\r\n/>").find(text[name.size() + 1]) != std::string_view::npos;
-    }
-    [[nodiscard]] bool closes(std::string_view name) const {
-        return text.starts_with("</") && text.substr(2).starts_with(name) &&
-               std::string_view(" \t\r\n>").find(text[std::min(name.size() + 2, text.size() - 1)]) !=
-                   std::string_view::npos;
-    }
-    [[nodiscard]] bool isEmpty() const { return text.ends_with("/>"); }
-    // The target of a link into this document; empty where it is none.
-    [[nodiscard]] std::string target(std::string_view attribute) const {
-        const std::string_view value = colladaAttribute(text, attribute);
-        return value.starts_with('#') ? std::string(value.substr(1)) : std::string();
-    }
-};
-
-std::vector<Tag> tagsOf(std::string_view text) {
-    std::vector<Tag> tags;
-    for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
-        const std::size_t end = endOfColladaMarkup(text, at);
-        const std::string_view tag = text.substr(at, end - at);
-        if (!tag.starts_with("<!") && !tag.starts_with("<?")) tags.push_back({at, end, tag});
-        at = end;
-    }
-    return tags;
-}
-
-// One past the tag that closes the element which tag `first` opens; nothing where none does.
-std::optional<std::size_t> pastElement(const std::vector<Tag>& tags, std::size_t first, std::string_view name) {
-    int depth = 0;
-    for (std::size_t i = first; i < tags.size(); ++i) {
-        if (tags[i].opens(name) && !tags[i].isEmpty()) ++depth;
-        if (tags[i].closes(name)) --depth;
-        if (depth == 0) return i + 1;
-    }
-    return std::nullopt;
-}
-
 // Controllers by their ids: what each deforms, and whether as a morph.
 struct Controller {
     std::string source;
     bool isMorph = false;
 };
 
-std::map<std::string, Controller> controllersOf(const std::vector<Tag>& tags) {
+std::map<std::string, Controller> controllersOf(const std::vector<ColladaTag>& tags) {
     std::map<std::string, Controller> controllers;
     std::string id;
-    for (const Tag& tag : tags) {
+    for (const ColladaTag& tag : tags) {
         if (tag.opens("controller")) id = colladaAttribute(tag.text, "id");
         if (tag.closes("controller")) id.clear();
         const bool isMorph = tag.opens("morph");
@@ -95,29 +51,8 @@ std::string pastMorphs(const std::map<std::string, Controller>& controllers, con
     return at;
 }
 
-// Replaces parts of a text, in their order.
-class Edits {
-  public:
-    explicit Edits(const std::string& text) : text_(text) {}
-
-    void replace(std::size_t start, std::size_t end, std::string_view with) {
-        out_ += std::string_view(text_).substr(at_, start - at_);
-        out_ += with;
-        at_ = end;
-    }
-    [[nodiscard]] std::string take() {
-        out_ += std::string_view(text_).substr(at_);
-        return std::move(out_);
-    }
-
-  private:
-    const std::string& text_;
-    std::string out_;
-    std::size_t at_ = 0;
-};
-
 std::string withoutMorphs(const std::string& text) {
-    const std::vector<Tag> tags = tagsOf(text);
+    const std::vector<ColladaTag> tags = colladaTags(text);
     const std::map<std::string, Controller> controllers = controllersOf(tags);
     std::map<std::size_t, std::string> links;  // tag → what it leads to
     std::set<std::string> passed;
@@ -127,10 +62,10 @@ std::string withoutMorphs(const std::string& text) {
         const std::string past = pastMorphs(controllers, tags[i].target(isSkin ? "source" : "url"), !isSkin, passed);
         if (!past.empty()) links[i] = past;
     }
-    Edits edits(text);
+    ColladaEdits edits(text);
     for (std::size_t i = 0; i < tags.size(); ++i) {
         if (tags[i].opens("controller") && passed.count(std::string(colladaAttribute(tags[i].text, "id"))) > 0) {
-            const std::optional<std::size_t> past = pastElement(tags, i, "controller");
+            const std::optional<std::size_t> past = pastColladaElement(tags, i, "controller");
             if (!past) break;
             edits.replace(tags[i].start, tags[*past - 1].end, "");
             i = *past - 1;
@@ -146,9 +81,9 @@ std::string withoutMorphs(const std::string& text) {
 // Nodes of the libraries that are shown once, and where.
 class LibraryNodes {
   public:
-    explicit LibraryNodes(const std::string& text) : text_(text), tags_(tagsOf(text)) {
+    explicit LibraryNodes(const std::string& text) : text_(text), tags_(colladaTags(text)) {
         std::map<std::string, int> uses;
-        for (const Tag& tag : tags_) {
+        for (const ColladaTag& tag : tags_) {
             if (tag.opens("instance_node")) ++uses[tag.target("url")];
         }
         bool inLibrary = false;
@@ -156,7 +91,7 @@ class LibraryNodes {
             if (tags_[i].opens("library_nodes")) inLibrary = !tags_[i].isEmpty();
             if (tags_[i].closes("library_nodes")) inLibrary = false;
             if (!inLibrary || !tags_[i].opens("node")) continue;
-            const std::optional<std::size_t> past = pastElement(tags_, i, "node");
+            const std::optional<std::size_t> past = pastColladaElement(tags_, i, "node");
             if (!past) break;
             const std::string id(colladaAttribute(tags_[i].text, "id"));
             if (!id.empty() && uses[id] == 1) moved_[id] = {i, *past};
@@ -181,7 +116,7 @@ class LibraryNodes {
         std::size_t at = whole ? 0 : startOf(first);
         const auto copyTo = [&](std::size_t end) { out += std::string_view(text_).substr(at, end - at); };
         for (std::size_t i = first; i < last; ++i) {
-            const Tag& tag = tags_[i];
+            const ColladaTag& tag = tags_[i];
             const auto own =
                 tag.opens("node") ? moved_.find(std::string(colladaAttribute(tag.text, "id"))) : moved_.end();
             if (own != moved_.end() && own->second.first == i && (i != first || whole)) {
@@ -194,14 +129,14 @@ class LibraryNodes {
             if (shown == moved_.end() || depth >= kMostNested) continue;
             copyTo(tag.start);
             write(shown->second.first, shown->second.second, depth + 1, false, out);
-            if (!tag.isEmpty()) i = pastElement(tags_, i, "instance_node").value_or(i + 1) - 1;
+            if (!tag.isEmpty()) i = pastColladaElement(tags_, i, "instance_node").value_or(i + 1) - 1;
             at = tags_[i].end;
         }
         copyTo(whole ? text_.size() : tags_[last - 1].end);
     }
 
     const std::string& text_;
-    std::vector<Tag> tags_;
+    std::vector<ColladaTag> tags_;
     std::map<std::string, std::pair<std::size_t, std::size_t>> moved_;  // id → its first tag, and the one past it
 };
 
@@ -213,7 +148,7 @@ bool mentions(std::string_view text, std::string_view what) {
 
 bool holdsMorphs(std::string_view text) {
     if (!mentions(text, "<morph")) return false;
-    const std::vector<Tag> tags = tagsOf(text);
+    const std::vector<ColladaTag> tags = colladaTags(text);
     bool inMorph = false;
     for (std::size_t i = 0; i + 1 < tags.size(); ++i) {
         if (tags[i].opens("morph")) inMorph = true;

@@ -1,0 +1,219 @@
+#include "animation/import/assimp/collada_curves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <string_view>
+#include <vector>
+
+#include "animation/import/assimp/collada_tags.hpp"
+#include "animation/import/assimp/collada_text.hpp"
+
+namespace lutka::animation::rig_import {
+namespace {
+
+constexpr double kSecondsAPiece = 1.0 / 60.0;
+constexpr double kJump = 1e-4;               // seconds
+constexpr std::size_t kMostPieces = 20'000;  // of a curve
+
+struct Source {
+    std::vector<double> numbers;
+    std::vector<std::string_view> names;
+    std::size_t stride = 1;
+    std::string_view params;  // the text in its accessor
+};
+
+std::vector<double> numbersIn(std::string_view text) {
+    std::vector<double> numbers;
+    const char* at = text.data();
+    const char* const end = text.data() + text.size();
+    while (at != end) {
+        double number = 0.0;
+        const auto [next, error] = std::from_chars(at, end, number);
+        if (error != std::errc()) break;
+        numbers.push_back(number);
+        at = std::find_if(next, end, [](char c) { return c != ' '; });
+    }
+    return numbers;
+}
+
+std::vector<std::string_view> splitWords(std::string_view text) {
+    std::vector<std::string_view> words;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find(' '), text.size());
+        words.push_back(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return words;
+}
+
+std::map<std::string, Source> sourcesOf(std::string_view text, const std::vector<ColladaTag>& tags) {
+    std::map<std::string, Source> sources;
+    Source* source = nullptr;
+    bool inAnimations = false;
+    for (std::size_t i = 0; i + 1 < tags.size(); ++i) {
+        const ColladaTag& tag = tags[i];
+        if (tag.opens("library_animations")) inAnimations = true;
+        if (tag.closes("library_animations")) inAnimations = false;
+        if (!inAnimations) continue;
+        if (tag.opens("source")) source = &sources[std::string(colladaAttribute(tag.text, "id"))];
+        if (source == nullptr) continue;
+        const std::string_view inside = text.substr(tag.end, tags[i + 1].start - tag.end);
+        if (tag.opens("float_array")) source->numbers = numbersIn(inside);
+        if (tag.opens("Name_array")) source->names = splitWords(inside);
+        if (tag.opens("accessor")) {
+            const std::string_view stride = colladaAttribute(tag.text, "stride");
+            std::from_chars(stride.data(), stride.data() + stride.size(), source->stride);
+            source->stride = std::max<std::size_t>(source->stride, 1);
+            const std::size_t end = text.find("</accessor", tag.end);
+            if (end != std::string_view::npos) source->params = text.substr(tag.end, end - tag.end);
+        }
+    }
+    return sources;
+}
+
+// One curve of a sampler, all components together.
+struct Curve {
+    const std::vector<double>* times = nullptr;
+    const Source* values = nullptr;
+    const std::vector<std::string_view>* kinds = nullptr;  // one a key: of the way to the next
+    const Source* in = nullptr;                            // tangents as points of time and value, for each component
+    const Source* out = nullptr;
+
+    [[nodiscard]] std::size_t width() const { return values->stride; }
+    [[nodiscard]] double value(std::size_t key, std::size_t component) const {
+        return values->numbers[key * width() + component];
+    }
+    [[nodiscard]] bool isSpline(std::size_t key) const {
+        const auto fits = [&](const Source* tangents) {
+            return tangents != nullptr && tangents->numbers.size() >= times->size() * 2 * width();
+        };
+        return (*kinds)[key] == "BEZIER" && fits(in) && fits(out);
+    }
+};
+
+// The value of a cubic Bezier curve over time: its four points, of which the time runs ahead.
+double bezierAt(const std::array<double, 4>& times, const std::array<double, 4>& values, double time) {
+    const auto at = [](const std::array<double, 4>& p, double s) {
+        const double r = 1.0 - s;
+        return r * r * r * p[0] + 3.0 * r * r * s * p[1] + 3.0 * r * s * s * p[2] + s * s * s * p[3];
+    };
+    double low = 0.0;
+    double high = 1.0;
+    constexpr int kHalvings = 40;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double middle = 0.5 * (low + high);
+        (at(times, middle) < time ? low : high) = middle;
+    }
+    return at(values, 0.5 * (low + high));
+}
+
+struct Pieces {
+    std::vector<double> times;
+    std::vector<double> values;
+};
+
+// The keys that come after a key and before the next.
+void addBetween(const Curve& curve, std::size_t key, Pieces& pieces) {
+    const double start = (*curve.times)[key];
+    const double end = (*curve.times)[key + 1];
+    if (!(end > start)) return;
+    if ((*curve.kinds)[key] == "STEP") {
+        pieces.times.push_back(end - std::min(kJump, 0.5 * (end - start)));
+        for (std::size_t c = 0; c < curve.width(); ++c)
+            pieces.values.push_back(curve.value(key, c));
+        return;
+    }
+    if (!curve.isSpline(key)) return;
+    const auto parts = static_cast<std::size_t>(std::min(std::ceil((end - start) / kSecondsAPiece - 0.01), 1e6));
+    for (std::size_t part = 1; part < parts && pieces.times.size() < kMostPieces; ++part) {
+        const double time = start + (end - start) * static_cast<double>(part) / static_cast<double>(parts);
+        pieces.times.push_back(time);
+        for (std::size_t c = 0; c < curve.width(); ++c) {
+            const std::size_t leaves = 2 * (key * curve.width() + c);
+            const std::size_t arrives = leaves + 2 * curve.width();
+            const std::vector<double>& out = curve.out->numbers;
+            const std::vector<double>& in = curve.in->numbers;
+            pieces.values.push_back(
+                bezierAt({start, std::clamp(out[leaves], start, end), std::clamp(in[arrives], start, end), end},
+                         {curve.value(key, c), out[leaves + 1], in[arrives + 1], curve.value(key + 1, c)}, time));
+        }
+    }
+}
+
+Pieces piecesOf(const Curve& curve) {
+    Pieces pieces;
+    const std::size_t keys = std::min(curve.times->size(), curve.values->numbers.size() / curve.width());
+    for (std::size_t key = 0; key < keys; ++key) {
+        pieces.times.push_back((*curve.times)[key]);
+        for (std::size_t c = 0; c < curve.width(); ++c)
+            pieces.values.push_back(curve.value(key, c));
+        if (key + 1 < keys) addBetween(curve, key, pieces);
+    }
+    return pieces;
+}
+
+std::string sourceText(const std::string& id, const std::vector<double>& numbers, std::size_t stride,
+                       std::string_view params) {
+    std::string text =
+        fmt::format("<source id=\"{0}\"><float_array id=\"{0}-array\" count=\"{1}\">", id, numbers.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        text += fmt::format("{}{:.9g}", i > 0 ? " " : "", numbers[i]);
+    return text + fmt::format(
+                      "</float_array><technique_common><accessor source=\"#{}-array\" count=\"{}\" stride=\"{}\">{}"
+                      "</accessor></technique_common></source>",
+                      id, numbers.size() / stride, stride, params);
+}
+
+// What stands in place of a sampler; empty where it stays.
+std::string straightSampler(const std::string& id, const std::map<std::string, std::string>& inputs,
+                            const std::map<std::string, Source>& sources) {
+    const auto source = [&](const char* semantic) -> const Source* {
+        const auto input = inputs.find(semantic);
+        const auto found = input == inputs.end() ? sources.end() : sources.find(input->second);
+        return found == sources.end() ? nullptr : &found->second;
+    };
+    const Source* times = source("INPUT");
+    const Source* values = source("OUTPUT");
+    const Source* kinds = source("INTERPOLATION");
+    if (times == nullptr || values == nullptr || kinds == nullptr || kinds->names.size() < times->numbers.size())
+        return {};
+    const Curve curve{&times->numbers, values, &kinds->names, source("IN_TANGENT"), source("OUT_TANGENT")};
+    const Pieces pieces = piecesOf(curve);
+    if (pieces.times.size() <= times->numbers.size()) return {};
+    return sourceText(id + "-times", pieces.times, 1, times->params) +
+           sourceText(id + "-values", pieces.values, curve.width(), values->params) +
+           fmt::format(
+               "<sampler id=\"{0}\"><input semantic=\"INPUT\" source=\"#{0}-times\"/><input "
+               "semantic=\"OUTPUT\" source=\"#{0}-values\"/></sampler>",
+               id);
+}
+
+}  // namespace
+
+std::string straightenedCollada(std::string text) {
+    if (text.find("BEZIER") == std::string::npos && text.find("STEP") == std::string::npos) return text;
+    const std::vector<ColladaTag> tags = colladaTags(text);
+    const std::map<std::string, Source> sources = sourcesOf(text, tags);
+    ColladaEdits edits(text);
+    for (std::size_t i = 0; i < tags.size(); ++i) {
+        if (!tags[i].opens("sampler") || tags[i].isEmpty()) continue;
+        const std::optional<std::size_t> past = pastColladaElement(tags, i, "sampler");
+        if (!past) break;
+        std::map<std::string, std::string> inputs;
+        for (std::size_t input = i + 1; input < *past; ++input) {
+            if (tags[input].opens("input"))
+                inputs[std::string(colladaAttribute(tags[input].text, "semantic"))] = tags[input].target("source");
+        }
+        const std::string id(colladaAttribute(tags[i].text, "id"));
+        const std::string straight = id.empty() ? std::string() : straightSampler(id, inputs, sources);
+        if (!straight.empty()) edits.replace(tags[i].start, tags[*past - 1].end, straight);
+    }
+    return edits.take();
+}
+
+}  // namespace lutka::animation::rig_import

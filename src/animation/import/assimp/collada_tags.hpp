@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lutka::animation::rig_import {
+
+/// A tag of a Collada document with its place in the text, which it points into.
+struct ColladaTag {
+    std::size_t start = 0;
+    std::size_t end = 0;  ///< One past its '>'.
+    std::string_view text;
+
+    [[nodiscard]] bool opens(std::string_view name) const;
+    [[nodiscard]] bool closes(std::string_view name) const;
+    [[nodiscard]] bool isEmpty() const { return text.ends_with("/>"); }
+    /// The target of a link into this document; empty where it is none.
+    [[nodiscard]] std::string target(std::string_view attribute) const;
+};
+
+/// All tags, in their order; comments, sections of character data and instructions are none.
+[[nodiscard]] std::vector<ColladaTag> colladaTags(std::string_view text);
+
+/// One past the tag that closes the element which tag `first` opens; nothing where none does.
+[[nodiscard]] std::optional<std::size_t> pastColladaElement(const std::vector<ColladaTag>& tags, std::size_t first,
+                                                            std::string_view name);
+
+/// Replaces parts of a text, in their order. Keeps a reference to it.
+class ColladaEdits {
+  public:
+    explicit ColladaEdits(const std::string& text) : text_(text) {}
+
+    void replace(std::size_t start, std::size_t end, std::string_view with);
+    /// The whole text; called once.
+    [[nodiscard]] std::string take();
+
+  private:
+    const std::string& text_;
+    std::string out_;
+    std::size_t at_ = 0;
+};
+
+}  // namespace lutka::animation::rig_import

@@ -1,0 +1,90 @@
+// Collada's curves that are no straight lines from key to key, which is all that Assimp plays.
+
+#include <glm/geometric.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "animation/import/assimp/collada_curves.hpp"
+#include "support/catch.hpp"
+
+using namespace lutka;
+using namespace lutka::animation;
+
+namespace {
+
+std::string sourceOf(const std::string& id, const std::string& numbers, int stride) {
+    return "<source id=\"" + id + "\"><float_array id=\"" + id + "-array\">" + numbers +
+           "</float_array><accessor source=\"#" + id + "-array\" stride=\"" + std::to_string(stride) +
+           "\"><param name=\"P\" type=\"float\"/></accessor></source>";
+}
+
+// A curve from 0 to 10 and on to 4, at 0, 1 and 1.5 s.
+std::string curveOf(const std::string& kinds, const std::string& more) {
+    return "<library_animations><animation>" + sourceOf("t", "0 1 1.5", 1) + sourceOf("v", "0 10 4", 1) +
+           sourceOf("in", "-1 0 0.6 10 1.2 4", 2) + sourceOf("out", "0.4 0 1.3 10 2 4", 2) +
+           "<source id=\"k\"><Name_array id=\"ka\">" + kinds +
+           "</Name_array></source><sampler id=\"s\"><input semantic=\"INPUT\" source=\"#t\"/><input "
+           "semantic=\"OUTPUT\" source=\"#v\"/><input semantic=\"INTERPOLATION\" source=\"#k\"/>" +
+           more + "</sampler></animation></library_animations>";
+}
+
+constexpr const char* kTangents =
+    "<input semantic=\"IN_TANGENT\" source=\"#in\"/><input semantic=\"OUT_TANGENT\" source=\"#out\"/>";
+
+std::vector<double> numbersOf(const std::string& text, const std::string& id) {
+    const std::string array = "<float_array id=\"" + id + "-array\"";
+    const std::size_t tag = text.find(array);
+    REQUIRE(tag != std::string::npos);
+    const std::size_t start = text.find('>', tag) + 1;
+    std::istringstream in(text.substr(start, text.find('<', start) - start));
+    std::vector<double> numbers;
+    for (double number = 0.0; in >> number;)
+        numbers.push_back(number);
+    return numbers;
+}
+
+}  // namespace
+
+TEST_CASE("a stepped Collada curve holds its keys until the next") {
+    const std::string text = rig_import::straightenedCollada(curveOf("STEP STEP STEP", ""));
+    const std::vector<double> times = numbersOf(text, "s-times");
+    const std::vector<double> values = numbersOf(text, "s-values");
+    CHECK(values == std::vector<double>{0, 0, 10, 10, 4});
+    REQUIRE(times.size() == 5);
+    CHECK(times[1] == Approx(1.0).margin(2e-4));
+    CHECK(times[1] < 1.0);
+    CHECK(times[3] < 1.5);
+    CHECK(text.find("<sampler id=\"s\"><input semantic=\"INPUT\" source=\"#s-times\"/>") != std::string::npos);
+}
+
+TEST_CASE("a Collada spline follows its tangents, be its segments of different kinds or not") {
+    const std::string text = rig_import::straightenedCollada(curveOf("BEZIER LINEAR BEZIER", kTangents));
+    const std::vector<double> times = numbersOf(text, "s-times");
+    const std::vector<double> values = numbersOf(text, "s-values");
+    REQUIRE(times.size() == values.size());
+    CHECK(times.size() == 62);  // 60 pieces of the first second, one straight one after it
+    for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+        CHECK(times[i] < times[i + 1]);
+        if (times[i] > 1.0) continue;
+        // Points 0, 0.4, 0.6 and 1 of time, values 0, 0, 10 and 10: found by small steps along the curve.
+        double nearest = 9.0;
+        double there = 0.0;
+        for (int k = 0; k <= 20'000; ++k) {
+            const double s = k / 20'000.0;
+            const double r = 1.0 - s;
+            const double time = 3 * r * r * s * 0.4 + 3 * r * s * s * 0.6 + s * s * s;
+            if (std::abs(time - times[i]) >= nearest) continue;
+            nearest = std::abs(time - times[i]);
+            there = 10.0 * (3 * r * s * s + s * s * s);
+        }
+        CHECK(values[i] == Approx(there).margin(5e-3));
+    }
+    CHECK(values.back() == 4.0);
+}
+
+TEST_CASE("straight Collada curves, and splines without tangents, stay as they are") {
+    for (const std::string& text : {curveOf("LINEAR LINEAR LINEAR", ""), curveOf("BEZIER BEZIER BEZIER", ""),
+                                    curveOf("STEP", ""), std::string("<sampler>STEP"), std::string("STEP")})
+        CHECK(rig_import::straightenedCollada(text) == text);
+}
