@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "animation/import/assimp/b3d_bytes.hpp"
+#include "animation/import/assimp/collada_clips.hpp"
 #include "animation/import/assimp/collada_curves.hpp"
 #include "animation/import/assimp/collada_links.hpp"
 #include "animation/import/assimp/collada_text.hpp"
@@ -33,7 +34,8 @@ std::string tidiedBytes(const fs::path& file) {
     const Result<std::vector<unsigned char>> bytes = readFile(file, kMaxFileBytes);
     if (!bytes) return {};
     const std::string_view whole(reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size());
-    return collada ? straightenedCollada(linkedCollada(tidyCollada(whole))) : tidyB3d(whole);
+    if (!collada) return tidyB3d(whole);
+    return straightenedCollada(gatheredCollada(linkedCollada(tidyCollada(whole))));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "animation/import/assimp/clip_conversion.hpp"
 #include "animation/import/assimp/collada_bind_shape.hpp"
+#include "animation/import/assimp/collada_clips.hpp"
 #include "animation/import/assimp/collada_links.hpp"
 #include "animation/import/assimp/collada_text.hpp"
 #include "animation/import/assimp/flat_hierarchy.hpp"
@@ -79,6 +80,7 @@ void completeByDocument(const std::filesystem::path& file, SourceScene& out) {
     if (out.clips.empty() && text.find("<channel ") != std::string_view::npos)
         out.warnings.emplace_back("left out: animations, for they move nothing that stands in the scene itself");
     if (holdsMorphs(text)) out.warnings.emplace_back("left out: morph targets, which the file has on from the start");
+    if (!out.clips.empty()) settleColladaClips(text, out);
     completeBindShapes(text, out);
     const auto names = colladaNodeNames(text);
     std::set<std::string> taken;

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "animation/import/source_scene.hpp"
+
+namespace lutka::animation::rig_import {
+
+/// Gathers the animations of each clip of a tidied Collada document (tidyCollada()) in one: Assimp 5.2.5 makes a clip
+/// of each joint of them and forgets their names. Where clips share animations, being parts of one time line, they are
+/// taken away: then that time line is the clip.
+[[nodiscard]] std::string gatheredCollada(std::string text);
+
+/// Gives the clips of a gathered document their names, to which Assimp adds that of the first, or that very name
+/// once more.
+void settleColladaClips(std::string_view document, SourceScene& scene);
+
+}  // namespace lutka::animation::rig_import

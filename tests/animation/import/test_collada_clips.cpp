@@ -1,0 +1,82 @@
+// Which of a Collada document's animations are one clip.
+
+#include <string>
+
+#include "animation/import/assimp/collada_clips.hpp"
+#include "support/catch.hpp"
+
+using namespace lutka;
+using namespace lutka::animation;
+
+namespace {
+
+std::string animationOf(const std::string& id, const std::string& target) {
+    return "<animation id=\"" + id + "\"><source/><channel source=\"#" + id + "\" target=\"" + target +
+           "\"/></animation>";
+}
+
+std::string contentOf(const std::string& id, const std::string& target) {
+    return "<source/><channel source=\"#" + id + "\" target=\"" + target + "\"/>";
+}
+
+std::string clipOf(const std::string& attributes, const std::string& first, const std::string& second) {
+    return "<animation_clip " + attributes + "><instance_animation url=\"#" + first +
+           "\"/><instance_animation url=\"#" + second + "\"/></animation_clip>";
+}
+
+const std::string kLibrary = "<library_animations>";
+const std::string kEnd = "</library_animations>";
+
+}  // namespace
+
+TEST_CASE("the animations of a Collada clip become one that bears its name") {
+    const std::string joints = animationOf("a", "low/t") + animationOf("b", "high/t") + animationOf("c", "low/t") +
+                               "<animation id=\"d\">" + animationOf("e", "high/t") + "</animation>";
+    const std::string gathered = rig_import::gatheredCollada(
+        kLibrary + joints + kEnd + "<library_animation_clips>" + clipOf("name=\"walk\"", "a", "b") +
+        clipOf("id=\"run\"", "c", "d") + "</library_animation_clips><scene/>");
+    CHECK(gathered == kLibrary + "<animation name=\"walk\">" + contentOf("a", "low/t") + contentOf("b", "high/t") +
+                          "</animation><animation name=\"run\">" + contentOf("c", "low/t") + contentOf("e", "high/t") +
+                          "</animation>" + kEnd + "<scene/>");
+}
+
+TEST_CASE("Collada clips that are parts of one time line leave that time line") {
+    const std::string joints = animationOf("a", "low/t") + animationOf("b", "high/t");
+    const std::string clips = "<library_animation_clips>" + clipOf("name=\"walk\"", "a", "b") +
+                              clipOf("name=\"run\"", "a", "b") + "</library_animation_clips>";
+    CHECK(rig_import::gatheredCollada(kLibrary + joints + kEnd + clips) ==
+          kLibrary + "<animation>" + contentOf("a", "low/t") + contentOf("b", "high/t") + "</animation>" + kEnd);
+}
+
+TEST_CASE("Collada animations of different joints and angles play together, those of one thing stay apart") {
+    const std::string first = animationOf("a", "low/rx.ANGLE");
+    const std::string second = animationOf("b", "low/ry.ANGLE");
+    CHECK(rig_import::gatheredCollada(kLibrary + first + second + kEnd) ==
+          kLibrary + "<animation>" + contentOf("a", "low/rx.ANGLE") + contentOf("b", "low/ry.ANGLE") + "</animation>" +
+              kEnd);
+    // The name that all of them have, or those of them that have any.
+    std::string named = second;
+    named.insert(named.find(" id"), " name=\"walk\"");
+    CHECK(rig_import::gatheredCollada(kLibrary + first + named + kEnd)
+              .starts_with(kLibrary + "<animation name=\"walk\">"));
+    for (const std::string& text :
+         {kLibrary + first + animationOf("c", "low/rx.ANGLE") + kEnd, kLibrary + first + kEnd,
+          kLibrary + "<animation><channel/>", std::string("<animation_clip><channel/>"), std::string("<channel")})
+        CHECK(rig_import::gatheredCollada(text) == text);
+}
+
+TEST_CASE("what Assimp adds to the names of Collada clips is taken away") {
+    rig_import::SourceScene scene;
+    for (const char* name : {"walk_walk", "walk_run", "walk_other"}) {
+        scene.clips.emplace_back();
+        scene.clips.back().name = name;
+    }
+    rig_import::settleColladaClips("<animation_clip name=\"walk\"/><animation_clip name=\"run\"/>", scene);
+    CHECK(scene.clips[0].name == "walk");
+    CHECK(scene.clips[1].name == "run");
+    CHECK(scene.clips[2].name == "walk_other");
+    scene.clips[0].name = "animation_animation";
+    rig_import::settleColladaClips("", scene);
+    CHECK(scene.clips[0].name == "animation");
+    CHECK(scene.clips[2].name == "walk_other");
+}
