@@ -94,8 +94,9 @@ static void pressRest(const PairsView& view) {
         PairVelocities v{first3(a), second3(a), first3(b), second3(b)};
         pushRest(pair, bodies, v, load(pair.normal) * push, push);
         // Their dolls have to answer.
-        writeNoted(bodies, pair.bodyA, kPressedColumn, a, v.velocityA, v.angularA, push != zero);
-        writeNoted(bodies, pair.bodyB, kPressedColumn, b, v.velocityB, v.angularB, push != zero);
+        const F pressed = push != zero ? all(1.0F) : zero;
+        writeNoted(bodies, pair.bodyA, kPressedColumn, a, v.velocityA, v.angularA, pressed);
+        writeNoted(bodies, pair.bodyB, kPressedColumn, b, v.velocityB, v.angularB, pressed);
     }
 }
 

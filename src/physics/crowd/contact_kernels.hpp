@@ -36,11 +36,11 @@ LUTKA_LANES void storeVelocities(const PairContactLanes& pair, const PairBodies&
     writeRows(bodies.motions, pair.bodyA, 0, columnsOf(v.velocityA, v.angularA));
     writeRows(bodies.motions, pair.bodyB, 0, columnsOf(v.velocityB, v.angularB));
 }
-// Puts velocities into rows that were read before, with a note of 1 in one more column.
+// Puts velocities into rows that were read before, with a note in one more column, of which the largest stays.
 LUTKA_LANES void writeNoted(const PairBodies& bodies, Indices index, int column, const Columns& before,
-                            const V3& velocity, const V3& angular, const Mask& noted) {
+                            const V3& velocity, const V3& angular, F note) {
     Columns row = columnsOf(velocity, angular);
-    row.column[column] = noted ? all(1.0F) : before.column[column];
+    row.column[column] = most(note, before.column[column]);
     writeRows(bodies.motions, index, 0, row);
 }
 // An impulse of size `size` along the normal, without what supports hold against.
@@ -263,7 +263,7 @@ static void beginPairs(PairsView& view, const SubstepParams& params) {
         const Mask own = isOwn(pair);
         const F steady = pressed - (own ? shownMass(pair, pressed, params) : mass) * (start - load(pair.approach));
         // What comes from the step before is no more than that already.
-        const Mask grows = own & (isFirst ? noLanes() : ~noLanes());
+        const Mask grows = (own | ~isOfDolls(pair)) & (isFirst ? noLanes() : ~noLanes());
         const F borne = grows ? least(pressed, grownLoad(load(pair.load), mass, params.ownLoad)) : pressed;
         // Bodies that part already bear no load either: pushing on would speed them up.
         const F held = least(most(steady, all(0.0F)), borne) * stays(start, kSlipSpeed);
@@ -312,7 +312,8 @@ static void carryPairs(const PairsView& view) {
         const V3 tangent = load(pair.tangent);
         rubPair(pair, v, 0, tangent, load(pair.carriedTangent[0]));
         rubPair(pair, v, 1, cross(load(pair.normal), tangent), load(pair.carriedTangent[1]));
-        const Mask struck = strikes(pair) & (total > all(0.0F));
+        const F by = strikes(pair) ? all(Struck::byDoll) : (isOfDolls(pair) ? all(0.0F) : all(Struck::byProp));
+        const F struck = total > all(0.0F) ? by : all(0.0F);
         writeNoted(bodies, pair.bodyA, kStruckColumn, a, v.velocityA, v.angularA, struck);
         writeNoted(bodies, pair.bodyB, kStruckColumn, b, v.velocityB, v.angularB, struck);
     }

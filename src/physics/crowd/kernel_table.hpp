@@ -27,6 +27,6 @@ static constexpr Kernels kTable{&refresh,    &findBounds,    &findSelfPairs, &fi
                                 &touchCores, &touchOwnCores, &findNearPlane, &limitRoom,     &joinBounds,
                                 &takeWay,    &findMotion,    &begin,         &solve,         &outruns,
                                 &solveAgain, &mend,          &advance,       &beginPairs,    &solvePairs,
-                                &mendPairs,  &pressAgain,    &pressRest,     &carryPairs};
+                                &mendPairs,  &pressAgain,    &pressRest,     &carryPairs,    &limitEnergy};
 
 }  // namespace lutka::physics::crowd::LUTKA_KERNELS

@@ -51,13 +51,19 @@ struct BodyLanes {
     Wide3 looseAngular;  ///< The turning rate likewise.
 };
 
+/// What else than itself presses a doll, as a number of a lane; 0 for nothing.
+struct Struck {
+    static constexpr float byProp = 0.5F;  ///< It may be given energy, and still answers itself.
+    static constexpr float byDoll = 1.0F;
+};
+
 /// One body of one doll as pair contacts see it: what they push. A register's worth, so that eight bodies of any dolls
 /// are read by eight loads and a transposition. Begun anew in every substep from BodyLanes, and taken in there.
 struct alignas(32) BodyMotion {
     float velocity[3];
     float angular[3];
     float pressed;  ///< 1 once a contact was pressed again since the doll has last answered; else 0.
-    float struck;   ///< 1 where a contact with another doll presses, in this substep's first sweep; else 0.
+    float struck;   ///< What else than its doll presses it, in this substep's first sweep: see Struck.
 };
 
 /// What else they need of it, in rows of the same kind. What rests on a body passes its support on.
@@ -335,7 +341,7 @@ struct BatchView {
     PairBodies pairBodies;
     Wide* answered;  ///< 1 where the lane's doll has answered to contacts that were pressed again, else 0.
     Wide* energy;    ///< J, kinetic, of each doll at the substep's start.
-    Wide* struck;    ///< 1 where another doll presses the lane's doll in this substep, else 0.
+    Wide* struck;    ///< What else presses the lane's doll in this substep: see Struck.
 };
 
 /// A pair of bodies of one doll that may collide, and the lanes in which their bounds meet.
@@ -465,6 +471,8 @@ struct Kernels {
     void (*pressRest)(const PairsView& view);
     /// Pushes the bodies with what the substep before left of the impulses.
     void (*carryPairs)(const PairsView& view);
+    /// After answers: no doll that answered only itself keeps more energy than it had at the substep's start.
+    void (*limitEnergy)(const BatchView& batch);
 };
 
 }  // namespace lutka::physics::crowd

@@ -53,6 +53,37 @@ static void keepMomentum(const BatchView& batch) {
     }
 }
 
+// Contacts within a doll that were pressed again as often as they may be, and were wrong together to the last, leave it
+// with energy from nowhere. It keeps what it had: slower all over where something holds it, else about its centre.
+static void limitEnergy(const BatchView& batch) {
+    const F zero = all(0.0F);
+    const F given = load(*batch.energy) + workOfDrags(batch);
+    const F has = keptEnergy(batch);
+    const Mask own = answersItself(batch) & (load(*batch.struck) <= zero);
+    const Mask gains = own & gainsOver(has, given);
+    if (bits(gains) == 0 || batch.motors != nullptr || batch.targets != nullptr) return;
+    V3 momentum{zero, zero, zero};
+    F mass = zero;
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        mass = mass + all(batch.bodyConstants[b].mass);
+        momentum = momentum + load(batch.bodies[b].steadyVelocity) * all(batch.bodyConstants[b].mass);
+    }
+    const V3 centre = momentum * (all(1.0F) / mass);
+    const Mask free = unheld(batch);
+    const V3 kept{free ? centre.x : zero, free ? centre.y : zero, free ? centre.z : zero};
+    const F whole = all(0.5F) * mass * dot(kept, kept);
+    const F share = squareRoot(most(given - whole, zero) / most(has - whole, all(1e-6F)));
+    const F factor = gains ? least(share, all(1.0F)) : all(1.0F);
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        BodyLanes& body = batch.bodies[b];
+        store(body.steadyVelocity, kept + (load(body.steadyVelocity) - kept) * factor);
+        store(body.steadyAngular, load(body.steadyAngular) * factor);
+        body.velocity = body.steadyVelocity;
+        body.angular = body.steadyAngular;
+    }
+    showMotions(batch);
+}
+
 static void advance(const BatchView& batch, const SubstepParams& params) {
     if (batch.jointCount > 0) keepMomentum(batch);
     for (int b = 0; b < batch.bodyCount; ++b)

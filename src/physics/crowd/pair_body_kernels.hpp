@@ -98,13 +98,14 @@ static void showRises(const BatchView& batch, const Mask& rises) {
                 (lanes >> static_cast<unsigned>(lane) & 1U) != 0 ? 1.0F : 0.0F;
 }
 
-// What pair contacts have made of the bodies' velocities: the lanes in which any was pressed again, and those in which
-// another doll presses.
+// What pair contacts have made of the bodies' velocities: the lanes in which any was pressed again, and what else than
+// the doll itself presses it (Struck).
 struct Taken {
-    Mask pressed, struck;
+    Mask pressed;
+    F struck;
 };
 static Taken takeMotions(const BatchView& batch) {
-    Taken taken{noLanes(), noLanes()};
+    Taken taken{noLanes(), all(0.0F)};
     for (int i = 0; i < batch.pairedCount; ++i) {
         int index[kLanes];
         placesOf(batch, batch.paired[i], index);
@@ -113,7 +114,7 @@ static Taken takeMotions(const BatchView& batch) {
         store(body.velocity, first3(motion));
         store(body.angular, second3(motion));
         taken.pressed |= motion.column[kPressedColumn] > all(0.0F);
-        taken.struck |= motion.column[kStruckColumn] > all(0.0F);
+        taken.struck = most(taken.struck, motion.column[kStruckColumn]);
     }
     return taken;
 }

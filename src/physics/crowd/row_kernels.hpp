@@ -383,8 +383,9 @@ LUTKA_LANES Mask updateStatic(const BodyLanes& body, StaticContactLanes& contact
     if (contact.engaged == 0) return off < all(-params.contactTolerance);
     const F total = load(contact.normalImpulse) - gain * off;
     store(contact.normalImpulse, held ? total : zero);
-    store(contact.frictionImpulse,
-          load(contact.frictionImpulse) - (motion.sliding - motion.normal * motion.rate) * load(contact.tangentGain));
+    const V3 friction =
+        load(contact.frictionImpulse) - (motion.sliding - motion.normal * motion.rate) * load(contact.tangentGain);
+    store(contact.frictionImpulse, friction);
     store(contact.rollImpulse, load(contact.rollImpulse) - motion.angular * load(contact.rollGain));
     const F tolerance = all(-params.contactTolerance);
     // A whole doll may stand on what a body's own mass was to hold: a row that gives way becomes stiffer.
@@ -394,7 +395,12 @@ LUTKA_LANES Mask updateStatic(const BodyLanes& body, StaticContactLanes& contact
     store(contact.normalWeight, yields ? least(weight * all(params.stiffen), stiffest) : weight);
     // A pull that should not be, of more than the tolerance, or a surface run through.
     const Mask pulls = (total * all(params.contactStiffness) < tolerance * gain) & ~pass.late;
-    return (held & pulls) | (~held & (off < tolerance)) | (yields & (weight < stiffest));
+    // Friction of a blow that is over, with which what rolls or rests by now would be driven on: of more than what
+    // presses now allows, by more than the tolerance.
+    const F allowed = load(contact.friction) * (held ? most(total, zero) : zero) * pass.stiction +
+                      load(contact.tangentWeight) * all(params.contactTolerance);
+    const Mask drives = (dot(friction, friction) > allowed * allowed) & ~pass.late;
+    return (held & pulls) | (~held & (off < tolerance)) | (yields & (weight < stiffest)) | drives;
 }
 
 }  // namespace lutka::physics::crowd::LUTKA_KERNELS

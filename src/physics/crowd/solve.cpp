@@ -10,7 +10,7 @@
 #include "physics/crowd/force.hpp"
 #include "physics/crowd/jobs.hpp"
 #include "physics/crowd/motor.hpp"
-#include "physics/crowd/own_contacts.hpp"
+#include "physics/crowd/moved_contacts.hpp"
 #include "physics/crowd/own_load.hpp"
 #include "physics/crowd/packing.hpp"
 #include "physics/crowd/reports.hpp"
@@ -95,13 +95,14 @@ class JobSubstep {
             forViews([&](const BatchView& view) { kernels.begin(view, params_); });
         }
         if (params_.warmStart == 0 && !isSplit(job_))
-            refreshOwn(state_, job_, params_.dt * static_cast<float>(job_.substeps) - params_.remaining);
+            refreshMoved(state_, job_, params_.dt * static_cast<float>(job_.substeps) - params_.remaining);
         // What touches other bodies works on single bodies; a pass over the dolls must follow before anything moves.
         forParts(
             state_, job_, [&](PairPart& part) { kernels.beginPairs(part.view, params_); },
             [&](PairPart& part) { kernels.solvePairs(part.view, params_); },
             [&](PairPart& part) { kernels.carryPairs(part.view); });
         forViews([&](const BatchView& view) { kernels.solve(view, params_, 1); });
+        int answered = 0;
         for (int i = 0; i < answers(); ++i) {
             // The contacts that the dolls' answer has left wrong, and their dolls' answer to that.
             forParts(
@@ -110,7 +111,9 @@ class JobSubstep {
             const auto isRight = [](const PairPart& part) { return part.view.changedCount == 0; };
             if (std::all_of(job_.parts.begin(), job_.parts.end(), isRight)) break;
             forViews([&](const BatchView& view) { kernels.solve(view, params_, 0); });
+            ++answered;
         }
+        if (answered > 0) forViews([&](const BatchView& view) { kernels.limitEnergy(view); });
         holdOutrun();
         for (const Batch* batch : job_.batches)
             job_.motorWork += workOfMotors(*batch);
@@ -227,7 +230,7 @@ void keepPairs(CrowdState& state, std::size_t begin, std::size_t end) {
             if (!presses && !state.briefs[index].presses && !state.settings.contactReports) continue;
             PairTouch& touch = state.touches[index];
             touch.carried.normal = pair.normalImpulse.lane[lane];
-            if (pair.kind.lane[lane] == PairKind::own)
+            if (pair.kind.lane[lane] == PairKind::own || pair.kind.lane[lane] == PairKind::other)
                 touch.carried.normal =
                     std::min(touch.carried.normal,
                              grownLoad(pair.load.lane[lane], pair.normalMass.lane[lane], state.tuning.ownLoad));

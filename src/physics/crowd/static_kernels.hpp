@@ -59,7 +59,7 @@ LUTKA_LANES V3 armOf(const StaticContactLanes& contact, const BodyLanes& body, c
     return halfWay(body, core) - load(contact.normal) * load(contact.radius);
 }
 
-// The lanes in which contacts within the doll were pressed again, and no other doll presses.
+// The lanes in which contacts within the doll were pressed again, and no other doll presses (a prop may: Struck).
 LUTKA_LANES Mask answersItself(const BatchView& batch) {
     return load(*batch.answered) > load(*batch.struck);
 }

@@ -365,15 +365,20 @@ LUTKA_LANES F workOfDrags(const BatchView& batch) {
     return work;
 }
 
+// Whether energy, joules, is more than was given, but for rounding and arms that are not quite those of the motion.
+LUTKA_LANES Mask gainsOver(F has, F given) {
+    constexpr float kShare = 0.003F;
+    constexpr float kJoules = 0.1F;
+    return has > given * all(1.0F + kShare) + all(kJoules);
+}
+
 // The lanes that have more energy than what was done to their single bodies gave them, or than they began the substep
 // with where no other doll pushes. Rows that only hold take some away.
 static Mask gainsEnergy(const BatchView& batch) {
-    constexpr float kShare = 0.003F;  // of rounding, and of arms that are not quite those of the motion
-    constexpr float kJoules = 0.1F;
     if (batch.motors != nullptr || batch.targets != nullptr) return noLanes();
     const F loose = kineticEnergy(batch, &BodyLanes::loose, &BodyLanes::looseAngular);
     const F given = load(*batch.struck) > all(0.0F) ? loose : least(loose, load(*batch.energy));
-    return keptEnergy(batch) > (given + workOfDrags(batch)) * all(1.0F + kShare) + all(kJoules);
+    return gainsOver(keptEnergy(batch), given + workOfDrags(batch));
 }
 
 static void solveAll(const BatchView& batch, const SubstepParams& params, Solving what) {
@@ -406,7 +411,7 @@ static void solve(const BatchView& batch, const SubstepParams& params, int first
     if (first == 0 && bits(taken.pressed) == 0) return;
     const F before = first != 0 ? all(0.0F) : keptEnergy(batch);
     if (first != 0) {
-        store(*batch.struck, taken.struck ? all(1.0F) : all(0.0F));
+        store(*batch.struck, taken.struck);
         takeSupports(batch);
         store(*batch.answered, all(0.0F));
         store(*batch.energy, keptEnergy(batch));
