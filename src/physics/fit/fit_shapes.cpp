@@ -201,11 +201,11 @@ class BodyFit {
     // joint stands beside it, as of a block that hangs before or behind its joint.
     [[nodiscard]] Capsule fitEnd() const {
         constexpr float kLong = 1.5F;  // ratio of the spreads
-        const Capsule limb = fitLimb();
+        Capsule limb = fitLimb();
         const PrincipalAxes axes = principalAxes(points_);
         if (axes.spread[0] < kLong * axes.spread[1]) return limb;
         const CapsuleSearch search = searchAlong(body_.start, axesAlong(axes.axis[0]));
-        const Capsule own = fitFree(search);
+        Capsule own = fitFree(search);
         const vec3 away = body_.start - own.start;
         const float beside = glm::length(away - glm::dot(away, axes.axis[0]) * axes.axis[0]);
         return beside > own.radius && search.cost(own) < kClearly * search.cost(limb) ? own : limb;
