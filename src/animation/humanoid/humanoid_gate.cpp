@@ -98,11 +98,20 @@ float creaturesBelow(const FramedRig& framed, const LimbCandidate& limb) {
     return all > 0 ? static_cast<float>(named) / static_cast<float>(all) : 0.0F;
 }
 
-// Where a limb ends. Of one joint it is twice as far away as the middle of its skin, wherever that points.
-vec3 endOf(const FramedRig& framed, const LimbCandidate& limb) {
-    const int joint = framed.pairs[limb.first].joints[0];
-    if (limb.jointCount() > 1 || framed.subtreeSkin[joint].count == 0) return limb.tip;
-    return limb.root + 2.0F * (framed.subtreeSkin[joint].mean() - framed.positions[joint]);
+struct LimbEnd {
+    vec3 place;
+    float length;  // of the way there, along the joints
+};
+
+// Where a limb ends. Without a joint there it is twice as far from the last one as the middle of that one's skin,
+// wherever that points.
+LimbEnd endOf(const FramedRig& framed, const LimbCandidate& limb) {
+    const int last = limb.pairs[1] != kNoPair ? limb.pairs[1] : limb.first;
+    const int joint = framed.pairs[last].joints[0];
+    if (limb.pairs[2] != kNoPair || framed.subtreeSkin[joint].count == 0) return {limb.tip, limb.length};
+    const vec3 beyond = 2.0F * (framed.subtreeSkin[joint].mean() - framed.positions[joint]);
+    const float before = last != limb.first ? framed.segment(limb.first, last) : 0.0F;
+    return {framed.pairs[last].position + beyond, before + glm::length(beyond)};
 }
 
 // Straight arms and straight legs side by side, across the trunk, which end at one height: names of a human do not make
@@ -110,16 +119,16 @@ vec3 endOf(const FramedRig& framed, const LimbCandidate& limb) {
 bool isOnAllFours(const Figure& figure, const FramedRig& framed) {
     constexpr float kStraight = 0.8F;     // of the limb's length
     constexpr float kAboveGround = 0.2F;  // of the legs' length
-    const vec3 foot = endOf(framed, figure.legs);
-    const vec3 hand = endOf(framed, figure.arms);
-    const vec3 legs = foot - figure.legs.root;
-    const vec3 arms = hand - figure.arms.root;
-    const float above = glm::dot(foot - hand, legs) / std::max(glm::dot(legs, legs), 1e-9F);
+    const LimbEnd foot = endOf(framed, figure.legs);
+    const LimbEnd hand = endOf(framed, figure.arms);
+    const vec3 legs = foot.place - figure.legs.root;
+    const vec3 arms = hand.place - figure.arms.root;
+    const float above = glm::dot(foot.place - hand.place, legs) / std::max(glm::dot(legs, legs), 1e-9F);
     if (above > kAboveGround) return false;
-    const auto straight = [](const LimbCandidate& limb, const vec3& along) {
-        return limb.jointCount() == 1 || glm::length(along) > kStraight * limb.length;
+    const auto straight = [](const LimbEnd& end, const vec3& along) {
+        return glm::length(along) > kStraight * end.length;
     };
-    return straight(figure.legs, legs) && straight(figure.arms, arms) && angleTo(legs, vec3(0, -1, 0)) > kMostLegTilt &&
+    return straight(foot, legs) && straight(hand, arms) && angleTo(legs, vec3(0, -1, 0)) > kMostLegTilt &&
            angleTo(arms, legs) < kMostTilt;
 }
 

@@ -88,7 +88,31 @@ animation::Character treeFrog() {
     return makeFigure("tree frog", joints, skin);
 }
 
+// A bear of blocks whose legs have a man's names and two joints each.
+animation::Character blockBear() {
+    std::vector<JointSpec> joints{
+        {"Torso", -1, {0, 1.2F, 0.52F}}, {"Neck", 0, {0, 1.2F, -0.61F}}, {"Head", 1, {0, 1.4F, -0.89F}}};
+    std::vector<TubeSpec> skin{{0, {0, 1.1F, -0.6F}, 0.4F}, {1, {0, 1.3F, -0.8F}, 0.25F}, {2, {0, 1.4F, -1.3F}, 0.25F}};
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string end = side > 0.0F ? ".L" : ".R";
+        for (const bool arm : {true, false}) {
+            const float z = arm ? -0.52F : 0.51F;
+            const std::string name = arm ? "Arm" : "Leg";
+            joints.push_back({"Upper" + name + end, 0, {side * 0.22F, 0.9F, z}});
+            const int upper = static_cast<int>(joints.size()) - 1;
+            joints.push_back({"Lower" + name + end, upper, {side * 0.22F, 0.56F, z}});
+            skin.push_back({upper + 1, {side * 0.22F, 0, z}, 0.15F});
+        }
+    }
+    return makeFigure("bear", joints, skin);
+}
+
 }  // namespace
+
+TEST_CASE("a bear of blocks that stands on all fours is no man, whatever its joints are called", "[lookalikes]") {
+    const animation::HumanoidMap map = animation::mapHumanoid(blockBear());
+    REQUIRE_FALSE(map.humanoid);
+}
 
 TEST_CASE("a frog that lies is no figure that lacks a leg", "[lookalikes]") {
     CHECK_FALSE(animation::mapHumanoid(treeFrog()).humanoid);
