@@ -226,7 +226,8 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     const float feet = std::min(figure.legs.tip.y, framed.floor + 0.15F * figure.legs.length);
     const float hands = (figure.arms.tip.y - feet) / (figure.arms.root.y - feet);
     // Long arms of a goblin, upright by its trunk and told by its names.
-    const bool upright = figure.legs.told && figure.arms.told && tilt < kUprightTrunk;
+    const bool blocks = figure.isBlocky() && figure.legs.names > kNamedBlock && figure.arms.names > kNamedBlock;
+    const bool upright = ((figure.legs.told && figure.arms.told) || blocks) && tilt < kUprightTrunk;
     if (hands < kLeastHandHeight && !named && !upright) return "the hands stand on the ground: a four-legged animal";
     if (creatureShare(framed, figure.arms) > 0.6F || creaturesBelow(framed, figure.arms) > 0.5F)
         return "what would be the arms are named as wings or front legs";
@@ -240,7 +241,6 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     const float whole = figure.score - figure.prior - names;
     if (names <= 0.0F && figure.shapeScore() + 0.5F * whole < leastUnnamed(figure))
         return "no figure stands upright in it";
-    const bool blocks = figure.isBlocky() && figure.legs.names > kNamedBlock && figure.arms.names > kNamedBlock;
     const bool told = figure.legs.told && figure.arms.told && figure.trunk.names >= kToldTrunk;
     const float helpShape =
         std::clamp(0.2F * names, -6.0F, 4.0F) + (blocks ? kBlocksShape : 0.0F) + (told ? kToldShape : 0.0F);

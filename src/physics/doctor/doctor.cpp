@@ -100,8 +100,8 @@ class Examination {
                 skeleton.parents[map_.jointOf(*role)] == skeleton.parents[map_.jointOf(*above)] || isSpine(*role);
             const bool built = (hanging == animation::Hanging::beside &&
                                 (flat || (center ? anyPair || siblings : sidesHangBeside(skeleton, role, above)))) ||
-                               (hanging == animation::Hanging::reversed && isSpine(*role) && *above == Role::hips &&
-                                carriesLegsAlone(skeleton));
+                               (hanging == animation::Hanging::reversed && carriesLegsAlone(skeleton) &&
+                                (*role == Role::head || (isSpine(*role) && *above == Role::hips)));
             astray_ += built ? 0 : 1;
             diagnosis.findings.push_back({built ? Severity::warning : Severity::error, "joint-not-below", link(c),
                                           fmt::format("the joint \"{}\" {} \"{}\"", skeleton.names[map_.jointOf(*role)],

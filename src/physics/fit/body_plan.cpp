@@ -245,14 +245,16 @@ void findSegmentEnd(PlannedBody& body, const Character& character, const Humanoi
     body.endsAtJoint = true;
 }
 
-// Crown minus sole: from the skin of the head (or of the trunk, where there is none) and of the legs, else from the
+// Crown minus sole: from the skin of the head (or of the trunk, where it has none) and of the legs, else from the
 // joints (the head joint of a man lies at 0.89 of his height, the ankle at 0.05: hence the factor).
 float figureHeight(const BodyPlan& plan, float jointSpanM) {
     std::vector<SkinPoint> low;
     std::vector<SkinPoint> high;
+    const int head = plan.bodyOf(Role::head);
+    const bool headHasSkin = head >= 0 && !plan.bodies[head].skin.empty();
     for (const PlannedBody& body : plan.bodies) {
         if (!body.role) continue;
-        if (body.role == Role::head || (plan.bodyOf(Role::head) < 0 && body.side == animation::Side::center)) {
+        if (body.role == Role::head || (!headHasSkin && body.side == animation::Side::center)) {
             high.insert(high.end(), body.skin.begin(), body.skin.end());
         }
         if (isLeg(body.role)) low.insert(low.end(), body.skin.begin(), body.skin.end());

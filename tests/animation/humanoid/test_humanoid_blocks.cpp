@@ -93,4 +93,24 @@ TEST_CASE("blocks that stand on all fours are an animal with the names of a man"
     CHECK_FALSE(animation::mapHumanoid(withoutNames(animal)).humanoid);
 }
 
+TEST_CASE("blocks with names whose arms reach the ground beside short legs are a figure", "[blocks]") {
+    // Its mesh has the name of an arm, too.
+    const std::vector<JointSpec> joints{
+        {"arm.left", -1, {0, 0, 0}},       {"body.top", 0, {0, 0.543F, 0}},       {"head", 1, {0, 0.972F, 0}},
+        {"nose", 2, {0, 1.277F, -0.329F}}, {"arm.right", 1, {0.551F, 0.866F, 0}}, {"arm.left", 1, {-0.549F, 0.866F, 0}},
+        {"body.low", 1, {0, 0.542F, 0}},   {"leg.right", 6, {0.216F, 0.312F, 0}}, {"leg.left", 6, {-0.216F, 0.31F, 0}}};
+    std::vector<TubeSpec> skin{
+        {1, {0, 0.95F, 0}, 0.4F}, {2, {0, 1.7F, 0}, 0.35F}, {3, {0, 1.277F, -0.45F}, 0.08F}, {6, {0, 0.35F, 0}, 0.35F}};
+    for (const int joint : {4, 5, 7, 8}) {
+        const vec3 place = joints[static_cast<std::size_t>(joint)].position;
+        skin.push_back({joint, {place.x, 0, 0}, 0.12F});
+    }
+    const HumanoidMap map = animation::mapHumanoid(makeFigure("agent", joints, skin));
+    INFO((map.warnings.empty() ? std::string() : map.warnings.front()));
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(Role::leftUpperArm) == 5);
+    CHECK(map.jointOf(Role::leftUpperLeg) == 8);
+    CHECK(map.jointOf(Role::head) == 2);
+}
+
 }  // namespace lutka::test

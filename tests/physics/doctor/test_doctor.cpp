@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "animation/humanoid/map_humanoid.hpp"
 #include "physics/collision/shape.hpp"
 #include "physics/fit/fit_ragdoll.hpp"
 #include "physics/fit/rebind.hpp"
@@ -216,6 +217,35 @@ TEST_CASE("a trunk that carries its hips is the rig's way, hips that carry an ar
     const Diagnosis broken = p.look();
     REQUIRE(find(broken, "joint-not-below") != nullptr);
     CHECK(find(broken, "joint-not-below")->severity == Severity::error);
+}
+
+TEST_CASE("a head that the whole trunk hangs on is the rig's way") {
+    std::vector<test::JointSpec> joints{
+        {"head", -1, {0, 1.56F, 0}}, {"chest", 0, {0, 0.9F, 0}}, {"hips", 1, {0, 0.43F, 0}}};
+    std::vector<test::TubeSpec> skin{{0, {0, 1.15F, 0}, 0.4F}, {1, {0, 0.5F, 0}, 0.12F}, {2, {0, 0.38F, 0}, 0.12F}};
+    const auto add = [&](const std::string& name, int parent, const vec3& place, const vec3& end) {
+        joints.push_back({name, parent, place});
+        skin.push_back({static_cast<int>(joints.size()) - 1, end, 0.05F});
+        return static_cast<int>(joints.size()) - 1;
+    };
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string end = side > 0.0F ? ".L" : ".R";
+        const auto at = [&](float x, float y, float z = 0.0F) { return vec3(side * x, y, z); };
+        const int arm = add("upperarm" + end, 1, at(0.12F, 0.85F), at(0.28F, 0.8F));
+        add("hand" + end, add("forearm" + end, arm, at(0.29F, 0.8F), at(0.44F, 0.76F)), at(0.45F, 0.75F),
+            at(0.55F, 0.7F));
+        const int thigh = add("thigh" + end, 2, at(0.12F, 0.43F), at(0.15F, 0.26F));
+        add("foot" + end, add("shin" + end, thigh, at(0.16F, 0.25F), at(0.19F, 0.06F)), at(0.2F, 0.05F),
+            at(0.2F, 0.02F, 0.2F));
+    }
+    const animation::Character figure = test::makeFigure("figure", joints, skin);
+    const animation::HumanoidMap map = animation::mapHumanoid(figure);
+    REQUIRE(map.jointOf(Role::head) == 0);
+    const Diagnosis diagnosis = diagnose(fitRagdoll(figure, map).value(), figure, map);
+    REQUIRE(find(diagnosis, "joint-not-below") != nullptr);
+    for (const Finding& finding : diagnosis.findings) {
+        if (finding.code == "joint-not-below") CHECK(finding.severity == Severity::warning);
+    }
 }
 
 TEST_CASE("a part that hangs below its own body, but through another limb, is an error") {

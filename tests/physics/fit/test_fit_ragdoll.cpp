@@ -450,3 +450,23 @@ TEST_CASE("a weapon that an arm holds makes no arm thicker") {
     CHECK(armed.radius == Approx(unarmed.radius).margin(0.005));
     CHECK(armed.halfLength == Approx(unarmed.halfLength).margin(0.01));
 }
+
+TEST_CASE("a head whose joint moves less of every vertex than the body does counts to the height") {
+    const std::vector<test::JointSpec> joints{{"Body", -1, {0, 0.75F, 0}},        {"Head", 0, {0, 1.5F, 0}},
+                                              {"Arm_Left", 0, {0.33F, 1.4F, 0}},  {"Arm_Right", 0, {-0.33F, 1.4F, 0}},
+                                              {"Leg_Left", 0, {0.12F, 0.75F, 0}}, {"Leg_Right", 0, {-0.12F, 0.75F, 0}}};
+    std::vector<test::TubeSpec> skin{{0, {0, 1.5F, 0}, 0.2F}, {1, {0, 2.1F, 0}, 0.2F}};
+    for (const int joint : {2, 3, 4, 5})
+        skin.push_back({joint, joints[static_cast<std::size_t>(joint)].position - vec3(0, 0.75F, 0), 0.1F});
+    animation::Character figure = test::makeFigure("blocks", joints, skin);
+    for (animation::SkinnedMesh& mesh : figure.meshes) {
+        for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
+            if (mesh.joints[vertex][0] != 1) continue;
+            mesh.joints[vertex] = {0, 1, 0, 0};
+            mesh.weights[vertex] = {0.6F, 0.4F, 0, 0};
+        }
+    }
+    const animation::HumanoidMap map = animation::mapHumanoid(figure);
+    REQUIRE(map.humanoid);
+    CHECK(fitRagdoll(figure, map, {}).value().heightM == Approx(2.1).margin(0.1));
+}
