@@ -94,7 +94,7 @@ TEST_CASE("figures of any proportions get up: short legs, a large head, a heavy 
             CHECK(up.stood >= kDolls - 1);
             CHECK(up.begun <= kDolls + 2);
             CHECK(up.mostSlideM <= 0.05F);
-            CHECK(up.mostStepDeg <= 10.5F);  // 10.3 once in 40 runs of twenty falls: it depends on how each lies
+            CHECK(up.mostStepDeg <= 10.0F);
             CHECK(simulation->quality().nonFinite == 0);
             const vec3 up3 = glm::conjugate(asset->profile.standardFromModel) * vec3(0, 1, 0);
             const float standing = scene::figureOf(*asset).bounds.low.y;

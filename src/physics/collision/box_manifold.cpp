@@ -63,16 +63,32 @@ void clipOnFace(const BoxPlace& reference, int axis, const vec3& outward, const 
     }
 }
 
-// The edge of `box` along `axis` that reaches farthest in a direction.
-Segment edgeTowards(const BoxPlace& box, int axis, const vec3& direction) {
+// An edge of a box, and which of the two it is where two reach as far: 0 or 1.
+struct Edge {
+    Segment ends;
+    int side;
+};
+
+// The edges of `box` along `axis` that reach farthest in a direction: one, or both of a face that looks nearly that
+// way. Of these one or the other reaches farther by a breath. Returns how many there are.
+int edgesTowards(const BoxPlace& box, int axis, const vec3& direction, Edge (&out)[2]) {
+    constexpr float kFlat = 0.2F;  // sine
     const vec3 along = direction * box.axes;
-    vec3 middle(0);
-    for (int side = 0; side < 3; ++side) {
-        if (side != axis) middle[side] = along[side] > 0.0F ? box.halfExtents[side] : -box.halfExtents[side];
-    }
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
+    const int across = std::abs(along[u]) < std::abs(along[v]) ? u : v;  // the face's other direction
+    const int count = std::abs(along[across]) < kFlat ? 2 : 1;
     vec3 half(0);
     half[axis] = box.halfExtents[axis];
-    return {box.position + box.axes * (middle - half), box.position + box.axes * (middle + half)};
+    for (int i = 0; i < count; ++i) {
+        vec3 middle(0);
+        for (const int side : {u, v})
+            middle[side] = along[side] > 0.0F ? box.halfExtents[side] : -box.halfExtents[side];
+        if (i == 1) middle[across] = -middle[across];
+        out[i] = {{box.position + box.axes * (middle - half), box.position + box.axes * (middle + half)},
+                  middle[across] > 0.0F ? 1 : 0};
+    }
+    return count;
 }
 
 // Where two edges touch: found(s, t, index), parameters along both. Edges that cross do so where they are nearest. Of
@@ -155,13 +171,25 @@ BoxManifold touchBoxes(const BoxPlace& a, const BoxPlace& b, float reach) {
         clipOnFace(b, axis.faceOfB, axis.normal, a, reach,
                    [&](const vec3& onB, const vec3& onA, float distance, int i) { add(onA, onB, distance, kOfB + i); });
     } else {
-        const Segment ofA = edgeTowards(a, axis.edgeOfA, -axis.normal);
-        const Segment ofB = edgeTowards(b, axis.edgeOfB, axis.normal);
-        const int feature = kOfEdges + 3 * axis.edgeOfA + axis.edgeOfB;
-        touchEdges(ofA, ofB, [&](float s, float t, int end) {
-            const float distance = glm::dot(axis.normal, ofA.at(s) - ofB.at(t));
-            add(inBox(a, ofA.at(s)), inBox(b, ofB.at(t)), distance, feature + end * kEdgePairs);
-        });
+        Edge ofA[2];
+        Edge ofB[2];
+        const int countA = edgesTowards(a, axis.edgeOfA, -axis.normal, ofA);
+        const int countB = edgesTowards(b, axis.edgeOfB, axis.normal, ofB);
+        const auto touch = [&](const Edge& edgeA, const Edge& edgeB, bool isFarthest) {
+            const int which = 2 * edgeA.side + 4 * edgeB.side;
+            touchEdges(edgeA.ends, edgeB.ends, [&](float s, float t, int end) {
+                const vec3 between = edgeA.ends.at(s) - edgeB.ends.at(t);
+                const float distance = glm::dot(axis.normal, between);
+                // Those that reach less far touch only where they cross.
+                const bool crosses = glm::distance(between, distance * axis.normal) < kSamePlace;
+                if (!isFarthest && (distance > reach || !crosses)) return;
+                const int feature = kOfEdges + 3 * axis.edgeOfA + axis.edgeOfB + (end + which) * kEdgePairs;
+                add(inBox(a, edgeA.ends.at(s)), inBox(b, edgeB.ends.at(t)), distance, feature);
+            });
+        };
+        touch(ofA[0], ofB[0], true);
+        if (countA > 1) touch(ofA[1], ofB[0], false);
+        if (countB > 1) touch(ofA[0], ofB[1], false);
     }
     return manifold;
 }

@@ -36,7 +36,7 @@ struct BoxManifold {
         float distance = 0.0F;  ///< Metres along the normal; negative: the depth.
         int feature = 0;        ///< In [0, kFeatures).
     };
-    static constexpr int kFeatures = 64;
+    static constexpr int kFeatures = 96;
 
     vec3 normal{0, 1, 0};  ///< Unit, from B to A.
     std::array<Point, 8> points;
@@ -45,8 +45,8 @@ struct BoxManifold {
 
 /// One normal for all points: that of the least overlap. Of a face they are the corners of the other box's face,
 /// clipped by its sides, that lie below it or less than `reach` metres above; of two edges it is where they are
-/// nearest, or both ends of what they share where they are nearly parallel. Empty where the boxes are kSamePlace or
-/// more apart.
+/// nearest, or both ends of what they share where they are nearly parallel, and the same of the edge on the other side
+/// of a face that lies across the other's edge. Empty where the boxes are kSamePlace or more apart.
 [[nodiscard]] BoxManifold touchBoxes(const BoxPlace& a, const BoxPlace& b, float reach);
 
 }  // namespace lutka::physics

@@ -113,8 +113,8 @@ class JobSubstep {
             forViews([&](const BatchView& view) { kernels.solve(view, params_, 0); });
             ++answered;
         }
-        if (answered > 0) forViews([&](const BatchView& view) { kernels.limitEnergy(view); });
         holdOutrun();
+        if (answered > 0) forViews([&](const BatchView& view) { kernels.limitEnergy(view); });
         for (const Batch* batch : job_.batches)
             job_.motorWork += workOfMotors(*batch);
         for (const Batch* batch : job_.batches)

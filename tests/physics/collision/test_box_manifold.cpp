@@ -1,8 +1,10 @@
 #include "physics/collision/box_manifold.hpp"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <random>
+#include <vector>
 
 #include "physics/collision/shape_distance.hpp"
 #include "support/catch.hpp"
@@ -126,4 +128,32 @@ TEST_CASE("edges that cross touch in one point across both") {
     REQUIRE(crossed.count == 1);
     CHECK(crossed.normal.y == Approx(1.0F));
     CHECK(crossed.points[0].distance == Approx(-0.01F).margin(1e-5));
+}
+
+TEST_CASE("a bar that lies across an edge touches it with both its own edges, whichever way it is rolled") {
+    const BoxPlace step{{1, 0.5F, 0.5F}, {0, -0.5F, -0.5F}, mat3(1)};
+    const vec3 out = glm::normalize(vec3(0, 1, 1));
+    const mat3 across(vec3(1, 0, 0), glm::normalize(vec3(0, 1, -1)), -out);
+    std::vector<std::vector<int>> features;
+    for (const float roll : {-0.02F, -0.01F, 0.01F, 0.02F}) {
+        CAPTURE(roll);
+        const mat3 rolled = glm::mat3_cast(glm::angleAxis(roll, across[1])) * across;
+        const BoxPlace bar{{0.04F, 0.2F, 0.04F}, 0.035F * out, rolled};
+        for (const bool swapped : {false, true}) {
+            const BoxManifold found = swapped ? touchBoxes(step, bar, kReach) : touchBoxes(bar, step, kReach);
+            REQUIRE(found.count == 2);
+            CHECK(std::abs(glm::dot(found.normal, out)) > 0.999F);
+            // One at either side; each deep by what it is in the step.
+            const auto onBar = [&](int i) { return swapped ? found.points[i].onB : found.points[i].onA; };
+            CHECK(onBar(0).x * onBar(1).x < 0.0F);
+            for (int i = 0; i < 2; ++i)
+                CHECK(found.points[i].distance == Approx(-0.005F).margin(0.001));
+            std::vector<int> both{found.points[0].feature, found.points[1].feature};
+            std::sort(both.begin(), both.end());
+            features.push_back(both);
+        }
+    }
+    // What each has pressed with finds its way from one moment to the next.
+    for (std::size_t i = 2; i < features.size(); ++i)
+        CHECK(features[i] == features[i - 2]);
 }
