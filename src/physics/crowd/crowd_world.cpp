@@ -74,7 +74,10 @@ class CrowdWorld final : public World {
     void removePropAt(int prop) override;
     void removeDollAt(int doll) override;
     void advance(float dt, const std::function<void()>& afterSubstep) override;
-    void useSubsteps(int substeps) override { state_.tuning.substeps = substeps; }
+    void useSubsteps(int substeps) override {
+        state_.tuning.substeps = substeps;
+        state_.settings.substeps = substeps;  // told: no small doll that comes later raises it
+    }
     void setBodiesAt(int doll, std::span<const BodyState> bodies) override;
     void wakeAt(int doll) override { wakeDoll(state_.ragdolls[doll]); }
     [[nodiscard]] DollState dollStateAt(int doll) const override;

@@ -81,6 +81,11 @@ void findPaired(CrowdState& state) {
 
 }  // namespace
 
+bool isHeap(const Job& job) {
+    const auto isJointed = [](const Topology* topology) { return !topology->joints.empty(); };
+    return std::count_if(job.topologies.begin(), job.topologies.end(), isJointed) > 1;
+}
+
 void makeJobs(CrowdState& state) {
     assignBatches(state);
     findPaired(state);

@@ -8,6 +8,10 @@ namespace lutka::physics::crowd {
 /// of lanes in which no body comes twice.
 void makeJobs(CrowdState& state);
 
+/// Whether dolls of several batches touch: what presses one of them then is many others. Props, which answer nothing,
+/// make no heap, and dolls of a single batch may be far from each other.
+[[nodiscard]] bool isHeap(const Job& job);
+
 /// Calls work(job) for all jobs: small ones side by side, then the large ones, each of which uses all threads itself.
 template <class Work>
 void forJobs(CrowdState& state, const Work& work) {

@@ -69,12 +69,6 @@ void findStaticsAgain(CrowdState& state, Batch& batch, const Topology& topology,
     if (state.settings.contactReports) openSums(batch);
 }
 
-// Whether dolls of several batches touch. Props, which answer nothing, make no heap.
-bool isHeap(const Job& job) {
-    const auto isJointed = [](const Topology* topology) { return !topology->joints.empty(); };
-    return std::count_if(job.topologies.begin(), job.topologies.end(), isJointed) > 1;
-}
-
 // One job's substep.
 class JobSubstep {
   public:

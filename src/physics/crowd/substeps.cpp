@@ -112,9 +112,9 @@ void setSubsteps(CrowdState& state, Job& job) {
     }
     // One hand that twitches in a heap at rest would have all of it take twice the time. Where dolls lie deep in each
     // other, all substeps are needed to push them apart.
-    // Dolls of a single batch may be far from each other, and what muscles and pulls drive needs its own.
+    // What muscles and pulls drive needs its own.
     const bool spares =
-        job.batches.size() > 1 && !isDriven &&
+        isHeap(job) && !isDriven &&
         static_cast<float>(job.deepTouches) <= tuning.deepShare * static_cast<float>(job.touches.size());
     int left = spares ? static_cast<int>(tuning.spared * static_cast<float>(dolls)) : 0;
     int more = 0;  // dolls that need more than one substep less

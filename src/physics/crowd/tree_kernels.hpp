@@ -421,9 +421,7 @@ static void solve(const BatchView& batch, const SubstepParams& params, int first
     solveAll(batch, params, first != 0 ? Solving::first : Solving::answer);
     showMotions(batch);
     if (first != 0) return;
-    constexpr float kShare = 0.01F;
-    constexpr float kJoules = 0.2F;
-    showRises(batch, answersItself(batch) & (keptEnergy(batch) > before * all(1.0F + kShare) + all(kJoules)));
+    showRises(batch, answersItself(batch) & gainsOver(keptEnergy(batch), before));
 }
 
 static void solveAgain(const BatchView& batch, const SubstepParams& params) {

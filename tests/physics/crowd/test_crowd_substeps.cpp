@@ -56,6 +56,13 @@ TEST_CASE("a world with a small figure has as many more substeps as that is smal
     CHECK(substepsWith(0.375F, std::nullopt) == 2 * own);
     CHECK(substepsWith(0.01F, std::nullopt) == 4 * own);
     CHECK(substepsWith(0.01F, 5) == 5);
+    // Told later is told as well.
+    const auto world = createCrowdWorld(WorldSettings{});
+    world->setSubsteps(4);
+    physics::RagdollProfile rod = makeRod(0.2F, 0.05F, 2.0F);
+    rod.heightM = 0.01F;
+    world->addDoll(rod, std::vector<physics::BodyState>(1, physics::BodyState{}));
+    CHECK(world->substepsPerStep() == 4);
 }
 
 TEST_CASE("a few dolls of a calm heap may have fewer substeps than they need, unless many lie deep in each other") {
