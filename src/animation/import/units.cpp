@@ -96,9 +96,10 @@ void settleUp(const SourceConvention& convention, const Extents& box, const Impo
         out.info.upSource = convention.up ? convention.upSource : "assumed";
         if (const auto other = contradictingUp(box, up)) {
             warnings.push_back(
-                fmt::format("{} is up according to {}, but the figure lies flat that way and stands along "
-                            "{}, which is taken instead (--up overrides)",
-                            nameOf(up), out.info.upSource, nameOf(*other)));
+                fmt::format("{} is up {}, but the figure lies flat that way and stands along {}, which is taken "
+                            "instead (--up overrides)",
+                            nameOf(up), convention.up ? "according to " + convention.upSource : "as nothing is stated",
+                            nameOf(*other)));
             up = *other;
             out.info.upSource = "the figure";
         }
