@@ -224,7 +224,20 @@ namespace {
 // m/s: what is stopped from that speed within a step lets the other bodies of its doll come nearer by as much.
 constexpr float kHardHit = 5.0F;
 
-// The lanes whose limp doll is about to hit static geometry hard.
+// Notes which dolls a prop may hit hard in this step.
+void findStruck(CrowdState& state) {
+    if (state.props.empty()) return;
+    for (Doll& doll : state.dolls)
+        doll.struckHard = false;
+    for (const auto& [a, b] : state.dollPairs) {
+        Doll &first = state.dolls[a], &second = state.dolls[b];
+        if ((first.profile == nullptr) == (second.profile == nullptr)) continue;
+        Doll& doll = first.profile == nullptr ? second : first;
+        doll.struckHard = doll.struckHard || glm::distance(first.rootVelocity, second.rootVelocity) > kHardHit;
+    }
+}
+
+// The lanes whose limp doll is about to hit static geometry or to be hit by a prop hard.
 unsigned hardHits(const CrowdState& state, const Batch& batch, float dt) {
     unsigned hits = 0;
     const auto isFast = [&](int lane) {
@@ -236,6 +249,8 @@ unsigned hardHits(const CrowdState& state, const Batch& batch, float dt) {
     for (const NearMotion& at : batch.nearMotions)
         if (isFast(at.lane)) add(at.lane, glm::length(at.velocity));
     for (int lane = 0; lane < batch.used; ++lane) {
+        const Doll& doll = state.dolls[batch.doll[lane]];
+        if (doll.struckHard && doll.motors == 0) hits |= 1U << static_cast<unsigned>(lane);
         if (!isFast(lane)) continue;
         for (const StaticContactLanes& contact : batch.contacts) {
             if (contact.key[lane] == 0) continue;
@@ -470,6 +485,7 @@ void findContacts(CrowdState& state, float dt) {
     if (state.selfTouches.size() < state.active.size()) state.selfTouches.resize(state.active.size());
     placeNearDolls(state);
     keepNearBodies(state);
+    findStruck(state);
     state.inParallel(state.active.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             Batch& batch = *state.active[i];

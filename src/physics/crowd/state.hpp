@@ -55,6 +55,7 @@ struct Doll {
     float restSeconds = 0.0F;       ///< For how long it has been below the sleeping speeds.
     std::int64_t island = -1;       ///< Dolls that fell asleep together share a number; they wake together.
     bool touching = false;          ///< Whether anything held it in the last step.
+    bool struckHard = false;        ///< Whether a fast prop may hit it in this step.
     int motors = 0;                 ///< How many of its joints have one.
     vec3 low{0, 0, 0};              ///< Bounds for the step as seen from the root: see Kernels::findBounds.
     vec3 high{0, 0, 0};

@@ -50,6 +50,51 @@ std::vector<BodyState> placedPair(const physics::RagdollProfile& pair, const qua
     return bodies;
 }
 
+// A trunk along x and limbs side by side at its end: the first of 0.4 kg, the others of 10, `apart` metres beside it to
+// each of the `sides`.
+struct Limbs {
+    physics::RagdollProfile doll;
+    std::vector<BodyState> bodies;
+};
+Limbs besideEachOther(const std::vector<float>& sides, float apart) {
+    Limbs limbs{makePair(physics::ConeTwistLimits{radians(60), radians(60), radians(60)}, 10.0F), {}};
+    physics::RagdollProfile& doll = limbs.doll;
+    doll.bodies[0].massKg = 30.0F;
+    const physics::BodyProfile limb = doll.bodies[1];
+    const physics::ConstraintProfile joint = doll.constraints[0];
+    doll.bodies[1].massKg = 0.4F;
+    for (const float side : sides) {
+        doll.constraints.push_back(joint);
+        doll.constraints.back().child = static_cast<int>(doll.bodies.size());
+        doll.constraints.back().parentFromFrame =
+            joint.parentFromFrame * RigidTransform{quat(1, 0, 0, 0), {0, side * apart, 0}};
+        doll.bodies.push_back(limb);
+    }
+    doll.totalMassKg = 0.0F;
+    for (const physics::BodyProfile& body : doll.bodies) {
+        doll.totalMassKg += body.massKg;
+        limbs.bodies.push_back({});
+        limbs.bodies.back().worldFromBody = body.jointFromBody;
+    }
+    for (std::size_t i = 0; i < sides.size(); ++i)
+        limbs.bodies[i + 2].worldFromBody.translation.y += sides[i] * apart;
+    return limbs;
+}
+
+// How deep the light limb of the first doll goes into the others at most, metres.
+float deepestLimb(physics::World& world, const physics::RagdollProfile& doll, float seconds) {
+    float deepest = 0.0F;
+    for (int i = 0; static_cast<float>(i) * kStep < seconds; ++i)
+        world.step(kStep, [&] {
+            const std::vector<BodyState> now = bodiesOf(world, 0);
+            for (std::size_t other = 2; other < now.size(); ++other)
+                deepest =
+                    std::max(deepest, -physics::distanceBetween(doll.bodies[1].shape, now[1].worldFromBody,
+                                                                doll.bodies[other].shape, now[other].worldFromBody));
+        });
+    return deepest;
+}
+
 }  // namespace
 
 TEST_CASE("a dropped doll stays within the bounds of a single doll") {
@@ -388,41 +433,36 @@ TEST_CASE("a light limb between two heavy ones that overlap it is not thrown to 
 }
 
 TEST_CASE("a light limb between two heavy ones of its own doll is not thrown out of the one into the other") {
-    // Three limbs side by side at the end of a trunk, the middle one light and in both others.
     const float overlap = GENERATE(0.01F, 0.02F, 0.03F);
     CAPTURE(overlap);
-    physics::RagdollProfile doll = makePair(physics::ConeTwistLimits{radians(60), radians(60), radians(60)}, 10.0F);
-    doll.bodies[0].massKg = 30.0F;
-    const physics::BodyProfile limb = doll.bodies[1];
-    const physics::ConstraintProfile joint = doll.constraints[0];
-    doll.bodies[1].massKg = 0.4F;
-    for (const float side : {-1.0F, 1.0F}) {
-        doll.constraints.push_back(joint);
-        doll.constraints.back().child = static_cast<int>(doll.bodies.size());
-        doll.constraints.back().parentFromFrame =
-            joint.parentFromFrame * RigidTransform{quat(1, 0, 0, 0), {0, side * (0.1F - overlap), 0}};
-        doll.bodies.push_back(limb);
-    }
-    doll.totalMassKg = 50.4F;
-    std::vector<BodyState> bodies(doll.bodies.size());
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-        bodies[i].worldFromBody = doll.bodies[i].jointFromBody;
-    bodies[2].worldFromBody.translation.y -= 0.1F - overlap;
-    bodies[3].worldFromBody.translation.y += 0.1F - overlap;
+    Limbs limbs = besideEachOther({-1.0F, 1.0F}, 0.1F - overlap);
     // In the one by a little more than in the other.
-    bodies[1].worldFromBody = RigidTransform{glm::angleAxis(0.01F, vec3(0, 0, 1)), vec3(0)} * bodies[1].worldFromBody;
+    RigidTransform& light = limbs.bodies[1].worldFromBody;
+    light = RigidTransform{glm::angleAxis(0.01F, vec3(0, 0, 1)), vec3(0)} * light;
     WorldSettings settings;
     settings.gravity = vec3(0);
     const auto world = createCrowdWorld(settings);
-    world->addDoll(doll, bodies);
+    world->addDoll(limbs.doll, limbs.bodies);
+    // 2.4 times the overlap where each pushes back what the other has pushed.
+    CHECK(deepestLimb(*world, limbs.doll, 0.5F) < overlap + 0.012F);
+}
+
+TEST_CASE("a light limb that a fast ball drives into another of its doll is met by that") {
     float deepest = 0.0F;
-    for (int i = 0; i < 30; ++i)
-        world->step(kStep, [&] {
-            const std::vector<BodyState> now = bodiesOf(*world, 0);
-            for (const int other : {2, 3})
-                deepest =
-                    std::max(deepest, -physics::distanceBetween(doll.bodies[1].shape, now[1].worldFromBody,
-                                                                doll.bodies[other].shape, now[other].worldFromBody));
-        });
-    CHECK(deepest < overlap + 0.012F);  // 2.4 times the overlap where each pushes back what the other has pushed
+    for (float away = 0.2F; away < 0.4F; away += 0.015F) {
+        const Limbs limbs = besideEachOther({-1.0F}, 0.14F);
+        WorldSettings settings;
+        settings.gravity = vec3(0);
+        const auto world = createCrowdWorld(settings);
+        world->addDoll(limbs.doll, limbs.bodies);
+        physics::DynamicProp ball;
+        ball.shape.kind = physics::BodyShape::Kind::sphere;
+        ball.shape.radius = 0.1F;
+        ball.massKg = 4.0F;
+        ball.state.worldFromBody.translation = {0.3F, away, 0};
+        ball.state.linearVelocity = {0, -10, 0};
+        world->addProp(ball);
+        deepest = std::max(deepest, deepestLimb(*world, limbs.doll, 0.2F));
+    }
+    CHECK(deepest < 0.02F);
 }
