@@ -12,6 +12,7 @@
 namespace lutka::animation {
 namespace {
 
+constexpr float kHeldAway = 0.5F;          // of the spread
 constexpr float kMaxCost = 1.8F;           // of a pair found by position
 constexpr float kMaxError = 0.10F;         // of the mirrored position, of the spread
 constexpr float kMinSeparation = 0.012F;   // of the spread; nearer joints lie in the plane
@@ -47,6 +48,11 @@ class PairFinder {
             if (parent == kNoJoint) continue;
             // Held or worn on one side, as a rule.
             if (rig_.hangsRigidlyOnSkin(joint) && !rig_.rigidPart[parent]) continue;
+            // So are chains without skin that reach far from a joint with skin: a sword whose mesh is no part of the
+            // figure. The mark of a bone's end is none.
+            if (!rig_.carriesSkin(joint) && rig_.directWeight[parent] > 0.0F && !rig_.children[joint].empty() &&
+                glm::distance(framed_.positions[joint], framed_.positions[parent]) > kHeldAway * framed_.spread)
+                continue;
             centroids_[parent] += centroids_[joint];
             sizes_[parent] += sizes_[joint];
         }

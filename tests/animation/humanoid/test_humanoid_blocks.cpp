@@ -113,4 +113,33 @@ TEST_CASE("blocks with names whose arms reach the ground beside short legs are a
     CHECK(map.jointOf(Role::head) == 2);
 }
 
+TEST_CASE("joints without skin of a sword in one hand cost the other arm nothing", "[blocks]") {
+    // It faces +X; its names are Turkish.
+    const std::vector<JointSpec> joints{{"Armature", -1, {0, 0, 0}},
+                                        {"Bel", 0, {0, 0, 0}},
+                                        {"Gogus", 1, {0, 0.44F, 0}},
+                                        {"Bone_002", 2, {0, 0.875F, 0}},
+                                        {"SagKol", 3, {0, 0.656F, -0.219F}},
+                                        {"Bone_003", 2, {0, 0.875F, 0}},
+                                        {"SolKol", 5, {0, 0.656F, 0.219F}},
+                                        {"Cube_001", 6, {0.67F, -0.125F, -0.437F}},
+                                        {"Icosphere", 7, {0.215F, 0.19F, -0.407F}},
+                                        {"Kafa", 2, {0, 0.875F, 0}},
+                                        {"Bone_007", 0, {0, 0, 0}},
+                                        {"Bone_008", 10, {0, 0, -0.109F}},
+                                        {"Bone_009", 11, {0, -0.219F, -0.109F}},
+                                        {"Bone_010", 0, {0, 0, 0}},
+                                        {"Bone_011", 13, {0, 0, 0.109F}},
+                                        {"Bone_012", 14, {0, -0.219F, 0.109F}}};
+    const std::vector<TubeSpec> skin{
+        {1, {0, 0.4F, 0}, 0.2F},          {2, {0, 0.85F, 0}, 0.2F},        {4, {0, 0.656F, -0.85F}, 0.1F},
+        {6, {0, 0.656F, 0.85F}, 0.1F},    {9, {0, 1.3F, 0}, 0.2F},         {11, {0, -0.21F, -0.109F}, 0.1F},
+        {12, {0, -0.43F, -0.109F}, 0.1F}, {14, {0, -0.21F, 0.109F}, 0.1F}, {15, {0, -0.43F, 0.109F}, 0.1F}};
+    const HumanoidMap map = animation::mapHumanoid(makeFigure("swordsman", joints, skin));
+    INFO((map.warnings.empty() ? std::string() : map.warnings.front()));
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(Role::leftUpperArm) == 6);
+    CHECK(map.jointOf(Role::rightUpperArm) == 4);
+}
+
 }  // namespace lutka::test
