@@ -94,7 +94,8 @@ static void pressRest(const PairsView& view) {
         PairVelocities v{first3(a), second3(a), first3(b), second3(b)};
         pushRest(pair, bodies, v, load(pair.normal) * push, push);
         // Their dolls have to answer.
-        const F pressed = push != zero ? all(1.0F) : zero;
+        const F by = strikes(pair) ? all(Pressed::byDoll) : all(Pressed::within);
+        const F pressed = push != zero ? by : zero;
         writeNoted(bodies, pair.bodyA, kPressedColumn, a, v.velocityA, v.angularA, pressed);
         writeNoted(bodies, pair.bodyB, kPressedColumn, b, v.velocityB, v.angularB, pressed);
     }

@@ -384,7 +384,8 @@ static int mendPairs(const PairsView& view, const SubstepParams& params, int swe
         const Mask gathers = strikes(pair);
         const F wanted = mendSpeed(pair, params) * (gathers ? all(1.0F) : eagerness(pair, params.mendRate));
         const F asked = overlaps ? wanted : -most(load(pair.separation), zero) * all(params.inverseDt);
-        const F before = sweep > 0 ? load(pair.carriedNormal) : zero;
+        // The first sweep skips what does not overlap, and leaves its record of another kind there.
+        const F before = (sweep > 0 ? gathers & overlaps : noLanes()) ? load(pair.carriedNormal) : zero;
         const F total = most(before - load(pair.normalMass) * (dot(normal, slidingOf(pair, v)) - asked), zero);
         const F size = mends ? total - before : zero;
         store(pair.carriedNormal, gathers & overlaps ? total : zero);  // is free again

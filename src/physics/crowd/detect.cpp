@@ -226,9 +226,9 @@ constexpr float kHardHit = 5.0F;
 
 // Notes which dolls a prop may hit hard in this step.
 void findStruck(CrowdState& state) {
-    if (state.props.empty()) return;
     for (Doll& doll : state.dolls)
         doll.struckHard = false;
+    if (state.props.empty()) return;
     for (const auto& [a, b] : state.dollPairs) {
         Doll &first = state.dolls[a], &second = state.dolls[b];
         if ((first.profile == nullptr) == (second.profile == nullptr)) continue;

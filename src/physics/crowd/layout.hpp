@@ -57,12 +57,18 @@ struct Struck {
     static constexpr float byDoll = 1.0F;
 };
 
+/// By which contacts a body was pressed again since its doll has last answered, as a number of a lane; 0 for none.
+struct Pressed {
+    static constexpr float within = 1.0F;  ///< Those of its own doll.
+    static constexpr float byDoll = 2.0F;
+};
+
 /// One body of one doll as pair contacts see it: what they push. A register's worth, so that eight bodies of any dolls
 /// are read by eight loads and a transposition. Begun anew in every substep from BodyLanes, and taken in there.
 struct alignas(32) BodyMotion {
     float velocity[3];
     float angular[3];
-    float pressed;  ///< 1 once a contact was pressed again since the doll has last answered; else 0.
+    float pressed;  ///< See Pressed.
     float struck;   ///< What else than its doll presses it, in this substep's first sweep: see Struck.
 };
 

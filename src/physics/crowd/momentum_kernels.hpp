@@ -9,7 +9,7 @@ namespace lutka::physics::crowd::LUTKA_KERNELS {
 // The lanes in which nothing holds the doll that the solver of joints took into account: no static contact, no drag, no
 // target. Nor does another doll press it.
 static Mask unheld(const BatchView& batch) {
-    Mask held = load(*batch.struck) > all(0.0F);
+    Mask held = load(*batch.struck) >= all(Struck::byDoll);
     for (int i = 0; i < batch.contactCount; ++i) {
         if (batch.contacts[i].engaged != 0) held |= load(batch.contacts[i].normalImpulse) > all(0.0F);
     }
@@ -76,7 +76,8 @@ static void limitEnergy(const BatchView& batch) {
     const F factor = gains ? least(share, all(1.0F)) : all(1.0F);
     for (int b = 0; b < batch.bodyCount; ++b) {
         BodyLanes& body = batch.bodies[b];
-        store(body.steadyVelocity, kept + (load(body.steadyVelocity) - kept) * factor);
+        const V3 velocity = load(body.steadyVelocity);
+        store(body.steadyVelocity, choose(gains, kept + (velocity - kept) * factor, velocity));
         store(body.steadyAngular, load(body.steadyAngular) * factor);
         body.velocity = body.steadyVelocity;
         body.angular = body.steadyAngular;

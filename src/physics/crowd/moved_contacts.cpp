@@ -19,13 +19,13 @@ float moved(const CrowdState& state, const PairTouch& touch, float seconds) {
                       glm::length(b.angularVelocity) * state.groupOf(dollB).topology.bodies[touch.bodyB].reach);
 }
 
-// Puts the contact's point where the shapes are nearest now; where they have no such point any more, nowhere.
-void refresh(const CrowdState& state, const PairTouch& touch, PairContactLanes& pair, int lane) {
-    constexpr float kRangeM = 0.3F;  // farther than a contact is foreseen
+// Puts the contact's point where the shapes are nearest now; where they have no such point within `range` metres,
+// nowhere.
+void refresh(const CrowdState& state, const PairTouch& touch, PairContactLanes& pair, int lane, float range) {
     const Doll& dollA = state.dolls[touch.dollA];
     const Doll& dollB = state.dolls[touch.dollB];
     Touches<BodyTouch> found = touchBodies(placedShape(state, dollA, touch.bodyA, touch.shapeA),
-                                           placedShape(state, dollB, touch.bodyB, touch.shapeB), kRangeM);
+                                           placedShape(state, dollB, touch.bodyB, touch.shapeB), range);
     const int index = indexOfKey(touch.carried.key);
     if (index >= found.count) {
         pair.radius.lane[lane] = -1.0F;
@@ -47,6 +47,7 @@ void refresh(const CrowdState& state, const PairTouch& touch, PairContactLanes& 
 
 void refreshMoved(CrowdState& state, const Job& job, float seconds) {
     constexpr float kMovedM = 0.003F;
+    constexpr float kRangeM = 0.3F;  // farther than a contact is foreseen of what does not move
     const auto hasOnlyCores = [](const Topology* topology) { return topology->hasOnlyCores(); };
     if (std::all_of(job.topologies.begin(), job.topologies.end(), hasOnlyCores)) return;
     for (std::size_t block = job.firstBlock; block < job.firstBlock + job.blockCount; ++block) {
@@ -56,7 +57,8 @@ void refreshMoved(CrowdState& state, const Job& job, float seconds) {
             const int index = state.touchOfLane[block][lane];
             if (follows || index < 0) continue;
             const PairTouch& touch = state.touches[index];
-            if (moved(state, touch, seconds) > kMovedM) refresh(state, touch, pair, lane);
+            const float motion = moved(state, touch, seconds);
+            if (motion > kMovedM) refresh(state, touch, pair, lane, kRangeM + motion);
         }
     }
 }

@@ -98,14 +98,13 @@ static void showRises(const BatchView& batch, const Mask& rises) {
                 (lanes >> static_cast<unsigned>(lane) & 1U) != 0 ? 1.0F : 0.0F;
 }
 
-// What pair contacts have made of the bodies' velocities: the lanes in which any was pressed again, and what else than
+// What pair contacts have made of the bodies' velocities: whether any was pressed again (Pressed), and what else than
 // the doll itself presses it (Struck).
 struct Taken {
-    Mask pressed;
-    F struck;
+    F pressed, struck;
 };
 static Taken takeMotions(const BatchView& batch) {
-    Taken taken{noLanes(), all(0.0F)};
+    Taken taken{all(0.0F), all(0.0F)};
     for (int i = 0; i < batch.pairedCount; ++i) {
         int index[kLanes];
         placesOf(batch, batch.paired[i], index);
@@ -113,7 +112,7 @@ static Taken takeMotions(const BatchView& batch) {
         BodyLanes& body = batch.bodies[batch.paired[i]];
         store(body.velocity, first3(motion));
         store(body.angular, second3(motion));
-        taken.pressed |= motion.column[kPressedColumn] > all(0.0F);
+        taken.pressed = most(taken.pressed, motion.column[kPressedColumn]);
         taken.struck = most(taken.struck, motion.column[kStruckColumn]);
     }
     return taken;

@@ -110,9 +110,8 @@ void setSubsteps(CrowdState& state, Job& job) {
             isDriven = isDriven || state.dolls[batch.doll[lane]].motors > 0;
         }
     }
-    // One hand that twitches in a heap at rest would have all of it take twice the time. Where dolls lie deep in each
-    // other, all substeps are needed to push them apart.
-    // What muscles and pulls drive needs its own.
+    // One hand that twitches in a heap at rest would have all of it take twice the time. But where dolls lie deep in
+    // each other, all substeps are needed to push them apart, and what muscles and pulls drive needs its own.
     const bool spares =
         isHeap(job) && !isDriven &&
         static_cast<float>(job.deepTouches) <= tuning.deepShare * static_cast<float>(job.touches.size());

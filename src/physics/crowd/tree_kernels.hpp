@@ -373,7 +373,7 @@ LUTKA_LANES Mask gainsOver(F has, F given) {
 }
 
 // The lanes that have more energy than what was done to their single bodies gave them, or than they began the substep
-// with where no other doll pushes. Rows that only hold take some away.
+// with where nothing else pushes. Rows that only hold take some away.
 static Mask gainsEnergy(const BatchView& batch) {
     if (batch.motors != nullptr || batch.targets != nullptr) return noLanes();
     const F loose = kineticEnergy(batch, &BodyLanes::loose, &BodyLanes::looseAngular);
@@ -384,7 +384,7 @@ static Mask gainsEnergy(const BatchView& batch) {
 static void solveAll(const BatchView& batch, const SubstepParams& params, Solving what) {
     const bool isFirst = what == Solving::first;
     gatherLoose(batch, isFirst);
-    const Mask alone = params.isHeap != 0 ? noLanes() : load(*batch.struck) <= all(0.0F);
+    const Mask alone = params.isHeap != 0 ? noLanes() : load(*batch.struck) < all(Struck::byDoll);
     Pass pass{false, all(isFirst ? 0.0F : 1.0F), !isFirst, noLanes(), load(batch.rest->stiction), noLanes(), alone};
     if (!guess(batch, params, what, pass, Fresh::since, true)) return;
     // Arms that are foreseen by what their own pushes give may turn a light limb faster and faster: one hand in some
@@ -408,7 +408,7 @@ static void solveAll(const BatchView& batch, const SubstepParams& params, Solvin
 
 static void solve(const BatchView& batch, const SubstepParams& params, int first) {
     const Taken taken = takeMotions(batch);
-    if (first == 0 && bits(taken.pressed) == 0) return;
+    if (first == 0 && bits(taken.pressed > all(0.0F)) == 0) return;
     const F before = first != 0 ? all(0.0F) : keptEnergy(batch);
     if (first != 0) {
         store(*batch.struck, taken.struck);
@@ -416,7 +416,10 @@ static void solve(const BatchView& batch, const SubstepParams& params, int first
         store(*batch.answered, all(0.0F));
         store(*batch.energy, keptEnergy(batch));
     } else {
-        store(*batch.answered, taken.pressed ? all(1.0F) : load(*batch.answered));
+        const F zero = all(0.0F);
+        store(*batch.answered, taken.pressed > zero ? all(1.0F) : load(*batch.answered));
+        const F struck = taken.pressed > all(Pressed::within) ? all(Struck::byDoll) : zero;
+        store(*batch.struck, most(load(*batch.struck), struck));
     }
     solveAll(batch, params, first != 0 ? Solving::first : Solving::answer);
     showMotions(batch);

@@ -87,7 +87,7 @@ class World : public WorldView {
     /// sleep (without sleeping: to rest), and forgot what its joints carried; others do not feel it.
     [[nodiscard]] std::span<const CaughtDoll> caught() const { return guard_.caught(); }
     /// From the next step on, >= 1. Fewer than the solver's own: cheaper in proportion, softer joints, deeper contacts.
-    /// The stock world keeps its one.
+    /// The stock world keeps its one. Holds for dolls that come later, too, also for small ones, which ask for more.
     void setSubsteps(int substeps);
 
     /// Places a doll anew (reset, scrubbing); wakes it.
