@@ -288,8 +288,7 @@ class LimbFinder {
         limb.length = before + glm::distance(at(last).position, limb.tip);
     }
 
-    // Where the skin below a pair (or its joints, or the joint itself) ends: as far down as it goes for a leg, as far
-    // away as it goes for an arm.
+    // Where the skin below a pair (else its joints) ends: as far down as a leg's goes, as far away as an arm's.
     [[nodiscard]] vec3 farthest(int pair) const {
         const vec3 from = at(pair).position;
         vec3 tip = from;

@@ -18,6 +18,11 @@
 namespace lutka::animation {
 namespace {
 
+// What a name's score says of a part.
+constexpr float kSurely = 4.0F;
+constexpr float kMaybe = 2.0F;
+constexpr float kSurelyNot = -2.5F;
+
 constexpr std::size_t kMaxVertices = 12000;
 
 void readWeights(const Character& character, RigFeatures& rig) {
@@ -222,7 +227,6 @@ void doubtPartialSkin(RigFeatures& rig) {
 
 // Whether a joint of that side, or one above it, is surely called one of the two parts.
 bool tellsLimb(const RigFeatures& rig, int joint, Side side, Part upper, Part middle) {
-    constexpr float kSurely = 4.0F;
     for (; joint != kNoJoint && rig.names[joint].side == side; joint = rig.parents[joint]) {
         const PartScores& parts = rig.names[joint].parts;
         if (parts[upper] >= kSurely || parts[middle] >= kSurely) return true;
@@ -233,9 +237,6 @@ bool tellsLimb(const RigFeatures& rig, int joint, Side side, Part upper, Part mi
 // Bones that are called by the joint at their end: "wrist" at the elbow, "ankle" at the knee. What would be the hand or
 // foot lies about halfway down its limb, and another one hangs on it; so the bones above are shifted, too.
 void readNamesOfEnds(RigFeatures& rig) {
-    constexpr float kSurely = 4.0F;
-    constexpr float kMaybe = 2.0F;
-    constexpr float kSurelyNot = -2.5F;
     constexpr float kHalfway = 0.8F;  // of the way from the joint above
     struct Limb {
         Part upper, middle, end;
@@ -275,9 +276,6 @@ void readNamesOfEnds(RigFeatures& rig) {
 // A word of two meanings has one where its neighbour has the other: a shoulder above an arm is the clavicle and that
 // arm the upper arm, one above an elbow is the upper arm itself; a leg below a thigh is the shin.
 void readNamesInChains(RigFeatures& rig) {
-    constexpr float kSurely = 4.0F;
-    constexpr float kSurelyNot = -2.5F;
-    constexpr float kMaybe = 2.0F;
     // An elbow first: beside it may hang what stands for the arm's volume.
     for (int joint = 0; joint < rig.count(); ++joint) {
         const int parent = rig.parents[joint];

@@ -151,13 +151,12 @@ dmat4 stretchedFrame(const MeshExtent& box, const dmat4& meshNode, const dmat4& 
 // do; else theirs. (glTF ignores the mesh node's frame, so nothing obliges an exporter to make it fit.)
 dmat4 chooseFrame(const MeshExtent& box, const dmat4& meshNode, const dmat4& joints, bool jointsAgree,
                   const std::vector<Vote>& votes) {
-    if (!isInvertible(meshNode) || angleBetween(nearestRotation(meshNode), nearestRotation(joints)) > kAngleTolerance) {
-        return joints;
-    }
-    // Nothing to set upright, then, and where a quantised mesh has its origin says nothing.
+    if (!isInvertible(meshNode)) return joints;
     const double turn = angleBetween(nearestRotation(meshNode), nearestRotation(joints));
-    const dmat3 stretch = stretchOf(joints);
+    if (turn > kAngleTolerance) return joints;
+    // Nothing to set upright, then, and where a quantised mesh has its origin says nothing.
     if (jointsAgree && turn < kSameTurn) return joints;
+    const dmat3 stretch = stretchOf(joints);
     if (!scalesEvenly(stretch) && stretchAlike(votes, joints) && disagreement(box, meshNode, joints) >= kAlike)
         return jointsAgree ? joints : stretchedFrame(box, meshNode, joints, stretch);
     const double ratio = meanScale(joints) / meanScale(meshNode);

@@ -425,9 +425,11 @@ BodyPlan planBodies(const Character& character, const HumanoidMap& map, std::spa
     findEnds(plan, character, map);
     assignJoints(plan, character, map);
     hangSegments(plan, character);
+    const std::vector<animation::Appendage> appendages =
+        map.humanoid ? animation::findAppendages(character, map) : std::vector<animation::Appendage>{};
     const std::vector<SkinPoint> hanging =
-        gatherSkin(plan, character, map.standardFromModel, jointsHangingOnHead(plan, character, map),
-                   jointsOfHeldWeapons(plan, character, map));
+        gatherSkin(plan, character, map.standardFromModel, jointsHangingOnHead(plan, character, appendages),
+                   jointsOfHeldWeapons(plan, character, appendages));
     hangOnHead(plan, hanging);
     plan.heightM = roles.empty() ? creatureSize(plan, character, map) : figureHeight(plan, jointSpan(plan));
     settleHeadSkin(plan, hanging);

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "animation/segments/appendages.hpp"
-
 namespace lutka::physics {
 namespace {
 
@@ -32,11 +30,11 @@ void takeFromBelow(PlannedBody& below, PlannedBody& head) {
 }  // namespace
 
 std::vector<bool> jointsHangingOnHead(const BodyPlan& plan, const animation::Character& character,
-                                      const animation::HumanoidMap& map) {
+                                      std::span<const animation::Appendage> appendages) {
     std::vector<bool> hangs(plan.bodyOfJoint.size(), false);
     const int head = plan.bodyOf(Role::head);
-    if (head < 0 || !map.humanoid) return hangs;
-    for (const animation::Appendage& appendage : animation::findAppendages(character, map)) {
+    if (head < 0) return hangs;
+    for (const animation::Appendage& appendage : appendages) {
         if (appendage.role == Role::head) hangs[static_cast<std::size_t>(appendage.joint)] = true;
     }
     for (std::size_t joint = 0; joint < hangs.size(); ++joint) {

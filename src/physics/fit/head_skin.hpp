@@ -1,7 +1,9 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "animation/segments/appendages.hpp"
 #include "physics/fit/body_plan.hpp"
 
 namespace lutka::physics {
@@ -9,7 +11,7 @@ namespace lutka::physics {
 /// Which joints carry what hangs on a humanoid's head without a body of its own: twin tails, hats, long ears. One a
 /// joint of the skeleton.
 [[nodiscard]] std::vector<bool> jointsHangingOnHead(const BodyPlan& plan, const animation::Character& character,
-                                                    const animation::HumanoidMap& map);
+                                                    std::span<const animation::Appendage> appendages);
 
 /// Gives the head what hangs on it, which counts to the figure's height.
 void hangOnHead(BodyPlan& plan, const std::vector<SkinPoint>& hanging);

@@ -1,7 +1,5 @@
 #include "physics/fit/held_skin.hpp"
 
-#include "animation/segments/appendages.hpp"
-
 namespace lutka::physics {
 namespace {
 
@@ -12,25 +10,28 @@ bool isArmWithoutHand(Role role) {
 }  // namespace
 
 std::vector<bool> jointsOfHeldWeapons(const BodyPlan& plan, const animation::Character& character,
-                                      const animation::HumanoidMap& map) {
+                                      std::span<const animation::Appendage> appendages) {
     constexpr float kFewest = 8.0F;  // vertices that the body keeps
     const animation::Skeleton& skeleton = character.skeleton;
     std::vector<bool> held(plan.bodyOfJoint.size(), false);
-    if (!map.humanoid) return held;
-    for (const animation::Appendage& appendage : animation::findAppendages(character, map)) {
+    // All weapons of an arm first: none is the arm's own skin beside another.
+    for (const animation::Appendage& appendage : appendages) {
         if (appendage.kind != animation::AppendageKind::weapon || !isArmWithoutHand(appendage.role)) continue;
         const int body = plan.bodyOfJoint[static_cast<std::size_t>(appendage.joint)];
         if (body < 0 || plan.bodies[body].segment) continue;
-        float own = 0.0F;
-        for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
-            const bool weapon = animation::isAncestorOrSelf(skeleton, appendage.joint, joint);
-            if (plan.bodyOfJoint[static_cast<std::size_t>(joint)] == body && !weapon) own += skeleton.skinWeight[joint];
-        }
-        for (int joint = 0; joint < skeleton.jointCount(); ++joint) {
-            if (own >= kFewest && animation::isAncestorOrSelf(skeleton, appendage.joint, joint))
-                held[static_cast<std::size_t>(joint)] = true;
+        for (std::size_t joint = 0; joint < held.size(); ++joint) {
+            if (plan.bodyOfJoint[joint] == body &&
+                animation::isAncestorOrSelf(skeleton, appendage.joint, static_cast<int>(joint)))
+                held[joint] = true;
         }
     }
+    std::vector<float> own(plan.bodies.size(), 0.0F);
+    for (std::size_t joint = 0; joint < held.size(); ++joint) {
+        if (!held[joint] && plan.bodyOfJoint[joint] >= 0)
+            own[static_cast<std::size_t>(plan.bodyOfJoint[joint])] += skeleton.skinWeight[joint];
+    }
+    for (std::size_t joint = 0; joint < held.size(); ++joint)
+        held[joint] = held[joint] && own[static_cast<std::size_t>(plan.bodyOfJoint[joint])] >= kFewest;
     return held;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "animation/segments/appendages.hpp"
 #include "physics/fit/body_plan.hpp"
 
 namespace lutka::physics {
@@ -10,6 +12,6 @@ namespace lutka::physics {
 /// hand and without a body of its own: its skin is not the arm's. Where the arm's body has hardly any other, it is. One
 /// a joint of the skeleton.
 [[nodiscard]] std::vector<bool> jointsOfHeldWeapons(const BodyPlan& plan, const animation::Character& character,
-                                                    const animation::HumanoidMap& map);
+                                                    std::span<const animation::Appendage> appendages);
 
 }  // namespace lutka::physics

@@ -71,10 +71,12 @@ TEST_CASE("what hangs on an armature of its own is the part's that its skin lies
             std::replace(joints.begin(), joints.end(), static_cast<std::uint16_t>(ponytail),
                          static_cast<std::uint16_t>(armature));
     }
-    for (const Appendage& one : findAppendages(figure, map)) {
-        if (one.joint == ponytail) CHECK(one.role == Role::head);
-    }
-    CHECK(findAppendages(figure, map).size() == 5);
+    const std::vector<Appendage> appendages = findAppendages(figure, map);
+    CHECK(appendages.size() == 5);
+    const auto isThere = [&](const Appendage& one) { return one.joint == ponytail; };
+    const auto found = std::find_if(appendages.begin(), appendages.end(), isThere);
+    REQUIRE(found != appendages.end());
+    CHECK(found->role == Role::head);
 }
 
 TEST_CASE("without telling names appendages are told by where they hang and how they point") {

@@ -56,7 +56,7 @@ SourceConvention conventionOf(const aiScene& scene, const std::filesystem::path&
         convention.upSource = "Collada up_axis";
         return convention;
     }
-    if (extension == ".pmx" || extension == ".pmd") {
+    if (extension == ".pmx") {
         convention.metresPerUnit = 0.08;  // a figure of 20 units is 1.6 m tall; MMD Tools imports by it, too
         convention.unitSource = "MikuMikuDance's unit";
         convention.up = UpAxis::positiveY;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <optional>
 #include <type_traits>
 
@@ -62,13 +61,6 @@ T load(const std::uint8_t* bytes) {
     T value;
     std::memcpy(&value, bytes, sizeof(T));
     return value;
-}
-
-// Fractions by the equations of the specification's section 3.11.
-template <class T>
-float fraction(T value) {
-    const float scaled = static_cast<float>(value) / static_cast<float>(std::numeric_limits<T>::max());
-    return std::max(scaled, -1.0F);
 }
 
 template <class T>

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "animation/import/gltf/gltf_file.hpp"
@@ -19,6 +21,13 @@ struct Numbers {
     }
     [[nodiscard]] vec3 vector3(std::size_t element) const { return {at(element, 0), at(element, 1), at(element, 2)}; }
 };
+
+/// What a normalised integer stands for, in [-1, 1]: the equations of the specification's section 3.11.
+template <class T>
+[[nodiscard]] float fraction(T value) {
+    const float scaled = static_cast<float>(value) / static_cast<float>(std::numeric_limits<T>::max());
+    return std::max(scaled, -1.0F);
+}
 
 /// Reads an accessor as the specification means it: any component type, normalised integers as fractions, any stride,
 /// sparse replacements, zeros where it has no buffer view. Throws Damage where it leaves its buffer or has absurd

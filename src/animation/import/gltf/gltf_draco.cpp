@@ -27,19 +27,28 @@ std::vector<T> valuesOf(const draco::Mesh& mesh, const draco::PointAttribute& at
     return values;
 }
 
-// What the integers of a type are fractions of (section 3.11 of the specification); 0: none.
-float wholeOf(draco::DataType type) {
-    switch (type) {
+template <class T>
+std::vector<float> fractionsOf(const draco::Mesh& mesh, const draco::PointAttribute& attribute) {
+    const std::vector<T> integers = valuesOf<T>(mesh, attribute);
+    std::vector<float> fractions(integers.size());
+    std::transform(integers.begin(), integers.end(), fractions.begin(), fraction<T>);
+    return fractions;
+}
+
+// `asFractions`: integers are fractions, which draco itself says of few.
+std::vector<float> floatsOf(const draco::Mesh& mesh, const draco::PointAttribute& attribute, bool asFractions) {
+    if (!asFractions || attribute.normalized()) return valuesOf<float>(mesh, attribute);
+    switch (attribute.data_type()) {
         case draco::DT_INT8:
-            return 127.0F;
+            return fractionsOf<std::int8_t>(mesh, attribute);
         case draco::DT_UINT8:
-            return 255.0F;
+            return fractionsOf<std::uint8_t>(mesh, attribute);
         case draco::DT_INT16:
-            return 32767.0F;
+            return fractionsOf<std::int16_t>(mesh, attribute);
         case draco::DT_UINT16:
-            return 65535.0F;
+            return fractionsOf<std::uint16_t>(mesh, attribute);
         default:
-            return 0.0F;
+            return valuesOf<float>(mesh, attribute);
     }
 }
 
@@ -76,13 +85,9 @@ std::optional<Numbers> DracoPrimitive::numbers(const std::string& attribute, boo
     const draco::PointAttribute* source = find(attribute);
     if (source == nullptr) return std::nullopt;
     Numbers numbers;
-    numbers.values = valuesOf<float>(*mesh_, *source);
+    numbers.values = floatsOf(*mesh_, *source, normalised);
     numbers.count = mesh_->num_points();
     numbers.width = static_cast<std::size_t>(source->num_components());
-    const float whole = wholeOf(source->data_type());
-    if (!normalised || source->normalized() || whole == 0.0F) return numbers;
-    for (float& value : numbers.values)
-        value = std::max(value / whole, -1.0F);
     return numbers;
 }
 
