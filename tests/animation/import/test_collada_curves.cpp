@@ -47,7 +47,7 @@ std::vector<double> numbersOf(const std::string& text, const std::string& id) {
 }  // namespace
 
 TEST_CASE("a stepped Collada curve holds its keys until the next") {
-    const std::string text = rig_import::straightenedCollada(curveOf("STEP STEP STEP", ""));
+    const std::string text = rig_import::straightenedCollada(curveOf("STEP STEP STEP", "")).text;
     const std::vector<double> times = numbersOf(text, "s-times");
     const std::vector<double> values = numbersOf(text, "s-values");
     CHECK(values == std::vector<double>{0, 0, 10, 10, 4});
@@ -59,7 +59,7 @@ TEST_CASE("a stepped Collada curve holds its keys until the next") {
 }
 
 TEST_CASE("a Collada spline follows its tangents, be its segments of different kinds or not") {
-    const std::string text = rig_import::straightenedCollada(curveOf("BEZIER LINEAR BEZIER", kTangents));
+    const std::string text = rig_import::straightenedCollada(curveOf("BEZIER LINEAR BEZIER", kTangents)).text;
     const std::vector<double> times = numbersOf(text, "s-times");
     const std::vector<double> values = numbersOf(text, "s-values");
     REQUIRE(times.size() == values.size());
@@ -86,5 +86,79 @@ TEST_CASE("a Collada spline follows its tangents, be its segments of different k
 TEST_CASE("straight Collada curves, and splines without tangents, stay as they are") {
     for (const std::string& text : {curveOf("LINEAR LINEAR LINEAR", ""), curveOf("BEZIER BEZIER BEZIER", ""),
                                     curveOf("STEP", ""), std::string("<sampler>STEP"), std::string("STEP")})
-        CHECK(rig_import::straightenedCollada(text) == text);
+        CHECK(rig_import::straightenedCollada(text).text == text);
+}
+
+// A curve of 100,000 keys that `samplers` samplers name.
+std::string manyCurves(std::size_t samplers) {
+    std::string text = curveOf("STEP STEP STEP", "");
+    const auto replace = [&](const std::string& what, const std::string& with) {
+        text.replace(text.find(what), what.size(), with);
+    };
+    std::string times;
+    std::string kinds;
+    std::string values;
+    for (int i = 0; i < 100'000; ++i) {
+        times += std::to_string(i) + " ";
+        kinds += "STEP ";
+        values += "1 ";
+    }
+    replace("0 1 1.5", times);
+    replace("0 10 4", values);
+    replace("STEP STEP STEP", kinds);
+    const std::size_t start = text.find("<sampler");
+    const std::string sampler = text.substr(start, text.find("</animation>") - start);
+    for (std::size_t i = 1; i < samplers; ++i)
+        text.insert(start, sampler);
+    return text;
+}
+
+TEST_CASE("Collada's curves that would be too many numbers stay, which is told") {
+    CHECK(rig_import::straightenedCollada(manyCurves(2)).isWhole);
+    const std::string many = manyCurves(100);
+    const rig_import::StraightenedCollada out = rig_import::straightenedCollada(many);
+    CHECK_FALSE(out.isWhole);
+    CHECK(out.text.size() < many.size() + 100'000'000);
+    CHECK(out.text.find("<sampler id=\"s\"><input semantic=\"INPUT\" source=\"#s-times\"/>") != std::string::npos);
+    CHECK(out.text.find("<sampler id=\"s\"><input semantic=\"INPUT\" source=\"#t\"/>") != std::string::npos);
+    // What stands in an accessor counts, too, for many samplers would repeat it; and so does one curve of ten years.
+    std::string text = curveOf("BEZIER STEP STEP", kTangents);
+    text.insert(text.find("<param"), std::string(9'950'000, ' '));
+    CHECK(rig_import::straightenedCollada(text).isWhole);
+    text.replace(text.find("0 1 1.5"), 7, "0 3e8 4e8");
+    CHECK_FALSE(rig_import::straightenedCollada(text).isWhole);
+}
+
+TEST_CASE("a Collada sampler in a sampler does not write the document twice") {
+    std::string text = curveOf("STEP STEP STEP", "");
+    const std::size_t start = text.find("<sampler");
+    const std::string sampler = text.substr(start, text.find("</animation>") - start);
+    text.insert(text.find("</sampler>"), sampler);
+    const std::string out = rig_import::straightenedCollada(text).text;
+    CHECK(out.find("</library_animations>") == out.rfind("</library_animations>"));
+}
+
+TEST_CASE("a source without the text of an accessor takes nothing of a later one") {
+    std::string text = curveOf("STEP STEP STEP", "");
+    const std::size_t start = text.find("<param", text.find("#v-array\" stride"));
+    text.replace(start - 1, text.find("</source>", start) - start + 1, "/>");
+    const std::string out = rig_import::straightenedCollada(text).text;
+    const std::size_t values = out.find("<source id=\"s-values\"");
+    REQUIRE(values != std::string::npos);
+    CHECK(out.substr(values, out.find("</source>", values) - values)
+              .ends_with("stride=\"1\"></accessor></technique_common>"));
+}
+
+TEST_CASE("Collada's curves are read whole or not at all") {
+    const auto withValues = [](const std::string& values) {
+        std::string text = curveOf("STEP STEP STEP", "");
+        text.replace(text.find("0 10 4"), 6, values);
+        return text;
+    };
+    CHECK(numbersOf(rig_import::straightenedCollada(withValues("0 +10 4")).text, "s-values") ==
+          std::vector<double>{0, 0, 10, 10, 4});
+    for (const std::string values : {"0 ten 4 7", "0 10 1e999", "0 10 <!-- and --> 4", "<![CDATA[0 10 4]]>"})
+        CHECK(rig_import::straightenedCollada(withValues(values)).text == withValues(values));
+    const std::string cut = curveOf("STEP <!-- and --> STEP STEP", "");
+    CHECK(rig_import::straightenedCollada(cut).text == cut);
 }

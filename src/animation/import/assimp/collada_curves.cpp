@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "animation/import/assimp/collada_tags.hpp"
@@ -17,24 +18,28 @@ namespace lutka::animation::rig_import {
 namespace {
 
 constexpr double kSecondsAPiece = 1.0 / 60.0;
-constexpr double kJump = 1e-4;               // seconds
-constexpr std::size_t kMostPieces = 20'000;  // of a curve
+constexpr double kJump = 1e-4;  // seconds
+// Of a document: many samplers may name one long source, so the file's size bounds nothing.
+constexpr std::size_t kMostNumbers = 10'000'000;
 
 struct Source {
     std::vector<double> numbers;
     std::vector<std::string_view> names;
+    bool bends = false;  // a name is of a curve that is no straight line
     std::size_t stride = 1;
     std::string_view params;  // the text in its accessor
 };
 
+// None where one of them is no number: half a curve would be another curve.
 std::vector<double> numbersIn(std::string_view text) {
     std::vector<double> numbers;
     const char* at = text.data();
     const char* const end = text.data() + text.size();
     while (at != end) {
         double number = 0.0;
+        if (*at == '+') ++at;  // which from_chars refuses
         const auto [next, error] = std::from_chars(at, end, number);
-        if (error != std::errc()) break;
+        if (error != std::errc()) return {};
         numbers.push_back(number);
         at = std::find_if(next, end, [](char c) { return c != ' '; });
     }
@@ -54,23 +59,35 @@ std::vector<std::string_view> splitWords(std::string_view text) {
 std::map<std::string, Source> sourcesOf(std::string_view text, const std::vector<ColladaTag>& tags) {
     std::map<std::string, Source> sources;
     Source* source = nullptr;
+    const ColladaTag* accessor = nullptr;  // that is open
     bool inAnimations = false;
     for (std::size_t i = 0; i + 1 < tags.size(); ++i) {
         const ColladaTag& tag = tags[i];
         if (tag.opens("library_animations")) inAnimations = true;
         if (tag.closes("library_animations")) inAnimations = false;
         if (!inAnimations) continue;
-        if (tag.opens("source")) source = &sources[std::string(colladaAttribute(tag.text, "id"))];
+        if (tag.opens("source")) {
+            source = &sources[std::string(colladaAttribute(tag.text, "id"))];
+            accessor = nullptr;
+        }
         if (source == nullptr) continue;
-        const std::string_view inside = text.substr(tag.end, tags[i + 1].start - tag.end);
+        std::string_view inside = text.substr(tag.end, tags[i + 1].start - tag.end);
+        if (inside.find('<') != std::string_view::npos) inside = {};  // a comment cuts it
         if (tag.opens("float_array")) source->numbers = numbersIn(inside);
-        if (tag.opens("Name_array")) source->names = splitWords(inside);
+        if (tag.opens("Name_array")) {
+            source->names = splitWords(inside);
+            source->bends = std::any_of(source->names.begin(), source->names.end(),
+                                        [](std::string_view name) { return name == "STEP" || name == "BEZIER"; });
+        }
         if (tag.opens("accessor")) {
             const std::string_view stride = colladaAttribute(tag.text, "stride");
             std::from_chars(stride.data(), stride.data() + stride.size(), source->stride);
             source->stride = std::max<std::size_t>(source->stride, 1);
-            const std::size_t end = text.find("</accessor", tag.end);
-            if (end != std::string_view::npos) source->params = text.substr(tag.end, end - tag.end);
+            accessor = tag.isEmpty() ? nullptr : &tag;
+        }
+        if (tag.closes("accessor") && accessor != nullptr) {
+            source->params = text.substr(accessor->end, tag.start - accessor->end);
+            accessor = nullptr;
         }
     }
     return sources;
@@ -115,24 +132,31 @@ double bezierAt(const std::array<double, 4>& times, const std::array<double, 4>&
 struct Pieces {
     std::vector<double> times;
     std::vector<double> values;
+
+    // The key's values follow. `left` is of kMostNumbers.
+    void beginKey(double time, const Curve& curve, std::size_t& left) {
+        times.push_back(time);
+        left -= std::min(left, curve.width() + 1);
+    }
 };
 
 // The keys that come after a key and before the next.
-void addBetween(const Curve& curve, std::size_t key, Pieces& pieces) {
+void addBetween(const Curve& curve, std::size_t key, Pieces& pieces, std::size_t& left) {
     const double start = (*curve.times)[key];
     const double end = (*curve.times)[key + 1];
-    if (!(end > start)) return;
+    if (!(end > start) || !std::isfinite(end - start)) return;
     if ((*curve.kinds)[key] == "STEP") {
-        pieces.times.push_back(end - std::min(kJump, 0.5 * (end - start)));
+        pieces.beginKey(end - std::min(kJump, 0.5 * (end - start)), curve, left);
         for (std::size_t c = 0; c < curve.width(); ++c)
             pieces.values.push_back(curve.value(key, c));
         return;
     }
     if (!curve.isSpline(key)) return;
-    const auto parts = static_cast<std::size_t>(std::min(std::ceil((end - start) / kSecondsAPiece - 0.01), 1e6));
-    for (std::size_t part = 1; part < parts && pieces.times.size() < kMostPieces; ++part) {
+    const auto parts = static_cast<std::size_t>(
+        std::min(std::ceil((end - start) / kSecondsAPiece - 0.01), static_cast<double>(kMostNumbers)));
+    for (std::size_t part = 1; part < parts && left > 0; ++part) {
         const double time = start + (end - start) * static_cast<double>(part) / static_cast<double>(parts);
-        pieces.times.push_back(time);
+        pieces.beginKey(time, curve, left);
         for (std::size_t c = 0; c < curve.width(); ++c) {
             const std::size_t leaves = 2 * (key * curve.width() + c);
             const std::size_t arrives = leaves + 2 * curve.width();
@@ -145,14 +169,15 @@ void addBetween(const Curve& curve, std::size_t key, Pieces& pieces) {
     }
 }
 
-Pieces piecesOf(const Curve& curve) {
+// Cut short where nothing is left.
+Pieces piecesOf(const Curve& curve, std::size_t& left) {
     Pieces pieces;
     const std::size_t keys = std::min(curve.times->size(), curve.values->numbers.size() / curve.width());
-    for (std::size_t key = 0; key < keys; ++key) {
-        pieces.times.push_back((*curve.times)[key]);
+    for (std::size_t key = 0; key < keys && left > 0; ++key) {
+        pieces.beginKey((*curve.times)[key], curve, left);
         for (std::size_t c = 0; c < curve.width(); ++c)
             pieces.values.push_back(curve.value(key, c));
-        if (key + 1 < keys) addBetween(curve, key, pieces);
+        if (key + 1 < keys) addBetween(curve, key, pieces, left);
     }
     return pieces;
 }
@@ -169,9 +194,9 @@ std::string sourceText(const std::string& id, const std::vector<double>& numbers
                       id, numbers.size() / stride, stride, params);
 }
 
-// What stands in place of a sampler; empty where it stays.
+// What stands in place of a sampler; empty where it stays: it is straight, or nothing is left of kMostNumbers.
 std::string straightSampler(const std::string& id, const std::map<std::string, std::string>& inputs,
-                            const std::map<std::string, Source>& sources) {
+                            const std::map<std::string, Source>& sources, std::size_t& left) {
     const auto source = [&](const char* semantic) -> const Source* {
         const auto input = inputs.find(semantic);
         const auto found = input == inputs.end() ? sources.end() : sources.find(input->second);
@@ -180,11 +205,13 @@ std::string straightSampler(const std::string& id, const std::map<std::string, s
     const Source* times = source("INPUT");
     const Source* values = source("OUTPUT");
     const Source* kinds = source("INTERPOLATION");
-    if (times == nullptr || values == nullptr || kinds == nullptr || kinds->names.size() < times->numbers.size())
+    if (times == nullptr || values == nullptr || kinds == nullptr || kinds->names.size() < times->numbers.size() ||
+        !kinds->bends)
         return {};
     const Curve curve{&times->numbers, values, &kinds->names, source("IN_TANGENT"), source("OUT_TANGENT")};
-    const Pieces pieces = piecesOf(curve);
-    if (pieces.times.size() <= times->numbers.size()) return {};
+    left -= std::min(left, times->params.size() + values->params.size());  // written once more, too
+    const Pieces pieces = piecesOf(curve, left);
+    if (left == 0 || pieces.times.size() <= times->numbers.size()) return {};
     return sourceText(id + "-times", pieces.times, 1, times->params) +
            sourceText(id + "-values", pieces.values, curve.width(), values->params) +
            fmt::format(
@@ -195,10 +222,11 @@ std::string straightSampler(const std::string& id, const std::map<std::string, s
 
 }  // namespace
 
-std::string straightenedCollada(std::string text) {
-    if (text.find("BEZIER") == std::string::npos && text.find("STEP") == std::string::npos) return text;
+StraightenedCollada straightenedCollada(std::string text) {
+    if (text.find("BEZIER") == std::string::npos && text.find("STEP") == std::string::npos) return {std::move(text)};
     const std::vector<ColladaTag> tags = colladaTags(text);
     const std::map<std::string, Source> sources = sourcesOf(text, tags);
+    std::size_t left = kMostNumbers;
     ColladaEdits edits(text);
     for (std::size_t i = 0; i < tags.size(); ++i) {
         if (!tags[i].opens("sampler") || tags[i].isEmpty()) continue;
@@ -210,10 +238,11 @@ std::string straightenedCollada(std::string text) {
                 inputs[std::string(colladaAttribute(tags[input].text, "semantic"))] = tags[input].target("source");
         }
         const std::string id(colladaAttribute(tags[i].text, "id"));
-        const std::string straight = id.empty() ? std::string() : straightSampler(id, inputs, sources);
+        const std::string straight = id.empty() ? std::string() : straightSampler(id, inputs, sources, left);
         if (!straight.empty()) edits.replace(tags[i].start, tags[*past - 1].end, straight);
+        i = *past - 1;
     }
-    return edits.take();
+    return {edits.take(), left > 0};
 }
 
 }  // namespace lutka::animation::rig_import

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Empty when the file is neither Collada nor B3D.
-std::string tidiedBytes(const fs::path& file) {
+std::string tidiedBytes(const fs::path& file, LeftOut& leftOut) {
     std::string start(4096, '\0');
     std::ifstream in(file, std::ios::binary);
     in.read(start.data(), static_cast<std::streamsize>(start.size()));
@@ -35,22 +35,24 @@ std::string tidiedBytes(const fs::path& file) {
     if (!bytes) return {};
     const std::string_view whole(reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size());
     if (!collada) return tidyB3d(whole);
-    return straightenedCollada(gatheredCollada(linkedCollada(tidyCollada(whole))));
+    StraightenedCollada out = straightenedCollada(gatheredCollada(linkedCollada(tidyCollada(whole))));
+    leftOut.curves = !out.isWhole;
+    return std::move(out.text);
 }
 
 }  // namespace
 
-ConfinedFiles::ConfinedFiles(fs::path model, ModelFolder folder, std::shared_ptr<FilesDenied> denied)
-    : model_(std::move(model)), folder_(std::move(folder)), denied_(std::move(denied)) {}
+ConfinedFiles::ConfinedFiles(fs::path model, ModelFolder folder, std::shared_ptr<LeftOut> leftOut)
+    : model_(std::move(model)), folder_(std::move(folder)), leftOut_(std::move(leftOut)) {}
 
 bool ConfinedFiles::mayOpen(const std::string& file) const {
     if (model_ == file) return true;
     if (!folder_.admits(file)) {
-        denied_->outside.insert(file);
+        leftOut_->outside.insert(file);
         return false;
     }
     std::error_code failed;
-    if (!fs::exists(file, failed)) denied_->absent.insert(file);
+    if (!fs::exists(file, failed)) leftOut_->absent.insert(file);
     return fs::is_regular_file(file, failed) && fs::file_size(file, failed) <= kMaxFileBytes && !failed;
 }
 
@@ -67,7 +69,7 @@ Assimp::IOStream* ConfinedFiles::Open(const char* file, const char* mode) {
 
 // The model in memory when it is Collada or B3D; else nothing. Assimp opens it several times.
 Assimp::IOStream* ConfinedFiles::openTidied() {
-    if (!tidied_) tidied_ = tidiedBytes(model_);
+    if (!tidied_) tidied_ = tidiedBytes(model_, *leftOut_);
     if (tidied_->empty()) return nullptr;
     return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(tidied_->data()), tidied_->size());
 }

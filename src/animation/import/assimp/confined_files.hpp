@@ -12,19 +12,21 @@
 
 namespace lutka::animation::rig_import {
 
-/// Files that a reader asked for and did not get, by the names it asked with.
-struct FilesDenied {
+/// What a reader asked for and did not get: files, by the names it asked with, and curves of a Collada document.
+struct LeftOut {
     std::set<std::string> outside;  ///< Of the model's folder.
     std::set<std::string> absent;   ///< Not there.
+    bool curves = false;            ///< Some play as straight lines, for all would be too many numbers.
 };
 
 /// Assimp's door to the disk: opens the model and the ordinary files that its folder admits, for reading, up to
-/// kMaxFileBytes each; a Collada document as tidyCollada() has it, a B3D file as tidyB3d(). Whatever else a format
-/// names (a material library, an animation, a skin) is not there for it.
+/// kMaxFileBytes each; a Collada document as tidyCollada(), linkedCollada(), gatheredCollada() and
+/// straightenedCollada() leave it, a B3D file as tidyB3d(). Whatever else a format names (a material library, an
+/// animation, a skin) is not there for it.
 class ConfinedFiles : public Assimp::DefaultIOSystem {
   public:
-    /// `denied` is filled as files are asked for.
-    ConfinedFiles(std::filesystem::path model, ModelFolder folder, std::shared_ptr<FilesDenied> denied);
+    /// `leftOut` is filled as files are asked for.
+    ConfinedFiles(std::filesystem::path model, ModelFolder folder, std::shared_ptr<LeftOut> leftOut);
 
     bool Exists(const char* file) const override;
     Assimp::IOStream* Open(const char* file, const char* mode) override;
@@ -37,7 +39,7 @@ class ConfinedFiles : public Assimp::DefaultIOSystem {
 
     std::filesystem::path model_;
     ModelFolder folder_;
-    std::shared_ptr<FilesDenied> denied_;
+    std::shared_ptr<LeftOut> leftOut_;
     std::optional<std::string> tidied_;  // of the model, once it was looked at
 };
 

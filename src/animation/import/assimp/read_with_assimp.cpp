@@ -109,7 +109,9 @@ Result<SourceScene> readWithAssimp(const std::filesystem::path& file, const Impo
     addClips(scene, nodes, out);
     convertMaterials(scene, folder, options.loadTextures, out);
     completeByDocument(file, out);
-    if (const std::set<std::string>& refused = opened.value().denied->outside; !refused.empty()) {
+    if (opened.value().leftOut->curves)
+        out.warnings.emplace_back("curves play straight from key to key, for the file holds too many of them");
+    if (const std::set<std::string>& refused = opened.value().leftOut->outside; !refused.empty()) {
         out.warnings.push_back(fmt::format(
             "{} files that the model names lie outside of its folder and were left out: {}; --allow-outside takes them",
             refused.size(), fmt::join(refused, ", ")));

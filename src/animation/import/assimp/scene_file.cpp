@@ -60,8 +60,8 @@ const aiScene* read(Assimp::Importer& importer, const fs::path& file, std::strin
 }
 
 // A part of the model in a file of its own that is not there is not a fault of the file that names it.
-std::string mendOf(const std::string& why, const FilesDenied& denied) {
-    for (const std::string& name : denied.absent) {
+std::string mendOf(const std::string& why, const LeftOut& leftOut) {
+    for (const std::string& name : leftOut.absent) {
         const std::string part = fs::path(name).filename().string();
         if (why.find(part) != std::string::npos)
             return fmt::format("put {} beside the model, it is a part of it", part);
@@ -74,13 +74,13 @@ std::string mendOf(const std::string& why, const FilesDenied& denied) {
 Result<SceneFile> readScene(const fs::path& file, const ModelFolder& folder) {
     SceneFile out;
     out.importer = std::make_unique<Assimp::Importer>();
-    out.denied = std::make_shared<FilesDenied>();
-    out.importer->SetIOHandler(new ConfinedFiles(file, folder, out.denied));  // the importer owns it
+    out.leftOut = std::make_shared<LeftOut>();
+    out.importer->SetIOHandler(new ConfinedFiles(file, folder, out.leftOut));  // the importer owns it
     configure(*out.importer);
     std::string why;
     out.scene = read(*out.importer, file, why);
     if (out.scene == nullptr)
-        return unreadable(file, why.empty() ? "can't be read as a model" : why, mendOf(why, *out.denied));
+        return unreadable(file, why.empty() ? "can't be read as a model" : why, mendOf(why, *out.leftOut));
     if (out.scene->mRootNode == nullptr) return unreadable(file, "holds no scene");
     if (std::optional<Error> error = findAbsurdCount(*out.scene, file)) return *std::move(error);
     return out;

@@ -17,7 +17,7 @@ namespace lutka::animation::rig_import {
 struct SceneFile {
     std::unique_ptr<Assimp::Importer> importer;  ///< Owns `scene`.
     const aiScene* scene = nullptr;
-    std::shared_ptr<FilesDenied> denied;  ///< Files that it named and that were not opened.
+    std::shared_ptr<LeftOut> leftOut;  ///< What it names and Assimp did not get.
 };
 
 /// Fails with the importer's own message, and when the counts in the file are absurd.
