@@ -65,6 +65,50 @@ TEST_CASE("Collada animations of different joints and angles play together, thos
         CHECK(rig_import::gatheredCollada(text) == text);
 }
 
+TEST_CASE("Collada animations of several libraries, and those whose samplers share an id, stay apart") {
+    const std::string first = animationOf("a", "low/t");
+    const std::string second = animationOf("b", "high/t");
+    const auto sampled = [](std::string animation) {
+        return animation.insert(animation.find("<channel"), "<sampler id=\"s\"></sampler>");
+    };
+    for (const std::string& text :
+         {kLibrary + first + kEnd + kLibrary + second + kEnd, kLibrary + sampled(first) + sampled(second) + kEnd})
+        CHECK(rig_import::gatheredCollada(text) == text);
+    const std::string one =
+        kLibrary + "<animation>" + contentOf("a", "low/t") + contentOf("b", "high/t") + "</animation>" + kEnd;
+    CHECK(rig_import::gatheredCollada("<library_animations/>" + kLibrary + first + second + kEnd) ==
+          "<library_animations/>" + one);
+}
+
+TEST_CASE("Collada clips go to the library that holds animations, not to an empty one before it") {
+    const std::string library =
+        "<library_animations/>" + kLibrary + animationOf("a", "low/t") + animationOf("b", "high/t") + kEnd;
+    const std::string clips =
+        "<library_animation_clips>" + clipOf("name=\"walk\"", "a", "b") + "</library_animation_clips>";
+    CHECK(rig_import::gatheredCollada(library + clips) == "<library_animations/>" + kLibrary +
+                                                              "<animation name=\"walk\">" + contentOf("a", "low/t") +
+                                                              contentOf("b", "high/t") + "</animation>" + kEnd);
+}
+
+TEST_CASE("Collada animations that are nested deep are gathered once") {
+    std::string nested = kLibrary;
+    std::string clip = "<animation_clip name=\"walk\">";
+    std::string ends;
+    constexpr int kDepth = 30'000;
+    for (int i = 0; i < kDepth; ++i) {
+        nested += "<animation id=\"" + std::to_string(i) + "\">";
+        clip.insert(clip.find('>') + 1, "<instance_animation url=\"#" + std::to_string(i) + "\"/>");
+        ends += "</animation>";
+    }
+    nested += contentOf("a", "low/t") + ends + kEnd;
+    const std::string library = kLibrary + "<animation>" + contentOf("a", "low/t") + "</animation>" + kEnd;
+    CHECK(rig_import::gatheredCollada(nested) == library);
+    std::string named = library;
+    named.insert(named.find("><source"), " name=\"walk\"");
+    CHECK(rig_import::gatheredCollada(nested + "<library_animation_clips>" + clip +
+                                      "</animation_clip></library_animation_clips>") == named);
+}
+
 TEST_CASE("what Assimp adds to the names of Collada clips is taken away") {
     rig_import::SourceScene scene;
     for (const char* name : {"walk_walk", "walk_run", "walk_other"}) {

@@ -21,25 +21,29 @@ struct AnimationClip {
     std::vector<std::string> animations;
 };
 
+using Place = std::pair<std::size_t, std::size_t>;  // of an element: its first tag, and the one past it
+
 struct Animations {
     std::vector<AnimationClip> clips;
-    std::map<std::string, std::pair<std::size_t, std::size_t>> places;  // id → its first tag, and the one past it
-    std::size_t library = 0;                                            // the tag that opens it
+    std::map<std::string, Place> places;  // by their ids
+    std::size_t library = 0;              // the tag that opens it
 };
 
 Animations animationsOf(const std::vector<ColladaTag>& tags) {
     Animations found;
     bool hasLibrary = false;
+    std::vector<std::size_t> open;  // animations
     for (std::size_t i = 0; i < tags.size(); ++i) {
         const ColladaTag& tag = tags[i];
-        if (tag.opens("library_animations") && !hasLibrary) {
+        if (tag.opens("library_animations") && !tag.isEmpty() && !hasLibrary) {
             found.library = i;
             hasLibrary = true;
         }
-        if (tag.opens("animation")) {
-            const auto past = pastColladaElement(tags, i, "animation");
-            const std::string id(colladaAttribute(tag.text, "id"));
-            if (past && !id.empty()) found.places[id] = {i, *past};
+        if (tag.opens("animation") && !tag.isEmpty()) open.push_back(i);
+        if (tag.closes("animation") && !open.empty()) {
+            const std::string id(colladaAttribute(tags[open.back()].text, "id"));
+            if (!id.empty()) found.places[id] = {open.back(), i + 1};
+            open.pop_back();
         }
         if (tag.opens("animation_clip")) {
             const std::string_view name = colladaAttribute(tag.text, "name");
@@ -51,19 +55,32 @@ Animations animationsOf(const std::vector<ColladaTag>& tags) {
     return found;
 }
 
-bool shareAnimations(const std::vector<AnimationClip>& clips) {
-    std::set<std::string> known;
-    for (const AnimationClip& clip : clips) {
-        for (const std::string& animation : clip.animations) {
-            if (!known.insert(animation).second) return true;
-        }
+// Where the animations of a clip stand, in the document's order, without those in another of them.
+std::vector<Place> placesOf(const AnimationClip& clip, const Animations& found) {
+    std::set<Place> all;
+    for (const std::string& id : clip.animations) {
+        const auto place = found.places.find(id);
+        if (place != found.places.end()) all.insert(place->second);
     }
-    return false;
+    std::vector<Place> places;
+    for (const Place& place : all) {
+        if (places.empty() || place.first >= places.back().second) places.push_back(place);
+    }
+    return places;
+}
+
+// Whether an animation is, or stands in one, of two clips.
+bool shareAnimations(const std::vector<std::vector<Place>>& placesByClip) {
+    std::vector<Place> all;
+    for (const std::vector<Place>& places : placesByClip)
+        all.insert(all.end(), places.begin(), places.end());
+    std::sort(all.begin(), all.end());
+    const auto overlap = [](const Place& a, const Place& b) { return b.first < a.second; };
+    return std::adjacent_find(all.begin(), all.end(), overlap) != all.end();
 }
 
 // What is in an animation, without the tags of animations in it.
-std::string contentOf(const std::string& text, const std::vector<ColladaTag>& tags,
-                      const std::pair<std::size_t, std::size_t>& place) {
+std::string contentOf(const std::string& text, const std::vector<ColladaTag>& tags, const Place& place) {
     std::string content;
     for (std::size_t i = place.first; i + 1 < place.second; ++i) {
         if (!tags[i].opens("animation") && !tags[i].closes("animation")) content += tags[i].text;
@@ -72,23 +89,36 @@ std::string contentOf(const std::string& text, const std::vector<ColladaTag>& ta
     return content;
 }
 
-// All animations as one; the text as it is where they are one, or where two move the same thing.
+// All animations as one; the text as it is where they are one, where they stand in several libraries, or where two
+// move the same thing or have samplers of one id.
 std::string inOneAnimation(const std::string& text, const std::vector<ColladaTag>& tags) {
     std::set<std::string_view> targets;
+    std::set<std::string_view> samplers;
+    std::set<std::string_view> names;
+    std::size_t libraries = 0;
     std::size_t animations = 0;
+    std::size_t depth = 0;
     std::optional<std::size_t> first;
     std::size_t last = 0;
-    std::set<std::string_view> names;
     for (std::size_t i = 0; i < tags.size(); ++i) {
-        if (tags[i].opens("channel") && !targets.insert(colladaAttribute(tags[i].text, "target")).second) return text;
-        if (!tags[i].opens("animation")) continue;
-        ++animations;
-        names.insert(colladaAttribute(tags[i].text, "name"));
-        const auto past = pastColladaElement(tags, i, "animation");
-        if (!past) return text;
-        if (!first) first = i;
-        last = std::max(last, *past);
+        const ColladaTag& tag = tags[i];
+        if (tag.opens("channel") && !targets.insert(colladaAttribute(tag.text, "target")).second) return text;
+        if (tag.opens("sampler")) {
+            // Assimp knows the samplers of an animation by their ids.
+            const std::string_view id = colladaAttribute(tag.text, "id");
+            if (!id.empty() && !samplers.insert(id).second) return text;
+        }
+        if (tag.opens("library_animations") && !tag.isEmpty() && ++libraries > 1) return text;
+        if (tag.closes("animation") && depth-- == 0) return text;
+        if (tag.opens("animation")) {
+            ++animations;
+            names.insert(colladaAttribute(tag.text, "name"));
+            if (!first) first = i;
+            if (!tag.isEmpty()) ++depth;
+        }
+        if (tag.opens("animation") || tag.closes("animation")) last = i + 1;
     }
+    if (depth > 0) return text;
     if (animations < 2) return text;
     names.erase("");
     const std::string opening =
@@ -125,28 +155,30 @@ std::string gatheredCollada(std::string text) {
     const std::vector<ColladaTag> tags = colladaTags(text);
     const Animations found = animationsOf(tags);
     if (found.clips.empty()) return inOneAnimation(text, tags);
+    std::vector<std::vector<Place>> places;
+    for (const AnimationClip& clip : found.clips)
+        places.push_back(placesOf(clip, found));
+    const bool shares = shareAnimations(places);
     std::map<std::size_t, std::size_t> moved;  // tags of animations that stand in a clip's: the first, and the one past
     std::string clips;
-    for (const AnimationClip& clip : found.clips) {
-        if (shareAnimations(found.clips)) break;
+    for (std::size_t clip = 0; clip < places.size() && !shares; ++clip) {
         std::string content;
-        for (const std::string& id : clip.animations) {
-            const auto place = found.places.find(id);
-            if (place == found.places.end()) continue;
-            content += contentOf(text, tags, place->second);
-            moved.insert(place->second);
+        for (const Place& place : places[clip]) {
+            content += contentOf(text, tags, place);
+            moved.insert(place);
         }
-        if (!content.empty()) clips += fmt::format("<animation name=\"{}\">{}</animation>", clip.name, content);
+        if (!content.empty())
+            clips += fmt::format("<animation name=\"{}\">{}</animation>", found.clips[clip].name, content);
     }
     ColladaEdits edits(text);
     for (std::size_t i = 0; i < tags.size(); ++i) {
         if (i == found.library && !clips.empty()) edits.replace(tags[i].end, tags[i].end, clips);
         const auto animation = moved.find(i);
-        const auto past = tags[i].opens("library_animation_clips")
-                              ? pastColladaElement(tags, i, "library_animation_clips")
-                          : animation != moved.end() ? std::optional<std::size_t>(animation->second)
-                                                     : std::nullopt;
-        if (!past || *past <= i) continue;
+        const bool isClips = tags[i].opens("library_animation_clips");
+        if (!isClips && animation == moved.end()) continue;
+        const std::optional<std::size_t> past =
+            isClips ? pastColladaElement(tags, i, "library_animation_clips") : animation->second;
+        if (!past) return text;
         edits.replace(tags[i].start, tags[*past - 1].end, "");
         i = *past - 1;
     }
