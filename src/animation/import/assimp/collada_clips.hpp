@@ -12,8 +12,8 @@ namespace lutka::animation::rig_import {
 /// taken away: then that time line is the clip.
 [[nodiscard]] std::string gatheredCollada(std::string text);
 
-/// Gives the clips of a gathered document their names, to which Assimp adds that of the first, or that very name
-/// once more.
+/// Gives the clips that Assimp made of a gathered document (gatheredCollada()) their names, to which it adds that of
+/// the first, or that very name once more. `document` is the file's own text as UTF-8, in which the clips still stand.
 void settleColladaClips(std::string_view document, SourceScene& scene);
 
 }  // namespace lutka::animation::rig_import

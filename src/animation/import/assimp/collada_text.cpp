@@ -199,25 +199,6 @@ std::string lettersOf(std::string_view text) {
     return out;
 }
 
-std::map<std::string, std::string> nodeNames(std::string_view text) {
-    constexpr std::size_t kLongestName = 256;  // bytes
-    std::map<std::string, std::string> names;
-    std::map<std::string, int> uses;
-    for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
-        const std::size_t end = endOfColladaMarkup(text, at);
-        const std::string_view tag = text.substr(at, end - at);
-        at = end;
-        if (!tag.starts_with("<node ")) continue;
-        const std::string id(colladaAttribute(tag, "id"));
-        const std::string name(colladaAttribute(tag, "name"));
-        ++uses[name];
-        if (id.empty() || id.size() > kLongestName || name.size() > kLongestName || lettersOf(name).empty()) continue;
-        if (lettersOf(id).find(lettersOf(name)) == std::string::npos) names[id] = name;
-    }
-    std::erase_if(names, [&](const auto& entry) { return uses[entry.second] > 1; });
-    return names;
-}
-
 }  // namespace
 
 std::size_t endOfColladaMarkup(std::string_view text, std::size_t start) {
@@ -251,16 +232,35 @@ std::string_view colladaAttribute(std::string_view tag, std::string_view name) {
     return text.find('&') == std::string_view::npos ? text : std::string_view{};
 }
 
+std::string decodedCollada(std::string_view bytes) {
+    return isUtf16(bytes) ? utf8Of(bytes) : std::string(bytes);
+}
+
 bool isCollada(std::string_view start) {
-    return (isUtf16(start) ? utf8Of(start) : std::string(start)).find("<COLLADA") != std::string::npos;
+    return decodedCollada(start).find("<COLLADA") != std::string::npos;
 }
 
 std::string tidyCollada(std::string_view bytes) {
-    return isUtf16(bytes) ? tidyText(utf8Of(bytes)) : tidyText(bytes);
+    return tidyText(decodedCollada(bytes));
 }
 
-std::map<std::string, std::string> colladaNodeNames(std::string_view bytes) {
-    return isUtf16(bytes) ? nodeNames(utf8Of(bytes)) : nodeNames(bytes);
+std::map<std::string, std::string> colladaNodeNames(std::string_view document) {
+    constexpr std::size_t kLongestName = 256;  // bytes
+    std::map<std::string, std::string> names;
+    std::map<std::string, int> uses;
+    for (std::size_t at = document.find('<'); at < document.size(); at = document.find('<', at)) {
+        const std::size_t end = endOfColladaMarkup(document, at);
+        const std::string_view tag = document.substr(at, end - at);
+        at = end;
+        if (!tag.starts_with("<node ")) continue;
+        const std::string id(colladaAttribute(tag, "id"));
+        const std::string name(colladaAttribute(tag, "name"));
+        ++uses[name];
+        if (id.empty() || id.size() > kLongestName || name.size() > kLongestName || lettersOf(name).empty()) continue;
+        if (lettersOf(id).find(lettersOf(name)) == std::string::npos) names[id] = name;
+    }
+    std::erase_if(names, [&](const auto& entry) { return uses[entry.second] > 1; });
+    return names;
 }
 
 }  // namespace lutka::animation::rig_import

@@ -7,6 +7,9 @@
 
 namespace lutka::animation::rig_import {
 
+/// A document's text as UTF-8, be it in that or in UTF-16.
+[[nodiscard]] std::string decodedCollada(std::string_view bytes);
+
 /// Whether a file that starts with these bytes is Collada, as UTF-8 or UTF-16.
 [[nodiscard]] bool isCollada(std::string_view start);
 
@@ -25,7 +28,8 @@ namespace lutka::animation::rig_import {
 [[nodiscard]] std::string_view colladaAttribute(std::string_view tag, std::string_view name);
 
 /// The names of a document's nodes by their ids, of those whose id was made by a program and says nothing of the name
-/// ("id-bone-4" for "pelvis", as Godot writes it). Names that two nodes share are left out.
-[[nodiscard]] std::map<std::string, std::string> colladaNodeNames(std::string_view bytes);
+/// ("id-bone-4" for "pelvis", as Godot writes it). Names that two nodes share are left out. `document` is
+/// the file's text as UTF-8.
+[[nodiscard]] std::map<std::string, std::string> colladaNodeNames(std::string_view document);
 
 }  // namespace lutka::animation::rig_import

@@ -70,13 +70,14 @@ SourceConvention conventionOf(const aiScene& scene, const std::filesystem::path&
     return convention;
 }
 
-// What Assimp leaves out of a document: who wrote it, names of nodes, which it calls by their ids, and clips of nodes
-// that stand in a library.
+// What Assimp leaves out of a Collada document: who wrote it, the names of nodes, which it calls by their ids, and of
+// clips. Tells what is left out.
 void completeByDocument(const std::filesystem::path& file, SourceScene& out) {
     if (lowerCased(file.extension().string()) != ".dae") return;
     const Result<std::vector<unsigned char>> bytes = readFile(file);
     if (!bytes) return;
-    const std::string_view text(reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size());
+    const std::string text =
+        decodedCollada({reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size()});
     if (out.clips.empty() && text.find("<channel ") != std::string_view::npos)
         out.warnings.emplace_back("left out: animations, for they move nothing that stands in the scene itself");
     if (holdsMorphs(text)) out.warnings.emplace_back("left out: morph targets, which the file has on from the start");
