@@ -230,8 +230,10 @@ TEST_CASE("Collada's animations that move nothing in the scene are told") {
                 "name=\"TIME\" type=\"float\"/></accessor></technique_common></source><sampler id=\"s\"><input "
                 "semantic=\"INPUT\" source=\"#t\"/><input semantic=\"OUTPUT\" source=\"#t\"/></sampler><channel "
                 "source=\"#s\" target=\"elsewhere/translate.X\"/></animation></library_animations>");
-    std::ofstream(folder / "moved.dae", std::ios::binary) << text;
-    CHECK(warns(imported(folder / "moved.dae"), "animations"));
+    for (const std::string& document : {text, utf16Of(text, true)}) {
+        std::ofstream(folder / "moved.dae", std::ios::binary) << document;
+        CHECK(warns(imported(folder / "moved.dae"), "animations"));
+    }
     std::ofstream(folder / "still.dae", std::ios::binary) << triangle("");
     CHECK_FALSE(warns(imported(folder / "still.dae"), "animations"));
 }
@@ -324,7 +326,33 @@ TEST_CASE("a Collada skin over a morph, or a morph over a skin, keeps its mesh a
             CHECK(character.meshes[0].indices == plain.meshes[0].indices);
             CHECK(character.skeleton.skinWeight == plain.skeleton.skinWeight);
             CHECK(warns(character, "morph targets") == (weight != "0"));
+            std::ofstream(folder / "morph.dae", std::ios::binary) << utf16Of(text, false);
+            CHECK(warns(imported(folder / "morph.dae"), "morph targets") == (weight != "0"));
         }
+    }
+}
+
+TEST_CASE("Collada's morph controllers stay where something still leads to them") {
+    using rig_import::linkedCollada;
+    const auto morph = [](const std::string& id, const std::string& source) {
+        return "<controller id=\"" + id + "\"><morph source=\"#" + source + "\"/></controller>";
+    };
+    const auto skin = [](const std::string& source) {
+        return "<controller id=\"s\"><skin source=\"#" + source + "\"/></controller>";
+    };
+    const auto shown = [](const std::string& id) { return "<instance_controller url=\"#" + id + "\"/>"; };
+    const std::string morphs = morph("m", "n") + morph("n", "g");
+    CHECK(linkedCollada(morphs + skin("m") + shown("s")) == skin("g") + shown("s"));
+    // A scene shows a morph by itself; then that stays, and what it is over.
+    CHECK(linkedCollada(morphs + skin("m") + shown("s") + shown("m")) == morphs + skin("g") + shown("s") + shown("m"));
+    CHECK(linkedCollada(morphs + skin("m") + shown("n")) == morph("n", "g") + skin("g") + shown("n"));
+    // Rings, and longer than any nesting.
+    for (const int length : {2, 100}) {
+        std::string ring;
+        for (int i = 0; i < length; ++i)
+            ring += morph("r" + std::to_string(i), "r" + std::to_string((i + 1) % length));
+        ring += skin("r0") + shown("r1");
+        CHECK(linkedCollada(ring) == ring);
     }
 }
 

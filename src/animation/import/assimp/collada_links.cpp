@@ -45,8 +45,10 @@ std::string pastMorphs(const std::map<std::string, Controller>& controllers, con
         morphs.push_back(at);
         at = found->second.source;
     }
-    const bool isSkin = controllers.count(at) > 0;
-    if (at == first || (toSkin && !isSkin)) return {};
+    const auto end = controllers.find(at);
+    const bool isController = end != controllers.end();
+    // A ring of morphs, or too long a row of them, ends at a morph still.
+    if (at == first || (toSkin && !isController) || (isController && end->second.isMorph)) return {};
     passed.insert(morphs.begin(), morphs.end());
     return at;
 }
@@ -56,11 +58,19 @@ std::string withoutMorphs(const std::string& text) {
     const std::map<std::string, Controller> controllers = controllersOf(tags);
     std::map<std::size_t, std::string> links;  // tag → what it leads to
     std::set<std::string> passed;
+    std::vector<std::string> kept;  // what links lead to that stay
     for (std::size_t i = 0; i < tags.size(); ++i) {
         const bool isSkin = tags[i].opens("skin");
         if (!isSkin && !tags[i].opens("instance_controller")) continue;
-        const std::string past = pastMorphs(controllers, tags[i].target(isSkin ? "source" : "url"), !isSkin, passed);
+        const std::string target = tags[i].target(isSkin ? "source" : "url");
+        const std::string past = pastMorphs(controllers, target, !isSkin, passed);
+        if (past.empty()) kept.push_back(target);
         if (!past.empty()) links[i] = past;
+    }
+    // Those stay that something still leads to, and what they are over.
+    for (std::string at : kept) {
+        while (passed.erase(at) > 0)
+            at = controllers.at(at).source;
     }
     ColladaEdits edits(text);
     for (std::size_t i = 0; i < tags.size(); ++i) {
