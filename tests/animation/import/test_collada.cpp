@@ -297,6 +297,31 @@ TEST_CASE("Collada's joints move though they stand in a library of nodes") {
     sampleClip(character.clips[0], 1.0F, last);
     const float scale = character.units.metresPerFileUnit;
     CHECK(glm::distance(first[high].translation, last[high].translation) == Approx(0.5F * scale).epsilon(1e-3));
+    // Two clips of it keep their names in UTF-16, too.
+    const std::size_t start = text.find("<animation id");
+    std::string other = text.substr(start, text.find("</library_animations>") - start);
+    for (const std::string id : {"a", "t", "ta", "o", "oa", "q"}) {
+        const std::string quoted = id + "\"";
+        for (const std::string mark : {"\"", "#"}) {
+            for (std::size_t at = other.find(mark + quoted); at != std::string::npos;
+                 at = other.find(mark + quoted, at + 3))
+                other.insert(at + 1, "2");
+        }
+    }
+    const auto clip = [](const std::string& name, const std::string& animation) {
+        return "<animation_clip name=\"" + name + "\"><instance_animation url=\"#" + animation +
+               "\"/></animation_clip>";
+    };
+    text.insert(start, other);
+    text.insert(text.find("</library_animations>") + 21,
+                "<library_animation_clips>" + clip("walk", "a") + clip("run", "2a") + "</library_animation_clips>");
+    for (const std::string& document : {text, utf16Of(text, true)}) {
+        std::ofstream(folder / "clips.dae", std::ios::binary) << document;
+        const Character both = imported(folder / "clips.dae");
+        REQUIRE(both.clips.size() == 2);
+        CHECK(both.clips[0].name == "walk");
+        CHECK(both.clips[1].name == "run");
+    }
 }
 
 TEST_CASE("a Collada skin over a morph, or a morph over a skin, keeps its mesh and its weights") {
