@@ -10,8 +10,8 @@
 namespace lutka::physics {
 
 /// Signs that the figure as a whole is broken: no measure of the rest makes a ragdoll of it, so each is an error. Codes
-/// `skin-outside-bodies`, `skin-on-one-joint`, `skin-small` and `body-beside-skin` of diagnose(). `shapes` are the
-/// profile's bodies in the bind pose, in the plan's order; `fit` has been measured on them.
+/// `skin-outside-bodies`, `skin-on-one-joint`, `skin-of-others`, `skin-small` and `body-beside-skin` of diagnose().
+/// `shapes` are the profile's bodies in the bind pose, in the plan's order; `fit` has been measured on them.
 [[nodiscard]] std::vector<Finding> findBrokenFigure(const animation::Character& character, const BodyPlan& plan,
                                                     std::span<const PlacedShape> shapes, const FitMeasures& fit);
 

@@ -53,6 +53,8 @@ struct Diagnosis {
 /// - `skin-outside-bodies` most of the skin is more than 6 % of the height (of a thick body: 74 % of its radius) from
 ///   all bodies, and few of these have skin of their own about them; or much of it lies at bodies of other parts than
 ///   the one that moves it (error)
+/// - `skin-of-others` three parts or more of a figure whose skin mostly follows parts that they are not linked with
+///   (error)
 /// - `skin-on-one-joint` nine tenths of the skin follow one joint where there are many bodies (error)
 /// - `skin-small` most bodies' skin is less than 45 % as long as they are: another unit (error)
 /// - `body-beside-skin` a body lies beside all the skin that follows it and hardly touches any (error)

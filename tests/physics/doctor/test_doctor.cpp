@@ -343,6 +343,23 @@ TEST_CASE("the doctor certifies no figure whose skin hangs on one joint") {
     checkBroken(patient.look(), "skin-on-one-joint", "hips");
 }
 
+TEST_CASE("the doctor certifies no figure whose arms or legs follow the trunk") {
+    const bool arms = GENERATE(true, false);
+    Patient patient;
+    const animation::Skeleton& skeleton = patient.character.skeleton;
+    const auto trunk = static_cast<std::uint16_t>(findJoint(skeleton, arms ? "chest" : "hips"));
+    const std::array<Role, 2> limbs{arms ? Role::leftUpperArm : Role::leftUpperLeg,
+                                    arms ? Role::rightUpperArm : Role::rightUpperLeg};
+    for (auto& joints : patient.character.meshes[0].joints) {
+        for (std::uint16_t& joint : joints) {
+            for (const Role limb : limbs)
+                if (isAncestorOrSelf(skeleton, patient.map.jointOf(limb), joint)) joint = trunk;
+        }
+    }
+    patient.profile = fitRagdoll(patient.character, patient.map).value();
+    checkBroken(patient.look(), "skin-of-others", "/bodies");
+}
+
 namespace {
 
 // A rigid sword of 40 times the figure's vertices, so far from the right hand.
