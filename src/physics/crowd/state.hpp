@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "core/task_pool.hpp"
+#include "core/union_find.hpp"
 #include "physics/crowd/batch.hpp"
 #include "physics/crowd/chunked.hpp"
 #include "physics/crowd/kernels.hpp"
 #include "physics/crowd/narrowphase.hpp"
 #include "physics/crowd/tuning.hpp"
-#include "physics/crowd/union_find.hpp"
 #include "physics/world/world.hpp"
 
 namespace lutka::physics::crowd {

@@ -27,16 +27,19 @@ TipProportions proportionsOf(std::optional<Role> role) {
     return {0.14F, 0.35F};
 }
 
+// How far from its joint the middle of a body's skin lies; its skin is not empty.
+float medianDistance(const PlannedBody& body) {
+    return quantileOf(body.skin, 0.5F,
+                      [&](const SkinPoint& point) { return glm::distance(point.position, body.start); });
+}
+
 // A hand of a figure with large hands may reach as far as its forearm is long, a large head as far as most of it does.
 float reachOf(const BodyPlan& plan, const PlannedBody& body) {
     const float reach = proportionsOf(body.role).reach * plan.heightM;
     if (isEitherSide(body.role, Role::leftHand) && body.parent >= 0) {
         return std::max(reach, 0.8F * plan.bodies[body.parent].length());
     }
-    if (body.role == Role::head && !body.skin.empty()) {
-        const auto away = [&](const SkinPoint& point) { return glm::distance(point.position, body.start); };
-        return std::max(reach, 1.5F * quantileOf(body.skin, 0.5F, away));
-    }
+    if (body.role == Role::head && !body.skin.empty()) return std::max(reach, 1.5F * medianDistance(body));
     return reach;
 }
 
@@ -44,8 +47,7 @@ float reachOf(const BodyPlan& plan, const PlannedBody& body) {
 float reachBetweenJoints(const BodyPlan& plan, const PlannedBody& body) {
     const float reach = body.length() + 0.08F * plan.heightM;
     if (!isTrunk(body.role) || body.skin.empty()) return reach;
-    const auto away = [&](const SkinPoint& point) { return glm::distance(point.position, body.start); };
-    return std::max(reach, 1.2F * quantileOf(body.skin, 0.5F, away));
+    return std::max(reach, 1.2F * medianDistance(body));
 }
 
 // The joints below a body's joint (fingers, toe) tell its direction where there is no skin, as far as it may reach:

@@ -5,10 +5,11 @@
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <numeric>
 #include <optional>
 #include <unordered_map>
 #include <utility>
+
+#include "core/union_find.hpp"
 
 namespace lutka::physics {
 namespace {
@@ -56,8 +57,7 @@ class HeadSkin {
                 if (owners[m][v] == head) placeOf_[m][v] = placeAt(mesh.positions[v]);
             }
         }
-        groups_.resize(places_.size());
-        std::iota(groups_.begin(), groups_.end(), 0);
+        groups_.reset(places_.size());
         for (std::size_t m = 0; m < owners.size(); ++m)
             join(character.meshes[m], placeOf_[m]);
         gather(character, standardFromModel);
@@ -67,7 +67,7 @@ class HeadSkin {
     // -1: not the head's.
     [[nodiscard]] int pieceOf(std::size_t mesh, std::size_t vertex) const {
         const int place = placeOf_[mesh][vertex];
-        return place < 0 ? -1 : pieceOfGroup_[static_cast<std::size_t>(groups_[static_cast<std::size_t>(place)])];
+        return place < 0 ? -1 : pieceOfPlace_[static_cast<std::size_t>(place)];
     }
 
   private:
@@ -86,16 +86,6 @@ class HeadSkin {
         return found->second;
     }
 
-    int groupOf(int place) {
-        int at = place;
-        while (groups_[static_cast<std::size_t>(at)] != at) {
-            int& up = groups_[static_cast<std::size_t>(at)];
-            up = groups_[static_cast<std::size_t>(up)];
-            at = up;
-        }
-        return at;
-    }
-
     void join(const SkinnedMesh& mesh, const std::vector<int>& placeOf) {
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
             const std::uint32_t* const corner = &mesh.indices[i];
@@ -103,22 +93,21 @@ class HeadSkin {
             for (int k = 0; k < 3; ++k) {
                 const int place = placeOf[corner[k]];
                 if (place < 0) continue;
-                if (first >= 0) groups_[static_cast<std::size_t>(groupOf(place))] = groupOf(first);
+                if (first >= 0) groups_.join(place, first);
                 first = place;
             }
         }
     }
 
     void gather(const animation::Character& character, const mat3& standardFromModel) {
-        pieceOfGroup_.assign(places_.size(), -1);
+        pieceOfPlace_.resize(places_.size());
         for (std::size_t place = 0; place < places_.size(); ++place) {
-            const int group = groupOf(static_cast<int>(place));
-            groups_[place] = group;
-            int& piece = pieceOfGroup_[static_cast<std::size_t>(group)];
-            if (piece < 0) {
-                piece = static_cast<int>(pieces_.size());
-                pieces_.emplace_back();
-            }
+            const auto group = static_cast<std::size_t>(groups_.find(static_cast<int>(place)));
+            // A set is called by its smallest member, which comes first.
+            const bool isNew = group == place;
+            const int piece = isNew ? static_cast<int>(pieces_.size()) : pieceOfPlace_[group];
+            pieceOfPlace_[place] = piece;
+            if (isNew) pieces_.emplace_back();
             const vec3 point = standardFromModel * places_[place];
             Piece& of = pieces_[static_cast<std::size_t>(piece)];
             of.box.add(point);
@@ -150,8 +139,8 @@ class HeadSkin {
     std::unordered_map<vec3, int, Hash> index_;
     std::vector<vec3> places_;
     std::vector<std::vector<int>> placeOf_;  // one list a mesh: place of each vertex, -1: not the head's
-    std::vector<int> groups_;
-    std::vector<int> pieceOfGroup_;
+    UnionFind groups_;                       // of places
+    std::vector<int> pieceOfPlace_;
     std::vector<Piece> pieces_;
 };
 

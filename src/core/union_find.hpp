@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-namespace lutka::physics::crowd {
+namespace lutka {
 
 /// Disjoint sets of [0, count); the representative is the smallest member, so that it does not depend on the order of
 /// joining.
@@ -32,4 +32,4 @@ class UnionFind {
     std::vector<int> parent_;
 };
 
-}  // namespace lutka::physics::crowd
+}  // namespace lutka
