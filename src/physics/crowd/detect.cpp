@@ -226,9 +226,9 @@ constexpr float kHardHit = 5.0F;
 
 // Notes which dolls a prop may hit hard in this step.
 void findStruck(CrowdState& state) {
+    if (state.props.empty()) return;
     for (Doll& doll : state.dolls)
         doll.struckHard = false;
-    if (state.props.empty()) return;
     for (const auto& [a, b] : state.dollPairs) {
         Doll &first = state.dolls[a], &second = state.dolls[b];
         if ((first.profile == nullptr) == (second.profile == nullptr)) continue;
@@ -250,7 +250,8 @@ unsigned hardHits(const CrowdState& state, const Batch& batch, float dt) {
         if (isFast(at.lane)) add(at.lane, glm::length(at.velocity));
     for (int lane = 0; lane < batch.used; ++lane) {
         const Doll& doll = state.dolls[batch.doll[lane]];
-        if (doll.struckHard && doll.motors == 0) hits |= 1U << static_cast<unsigned>(lane);
+        // Without props the note is of the last step that had any.
+        if (doll.struckHard && !state.props.empty() && doll.motors == 0) hits |= 1U << static_cast<unsigned>(lane);
         if (!isFast(lane)) continue;
         for (const StaticContactLanes& contact : batch.contacts) {
             if (contact.key[lane] == 0) continue;
