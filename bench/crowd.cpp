@@ -14,7 +14,7 @@
 #include "physics/crowd/crowd_world.hpp"
 #include "physics/world/doll_overlap.hpp"
 #include "physics/world/quality.hpp"
-#include "scene/scenario.hpp"
+#include "scene/description/scenario.hpp"
 #include "trial.hpp"
 
 namespace {

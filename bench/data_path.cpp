@@ -19,8 +19,8 @@
 #include "animation/pose_batch.hpp"
 #include "animation/skinning.hpp"
 #include "physics/rig/doll_poser.hpp"
-#include "scene/draw_simulation.hpp"
-#include "scene/ragdoll_asset.hpp"
+#include "scene/asset/ragdoll_asset.hpp"
+#include "scene/draw/draw_simulation.hpp"
 #include "timing.hpp"
 
 namespace {

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "scene/load_shedding.hpp"
-#include "scene/make_world.hpp"
-#include "scene/ragdoll_asset.hpp"
-#include "scene/scenario.hpp"
+#include "scene/asset/ragdoll_asset.hpp"
+#include "scene/description/scenario.hpp"
+#include "scene/run/load_shedding.hpp"
+#include "scene/run/make_world.hpp"
 #include "timing.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "scene/simulation.hpp"
+#include "scene/run/simulation.hpp"
 
 /// The value, or null where there is an error, which is printed.
 template <class T>

@@ -20,9 +20,9 @@
 #include "animation/import/gltf_file.hpp"
 #include "animation/import/import_character.hpp"
 #include "physics/world/doll_guard.hpp"
-#include "scene/ragdoll_asset.hpp"
-#include "scene/scenario.hpp"
-#include "scene/simulation.hpp"
+#include "scene/asset/ragdoll_asset.hpp"
+#include "scene/description/scenario.hpp"
+#include "scene/run/simulation.hpp"
 #include "support/rigs.hpp"
 #include "timing.hpp"
 

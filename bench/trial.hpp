@@ -7,8 +7,8 @@
 
 #include "physics/bullet/bullet_world.hpp"
 #include "physics/world/quality.hpp"
-#include "scene/ragdoll_asset.hpp"
-#include "scene/scenario.hpp"
+#include "scene/asset/ragdoll_asset.hpp"
+#include "scene/description/scenario.hpp"
 
 namespace lutka::bench {
 

@@ -8,7 +8,7 @@
 #include "bindings/sealed.hpp"
 #include "core/files.hpp"
 #include "export/export_ragdoll.hpp"
-#include "scene/checkup.hpp"
+#include "scene/measure/checkup.hpp"
 
 namespace lutka::python {
 namespace {

@@ -6,8 +6,8 @@
 #include "animation/skinning.hpp"
 #include "bindings/sealed.hpp"
 #include "bindings/simulation_object.hpp"
-#include "scene/bake.hpp"
-#include "scene/report.hpp"
+#include "scene/measure/report.hpp"
+#include "scene/run/bake.hpp"
 
 namespace lutka::python {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "bindings/conversions.hpp"
 #include "bindings/errors.hpp"
-#include "scene/load_words.hpp"
+#include "scene/asset/load_words.hpp"
 
 namespace lutka::python {
 
@@ -55,7 +55,7 @@ class Keywords {
         value = given;
         return true;
     }
-    /// One of the words of scene/load_words.hpp, as what it means; raises UsageError otherwise.
+    /// One of the words of scene/asset/load_words.hpp, as what it means; raises UsageError otherwise.
     template <class Words, class T>
     bool takeWord(const char* name, const Words& words, T& value) {
         std::string word;

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "bindings/keywords.hpp"
-#include "scene/ragdoll_asset.hpp"
+#include "scene/asset/ragdoll_asset.hpp"
 
 namespace lutka::python {
 

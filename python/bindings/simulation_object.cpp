@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "scene/scene_cast.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/description/scene_file.hpp"
+#include "scene/run/scene_cast.hpp"
 
 namespace lutka::python {
 

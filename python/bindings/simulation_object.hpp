@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bindings/ragdoll_object.hpp"
-#include "scene/simulation.hpp"
+#include "scene/run/simulation.hpp"
 
 namespace lutka::python {
 

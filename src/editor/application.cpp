@@ -19,7 +19,7 @@
 #include "editor/view/quality_governor.hpp"
 #include "render/environment.hpp"
 #include "render/gl/renderer.hpp"
-#include "scene/scene_extent.hpp"
+#include "scene/draw/scene_extent.hpp"
 
 namespace lutka::editor {
 namespace {

@@ -8,7 +8,7 @@
 #include "editor/document/open_document.hpp"
 #include "editor/files/folder_files.hpp"
 #include "editor/view/select_bodies.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/description/scene_file.hpp"
 
 namespace lutka::editor {
 

@@ -1,7 +1,7 @@
 #include "editor/editor_options.hpp"
 
 #include "core/files.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/description/scene_file.hpp"
 
 namespace lutka::editor {
 

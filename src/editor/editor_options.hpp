@@ -6,8 +6,8 @@
 #include "core/result.hpp"
 #include "editor/document/scene_settings.hpp"
 #include "render/extent.hpp"
-#include "scene/frame_loop.hpp"
-#include "scene/ragdoll_asset.hpp"
+#include "scene/asset/ragdoll_asset.hpp"
+#include "scene/run/frame_loop.hpp"
 
 namespace lutka::editor {
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "report/drop_trace.hpp"
-#include "scene/ragdoll_asset.hpp"
+#include "scene/asset/ragdoll_asset.hpp"
 
 namespace lutka::reporting {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "report/drop_trace.hpp"
-#include "scene/checkup.hpp"
+#include "scene/measure/checkup.hpp"
 
 namespace lutka::reporting {
 

@@ -5,7 +5,7 @@
 
 #include "core/rigid_transform.hpp"
 #include "physics/profile/body_state.hpp"
-#include "scene/simulation.hpp"
+#include "scene/run/simulation.hpp"
 
 namespace lutka::reporting {
 

@@ -7,8 +7,8 @@
 
 #include "core/result.hpp"
 #include "report/page.hpp"
-#include "scene/checkup.hpp"
-#include "scene/ragdoll_asset.hpp"
+#include "scene/asset/ragdoll_asset.hpp"
+#include "scene/measure/checkup.hpp"
 
 namespace lutka::reporting {
 

@@ -6,8 +6,8 @@
 #include "report/drop_trace.hpp"
 #include "report/page.hpp"
 #include "report/pictures.hpp"
-#include "scene/checkup.hpp"
-#include "scene/ragdoll_asset.hpp"
+#include "scene/asset/ragdoll_asset.hpp"
+#include "scene/measure/checkup.hpp"
 
 namespace lutka::reporting {
 

@@ -4,8 +4,8 @@
 
 #include "physics/doctor/doctor.hpp"
 #include "physics/profile/profile.hpp"
-#include "scene/checkup.hpp"
-#include "scene/ragdoll_asset.hpp"
+#include "scene/asset/ragdoll_asset.hpp"
+#include "scene/measure/checkup.hpp"
 
 /// Parts of a model's page, each as HTML; what comes from files is escaped.
 namespace lutka::reporting {

@@ -6,9 +6,9 @@
 #include "render/gl/gl_context.hpp"
 #include "render/gl/renderer.hpp"
 #include "render/png_bytes.hpp"
-#include "scene/draw_simulation.hpp"
-#include "scene/film_camera.hpp"
-#include "scene/simulation.hpp"
+#include "scene/draw/draw_simulation.hpp"
+#include "scene/draw/film_camera.hpp"
+#include "scene/run/simulation.hpp"
 
 namespace lutka::reporting {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "core/result.hpp"
 #include "render/extent.hpp"
-#include "scene/ragdoll_asset.hpp"
+#include "scene/asset/ragdoll_asset.hpp"
 
 namespace lutka::scene {
 class Simulation;

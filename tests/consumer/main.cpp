@@ -1,7 +1,7 @@
 // The library in one page: load a rigged model, let it fall for two seconds, take the fall away as a clip.
 #include "animation/export/write_glb.hpp"
-#include "scene/bake.hpp"
-#include "scene/simulation.hpp"
+#include "scene/run/bake.hpp"
+#include "scene/run/simulation.hpp"
 
 #include <cstdio>
 

@@ -3,7 +3,7 @@
 
 #include "editor/scripts.hpp"
 #include "editor/view/describe_frame.hpp"
-#include "scene/recording.hpp"
+#include "scene/run/recording.hpp"
 
 using namespace lutka;
 using namespace lutka::editor;

@@ -1,5 +1,5 @@
 #include "fuzz/fuzz_target.hpp"
-#include "scene/recording.hpp"
+#include "scene/run/recording.hpp"
 
 using namespace lutka;
 

@@ -1,5 +1,5 @@
 #include "fuzz/fuzz_target.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/description/scene_file.hpp"
 
 using namespace lutka;
 

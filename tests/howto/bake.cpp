@@ -2,8 +2,8 @@
 #include <cstdio>
 
 #include "animation/export/write_glb.hpp"
-#include "scene/bake.hpp"
-#include "scene/simulation.hpp"
+#include "scene/run/bake.hpp"
+#include "scene/run/simulation.hpp"
 
 using namespace lutka;
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "physics/profile/profile_io.hpp"
-#include "scene/ragdoll_asset.hpp"
+#include "scene/asset/ragdoll_asset.hpp"
 
 using namespace lutka;
 

@@ -1,7 +1,7 @@
 // Load a rigged model, let it fall for two seconds, say where it lies.
 #include <cstdio>
 
-#include "scene/simulation.hpp"
+#include "scene/run/simulation.hpp"
 
 using namespace lutka;
 

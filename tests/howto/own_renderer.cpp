@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "animation/skinning.hpp"
-#include "scene/simulation.hpp"
+#include "scene/run/simulation.hpp"
 
 using namespace lutka;
 

@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "physics/crowd/crowd_world.hpp"
-#include "scene/ragdoll_asset.hpp"
+#include "scene/asset/ragdoll_asset.hpp"
 
 using namespace lutka;
 

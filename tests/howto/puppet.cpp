@@ -1,7 +1,7 @@
 // A doll that walks with its muscles, is hit, and is knocked out.
 #include <cstdio>
 
-#include "scene/simulation.hpp"
+#include "scene/run/simulation.hpp"
 
 using namespace lutka;
 

@@ -1,6 +1,6 @@
 #include "report/drop_trace.hpp"
 
-#include "scene/checkup.hpp"
+#include "scene/measure/checkup.hpp"
 #include "support/catch.hpp"
 #include "support/ragdolls.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "physics/profile/constraint_state.hpp"
 #include "physics/world/lasting_peak.hpp"
-#include "scene/scenario.hpp"
+#include "scene/description/scenario.hpp"
 
 namespace lutka::test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "physics/world/quality.hpp"
 #include "physics/world/world.hpp"
-#include "scene/ragdoll_asset.hpp"
+#include "scene/asset/ragdoll_asset.hpp"
 
 namespace lutka::test {
 

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "scene/ragdoll_asset.hpp"
+#include "scene/asset/ragdoll_asset.hpp"
 #include "support/catch.hpp"
 #include "support/rigs.hpp"
 

@@ -11,7 +11,7 @@
 #include "core/memory_use.hpp"
 #include "core/random.hpp"
 #include "physics/rig/rig.hpp"
-#include "scene/make_world.hpp"
+#include "scene/run/make_world.hpp"
 #include "support/dolls.hpp"
 #include "support/rigs.hpp"
 

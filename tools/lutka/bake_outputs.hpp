@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "options.hpp"
-#include "scene/bake.hpp"
+#include "scene/run/bake.hpp"
 
 namespace lutka::cli {
 

@@ -6,9 +6,9 @@
 #include <chrono>
 
 #include "render/gl/renderer.hpp"
-#include "scene/draw_simulation.hpp"
-#include "scene/film_camera.hpp"
-#include "scene/simulation.hpp"
+#include "scene/draw/draw_simulation.hpp"
+#include "scene/draw/film_camera.hpp"
+#include "scene/run/simulation.hpp"
 
 namespace lutka::cli {
 namespace {

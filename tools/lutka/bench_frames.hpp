@@ -6,8 +6,8 @@
 #include "core/result.hpp"
 #include "physics/world/world_settings.hpp"
 #include "render/extent.hpp"
-#include "scene/ragdoll_asset.hpp"
-#include "scene/report.hpp"
+#include "scene/asset/ragdoll_asset.hpp"
+#include "scene/measure/report.hpp"
 
 namespace lutka::cli {
 

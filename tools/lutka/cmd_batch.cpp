@@ -9,7 +9,7 @@
 #include "core/files.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
-#include "scene/batch.hpp"
+#include "scene/batch/batch.hpp"
 
 namespace lutka::cli {
 namespace {

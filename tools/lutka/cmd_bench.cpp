@@ -10,8 +10,8 @@
 #include "core/files.hpp"
 #include "options.hpp"
 #include "own_process.hpp"
-#include "scene/benchmark.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/description/scene_file.hpp"
+#include "scene/measure/benchmark.hpp"
 
 namespace lutka::cli {
 namespace {

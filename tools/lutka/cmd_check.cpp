@@ -7,7 +7,7 @@
 #include "options.hpp"
 #include "physics/doctor/doctor.hpp"
 #include "physics/profile/profile_io.hpp"
-#include "scene/checkup.hpp"
+#include "scene/measure/checkup.hpp"
 
 namespace lutka::cli {
 namespace {

@@ -14,10 +14,10 @@
 #include "render/gl/gl_context.hpp"
 #include "render/gl/renderer.hpp"
 #include "run_simulation.hpp"
-#include "scene/draw_simulation.hpp"
-#include "scene/film_camera.hpp"
-#include "scene/recording.hpp"
-#include "scene/report.hpp"
+#include "scene/draw/draw_simulation.hpp"
+#include "scene/draw/film_camera.hpp"
+#include "scene/measure/report.hpp"
+#include "scene/run/recording.hpp"
 
 namespace lutka::cli {
 namespace {

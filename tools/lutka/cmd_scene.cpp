@@ -6,8 +6,8 @@
 #include "commands.hpp"
 #include "core/files.hpp"
 #include "options.hpp"
-#include "scene/scene_cast.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/description/scene_file.hpp"
+#include "scene/run/scene_cast.hpp"
 
 namespace lutka::cli {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "commands.hpp"
 #include "run_simulation.hpp"
-#include "scene/report.hpp"
+#include "scene/measure/report.hpp"
 
 namespace lutka::cli {
 namespace {

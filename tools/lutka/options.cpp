@@ -15,8 +15,8 @@
 #include "core/letter_case.hpp"
 #include "core/utf8.hpp"
 #include "interrupt.hpp"
-#include "scene/load_words.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/asset/load_words.hpp"
+#include "scene/description/scene_file.hpp"
 
 namespace lutka::cli {
 namespace {

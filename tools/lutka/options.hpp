@@ -14,8 +14,8 @@
 #include "command_line.hpp"
 #include "core/result.hpp"
 #include "render/extent.hpp"
-#include "scene/ragdoll_asset.hpp"
-#include "scene/simulation.hpp"
+#include "scene/asset/ragdoll_asset.hpp"
+#include "scene/run/simulation.hpp"
 
 namespace lutka::cli {
 

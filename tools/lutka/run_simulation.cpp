@@ -14,9 +14,9 @@
 #include "core/files.hpp"
 #include "input_settings.hpp"
 #include "interrupt.hpp"
-#include "scene/recording.hpp"
-#include "scene/report.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/description/scene_file.hpp"
+#include "scene/measure/report.hpp"
+#include "scene/run/recording.hpp"
 
 namespace lutka::cli {
 namespace {

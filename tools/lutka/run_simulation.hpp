@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "options.hpp"
-#include "scene/recording.hpp"
-#include "scene/run_inputs.hpp"
-#include "scene/scene_cast.hpp"
-#include "scene/simulation.hpp"
+#include "scene/run/recording.hpp"
+#include "scene/run/run_inputs.hpp"
+#include "scene/run/scene_cast.hpp"
+#include "scene/run/simulation.hpp"
 
 namespace lutka::cli {
 

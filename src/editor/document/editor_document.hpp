@@ -13,7 +13,7 @@
 #include "editor/document/undo_stack.hpp"
 #include "physics/doctor/doctor.hpp"
 #include "physics/profile/joint_range.hpp"
-#include "scene/ragdoll_asset.hpp"
+#include "scene/asset/ragdoll_asset.hpp"
 
 namespace lutka::editor {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "animation/clip_reference.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/description/scene_file.hpp"
 
 namespace lutka::editor {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "core/result.hpp"
 #include "editor/document/scene_settings.hpp"
-#include "scene/ragdoll_asset.hpp"
+#include "scene/asset/ragdoll_asset.hpp"
 
 namespace lutka::editor {
 

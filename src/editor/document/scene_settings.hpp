@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/simulation.hpp"
+#include "scene/run/simulation.hpp"
 
 namespace lutka::editor {
 

@@ -7,7 +7,7 @@
 
 #include "animation/export/write_glb.hpp"
 #include "core/files.hpp"
-#include "scene/bake.hpp"
+#include "scene/run/bake.hpp"
 
 namespace lutka::editor {
 

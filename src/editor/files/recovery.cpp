@@ -15,7 +15,7 @@
 #include "core/files.hpp"
 #include "core/json/json_text.hpp"
 #include "physics/profile/profile_io.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/description/scene_file.hpp"
 
 namespace lutka::editor {
 namespace {

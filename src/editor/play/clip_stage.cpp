@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/start_pose.hpp"
+#include "scene/run/start_pose.hpp"
 
 namespace lutka::editor {
 

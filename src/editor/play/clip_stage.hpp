@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "scene/simulation.hpp"
+#include "scene/run/simulation.hpp"
 
 namespace lutka::editor {
 

@@ -10,7 +10,7 @@
 
 #include "editor/view/selection.hpp"
 #include "physics/powered/body_pin.hpp"
-#include "scene/simulation.hpp"
+#include "scene/run/simulation.hpp"
 
 namespace lutka::editor {
 

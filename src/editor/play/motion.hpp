@@ -6,8 +6,8 @@
 
 #include "editor/play/pulls.hpp"
 #include "physics/profile/profile.hpp"
-#include "scene/entity_scene.hpp"
-#include "scene/puppet_cast.hpp"
+#include "scene/description/entity_scene.hpp"
+#include "scene/puppet/puppet_cast.hpp"
 
 namespace lutka::editor {
 

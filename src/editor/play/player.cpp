@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "scene/scenario.hpp"
+#include "scene/description/scenario.hpp"
 
 namespace lutka::editor {
 namespace {

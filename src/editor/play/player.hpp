@@ -14,9 +14,9 @@
 #include "editor/play/motion.hpp"
 #include "editor/play/recording_deck.hpp"
 #include "editor/view/picking.hpp"
-#include "scene/frame_loop.hpp"
-#include "scene/simulation.hpp"
-#include "scene/substep_governor.hpp"
+#include "scene/run/frame_loop.hpp"
+#include "scene/run/simulation.hpp"
+#include "scene/run/substep_governor.hpp"
 
 namespace lutka::editor {
 

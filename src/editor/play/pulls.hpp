@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "physics/world/world.hpp"
-#include "scene/simulation.hpp"
+#include "scene/run/simulation.hpp"
 
 namespace lutka::editor {
 

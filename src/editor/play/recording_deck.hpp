@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/result.hpp"
-#include "scene/recording.hpp"
-#include "scene/simulation.hpp"
+#include "scene/run/recording.hpp"
+#include "scene/run/simulation.hpp"
 
 namespace lutka::editor {
 

@@ -10,7 +10,7 @@
 #include "editor/ui/panels.hpp"
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/description/scene_file.hpp"
 
 namespace lutka::editor {
 namespace {

@@ -10,7 +10,7 @@
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"
 #include "physics/profile/constraint_state.hpp"
-#include "scene/draw_debug.hpp"
+#include "scene/draw/draw_debug.hpp"
 
 namespace lutka::editor {
 namespace {

@@ -12,7 +12,7 @@
 #include "editor/ui/panels.hpp"
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"
-#include "scene/solver_defaults.hpp"
+#include "scene/run/solver_defaults.hpp"
 
 namespace lutka::editor {
 namespace {

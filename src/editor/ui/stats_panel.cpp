@@ -9,7 +9,7 @@
 #include "editor/ui/panels.hpp"
 #include "editor/ui/style.hpp"
 #include "editor/ui/widgets.hpp"
-#include "scene/report.hpp"
+#include "scene/measure/report.hpp"
 
 namespace lutka::editor {
 namespace {

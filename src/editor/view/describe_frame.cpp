@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "scene/draw_hull.hpp"
+#include "scene/draw/draw_hull.hpp"
 
 namespace lutka::editor {
 namespace {

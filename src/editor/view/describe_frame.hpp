@@ -8,7 +8,7 @@
 #include "editor/states/workspace.hpp"
 #include "render/frame.hpp"
 #include "render/legend.hpp"
-#include "scene/draw_simulation.hpp"
+#include "scene/draw/draw_simulation.hpp"
 
 namespace lutka::editor {
 

@@ -6,7 +6,7 @@
 #include "editor/document/document_state.hpp"
 #include "editor/view/selection.hpp"
 #include "render/camera.hpp"
-#include "scene/simulation.hpp"
+#include "scene/run/simulation.hpp"
 
 namespace lutka::editor {
 

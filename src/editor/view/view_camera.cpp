@@ -2,8 +2,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "scene/draw_simulation.hpp"
-#include "scene/scene_extent.hpp"
+#include "scene/draw/draw_simulation.hpp"
+#include "scene/draw/scene_extent.hpp"
 
 namespace lutka::editor {
 

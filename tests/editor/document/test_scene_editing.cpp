@@ -2,7 +2,7 @@
 
 #include "editor/editor.hpp"
 #include "editor/sessions.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/description/scene_file.hpp"
 #include "support/command.hpp"
 
 using namespace lutka;

@@ -6,7 +6,7 @@
 #include "editor/files/folder_files.hpp"
 #include "editor/files/model_pictures.hpp"
 #include "editor/sessions.hpp"
-#include "scene/scene_extent.hpp"
+#include "scene/draw/scene_extent.hpp"
 #include "support/command.hpp"
 
 using namespace lutka;

@@ -1,0 +1,199 @@
+#include "scene/run/simulation.hpp"
+
+#include <glm/geometric.hpp>
+
+#include "animation/pose.hpp"
+#include "scene/run/bake.hpp"
+#include "support/catch.hpp"
+#include "support/ragdolls.hpp"
+
+using namespace lutka;
+using namespace lutka::scene;
+
+namespace {
+
+std::unique_ptr<Simulation> start(const RagdollAsset& asset, std::string_view name,
+                                  const SimulationOptions& options = {}, int count = 1, std::uint64_t seed = 0) {
+    auto scenario = makeScenario({.name = name, .count = count, .seed = seed}, asset);
+    REQUIRE(scenario);
+    auto simulation = Simulation::create(asset, std::move(scenario).value(), options);
+    REQUIRE(simulation);
+    return std::move(simulation).value();
+}
+
+// A clip of the biped: everything turns about Y at `speed` rad/s and moves along X at 2 m/s.
+void addTurningClip(animation::Character& character, float speed) {
+    animation::Clip clip{"turn", 60.0F, 61, {}, {}};
+    for (int frame = 0; frame < clip.frameCount; ++frame) {
+        const float t = static_cast<float>(frame) / clip.framesPerSecond;
+        std::vector<RigidTransform> pose = character.skeleton.nodeParentFromJoint;
+        pose[0] = RigidTransform{glm::angleAxis(speed * t, vec3(0, 1, 0)), {2.0F * t, 0, 0}} * pose[0];
+        clip.parentFromJoint.append(pose);
+    }
+    character.clips.push_back(clip);
+}
+
+}  // namespace
+
+TEST_CASE("a doll that was dropped lies on the floor, finite and at rest") {
+    const auto asset = test::bipedRagdoll();
+    const auto simulation = start(*asset, "drop");
+    for (int step = 0; step < 360; ++step)
+        simulation->step();
+    const physics::Quality quality = simulation->quality();
+    CHECK(quality.nonFinite == 0);
+    CHECK(quality.residualSpeedMps < 0.01F);
+    CHECK(quality.settleSeconds.has_value());
+    for (const RigidTransform& body : simulation->worldFromBody(0)) {
+        CHECK(body.translation.y < 0.6F);
+        CHECK(body.translation.y > 0.0F);
+    }
+}
+
+TEST_CASE("the first frame of a simulation shows the bind pose where the scenario put it") {
+    const auto asset = test::bipedRagdoll();
+    const auto simulation = start(*asset, "drop");
+    const animation::Skeleton& skeleton = asset->character.skeleton;
+    std::vector<RigidTransform> pose(skeleton.parents.size());
+    simulation->pose(0, 1.0F, pose);
+    for (std::size_t joint = 0; joint < pose.size(); ++joint) {
+        CHECK(glm::distance(pose[joint].translation, skeleton.bindModelFromJoint[joint].translation) < 1e-4F);
+    }
+}
+
+TEST_CASE("the same simulation gives the same bits, also after a reset") {
+    const auto asset = test::bipedRagdoll();
+    const auto hashes = [&](Simulation& simulation) {
+        std::vector<std::uint64_t> all;
+        for (int step = 0; step < 90; ++step) {
+            simulation.step();
+            if (step % 30 == 29) all.push_back(simulation.stateHash());
+        }
+        return all;
+    };
+    const auto a = start(*asset, "stairs", {}, 2, 3);
+    const auto b = start(*asset, "stairs", {}, 2, 3);
+    const auto first = hashes(*a);
+    CHECK(first == hashes(*b));
+    a->reset();
+    CHECK(a->steps() == 0);
+    CHECK(first == hashes(*a));
+    const auto other = start(*asset, "stairs", {}, 2, 4);
+    CHECK(first != hashes(*other));
+}
+
+TEST_CASE("measuring does not change the simulation") {
+    const auto asset = test::bipedRagdoll();
+    SimulationOptions silent;
+    silent.measure = false;
+    const auto measured = start(*asset, "drop", {}, 1, 2);
+    const auto unmeasured = start(*asset, "drop", silent, 1, 2);
+    for (int step = 0; step < 60; ++step) {
+        measured->step();
+        unmeasured->step();
+    }
+    CHECK(measured->stateHash() == unmeasured->stateHash());
+}
+
+TEST_CASE("a fall from a clip starts with the clip's own velocities") {
+    constexpr float speed = 1.5F;
+    animation::Character character = test::makeBiped();
+    addTurningClip(character, speed);
+    auto asset = makeRagdoll(std::move(character));
+    REQUIRE(asset);
+    SimulationOptions options;
+    options.fromClip = ClipStart{"turn", 0.5F};
+    const auto simulation = start(*asset.value(), "drop", options);
+    std::vector<physics::BodyState> bodies(asset.value()->profile.bodies.size());
+    simulation->world().getBodies(simulation->world().dolls()[0], bodies);
+    const quat worldFromModel = simulation->worldFromModel(0).rotation;
+    const vec3 turn = worldFromModel * vec3(0, speed, 0);
+    const vec3 slide = worldFromModel * vec3(2, 0, 0);
+    // The clip turns about the model's own vertical axis, which has slid 1 m along X at half a second.
+    const vec3 centre = simulation->worldFromModel(0) * vec3(1, 0, 0);
+    for (const physics::BodyState& body : bodies) {
+        const vec3 expected = slide + glm::cross(turn, body.worldFromBody.translation - centre);
+        CHECK(glm::distance(body.linearVelocity, expected) < 0.01F);
+        CHECK(glm::distance(body.angularVelocity, turn) < 0.01F);
+    }
+}
+
+TEST_CASE("a clip that is not there is a usage error that lists those that are") {
+    animation::Character character = test::makeBiped();
+    addTurningClip(character, 1.0F);
+    const auto asset = makeRagdoll(std::move(character));
+    REQUIRE(asset);
+    SimulationOptions options;
+    options.fromClip = ClipStart{"run", 0.0F};
+    auto scenario = makeScenario({.name = "drop"}, Figure{{vec3(-1), vec3(1)}});
+    REQUIRE(scenario);
+    const auto simulation = Simulation::create(*asset.value(), std::move(scenario).value(), options);
+    REQUIRE_FALSE(simulation);
+    CHECK(simulation.error().code == ErrorCode::usage);
+    CHECK(simulation.error().mend.find("turn") != std::string::npos);
+}
+
+TEST_CASE("a clip whose name ends in a number after @ is found by its whole name") {
+    animation::Character character = test::makeBiped();
+    addTurningClip(character, 1.0F);
+    character.clips.front().name = "a@b@1";
+    const auto asset = makeRagdoll(std::move(character));
+    REQUIRE(asset);
+    const auto startsAt = [&](const ClipStart& clip) {
+        SimulationOptions options;
+        options.fromClip = clip;
+        auto scenario = makeScenario({.name = "drop"}, Figure{{vec3(-1), vec3(1)}});
+        REQUIRE(scenario);
+        return Simulation::create(*asset.value(), std::move(scenario).value(), options).ok();
+    };
+    CHECK(startsAt({"a@b", 1.0F}));  // as a command line reads it
+    CHECK(startsAt({"a@b@1", 0.0F}));
+    CHECK_FALSE(startsAt({"a@b", 0.5F}));
+}
+
+TEST_CASE("drawing between two steps is between their states") {
+    const auto asset = test::bipedRagdoll();
+    const auto simulation = start(*asset, "drop");
+    for (int step = 0; step < 20; ++step)
+        simulation->step();
+    const vec3 before = simulation->worldFromBody(0, 0.0F)[0].translation;
+    const vec3 middle = simulation->worldFromBody(0, 0.5F)[0].translation;
+    const vec3 after = simulation->worldFromBody(0, 1.0F)[0].translation;
+    CHECK(before.y > after.y);
+    CHECK(glm::distance(middle, (before + after) * 0.5F) < 1e-5F);
+}
+
+TEST_CASE("a baked clip shows the poses that the simulation had") {
+    const auto asset = test::bipedRagdoll();
+    const auto simulation = start(*asset, "drop");
+    ClipBaker baker(0, 60.0F, "fall");
+    baker.sample(*simulation);
+    for (int step = 0; step < 30; ++step) {
+        simulation->step();
+        baker.sample(*simulation);
+    }
+    const animation::Clip& clip = baker.clip();
+    REQUIRE(clip.frameCount == 31);
+    CHECK(clip.seconds() == Approx(0.5F));
+    const animation::Skeleton& skeleton = asset->character.skeleton;
+    std::vector<RigidTransform> baked(skeleton.parents.size());
+    std::vector<RigidTransform> live(skeleton.parents.size());
+    animation::sampleClip(clip, clip.seconds(), baked);
+    animation::localToModel(skeleton, baked, baked);
+    simulation->pose(0, 1.0F, live);
+    for (std::size_t joint = 0; joint < live.size(); ++joint) {
+        CHECK(glm::distance(baked[joint].translation, live[joint].translation) < 1e-4F);
+    }
+}
+
+TEST_CASE("a doll that hangs by its hand stays up") {
+    const auto asset = test::bipedRagdoll();
+    const auto simulation = start(*asset, "hang");
+    const int hand = physics::bodyOf(asset->profile, physics::Role::leftHand);
+    const vec3 held = simulation->worldFromBody(0)[hand].translation;
+    for (int step = 0; step < 240; ++step)
+        simulation->step();
+    CHECK(glm::distance(simulation->worldFromBody(0)[hand].translation, held) < 0.25F);
+    const int foot = physics::bodyOf(asset->profile, physics::Role::leftFoot);
+    CHECK(simulation->worldFromBody(0)[foot].translation.y > 0.2F);
+}
