@@ -6,6 +6,7 @@
 
 #include "animation/import/checks.hpp"
 #include "animation/import/gltf_file.hpp"
+#include "animation/pose.hpp"
 #include "support/catch.hpp"
 
 using namespace lutka;

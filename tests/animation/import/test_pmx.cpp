@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "animation/import/checks.hpp"
+#include "animation/import/gltf_file.hpp"
 #include "support/catch.hpp"
 
 using namespace lutka;

@@ -12,6 +12,7 @@
 #include "animation/import/bvh/bvh_document.hpp"
 #include "animation/import/bvh/read_bvh.hpp"
 #include "animation/import/checks.hpp"
+#include "animation/import/gltf_file.hpp"
 #include "support/catch.hpp"
 #include "support/command.hpp"
 
