@@ -1,11 +1,13 @@
 #include "physics/collision/contacts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 #include <utility>
 
 #include "physics/collision/hull_distance.hpp"
 #include "physics/collision/mesh_contacts.hpp"
+#include "physics/collision/solid_corners.hpp"
 
 namespace lutka::physics {
 namespace {
@@ -26,33 +28,9 @@ void roundOnPlane(const CollisionGeometry& round, const CollisionGeometry& plane
     }
 }
 
-// The corners of a box or hull, and what lies on which side of it.
-class Corners {
-  public:
-    explicit Corners(const CollisionGeometry& solid) : solid_(solid) {}
-
-    [[nodiscard]] int count() const {
-        return solid_.kind == ShapeKind::hull ? static_cast<int>(solid_.hull->points().size()) : 8;
-    }
-    // In its own frame.
-    [[nodiscard]] vec3 operator[](int index) const {
-        return solid_.kind == ShapeKind::hull ? solid_.hull->points()[index] : boxCorner(solid_.halfExtents, index);
-    }
-    [[nodiscard]] SurfaceDistance distanceTo(const vec3& point) const {
-        return solid_.kind == ShapeKind::hull ? distanceToHull(point, *solid_.hull)
-                                              : distanceToBox(point, solid_.halfExtents);
-    }
-    [[nodiscard]] float reach() const {
-        return solid_.kind == ShapeKind::hull ? solid_.hull->reach() : glm::length(solid_.halfExtents);
-    }
-
-  private:
-    const CollisionGeometry& solid_;
-};
-
 void cornersOnPlane(const CollisionGeometry& solid, const CollisionGeometry& plane, float margin, ContactList& out) {
     const vec3 normal = plane.worldFromShape.rotation * vec3(0, 1, 0);
-    const Corners corners(solid);
+    const SolidCorners corners(solid);
     std::array<SurfaceContact, ConvexHull::kMostPoints> all;
     for (int corner = 0; corner < corners.count(); ++corner) {
         const vec3 point = solid.worldFromShape * corners[corner];
@@ -72,7 +50,7 @@ void roundOnSolid(const CollisionGeometry& round, const CollisionGeometry& solid
     const Segment core{solidFromWorld * world.start, solidFromWorld * world.end};
     // Most pairs that the broadphase reports don't touch.
     const float reach = round.radius + margin;
-    if (Corners(solid).distanceTo(core.at(0.5F)).distance > reach + round.halfLength) return;
+    if (SolidCorners(solid).distanceTo(core.at(0.5F)).distance > reach + round.halfLength) return;
     const CoreTouches touches =
         solid.kind == ShapeKind::hull ? touchHull(core, *solid.hull, reach) : touchBox(core, solid.halfExtents, reach);
     for (int i = 0; i < touches.count; ++i) {
@@ -145,27 +123,9 @@ void roundOnMesh(const CollisionGeometry& round, const CollisionGeometry& mesh, 
 }
 
 void solidOnMesh(const CollisionGeometry& solid, const CollisionGeometry& mesh, float margin, ContactList& out) {
-    const RigidTransform meshFromSolid = inverse(mesh.worldFromShape) * solid.worldFromShape;
-    const Corners corners(solid);
     MeshContactList touches;
-    for (int corner = 0; corner < corners.count(); ++corner)
-        touchMesh(*mesh.mesh, meshFromSolid * corners[corner], corner, margin, touches);
+    touchMesh(*mesh.mesh, solid, inverse(mesh.worldFromShape) * solid.worldFromShape, margin, touches);
     takeFromMesh(touches, mesh.worldFromShape, 0.0F, out);
-    // Peaks of the mesh in a face of the solid.
-    const RigidTransform solidFromMesh = inverse(meshFromSolid);
-    const vec3 reach(corners.reach() + margin);
-    mesh.mesh->forEachIn(meshFromSolid.translation - reach, meshFromSolid.translation + reach, [&](int triangle) {
-        for (const int vertex : mesh.mesh->triangles()[triangle]) {
-            if (mesh.mesh->ownerOf(vertex) != triangle) continue;
-            const vec3 peak = mesh.mesh->vertices()[vertex];
-            const SurfaceDistance surface = corners.distanceTo(solidFromMesh * peak);
-            const vec3 normal = meshFromSolid.rotation * -surface.normal;  // from the mesh towards the solid
-            if (surface.distance >= margin || !mesh.mesh->vertexSupports(vertex, normal)) continue;
-            constexpr int kFirstPeak = 1 << 19;  // beyond touchMesh()'s numbers
-            out.add({kFirstPeak + vertex, mesh.worldFromShape * peak, mesh.worldFromShape.rotation * normal,
-                     surface.distance});
-        }
-    });
 }
 
 void flip(ContactList& list) {

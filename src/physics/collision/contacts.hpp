@@ -45,8 +45,8 @@ struct ContactList {
 
 /// The contacts of A with B that are nearer than `margin` metres, in closed form: a lying capsule has one at each end,
 /// a box or hull on a plane one at each corner (of a box the four lowest, of a hull the eight), a round shape on a mesh
-/// as touchMesh() says, a box or hull on a mesh at its own corners and at the mesh's vertices. Two of boxes and hulls,
-/// two planes or meshes are not handled: no contacts.
+/// as touchMesh() says, a box or hull on a mesh at its own corners, at the mesh's vertices and where its edges cross
+/// sharp ones of the mesh. Two of boxes and hulls, two planes or meshes are not handled: no contacts.
 [[nodiscard]] ContactList findContacts(const CollisionGeometry& a, const CollisionGeometry& b, float margin);
 
 }  // namespace lutka::physics

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "physics/collision/contacts.hpp"
 #include "physics/collision/shape_distance.hpp"
 #include "physics/collision/triangle_mesh.hpp"
 
@@ -12,7 +13,8 @@ struct MeshContact {
     vec3 core{0, 0, 0};
     vec3 normal{0, 1, 0};  ///< Unit, out of the solid.
     float gap = 0.0F;      ///< Metres from the surface to the core point; negative behind the surface.
-    int feature = 0;  ///< The same a step later where the core's part and about the same slope meet: in [0, 2¹⁹).
+    int feature = 0;  ///< The same a step later where the core's part and about the same slope meet: in [0, 2¹⁹); of
+                      ///< two edges in [2²², 2²² + 2²⁰).
 };
 
 /// At most eight contacts, the deepest where there are more.
@@ -32,6 +34,13 @@ void touchMesh(const TriangleMesh& mesh, const vec3& point, int part, float reac
 
 /// Contacts of a capsule's core (both ends, and sharp edges and corners that come near in between).
 void touchMesh(const TriangleMesh& mesh, const Segment& core, float reach, MeshContactList& out);
+
+/// Contacts of a box or hull: its corners as above, the mesh's vertices at its sides, and where its edges cross sharp
+/// ones of the mesh, if the line between the two leads out of both (their arcs on the Gauss map cross: Gregorius, The
+/// Separating Axis Test between Convex Polyhedra, 2013). Where it overlaps, vertices and crossings count that lead
+/// about the way that takes all of the solid out soonest, or are no deeper than that.
+void touchMesh(const TriangleMesh& mesh, const CollisionGeometry& solid, const RigidTransform& meshFromSolid,
+               float reach, MeshContactList& out);
 
 /// How far behind the surface a point is still led out, metres.
 inline constexpr float kDeepestInMesh = 0.3F;

@@ -56,7 +56,22 @@ float leastAlong(const TriangleMesh& mesh, const Segment& segment, float range) 
     return least;
 }
 
-// Round shapes exactly; boxes and hulls by their corners and the mesh's vertices.
+// The least signed distance of a segment's points from a box or hull: a convex function of the way along it.
+float leastAlong(const PrimitiveShape& solid, const Segment& segment) {
+    constexpr int kSteps = 24;
+    float from = 0.0F;
+    float to = 1.0F;
+    for (int i = 0; i < kSteps; ++i) {
+        const float third = (to - from) / 3.0F;
+        if (signedDistance(solid, segment.at(from + third)) < signedDistance(solid, segment.at(to - third)))
+            to -= third;
+        else
+            from += third;
+    }
+    return signedDistance(solid, segment.at(0.5F * (from + to)));
+}
+
+// Round shapes exactly; boxes and hulls by their corners and the mesh's edges.
 float distanceToMesh(const PrimitiveShape& shape, const RigidTransform& meshFromBody, const TriangleMesh& mesh) {
     const float reach = boundingRadius(shape);
     const float range = 2.0F * reach + kNearMesh;
@@ -78,8 +93,11 @@ float distanceToMesh(const PrimitiveShape& shape, const RigidTransform& meshFrom
     }
     const RigidTransform bodyFromMesh = inverse(meshFromBody);
     mesh.forEachIn(meshFromBody.translation - reach, meshFromBody.translation + reach, [&](int triangle) {
-        for (const int corner : mesh.triangles()[triangle])
-            least = std::min(least, signedDistance(shape, bodyFromMesh * mesh.vertices()[corner]));
+        for (const int index : mesh.edgesOf(triangle)) {
+            const TriangleMesh::Edge& edge = mesh.edges()[index];
+            const Segment inBody{bodyFromMesh * mesh.vertices()[edge.start], bodyFromMesh * mesh.vertices()[edge.end]};
+            least = std::min(least, edge.sharp ? leastAlong(shape, inBody) : signedDistance(shape, inBody.start));
+        }
     });
     return least;
 }

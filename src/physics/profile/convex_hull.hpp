@@ -16,6 +16,7 @@ class ConvexHull {
     /// The most corners of one. 32 leave the limbs and trunks of figures within half a percent of their height, and
     /// contacts of two take some microseconds.
     static constexpr int kMostPoints = 32;
+    static constexpr int kMostEdges = 3 * kMostPoints - 6;  ///< By Euler's formula.
 
     /// A flat side: the hull lies where normal · p <= offset.
     struct Face {

@@ -4,8 +4,10 @@
 #include <limits>
 
 #include "core/random.hpp"
+#include "physics/collision/box_manifold.hpp"
 #include "physics/collision/contacts.hpp"
 #include "physics/collision/shape_distance.hpp"
+#include "physics/collision/solid_manifold.hpp"
 #include "physics/collision/static_distance.hpp"
 #include "support/catch.hpp"
 
@@ -82,6 +84,78 @@ TEST_CASE("contacts with a box of triangles are those with a box", "[mesh]") {
     CHECK(touching > 500);
 }
 
+TEST_CASE("boxes that overlap a box of triangles are led out as far as two boxes that overlap", "[mesh]") {
+    const vec3 half(0.5F, 0.3F, 0.6F);
+    const auto mesh = boxOf(half);
+    const vec3 own(0.2F, 0.15F, 0.3F);
+    std::vector<vec3> corners;
+    for (int i = 0; i < 8; ++i)
+        corners.push_back(physics::boxCorner(own, i));
+    const physics::ConvexHullPtr hull = physics::makeConvexHull(corners);
+    REQUIRE(hull);
+    Random random(17);
+    int edges = 0;
+    int overlapping = 0;
+    int misses = 0;
+    int tooDeep = 0;
+    for (int i = 0; i < 20000; ++i) {
+        physics::CollisionGeometry solid;
+        const bool isHull = i % 4 == 0;
+        solid.kind = isHull ? ShapeKind::hull : ShapeKind::box;
+        solid.halfExtents = own;
+        if (isHull) solid.hull = hull.get();
+        solid.worldFromShape.translation = {random.uniform(-0.9F, 0.9F), random.uniform(-0.7F, 0.7F),
+                                            random.uniform(-1, 1)};
+        solid.worldFromShape.rotation =
+            glm::normalize(quat(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), 0.3F));
+        const physics::SolidPlace place{nullptr, solid.halfExtents, solid.worldFromShape.translation,
+                                        glm::mat3_cast(solid.worldFromShape.rotation)};
+        const float depth = -distanceBetweenSolids(place, {nullptr, half, vec3(0), mat3(1)});
+        if (depth < 0.001F || depth > 0.04F) continue;
+        ++overlapping;
+        const auto contacts = findContacts(solid, meshGeometry(*mesh), 0.02F);
+        float deepest = -1.0F;
+        for (int k = 0; k < contacts.count; ++k) {
+            deepest = std::max(deepest, -contacts.contacts[k].distance);
+            edges += contacts.contacts[k].feature >= 1 << 22 ? 1 : 0;
+        }
+        INFO(i << (isHull ? " hull" : " box"));
+        CHECK(deepest > 0.0F);
+        tooDeep += deepest > 1.15F * depth + 3e-3F ? 1 : 0;
+        const physics::BoxManifold manifold =
+            physics::touchBoxes({own, place.position, place.axes}, {half, vec3(0), mat3(1)}, 0.0F);
+        float expected = 0.0F;
+        for (int k = 0; k < manifold.count; ++k)
+            expected = std::max(expected, -manifold.points[k].distance);
+        misses += deepest < expected - 2e-3F ? 1 : 0;
+    }
+    // What overlaps most may lie beyond an edge, where nothing touches.
+    CHECK(misses < overlapping / 50);
+    CHECK(tooDeep < overlapping / 200);
+    CHECK(overlapping > 1000);
+    CHECK(edges > 500);
+}
+
+TEST_CASE("a box across the ridge of a roof touches it where its edges cross the ridge", "[mesh]") {
+    // A roof along x, five metres long: the box's corners and the roof's are far from where they meet.
+    const std::vector<vec3> vertices{{-2.5F, 0, 0}, {2.5F, 0, 0},    {-2.5F, -1, 1},
+                                     {2.5F, -1, 1}, {-2.5F, -1, -1}, {2.5F, -1, -1}};
+    const std::vector<TriangleMesh::Triangle> triangles{{0, 2, 1}, {1, 2, 3}, {0, 1, 4}, {1, 5, 4}};
+    const auto mesh = TriangleMesh::make(vertices, triangles);
+    REQUIRE(mesh.ok());
+    physics::CollisionGeometry box;
+    box.kind = ShapeKind::box;
+    box.halfExtents = {0.2F, 0.1F, 0.8F};
+    box.worldFromShape.translation = {0.3F, 0.095F, 0.1F};
+    const auto contacts = findContacts(box, meshGeometry(*mesh.value()), 0.02F);
+    REQUIRE(contacts.count == 2);
+    for (int i = 0; i < 2; ++i) {
+        CHECK(contacts.contacts[i].normal.y > 0.999F);
+        CHECK(contacts.contacts[i].distance == Approx(-0.005F).margin(1e-4));
+        CHECK(std::abs(contacts.contacts[i].position.x - 0.3F) == Approx(0.2F).margin(1e-4));
+    }
+}
+
 TEST_CASE("a capsule on a plane of many triangles has two contacts with the plane's normal", "[mesh]") {
     std::vector<vec3> vertices;
     std::vector<TriangleMesh::Triangle> triangles;
@@ -136,6 +210,21 @@ TEST_CASE("the depth in a mesh that quality reports is that in the box it stands
         if (expected > 0.2F) continue;
         CHECK(distanceToStatic(capsule, at, mesh) == Approx(expected).margin(2e-3));
     }
+}
+
+TEST_CASE("the depth of a box in a mesh counts edges that cross", "[mesh]") {
+    physics::StaticShape mesh;
+    mesh.kind = physics::StaticShape::Kind::mesh;
+    mesh.mesh = boxOf({1, 0.5F, 1});
+    physics::BodyShape box;
+    box.kind = physics::PrimitiveShape::Kind::box;
+    box.halfExtents = {0.2F, 0.1F, 0.6F};
+    // Half over the edge, 1 cm in it: no corner of either is in the other on that side.
+    CHECK(distanceToStatic(box, {quat(1, 0, 0, 0), {0, 0.59F, 1}}, mesh) == Approx(-0.01F).margin(1e-4));
+    // Tilted about the edge, its own corners are outside altogether.
+    const quat tilt = glm::angleAxis(0.6F, vec3(1, 0, 0));
+    const vec3 centre = vec3(0, 0.5F, 1) + tilt * vec3(0, 0.09F, 0);
+    CHECK(distanceToStatic(box, {tilt, centre}, mesh) == Approx(-0.01F).margin(1e-4));
 }
 
 TEST_CASE("a mesh of nonsense is refused with a reason", "[mesh]") {

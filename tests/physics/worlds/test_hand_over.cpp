@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "scene/scenario.hpp"
+#include "scene/description/scenario.hpp"
 #include "support/catch.hpp"
 #include "support/dolls.hpp"
 #include "support/rigs.hpp"

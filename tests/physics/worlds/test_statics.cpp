@@ -157,6 +157,31 @@ TEST_CASE("crates rest on meshes and on round geometry") {
     }
 }
 
+TEST_CASE("crates tip over edges of meshes without sinking into them") {
+    const auto crate = crateProfile({0.2F, 0.1F, 0.6F});
+    const StaticShape table = staticMesh(boxMesh({1, 0.5F, 1}), {0, -0.5F, 0});
+    StaticShape roof = staticMesh(boxMesh({3, 0.7F, 0.7F}), {0, -0.99F, 0});
+    roof.worldFromShape.rotation = glm::angleAxis(0.25F * kPi, vec3(1, 0, 0));
+    StaticShape floor;
+    floor.worldFromShape.translation.y = -1.0F;
+    const std::pair<StaticShape, vec3> cases[] = {
+        {table, {0, 0.12F, 1.15F}}, {table, {1.05F, 0.12F, 0.6F}}, {roof, {0, 0.12F, 0.02F}}};
+    for (const SolverKind solver : kOurSolvers) {
+        for (const auto& [geometry, start] : cases) {
+            INFO(physics::solverName(solver) << " at z = " << start.z);
+            const std::vector<StaticShape> statics{floor, geometry};
+            const auto world = worldOf(solver);
+            for (const StaticShape& shape : statics)
+                world->addStatic(shape);
+            world->addDoll(crate, std::vector<BodyState>{stateAt(start)});
+            const physics::Quality quality = measureSeconds(*world, statics, 3.0F);
+            CHECK(quality.floorPenetrationM < 0.008F);
+            // It is off, and lies on the ground or leans there.
+            CHECK(bodyOfDoll(*world, 0).worldFromBody.translation.y < -0.4F);
+        }
+    }
+}
+
 TEST_CASE("rays meet every kind of static geometry, and meshes only from the front") {
     for (const SolverKind solver : kAllSolvers) {
         INFO(physics::solverName(solver));
