@@ -5,6 +5,7 @@
 
 #include "core/random.hpp"
 #include "physics/collision/shape.hpp"
+#include "support/dolls.hpp"
 #include "support/rigs.hpp"
 
 namespace lutka::test {
@@ -38,6 +39,31 @@ RagdollProfile makeRod(float halfLength, float radius, float massKg) {
     profile.bodies[0].massKg = massKg;
     profile.bodies[0].inertia = physics::shapeInertia(profile.bodies[0].shape, massKg);
     return profile;
+}
+
+Limbs besideEachOther(const std::vector<float>& sides, float apart) {
+    Limbs limbs{makePair(physics::ConeTwistLimits{radians(60), radians(60), radians(60)}, 10.0F), {}};
+    physics::RagdollProfile& doll = limbs.doll;
+    doll.bodies[0].massKg = 30.0F;
+    const physics::BodyProfile limb = doll.bodies[1];
+    const physics::ConstraintProfile joint = doll.constraints[0];
+    doll.bodies[1].massKg = 0.4F;
+    for (const float side : sides) {
+        doll.constraints.push_back(joint);
+        doll.constraints.back().child = static_cast<int>(doll.bodies.size());
+        doll.constraints.back().parentFromFrame =
+            joint.parentFromFrame * RigidTransform{quat(1, 0, 0, 0), {0, side * apart, 0}};
+        doll.bodies.push_back(limb);
+    }
+    doll.totalMassKg = 0.0F;
+    for (const physics::BodyProfile& body : doll.bodies) {
+        doll.totalMassKg += body.massKg;
+        limbs.bodies.push_back({});
+        limbs.bodies.back().worldFromBody = body.jointFromBody;
+    }
+    for (std::size_t i = 0; i < sides.size(); ++i)
+        limbs.bodies[i + 2].worldFromBody.translation.y += sides[i] * apart;
+    return limbs;
 }
 
 StaticShape floorPlane() {

@@ -21,6 +21,14 @@ inline constexpr float kStep = 1.0F / 60.0F;
 /// One body of one profile at the origin: a capsule along y.
 [[nodiscard]] physics::RagdollProfile makeRod(float halfLength, float radius, float massKg);
 
+/// A trunk along x and limbs side by side at its end: the first of 0.4 kg, the others of 10, `apart` metres beside it
+/// to each of the `sides`.
+struct Limbs {
+    physics::RagdollProfile doll;
+    std::vector<physics::BodyState> bodies;
+};
+[[nodiscard]] Limbs besideEachOther(const std::vector<float>& sides, float apart);
+
 [[nodiscard]] physics::StaticShape floorPlane();
 [[nodiscard]] physics::StaticShape staticBox(const vec3& centre, const vec3& halfExtents);
 

@@ -3,6 +3,7 @@
 
 #include "crowd_scene.hpp"
 #include "physics/bullet/bullet_world.hpp"
+#include "physics/collision/shape.hpp"
 #include "physics/world/doll_overlap.hpp"
 #include "support/catch.hpp"
 #include "support/dolls.hpp"
@@ -48,37 +49,6 @@ std::vector<BodyState> placedPair(const physics::RagdollProfile& pair, const qua
     for (int i = 0; i < 2; ++i)
         bodies[i].worldFromBody = RigidTransform{turn, at} * pair.bodies[i].jointFromBody;
     return bodies;
-}
-
-// A trunk along x and limbs side by side at its end: the first of 0.4 kg, the others of 10, `apart` metres beside it to
-// each of the `sides`.
-struct Limbs {
-    physics::RagdollProfile doll;
-    std::vector<BodyState> bodies;
-};
-Limbs besideEachOther(const std::vector<float>& sides, float apart) {
-    Limbs limbs{makePair(physics::ConeTwistLimits{radians(60), radians(60), radians(60)}, 10.0F), {}};
-    physics::RagdollProfile& doll = limbs.doll;
-    doll.bodies[0].massKg = 30.0F;
-    const physics::BodyProfile limb = doll.bodies[1];
-    const physics::ConstraintProfile joint = doll.constraints[0];
-    doll.bodies[1].massKg = 0.4F;
-    for (const float side : sides) {
-        doll.constraints.push_back(joint);
-        doll.constraints.back().child = static_cast<int>(doll.bodies.size());
-        doll.constraints.back().parentFromFrame =
-            joint.parentFromFrame * RigidTransform{quat(1, 0, 0, 0), {0, side * apart, 0}};
-        doll.bodies.push_back(limb);
-    }
-    doll.totalMassKg = 0.0F;
-    for (const physics::BodyProfile& body : doll.bodies) {
-        doll.totalMassKg += body.massKg;
-        limbs.bodies.push_back({});
-        limbs.bodies.back().worldFromBody = body.jointFromBody;
-    }
-    for (std::size_t i = 0; i < sides.size(); ++i)
-        limbs.bodies[i + 2].worldFromBody.translation.y += sides[i] * apart;
-    return limbs;
 }
 
 // How deep the light limb of the first doll goes into the others at most, metres.
