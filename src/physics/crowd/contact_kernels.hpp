@@ -263,7 +263,7 @@ static void beginPairs(PairsView& view, const SubstepParams& params) {
         const Mask own = isOwn(pair);
         const F steady = pressed - (own ? shownMass(pair, pressed, params) : mass) * (start - load(pair.approach));
         // What comes from the step before is no more than that already.
-        const Mask grows = (own | ~isOfDolls(pair)) & (isFirst ? noLanes() : ~noLanes());
+        const Mask grows = growsLoad(load(pair.kind)) & (isFirst ? noLanes() : ~noLanes());
         const F borne = grows ? least(pressed, grownLoad(load(pair.load), mass, params.ownLoad)) : pressed;
         // Bodies that part already bear no load either: pushing on would speed them up.
         const F held = least(most(steady, all(0.0F)), borne) * stays(start, kSlipSpeed);

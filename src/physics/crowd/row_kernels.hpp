@@ -329,6 +329,15 @@ LUTKA_LANES Mask holdMet(const BodyLanes& body, StaticContactLanes& contact, con
     return met;
 }
 
+// What a contact presses with as its friction sees it, where it presses with `impulse`, and the most that friction may
+// be.
+LUTKA_LANES F pressingOf(F impulse, const Pass& pass) {
+    return most(impulse, all(0.0F)) * pass.stiction;
+}
+LUTKA_LANES F frictionBound(const StaticContactLanes& contact, F pressing) {
+    return load(contact.friction) * pressing;
+}
+
 // Decides which rows of a contact hold, and adds them. A contact that presses in no lane, and did not in the pass
 // before, is left out.
 LUTKA_LANES void askStatic(const BodyLanes& body, StaticContactLanes& contact, const SubstepParams& params,
@@ -353,10 +362,10 @@ LUTKA_LANES void askStatic(const BodyLanes& body, StaticContactLanes& contact, c
     store(contact.normalGain, presses.gain);
     store(contact.normalImpulse, impulse);
 
-    const F pressing = most(impulse, zero) * pass.stiction;
+    const F pressing = pressingOf(impulse, pass);
     const Friction grips =
         decideFriction(contact.frictionImpulse, contact.tangentGain, motion.sliding - motion.normal * motion.rate,
-                       load(contact.tangentWeight), load(contact.friction) * pressing, kSlipSpeed, pass);
+                       load(contact.tangentWeight), frictionBound(contact, pressing), kSlipSpeed, pass);
     // Rolling resistance: a torque against any turning, of at most the normal force times a lever.
     const Friction rolls =
         decideFriction(contact.rollImpulse, contact.rollGain, motion.angular, load(contact.rollWeight),
@@ -397,7 +406,7 @@ LUTKA_LANES Mask updateStatic(const BodyLanes& body, StaticContactLanes& contact
     const Mask pulls = (total * all(params.contactStiffness) < tolerance * gain) & ~pass.late;
     // Friction of a blow that is over, with which what rolls or rests by now would be driven on: of more than what
     // presses now allows, by more than the tolerance.
-    const F allowed = load(contact.friction) * (held ? most(total, zero) : zero) * pass.stiction +
+    const F allowed = frictionBound(contact, pressingOf(held ? total : zero, pass)) +
                       load(contact.tangentWeight) * all(params.contactTolerance);
     const Mask drives = (dot(friction, friction) > allowed * allowed) & ~pass.late;
     return (held & pulls) | (~held & (off < tolerance)) | (yields & (weight < stiffest)) | drives;

@@ -224,7 +224,7 @@ void keepPairs(CrowdState& state, std::size_t begin, std::size_t end) {
             if (!presses && !state.briefs[index].presses && !state.settings.contactReports) continue;
             PairTouch& touch = state.touches[index];
             touch.carried.normal = pair.normalImpulse.lane[lane];
-            if (pair.kind.lane[lane] == PairKind::own || pair.kind.lane[lane] == PairKind::other)
+            if (growsLoad(pair.kind.lane[lane]) != 0)
                 touch.carried.normal =
                     std::min(touch.carried.normal,
                              grownLoad(pair.load.lane[lane], pair.normalMass.lane[lane], state.tuning.ownLoad));
