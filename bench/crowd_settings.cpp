@@ -16,6 +16,8 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
                                               {"contactErp", &tuning.contactErp},
                                               {"jointStiffness", &tuning.jointStiffness},
                                               {"mendGap", &tuning.mendGap},
+                                              {"wedgeDepth", &tuning.wedgeDepth},
+                                              {"wedgeFirmness", &tuning.wedgeFirmness},
                                               {"mendAngle", &tuning.mendAngle},
                                               {"aimGap", &tuning.aimGap},
                                               {"mendRate", &tuning.mendRate},

@@ -90,6 +90,10 @@ LUTKA_LANES Mask strikes(const PairContactLanes& pair) {
 LUTKA_LANES Mask isOwn(const PairContactLanes& pair) {
     return load(pair.kind) == all(PairKind::own);
 }
+// those of them that are mended together,
+LUTKA_LANES Mask isWedged(const PairContactLanes& pair) {
+    return load(pair.kind) == all(PairKind::wedged);
+}
 // and of one that has muscles.
 LUTKA_LANES Mask isDriven(const PairContactLanes& pair) {
     return load(pair.kind) == all(PairKind::driven);
@@ -243,6 +247,7 @@ static void beginPairs(PairsView& view, const SubstepParams& params) {
     const bool isFirst = params.warmStart != 0;
     const PairBodies& bodies = view.bodies;
     view.liveCount = 0;
+    Mask wedges = noLanes();
     for (int i = view.first; i < view.first + view.count; ++i) {
         PairContactLanes& pair = pairAt(view, i);
         const Arms arms = placePair(pair, bodies, isFirst);
@@ -262,6 +267,7 @@ static void beginPairs(PairsView& view, const SubstepParams& params) {
         const F mass = load(pair.normalMass);
         const Mask own = isOwn(pair);
         const F steady = pressed - (own ? shownMass(pair, pressed, params) : mass) * (start - load(pair.approach));
+        wedges |= own & (load(pair.separation) < all(-params.wedgeDepth));
         // What comes from the step before is no more than that already.
         const Mask grows = growsLoad(load(pair.kind)) & (isFirst ? noLanes() : ~noLanes());
         const F borne = grows ? least(pressed, grownLoad(load(pair.load), mass, params.ownLoad)) : pressed;
@@ -280,6 +286,7 @@ static void beginPairs(PairsView& view, const SubstepParams& params) {
             store(pair.carriedTangent[k], rubbed);
         }
     }
+    view.wedges = bits(wedges) != 0 ? 1 : 0;
 }
 
 // Both sides get the impulse `whole`, less what pressPair() gave each of them for a push of size `pressed`.
@@ -369,7 +376,8 @@ static int mendPairs(const PairsView& view, const SubstepParams& params, int swe
     for (int i = 0; i < view.liveCount; ++i) {
         PairContactLanes& pair = pairAt(view, view.live[i]);
         const F zero = all(0.0F);
-        const Mask overlaps = (load(pair.separation) < all(-params.slop - params.mendGap)) & hasContact(pair);
+        const Mask overlaps =
+            (load(pair.separation) < all(-params.slop - params.mendGap)) & hasContact(pair) & ~isWedged(pair);
         // What a push drives together within a doll may come no nearer than touching, or a hand in a gap would be
         // thrown from one side of it into the other.
         const Mask nears = sweep > 0 ? isOwn(pair) & hasContact(pair) & ~overlaps : noLanes();

@@ -23,10 +23,14 @@ static void begin(const BatchView& batch, const SubstepParams& params) {
     showBodies(batch);
 }
 
-static constexpr Kernels kTable{&refresh,    &findBounds,    &findSelfPairs, &findBodyPairs, &findBoxesAfter,
-                                &touchCores, &touchOwnCores, &findNearPlane, &limitRoom,     &joinBounds,
-                                &takeWay,    &findMotion,    &begin,         &solve,         &outruns,
-                                &solveAgain, &mend,          &advance,       &beginPairs,    &solvePairs,
-                                &mendPairs,  &pressAgain,    &pressRest,     &carryPairs,    &limitEnergy};
+static void takeMotions(const BatchView& batch) {
+    takePushed(batch);
+}
+
+static constexpr Kernels kTable{
+    &refresh,       &findBounds, &findSelfPairs, &findBodyPairs, &findBoxesAfter, &touchCores, &touchOwnCores,
+    &findNearPlane, &limitRoom,  &joinBounds,    &takeWay,       &findMotion,     &begin,      &solve,
+    &outruns,       &solveAgain, &mend,          &takeMotions,   &mendOnce,       &mendNot,    &advance,
+    &beginPairs,    &solvePairs, &mendPairs,     &pressAgain,    &pressRest,      &carryPairs, &limitEnergy};
 
 }  // namespace lutka::physics::crowd::LUTKA_KERNELS

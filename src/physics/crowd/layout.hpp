@@ -264,6 +264,7 @@ struct PairKind {
     static constexpr float driven = 1.0F;  ///< Of one doll that has muscles: a push that comes late would throw a limb.
     static constexpr float own = 2.0F;     ///< Of one limp doll, and
     static constexpr float dolls = 3.0F;   ///< of two: these are pressed again once the dolls have answered.
+    static constexpr float wedged = 4.0F;  ///< One of `own` while its doll is mended: see own_wedges.hpp.
 };
 
 /// Eight contacts between two bodies each, of any dolls; no body comes twice, so that they are solved at once. Lanes
@@ -316,6 +317,7 @@ struct PairsView {
     int liveCount;
     int* changed;  ///< Those that were pressed again; room for as many.
     int changedCount;
+    int wedges;  ///< Whether a contact within a limp doll lies deeper than SubstepTuning::wedgeDepth.
 };
 
 /// What brings dolls to rest, one a lane; 0 and 1 for those that move.
@@ -462,6 +464,14 @@ struct Kernels {
     /// Adds to the velocities, not to the steady ones, what mends errors of position; does nothing where there are none
     /// unless `pushed`, which says that something else has added to the velocities in the same way.
     void (*mend)(const BatchView& batch, const SubstepParams& params, int pushed);
+    /// Takes in what pair contacts have made of the velocities, for mendOnce().
+    void (*takeMotions)(const BatchView& batch);
+    /// One pass of mend(), in some lanes with firm static contacts (SubstepTuning::wedgeFirmness; a bit mask). Where it
+    /// `probes`, nothing but the velocities changes, and it returns 0. Else what it would run through holds from the
+    /// next pass on, arms are foreseen anew, and it returns a bit mask of the lanes that need that pass.
+    unsigned (*mendOnce)(const BatchView& batch, const SubstepParams& params, unsigned firmly, int probes);
+    /// Takes back all mending in some lanes, a bit mask.
+    void (*mendNot)(const BatchView& batch, unsigned lanes);
     /// Positions and orientations with the velocities, which are the steady ones again afterwards.
     void (*advance)(const BatchView& batch, const SubstepParams& params);
     /// Sets the view's live blocks, which all the others work on.

@@ -103,7 +103,7 @@ static void showRises(const BatchView& batch, const Mask& rises) {
 struct Taken {
     F pressed, struck;
 };
-static Taken takeMotions(const BatchView& batch) {
+static Taken takePushed(const BatchView& batch) {
     Taken taken{all(0.0F), all(0.0F)};
     for (int i = 0; i < batch.pairedCount; ++i) {
         int index[kLanes];

@@ -17,6 +17,8 @@ struct Pass {
     F stiction;   ///< Factor on all friction.
     Mask astray;  ///< Gathers the lanes in which a body turns at another rate than its arms were foreseen with.
     Mask alone;   ///< Lanes in which no other doll pushes, where the job is no heap.
+    F firmness = all(1.0F);  ///< Mending, factor on the stiffness of static contacts.
+    bool probes = false;     ///< Mending, to see what comes of it: what it runs through does not hold.
 };
 
 // What the rows of a joint add to the equations: a torque on the child, and a weight matrix of the relative turning.
@@ -303,12 +305,12 @@ LUTKA_LANES StaticMotion motionAt(const StaticContactLanes& contact, const BodyL
 }
 
 LUTKA_LANES void mendStatic(const StaticContactLanes& contact, const StaticMotion& motion, const SubstepParams& params,
-                            Loaded& loaded) {
+                            const Pass& pass, Loaded& loaded) {
     const F zero = all(0.0F);
     const F bias = load(contact.bias);
     // What is near and does not press keeps its speed too, or the mending of a limit pushes it in.
     const Mask touches = motion.rate + most(bias, zero) < all(kMendReach);
-    const F firm = load(contact.normalMass) * all(params.contactStiffness);
+    const F firm = load(contact.normalMass) * all(params.contactStiffness) * pass.firmness;
     const Mended mended = mendRow(motion.rate, bias, firm, load(contact.normalGain), touches);
     if (bits(mended.gain > zero) == 0) return;
     const V3 push = motion.normal * (-mended.gain * mended.off);
@@ -345,7 +347,7 @@ LUTKA_LANES void askStatic(const BodyLanes& body, StaticContactLanes& contact, c
     const F zero = all(0.0F);
     const StaticMotion motion = motionAt(contact, body);
     if (pass.mending) {
-        mendStatic(contact, motion, params, loaded);
+        mendStatic(contact, motion, params, pass, loaded);
         return;
     }
     const F impulse = load(contact.normalImpulse);

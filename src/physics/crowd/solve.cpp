@@ -12,6 +12,7 @@
 #include "physics/crowd/motor.hpp"
 #include "physics/crowd/moved_contacts.hpp"
 #include "physics/crowd/own_load.hpp"
+#include "physics/crowd/own_wedges.hpp"
 #include "physics/crowd/packing.hpp"
 #include "physics/crowd/reports.hpp"
 #include "physics/crowd/static_contacts.hpp"
@@ -115,14 +116,16 @@ class JobSubstep {
             job_.dragWork += workOfTargets(*batch);
         if (!state_.targets.empty()) job_.dragWork += workOfPushes(state_, job_);
         endDrags();
+        if (mends_) findWedges(state_, job_, params_);
         const bool pushed = mends_ && mendPairs();
         forBatches(state_, job_, [&](std::size_t i) {
-            if (mends_) kernels.mend(viewOf(i), params_, pushed ? 1 : 0);
+            if (mends_ && !mendWedges(state_, job_, i, params_)) kernels.mend(viewOf(i), params_, pushed ? 1 : 0);
             kernels.advance(viewOf(i), params_);
             if (next == nullptr) return;
             refreshStatics(i, *next);
             kernels.begin(viewOf(i), *next);
         });
+        endWedges(job_);
         if (state_.settings.contactReports) sumImpulses(state_, job_);
     }
 

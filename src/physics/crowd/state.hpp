@@ -189,6 +189,19 @@ struct PairPart {
     bool overlaps = false;  ///< Whether the mending of this substep has found any overlap.
 };
 
+/// A contact within a doll while that is mended exactly: see own_wedges.hpp.
+struct OwnWedge {
+    PairContactLanes* pair = nullptr;
+    int pairLane = 0;
+    const Batch* batch = nullptr;
+    int lane = 0;  ///< Of the batch.
+    int bodyA = 0, bodyB = 0;
+    float separation = 0.0F;  ///< Metres.
+    float asked = 0.0F;       ///< m/s that it is to part with at least.
+    vec3 push{0, 0, 0};       ///< N s, on A: what parts the two bodies, were they points and alone, with 1 m/s.
+    vec3 armA{0, 0, 0}, armB{0, 0, 0};
+};
+
 /// Batches that touch each other, solved as one; jobs share nothing and can run at the same time.
 struct Job {
     std::vector<Batch*> batches;
@@ -200,8 +213,9 @@ struct Job {
     std::size_t blockCount = 0;
     std::vector<DragRecord*> drags;
     std::vector<const ForceRecord*> forces;
-    int deepTouches = 0;  ///< How many of its contacts lie deep.
-    int substeps = 0;     ///< Of this step.
+    std::vector<OwnWedge> wedges;  ///< Of this substep, while it is mended.
+    int deepTouches = 0;           ///< How many of its contacts lie deep.
+    int substeps = 0;              ///< Of this step.
     double dragWork = 0.0;
     double dragImpulse = 0.0;
     double motorWork = 0.0;  ///< And of forces.

@@ -12,6 +12,10 @@ struct SubstepTuning {
                              ///< masses ask.
     float mendHaste = 3.0F;  ///< Factor on the speed with which overlap of jointed bodies is mended.
     int mendSweeps = 2;      ///< Over the contacts between bodies, in each mending.
+    float wedgeDepth = 0.005F;    ///< Metres of overlap within a limp doll from which on its own contacts are mended
+                                  ///< together, with all that hangs on their bodies. Less: costs more, rests later.
+    float wedgeFirmness = 10.0F;  ///< Factor on the stiffness of its static contacts meanwhile. Less: what is pushed by
+                                  ///< a whole body gives way into the floor; more: less comes apart.
     float supportPassed = 0.97F;  ///< How firmly what rests on a body is held, of how firmly that body is, [0, 1).
     float supportKept = 0.95F;    ///< What is left of it a substep later once nothing presses.
     int answerSweeps = 2;       ///< At most, over the contacts between dolls after these have answered; 0: none. More:
@@ -50,6 +54,9 @@ struct SubstepTuning {
     float jointStiction = 3.0F;    ///< Friction of a joint at rest over that of one that turns, less 1;
     float stictionRate = 4.0F;     ///< fades out up to so many rad/s.
 };
+
+/// Passes of a mending at most, until it runs through nothing.
+inline constexpr int kMendPasses = 4;
 
 /// What a substep needs.
 struct SubstepParams : SubstepTuning {

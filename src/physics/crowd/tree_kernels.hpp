@@ -153,6 +153,7 @@ LUTKA_LANES Mask moveBody(const BatchView& batch, int index, const Motion& chang
     pass.astray |= dot(off, off) * dot(angular, angular) * (missed * missed) > all(params.aimGap * params.aimGap);
     Mask wrong = noLanes();
     if (pass.mending) {
+        if (pass.probes) return wrong;
         const F speed = speedBound(body, batch.bodyConstants[index]);
         for (int i = batch.firstContact[index]; i < batch.firstContact[index + 1]; ++i) {
             StaticContactLanes& contact = batch.contacts[i];
@@ -189,6 +190,7 @@ LUTKA_LANES Mask substitute(const BatchView& batch, int index, const SubstepPara
     const V3 velocity = anchor + load(eliminated.anchorChange) - cross(turn, load(joint.childArm));
     Mask wrong = moveBody(batch, constants.child, {velocity, turn}, params, pass);
     if (pass.mending) {
+        if (pass.probes) return wrong;
         return wrong |
                holdPassed(joint,
                           load(batch.bodies[constants.child].angular) - load(batch.bodies[constants.parent].angular),
@@ -279,19 +281,35 @@ static void leaveSteady(const BatchView& batch, const Mask& lanes) {
     }
 }
 
+LUTKA_LANES Pass mendingPass(bool probes) {
+    return {true, all(1.0F), true, noLanes(), all(1.0F), noLanes(), noLanes(), all(1.0F), probes};
+}
+
 static void mend(const BatchView& batch, const SubstepParams& params, int pushed) {
-    if (pushed != 0) takeMotions(batch);
+    if (pushed != 0) takePushed(batch);
     if (pushed == 0 && !needsMending(batch, params)) return;
-    Pass pass{true, all(1.0F), true, noLanes(), all(1.0F), noLanes(), noLanes()};
-    constexpr int kPasses = 4;
+    Pass pass = mendingPass(false);
     Mask unsolved = noLanes();
-    for (int i = 0; i < kPasses; ++i) {
+    for (int i = 0; i < kMendPasses; ++i) {
         pass.astray = noLanes();
         unsolved = sweep(batch, params, pass, Fresh::since) | pass.astray;
         if (bits(unsolved) == 0) return;
-        if (i + 1 < kPasses && bits(pass.astray) != 0) aim(batch, params, pass.astray, 1.0F);
+        if (i + 1 < kMendPasses && bits(pass.astray) != 0) aim(batch, params, pass.astray, 1.0F);
     }
     leaveSteady(batch, unsolved);
+}
+
+static unsigned mendOnce(const BatchView& batch, const SubstepParams& params, unsigned firmly, int probes) {
+    Pass pass = mendingPass(probes != 0);
+    pass.firmness = lanesOf(firmly) ? all(params.wedgeFirmness) : all(1.0F);
+    const Mask wrong = sweep(batch, params, pass, Fresh::since);
+    if (probes != 0) return 0;
+    if (bits(pass.astray) != 0) aim(batch, params, pass.astray, 1.0F);
+    return bits(wrong | pass.astray);
+}
+
+static void mendNot(const BatchView& batch, unsigned lanes) {
+    leaveSteady(batch, lanesOf(lanes));
 }
 
 // Gathers what has been done to single bodies, without the joints' answer.
@@ -407,7 +425,7 @@ static void solveAll(const BatchView& batch, const SubstepParams& params, Solvin
 }
 
 static void solve(const BatchView& batch, const SubstepParams& params, int first) {
-    const Taken taken = takeMotions(batch);
+    const Taken taken = takePushed(batch);
     if (first == 0 && bits(taken.pressed > all(0.0F)) == 0) return;
     const F before = first != 0 ? all(0.0F) : keptEnergy(batch);
     if (first != 0) {
