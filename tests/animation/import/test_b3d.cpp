@@ -52,6 +52,18 @@ std::string twoParts() {
     return chunk("BB3D", packed<std::int32_t>({1}) + node("Root", part("Trousers", 0.0F, 2) + part("Shirt", 2.0F, 1)));
 }
 
+// One mesh, and two brushes of two textures each, of which the file has one at most.
+std::string brushes(bool withTexture) {
+    const auto brush = [](const std::string& name, const std::vector<std::int32_t>& textures) {
+        return name + '\0' + packed<float>({1, 0.5F, 0, 1, 0}) + packed<std::int32_t>({1, 0}) + packed(textures);
+    };
+    const std::string texture =
+        std::string("fur.png") + '\0' + packed<std::int32_t>({1, 2}) + packed<float>({0, 0, 1, 1, 0});
+    return chunk("BB3D", packed<std::int32_t>({1}) + (withTexture ? chunk("TEXS", texture) : std::string()) +
+                             chunk("BRUS", packed<std::int32_t>({2}) + brush("Fur", {0, -1}) + brush("Cloth", {7, 1})) +
+                             node("Root", part("Body", 0.0F, 1)));
+}
+
 }  // namespace
 
 TEST_CASE("every mesh of a B3D hangs on its own bones") {
@@ -71,12 +83,24 @@ TEST_CASE("every mesh of a B3D hangs on its own bones") {
     }
 }
 
-TEST_CASE("a damaged B3D is tidied as far as it goes, and no further") {
-    const std::string whole = twoParts();
-    for (std::size_t length = 0; length <= whole.size(); ++length) {
-        const std::string part = whole.substr(0, length);
-        CHECK(rig_import::tidyB3d(part).size() == part.size());
+TEST_CASE("a brush of a B3D may name a texture that the file has not") {
+    for (const bool withTexture : {false, true}) {
+        const TemporaryFolder folder;
+        std::ofstream(folder / "fur.b3d", std::ios::binary) << brushes(withTexture);
+        const Character character = imported(folder / "fur.b3d");
+        REQUIRE(character.meshes.size() == 1);
+        CHECK(character.meshes[0].positions.size() == 3);
     }
+}
+
+TEST_CASE("a damaged B3D is tidied as far as it goes, and no further") {
+    for (const std::string& file : {twoParts(), brushes(true)}) {
+        for (std::size_t length = 0; length <= file.size(); ++length) {
+            const std::string part = file.substr(0, length);
+            CHECK(rig_import::tidyB3d(part).size() == part.size());
+        }
+    }
+    const std::string whole = twoParts();
     const std::string tidied = rig_import::tidyB3d(whole);
     CHECK(tidied != whole);
     const std::size_t first = whole.find("Shirt");

@@ -12,7 +12,10 @@ constexpr std::size_t kHead = 8;          // of a chunk: its tag and its size
 constexpr std::size_t kNodeNumbers = 40;  // place, scale and rotation, after a node's name
 constexpr std::size_t kVertexHead = 12;   // flags, sets of UVs and their size
 constexpr std::size_t kWeight = 8;        // a vertex' number and its weight
-constexpr std::uint32_t kHasNormal = 1;   // flags of vertices
+constexpr std::size_t kTexture = 28;      // flags, blend mode, place, scale and turn, after a texture's name
+constexpr std::size_t kBrush = 28;        // colour, opacity, shine, blend mode and effects, after a brush's name
+constexpr std::uint32_t kNoTexture = 0xFFFFFFFFU;
+constexpr std::uint32_t kHasNormal = 1;  // flags of vertices
 constexpr std::uint32_t kHasColor = 2;
 
 class Walker {
@@ -36,6 +39,10 @@ class Walker {
                 if (!walk(name + 1 + kNodeNumbers, next, start, depth + 1)) return false;
             } else if (tag == "VRTS") {
                 if (!countVertices(body, next)) return false;
+            } else if (tag == "TEXS") {
+                countTextures(body, next);
+            } else if (tag == "BRUS") {
+                clearMissingTextures(body, next);
             } else if (tag == "BONE" && start > 0) {
                 for (std::size_t weight = body; weight + kWeight <= next; weight += kWeight)
                     setNumber(weight, number(weight) + start);
@@ -57,6 +64,27 @@ class Walker {
         return true;
     }
 
+    void countTextures(std::size_t at, std::size_t end) {
+        for (std::size_t name = bytes_.find('\0', at); name < end; name = bytes_.find('\0', at)) {
+            at = name + 1 + kTexture;
+            if (at <= end) ++textures_;
+        }
+    }
+
+    // Blender's exporter leaves out a texture whose picture it can't find, and not what refers to it.
+    void clearMissingTextures(std::size_t body, std::size_t end) {
+        if (body + 4 > end) return;
+        const std::uint32_t count = number(body);
+        if (count > (end - body) / 4) return;
+        std::size_t at = body + 4;
+        for (std::size_t name = bytes_.find('\0', at); name < end; name = bytes_.find('\0', at)) {
+            at = name + 1 + kBrush;
+            for (std::uint32_t slot = 0; slot < count && at + 4 <= end; ++slot, at += 4) {
+                if (number(at) != kNoTexture && number(at) >= textures_) setNumber(at, kNoTexture);
+            }
+        }
+    }
+
     [[nodiscard]] std::uint32_t number(std::size_t at) const {
         std::uint32_t value = 0;
         std::memcpy(&value, bytes_.data() + at, sizeof value);
@@ -66,6 +94,7 @@ class Walker {
 
     std::string& bytes_;
     std::uint32_t vertices_ = 0;
+    std::uint32_t textures_ = 0;
 };
 
 }  // namespace
