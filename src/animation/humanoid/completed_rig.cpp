@@ -85,13 +85,26 @@ class Completer {
                said(Part::chest) || said(Part::neck) || said(Part::head);
     }
 
+    // Whether a joint that moves skin has the same name on the other side: then the limb is there, in whatever pose.
+    [[nodiscard]] bool isNamedOnBothSides(int joint) const {
+        const NameEvidence& name = rig_.names[joint];
+        if (name.side == Side::center || !name.meaningful) return false;
+        for (int other = 0; other < rig_.count(); ++other) {
+            const NameEvidence& said = rig_.names[other];
+            if (said.side == otherSide(name.side) && said.words == name.words && said.numbers == name.numbers &&
+                rig_.carriesSkin(other))
+                return true;
+        }
+        return false;
+    }
+
     // Joints without a partner, aside from the trunk, that start a limb: the topmost of their chains.
     [[nodiscard]] std::vector<int> loneLimbs() const {
         std::vector<int> limbs;
         for (int joint = 0; joint < rig_.count(); ++joint) {
             const int parent = rig_.parents[joint];
             if (partnerOf(joint) != kNoJoint || !isAside(joint) || !rig_.carriesSkin(joint)) continue;
-            if (parent == kNoJoint || isNoLimb(rig_.names[joint])) continue;
+            if (parent == kNoJoint || isNoLimb(rig_.names[joint]) || isNamedOnBothSides(joint)) continue;
             // Below another lone joint it comes with that one.
             if (partnerOf(parent) == kNoJoint && isAside(parent)) continue;
             if (parentOfImage(joint) != parent && !rig_.children[parentOfImage(joint)].empty()) continue;

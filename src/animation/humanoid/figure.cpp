@@ -137,6 +137,19 @@ bool losesItsHead(const RigFeatures& rig, const Figure& figure) {
                        [](const NameEvidence& name) { return !name.helper && name.parts[Part::head] >= kNamedHead; });
 }
 
+// Whether a joint that is named hips and nothing else carries the joint that stands for them: a plane askew through a
+// running figure leaves them beside it.
+bool losesItsHips(const RigFeatures& rig, const Figure& figure) {
+    constexpr float kNamedHips = 4.0F;
+    const int hips = figure.trunk.hips;
+    if (hips == kNoJoint || rig.names[hips].parts[Part::hips] > 0.0F) return false;
+    for (int above = rig.parents[hips]; above != kNoJoint; above = rig.parents[above]) {
+        const NameEvidence& name = rig.names[above];
+        if (!name.helper && name.side == Side::center && name.parts[Part::hips] >= kNamedHips) return true;
+    }
+    return false;
+}
+
 // Which side the names give the joints of the +x half: +1 left, -1 right, 0 where they disagree or are too few.
 int sideByNames(const FramedRig& framed, const LimbCandidate& limb) {
     constexpr int kFewest = 1;
@@ -254,7 +267,8 @@ Figure findFigure(const RigFeatures& rig) {
         readUpright(rig, plane, agreement(plane), upright, best);
     // Where the likeliest plane leans, an upright reading is made of skirts and hair in another one.
     const bool leans = !planes.empty() && std::abs(glm::dot(planes.front().normal, upright.axis)) > kMostLean;
-    if (best.refusal.empty() && !leans && !best.crossed && !losesItsHead(rig, best)) return best;
+    const bool complete = !losesItsHead(rig, best) && !losesItsHips(rig, best);
+    if (best.refusal.empty() && !leans && !best.crossed && complete) return best;
     for (const MirrorPlane& plane : planes) {
         for (const UpAxis& up : leaningUps(plane))
             readUpright(rig, plane, agreement(plane), up, best);

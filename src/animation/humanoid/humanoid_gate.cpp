@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "animation/humanoid/tails.hpp"
+
 namespace lutka::animation {
 namespace {
 
@@ -52,6 +54,11 @@ float shareNamed(const FramedRig& framed, const LimbCandidate& limb, const Names
 
 float creatureShare(const FramedRig& framed, const LimbCandidate& limb) {
     return shareNamed(framed, limb, [](const NameEvidence& name) { return name.creature; });
+}
+
+// Ears beside a head, of a figure that has no arms.
+float faceShare(const FramedRig& framed, const LimbCandidate& limb) {
+    return shareNamed(framed, limb, [](const NameEvidence& name) { return name.face; });
 }
 
 // Arms that are called just "leg": one of several pairs of them. Who copies legs to make arms keeps the names of parts.
@@ -156,15 +163,25 @@ bool trailsTail(const Figure& figure, const FramedRig& framed) {
 }
 
 // Of the way from the shoulders to a head that is not named so, from upright; 0 without one, or where it is shorter
-// than the trunk.
+// than the trunk. With a tail the name proves nothing: a raptor's joints may be called as a man's.
 float headTilt(const Figure& figure, const FramedRig& framed) {
     constexpr float kNamedHead = 2.0F;
     const int head = figure.trunk.head;
-    if (head == kNoJoint || framed.rig->names[head].parts[Part::head] >= kNamedHead) return 0.0F;
+    if (head == kNoJoint) return 0.0F;
+    if (framed.rig->names[head].parts[Part::head] >= kNamedHead && !hasTail(*framed.rig)) return 0.0F;
     vec3 way = framed.positions[head] - figure.arms.root;
     way.x = 0.0F;
     const bool far = glm::length(way) > glm::distance(figure.arms.root, figure.legs.root);
     return far ? angleTo(way, vec3(0, 1, 0)) : 0.0F;
+}
+
+// Names tell both limbs, whatever the pose. Where one goes from its first joint to its end the other one is whole: a
+// frog of blocks has two joints for every limb.
+bool areTold(const LimbCandidate& a, const LimbCandidate& b) {
+    const auto skipsMiddle = [](const LimbCandidate& limb) {
+        return limb.pairs[1] == kNoPair && limb.pairs[2] != kNoPair;
+    };
+    return a.whole && b.whole && (!skipsMiddle(a) || b.named) && (!skipsMiddle(b) || a.named);
 }
 
 // A body that leans over its legs, ends in a tail and has stumps for arms.
@@ -209,7 +226,7 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     if ((figure.leans || turned) && (tilt > kMostBend || legTilt > kMostBend))
         return "the trunk and the legs are not in one line";
     // The names tell a seated or kneeling figure, as long as its trunk is upright.
-    const bool named = figure.posed ? figure.legs.whole && figure.arms.whole
+    const bool named = figure.posed ? areTold(figure.legs, figure.arms)
                                     : figure.legs.named && figure.arms.named && figure.prior >= 0.0F;
     if (figure.posed && !named) return "its names are not those of its limbs";
     if (figure.posed && isOnAllFours(figure, framed)) return "it stands on all fours, whatever its names say";
@@ -231,6 +248,7 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     if (hands < kLeastHandHeight && !named && !upright) return "the hands stand on the ground: a four-legged animal";
     if (creatureShare(framed, figure.arms) > 0.6F || creaturesBelow(framed, figure.arms) > 0.5F)
         return "what would be the arms are named as wings or front legs";
+    if (faceShare(framed, figure.arms) > 0.6F) return "what would be the arms are named as parts of a face";
     if (figure.prior < 0.0F && areLegsByName(framed, figure.arms)) return "what would be the arms are named as legs";
     if (creatureShare(framed, figure.legs) > 0.6F) return "what would be the legs are named as an animal's";
     if (figure.prior < 0.0F && areSeveral(framed, figure.legs))

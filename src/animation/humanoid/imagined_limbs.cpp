@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
 #include <string_view>
@@ -15,6 +16,7 @@ constexpr int kFewestTold = 2;          // parts of each limb that is there
 constexpr float kMostBeside = 0.35F;    // of the way from the hips up to the head, sideways of it
 constexpr float kLegsToRise = 1.54F;    // legs as long, where the arms start one above the hips
 constexpr float kArmsToLegs = 0.62F;    // of the legs' length, or of the rise from hips to shoulders
+constexpr float kShoulders = 0.85F;     // of the way from hips to head, where the trunk is one joint
 constexpr float kSkinOfJoint = 0.05F;   // share of the skin that an imagined joint moves
 
 constexpr std::array<Part, 3> kArm{Part::upperArm, Part::lowerArm, Part::hand};
@@ -22,7 +24,7 @@ constexpr std::array<Part, 3> kLeg{Part::upperLeg, Part::lowerLeg, Part::foot};
 
 class Imaginer {
   public:
-    explicit Imaginer(const RigFeatures& rig) : rig_(rig) {}
+    explicit Imaginer(const RigFeatures& rig) : rig_(rig), crossed_(crossedArms()) {}
 
     [[nodiscard]] std::optional<CompletedRig> complete() const {
         const bool arms = isTold(kArm);
@@ -60,6 +62,19 @@ class Imaginer {
                told(Side::right) >= kFewestTold;
     }
 
+    // One leaf for both arms, which are crossed before the chest: named as arms, on neither side. kNoJoint without one.
+    [[nodiscard]] int crossedArms() const {
+        int found = kNoJoint;
+        for (int joint = 0; joint < rig_.count(); ++joint) {
+            const NameEvidence& name = rig_.names[joint];
+            if (name.side != Side::center || name.helper || !name.bareLimb || !rig_.carriesSkin(joint)) continue;
+            if (name.parts[Part::upperArm] < kToldLimb || !rig_.children[joint].empty()) continue;
+            if (found != kNoJoint) return kNoJoint;
+            found = joint;
+        }
+        return found;
+    }
+
     // Two chains of one side with the names of one limb: the other limb bears them, too.
     [[nodiscard]] bool isToldTwice(Part upper) const {
         const int first = named(upper, Side::left, kToldLimb);
@@ -77,6 +92,7 @@ class Imaginer {
         for (int joint = 0; joint < rig_.count(); ++joint) {
             const bool isHips = rig_.names[joint].parts[Part::hips] >= kToldTrunkPart;  // "hip" may be a thigh's
             if (!rig_.carriesSkin(joint) || (isHips && rig_.names[joint].side == Side::center)) continue;
+            if (joint == crossed_) continue;
             for (const Part part : limb) {
                 if (rig_.names[joint].parts[part] > 0.0F) return false;
             }
@@ -100,7 +116,18 @@ class Imaginer {
             if (name.parts[Part::trunk] < kToldTrunkPart || rig_.names[root].parts[Part::hips] <= 0.0F) continue;
             if (!rig_.skinned || rig_.directWeight[root] > 0.0F) return root;
         }
-        return kNoJoint;
+        return crossed_ != kNoJoint ? bodyOfCrossedArms() : kNoJoint;
+    }
+
+    // The one joint that carries arms that are crossed and both legs.
+    [[nodiscard]] int bodyOfCrossedArms() const {
+        const int body = rig_.parents[crossed_];
+        if (body == kNoJoint || (rig_.skinned && rig_.directWeight[body] <= 0.0F)) return kNoJoint;
+        for (const Side side : {Side::left, Side::right}) {
+            const int thigh = named(Part::upperLeg, side, kToldLimb);
+            if (thigh == kNoJoint || rig_.parents[thigh] != body) return kNoJoint;
+        }
+        return body;
     }
 
     // The head, else the neck, else the highest of at least two joints of a spine.
@@ -146,7 +173,8 @@ class Imaginer {
         while (chest != kNoJoint && rig_.names[chest].parts[Part::neck] >= kToldTrunkPart)
             chest = rig_.parents[chest];
         if (chest == kNoJoint) return std::nullopt;
-        const vec3 start = rig_.positions[chest];
+        const vec3 start =
+            chest == hips ? glm::mix(rig_.positions[hips], rig_.positions[top], kShoulders) : rig_.positions[chest];
         const float length = kArmsToLegs * (start.y - rig_.positions[hips].y) * kLegsToRise;
         const vec3 direction = across(Part::upperLeg);
         if (length <= 0.0F || glm::length(direction) <= 0.0F) return std::nullopt;
@@ -194,6 +222,7 @@ class Imaginer {
     }
 
     const RigFeatures& rig_;
+    int crossed_ = kNoJoint;
 };
 
 }  // namespace

@@ -153,7 +153,7 @@ class LimbFinder {
         if (rig.skinned && at(lower).ownWeight <= 0.0F) return false;
         for (int joint = rig.parents[at(lower).joints[0]]; joint != kNoJoint; joint = rig.parents[joint]) {
             const int pair = framed_.pairOf[joint];
-            if (pair >= 0 && (!rig.skinned || at(pair).ownWeight > 0.0F)) return false;
+            if (pair >= 0 && !rig.names[joint].control && (!rig.skinned || at(pair).ownWeight > 0.0F)) return false;
         }
         return true;
     }
@@ -234,10 +234,11 @@ class LimbFinder {
         candidate.told =
             lower != kNoPair && isNamed(upper, 0) && isNamed(lower, 1) && (end == kNoPair || isNamed(end, 2));
         candidate.named = candidate.told && end != kNoPair;
-        // Of blocks the names tell the stance, and then that a limb has one joint.
-        const bool block = framed_.stance.byNames && lower == kNoPair && end == kNoPair && isNamed(upper, 0);
-        const int last = block ? upper : lower;
-        candidate.whole = candidate.named || ((candidate.told || block) && endsThere_[last]);
+        // Where names tell the stance, then also that a limb has one joint, or none between the first and its end.
+        const bool shorter =
+            framed_.stance.byNames && end == kNoPair && isNamed(upper, 0) && (lower == kNoPair || isNamed(lower, 2));
+        const int last = lower == kNoPair ? upper : lower;
+        candidate.whole = candidate.named || ((candidate.told || shorter) && endsThere_[last]);
         kind_ == LimbKind::leg ? scoreLeg(candidate) : scoreArm(candidate);
         candidate.score += leftOver(candidate);
         nameByWords(candidate);
@@ -320,9 +321,7 @@ class LimbFinder {
         const float height = std::max(leg.root.y - framed_.floor, kLeastHipHeight * length);
         const float heightOfTip = (leg.tip.y - framed_.floor) / height;
         pose += (foot != kNoPair ? terms::kAnkleHeight : terms::kSkinEndHeight).near(heightOfTip);
-        if (lower != kNoPair) {
-            pose += angleTerm(at(lower).position - leg.root, kDown, terms::kThighDown);
-        }
+        if (lower != kNoPair) pose += angleTerm(at(lower).position - leg.root, kDown, terms::kThighDown);
         if (foot != kNoPair) {
             proportions +=
                 terms::kThighToShin.near(std::log(framed_.segment(upper, lower) / framed_.segment(lower, foot)));

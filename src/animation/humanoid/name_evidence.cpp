@@ -13,11 +13,12 @@
 namespace lutka::animation {
 namespace {
 
-constexpr float kClear = 4.5F;       // the word has one meaning in all conventions
-constexpr float kBareLimb = 2.3F;    // "arm", "leg": mostly the upper arm, the thigh or the shin
-constexpr float kOther = -2.5F;      // the name speaks of another part
-constexpr float kNoRole = -4.0F;     // fingers, face, props, controls
-constexpr float kTwistLoss = -4.5F;  // a twist joint is still nearest to its own part
+constexpr float kClear = 4.5F;        // the word has one meaning in all conventions
+constexpr float kBareLimb = 2.3F;     // "arm", "leg": mostly the upper arm, the thigh or the shin
+constexpr float kOther = -2.5F;       // the name speaks of another part
+constexpr float kRootIsNone = -1.0F;  // "root": what hangs on it tells what it is
+constexpr float kNoRole = -4.0F;      // fingers, face, props, controls
+constexpr float kTwistLoss = -4.5F;   // a twist joint is still nearest to its own part
 
 struct PartScore {
     Part part;
@@ -130,7 +131,8 @@ void scoreTrunk(const Concepts& c, bool sided, PartScores& scores) {
     } else if (c.has(Concept::body)) {
         set(scores, {{Part::hips, 1.0F}, {Part::trunk, 0.5F}, {Part::chest, 0.5F}});
     } else if (c.has(Concept::root)) {
-        set(scores, {{Part::hips, 0.5F}});
+        scores.values.fill(kRootIsNone);
+        scores[Part::hips] = 0.5F;
     }
 }
 

@@ -33,7 +33,7 @@ constexpr Entry kEntries[] = {
      "lowertorso hipsbone koshi kosi"},
     {Concept::hip, "hip hanche"},
     {Concept::spine,
-     "spine spina spinal back lowerback backbone vertebra lumbar columna columnavertebral "
+     "spine spin spina spinal back lowerback backbone vertebra lumbar columna columnavertebral "
      "wirbelsaeule wirbelsaule wirbel ruecken rucken rugge colonne colonna coluna espinha thoracic thorasic"},
     {Concept::abdomen,
      "bel abdomen waist belly stomach tummy abs abdominal bauch taille ventre vientre cintura addome barriga "
@@ -89,7 +89,8 @@ constexpr Entry kEntries[] = {
      "buttock buttocks glute glutes groin genital genitals nipple"},
     {Concept::prop,
      "weapon sword gun rifle shield prop props attach attachment mount holder slot socket att knife bow arrow quiver "
-     "wield wielditem staff axe hammer pistol bullet equip item backpack holster magic camerabone propjoint scabbard "
+     "gear wield wielditem staff axe hammer pistol bullet equip item backpack holster magic camerabone propjoint "
+     "scabbard "
      "blade"},
     {Concept::creature,
      "tail tails wing wings hind hindleg hindlimb hindlimbs hoof paw paws foreleg frontleg fin fins feather feathers "

@@ -112,7 +112,8 @@ bool segment(const std::string& word, std::vector<std::string>& pieces) {
     for (int end = 1; end <= size; ++end) {
         for (int begin = 0; begin < end; ++begin) {
             const std::string_view piece(word.data() + begin, static_cast<std::size_t>(end - begin));
-            const bool sideLetter = (piece == "l" || piece == "r") && (begin == 0 || end == size) && size > 3;
+            const bool longEnough = size > 3 || word.starts_with("ik") || word.starts_with("fk");
+            const bool sideLetter = (piece == "l" || piece == "r") && (begin == 0 || end == size) && longEnough;
             if (count[begin] + 1 >= count[end] || !(sideLetter || gluable(piece))) continue;
             count[end] = count[begin] + 1;
             from[end] = begin;

@@ -4,36 +4,16 @@
 #include <array>
 #include <glm/geometric.hpp>
 
+#include "animation/humanoid/tails.hpp"
+
 namespace lutka::animation {
 namespace {
 
 constexpr float kNamedLimb = 1.5F;      // a name's score from which it says which part of a limb this is
 constexpr float kNamedTrunkEnd = 2.0F;  // … or that it is the hips or the head
 
-// The joint whose name says that part most clearly; of equals the one nearest to the root.
-int namedJoint(const RigFeatures& rig, Part part, Side side, float least) {
-    int best = kNoJoint;
-    for (int joint = 0; joint < rig.count(); ++joint) {
-        const NameEvidence& name = rig.names[joint];
-        if (name.side != side || name.helper || name.parts[part] < least) continue;
-        const auto rank = [&](int of) { return rig.names[of].parts[part] + (rig.carriesSkin(of) ? 1.0F : 0.0F); };
-        const bool better = best == kNoJoint || rank(joint) > rank(best) ||
-                            (rank(joint) == rank(best) && rig.depth[joint] < rig.depth[best]);
-        if (better) best = joint;
-    }
-    return best;
-}
-
-// Of avatars that could have one the joints are there, and move nothing.
-bool hasTail(const RigFeatures& rig) {
-    for (int joint = 0; joint < rig.count(); ++joint) {
-        if (rig.names[joint].tail && rig.carriesSkin(joint)) return true;
-    }
-    return false;
-}
-
 bool isNamedHips(const RigFeatures& rig) {
-    return namedJoint(rig, Part::hips, Side::center, kNamedTrunkEnd) != kNoJoint;
+    return rig.namedJoint(Part::hips, Side::center, kNamedTrunkEnd) != kNoJoint;
 }
 
 // A limb of one or two joints ends at the last: nothing that moves skin hangs on it.
@@ -44,7 +24,7 @@ bool endsAt(const RigFeatures& rig, int joint) {
 
 // The last of a neck's joints carries the head.
 bool isNamedHead(const RigFeatures& rig) {
-    if (namedJoint(rig, Part::head, Side::center, kNamedTrunkEnd) != kNoJoint) return true;
+    if (rig.namedJoint(Part::head, Side::center, kNamedTrunkEnd) != kNoJoint) return true;
     for (int joint = 0; joint < rig.count(); ++joint) {
         const NameEvidence& name = rig.names[joint];
         const bool neck = name.side == Side::center && !name.helper && name.parts[Part::neck] >= kNamedTrunkEnd;
@@ -56,8 +36,8 @@ bool isNamedHead(const RigFeatures& rig) {
 // Many rigs call the hips "root" or count them to the spine: then they are the joint that both thighs hang on, with so
 // many joints (halves of the pelvis) between at most.
 bool carriesThighs(const RigFeatures& rig, int mostBetween) {
-    const int left = namedJoint(rig, Part::upperLeg, Side::left, kNamedLimb);
-    const int right = namedJoint(rig, Part::upperLeg, Side::right, kNamedLimb);
+    const int left = rig.namedJoint(Part::upperLeg, Side::left, kNamedLimb);
+    const int right = rig.namedJoint(Part::upperLeg, Side::right, kNamedLimb);
     if (left == kNoJoint || right == kNoJoint) return false;
     const int above = rig.commonAncestor(left, right);
     return above != kNoJoint && std::max(rig.depth[left], rig.depth[right]) - rig.depth[above] <= mostBetween + 1 &&
@@ -75,11 +55,11 @@ bool namesTrunk(const RigFeatures& rig) {
 }
 
 bool namesLimb(const RigFeatures& rig, const std::array<Part, 3>& parts, Side side) {
-    const int upper = namedJoint(rig, parts[0], side, kNamedLimb);
-    const int lower = namedJoint(rig, parts[1], side, kNamedLimb);
+    const int upper = rig.namedJoint(parts[0], side, kNamedLimb);
+    const int lower = rig.namedJoint(parts[1], side, kNamedLimb);
     if (upper == kNoJoint) return false;
     if (lower == kNoJoint) return endsAt(rig, upper);
-    return namedJoint(rig, parts[2], side, kNamedLimb) != kNoJoint || endsAt(rig, lower);
+    return rig.namedJoint(parts[2], side, kNamedLimb) != kNoJoint || endsAt(rig, lower);
 }
 
 bool namesWholeFigure(const RigFeatures& rig) {
@@ -94,7 +74,7 @@ bool namesWholeFigure(const RigFeatures& rig) {
 
 std::optional<Stance> stanceOfNames(const RigFeatures& rig) {
     if (hasTail(rig) || !namesWholeFigure(rig)) return std::nullopt;
-    const auto at = [&](Part part, Side side) { return rig.positions[namedJoint(rig, part, side, kNamedLimb)]; };
+    const auto at = [&](Part part, Side side) { return rig.positions[rig.namedJoint(part, side, kNamedLimb)]; };
     const vec3 legs = at(Part::upperLeg, Side::left) + at(Part::upperLeg, Side::right);
     const vec3 arms = at(Part::upperArm, Side::left) + at(Part::upperArm, Side::right);
     const vec3 rise = 0.5F * (arms - legs);

@@ -13,15 +13,10 @@
 #include <string_view>
 
 #include "animation/counted_vertices.hpp"
-#include "animation/humanoid/name_lexicon.hpp"
+#include "animation/humanoid/names_in_tree.hpp"
 
 namespace lutka::animation {
 namespace {
-
-// What a name's score says of a part.
-constexpr float kSurely = 4.0F;
-constexpr float kMaybe = 2.0F;
-constexpr float kSurelyNot = -2.5F;
 
 constexpr std::size_t kMaxVertices = 12000;
 
@@ -225,150 +220,6 @@ void doubtPartialSkin(RigFeatures& rig) {
     if (rig.partlySkinned) rig.skinned = false;
 }
 
-// Whether a joint of that side, or one above it, is surely called one of the two parts.
-bool tellsLimb(const RigFeatures& rig, int joint, Side side, Part upper, Part middle) {
-    for (; joint != kNoJoint && rig.names[joint].side == side; joint = rig.parents[joint]) {
-        const PartScores& parts = rig.names[joint].parts;
-        if (parts[upper] >= kSurely || parts[middle] >= kSurely) return true;
-    }
-    return false;
-}
-
-// Bones that are called by the joint at their end: "wrist" at the elbow, "ankle" at the knee. What would be the hand or
-// foot lies about halfway down its limb, and another one hangs on it; so the bones above are shifted, too.
-void readNamesOfEnds(RigFeatures& rig) {
-    constexpr float kHalfway = 0.8F;  // of the way from the joint above
-    struct Limb {
-        Part upper, middle, end;
-    };
-    const auto rename = [&](int joint, Part from, Part to) {
-        rig.names[joint].parts[from] = kSurelyNot;
-        rig.names[joint].parts[to] = kSurely;
-    };
-    for (const Limb& limb :
-         {Limb{Part::upperArm, Part::lowerArm, Part::hand}, Limb{Part::upperLeg, Part::lowerLeg, Part::foot}}) {
-        for (int joint = 0; joint < rig.count(); ++joint) {
-            const int parent = rig.parents[joint];
-            if (parent == kNoJoint || rig.names[joint].parts[limb.end] < kSurely) continue;
-            const Side side = rig.names[joint].side;
-            if (rig.names[parent].side != side) continue;
-            const PartScores& above = rig.names[parent].parts;
-            const bool middleAbove = above[limb.middle] >= kSurely;
-            if (!middleAbove && above[limb.upper] < kMaybe) continue;
-            const int top = rig.parents[parent];
-            // All parts have their names already: a wrist in the middle of the forearm only turns with it.
-            if (middleAbove && tellsLimb(rig, top, side, limb.upper, limb.middle)) continue;
-            const float least = kHalfway * glm::distance(rig.positions[parent], rig.positions[joint]);
-            const auto goesOn = [&](int child) {
-                return rig.names[child].parts[limb.end] >= kSurely && rig.names[child].side == side &&
-                       rig.carriesSkin(child) && glm::distance(rig.positions[joint], rig.positions[child]) > least;
-            };
-            if (std::none_of(rig.children[joint].begin(), rig.children[joint].end(), goesOn)) continue;
-            rename(joint, limb.end, limb.middle);
-            if (!middleAbove) continue;
-            rename(parent, limb.middle, limb.upper);
-            if (top != kNoJoint && rig.names[top].parts[Part::clavicle] >= kMaybe && limb.end == Part::hand)
-                rename(top, Part::upperArm, Part::clavicle);
-        }
-    }
-}
-
-// A word of two meanings has one where its neighbour has the other: a shoulder above an arm is the clavicle and that
-// arm the upper arm, one above an elbow is the upper arm itself; a leg below a thigh is the shin.
-void readNamesInChains(RigFeatures& rig) {
-    // An elbow first: beside it may hang what stands for the arm's volume.
-    for (int joint = 0; joint < rig.count(); ++joint) {
-        const int parent = rig.parents[joint];
-        if (parent == kNoJoint || rig.names[parent].side != rig.names[joint].side) continue;
-        PartScores& upper = rig.names[parent].parts;
-        const bool isShoulder = upper[Part::clavicle] >= kMaybe && upper[Part::clavicle] < kSurely;
-        if (!isShoulder || rig.names[joint].parts[Part::lowerArm] < kSurely) continue;
-        upper[Part::upperArm] = std::max(upper[Part::upperArm], kSurely);
-        upper[Part::clavicle] = kSurelyNot;
-    }
-    for (int joint = 0; joint < rig.count(); ++joint) {
-        const int parent = rig.parents[joint];
-        if (parent == kNoJoint || rig.names[parent].side != rig.names[joint].side) continue;
-        PartScores& upper = rig.names[parent].parts;
-        PartScores& lower = rig.names[joint].parts;
-        if (rig.names[parent].words == rig.names[joint].words) continue;
-        if (upper[Part::clavicle] >= kMaybe && lower[Part::upperArm] >= kMaybe && lower[Part::clavicle] < kMaybe) {
-            upper[Part::clavicle] = std::max(upper[Part::clavicle], kSurely);
-            upper[Part::upperArm] = kSurelyNot;
-            lower[Part::upperArm] = std::max(lower[Part::upperArm], kSurely);
-        }
-        // Palm below a hand: the bones of the middle hand. Nor is a thing named so below a foot another foot.
-        for (const Part end : {Part::hand, Part::foot}) {
-            if (upper[end] >= kSurely && lower[end] >= kSurely) lower[end] = kSurelyNot;
-        }
-        if (upper[Part::upperLeg] >= kSurely && lower[Part::lowerLeg] >= kMaybe) {
-            lower[Part::lowerLeg] = std::max(lower[Part::lowerLeg], kSurely);
-            lower[Part::upperLeg] = kSurelyNot;
-        }
-    }
-}
-
-// A rigid mesh that hangs on the joint of its name is no joint of its own: "Head" below "Head_jnt".
-void leaveNamesToPivots(RigFeatures& rig) {
-    constexpr float kTellingName = 2.0F;
-    constexpr float kMeshOfJoint = -9.0F;
-    for (int joint = 0; joint < rig.count(); ++joint) {
-        const int parent = rig.parents[joint];
-        if (parent == kNoJoint || !rig.rigidPart[joint] || rig.rigidPart[parent] || !rig.children[joint].empty())
-            continue;
-        if (rig.names[parent].side != rig.names[joint].side || rig.names[parent].helper) continue;
-        PartScores& own = rig.names[joint].parts;
-        const PartScores& above = rig.names[parent].parts;
-        bool alike = false;
-        for (std::size_t part = 0; part < own.values.size(); ++part)
-            alike = alike || (own.values[part] >= kTellingName && above.values[part] >= kTellingName);
-        if (!alike) continue;
-        own.values.fill(kMeshOfJoint);
-        rig.names[joint].helper = true;
-    }
-}
-
-// "Arm 1, Arm 2, Arm 3": where one chain calls three joints or more by the same word for a limb, the word tells the
-// limb and no part of it.
-void flattenNumberedLimbs(RigFeatures& rig) {
-    for (int joint = 0; joint < rig.count(); ++joint) {
-        const NameEvidence& name = rig.names[joint];
-        if (!name.bareLimb) continue;
-        const auto alike = std::count_if(rig.names.begin(), rig.names.end(), [&](const NameEvidence& other) {
-            return other.side == name.side && other.words == name.words;
-        });
-        if (alike < 3) continue;
-        const bool arm = name.parts[Part::upperArm] > 0.0F;
-        for (const Part part : arm ? std::array{Part::clavicle, Part::upperArm, Part::lowerArm, Part::hand}
-                                   : std::array{Part::upperLeg, Part::lowerLeg, Part::foot, Part::toes})
-            rig.names[joint].parts[part] = 1.5F;
-    }
-}
-
-// "arm_end": a tip, unless something of the figure goes on below it. Then it is where the limb ends: hand or foot.
-void readLimbEnds(RigFeatures& rig) {
-    constexpr float kEndOfLimb = 3.0F;
-    constexpr float kOfOtherPart = -2.5F;
-    const auto says = [&](int joint, Concept meaning) {
-        const std::vector<std::string>& words = rig.names[joint].words;
-        return std::any_of(words.begin(), words.end(),
-                           [&](const std::string& word) { return conceptOf(word) == meaning; });
-    };
-    for (int joint = 0; joint < rig.count(); ++joint) {
-        NameEvidence& name = rig.names[joint];
-        if (!name.bareLimb || !says(joint, Concept::end)) continue;
-        const auto goesOn = [&](int child) { return rig.carriesSkin(child) && !says(child, Concept::end); };
-        if (!std::any_of(rig.children[joint].begin(), rig.children[joint].end(), goesOn)) continue;
-        name.parts.values.fill(kOfOtherPart);
-        name.parts[says(joint, Concept::arm) ? Part::hand : Part::foot] = kEndOfLimb;
-        name.helper = false;
-    }
-}
-
-}  // namespace
-
-namespace {
-
 vec3 middleOf(const RigFeatures& rig) {
     vec3 sum(0);
     float count = 0.0F;
@@ -403,6 +254,19 @@ bool RigFeatures::isOneOfFingers(int joint) const {
     return std::any_of(children[parent].begin(), children[parent].end(), [&](int other) {
         return names[other].finger && glm::distance(positions[other], positions[joint]) > least;
     });
+}
+
+int RigFeatures::namedJoint(Part part, Side side, float least) const {
+    int best = kNoJoint;
+    const auto rank = [&](int of) { return names[of].parts[part] + (carriesSkin(of) ? 1.0F : 0.0F); };
+    for (int joint = 0; joint < count(); ++joint) {
+        const NameEvidence& name = names[joint];
+        if (name.side != side || name.helper || name.parts[part] < least) continue;
+        const bool better =
+            best == kNoJoint || rank(joint) > rank(best) || (rank(joint) == rank(best) && depth[joint] < depth[best]);
+        if (better) best = joint;
+    }
+    return best;
 }
 
 int RigFeatures::commonAncestor(int a, int b) const {
@@ -453,11 +317,7 @@ RigFeatures readRig(const Character& character, bool useNames) {
         readDeformingPrefix(skeleton.names, rig);
     }
     believeSkinnedControls(rig);
-    readNamesOfEnds(rig);
-    readNamesInChains(rig);
-    leaveNamesToPivots(rig);
-    flattenNumberedLimbs(rig);
-    readLimbEnds(rig);
+    readNamesInTree(rig);
     doubtPartialSkin(rig);
     findShadows(rig);
     return rig;

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "animation/humanoid/map_humanoid.hpp"
+#include "placed_joints.hpp"
 #include "support/catch.hpp"
 #include "support/rigs.hpp"
 
@@ -11,22 +12,6 @@ namespace {
 
 using animation::HumanoidMap;
 using animation::Role;
-
-struct PlacedJoints {
-    std::vector<JointSpec> joints;
-
-    int add(const std::string& name, int parent, const vec3& place) {
-        joints.push_back({name, parent, place});
-        return static_cast<int>(joints.size()) - 1;
-    }
-
-    [[nodiscard]] HumanoidMap map(bool skinned) const {
-        animation::Character character;
-        character.skeleton = makeSkeleton(joints);
-        character.skeleton.skinWeight.assign(joints.size(), skinned ? 100.0F : 0.0F);
-        return animation::mapHumanoid(character);
-    }
-};
 
 }  // namespace
 

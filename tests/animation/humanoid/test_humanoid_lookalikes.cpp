@@ -107,7 +107,68 @@ animation::Character blockBear() {
     return makeFigure("bear", joints, skin);
 }
 
+// A dog that sits: no joints for its front legs, and ears that stand aside.
+animation::Character sittingDog() {
+    std::vector<JointSpec> joints{{"Hip", -1, {0, 0.39F, 0}},
+                                  {"Neck", 0, {0, 1.04F, 0}},
+                                  {"Head", 1, {0, 1.69F, 0}},
+                                  {"Tail", 0, {0, 0.39F, -0.35F}},
+                                  {"Tail2", 3, {0, 0.42F, -0.67F}}};
+    std::vector<TubeSpec> skin{
+        {0, {0, 0.9F, 0}, 0.35F}, {1, {0, 1.6F, 0}, 0.55F}, {2, {0, 1.9F, 0}, 0.3F}, {4, {0, 0.6F, -0.9F}, 0.08F}};
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string start = side > 0.0F ? "L_" : "R_";
+        const auto add = [&](const std::string& name, int parent, const vec3& place, const vec3& end) {
+            joints.push_back({start + name, parent, place * vec3(side, 1, 1)});
+            skin.push_back({static_cast<int>(joints.size()) - 1, end * vec3(side, 1, 1), 0.1F});
+            return static_cast<int>(joints.size()) - 1;
+        };
+        add("EarTip", add("Ear", 2, {0.45F, 1.96F, 0}, {0.55F, 1.97F, 0}), {0.6F, 1.98F, 0}, {0.75F, 2, 0});
+        add("Foot", add("Leg", 0, {0.21F, 0.39F, 0}, {0.21F, 0.1F, 0}), {0.21F, 0.03F, 0}, {0.21F, 0.03F, 0.2F});
+    }
+    return makeFigure("dog", joints, skin);
+}
+
+// A raptor whose joints have a man's names, but for a tail that has none.
+animation::Character namedRaptor() {
+    std::vector<JointSpec> joints{{"Root", -1, {0, 0.08F, -0.08F}},    {"Spine", 0, {0, 0.27F, -0.04F}},
+                                  {"Spine.001", 1, {0, 0.48F, 0.02F}}, {"Bone.003", 2, {0, 0.67F, 0.12F}},
+                                  {"Bone.006", 3, {0, 1, 0.54F}},      {"Head", 4, {0, 1.08F, 0.76F}}};
+    std::vector<TubeSpec> skin{{1, {0, 0.45F, 0}, 0.25F}, {3, {0, 0.95F, 0.5F}, 0.15F}, {5, {0, 1, 1.2F}, 0.2F}};
+    int tail = 0;
+    for (int i = 0; i < 8; ++i) {
+        const auto along = static_cast<float>(i);
+        joints.push_back({"Bone.0" + std::to_string(20 + i), tail, {0, 0.05F - 0.05F * along, -0.3F - 0.16F * along}});
+        tail = static_cast<int>(joints.size()) - 1;
+        skin.push_back({tail, joints.back().position - vec3(0, 0.05F, 0.16F), 0.08F});
+    }
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string end = side > 0.0F ? ".L" : ".R";
+        const auto chain = [&](int parent, const std::vector<std::pair<std::string, vec3>>& parts) {
+            for (const auto& [name, place] : parts) {
+                joints.push_back({name + end, parent, place * vec3(side, 1, 1)});
+                parent = static_cast<int>(joints.size()) - 1;
+                skin.push_back({parent, joints.back().position - vec3(0, 0.1F, 0), 0.08F});
+            }
+        };
+        chain(0, {{"Thigh", {0.3F, 0.14F, 0.02F}}, {"Calf", {0.3F, -0.31F, 0.06F}}, {"Foot", {0.3F, -0.69F, 0.03F}}});
+        chain(3,
+              {{"Bicep", {0.28F, 0.54F, 0.2F}}, {"Forearm", {0.28F, 0.42F, 0.29F}}, {"Hand", {0.27F, 0.31F, 0.49F}}});
+    }
+    return makeFigure("raptor", joints, skin);
+}
+
 }  // namespace
+
+TEST_CASE("ears are no arms", "[lookalikes]") {
+    const animation::HumanoidMap map = animation::mapHumanoid(sittingDog());
+    REQUIRE_FALSE(map.humanoid);
+}
+
+TEST_CASE("a raptor whose limbs have a man's names is none for a tail without a name", "[lookalikes]") {
+    const animation::HumanoidMap map = animation::mapHumanoid(namedRaptor());
+    REQUIRE_FALSE(map.humanoid);
+}
 
 TEST_CASE("a bear of blocks that stands on all fours is no man, whatever its joints are called", "[lookalikes]") {
     const animation::HumanoidMap map = animation::mapHumanoid(blockBear());

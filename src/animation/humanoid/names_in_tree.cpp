@@ -1,0 +1,234 @@
+#include "animation/humanoid/names_in_tree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+#include <string>
+#include <vector>
+
+#include "animation/humanoid/name_lexicon.hpp"
+
+namespace lutka::animation {
+namespace {
+
+// What a name's score says of a part.
+constexpr float kSurely = 4.0F;
+constexpr float kMaybe = 2.0F;
+constexpr float kSurelyNot = -2.5F;
+constexpr float kOfOtherPart = -9.0F;  // no place for it at all
+constexpr float kRatherNot = 0.5F;     // the name tells the limb, and another part of it is likelier
+constexpr float kSomeLimb = 1.5F;      // the name tells the limb and no part of it
+
+// Whether a joint of that side, or one above it, is surely called one of the two parts.
+bool tellsLimb(const RigFeatures& rig, int joint, Side side, Part upper, Part middle) {
+    for (; joint != kNoJoint && rig.names[joint].side == side; joint = rig.parents[joint]) {
+        const PartScores& parts = rig.names[joint].parts;
+        if (parts[upper] >= kSurely || parts[middle] >= kSurely) return true;
+    }
+    return false;
+}
+
+// Bones that are called by the joint at their end: "wrist" at the elbow, "ankle" at the knee. What would be the hand or
+// foot lies about halfway down its limb, and another one hangs on it; so the bones above are shifted, too.
+void readNamesOfEnds(RigFeatures& rig) {
+    constexpr float kHalfway = 0.8F;  // of the way from the joint above
+    struct Limb {
+        Part upper, middle, end;
+    };
+    const auto rename = [&](int joint, Part from, Part to) {
+        rig.names[joint].parts[from] = kSurelyNot;
+        rig.names[joint].parts[to] = kSurely;
+    };
+    for (const Limb& limb :
+         {Limb{Part::upperArm, Part::lowerArm, Part::hand}, Limb{Part::upperLeg, Part::lowerLeg, Part::foot}}) {
+        for (int joint = 0; joint < rig.count(); ++joint) {
+            const int parent = rig.parents[joint];
+            if (parent == kNoJoint || rig.names[joint].parts[limb.end] < kSurely) continue;
+            const Side side = rig.names[joint].side;
+            if (rig.names[parent].side != side) continue;
+            const PartScores& above = rig.names[parent].parts;
+            const bool middleAbove = above[limb.middle] >= kSurely;
+            if (!middleAbove && above[limb.upper] < kMaybe) continue;
+            const int top = rig.parents[parent];
+            // All parts have their names already: a wrist in the middle of the forearm only turns with it.
+            if (middleAbove && tellsLimb(rig, top, side, limb.upper, limb.middle)) continue;
+            const float least = kHalfway * glm::distance(rig.positions[parent], rig.positions[joint]);
+            const auto goesOn = [&](int child) {
+                return rig.names[child].parts[limb.end] >= kSurely && rig.names[child].side == side &&
+                       rig.carriesSkin(child) && glm::distance(rig.positions[joint], rig.positions[child]) > least;
+            };
+            if (std::none_of(rig.children[joint].begin(), rig.children[joint].end(), goesOn)) continue;
+            rename(joint, limb.end, limb.middle);
+            if (!middleAbove) continue;
+            rename(parent, limb.middle, limb.upper);
+            if (top != kNoJoint && rig.names[top].parts[Part::clavicle] >= kMaybe && limb.end == Part::hand)
+                rename(top, Part::upperArm, Part::clavicle);
+        }
+    }
+}
+
+// A word of two meanings has one where its neighbour has the other: a shoulder above an arm is the clavicle and that
+// arm the upper arm, one above an elbow is the upper arm itself; a leg below a thigh is the shin.
+void readNamesInChains(RigFeatures& rig) {
+    // An elbow first: beside it may hang what stands for the arm's volume.
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        const int parent = rig.parents[joint];
+        if (parent == kNoJoint || rig.names[parent].side != rig.names[joint].side) continue;
+        PartScores& upper = rig.names[parent].parts;
+        const bool isShoulder = upper[Part::clavicle] >= kMaybe && upper[Part::clavicle] < kSurely;
+        if (!isShoulder || rig.names[joint].parts[Part::lowerArm] < kSurely) continue;
+        upper[Part::upperArm] = std::max(upper[Part::upperArm], kSurely);
+        upper[Part::clavicle] = kSurelyNot;
+    }
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        const int parent = rig.parents[joint];
+        if (parent == kNoJoint || rig.names[parent].side != rig.names[joint].side) continue;
+        PartScores& upper = rig.names[parent].parts;
+        PartScores& lower = rig.names[joint].parts;
+        if (rig.names[parent].words == rig.names[joint].words) continue;
+        if (upper[Part::clavicle] >= kMaybe && lower[Part::upperArm] >= kMaybe && lower[Part::clavicle] < kMaybe) {
+            upper[Part::clavicle] = std::max(upper[Part::clavicle], kSurely);
+            upper[Part::upperArm] = kSurelyNot;
+            lower[Part::upperArm] = std::max(lower[Part::upperArm], kSurely);
+        }
+        // Palm below a hand: the bones of the middle hand. Nor is a thing named so below a foot another foot.
+        for (const Part end : {Part::hand, Part::foot}) {
+            if (upper[end] >= kSurely && lower[end] >= kSurely) lower[end] = kSurelyNot;
+        }
+        if (upper[Part::upperLeg] >= kSurely && lower[Part::lowerLeg] >= kMaybe) {
+            lower[Part::lowerLeg] = std::max(lower[Part::lowerLeg], kSurely);
+            lower[Part::upperLeg] = kSurelyNot;
+        }
+    }
+}
+
+// A rigid mesh that hangs on the joint of its name is no joint of its own: "Head" below "Head_jnt".
+void leaveNamesToPivots(RigFeatures& rig) {
+    constexpr float kTellingName = 2.0F;
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        const int parent = rig.parents[joint];
+        if (parent == kNoJoint || !rig.rigidPart[joint] || rig.rigidPart[parent] || !rig.children[joint].empty())
+            continue;
+        if (rig.names[parent].side != rig.names[joint].side || rig.names[parent].helper) continue;
+        PartScores& own = rig.names[joint].parts;
+        const PartScores& above = rig.names[parent].parts;
+        bool alike = false;
+        for (std::size_t part = 0; part < own.values.size(); ++part)
+            alike = alike || (own.values[part] >= kTellingName && above.values[part] >= kTellingName);
+        if (!alike) continue;
+        own.values.fill(kOfOtherPart);
+        rig.names[joint].helper = true;
+    }
+}
+
+// What moves nothing itself, below a head and named as one: where a helmet or one of several heads is put on.
+void leaveNameToHead(RigFeatures& rig) {
+    const auto isPart = [&](int child) { return rig.rigidPart[child] && rig.children[child].empty(); };
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        const int parent = rig.parents[joint];
+        if (parent == kNoJoint || rig.directWeight[joint] > 0.0F) continue;
+        if (!std::all_of(rig.children[joint].begin(), rig.children[joint].end(), isPart)) continue;
+        NameEvidence& name = rig.names[joint];
+        if (rig.names[parent].helper || rig.names[parent].parts[Part::head] < kSurely) continue;
+        if (name.parts[Part::head] < kSurely) continue;
+        name.parts.values.fill(kOfOtherPart);
+        name.helper = true;
+    }
+}
+
+bool saysConcept(const NameEvidence& name, Concept meaning) {
+    return std::any_of(name.words.begin(), name.words.end(),
+                       [&](const std::string& word) { return conceptOf(word) == meaning; });
+}
+
+// "Arm 1, Arm 2, Arm 3": where one chain calls three joints or more by the same word for a limb, the word tells the
+// limb and no part of it.
+void flattenNumberedLimbs(RigFeatures& rig) {
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        const NameEvidence& name = rig.names[joint];
+        if (!name.bareLimb || saysConcept(name, Concept::hand) || saysConcept(name, Concept::foot)) continue;
+        const auto alike = std::count_if(rig.names.begin(), rig.names.end(), [&](const NameEvidence& other) {
+            return other.side == name.side && other.words == name.words;
+        });
+        if (alike < 3) continue;
+        const bool arm = name.parts[Part::upperArm] > 0.0F;
+        for (const Part part : arm ? std::array{Part::clavicle, Part::upperArm, Part::lowerArm, Part::hand}
+                                   : std::array{Part::upperLeg, Part::lowerLeg, Part::foot, Part::toes})
+            rig.names[joint].parts[part] = kSomeLimb;
+    }
+}
+
+// "foot 1, foot 2, foot 3" in one chain, below nothing that is named as the limb's start: many a language has one word
+// for foot and leg, and one for hand and arm.
+void readEndsAsLimbs(RigFeatures& rig) {
+    constexpr int kFewest = 3;
+    struct Limb {
+        Part end;
+        std::array<Part, 3> parts;
+    };
+    const auto alike = [&](int a, int b) {
+        return rig.names[a].side == rig.names[b].side && rig.names[a].words == rig.names[b].words;
+    };
+    for (const Limb& limb : {Limb{Part::hand, {Part::upperArm, Part::lowerArm, Part::hand}},
+                             Limb{Part::foot, {Part::upperLeg, Part::lowerLeg, Part::foot}}}) {
+        for (int top = 0; top < rig.count(); ++top) {
+            if (rig.names[top].helper || rig.names[top].parts[limb.end] < kSurely) continue;
+            std::vector<int> chain{top};
+            for (std::size_t at = 0; at < chain.size(); ++at) {
+                const std::vector<int>& below = rig.children[chain[at]];
+                const auto next =
+                    std::find_if(below.begin(), below.end(), [&](int child) { return alike(child, top); });
+                if (next != below.end()) chain.push_back(*next);
+            }
+            if (static_cast<int>(chain.size()) < kFewest) continue;
+            bool begunAbove = false;
+            for (int above = rig.parents[top]; above != kNoJoint; above = rig.parents[above]) {
+                const PartScores& parts = rig.names[above].parts;
+                begunAbove = begunAbove || parts[limb.parts[0]] > kMaybe || parts[limb.parts[1]] > kMaybe;
+            }
+            if (begunAbove) continue;
+            const int shoulder = rig.parents[top];
+            if (limb.end == Part::hand && shoulder != kNoJoint && rig.names[shoulder].parts[Part::clavicle] >= kMaybe) {
+                rig.names[shoulder].parts[Part::clavicle] = kSurely;
+                rig.names[shoulder].parts[Part::upperArm] = kSurelyNot;
+            }
+            for (std::size_t place = 0; place < chain.size(); ++place) {
+                rig.names[chain[place]].bareLimb = true;
+                PartScores& parts = rig.names[chain[place]].parts;
+                parts[limb.end] = kSurelyNot;
+                for (std::size_t part = 0; part < limb.parts.size(); ++part)
+                    parts[limb.parts[part]] = part == place ? kMaybe : kRatherNot;
+                if (place >= limb.parts.size() && limb.end == Part::foot) parts[Part::toes] = kMaybe;
+            }
+        }
+    }
+}
+
+// "arm_end": a tip, unless something of the figure goes on below it. Then it is where the limb ends: hand or foot.
+void readLimbEnds(RigFeatures& rig) {
+    constexpr float kEndOfLimb = 3.0F;
+    const auto says = [&](int joint, Concept meaning) { return saysConcept(rig.names[joint], meaning); };
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        NameEvidence& name = rig.names[joint];
+        if (!name.bareLimb || !says(joint, Concept::end)) continue;
+        const auto goesOn = [&](int child) { return rig.carriesSkin(child) && !says(child, Concept::end); };
+        if (!std::any_of(rig.children[joint].begin(), rig.children[joint].end(), goesOn)) continue;
+        name.parts.values.fill(kSurelyNot);
+        name.parts[says(joint, Concept::arm) ? Part::hand : Part::foot] = kEndOfLimb;
+        name.helper = false;
+    }
+}
+
+}  // namespace
+
+void readNamesInTree(RigFeatures& rig) {
+    readEndsAsLimbs(rig);
+    readNamesOfEnds(rig);
+    readNamesInChains(rig);
+    leaveNamesToPivots(rig);
+    leaveNameToHead(rig);
+    flattenNumberedLimbs(rig);
+    readLimbEnds(rig);
+}
+
+}  // namespace lutka::animation
