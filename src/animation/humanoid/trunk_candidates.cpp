@@ -204,7 +204,8 @@ class TrunkFinder {
                           near((position(joint).z - legs_.root.z) / length_, 0.0F, 0.25F, 4.0F);
             if (trunkRoot_ != kNoJoint && rig_.isAncestorOrSelf(joint, trunkRoot_)) score += 1.5F;
             if (joint == trunkRoot_) score += 0.6F;
-            if (joint == trunkRoot_ && joint == thighParent_ && legs_.told && !namesHips) score += kCarriesThighs;
+            const bool clear = legs_.told || (!rig_.skinned && !rig_.names[joint].meaningful);
+            if (joint == trunkRoot_ && joint == thighParent_ && clear && !namesHips) score += kCarriesThighs;
             if (carriesLegsBelowControl(joint) && !namesHips) score += kCarriesThighs;
             if (rig_.skinned && ownSkin(joint) <= 0.0F) score += kUnskinnedHips;
             // The joint above would be the hips if it moves skin at the same height.

@@ -164,7 +164,7 @@ void settleMeshes(const UnitsAndAxes& units, std::vector<SkinnedMesh>& meshes) {
 // hardly any joints (a plane beside an armature), all joints below the figure's root count as its own.
 void bringAlong(const UnitsAndAxes& units, const Skeleton& skeleton, const FigurePoints& figure,
                 std::span<dmat4> bind) {
-    constexpr double kFar = 4.0;  // reaches of the skin's joints
+    constexpr double kFar = 4.0;  // reaches of the skin and its joints
     const dmat4 modelFromScene = units.modelFromScene();
     const auto away = [&](std::size_t joint) { return glm::length(dvec3(modelFromScene * bind[joint][3])); };
     const auto weighs = [](float weight) { return weight > 0.0F; };
@@ -177,6 +177,9 @@ void bringAlong(const UnitsAndAxes& units, const Skeleton& skeleton, const Figur
     for (std::size_t joint = 0; joint < bind.size(); ++joint) {
         if (isOfFigure(joint)) reach = std::max(reach, away(joint));
     }
+    // A mesh that no joint moves hangs on its own node, which may stand at the origin: its skin reaches all the same.
+    for (const vec3& point : figure.points)
+        reach = std::max(reach, glm::length(dvec3(modelFromScene * dvec4(dvec3(point), 1.0))));
     const dmat4 sceneFromModel = glm::inverse(modelFromScene);
     for (std::size_t joint = 0; reach > 0.0 && joint < bind.size(); ++joint) {
         if (!isOfFigure(joint) && away(joint) > kFar * reach) bind[joint][3] = sceneFromModel[3];

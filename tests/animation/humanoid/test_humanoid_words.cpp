@@ -242,4 +242,25 @@ TEST_CASE("a root in the middle of the body is no root", "[words]") {
     CHECK(rig.nameOf(map, Role::head) == "Head");
 }
 
+TEST_CASE("a file's root in the middle of a figure without skin is not its hips", "[words]") {
+    PlacedJoints rig;
+    const int armature = rig.add("Armature", rig.add("RootNode", -1, {0, 0, 0}), {0, 0, 0});
+    int number = 0;
+    const auto add = [&](int parent, const vec3& place) {
+        return rig.add("bone_" + std::to_string(number++), parent, place);
+    };
+    const int hips = add(armature, {0, 0.05F, 0});
+    const int chest = add(add(hips, {0, 0.2F, 0}), {0, 0.38F, 0});
+    add(add(chest, {0, 0.52F, 0}), {0, 0.6F, 0.02F});
+    for (const float side : {1.0F, -1.0F}) {
+        add(add(add(add(chest, {side * 0.06F, 0.48F, 0}), {side * 0.18F, 0.48F, 0}), {side * 0.45F, 0.48F, 0}),
+            {side * 0.7F, 0.48F, 0});
+        add(add(add(hips, {side * 0.1F, 0, 0}), {side * 0.1F, -0.42F, 0.02F}), {side * 0.1F, -0.85F, 0});
+    }
+    const HumanoidMap map = rig.map(false);
+    REQUIRE(map.humanoid);
+    CHECK(rig.nameOf(map, Role::hips) == "bone_0");
+    CHECK(rig.nameOf(map, Role::spine) == "bone_1");
+}
+
 }  // namespace lutka::test

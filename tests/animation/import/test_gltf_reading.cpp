@@ -392,6 +392,31 @@ TEST_CASE("a small skinned mesh at one end of an armature does not draw the othe
     CHECK(std::abs(character.skeleton.bindModelFromJoint[top].translation.y - 1.65F) < 1e-4F);
 }
 
+TEST_CASE("an armature in a rigid mesh keeps its joints, though the mesh's node stands at the origin") {
+    // As where a figure was parented to its bones without weights.
+    const TemporaryFolder folder;
+    GltfFile file;
+    int last = -1;
+    for (int i = 0; i < 12; ++i) {
+        const vec3 step(0, i == 0 ? 0.05F : 0.15F, 0);
+        last = file.addNode("joint" + std::to_string(i), last, glm::translate(mat4(1.0F), step));
+    }
+    // Beside the origin by what rounding leaves.
+    const int body = file.addNode("Body", -1, glm::translate(mat4(1.0F), vec3(1e-7F, 2e-7F, 0)));
+    file.json["nodes"][body]["mesh"] = addPostMesh(file, makePost(), mat4(1.0F), false);
+    file.saveBinary(folder / "stiff.glb");
+    const Character character = imported(folder / "stiff.glb");
+    REQUIRE(character.skeleton.jointCount() >= 13);
+    float highest = 0.0F;
+    for (const char* name : {"joint3", "joint11"}) {
+        const int joint = findJoint(character.skeleton, name);
+        REQUIRE(joint >= 0);
+        const float height = character.skeleton.bindModelFromJoint[joint].translation.y;
+        CHECK(height > highest + 0.2F);
+        highest = height;
+    }
+}
+
 TEST_CASE("a figure far from the origin is brought to it with a word, and things beside it are left out") {
     const TemporaryFolder folder;
     GltfFile far = makePostRig(glm::translate(mat4(1.0F), vec3(100, 0, -40)));
