@@ -192,6 +192,11 @@ TEST_CASE("skins that Blender wrote lie on their joints wherever the armature st
         checkInvariants(character);
         CHECK(soleToJoint(character) == Approx(0.2F / std::hypot(1.8F, 0.2F)).epsilon(0.02));
     }
+    // A mesh beside its joints in a small armature: the node that shows it has no matrix.
+    const glm::mat4 beside = glm::translate(one, vec3(0.5F, 0, 0));
+    std::ofstream(folder / "strip.dae", std::ios::binary) << skinnedStrip(armatures[2], "Blender 4.1.0", beside);
+    CHECK(soleToJoint(imported(folder / "strip.dae")) ==
+          Approx(std::hypot(0.2F, 0.5F) / std::hypot(1.8F, 0.2F)).epsilon(0.02));
     // Old versions wrote how the mesh stands in the scene.
     std::ofstream(folder / "strip.dae", std::ios::binary) << skinnedStrip(armatures[1], "Blender 2.57", armatures[1]);
     CHECK(soleToJoint(imported(folder / "strip.dae")) < 0.2F);

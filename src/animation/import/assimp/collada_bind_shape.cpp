@@ -1,11 +1,20 @@
 #include "animation/import/assimp/collada_bind_shape.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstddef>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <map>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "animation/import/affine.hpp"
+#include "animation/import/assimp/collada_tags.hpp"
+#include "animation/import/assimp/collada_text.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {
@@ -22,6 +31,45 @@ dmat4 sceneFromParent(const SourceScene& scene, int node) {
     for (int at = scene.nodes[node].parent; at >= 0 && scene.nodes[at].parent >= 0; at = scene.nodes[at].parent)
         place = scene.nodes[at].parentFromNode * place;
     return place;
+}
+
+// Nothing where the text is no sixteen numbers.
+std::optional<dmat4> matrixIn(std::string_view text) {
+    constexpr std::string_view kBlanks = " \t\r\n";
+    dmat4 matrix(1.0);
+    for (int place = 0; place < 16; ++place) {
+        text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+        double number = 0.0;
+        const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        if (error != std::errc()) return std::nullopt;
+        text.remove_prefix(static_cast<std::size_t>(next - text.data()));
+        matrix[place % 4][place / 4] = number;
+    }
+    return matrix;
+}
+
+// The bind shape matrices of the skins by the nodes that show them. A node's own matrix is no such thing: from 2.8 on
+// Blender writes none for what hangs on an armature.
+std::map<std::string, dmat4> bindShapesByNode(std::string_view document) {
+    const std::vector<ColladaTag> tags = colladaTags(document);
+    std::map<std::string, dmat4> ofController;
+    std::string controller;
+    for (const ColladaTag& tag : tags) {
+        if (tag.opens("controller")) controller = colladaAttribute(tag.text, "id");
+        if (!tag.opens("bind_shape_matrix")) continue;
+        const std::size_t end = std::min(document.find('<', tag.end), document.size());
+        if (const auto matrix = matrixIn(document.substr(tag.end, end - tag.end))) ofController[controller] = *matrix;
+    }
+    std::map<std::string, dmat4> ofNode;
+    std::vector<std::string> nodes;
+    for (const ColladaTag& tag : tags) {
+        if (tag.opens("node") && !tag.isEmpty()) nodes.emplace_back(colladaAttribute(tag.text, "id"));
+        if (tag.closes("node") && !nodes.empty()) nodes.pop_back();
+        if (!tag.opens("instance_controller") || nodes.empty()) continue;
+        const auto found = ofController.find(tag.target("url"));
+        if (found != ofController.end()) ofNode.emplace(nodes.back(), found->second);
+    }
+    return ofNode;
 }
 
 // How far vertices lie from the joints that move them where the mesh stands at `sceneFromMesh` when bound: a sum, in
@@ -45,12 +93,14 @@ double distanceToJoints(const SourceMesh& mesh, const SourceSkin& skin, const dm
 void completeBindShapes(std::string_view document, SourceScene& scene) {
     constexpr double kFarther = 1.25;  // old versions wrote what Collada asks: there it would be far off
     if (!isByBlender(document)) return;
+    const std::map<std::string, dmat4> bindShapes = bindShapesByNode(document);
     for (const SourceInstance& instance : scene.instances) {
         if (instance.skin < 0) continue;
         const SourceMesh& mesh = scene.meshes[instance.mesh];
         SourceSkin& skin = scene.skins[instance.skin];
         const dmat4 parent = sceneFromParent(scene, instance.node);
-        const dmat4& written = scene.nodes[instance.node].parentFromNode;
+        const auto shape = bindShapes.find(scene.nodes[instance.node].name);
+        const dmat4& written = shape != bindShapes.end() ? shape->second : scene.nodes[instance.node].parentFromNode;
         const bool solvable = isInvertible(parent) && isInvertible(written) &&
                               std::all_of(skin.joints.begin(), skin.joints.end(), [](const SourceSkin::Joint& joint) {
                                   return isInvertible(joint.jointFromMesh);
