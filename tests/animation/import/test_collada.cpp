@@ -386,15 +386,24 @@ TEST_CASE("Collada's morph controllers stay where something still leads to them"
     }
 }
 
-TEST_CASE("tidying leaves tags, comments and character data as they are") {
+TEST_CASE("tidying leaves comments, character data and what is no tag as they are") {
     using rig_import::tidyCollada;
-    CHECK(tidyCollada("<a b=' > '  c=\"'>\">\n 1 \t 2 </a>") == "<a b=' > '  c=\"'>\">1 2</a>");
     CHECK(tidyCollada("<!--  x >  y  --> <v> 1</v>") == "<!--  x >  y  --><v>1</v>");
     CHECK(tidyCollada("<t><![CDATA[  a  > ]]> b </t>") == "<t><![CDATA[  a  > ]]>b</t>");
     CHECK(tidyCollada("<open  1  2") == "<open  1  2");
     CHECK(tidyCollada("").empty());
     // A pair of surrogates, a lone one, and an odd byte at the end.
     CHECK(tidyCollada(std::string("\xFF\xFE\x3D\xD8\x00\xDE\x3D\xD8z\0q", 11)) == "\xF0\x9F\x98\x80?z");
+}
+
+TEST_CASE("Collada's attributes may stand between any blanks and in single quotes") {
+    using rig_import::tidyCollada;
+    CHECK(tidyCollada("<a b=' > '  c=\"'>\">\n 1 \t 2 </a\n>") == "<a b=\" > \" c=\"'>\">1 2</a>");
+    CHECK(tidyCollada("<channel\n\tsource = '#s'\r\n\ttarget=\t\"n/t\" />") ==
+          "<channel source=\"#s\" target=\"n/t\"/>");
+    CHECK(tidyCollada("<a b='say \"x\"'/>") == "<a b=\"say &quot;x&quot;\"/>");
+    for (const char* same : {"<a b>", "<a b=c>", "<a b='1>", "<a b= >", "<a/ b=\"1\">", "<", "</", "<>", "<a =\"1\""})
+        CHECK(tidyCollada(same) == same);
 }
 
 TEST_CASE("Collada's nodes have their names where the ids were made by a program") {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "animation/import/assimp/collada_clips.hpp"
+#include "animation/import/assimp/collada_ids.hpp"
 #include "support/catch.hpp"
 
 using namespace lutka;
@@ -65,19 +66,42 @@ TEST_CASE("Collada animations of different joints and angles play together, thos
         CHECK(rig_import::gatheredCollada(text) == text);
 }
 
-TEST_CASE("Collada animations of several libraries, and those whose samplers share an id, stay apart") {
+TEST_CASE("Collada animations of several libraries stay apart") {
     const std::string first = animationOf("a", "low/t");
     const std::string second = animationOf("b", "high/t");
-    const auto sampled = [](std::string animation) {
-        return animation.insert(animation.find("<channel"), "<sampler id=\"s\"></sampler>");
-    };
-    for (const std::string& text :
-         {kLibrary + first + kEnd + kLibrary + second + kEnd, kLibrary + sampled(first) + sampled(second) + kEnd})
-        CHECK(rig_import::gatheredCollada(text) == text);
+    const std::string apart = kLibrary + first + kEnd + kLibrary + second + kEnd;
+    CHECK(rig_import::gatheredCollada(apart) == apart);
     const std::string one =
         kLibrary + "<animation>" + contentOf("a", "low/t") + contentOf("b", "high/t") + "</animation>" + kEnd;
     CHECK(rig_import::gatheredCollada("<library_animations/>" + kLibrary + first + second + kEnd) ==
           "<library_animations/>" + one);
+}
+
+TEST_CASE("Collada animations that call their samplers and sources alike have them for themselves") {
+    // As an exporter writes them that knows no other names.
+    const auto sampled = [](const std::string& target, const std::string& suffix) {
+        return "<animation><source id=\"in" + suffix + "\"><float_array id=\"ina" + suffix +
+               "\">0 1</float_array><accessor source=\"#ina" + suffix + "\"/></source><sampler id=\"s" + suffix +
+               "\"><input semantic=\"INPUT\" source=\"#in" + suffix + "\"/></sampler><channel source=\"#s" + suffix +
+               "\" target=\"" + target + "\"/></animation>";
+    };
+    const std::string alike = kLibrary + sampled("low/t", "") + sampled("high/t", "") + kEnd;
+    const std::string own = rig_import::withOwnIds(alike);
+    CHECK(own.starts_with(kLibrary + sampled("low/t", "") + "<animation><source id=\"in-1\">"));
+    CHECK(own.find("<accessor source=\"#ina-2\"/>") != std::string::npos);
+    CHECK(own.find("<input semantic=\"INPUT\" source=\"#in-1\"/>") != std::string::npos);
+    CHECK(own.find("<channel source=\"#s-3\" target=\"high/t\"/>") != std::string::npos);
+    CHECK(rig_import::withOwnIds(own) == own);
+    // An id that is free, though the next would be another's; and one of the geometry's, which stays the geometry's.
+    CHECK(rig_import::withOwnIds("<source id=\"s\"/>" + kLibrary + sampled("low/t", "") + "<animation id=\"s-1\"/>" +
+                                 kEnd)
+              .find("<channel source=\"#s-2\" target") != std::string::npos);
+    // What an animation does not have itself it means of the one around it.
+    const std::string nested = kLibrary + "<animation><source id=\"in\"/></animation><animation><source id=\"in\"/>" +
+                               "<animation><sampler id=\"s\"><input source=\"#in\"/><input source=\"#no\"/></sampler>" +
+                               "</animation></animation>" + kEnd;
+    CHECK(rig_import::withOwnIds(nested).find("<input source=\"#in-1\"/><input source=\"#no\"/>") != std::string::npos);
+    CHECK(rig_import::withOwnIds("</animation><source id=\"x\"/>") == "</animation><source id=\"x\"/>");
 }
 
 TEST_CASE("Collada clips go to the library that holds animations, not to an empty one before it") {

@@ -90,10 +90,9 @@ std::string contentOf(const std::string& text, const std::vector<ColladaTag>& ta
 }
 
 // All animations as one; the text as it is where they are one, where they stand in several libraries, or where two
-// move the same thing or have samplers of one id.
+// move the same thing.
 std::string inOneAnimation(const std::string& text, const std::vector<ColladaTag>& tags) {
     std::set<std::string_view> targets;
-    std::set<std::string_view> samplers;
     std::set<std::string_view> names;
     std::size_t libraries = 0;
     std::size_t animations = 0;
@@ -103,11 +102,6 @@ std::string inOneAnimation(const std::string& text, const std::vector<ColladaTag
     for (std::size_t i = 0; i < tags.size(); ++i) {
         const ColladaTag& tag = tags[i];
         if (tag.opens("channel") && !targets.insert(colladaAttribute(tag.text, "target")).second) return text;
-        if (tag.opens("sampler")) {
-            // Assimp knows the samplers of an animation by their ids.
-            const std::string_view id = colladaAttribute(tag.text, "id");
-            if (!id.empty() && !samplers.insert(id).second) return text;
-        }
         if (tag.opens("library_animations") && !tag.isEmpty() && ++libraries > 1) return text;
         if (tag.closes("animation") && depth-- == 0) return text;
         if (tag.opens("animation")) {

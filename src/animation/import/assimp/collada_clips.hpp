@@ -7,9 +7,9 @@
 
 namespace lutka::animation::rig_import {
 
-/// Gathers the animations of each clip of a tidied Collada document (tidyCollada()) in one: Assimp 5.2.5 makes a clip
-/// of each joint of them and forgets their names. Where clips share animations, being parts of one time line, they are
-/// taken away: then that time line is the clip.
+/// Gathers the animations of each clip of a tidied Collada document (tidyCollada(), withOwnIds()) in one: Assimp 5.2.5
+/// makes a clip of each joint of them and forgets their names. Where clips share animations, being parts of one time
+/// line, they are taken away: then that time line is the clip.
 [[nodiscard]] std::string gatheredCollada(std::string text);
 
 /// Gives the clips that Assimp made of a gathered document (gatheredCollada()) their names, to which it adds that of

@@ -63,6 +63,51 @@ std::string utf8Of(std::string_view bytes) {
     return out;
 }
 
+// A tag with one blank before each attribute and its value in double quotes, as most exporters write it and as the rest
+// of the reading knows it; as it is where it is none.
+std::string plainTag(std::string_view tag) {
+    const auto past = [&](std::string_view set, std::size_t at) {
+        return std::min(tag.find_first_not_of(set, at), tag.size());
+    };
+    const std::size_t name = std::min(tag.find_first_of(" \t\r\n/>", tag.starts_with("</") ? 2 : 1), tag.size());
+    std::string out(tag.substr(0, name));
+    for (std::size_t at = past(kBlanks, name); at < tag.size(); at = past(kBlanks, at)) {
+        const std::string_view rest = tag.substr(at);
+        if (rest == ">" || rest == "/>") return out += rest;
+        const std::size_t key = std::min(tag.find_first_of(" \t\r\n=", at), tag.size());
+        const std::size_t equals = past(kBlanks, key);
+        const std::size_t quote = past(kBlanks, std::min(equals + 1, tag.size()));
+        if (quote >= tag.size() || tag[equals] != '=' || (tag[quote] != '"' && tag[quote] != '\'')) break;
+        const std::size_t end = tag.find(tag[quote], quote + 1);
+        if (end == std::string_view::npos) break;
+        out += ' ';
+        out += tag.substr(at, key - at);
+        out += "=\"";
+        for (const char c : tag.substr(quote + 1, end - quote - 1)) {
+            if (c == '"') out += "&quot;";
+            if (c != '"') out += c;
+        }
+        out += '"';
+        at = end + 1;
+    }
+    return std::string(tag);
+}
+
+std::string withPlainTags(std::string_view text) {
+    std::string out;
+    out.reserve(text.size());
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t tag = std::min(text.find('<', at), text.size());
+        out += text.substr(at, tag - at);
+        const std::size_t end = tag < text.size() ? endOfColladaMarkup(text, tag) : tag;
+        const std::string_view markup = text.substr(tag, end - tag);
+        const bool isTag = !markup.starts_with("<!") && !markup.starts_with("<?");
+        isTag ? out += plainTag(markup) : out += markup;
+        at = end;
+    }
+    return out;
+}
+
 void appendTidy(std::string_view text, std::string& out) {
     std::size_t at = text.find_first_not_of(kBlanks);
     for (bool first = true; at != std::string_view::npos; first = false) {
@@ -233,7 +278,7 @@ std::string_view colladaAttribute(std::string_view tag, std::string_view name) {
 }
 
 std::string decodedCollada(std::string_view bytes) {
-    return isUtf16(bytes) ? utf8Of(bytes) : std::string(bytes);
+    return withPlainTags(isUtf16(bytes) ? utf8Of(bytes) : std::string(bytes));
 }
 
 bool isCollada(std::string_view start) {

@@ -12,6 +12,7 @@
 #include "animation/import/assimp/b3d_bytes.hpp"
 #include "animation/import/assimp/collada_clips.hpp"
 #include "animation/import/assimp/collada_curves.hpp"
+#include "animation/import/assimp/collada_ids.hpp"
 #include "animation/import/assimp/collada_links.hpp"
 #include "animation/import/assimp/collada_text.hpp"
 #include "animation/import/source_limits.hpp"
@@ -35,7 +36,7 @@ std::string tidiedBytes(const fs::path& file, LeftOut& leftOut) {
     if (!bytes) return {};
     const std::string_view whole(reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size());
     if (!collada) return tidyB3d(whole);
-    StraightenedCollada out = straightenedCollada(gatheredCollada(linkedCollada(tidyCollada(whole))));
+    StraightenedCollada out = straightenedCollada(gatheredCollada(withOwnIds(linkedCollada(tidyCollada(whole)))));
     leftOut.curves = !out.isWhole;
     return std::move(out.text);
 }

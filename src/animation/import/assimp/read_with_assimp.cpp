@@ -78,7 +78,7 @@ void completeByDocument(const std::filesystem::path& file, SourceScene& out) {
     if (!bytes) return;
     const std::string text =
         decodedCollada({reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size()});
-    if (out.clips.empty() && text.find("<channel ") != std::string_view::npos)
+    if (out.clips.empty() && text.find("<channel ") != std::string::npos)
         out.warnings.emplace_back("left out: animations, for they move nothing that stands in the scene itself");
     if (holdsMorphs(text)) out.warnings.emplace_back("left out: morph targets, which the file has on from the start");
     if (!out.clips.empty()) settleColladaClips(text, out);

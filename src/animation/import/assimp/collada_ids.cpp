@@ -1,0 +1,100 @@
+#include "animation/import/assimp/collada_ids.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+#include "animation/import/assimp/collada_tags.hpp"
+#include "animation/import/assimp/collada_text.hpp"
+
+namespace lutka::animation::rig_import {
+namespace {
+
+// Elements of an animation that others name by their ids.
+bool isNamed(const ColladaTag& tag) {
+    constexpr std::array<std::string_view, 4> kNamed = {"source", "sampler", "float_array", "Name_array"};
+    return std::any_of(kNamed.begin(), kNamed.end(), [&](std::string_view name) { return tag.opens(name); });
+}
+
+// Ids that were taken already, and what the animations that are open call them now.
+class Ids {
+  public:
+    explicit Ids(const std::vector<ColladaTag>& tags) {
+        int depth = 0;
+        for (const ColladaTag& tag : tags) {
+            if (tag.closes("animation")) --depth;
+            if (tag.opens("animation") && !tag.isEmpty()) ++depth;
+            const std::string_view id = colladaAttribute(tag.text, "id");
+            if (id.empty()) continue;
+            all_.insert(id);
+            if (depth <= 0 || !isNamed(tag)) taken_.insert(id);
+        }
+    }
+
+    void open() { scopes_.emplace_back(); }
+    void close() {
+        if (!scopes_.empty()) scopes_.pop_back();
+    }
+    [[nodiscard]] bool inAnimation() const { return !scopes_.empty(); }
+
+    // What the element with this id is called from now on, in the innermost animation.
+    std::string take(std::string_view id) {
+        std::string own(id);
+        if (!taken_.insert(id).second) {
+            do {
+                own = fmt::format("{}-{}", id, ++count_);
+            } while (all_.count(own) > 0);
+        }
+        scopes_.back()[std::string(id)] = own;
+        return own;
+    }
+
+    [[nodiscard]] std::string find(const std::string& id) const {
+        for (auto scope = scopes_.rbegin(); scope != scopes_.rend(); ++scope) {
+            const auto found = scope->find(id);
+            if (found != scope->end()) return found->second;
+        }
+        return id;
+    }
+
+  private:
+    std::unordered_set<std::string_view> all_;
+    std::unordered_set<std::string_view> taken_;
+    std::vector<std::map<std::string, std::string>> scopes_;
+    std::size_t count_ = 0;
+};
+
+}  // namespace
+
+std::string withOwnIds(std::string text) {
+    if (text.find("<animation") == std::string::npos) return text;
+    const std::vector<ColladaTag> tags = colladaTags(text);
+    Ids ids(tags);
+    ColladaEdits edits(text);
+    const auto replace = [&](std::string_view old, const std::string& with) {
+        if (old == with) return;
+        const auto start = static_cast<std::size_t>(old.data() - text.data());
+        edits.replace(start, start + old.size(), with);
+    };
+    for (const ColladaTag& tag : tags) {
+        if (tag.opens("animation") && !tag.isEmpty()) ids.open();
+        if (tag.closes("animation")) ids.close();
+        if (!ids.inAnimation()) continue;
+        if (const std::string_view id = colladaAttribute(tag.text, "id"); !id.empty() && isNamed(tag)) {
+            replace(id, ids.take(id));
+            continue;
+        }
+        std::string_view link = colladaAttribute(tag.text, "source");
+        if (!link.starts_with('#')) continue;
+        link.remove_prefix(1);
+        replace(link, ids.find(std::string(link)));
+    }
+    return edits.take();
+}
+
+}  // namespace lutka::animation::rig_import
