@@ -18,6 +18,7 @@
 #include "animation/import/clean_source.hpp"
 #include "animation/import/clip_sampling.hpp"
 #include "animation/import/figure_choice.hpp"
+#include "animation/import/hidden_meshes.hpp"
 #include "animation/import/inside_out.hpp"
 #include "animation/import/mesh_conversion.hpp"
 #include "animation/import/node_tree.hpp"
@@ -280,6 +281,7 @@ Error tooLarge(const std::string& what, const std::filesystem::path& file) {
 Result<Character> buildCharacter(SourceScene source, const std::filesystem::path& file, const ImportOptions& options) {
     if (std::optional<Error> error = validate(source, file.string())) return *std::move(error);
     cleanNames(source);
+    leaveOutHidden(source);
     poseBareSkeleton(source);
     const Result<FigureChoice> figures = chooseFigure(source, options.figure);
     if (!figures) return withLocation(figures.error(), file.string());

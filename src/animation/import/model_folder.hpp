@@ -24,8 +24,9 @@ class ModelFolder {
         Place place = Place::missing;
         std::filesystem::path file;  ///< To be opened, when it is `inside`.
     };
-    /// The file that a name in the model means, relative to the folder; either slash separates. `missing` where there
-    /// is no ordinary file, and for names with a drive's letter.
+    /// The file that a name in the model means, relative to the folder; either slash separates, and where no file has
+    /// that name one counts whose letters differ in their case. `missing` where there is no ordinary file, and for
+    /// names with a drive's letter.
     [[nodiscard]] Named find(const std::string& written) const;
 
   private:

@@ -8,7 +8,7 @@ namespace lutka::animation::rig_import {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x53'54'55'4C;  // LUTS
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 // What each struct consists of, for both directions: `Scene` is const for the writer. A new member is added here once.
 constexpr auto kNodeParts = [](auto& archive, auto& node) {
@@ -45,6 +45,7 @@ constexpr auto kInstanceParts = [](auto& archive, auto& instance) {
     archive.value(instance.mesh);
     archive.value(instance.node);
     archive.value(instance.skin);
+    archive.choice(instance.hidden, true);
 };
 
 constexpr auto kChannelParts = [](auto& archive, auto& channel) {

@@ -74,7 +74,8 @@ struct SourceSkin {
 struct SourceInstance {
     int mesh = -1;
     int node = -1;
-    int skin = -1;  ///< -1: carried rigidly by its node. Else the skin has a slot for each influence of the mesh.
+    int skin = -1;        ///< -1: carried rigidly by its node. Else the skin has a slot for each influence of the mesh.
+    bool hidden = false;  ///< The file does not show it.
 };
 
 /// Key frames of one property of one node.

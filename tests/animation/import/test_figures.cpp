@@ -200,3 +200,40 @@ TEST_CASE("a prop with a joint and a skin of its own is left out, a hat stays") 
         if (!prop.stays) CHECK(tallness(character) == Approx(tallness(makeBiped())));
     }
 }
+
+TEST_CASE("a mesh that the file hides is no skin of the figure, unless all of it is hidden") {
+    const TemporaryFolder folder;
+    const Character biped = makeBiped();
+    GltfFile plain;
+    addFigure(plain, biped, "Anna");
+    plain.saveBinary(folder / "plain.glb");
+    const std::vector<vec3> skin = bindVertices(imported(folder / "plain.glb"));
+
+    // A copy below the same armature, bound to the same joints, that a node above it hides.
+    GltfFile caged = plain;
+    auto& nodes = caged.json["nodes"];
+    nlohmann::json body;
+    for (const nlohmann::json& node : nodes) {
+        if (node.contains("skin")) body = node;
+    }
+    body["name"] = "Cage";
+    const int closet = caged.addNode("Closet", -1);
+    nodes.push_back(body);
+    const int copy = static_cast<int>(nodes.size()) - 1;
+    nodes[closet]["children"] = {copy};
+    caged.saveBinary(folder / "twice.glb");
+    CHECK(bindVertices(imported(folder / "twice.glb")).size() == 2 * skin.size());
+    nodes[closet]["extensions"]["KHR_node_visibility"]["visible"] = false;
+    caged.saveBinary(folder / "caged.glb");
+    const Character hidden = imported(folder / "caged.glb");
+    CHECK(bindVertices(hidden) == skin);
+    CHECK(warns(hidden, "1 mesh(es) are hidden in the file and were left out: Cage"));
+
+    for (nlohmann::json& node : nodes) {
+        if (node.contains("skin")) node["extensions"]["KHR_node_visibility"]["visible"] = false;
+    }
+    caged.saveBinary(folder / "all.glb");
+    const Character all = imported(folder / "all.glb");
+    CHECK(bindVertices(all).size() == 2 * skin.size());
+    CHECK_FALSE(warns(all, "hidden"));
+}

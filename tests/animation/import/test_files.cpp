@@ -120,11 +120,33 @@ TEST_CASE("required extensions that can't be read are refused by name with a men
 TEST_CASE("required extensions that only cost looks are let through") {
     const TemporaryFolder folder;
     GltfFile file = makePostRig();
-    file.json["extensionsRequired"] = {"KHR_materials_unlit", "KHR_texture_basisu"};
+    file.json["extensionsRequired"] = {"KHR_materials_unlit", "KHR_texture_basisu", "MSFT_lod", "EXT_lights_ies",
+                                       "KHR_interactivity"};
     file.saveText(folder / "rig.gltf");
     const Character character = imported(folder / "rig.gltf");
     CHECK(warns(character, "KHR_texture_basisu"));
-    CHECK_FALSE(warns(character, "KHR_materials_unlit"));
+    for (const char* silent : {"KHR_materials_unlit", "MSFT_lod", "EXT_lights_ies", "KHR_interactivity"})
+        CHECK_FALSE(warns(character, silent));
+}
+
+TEST_CASE("copies of a mesh, points and lines, and clips of what is not in the scene are told") {
+    const TemporaryFolder folder;
+    GltfFile file = makePostRig();
+    file.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+    nlohmann::json lines = file.json["meshes"][0]["primitives"][0];
+    lines["mode"] = 1;
+    file.json["meshes"][0]["primitives"].push_back(lines);
+    const int ghost = static_cast<int>(file.json["nodes"].size());
+    file.json["nodes"].push_back({{"name", "Ghost"}});
+    const std::vector<float> times{0, 1};
+    const std::vector<float> turns{0, 0, 0, 1, 1, 0, 0, 0};
+    file.addTurn("haunt", ghost, times, file.addFloats(turns, "VEC4"), "LINEAR");
+    file.saveBinary(folder / "rig.glb");
+    const Character character = imported(folder / "rig.glb");
+    CHECK(character.clips.empty());
+    for (const char* told :
+         {"EXT_mesh_gpu_instancing", "points and lines", "animations of nodes that are not in the scene"})
+        CHECK(warns(character, told));
 }
 
 TEST_CASE("a glTF is told by its content, whichever of glTF's names it bears") {

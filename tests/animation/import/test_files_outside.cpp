@@ -96,11 +96,12 @@ TEST_CASE("a model's folder admits what lies in it and below, wherever links lea
         INFO(way);
         if (way[0] != '%') CHECK(folder.find(way).place == Place::outside);
     }
-    for (const char* inside : {"below/near.ppm", "below\\near.ppm", "near_link.ppm", "below/../below/near.ppm"}) {
+    for (const char* inside : {"below/near.ppm", "below\\near.ppm", "near_link.ppm", "below/../below/near.ppm",
+                               "Below/NEAR.ppm", "./BELOW\\Near.PPM"}) {
         INFO(inside);
         CHECK(folder.find(inside).place == Place::inside);
     }
-    for (const char* none : {"nothing.ppm", "below", "C:\\art\\skin.ppm", ""}) {
+    for (const char* none : {"nothing.ppm", "Below/nothing.ppm", "BELOW", "below", "C:\\art\\skin.ppm", ""}) {
         INFO(none);
         CHECK(folder.find(none).place == Place::missing);
     }

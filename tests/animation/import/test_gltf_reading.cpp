@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -313,6 +314,12 @@ TEST_CASE("a buffer is found by its percent-encoded name, and not outside of the
     file.saveBeside(folder / "my rig.gltf", "my rig.bin", "my%20rig.bin");
     checkInvariants(imported(folder / "my rig.gltf"));
     std::filesystem::create_directories(folder / "below");
+    // As files come from systems that do not tell capitals, and addresses from the net.
+    for (const char* uri : {"My%20Rig.BIN", "Below/../MY%20RIG.bin", "my%20rig.bin?v=3#x"}) {
+        INFO(uri);
+        file.saveBeside(folder / "other.gltf", "my rig.bin", uri);
+        checkInvariants(imported(folder / "other.gltf"));
+    }
     for (const char* uri : {"../my%20rig.bin", "%2e%2e/my%20rig.bin", "/etc/passwd"}) {
         INFO(uri);
         file.saveBeside(folder / "below/rig.gltf", "unused.bin", uri);
@@ -331,6 +338,36 @@ TEST_CASE("a data URI is one in capitals, too") {
     text.replace(text.find(head), head.size(), "DATA:Application/Octet-Stream;Charset=utf-8;BASE64,");
     std::ofstream(folder / "capitals.gltf") << text;
     CHECK(imported(folder / "capitals.gltf").meshes[0].positions == imported(folder / "rig.gltf").meshes[0].positions);
+    // The characters of base64 that mean something else in a URI may be escaped in one.
+    std::string escaped;
+    for (const char c : text) {
+        const char* as = c == '+' ? "%2B" : c == '=' ? "%3D" : nullptr;
+        as != nullptr ? escaped += as : escaped += c;
+    }
+    REQUIRE(escaped.find("%3D") != std::string::npos);
+    std::ofstream(folder / "escaped.gltf") << escaped;
+    CHECK(imported(folder / "escaped.gltf").meshes[0].positions == imported(folder / "rig.gltf").meshes[0].positions);
+}
+
+TEST_CASE("an index may be written as 2.0") {
+    const TemporaryFolder folder;
+    GltfFile file = makePostRig();
+    file.saveText(folder / "rig.gltf");
+    const std::function<void(nlohmann::json&)> loosen = [&](nlohmann::json& value) {
+        if (value.is_number_integer()) value = value.get<double>();
+        if (!value.is_structured()) return;
+        for (nlohmann::json& entry : value)
+            loosen(entry);
+    };
+    loosen(file.json);
+    REQUIRE(file.json["scene"].dump() == "0.0");
+    file.saveText(folder / "loose.gltf");
+    const Character loose = imported(folder / "loose.gltf");
+    checkInvariants(loose);
+    CHECK(loose.meshes[0].positions == imported(folder / "rig.gltf").meshes[0].positions);
+    file.json["skins"][0]["joints"][0] = 0.5;
+    file.saveText(folder / "half.gltf");
+    CHECK_FALSE(importCharacter(folder / "half.gltf").ok());
 }
 
 TEST_CASE("a shared node, a ring of nodes and a deep chain are refused by name of the limit") {

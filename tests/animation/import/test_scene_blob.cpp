@@ -32,7 +32,7 @@ SourceScene everything() {
     skin.joints = {{1, glm::dmat4(4.0)}};
     skin.sceneFromMesh = glm::dmat4(5.0);
     scene.skins = {skin};
-    scene.instances = {{0, 1, 0}};
+    scene.instances = {{0, 1, 0, true}};
     SourceChannel channel;
     channel.node = 1;
     channel.path = SourceChannel::Path::rotation;

@@ -41,6 +41,9 @@ class SceneReader {
                                     document_.binary ? "binary" : "ASCII");
         const std::vector<Motion> motions = readMotions(document_, objects_, tree_.nodeOfModel);
         layout_ = layoutOf(tree_, motions);
+        modelOfNode_.assign(tree_.parents.size(), -1);
+        for (const auto& [model, node] : tree_.inOrder)
+            modelOfNode_[static_cast<std::size_t>(node)] = model;
         readNodes();
         readMeshes();
         scene_.clips = sampleMotions(motions, tree_, layout_, frameRateOf(objects_.settings()), scene_.warnings);
@@ -160,8 +163,22 @@ class SceneReader {
             const int mesh = static_cast<int>(scene_.meshes.size());
             scene_.meshes.push_back(std::move(part.mesh));
             scene_.instances.push_back({mesh, layout_.sceneNode[static_cast<std::size_t>(place.node)],
-                                        skin ? static_cast<int>(scene_.skins.size()) - 1 : -1});
+                                        skin ? static_cast<int>(scene_.skins.size()) - 1 : -1, isHidden(place)});
         }
+    }
+
+    // Whether a mesh is hidden by itself or by what it hangs on. What the file moves may be seen at another time.
+    [[nodiscard]] bool isHidden(const Place& place) const {
+        if (objects_[place.model].properties.integer("Show", 1) == 0) return true;
+        for (int node = place.node; node >= 0; node = tree_.parents[static_cast<std::size_t>(node)]) {
+            const int model = modelOfNode_[static_cast<std::size_t>(node)];
+            if (model < 0) break;
+            const Properties& properties = objects_[model].properties;
+            const bool moves = objects_.childAt(model, "Visibility", "AnimationCurveNode") >= 0;
+            if (properties.number("Visibility", 1.0) <= 0.0 && !moves) return true;
+            if (properties.integer("Visibility Inheritance", 1) == 0) break;
+        }
+        return false;
     }
 
     std::map<int, dmat4> bindPoseInScene() const {
@@ -176,6 +193,7 @@ class SceneReader {
     MaterialReader materials_;
     ModelTree tree_;
     SceneLayout layout_;
+    std::vector<int> modelOfNode_;  // -1: none
     SourceScene scene_;
     std::vector<dmat4> sceneFromNode_;
     dmat4 sceneFromFile_{1.0};

@@ -84,7 +84,11 @@ void addChannel(GltfFile& file, const json& animation, const json& source, const
         return;
     }
     const std::optional<int> samplerIndex = indexOf(source, "sampler", countOf(animation, "samplers"));
-    if (!samplerIndex || nodes[target->node] < 0) return;
+    if (!samplerIndex) return;
+    if (nodes[target->node] < 0) {
+        file.leaveOut("animations of nodes that are not in the scene");
+        return;
+    }
     const json& sampler = animation.at("samplers").at(static_cast<std::size_t>(*samplerIndex));
     const std::optional<int> input = indexOf(sampler, "input", file.count("accessors"));
     const std::optional<int> output = indexOf(sampler, "output", file.count("accessors"));

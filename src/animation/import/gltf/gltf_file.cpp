@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstring>
 #include <string_view>
 #include <system_error>
@@ -24,24 +25,34 @@ using nlohmann::json;
 constexpr std::size_t kMaxUnpackedBytes = std::size_t{1} << 30U;  // of a compressed view
 constexpr const char* kUncompressed = "export it again without KHR_meshopt_compression";
 
+constexpr std::string_view kInstancing = "EXT_mesh_gpu_instancing";
+
 // Read here, or without bearing on shape and motion.
 bool isUnderstood(std::string_view extension) {
-    constexpr std::array<std::string_view, 13> kExact = {"KHR_draco_mesh_compression",
+    constexpr std::array<std::string_view, 18> kExact = {"KHR_draco_mesh_compression",
                                                          "KHR_mesh_quantization",
                                                          "EXT_meshopt_compression",
                                                          "KHR_meshopt_compression",
                                                          "KHR_texture_transform",
                                                          "KHR_lights_punctual",
                                                          "KHR_node_visibility",
+                                                         "KHR_node_selectability",
+                                                         "KHR_node_hoverability",
                                                          "KHR_xmp_json_ld",
                                                          "KHR_xmp",
                                                          "KHR_animation_pointer",
                                                          "VRM",
                                                          "VRMC_vrm",
-                                                         "KHR_implicit_shapes"};
+                                                         "KHR_implicit_shapes",
+                                                         "KHR_interactivity",
+                                                         "MSFT_lod",
+                                                         "EXT_mesh_manifold"};
     if (std::find(kExact.begin(), kExact.end(), extension) != kExact.end()) return true;
-    return extension.starts_with("KHR_materials_") || extension.starts_with("VRMC_") ||
-           extension.starts_with("KHR_physics");
+    constexpr std::array<std::string_view, 9> kKinds = {"KHR_materials_", "VRMC_",       "KHR_physics",
+                                                        "EXT_materials_", "EXT_lights_", "KHR_audio",
+                                                        "MSFT_audio_",    "OMI_",        "MSFT_packing_"};
+    return std::any_of(kKinds.begin(), kKinds.end(),
+                       [&](std::string_view kind) { return extension.starts_with(kind); });
 }
 
 bool isPictureFormat(std::string_view extension) {
@@ -78,6 +89,19 @@ bool isNestedTooDeep(std::span<const std::uint8_t> text) {
         if (depth > kMaxJsonDepth) return true;
     }
     return false;
+}
+
+// JSON knows one kind of number, so some writers have 2.0 for 2: what is whole becomes an index here.
+void makeWhole(json& value) {
+    constexpr double kMost = 9e15;  // above, not all whole numbers are there
+    if (value.is_number_float()) {
+        const double number = value.get<double>();
+        if (number >= 0.0 && number < kMost && number == std::floor(number)) value = static_cast<std::uint64_t>(number);
+        return;
+    }
+    if (!value.is_structured()) return;
+    for (json& entry : value)
+        makeWhole(entry);
 }
 
 int base64Value(char c) {
@@ -117,8 +141,11 @@ std::optional<std::vector<std::uint8_t>> decodeDataUri(const std::string& uri) {
     const std::size_t comma = uri.find(',');
     if (comma == std::string::npos) throw Damage{"a data URI has no data"};
     // Media types and their parameters are the same in capitals.
-    if (lowerCased(uri.substr(0, comma)).find(";base64") != std::string::npos)
-        return decodeBase64(std::string_view(uri).substr(comma + 1));
+    if (lowerCased(uri.substr(0, comma)).find(";base64") != std::string::npos) {
+        const bool isPlain = uri.find('%', comma) == std::string::npos;
+        return isPlain ? decodeBase64(std::string_view(uri).substr(comma + 1))
+                       : decodeBase64(decodePercents(uri.substr(comma + 1)));
+    }
     const std::string plain = decodePercents(uri.substr(comma + 1));
     return std::vector<std::uint8_t>(plain.begin(), plain.end());
 }
@@ -153,6 +180,7 @@ void GltfFile::readContainer() {
         throw Damage{fmt::format("its JSON is nested deeper than {}", kMaxJsonDepth), "export only the character"};
     json_ = nlohmann::json::parse(text.begin(), text.end(), nullptr, false);
     if (json_.is_discarded() || !json_.is_object()) throw Damage{"the glTF's JSON is broken or cut off"};
+    makeWhole(json_);
     if (!binary_.empty()) container_ = std::move(bytes);  // a vector that is moved stays where it is
     const nlohmann::json* asset = member(json_, "asset");
     std::string version = asset == nullptr ? "" : textOf(*asset, "version");
@@ -164,6 +192,9 @@ void GltfFile::readContainer() {
 }
 
 void GltfFile::checkExtensions() {
+    const nlohmann::json* used = arrayOf(json_, "extensionsUsed");
+    if (used != nullptr && std::find(used->begin(), used->end(), kInstancing) != used->end())
+        leaveOut(fmt::format("copies of meshes by {} (each mesh stands once, at its node)", kInstancing));
     const nlohmann::json* required = arrayOf(json_, "extensionsRequired");
     if (required == nullptr) return;
     for (const nlohmann::json& entry : *required) {
@@ -187,7 +218,9 @@ const nlohmann::json& GltfFile::element(const char* array, int index) const {
 std::vector<std::uint8_t> GltfFile::loadBuffer(int buffer) const {
     const std::string uri = textOf(element("buffers", buffer), "uri");
     if (std::optional<std::vector<std::uint8_t>> data = decodeDataUri(uri)) return *std::move(data);
-    for (const std::string& spelling : {decodePercents(uri), uri}) {
+    // Some tools add a version to the name, as in an address on the net.
+    const std::string bare = uri.substr(0, uri.find_first_of("?#"));
+    for (const std::string& spelling : {decodePercents(uri), uri, decodePercents(bare)}) {
         const ModelFolder::Named named = folder_.find(spelling);
         if (named.place == ModelFolder::Place::inside) return readWhole(named.file);
         if (named.place == ModelFolder::Place::outside)

@@ -195,7 +195,10 @@ std::vector<double> weightsOf(const json& object) {
 std::optional<SourceMesh> readPrimitive(GltfFile& file, const json& primitive, const std::string& name,
                                         const std::vector<double>& morphs) {
     const std::size_t mode = sizeOf(primitive, "mode", kTriangles);
-    if (mode != kTriangles && mode != kTriangleStrip && mode != kTriangleFan) return std::nullopt;  // points and lines
+    if (mode != kTriangles && mode != kTriangleStrip && mode != kTriangleFan) {
+        file.leaveOut("points and lines");
+        return std::nullopt;
+    }
     SourceMesh mesh;
     mesh.name = name;
     mesh.material = indexOf(primitive, "material", file.count("materials")).value_or(-1);
@@ -276,6 +279,20 @@ void dropStrayInfluences(std::size_t slots, SourceMesh& mesh, GltfFile& file) {
     if (stray) file.leaveOut(fmt::format("weights of mesh '{}' for joints that its skin does not have", mesh.name));
 }
 
+// Whether the file hides a scene's nodes, each by itself or by one above it.
+std::vector<bool> hiddenNodes(const GltfFile& file, const NodeMap& nodes, const std::vector<int>& order,
+                              const SourceScene& scene) {
+    std::vector<bool> hidden(scene.nodes.size(), false);
+    for (const int index : order) {
+        const auto node = static_cast<std::size_t>(nodes[index]);
+        const json* block = extensionOf(file.element("nodes", index), "KHR_node_visibility");
+        const int above = scene.nodes[node].parent;
+        hidden[node] = (block != nullptr && !truthOf(*block, "visible", true)) ||
+                       (above >= 0 && hidden[static_cast<std::size_t>(above)]);
+    }
+    return hidden;
+}
+
 std::vector<int> inSceneOrder(const NodeMap& nodes) {
     std::vector<int> order;
     for (int index = 0; index < static_cast<int>(nodes.size()); ++index) {
@@ -293,7 +310,9 @@ void addMeshes(GltfFile& file, const NodeMap& nodes, SourceScene& out) {
     // The primitives of a mesh with the morphs of a node; nodes mostly share them.
     std::map<std::pair<int, std::vector<double>>, std::vector<int>> known;
     std::size_t vertices = 0;
-    for (const int index : inSceneOrder(nodes)) {
+    const std::vector<int> order = inSceneOrder(nodes);
+    const std::vector<bool> hidden = hiddenNodes(file, nodes, order, out);
+    for (const int index : order) {
         const json& node = file.element("nodes", index);
         const std::optional<int> meshIndex = indexOf(node, "mesh", file.count("meshes"));
         if (!meshIndex) continue;
@@ -320,7 +339,7 @@ void addMeshes(GltfFile& file, const NodeMap& nodes, SourceScene& out) {
         for (const int mesh : found->second) {
             const bool bound = skin && !out.meshes[mesh].influences.empty();
             if (bound) dropStrayInfluences(out.skins[skinOf[*skin]].joints.size(), out.meshes[mesh], file);
-            out.instances.push_back({mesh, nodes[index], bound ? skinOf[*skin] : -1});
+            out.instances.push_back({mesh, nodes[index], bound ? skinOf[*skin] : -1, hidden[nodes[index]]});
         }
     }
 }

@@ -242,6 +242,36 @@ TEST_CASE("a geometric transform moves a skinned FBX mesh in its node and is no 
     CHECK(scene.meshes[0].influences[0].weight == 1.0F);
 }
 
+TEST_CASE("an FBX mesh is hidden by its own properties or by what it hangs on, but not where that moves") {
+    const auto isHidden = [](const Numbers& ofMesh, const Numbers& ofParent, bool moves) {
+        std::vector<FbxRecord> sections = skinnedSquare(ofMesh, dmat4(1.0), dmat4(1.0));
+        for (FbxRecord& section : sections) {
+            if (section.name == "Objects") {
+                section.children.push_back(model(20, "Wardrobe", ofParent));
+                section.children.push_back({"AnimationCurveNode",
+                                            {std::int64_t{21}, std::string("AnimCurveNode::Visibility"), std::string()},
+                                            {}});
+            }
+            if (section.name == "Connections") {
+                section.children.front() = fbxLink(1, 20);
+                section.children.push_back(fbxLink(20, 0));
+                if (moves) section.children.push_back(fbxLink(21, 20, "Visibility"));
+            }
+        }
+        const SourceScene scene = readAll(sections);
+        REQUIRE(scene.instances.size() == 1);
+        return scene.instances[0].hidden;
+    };
+    CHECK_FALSE(isHidden({}, {}, false));
+    CHECK_FALSE(isHidden({{"Show", {1}}, {"Visibility", {1}}}, {{"Visibility", {1}}}, false));
+    CHECK(isHidden({{"Show", {0}}}, {}, false));
+    CHECK(isHidden({{"Visibility", {0}}}, {}, false));
+    CHECK(isHidden({}, {{"Visibility", {0}}}, false));
+    CHECK_FALSE(isHidden({}, {{"Visibility", {0}}}, true));
+    CHECK_FALSE(isHidden({}, {{"Show", {0}}}, false));
+    CHECK_FALSE(isHidden({{"Visibility Inheritance", {0}}}, {{"Visibility", {0}}}, false));
+}
+
 TEST_CASE("an FBX skin that blends by dual quaternions is told, a linear one is not") {
     for (const std::string type : {"DualQuaternion", "Blend", "Linear", "Rigid"}) {
         INFO(type);
