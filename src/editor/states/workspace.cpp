@@ -7,8 +7,28 @@
 #include <glm/geometric.hpp>
 
 #include "editor/view/pick_targets.hpp"
+#include "editor/view/skin_picking.hpp"
 
 namespace lutka::editor {
+namespace {
+
+// What of a skin has no shape of a body (fingers, hair, a skirt) is picked as the body that carries it, where neither
+// an object nor solid geometry is nearer.
+std::optional<Pick> pickOfSkin(const render::Ray& ray, Player& player, const std::optional<Pick>& before,
+                               bool throughGeometry) {
+    constexpr float kReach = 100.0F;  // metres
+    float most = before ? glm::distance(ray.origin, before->position) : kReach;
+    if (!throughGeometry) {
+        const auto solid = player.simulation().world().rayTest(ray.origin, ray.origin + ray.direction * kReach);
+        if (solid) most = std::min(most, solid->fraction * kReach);
+    }
+    const std::optional<SkinHit> hit = pickSkin(ray, player.simulation(), player.alpha(), most);
+    if (!hit) return std::nullopt;
+    const Item body{Item::Kind::body, hit->doll, hit->body};
+    return Pick{body, hit->position, hit->normal, body};
+}
+
+}  // namespace
 
 std::optional<Pick> Workspace::pickUnderMouse() const {
     // Walls that are drawn see-through do not hide what fell between them.
@@ -16,7 +36,16 @@ std::optional<Pick> Workspace::pickUnderMouse() const {
     constexpr int solid = 128;
     const bool seeThrough =
         std::any_of(looks.begin(), looks.end(), [](const scene::Look& look) { return look.color.a < solid; });
-    auto picked = pick(mouseRay(), player->simulation(), pickTargets(*document, *player), seeThrough);
+    const render::Ray ray = mouseRay();
+    const std::vector<PickTarget> targets = pickTargets(*document, *player);
+    auto picked = pick(ray, player->simulation(), targets, seeThrough);
+    const auto isMarker = [&](const PickTarget& target) {
+        return target.marker && picked->item.kind == Item::Kind::object && target.entity == picked->item.index;
+    };
+    const bool mark = picked && std::any_of(targets.begin(), targets.end(), isMarker);  // drawn over everything
+    if (!mark && (!picked || !picked->body)) {
+        if (const auto skin = pickOfSkin(ray, *player, picked, seeThrough)) picked = skin;
+    }
     // The panels edit no bodies of the other characters: these are picked as a whole, and pulled by their bodies.
     if (picked && picked->item.kind == Item::Kind::body && !player->isEditedDoll(picked->item.doll)) {
         picked->item = {Item::Kind::object, 0, static_cast<int>(player->entityOfDoll(picked->item.doll))};
