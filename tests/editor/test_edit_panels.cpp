@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "animation/export/write_glb.hpp"
 #include "editor/scripts.hpp"
 
 using namespace lutka;
@@ -358,4 +359,61 @@ TEST_CASE("Esc in a list of a dialog closes the list alone") {
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
     CHECK(fs::exists(scratch / "mannequin_ragdoll.xml"));
+}
+
+TEST_CASE("a path that is typed takes the place of the one in the dialog, also when it opens again") {
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
+    const Scratch scratch;
+    Script script;
+    script.key(Key::space).move(640, 640);
+    for (const char* name : {"first.ragdoll.json", "second.ragdoll.json"}) {
+        script.key(Key::s, {true, true, false}).wait(4);
+        type(script, (scratch / name).string()).key(Key::enter).wait(8);
+    }
+    script.key(Key::s, {true, true, false}).wait(4).key(Key::escape).wait(4);
+    script.key(Key::s, {true, true, false}).wait(4);
+    type(script, (scratch / "third.ragdoll.json").string()).key(Key::enter).wait(8);
+    const Outcome outcome = play(scratch, script);
+    NEEDS_DISPLAY_OF(outcome);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    for (const char* name : {"first.ragdoll.json", "second.ragdoll.json", "third.ragdoll.json"})
+        CHECK(fs::exists(scratch / name));
+}
+
+TEST_CASE("Enter saves where unsaved changes are asked about, Esc goes back") {
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
+    const Scratch scratch;
+    Script script;
+    script.key(Key::space).click(612, 370).key(Key::del).key(Key::enter).wait(4);  // without the left lower leg
+    script.key(Key::q, {false, true, false}).wait(4).key(Key::escape).wait(4);
+    script.key(Key::z, {false, true, false}).wait(4).key(Key::z, {true, true, false}).wait(4);  // it goes on
+    script.key(Key::q, {false, true, false}).wait(4).key(Key::enter).wait(4);
+    const Outcome outcome = play(scratch, script);
+    NEEDS_DISPLAY_OF(outcome);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    CHECK(physics::bodyOf(saved(scratch), Role::leftLowerLeg) < 0);
+}
+
+TEST_CASE("Enter takes the offer of a ragdoll of any skeleton, but not the Enter that opened the model") {
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
+    const Scratch scratch;
+    const fs::path animal = scratch / "animal.glb";
+    REQUIRE(animation::writeGlb(animal, makeQuadruped(), {}).ok());
+    const auto opened = [&](bool enter) {
+        Script script;
+        script.key(Key::space).move(640, 640).key(Key::o, {false, true, false}).wait(4);
+        type(script, animal.string()).key(Key::enter).wait(8);
+        if (enter) script.key(Key::enter).wait(8);
+        script.key(Key::s, {false, true, false}).wait(8);
+        return play(scratch, script);
+    };
+    const Outcome left = opened(false);
+    NEEDS_DISPLAY_OF(left);
+    INFO(left.output);
+    REQUIRE(left.code == 0);
+    CHECK_FALSE(fs::exists(scratch / "animal.ragdoll.json"));
+    REQUIRE(opened(true).code == 0);
+    CHECK(fs::exists(scratch / "animal.ragdoll.json"));
 }

@@ -21,6 +21,11 @@ void placeInMiddle() {
     ImGui::SetNextWindowPos({size.x * 0.5F, size.y * kMiddle}, ImGuiCond_Always, {0.5F, 0.5F});
 }
 
+// Whether a key answers the question whose window is drawn now. The key that brought the question up is none for it.
+bool answersBy(Key key) {
+    return ImGui::IsKeyPressed(static_cast<int>(key), false) && !ImGui::IsWindowAppearing();
+}
+
 void drawQuestion(const PanelContext& context) {
     constexpr const char* title = "Unsaved changes";
     Editor& editor = context.editor;
@@ -45,13 +50,11 @@ void drawQuestion(const PanelContext& context) {
     ImGui::Spacing();
     const ImVec2 button(context.px(110), 0);
     std::optional<FileFlow::Answer> answer;
-    if (ImGui::Button("Save", button)) answer = FileFlow::Answer::save;
+    if (ImGui::Button("Save", button) || answersBy(Key::enter)) answer = FileFlow::Answer::save;
     ImGui::SameLine();
     if (ImGui::Button("Discard", button)) answer = FileFlow::Answer::discard;
     ImGui::SameLine();
-    if (ImGui::Button("Cancel", button) || ImGui::IsKeyPressed(static_cast<int>(Key::escape), false)) {
-        answer = FileFlow::Answer::cancel;
-    }
+    if (ImGui::Button("Cancel", button) || answersBy(Key::escape)) answer = FileFlow::Answer::cancel;
     if (answer) {
         ImGui::CloseCurrentPopup();
         editor.files().answer(*answer);
@@ -73,7 +76,7 @@ void drawReplaceQuestion(const PanelContext& context) {
     std::optional<bool> replace;
     if (ImGui::Button("Replace", button)) replace = true;
     ImGui::SameLine();
-    if (ImGui::Button("Cancel", button) || ImGui::IsKeyPressed(static_cast<int>(Key::escape), false)) replace = false;
+    if (ImGui::Button("Cancel", button) || answersBy(Key::escape)) replace = false;
     ImGui::SameLine();
     if (ImGui::Button("Save as ...", button)) {
         replace = false;
@@ -203,12 +206,14 @@ void drawAnyRigOffer(const PanelContext& context) {
     if (ImGui::Begin("Not a human figure", nullptr, kDialog | ImGuiWindowFlags_NoCollapse)) {
         ImGui::Text("%s was refused as a humanoid. Its bodies can be made", file.filename().string().c_str());
         ImGui::TextUnformatted("from the joints and the skin alone, whatever it is.");
-        if (ImGui::Button("Ragdoll of any skeleton")) answer = Editor::AnyRig::whole;
+        const bool heeds = !ImGui::GetIO().WantTextInput && !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+        const auto byKey = [&](Key key) { return heeds && answersBy(key); };
+        if (ImGui::Button("Ragdoll of any skeleton") || byKey(Key::enter)) answer = Editor::AnyRig::whole;
         ImGui::SameLine();
         if (ImGui::Button("By hand")) answer = Editor::AnyRig::byHand;
         tooltip("Begins with one body for all; you add the others");
         ImGui::SameLine();
-        if (ImGui::Button("Leave it")) answer = Editor::AnyRig::leave;
+        if (ImGui::Button("Leave it") || byKey(Key::escape)) answer = Editor::AnyRig::leave;
     }
     ImGui::End();
     if (answer) editor.answerAnyRig(*answer);

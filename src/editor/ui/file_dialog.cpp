@@ -17,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The path is chosen whole, each time the dialog opens: what is typed or pasted takes its place.
+constexpr ImGuiInputTextFlags kPathFlags = ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll;
 constexpr ImGuiWindowFlags kFileDialog = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
                                          ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize;
 
@@ -333,7 +335,7 @@ void drawFileDialog(const PanelContext& context) {
     drawCrumbs(context, folder);
     ImGui::SetNextItemWidth(context.px(520));
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-    bool done = ImGui::InputText("##path", &state.path, ImGuiInputTextFlags_EnterReturnsTrue) && enter(state);
+    bool done = ImGui::InputText("##path", &state.path, kPathFlags) && enter(state);
     done = drawList(context, folder) || done;
     ImGui::SetNextItemWidth(context.px(220));
     drawFilter(state);
