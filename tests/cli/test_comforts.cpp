@@ -99,3 +99,27 @@ TEST_CASE("the option --licenses names every part with an SPDX identifier") {
     for (const char* part : {"Bullet Physics", "Assimp", "three.js", "Zlib", "BSD-3-Clause", "MIT"})
         CHECK_THAT(result.out, Catch::Contains(part));
 }
+
+TEST_CASE("a misspelled command or option is named, with the one that was likely meant") {
+    const auto wrong = [](const std::string& line) {
+        const CommandResult result = lutkaCommand(line);
+        CHECK(result.code == 2);
+        CHECK(result.out.empty());
+        return result.err;
+    };
+    using Catch::Contains;
+    CHECK_THAT(wrong("bulid " + kMannequinArgument), Contains("There is no command 'bulid' (did you mean build?)"));
+    CHECK_THAT(wrong("Simulate " + kMannequinArgument), Contains("did you mean simulate?"));
+    CHECK_THAT(wrong("--quiet " + kMannequinArgument), Contains("There is no command") && !Contains("did you mean"));
+    CHECK_THAT(wrong("build --presett loose " + kMannequinArgument),
+               Contains("lutka build has no option --presett (did you mean --preset?)"));
+    CHECK_THAT(wrong("simulate --secnods=1 " + kMannequinArgument), Contains("did you mean --seconds?"));
+    CHECK_THAT(wrong("simulate --secs 1 " + kMannequinArgument), Contains("did you mean --seconds?"));
+    CHECK_THAT(wrong("simulate --mass-t winter " + kMannequinArgument), Contains("did you mean --mass-table?"));
+    CHECK_THAT(wrong("build --verbsoe " + kMannequinArgument), Contains("did you mean --verbose?"));
+    CHECK_THAT(wrong("build --xylophone " + kMannequinArgument),
+               Contains("has no option --xylophone") && !Contains("did you mean"));
+    CHECK_THAT(wrong("build " + kMannequinArgument + " second.glb"), Contains("lutka build takes no 'second.glb'"));
+    CHECK_THAT(wrong("build --preset losse " + kMannequinArgument), Contains("losse not in"));
+    CHECK_THAT(wrong(""), Contains("A subcommand is required"));
+}

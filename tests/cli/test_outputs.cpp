@@ -249,3 +249,48 @@ TEST_CASE("arguments that are refused can't colour the terminal, nor flood it") 
     CHECK(flood.code == 2);
     CHECK(flood.err.size() < 5000);
 }
+
+TEST_CASE(
+    "no command writes over its model, whatever way leads to it, but a profile goes over the one it was made from") {
+    const ScratchFolder folder;
+    const fs::path model = folder.path / "hero.glb";
+    fs::copy_file(LUTKA_ASSETS_DIR "/models/mannequin.glb", model);
+    fs::create_symlink(model, folder.path / "link.glb");
+    const std::string was = fileText(model);
+    const std::string hero = shellQuoted(model.string());
+    const std::string other = shellQuoted((folder.path / "." / "link.glb").string());
+    for (const std::string& command :
+         {"build " + hero + " -o " + other, "map " + hero + " -o " + other, "map --rig any " + hero + " -o " + other,
+          "check " + hero + " --fix " + other, "export " + hero + " -o " + other,
+          "retarget " + hero + " --clip walk --to " + kMannequinArgument + " -o " + other,
+          "retarget " + kMannequinArgument + " --clip walk --to " + hero + " -o " + other,
+          "bench --count 1 --steps 10 " + hero + " --csv " + other,
+          "simulate --seconds 0.1 " + hero + " --out " + other}) {
+        INFO(command);
+        const CommandResult result = lutkaCommand(command);
+        CHECK(result.code == 2);
+        CHECK_THAT(result.err, Catch::Contains("an output would destroy it"));
+        CHECK(fileText(model) == was);
+    }
+    const std::string profile = folder / "hero.ragdoll.json";
+    CHECK(lutkaCommand("build " + hero + " -o " + profile).code == 0);
+    CHECK(lutkaCommand("build " + hero + " --profile " + profile + " -o " + profile).code == 0);
+}
+
+TEST_CASE("a clip that is retargeted is glTF or BVH by the ending, in any case, and nothing under another") {
+    const ScratchFolder folder;
+    const auto retarget = [&](const std::string& name) {
+        const std::string command = "retarget " + kMannequinArgument + " --clip walk --to " + kMannequinArgument;
+        return lutkaCommand(command + " -o " + folder / name).code;
+    };
+    CHECK(retarget("walk.GLB") == 0);
+    CHECK_THAT(fileText(folder.path / "walk.GLB"), Catch::StartsWith("glTF"));
+    CHECK(retarget("walk.bvh") == 0);
+    CHECK_THAT(fileText(folder.path / "walk.bvh"), Catch::StartsWith("HIERARCHY"));
+    CHECK(retarget("walk.fbx") == 2);
+    CHECK_FALSE(fs::exists(folder.path / "walk.fbx"));
+    CHECK(lutkaCommand("simulate --seconds 0.1 " + kMannequinArgument + " --out " + folder / "a.BVH").code == 0);
+    CHECK_THAT(fileText(folder.path / "a.BVH"), Catch::StartsWith("HIERARCHY"));
+    CHECK(lutkaCommand("simulate --seconds 0.1 " + kMannequinArgument + " --mesh-out " + folder / "a.OBJ").code == 0);
+    CHECK(lutkaCommand("simulate --seconds 0.1 " + kMannequinArgument + " --mesh-out " + folder / "a.ply").code == 2);
+}

@@ -8,6 +8,7 @@
 #include "animation/export/write_glb.hpp"
 #include "animation/export/write_obj.hpp"
 #include "animation/skinning.hpp"
+#include "outputs.hpp"
 
 namespace lutka::cli {
 namespace {
@@ -86,7 +87,7 @@ void BakeOutputs::writeClips() const {
         const animation::Clip& clip = bakers_[doll].clip();
         const std::filesystem::path file = fileOf(options_.bakedOut, doll);
         const RigidTransform& worldFromModel = simulation_.worldFromModel(doll);
-        orLeave(file.extension() == ".bvh"
+        orLeave(endsIn(file, ".bvh")
                     ? animation::writeBvh(file, character.skeleton, clip, worldFromModel)
                     : animation::writeGlb(file, character, std::span(&clip, 1), worldFromModel, tolerance));
     }

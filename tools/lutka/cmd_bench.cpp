@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "core/files.hpp"
 #include "options.hpp"
+#include "outputs.hpp"
 #include "own_process.hpp"
 #include "scene/description/scene_file.hpp"
 #include "scene/measure/benchmark.hpp"
@@ -233,6 +234,7 @@ void runBench(const BenchCommandOptions& options) {
         leave({ErrorCode::usage, "compare goes with no other mode", "--mode",
                "run it by itself: its figures are others"});
     }
+    keepInputs(options.csv, {options.ragdoll.model.model});
     compares ? compare(options) : sweep(options);
 }
 

@@ -8,6 +8,7 @@
 #include "commands.hpp"
 #include "core/files.hpp"
 #include "options.hpp"
+#include "outputs.hpp"
 #include "physics/fit/limits_from_clips.hpp"
 #include "physics/profile/profile_io.hpp"
 
@@ -82,6 +83,7 @@ void printTable(const physics::RagdollProfile& profile) {
 }
 
 void runBuild(const BuildCommandOptions& options) {
+    keepInputs(options.out, {options.ragdoll.model.model});
     const auto asset = loadAsset(options.ragdoll);
     printWarnings(*asset);
     std::vector<physics::ClipLimitChange> changes;

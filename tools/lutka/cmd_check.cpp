@@ -5,6 +5,7 @@
 #include "commands.hpp"
 #include "core/files.hpp"
 #include "options.hpp"
+#include "outputs.hpp"
 #include "physics/doctor/doctor.hpp"
 #include "physics/profile/profile_io.hpp"
 #include "scene/measure/checkup.hpp"
@@ -28,6 +29,7 @@ void mend(const CheckCommandOptions& options, scene::RagdollAsset& asset, scene:
 }
 
 void runCheck(const CheckCommandOptions& options) {
+    keepInputs(options.fixTo, {options.ragdoll.model.model});
     const auto asset = loadAsset(options.ragdoll);
     scene::Checkup checkup = [&] {
         const Stopwatch stopwatch("examining");

@@ -12,6 +12,7 @@
 #include "core/files.hpp"
 #include "export/export_ragdoll.hpp"
 #include "options.hpp"
+#include "outputs.hpp"
 
 namespace lutka::cli {
 namespace {
@@ -56,6 +57,7 @@ std::string factsJson(const ExportCommandOptions& options, exporting::ExportForm
 
 void runExport(ExportCommandOptions& options) {
     const exporting::ExportFormat format = formatOf(options);
+    keepInputs(options.out, {options.ragdoll.model.model, options.ragdoll.profile.value_or("")});
     options.ragdoll.model.textures = format == exporting::ExportFormat::glb || format == exporting::ExportFormat::gltf;
     const auto asset = loadAsset(options.ragdoll);
     printWarnings(*asset);

@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "core/files.hpp"
 #include "options.hpp"
+#include "outputs.hpp"
 
 namespace lutka::cli {
 namespace {
@@ -153,6 +154,7 @@ void runAnyRig(const MapCommandOptions& options, const Character& character) {
 }
 
 void runMap(const MapCommandOptions& options) {
+    keepInputs(options.out, {options.model.model});
     auto character = animation::importCharacter(options.model.model, options.model.import());
     if (!character) {
         if (options.json) fmt::print("{}", dump(refusalJson(options.model.model, character.error())));

@@ -10,6 +10,7 @@
 
 #include "commands.hpp"
 #include "core/files.hpp"
+#include "outputs.hpp"
 #include "render/frame_writer.hpp"
 #include "render/gl/gl_context.hpp"
 #include "render/gl/renderer.hpp"
@@ -145,7 +146,7 @@ void renderFrames(const RenderCommandOptions& options, Run& run, Painter& painte
 void runRender(RenderCommandOptions& options) {
     options.simulate.ragdoll.model.textures = true;
     const bool printed = isStandardOutput(options.out);
-    if (!printed && !render::FrameWriter::isVideo(options.out) && options.out.extension() != ".png") {
+    if (!printed && !render::FrameWriter::isVideo(options.out) && !endsIn(options.out, ".png")) {
         leave({ErrorCode::usage, fmt::format("'{}' is neither .png, .mp4 nor .gif", options.out.string()), "--output",
                "the extension chooses the format"});
     }

@@ -8,6 +8,7 @@
 #include "core/files.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
+#include "outputs.hpp"
 #include "report/library_report.hpp"
 #include "report/model_report.hpp"
 #include "report/page.hpp"
@@ -35,7 +36,7 @@ std::unique_ptr<reporting::Photographer> photographerOf(const ReportCommandOptio
 }
 
 void checkEnding(const fs::path& out) {
-    if (isStandardOutput(out) || out.extension() == ".html" || out.extension() == ".htm") return;
+    if (isStandardOutput(out) || endsIn(out, ".html") || endsIn(out, ".htm")) return;
     leave({ErrorCode::usage, fmt::format("'{}' doesn't end in .html", out.string()), "--output",
            "a report is a page for browsers: name it so"});
 }

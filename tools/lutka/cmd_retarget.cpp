@@ -4,12 +4,14 @@
 #include <nlohmann/json.hpp>
 
 #include "animation/clip_reference.hpp"
+#include "animation/export/write_bvh.hpp"
 #include "animation/export/write_glb.hpp"
 #include "animation/humanoid/map_humanoid.hpp"
 #include "animation/retarget/retarget_clip.hpp"
 #include "commands.hpp"
 #include "core/files.hpp"
 #include "options.hpp"
+#include "outputs.hpp"
 
 namespace lutka::cli {
 namespace {
@@ -77,7 +79,18 @@ void printFigures(const animation::Clip& clip, const RetargetFigures& figures) {
          figures.penetrationCm.most);
 }
 
+void writeClip(const RetargetCommandOptions& options, const animation::Character& target, const animation::Clip& clip) {
+    if (endsIn(options.out, ".bvh")) {
+        orLeave(animation::writeBvh(options.out, target.skeleton, clip));
+    } else {
+        orLeave(
+            animation::writeGlb(options.out, target, std::span(&clip, 1), {}, animation::keysKept(options.allKeys)));
+    }
+}
+
 void runRetarget(RetargetCommandOptions& options) {
+    checkEnding("--output", options.out, {".glb", ".bvh"});
+    keepInputs(options.out, {options.from.model, options.to});
     const animation::Character source = orLeave(animation::importCharacter(options.from.model, options.from.import()));
     const animation::Clip& clip = clipOf(source, options.clip);
     ModelOptions targetOptions = options.from;
@@ -96,8 +109,7 @@ void runRetarget(RetargetCommandOptions& options) {
     animation::RetargetOptions how;
     how.keepFeet = !options.looseFeet;
     const animation::RetargetedClip made = orLeave(animation::retargetClip(retargeter, clip, how));
-    orLeave(
-        animation::writeGlb(options.out, target, std::span(&made.clip, 1), {}, animation::keysKept(options.allKeys)));
+    writeClip(options, target, made.clip);
     if (options.json && !isStandardOutput(options.out)) {
         fmt::print("{}\n",
                    figuresJson(options, clip, made.figures).dump(2, ' ', false, Json::error_handler_t::replace));
@@ -117,7 +129,10 @@ void addRetarget(const Command& app) {
     command.find("MODEL").describe("file with the clip: a rigged character or motion capture");
     command.option("--to", options->to, "the character that the clip is for").required();
     command.option("--clip", options->clip, "the clip's name; default: the file's only one");
-    command.option("-o,--output", options->out, "the character with the clip (.glb); - for stdout").required();
+    command
+        .option("-o,--output", options->out,
+                "the character with the clip (.glb), or its joints' motion alone (.bvh); - for stdout")
+        .required();
     command.flag("--loose-feet", options->looseFeet, "leave the feet where the legs' turns bring them");
     command.flag("--no-reduce", options->allKeys,
                  "keep every key; else those are left out without which no joint is off by 0.1 mm or 0.05 degrees");

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "outputs.hpp"
 #include "run_simulation.hpp"
 #include "scene/measure/report.hpp"
 
@@ -11,7 +12,7 @@ namespace {
 
 void runSimulate(SimulateOptions& options) {
     // A skin that is written has its pictures with it.
-    options.ragdoll.model.textures = !options.bakedOut.empty() && options.bakedOut.extension() != ".bvh";
+    options.ragdoll.model.textures = !options.bakedOut.empty() && !endsIn(options.bakedOut, ".bvh");
     Run run = prepare(options);
     execute(options, run);
     if (run.replay) {

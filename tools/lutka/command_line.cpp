@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "core/result.hpp"
+#include "misspelling.hpp"
 #include "terminal_text.hpp"
 
 namespace lutka::cli {
@@ -129,6 +131,56 @@ void Command::onRun(std::function<void()> run) const {
     app_->callback(std::move(run));
 }
 
+namespace {
+
+std::string guess(const std::string& given, const std::vector<std::string>& words) {
+    const std::string meant = likelyMeant(given, words);
+    return meant.empty() ? std::string() : fmt::format(" (did you mean {}?)", meant);
+}
+
+std::vector<std::string> commandNames(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    return names;
+}
+
+std::vector<std::string> optionNames(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_lnames())
+            names.push_back("--" + name);
+    }
+    return names;
+}
+
+// What is wrong with the arguments in our words, where CLI11's do not say which of them it is; else empty.
+std::string misspelled(const CLI::App& app) {
+    const std::vector<CLI::App*> given = app.get_subcommands();
+    std::vector<std::string> extra = app.remaining();
+    if (given.empty()) {
+        // A command stands before all that is no option.
+        const auto word =
+            std::find_if(extra.begin(), extra.end(), [](const auto& one) { return !one.starts_with('-'); });
+        if (word == extra.end()) return {};
+        return fmt::format("There is no command '{}'{}", *word, guess(*word, commandNames(app)));
+    }
+    std::vector<std::string> names = optionNames(*given.front());
+    const std::vector<std::string> common = optionNames(app);
+    names.insert(names.end(), common.begin(), common.end());
+    const std::vector<std::string> ofCommand = given.front()->remaining();
+    extra.insert(extra.end(), ofCommand.begin(), ofCommand.end());
+    const auto option = std::find_if(extra.begin(), extra.end(), [](const auto& one) { return one.starts_with('-'); });
+    if (option != extra.end()) {
+        const std::string name = option->substr(0, option->find('='));
+        return fmt::format("lutka {} has no option {}{}", given.front()->get_name(), name, guess(name, names));
+    }
+    return extra.empty() ? std::string()
+                         : fmt::format("lutka {} takes no '{}'", given.front()->get_name(), extra.front());
+}
+
+}  // namespace
+
 int parseCommandLine(int argc, char** argv, const ProgramFacts& facts,
                      const std::function<void(const Command&)>& addCommands) {
     CLI::App app("Lutka turns any rigged character into a physically sound ragdoll.", "lutka");
@@ -145,7 +197,11 @@ int parseCommandLine(int argc, char** argv, const ProgramFacts& facts,
     app.footer(facts.footer);
     app.require_subcommand(1);
     app.failure_message([](const CLI::App* program, const CLI::Error& wrong) {
-        const CLI::Error told(wrong.get_name(), fitForTerminal(wrong.what()), wrong.get_exit_code());
+        const bool isSpelling = wrong.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError) ||
+                                program->get_subcommands().empty();
+        const std::string ours = isSpelling ? misspelled(*program) : std::string();
+        const CLI::Error told(wrong.get_name(), fitForTerminal(ours.empty() ? wrong.what() : ours),
+                              wrong.get_exit_code());
         return CLI::FailureMessage::simple(program, told);
     });
     addCommands(Command(&app));

@@ -14,6 +14,7 @@
 #include "core/files.hpp"
 #include "input_settings.hpp"
 #include "interrupt.hpp"
+#include "outputs.hpp"
 #include "scene/description/scene_file.hpp"
 #include "scene/measure/report.hpp"
 #include "scene/run/recording.hpp"
@@ -42,23 +43,6 @@ void checkWritable(const std::filesystem::path& file) {
         leave({ErrorCode::output, "can't be written: its folder allows no writing", file.string(),
                "check the folder's permissions"});
     }
-}
-
-void checkExtension(const char* option, const std::filesystem::path& file, std::string_view extension,
-                    std::string_view other = "") {
-    if (file.empty() || isStandardOutput(file) || file.extension() == extension) return;
-    if (!other.empty() && file.extension() == other) return;
-    const std::string endings = other.empty() ? std::string(extension) : fmt::format("{} or {}", extension, other);
-    leave({ErrorCode::usage, fmt::format("'{}' doesn't end in {}", file.string(), endings), option,
-           fmt::format("this output is always {}: name it so", endings)});
-}
-
-bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
-    std::error_code failed;
-    const auto full = [&](const std::filesystem::path& file) {
-        return std::filesystem::weakly_canonical(file, failed);
-    };
-    return full(a) == full(b);
 }
 
 // A recording fits a model with as many bodies; its steps are all there is.
@@ -109,8 +93,9 @@ void advance(Run& run, int step) {
 }
 
 void checkOutputs(const SimulateOptions& options, const std::filesystem::path& picture) {
-    checkExtension("--out", options.bakedOut, ".glb", options.together ? "" : ".bvh");
-    checkExtension("--mesh-out", options.meshOut, ".obj");
+    using Endings = std::vector<std::string_view>;
+    checkEnding("--out", options.bakedOut, options.together ? Endings{".glb"} : Endings{".glb", ".bvh"});
+    checkEnding("--mesh-out", options.meshOut, {".obj"});
     std::vector<std::filesystem::path> taken;
     if (!options.ragdoll.model.model.empty()) taken.push_back(options.ragdoll.model.model);
     if (scene::isSceneFile(options.scene.scene)) taken.emplace_back(options.scene.scene);
@@ -118,11 +103,7 @@ void checkOutputs(const SimulateOptions& options, const std::filesystem::path& p
     if (!options.replayFrom.empty()) taken.push_back(options.replayFrom);
     for (const auto& file : {options.bakedOut, options.meshOut, options.report, options.recordTo, picture}) {
         if (file.empty()) continue;
-        for (const std::filesystem::path& other : taken) {
-            if (!sameFile(file, other)) continue;
-            leave({ErrorCode::usage, "is named twice: an output would destroy it", file.string(),
-                   "give every input and output a name of its own"});
-        }
+        keepInputs(file, taken);
         taken.push_back(file);
         checkWritable(file);
     }

@@ -96,7 +96,11 @@ Result<GlContext> GlContext::createHeadless() {
 }
 
 Result<GlContext> GlContext::createWindow(const WindowOptions& options) {
-    if (glfwInit() != GLFW_TRUE) return noDisplay("no window system: " + glfwWords());
+    if (glfwInit() != GLFW_TRUE) {
+        Error none = noDisplay("no window system: " + glfwWords());
+        none.mend = "set DISPLAY to a running X server; pictures, and the editor with --headless, need none";
+        return none;
+    }
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
