@@ -73,6 +73,8 @@ class Editor {
     void showClip(const std::string& clip) { motion_.showClip(clip); }
     /// What the characters follow with their muscles; unset: they fall.
     void setPuppets(const std::optional<scene::ScenePuppets>& puppets);
+    /// What they get when muscles are switched on (MotionCommands::firstMuscles()).
+    [[nodiscard]] scene::ScenePuppets firstMuscles() const { return motion_.firstMuscles(); }
     /// The view becomes that of a camera, and back: the camera is placed where the view is.
     void lookThrough(scene::EntityId camera) { camera_.lookThrough(camera); }
     void placeCamera(scene::EntityId camera);

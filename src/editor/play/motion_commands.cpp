@@ -120,6 +120,12 @@ scene::ScenePuppets MotionCommands::gettingUp() const {
     return puppets;
 }
 
+scene::ScenePuppets MotionCommands::firstMuscles() const {
+    const bool begun = workspace_.player->simulation().seconds() > 0.0;
+    const bool canRise = physics::bodyOf(workspace_.document->profile(), animation::Role::hips) >= 0;
+    return begun && canRise ? gettingUp() : scene::ScenePuppets{};
+}
+
 void MotionCommands::hit(const Pick& pick) {
     if (workspace_.player->deck().replaying())
         return workspace_.say(Toast::Kind::info, "A take is shown: end the replay first");

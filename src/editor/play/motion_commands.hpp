@@ -35,6 +35,9 @@ class MotionCommands {
     void fallFromClip();
     /// Muscles for who lies to get up, and then to follow the clip that is shown.
     [[nodiscard]] scene::ScenePuppets gettingUp() const;
+    /// Muscles for characters that had none. Who has begun to fall goes on limp and gets up where it lies: its start,
+    /// to which it would be led at once, may be metres away, and the pull knocks it out.
+    [[nodiscard]] scene::ScenePuppets firstMuscles() const;
     /// What the hit tool does at the body under the mouse.
     void hit(const Pick& pick);
     /// The bodies that are not selected are held where they are, or, when some are held, let go.

@@ -76,7 +76,7 @@ void drawMuscles(const PanelContext& context) {
     const std::optional<ScenePuppets> puppets = editor.document().scene().simulation.puppets;
     bool on = puppets.has_value();
     if (ImGui::Checkbox("Characters have muscles", &on))
-        editor.setPuppets(on ? std::optional<ScenePuppets>(ScenePuppets{}) : std::nullopt);
+        editor.setPuppets(on ? std::optional<ScenePuppets>(editor.firstMuscles()) : std::nullopt);
     tooltip("They follow a clip, react to hits and go limp when one is too much; otherwise they fall");
     const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) * 0.5F;
     ImGui::BeginDisabled(!puppets);

@@ -77,6 +77,24 @@ TEST_CASE("who goes limp falls, and gets up again when asked, and undo goes both
     CHECK(editor->player().simulation().puppets() == nullptr);
 }
 
+TEST_CASE("muscles that are switched on for who lies let it get up there, and do not drag it to its start") {
+    const auto editor = mannequinIn("drop");
+    CHECK_FALSE(editor->firstMuscles().limp);
+    test::pass(*editor, 240);
+    editor->setPuppets(editor->firstMuscles());
+    REQUIRE(editor->player().simulation().puppets() != nullptr);
+    const vec3 lying = placeOf(*editor, Role::hips);
+    for (int i = 0; i < 900 && stateOf(*editor) != physics::PuppetState::animated; ++i) {
+        const vec3 before = placeOf(*editor, Role::hips);
+        test::pass(*editor, 1);
+        CHECK(glm::distance(before, placeOf(*editor, Role::hips)) < 0.1F);
+    }
+    CHECK(stateOf(*editor) == physics::PuppetState::animated);
+    const vec3 standing = placeOf(*editor, Role::hips);
+    CHECK(standing.y > lying.y + 0.4F);
+    CHECK(glm::distance(vec2(lying.x, lying.z), vec2(standing.x, standing.z)) < 1.5F);
+}
+
 TEST_CASE("muscles that a figure cannot have are refused with the reason, and it falls") {
     const auto editor = test::makeEditor();
     scene::ScenePuppets puppets;
