@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "render/camera.hpp"
-#include "scene/simulation.hpp"
+#include "scene/run/simulation.hpp"
 
 namespace lutka::editor {
 
