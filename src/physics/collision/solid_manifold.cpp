@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kMostPoints = ConvexHull::kMostPoints;
 constexpr int kMostFaces = 2 * kMostPoints - 4;  // by Euler's formula, where all are triangles
-constexpr int kMostEdges = 3 * kMostPoints - 6;
+constexpr int kMostEdges = ConvexHull::kMostEdges;
 
 struct Plane {
     vec3 normal;

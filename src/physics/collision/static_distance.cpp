@@ -56,19 +56,29 @@ float leastAlong(const TriangleMesh& mesh, const Segment& segment, float range) 
     return least;
 }
 
-// The least signed distance of a segment's points from a box or hull: a convex function of the way along it.
-float leastAlong(const PrimitiveShape& solid, const Segment& segment) {
-    constexpr int kSteps = 24;
-    float from = 0.0F;
-    float to = 1.0F;
-    for (int i = 0; i < kSteps; ++i) {
-        const float third = (to - from) / 3.0F;
-        if (signedDistance(solid, segment.at(from + third)) < signedDistance(solid, segment.at(to - third)))
-            to -= third;
-        else
-            from += third;
+// The least signed distance of a segment's points from a box or hull, or `least` where none is below that: a convex
+// function of the way along it, and no steeper than that way.
+float leastAlong(const PrimitiveShape& solid, Segment segment, float least) {
+    constexpr float kFineM = 1e-5F;
+    float first = signedDistance(solid, segment.start);
+    float last = signedDistance(solid, segment.end);
+    least = std::min({least, first, last});
+    float length = glm::length(segment.end - segment.start);
+    while (length > kFineM && 0.5F * (first + last - length) < least) {
+        const Segment thirds{segment.at(1.0F / 3.0F), segment.at(2.0F / 3.0F)};
+        const float early = signedDistance(solid, thirds.start);
+        const float late = signedDistance(solid, thirds.end);
+        least = std::min({least, early, late});
+        if (early < late) {
+            segment.end = thirds.end;
+            last = late;
+        } else {
+            segment.start = thirds.start;
+            first = early;
+        }
+        length *= 2.0F / 3.0F;
     }
-    return signedDistance(solid, segment.at(0.5F * (from + to)));
+    return least;
 }
 
 // Round shapes exactly; boxes and hulls by their corners and the mesh's edges.
@@ -95,8 +105,12 @@ float distanceToMesh(const PrimitiveShape& shape, const RigidTransform& meshFrom
     mesh.forEachIn(meshFromBody.translation - reach, meshFromBody.translation + reach, [&](int triangle) {
         for (const int index : mesh.edgesOf(triangle)) {
             const TriangleMesh::Edge& edge = mesh.edges()[index];
+            if (edge.triangle[0] != triangle) continue;
             const Segment inBody{bodyFromMesh * mesh.vertices()[edge.start], bodyFromMesh * mesh.vertices()[edge.end]};
-            least = std::min(least, edge.sharp ? leastAlong(shape, inBody) : signedDistance(shape, inBody.start));
+            if (edge.sharp)
+                least = leastAlong(shape, inBody, least);
+            else
+                least = std::min({least, signedDistance(shape, inBody.start), signedDistance(shape, inBody.end)});
         }
     });
     return least;

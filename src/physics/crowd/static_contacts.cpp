@@ -10,8 +10,9 @@
 namespace lutka::physics::crowd {
 namespace {
 
-constexpr float kForeseenM = 0.002F;       // nearer than this at a substep's end is foreseen
-constexpr int kForeseenFeature = 1 << 20;  // beyond those of all shapes, meshes included (collision/mesh_contacts)
+constexpr float kForeseenM = 0.002F;  // nearer than this at a substep's end is foreseen
+constexpr int kForeseenFeature =
+    1 << 20;  // beyond those of all shapes but MeshContact::kFirstCrossing's, which leave it room
 
 // Where a shape will be in `seconds` if nothing touches its body.
 PlacedShape movedOn(PlacedShape shape, const BodyState& body, const vec3& gravity, float seconds) {

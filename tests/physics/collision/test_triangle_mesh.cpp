@@ -6,6 +6,7 @@
 #include "core/random.hpp"
 #include "physics/collision/box_manifold.hpp"
 #include "physics/collision/contacts.hpp"
+#include "physics/collision/mesh_contacts.hpp"
 #include "physics/collision/shape_distance.hpp"
 #include "physics/collision/solid_manifold.hpp"
 #include "physics/collision/static_distance.hpp"
@@ -117,7 +118,7 @@ TEST_CASE("boxes that overlap a box of triangles are led out as far as two boxes
         float deepest = -1.0F;
         for (int k = 0; k < contacts.count; ++k) {
             deepest = std::max(deepest, -contacts.contacts[k].distance);
-            edges += contacts.contacts[k].feature >= 1 << 22 ? 1 : 0;
+            edges += contacts.contacts[k].feature >= physics::MeshContact::kFirstCrossing ? 1 : 0;
         }
         INFO(i << (isHull ? " hull" : " box"));
         CHECK(deepest > 0.0F);
@@ -154,6 +155,51 @@ TEST_CASE("a box across the ridge of a roof touches it where its edges cross the
         CHECK(contacts.contacts[i].distance == Approx(-0.005F).margin(1e-4));
         CHECK(std::abs(contacts.contacts[i].position.x - 0.3F) == Approx(0.2F).margin(1e-4));
     }
+}
+
+TEST_CASE("a box over the rim of a sheet is held up by it, and never down", "[mesh]") {
+    const std::vector<vec3> vertices{{-2, 0, -2}, {2, 0, -2}, {2, 0, 0}, {-2, 0, 0}};
+    const auto sheet = TriangleMesh::make(vertices, std::vector<TriangleMesh::Triangle>{{0, 2, 1}, {0, 3, 2}});
+    REQUIRE(sheet.ok());
+    REQUIRE(sheet.value()->normals()[0].y > 0.9F);
+    physics::CollisionGeometry box;
+    box.kind = ShapeKind::box;
+    box.halfExtents = {0.2F, 0.1F, 0.4F};
+    for (const float height : {0.01F, -0.01F}) {
+        box.worldFromShape.translation = {0.1F, 0.1F + height, 0.1F};
+        const auto contacts = findContacts(box, meshGeometry(*sheet.value()), 0.02F);
+        INFO(height);
+        CHECK(contacts.count == 4);  // two corners and two crossings
+        for (int i = 0; i < contacts.count; ++i) {
+            CHECK(contacts.contacts[i].normal.y > 0.99F);
+            CHECK(contacts.contacts[i].distance == Approx(height).margin(1e-4));
+        }
+    }
+}
+
+TEST_CASE("a box on a ridge is kept out of a post that is part of the same mesh", "[mesh]") {
+    // The roof of above, and an upright blade whose edge is as sharp.
+    const std::vector<vec3> vertices{{-2.5F, 0, 0},    {2.5F, 0, 0},    {-2.5F, -1, 1},    {2.5F, -1, 1},
+                                     {-2.5F, -1, -1},  {2.5F, -1, -1},  {0.49F, -2, 0},    {0.49F, 2, 0},
+                                     {1.5F, -2, 0.4F}, {1.5F, 2, 0.4F}, {1.5F, -2, -0.4F}, {1.5F, 2, -0.4F}};
+    const std::vector<TriangleMesh::Triangle> triangles{{0, 2, 1}, {1, 2, 3}, {0, 1, 4},  {1, 5, 4},
+                                                        {6, 8, 7}, {7, 8, 9}, {6, 7, 10}, {7, 11, 10}};
+    const auto mesh = TriangleMesh::make(vertices, triangles);
+    REQUIRE(mesh.ok());
+    physics::CollisionGeometry box;
+    box.kind = ShapeKind::box;
+    box.halfExtents = {0.2F, 0.1F, 0.8F};
+    box.worldFromShape.translation = {0.3F, 0.0994F, 0.1F};  // 0.6 mm in the ridge, 10 mm in the post
+    const auto contacts = findContacts(box, meshGeometry(*mesh.value()), 0.02F);
+    int up = 0;
+    int aside = 0;
+    for (int i = 0; i < contacts.count; ++i) {
+        up += contacts.contacts[i].normal.y > 0.99F ? 1 : 0;
+        aside +=
+            contacts.contacts[i].normal.x < -0.99F && std::abs(contacts.contacts[i].distance + 0.01F) < 1e-3F ? 1 : 0;
+    }
+    CHECK(up == 2);
+    CHECK(aside == 2);
 }
 
 TEST_CASE("a capsule on a plane of many triangles has two contacts with the plane's normal", "[mesh]") {
