@@ -169,8 +169,6 @@ TEST_CASE("what lies in a heap feels nothing of longer and shorter substeps") {
     std::vector<physics::StaticShape> statics;
     const physics::RagdollProfile profile = makeDoll();
     fillPit(*world, profile, 6, statics);
-    for (int i = 0; i < 8 * 60; ++i)
-        world->step(kStep);
     const auto fastest = [&] {
         float speed = 0.0F;
         for (int doll = 0; doll < 6; ++doll)
@@ -178,7 +176,13 @@ TEST_CASE("what lies in a heap feels nothing of longer and shorter substeps") {
                 speed = std::max(speed, glm::length(body.linearVelocity));
         return speed;
     };
-    REQUIRE(fastest() < 0.01F);
+    // For a second: a limb that swings over an edge stands still at every turn.
+    int resting = 0;
+    for (int i = 0; i < 30 * 60 && resting < 60; ++i) {
+        world->step(kStep);
+        resting = fastest() < 0.01F ? resting + 1 : 0;
+    }
+    REQUIRE(resting == 60);
     for (int i = 0; i < 20; ++i) {
         world->setSubsteps(i % 2 == 0 ? 2 : 6);
         world->step(kStep);
