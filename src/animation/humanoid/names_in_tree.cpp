@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/geometric.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "animation/humanoid/name_lexicon.hpp"
@@ -121,6 +122,29 @@ void leaveNamesToPivots(RigFeatures& rig) {
     }
 }
 
+// The blocks below a group that is named as a part, or as something worn, are its mesh and no parts of their own:
+// "cube" below "leg_left".
+void leaveBlocksToGroups(RigFeatures& rig) {
+    constexpr std::array<std::string_view, 6> kSolids{"cube", "cuboid", "box", "sphere", "cylinder", "plane"};
+    constexpr float kTellingName = 1.0F;
+    constexpr float kNoPart = -3.0F;  // a robe, a weapon, hair
+    const auto isSolid = [&](const std::string& word) {
+        return std::find(kSolids.begin(), kSolids.end(), word) != kSolids.end();
+    };
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        const int group = rig.parents[joint];
+        NameEvidence& name = rig.names[joint];
+        const bool block = rig.rigidPart[joint] && rig.children[joint].empty() && !name.words.empty() &&
+                           std::all_of(name.words.begin(), name.words.end(), isSolid);
+        if (!block || group == kNoJoint || rig.rigidPart[group]) continue;
+        const auto& parts = rig.names[group].parts.values;
+        const float most = *std::max_element(parts.begin(), parts.end());
+        if (most < kTellingName && most > kNoPart) continue;
+        name.parts.values.fill(kOfOtherPart);
+        name.helper = true;
+    }
+}
+
 // What moves nothing itself, below a head and named as one: where a helmet or one of several heads is put on.
 void leaveNameToHead(RigFeatures& rig) {
     const auto isPart = [&](int child) { return rig.rigidPart[child] && rig.children[child].empty(); };
@@ -226,6 +250,7 @@ void readNamesInTree(RigFeatures& rig) {
     readNamesOfEnds(rig);
     readNamesInChains(rig);
     leaveNamesToPivots(rig);
+    leaveBlocksToGroups(rig);
     leaveNameToHead(rig);
     flattenNumberedLimbs(rig);
     readLimbEnds(rig);

@@ -1,6 +1,9 @@
 // Words that mean something else in the place where they stand.
 
+#include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "animation/humanoid/map_humanoid.hpp"
 #include "placed_joints.hpp"
@@ -261,6 +264,42 @@ TEST_CASE("a file's root in the middle of a figure without skin is not its hips"
     REQUIRE(map.humanoid);
     CHECK(rig.nameOf(map, Role::hips) == "bone_0");
     CHECK(rig.nameOf(map, Role::spine) == "bone_1");
+}
+
+TEST_CASE("a block below a group that is named as a part is that part's mesh", "[words]") {
+    PlacedJoints rig;
+    const Trunk trunk = addTrunk(rig);
+    addArms(rig, trunk.chest);
+    std::vector<int> blocks;
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string end = side > 0.0F ? "_l" : "_r";
+        const int thigh = rig.add("thigh" + end, trunk.hips, {side * 0.1F, 0.9F, 0});
+        const int shin = rig.add("shin" + end, thigh, {side * 0.1F, 0.5F, 0.01F});
+        const int foot = rig.add("foot" + end, shin, {side * 0.1F, 0.08F, 0});
+        for (const int part : {thigh, shin, foot})
+            blocks.push_back(rig.add("Cube.0" + std::to_string(rig.joints.size()), part,
+                                     rig.placeOf(part) + vec3(0, -0.04F, 0.12F)));
+    }
+    animation::Character figure;
+    figure.skeleton = makeSkeleton(rig.joints);
+    figure.skeleton.skinWeight.assign(rig.joints.size(), 0.0F);
+    for (const int block : blocks) {
+        animation::SkinnedMesh mesh;
+        mesh.rigid = true;
+        for (int corner = 0; corner < 8; ++corner)
+            mesh.positions.push_back(rig.placeOf(block) + 0.08F * vec3(corner % 2, corner / 2 % 2, corner / 4));
+        mesh.joints.assign(8, {static_cast<std::uint16_t>(block), 0, 0, 0});
+        mesh.weights.assign(8, {1, 0, 0, 0});
+        mesh.indices = {0, 1, 2};
+        figure.skeleton.skinWeight[static_cast<std::size_t>(block)] = 8.0F;
+        figure.meshes.push_back(std::move(mesh));
+    }
+    const HumanoidMap map = animation::mapHumanoid(figure);
+    REQUIRE(map.humanoid);
+    CHECK(rig.nameOf(map, Role::leftLowerLeg) == "shin_l");
+    CHECK(rig.nameOf(map, Role::rightFoot) == "foot_r");
+    CHECK_FALSE(map[Role::leftToes]);
+    CHECK_FALSE(map[Role::rightToes]);
 }
 
 }  // namespace lutka::test
