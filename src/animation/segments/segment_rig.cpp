@@ -8,6 +8,18 @@
 #include "core/assert.hpp"
 
 namespace lutka::animation {
+namespace {
+
+// Of any creature the skin tells what moves, also where limbs that have a man's names move none of it: their skin hangs
+// on other joints.
+RigFeatures readCreature(const Character& character) {
+    RigFeatures rig = readRig(character, true);
+    rig.skinned = rig.skinned || rig.partlySkinned;
+    rig.partlySkinned = false;
+    return rig;
+}
+
+}  // namespace
 
 SegmentedRig segmentRig(const Character& character, const SegmentOptions& options) {
     constexpr float kFirstShortest = 0.04F;  // of the longest extent
@@ -16,7 +28,7 @@ SegmentedRig segmentRig(const Character& character, const SegmentOptions& option
     LUTKA_ASSERT(options.mostSegments >= 1 && options.mostSegments <= kMost);
     SegmentedRig result;
     if (character.skeleton.jointCount() == 0) return result;
-    const RigFeatures rig = readRig(character, true);
+    const RigFeatures rig = readCreature(character);
     const RigMeasures measures = measureRig(rig);
     float shortest = kFirstShortest * measures.size;
     const auto most = static_cast<std::size_t>(options.mostSegments);

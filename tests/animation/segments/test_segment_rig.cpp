@@ -186,6 +186,33 @@ TEST_CASE("rigs of little are parted, too") {
     CHECK(segmentRig(trees).segments.size() == 4);
 }
 
+TEST_CASE("limbs with a man's names that move no skin make no bodies of a creature's root") {
+    // A bear whose paws' skin hangs on trunk and hips; its root stands behind it.
+    std::vector<test::JointSpec> joints{
+        {"Root", -1, {0, 0.2F, -1.4F}}, {"Waist", 0, {0, 1.1F, 0}}, {"Neck", 1, {0, 1.3F, 1.1F}}};
+    std::vector<test::TubeSpec> skin{{1, {0, 1.2F, 1}, 0.5F}, {2, {0, 1.3F, 1.9F}, 0.3F}};
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string start = side > 0.0F ? "Left" : "Right";
+        const auto add = [&](const std::string& name, int parent, const vec3& place) {
+            joints.push_back({start + name, parent, place * vec3(side, 1, 1)});
+            return static_cast<int>(joints.size()) - 1;
+        };
+        add("Elbow", add("Shoulder", 1, {0.3F, 0.9F, 0.5F}), {0.3F, 0.5F, 0.5F});
+        const int hip = add("Hip", 0, {0.25F, 1.2F, -0.8F});
+        add("Ankle", add("Knee", hip, {0.25F, 0.6F, -0.7F}), {0.25F, 0.1F, -0.6F});
+        skin.push_back({hip, {side * 0.25F, 0, -0.7F}, 0.2F});
+    }
+    const SegmentedRig rig = segmentRig(test::makeFigure("bear", joints, skin));
+    for (const char* name : {"Waist", "Neck", "LeftHip", "RightHip"}) {
+        INFO(name);
+        CHECK(segmentNamed(rig, name) >= 0);
+    }
+    for (const char* name : {"Root", "LeftShoulder", "RightElbow", "LeftAnkle"}) {
+        INFO(name);
+        CHECK(segmentNamed(rig, name) < 0);
+    }
+}
+
 TEST_CASE("joints of one name become bodies of different names") {
     const Character twins =
         test::makeFigure("twins", {{"Bone", -1, {0, 0, 0}}, {"Bone", 0, {0, 1, 0}}, {"head", 1, {0, 2, 0}}},
