@@ -167,12 +167,24 @@ class SceneReader {
         }
     }
 
+    // Whether a model is one of the coarser copies in a group of levels of detail, which has the finest first.
+    [[nodiscard]] bool isCoarser(int model) const {
+        for (const Connection& above : objects_.parentsOf(model)) {
+            if (above.parent < 0) continue;
+            const bool isGroup = objects_[above.parent].subKind == "LodGroup" ||
+                                 !objects_.children(above.parent, "NodeAttribute", "LodGroup").empty();
+            if (isGroup) return objects_.children(above.parent, "Model").front() != model;
+        }
+        return false;
+    }
+
     // Whether a mesh is hidden by itself or by what it hangs on. What the file moves may be seen at another time.
     [[nodiscard]] bool isHidden(const Place& place) const {
         if (objects_[place.model].properties.integer("Show", 1) == 0) return true;
         for (int node = place.node; node >= 0; node = tree_.parents[static_cast<std::size_t>(node)]) {
             const int model = modelOfNode_[static_cast<std::size_t>(node)];
             if (model < 0) break;
+            if (isCoarser(model)) return true;
             const Properties& properties = objects_[model].properties;
             const bool moves = objects_.childAt(model, "Visibility", "AnimationCurveNode") >= 0;
             if (properties.number("Visibility", 1.0) <= 0.0 && !moves) return true;

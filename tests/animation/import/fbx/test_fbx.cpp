@@ -272,6 +272,31 @@ TEST_CASE("an FBX mesh is hidden by its own properties or by what it hangs on, b
     CHECK_FALSE(isHidden({{"Visibility Inheritance", {0}}}, {{"Visibility", {0}}}, false));
 }
 
+TEST_CASE("of an FBX group of levels of detail the first is shown") {
+    std::vector<FbxRecord> sections = skinnedSquare({}, dmat4(1.0), dmat4(1.0));
+    for (FbxRecord& section : sections) {
+        if (section.name == "Objects") {
+            FbxRecord group = model(20, "Body_LODs", {});
+            group.values.back() = std::string("LodGroup");
+            section.children.push_back(std::move(group));
+            section.children.push_back(model(21, "Body_LOD0", {}));
+            section.children.push_back(
+                {"Geometry",
+                 {std::int64_t{22}, std::string("Geometry::Finer"), std::string("Mesh")},
+                 {row("Vertices", {0, 0, 0, 1, 0, 0, 0, 1, 0}), wholes("PolygonVertexIndex", {0, 1, -3})}});
+        }
+        if (section.name == "Connections") {
+            section.children.front() = fbxLink(21, 20);
+            for (const FbxRecord& link : {fbxLink(1, 20), fbxLink(20, 0), fbxLink(22, 21)})
+                section.children.push_back(link);
+        }
+    }
+    const SourceScene scene = readAll(sections);
+    REQUIRE(scene.instances.size() == 2);
+    for (const SourceInstance& instance : scene.instances)
+        CHECK(instance.hidden == (scene.meshes[instance.mesh].name == "Square"));
+}
+
 TEST_CASE("an FBX skin that blends by dual quaternions is told, a linear one is not") {
     for (const std::string type : {"DualQuaternion", "Blend", "Linear", "Rigid"}) {
         INFO(type);
