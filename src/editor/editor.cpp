@@ -99,7 +99,7 @@ void Editor::handle(const InputEvent& event, const UiCapture& capture) {
             if (event.codepoint == '?' && !capture.keyboard && !busy()) perform(Action::toggleHelp);
             break;
         case InputEvent::Kind::drop:
-            if (!event.files.empty()) open(event.files.front());
+            if (!event.files.empty()) open(fileToOpen(event.files));
             break;
         case InputEvent::Kind::resize:
             workspace_.window = event.size;
@@ -402,7 +402,7 @@ void Editor::open(const std::filesystem::path& file) {
     if (file.extension() == ".json") {
         files_.takeOffer();
         if (edit([&](EditorDocument& document) { return document.useProfile(file); })) {
-            workspace_.say(Toast::Kind::info, "Opened the profile " + file.filename().string());
+            workspace_.say(Toast::Kind::info, profileNews(document(), file));
         }
         return;
     }

@@ -33,7 +33,7 @@ bool isSameFile(const fs::path& a, const fs::path& b) {
 }
 
 void keepInputs(const fs::path& output, const std::vector<fs::path>& inputs) {
-    if (output.empty() || isStandardOutput(output)) return;
+    if (output.empty()) return;
     for (const fs::path& input : inputs) {
         if (input.empty() || !isSameFile(output, input)) continue;
         leave({ErrorCode::usage, "is named twice: an output would destroy it", output.string(),

@@ -7,6 +7,7 @@
 #include "editor/document/mend_profile.hpp"
 #include "editor/document/mirror_body.hpp"
 #include "editor/document/mirror_roles.hpp"
+#include "editor/document/open_document.hpp"
 #include "physics/profile/profile_io.hpp"
 #include "physics/rig/rig.hpp"
 
@@ -385,15 +386,15 @@ Result<void> EditorDocument::setFit(const physics::FitOptions& fit) {
 }
 
 Result<void> EditorDocument::useProfile(const std::filesystem::path& file) {
-    auto profile = physics::loadProfile(file);
-    if (!profile) return profile.error();
+    auto bound = profileFor(file, character(), state_.map);
+    if (!bound) return bound.error();
+    const bool isOwn = !bound.value().rebound;
     auto done = apply("Open profile " + file.filename().string(), "", [&](DocumentState& next) -> Result<void> {
-        next.openedProfile = file;
-        takeAsBase(next, std::move(profile).value());
+        if (isOwn) next.openedProfile = file;
+        takeAsBase(next, std::move(bound).value().profile);
         return {};
     });
-    if (!done) return done;
-    remember(file);
+    if (done && isOwn) remember(file);
     return done;
 }
 

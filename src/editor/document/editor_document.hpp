@@ -116,8 +116,8 @@ class EditorDocument {
     [[nodiscard]] Result<void> resetPart(int body) { return resetParts(std::span(&body, 1)); }
     [[nodiscard]] Result<void> mirrorPart(int body) { return mirrorParts(std::span(&body, 1)); }
     [[nodiscard]] Result<void> setFit(const physics::FitOptions& fit);
-    /// Takes a profile from a file in place of the present one. Fails with ErrorCode::input when it can't be read or
-    /// doesn't fit the skeleton.
+    /// Takes a profile from a file in place of the present one; another rig's is bound by role, and saved beside this
+    /// model, not over its file. Fails with ErrorCode::input when it can't be read or doesn't fit the skeleton.
     [[nodiscard]] Result<void> useProfile(const std::filesystem::path& file);
 
     /// What the ragdoll doctor says of the present profile; kept until that changes.

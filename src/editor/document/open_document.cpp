@@ -82,4 +82,21 @@ Opened openScene(const std::filesystem::path& file, const scene::EntityScene& sc
     return std::unique_ptr<EditorDocument>();
 }
 
+Result<physics::BoundProfile> profileFor(const std::filesystem::path& file, const animation::Character& character,
+                                         const animation::HumanoidMap& map) {
+    auto profile = physics::loadProfile(file);
+    if (!profile) return profile.error();
+    auto bound = physics::bindOrRebind(std::move(profile).value(), character, map);
+    if (bound) return bound;
+    Error error = bound.error();
+    error.location = file.string();
+    return error;
+}
+
+std::string profileNews(const EditorDocument& document, const std::filesystem::path& file) {
+    const std::string name = file.filename().string();
+    return document.profileFile() == file ? "Opened the profile " + name
+                                          : name + " was made for another rig and is bound by role";
+}
+
 }  // namespace lutka::editor

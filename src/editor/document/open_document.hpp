@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "editor/document/editor_document.hpp"
+#include "physics/fit/rebind.hpp"
 
 namespace lutka::editor {
 
@@ -28,5 +29,12 @@ namespace lutka::editor {
                                                                 const scene::EntityScene& scene,
                                                                 const scene::LoadOptions& load,
                                                                 const EditorDocument& present);
+
+/// A profile's file for a character; see physics::bindOrRebind().
+[[nodiscard]] Result<physics::BoundProfile> profileFor(const std::filesystem::path& file,
+                                                       const animation::Character& character,
+                                                       const animation::HumanoidMap& map);
+/// What to say of a profile that the document has just taken.
+[[nodiscard]] std::string profileNews(const EditorDocument& document, const std::filesystem::path& file);
 
 }  // namespace lutka::editor

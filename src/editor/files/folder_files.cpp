@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "editor/files/file_list.hpp"
+#include "scene/scene_file.hpp"
 
 namespace lutka::editor {
 
@@ -22,6 +23,26 @@ fs::path fileBeside(const fs::path& file, int step) {
     if (count < 2) return {};
     const int at = static_cast<int>(here - models.begin()) + step;
     return folder / models[static_cast<std::size_t>(((at % count) + count) % count)];
+}
+
+fs::path fileToOpen(const std::vector<std::string>& dropped) {
+    std::vector<fs::path> files;
+    for (const std::string& one : dropped) {
+        std::error_code failed;
+        if (!fs::is_directory(one, failed)) {
+            files.emplace_back(one);
+            continue;
+        }
+        for (const FileEntry& entry : listFolder(one, FileFilter::models)) {
+            if (!entry.folder) files.push_back(fs::path(one) / entry.name);
+        }
+    }
+    const auto scene =
+        std::find_if(files.begin(), files.end(), [](const fs::path& f) { return scene::isSceneFile(f); });
+    if (scene != files.end()) return *scene;
+    const auto model =
+        std::find_if(files.begin(), files.end(), [](const fs::path& f) { return isModel(f.filename().string()); });
+    return model != files.end() ? *model : fs::path(dropped.front());
 }
 
 }  // namespace lutka::editor

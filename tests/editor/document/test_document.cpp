@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "editor/document/open_document.hpp"
 #include "editor/sessions.hpp"
 #include "physics/profile/profile_io.hpp"
 #include "support/command.hpp"
@@ -180,6 +181,35 @@ TEST_CASE("what is saved is what is loaded and the mark of unsaved changes goes"
     CHECK(kneeLimits(*document).upper == 0.6F);
     std::filesystem::remove(file);
     CHECK_FALSE(document->useProfile(file).ok());
+}
+
+TEST_CASE("a profile of another rig is bound by role, and its file is not written over") {
+    const auto document = makeDocument();
+    const test::ScratchFolder folder;
+    const std::filesystem::path file = folder / "other.ragdoll.json";
+    physics::RagdollProfile other = document->profile();
+    for (physics::BodyProfile& body : other.bodies) {
+        body.joint = "other " + body.joint;
+        body.jointPath = "Other/" + body.joint;
+    }
+    const int knee = constraintIndexOf(*document, Role::leftLowerLeg);
+    other.constraints[knee].frictionNm = 3.5F;
+    REQUIRE(physics::saveProfile(file, other).ok());
+    REQUIRE(document->useProfile(file).ok());
+    CHECK(document->profile().bodies[1].joint.find("other") == std::string::npos);
+    CHECK(document->profile().constraints[knee].frictionNm == 3.5F);
+    CHECK(document->unsaved());
+    CHECK(document->profileFile() != file);
+    CHECK(profileNews(*document, file) == "other.ragdoll.json was made for another rig and is bound by role");
+    document->undo();
+    CHECK(document->profile().constraints[knee].frictionNm != 3.5F);
+    // A few joints that are not there are typos.
+    physics::RagdollProfile mistyped = document->profile();
+    mistyped.bodies[3].joint = mistyped.bodies[3].jointPath = "nowhere";
+    REQUIRE(physics::saveProfile(file, mistyped).ok());
+    const Result<void> refused = document->useProfile(file);
+    REQUIRE_FALSE(refused.ok());
+    CHECK_THAT(refused.error().text(), Catch::Contains("nowhere") && Catch::Contains("other.ragdoll.json"));
 }
 
 TEST_CASE("the doctor finds a limit that excludes the bind pose and mending it is one undoable edit") {
