@@ -95,11 +95,15 @@ bool FileFlow::requestSave(const std::filesystem::path& file, std::function<void
     const auto write = [this, file] {
         if (workspace_.report(document().save(file))) return false;
         workspace_.say(Toast::Kind::info, "Saved " + file.string());
+        exported_.push_back(file);
         const SceneDocument& scene = document().sceneDocument();
         if (scene.hasFile() && scene.unsaved()) offeredSave_ = OfferedSave::scene;
         return true;
     };
-    return writeOrAsk(file, !document().wouldReplace(file), write, std::move(afterwards));
+    // What the model was opened with may be another rig's profile, bound by role: it is that rig's still.
+    const bool isWritten = std::find(exported_.begin(), exported_.end(), file) != exported_.end();
+    const bool isForeign = document().asset().rebound && file == document().profileFile() && !isWritten;
+    return writeOrAsk(file, !isForeign && !document().wouldReplace(file), write, std::move(afterwards));
 }
 
 bool FileFlow::requestSaveScene(const std::filesystem::path& file, std::function<void()> afterwards) {

@@ -103,6 +103,30 @@ TEST_CASE("a first save over a file that is there asks and replaces only when to
     CHECK_FALSE(one.files().asking());
 }
 
+TEST_CASE("the profile of another rig that the model was opened with is not written over without a question") {
+    const Neighbours files;
+    physics::RagdollProfile other = physics::loadProfile(files.profile).value();
+    for (physics::BodyProfile& body : other.bodies)
+        body.joint = body.jointPath = "other " + body.joint;
+    REQUIRE(physics::saveProfile(files.profile, other).ok());
+    const std::string was = test::fileText(files.profile);
+    EditorOptions options;
+    options.model = files.model;
+    options.load.profile = files.profile;
+    auto made = Editor::create(options);
+    if (!made.ok()) FAIL(made.error().text());
+    Editor& editor = *made.value();
+    editKnee(editor);
+    editor.perform(Action::saveProfile);
+    CHECK(editor.files().replacedFile() == files.profile);
+    CHECK(test::fileText(files.profile) == was);
+    editor.files().answerReplace(true);
+    CHECK(test::fileText(files.profile) != was);
+    editKnee(editor);
+    editor.perform(Action::saveProfile);
+    CHECK(editor.files().replacedFile().empty());  // by now it is this one's
+}
+
 TEST_CASE("closing with unsaved changes asks about a file that is there before it quits") {
     const Neighbours files;
     EditorOptions options;
