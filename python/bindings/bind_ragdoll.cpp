@@ -3,6 +3,7 @@
 #include <map>
 
 #include "animation/humanoid/map_humanoid.hpp"
+#include "bindings/keep_model.hpp"
 #include "bindings/profile_object.hpp"
 #include "bindings/ragdoll_object.hpp"
 #include "bindings/sealed.hpp"
@@ -151,6 +152,7 @@ std::vector<std::string> exportRagdoll(const RagdollObject& ragdoll, const std::
                file.string(), "one of " + known});
     }
     const scene::RagdollAsset& asset = *ragdoll.asset;
+    keepModel(file, asset.character.file);
     auto exported = withoutGil([&]() -> Result<exporting::Exported> {
         auto made = exporting::exportRagdoll(*format, {asset.character, asset.profile, asset.rig});
         if (!made) return made;

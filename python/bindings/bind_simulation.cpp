@@ -4,6 +4,7 @@
 
 #include "animation/export/write_glb.hpp"
 #include "animation/skinning.hpp"
+#include "bindings/keep_model.hpp"
 #include "bindings/sealed.hpp"
 #include "bindings/simulation_object.hpp"
 #include "scene/measure/report.hpp"
@@ -274,6 +275,7 @@ int bake(SimulationObject& simulation, const std::filesystem::path& file, const 
     constexpr int kMostFrames = 36000;  // ten minutes at 60 Hz
     if (steps > kMostFrames)
         raise({ErrorCode::usage, fmt::format("{} frames", steps), "bake()", fmt::format("at most {}", kMostFrames)});
+    keepModel(file, simulation.ragdollOf(doll)->character.file);
     scene::ClipBaker baker(doll, 1.0F / simulation.facts().options().dt, name);
     const auto sample = [&] { simulation.use([&](scene::Simulation& s) { baker.sample(s); }); };
     sample();

@@ -82,6 +82,18 @@ def test_export_writes_every_format_and_says_what_is_lost(ragdoll, tmp_path):
     assert (tmp_path / "doll.xml").read_bytes() == (tmp_path / "doll.mjcf").read_bytes()
 
 
+def test_nothing_is_written_over_the_model(tmp_path):
+    model = tmp_path / "hero.glb"
+    shutil.copy(lutka.mannequin(), model)
+    was = model.read_bytes()
+    ragdoll = lutka.build(model)
+    with pytest.raises(lutka.UsageError, match="the model itself"):
+        lutka.export(ragdoll, model)
+    with pytest.raises(lutka.UsageError, match="the model itself"):
+        lutka.bake(lutka.Simulation(ragdoll), model, seconds=0.1)
+    assert model.read_bytes() == was
+
+
 def test_errors_carry_message_place_and_mend(ragdoll, tmp_path):
     with pytest.raises(lutka.InputError) as missing:
         lutka.build("nowhere.glb")
