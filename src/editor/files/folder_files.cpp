@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "editor/files/file_list.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/description/scene_file.hpp"
 
 namespace lutka::editor {
 
