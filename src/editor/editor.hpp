@@ -166,6 +166,8 @@ class Editor {
     Result<void> begin(std::unique_ptr<EditorDocument> opened, const EditorOptions& options);
     void handleMouseButton(const InputEvent& event, const UiCapture& capture);
     void handleKey(const InputEvent& event, const UiCapture& capture);
+    /// Whether a key that goes down was for the help, a swing or an offer, which it ended.
+    bool answersBy(const InputEvent& event);
     [[nodiscard]] bool busy() const;
     void endTransform();
     void openSceneNow(const std::filesystem::path& file);

@@ -197,6 +197,7 @@ void drawOffer(const PanelContext& context) {
     if (take) editor.answerOffer(*take);
 }
 
+// Its keys are the view's (Editor::handle()): it is no popup, and the view goes on below it.
 void drawAnyRigOffer(const PanelContext& context) {
     Editor& editor = context.editor;
     const std::filesystem::path file = editor.files().offeredAnyRig();
@@ -206,14 +207,12 @@ void drawAnyRigOffer(const PanelContext& context) {
     if (ImGui::Begin("Not a human figure", nullptr, kDialog | ImGuiWindowFlags_NoCollapse)) {
         ImGui::Text("%s was refused as a humanoid. Its bodies can be made", file.filename().string().c_str());
         ImGui::TextUnformatted("from the joints and the skin alone, whatever it is.");
-        const bool heeds = !ImGui::GetIO().WantTextInput && !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
-        const auto byKey = [&](Key key) { return heeds && answersBy(key); };
-        if (ImGui::Button("Ragdoll of any skeleton") || byKey(Key::enter)) answer = Editor::AnyRig::whole;
+        if (ImGui::Button("Ragdoll of any skeleton")) answer = Editor::AnyRig::whole;
         ImGui::SameLine();
         if (ImGui::Button("By hand")) answer = Editor::AnyRig::byHand;
         tooltip("Begins with one body for all; you add the others");
         ImGui::SameLine();
-        if (ImGui::Button("Leave it") || byKey(Key::escape)) answer = Editor::AnyRig::leave;
+        if (ImGui::Button("Leave it")) answer = Editor::AnyRig::leave;
     }
     ImGui::End();
     if (answer) editor.answerAnyRig(*answer);

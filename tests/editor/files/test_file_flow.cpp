@@ -267,6 +267,37 @@ TEST_CASE("a model that is no humanoid is offered as a ragdoll of any skeleton, 
     CHECK(editor->document().profile().bodies.size() <= 10);
 }
 
+TEST_CASE("Enter and Esc answer the offer of any skeleton or what is under way in the view, and never both") {
+    const auto editor = makeEditor();
+    const fs::path refused = "nowhere/animal.glb";
+    const Item chest{Item::Kind::body, 0, physics::bodyOf(editor->document().profile(), Role::chest)};
+    editor->select(chest);
+    editor->files().offerAnyRig(refused);
+    for (const Key key : {Key::enter, Key::escape}) {
+        send(*editor, keyPressed(Key::g));
+        REQUIRE(editor->state() == State::grab);
+        send(*editor, keyPressed(key));
+        CHECK(editor->state() == State::selected);
+        CHECK(editor->files().offeredAnyRig() == refused);
+    }
+    // The help stands over the offer.
+    editor->view.help = true;
+    send(*editor, keyPressed(Key::escape));
+    CHECK_FALSE(editor->view.help);
+    CHECK(editor->files().offeredAnyRig() == refused);
+    send(*editor, keyPressed(Key::escape));
+    CHECK(editor->files().offeredAnyRig().empty());
+    CHECK(editor->workspace().selection.contains(chest));
+    // A field or a list of the panels has its own Enter.
+    editor->files().offerAnyRig(refused);
+    send(*editor, keyPressed(Key::enter), {false, true});
+    CHECK(editor->files().offeredAnyRig() == refused);
+    const std::size_t told = editor->workspace().log.size();
+    send(*editor, keyPressed(Key::enter));
+    CHECK(editor->files().offeredAnyRig().empty());
+    CHECK(editor->workspace().log.size() == told + 1);  // there is no such file
+}
+
 TEST_CASE("whoever saves the scene is offered the ragdoll, and the scene names the profile that was saved after it") {
     const Neighbours files;
     fs::remove(files.profile);
