@@ -277,6 +277,38 @@ TEST_CASE(
     CHECK(lutkaCommand("build " + hero + " --profile " + profile + " -o " + profile).code == 0);
 }
 
+TEST_CASE("no command writes over its profile, its scene file, its events or its sky") {
+    const ScratchFolder folder;
+    const std::string profile = folder / "p.ragdoll.json";
+    const std::string scene = folder / "s.scene.json";
+    const std::string events = folder / "e.jsonl";
+    const std::string sky = folder / "sky.hdr";
+    REQUIRE(lutkaCommand("build " + kMannequinArgument + " -o " + profile).code == 0);
+    REQUIRE(lutkaCommand("scene drop -o " + scene).code == 0);
+    std::ofstream(events) << R"({"format": "lutka.input", "version": 1, "size": [160, 120]})" << '\n';
+    std::ofstream(sky) << "light";
+    const std::string bench = "bench --count 1 --steps 10 " + kMannequinArgument;
+    const std::string edit = "edit --headless --frames 1 " + kMannequinArgument;
+    const std::string render = "render --seconds 0.1 --size 64x64 " + kMannequinArgument;
+    const std::vector<std::pair<std::string, std::string>> commands = {
+        {bench + " --profile " + profile + " --csv " + profile, profile},
+        {bench + " --scene spread," + scene + " --csv " + scene, scene},
+        {edit + " --profile " + profile + " --record-input " + profile, profile},
+        {"edit --headless --frames 1 " + scene + " --record-input " + scene, scene},
+        {edit + " --input " + events + " --record-input " + events, events},
+        {edit + " --input " + events + " --screenshot-at 0:" + events, events},
+        {render + " -o " + folder / "a.png" + " --sky " + sky + " --report " + sky, sky},
+        {render + " -o " + folder / "a.png" + " --sky " + sky + " --record " + sky, sky}};
+    for (const auto& [command, input] : commands) {
+        INFO(command);
+        const std::string was = fileText(input);
+        const CommandResult result = lutkaCommand(command);
+        CHECK(result.code == 2);
+        CHECK_THAT(result.err, Catch::Contains("an output would destroy it"));
+        CHECK(fileText(input) == was);
+    }
+}
+
 TEST_CASE("a clip that is retargeted is glTF or BVH by the ending, in any case, and nothing under another") {
     const ScratchFolder folder;
     const auto retarget = [&](const std::string& name) {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -234,7 +235,10 @@ void runBench(const BenchCommandOptions& options) {
         leave({ErrorCode::usage, "compare goes with no other mode", "--mode",
                "run it by itself: its figures are others"});
     }
-    keepInputs(options.csv, {options.ragdoll.model.model});
+    std::vector<std::filesystem::path> inputs{options.ragdoll.model.model, options.ragdoll.profile.value_or("")};
+    std::copy_if(options.scenes.begin(), options.scenes.end(), std::back_inserter(inputs),
+                 [](const std::string& name) { return scene::isSceneFile(name); });
+    keepInputs(options.csv, inputs);
     compares ? compare(options) : sweep(options);
 }
 

@@ -7,6 +7,7 @@
 #include "editor/application.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
+#include "outputs.hpp"
 
 namespace lutka::cli {
 namespace {
@@ -64,8 +65,13 @@ editor::ApplicationOptions applicationOptions(EditCommandOptions& options) {
     application.headless = options.headless;
     if (!options.input.empty()) application.input = orLeave(editor::loadScript(options.input));
     application.recordInput = options.recordInput;
-    for (const std::string& one : options.screenshots)
+    const std::vector<std::filesystem::path> inputs{edit.model, edit.sceneFile, options.ragdoll.profile.value_or(""),
+                                                    options.input};
+    keepInputs(options.recordInput, inputs);
+    for (const std::string& one : options.screenshots) {
         application.screenshots.push_back(parseScreenshot(one));
+        keepInputs(application.screenshots.back().file, inputs);
+    }
     for (const auto& shot : application.screenshots) {
         if (!options.frames || shot.frame < *options.frames) continue;
         leave({ErrorCode::usage, fmt::format("frame {} comes after the last of {}", shot.frame, *options.frames),

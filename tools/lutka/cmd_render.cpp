@@ -153,6 +153,9 @@ void runRender(RenderCommandOptions& options) {
     if (printed && options.frames) {
         leave({ErrorCode::usage, "frames are files of their own, and stdout is one", "--frames", "name a .png"});
     }
+    for (const auto& file : {options.out, options.simulate.bakedOut, options.simulate.meshOut, options.simulate.report,
+                             options.simulate.recordTo})
+        keepInputs(file, {options.sky});
     const bool sequence = options.frames || render::FrameWriter::isVideo(options.out);
     options.simulate.bakeFps = options.fps;
     Run run = prepare(options.simulate, options.out);
