@@ -123,3 +123,34 @@ TEST_CASE("a misspelled command or option is named, with the one that was likely
     CHECK_THAT(wrong("build --preset losse " + kMannequinArgument), Contains("losse not in"));
     CHECK_THAT(wrong(""), Contains("A subcommand is required"));
 }
+
+TEST_CASE("an option that is missing because it is misspelled is named as it was written") {
+    const auto wrong = [](const std::string& line) {
+        const CommandResult result = lutkaCommand(line);
+        CHECK(result.code == 2);
+        return result.err;
+    };
+    using Catch::Contains;
+    CHECK_THAT(wrong("export --ouput x.xml " + kMannequinArgument),
+               Contains("lutka export has no option --ouput (did you mean --output?)"));
+    CHECK_THAT(wrong("build --keep-shapes --profle=p.json " + kMannequinArgument),
+               Contains("has no option --profle (did you mean --profile?)"));
+    CHECK_THAT(wrong("export " + kMannequinArgument), Contains("--output is required"));
+    CHECK_THAT(wrong("export second.glb " + kMannequinArgument), Contains("--output is required"));
+}
+
+TEST_CASE("two dashes are no option, and what follows them are words") {
+    const auto wrong = [](const std::string& line) {
+        const CommandResult result = lutkaCommand(line);
+        CHECK(result.code == 2);
+        CHECK_THAT(result.err, !Catch::Contains("has no option"));
+        return result.err;
+    };
+    using Catch::Contains;
+    CHECK_THAT(wrong("export -- " + kMannequinArgument), Contains("--output is required"));
+    CHECK_THAT(wrong("build " + kMannequinArgument + " -- -second.glb"),
+               Contains("lutka build takes no '-second.glb'"));
+    CHECK_THAT(wrong("build -- " + kMannequinArgument + " -second.glb"),
+               Contains("lutka build takes no '-second.glb'"));
+    CHECK_THAT(wrong("-- bulid"), Contains("There is no command 'bulid' (did you mean build?)"));
+}

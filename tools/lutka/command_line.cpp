@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "core/result.hpp"
@@ -154,29 +155,54 @@ std::vector<std::string> optionNames(const CLI::App& app) {
     return names;
 }
 
-// What is wrong with the arguments in our words, where CLI11's do not say which of them it is; else empty.
-std::string misspelled(const CLI::App& app) {
+// What stands after the mark `--`: words, whatever they begin with.
+std::vector<std::string> afterMark(int argc, char** argv) {
+    char** const end = argv + argc;
+    char** const mark = std::find(argv, end, std::string_view("--"));
+    return mark == end ? std::vector<std::string>() : std::vector<std::string>(mark + 1, end);
+}
+
+// The arguments that nothing has taken, options without their values.
+struct LeftOver {
+    std::vector<std::string> options;
+    std::vector<std::string> words;
+};
+
+LeftOver leftOver(const CLI::App& app, const std::vector<std::string>& plain) {
+    std::vector<std::string> all = app.remaining();
+    for (const CLI::App* command : app.get_subcommands()) {
+        const std::vector<std::string> ofCommand = command->remaining();
+        all.insert(all.end(), ofCommand.begin(), ofCommand.end());
+    }
+    std::erase(all, "--");  // the parser keeps the mark where it needed none
+    LeftOver left;
+    for (const std::string& one : all) {
+        const bool option = one.starts_with('-') && std::find(plain.begin(), plain.end(), one) == plain.end();
+        option ? left.options.push_back(one.substr(0, one.find('='))) : left.words.push_back(one);
+    }
+    return left;
+}
+
+// What is wrong with the arguments in our words, where CLI11's do not say which of them it is; else empty. `misses`:
+// CLI11 misses an option, which may be the one that is misspelled.
+std::string misspelled(const CLI::App& app, const std::vector<std::string>& plain, bool misses) {
     const std::vector<CLI::App*> given = app.get_subcommands();
-    std::vector<std::string> extra = app.remaining();
+    const LeftOver left = leftOver(app, plain);
     if (given.empty()) {
-        // A command stands before all that is no option.
-        const auto word =
-            std::find_if(extra.begin(), extra.end(), [](const auto& one) { return !one.starts_with('-'); });
-        if (word == extra.end()) return {};
-        return fmt::format("There is no command '{}'{}", *word, guess(*word, commandNames(app)));
+        if (left.words.empty()) return {};
+        const std::string& word = left.words.front();
+        return fmt::format("There is no command '{}'{}", word, guess(word, commandNames(app)));
     }
-    std::vector<std::string> names = optionNames(*given.front());
-    const std::vector<std::string> common = optionNames(app);
-    names.insert(names.end(), common.begin(), common.end());
-    const std::vector<std::string> ofCommand = given.front()->remaining();
-    extra.insert(extra.end(), ofCommand.begin(), ofCommand.end());
-    const auto option = std::find_if(extra.begin(), extra.end(), [](const auto& one) { return one.starts_with('-'); });
-    if (option != extra.end()) {
-        const std::string name = option->substr(0, option->find('='));
-        return fmt::format("lutka {} has no option {}{}", given.front()->get_name(), name, guess(name, names));
+    const std::string command = given.front()->get_name();
+    if (!left.options.empty()) {
+        std::vector<std::string> names = optionNames(*given.front());
+        const std::vector<std::string> common = optionNames(app);
+        names.insert(names.end(), common.begin(), common.end());
+        const std::string& name = left.options.front();
+        return fmt::format("lutka {} has no option {}{}", command, name, guess(name, names));
     }
-    return extra.empty() ? std::string()
-                         : fmt::format("lutka {} takes no '{}'", given.front()->get_name(), extra.front());
+    return misses || left.words.empty() ? std::string()
+                                        : fmt::format("lutka {} takes no '{}'", command, left.words.front());
 }
 
 }  // namespace
@@ -196,10 +222,12 @@ int parseCommandLine(int argc, char** argv, const ProgramFacts& facts,
     app.add_flag_callback("-v,--verbose", facts.onVerbose, "Tell what is done and how long it takes")->excludes(quiet);
     app.footer(facts.footer);
     app.require_subcommand(1);
-    app.failure_message([](const CLI::App* program, const CLI::Error& wrong) {
-        const bool isSpelling = wrong.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError) ||
-                                program->get_subcommands().empty();
-        const std::string ours = isSpelling ? misspelled(*program) : std::string();
+    const std::vector<std::string> plain = afterMark(argc, argv);
+    app.failure_message([&plain](const CLI::App* program, const CLI::Error& wrong) {
+        const auto is = [&](CLI::ExitCodes code) { return wrong.get_exit_code() == static_cast<int>(code); };
+        const bool misses = is(CLI::ExitCodes::RequiredError) || is(CLI::ExitCodes::RequiresError);
+        const bool isSpelling = is(CLI::ExitCodes::ExtrasError) || misses || program->get_subcommands().empty();
+        const std::string ours = isSpelling ? misspelled(*program, plain, misses) : std::string();
         const CLI::Error told(wrong.get_name(), fitForTerminal(ours.empty() ? wrong.what() : ours),
                               wrong.get_exit_code());
         return CLI::FailureMessage::simple(program, told);
