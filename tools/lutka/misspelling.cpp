@@ -17,17 +17,29 @@ std::size_t changesBetween(std::string_view a, std::string_view b) {
                 rows[i][j] = i + j;
                 continue;
             }
-            const std::size_t other = lowerCased(a[i - 1]) == lowerCased(b[j - 1]) ? 0 : 1;
+            const auto same = [&](std::size_t inA, std::size_t inB) {
+                return lowerCased(a[inA]) == lowerCased(b[inB]);
+            };
+            const std::size_t other = same(i - 1, j - 1) ? 0 : 1;
             rows[i][j] = std::min({rows[i - 1][j] + 1, rows[i][j - 1] + 1, rows[i - 1][j - 1] + other});
-            const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+            const bool swapped = i > 1 && j > 1 && same(i - 1, j - 2) && same(i - 2, j - 1);
             if (swapped) rows[i][j] = std::min(rows[i][j], rows[i - 2][j - 2] + 1);
         }
     }
     return rows[a.size()][b.size()];
 }
 
-// Whether the letters of `part` stand in `word` in their order: as words are shortened.
+std::string_view withoutDashes(std::string_view word) {
+    return word.substr(std::min(word.find_first_not_of('-'), word.size()));
+}
+
+// Whether the letters of `part` stand in `word` in their order, the first in front: as words are shortened. Two letters
+// stand so in almost any.
 bool isShortFor(std::string_view part, std::string_view word) {
+    constexpr std::size_t kFewest = 3;
+    part = withoutDashes(part);
+    word = withoutDashes(word);
+    if (part.size() < kFewest || word.empty() || lowerCased(part.front()) != lowerCased(word.front())) return false;
     std::size_t at = 0;
     for (const char letter : word)
         at += at < part.size() && lowerCased(letter) == lowerCased(part[at]) ? 1 : 0;
@@ -40,7 +52,7 @@ std::string likelyMeant(std::string_view given, std::span<const std::string> wor
     constexpr std::size_t kLongest = 40;  // no word of ours is longer
     if (given.size() < 2 || given.size() > kLongest) return {};
     std::string nearest;
-    std::size_t fewest = given.size() / 3 + 1;
+    std::size_t fewest = std::max<std::size_t>(given.size() / 3, 1) + 1;
     for (const std::string& word : words) {
         const std::size_t changes = changesBetween(given, word);
         if (changes >= fewest) continue;
