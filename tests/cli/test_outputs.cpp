@@ -1,3 +1,4 @@
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -320,9 +321,30 @@ TEST_CASE("a clip that is retargeted is glTF or BVH by the ending, in any case, 
     CHECK(retarget("walk.bvh") == 0);
     CHECK_THAT(fileText(folder.path / "walk.bvh"), Catch::StartsWith("HIERARCHY"));
     CHECK(retarget("walk.fbx") == 2);
+    CHECK(retarget("walk") == 2);
     CHECK_FALSE(fs::exists(folder.path / "walk.fbx"));
     CHECK(lutkaCommand("simulate --seconds 0.1 " + kMannequinArgument + " --out " + folder / "a.BVH").code == 0);
     CHECK_THAT(fileText(folder.path / "a.BVH"), Catch::StartsWith("HIERARCHY"));
     CHECK(lutkaCommand("simulate --seconds 0.1 " + kMannequinArgument + " --mesh-out " + folder / "a.OBJ").code == 0);
     CHECK(lutkaCommand("simulate --seconds 0.1 " + kMannequinArgument + " --mesh-out " + folder / "a.ply").code == 2);
+}
+
+TEST_CASE("pipes and devices need no ending, but where a name is that of many files") {
+    const ScratchFolder folder;
+    const std::string retarget = "retarget " + kMannequinArgument + " --clip walk --to " + kMannequinArgument;
+    const CommandResult nowhere = lutkaCommand(retarget + " --json -o /dev/null");
+    CHECK(nowhere.code == 0);
+    CHECK(Json::parse(nowhere.out)["clip"] == "walk");
+    const std::string pipe = folder / "pipe";
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    // A reader that is left alone does not wait for ever.
+    const std::string read = "timeout 60 head -c 4 " + pipe + " > " + folder / "read";
+    const CommandResult piped =
+        shell(read + " & " + kLutka + "simulate --seconds 0.1 " + kMannequinArgument + " --out " + pipe + "; wait");
+    CHECK_THAT(piped.err, !Catch::Contains("doesn't end in"));
+    CHECK(fileText(folder / "read") == "glTF");
+    const std::string simulate = "simulate --seconds 0.1 --count 2 " + kMannequinArgument;
+    CHECK(lutkaCommand(simulate + " --out /dev/null --each").code == 2);
+    CHECK(lutkaCommand(simulate + " --mesh-out /dev/null --mesh-sequence").code == 2);
+    CHECK(lutkaCommand(simulate + " --mesh-out /dev/null").code == 0);
 }

@@ -18,8 +18,10 @@ bool endsIn(const fs::path& file, std::string_view ending) {
     return sameButCase(file.extension().string(), ending);
 }
 
-void checkEnding(const char* option, const fs::path& file, const std::vector<std::string_view>& endings) {
+void checkEnding(const char* option, const fs::path& file, const std::vector<std::string_view>& endings, bool several) {
     if (file.empty() || isStandardOutput(file)) return;
+    std::error_code failed;
+    if (!several && fs::is_other(fs::status(file, failed))) return;
     if (std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) { return endsIn(file, ending); }))
         return;
     const std::string known = fmt::format("{}", fmt::join(endings, " or "));

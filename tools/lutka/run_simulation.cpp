@@ -28,9 +28,11 @@ constexpr float kMostHeightM = 5.0F;
 
 // Writing is the last thing of a long run: what can't be written is better known before it.
 void checkWritable(const std::filesystem::path& file) {
-    if (isStandardOutput(file)) return;
-    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
     std::error_code failed;
+    const bool streamed =
+        std::filesystem::is_other(std::filesystem::status(file, failed));  // no file is made beside it
+    if (streamed || isStandardOutput(file)) return;
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
     std::filesystem::create_directories(folder, failed);
     if (failed || !std::filesystem::is_directory(folder)) {
         leave({ErrorCode::output, "can't be written: its folder can't be made", file.string(),
@@ -94,8 +96,8 @@ void advance(Run& run, int step) {
 
 void checkOutputs(const SimulateOptions& options, const std::filesystem::path& picture) {
     using Endings = std::vector<std::string_view>;
-    checkEnding("--out", options.bakedOut, options.together ? Endings{".glb"} : Endings{".glb", ".bvh"});
-    checkEnding("--mesh-out", options.meshOut, {".obj"});
+    checkEnding("--out", options.bakedOut, options.together ? Endings{".glb"} : Endings{".glb", ".bvh"}, options.each);
+    checkEnding("--mesh-out", options.meshOut, {".obj"}, options.each || options.meshSequence);
     std::vector<std::filesystem::path> taken;
     if (!options.ragdoll.model.model.empty()) taken.push_back(options.ragdoll.model.model);
     if (scene::isSceneFile(options.scene.scene)) taken.emplace_back(options.scene.scene);
