@@ -117,7 +117,7 @@ class SelectHandler final : public StateHandler {
 
   private:
     [[nodiscard]] std::optional<Pick> bodyUnderMouse() const {
-        auto pick = workspace_.pickUnderMouse();
+        auto pick = workspace_.shapeUnderMouse();
         return pick && pick->body ? pick : std::nullopt;
     }
 

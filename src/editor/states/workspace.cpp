@@ -31,6 +31,14 @@ std::optional<Pick> pickOfSkin(const render::Ray& ray, Player& player, const std
 }  // namespace
 
 std::optional<Pick> Workspace::pickUnderMouse() const {
+    return underMouse(true);
+}
+
+std::optional<Pick> Workspace::shapeUnderMouse() const {
+    return underMouse(false);
+}
+
+std::optional<Pick> Workspace::underMouse(bool skin) const {
     // Walls that are drawn see-through do not hide what fell between them.
     const auto& looks = player->simulation().scenario().staticLooks;
     constexpr int solid = 128;
@@ -43,8 +51,8 @@ std::optional<Pick> Workspace::pickUnderMouse() const {
         return target.marker && picked->item.kind == Item::Kind::object && target.entity == picked->item.index;
     };
     const bool mark = picked && std::any_of(targets.begin(), targets.end(), isMarker);  // drawn over everything
-    if (!mark && (!picked || !picked->body)) {
-        if (const auto skin = pickOfSkin(ray, *player, picked, seeThrough)) picked = skin;
+    if (skin && !mark && (!picked || !picked->body)) {
+        if (const auto ofSkin = pickOfSkin(ray, *player, picked, seeThrough)) picked = ofSkin;
     }
     // The panels edit no bodies of the other characters: these are picked as a whole, and pulled by their bodies.
     if (picked && picked->item.kind == Item::Kind::body && !player->isEditedDoll(picked->item.doll)) {

@@ -85,7 +85,10 @@ struct Workspace {
     std::vector<LogLine> log;
 
     [[nodiscard]] render::Ray mouseRay() const { return render::worldRay(camera, mouse, window); }
+    /// What a click there is for: an object, a body, or skin of one beside its shapes.
     [[nodiscard]] std::optional<Pick> pickUnderMouse() const;
+    /// The same without skin, for every frame: that is posed anew for each look at it.
+    [[nodiscard]] std::optional<Pick> shapeUnderMouse() const;
     /// The active body as its handles see it, at the pose that is shown; nothing when no body is active.
     [[nodiscard]] std::optional<HandleScene> handleScene() const;
     [[nodiscard]] std::optional<Handle> handleUnderMouse() const;
@@ -128,6 +131,7 @@ struct Workspace {
     void rememberBodies();
 
   private:
+    [[nodiscard]] std::optional<Pick> underMouse(bool skin) const;
     /// Selected bodies keep their names when others come or go.
     void followBodies();
 

@@ -93,3 +93,25 @@ TEST_CASE("a drag on skin without a body pulls what carries it, unless something
     REQUIRE(walled->workspace().selection.active().has_value());
     CHECK(walled->workspace().selection.active()->kind == Item::Kind::object);
 }
+
+TEST_CASE("the hit tool shows the shape under the mouse, and its click takes skin too") {
+    const auto editor = editorWithSword();
+    test::pass(*editor, 2);
+    const auto seen = render::project(editor->workspace().camera, bladeOf(*editor), editor->workspace().window);
+    REQUIRE(seen.has_value());
+    editor->workspace().tool = Tool::hit;
+    test::send(*editor, mouseMoved(vec2(*seen)));
+    // Nothing is posed and skinned for a frame in which nobody clicks.
+    CHECK_FALSE(editor->workspace().shapeUnderMouse().has_value());
+    CHECK_THAT(editor->workspace().hint, Catch::StartsWith("Point at a body"));
+    const float distance = editor->workspace().camera.distance;
+    test::send(*editor, wheelTurned(1));
+    CHECK(editor->workspace().camera.distance < distance);
+    test::send(*editor, wheelTurned(-1));
+    test::send(*editor, mouseButton(MouseButton::left, true));
+    test::send(*editor, mouseButton(MouseButton::left, false));
+    const auto& bodies = editor->document().profile().bodies;
+    CHECK(editor->document().undoLabel() == "Hit " + bodies[static_cast<std::size_t>(handOf(*editor))].name);
+    test::send(*editor, mouseMoved(test::seenAt(*editor, animation::Role::chest)));
+    CHECK_THAT(editor->workspace().hint, Catch::StartsWith("A click hits"));
+}
