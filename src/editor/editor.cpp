@@ -288,6 +288,7 @@ void Editor::toggleHandles() {
 void Editor::update(double seconds) {
     workspace_.overlay.clear();
     workspace_.frameSeconds = static_cast<float>(seconds);
+    workspace_.skinShown = view.skinOpacity > 0.0F;
     machine_->update();
     workspace_.follow();
     workspace_.pulls.applyTo(workspace_.player->simulation());

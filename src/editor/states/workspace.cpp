@@ -51,7 +51,7 @@ std::optional<Pick> Workspace::underMouse(bool skin) const {
         return target.marker && picked->item.kind == Item::Kind::object && target.entity == picked->item.index;
     };
     const bool mark = picked && std::any_of(targets.begin(), targets.end(), isMarker);  // drawn over everything
-    if (skin && !mark && (!picked || !picked->body)) {
+    if (skin && skinShown && !mark && (!picked || !picked->body)) {
         if (const auto ofSkin = pickOfSkin(ray, *player, picked, seeThrough)) picked = ofSkin;
     }
     // The panels edit no bodies of the other characters: these are picked as a whole, and pulled by their bodies.

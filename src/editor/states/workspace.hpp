@@ -71,6 +71,7 @@ struct Workspace {
     float uiScale = 1.0F;         ///< What a finger's breadth is: reach of handles and joints under the mouse.
     std::optional<int> followed;  ///< The doll that the camera goes along with.
     bool showHandles = true;      ///< Of the active body's limits and shape.
+    bool skinShown = true;        ///< The view draws skin: what is not seen is not picked.
     std::optional<Handle::Kind> hotHandle;    ///< Hovered or held.
     std::optional<animation::Role> pickRole;  ///< What State::pickJoint asks the joint of; none: a new body's …
     int hotJoint = animation::kNoJoint;       ///< … and the joint under the mouse then.

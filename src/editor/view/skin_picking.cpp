@@ -79,7 +79,8 @@ class SkinPicker {
 
     void visit(int doll) {
         const scene::RagdollAsset& asset = simulation_.assetOf(doll);
-        if (asset.character.meshes.empty() || !simulation_.showsDoll(doll)) return;
+        const bool drawn = simulation_.showsDoll(doll) && simulation_.scenario().dolls[doll].look.visible;
+        if (asset.character.meshes.empty() || !drawn) return;
         if (&asset != sized_) {
             sized_ = &asset;
             size_ = sizeOf(asset.character);

@@ -16,9 +16,9 @@ struct SkinHit {
     float distance = 0.0F;  ///< Along the ray, in the units of its direction.
 };
 
-/// The nearest triangle of all dolls' skins as they are shown `alpha` of the way to the present step, from either side,
-/// nearer than `most`. Fingers, hair and hats have no body of their own: theirs is the one that their joint follows.
-/// Poses and skins the dolls that the ray comes near, so it is for clicks and not for every frame.
+/// The nearest triangle of all skins that the scene shows, as they are `alpha` of the way to the present step, from
+/// either side, nearer than `most`. Fingers, hair and hats have no body of their own: theirs is the one that their
+/// joint follows. Poses and skins the dolls that the ray comes near, so it is for clicks and not for every frame.
 [[nodiscard]] std::optional<SkinHit> pickSkin(const render::Ray& ray, scene::Simulation& simulation, float alpha,
                                               float most);
 

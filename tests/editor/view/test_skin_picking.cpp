@@ -94,6 +94,34 @@ TEST_CASE("a drag on skin without a body pulls what carries it, unless something
     CHECK(walled->workspace().selection.active()->kind == Item::Kind::object);
 }
 
+TEST_CASE("skin that is not drawn is not picked") {
+    const auto editor = editorWithSword();
+    test::pass(*editor, 2);
+    const auto seen = render::project(editor->workspace().camera, bladeOf(*editor), editor->workspace().window);
+    REQUIRE(seen.has_value());
+    test::send(*editor, mouseMoved(vec2(*seen)));
+    const auto isPicked = [&] {
+        const auto pick = editor->workspace().pickUnderMouse();
+        return pick && pick->body;
+    };
+    CHECK(isPicked());
+    editor->view.skinOpacity = 0.0F;
+    test::pass(*editor, 1);
+    CHECK_FALSE(isPicked());
+    editor->view.skinOpacity = 0.5F;
+    test::pass(*editor, 1);
+    CHECK(isPicked());
+    REQUIRE(editor->editScene("Hide", "", [](scene::EntityScene& scene) {
+        for (const scene::Ragdoll& doll : scene.all<scene::Ragdoll>())
+            scene.find<scene::MeshRenderer>(doll.entity)->visible = false;
+    }));
+    test::pass(*editor, 1);
+    CHECK_FALSE(isPicked());
+    scene::Simulation& simulation = editor->player().simulation();
+    const vec3 blade = bladeOf(*editor);
+    CHECK_FALSE(pickSkin({blade + vec3(0, 3, 0), {0, -1, 0}}, simulation, 1.0F, 100.0F).has_value());
+}
+
 TEST_CASE("the hit tool shows the shape under the mouse, and its click takes skin too") {
     const auto editor = editorWithSword();
     test::pass(*editor, 2);
