@@ -37,4 +37,9 @@ struct PlayState {
     std::uint64_t moment = 0;  ///< Player::moment() then.
 };
 
+/// After scene::PuppetCast::begin(), once the doll's bodies are where they were in the motion: its puppet goes on from
+/// there. One that had no muscles then may lie anywhere, or hang in a clip: once the scene has `begun` it goes on limp
+/// where it can get up, and stays as it is elsewhere.
+void resumePuppet(scene::PuppetCast& puppets, int doll, const Motion::Doll& before, bool begun);
+
 }  // namespace lutka::editor

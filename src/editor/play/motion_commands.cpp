@@ -116,12 +116,11 @@ scene::ScenePuppets MotionCommands::gettingUp() const {
     auto puppets = workspace_.document->scene().simulation.puppets.value_or(scene::ScenePuppets{});
     if (const ClipStage* clip = workspace_.player->clip()) puppets.clip = clip->clip();
     puppets.getUp = true;
-    puppets.limp = true;
     return puppets;
 }
 
 scene::ScenePuppets MotionCommands::firstMuscles() const {
-    const bool begun = workspace_.player->simulation().seconds() > 0.0;
+    const bool begun = workspace_.player->seconds() > 0.0;
     const bool canRise = physics::bodyOf(workspace_.document->profile(), animation::Role::hips) >= 0;
     return begun && canRise ? gettingUp() : scene::ScenePuppets{};
 }

@@ -35,8 +35,8 @@ class MotionCommands {
     void fallFromClip();
     /// Muscles for who lies to get up, and then to follow the clip that is shown.
     [[nodiscard]] scene::ScenePuppets gettingUp() const;
-    /// Muscles for characters that had none. Who has begun to fall goes on limp and gets up where it lies: its start,
-    /// to which it would be led at once, may be metres away, and the pull knocks it out.
+    /// Muscles for characters that had none. Once time has passed they get up: the player lets who had none go on limp,
+    /// for that once, while the scene's runs begin on their feet.
     [[nodiscard]] scene::ScenePuppets firstMuscles() const;
     /// What the hit tool does at the body under the mouse.
     void hit(const Pick& pick);

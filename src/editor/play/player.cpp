@@ -98,8 +98,8 @@ void Player::restore(const Motion& motion, bool all) {
                           was->second->worldFromModel, bodies);
         }
         simulation.world().setBodies(simulation.dollId(doll), same ? was->second->bodies : bodies);
-        if (simulation.puppets() != nullptr && was->second->puppet)
-            simulation.puppets()->resume(doll, *was->second->puppet);
+        const bool begun = seconds() > 0.0 || stage_;
+        if (simulation.puppets() != nullptr) resumePuppet(*simulation.puppets(), doll, *was->second, begun);
     }
     simulation.refresh();
 }

@@ -95,6 +95,35 @@ TEST_CASE("muscles that are switched on for who lies let it get up there, and do
     CHECK(glm::distance(vec2(lying.x, lying.z), vec2(standing.x, standing.z)) < 1.5F);
 }
 
+TEST_CASE("muscles that were switched on for who lies let the next run begin on its feet, and go with undo and redo") {
+    const auto editor = mannequinIn("drop");
+    const float start = placeOf(*editor, Role::hips).y;
+    test::pass(*editor, 240);
+    const bool byButton = GENERATE(false, true);
+    if (byButton)
+        editor->perform(Action::getUp);
+    else
+        editor->setPuppets(editor->firstMuscles());
+    CHECK(stateOf(*editor) == physics::PuppetState::limp);
+    CHECK(editor->player().simulation().puppets()->figures().knockOuts == 0);
+    CHECK_FALSE(editor->document().scene().simulation.puppets->limp);
+    const vec3 lying = placeOf(*editor, Role::hips);
+    editor->perform(Action::undo);
+    CHECK(editor->player().simulation().puppets() == nullptr);
+    test::pass(*editor, 1);
+    editor->perform(Action::redo);
+    REQUIRE(editor->player().simulation().puppets() != nullptr);
+    CHECK(stateOf(*editor) == physics::PuppetState::limp);
+    test::pass(*editor, 10);
+    CHECK(glm::distance(lying, placeOf(*editor, Role::hips)) < 0.05F);
+    editor->perform(Action::reset);
+    for (int i = 0; i < 120; ++i) {
+        test::pass(*editor, 1);
+        CHECK(stateOf(*editor) != physics::PuppetState::limp);
+    }
+    CHECK(placeOf(*editor, Role::hips).y == Approx(start).margin(0.15));
+}
+
 TEST_CASE("muscles that a figure cannot have are refused with the reason, and it falls") {
     const auto editor = test::makeEditor();
     scene::ScenePuppets puppets;
