@@ -1,3 +1,4 @@
+#include "core/letter_case.hpp"
 #include "editor/document/open_document.hpp"
 #include "editor/editor.hpp"
 #include "editor/files/folder_files.hpp"
@@ -11,7 +12,7 @@ void Editor::open(const std::filesystem::path& file) {
         files_.afterUnsaved([this, file] { openSceneNow(file); });
         return;
     }
-    if (file.extension() == ".json") {
+    if (sameButCase(file.extension().string(), ".json")) {
         files_.takeOffer();
         if (edit([&](EditorDocument& document) { return document.useProfile(file); })) {
             workspace_.say(Toast::Kind::info, profileNews(document(), file));

@@ -33,26 +33,44 @@ Json inspected(const std::string& file) {
     return Json::parse(lutkaCommand("inspect --json " + file).out);
 }
 
-}  // namespace
-
-TEST_CASE("baking: the skin keeps its pictures") {
-    const ScratchFolder folder;
+// A figure whose skin has that picture.
+GltfFile pictured(const std::string& uri) {
     const lutka::animation::Character figure = makeBiped();
     GltfFile file;
     addFigure(file, figure, "Anna");
-    file.json["images"] = {{{"uri",
-                             "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8BQ"
-                             "DwAEhQGAhKmMIQAAAABJRU5ErkJggg=="}}};
+    file.json["images"] = {{{"uri", uri}}};
     file.json["textures"] = {{{"source", 0}}};
     file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
     Json& primitive = file.json["meshes"][0]["primitives"][0];
     primitive["material"] = 0;
     const std::vector<float> uvs(2 * figure.meshes[0].positions.size(), 0.5F);
     primitive["attributes"]["TEXCOORD_0"] = file.addFloats(uvs, "VEC2");
+    return file;
+}
+
+}  // namespace
+
+TEST_CASE("baking: the skin keeps its pictures") {
+    const ScratchFolder folder;
+    const GltfFile file = pictured(
+        "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8BQ"
+        "DwAEhQGAhKmMIQAAAABJRU5ErkJggg==");
     file.saveBinary(folder / "anna.glb");
     REQUIRE(lutkaCommand("simulate " + (folder / "anna.glb") + " --seconds 0.1 --out " + (folder / "fall.glb")).code ==
             0);
     CHECK(inspected(folder / "fall.glb")["textures"].size() == 1);
+}
+
+TEST_CASE("baking: a retargeted clip looks for the character's pictures where it has a skin for them") {
+    const ScratchFolder folder;
+    pictured("nowhere.png").saveBinary(folder / "anna.glb");
+    const std::string retarget = "retarget " + kMannequinArgument + " --clip walk --to " + folder / "anna.glb" + " -o ";
+    const CommandResult glb = lutkaCommand(retarget + folder / "walk.glb");
+    REQUIRE(glb.code == 0);
+    CHECK_THAT(glb.err, Catch::Contains("nowhere.png"));
+    const CommandResult bvh = lutkaCommand(retarget + folder / "walk.bvh");
+    REQUIRE(bvh.code == 0);
+    CHECK_THAT(bvh.err, !Catch::Contains("nowhere.png"));
 }
 
 TEST_CASE("baking: needless keys are left out unless --no-reduce is given") {

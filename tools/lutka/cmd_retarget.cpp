@@ -97,7 +97,7 @@ void runRetarget(RetargetCommandOptions& options) {
     targetOptions.model = options.to;
     targetOptions.scale.reset();
     targetOptions.up.clear();
-    targetOptions.textures = true;
+    targetOptions.textures = !endsIn(options.out, ".bvh");  // which has no skin for them
     const animation::Character target = orLeave(animation::importCharacter(options.to, targetOptions.import()));
     const animation::HumanoidMap sourceMap = animation::mapHumanoid(source);
     const animation::HumanoidMap targetMap = animation::mapHumanoid(target);
@@ -131,11 +131,13 @@ void addRetarget(const Command& app) {
     command.option("--clip", options->clip, "the clip's name; default: the file's only one");
     command
         .option("-o,--output", options->out,
-                "the character with the clip (.glb), or its joints' motion alone (.bvh); - for stdout")
+                "the character with the clip (.glb), or its joints' motion alone (.bvh); - for a .glb on stdout")
         .required();
     command.flag("--loose-feet", options->looseFeet, "leave the feet where the legs' turns bring them");
-    command.flag("--no-reduce", options->allKeys,
-                 "keep every key; else those are left out without which no joint is off by 0.1 mm or 0.05 degrees");
+    command.flag(
+        "--no-reduce", options->allKeys,
+        "keep every key of a .glb (a .bvh has all); else those are left out without which no joint is off by 0.1 mm "
+        "or 0.05 degrees");
     command.flag("--json", options->json, "print the figures as JSON on stdout");
     command.onRun([options] { runRetarget(*options); });
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "core/letter_case.hpp"
 #include "editor/files/file_list.hpp"
 #include "editor/ui/panels.hpp"
 #include "editor/ui/style.hpp"
@@ -297,7 +298,7 @@ void drawFormat(const PanelContext& context) {
     for (std::size_t i = 0; i < formats.size(); ++i) {
         if (!ImGui::Selectable(line(formats[i]).c_str(), static_cast<int>(i) == state.exportFormat)) continue;
         fs::path file(state.path);
-        if (file.has_filename() && file.extension() == formatIn(state).ending)
+        if (file.has_filename() && sameButCase(file.extension().string(), formatIn(state).ending))
             state.path = file.replace_extension(formats[i].ending).string();
         state.exportFormat = static_cast<int>(i);
     }

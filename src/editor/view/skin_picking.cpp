@@ -12,7 +12,7 @@ namespace {
 using physics::JointDrive;
 
 // The body that moves a joint.
-int bodyOfJoint(const physics::Rig& rig, int joint) {
+int bodyThatMoves(const physics::Rig& rig, int joint) {
     for (std::size_t steps = 0; joint >= 0 && steps <= rig.joints.size(); ++steps) {
         const physics::Rig::Joint& way = rig.joints[static_cast<std::size_t>(joint)];
         if (way.drive == JointDrive::mapped) return way.body;
@@ -115,7 +115,7 @@ class SkinPicker {
             most_ = hit->distance;
             const vec3 normal = worldFromModel.rotation * glm::normalize(glm::cross(b - a, c - a));
             const int joint = mesh.joints[corners[hit->corner]][0];
-            nearest_ = SkinHit{doll, bodyOfJoint(asset.rig, joint), ray_.origin + hit->distance * ray_.direction,
+            nearest_ = SkinHit{doll, bodyThatMoves(asset.rig, joint), ray_.origin + hit->distance * ray_.direction,
                                glm::dot(normal, ray_.direction) > 0.0F ? -normal : normal, hit->distance};
         }
     }

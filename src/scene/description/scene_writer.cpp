@@ -5,6 +5,7 @@
 
 #include "core/files.hpp"
 #include "core/json/json_text.hpp"
+#include "core/letter_case.hpp"
 #include "scene/description/scene_file.hpp"
 #include "scene/description/scene_format.hpp"
 
@@ -186,7 +187,7 @@ Json toJson(const EntityScene& scene, const Entity& entity, const std::filesyste
 }  // namespace
 
 bool isSceneFile(const std::filesystem::path& file) {
-    return file.filename().string().ends_with(scene_format::kExtension);
+    return lowerCased(file.filename().string()).ends_with(scene_format::kExtension);
 }
 
 std::string sceneToJson(const EntityScene& scene, const std::filesystem::path& folder) {

@@ -127,6 +127,22 @@ TEST_CASE("the profile of another rig that the model was opened with is not writ
     CHECK(editor.files().replacedFile().empty());  // by now it is this one's
 }
 
+TEST_CASE("a profile and a scene are known by their endings in capitals too") {
+    const Neighbours files;
+    const fs::path profile = files.folder / "OLD.RAGDOLL.JSON";
+    fs::copy_file(files.profile, profile);
+    EditorOptions options;
+    options.model = files.model;
+    const auto editor = Editor::create(options);
+    REQUIRE(editor.ok());
+    editor.value()->open(profile);
+    CHECK(kneeOf(*editor.value()) == Approx(0.6F));
+    const fs::path scene = files.folder / "OLD.SCENE.JSON";
+    std::ofstream(scene) << scene::sceneToJson(editor.value()->document().scene(), files.folder.path);
+    editor.value()->open(scene);
+    CHECK(editor.value()->document().sceneDocument().file() == scene);
+}
+
 TEST_CASE("closing with unsaved changes asks about a file that is there before it quits") {
     const Neighbours files;
     EditorOptions options;
