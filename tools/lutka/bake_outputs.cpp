@@ -4,11 +4,10 @@
 
 #include <cmath>
 
-#include "animation/export/write_bvh.hpp"
 #include "animation/export/write_glb.hpp"
 #include "animation/export/write_obj.hpp"
 #include "animation/skinning.hpp"
-#include "outputs.hpp"
+#include "clip_output.hpp"
 
 namespace lutka::cli {
 namespace {
@@ -73,23 +72,18 @@ std::filesystem::path BakeOutputs::fileOf(const std::filesystem::path& file, int
 }
 
 void BakeOutputs::writeClips() const {
-    const std::optional<animation::KeyTolerance> tolerance = animation::keysKept(options_.allKeys);
     if (options_.together) {
         std::vector<animation::GlbFigure> figures;
         figures.reserve(static_cast<std::size_t>(dolls_));
         for (int doll = 0; doll < dolls_; ++doll)
             figures.push_back(
                 {&simulation_.assetOf(doll).character, &bakers_[doll].clip(), simulation_.worldFromModel(doll)});
-        return orLeave(animation::writeGlbCrowd(options_.bakedOut, bakers_.front().clip().name, figures, tolerance));
+        return orLeave(animation::writeGlbCrowd(options_.bakedOut, bakers_.front().clip().name, figures,
+                                                animation::keysKept(options_.allKeys)));
     }
     for (int doll = 0; doll < static_cast<int>(bakers_.size()); ++doll) {
-        const animation::Character& character = simulation_.assetOf(doll).character;
-        const animation::Clip& clip = bakers_[doll].clip();
-        const std::filesystem::path file = fileOf(options_.bakedOut, doll);
-        const RigidTransform& worldFromModel = simulation_.worldFromModel(doll);
-        orLeave(endsIn(file, ".bvh")
-                    ? animation::writeBvh(file, character.skeleton, clip, worldFromModel)
-                    : animation::writeGlb(file, character, std::span(&clip, 1), worldFromModel, tolerance));
+        writeClip(fileOf(options_.bakedOut, doll), simulation_.assetOf(doll).character, bakers_[doll].clip(),
+                  simulation_.worldFromModel(doll), options_.allKeys);
     }
 }
 

@@ -146,10 +146,7 @@ void renderFrames(const RenderCommandOptions& options, Run& run, Painter& painte
 void runRender(RenderCommandOptions& options) {
     options.simulate.ragdoll.model.textures = true;
     const bool printed = isStandardOutput(options.out);
-    if (!printed && !render::FrameWriter::isVideo(options.out) && !endsIn(options.out, ".png")) {
-        leave({ErrorCode::usage, fmt::format("'{}' is neither .png, .mp4 nor .gif", options.out.string()), "--output",
-               "the extension chooses the format"});
-    }
+    checkEnding("--output", options.out, {".png", ".mp4", ".gif"}, options.frames);
     if (printed && options.frames) {
         leave({ErrorCode::usage, "frames are files of their own, and stdout is one", "--frames", "name a .png"});
     }

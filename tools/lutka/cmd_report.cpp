@@ -35,12 +35,6 @@ std::unique_ptr<reporting::Photographer> photographerOf(const ReportCommandOptio
     return nullptr;
 }
 
-void checkEnding(const fs::path& out) {
-    if (isStandardOutput(out) || endsIn(out, ".html") || endsIn(out, ".htm")) return;
-    leave({ErrorCode::usage, fmt::format("'{}' doesn't end in .html", out.string()), "--output",
-           "a report is a page for browsers: name it so"});
-}
-
 // What is told when the document does not go to stdout itself.
 void finish(const ReportCommandOptions& options, const std::string& html, const std::string& json,
             const std::string& summary) {
@@ -110,7 +104,7 @@ void reportLibrary(const ReportCommandOptions& options) {
 }
 
 void runReport(ReportCommandOptions& options) {
-    checkEnding(options.out);
+    checkEnding("--output", options.out, {".html", ".htm"});
     options.ragdoll.model.textures = true;
     std::error_code failed;
     fs::is_directory(options.ragdoll.model.model, failed) ? reportLibrary(options) : reportModel(options);

@@ -4,10 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "animation/clip_reference.hpp"
-#include "animation/export/write_bvh.hpp"
-#include "animation/export/write_glb.hpp"
 #include "animation/humanoid/map_humanoid.hpp"
 #include "animation/retarget/retarget_clip.hpp"
+#include "clip_output.hpp"
 #include "commands.hpp"
 #include "core/files.hpp"
 #include "options.hpp"
@@ -79,15 +78,6 @@ void printFigures(const animation::Clip& clip, const RetargetFigures& figures) {
          figures.penetrationCm.most);
 }
 
-void writeClip(const RetargetCommandOptions& options, const animation::Character& target, const animation::Clip& clip) {
-    if (endsIn(options.out, ".bvh")) {
-        orLeave(animation::writeBvh(options.out, target.skeleton, clip));
-    } else {
-        orLeave(
-            animation::writeGlb(options.out, target, std::span(&clip, 1), {}, animation::keysKept(options.allKeys)));
-    }
-}
-
 void runRetarget(RetargetCommandOptions& options) {
     checkEnding("--output", options.out, {".glb", ".bvh"});
     keepInputs(options.out, {options.from.model, options.to});
@@ -97,7 +87,7 @@ void runRetarget(RetargetCommandOptions& options) {
     targetOptions.model = options.to;
     targetOptions.scale.reset();
     targetOptions.up.clear();
-    targetOptions.textures = !endsIn(options.out, ".bvh");  // which has no skin for them
+    targetOptions.textures = !isMotionAlone(options.out);  // which has no skin for them
     const animation::Character target = orLeave(animation::importCharacter(options.to, targetOptions.import()));
     const animation::HumanoidMap sourceMap = animation::mapHumanoid(source);
     const animation::HumanoidMap targetMap = animation::mapHumanoid(target);
@@ -109,7 +99,7 @@ void runRetarget(RetargetCommandOptions& options) {
     animation::RetargetOptions how;
     how.keepFeet = !options.looseFeet;
     const animation::RetargetedClip made = orLeave(animation::retargetClip(retargeter, clip, how));
-    writeClip(options, target, made.clip);
+    writeClip(options.out, target, made.clip, {}, options.allKeys);
     if (options.json && !isStandardOutput(options.out)) {
         fmt::print("{}\n",
                    figuresJson(options, clip, made.figures).dump(2, ' ', false, Json::error_handler_t::replace));

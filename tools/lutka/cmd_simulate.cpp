@@ -2,8 +2,8 @@
 
 #include <memory>
 
+#include "clip_output.hpp"
 #include "commands.hpp"
-#include "outputs.hpp"
 #include "run_simulation.hpp"
 #include "scene/measure/report.hpp"
 
@@ -12,7 +12,7 @@ namespace {
 
 void runSimulate(SimulateOptions& options) {
     // A skin that is written has its pictures with it.
-    options.ragdoll.model.textures = !options.bakedOut.empty() && !endsIn(options.bakedOut, ".bvh");
+    options.ragdoll.model.textures = !options.bakedOut.empty() && !isMotionAlone(options.bakedOut);
     Run run = prepare(options);
     execute(options, run);
     if (run.replay) {

@@ -12,16 +12,8 @@
 namespace lutka::editor {
 namespace {
 
-// What of a skin has no shape of a body (fingers, hair, a skirt) is picked as the body that carries it, where neither
-// an object nor solid geometry is nearer.
-std::optional<Pick> pickOfSkin(const render::Ray& ray, Player& player, const std::optional<Pick>& before,
-                               bool throughGeometry) {
-    constexpr float kReach = 100.0F;  // metres
-    float most = before ? glm::distance(ray.origin, before->position) : kReach;
-    if (!throughGeometry) {
-        const auto solid = player.simulation().world().rayTest(ray.origin, ray.origin + ray.direction * kReach);
-        if (solid) most = std::min(most, solid->fraction * kReach);
-    }
+// What of a skin has no shape of a body (fingers, hair, a skirt) is picked as the body that carries it.
+std::optional<Pick> pickOfSkin(const render::Ray& ray, Player& player, float most) {
     const std::optional<SkinHit> hit = pickSkin(ray, player.simulation(), player.alpha(), most);
     if (!hit) return std::nullopt;
     const Item body{Item::Kind::body, hit->doll, hit->body};
@@ -46,13 +38,10 @@ std::optional<Pick> Workspace::underMouse(bool skin) const {
         std::any_of(looks.begin(), looks.end(), [](const scene::Look& look) { return look.color.a < solid; });
     const render::Ray ray = mouseRay();
     const std::vector<PickTarget> targets = pickTargets(*document, *player);
-    auto picked = pick(ray, player->simulation(), targets, seeThrough);
-    const auto isMarker = [&](const PickTarget& target) {
-        return target.marker && picked->item.kind == Item::Kind::object && target.entity == picked->item.index;
-    };
-    const bool mark = picked && std::any_of(targets.begin(), targets.end(), isMarker);  // drawn over everything
-    if (skin && skinShown && !mark && (!picked || !picked->body)) {
-        if (const auto ofSkin = pickOfSkin(ray, *player, picked, seeThrough)) picked = ofSkin;
+    const PickedRay met = pickAlong(ray, player->simulation(), targets, seeThrough);
+    std::optional<Pick> picked = met.pick;
+    if (skin && skinShown && !met.marker && (!picked || !picked->body)) {
+        if (const auto ofSkin = pickOfSkin(ray, *player, met.distance)) picked = ofSkin;
     }
     // The panels edit no bodies of the other characters: these are picked as a whole, and pulled by their bodies.
     if (picked && picked->item.kind == Item::Kind::body && !player->isEditedDoll(picked->item.doll)) {

@@ -62,33 +62,39 @@ std::optional<float> rayBox(const render::Ray& ray, const RigidTransform& worldF
     return enter;
 }
 
-std::optional<Pick> pick(const render::Ray& ray, const scene::Simulation& simulation,
-                         std::span<const PickTarget> targets, bool throughGeometry) {
-    std::optional<Pick> nearest;
-    float distance = std::numeric_limits<float>::max();
-    bool marker = false;
+PickedRay pickAlong(const render::Ray& ray, const scene::Simulation& simulation, std::span<const PickTarget> targets,
+                    bool throughGeometry) {
+    PickedRay found;
+    found.distance = kPickReach;
+    float most = std::numeric_limits<float>::max();
     if (const auto solid = firstSolid(ray, simulation.world(), throughGeometry)) {
         const physics::RayHit& hit = solid->hit;
-        distance = solid->distance;
+        found.distance = most = solid->distance;
         if (hit.doll.isSet()) {
             const Item body{Item::Kind::body, simulation.dollOf(hit.doll), hit.body};
-            nearest = Pick{body, hit.position, hit.normal, body};
+            found.pick = Pick{body, hit.position, hit.normal, body};
         }
     }
     // What the world hit may be the very object: its slab is met at the same distance, and must win.
     constexpr float tie = 0.01F;
-    distance += tie;
+    most += tie;
     for (const PickTarget& target : targets) {
         const auto entered = rayBox(ray, target.worldFromBox, target.halfExtents);
         if (!entered || *entered > kPickReach) continue;
-        if (marker && !target.marker) continue;
-        if (marker == target.marker && *entered > distance) continue;
+        if (found.marker && !target.marker) continue;
+        if (found.marker == target.marker && *entered > most) continue;
         const vec3 at = ray.origin + ray.direction * *entered;
-        nearest = Pick{{Item::Kind::object, 0, target.entity}, at, boxNormal(target, at), {}};
-        distance = *entered;
-        marker = target.marker;
+        found.pick = Pick{{Item::Kind::object, 0, target.entity}, at, boxNormal(target, at), {}};
+        most = *entered;
+        found.distance = std::min(found.distance, *entered);
+        found.marker = target.marker;
     }
-    return nearest;
+    return found;
+}
+
+std::optional<Pick> pick(const render::Ray& ray, const scene::Simulation& simulation,
+                         std::span<const PickTarget> targets, bool throughGeometry) {
+    return pickAlong(ray, simulation, targets, throughGeometry).pick;
 }
 
 std::optional<vec3> surfaceUnder(const render::Ray& ray, const physics::WorldView& world, float height) {

@@ -39,6 +39,16 @@ struct Pick {
 [[nodiscard]] std::optional<Pick> pick(const render::Ray& ray, const scene::Simulation& simulation,
                                        std::span<const PickTarget> targets, bool throughGeometry = false);
 
+/// What else pick() finds on its way.
+struct PickedRay {
+    std::optional<Pick> pick;
+    float distance =
+        0.0F;             ///< To what hides the rest of the ray, picked or not, in units of its direction; 100 at most.
+    bool marker = false;  ///< The pick is drawn over everything.
+};
+[[nodiscard]] PickedRay pickAlong(const render::Ray& ray, const scene::Simulation& simulation,
+                                  std::span<const PickTarget> targets, bool throughGeometry = false);
+
 /// Where the ray meets the horizontal plane at `height`, or the nearest solid surface before it; nothing when the ray
 /// points away from both, or the place is beyond 100 m.
 [[nodiscard]] std::optional<vec3> surfaceUnder(const render::Ray& ray, const physics::WorldView& world, float height);
