@@ -310,6 +310,15 @@ TEST_CASE("no command writes over its profile, its scene file, its events or its
     }
 }
 
+TEST_CASE("a scene file may be written over the one that was read, as it was") {
+    const ScratchFolder folder;
+    const std::string scene = folder / "s.scene.json";
+    REQUIRE(lutkaCommand("scene stairs -o " + scene).code == 0);
+    const std::string was = fileText(scene);
+    CHECK(lutkaCommand("scene " + scene + " -o " + scene).code == 0);
+    CHECK(fileText(scene) == was);
+}
+
 TEST_CASE("a clip that is retargeted is glTF or BVH by the ending, in any case, and nothing under another") {
     const ScratchFolder folder;
     const auto retarget = [&](const std::string& name) {
