@@ -182,8 +182,28 @@ void flattenNumberedLimbs(RigFeatures& rig) {
     }
 }
 
+// Whether more of a limb lies above a joint than below it, down to `end`: on joints of its own, that carry nothing of
+// the other side.
+bool isBelowMostOfLimb(const RigFeatures& rig, int top, int end) {
+    const Side other = rig.names[top].side == Side::left ? Side::right : Side::left;
+    const auto isOfLimb = [&](int above) {
+        const PartScores& parts = rig.names[above].parts;
+        for (const Part trunk : {Part::hips, Part::trunk, Part::chest})
+            if (parts[trunk] >= kMaybe) return false;
+        for (int joint = 0; joint < rig.count(); ++joint)
+            if (rig.names[joint].side == other && rig.isAncestorOrSelf(above, joint)) return false;
+        return true;
+    };
+    int start = top;
+    while (rig.parents[start] != kNoJoint && isOfLimb(rig.parents[start]))
+        start = rig.parents[start];
+    return glm::distance(rig.positions[start], rig.positions[top]) >
+           glm::distance(rig.positions[top], rig.positions[end]);
+}
+
 // "foot 1, foot 2, foot 3" in one chain, below nothing that is named as the limb's start: many a language has one word
-// for foot and leg, and one for hand and arm.
+// for foot and leg, and one for hand and arm. Not a foot and its toes below bones without names, nor a hand and several
+// fingers.
 void readEndsAsLimbs(RigFeatures& rig) {
     constexpr int kFewest = 3;
     struct Limb {
@@ -197,14 +217,19 @@ void readEndsAsLimbs(RigFeatures& rig) {
                              Limb{Part::foot, {Part::upperLeg, Part::lowerLeg, Part::foot}}}) {
         for (int top = 0; top < rig.count(); ++top) {
             if (rig.names[top].helper || rig.names[top].parts[limb.end] < kSurely) continue;
+            if (rig.parents[top] != kNoJoint && alike(rig.parents[top], top)) continue;
             std::vector<int> chain{top};
+            bool branches = false;
             for (std::size_t at = 0; at < chain.size(); ++at) {
                 const std::vector<int>& below = rig.children[chain[at]];
-                const auto next =
-                    std::find_if(below.begin(), below.end(), [&](int child) { return alike(child, top); });
-                if (next != below.end()) chain.push_back(*next);
+                const auto isNext = [&](int child) { return alike(child, top); };
+                const auto next = std::find_if(below.begin(), below.end(), isNext);
+                if (next == below.end()) continue;
+                branches = branches || std::any_of(next + 1, below.end(), isNext);
+                chain.push_back(*next);
             }
-            if (static_cast<int>(chain.size()) < kFewest) continue;
+            if (branches || static_cast<int>(chain.size()) < kFewest) continue;
+            if (isBelowMostOfLimb(rig, top, chain[kFewest - 1])) continue;
             bool begunAbove = false;
             for (int above = rig.parents[top]; above != kNoJoint; above = rig.parents[above]) {
                 const PartScores& parts = rig.names[above].parts;

@@ -97,6 +97,51 @@ TEST_CASE("where the shin has its name, joints that are called foot stay feet", 
     CHECK(rig.nameOf(map, Role::rightLowerLeg) == "shin_r");
 }
 
+TEST_CASE("below limbs without names, joints that are called foot and hand stay feet and hands", "[words]") {
+    struct Case {
+        int bonesAbove;  // of each limb, without a name
+        int fingers;
+    };
+    for (const Case& way : {Case{2, 1}, Case{1, 1}, Case{2, 5}, Case{1, 5}}) {
+        PlacedJoints rig;
+        const Trunk trunk = addTrunk(rig);
+        int number = 0;
+        for (const float side : {1.0F, -1.0F}) {
+            const std::string end = side > 0.0F ? ".L" : ".R";
+            const auto limb = [&](int parent, const vec3& start, const vec3& stop) {
+                for (int i = 0; i < way.bonesAbove; ++i) {
+                    const float along = static_cast<float>(i) / static_cast<float>(way.bonesAbove);
+                    const vec3 place = start + along * (stop - start);
+                    parent = rig.add("Bone.00" + std::to_string(number++) + end, parent, place * vec3(side, 1, 1));
+                }
+                return parent;
+            };
+            const vec3 wrist(0.7F, 1.4F, 0);
+            const int hand =
+                rig.add("hand" + end, limb(trunk.chest, {0.18F, 1.4F, 0}, wrist), wrist * vec3(side, 1, 1));
+            for (int finger = 0; finger < way.fingers; ++finger) {
+                int joint = hand;
+                for (int i = 0; i < 2; ++i) {
+                    const vec3 place(0.8F + 0.04F * static_cast<float>(i), 1.4F, 0.02F * static_cast<float>(finger));
+                    joint = rig.add("hand" + end + ".00" + std::to_string(2 * finger + i + 1), joint,
+                                    place * vec3(side, 1, 1));
+                }
+            }
+            int joint =
+                rig.add("foot" + end, limb(trunk.hips, {0.1F, 0.9F, 0}, {0.1F, 0.08F, 0}), {side * 0.1F, 0.08F, 0});
+            joint = rig.add("foot" + end + ".001", joint, {side * 0.1F, 0.03F, 0.1F});
+            rig.add("foot" + end + ".002", joint, {side * 0.1F, 0.02F, 0.15F});
+        }
+        INFO(way.bonesAbove << " bones and " << way.fingers << " fingers");
+        const HumanoidMap map = rig.map(true);
+        REQUIRE(map.humanoid);
+        CHECK(rig.nameOf(map, Role::leftFoot) == "foot.L");
+        CHECK(rig.nameOf(map, Role::rightFoot) == "foot.R");
+        CHECK(rig.nameOf(map, Role::leftHand) == "hand.L");
+        CHECK(rig.nameOf(map, Role::rightHand) == "hand.R");
+    }
+}
+
 TEST_CASE("a foot that hangs on a control with skin of its own is the foot", "[words]") {
     PlacedJoints rig;
     const Trunk trunk = addTrunk(rig);
