@@ -165,10 +165,9 @@ bool trailsTail(const Figure& figure, const FramedRig& framed) {
 // Of the way from the shoulders to a head that is not named so, from upright; 0 without one, or where it is shorter
 // than the trunk. With a tail the name proves nothing: a raptor's joints may be called as a man's.
 float headTilt(const Figure& figure, const FramedRig& framed) {
-    constexpr float kNamedHead = 2.0F;
     const int head = figure.trunk.head;
     if (head == kNoJoint) return 0.0F;
-    if (framed.rig->names[head].parts[Part::head] >= kNamedHead && !hasTail(*framed.rig)) return 0.0F;
+    if (framed.rig->names[head].parts[Part::head] >= kTellsTrunkEnd && !hasTail(*framed.rig)) return 0.0F;
     vec3 way = framed.positions[head] - figure.arms.root;
     way.x = 0.0F;
     const bool far = glm::length(way) > glm::distance(figure.arms.root, figure.legs.root);

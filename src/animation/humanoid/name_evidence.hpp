@@ -8,6 +8,10 @@
 
 namespace lutka::animation {
 
+inline constexpr float kTellsPartOfLimb =
+    1.5F;  ///< A part's score from which a name says which part of a limb this is …
+inline constexpr float kTellsTrunkEnd = 2.0F;  ///< … and from which it says that this is the hips or the head.
+
 /// What a joint's name says.
 struct NameEvidence {
     /// Log-likelihood ratio of the name under each part against none: about +4.5 for a clear word, 1 to 2 for a word

@@ -9,11 +9,8 @@
 namespace lutka::animation {
 namespace {
 
-constexpr float kNamedLimb = 1.5F;      // a name's score from which it says which part of a limb this is
-constexpr float kNamedTrunkEnd = 2.0F;  // … or that it is the hips or the head
-
 bool isNamedHips(const RigFeatures& rig) {
-    return rig.namedJoint(Part::hips, Side::center, kNamedTrunkEnd) != kNoJoint;
+    return rig.namedJoint(Part::hips, Side::center, kTellsTrunkEnd) != kNoJoint;
 }
 
 // A limb of one or two joints ends at the last: nothing that moves skin hangs on it.
@@ -24,10 +21,10 @@ bool endsAt(const RigFeatures& rig, int joint) {
 
 // The last of a neck's joints carries the head.
 bool isNamedHead(const RigFeatures& rig) {
-    if (rig.namedJoint(Part::head, Side::center, kNamedTrunkEnd) != kNoJoint) return true;
+    if (rig.namedJoint(Part::head, Side::center, kTellsTrunkEnd) != kNoJoint) return true;
     for (int joint = 0; joint < rig.count(); ++joint) {
         const NameEvidence& name = rig.names[joint];
-        const bool neck = name.side == Side::center && !name.helper && name.parts[Part::neck] >= kNamedTrunkEnd;
+        const bool neck = name.side == Side::center && !name.helper && name.parts[Part::neck] >= kTellsTrunkEnd;
         if (neck && rig.carriesSkin(joint) && endsAt(rig, joint)) return true;
     }
     return false;
@@ -36,8 +33,8 @@ bool isNamedHead(const RigFeatures& rig) {
 // Many rigs call the hips "root" or count them to the spine: then they are the joint that both thighs hang on, with so
 // many joints (halves of the pelvis) between at most.
 bool carriesThighs(const RigFeatures& rig, int mostBetween) {
-    const int left = rig.namedJoint(Part::upperLeg, Side::left, kNamedLimb);
-    const int right = rig.namedJoint(Part::upperLeg, Side::right, kNamedLimb);
+    const int left = rig.namedJoint(Part::upperLeg, Side::left, kTellsPartOfLimb);
+    const int right = rig.namedJoint(Part::upperLeg, Side::right, kTellsPartOfLimb);
     if (left == kNoJoint || right == kNoJoint) return false;
     const int above = rig.commonAncestor(left, right);
     return above != kNoJoint && std::max(rig.depth[left], rig.depth[right]) - rig.depth[above] <= mostBetween + 1 &&
@@ -55,11 +52,11 @@ bool namesTrunk(const RigFeatures& rig) {
 }
 
 bool namesLimb(const RigFeatures& rig, const std::array<Part, 3>& parts, Side side) {
-    const int upper = rig.namedJoint(parts[0], side, kNamedLimb);
-    const int lower = rig.namedJoint(parts[1], side, kNamedLimb);
+    const int upper = rig.namedJoint(parts[0], side, kTellsPartOfLimb);
+    const int lower = rig.namedJoint(parts[1], side, kTellsPartOfLimb);
     if (upper == kNoJoint) return false;
     if (lower == kNoJoint) return endsAt(rig, upper);
-    return rig.namedJoint(parts[2], side, kNamedLimb) != kNoJoint || endsAt(rig, lower);
+    return rig.namedJoint(parts[2], side, kTellsPartOfLimb) != kNoJoint || endsAt(rig, lower);
 }
 
 bool namesWholeFigure(const RigFeatures& rig) {
@@ -74,7 +71,7 @@ bool namesWholeFigure(const RigFeatures& rig) {
 
 std::optional<Stance> stanceOfNames(const RigFeatures& rig) {
     if (hasTail(rig) || !namesWholeFigure(rig)) return std::nullopt;
-    const auto at = [&](Part part, Side side) { return rig.positions[rig.namedJoint(part, side, kNamedLimb)]; };
+    const auto at = [&](Part part, Side side) { return rig.positions[rig.namedJoint(part, side, kTellsPartOfLimb)]; };
     const vec3 legs = at(Part::upperLeg, Side::left) + at(Part::upperLeg, Side::right);
     const vec3 arms = at(Part::upperArm, Side::left) + at(Part::upperArm, Side::right);
     const vec3 rise = 0.5F * (arms - legs);

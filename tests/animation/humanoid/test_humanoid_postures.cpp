@@ -112,6 +112,38 @@ TEST_CASE("a figure crouches that could have a tail, whose joints move nothing",
     checkWhole(crouching(std::move(rig)));
 }
 
+TEST_CASE("a figure crouches, kneels or lies in a coat whose back has joints without names", "[poses]") {
+    // Five in the middle hang on the hips, longer than a thigh: no tail, which would lead away behind.
+    const auto withCoat = [](SyntheticRig rig, const vec3& start, const vec3& step) {
+        animation::Skeleton& skeleton = rig.character.skeleton;
+        int above = jointOf(rig, Role::hips);
+        vec3 place = skeleton.bindModelFromJoint[above].translation + start;
+        for (int i = 0; i < 5; ++i) {
+            skeleton.names.push_back("Bone.02" + std::to_string(i));
+            skeleton.parents.push_back(above);
+            skeleton.bindModelFromJoint.push_back({quat(1, 0, 0, 0), place});
+            skeleton.nodeParentFromJoint.emplace_back();
+            skeleton.skinWeight.push_back(30.0F);
+            above = skeleton.jointCount() - 1;
+            place += step;
+        }
+        return rig;
+    };
+    const vec3 behind(0, 0, -0.12F);
+    checkWhole(withCoat(crouching(makeSyntheticRig(kPosturesOf)), behind, {0, -0.14F, -0.02F}));
+    SyntheticRig kneeling = makeSyntheticRig(kPosturesOf);
+    turnBoth(kneeling, Role::leftLowerLeg, 1.5F);
+    turnBoth(kneeling, Role::hips, 0.9F);
+    turnBoth(kneeling, Role::leftUpperLeg, -0.9F);
+    checkWhole(withCoat(kneeling, behind, {0, -0.15F, -0.04F}));
+    SyntheticRig lying = withCoat(makeSyntheticRig(kPosturesOf), behind, {0, -0.15F, -0.03F});
+    turn(lying, Role::leftUpperLeg, -1.2F, vec3(1, 0, 0));
+    turn(lying, Role::leftLowerLeg, 1.6F, vec3(1, 0, 0));
+    turn(lying, Role::rightUpperArm, 1.1F, vec3(0, 1, 0));
+    lying.character = rotated(lying.character, glm::angleAxis(radians(-75.0F), vec3(1, 0, 0)));
+    checkWhole(lying);
+}
+
 TEST_CASE("legs that are crossed at the knees are on the sides of their thighs", "[poses]") {
     SyntheticRig rig = makeSyntheticRig(kPosturesOf);
     turn(rig, Role::leftUpperLeg, -0.75F, vec3(0, 0, 1));
