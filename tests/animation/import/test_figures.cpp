@@ -237,3 +237,25 @@ TEST_CASE("a mesh that the file hides is no skin of the figure, unless all of it
     CHECK(bindVertices(all).size() == 2 * skin.size());
     CHECK_FALSE(warns(all, "hidden"));
 }
+
+TEST_CASE("of many hidden meshes the first eight are named, each once") {
+    const TemporaryFolder folder;
+    GltfFile file;
+    addFigure(file, makeBiped(), "Anna");
+    auto& nodes = file.json["nodes"];
+    nlohmann::json body;
+    for (const nlohmann::json& node : nodes) {
+        if (node.contains("skin")) body = node;
+    }
+    body["extensions"]["KHR_node_visibility"]["visible"] = false;
+    std::string told;
+    for (int i = 0; i < 20; ++i) {
+        body["name"] = "Dress " + std::to_string(i / 2);
+        nodes[0]["children"].push_back(nodes.size());
+        nodes.push_back(body);
+        if (i < 16 && i % 2 == 0) told += (i == 0 ? "" : ", ") + std::string(body["name"]);
+    }
+    file.saveBinary(folder / "dresses.glb");
+    CHECK(warns(imported(folder / "dresses.glb"),
+                "10 mesh(es) are hidden in the file and were left out: " + told + " …"));
+}
