@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
 
+#include "animation/import/assimp/collada_bind_shape.hpp"
 #include "animation/import/assimp/collada_links.hpp"
 #include "animation/import/assimp/collada_text.hpp"
 #include "animation/import/checks.hpp"
@@ -197,12 +198,45 @@ TEST_CASE("skins that Blender wrote lie on their joints wherever the armature st
     std::ofstream(folder / "strip.dae", std::ios::binary) << skinnedStrip(armatures[2], "Blender 4.1.0", beside);
     CHECK(soleToJoint(imported(folder / "strip.dae")) ==
           Approx(std::hypot(0.2F, 0.5F) / std::hypot(1.8F, 0.2F)).epsilon(0.02));
+    // With a sign before each number.
+    std::string withSigns = skinnedStrip(armatures[2], "Blender 4.1.0", beside);
+    const std::size_t first = withSigns.find("<bind_shape_matrix>") + 19;
+    for (std::size_t at = first; withSigns[at] != '<'; at = withSigns.find(' ', at) + 1)
+        if (withSigns[at] != '-') withSigns.insert(at, "+");
+    std::ofstream(folder / "strip.dae", std::ios::binary) << withSigns;
+    CHECK(soleToJoint(imported(folder / "strip.dae")) ==
+          Approx(std::hypot(0.2F, 0.5F) / std::hypot(1.8F, 0.2F)).epsilon(0.02));
     // Old versions wrote how the mesh stands in the scene.
     std::ofstream(folder / "strip.dae", std::ios::binary) << skinnedStrip(armatures[1], "Blender 2.57", armatures[1]);
     CHECK(soleToJoint(imported(folder / "strip.dae")) < 0.2F);
     // Of others the matrix is what it says: this skin stands where it stands.
     std::ofstream(folder / "strip.dae", std::ios::binary) << skinnedStrip(armatures[1], "FBX COLLADA exporter");
     CHECK(soleToJoint(imported(folder / "strip.dae")) > 10.0F);
+}
+
+TEST_CASE("a Collada node without an id has no skin's bind shape matrix, nor a link to nothing one without an id") {
+    const std::string matrix = "<bind_shape_matrix>1 0 0 7 0 1 0 0 0 0 1 0 0 0 0 1</bind_shape_matrix>";
+    const std::string blender = "<authoring_tool>Blender 4.1.0</authoring_tool>";
+    for (const std::string& document :
+         {blender + "<controller id=\"c\">" + matrix + "</controller><node><instance_controller url=\"#c\"/></node>",
+          blender + "<controller>" + matrix +
+              "</controller><node id=\"body\"><instance_controller url=\"\"/></node>"}) {
+        // A small armature whose joint stands where the mesh does once it is scaled, and no farther off.
+        rig_import::SourceScene scene;
+        scene.nodes = {{"scene", -1}, {"rig", 0, glm::scale(glm::dmat4(1.0), glm::dvec3(0.01))}, {"", 1}};
+        if (document.find("body") != std::string::npos) scene.nodes[2].name = "body";
+        rig_import::SourceMesh mesh;
+        mesh.positions = {vec3(0)};
+        mesh.influenceStart = {0, 1};
+        mesh.influences = {{0, 1.0F}};
+        scene.meshes.push_back(mesh);
+        rig_import::SourceSkin skin;
+        skin.joints.push_back({1});
+        scene.skins.push_back(skin);
+        scene.instances.push_back({0, 2, 0});
+        rig_import::completeBindShapes(document, scene);
+        CHECK(scene.skins[0].joints[0].jointFromMesh == glm::scale(glm::dmat4(1.0), glm::dvec3(0.01)));
+    }
 }
 
 TEST_CASE("weights stand as pairs of joint and weight, whatever their order was") {

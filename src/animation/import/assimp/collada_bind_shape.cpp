@@ -39,6 +39,7 @@ std::optional<dmat4> matrixIn(std::string_view text) {
     dmat4 matrix(1.0);
     for (int place = 0; place < 16; ++place) {
         text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+        if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);  // which from_chars refuses
         double number = 0.0;
         const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), number);
         if (error != std::errc()) return std::nullopt;
@@ -49,14 +50,14 @@ std::optional<dmat4> matrixIn(std::string_view text) {
 }
 
 // The bind shape matrices of the skins by the nodes that show them. A node's own matrix is no such thing: from 2.8 on
-// Blender writes none for what hangs on an armature.
+// Blender writes none for what hangs on an armature. Where an id is missing, nothing is linked.
 std::map<std::string, dmat4> bindShapesByNode(std::string_view document) {
     const std::vector<ColladaTag> tags = colladaTags(document);
     std::map<std::string, dmat4> ofController;
     std::string controller;
     for (const ColladaTag& tag : tags) {
         if (tag.opens("controller")) controller = colladaAttribute(tag.text, "id");
-        if (!tag.opens("bind_shape_matrix")) continue;
+        if (!tag.opens("bind_shape_matrix") || controller.empty()) continue;
         const std::size_t end = std::min(document.find('<', tag.end), document.size());
         if (const auto matrix = matrixIn(document.substr(tag.end, end - tag.end))) ofController[controller] = *matrix;
     }
@@ -65,7 +66,7 @@ std::map<std::string, dmat4> bindShapesByNode(std::string_view document) {
     for (const ColladaTag& tag : tags) {
         if (tag.opens("node") && !tag.isEmpty()) nodes.emplace_back(colladaAttribute(tag.text, "id"));
         if (tag.closes("node") && !nodes.empty()) nodes.pop_back();
-        if (!tag.opens("instance_controller") || nodes.empty()) continue;
+        if (!tag.opens("instance_controller") || nodes.empty() || nodes.back().empty()) continue;
         const auto found = ofController.find(tag.target("url"));
         if (found != ofController.end()) ofNode.emplace(nodes.back(), found->second);
     }
