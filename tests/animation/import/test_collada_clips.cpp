@@ -104,6 +104,26 @@ TEST_CASE("Collada animations that call their samplers and sources alike have th
     CHECK(rig_import::withOwnIds("</animation><source id=\"x\"/>") == "</animation><source id=\"x\"/>");
 }
 
+TEST_CASE("Collada animations that are nested deep have their ids settled one by one") {
+    std::string nested = kLibrary;
+    std::string settled = kLibrary;
+    std::string ends;
+    constexpr int kDepth = 100'000;
+    for (int i = 0; i < kDepth; ++i) {
+        const std::string links = "<input source=\"#s\"/><input source=\"#no\"/>";
+        nested += "<animation>" + links;
+        settled += "<animation>" + links;
+        if (i == 0) nested += "<source id=\"s\"/>";
+        if (i == 0) settled += "<source id=\"s\"/>";
+        ends += "</animation>";
+    }
+    // Once more in the innermost, and after it again what the outermost has.
+    const std::string link = "<input source=\"#s\"/>";
+    const std::string last = "</animation>" + link + ends.substr(12) + kEnd;
+    CHECK(rig_import::withOwnIds(nested + "<source id=\"s\"/>" + link + last) ==
+          settled + "<source id=\"s-1\"/><input source=\"#s-1\"/>" + last);
+}
+
 TEST_CASE("Collada clips go to the library that holds animations, not to an empty one before it") {
     const std::string library =
         "<library_animations/>" + kLibrary + animationOf("a", "low/t") + animationOf("b", "high/t") + kEnd;

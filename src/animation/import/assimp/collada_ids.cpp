@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <string_view>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
@@ -38,7 +38,10 @@ class Ids {
 
     void open() { scopes_.emplace_back(); }
     void close() {
-        if (!scopes_.empty()) scopes_.pop_back();
+        if (scopes_.empty()) return;
+        for (const std::string& id : scopes_.back())
+            names_[id].pop_back();
+        scopes_.pop_back();
     }
     [[nodiscard]] bool inAnimation() const { return !scopes_.empty(); }
 
@@ -50,22 +53,21 @@ class Ids {
                 own = fmt::format("{}-{}", id, ++count_);
             } while (all_.count(own) > 0);
         }
-        scopes_.back()[std::string(id)] = own;
+        scopes_.back().emplace_back(id);
+        names_[std::string(id)].push_back(own);
         return own;
     }
 
     [[nodiscard]] std::string find(const std::string& id) const {
-        for (auto scope = scopes_.rbegin(); scope != scopes_.rend(); ++scope) {
-            const auto found = scope->find(id);
-            if (found != scope->end()) return found->second;
-        }
-        return id;
+        const auto found = names_.find(id);
+        return found == names_.end() || found->second.empty() ? id : found->second.back();
     }
 
   private:
     std::unordered_set<std::string_view> all_;
     std::unordered_set<std::string_view> taken_;
-    std::vector<std::map<std::string, std::string>> scopes_;
+    std::vector<std::vector<std::string>> scopes_;  // ids that each open animation took, the innermost last
+    std::unordered_map<std::string, std::vector<std::string>> names_;  // what an id is called, the innermost last
     std::size_t count_ = 0;
 };
 
