@@ -4,12 +4,61 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
+#include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <unordered_set>
 #include <vector>
 
 namespace lutka::animation::rig_import {
+namespace {
+
+// The slots of a mesh's skin that move vertices of it.
+std::vector<std::uint32_t> slotsOf(const SourceMesh& mesh) {
+    std::vector<std::uint32_t> slots;
+    for (const SourceMesh::Influence& influence : mesh.influences)
+        if (influence.weight > 0.0F) slots.push_back(influence.slot);
+    std::sort(slots.begin(), slots.end());
+    slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+    return slots;
+}
+
+// Whether what is shown is a small part of what is hidden: eyelashes of a body. Hidden skins that have no joint in
+// common with any that is shown are another figure's.
+bool showsSmallPart(const SourceScene& scene) {
+    constexpr std::ptrdiff_t kLeastShare = 4;      // of the joints that are moved one in so many
+    std::set<std::tuple<bool, int, int>> skinned;  // hidden, skin, mesh: a file may show one thousands of times
+    for (const SourceInstance& one : scene.instances)
+        if (one.skin >= 0) skinned.insert({one.hidden, one.skin, one.mesh});
+    std::vector<bool> bound(scene.nodes.size(), false);  // to a skin that is shown
+    for (const auto& [hidden, skin, mesh] : skinned) {
+        if (hidden) continue;
+        for (const SourceSkin::Joint& joint : scene.skins[skin].joints)
+            bound[joint.node] = true;
+    }
+    const auto isBound = [&](const SourceSkin::Joint& joint) { return bound[joint.node]; };
+    std::map<int, std::vector<std::uint32_t>> slots;    // by mesh
+    std::vector<bool> seen(scene.nodes.size(), false);  // moved by what is shown
+    std::vector<bool> all(scene.nodes.size(), false);   // … or by hidden parts of the same figure
+    for (const auto& [hidden, skin, mesh] : skinned) {
+        const std::vector<SourceSkin::Joint>& joints = scene.skins[skin].joints;
+        if (std::none_of(joints.begin(), joints.end(), isBound)) continue;
+        const auto [moving, isNewMesh] = slots.try_emplace(mesh);
+        if (isNewMesh) moving->second = slotsOf(scene.meshes[mesh]);
+        for (const std::uint32_t slot : moving->second) {
+            if (slot >= joints.size()) break;
+            all[joints[slot].node] = true;
+            if (!hidden) seen[joints[slot].node] = true;
+        }
+    }
+    const auto count = [](const std::vector<bool>& nodes) { return std::count(nodes.begin(), nodes.end(), true); };
+    return kLeastShare * count(seen) < count(all);
+}
+
+}  // namespace
 
 void leaveOutHidden(SourceScene& scene) {
     std::vector<SourceInstance>& all = scene.instances;
@@ -25,6 +74,12 @@ void leaveOutHidden(SourceScene& scene) {
     }
     if (names.empty()) return;
     const std::string list = fmt::format("{}{}", fmt::join(first, ", "), names.size() > kMost ? " …" : "");
+    if (hasSkin && showsSmallPart(scene)) {
+        scene.warnings.push_back(
+            fmt::format("{} mesh(es) are hidden in the file but kept: the others are a small part of the figure: {}",
+                        names.size(), list));
+        return;
+    }
     std::erase_if(all, [](const SourceInstance& one) { return one.hidden; });
     scene.warnings.push_back(
         fmt::format("{} mesh(es) are hidden in the file and were left out: {}", names.size(), list));

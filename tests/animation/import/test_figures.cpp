@@ -259,3 +259,40 @@ TEST_CASE("of many hidden meshes the first eight are named, each once") {
     CHECK(warns(imported(folder / "dresses.glb"),
                 "10 mesh(es) are hidden in the file and were left out: " + told + " …"));
 }
+
+TEST_CASE("a hidden body stays where only its eyelashes or a thing without a skin is shown") {
+    const TemporaryFolder folder;
+    Character biped = makeBiped();
+    biped.meshes.push_back(biped.meshes[0]);
+    const auto head = static_cast<std::uint16_t>(findJoint(biped.skeleton, "head"));
+    for (auto& joints : biped.meshes[1].joints)
+        joints = {head, head, head, head};
+    GltfFile file;
+    addFigure(file, biped, "Anna");
+    auto& nodes = file.json["nodes"];
+    std::vector<std::size_t> skins;
+    for (std::size_t node = 0; node < nodes.size(); ++node) {
+        if (nodes[node].contains("skin")) skins.push_back(node);
+    }
+    REQUIRE(skins.size() == 2);
+    const auto hide = [&](std::size_t skin, bool hidden) {
+        nodes[skins[skin]]["extensions"]["KHR_node_visibility"]["visible"] = !hidden;
+    };
+    hide(0, true);
+    file.saveBinary(folder / "lashes.glb");
+    const Character lashes = imported(folder / "lashes.glb");
+    CHECK(lashes.meshes.size() == 2);
+    CHECK(warns(lashes, "hidden in the file but kept"));
+    hide(0, false);
+    hide(1, true);
+    file.saveBinary(folder / "body.glb");
+    CHECK(imported(folder / "body.glb").meshes.size() == 1);
+
+    // All skin is hidden, and a thing that a joint carries is shown.
+    hide(0, true);
+    const nlohmann::json axe = {{"name", "Axe"}, {"mesh", nodes[skins[1]]["mesh"]}};
+    nodes[1]["children"].push_back(nodes.size());
+    nodes.push_back(axe);
+    file.saveBinary(folder / "axe.glb");
+    CHECK(imported(folder / "axe.glb").meshes.size() == 3);
+}
