@@ -296,3 +296,34 @@ TEST_CASE("a hidden body stays where only its eyelashes or a thing without a ski
     file.saveBinary(folder / "axe.glb");
     CHECK(imported(folder / "axe.glb").meshes.size() == 3);
 }
+
+TEST_CASE("a mesh that a clip shows is not left out, though the file begins with it hidden") {
+    const TemporaryFolder folder;
+    GltfFile file;
+    addFigure(file, makeBiped(), "Anna");
+    auto& nodes = file.json["nodes"];
+    const std::size_t dress = nodes.size();
+    nodes.push_back(nodes[dress - 1]);
+    nodes[dress]["name"] = "Dress";
+    const int closet = file.addNode("Closet", 0);
+    nodes[closet]["children"] = {dress};
+    nodes[closet]["extensions"]["KHR_node_visibility"]["visible"] = false;
+    const std::vector<float> times = {0, 1};
+    const std::vector<std::uint8_t> shown = {0, 1};
+    const std::vector<float> turn = {0, 0, 0, 1, 0, 0, 0, 1};
+    file.addTurn("dress", closet, times, file.addFloats(turn, "VEC4"), "STEP");
+    file.json["animations"][0]["samplers"][0]["output"] =
+        file.addComponents(std::span<const std::uint8_t>(shown), 5121, "SCALAR", 2, false);
+    const auto pointTo = [&](std::size_t node) {
+        const std::string pointer = "/nodes/" + std::to_string(node) + "/extensions/KHR_node_visibility/visible";
+        file.json["animations"][0]["channels"][0]["target"] = {
+            {"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
+        file.saveBinary(folder / "dress.glb");
+        return imported(folder / "dress.glb");
+    };
+    CHECK(pointTo(static_cast<std::size_t>(closet)).meshes.size() == 2);
+    // Below a node that stays hidden nothing is shown.
+    const Character hidden = pointTo(dress);
+    CHECK(hidden.meshes.size() == 1);
+    CHECK(warns(hidden, "Dress"));
+}

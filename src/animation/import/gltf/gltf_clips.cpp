@@ -104,6 +104,18 @@ void addChannel(GltfFile& file, const json& animation, const json& source, const
 
 }  // namespace
 
+std::vector<bool> nodesOfPointers(const GltfFile& file, std::string_view part) {
+    std::vector<bool> found(file.count("nodes"), false);
+    for (std::size_t i = 0; i < file.count("animations"); ++i) {
+        const json* channels = arrayOf(file.element("animations", static_cast<int>(i)), "channels");
+        for (std::size_t c = 0; channels != nullptr && c < channels->size(); ++c) {
+            const std::optional<Target> target = targetOf((*channels)[c], found.size());
+            if (target && target->node >= 0 && target->path == part) found[target->node] = true;
+        }
+    }
+    return found;
+}
+
 void addClips(GltfFile& file, const NodeMap& nodes, SourceScene& out) {
     for (std::size_t i = 0; i < file.count("animations"); ++i) {
         const json& source = file.element("animations", static_cast<int>(i));

@@ -279,15 +279,16 @@ void dropStrayInfluences(std::size_t slots, SourceMesh& mesh, GltfFile& file) {
     if (stray) file.leaveOut(fmt::format("weights of mesh '{}' for joints that its skin does not have", mesh.name));
 }
 
-// Whether the file hides a scene's nodes, each by itself or by one above it.
+// Whether the file hides a scene's nodes, each by itself or by one above it, and no clip shows them.
 std::vector<bool> hiddenNodes(const GltfFile& file, const NodeMap& nodes, const std::vector<int>& order,
                               const SourceScene& scene) {
     std::vector<bool> hidden(scene.nodes.size(), false);
+    const std::vector<bool> switched = nodesOfPointers(file, "extensions/KHR_node_visibility/visible");
     for (const int index : order) {
         const auto node = static_cast<std::size_t>(nodes[index]);
         const json* block = extensionOf(file.element("nodes", index), "KHR_node_visibility");
         const int above = scene.nodes[node].parent;
-        hidden[node] = (block != nullptr && !truthOf(*block, "visible", true)) ||
+        hidden[node] = (block != nullptr && !switched[index] && !truthOf(*block, "visible", true)) ||
                        (above >= 0 && hidden[static_cast<std::size_t>(above)]);
     }
     return hidden;

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "animation/import/gltf/gltf_file.hpp"
@@ -35,6 +36,10 @@ struct UvUse {
 
 /// Adds meshes (one a primitive), skins and where they hang.
 void addMeshes(GltfFile& file, const NodeMap& nodes, SourceScene& out);
+
+/// Of each glTF node, whether a channel of KHR_animation_pointer animates this part of it: a JSON pointer from the
+/// node, "extensions/KHR_node_visibility/visible".
+[[nodiscard]] std::vector<bool> nodesOfPointers(const GltfFile& file, std::string_view part);
 
 /// Adds the animations; those of morph weights are left out and told.
 void addClips(GltfFile& file, const NodeMap& nodes, SourceScene& out);
