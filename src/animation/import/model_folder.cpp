@@ -15,34 +15,42 @@ ModelFolder::ModelFolder(const fs::path& model, bool allowOutside)
     resolved_ = fs::canonical(folder_, failed);
 }
 
-namespace {
+fs::path ModelFolder::spelledOtherwise(const fs::path& folder, const std::string& name) const {
+    constexpr std::size_t kMostEntries = 10'000;
+    std::error_code failed;
+    const auto [listed, isNew] = listed_.try_emplace(fs::canonical(folder, failed));
+    std::map<std::string, std::string>& entries = listed->second;
+    std::size_t count = 0;
+    if (isNew) {
+        for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
+            if (++count > kMostEntries) break;
+            const std::string found = at->path().filename().string();
+            std::string& known = entries[lowerCased(found)];
+            // The order of a folder's entries is chance.
+            if (known.empty() || found < known) known = found;
+        }
+    }
+    if (count > kMostEntries) entries.clear();  // which of them came first is chance, too
+    const auto entry = entries.find(lowerCased(name));
+    return entry == entries.end() ? fs::path() : folder / entry->second;
+}
 
-// A path below a folder as it is spelled there, where that differs in the case of letters at most: files come from
-// systems that do not tell. Empty where there is none.
-fs::path inOtherCase(const fs::path& folder, const fs::path& name) {
-    constexpr int kMostEntries = 10'000;
-    fs::path at = folder;
+// A path below the folder as it is spelled there, where that differs in the case of letters at most: files come from
+// systems that do not tell. Empty where there is none, and only its start where that is not admitted.
+fs::path ModelFolder::inOtherCase(const fs::path& name) const {
+    fs::path at = folder_;
     for (const fs::path& part : name) {
         std::error_code failed;
         if (part == "." || part == ".." || fs::exists(at / part, failed)) {
             at /= part;
             continue;
         }
-        fs::path found;
-        int entries = 0;
-        for (fs::directory_iterator entry(at, failed), end; !failed && entry != end; entry.increment(failed)) {
-            if (++entries > kMostEntries) break;
-            if (!sameButCase(entry->path().filename().string(), part.string())) continue;
-            // The order of a folder's entries is chance.
-            if (found.empty() || entry->path() < found) found = entry->path();
-        }
-        if (found.empty()) return {};
-        at = found;
+        if (!admits(at)) return at;  // a link that leads away is not looked into
+        at = spelledOtherwise(at, part.string());
+        if (at.empty()) return {};
     }
     return at;
 }
-
-}  // namespace
 
 bool ModelFolder::admits(const fs::path& place) const {
     if (allowOutside_) return true;
@@ -63,7 +71,7 @@ ModelFolder::Named ModelFolder::find(const std::string& written) const {
     if (!admits(file)) return {Place::outside, {}};
     std::error_code failed;
     if (!fs::exists(file, failed) && !fs::path(name).is_absolute()) {
-        file = inOtherCase(folder_, name);
+        file = inOtherCase(name);
         if (!file.empty() && !admits(file)) return {Place::outside, {}};
     }
     if (!fs::is_regular_file(file, failed)) return {};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 namespace lutka::animation::rig_import {
@@ -25,14 +26,22 @@ class ModelFolder {
         std::filesystem::path file;  ///< To be opened, when it is `inside`.
     };
     /// The file that a name in the model means, relative to the folder; either slash separates, and where no file has
-    /// that name one counts whose letters differ in their case. `missing` where there is no ordinary file, and for
-    /// names with a drive's letter.
+    /// that name one counts whose letters differ in their case: the first by its spelling, and none in a folder of more
+    /// than 10,000 entries. `missing` where there is no ordinary file, and for names with a drive's letter. A folder is
+    /// listed at most once; what was listed is kept, so one thread at a time may call this.
     [[nodiscard]] Named find(const std::string& written) const;
 
   private:
+    [[nodiscard]] std::filesystem::path inOtherCase(const std::filesystem::path& name) const;
+    /// The entry of a folder whose name differs from this one in the case of letters at most; empty without one.
+    [[nodiscard]] std::filesystem::path spelledOtherwise(const std::filesystem::path& folder,
+                                                         const std::string& name) const;
+
     std::filesystem::path folder_;
     std::filesystem::path resolved_;
     bool allowOutside_;
+    /// Entries by their names in small letters, of the folders that were listed.
+    mutable std::map<std::filesystem::path, std::map<std::string, std::string>> listed_;
 };
 
 }  // namespace lutka::animation::rig_import

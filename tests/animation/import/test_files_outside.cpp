@@ -46,8 +46,8 @@ struct Layout {
     }
     [[nodiscard]] std::string absolute() const { return fs::absolute(folder / "secret.ppm").string(); }
     [[nodiscard]] std::vector<std::string> waysOut() const {
-        return {"../secret.ppm", "..\\secret.ppm", "%2e%2e/secret.ppm",  "below/../../secret.ppm",
-                absolute(),      "link.ppm",       "textures/hidden.ppm"};
+        return {"../secret.ppm", "..\\secret.ppm", "%2e%2e/secret.ppm",   "below/../../secret.ppm",
+                absolute(),      "link.ppm",       "textures/hidden.ppm", "Textures/HIDDEN.ppm"};
     }
     TemporaryFolder folder;
 };
@@ -110,6 +110,32 @@ TEST_CASE("a model's folder admits what lies in it and below, wherever links lea
     const rig_import::ModelFolder open(layout.folder / "model/rig.glb", true);
     CHECK(open.find("../secret.ppm").place == Place::inside);
     CHECK(open.find("../model").place == Place::missing);
+}
+
+TEST_CASE("names in other case are sought in a folder once, and not among more than ten thousand") {
+    const TemporaryFolder files;
+    fs::create_directories(files / "many");
+    fs::create_directories(files / "few");
+    savePicture(files / "few/skin.ppm");
+    savePicture(files / "few/HAIR.ppm");
+    savePicture(files / "few/hair.ppm");
+    const OpenWatch watch({files / "few"});
+    const rig_import::ModelFolder few(files / "few/rig.glb", false);
+    CHECK(few.find("SKIN.ppm").file.filename() == "skin.ppm");
+    CHECK(watch.count() > 0);
+    CHECK(few.find("Hair.ppm").file.filename() == "HAIR.ppm");  // the first, be the folder's order what it may
+    CHECK(few.find("no.ppm").place == Place::missing);
+    CHECK(watch.count() == 0);
+
+    savePicture(files / "many/skin.ppm");
+    const auto isFound = [&] {
+        return rig_import::ModelFolder(files / "many/rig.glb", false).find("Skin.ppm").place == Place::inside;
+    };
+    CHECK(isFound());
+    for (int i = 0; i < 10'000; ++i)
+        std::ofstream(files / ("many/" + std::to_string(i)));
+    CHECK_FALSE(isFound());
+    CHECK(rig_import::ModelFolder(files / "many/rig.glb", false).find("skin.ppm").place == Place::inside);
 }
 
 TEST_CASE("a picture outside of the model's folder is left out with one warning, and taken where that is allowed") {
