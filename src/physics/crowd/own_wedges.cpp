@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
+#include <tuple>
 
 namespace lutka::physics::crowd {
 namespace {
@@ -50,8 +51,8 @@ float askedOf(float separation, const SubstepParams& params) {
 OwnWedge makeWedge(CrowdState& state, PairContactLanes& pair, int lane, const PairTouch& touch,
                    const SubstepParams& params) {
     const Doll& doll = state.dolls[touch.dollA];
-    const Topology& topology = state.groupOf(doll).topology;
-    const float yielding = topology.bodies[touch.bodyA].inverseMass + topology.bodies[touch.bodyB].inverseMass;
+    const float massA = pair.inverseMassA.lane[lane];
+    const float massB = pair.inverseMassB.lane[lane];
     return {&pair,
             lane,
             &state.batchOf(doll),
@@ -60,19 +61,22 @@ OwnWedge makeWedge(CrowdState& state, PairContactLanes& pair, int lane, const Pa
             touch.bodyB,
             pair.separation.lane[lane],
             askedOf(pair.separation.lane[lane], params),
-            readVector(pair.normal, lane) / yielding,
+            massA,
+            massB,
+            readVector(pair.normal, lane) / (massA + massB),
             readVector(pair.armA, lane),
             readVector(pair.armB, lane)};
 }
 
-void pushAt(Batch& batch, const Topology& topology, int lane, const OwnWedge& wedge, float size) {
-    const auto give = [&](int body, const vec3& arm, const vec3& impulse) {
+void pushAt(Batch& batch, int lane, const OwnWedge& wedge, float size) {
+    const auto give = [&](int body, float inverseMass, const vec3& arm, const vec3& impulse) {
+        if (inverseMass == 0.0F) return;  // led along
         BodyLanes& lanes = batch.bodies[body];
-        addTo(lanes.velocity, lane, impulse * topology.bodies[body].inverseMass);
+        addTo(lanes.velocity, lane, impulse * inverseMass);
         addTo(lanes.angular, lane, times(lanes.inverseInertia, lane, glm::cross(arm, impulse)));
     };
-    give(wedge.bodyA, wedge.armA, wedge.push * size);
-    give(wedge.bodyB, wedge.armB, wedge.push * -size);
+    give(wedge.bodyA, wedge.inverseMassA, wedge.armA, wedge.push * size);
+    give(wedge.bodyB, wedge.inverseMassB, wedge.armB, wedge.push * -size);
 }
 
 // m/s
@@ -105,7 +109,7 @@ void findPushes(DollWedges& doll, const SubstepParams& params) {
 class BatchWedges {
   public:
     BatchWedges(const CrowdState& state, Batch& batch, const Topology& topology, const SubstepParams& params)
-        : kernels_(*state.kernels), batch_(batch), topology_(topology), params_(params), view_(batch.view(topology)) {}
+        : kernels_(*state.kernels), batch_(batch), params_(params), view_(batch.view(topology)) {}
 
     void mend(LaneWedges& lanes) {
         kernels_.takeMotions(view_);
@@ -124,7 +128,7 @@ class BatchWedges {
                 DollWedges& doll = lanes[lane];
                 findPushes(doll, params_);
                 for (int i = 0; i < doll.count; ++i)
-                    pushAt(batch_, topology_, lane, *doll.wedges[i], doll.push[i]);
+                    pushAt(batch_, lane, *doll.wedges[i], doll.push[i]);
             }
             unsolved = kernels_.mendOnce(view_, params_, firmly, 0);
             if (unsolved == 0) return;
@@ -148,7 +152,7 @@ class BatchWedges {
         for (int pushed = kNone; pushed < most; ++pushed) {
             restore(before);
             for (int lane = 0; pushed != kNone && lane < kLanes; ++lane)
-                if (pushed < lanes[lane].count) pushAt(batch_, topology_, lane, *lanes[lane].wedges[pushed], 1.0F);
+                if (pushed < lanes[lane].count) pushAt(batch_, lane, *lanes[lane].wedges[pushed], 1.0F);
             kernels_.mendOnce(view_, params_, firmly, 1);
             for (int lane = 0; lane < kLanes; ++lane) {
                 DollWedges& doll = lanes[lane];
@@ -165,7 +169,6 @@ class BatchWedges {
 
     const Kernels& kernels_;
     Batch& batch_;
-    const Topology& topology_;
     const SubstepParams& params_;
     BatchView view_;
 };
@@ -183,14 +186,18 @@ void findWedges(CrowdState& state, Job& job, const SubstepParams& params) {
             PairContactLanes& pair = state.pairs[static_cast<std::size_t>(block)];
             for (int lane = 0; lane < kLanes; ++lane) {
                 const bool isNear = pair.separation.lane[lane] < kMendNears * params.dt;
-                if (pair.kind.lane[lane] == PairKind::own && isNear)
+                const bool yields = pair.inverseMassA.lane[lane] + pair.inverseMassB.lane[lane] > 0.0F;
+                if (pair.kind.lane[lane] == PairKind::own && isNear && yields)
                     wedges.push_back(
                         makeWedge(state, pair, lane, state.touches[state.touchOfLane[block][lane]], params));
             }
         }
     }
-    std::sort(wedges.begin(), wedges.end(),
-              [](const OwnWedge& a, const OwnWedge& b) { return a.separation < b.separation; });
+    // Which of a doll's come first must not depend on where others have been packed.
+    std::sort(wedges.begin(), wedges.end(), [](const OwnWedge& a, const OwnWedge& b) {
+        return std::tie(a.separation, a.bodyA, a.bodyB, a.armA.x, a.armA.y, a.armA.z) <
+               std::tie(b.separation, b.bodyA, b.bodyB, b.armA.x, b.armA.y, b.armA.z);
+    });
     auto end = wedges.begin();
     for (const OwnWedge& wedge : wedges) {
         const auto isOfSame = [&](const OwnWedge& other) {

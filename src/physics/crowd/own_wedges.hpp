@@ -4,15 +4,17 @@
 
 namespace lutka::physics::crowd {
 
-/// Exact mending of what lies deep within a limp doll that touches no heap. A hand that lies under the body, between
-/// two contacts that ask against each other, is not freed by mending each of these as if the other did not press: the
-/// tree's answer to both made one of them deeper, for as long as the doll lay. Here passes of the tree find what a push
-/// at each of the doll's own contacts does to all of them, and the pushes are those with which all part as they are to.
+/// Exact mending of what lies deep within a limp doll, in jobs of a single batch with dolls. A hand that lies under the
+/// body, between two contacts that ask against each other, is not freed by mending each of these as if the other did
+/// not press: the tree's answer to both made one of them deeper, for as long as the doll lay. Here passes of the tree
+/// find what a push at each of the doll's own contacts does to all of them, and the pushes are those with which all
+/// part as they are to.
 ///
 /// Looks for such contacts and takes them out of the sweeps that mend (PairKind::wedged) until endWedges().
 void findWedges(CrowdState& state, Job& job, const SubstepParams& params);
 
-/// Mends a batch of the job as Kernels::mend does. False, and nothing is done, where none of its dolls has any.
+/// Mends a batch of the job in place of Kernels::mend, its other dolls with it: by passes that begin anew where that
+/// goes on. False, and nothing is done, where none of its dolls has any.
 [[nodiscard]] bool mendWedges(CrowdState& state, const Job& job, std::size_t batch, const SubstepParams& params);
 
 void endWedges(Job& job);

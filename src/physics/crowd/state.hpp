@@ -196,10 +196,11 @@ struct OwnWedge {
     const Batch* batch = nullptr;
     int lane = 0;  ///< Of the batch.
     int bodyA = 0, bodyB = 0;
-    float separation = 0.0F;  ///< Metres.
-    float asked = 0.0F;       ///< m/s that it is to part with at least.
-    vec3 push{0, 0, 0};       ///< N s, on A: what parts the two bodies, were they points and alone, with 1 m/s.
-    vec3 armA{0, 0, 0}, armB{0, 0, 0};
+    float separation = 0.0F;                         ///< Metres.
+    float asked = 0.0F;                              ///< m/s that it is to part with at least.
+    float inverseMassA = 0.0F, inverseMassB = 0.0F;  ///< 0 where something leads the body.
+    vec3 push{0, 0, 0};  ///< N s, world, on A: what parts the two bodies, were they points and alone, with 1 m/s.
+    vec3 armA{0, 0, 0}, armB{0, 0, 0};  ///< World.
 };
 
 /// Batches that touch each other, solved as one; jobs share nothing and can run at the same time.

@@ -3,7 +3,7 @@
 namespace lutka::physics::crowd {
 
 /// What decides quality and cost within a substep; the same for all of them. The defaults are the outcome of the sweep
-/// described in docs/crowd.md.
+/// described in docs/crowd-experiments.md.
 struct SubstepTuning {
     int passes = 8;          ///< At most, with bias in a substep, >= 1: until the guess of what holds is right.
     int patience = 3;        ///< Passes after which rows that will not come to rest are only added any more.
