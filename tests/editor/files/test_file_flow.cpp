@@ -8,6 +8,7 @@
 #include "editor/input/input_script.hpp"
 #include "editor/sessions.hpp"
 #include "physics/profile/profile_io.hpp"
+#include "scene/description/scene_file.hpp"
 #include "support/command.hpp"
 #include "support/zoo.hpp"
 
@@ -137,10 +138,10 @@ TEST_CASE("a profile and a scene are known by their endings in capitals too") {
     REQUIRE(editor.ok());
     editor.value()->open(profile);
     CHECK(kneeOf(*editor.value()) == Approx(0.6F));
-    const fs::path scene = files.folder / "OLD.SCENE.JSON";
-    std::ofstream(scene) << scene::sceneToJson(editor.value()->document().scene(), files.folder.path);
-    editor.value()->open(scene);
-    CHECK(editor.value()->document().sceneDocument().file() == scene);
+    const fs::path drop = files.folder / "OLD.SCENE.JSON";
+    std::ofstream(drop) << scene::sceneToJson(editor.value()->document().scene(), files.folder.path);
+    editor.value()->open(drop);
+    CHECK(editor.value()->document().sceneDocument().file() == drop);
 }
 
 TEST_CASE("closing with unsaved changes asks about a file that is there before it quits") {
