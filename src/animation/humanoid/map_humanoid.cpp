@@ -156,7 +156,7 @@ struct Reading {
 // No limb may pair an image with anything but its original: a head with the image of an arm. What lies in the middle
 // has no image: arms that are crossed before the chest and hang on one joint.
 bool isHonest(const CompletedRig& completed, const Figure& figure) {
-    constexpr float kAside = 0.04F;  // of the spread
+    constexpr float kBeside = 0.04F;  // of the spread
     const auto isImage = [&](int joint) { return completed.isImage(joint); };
     for (const LimbCandidate* limb : {&figure.arms, &figure.legs}) {
         for (const int pair : limb->pairs) {
@@ -166,7 +166,7 @@ bool isHonest(const CompletedRig& completed, const Figure& figure) {
         }
         const JointPair& first = figure.framed.pairs[limb->first];
         const bool imaged = std::any_of(first.joints.begin(), first.joints.end(), isImage);
-        if (imaged && std::abs(first.position.x) < kAside * figure.framed.spread) return false;
+        if (imaged && std::abs(first.position.x) < kBeside * figure.framed.spread) return false;
     }
     return true;
 }

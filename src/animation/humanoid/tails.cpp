@@ -84,7 +84,7 @@ bool leadsBehind(const NamedLegs& legs, const vec3& end) {
 // away behind and carries neither arm nor head. A dinosaur whose limbs have a man's names.
 bool trailsChain(const RigFeatures& rig) {
     constexpr int kFewest = 4;
-    constexpr float kLeastReach = 0.6F;  // of the leg
+    constexpr float kShortest = 0.6F;    // of the leg
     constexpr float kMostAside = 0.15F;  // of the leg, nearer to one thigh than to the other
     const int left = rig.namedJoint(Part::upperLeg, Side::left, kTellsPartOfLimb);
     const int right = rig.namedJoint(Part::upperLeg, Side::right, kTellsPartOfLimb);
@@ -105,7 +105,7 @@ bool trailsChain(const RigFeatures& rig) {
         const Chain chain = namelessChain(rig, top);
         const float toLeft = glm::distance(rig.positions[chain.end], rig.positions[left]);
         const float toRight = glm::distance(rig.positions[chain.end], rig.positions[right]);
-        return chain.joints >= kFewest && std::min(toLeft, toRight) > kLeastReach * leg &&
+        return chain.joints >= kFewest && std::min(toLeft, toRight) > kShortest * leg &&
                std::abs(toLeft - toRight) < kMostAside * leg && leadsBehind(legs, rig.positions[chain.end]);
     });
 }
