@@ -32,7 +32,7 @@ class SolidCorners {
     /// the nearest side of which it does. Far away where there is none.
     template <class Leads>
     [[nodiscard]] SurfaceDistance wayOut(const vec3& point, Leads leads) const {
-        const SurfaceDistance nearest = distanceTo(point);
+        SurfaceDistance nearest = distanceTo(point);
         if (leads(nearest.normal)) return nearest;
         SurfaceDistance way{std::numeric_limits<float>::max(), nearest.normal};
         if (nearest.distance >= 0.0F) return way;
