@@ -5,7 +5,6 @@
 #include <array>
 #include <glm/geometric.hpp>
 
-#include "editor/document/open_document.hpp"
 #include "editor/files/folder_files.hpp"
 #include "editor/view/select_bodies.hpp"
 
@@ -41,32 +40,28 @@ EditorOptions Editor::hearReaders(EditorOptions options) {
 
 Result<void> Editor::begin(std::unique_ptr<EditorDocument> opened, const EditorOptions& options) {
     workspace_.window = options.window;
-    load_ = options.load;
-    clock_ = options.clock;
+    opening_.begin(options.load, options.clock);
     SceneSettings scene = options.scene;
     if (options.applyToWorld) options.applyToWorld(scene.entities.simulation.world);
     if (auto started = opened->startScene(scene); !started) return started;
     auto simulated = std::make_unique<Player>(*opened, options.clock);
     if (auto built = simulated->rebuild(Player::Keep::nothing); !built) return built;
-    workspace_.document = std::move(opened);
-    workspace_.player = std::move(simulated);
-    workspace_.rememberBodies();
+    opening_.take(std::move(opened), std::move(simulated));
     player().setPlaying(options.playing);
     player().setSparing(options.spareSubsteps);
     view.layers.capsules = true;
     view.layers.limits = true;
-    camera_.frameScene();
     machine_ = std::make_unique<StateMachine>(makeHandlers(workspace_));
     files_.greet(!options.load.profile.has_value());
-    motion_.listen();
-    watch_.watch(document().character().file);
     if (options.recovery.empty()) return {};
     if (const auto begun = recovery_.begin(options.recovery); !begun)
         workspace_.say(Toast::Kind::warning, begun.error().text());
     return {};
 }
 
-Editor::Editor() : files_(workspace_, [this] { endTransform(); }) {}
+Editor::Editor()
+    : files_(workspace_, [this] { endTransform(); }),
+      opening_(workspace_, motion_, camera_, files_, [this] { settle(); }) {}
 
 Editor::~Editor() = default;
 
@@ -236,14 +231,14 @@ void Editor::perform(Action action) {
 void Editor::onBodies(void (BodyCommands::*command)()) {
     endTransform();
     (bodies_.*command)();
-    machine_->fire(workspace_.ended());
+    settle();
 }
 
 void Editor::addBody(int joint) {
     endTransform();
     endSwing();
     bodies_.add(joint);
-    machine_->fire(workspace_.ended());
+    settle();
 }
 
 void Editor::nextTool() {
@@ -267,8 +262,8 @@ void Editor::quit() {
 void Editor::answerRecovery(RecoveryDesk::Answer answer) {
     if (answer != RecoveryDesk::Answer::restore) return recovery_.set(answer);
     files_.afterUnsaved([this] {
-        auto opened = recovery_.restore(load_);
-        if (!adopt(std::move(opened))) return;
+        auto opened = recovery_.restore(opening_.load());
+        if (!opening_.adopt(std::move(opened))) return;
         files_.takeOffer();
         const std::string contents = recovery_.offered()->contents();
         workspace_.say(Toast::Kind::info, "Restored " + contents + "; save it to keep it");
@@ -301,7 +296,7 @@ void Editor::update(double seconds) {
     std::erase_if(workspace_.toasts, [](const Toast& toast) { return toast.secondsLeft <= 0.0F; });
     if (const std::string news = player().takeNews(); !news.empty()) workspace_.say(Toast::Kind::warning, news);
     if (!quitting_) workspace_.report(recovery_.update(document(), seconds));
-    if (watching && !busy() && !files_.asking() && watch_.changed(seconds)) reload();
+    if (watching && !busy() && !files_.asking() && opening_.fileChanged(seconds)) reload();
 }
 
 void Editor::swingLimits() {
@@ -325,21 +320,24 @@ void Editor::endPickJoint(bool take) {
 bool Editor::edit(const std::function<Result<void>(EditorDocument&)>& change) {
     endTransform();
     endSwing();
-    const bool failed = workspace_.report(change(document()));
-    workspace_.follow();
-    machine_->fire(workspace_.ended());
-    return !failed;
+    const bool done = workspace_.edit(change);
+    settle();
+    return done;
 }
 
 void Editor::travel(int changes) {
     endTransform();
     endSwing();
     motion_.travel(changes);
+    settle();
+}
+
+void Editor::settle() {
     machine_->fire(workspace_.ended());
 }
 
 void Editor::endTransform() {
-    if (busy()) machine_->fire(workspace_.ended());
+    if (busy()) settle();
 }
 
 void Editor::select(std::optional<Item> item, bool add) {
@@ -388,20 +386,6 @@ void Editor::placeCamera(scene::EntityId id) {
         camera.distance = seen.distance;
         camera.orthographic = seen.orthographic;
     });
-}
-
-void Editor::editCharacter(scene::EntityId id) {
-    const auto* ragdoll = document().scene().find<scene::Ragdoll>(id);
-    if (ragdoll == nullptr) return;
-    const auto change = [this, wanted = *ragdoll] {
-        const render::Camera seen = workspace_.camera;
-        if (adopt(openCharacter(wanted, load_, document()))) workspace_.camera = seen;
-    };
-    if (document().unsaved()) {
-        files_.afterUnsaved(change);
-    } else {
-        change();
-    }
 }
 
 }  // namespace lutka::editor

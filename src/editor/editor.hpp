@@ -8,7 +8,7 @@
 
 #include "editor/editor_options.hpp"
 #include "editor/files/file_flow.hpp"
-#include "editor/files/file_watch.hpp"
+#include "editor/files/open_commands.hpp"
 #include "editor/files/recovery_desk.hpp"
 #include "editor/input/actions.hpp"
 #include "editor/play/motion_commands.hpp"
@@ -80,7 +80,7 @@ class Editor {
     void placeCamera(scene::EntityId camera);
     /// Makes this character, whose model or profile are others, the one that the panels edit. Asks first when there are
     /// unsaved changes of the ragdoll.
-    void editCharacter(scene::EntityId character);
+    void editCharacter(scene::EntityId character) { opening_.editCharacter(character); }
     /// Asks for the joint of a role, or of a new body, by a click in the view.
     void beginPickJoint(std::optional<animation::Role> role);
     /// Ends that: takes the joint under the mouse, or none.
@@ -93,16 +93,16 @@ class Editor {
 
     /// Opens a model (*.ragdoll.json: a profile for the present one; *.scene.json: a scene); the old scene stays when
     /// that fails. Asks first when there are unsaved changes.
-    void open(const std::filesystem::path& file);
+    void open(const std::filesystem::path& file) { opening_.open(file); }
     /// The model before (below 0) or after the present one in its folder, by name; the first follows the last.
-    void openBeside(int step);
+    void openBeside(int step) { opening_.openBeside(step); }
     /// Reads the model's file again, as another program has written it; the user's edits stay. Undo begins anew.
-    void reload();
+    void reload() { opening_.reload(); }
     /// Whether reload() is called by itself when the file changes.
     bool watching = true;
     /// Whether what is opened from now on may take files from outside of its model's folder.
-    void allowOutside(bool allowed) { load_.import.allowOutside = allowed; }
-    [[nodiscard]] bool allowsOutside() const { return load_.import.allowOutside; }
+    void allowOutside(bool allowed) { opening_.allowOutside(allowed); }
+    [[nodiscard]] bool allowsOutside() const { return opening_.load().import.allowOutside; }
     /// Unsaved work of sessions that ended by force, offered one by one.
     [[nodiscard]] const RecoveryDesk& recovery() const { return recovery_; }
     /// Answers for the one that is offered: restored it is opened with its changes unsaved.
@@ -110,11 +110,9 @@ class Editor {
     /// The session is cut short: what is unsaved is kept now.
     void keepRecovery();
     /// Takes the offered profile (FileFlow::offeredProfile()), or not.
-    void answerOffer(bool take);
-    /// What becomes of the refused model (FileFlow::offeredAnyRig()): a ragdoll of any skeleton, one body to begin with
-    /// by hand, or nothing.
-    enum class AnyRig { whole, byHand, leave };
-    void answerAnyRig(AnyRig answer);
+    void answerOffer(bool take) { opening_.answerOffer(take); }
+    using AnyRig = OpenCommands::AnyRig;
+    void answerAnyRig(AnyRig answer) { opening_.answerAnyRig(answer); }
     /// Saving, exporting, and the questions about files.
     [[nodiscard]] FileFlow& files() { return files_; }
     [[nodiscard]] const FileFlow& files() const { return files_; }
@@ -146,7 +144,7 @@ class Editor {
     [[nodiscard]] double poseMs() const { return drawer_.poseMs(); }
     [[nodiscard]] bool quitting() const { return quitting_; }
     /// Grows when another character was loaded: the renderer's copy is then out of date.
-    [[nodiscard]] int characterRevision() const { return characterRevision_; }
+    [[nodiscard]] int characterRevision() const { return opening_.characterRevision(); }
 
     ViewSettings view;
 
@@ -169,11 +167,9 @@ class Editor {
     /// Whether a key that goes down was for the help, a swing or an offer, which it ended.
     bool answersBy(const InputEvent& event);
     [[nodiscard]] bool busy() const;
+    /// Makes the state follow the selection, and ends what is under way in the view.
+    void settle();
     void endTransform();
-    void openSceneNow(const std::filesystem::path& file);
-    /// Takes an opened document in the place of the present one; tells a failure. Whether it did.
-    /// `told`: what to say in place of that it was opened.
-    bool adopt(Result<std::unique_ptr<EditorDocument>> opened, const std::string& told = "");
     /// One of them, after what is under way in the view has ended.
     void onBodies(void (BodyCommands::*command)());
     void nextTool();
@@ -186,16 +182,12 @@ class Editor {
     BodyCommands bodies_{workspace_};
     MotionCommands motion_{workspace_};
     FileFlow files_;
+    OpenCommands opening_;
     std::unique_ptr<StateMachine> machine_;
     scene::SimulationDrawer drawer_;
-    scene::LoadOptions load_;
-    std::filesystem::path unread_;  // the last file that could not be opened, since one was: the next one is beside it
-    scene::FrameLoop::Clock clock_;
     std::array<bool, kMouseButtonCount> held_{};  // pressed in the view and not released yet
     RecoveryDesk recovery_;
-    FileWatch watch_;
     bool quitting_ = false;
-    int characterRevision_ = 0;
 };
 
 }  // namespace lutka::editor
