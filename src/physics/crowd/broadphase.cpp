@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "physics/crowd/detect.hpp"
+#include "physics/crowd/bounds.hpp"
 
 namespace lutka::physics::crowd {
 namespace {

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/assert.hpp"
+#include "physics/crowd/bounds.hpp"
 #include "physics/crowd/broadphase.hpp"
 #include "physics/crowd/detect.hpp"
 #include "physics/crowd/drag.hpp"

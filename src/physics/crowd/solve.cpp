@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "physics/crowd/detect.hpp"
+#include "physics/crowd/bounds.hpp"
 #include "physics/crowd/drag.hpp"
 #include "physics/crowd/force.hpp"
 #include "physics/crowd/jobs.hpp"

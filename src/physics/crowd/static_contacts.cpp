@@ -4,7 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "physics/crowd/detect.hpp"
+#include "physics/crowd/bounds.hpp"
 #include "physics/crowd/target.hpp"
 
 namespace lutka::physics::crowd {

@@ -3,6 +3,7 @@
 
 #include "core/random.hpp"
 #include "crowd_scene.hpp"
+#include "physics/crowd/bounds.hpp"
 #include "physics/crowd/broadphase.hpp"
 #include "physics/crowd/detect.hpp"
 #include "physics/crowd/jobs.hpp"
