@@ -4,7 +4,7 @@
 /// comes before the normal row, so that overlap has the last word; both tangents are solved at once and share one
 /// circular bound.
 
-#include "physics/crowd/own_load.hpp"
+#include "physics/crowd/contact_rules.hpp"
 #include "physics/crowd/pair_body_kernels.hpp"
 #include "physics/crowd/touch_kernels.hpp"
 #include "physics/crowd/tree_kernels.hpp"
@@ -269,8 +269,8 @@ static void beginPairs(PairsView& view, const SubstepParams& params) {
         const F steady = pressed - (own ? shownMass(pair, pressed, params) : mass) * (start - load(pair.approach));
         wedges |= own & (load(pair.separation) < all(-params.wedgeDepth));
         // What comes from the step before is no more than that already.
-        const Mask grows = growsLoad(load(pair.kind)) & (isFirst ? noLanes() : ~noLanes());
-        const F borne = grows ? least(pressed, grownLoad(load(pair.load), mass, params.ownLoad)) : pressed;
+        const F borne =
+            isFirst ? pressed : carriedLoad(load(pair.kind), pressed, load(pair.load), mass, params.ownLoad);
         // Bodies that part already bear no load either: pushing on would speed them up.
         const F held = least(most(steady, all(0.0F)), borne) * stays(start, kSlipSpeed);
         store(pair.load, held);
@@ -361,13 +361,11 @@ static int solvePairs(const PairsView& view, const SubstepParams& params) {
     return bits(pressed) != 0 ? 1 : 0;
 }
 
-// m/s that overlap is pushed apart with when it is mended.
-LUTKA_LANES F mendSpeed(const PairContactLanes& pair, const SubstepParams& params) {
+// m/s that overlap is pushed apart with at most when it is mended.
+LUTKA_LANES F fastestPush(const PairContactLanes& pair, const SubstepParams& params) {
     const F limp = isOwn(pair) ? all(params.ownPushSpeed) : all(params.pushSpeed);
     const F own = isDriven(pair) ? all(params.drivenPushSpeed) : limp;
-    const F fastest = strikes(pair) ? all(params.dollPushSpeed) : own;
-    const F apart = least(-(load(pair.separation) + all(params.slop)) * all(params.contactRate), fastest);
-    return apart * eagerness(pair, params.mendHaste);
+    return strikes(pair) ? all(params.dollPushSpeed) : own;
 }
 
 static int mendPairs(const PairsView& view, const SubstepParams& params, int sweep) {
@@ -376,27 +374,27 @@ static int mendPairs(const PairsView& view, const SubstepParams& params, int swe
     for (int i = 0; i < view.liveCount; ++i) {
         PairContactLanes& pair = pairAt(view, view.live[i]);
         const F zero = all(0.0F);
-        const Mask overlaps =
-            (load(pair.separation) < all(-params.slop - params.mendGap)) & hasContact(pair) & ~isWedged(pair);
+        const F separation = load(pair.separation);
+        const Mask deep = overlaps(separation, params) & hasContact(pair) & ~isWedged(pair);
         // What a push drives together within a doll may come no nearer than touching, or a hand in a gap would be
         // thrown from one side of it into the other.
-        const Mask nears = sweep > 0 ? isOwn(pair) & hasContact(pair) & ~overlaps : noLanes();
-        const Mask mends = overlaps | nears;
+        const Mask nears = sweep > 0 ? isOwn(pair) & hasContact(pair) & ~deep : noLanes();
+        const Mask mends = deep | nears;
         if (bits(mends) == 0) continue;
         makeReady(pair, bodies);
-        any |= overlaps;
+        any |= deep;
         PairVelocities v = velocitiesOf(pair, bodies);
         const V3 normal = load(pair.normal);
         // Between dolls what was too much is given back: a foot between two trunks would be thrown to and fro. Within a
         // doll too little is left of a push once all of the doll has answered: more is asked for, and kept.
         const Mask gathers = strikes(pair);
-        const F wanted = mendSpeed(pair, params) * (gathers ? all(1.0F) : eagerness(pair, params.mendRate));
-        const F asked = overlaps ? wanted : -most(load(pair.separation), zero) * all(params.inverseDt);
+        const F parting = mendSpeed(separation, fastestPush(pair, params), eagerness(pair, params.mendHaste), params);
+        const F asked = deep & ~gathers ? parting * eagerness(pair, params.mendRate) : parting;
         // The first sweep skips what does not overlap, and leaves its record of another kind there.
-        const F before = (sweep > 0 ? gathers & overlaps : noLanes()) ? load(pair.carriedNormal) : zero;
+        const F before = (sweep > 0 ? gathers & deep : noLanes()) ? load(pair.carriedNormal) : zero;
         const F total = most(before - load(pair.normalMass) * (dot(normal, slidingOf(pair, v)) - asked), zero);
         const F size = mends ? total - before : zero;
-        store(pair.carriedNormal, gathers & overlaps ? total : zero);  // is free again
+        store(pair.carriedNormal, gathers & deep ? total : zero);  // is free again
         pressPair(pair, v, size);
         // What pushes one side of a doll alone pushes all of it, and the other side after it: own contacts push both.
         const F onOwn = isOwn(pair) ? size : zero;

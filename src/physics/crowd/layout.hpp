@@ -286,7 +286,7 @@ struct PairContactLanes {
                        ///< substep.
     int ready;         ///< Whether directions and masses are those of this substep.
     int answered;      ///< The sweep, counted from 1, in which any was last pressed again in this substep; 0: in none.
-    Wide load;         ///< What was carried into this substep: see grownLoad().
+    Wide load;         ///< What was carried into this substep: see carriedLoad().
     // what a push needs,
     Wide3 armA, armB;
     Wide kind;  ///< A PairKind.

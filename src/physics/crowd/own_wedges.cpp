@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <tuple>
 
+#include "physics/crowd/contact_rules.hpp"
+
 namespace lutka::physics::crowd {
 namespace {
 
@@ -41,13 +43,7 @@ void addTo(Wide3& to, int lane, const vec3& v) {
     writeVector(to, lane, readVector(to, lane) + v);
 }
 
-// What is asked of a contact, m/s: as in the sweeps over single contacts (mendPairs), without their eagerness, since
-// all that hangs on the bodies is known.
-float askedOf(float separation, const SubstepParams& params) {
-    if (separation >= -params.slop - params.mendGap) return -std::max(separation, 0.0F) * params.inverseDt;
-    return params.mendHaste * std::min(-(separation + params.slop) * params.contactRate, params.ownPushSpeed);
-}
-
+// It is asked of a contact what mendPairs() asks, but for its eagerness: all that hangs on the bodies is known here.
 OwnWedge makeWedge(CrowdState& state, PairContactLanes& pair, int lane, const PairTouch& touch,
                    const SubstepParams& params) {
     const Doll& doll = state.dolls[touch.dollA];
@@ -60,7 +56,7 @@ OwnWedge makeWedge(CrowdState& state, PairContactLanes& pair, int lane, const Pa
             touch.bodyA,
             touch.bodyB,
             pair.separation.lane[lane],
-            askedOf(pair.separation.lane[lane], params),
+            mendSpeed(pair.separation.lane[lane], params.ownPushSpeed, params.mendHaste, params),
             massA,
             massB,
             readVector(pair.normal, lane) / (massA + massB),

@@ -6,12 +6,12 @@
 #include <glm/geometric.hpp>
 
 #include "physics/crowd/bounds.hpp"
+#include "physics/crowd/contact_rules.hpp"
 #include "physics/crowd/drag.hpp"
 #include "physics/crowd/force.hpp"
 #include "physics/crowd/jobs.hpp"
 #include "physics/crowd/motor.hpp"
 #include "physics/crowd/moved_contacts.hpp"
-#include "physics/crowd/own_load.hpp"
 #include "physics/crowd/own_wedges.hpp"
 #include "physics/crowd/packing.hpp"
 #include "physics/crowd/reports.hpp"
@@ -226,11 +226,8 @@ void keepPairs(CrowdState& state, std::size_t begin, std::size_t end) {
             const bool presses = pair.normalImpulse.lane[lane] > 0.0F;
             if (!presses && !state.briefs[index].presses && !state.settings.contactReports) continue;
             PairTouch& touch = state.touches[index];
-            touch.carried.normal = pair.normalImpulse.lane[lane];
-            if (growsLoad(pair.kind.lane[lane]) != 0)
-                touch.carried.normal =
-                    std::min(touch.carried.normal,
-                             grownLoad(pair.load.lane[lane], pair.normalMass.lane[lane], state.tuning.ownLoad));
+            touch.carried.normal = carriedLoad(pair.kind.lane[lane], pair.normalImpulse.lane[lane],
+                                               pair.load.lane[lane], pair.normalMass.lane[lane], state.tuning.ownLoad);
             touch.carried.approach = pair.approach.lane[lane];
             touch.touch.separation = pair.separation.lane[lane];
             touch.touch.normal = readVector(pair.normal, lane);
