@@ -30,7 +30,7 @@ static void takeMotions(const BatchView& batch) {
 static constexpr Kernels kTable{
     &refresh,       &findBounds, &findSelfPairs, &findBodyPairs, &findBoxesAfter, &touchCores, &touchOwnCores,
     &findNearPlane, &limitRoom,  &joinBounds,    &takeWay,       &findMotion,     &begin,      &solve,
-    &outruns,       &solveAgain, &mend,          &takeMotions,   &mendOnce,       &mendNot,    &advance,
+    &outruns,       &solveAgain, &needsMending,  &takeMotions,   &mendOnce,       &mendNot,    &advance,
     &beginPairs,    &solvePairs, &mendPairs,     &pressAgain,    &pressRest,      &carryPairs, &limitEnergy};
 
 }  // namespace lutka::physics::crowd::LUTKA_KERNELS

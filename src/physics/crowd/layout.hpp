@@ -416,6 +416,9 @@ struct CoreTouchLanes {
     Wide separation;      ///< Of the surfaces, metres.
 };
 
+/// Passes of a mending.
+enum class MendPass { more, last, probe };
+
 /// The kernels of one instruction set. All sets do the same operations in the same order, without
 /// approximate instructions; those that fuse multiply and add give the same bits.
 struct Kernels {
@@ -461,15 +464,15 @@ struct Kernels {
     int (*outruns)(const BatchView& batch, const SubstepParams& params);
     /// Solves once more, with static contacts that have been found anew.
     void (*solveAgain)(const BatchView& batch, const SubstepParams& params);
-    /// Adds to the velocities, not to the steady ones, what mends errors of position; does nothing where there are none
-    /// unless `pushed`, which says that something else has added to the velocities in the same way.
-    void (*mend)(const BatchView& batch, const SubstepParams& params, int pushed);
+    /// Whether any error of position is so large that it is to be mended.
+    int (*needsMending)(const BatchView& batch, const SubstepParams& params);
     /// Takes in what pair contacts have made of the velocities, for mendOnce().
     void (*takeMotions)(const BatchView& batch);
-    /// One pass of mend(), in some lanes with firm static contacts (SubstepTuning::wedgeFirmness; a bit mask). Where it
-    /// `probes`, nothing but the velocities changes, and it returns 0. Else what it would run through holds from the
-    /// next pass on, arms are foreseen anew, and it returns a bit mask of the lanes that need that pass.
-    unsigned (*mendOnce)(const BatchView& batch, const SubstepParams& params, unsigned firmly, int probes);
+    /// Adds to the velocities, not to the steady ones, what mends errors of position, in some lanes (a bit mask) with
+    /// firm static contacts (SubstepTuning::wedgeFirmness). Returns a bit mask of the lanes that need another pass.
+    /// What this one would run through holds there, and unless it is the last, arms are foreseen anew. A probe changes
+    /// nothing but velocities, and returns 0.
+    unsigned (*mendOnce)(const BatchView& batch, const SubstepParams& params, unsigned firmly, MendPass kind);
     /// Takes back all mending in some lanes, a bit mask.
     void (*mendNot)(const BatchView& batch, unsigned lanes);
     /// Positions and orientations with the velocities, which are the steady ones again afterwards.

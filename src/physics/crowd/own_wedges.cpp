@@ -101,6 +101,19 @@ void findPushes(DollWedges& doll, const SubstepParams& params) {
     }
 }
 
+// Passes until nothing is run through, each after `prepare()`. Where that is not reached nothing is mended.
+template <class Prepare>
+void mendInPasses(const Kernels& kernels, const BatchView& view, const SubstepParams& params, unsigned firmly,
+                  const Prepare& prepare) {
+    unsigned unsolved = 0;
+    for (int left = kMendPasses; left > 0; --left) {
+        prepare();
+        unsolved = kernels.mendOnce(view, params, firmly, left > 1 ? MendPass::more : MendPass::last);
+        if (unsolved == 0) return;
+    }
+    kernels.mendNot(view, unsolved);
+}
+
 // One batch's, from the velocities that pair contacts have left.
 class BatchWedges {
   public:
@@ -116,8 +129,7 @@ class BatchWedges {
         unsigned firmly = 0;
         for (int lane = 0; lane < kLanes; ++lane)
             firmly |= (lanes[lane].count > 0 ? 1U : 0U) << static_cast<unsigned>(lane);
-        unsigned unsolved = 0;
-        for (int pass = 0; pass < kMendPasses; ++pass) {
+        mendInPasses(kernels_, view_, params_, firmly, [&] {
             probe(lanes, before, firmly);
             restore(before);
             for (int lane = 0; lane < kLanes; ++lane) {
@@ -126,10 +138,7 @@ class BatchWedges {
                 for (int i = 0; i < doll.count; ++i)
                     pushAt(batch_, lane, *doll.wedges[i], doll.push[i]);
             }
-            unsolved = kernels_.mendOnce(view_, params_, firmly, 0);
-            if (unsolved == 0) return;
-        }
-        kernels_.mendNot(view_, unsolved);
+        });
     }
 
   private:
@@ -149,7 +158,7 @@ class BatchWedges {
             restore(before);
             for (int lane = 0; pushed != kNone && lane < kLanes; ++lane)
                 if (pushed < lanes[lane].count) pushAt(batch_, lane, *lanes[lane].wedges[pushed], 1.0F);
-            kernels_.mendOnce(view_, params_, firmly, 1);
+            kernels_.mendOnce(view_, params_, firmly, MendPass::probe);
             for (int lane = 0; lane < kLanes; ++lane) {
                 DollWedges& doll = lanes[lane];
                 for (int i = 0; i < doll.count; ++i) {
@@ -207,8 +216,7 @@ void findWedges(CrowdState& state, Job& job, const SubstepParams& params) {
     wedges.erase(end, wedges.end());
 }
 
-bool mendWedges(CrowdState& state, const Job& job, std::size_t batch, const SubstepParams& params) {
-    if (job.wedges.empty()) return false;
+void mendDolls(CrowdState& state, const Job& job, std::size_t batch, const SubstepParams& params, bool pushed) {
     LaneWedges lanes;
     bool hasAny = false;
     Batch& of = *job.batches[batch];
@@ -218,8 +226,13 @@ bool mendWedges(CrowdState& state, const Job& job, std::size_t batch, const Subs
         for (int lane = 0; lane < kLanes; ++lane)  // those without a doll repeat the first
             if ((lane < of.used ? lane : 0) == wedge.lane) lanes[lane].wedges[lanes[lane].count++] = &wedge;
     }
-    if (hasAny) BatchWedges(state, of, *job.topologies[batch], params).mend(lanes);
-    return hasAny;
+    const Topology& topology = *job.topologies[batch];
+    if (hasAny) return BatchWedges(state, of, topology, params).mend(lanes);
+    const Kernels& kernels = *state.kernels;
+    const BatchView view = of.view(topology);
+    if (!pushed && kernels.needsMending(view, params) == 0) return;
+    if (pushed) kernels.takeMotions(view);
+    mendInPasses(kernels, view, params, 0, [] {});
 }
 
 void endWedges(Job& job) {

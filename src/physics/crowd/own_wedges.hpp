@@ -13,9 +13,9 @@ namespace lutka::physics::crowd {
 /// Looks for such contacts and takes them out of the sweeps that mend (PairKind::wedged) until endWedges().
 void findWedges(CrowdState& state, Job& job, const SubstepParams& params);
 
-/// Mends a batch of the job in place of Kernels::mend, its other dolls with it: by passes that begin anew where that
-/// goes on. False, and nothing is done, where none of its dolls has any.
-[[nodiscard]] bool mendWedges(CrowdState& state, const Job& job, std::size_t batch, const SubstepParams& params);
+/// Mends errors of position in a batch of the job, on top of the steady velocities. `pushed`: pair contacts have
+/// changed velocities for it already. Where a doll has such contacts, each pass begins anew from those velocities.
+void mendDolls(CrowdState& state, const Job& job, std::size_t batch, const SubstepParams& params, bool pushed);
 
 void endWedges(Job& job);
 

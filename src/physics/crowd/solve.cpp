@@ -119,7 +119,7 @@ class JobSubstep {
         if (mends_) findWedges(state_, job_, params_);
         const bool pushed = mends_ && mendPairs();
         forBatches(state_, job_, [&](std::size_t i) {
-            if (mends_ && !mendWedges(state_, job_, i, params_)) kernels.mend(viewOf(i), params_, pushed ? 1 : 0);
+            if (mends_) mendDolls(state_, job_, i, params_, pushed);
             kernels.advance(viewOf(i), params_);
             if (next == nullptr) return;
             refreshStatics(i, *next);

@@ -222,16 +222,16 @@ static Mask sweep(const BatchView& batch, const SubstepParams& params, Pass& pas
 }
 
 // Whether anything is so far off that it is to be mended.
-static bool needsMending(const BatchView& batch, const SubstepParams& params) {
+static int needsMending(const BatchView& batch, const SubstepParams& params) {
     for (int j = 0; j < batch.jointCount; ++j) {
-        if (batch.joints[j].mends != 0) return true;
+        if (batch.joints[j].mends != 0) return 1;
     }
     Mask off = noLanes();
     for (int i = 0; i < batch.contactCount; ++i) {
         const StaticContactLanes& contact = batch.contacts[i];
         if (contact.engaged != 0) off |= load(contact.bias) < all(-params.mendGap * params.contactRate);
     }
-    return bits(off) != 0;
+    return bits(off) != 0 ? 1 : 0;
 }
 
 // The arms of all rows, as the bodies' aims foresee them.
@@ -272,44 +272,24 @@ static void aimLoose(const BatchView& batch, const SubstepParams& params, const 
     aimRows(batch, params);
 }
 
-// Takes back all mending in some lanes.
-static void leaveSteady(const BatchView& batch, const Mask& lanes) {
-    for (int b = 0; b < batch.bodyCount; ++b) {
-        BodyLanes& body = batch.bodies[b];
-        store(body.velocity, choose(lanes, load(body.steadyVelocity), load(body.velocity)));
-        store(body.angular, choose(lanes, load(body.steadyAngular), load(body.angular)));
-    }
-}
-
-LUTKA_LANES Pass mendingPass(bool probes) {
-    return {true, all(1.0F), true, noLanes(), all(1.0F), noLanes(), noLanes(), all(1.0F), probes};
-}
-
-static void mend(const BatchView& batch, const SubstepParams& params, int pushed) {
-    if (pushed != 0) takePushed(batch);
-    if (pushed == 0 && !needsMending(batch, params)) return;
-    Pass pass = mendingPass(false);
-    Mask unsolved = noLanes();
-    for (int i = 0; i < kMendPasses; ++i) {
-        pass.astray = noLanes();
-        unsolved = sweep(batch, params, pass, Fresh::since) | pass.astray;
-        if (bits(unsolved) == 0) return;
-        if (i + 1 < kMendPasses && bits(pass.astray) != 0) aim(batch, params, pass.astray, 1.0F);
-    }
-    leaveSteady(batch, unsolved);
-}
-
-static unsigned mendOnce(const BatchView& batch, const SubstepParams& params, unsigned firmly, int probes) {
-    Pass pass = mendingPass(probes != 0);
-    pass.firmness = lanesOf(firmly) ? all(params.wedgeFirmness) : all(1.0F);
+// One pass of a mending, in some lanes with firm static contacts. Returns the lanes that need another.
+static unsigned mendOnce(const BatchView& batch, const SubstepParams& params, unsigned firmly, MendPass kind) {
+    const F firmness = lanesOf(firmly) ? all(params.wedgeFirmness) : all(1.0F);
+    Pass pass{true, all(1.0F), true, noLanes(), all(1.0F), noLanes(), noLanes(), firmness, kind == MendPass::probe};
     const Mask wrong = sweep(batch, params, pass, Fresh::since);
-    if (probes != 0) return 0;
-    if (bits(pass.astray) != 0) aim(batch, params, pass.astray, 1.0F);
+    if (pass.probes) return 0;
+    if (kind != MendPass::last && bits(pass.astray) != 0) aim(batch, params, pass.astray, 1.0F);
     return bits(wrong | pass.astray);
 }
 
+// Takes back all mending in some lanes.
 static void mendNot(const BatchView& batch, unsigned lanes) {
-    leaveSteady(batch, lanesOf(lanes));
+    const Mask taken = lanesOf(lanes);
+    for (int b = 0; b < batch.bodyCount; ++b) {
+        BodyLanes& body = batch.bodies[b];
+        store(body.velocity, choose(taken, load(body.steadyVelocity), load(body.velocity)));
+        store(body.angular, choose(taken, load(body.steadyAngular), load(body.angular)));
+    }
 }
 
 // Gathers what has been done to single bodies, without the joints' answer.
