@@ -234,7 +234,7 @@ TEST_CASE("a Collada node without an id has no skin's bind shape matrix, nor a l
         skin.joints.push_back({1});
         scene.skins.push_back(skin);
         scene.instances.push_back({0, 2, 0});
-        rig_import::completeBindShapes(document, scene);
+        rig_import::completeBindShapes(rig_import::ColladaDocument(document), scene);
         CHECK(scene.skins[0].joints[0].jointFromMesh == glm::scale(glm::dmat4(1.0), glm::dvec3(0.01)));
     }
 }

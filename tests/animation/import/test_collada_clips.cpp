@@ -159,12 +159,13 @@ TEST_CASE("what Assimp adds to the names of Collada clips is taken away") {
         scene.clips.emplace_back();
         scene.clips.back().name = name;
     }
-    rig_import::settleColladaClips("<animation_clip name=\"walk\"/><animation_clip name=\"run\"/>", scene);
+    const std::string document = "<animation_clip name=\"walk\"/><animation_clip name=\"run\"/>";
+    rig_import::settleColladaClips(rig_import::ColladaDocument(document), scene);
     CHECK(scene.clips[0].name == "walk");
     CHECK(scene.clips[1].name == "run");
     CHECK(scene.clips[2].name == "walk_other");
     scene.clips[0].name = "animation_animation";
-    rig_import::settleColladaClips("", scene);
+    rig_import::settleColladaClips(rig_import::ColladaDocument(""), scene);
     CHECK(scene.clips[0].name == "animation");
     CHECK(scene.clips[2].name == "walk_other");
 }

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "animation/import/affine.hpp"
-#include "animation/import/assimp/collada_tags.hpp"
 #include "animation/import/assimp/collada_text.hpp"
 
 namespace lutka::animation::rig_import {
@@ -51,19 +50,19 @@ std::optional<dmat4> matrixIn(std::string_view text) {
 
 // The bind shape matrices of the skins by the nodes that show them. A node's own matrix is no such thing: from 2.8 on
 // Blender writes none for what hangs on an armature. Where an id is missing, nothing is linked.
-std::map<std::string, dmat4> bindShapesByNode(std::string_view document) {
-    const std::vector<ColladaTag> tags = colladaTags(document);
+std::map<std::string, dmat4> bindShapesByNode(const ColladaDocument& document) {
     std::map<std::string, dmat4> ofController;
     std::string controller;
-    for (const ColladaTag& tag : tags) {
+    for (const ColladaTag& tag : document.tags) {
         if (tag.opens("controller")) controller = colladaAttribute(tag.text, "id");
         if (!tag.opens("bind_shape_matrix") || controller.empty()) continue;
-        const std::size_t end = std::min(document.find('<', tag.end), document.size());
-        if (const auto matrix = matrixIn(document.substr(tag.end, end - tag.end))) ofController[controller] = *matrix;
+        const std::string_view text = document.text;
+        const std::size_t end = std::min(text.find('<', tag.end), text.size());
+        if (const auto matrix = matrixIn(text.substr(tag.end, end - tag.end))) ofController[controller] = *matrix;
     }
     std::map<std::string, dmat4> ofNode;
     std::vector<std::string> nodes;
-    for (const ColladaTag& tag : tags) {
+    for (const ColladaTag& tag : document.tags) {
         if (tag.opens("node") && !tag.isEmpty()) nodes.emplace_back(colladaAttribute(tag.text, "id"));
         if (tag.closes("node") && !nodes.empty()) nodes.pop_back();
         if (!tag.opens("instance_controller") || nodes.empty() || nodes.back().empty()) continue;
@@ -91,9 +90,9 @@ double distanceToJoints(const SourceMesh& mesh, const SourceSkin& skin, const dm
 
 }  // namespace
 
-void completeBindShapes(std::string_view document, SourceScene& scene) {
+void completeBindShapes(const ColladaDocument& document, SourceScene& scene) {
     constexpr double kFarther = 1.25;  // old versions wrote what Collada asks: there it would be far off
-    if (!isByBlender(document)) return;
+    if (!isByBlender(document.text)) return;
     const std::map<std::string, dmat4> bindShapes = bindShapesByNode(document);
     for (const SourceInstance& instance : scene.instances) {
         if (instance.skin < 0) continue;

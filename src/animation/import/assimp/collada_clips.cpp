@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "animation/import/assimp/collada_tags.hpp"
 #include "animation/import/assimp/collada_text.hpp"
 
 namespace lutka::animation::rig_import {
@@ -129,8 +128,8 @@ std::string inOneAnimation(const std::string& text, const std::vector<ColladaTag
 
 }  // namespace
 
-void settleColladaClips(std::string_view document, SourceScene& scene) {
-    const std::vector<AnimationClip> named = animationsOf(colladaTags(document)).clips;
+void settleColladaClips(const ColladaDocument& document, SourceScene& scene) {
+    const std::vector<AnimationClip> named = animationsOf(document.tags).clips;
     const std::string prefix = named.empty() ? std::string() : named.front().name + "_";
     for (SourceClip& clip : scene.clips) {
         const std::size_t half = clip.name.size() / 2;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
+#include "animation/import/assimp/collada_tags.hpp"
 #include "animation/import/source_scene.hpp"
 
 namespace lutka::animation::rig_import {
@@ -13,7 +13,7 @@ namespace lutka::animation::rig_import {
 [[nodiscard]] std::string gatheredCollada(std::string text);
 
 /// Gives the clips that Assimp made of a gathered document (gatheredCollada()) their names, to which it adds that of
-/// the first, or that very name once more. `document` is the file's own text as UTF-8, in which the clips still stand.
-void settleColladaClips(std::string_view document, SourceScene& scene);
+/// the first, or that very name once more. `document` is the file's own text, in which the clips still stand.
+void settleColladaClips(const ColladaDocument& document, SourceScene& scene);
 
 }  // namespace lutka::animation::rig_import

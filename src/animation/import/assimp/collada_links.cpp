@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "animation/import/assimp/collada_tags.hpp"
 #include "animation/import/assimp/collada_text.hpp"
 
 namespace lutka::animation::rig_import {
@@ -156,15 +155,14 @@ bool mentions(std::string_view text, std::string_view what) {
 
 }  // namespace
 
-bool holdsMorphs(std::string_view text) {
-    if (!mentions(text, "<morph")) return false;
-    const std::vector<ColladaTag> tags = colladaTags(text);
+bool holdsMorphs(const ColladaDocument& document) {
+    const std::vector<ColladaTag>& tags = document.tags;
     bool inMorph = false;
     for (std::size_t i = 0; i + 1 < tags.size(); ++i) {
         if (tags[i].opens("morph")) inMorph = true;
         if (tags[i].closes("morph")) inMorph = false;
         if (!inMorph || !tags[i].opens("float_array")) continue;  // the weights: targets are names
-        const std::string_view numbers = text.substr(tags[i].end, tags[i + 1].start - tags[i].end);
+        const std::string_view numbers = document.text.substr(tags[i].end, tags[i + 1].start - tags[i].end);
         if (numbers.find_first_of("123456789") != std::string_view::npos) return true;
     }
     return false;

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <string>
-#include <string_view>
+
+#include "animation/import/assimp/collada_tags.hpp"
 
 namespace lutka::animation::rig_import {
 
@@ -10,7 +11,7 @@ namespace lutka::animation::rig_import {
 /// morph controller over a skin, are the skin over the plain mesh: Assimp drops the first with its mesh.
 [[nodiscard]] std::string linkedCollada(std::string text);
 
-/// Whether a document's morph targets are on from the start: a weight is not 0. `text` is UTF-8.
-[[nodiscard]] bool holdsMorphs(std::string_view text);
+/// Whether a document's morph targets are on from the start: a weight is not 0.
+[[nodiscard]] bool holdsMorphs(const ColladaDocument& document);
 
 }  // namespace lutka::animation::rig_import

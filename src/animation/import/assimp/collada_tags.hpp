@@ -24,6 +24,14 @@ struct ColladaTag {
 /// All tags, in their order; comments, sections of character data and instructions are none.
 [[nodiscard]] std::vector<ColladaTag> colladaTags(std::string_view text);
 
+/// A document as UTF-8, which must outlive this, with all of its tags.
+struct ColladaDocument {
+    explicit ColladaDocument(std::string_view document) : text(document), tags(colladaTags(document)) {}
+
+    std::string_view text;
+    std::vector<ColladaTag> tags;
+};
+
 /// One past the tag that closes the element which tag `first` opens; nothing where none does.
 [[nodiscard]] std::optional<std::size_t> pastColladaElement(const std::vector<ColladaTag>& tags, std::size_t first,
                                                             std::string_view name);

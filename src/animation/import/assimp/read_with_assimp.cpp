@@ -80,9 +80,11 @@ void completeByDocument(const std::filesystem::path& file, SourceScene& out) {
         decodedCollada({reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size()});
     if (out.clips.empty() && text.find("<channel ") != std::string::npos)
         out.warnings.emplace_back("left out: animations, for they move nothing that stands in the scene itself");
-    if (holdsMorphs(text)) out.warnings.emplace_back("left out: morph targets, which the file has on from the start");
-    if (!out.clips.empty()) settleColladaClips(text, out);
-    completeBindShapes(text, out);
+    const ColladaDocument document(text);
+    if (holdsMorphs(document))
+        out.warnings.emplace_back("left out: morph targets, which the file has on from the start");
+    if (!out.clips.empty()) settleColladaClips(document, out);
+    completeBindShapes(document, out);
     const auto names = colladaNodeNames(text);
     std::set<std::string> taken;
     for (const SourceNode& node : out.nodes)
