@@ -1,25 +1,18 @@
 #include "render/bounds.hpp"
 
 #include <algorithm>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 
+#include "core/aabb.hpp"
 #include "core/assert.hpp"
 
 namespace lutka::render {
 namespace {
 
-struct Box {
-    vec3 lower{std::numeric_limits<float>::max()};
-    vec3 upper{std::numeric_limits<float>::lowest()};
-
-    void add(const vec3& point) {
-        lower = glm::min(lower, point);
-        upper = glm::max(upper, point);
-    }
-    [[nodiscard]] bool empty() const { return lower.x > upper.x; }
-};
+BoundingSphere sphereAround(const Aabb& box) {
+    if (box.empty()) return {};
+    return {box.middle(), 0.5F * box.diagonal()};
+}
 
 }  // namespace
 
@@ -35,7 +28,7 @@ BoundingSphere enclosing(const BoundingSphere& a, const BoundingSphere& b) {
 }
 
 std::vector<BoundingSphere> jointBounds(const animation::Character& character) {
-    std::vector<Box> boxes(character.skeleton.parents.size());
+    std::vector<Aabb> boxes(character.skeleton.parents.size());
     for (const animation::SkinnedMesh& mesh : character.meshes) {
         for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
             for (int slot = 0; slot < animation::kMaxInfluences; ++slot) {
@@ -45,20 +38,15 @@ std::vector<BoundingSphere> jointBounds(const animation::Character& character) {
     }
     std::vector<BoundingSphere> spheres;
     spheres.reserve(boxes.size());
-    for (const Box& box : boxes) {
-        if (box.empty()) {
-            spheres.emplace_back();
-        } else {
-            spheres.push_back({0.5F * (box.lower + box.upper), 0.5F * glm::length(box.upper - box.lower)});
-        }
-    }
+    for (const Aabb& box : boxes)
+        spheres.push_back(sphereAround(box));
     return spheres;
 }
 
 BoundingSphere posedBounds(std::span<const BoundingSphere> joints, std::span<const animation::SkinMatrix> palette,
                            const RigidTransform& worldFromModel) {
     LUTKA_ASSERT(joints.size() == palette.size());
-    Box box;
+    Aabb box;
     for (std::size_t joint = 0; joint < joints.size(); ++joint) {
         if (joints[joint].empty()) continue;
         const vec4 bind(joints[joint].center, 1.0F);
@@ -67,8 +55,9 @@ BoundingSphere posedBounds(std::span<const BoundingSphere> joints, std::span<con
         box.add(center - joints[joint].radius);
         box.add(center + joints[joint].radius);
     }
-    if (box.empty()) return {};
-    return {worldFromModel * (0.5F * (box.lower + box.upper)), 0.5F * glm::length(box.upper - box.lower)};
+    BoundingSphere sphere = sphereAround(box);
+    if (!sphere.empty()) sphere.center = worldFromModel * sphere.center;
+    return sphere;
 }
 
 BoundingSphere boundsOf(const PropItem& prop) {

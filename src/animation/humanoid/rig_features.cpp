@@ -14,6 +14,7 @@
 
 #include "animation/counted_vertices.hpp"
 #include "animation/humanoid/names_in_tree.hpp"
+#include "core/aabb.hpp"
 
 namespace lutka::animation {
 namespace {
@@ -69,28 +70,22 @@ void readRigidParts(const Character& character, RigFeatures& rig) {
 // A rigid part's node may lie anywhere: at the origin of the file, or on the other side, where the part was mirrored in
 // the modelling program. Its place is then that of its meshes. Pivots that lie at their part are left alone.
 void placeParts(const Character& character, RigFeatures& rig) {
-    constexpr float kBeside = 0.5F;  // of the part's extent, beyond its box
-    struct Part {
-        vec3 low{1e30F};
-        vec3 high{-1e30F};
-    };
-    std::map<std::size_t, Part> parts;  // by their node, which may carry several meshes
+    constexpr float kBeside = 0.5F;     // of the part's extent, beyond its box
+    std::map<std::size_t, Aabb> parts;  // by their node, which may carry several meshes
     for (const SkinnedMesh& mesh : character.meshes) {
         if (!mesh.rigid || mesh.joints.empty() || mesh.positions.empty()) continue;
         const std::size_t node = mesh.joints[0][0];
         if (node >= rig.positions.size() || !rig.children[node].empty()) continue;
-        Part& part = parts[node];
-        for (const vec3& position : mesh.positions) {
-            part.low = glm::min(part.low, position);
-            part.high = glm::max(part.high, position);
-        }
+        Aabb& part = parts[node];
+        for (const vec3& position : mesh.positions)
+            part.add(position);
     }
     for (const auto& [node, part] : parts) {
-        const vec3 margin(kBeside * glm::distance(part.low, part.high));
+        const vec3 margin(kBeside * part.diagonal());
         vec3& place = rig.positions[node];
         const bool away =
             glm::any(glm::lessThan(place, part.low - margin)) || glm::any(glm::greaterThan(place, part.high + margin));
-        if (away) place = 0.5F * (part.low + part.high);
+        if (away) place = part.middle();
     }
 }
 

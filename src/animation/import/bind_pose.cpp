@@ -8,6 +8,8 @@
 #include <limits>
 #include <optional>
 
+#include "core/aabb.hpp"
+
 namespace lutka::animation::rig_import {
 namespace {
 
@@ -33,16 +35,12 @@ struct MeshExtent {
 };
 
 MeshExtent extentOf(const SourceMesh& mesh) {
-    dvec3 low(std::numeric_limits<double>::max());
-    dvec3 high(std::numeric_limits<double>::lowest());
+    AabbOf<dvec3> box;
     for (const vec3& position : mesh.positions) {
-        const dvec3 p(position);
-        if (!std::isfinite(p.x + p.y + p.z)) continue;
-        low = glm::min(low, p);
-        high = glm::max(high, p);
+        if (isFinite(position)) box.add(dvec3(position));
     }
-    if (low.x > high.x) return {};
-    return {0.5 * (low + high), std::max(glm::distance(low, high), 1e-12)};
+    if (box.empty()) return {};
+    return {box.middle(), std::max(box.diagonal(), 1e-12)};
 }
 
 struct Vote {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/aabb.hpp"
 #include "core/math.hpp"
 
 namespace lutka::animation::rig_import {
@@ -84,18 +85,12 @@ double sharedNames(const SourceScene& scene, const Armature& a, const Armature& 
     return static_cast<double>(shared) / static_cast<double>(std::min(a.joints.size(), b.joints.size()));
 }
 
-// A box in the scene's axes; low above high while it is empty.
-struct SceneBounds {
-    glm::dvec3 low{1e300};
-    glm::dvec3 high{-1e300};
-};
+using SceneBounds = AabbOf<glm::dvec3>;  // in the scene's axes
 
 SceneBounds boundsOf(const std::vector<glm::dmat4>& sceneFromNode, const Armature& armature) {
     SceneBounds box;
-    for (const int joint : armature.joints) {
-        box.low = glm::min(box.low, glm::dvec3(sceneFromNode[joint][3]));
-        box.high = glm::max(box.high, glm::dvec3(sceneFromNode[joint][3]));
-    }
+    for (const int joint : armature.joints)
+        box.add(glm::dvec3(sceneFromNode[joint][3]));
     return box;
 }
 
@@ -104,11 +99,6 @@ bool apart(const SceneBounds& a, const SceneBounds& b) {
         if (a.high[axis] < b.low[axis] || b.high[axis] < a.low[axis]) return true;
     }
     return false;
-}
-
-double distanceTo(const SceneBounds& box, const SceneBounds& other) {
-    const glm::dvec3 centre = 0.5 * (other.low + other.high);
-    return glm::distance(centre, glm::clamp(centre, box.low, box.high));
 }
 
 std::size_t endsOf(const SourceScene& scene, const Armature& armature) {
@@ -123,7 +113,7 @@ std::size_t endsOf(const SourceScene& scene, const Armature& armature) {
 // so near that their arms cross.
 bool standsBeside(const SourceScene& scene, const Armature& other, const SceneBounds& place, const SceneBounds& first) {
     if (other.joints.size() < kWholeSkeleton) return false;
-    return apart(first, place) || (endsOf(scene, other) >= kFewestEnds && distanceTo(first, place) > 0.0);
+    return apart(first, place) || (endsOf(scene, other) >= kFewestEnds && first.distanceTo(place.middle()) > 0.0);
 }
 
 std::vector<glm::dmat4> posed(const SourceScene& scene) {
@@ -160,8 +150,9 @@ std::vector<const Armature*> charactersAmong(const SourceScene& scene, const std
 
 // A hat on joints of its own goes with the character that it is nearest to.
 std::size_t nearestCharacter(const std::vector<SceneBounds>& characters, const SceneBounds& accessory) {
+    const glm::dvec3 middle = accessory.middle();
     const auto nearer = [&](const SceneBounds& a, const SceneBounds& b) {
-        return distanceTo(a, accessory) < distanceTo(b, accessory);
+        return a.distanceTo(middle) < b.distanceTo(middle);
     };
     return static_cast<std::size_t>(std::min_element(characters.begin(), characters.end(), nearer) -
                                     characters.begin());
@@ -184,8 +175,7 @@ SceneBounds skinOf(const SourceScene& scene, const std::vector<glm::dmat4>& scen
             const SourceSkin::Joint& joint = joints[most->slot];
             const glm::dvec4 place(glm::dvec3(mesh.positions[v]), 1.0);
             const glm::dvec3 point(sceneFromNode[joint.node] * joint.jointFromMesh * place);
-            box.low = glm::min(box.low, point);
-            box.high = glm::max(box.high, point);
+            box.add(point);
         }
     }
     return box;
@@ -194,9 +184,9 @@ SceneBounds skinOf(const SourceScene& scene, const std::vector<glm::dmat4>& scen
 // A ground or a crate that hangs on a joint of its own, as exporters give one to every mesh: larger than the character,
 // or away from it.
 bool isThing(const SceneBounds& skin, const SceneBounds& character) {
-    const double reach = glm::distance(character.low, character.high);
-    const glm::dvec3 size = skin.high - skin.low;
-    if (size.x < 0.0 || character.high.x < character.low.x || reach <= 0.0) return false;
+    if (skin.empty() || character.empty() || character.diagonal() <= 0.0) return false;
+    const double reach = character.diagonal();
+    const glm::dvec3 size = skin.size();
     const glm::dvec3 gap = glm::max(glm::max(skin.low - character.high, character.low - skin.high), glm::dvec3(0.0));
     return glm::length(size) > kLargestAccessory * reach || glm::length(gap) > kFarthestAccessory * reach;
 }

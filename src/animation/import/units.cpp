@@ -1,5 +1,4 @@
 #include "animation/import/units.hpp"
-#include "core/letter_case.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +7,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
+
+#include "core/aabb.hpp"
+#include "core/letter_case.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {
@@ -48,22 +50,15 @@ UpAxis axisOf(int axis, bool positive) {
     return static_cast<UpAxis>(2 * axis + (positive ? 0 : 1));
 }
 
-struct Extents {
-    dvec3 low{0};
-    dvec3 high{0};
-    [[nodiscard]] dvec3 size() const { return high - low; }
-};
+using Extents = AabbOf<dvec3>;
 
+// Of no points: a box without a size at the origin.
 Extents extentsOf(std::span<const vec3> points) {
     Extents out;
-    bool first = true;
     for (const vec3& point : points) {
-        if (!isFinite(point)) continue;
-        out.low = first ? dvec3(point) : glm::min(out.low, dvec3(point));
-        out.high = first ? dvec3(point) : glm::max(out.high, dvec3(point));
-        first = false;
+        if (isFinite(point)) out.add(dvec3(point));
     }
-    return out;
+    return out.empty() ? Extents{dvec3(0), dvec3(0)} : out;
 }
 
 // A figure flat along the stated axis that stands on the origin along another one, the same on both sides of the third:
@@ -180,7 +175,7 @@ void settleScale(const SourceConvention& convention, const Extents& box, Subject
 void settlePlace(const Extents& box, UnitsAndAxes& out, std::vector<std::string>& warnings) {
     constexpr double kFar = 4.0;  // sizes of the figure
     const dvec3 size = out.scale * glm::abs(out.rotation * box.size());
-    const dvec3 centre = out.scale * (out.rotation * (0.5 * (box.low + box.high)));
+    const dvec3 centre = out.scale * (out.rotation * box.middle());
     const double extent = std::max({size.x, size.y, size.z});
     const double away = glm::length(dvec3(centre.x, centre.y - 0.5 * size.y, centre.z));
     if (!(extent > 0.0) || !(away > kFar * extent)) return;

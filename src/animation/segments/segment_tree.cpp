@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "core/aabb.hpp"
+
 namespace lutka::animation {
 namespace {
 
@@ -261,11 +263,9 @@ class TreeBuilder {
 RigMeasures measureRig(const RigFeatures& rig) {
     RigMeasures measures;
     measures.reach.assign(static_cast<std::size_t>(rig.count()), 0.0F);
-    vec3 low(1e9F);
-    vec3 high(-1e9F);
+    Aabb box;
     const auto take = [&](const vec3& point, int joint) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
+        box.add(point);
         for (int at = joint; at != kNoJoint; at = rig.parents[at])
             measures.reach[at] = std::max(measures.reach[at], glm::distance(point, rig.positions[at]));
     };
@@ -275,7 +275,7 @@ RigMeasures measureRig(const RigFeatures& rig) {
         for (int joint = 0; joint < rig.count(); ++joint)
             take(rig.positions[joint], joint);
     }
-    const vec3 size = high - low;
+    const vec3 size = box.size();
     measures.size = std::max({size.x, size.y, size.z, 1e-3F});
     return measures;
 }

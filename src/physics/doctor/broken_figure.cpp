@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "core/aabb.hpp"
 #include "physics/collision/shape.hpp"
 
 namespace lutka::physics {
@@ -195,17 +196,10 @@ void findSkinOnOneJoint(const animation::Character& character, const BodyPlan& p
               "give the skin weights on the joints of the limbs, or map the joints that have them", {}));
 }
 
-struct SkinBox {
-    vec3 low{1e9F};
-    vec3 high{-1e9F};
-};
-
-SkinBox boxOf(const PlannedBody& body) {
-    SkinBox box;
-    for (const SkinPoint& point : body.skin) {
-        box.low = glm::min(box.low, point.position);
-        box.high = glm::max(box.high, point.position);
-    }
+Aabb boxOf(const PlannedBody& body) {
+    Aabb box;
+    for (const SkinPoint& point : body.skin)
+        box.add(point.position);
     return box;
 }
 
@@ -215,10 +209,10 @@ void findSmallSkin(const BodyPlan& plan, std::span<const PlacedShape> shapes, st
     std::size_t small = 0;
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         if (plan.bodies[i].skin.empty()) continue;
-        const SkinBox box = boxOf(plan.bodies[i]);
+        const Aabb box = boxOf(plan.bodies[i]);
         const vec3 half = halfExtents(shapes[i]);
         ++skinned;
-        small += glm::distance(box.low, box.high) < kSmallSkin * 2.0F * std::max({half.x, half.y, half.z}) ? 1 : 0;
+        small += box.diagonal() < kSmallSkin * 2.0F * std::max({half.x, half.y, half.z}) ? 1 : 0;
     }
     if (skinned < kManyBodies || static_cast<float>(small) <= kMostSmall * static_cast<float>(skinned)) return;
     findings.push_back(error("skin-small", "/bodies",
@@ -247,7 +241,7 @@ void findBodiesBesideSkin(const BodyPlan& plan, std::span<const PlacedShape> sha
         const vec3 half = halfExtents(shapes[i]);
         const float surface = 8.0F * (half.x * half.y + half.y * half.z + half.z * half.x);
         if (areaOf(body) < kLeastSkin * surface) continue;
-        const SkinBox box = boxOf(body);
+        const Aabb box = boxOf(body);
         const vec3 beyond = glm::max(box.low - middle, middle - box.high);
         const float distance = std::max({beyond.x, beyond.y, beyond.z});
         // The middle of a bear's neck may lie behind the collar of skin that follows it.

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "core/aabb.hpp"
 #include "core/assert.hpp"
 #include "core/quantile.hpp"
 #include "physics/fit/body_tips.hpp"
@@ -217,21 +218,16 @@ void hangSegments(BodyPlan& plan, const Character& character) {
 
 // The vertical extent of a creature, at least half of its longest: of its skin, else of its joints.
 float creatureSize(const BodyPlan& plan, const Character& character, const HumanoidMap& map) {
-    vec3 low(1e9F);
-    vec3 high(-1e9F);
+    Aabb box;
     for (const PlannedBody& body : plan.bodies) {
-        for (const SkinPoint& point : body.skin) {
-            low = glm::min(low, point.position);
-            high = glm::max(high, point.position);
-        }
+        for (const SkinPoint& point : body.skin)
+            box.add(point.position);
     }
-    if (low.x > high.x) {
-        for (const RigidTransform& joint : character.skeleton.bindModelFromJoint) {
-            low = glm::min(low, map.standardFromModel * joint.translation);
-            high = glm::max(high, map.standardFromModel * joint.translation);
-        }
+    if (box.empty()) {
+        for (const RigidTransform& joint : character.skeleton.bindModelFromJoint)
+            box.add(map.standardFromModel * joint.translation);
     }
-    const vec3 size = high - low;
+    const vec3 size = box.size();
     return std::max({size.y, 0.5F * size.x, 0.5F * size.z, 1e-3F});
 }
 

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "animation/counted_vertices.hpp"
+#include "core/aabb.hpp"
 #include "core/random.hpp"
 #include "physics/collision/shape.hpp"
 #include "physics/fit/separate_shapes.hpp"
@@ -139,18 +140,15 @@ std::vector<RigidTransform> inverses(std::span<const PlacedShape> shapes) {
 std::optional<float> volumeCovered(const animation::Character& character, float heightM, const mat3& toStandard,
                                    std::span<const PlacedShape> shapes) {
     constexpr float kCell = 1.0F / 120.0F;  // of the height: some 50,000 points in a man
-    vec3 low(1e9F);
-    vec3 high(-1e9F);
+    Aabb box;
     for (const animation::SkinnedMesh& mesh : character.meshes) {
-        for (const vec3& position : mesh.positions) {
-            low = glm::min(low, toStandard * position);
-            high = glm::max(high, toStandard * position);
-        }
+        for (const vec3& position : mesh.positions)
+            box.add(toStandard * position);
     }
     // A stray vertex may not blow the grid up: what lies beyond three heights is not looked at.
     const vec3 reach(3.0F * heightM);
-    low = glm::max(low, shapes[0].standardFromBody.translation - reach);
-    high = glm::min(high, shapes[0].standardFromBody.translation + reach);
+    const vec3 low = glm::max(box.low, shapes[0].standardFromBody.translation - reach);
+    const vec3 high = glm::min(box.high, shapes[0].standardFromBody.translation + reach);
     if (low.x >= high.x || low.y >= high.y) return std::nullopt;
     RayGrid grid(low, high, kCell * heightM);
     for (const animation::SkinnedMesh& mesh : character.meshes) {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
 #include <unordered_map>
 #include <utility>
 
+#include "core/aabb.hpp"
 #include "core/union_find.hpp"
 
 namespace lutka::physics {
@@ -22,23 +22,9 @@ constexpr float kAtJoint = 0.25F;     // of a piece's diagonal: so near it begin
 constexpr float kMostInside = 0.5F;   // of a piece's vertices: it is a part of the skull
 constexpr float kMostGrown = 1.6F;    // of the skull's diagonal: with the parts that lie on it
 
-struct Box {
-    vec3 low{1e9F};
-    vec3 high{-1e9F};
-
-    void add(const vec3& point) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-    [[nodiscard]] float diagonal() const { return glm::distance(low, high); }
-    [[nodiscard]] float distanceTo(const vec3& point) const {
-        return glm::length(glm::max(glm::max(low - point, point - high), vec3(0)));
-    }
-};
-
 // Connected skin of the head.
 struct Piece {
-    Box box;
+    Aabb box;
     float area = 0.0F;
     vec3 sum{0};  // of its points
     std::vector<vec3> points;
@@ -162,7 +148,7 @@ std::optional<std::size_t> skullOf(const std::vector<Piece>& pieces, const Plann
 }
 
 // How many of a piece's points lie within the margin of a box.
-float shareWithin(const Piece& piece, const Box& box, float margin) {
+float shareWithin(const Piece& piece, const Aabb& box, float margin) {
     const auto inside = std::count_if(piece.points.begin(), piece.points.end(),
                                       [&](const vec3& point) { return box.distanceTo(point) <= margin; });
     return static_cast<float>(inside) / static_cast<float>(piece.points.size());
@@ -170,7 +156,7 @@ float shareWithin(const Piece& piece, const Box& box, float margin) {
 
 // How far from the skull each piece's skin still tells the head's shape: all of those that lie on it, hair that begins
 // on it up to a margin, of what only touches it nothing. `box` becomes that of the skull with what lies on it.
-std::vector<float> reachesOf(const std::vector<Piece>& pieces, std::size_t skull, Box& box) {
+std::vector<float> reachesOf(const std::vector<Piece>& pieces, std::size_t skull, Aabb& box) {
     constexpr float kAll = 1e9F;
     std::vector<float> reaches(pieces.size(), 0.0F);
     reaches[skull] = kAll;
@@ -181,9 +167,8 @@ std::vector<float> reachesOf(const std::vector<Piece>& pieces, std::size_t skull
         grown = false;
         for (std::size_t i = 0; i < pieces.size(); ++i) {
             if (reaches[i] == kAll || shareWithin(pieces[i], box, margin) < kMostInside) continue;
-            Box larger = box;
-            larger.add(pieces[i].box.low);
-            larger.add(pieces[i].box.high);
+            Aabb larger = box;
+            larger.add(pieces[i].box);
             const bool isWhole = larger.diagonal() <= most;
             reaches[i] = isWhole ? kAll : margin;
             if (isWhole) box = larger;
@@ -202,7 +187,7 @@ void hangPiecesOfHead(const BodyPlan& plan, const animation::Character& characte
     const HeadSkin skin(head, character, standardFromModel, owners);
     const std::optional<std::size_t> skull = skullOf(skin.pieces(), plan.bodies[head]);
     if (!skull || skin.pieces().size() < 2) return;
-    Box box;
+    Aabb box;
     const std::vector<float> reaches = reachesOf(skin.pieces(), *skull, box);
     for (std::size_t m = 0; m < owners.size(); ++m) {
         for (std::size_t v = 0; v < owners[m].size(); ++v) {

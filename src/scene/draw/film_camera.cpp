@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/aabb.hpp"
 #include "scene/draw/draw_simulation.hpp"
 #include "scene/draw/scene_extent.hpp"
 
@@ -82,13 +83,10 @@ void FilmCamera::update(Simulation& simulation, float alpha, float seconds) {
 
 void FilmCamera::followAlone(Simulation& simulation, float alpha, float seconds) {
     const auto bodies = simulation.worldFromBody(*alone_, alpha);
-    vec3 low = bodies.front().translation;
-    vec3 high = low;
-    for (const RigidTransform& body : bodies) {
-        low = glm::min(low, body.translation);
-        high = glm::max(high, body.translation);
-    }
-    const vec3 centre = (low + high) * 0.5F;
+    Aabb box;
+    for (const RigidTransform& body : bodies)
+        box.add(body.translation);
+    const vec3 centre = box.middle();
     if (begun_) {
         camera.target += (centre - camera.target) * shareIn(std::max(seconds, 0.0F));
         return;
@@ -96,7 +94,7 @@ void FilmCamera::followAlone(Simulation& simulation, float alpha, float seconds)
     begun_ = true;
     constexpr float outline = 1.25F;  // bodies' centres end short of the figure's own
     const float radius =
-        std::max(glm::distance(low, high) * 0.5F * outline, radiusAround(centre, bodies, simulation.assetOf(*alone_)));
+        std::max(box.diagonal() * 0.5F * outline, radiusAround(centre, bodies, simulation.assetOf(*alone_)));
     const float distance = camera.distance;
     render::frameSphere(camera, centre, radius, aspect_);
     if (keepsDistance_) camera.distance = distance;
@@ -106,18 +104,15 @@ void FilmCamera::follow(Simulation& simulation, float alpha, float seconds) {
     points_.clear();
     for (int doll = 0; doll < simulation.dollCount(); ++doll)
         addExtentOfDoll(simulation, doll, alpha, points_);
-    vec3 low = points_.front();
-    vec3 high = low;
-    for (const vec3& point : points_) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
+    Aabb box;
+    for (const vec3& point : points_)
+        box.add(point);
     const bool single = simulation.dollCount() == 1;
     const float room = single ? kRoomAroundOne : kRoomAround;
     render::Camera group = camera;
     render::framePoints(group, points_, aspect_, {room, room, room, room});
     // The group's distance is one from the group's target: about another point those in front would be cut off.
-    const vec3 centre = single ? (low + high) * 0.5F : group.target;
+    const vec3 centre = single ? box.middle() : group.target;
     const float slope = 2.0F * std::tan(0.5F * camera.fieldOfView);
     // In a narrow picture the figure lies across its width in the end.
     const float alone = tallest(simulation) / (kShareOfHeight * slope * std::min(1.0F, aspect_));

@@ -1,9 +1,9 @@
 #include "scene/draw/scene_extent.hpp"
 
 #include <algorithm>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/aabb.hpp"
 #include "scene/asset/body_bounds.hpp"
 
 namespace lutka::scene {
@@ -52,18 +52,16 @@ bool hasFloor(const Scenario& scenario) {
 
 // Below a doll, from the points around it: where it will land, and how far it will reach when it lies there.
 void addGround(std::vector<vec3>& points, std::size_t first) {
-    vec3 low = points[first];
-    vec3 high = low;
+    Aabb box;
     const std::size_t end = points.size();
     for (std::size_t i = first; i < end; ++i) {
-        low = glm::min(low, points[i]);
-        high = glm::max(high, points[i]);
+        box.add(points[i]);
         if (points[i].y > 0.0F) points.emplace_back(points[i].x, 0.0F, points[i].z);
     }
-    if (low.y <= 0.0F) return;
+    if (box.low.y <= 0.0F) return;
     constexpr float kShare = 0.85F;  // of its height, from where its middle is now: 38 of 40 falls of the mannequin
-    const vec3 middle = 0.5F * (low + high);
-    const float reach = kShare * (high.y - low.y);
+    const vec3 middle = box.middle();
+    const float reach = kShare * box.size().y;
     for (const float way : {-reach, reach}) {
         points.emplace_back(middle.x + way, 0.0F, middle.z);
         points.emplace_back(middle.x, 0.0F, middle.z + way);
