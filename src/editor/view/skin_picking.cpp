@@ -1,10 +1,11 @@
 #include "editor/view/skin_picking.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "animation/skinning.hpp"
+#include "core/aabb.hpp"
+#include "physics/collision/triangle_mesh.hpp"
 
 namespace lutka::editor {
 namespace {
@@ -22,54 +23,23 @@ int bodyThatMoves(const physics::Rig& rig, int joint) {
     return 0;
 }
 
-struct TriangleHit {
-    float distance = 0.0F;
-    int corner = 0;  // the one that the place is nearest to
-};
-
-// Möller and Trumbore (1997), from both sides.
-std::optional<TriangleHit> meet(const render::Ray& ray, const vec3& a, const vec3& b, const vec3& c) {
-    const vec3 side1 = b - a;
-    const vec3 side2 = c - a;
-    const vec3 across = glm::cross(ray.direction, side2);
-    const float determinant = glm::dot(side1, across);
-    if (determinant == 0.0F) return std::nullopt;
-    const vec3 from = ray.origin - a;
-    const float u = glm::dot(from, across) / determinant;
-    const vec3 up = glm::cross(from, side1);
-    const float v = glm::dot(ray.direction, up) / determinant;
-    const float distance = glm::dot(side2, up) / determinant;
-    if (!(u >= 0.0F && v >= 0.0F && u + v <= 1.0F && distance > 0.0F)) return std::nullopt;
-    const float w = 1.0F - u - v;
-    return TriangleHit{distance, w >= u && w >= v ? 0 : u >= v ? 1 : 2};
+// Which corner of a triangle a place in it is nearest to.
+int cornerNearest(const physics::LineCrossing& place) {
+    const float a = 1.0F - place.b - place.c;
+    if (a >= place.b && a >= place.c) return 0;
+    return place.b >= place.c ? 1 : 2;
 }
 
-// Whether the ray passes the figure, whose bodies stand there: none of its skin is farther from a body than the whole
-// figure is large in the bind pose.
-bool passes(const render::Ray& ray, std::span<const RigidTransform> bodies, float size) {
-    vec3 low = bodies.front().translation;
-    vec3 high = low;
-    for (const RigidTransform& body : bodies) {
-        low = glm::min(low, body.translation);
-        high = glm::max(high, body.translation);
-    }
-    const vec3 middle = 0.5F * (low + high);
-    const float radius = 0.5F * glm::distance(low, high) + size;
+// Whether the ray passes by the figure, whose bodies stand there: none of its skin is farther from a body than the
+// whole figure is large in the bind pose.
+bool passesBy(const render::Ray& ray, std::span<const RigidTransform> bodies, float sizeM) {
+    Aabb box;
+    for (const RigidTransform& body : bodies)
+        box.add(body.translation);
+    const float radius = 0.5F * box.diagonal() + sizeM;
     const vec3 direction = glm::normalize(ray.direction);
-    const float along = std::max(glm::dot(middle - ray.origin, direction), 0.0F);
-    return glm::distance(ray.origin + along * direction, middle) <= radius;
-}
-
-float sizeOf(const animation::Character& character) {
-    vec3 low(0);
-    vec3 high(0);
-    for (const animation::SkinnedMesh& mesh : character.meshes) {
-        for (const vec3& p : mesh.positions) {
-            low = glm::min(low, p);
-            high = glm::max(high, p);
-        }
-    }
-    return glm::distance(low, high);
+    const float along = std::max(glm::dot(box.middle() - ray.origin, direction), 0.0F);
+    return glm::distance(ray.origin + along * direction, box.middle()) > radius;
 }
 
 class SkinPicker {
@@ -81,11 +51,7 @@ class SkinPicker {
         const scene::RagdollAsset& asset = simulation_.assetOf(doll);
         const bool drawn = simulation_.showsDoll(doll) && simulation_.scenario().dolls[doll].look.visible;
         if (asset.character.meshes.empty() || !drawn) return;
-        if (&asset != sized_) {
-            sized_ = &asset;
-            size_ = sizeOf(asset.character);
-        }
-        if (!passes(ray_, simulation_.worldFromBody(doll, alpha_), size_)) return;
+        if (passesBy(ray_, simulation_.worldFromBody(doll, alpha_), asset.sizeM)) return;
         const animation::Skeleton& skeleton = asset.character.skeleton;
         std::vector<RigidTransform> pose(skeleton.parents.size());
         std::vector<animation::SkinMatrix> palette(pose.size());
@@ -110,13 +76,13 @@ class SkinPicker {
             const vec3& a = positions_[corners[0]];
             const vec3& b = positions_[corners[1]];
             const vec3& c = positions_[corners[2]];
-            const std::optional<TriangleHit> hit = meet(ray, a, b, c);
-            if (!hit || hit->distance >= most_) continue;
-            most_ = hit->distance;
+            const auto hit = physics::crossTriangle(a, b, c, ray.origin, ray.direction, physics::Sides::both);
+            if (!hit || !(hit->along > 0.0F) || hit->along >= most_) continue;
+            most_ = hit->along;
             const vec3 normal = worldFromModel.rotation * glm::normalize(glm::cross(b - a, c - a));
-            const int joint = mesh.joints[corners[hit->corner]][0];
-            nearest_ = SkinHit{doll, bodyThatMoves(asset.rig, joint), ray_.origin + hit->distance * ray_.direction,
-                               glm::dot(normal, ray_.direction) > 0.0F ? -normal : normal, hit->distance};
+            const int joint = mesh.joints[corners[cornerNearest(*hit)]][0];
+            nearest_ = SkinHit{doll, bodyThatMoves(asset.rig, joint), ray_.origin + hit->along * ray_.direction,
+                               glm::dot(normal, ray_.direction) > 0.0F ? -normal : normal, hit->along};
         }
     }
 
@@ -124,8 +90,6 @@ class SkinPicker {
     scene::Simulation& simulation_;
     float alpha_;
     float most_;
-    const scene::RagdollAsset* sized_ = nullptr;
-    float size_ = 0.0F;
     std::vector<vec3> positions_;
     std::optional<SkinHit> nearest_;
 };

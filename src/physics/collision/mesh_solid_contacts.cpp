@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "core/aabb.hpp"
 #include "core/assert.hpp"
 #include "physics/collision/mesh_contacts.hpp"
 #include "physics/collision/solid_corners.hpp"
@@ -16,8 +17,28 @@ namespace {
 
 // An edge of a solid in the mesh's space.
 struct OutlineEdge {
+    OutlineEdge() = default;
+    OutlineEdge(const Segment& s, const vec3& left, const vec3& right)
+        : segment(s), along(s.end - s.start), length(glm::length(along)), normals{left, right} {}
+
     Segment segment;
+    vec3 along{0, 0, 0};
+    float length = 0.0F;
     vec3 normals[2];  // unit, out of the two sides that meet there
+};
+
+// A sharp edge of a mesh.
+struct SharpEdge {
+    SharpEdge(const TriangleMesh& mesh, int edge)
+        : index(edge),
+          start(mesh.vertices()[mesh.edges()[edge].start]),
+          along(mesh.vertices()[mesh.edges()[edge].end] - start),
+          length(glm::length(along)) {}
+
+    int index;
+    vec3 start;
+    vec3 along;
+    float length;
 };
 
 // Sine of the angle between two sides below which what they share is no edge but a line of a flat side.
@@ -36,7 +57,7 @@ std::span<const OutlineEdge> edgesOf(const CollisionGeometry& solid, const Rigid
             if (glm::length(glm::cross(left, right)) < kFlatSides) continue;
             const Segment segment{meshFromSolid * solid.hull->points()[edge.from],
                                   meshFromSolid * solid.hull->points()[edge.to]};
-            room[count++] = {segment, turn * left, turn * right};
+            room[count++] = OutlineEdge(segment, turn * left, turn * right);
         }
         return std::span(room).first(count);
     }
@@ -44,53 +65,49 @@ std::span<const OutlineEdge> edgesOf(const CollisionGeometry& solid, const Rigid
     for (int i = 0; i < kBoxEdges; ++i) {
         const Segment edge = boxEdge(solid.halfExtents, i);
         const int axis = i / 4;
-        room[i].segment = {meshFromSolid * edge.start, meshFromSolid * edge.end};
-        for (int side = 0; side < 2; ++side) {
-            const int across = (axis + 1 + side) % 3;
+        const auto normalAlong = [&](int across) {
             vec3 normal(0);
             normal[across] = edge.start[across] < 0.0F ? -1.0F : 1.0F;
-            room[i].normals[side] = turn * normal;
-        }
+            return turn * normal;
+        };
+        room[i] = OutlineEdge({meshFromSolid * edge.start, meshFromSolid * edge.end}, normalAlong((axis + 1) % 3),
+                              normalAlong((axis + 2) % 3));
     }
     return std::span(room).first(kBoxEdges);
 }
 
 // Whether a direction leads away from both sides of an edge of a solid.
 bool leadsOut(const OutlineEdge& edge, const vec3& direction) {
-    constexpr float kSlack = 2e-3F;
     const float cosine = glm::dot(edge.normals[0], edge.normals[1]);
     for (int side = 0; side < 2; ++side) {
         const vec3 inside = cosine * edge.normals[side] - edge.normals[1 - side];  // on that side, away from the edge
-        if (glm::dot(direction, inside) > kSlack * glm::length(inside)) return false;
+        if (risesAbove(direction, inside)) return false;
     }
     return true;
 }
 
 // Where an edge of a solid, moved by `shift`, and one of a mesh are nearest, if both have an outside there. Without its
 // feature.
-std::optional<MeshContact> crossingOf(const TriangleMesh& mesh, int index, const OutlineEdge& solid,
+std::optional<MeshContact> crossingOf(const TriangleMesh& mesh, const SharpEdge& edge, const OutlineEdge& solid,
                                       const vec3& shift = vec3(0)) {
     constexpr float kParallel = 1e-3F;
     constexpr float kCorner = 1e-4F;  // of an edge: corners have contacts of their own
-    const TriangleMesh::Edge& edge = mesh.edges()[index];
-    const vec3 start = mesh.vertices()[edge.start];
-    const vec3 along = mesh.vertices()[edge.end] - start;
-    const vec3 own = solid.segment.end - solid.segment.start;
-    vec3 normal = glm::cross(own, along);
+    vec3 normal = glm::cross(solid.along, edge.along);
     const float across = glm::length(normal);
-    if (across < kParallel * glm::length(own) * glm::length(along)) return std::nullopt;
+    if (across < kParallel * solid.length * edge.length) return std::nullopt;
     normal /= across;
-    const vec3 between = start - solid.segment.start - shift;
-    const float onOwn = glm::dot(glm::cross(between, along), normal) / across;
-    const float onMesh = glm::dot(glm::cross(between, own), normal) / across;
+    const vec3 between = edge.start - solid.segment.start - shift;
+    const float onOwn = glm::dot(glm::cross(between, edge.along), normal) / across;
+    const float onMesh = glm::dot(glm::cross(between, solid.along), normal) / across;
     if (onOwn < kCorner || onOwn > 1.0F - kCorner || onMesh < kCorner || onMesh > 1.0F - kCorner) return std::nullopt;
-    const auto isWayOut = [&] { return leadsOut(solid, -normal) && mesh.edgeSupports(index, normal); };
+    const auto isWayOut = [&] { return leadsOut(solid, -normal) && mesh.edgeSupports(edge.index, normal); };
     if (!isWayOut()) normal = -normal;
     if (!isWayOut()) return std::nullopt;
     const float gap = -glm::dot(normal, between);
     // The rim of a sheet keeps nothing in that is above it.
-    const bool isRim = edge.triangle[1] < 0;
-    if (isRim && gap < 0.0F && glm::dot(normal, mesh.normals()[edge.triangle[0]]) < 0.0F) return std::nullopt;
+    const int(&triangles)[2] = mesh.edges()[edge.index].triangle;
+    const bool isRim = triangles[1] < 0;
+    if (isRim && gap < 0.0F && glm::dot(normal, mesh.normals()[triangles[0]]) < 0.0F) return std::nullopt;
     return MeshContact{solid.segment.at(onOwn) + shift, normal, gap, 0};
 }
 
@@ -116,6 +133,7 @@ struct SolidNearMesh {
     const TriangleMesh& mesh;
     const SolidCorners& corners;
     RigidTransform meshFromSolid;
+    RigidTransform solidFromMesh;
     std::span<const OutlineEdge> edges;
     vec3 low, high;  // of the solid and what lies nearer to it than `reach`
     float reach;
@@ -132,9 +150,9 @@ struct Crossing {
 // The contact of a vertex of the mesh with a side of the solid, which has moved by `shift`.
 MeshContact peakOf(const SolidNearMesh& pair, int vertex, const vec3& shift = vec3(0)) {
     const vec3 peak = pair.mesh.vertices()[vertex];
-    const SurfaceDistance surface = pair.corners.wayOut(
-        inverse(pair.meshFromSolid) * (peak - shift),
-        [&](const vec3& outward) { return pair.mesh.vertexSupports(vertex, pair.meshFromSolid.rotation * -outward); });
+    const SurfaceDistance surface = pair.corners.wayOut(pair.solidFromMesh * (peak - shift), [&](const vec3& outward) {
+        return pair.mesh.vertexSupports(vertex, pair.meshFromSolid.rotation * -outward);
+    });
     const vec3 normal = pair.meshFromSolid.rotation * -surface.normal;  // from the mesh towards the solid
     return {peak + surface.distance * normal, normal, surface.distance,
             MeshContact::kFirstPeak + vertex % MeshContact::kPeaks};
@@ -147,8 +165,9 @@ void visitCrossings(const SolidNearMesh& pair, Visit visit) {
         for (const int index : pair.mesh.edgesOf(triangle)) {
             const TriangleMesh::Edge& edge = pair.mesh.edges()[index];
             if (!edge.sharp || edge.triangle[0] != triangle) continue;
+            const SharpEdge sharp(pair.mesh, index);
             for (std::size_t i = 0; i < pair.edges.size(); ++i) {
-                std::optional<MeshContact> contact = crossingOf(pair.mesh, index, pair.edges[i]);
+                std::optional<MeshContact> contact = crossingOf(pair.mesh, sharp, pair.edges[i]);
                 if (!contact || contact->gap > pair.reach || contact->gap < -kDeepestInMesh) continue;
                 contact->feature = featureOf(index, i);
                 visit(Crossing{*contact, index, static_cast<int>(i)});
@@ -174,7 +193,7 @@ bool remainsAfter(const SolidNearMesh& pair, const Crossing& crossing, const Way
     const vec3 shift = (kClearM - way.gap) * way.normal;
     if (crossing.vertex >= 0) return peakOf(pair, crossing.vertex, shift).gap < 0.0F;
     const std::optional<MeshContact> contact =
-        crossingOf(pair.mesh, crossing.meshEdge, pair.edges[crossing.solidEdge], shift);
+        crossingOf(pair.mesh, SharpEdge(pair.mesh, crossing.meshEdge), pair.edges[crossing.solidEdge], shift);
     return contact && contact->gap < 0.0F;
 }
 
@@ -206,17 +225,22 @@ class Overlaps {
 void touchMesh(const TriangleMesh& mesh, const CollisionGeometry& solid, const RigidTransform& meshFromSolid,
                float reach, MeshContactList& out) {
     const SolidCorners corners(solid);
-    vec3 low = meshFromSolid.translation;
-    vec3 high = low;
+    Aabb box;
+    box.add(meshFromSolid.translation);
     for (int corner = 0; corner < corners.count(); ++corner) {
         const vec3 inMesh = meshFromSolid * corners[corner];
         touchMesh(mesh, inMesh, corner, reach, out);
-        low = glm::min(low, inMesh);
-        high = glm::max(high, inMesh);
+        box.add(inMesh);
     }
     std::array<OutlineEdge, ConvexHull::kMostEdges> room;
-    const SolidNearMesh pair{mesh,        corners,      meshFromSolid, edgesOf(solid, meshFromSolid, room),
-                             low - reach, high + reach, reach};
+    const SolidNearMesh pair{mesh,
+                             corners,
+                             meshFromSolid,
+                             inverse(meshFromSolid),
+                             edgesOf(solid, meshFromSolid, room),
+                             box.low - reach,
+                             box.high + reach,
+                             reach};
     // Edges and vertices far inside lead out, too, but by a longer way than is needed: what a shorter one clears is
     // left out. What overlaps elsewhere stays.
     constexpr int kMostWays = MeshContactList::kMax + 8;

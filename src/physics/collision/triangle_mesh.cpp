@@ -9,6 +9,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "core/aabb.hpp"
 #include "core/math.hpp"
 
 namespace lutka::physics {
@@ -16,8 +17,6 @@ namespace {
 
 constexpr std::size_t kMost = 10'000'000;
 constexpr int kLeaf = 4;  // triangles
-// Of a length: what lies this much in front of a plane still counts as on it.
-constexpr float kFlat = 2e-3F;
 
 struct PlaceHash {
     std::size_t operator()(const vec3& v) const {
@@ -138,22 +137,17 @@ void TriangleMesh::buildTree() {
 void TriangleMesh::buildBranch(std::span<int> order, const std::vector<vec3>& centres) {
     const std::size_t index = nodes_.size();
     nodes_.emplace_back();
-    vec3 low(1e30F);
-    vec3 high(-1e30F);
-    vec3 centreLow(1e30F);
-    vec3 centreHigh(-1e30F);
+    Aabb box;
+    Aabb ofCentres;
     for (const int triangle : order) {
-        for (const int corner : triangles_[triangle]) {
-            low = glm::min(low, vertices_[corner]);
-            high = glm::max(high, vertices_[corner]);
-        }
-        centreLow = glm::min(centreLow, centres[triangle]);
-        centreHigh = glm::max(centreHigh, centres[triangle]);
+        for (const int corner : triangles_[triangle])
+            box.add(vertices_[corner]);
+        ofCentres.add(centres[triangle]);
     }
     if (order.size() <= kLeaf) {
         nodes_[index].count = static_cast<int>(order.size());
     } else {
-        const vec3 size = centreHigh - centreLow;
+        const vec3 size = ofCentres.size();
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
         const std::size_t half = order.size() / 2;
         std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(half), order.end(),
@@ -161,8 +155,8 @@ void TriangleMesh::buildBranch(std::span<int> order, const std::vector<vec3>& ce
         buildBranch(order.first(half), centres);
         buildBranch(order.subspan(half), centres);
     }
-    nodes_[index].low = low;
-    nodes_[index].high = high;
+    nodes_[index].low = box.low;
+    nodes_[index].high = box.high;
     nodes_[index].next = static_cast<int>(nodes_.size());
 }
 
@@ -182,7 +176,7 @@ void TriangleMesh::findEdges() {
             edge.opposite[1] = opposite;
             edge.triangle[1] = t;
             const vec3 away = vertices_[opposite] - vertices_[edge.start];
-            edge.sharp = glm::dot(normals_[edge.triangle[0]], away) < -kFlat * glm::length(away);
+            edge.sharp = risesAbove(-normals_[edge.triangle[0]], away);
         }
     }
 }
@@ -219,8 +213,7 @@ void TriangleMesh::findFans() {
 
 bool TriangleMesh::vertexSupports(int vertex, const vec3& direction) const {
     for (int i = fanStart_[vertex]; i < fanStart_[vertex + 1]; ++i) {
-        const vec3 along = vertices_[fan_[i]] - vertices_[vertex];
-        if (glm::dot(along, direction) > kFlat * glm::length(along)) return false;
+        if (risesAbove(direction, vertices_[fan_[i]] - vertices_[vertex])) return false;
     }
     return true;
 }
@@ -228,9 +221,7 @@ bool TriangleMesh::vertexSupports(int vertex, const vec3& direction) const {
 bool TriangleMesh::edgeSupports(int index, const vec3& direction) const {
     const Edge& edge = edges_[index];
     for (const int opposite : edge.opposite) {
-        if (opposite < 0) continue;
-        const vec3 along = vertices_[opposite] - vertices_[edge.start];
-        if (glm::dot(along, direction) > kFlat * glm::length(along)) return false;
+        if (opposite >= 0 && risesAbove(direction, vertices_[opposite] - vertices_[edge.start])) return false;
     }
     return true;
 }
@@ -305,21 +296,10 @@ TriangleMesh::Ray TriangleMesh::rayTest(const vec3& from, const vec3& to) const 
             continue;
         }
         for (int t = node.first; t < node.first + node.count; ++t) {
-            // Möller and Trumbore 1997, fronts only.
-            const vec3& a = vertices_[triangles_[t][0]];
-            const vec3 e1 = vertices_[triangles_[t][1]] - a;
-            const vec3 e2 = vertices_[triangles_[t][2]] - a;
-            const vec3 p = glm::cross(along, e2);
-            const float scale = glm::dot(e1, p);
-            if (scale <= 0.0F) continue;
-            const vec3 offset = from - a;
-            const float u = glm::dot(offset, p);
-            if (u < 0.0F || u > scale) continue;
-            const vec3 q = glm::cross(offset, e1);
-            const float v = glm::dot(along, q);
-            if (v < 0.0F || u + v > scale) continue;
-            const float fraction = glm::dot(e2, q) / scale;
-            if (fraction >= 0.0F && fraction <= 1.0F && fraction < nearest.fraction) nearest = {fraction, t};
+            const auto& [a, b, c] = triangles_[t];
+            const auto hit = crossTriangle(vertices_[a], vertices_[b], vertices_[c], from, along, Sides::front);
+            if (hit && hit->along >= 0.0F && hit->along <= 1.0F && hit->along < nearest.fraction)
+                nearest = {hit->along, t};
         }
         ++at;
     }

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -123,5 +125,37 @@ struct TrianglePoint {
     int region = 0;
 };
 [[nodiscard]] TrianglePoint nearestOnTriangle(const vec3& a, const vec3& b, const vec3& c, const vec3& point);
+
+/// Where a line meets a triangle (Möller and Trumbore 1997).
+struct LineCrossing {
+    float along = 0.0F;        ///< Of the line's direction, from its origin.
+    float b = 0.0F, c = 0.0F;  ///< Weights of corners b and c there; that of a is what is left of 1.
+};
+enum class Sides { front, both };  ///< The front is where the corners run counter-clockwise.
+/// Nothing where the line passes beside the triangle or along its plane. `sides`: which it may come from.
+[[nodiscard]] inline std::optional<LineCrossing> crossTriangle(const vec3& a, const vec3& b, const vec3& c,
+                                                               const vec3& origin, const vec3& direction, Sides sides) {
+    const vec3 e1 = b - a;
+    const vec3 e2 = c - a;
+    const vec3 p = glm::cross(direction, e2);
+    const float determinant = glm::dot(e1, p);
+    const float side = determinant < 0.0F ? -1.0F : 1.0F;
+    if (determinant == 0.0F || (side < 0.0F && sides == Sides::front)) return std::nullopt;
+    const float scale = side * determinant;
+    const vec3 offset = origin - a;
+    const float u = side * glm::dot(offset, p);
+    if (!(u >= 0.0F && u <= scale)) return std::nullopt;
+    const vec3 q = glm::cross(offset, e1);
+    const float v = side * glm::dot(direction, q);
+    if (!(v >= 0.0F && u + v <= scale)) return std::nullopt;
+    return LineCrossing{glm::dot(e2, q) / determinant, u / scale, v / scale};
+}
+
+/// Whether what leads `along` from a feature rises above the plane through it across `direction` (unit). What rises by
+/// less than a five-hundredth of its length counts as in the plane.
+[[nodiscard]] inline bool risesAbove(const vec3& direction, const vec3& along) {
+    constexpr float kFlat = 2e-3F;  // sine
+    return glm::dot(along, direction) > kFlat * glm::length(along);
+}
 
 }  // namespace lutka::physics

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "animation/segments/segment_rig.hpp"
+#include "core/aabb.hpp"
 #include "core/assert.hpp"
 #include "export/read_gltf_physics.hpp"
 #include "physics/fit/rebind.hpp"
@@ -114,6 +115,17 @@ void takeRagdollOfFile(RagdollAsset& asset) {
     asset.fromModel = true;
 }
 
+float sizeOf(const animation::Character& character) {
+    Aabb box;
+    for (const RigidTransform& joint : character.skeleton.bindModelFromJoint)
+        box.add(joint.translation);
+    for (const animation::SkinnedMesh& mesh : character.meshes) {
+        for (const vec3& position : mesh.positions)
+            box.add(position);
+    }
+    return box.empty() ? 0.0F : box.diagonal();
+}
+
 }  // namespace
 
 Result<std::unique_ptr<RagdollAsset>> loadRagdoll(const std::filesystem::path& model, const LoadOptions& options) {
@@ -137,6 +149,7 @@ Result<std::unique_ptr<RagdollAsset>> makeRagdoll(animation::Character character
         return Error{ErrorCode::usage, "the skeleton is not sound: " + problems.front(), character.name, ""};
     auto asset = std::make_unique<RagdollAsset>();
     asset->character = std::move(character);
+    asset->sizeM = sizeOf(asset->character);
     auto read = givenProfile(options);
     if (!read) return read.error();
     const std::optional<physics::RagdollProfile> given = std::move(read).value();

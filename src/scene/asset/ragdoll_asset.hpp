@@ -20,6 +20,7 @@ struct RagdollAsset {
     animation::HumanoidMap map;
     physics::RagdollProfile profile;
     physics::Rig rig;
+    float sizeM = 0.0F;      ///< Diagonal of the box around its skin and joints in the bind pose.
     bool fromModel = false;  ///< The model's own file brought the ragdoll along.
     bool rebound = false;    ///< The profile was made for another rig and was bound to this one by role.
 };
