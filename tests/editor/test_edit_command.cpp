@@ -60,6 +60,15 @@ struct Rehearsal {
     std::unique_ptr<Editor> editor;
 };
 
+// The joint that a role has in the ragdoll that the program saved.
+std::string savedJointOf(const Scratch& scratch, animation::Role role) {
+    const auto saved = physics::loadProfile(scratch / "mannequin.ragdoll.json");
+    REQUIRE(saved.ok());
+    const int body = physics::bodyOf(saved.value(), role);
+    REQUIRE(body >= 0);
+    return saved.value().bodies[body].joint;
+}
+
 }  // namespace
 
 TEST_CASE("a script sets a limit by its slider, changes another value, undoes that, and saves") {
@@ -70,8 +79,7 @@ TEST_CASE("a script sets a limit by its slider, changes another value, undoes th
     script.drag(1184, 430, 1160, 430).release();  // its flexion
     script.drag(1062, 379, 1160, 379).release();  // its friction
     script.key(Key::z, kControl).key(Key::s, kControl).wait(2);
-    script.save(scratch / "script.jsonl");
-    const Outcome outcome = edit(scratch, "--headless --input " + (scratch / "script.jsonl").string());
+    const Outcome outcome = play(scratch, script);
     NEEDS_DISPLAY_OF(outcome);
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
@@ -115,11 +123,10 @@ TEST_CASE("a script drags a limit's handle in the view, pulls a hand, undoes a c
         rehearsal.move(hand + vec2(-4, -8) * static_cast<float>(i));
     rehearsal.wait(8).release().move({600, 440}).key(Key::s, kControl);
     const int after = rehearsal.script.frame() + 1;
-    rehearsal.script.save(scratch / "script.jsonl");
     const Outcome outcome =
-        edit(scratch, "--paused --headless --input " + (scratch / "script.jsonl").string() + " --screenshot-at " +
-                          std::to_string(before) + ":" + (scratch / "before.png").string() + " --screenshot-at " +
-                          std::to_string(after) + ":" + (scratch / "after.png").string());
+        play(scratch, rehearsal.script,
+             " --paused --screenshot-at " + std::to_string(before) + ":" + (scratch / "before.png").string() +
+                 " --screenshot-at " + std::to_string(after) + ":" + (scratch / "after.png").string());
     NEEDS_DISPLAY_OF(outcome);
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
@@ -154,18 +161,12 @@ TEST_CASE("a script gives a role to another joint by the mapping's list and save
     const int list = script.frame();
     script.click(190, 207).wait(2);  // "chest", the first line of what is left
     script.key(Key::s, kControl).wait(2);
-    script.save(scratch / "script.jsonl");
     const Outcome outcome =
-        edit(scratch, "--headless --input " + (scratch / "script.jsonl").string() + " --screenshot-at " +
-                          std::to_string(list) + ":" + (scratch / "list.png").string());
+        play(scratch, script, " --screenshot-at " + std::to_string(list) + ":" + (scratch / "list.png").string());
     NEEDS_DISPLAY_OF(outcome);
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
-    const auto saved = physics::loadProfile(scratch / "mannequin.ragdoll.json");
-    REQUIRE(saved.ok());
-    const int spine = physics::bodyOf(saved.value(), animation::Role::spine);
-    REQUIRE(spine >= 0);
-    CHECK(saved.value().bodies[spine].joint == "chest");
+    CHECK(savedJointOf(scratch, animation::Role::spine) == "chest");
 }
 
 TEST_CASE("a role that a script drags from its panel onto a joint in the view takes that joint") {
@@ -175,16 +176,11 @@ TEST_CASE("a role that a script drags from its panel onto a joint in the view ta
     script.key(Key::space).click(122, 43).wait(2);     // the tab Mapping
     script.drag(40, 331, 660, 204).wait(2).release();  // leftHand to the left elbow
     script.move(640, 600).key(Key::s, kControl).wait(2);
-    script.save(scratch / "script.jsonl");
-    const Outcome outcome = edit(scratch, "--headless --input " + (scratch / "script.jsonl").string());
+    const Outcome outcome = play(scratch, script);
     NEEDS_DISPLAY_OF(outcome);
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
-    const auto saved = physics::loadProfile(scratch / "mannequin.ragdoll.json");
-    REQUIRE(saved.ok());
-    const int hand = physics::bodyOf(saved.value(), animation::Role::leftHand);
-    REQUIRE(hand >= 0);
-    CHECK(saved.value().bodies[hand].joint == "leftLowerArm");
+    CHECK(savedJointOf(scratch, animation::Role::leftHand) == "leftLowerArm");
 }
 
 TEST_CASE("the panels look as they did when they were looked at") {

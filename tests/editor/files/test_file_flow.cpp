@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "editor/files/file_list.hpp"
 #include "editor/input/input_script.hpp"
@@ -36,6 +37,17 @@ struct Neighbours {
         REQUIRE(document.value()->setHinge(knee, {-0.5F, 0.6F}).ok());
         REQUIRE(document.value()->save(profile).ok());
     }
+
+    // An editor that opened the model, and the profile where one is given.
+    [[nodiscard]] std::unique_ptr<Editor> open(const std::optional<fs::path>& given = std::nullopt) const {
+        EditorOptions options;
+        options.model = model;
+        options.load.profile = given;
+        options.playing = false;
+        auto made = Editor::create(options);
+        if (!made.ok()) FAIL(made.error().text());
+        return std::move(made).value();
+    }
 };
 
 float kneeOf(const Editor& editor) {
@@ -65,26 +77,17 @@ TEST_CASE("a profile beside the model is offered when the model is opened and ta
 
 TEST_CASE("a profile that was asked for is not offered again") {
     const Neighbours files;
-    EditorOptions options;
-    options.model = files.model;
-    const auto offered = Editor::create(options);
-    REQUIRE(offered.ok());
-    CHECK(offered.value()->files().offeredProfile() == files.profile);
-    offered.value()->answerOffer(false);
-    CHECK(offered.value()->files().offeredProfile().empty());
-    options.load.profile = files.profile;
-    const auto asked = Editor::create(options);
-    REQUIRE(asked.ok());
-    CHECK(asked.value()->files().offeredProfile().empty());
+    const auto offered = files.open();
+    CHECK(offered->files().offeredProfile() == files.profile);
+    offered->answerOffer(false);
+    CHECK(offered->files().offeredProfile().empty());
+    CHECK(files.open(files.profile)->files().offeredProfile().empty());
 }
 
 TEST_CASE("a first save over a file that is there asks and replaces only when told to") {
     const Neighbours files;
-    EditorOptions options;
-    options.model = files.model;
-    const auto editor = Editor::create(options);
-    REQUIRE(editor.ok());
-    Editor& one = *editor.value();
+    const auto editor = files.open();
+    Editor& one = *editor;
     editKnee(one);
     send(one, keyPressed(Key::s, {false, true, false}));
     REQUIRE(one.files().asking());
@@ -111,12 +114,8 @@ TEST_CASE("the profile of another rig that the model was opened with is not writ
         body.joint = body.jointPath = "other " + body.joint;
     REQUIRE(physics::saveProfile(files.profile, other).ok());
     const std::string was = test::fileText(files.profile);
-    EditorOptions options;
-    options.model = files.model;
-    options.load.profile = files.profile;
-    auto made = Editor::create(options);
-    if (!made.ok()) FAIL(made.error().text());
-    Editor& editor = *made.value();
+    const auto made = files.open(files.profile);
+    Editor& editor = *made;
     editKnee(editor);
     editor.perform(Action::saveProfile);
     CHECK(editor.files().replacedFile() == files.profile);
@@ -132,25 +131,19 @@ TEST_CASE("a profile and a scene are known by their endings in capitals too") {
     const Neighbours files;
     const fs::path profile = files.folder / "OLD.RAGDOLL.JSON";
     fs::copy_file(files.profile, profile);
-    EditorOptions options;
-    options.model = files.model;
-    const auto editor = Editor::create(options);
-    REQUIRE(editor.ok());
-    editor.value()->open(profile);
-    CHECK(kneeOf(*editor.value()) == Approx(0.6F));
+    const auto editor = files.open();
+    editor->open(profile);
+    CHECK(kneeOf(*editor) == Approx(0.6F));
     const fs::path drop = files.folder / "OLD.SCENE.JSON";
-    std::ofstream(drop) << scene::sceneToJson(editor.value()->document().scene(), files.folder.path);
-    editor.value()->open(drop);
-    CHECK(editor.value()->document().sceneDocument().file() == drop);
+    std::ofstream(drop) << scene::sceneToJson(editor->document().scene(), files.folder.path);
+    editor->open(drop);
+    CHECK(editor->document().sceneDocument().file() == drop);
 }
 
 TEST_CASE("closing with unsaved changes asks about a file that is there before it quits") {
     const Neighbours files;
-    EditorOptions options;
-    options.model = files.model;
-    const auto editor = Editor::create(options);
-    REQUIRE(editor.ok());
-    Editor& one = *editor.value();
+    const auto editor = files.open();
+    Editor& one = *editor;
     editKnee(one);
     send(one, windowClosed());
     one.files().answer(FileFlow::Answer::save);
@@ -318,12 +311,8 @@ TEST_CASE("Enter and Esc answer the offer of any skeleton or what is under way i
 TEST_CASE("whoever saves the scene is offered the ragdoll, and the scene names the profile that was saved after it") {
     const Neighbours files;
     fs::remove(files.profile);
-    EditorOptions options;
-    options.model = files.model;
-    options.playing = false;
-    auto made = Editor::create(options);
-    REQUIRE(made.ok());
-    Editor& editor = *made.value();
+    const auto made = files.open();
+    Editor& editor = *made;
     const fs::path scene = files.folder / "own.scene.json";
     editKnee(editor);
     REQUIRE(editor.files().requestSaveScene(scene));
@@ -343,11 +332,8 @@ TEST_CASE("whoever saves the scene is offered the ragdoll, and the scene names t
 TEST_CASE("Ctrl+S saves the ragdoll before the scene, so that the scene names it") {
     const Neighbours files;
     fs::remove(files.profile);
-    EditorOptions options;
-    options.model = files.model;
-    auto made = Editor::create(options);
-    REQUIRE(made.ok());
-    Editor& editor = *made.value();
+    const auto made = files.open();
+    Editor& editor = *made;
     const fs::path scene = files.folder / "own.scene.json";
     REQUIRE(editor.files().requestSaveScene(scene));
     editKnee(editor);
