@@ -1,10 +1,17 @@
-"""Holds the pages against the tree: links lead to files and headings that are there, and so do the paths that are named
-in `code`. Of a table of files, as in docs/crowd.md, each name is that of a unit in the folder that the page is about."""
+"""Holds the pages against the tree.
+
+Links lead to files and headings that are there. So do paths in `code`, and names of files without a path. Of a table of
+files, as in docs/crowd.md, each name is that of a unit in the folder that the page is about. The architecture names every
+target of src.
+Usage: check_names.py ROOT
+"""
 import pathlib
 import re
 import sys
 
 FOLDERS = ("src", "tests", "tools", "bench", "docs", "assets", "python", "cmake")
+# Of Godot, which docs/export.md names.
+ELSEWHERE = {"physical_bone_3d.cpp", "godot_generic_6dof_joint_3d.cpp", "jolt_generic_6dof_joint_3d.cpp"}
 TABLES = {"docs/crowd.md": "src/physics/crowd"}  # page → the folder of its table of files
 
 
@@ -44,6 +51,12 @@ def wrong_paths(root, page, text):
             yield f"names {path}, which is not there"
 
 
+def wrong_files(root, page, text):
+    for name in re.findall(r"`(\w+\.(?:hpp|cpp|py))`", text):
+        if name not in ELSEWHERE and not any(any((root / folder).rglob(name)) for folder in FOLDERS):
+            yield f"names {name}, and no file is called so"
+
+
 def wrong_units(root, page, text):
     folder = TABLES.get(page.relative_to(root).as_posix())
     rows = re.findall(r"^\| (`.*?`) \|", text, flags=re.M) if folder else []
@@ -68,7 +81,7 @@ def main():
     wrong = list(unnamed_rooms(root))
     for page in pages:
         text = prose(page.read_text())
-        for check in (wrong_links, wrong_paths, wrong_units):
+        for check in (wrong_links, wrong_paths, wrong_files, wrong_units):
             wrong += [f"{page.relative_to(root)} {one}" for one in check(root, page, text)]
     print("\n".join(wrong) or f"{len(pages)} pages agree with the tree")
     return 1 if wrong else 0
