@@ -78,4 +78,13 @@ ModelFolder::Named ModelFolder::find(const std::string& written) const {
     return {Place::inside, file};
 }
 
+fs::path ModelFolder::fileIn(const fs::path& folder, const std::string& name) const {
+    if (!admits(folder)) return {};  // a link that leads away
+    std::error_code failed;
+    for (const fs::path& file : {folder / name, spelledOtherwise(folder, name)}) {
+        if (!file.empty() && fs::is_regular_file(file, failed) && admits(file)) return file;
+    }
+    return {};
+}
+
 }  // namespace lutka::animation::rig_import

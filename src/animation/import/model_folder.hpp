@@ -31,6 +31,9 @@ class ModelFolder {
     /// listed at most once; what was listed is kept, so one thread at a time may call this.
     [[nodiscard]] Named find(const std::string& written) const;
 
+    /// The ordinary file of that name in a folder, with letters of another case as for find(); empty without one.
+    [[nodiscard]] std::filesystem::path fileIn(const std::filesystem::path& folder, const std::string& name) const;
+
   private:
     [[nodiscard]] std::filesystem::path inOtherCase(const std::filesystem::path& name) const;
     /// The entry of a folder whose name differs from this one in the case of letters at most; empty without one.

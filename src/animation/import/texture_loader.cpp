@@ -15,16 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::optional<fs::path> findIn(const ModelFolder& folder, const fs::path& place, const std::string& name) {
-    if (!folder.admits(place)) return std::nullopt;  // a link that leads away
-    std::error_code failed;
-    for (fs::directory_iterator at(place, failed), end; !failed && at != end; at.increment(failed)) {
-        if (lowerCased(at->path().filename().string()) != lowerCased(name)) continue;
-        if (at->is_regular_file(failed) && folder.admits(at->path())) return at->path();
-    }
-    return std::nullopt;
-}
-
 // Of a path in any spelling, Windows' too.
 std::string extensionOf(std::string path) {
     std::replace(path.begin(), path.end(), '\\', '/');
@@ -36,7 +26,7 @@ std::optional<fs::path> findAround(const ModelFolder& folder, const std::string&
     const fs::path above = folder.path() / "..";
     for (const fs::path& place : {folder.path(), folder.path() / "textures", folder.path() / "Textures",
                                   folder.path() / "tex", above / "textures", above / "Textures"}) {
-        if (auto found = findIn(folder, place, name)) return found;
+        if (fs::path found = folder.fileIn(place, name); !found.empty()) return found;
     }
     return std::nullopt;
 }

@@ -10,6 +10,7 @@
 #include "animation/import/checks.hpp"
 #include "animation/import/gltf_file.hpp"
 #include "animation/import/model_folder.hpp"
+#include "animation/import/texture_loader.hpp"
 #include "support/catch.hpp"
 
 using namespace lutka;
@@ -136,6 +137,32 @@ TEST_CASE("names in other case are sought in a folder once, and not among more t
         std::ofstream(files / ("many/" + std::to_string(i)));
     CHECK_FALSE(isFound());
     CHECK(rig_import::ModelFolder(files / "many/rig.glb", false).find("skin.ppm").place == Place::inside);
+}
+
+TEST_CASE("pictures are sought around a model in a listing made once, and not among more than ten thousand") {
+    const TemporaryFolder files;
+    fs::create_directories(files / "few/textures");
+    savePicture(files / "few/textures/skin.ppm");
+    const auto loaderFor = [&](const std::string& model) {
+        const auto nothing = [](const std::string&, rig_import::PictureDecoder&) { return std::nullopt; };
+        return rig_import::TextureLoader(nothing, rig_import::ModelFolder(files / model, false), true);
+    };
+    const OpenWatch watch({files / "few", files / "few/textures"});
+    rig_import::TextureLoader few = loaderFor("few/rig.fbx");
+    CHECK(few.load("C:\\art\\SKIN.ppm") == 0);
+    CHECK(watch.count() > 0);
+    CHECK(few.load("D:\\art\\hair.ppm") == Material::kNoTexture);
+    CHECK(few.load("shoes.ppm") == Material::kNoTexture);
+    CHECK(watch.count() == 0);
+
+    fs::create_directories(files / "many");
+    savePicture(files / "many/skin.ppm");
+    for (int i = 0; i < 10'000; ++i)
+        std::ofstream(files / ("many/" + std::to_string(i)));
+    rig_import::TextureLoader many = loaderFor("many/rig.fbx");
+    CHECK(many.load("C:\\art\\Skin.ppm") == Material::kNoTexture);
+    CHECK(many.load("C:\\art\\skin.ppm") == 0);
+    CHECK(many.load("C:\\art\\skin.tga") == Material::kNoTexture);
 }
 
 TEST_CASE("a picture outside of the model's folder is left out with one warning, and taken where that is allowed") {
