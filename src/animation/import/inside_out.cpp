@@ -13,6 +13,7 @@ constexpr double kLeastVolume = 0.01;  // of the box around the figure: less is 
 
 struct Enclosed {
     double volume = 0.0;  // signed: positive where the triangles face outwards
+    double open = 0.0;    // how much of it depends on the point that it is taken about: 0 where no mesh has a hole
     double box = 0.0;
 };
 
@@ -31,14 +32,17 @@ Enclosed enclosedBy(const std::vector<SkinnedMesh>& meshes) {
     out.box = size.x * size.y * size.z;
     // Holes count for least when volumes are taken about the middle.
     const dvec3 middle = 0.5 * (low + high);
+    dvec3 area(0.0);  // as a vector, which a closed surface has none of
     for (const SkinnedMesh& mesh : meshes) {
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
             const dvec3 a = dvec3(mesh.positions[mesh.indices[i]]) - middle;
             const dvec3 b = dvec3(mesh.positions[mesh.indices[i + 1]]) - middle;
             const dvec3 c = dvec3(mesh.positions[mesh.indices[i + 2]]) - middle;
             out.volume += glm::dot(a, glm::cross(b, c)) / 6.0;
+            area += 0.5 * glm::cross(b - a, c - a);
         }
     }
+    out.open = glm::dot(glm::abs(area), 0.5 * size) / 3.0;
     return out;
 }
 
@@ -56,7 +60,8 @@ void turn(SkinnedMesh& mesh) {
 
 void turnOutwards(std::vector<SkinnedMesh>& meshes, std::vector<std::string>& warnings) {
     const Enclosed enclosed = enclosedBy(meshes);
-    if (enclosed.volume >= -kLeastVolume * enclosed.box || !(enclosed.box > 0.0)) return;
+    // A sheet (ground, a wall, a cape) faces away from some points and towards others.
+    if (enclosed.volume + enclosed.open >= -kLeastVolume * enclosed.box || !(enclosed.box > 0.0)) return;
     for (SkinnedMesh& mesh : meshes)
         turn(mesh);
     warnings.emplace_back("the figure's triangles and normals point inwards: they were turned");

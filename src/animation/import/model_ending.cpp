@@ -10,9 +10,9 @@ namespace lutka::animation {
 namespace {
 
 // Of what Assimp reads those that hold skeletons.
-constexpr std::array<std::string_view, 18> kModelEndings = {".glb", ".gltf", ".vrm",     ".fbx", ".dae", ".bvh",
+constexpr std::array<std::string_view, 17> kModelEndings = {".glb", ".gltf", ".vrm",     ".fbx", ".dae", ".bvh",
                                                             ".x",   ".b3d",  ".md5mesh", ".md2", ".md3", ".mdl",
-                                                            ".smd", ".ms3d", ".iqm",     ".cob", ".lwo", ".blend"};
+                                                            ".smd", ".ms3d", ".iqm",     ".cob", ".lwo"};
 
 }  // namespace
 

@@ -33,6 +33,8 @@ constexpr std::array kFormats = {
     Format{"QC4DC4D6", "", "a scene of Cinema 4D", kFromProgram},
     Format{"\x28\xB5\x2F\xFD", ".blend", "a compressed scene of Blender", "open it in Blender and export glTF 2.0"},
     Format{"\x1F\x8B", ".blend", "a compressed scene of Blender", "open it in Blender and export glTF 2.0"},
+    // Assimp reads their meshes, of older versions, and never their armatures.
+    Format{"BLENDER", "", "a scene of Blender", "open it in Blender and export glTF 2.0"},
     Format{"PXR-USDC", "", "a USD file", kFromBlender},
     Format{"#usda", "", "a USD file", kFromBlender},
     Format{"PK\x03\x04", ".usdz", "a USD file", kFromBlender},

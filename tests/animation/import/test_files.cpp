@@ -120,12 +120,14 @@ TEST_CASE("required extensions that can't be read are refused by name with a men
 TEST_CASE("required extensions that only cost looks are let through") {
     const TemporaryFolder folder;
     GltfFile file = makePostRig();
-    file.json["extensionsRequired"] = {"KHR_materials_unlit", "KHR_texture_basisu", "MSFT_lod", "EXT_lights_ies",
-                                       "KHR_interactivity"};
+    file.json["extensionsRequired"] = {"KHR_materials_unlit",  "KHR_texture_basisu", "MSFT_lod",
+                                       "EXT_lights_ies",       "KHR_interactivity",  "GOOGLE_texture_basis",
+                                       "KHR_techniques_webgl", "CESIUM_RTC"};
     file.saveText(folder / "rig.gltf");
     const Character character = imported(folder / "rig.gltf");
-    CHECK(warns(character, "KHR_texture_basisu"));
-    for (const char* silent : {"KHR_materials_unlit", "MSFT_lod", "EXT_lights_ies", "KHR_interactivity"})
+    for (const char* told : {"KHR_texture_basisu", "GOOGLE_texture_basis", "KHR_techniques_webgl"})
+        CHECK(warns(character, told));
+    for (const char* silent : {"KHR_materials_unlit", "MSFT_lod", "EXT_lights_ies", "KHR_interactivity", "CESIUM_RTC"})
         CHECK_FALSE(warns(character, silent));
 }
 
@@ -413,7 +415,8 @@ TEST_CASE("a format that is known but not read is refused by its name, with a wa
           Case{"miku.pmd", std::string("Pmd\0\0\x80\x3f", 7) + "Miku", "MikuMikuDance"},
           Case{"scene.max", "\xD0\xCF\x11\xE0 and more", "3ds Max"}, Case{"rig.ma", "//Maya ASCII 2020 scene", "Maya"},
           Case{"a.usda", "#usda 1.0", "USD"}, Case{"a.USDZ", "PK\x03\x04", "USD"},
-          Case{"hero.prefab", "%YAML 1.1", "Unity"}, Case{"hero.scn", "RSRC", "Godot"}}) {
+          Case{"hero.prefab", "%YAML 1.1", "Unity"}, Case{"hero.scn", "RSRC", "Godot"},
+          Case{"hero.blend", "BLENDER-v279", "a scene of Blender"}}) {
         INFO(one.file);
         const auto file = folder / one.file;
         REQUIRE(writeFileAtomically(file, one.bytes));

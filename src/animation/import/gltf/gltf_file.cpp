@@ -29,24 +29,13 @@ constexpr std::string_view kInstancing = "EXT_mesh_gpu_instancing";
 
 // Read here, or without bearing on shape and motion.
 bool isUnderstood(std::string_view extension) {
-    constexpr std::array<std::string_view, 18> kExact = {"KHR_draco_mesh_compression",
-                                                         "KHR_mesh_quantization",
-                                                         "EXT_meshopt_compression",
-                                                         "KHR_meshopt_compression",
-                                                         "KHR_texture_transform",
-                                                         "KHR_lights_punctual",
-                                                         "KHR_node_visibility",
-                                                         "KHR_node_selectability",
-                                                         "KHR_node_hoverability",
-                                                         "KHR_xmp_json_ld",
-                                                         "KHR_xmp",
-                                                         "KHR_animation_pointer",
-                                                         "VRM",
-                                                         "VRMC_vrm",
-                                                         "KHR_implicit_shapes",
-                                                         "KHR_interactivity",
-                                                         "MSFT_lod",
-                                                         "EXT_mesh_manifold"};
+    constexpr std::array<std::string_view, 19> kExact = {
+        "KHR_draco_mesh_compression", "KHR_mesh_quantization", "EXT_meshopt_compression", "KHR_meshopt_compression",
+        "KHR_texture_transform", "KHR_lights_punctual", "KHR_node_visibility", "KHR_node_selectability",
+        "KHR_node_hoverability", "KHR_xmp_json_ld", "KHR_xmp", "KHR_animation_pointer", "VRM", "VRMC_vrm",
+        "KHR_implicit_shapes", "KHR_interactivity", "MSFT_lod", "EXT_mesh_manifold",
+        // A place far off, and figures are brought to the origin.
+        "CESIUM_RTC"};
     if (std::find(kExact.begin(), kExact.end(), extension) != kExact.end()) return true;
     constexpr std::array<std::string_view, 9> kKinds = {"KHR_materials_", "VRMC_",       "KHR_physics",
                                                         "EXT_materials_", "EXT_lights_", "KHR_audio",
@@ -55,9 +44,14 @@ bool isUnderstood(std::string_view extension) {
                        [&](std::string_view kind) { return extension.starts_with(kind); });
 }
 
+// Such as KHR_texture_basisu, EXT_texture_webp and GOOGLE_texture_basis.
 bool isPictureFormat(std::string_view extension) {
-    return extension == "KHR_texture_basisu" || extension == "EXT_texture_webp" || extension == "EXT_texture_avif" ||
-           extension == "MSFT_texture_dds";
+    return extension.find("_texture_") != std::string_view::npos;
+}
+
+// Shaders of materials, whose textures nothing else names.
+bool isShading(std::string_view extension) {
+    return extension == "KHR_techniques_webgl" || extension == "KHR_technique_webgl";
 }
 
 std::uint32_t littleEndian(const std::uint8_t* bytes) {
@@ -200,11 +194,12 @@ void GltfFile::checkExtensions() {
     for (const nlohmann::json& entry : *required) {
         if (!entry.is_string()) continue;
         const std::string extension = entry.get<std::string>();
+        if (isUnderstood(extension)) continue;
         if (isPictureFormat(extension)) {
             leaveOut(fmt::format("pictures stored by {}", extension));
-            continue;
-        }
-        if (!isUnderstood(extension)) {
+        } else if (isShading(extension)) {
+            leaveOut(fmt::format("materials by {}", extension));
+        } else {
             throw Damage{fmt::format("requires the glTF extension {}, which can't be read", extension),
                          "export it again without this extension"};
         }
