@@ -33,6 +33,8 @@ namespace {
 
 // Scale that a joint has in a pose but not in the bind pose is dropped; below this share nobody sees it.
 constexpr double kVisibleScale = 0.01;
+// From here on a whole pose's scale is that of another unit.
+constexpr double kAnotherUnit = 0.05;
 constexpr std::size_t kFewestJointsOfFigure = 8;
 
 // The root of the part of the tree that holds most joints: leaves out cameras, lights and helpers beside the figure, of
@@ -193,7 +195,13 @@ void poseNodes(const ClipFile& file, Character& character) {
     for (const NodeTree::Node& node : file.tree.nodes)
         sceneFromNode.push_back(node.sceneFromNode);
     std::vector<RigidTransform> modelFromJoint(file.tree.nodeOfJoint.size());
-    const double worst = file.poser.pose(sceneFromNode, 1.0, file.matters(), modelFromJoint);
+    const double common = file.poser.commonScale(sceneFromNode, file.matters());
+    const bool otherUnit = std::abs(common - 1.0) > kAnotherUnit;
+    if (otherUnit) {
+        character.warnings.push_back(
+            fmt::format("the nodes' pose is {:.3g} times the size of the bind pose and was brought to it", common));
+    }
+    const double worst = file.poser.pose(sceneFromNode, otherUnit ? common : 1.0, file.matters(), modelFromJoint);
     modelToLocal(character.skeleton, modelFromJoint, character.skeleton.nodeParentFromJoint);
     if (worst > kVisibleScale) {
         character.warnings.push_back(

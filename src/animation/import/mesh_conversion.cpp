@@ -1,9 +1,15 @@
 #include "animation/import/mesh_conversion.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <optional>
+#include <utility>
 
 #include "animation/import/mesh_repair.hpp"
 #include "animation/import/vertex_weights.hpp"
@@ -17,6 +23,71 @@ void placeJoints(const MeshInstance& instance, std::span<const dmat4> bind, std:
     for (const SkinJoint& joint : instance.joints)
         sceneFromMesh[joint.joint] = bind[joint.joint] * joint.jointFromMesh;
 }
+
+// Meshes that were bound in another pose than the rest of the figure: a joint has one bind pose, so that what hangs on
+// several joints bends a little otherwise there.
+class OtherPoses {
+  public:
+    // Of a mesh that is placed: how far the single joints take its vertices from where all of them together do.
+    void add(const SkinnedMesh& mesh, const SourceMesh& source, std::span<const VertexSkin> skins,
+             std::span<const dmat4> sceneFromMesh) {
+        double farthest = 0.0;
+        for (std::size_t v = 0; v < skins.size(); ++v) {
+            if (skins[v].weights[1] <= 0.0F) continue;
+            const dvec4 point(dvec3(source.positions[v]), 1.0);
+            double off = 0.0;
+            for (int i = 0; i < kMaxInfluences && skins[v].weights[i] > 0.0F; ++i) {
+                const dvec3 alone(sceneFromMesh[skins[v].joints[i]] * point);
+                off += static_cast<double>(skins[v].weights[i]) * glm::distance(alone, dvec3(mesh.positions[v]));
+            }
+            if (std::isfinite(off)) farthest = std::max(farthest, off);
+        }
+        if (farthest > 0.0) found_.emplace_back(mesh.name, farthest);
+    }
+
+    // Whether the joints of a skin place its mesh differently.
+    [[nodiscard]] static bool disagree(const MeshInstance& instance, std::span<const dmat4> sceneFromMesh) {
+        constexpr double kRounding = 1e-5;
+        const dmat4& first = sceneFromMesh[instance.joints.front().joint];
+        return std::any_of(instance.joints.begin(), instance.joints.end(), [&](const SkinJoint& joint) {
+            const dmat4& other = sceneFromMesh[joint.joint];
+            for (int column = 0; column < 4; ++column) {
+                const double size = glm::length(first[column]) + glm::length(other[column]);
+                if (glm::length(other[column] - first[column]) > kRounding * std::max(size, 1.0)) return true;
+            }
+            return false;
+        });
+    }
+
+    [[nodiscard]] std::optional<std::string> sentence(std::span<const SkinnedMesh> meshes) const {
+        constexpr double kVisible = 0.002;
+        dvec3 low(1e30);
+        dvec3 high(-1e30);
+        for (const SkinnedMesh& mesh : meshes) {
+            for (const vec3& p : mesh.positions) {
+                low = glm::min(low, dvec3(p));
+                high = glm::max(high, dvec3(p));
+            }
+        }
+        const dvec3 extent = high - low;
+        const double size = std::max({extent.x, extent.y, extent.z});
+        std::vector<std::string> names;
+        double farthest = 0.0;
+        for (const auto& [name, off] : found_) {
+            if (!(off > kVisible * size)) continue;
+            farthest = std::max(farthest, off / size);
+            if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        }
+        if (names.empty()) return std::nullopt;
+        return fmt::format(
+            "bound in another pose than the rest of the figure: {}; bends of it may be off by up to "
+            "{:.1f} % of the figure's size",
+            fmt::join(names, ", "), 100.0 * farthest);
+    }
+
+  private:
+    std::vector<std::pair<std::string, double>> found_;  // mesh, distance in the scene
+};
 
 // The deforming joint that stray vertices follow: the nearest above the mesh node, else the topmost of the skin.
 int fallbackJointOf(const NodeTree& tree, const MeshInstance& instance) {
@@ -90,7 +161,7 @@ void copyColors(const SourceMesh& source, SkinnedMesh& mesh) {
 // `sceneFromMesh` is scratch, one a joint: only those of the instance are set and used, or thousands of small meshes
 // below thousands of joints would take minutes.
 SkinnedMesh convertMesh(const NodeTree& tree, const MeshInstance& instance, std::span<const dmat4> bind,
-                        std::span<dmat4> sceneFromMesh, WeightRepairs& repairs) {
+                        std::span<dmat4> sceneFromMesh, WeightRepairs& repairs, OtherPoses& otherPoses) {
     SkinnedMesh mesh;
     mesh.name = instance.mesh->name.empty() ? tree.jointNames[tree.nodes[instance.node].joint] : instance.mesh->name;
     mesh.material = instance.mesh->material;
@@ -111,6 +182,8 @@ SkinnedMesh convertMesh(const NodeTree& tree, const MeshInstance& instance, std:
         placeJoints(instance, bind, sceneFromMesh);
     }
     copyVertices(*instance.mesh, skins, sceneFromMesh, mesh);
+    if (!mesh.rigid && OtherPoses::disagree(instance, sceneFromMesh))
+        otherPoses.add(mesh, *instance.mesh, skins, sceneFromMesh);
     copyColors(*instance.mesh, mesh);
     copyTriangles(*instance.mesh, glm::determinant(dmat3(sceneFromMesh[guide])) < 0.0, mesh);
     return mesh;
@@ -124,9 +197,10 @@ std::vector<SkinnedMesh> convertMeshes(const NodeTree& tree, std::span<const Mes
     std::vector<SkinnedMesh> meshes;
     WeightRepairs repairs;
     MeshRepairs meshRepairs;
+    OtherPoses otherPoses;
     std::vector<dmat4> sceneFromMesh(bindSceneFromJoint.size(), dmat4(0.0));
     for (const MeshInstance& instance : instances) {
-        SkinnedMesh mesh = convertMesh(tree, instance, bindSceneFromJoint, sceneFromMesh, repairs);
+        SkinnedMesh mesh = convertMesh(tree, instance, bindSceneFromJoint, sceneFromMesh, repairs, otherPoses);
         repairMesh(mesh, meshRepairs);
         if (mesh.indices.empty()) continue;
         for (std::size_t v = 0; v < mesh.joints.size(); ++v) {
@@ -139,6 +213,7 @@ std::vector<SkinnedMesh> convertMeshes(const NodeTree& tree, std::span<const Mes
         warnings.push_back(std::move(sentence));
     for (std::string& sentence : meshRepairs.sentences())
         warnings.push_back(std::move(sentence));
+    if (std::optional<std::string> sentence = otherPoses.sentence(meshes)) warnings.push_back(*std::move(sentence));
     return meshes;
 }
 

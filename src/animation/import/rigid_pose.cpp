@@ -54,6 +54,12 @@ double RigidPoser::commonScale(std::span<const dmat4> sceneFromNode, std::span<c
                          meanScale(jointFromModelBind_[joint]));
     }
     if (scales.empty()) return 1.0;
+    // No figure shrinks or grows so much all over: another unit, in which it may have scales of its own besides. That
+    // of the topmost joint leaves the figure most of its shape.
+    constexpr double kUnit = 5.0;
+    const auto [least, most] = std::minmax_element(scales.begin(), scales.end());
+    const bool isUnit = *least > kUnit || *most < 1.0 / kUnit;
+    const double first = scales.front();
     const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
     std::nth_element(scales.begin(), middle, scales.end());
     const double scale = *middle;
@@ -63,7 +69,8 @@ double RigidPoser::commonScale(std::span<const dmat4> sceneFromNode, std::span<c
     constexpr double kNearlyAll = 0.75;
     const auto alike = std::count_if(scales.begin(), scales.end(),
                                      [&](double other) { return std::abs(other / scale - 1.0) <= kAlike; });
-    return static_cast<double>(alike) >= kNearlyAll * static_cast<double>(scales.size()) ? scale : 1.0;
+    if (static_cast<double>(alike) >= kNearlyAll * static_cast<double>(scales.size())) return scale;
+    return isUnit && first > 1e-9 && std::isfinite(first) ? first : 1.0;
 }
 
 }  // namespace lutka::animation::rig_import

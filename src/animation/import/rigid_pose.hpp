@@ -23,8 +23,8 @@ class RigidPoser {
     double pose(std::span<const dmat4> sceneFromNode, double uniformScale, std::span<const bool> matters,
                 std::span<RigidTransform> modelFromJoint) const;
 
-    /// The median of the joints' scales in that pose against the bind pose, over the joints with `matters` set; 1
-    /// without any, or where a quarter of them differ from it.
+    /// The median of the joints' scales in that pose against the bind pose, over the joints with `matters` set. Where a
+    /// quarter of them differ from it, the first joint's if all are above 5 or below 1/5, else 1; 1 without any.
     [[nodiscard]] double commonScale(std::span<const dmat4> sceneFromNode, std::span<const bool> matters) const;
 
   private:

@@ -83,6 +83,30 @@ TEST_CASE("a figure is found in another scene than the one that the file shows, 
     check(meshAlone, false);
 }
 
+TEST_CASE("a mesh that was bound in another pose than the rest is told where it bends, and not where it does not") {
+    const TemporaryFolder folder;
+    for (const bool bends : {false, true}) {
+        INFO(bends);
+        // A coat around the post, bound while the uppermost joint was turned by 60 degrees.
+        GltfFile file = makePostRig();
+        Post coat = makePost();
+        for (std::size_t v = 0; bends && v < coat.skin.size(); ++v) {
+            if (coat.skin[v].joints[0] == 2) coat.skin[v] = {{1, 2}, {0.5F, 0.5F, 0, 0}};
+        }
+        std::vector<mat4> inverseBinds;
+        for (int i = 0; i < 3; ++i)
+            inverseBinds.push_back(glm::translate(mat4(1.0F), vec3(0, -0.6F * static_cast<float>(i), 0)));
+        inverseBinds[2] = glm::rotate(mat4(1.0F), glm::radians(60.0F), vec3(0, 0, 1)) * inverseBinds[2];
+        const int node = file.addNode("Coat", 0);
+        file.json["nodes"][node]["mesh"] = addPostMesh(file, coat);
+        file.json["nodes"][node]["skin"] = addSkin(file, {1, 2, 3}, inverseBinds);
+        file.json["meshes"][1]["name"] = "Coat";
+        file.saveBinary(folder / "coat.glb");
+        const Character character = imported(folder / "coat.glb");
+        CHECK(warns(character, "bound in another pose than the rest of the figure: Coat") == bends);
+    }
+}
+
 TEST_CASE("a figure that is inside out is turned, with a word") {
     const TemporaryFolder folder;
     // A post with a lid and a bottom, and the same with all triangles the other way round.
@@ -106,6 +130,26 @@ TEST_CASE("a figure that is inside out is turned, with a word") {
     for (const SkinnedMesh& mesh : mended.meshes) {
         for (std::size_t v = 0; v < mesh.positions.size(); ++v)
             CHECK(glm::dot(mesh.normals[v], mesh.positions[v] - vec3(0, 0.9F, 0)) > 0.0F);
+    }
+}
+
+TEST_CASE("sheets that face each other are not inside out") {
+    const TemporaryFolder folder;
+    // A floor and a wall behind it, both seen from where one would stand.
+    Post corner;
+    corner.positions = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}, {0, 0, 0}, {1, 0, 0}, {1, 1.8F, 0}, {0, 1.8F, 0}};
+    corner.skin.resize(corner.positions.size());
+    corner.indices = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7};
+    GltfFile file;
+    const int node = file.addNode("Corner", -1);
+    file.json["nodes"][node]["mesh"] = addPostMesh(file, corner, mat4(1.0F), false);
+    file.saveBinary(folder / "corner.glb");
+    const Character character = imported(folder / "corner.glb");
+    CHECK_FALSE(warns(character, "point inwards"));
+    REQUIRE(character.meshes.size() == 1);
+    const SkinnedMesh& mesh = character.meshes[0];
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        if (mesh.positions[v].z > 0.1F) CHECK(mesh.normals[v].y > 0.9F);
     }
 }
 

@@ -186,8 +186,9 @@ class ClipWriter {
     [[nodiscard]] std::size_t width() const { return tracks_.size(); }
     [[nodiscard]] double worstShear() const { return worstShear_; }
 
-    void addFrame(double seconds) {
-        player_.pose(seconds, transforms_);
+    /// The pose of that time of the file, at that time of the clip.
+    void addFrame(double fileSeconds, double seconds) {
+        player_.pose(fileSeconds, transforms_);
         evaluateTree(tree_, transforms_, local_);
         for (std::size_t i = 0; i < tracks_.size(); ++i) {
             Track& track = tracks_[i];
@@ -294,7 +295,7 @@ std::vector<SourceClip> sampleMotions(std::span<const Motion> motions, const Mod
                                            frames / timing.rate));
         }
         for (int frame = 0; frame < frames; ++frame)
-            writer.addFrame(timing.start + frame / timing.rate);
+            writer.addFrame(timing.start + frame / timing.rate, frame / timing.rate);
         budget -= static_cast<std::size_t>(frames) * writer.width();
         if (writer.worstShear() > kVisibleShear) {
             warnings.push_back(fmt::format("clip '{}' shears joints by up to {:.0f} %; the shear was dropped",

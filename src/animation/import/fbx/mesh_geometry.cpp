@@ -9,6 +9,7 @@
 #include <map>
 
 #include "animation/import/affine.hpp"
+#include "animation/import/fbx/blend_shapes.hpp"
 #include "animation/import/fbx/layer_element.hpp"
 #include "animation/import/fbx/triangulate.hpp"
 #include "animation/import/source_limits.hpp"
@@ -139,41 +140,6 @@ void flip(std::vector<std::uint32_t>& indices) {
         std::swap(indices[i + 1], indices[i + 2]);
 }
 
-// A shape's offsets, weighted, onto the control points; `shares` are percentages of the single offsets, or empty.
-void addShape(const Record& shape, double weight, std::span<const double> shares, std::vector<dvec3>& points) {
-    const std::vector<double> indices = shape.numbersOf("Indexes");
-    const std::vector<double> offsets = shape.numbersOf("Vertices");
-    for (std::size_t i = 0; i < indices.size() && 3 * i + 2 < offsets.size(); ++i) {
-        if (!(indices[i] >= 0.0 && indices[i] < static_cast<double>(points.size()))) continue;
-        if (!shares.empty() && i >= shares.size()) return;
-        const dvec3 offset(offsets[3 * i], offsets[3 * i + 1], offsets[3 * i + 2]);
-        if (std::isfinite(offset.x + offset.y + offset.z))
-            points[static_cast<std::size_t>(indices[i])] +=
-                weight * (shares.empty() ? 1.0 : shares[i] / 100.0) * offset;
-    }
-}
-
-// How much each of a channel's shapes counts at a percentage: between two neighbours in proportion, below the first
-// and above the last in proportion to it.
-std::vector<double> shapeWeights(double percent, std::vector<double> fullWeights, std::size_t shapes) {
-    while (fullWeights.size() < shapes)
-        fullWeights.push_back(100.0);
-    std::vector<double> weights(shapes, 0.0);
-    double before = 0.0;
-    for (std::size_t i = 0; i < shapes; ++i) {
-        const bool last = i + 1 == shapes;
-        const double span = fullWeights[i] - before;
-        if (!(span > 0.0)) continue;
-        if (percent <= fullWeights[i] || last) {
-            weights[i] = (percent - before) / span;
-            if (i > 0) weights[i - 1] = last && percent > fullWeights[i] ? 0.0 : 1.0 - weights[i];
-            break;
-        }
-        before = fullWeights[i];
-    }
-    return weights;
-}
-
 }  // namespace
 
 std::vector<std::string> GeometryRepairs::sentences() const {
@@ -195,32 +161,11 @@ std::vector<dvec3> GeometryReader::controlPoints(int geometry) const {
     return points;
 }
 
-void GeometryReader::addShapes(int geometry, std::vector<dvec3>& points) const {
-    for (const int blend : objects_.children(geometry, "Deformer", "BlendShape")) {
-        for (const int channel : objects_.children(blend, "Deformer", "BlendShapeChannel")) {
-            const Object& object = objects_[channel];
-            const Record* stated = object.record->child("DeformPercent");
-            const double percent = object.properties.number("DeformPercent", stated ? stated->number(0) : 0.0);
-            if (!(std::abs(percent) > 1e-6)) continue;
-            const std::vector<int> shapes = objects_.children(channel, "Geometry");
-            const std::vector<double> full = object.record->numbersOf("FullWeights");
-            // Blender's exporter keeps a vertex group there: a percentage for each of the shape's offsets.
-            const bool perOffset = full.size() != shapes.size();
-            const std::vector<double> weights =
-                shapeWeights(percent, perOffset ? std::vector<double>{} : full, shapes.size());
-            for (std::size_t i = 0; i < shapes.size(); ++i) {
-                if (weights[i] != 0.0)
-                    addShape(*objects_[shapes[i]].record, weights[i], perOffset ? full : std::vector<double>{}, points);
-            }
-        }
-    }
-}
-
 std::vector<MeshPart> GeometryReader::read(int geometry, const dmat4& meshFromGeometry,
                                            std::span<const std::string> uvSets) {
     const Record& record = *objects_[geometry].record;
     std::vector<dvec3> points = controlPoints(geometry);
-    addShapes(geometry, points);
+    addBlendShapes(objects_, geometry, points);
     const std::vector<double> ends = record.numbersOf("PolygonVertexIndex");
     const Layers layers = layersOf(record);
     std::map<int, PartBuilder> parts;

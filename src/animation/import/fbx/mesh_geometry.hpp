@@ -38,7 +38,6 @@ class GeometryReader {
 
   private:
     [[nodiscard]] std::vector<dvec3> controlPoints(int geometry) const;
-    void addShapes(int geometry, std::vector<dvec3>& points) const;
 
     const Objects& objects_;
     GeometryRepairs& repairs_;

@@ -202,20 +202,6 @@ std::vector<Motion> readMotions(const Document& document, const Objects& objects
     return motions;
 }
 
-bool movesBlendShapes(const Document& document, const Objects& objects) {
-    const auto moves = [&](int curve) {
-        const std::optional<Curve> read = readCurve(*objects[curve].record, document.ticksPerSecond);
-        return read && read->moves();
-    };
-    for (int channel = 0; channel < static_cast<int>(objects.all().size()); ++channel) {
-        if (objects[channel].kind != "Deformer" || objects[channel].subKind != "BlendShapeChannel") continue;
-        for (const int node : objects.children(channel, "AnimationCurveNode")) {
-            if (std::ranges::any_of(objects.children(node, "AnimationCurve"), moves)) return true;
-        }
-    }
-    return false;
-}
-
 void MotionPlayer::pose(double seconds, std::vector<NodeTransform>& out) const {
     out = own_;
     for (const MotionLayer& layer : motion_.layers) {

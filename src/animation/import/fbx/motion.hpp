@@ -46,9 +46,6 @@ struct Motion {
 [[nodiscard]] std::vector<Motion> readMotions(const Document& document, const Objects& objects,
                                               const std::map<int, int>& nodeOfModel);
 
-/// Whether the document moves blend shapes (FBX 7), which readMotions() leaves out.
-[[nodiscard]] bool movesBlendShapes(const Document& document, const Objects& objects);
-
 /// Replaces in `transform` what the motion says of that node at a time.
 class MotionPlayer {
   public:

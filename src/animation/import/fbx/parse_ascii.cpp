@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <utility>
 
 #include "animation/import/fbx/limits.hpp"
@@ -170,9 +171,12 @@ class AsciiParser {
     double numberAsReal() {
         const std::string_view word = numberText();
         double value = 0.0;
-        const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+        const char* end = word.data() + word.size();
+        const auto [parsed, code] = std::from_chars(word.data(), end, value);
         // "1.#INF", "-nan(ind)" and the like: no number, but no reason to give the file up.
         if (code == std::errc::invalid_argument) fail(fmt::format("'{}' is no number", word.substr(0, 20)));
+        // Microsoft's spelling begins with a digit.
+        if (parsed != end && *parsed == '#') return std::numeric_limits<double>::quiet_NaN();
         return code == std::errc() ? value : 0.0;
     }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "animation/import/fbx/blend_shapes.hpp"
 #include "animation/import/fbx/clips.hpp"
 #include "animation/import/fbx/conventions.hpp"
 #include "animation/import/fbx/material.hpp"
