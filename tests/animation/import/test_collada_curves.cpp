@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "animation/import/assimp/collada_curves.hpp"
+#include "animation/import/assimp/collada_ids.hpp"
 #include "support/catch.hpp"
 
 using namespace lutka;
@@ -81,6 +82,52 @@ TEST_CASE("a Collada spline follows its tangents, be its segments of different k
         CHECK(values[i] == Approx(there).margin(5e-3));
     }
     CHECK(values.back() == 4.0);
+}
+
+TEST_CASE("tangents of a Collada spline that are values alone stand at thirds of the way") {
+    std::string text = curveOf("BEZIER LINEAR LINEAR", kTangents);
+    const auto replace = [&](const std::string& what, const std::string& with) {
+        text.replace(text.find(what), what.size(), with);
+    };
+    replace(sourceOf("in", "-1 0 0.6 10 1.2 4", 2), sourceOf("in", "0 8 4", 1));
+    replace(sourceOf("out", "0.4 0 1.3 10 2 4", 2), sourceOf("out", "6 10 4", 1));
+    const std::string straight = rig_import::straightenedCollada(text).text;
+    const std::vector<double> times = numbersOf(straight, "s-times");
+    const std::vector<double> values = numbersOf(straight, "s-values");
+    REQUIRE(times.size() == 62);
+    CHECK(times[30] == Approx(0.5));
+    CHECK(values[30] == Approx((0.0 + 3 * 6.0 + 3 * 8.0 + 10.0) / 8.0));
+    CHECK(values[60] == Approx(10.0));
+}
+
+TEST_CASE("each channel of a Collada animation has a sampler of its own") {
+    const auto channel = [](const std::string& sampler, const std::string& target) {
+        return "<channel source=\"#" + sampler + "\" target=\"" + target + "\"/>";
+    };
+    const std::string text = curveOf("LINEAR LINEAR LINEAR", "") + channel("s", "n/move.X");
+    CHECK(rig_import::withOwnSamplers(text) == text);
+    const std::string sampler = text.substr(text.find("<sampler"), text.find("</animation>") - text.find("<sampler"));
+    const auto called = [&](const std::string& id) {
+        std::string copy = sampler;
+        copy.replace(copy.find("\"s\""), 3, "\"" + id + "\"");
+        return copy;
+    };
+    CHECK(rig_import::withOwnSamplers(text + channel("s", "n/move.Y") + channel("no", "n/a") + channel("s", "n/b")) ==
+          text + called("s-1") + channel("s-1", "n/move.Y") + channel("no", "n/a") + called("s-2") +
+              channel("s-2", "n/b"));
+}
+
+TEST_CASE("turns about an axis that a Collada curve makes between far keys are cut into small ones") {
+    const std::string channel = "<channel source=\"#s\" target=\"n/turnX.ANGLE\"/>";
+    const std::string text = rig_import::straightenedCollada(curveOf("LINEAR LINEAR LINEAR", "") + channel).text;
+    const std::vector<double> times = numbersOf(text, "s-times");
+    const std::vector<double> values = numbersOf(text, "s-values");
+    REQUIRE(times.size() == 91);  // 60 pieces of the first second, 30 of the half one after it
+    for (std::size_t i = 0; i < times.size(); ++i)
+        CHECK(values[i] == Approx(times[i] <= 1.0 ? 10.0 * times[i] : 10.0 - 12.0 * (times[i] - 1.0)));
+    const std::string place = "<channel source=\"#s\" target=\"n/place.X\"/>";
+    CHECK(rig_import::straightenedCollada(curveOf("LINEAR LINEAR LINEAR", "") + place).text ==
+          curveOf("LINEAR LINEAR LINEAR", "") + place);
 }
 
 TEST_CASE("straight Collada curves, and splines without tangents, stay as they are") {

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -97,19 +98,41 @@ std::map<std::string, Source> sourcesOf(std::string_view text, const std::vector
 struct Curve {
     const std::vector<double>* times = nullptr;
     const Source* values = nullptr;
-    const std::vector<std::string_view>* kinds = nullptr;  // one a key: of the way to the next
-    const Source* in = nullptr;                            // tangents as points of time and value, for each component
+    const std::vector<std::string_view>* kinds = nullptr;  // one a key: of the way to the next; null: straight
+    // Tangents as points of time and value for each component, or as values alone: then at thirds of the way.
+    const Source* in = nullptr;
     const Source* out = nullptr;
+    // Of a turn about an axis. Angles between keys are not what Assimp makes of the turns about several axes there.
+    bool isAngle = false;
 
     [[nodiscard]] std::size_t width() const { return values->stride; }
     [[nodiscard]] double value(std::size_t key, std::size_t component) const {
         return values->numbers[key * width() + component];
     }
+    [[nodiscard]] bool hasTimes(const Source& tangents) const {
+        return tangents.numbers.size() >= times->size() * 2 * width();
+    }
     [[nodiscard]] bool isSpline(std::size_t key) const {
         const auto fits = [&](const Source* tangents) {
-            return tangents != nullptr && tangents->numbers.size() >= times->size() * 2 * width();
+            return tangents != nullptr && tangents->numbers.size() >= times->size() * width();
         };
-        return (*kinds)[key] == "BEZIER" && fits(in) && fits(out);
+        return kindOf(key) == "BEZIER" && fits(in) && fits(out);
+    }
+    [[nodiscard]] std::string_view kindOf(std::size_t key) const {
+        return kinds != nullptr ? (*kinds)[key] : std::string_view("LINEAR");
+    }
+    [[nodiscard]] bool turnsFar(std::size_t key) const {
+        constexpr double kFar = 2.0;  // degrees
+        return isAngle && width() == 1 && std::abs(value(key + 1, 0) - value(key, 0)) > kFar;
+    }
+    struct Point {
+        double time = 0.0;
+        double value = 0.0;
+    };
+    [[nodiscard]] Point tangent(const Source& tangents, std::size_t key, std::size_t component, double third) const {
+        const std::size_t place = key * width() + component;
+        if (!hasTimes(tangents)) return {third, tangents.numbers[place]};
+        return {tangents.numbers[2 * place], tangents.numbers[2 * place + 1]};
     }
 };
 
@@ -145,26 +168,30 @@ void addBetween(const Curve& curve, std::size_t key, Pieces& pieces, std::size_t
     const double start = (*curve.times)[key];
     const double end = (*curve.times)[key + 1];
     if (!(end > start) || !std::isfinite(end - start)) return;
-    if ((*curve.kinds)[key] == "STEP") {
+    if (curve.kindOf(key) == "STEP") {
         pieces.beginKey(end - std::min(kJump, 0.5 * (end - start)), curve, left);
         for (std::size_t c = 0; c < curve.width(); ++c)
             pieces.values.push_back(curve.value(key, c));
         return;
     }
-    if (!curve.isSpline(key)) return;
+    const bool isSpline = curve.isSpline(key);
+    if (!isSpline && !curve.turnsFar(key)) return;
     const auto parts = static_cast<std::size_t>(
         std::min(std::ceil((end - start) / kSecondsAPiece - 0.01), static_cast<double>(kMostNumbers)));
     for (std::size_t part = 1; part < parts && left > 0; ++part) {
         const double time = start + (end - start) * static_cast<double>(part) / static_cast<double>(parts);
         pieces.beginKey(time, curve, left);
         for (std::size_t c = 0; c < curve.width(); ++c) {
-            const std::size_t leaves = 2 * (key * curve.width() + c);
-            const std::size_t arrives = leaves + 2 * curve.width();
-            const std::vector<double>& out = curve.out->numbers;
-            const std::vector<double>& in = curve.in->numbers;
+            if (!isSpline) {
+                const double share = static_cast<double>(part) / static_cast<double>(parts);
+                pieces.values.push_back(curve.value(key, c) + share * (curve.value(key + 1, c) - curve.value(key, c)));
+                continue;
+            }
+            const Curve::Point out = curve.tangent(*curve.out, key, c, start + (end - start) / 3.0);
+            const Curve::Point in = curve.tangent(*curve.in, key + 1, c, end - (end - start) / 3.0);
             pieces.values.push_back(
-                bezierAt({start, std::clamp(out[leaves], start, end), std::clamp(in[arrives], start, end), end},
-                         {curve.value(key, c), out[leaves + 1], in[arrives + 1], curve.value(key + 1, c)}, time));
+                bezierAt({start, std::clamp(out.time, start, end), std::clamp(in.time, start, end), end},
+                         {curve.value(key, c), out.value, in.value, curve.value(key + 1, c)}, time));
         }
     }
 }
@@ -194,9 +221,19 @@ std::string sourceText(const std::string& id, const std::vector<double>& numbers
                       id, numbers.size() / stride, stride, params);
 }
 
+// The samplers whose channels turn something about an axis.
+std::set<std::string> angleSamplers(const std::vector<ColladaTag>& tags) {
+    std::set<std::string> ids;
+    for (const ColladaTag& tag : tags) {
+        if (tag.opens("channel") && colladaAttribute(tag.text, "target").ends_with(".ANGLE"))
+            ids.insert(tag.target("source"));
+    }
+    return ids;
+}
+
 // What stands in place of a sampler; empty where it stays: it is straight, or nothing is left of kMostNumbers.
 std::string straightSampler(const std::string& id, const std::map<std::string, std::string>& inputs,
-                            const std::map<std::string, Source>& sources, std::size_t& left) {
+                            const std::map<std::string, Source>& sources, bool isAngle, std::size_t& left) {
     const auto source = [&](const char* semantic) -> const Source* {
         const auto input = inputs.find(semantic);
         const auto found = input == inputs.end() ? sources.end() : sources.find(input->second);
@@ -205,10 +242,11 @@ std::string straightSampler(const std::string& id, const std::map<std::string, s
     const Source* times = source("INPUT");
     const Source* values = source("OUTPUT");
     const Source* kinds = source("INTERPOLATION");
-    if (times == nullptr || values == nullptr || kinds == nullptr || kinds->names.size() < times->numbers.size() ||
-        !kinds->bends)
-        return {};
-    const Curve curve{&times->numbers, values, &kinds->names, source("IN_TANGENT"), source("OUT_TANGENT")};
+    if (times == nullptr || values == nullptr) return {};
+    const bool hasKinds = kinds != nullptr && kinds->names.size() >= times->numbers.size();
+    if (!isAngle && (!hasKinds || !kinds->bends)) return {};
+    const Curve curve{&times->numbers,       values, hasKinds ? &kinds->names : nullptr, source("IN_TANGENT"),
+                      source("OUT_TANGENT"), isAngle};
     left -= std::min(left, times->params.size() + values->params.size());  // written once more, too
     const Pieces pieces = piecesOf(curve, left);
     if (left == 0 || pieces.times.size() <= times->numbers.size()) return {};
@@ -223,9 +261,11 @@ std::string straightSampler(const std::string& id, const std::map<std::string, s
 }  // namespace
 
 StraightenedCollada straightenedCollada(std::string text) {
-    if (text.find("BEZIER") == std::string::npos && text.find("STEP") == std::string::npos) return {std::move(text)};
+    const auto holds = [&](const char* word) { return text.find(word) != std::string::npos; };
+    if (!holds("BEZIER") && !holds("STEP") && !holds(".ANGLE\"")) return {std::move(text)};
     const std::vector<ColladaTag> tags = colladaTags(text);
     const std::map<std::string, Source> sources = sourcesOf(text, tags);
+    const std::set<std::string> angles = angleSamplers(tags);
     std::size_t left = kMostNumbers;
     ColladaEdits edits(text);
     for (std::size_t i = 0; i < tags.size(); ++i) {
@@ -238,7 +278,8 @@ StraightenedCollada straightenedCollada(std::string text) {
                 inputs[std::string(colladaAttribute(tags[input].text, "semantic"))] = tags[input].target("source");
         }
         const std::string id(colladaAttribute(tags[i].text, "id"));
-        const std::string straight = id.empty() ? std::string() : straightSampler(id, inputs, sources, left);
+        const bool isAngle = angles.count(id) > 0;
+        const std::string straight = id.empty() ? std::string() : straightSampler(id, inputs, sources, isAngle, left);
         if (!straight.empty()) edits.replace(tags[i].start, tags[*past - 1].end, straight);
         i = *past - 1;
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
@@ -71,7 +72,51 @@ class Ids {
     std::size_t count_ = 0;
 };
 
+// A sampler's element with another id.
+std::string copyOf(std::string_view sampler, std::string_view id, const std::string& own) {
+    const std::size_t place = sampler.find("\"" + std::string(id) + "\"") + 1;
+    std::string copy(sampler);
+    copy.replace(place, id.size(), own);
+    return copy;
+}
+
 }  // namespace
+
+std::string withOwnSamplers(std::string text) {
+    constexpr std::size_t kMostCopied = std::size_t{16} << 20U;  // bytes
+    if (text.find("<channel") == std::string::npos) return text;
+    const std::vector<ColladaTag> tags = colladaTags(text);
+    std::unordered_map<std::string, std::string_view> samplers;  // id → the whole element
+    for (std::size_t i = 0; i < tags.size(); ++i) {
+        if (!tags[i].opens("sampler")) continue;
+        const std::optional<std::size_t> past = pastColladaElement(tags, i, "sampler");
+        const std::string_view id = colladaAttribute(tags[i].text, "id");
+        if (!past || id.empty()) continue;
+        const std::size_t start = tags[i].start;
+        samplers[std::string(id)] = std::string_view(text).substr(start, tags[*past - 1].end - start);
+    }
+    std::unordered_map<std::string, std::size_t> uses;
+    std::size_t copied = 0;
+    ColladaEdits edits(text);
+    for (const ColladaTag& tag : tags) {
+        if (!tag.opens("channel")) continue;
+        const std::string id = tag.target("source");
+        const auto sampler = samplers.find(id);
+        if (sampler == samplers.end()) continue;
+        std::size_t& used = uses[id];
+        std::string own = id;
+        while (used > 0 && samplers.count(own) > 0)
+            own = fmt::format("{}-{}", id, used++);
+        used = std::max<std::size_t>(used, 1);
+        if (own == id) continue;
+        copied += sampler->second.size();
+        if (copied > kMostCopied) break;
+        edits.replace(tag.start, tag.start, copyOf(sampler->second, id, own));
+        const std::size_t place = tag.start + tag.text.find('#' + id) + 1;
+        edits.replace(place, place + id.size(), own);
+    }
+    return edits.take();
+}
 
 std::string withOwnIds(std::string text) {
     if (text.find("<animation") == std::string::npos) return text;

@@ -10,4 +10,8 @@ namespace lutka::animation::rig_import {
 /// means by an id is its own element, else that of the animation around it. Other elements keep their ids.
 [[nodiscard]] std::string withOwnIds(std::string text);
 
+/// Such a document in which each channel has a sampler of its own: of several channels that name one, Assimp plays the
+/// last alone.
+[[nodiscard]] std::string withOwnSamplers(std::string text);
+
 }  // namespace lutka::animation::rig_import

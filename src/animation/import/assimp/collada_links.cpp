@@ -34,7 +34,7 @@ std::map<std::string, Controller> controllersOf(const std::vector<ColladaTag>& t
 }
 
 // What a link is to lead to, past all morph controllers, whose ids go to `passed`; empty where it may stay.
-std::string pastMorphs(const std::map<std::string, Controller>& controllers, const std::string& first, bool toSkin,
+std::string pastMorphs(const std::map<std::string, Controller>& controllers, const std::string& first,
                        std::set<std::string>& passed) {
     std::string at = first;
     std::vector<std::string> morphs;
@@ -47,7 +47,7 @@ std::string pastMorphs(const std::map<std::string, Controller>& controllers, con
     const auto end = controllers.find(at);
     const bool isController = end != controllers.end();
     // A ring of morphs, or too long a row of them, ends at a morph still.
-    if (at == first || (toSkin && !isController) || (isController && end->second.isMorph)) return {};
+    if (at == first || at.empty() || (isController && end->second.isMorph)) return {};
     passed.insert(morphs.begin(), morphs.end());
     return at;
 }
@@ -62,7 +62,7 @@ std::string withoutMorphs(const std::string& text) {
         const bool isSkin = tags[i].opens("skin");
         if (!isSkin && !tags[i].opens("instance_controller")) continue;
         const std::string target = tags[i].target(isSkin ? "source" : "url");
-        const std::string past = pastMorphs(controllers, target, !isSkin, passed);
+        const std::string past = pastMorphs(controllers, target, passed);
         if (past.empty()) kept.push_back(target);
         if (!past.empty()) links[i] = past;
     }
@@ -71,8 +71,20 @@ std::string withoutMorphs(const std::string& text) {
         while (passed.erase(at) > 0)
             at = controllers.at(at).source;
     }
+    // Assimp gives no mesh to what shows a morph over a geometry: it shows the geometry.
+    constexpr std::string_view kController = "instance_controller";
+    std::set<std::size_t> renamed;  // tags
+    for (const auto& [tag, past] : links) {
+        if (tags[tag].opens("skin") || controllers.count(past) > 0) continue;
+        renamed.insert(tag);
+        if (!tags[tag].isEmpty()) renamed.insert(pastColladaElement(tags, tag, kController).value_or(tag + 1) - 1);
+    }
     ColladaEdits edits(text);
     for (std::size_t i = 0; i < tags.size(); ++i) {
+        if (renamed.count(i) > 0) {
+            const std::size_t name = tags[i].start + tags[i].text.find(kController);
+            edits.replace(name, name + kController.size(), "instance_geometry");
+        }
         if (tags[i].opens("controller") && passed.count(std::string(colladaAttribute(tags[i].text, "id"))) > 0) {
             const std::optional<std::size_t> past = pastColladaElement(tags, i, "controller");
             if (!past) break;

@@ -1,9 +1,16 @@
 #include "animation/import/assimp/collada_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/trigonometric.hpp>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -175,6 +182,44 @@ std::string orderedWeights(std::string_view text, const WeightOrder& order) {
     return out;
 }
 
+// A <skew> as the matrix that it stands for, which Assimp knows: it asserts over the other. Points go along its second
+// axis, so that the first one turns towards that by an angle. As it is where it has other than seven numbers.
+std::string matrixOfSkew(std::string_view text) {
+    std::array<double, 7> numbers{};
+    std::size_t count = 0;
+    for (std::size_t at = text.find_first_not_of(kBlanks); at != std::string_view::npos;) {
+        const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
+        if (count == numbers.size()) return std::string(text);
+        if (std::from_chars(text.data() + at, text.data() + end, numbers[count++]).ec != std::errc())
+            return std::string(text);
+        at = text.find_first_not_of(kBlanks, end);
+    }
+    if (count != numbers.size()) return std::string(text);
+    const glm::dvec3 turned(numbers[1], numbers[2], numbers[3]);
+    const glm::dvec3 along = glm::normalize(glm::dvec3(numbers[4], numbers[5], numbers[6]));
+    const glm::dvec3 across = turned - glm::dot(turned, along) * along;
+    double share = 0.0;
+    if (glm::length(across) > 1e-9 * glm::length(turned)) {
+        // In the plane of both axes.
+        const double x = glm::length(across);
+        const double y = glm::dot(turned, along);
+        const double angle = glm::radians(numbers[0]);
+        share = (x * std::sin(angle) + y * std::cos(angle)) / (x * std::cos(angle) - y * std::sin(angle)) - y / x;
+    }
+    glm::dmat4 matrix(1.0);
+    if (std::isfinite(share) && share != 0.0) {
+        const glm::dvec3 normal = glm::normalize(across);
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 3; ++column)
+                matrix[column][row] += share * along[row] * normal[column];
+        }
+    }
+    std::string out;
+    for (int i = 0; i < 16; ++i)
+        out += fmt::format("{}{:.17g}", i == 0 ? "" : " ", matrix[i % 4][i / 4]);
+    return out;
+}
+
 // Writes the text of elements and their tags, and knows in which element it is.
 class TidyWriter {
   public:
@@ -184,6 +229,10 @@ class TidyWriter {
         const bool pairs = order_.joint == 0 && order_.weight == 1 && order_.stride == 2;
         if (tag_ == "<v" && inWeights_ && !pairs) {
             out_ += orderedWeights(text, order_);
+            return;
+        }
+        if (tag_ == "<skew") {
+            out_ += matrixOfSkew(text);
             return;
         }
         appendTidy(text, out_);
@@ -206,6 +255,7 @@ class TidyWriter {
             out_ += orderedInput(markup, order_);
             return;
         }
+        if (isOlderSpelling(markup)) return;
         if (tag_ == "<polylist") polygons_ = out_.size();
         if (markup == "</polylist>") polygons_ = std::string::npos;
         out_ += markup;
@@ -214,8 +264,40 @@ class TidyWriter {
     [[nodiscard]] std::string take() { return std::move(out_); }
 
   private:
+    // Whether the markup was written as Collada 1.4 has it, where Assimp does not know it otherwise: its reader of 1.5
+    // looks for pictures in the wrong place.
+    bool isOlderSpelling(std::string_view markup) {
+        constexpr std::string_view kVersion = " version=\"1.5";
+        if (tag_ == "<COLLADA") {
+            const std::size_t found = markup.find(kVersion);
+            if (found == std::string_view::npos) return false;
+            is15_ = true;
+            const std::size_t end = markup.find('"', found + kVersion.size());
+            out_ += markup.substr(0, found);
+            out_ += " version=\"1.4.1";
+            out_ += markup.substr(std::min(end, markup.size()));
+            return true;
+        }
+        if (tag_ == "<skew" || markup == "</skew>") {
+            out_ += tag_ == "<skew" ? "<matrix" : "</matrix>";
+            if (tag_ == "<skew") out_ += markup.substr(tag_.size());
+            return true;
+        }
+        if (!is15_) return false;
+        if (tag_ == "<init_from") inInitFrom_ = !markup.ends_with("/>");
+        if (markup == "</init_from>") inInitFrom_ = false;
+        if (tag_ == "<instance_image") {
+            const std::string_view image = colladaAttribute(markup, "url");
+            if (image.starts_with('#')) out_ += "<source>" + std::string(image.substr(1)) + "</source>";
+            return true;
+        }
+        return markup == "</instance_image>" || (inInitFrom_ && (tag_ == "<ref" || markup == "</ref>"));
+    }
+
     std::string out_;
     std::string_view tag_;
+    bool is15_ = false;
+    bool inInitFrom_ = false;
     bool skinBegins_ = false;
     bool inWeights_ = false;
     WeightOrder order_;

@@ -36,7 +36,8 @@ std::string tidiedBytes(const fs::path& file, LeftOut& leftOut) {
     if (!bytes) return {};
     const std::string_view whole(reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size());
     if (!collada) return tidyB3d(whole);
-    StraightenedCollada out = straightenedCollada(gatheredCollada(withOwnIds(linkedCollada(tidyCollada(whole)))));
+    StraightenedCollada out =
+        straightenedCollada(gatheredCollada(withOwnSamplers(withOwnIds(linkedCollada(tidyCollada(whole))))));
     leftOut.curves = !out.isWhole;
     return std::move(out.text);
 }
