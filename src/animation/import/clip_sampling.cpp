@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "animation/import/name_list.hpp"
 #include "animation/pose.hpp"
 
 namespace lutka::animation::rig_import {
@@ -316,13 +317,43 @@ Clip outlineOf(const SourceClip& source, std::size_t joints, std::size_t budget,
     return clip;
 }
 
+// What was dropped of the clips' scales: a sentence a kind, for a file may have thirty clips.
+struct ClipScales {
+    std::vector<std::string> resized;
+    double least = std::numeric_limits<double>::max();  // times the bind pose's size
+    double most = 0.0;
+    std::vector<std::string> scaled;
+    double worst = 0.0;  // share of the length
+
+    [[nodiscard]] std::vector<std::string> sentences() const {
+        std::vector<std::string> out;
+        if (resized.size() == 1) {
+            out.push_back(fmt::format("clip {} is {:.3g} times the size of the bind pose and was brought to it",
+                                      resized[0], most));
+        } else if (!resized.empty()) {
+            out.push_back(
+                fmt::format("{} clips are {:.3g} to {:.3g} times the size of the bind pose and were brought to it: {}",
+                            resized.size(), least, most, firstOf(resized)));
+        }
+        if (scaled.size() == 1) {
+            out.push_back(fmt::format("clip {} scales joints by up to {:.0f} %; the scale was dropped", scaled[0],
+                                      100.0 * worst));
+        } else if (!scaled.empty()) {
+            out.push_back(fmt::format("{} clips scale joints by up to {:.0f} %; the scale was dropped: {}",
+                                      scaled.size(), 100.0 * worst, firstOf(scaled)));
+        }
+        return out;
+    }
+};
+
 // Some exporters write another unit into the clips than into the skin: then the whole figure is scaled.
 double commonScale(const ClipFile& file, std::span<const dmat4> sceneFromNode, const std::string& name,
-                   std::vector<std::string>& warnings) {
+                   ClipScales& scales) {
     const double scale = file.poser.commonScale(sceneFromNode, file.matters());
     if (std::abs(scale - 1.0) <= 0.05) return 1.0;
-    warnings.push_back(
-        fmt::format("clip '{}' is {:.3g} times the size of the bind pose and was brought to it", name, scale));
+    scales.resized.push_back(fmt::format("'{}'", name));
+    scales.least = std::min(scales.least, scale);
+    scales.most = std::max(scales.most, scale);
     return scale;
 }
 
@@ -341,18 +372,18 @@ void markSteps(const ClipFile& file, const SourceClip& source, Clip& clip) {
 
 // Only what there is to warn of is looked at now; the poses wait until somebody plays the clip.
 Clip makeClip(const std::shared_ptr<const ClipFile>& file, const SourceClip& animation, std::size_t budget,
-              std::vector<std::string>& warnings) {
+              ClipScales& scales, std::vector<std::string>& warnings) {
     Timing timing;
     const std::size_t joints = file->tree.nodeOfJoint.size();
     Clip clip = outlineOf(animation, joints, budget, timing, warnings);
     ClipSampler sampler(*file, animation);
-    timing.commonScale = commonScale(*file, sampler.at(timing.start), clip.name, warnings);
+    timing.commonScale = commonScale(*file, sampler.at(timing.start), clip.name, scales);
     const std::vector<int> frames =
         scalesSteadily(*file, animation) ? std::vector<int>{0} : tellingFrames(animation, timing);
     const double worst = sampler.droppedScale(frames, timing);
     if (worst > kVisibleScaleOfClip) {
-        warnings.push_back(
-            fmt::format("clip '{}' scales joints by up to {:.0f} %; the scale was dropped", clip.name, 100.0 * worst));
+        scales.scaled.push_back(fmt::format("'{}'", clip.name));
+        scales.worst = std::max(scales.worst, worst);
     }
     const std::size_t size = joints * static_cast<std::size_t>(timing.frames);
     markSteps(*file, animation, clip);
@@ -405,6 +436,7 @@ ClipFile::ClipFile(const NodeTree& nodes, std::span<const dmat4> bindSceneFromJo
 
 std::vector<Clip> sampleAnimations(const std::shared_ptr<const ClipFile>& file, std::vector<std::string>& warnings) {
     std::vector<Clip> clips;
+    ClipScales scales;
     std::size_t budget = kMaxTransforms;
     for (const SourceClip& clip : file->clips) {
         const KeyTimes times = keyTimes(clip);
@@ -414,9 +446,11 @@ std::vector<Clip> sampleAnimations(const std::shared_ptr<const ClipFile>& file, 
                 fmt::format("clips from '{}' on were left out: too much motion for the memory", clip.name));
             break;
         }
-        clips.push_back(makeClip(file, clip, budget, warnings));
+        clips.push_back(makeClip(file, clip, budget, scales, warnings));
         budget -= clips.back().parentFromJoint.size();
     }
+    for (std::string& sentence : scales.sentences())
+        warnings.push_back(std::move(sentence));
     return clips;
 }
 

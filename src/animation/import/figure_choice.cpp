@@ -14,6 +14,8 @@
 #include "core/aabb.hpp"
 #include "core/math.hpp"
 
+#include "animation/import/name_list.hpp"
+
 namespace lutka::animation::rig_import {
 namespace {
 
@@ -294,11 +296,9 @@ Result<FigureChoice> chooseFigure(SourceScene& scene, std::optional<int> wanted)
     scene.instances = instancesOf(scene, choice, things);
     tellOfOthers(choice, scene.warnings);
     if (!things.empty()) {
-        constexpr std::size_t most = 8;
-        const std::size_t all = things.size();
-        if (all > most) things.resize(most);
-        scene.warnings.push_back(fmt::format("{} mesh(es) hang on no joint of the figure and were left out: {}{}", all,
-                                             fmt::join(things, ", "), all > most ? " …" : ""));
+        scene.warnings.push_back(fmt::format("{} on no joint of the figure and {} left out: {}",
+                                             countOf(things.size(), "mesh hangs", "meshes hang"),
+                                             things.size() == 1 ? "was" : "were", firstOf(things)));
     }
     return choice;
 }

@@ -13,6 +13,8 @@
 #include <unordered_set>
 #include <vector>
 
+#include "animation/import/name_list.hpp"
+
 namespace lutka::animation::rig_import {
 namespace {
 
@@ -76,13 +78,14 @@ void leaveOutHidden(SourceScene& scene) {
     const std::string list = fmt::format("{}{}", fmt::join(first, ", "), names.size() > kMost ? " …" : "");
     if (hasSkin && showsSmallPart(scene)) {
         scene.warnings.push_back(
-            fmt::format("{} mesh(es) are hidden in the file but kept: the others are a small part of the figure: {}",
-                        names.size(), list));
+            fmt::format("{} hidden in the file but kept, for the others are a small part of the figure: {}",
+                        countOf(names.size(), "mesh is", "meshes are"), list));
         return;
     }
     std::erase_if(all, [](const SourceInstance& one) { return one.hidden; });
-    scene.warnings.push_back(
-        fmt::format("{} mesh(es) are hidden in the file and were left out: {}", names.size(), list));
+    scene.warnings.push_back(fmt::format("{} hidden in the file and {} left out: {}",
+                                         countOf(names.size(), "mesh is", "meshes are"),
+                                         names.size() == 1 ? "was" : "were", list));
 }
 
 }  // namespace lutka::animation::rig_import

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "animation/import/name_list.hpp"
 #include "animation/import/vertex_order.hpp"
 #include "core/random.hpp"
 
@@ -158,8 +159,10 @@ void makeTangents(SkinnedMesh& mesh) {
 std::vector<std::string> MeshRepairs::sentences() const {
     std::vector<std::string> out;
     if (turnedMeshes > 0) {
-        out.push_back(
-            fmt::format("{} meshes had their triangles wound against their normals and were turned", turnedMeshes));
+        out.push_back(fmt::format(
+            "{} wound against {} normals and {} turned",
+            countOf(static_cast<std::size_t>(turnedMeshes), "mesh had its triangles", "meshes had their triangles"),
+            turnedMeshes == 1 ? "its" : "their", turnedMeshes == 1 ? "was" : "were"));
     }
     return out;
 }

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "animation/import/name_list.hpp"
+
 namespace lutka::animation::rig_import {
 namespace {
 
@@ -16,15 +18,14 @@ std::vector<double> weightsOfSlots(const SourceMesh& mesh, std::size_t slots) {
 }
 
 void bindJoints(const SourceScene& scene, const SourceSkin& skin, const NodeTree& tree, MeshInstance& instance,
-                std::vector<std::string>& warnings) {
+                std::vector<std::string>& unusable) {
     const std::vector<double> weights = weightsOfSlots(*instance.mesh, skin.joints.size());
     instance.jointOfSlot.assign(skin.joints.size(), -1);
     for (std::size_t slot = 0; slot < skin.joints.size(); ++slot) {
         const SourceSkin::Joint& source = skin.joints[slot];
         if (!(weights[slot] > 0.0)) continue;
         if (!isInvertible(source.jointFromMesh)) {
-            warnings.push_back(fmt::format("the skin of joint '{}' in mesh '{}' has an unusable bind matrix; left out",
-                                           scene.nodes[source.node].name, instance.mesh->name));
+            unusable.push_back(fmt::format("{} of {}", scene.nodes[source.node].name, instance.mesh->name));
             continue;
         }
         instance.jointOfSlot[slot] = tree.nodes[source.node].joint;
@@ -37,6 +38,7 @@ void bindJoints(const SourceScene& scene, const SourceSkin& skin, const NodeTree
 std::vector<MeshInstance> bindMeshes(const SourceScene& scene, const NodeTree& tree,
                                      std::vector<std::string>& warnings) {
     std::vector<MeshInstance> instances;
+    std::vector<std::string> unusable;
     for (const SourceInstance& source : scene.instances) {
         MeshInstance instance;
         instance.mesh = &scene.meshes[source.mesh];
@@ -44,11 +46,15 @@ std::vector<MeshInstance> bindMeshes(const SourceScene& scene, const NodeTree& t
         if (instance.mesh->positions.empty()) continue;
         if (source.skin >= 0) {
             const SourceSkin& skin = scene.skins[source.skin];
-            bindJoints(scene, skin, tree, instance, warnings);
+            bindJoints(scene, skin, tree, instance, unusable);
             instance.sceneFromMesh = skin.sceneFromMesh;
             instance.verticesAreInJoints = skin.verticesAreInJoints;
         }
         instances.push_back(std::move(instance));
+    }
+    if (!unusable.empty()) {
+        warnings.push_back(fmt::format(
+            "joints whose bind matrix is flat move no skin, and their weights were left out: {}", firstOf(unusable)));
     }
     return instances;
 }

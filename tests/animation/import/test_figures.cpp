@@ -227,7 +227,7 @@ TEST_CASE("a mesh that the file hides is no skin of the figure, unless all of it
     caged.saveBinary(folder / "caged.glb");
     const Character hidden = imported(folder / "caged.glb");
     CHECK(bindVertices(hidden) == skin);
-    CHECK(warns(hidden, "1 mesh(es) are hidden in the file and were left out: Cage"));
+    CHECK(warns(hidden, "1 mesh is hidden in the file and was left out: Cage"));
 
     for (nlohmann::json& node : nodes) {
         if (node.contains("skin")) node["extensions"]["KHR_node_visibility"]["visible"] = false;
@@ -256,8 +256,8 @@ TEST_CASE("of many hidden meshes the first eight are named, each once") {
         if (i < 16 && i % 2 == 0) told += (i == 0 ? "" : ", ") + std::string(body["name"]);
     }
     file.saveBinary(folder / "dresses.glb");
-    CHECK(warns(imported(folder / "dresses.glb"),
-                "10 mesh(es) are hidden in the file and were left out: " + told + " …"));
+    CHECK(
+        warns(imported(folder / "dresses.glb"), "10 meshes are hidden in the file and were left out: " + told + " …"));
 }
 
 TEST_CASE("a hidden body stays where only its eyelashes or a thing without a skin is shown") {

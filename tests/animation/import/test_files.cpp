@@ -426,6 +426,27 @@ TEST_CASE("a format that is known but not read is refused by its name, with a wa
     }
 }
 
+TEST_CASE("what the readers of other formats say of a file is told in plain words") {
+    const TemporaryFolder folder;
+    const std::string head = "<?xml version=\"1.0\"?><COLLADA version=\"1.4.1\">";
+    struct Case {
+        const char* file;
+        std::string bytes;
+        const char* says;
+    };
+    for (const Case& one : {Case{"notes.foo", "shopping: bread, butter", "is of no format that is read"},
+                            Case{"cut.dae", head + "<library_geometries><geometry id=", "its XML is broken or cut off"},
+                            Case{"bare.dae", head + "<asset/></COLLADA>", "holds no scene with meshes or joints"},
+                            Case{"walk01.mdl", std::string("IDSQ\n\0\0\0", 8) + std::string(400, '\0'),
+                                 "holds motions of a Half-Life model"}}) {
+        INFO(one.file);
+        REQUIRE(writeFileAtomically(folder / one.file, one.bytes));
+        const Error error = refusal(folder / one.file);
+        CHECK_THAT(error.message, Catch::Contains(one.says));
+        CHECK_FALSE(error.mend.empty());
+    }
+}
+
 TEST_CASE("control characters in the names of a file get no further than its reader") {
     GltfFile file = makePostRig();
     file.json["nodes"][1]["name"] = "\x1b[31mlow\n";

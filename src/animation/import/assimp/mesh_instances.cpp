@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "animation/import/assimp/convert.hpp"
+#include "animation/import/name_list.hpp"
 #include "animation/import/srgb.hpp"
 
 namespace lutka::animation::rig_import {
@@ -51,7 +52,7 @@ struct VertexBone {
 
 // The skin of a mesh, and which slot moves which vertex how much.
 SourceSkin readSkin(const aiMesh& mesh, const SceneNodes& nodes, int node, const std::set<std::string>& boneNames,
-                    std::vector<std::vector<VertexBone>>& vertices, std::vector<std::string>& warnings) {
+                    std::vector<std::vector<VertexBone>>& vertices, std::vector<std::string>& lost) {
     SourceSkin skin;
     std::set<int> taken;
     for (unsigned i = 0; i < mesh.mNumBones; ++i) {
@@ -59,8 +60,7 @@ SourceSkin readSkin(const aiMesh& mesh, const SceneNodes& nodes, int node, const
         if (bone == nullptr || bone->mNumWeights == 0) continue;
         const int joint = resolveBone(nodes, *bone, nodes.sceneFromNode[node], boneNames, taken);
         if (joint < 0) {
-            warnings.push_back(fmt::format("mesh '{}' is skinned to '{}', which is no node of the scene; left out",
-                                           mesh.mName.C_Str(), bone->mName.C_Str()));
+            lost.push_back(fmt::format("{} of {}", bone->mName.C_Str(), mesh.mName.C_Str()));
             continue;
         }
         taken.insert(joint);
@@ -132,6 +132,7 @@ void addMeshes(const aiScene& scene, const SceneNodes& nodes, SourceScene& out) 
     const std::set<std::string> boneNames = namesOfBones(scene);
     std::vector<int> meshOfSource(scene.mNumMeshes, -1);
     std::set<unsigned> skinnedDone;
+    std::vector<std::string> lost;  // joints
     for (int node = 0; node < static_cast<int>(out.nodes.size()); ++node) {
         const aiNode& source = *nodes.sources[node];
         for (unsigned i = 0; i < source.mNumMeshes; ++i) {
@@ -140,7 +141,7 @@ void addMeshes(const aiScene& scene, const SceneNodes& nodes, SourceScene& out) 
             const aiMesh& mesh = *scene.mMeshes[index];
             if ((mesh.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0U || mesh.mNumVertices == 0) continue;
             std::vector<std::vector<VertexBone>> vertices(mesh.mNumVertices);
-            SourceSkin skin = readSkin(mesh, nodes, node, boneNames, vertices, out.warnings);
+            SourceSkin skin = readSkin(mesh, nodes, node, boneNames, vertices, lost);
             SourceInstance instance;
             instance.node = node;
             if (!skin.joints.empty()) {
@@ -155,6 +156,10 @@ void addMeshes(const aiScene& scene, const SceneNodes& nodes, SourceScene& out) 
             instance.mesh = meshOfSource[index];
             out.instances.push_back(instance);
         }
+    }
+    if (!lost.empty()) {
+        out.warnings.push_back(fmt::format(
+            "joints that are no nodes of the scene move no skin, and their weights were left out: {}", firstOf(lost)));
     }
 }
 

@@ -4,9 +4,13 @@
 #include <assimp/postprocess.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <exception>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "animation/import/assimp/confined_files.hpp"
 #include "animation/import/source_limits.hpp"
@@ -24,6 +28,8 @@ namespace lutka::animation::rig_import {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kUsualMend = "check that the file is whole, or export it again as glTF 2.0 or FBX";
 
 Error unreadable(const fs::path& file, std::string message, std::string mend = "") {
     return {ErrorCode::input, std::move(message), file.string(), std::move(mend)};
@@ -59,6 +65,40 @@ const aiScene* read(Assimp::Importer& importer, const fs::path& file, std::strin
     }
 }
 
+// What Assimp says that means nothing to whoever has the file, in plain words.
+struct PlainWords {
+    std::string_view said;
+    const char* message;
+    const char* mend;  // null: the usual one
+};
+
+constexpr std::array kPlainWords = {
+    PlainWords{"No suitable reader found", "is of no format that is read", "export it as glTF 2.0 or FBX"},
+    PlainWords{"File came out empty", "holds no scene with meshes or joints", "export it with its scene"},
+    PlainWords{"No meshes remaining", "holds points and lines alone, no triangles", "export it with its meshes"},
+    PlainWords{"Unknown reference format", "links to other files, and links between Collada files are not followed",
+               "export all of it into one file"},
+    PlainWords{"malformed XML", "its XML is broken or cut off", nullptr},
+    PlainWords{"XML parse error", "its XML is broken or cut off", nullptr},
+    PlainWords{"Invalid data index", "its polygons name values that are not there", nullptr},
+    PlainWords{"Unsupported vertex referencing scheme", "its polygons name the vertices of another mesh", nullptr},
+    PlainWords{"model from an MDL sequence file", "holds motions of a Half-Life model without the model",
+               "take the model's own .mdl file"},
+    PlainWords{"HL2 MDLs are not implemented", "is a model of Half-Life 2 (Source), which is not read",
+               "decompile it (Crowbar) and export glTF 2.0 or FBX from Blender"},
+    PlainWords{"[MeshSerializer_v", "is an Ogre mesh of a version that is not read",
+               "run OgreMeshUpgrader on it, or export it again as glTF 2.0 or FBX"},
+    PlainWords{"Invalid Ogre Mesh file header", "is no Ogre mesh, though its name says so", nullptr},
+    PlainWords{" does not hold (", "is damaged, or holds what the reader of its format does not know", nullptr},
+};
+
+std::optional<Error> inPlainWords(const fs::path& file, const std::string& why) {
+    const auto found = std::find_if(kPlainWords.begin(), kPlainWords.end(),
+                                    [&](const PlainWords& words) { return why.find(words.said) != std::string::npos; });
+    if (found == kPlainWords.end()) return std::nullopt;
+    return unreadable(file, found->message, found->mend == nullptr ? kUsualMend : found->mend);
+}
+
 // A part of the model in a file of its own that is not there is not a fault of the file that names it.
 std::string mendOf(const std::string& why, const LeftOut& leftOut) {
     for (const std::string& name : leftOut.absent) {
@@ -66,7 +106,7 @@ std::string mendOf(const std::string& why, const LeftOut& leftOut) {
         if (why.find(part) != std::string::npos)
             return fmt::format("put {} beside the model, it is a part of it", part);
     }
-    return "check that the file is whole, or export it again as glTF 2.0 or FBX";
+    return kUsualMend;
 }
 
 }  // namespace
@@ -79,6 +119,9 @@ Result<SceneFile> readScene(const fs::path& file, const ModelFolder& folder) {
     configure(*out.importer);
     std::string why;
     out.scene = read(*out.importer, file, why);
+    if (out.scene == nullptr && out.leftOut->absent.empty()) {
+        if (std::optional<Error> plain = inPlainWords(file, why)) return *std::move(plain);
+    }
     if (out.scene == nullptr)
         return unreadable(file, why.empty() ? "can't be read as a model" : why, mendOf(why, *out.leftOut));
     if (out.scene->mRootNode == nullptr) return unreadable(file, "holds no scene");

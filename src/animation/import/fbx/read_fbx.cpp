@@ -120,7 +120,7 @@ class SceneReader {
             scene_.warnings.push_back(std::move(sentence));
         if (!materials_.unread().empty()) {
             scene_.warnings.push_back(
-                fmt::format("left out: pictures of shaders that are not known, by their properties {}",
+                fmt::format("left out: pictures whose property is none for colour, normals or glow: {}",
                             fmt::join(materials_.unread(), ", ")));
         }
         if (!dualQuaternionMeshes_.empty()) {
