@@ -1,6 +1,7 @@
 #include "animation/import/bind_pose.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -48,15 +49,33 @@ struct Vote {
     double weight;
 };
 
-// How differently two frames place the mesh, in sizes of the placed mesh.
-double disagreement(const MeshExtent& box, const dmat4& a, const dmat4& b) {
-    double sum = 0.0;
+// Where a frame takes four points of a mesh, and how it scales it.
+struct Placed {
+    std::array<dvec3, 4> points;
+    double scale = 1.0;
+};
+
+Placed placedBy(const MeshExtent& box, const dmat4& frame) {
+    Placed out;
     for (int corner = 0; corner < 4; ++corner) {
         dvec3 point = box.centre;
         if (corner > 0) point[corner - 1] += 0.5 * box.size;
-        sum += glm::distance(dvec3(a * dvec4(point, 1.0)), dvec3(b * dvec4(point, 1.0)));
+        out.points[static_cast<std::size_t>(corner)] = dvec3(frame * dvec4(point, 1.0));
     }
-    return sum / (4.0 * box.size * std::max({meanScale(a), meanScale(b), 1e-30}));
+    out.scale = meanScale(frame);
+    return out;
+}
+
+// How differently two frames place the mesh, in sizes of the placed mesh.
+double disagreement(const MeshExtent& box, const Placed& a, const Placed& b) {
+    double sum = 0.0;
+    for (std::size_t corner = 0; corner < a.points.size(); ++corner)
+        sum += glm::distance(a.points[corner], b.points[corner]);
+    return sum / (4.0 * box.size * std::max({a.scale, b.scale, 1e-30}));
+}
+
+double disagreement(const MeshExtent& box, const dmat4& a, const dmat4& b) {
+    return disagreement(box, placedBy(box, a), placedBy(box, b));
 }
 
 // The vote with the smallest weighted distance to all others; each distance counts at most 1, so that strays have no
@@ -66,12 +85,16 @@ const dmat4& medoid(const MeshExtent& box, std::vector<Vote>& votes) {
         std::stable_sort(votes.begin(), votes.end(), [](const Vote& a, const Vote& b) { return a.weight > b.weight; });
         votes.resize(kMaxVoters);
     }
+    std::vector<Placed> placed;
+    placed.reserve(votes.size());
+    for (const Vote& vote : votes)
+        placed.push_back(placedBy(box, vote.sceneFromMesh));
     std::size_t best = 0;
     double bestSum = std::numeric_limits<double>::max();
     for (std::size_t i = 0; i < votes.size(); ++i) {
         double sum = 0.0;
-        for (const Vote& other : votes)
-            sum += other.weight * std::min(disagreement(box, votes[i].sceneFromMesh, other.sceneFromMesh), 1.0);
+        for (std::size_t k = 0; k < votes.size(); ++k)
+            sum += votes[k].weight * std::min(disagreement(box, placed[i], placed[k]), 1.0);
         if (sum < bestSum) {
             bestSum = sum;
             best = i;
