@@ -6,7 +6,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <climits>
 #include <cstdio>
 #include <cstring>
 #include <system_error>
@@ -52,6 +55,37 @@ void removeLeftovers(const fs::path& folder) {
     }
 }
 
+/// Names of the files that the process has, where a signal handler finds them: it can take no lock and reach nothing
+/// but globals. Whoever has a note in another state than `free` has it alone.
+struct Note {
+    enum State : int { free, ours, removed };
+    std::atomic<int> state{free};
+    std::array<char, PATH_MAX> path{};
+};
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler must not wait for a lock");
+// As many as are written at a time, and more; a file beyond them is found by the next run alone.
+std::array<Note, 24> notes;
+
+// The name is noted before there is a file of it: it holds this process's number, so nobody else can have one.
+int noteDown(const fs::path& path) {
+    if (path.native().size() >= PATH_MAX) return -1;
+    for (std::size_t i = 0; i < notes.size(); ++i) {
+        int state = Note::free;
+        // Filled as `removed`: a handler that comes meanwhile leaves it alone.
+        if (!notes[i].state.compare_exchange_strong(state, Note::removed)) continue;
+        std::memcpy(notes[i].path.data(), path.c_str(), path.native().size() + 1);
+        notes[i].state = Note::ours;
+        return static_cast<int>(i);
+    }
+    return -1;
+}
+
+void strikeOut(int note) {
+    if (note < 0) return;
+    int state = Note::ours;
+    notes[static_cast<std::size_t>(note)].state.compare_exchange_strong(state, Note::free);
+}
+
 // Whether the file is locked by us and still there: another process may have taken it for a leftover in between.
 bool lockOwn(int handle) {
     struct stat status {};
@@ -67,22 +101,29 @@ Result<TemporaryFile> TemporaryFile::beside(const fs::path& target, std::string_
     for (int number = 0; number < kMostTries; ++number) {
         fs::path path = target;
         path.replace_filename(fmt::format("{}{}-{}{}", kPrefix, ::getpid(), number, extension));
+        const int note = noteDown(path);
         const int handle = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
-        if (handle < 0 && errno == EEXIST) continue;
-        if (handle < 0) return unwritable(target, "can't be written", errno);
-        if (lockOwn(handle)) return TemporaryFile(std::move(path), handle);
-        ::close(handle);
+        const int failed = errno;
+        if (handle >= 0 && lockOwn(handle)) return TemporaryFile(std::move(path), handle, note);
+        strikeOut(note);
+        if (handle >= 0)
+            ::close(handle);
+        else if (failed != EEXIST)
+            return unwritable(target, "can't be written", failed);
     }
     return Error{ErrorCode::output, "can't be written: the folder is full of temporary files", target.string(),
                  fmt::format("remove the files {}* from it", kPrefix)};
 }
 
 TemporaryFile::TemporaryFile(TemporaryFile&& other) noexcept
-    : path_(std::exchange(other.path_, {})), lock_(std::exchange(other.lock_, -1)) {}
+    : path_(std::exchange(other.path_, {})),
+      lock_(std::exchange(other.lock_, -1)),
+      note_(std::exchange(other.note_, -1)) {}
 
 TemporaryFile::~TemporaryFile() {
     if (lock_ < 0) return;
     ::unlink(path_.c_str());
+    strikeOut(note_);
     ::close(lock_);
 }
 
@@ -94,8 +135,16 @@ Result<void> TemporaryFile::replace(const fs::path& target) {
     // Data first, name second: without this a crash after the rename can leave an empty file under the final name.
     if (::fsync(lock_) != 0 && errno != EINVAL) return unwritable(target, "can't be written", errno);
     if (std::rename(path_.c_str(), target.c_str()) != 0) return unwritable(target, "can't be written", errno);
+    strikeOut(std::exchange(note_, -1));
     ::close(std::exchange(lock_, -1));
     return {};
+}
+
+void removeTemporaryFiles() noexcept {
+    for (Note& note : notes) {
+        int state = Note::ours;
+        if (note.state.compare_exchange_strong(state, Note::removed)) ::unlink(note.path.data());
+    }
 }
 
 }  // namespace lutka

@@ -29,10 +29,15 @@ class TemporaryFile {
     [[nodiscard]] Result<void> replace(const std::filesystem::path& target);
 
   private:
-    TemporaryFile(std::filesystem::path path, int lock) : path_(std::move(path)), lock_(lock) {}
+    TemporaryFile(std::filesystem::path path, int lock, int note) : path_(std::move(path)), lock_(lock), note_(note) {}
 
     std::filesystem::path path_;
     int lock_ = -1;  ///< Open for as long as the file is ours.
+    int note_ = -1;  ///< Where removeTemporaryFiles() finds its name; -1: nowhere.
 };
+
+/// Removes the names of all temporary files that this process has, for one that is about to end by a signal: safe in a
+/// signal handler, also while another thread makes, drops or replaces one. Nothing may be written after it.
+void removeTemporaryFiles() noexcept;
 
 }  // namespace lutka

@@ -9,6 +9,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -38,6 +40,18 @@ std::string tailOf(int file) {
 // A file in memory: no folder that has to be writable, and no pipe that could fill and block the program.
 int openErrorFile() {
     return ::memfd_create("lutka-errors", MFD_CLOEXEC);
+}
+
+// Where a signal handler finds the programs that run; 0: none. More at a time are not started.
+std::array<std::atomic<pid_t>, 16> running;
+static_assert(std::atomic<pid_t>::is_always_lock_free, "a signal handler must not wait for a lock");
+
+// Puts `to` in the place of `from`, wherever that stands.
+void exchangeRunning(pid_t from, pid_t to) {
+    for (std::atomic<pid_t>& one : running) {
+        pid_t expected = from;
+        if (one.compare_exchange_strong(expected, to)) return;
+    }
 }
 
 int spawn(const std::vector<std::string>& arguments, int input, int errors, pid_t& pid) {
@@ -71,6 +85,7 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
         if (errors >= 0) ::close(errors);
         return fail(failed);
     }
+    exchangeRunning(0, pid);
     return ChildProcess(pid, ends[0], errors);
 }
 
@@ -104,12 +119,23 @@ bool ChildProcess::write(std::span<const std::uint8_t> bytes) {
     return true;
 }
 
+void ChildProcess::killAll() noexcept {
+    for (std::atomic<pid_t>& one : running) {
+        const pid_t pid = one.exchange(0);
+        if (pid <= 0) continue;
+        ::kill(pid, SIGKILL);
+        while (::waitpid(pid, nullptr, 0) < 0 && errno == EINTR) {
+        }
+    }
+}
+
 ChildProcess::Ended ChildProcess::finish() {
     Ended ended;
     if (input_ >= 0) ::close(std::exchange(input_, -1));
     int status = 0;
     while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
     }
+    exchangeRunning(pid_, 0);
     pid_ = -1;
     ended.succeeded = WIFEXITED(status) && WEXITSTATUS(status) == 0;
     ended.errorText = tailOf(errors_);

@@ -36,6 +36,10 @@ class ChildProcess {
     /// Closes its input and waits for its end.
     [[nodiscard]] Ended finish();
 
+    /// Kills all programs that were started and not waited for, and waits until they are gone, for a process that is
+    /// about to end by a signal: safe in a signal handler. None may be used after it.
+    static void killAll() noexcept;
+
   private:
     ChildProcess(pid_t pid, int input, int errors) : pid_(pid), input_(input), errors_(errors) {}
 

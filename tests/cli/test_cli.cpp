@@ -348,6 +348,25 @@ TEST_CASE("an interrupted video leaves nothing behind") {
     CHECK(fs::is_empty(folder.path));
 }
 
+TEST_CASE("an interrupted video leaves nothing behind, file or process, while the encoder hangs") {
+    const ScratchFolder folder;
+    // Its frames are never taken, so that nothing looks at the flag: the time that is left for a polite end runs out.
+    const std::string encoder = folder / "ffmpeg";
+    const std::string process = folder / "pid";
+    std::ofstream(encoder) << "#!/bin/sh\necho $$ > '" << process << "'\nexec sleep 600\n";
+    fs::permissions(encoder, fs::perms::owner_all);
+    fs::create_directory(folder / "out");
+    const CommandResult result =
+        runCommand("sh -c \"PATH='" + folder.path.string() + "':\\$PATH '" LUTKA_BINARY "' render " +
+                   kMannequinArgument + " --seconds 600 --size 640x480 -o '" + (folder / "out/long.mp4") +
+                   "' & p=\\$!; while kill -0 \\$p 2>/dev/null && [ ! -s '" + process +
+                   "' ]; do sleep 0.05; done; kill -TERM \\$p 2>/dev/null; wait \\$p\"");
+    NEEDS_DISPLAY_OF(result);
+    CHECK(result.code == 128 + SIGTERM);
+    CHECK(fs::is_empty(folder / "out"));
+    CHECK(runCommand("sh -c \"kill -0 \\$(cat '" + process + "')\"").code != 0);
+}
+
 TEST_CASE("an interrupt that comes several times at once is one") {
     NEEDS_PROGRAM("ffmpeg");
     const ScratchFolder folder;

@@ -45,6 +45,35 @@ TEST_CASE("two temporary files of one target are two files, and both go when the
     CHECK(filesIn(folder.path) == 0);
 }
 
+TEST_CASE("a process that a signal ends takes its temporary files along, and what it replaced stays") {
+    const test::ScratchFolder folder;
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const auto first = TemporaryFile::beside(folder.path / "a.txt", ".txt");
+        const auto second = TemporaryFile::beside(folder.path / "b.txt", ".txt");
+        { const auto dropped = TemporaryFile::beside(folder.path / "c.txt", ".txt"); }
+        if (!writeFileAtomically(folder.path / "whole.txt", "whole")) ::_exit(1);
+        std::signal(SIGALRM, [](int) {
+            removeTemporaryFiles();
+            ::_exit(7);
+        });
+        ::raise(SIGALRM);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 7);
+    CHECK(filesIn(folder.path) == 1);
+    CHECK(test::fileText(folder / "whole.txt") == "whole");
+}
+
+TEST_CASE("many more files than a signal handler knows are written one after the other") {
+    const test::ScratchFolder folder;
+    for (int i = 0; i < 100; ++i)
+        REQUIRE(writeFileAtomically(folder.path / ("file" + std::to_string(i)), "whole"));
+    CHECK(filesIn(folder.path) == 100);
+}
+
 TEST_CASE("a temporary file never follows a link that lies in its way") {
     const test::ScratchFolder folder;
     std::ofstream(folder / "precious") << "kept";

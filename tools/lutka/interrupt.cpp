@@ -7,7 +7,9 @@
 #include <csignal>
 #include <ctime>
 
+#include "core/temporary_file.hpp"
 #include "options.hpp"
+#include "render/child_process.hpp"
 
 namespace lutka::cli {
 namespace {
@@ -32,9 +34,16 @@ long long nowMs() {
     return static_cast<long long>(now.tv_sec) * 1000 + now.tv_nsec / 1'000'000;
 }
 
-// Nothing looked at the flag in time: a long import, or a third party that never returns. Temporary files are hidden,
-// and the next run removes them.
+// An encoder first: it would make its file anew, or write on in it.
+void leaveNothingBehind() {
+    render::ChildProcess::killAll();
+    removeTemporaryFiles();
+}
+
+// Nothing looked at the flag in time: a long import, a third party that never returns, or a machine with much else to
+// do.
 void onTimeUp(int /*number*/) {
+    leaveNothingBehind();
     ::_exit(kShellBase + static_cast<int>(caughtSignal));
 }
 
@@ -46,6 +55,7 @@ void onSignal(int number) {
         grace.it_value.tv_usec = kGraceMs * 1000;
         ::setitimer(ITIMER_REAL, &grace, nullptr);
     } else if (nowMs() - caughtAtMs >= kOneRequestMs) {
+        leaveNothingBehind();
         std::signal(number, SIG_DFL);
         std::raise(number);
     }
