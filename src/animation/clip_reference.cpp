@@ -1,9 +1,13 @@
 #include "animation/clip_reference.hpp"
-#include "core/letter_case.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <vector>
+
+#include "core/letter_case.hpp"
 
 namespace lutka::animation {
 namespace {
@@ -72,6 +76,65 @@ std::string clipLabel(std::span<const Clip> clips, std::size_t clip) {
     const std::string& name = clips[clip].name;
     const std::string reference = clipReference(clips, clip);
     return name.empty() || reference == name ? reference : name + " (" + reference + ")";
+}
+
+namespace {
+
+// As many of them as a person reads.
+std::string listed(std::span<const Clip> clips, const std::vector<std::size_t>& which) {
+    constexpr std::size_t most = 12;
+    std::string all;
+    for (std::size_t i = 0; i < std::min(which.size(), most); ++i)
+        all += (all.empty() ? "" : ", ") + clipReference(clips, which[i]);
+    if (which.size() > most) all += fmt::format(" and {} more (`lutka inspect` lists all)", which.size() - most);
+    return all;
+}
+
+template <typename Has>
+std::vector<std::size_t> clipsWhere(std::span<const Clip> clips, const Has& has) {
+    std::vector<std::size_t> found;
+    for (std::size_t clip = 0; clip < clips.size(); ++clip)
+        if (has(clips[clip].name)) found.push_back(clip);
+    return found;
+}
+
+bool isWholeNumber(std::string_view text) {
+    return !text.empty() &&
+           std::all_of(text.begin(), text.end(), [](char letter) { return letter >= '0' && letter <= '9'; });
+}
+
+}  // namespace
+
+ClipDoubt clipDoubt(std::span<const Clip> clips, std::string_view reference) {
+    const std::string none = fmt::format("there is no clip named '{}'", reference);
+    if (clips.empty()) return {none, "the file has no clips"};
+    const bool byNumber = reference.starts_with('#');
+    if (isWholeNumber(reference.substr(byNumber ? 1 : 0))) {
+        if (byNumber || clips.size() == 1)
+            return {byNumber ? fmt::format("there is no clip {}", reference) : none,
+                    clips.size() == 1 ? "the file has one: " + clipReference(clips, 0)
+                                      : fmt::format("the file has {}, from #1 to #{}", clips.size(), clips.size())};
+        if (clipOfNumber(clips, fmt::format("#{}", reference)) >= 0)
+            return {none, fmt::format("#{} is the clip of that number", reference)};
+    }
+    if (const std::size_t at = reference.rfind('@'); at != std::string_view::npos) {
+        const std::string_view name = reference.substr(0, at);
+        if (clipMeant(clips, name) >= 0)
+            return {fmt::format("'{}' is no time in the clip '{}'", reference.substr(at + 1), name),
+                    fmt::format("give seconds, as in {}@0.5", name)};
+    }
+    const auto alike = clipsWhere(clips, [&](std::string_view name) {
+        return sameButCase(name, reference) || isAction(name, reference) || endsInWords(name, reference);
+    });
+    if (alike.size() > 1)
+        return {fmt::format("'{}' may be any of {} clips", reference, alike.size()),
+                "name one of " + listed(clips, alike)};
+    const std::string word = lowerCased(reference);
+    const auto holding = clipsWhere(clips, [&](std::string_view name) {
+        return !word.empty() && lowerCased(name).find(word) != std::string::npos;
+    });
+    if (!holding.empty()) return {none, "clips that hold this are " + listed(clips, holding)};
+    return {none, "the clips are " + listed(clips, clipsWhere(clips, [](std::string_view) { return true; }))};
 }
 
 std::string clipReferences(std::span<const Clip> clips) {

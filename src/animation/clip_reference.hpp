@@ -20,4 +20,11 @@ namespace lutka::animation {
 /// What all clips are asked for by, comma separated.
 [[nodiscard]] std::string clipReferences(std::span<const Clip> clips);
 
+/// Why a text means no clip (clipMeant() gives -1), and what to write in its place: for an error.
+struct ClipDoubt {
+    std::string message;
+    std::string mend;
+};
+[[nodiscard]] ClipDoubt clipDoubt(std::span<const Clip> clips, std::string_view reference);
+
 }  // namespace lutka::animation

@@ -67,3 +67,26 @@ TEST_CASE("the nearer meaning of a clip's name goes before the farther one") {
     const auto armatures = clipsNamed({"A|walk", "B|walk", "Man_Walk"});
     CHECK(clipMeant(armatures, "walk") == -1);
 }
+
+TEST_CASE("a text that means no clip is told why, and what to write in its place") {
+    const auto clips = clipsNamed({"Rig|Idle", "Hero_Punch", "Old_Punch", "walk@1", ""});
+    CHECK(clipDoubt({}, "walk").mend == "the file has no clips");
+    CHECK(clipDoubt(clips, "#9").message == "there is no clip #9");
+    CHECK(clipDoubt(clips, "#9").mend == "the file has 5, from #1 to #5");
+    CHECK(clipDoubt(clipsNamed({"walk"}), "#2").mend == "the file has one: walk");
+    CHECK(clipDoubt(clips, "2").mend == "#2 is the clip of that number");
+    CHECK(clipDoubt(clips, "idle@half").message == "'half' is no time in the clip 'idle'");
+    CHECK(clipDoubt(clips, "idle@half").mend == "give seconds, as in idle@0.5");
+    CHECK(clipDoubt(clips, "punch").message == "'punch' may be any of 2 clips");
+    CHECK(clipDoubt(clips, "punch").mend == "name one of Hero_Punch, Old_Punch");
+    CHECK(clipDoubt(clips, "unc").mend == "clips that hold this are Hero_Punch, Old_Punch");
+    CHECK(clipDoubt(clips, "run").message == "there is no clip named 'run'");
+    CHECK(clipDoubt(clips, "run").mend == "the clips are Rig|Idle, Hero_Punch, Old_Punch, walk@1, #5");
+    // Nobody reads a hundred names in a terminal.
+    std::vector<Clip> many(40);
+    for (std::size_t i = 0; i < many.size(); ++i)
+        many[i].name = "take " + std::to_string(i);
+    const std::string mend = clipDoubt(many, "run").mend;
+    CHECK(mend.find("take 11 and 28 more (`lutka inspect` lists all)") != std::string::npos);
+    CHECK(mend.find("take 12") == std::string::npos);
+}

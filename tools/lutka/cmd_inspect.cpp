@@ -116,8 +116,7 @@ void printText(const Character& character) {
     tell("clips      {}\n", character.clips.size());
     for (std::size_t i = 0; i < character.clips.size(); ++i) {
         const animation::Clip& clip = character.clips[i];
-        tell("  {:<48} {:7.2f} s, {} frames\n", animation::clipLabel(character.clips, i), clip.seconds(),
-             clip.frameCount);
+        tell("  #{:<4} {:<42} {:7.2f} s, {} frames\n", i + 1, clip.name, clip.seconds(), clip.frameCount);
     }
     tell("materials  {}, textures {}\n", character.materials.size(), character.textures.size());
     if (!character.warnings.empty()) tell("repaired or noticed\n");

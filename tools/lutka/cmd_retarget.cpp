@@ -32,10 +32,12 @@ struct RetargetCommandOptions {
 const animation::Clip& clipOf(const animation::Character& character, const std::string& name) {
     if (name.empty() && character.clips.size() == 1) return character.clips.front();
     if (const int clip = animation::clipMeant(character.clips, name); clip >= 0) return character.clips[clip];
-    const std::string known = animation::clipReferences(character.clips);
-    leave({ErrorCode::usage,
-           name.empty() ? fmt::format("has {} clips", character.clips.size()) : fmt::format("has no clip '{}'", name),
-           character.file.string(), known.empty() ? "take a file with a clip" : "--clip takes one of " + known});
+    if (name.empty())
+        leave({ErrorCode::usage, fmt::format("has {} clips", character.clips.size()), character.file.string(),
+               character.clips.empty() ? "take a file with a clip"
+                                       : "--clip takes one of " + animation::clipReferences(character.clips)});
+    const animation::ClipDoubt doubt = animation::clipDoubt(character.clips, name);
+    leave({ErrorCode::usage, doubt.message, character.file.string(), doubt.mend});
 }
 
 Json pairJson(const MeanAndMost& figure) {
@@ -118,7 +120,7 @@ void addRetarget(const Command& app) {
     options->from.addTo(command);
     command.find("MODEL").describe("file with the clip: a rigged character or motion capture");
     command.option("--to", options->to, "the character that the clip is for").required();
-    command.option("--clip", options->clip, "the clip's name; default: the file's only one");
+    command.option("--clip", options->clip, "the clip: NAME or #NUMBER; default: the file's only one");
     command
         .option("-o,--output", options->out,
                 "the character with the clip (.glb), or its joints' motion alone (.bvh); - for a .glb on stdout")

@@ -270,9 +270,10 @@ void SimulateOptions::addTo(const Command& app) {
     app.option("--pose", pose, "the pose to start in: the bind pose, the default, or the file's node pose")
         .oneOf({"bind", "node"});
     const Option fromClipOption =
-        app.option("--from-clip", fromClip, "start from a clip's pose and velocities: NAME or NAME@SECONDS");
+        app.option("--from-clip", fromClip, "start from a clip's pose and velocities: NAME or #NUMBER, with @SECONDS");
     const Option clipOption =
-        app.option("--clip", clip, "play a clip instead of falling, from its start or a moment: NAME or NAME@SECONDS")
+        app.option("--clip", clip,
+                   "play a clip instead of falling, from its start or a moment: NAME or #NUMBER, with @SECONDS")
             .excludes(fromClipOption);
     app.option("--clip-speed", clipSpeed, "clip seconds a second; negative: backwards")
         .range(-100.0, 100.0)

@@ -18,9 +18,8 @@ using physics::BodyState;
 
 Result<const Clip*> clipNamed(const Character& character, const std::string& name) {
     if (const int clip = animation::clipMeant(character.clips, name); clip >= 0) return &character.clips[clip];
-    const std::string known = animation::clipReferences(character.clips);
-    return Error{ErrorCode::usage, fmt::format("there is no clip named '{}'", name), character.file.string(),
-                 known.empty() ? "the file has no clips" : "the clips are " + known};
+    animation::ClipDoubt doubt = animation::clipDoubt(character.clips, name);
+    return Error{ErrorCode::usage, std::move(doubt.message), character.file.string(), std::move(doubt.mend)};
 }
 
 // "a@1" may be a clip's own name, which a command line reads as one second into "a". Where no clip is called just "a",
