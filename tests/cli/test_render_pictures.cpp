@@ -59,6 +59,23 @@ TEST_CASE("three models of the zoo look in their fall as they did when they were
     }
 }
 
+TEST_CASE("a picture of the last moment is that of the film: as near to a doll that lies") {
+    NEEDS_DRAWING();
+    const ScratchFolder folder;
+    const std::string of = "render " + kMannequinArgument + " --seconds 2.5 --size 192x108 -o ";
+    REQUIRE(lutkaCommand(of + (folder / "last.png")).code == 0);
+    REQUIRE(lutkaCommand(of + (folder / "film.png") + " --frames --fps 60").code == 0);
+    const Result<render::Image> last = render::loadPng(folder / "last.png");
+    const Result<render::Image> film = render::loadPng(folder / "film_0150.png");
+    const Result<render::Image> start = render::loadPng(folder / "film_0000.png");
+    REQUIRE(last);
+    REQUIRE(film);
+    REQUIRE(start);
+    constexpr int channel = 24;
+    CHECK(render::compareImages(last.value(), film.value(), channel).differingShare < 0.02);
+    CHECK(render::compareImages(last.value(), start.value(), channel).differingShare > 0.02);
+}
+
 TEST_CASE("a panorama lights the figure and is seen behind it, and a broken one ends with 3") {
     NEEDS_DRAWING();
     const ScratchFolder folder;

@@ -76,11 +76,16 @@ class Painter {
         watch(*run.simulation);
     }
 
-    void paint(scene::Simulation& simulation, float alpha = 1.0F) {
-        frame_.clear();
-        view_->update(simulation, alpha, 1.0F / static_cast<float>(options_.framesPerSecond()));
+    /// The camera goes along as in a film, `seconds` since it did so last.
+    void follow(scene::Simulation& simulation, float alpha, float seconds) {
+        view_->update(simulation, alpha, seconds);
         frame_.camera = view_->camera;
         watch(simulation);
+    }
+
+    void paint(scene::Simulation& simulation, float alpha, float seconds) {
+        frame_.clear();
+        follow(simulation, alpha, seconds);
         drawer_.draw(simulation, characters_, layers_, alpha, options_.opacity, frame_);
         renderer_.draw(frame_, size_);
         renderer_.readPixels(image_);
@@ -120,23 +125,30 @@ class Painter {
     std::vector<render::LegendEntry> legend_;
 };
 
+// The last picture of the film, without the others: a single doll that lies is seen as near as there. One that is to
+// be in the middle is so at once.
 void renderPicture(const RenderCommandOptions& options, Run& run, Painter& painter) {
-    execute(options.simulate, run);
-    painter.paint(*run.simulation);
+    const bool single = run.simulation->dollCount() == 1 && !options.follow;
+    if (single) painter.follow(*run.simulation, 1.0F, 0.0F);
+    execute(options.simulate, run, [&](scene::Simulation& simulation) {
+        if (single) painter.follow(simulation, 1.0F, simulation.options().dt);
+    });
+    painter.paint(*run.simulation, 1.0F, 0.0F);
     orLeave(render::savePng(painter.image(), options.out));
 }
 
 // Frames come at their own rate, between the steps' states.
 void renderFrames(const RenderCommandOptions& options, Run& run, Painter& painter) {
     auto writer = orLeave(render::FrameWriter::open(options.out, painter.size(), options.framesPerSecond()));
-    painter.paint(*run.simulation);
+    painter.paint(*run.simulation, 1.0F, 0.0F);
     orLeave(writer.add(painter.image()));
     double next = 1.0 / options.framesPerSecond();
     execute(options.simulate, run, [&](scene::Simulation& simulation) {
         const double dt = static_cast<double>(simulation.options().dt);
         const double now = simulation.seconds();
         for (; next <= now + 1e-9; next += 1.0 / options.framesPerSecond()) {
-            painter.paint(simulation, static_cast<float>(1.0 - (now - next) / dt));
+            painter.paint(simulation, static_cast<float>(1.0 - (now - next) / dt),
+                          1.0F / static_cast<float>(options.framesPerSecond()));
             orLeave(writer.add(painter.image()));
         }
     });

@@ -62,7 +62,12 @@ void ViewCamera::frameScene() {
 void ViewCamera::focus() {
     const auto active = workspace_.selection.active();
     if (!active) return frame(pointsOfAll());
-    constexpr float around = 0.45F;  // metres
+    // Of a person's body with what hangs on it, in proportion for dragons and toys.
+    constexpr float kAroundObject = 0.45F;  // metres
+    constexpr float kAroundBody = 0.255F;   // of the figure's height
+    const bool isBody = active->kind == Item::Kind::body;
+    const float around =
+        isBody ? kAroundBody * workspace_.player->simulation().assetOf(active->doll).profile.heightM : kAroundObject;
     const vec3 centre = workspace_.positionOf(*active);
     const vec3 up = render::upOf(workspace_.camera) * around;
     const vec3 right = render::rightOf(workspace_.camera) * around;

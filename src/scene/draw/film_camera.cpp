@@ -12,14 +12,15 @@
 namespace lutka::scene {
 namespace {
 
-constexpr float kShareOfHeight = 0.48F;  // of the picture, that a standing figure takes
-constexpr float kTimeConstant = 0.3F;    // seconds: of the way to where the dolls are
-constexpr float kLargestLag = 0.14F;     // of the picture's height, that they are ahead at most
-constexpr float kRoomAround = 0.12F;     // of the picture, on each side of a group
-constexpr float kLeastRoom = 0.02F;      // of the picture, that a group keeps however fast it goes apart
-constexpr float kRoomAroundOne = 0.25F;  // on each side of a single doll, which moves faster than the camera
-constexpr float kNearest = 0.6F;         // of the distance for a standing figure, to one that lies
-constexpr float kApproachTime = 1.0F;    // seconds: slow, so that a doll that bounces doesn't pump the picture
+constexpr float kShareOfHeight = 0.48F;   // of the picture, that a standing figure takes
+constexpr float kTimeConstant = 0.3F;     // seconds: of the way to where the dolls are
+constexpr float kLargestLag = 0.14F;      // of the picture's height, that they are ahead at most
+constexpr float kRoomAround = 0.12F;      // of the picture, on each side of a group
+constexpr float kLeastRoom = 0.02F;       // of the picture, that a group keeps however fast it goes apart
+constexpr float kRoomAroundOne = 0.25F;   // on each side of a single doll, which moves faster than the camera
+constexpr float kRoomAroundSkin = 0.04F;  // and at least so much of it beside capes, wings and what it carries
+constexpr float kNearest = 0.6F;          // of the distance for a standing figure, to one that lies
+constexpr float kApproachTime = 1.0F;     // seconds: slow, so that a doll that bounces doesn't pump the picture
 
 float tallest(const Simulation& simulation) {
     float height = 0.0F;
@@ -116,12 +117,16 @@ void FilmCamera::follow(Simulation& simulation, float alpha, float seconds) {
     const float slope = 2.0F * std::tan(0.5F * camera.fieldOfView);
     // In a narrow picture the figure lies across its width in the end.
     const float alone = tallest(simulation) / (kShareOfHeight * slope * std::min(1.0F, aspect_));
+    render::Camera whole = camera;
+    render::framePoints(whole, points_, aspect_, {kRoomAroundSkin, kRoomAroundSkin, kRoomAroundSkin, kRoomAroundSkin});
+    // Framed about the group's target, and seen about the middle of its box.
+    const float least = whole.distance + (single ? glm::distance(centre, whole.target) : 0.0F);
     const float distance =
-        single ? std::clamp(group.distance, kNearest * alone, alone) : std::max(alone, group.distance);
+        single ? std::max(std::clamp(group.distance, kNearest * alone, alone), least) : std::max(alone, group.distance);
     if (!begun_) {
         begun_ = true;
         camera.target = centre;
-        if (!keepsDistance_) camera.distance = single ? alone : distance;
+        if (!keepsDistance_) camera.distance = single ? std::max(alone, least) : distance;
         return;
     }
     const float passed = std::max(seconds, 0.0F);

@@ -75,6 +75,10 @@ void addExtentOfDoll(Simulation& simulation, int doll, float alpha, std::vector<
     const auto places = simulation.worldFromBody(doll, alpha);
     for (std::size_t body = 0; body < bodies.size(); ++body)
         addAround(places[body], bodies[body].shape, points);
+    const auto skin = simulation.skinReachOf(doll);
+    for (std::size_t body = 0; body < skin.size(); ++body)
+        for (const vec3& point : skin[body])
+            points.push_back(places[body] * point);
 }
 
 void addExtentOfScene(Simulation& simulation, float alpha, std::vector<vec3>& points) {

@@ -7,7 +7,8 @@
 namespace lutka::scene {
 
 /// Points around what a view has to show, world: those of one doll as it is between its last two steps (`alpha` as in
-/// Simulation::pose), the box of each body with its eight corners. Appends to `points`.
+/// Simulation::pose), the box of each body with its eight corners, and the skin that reaches beyond (skinReach()).
+/// Appends to `points`.
 void addExtentOfDoll(Simulation& simulation, int doll, float alpha, std::vector<vec3>& points);
 
 /// The same of all that a scene shows: its dolls, what stands still, and what rolls about. Floors have no end and count

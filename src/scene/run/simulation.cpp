@@ -8,6 +8,7 @@
 
 #include "core/assert.hpp"
 #include "core/random.hpp"
+#include "scene/asset/skin_reach.hpp"
 #include "scene/run/make_world.hpp"
 #include "scene/run/start_pose.hpp"
 
@@ -257,6 +258,13 @@ void Simulation::remember() {
     std::size_t at = bodyCount();
     for (const physics::PropId prop : world_->props())
         present_[at++] = world_->propState(prop).worldFromBody;
+}
+
+std::span<const std::vector<vec3>> Simulation::skinReachOf(int doll) {
+    skinReach_.resize(assets_.size());
+    std::vector<std::vector<vec3>>& reach = skinReach_[static_cast<std::size_t>(scenario_.dolls[doll].asset)];
+    if (reach.empty()) reach = skinReach(assetOf(doll));
+    return reach;
 }
 
 void Simulation::step() {

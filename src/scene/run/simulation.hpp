@@ -87,6 +87,8 @@ class Simulation {
     /// The bodies of a doll `alpha` of the way from the state before the last step to the present one. With `alpha` 1
     /// they stay in their place for the simulation's life, those of all dolls one after the other.
     [[nodiscard]] std::span<const RigidTransform> worldFromBody(int doll, float alpha = 1.0F);
+    /// Where a doll's skin reaches beyond its bodies: skinReach() of its asset, found when it is asked for first.
+    [[nodiscard]] std::span<const std::vector<vec3>> skinReachOf(int doll);
     /// A prop's frame, likewise.
     [[nodiscard]] RigidTransform worldFromProp(int prop, float alpha = 1.0F) const;
     /// The frame that the doll's model-space pose is relative to; constant.
@@ -161,9 +163,10 @@ class Simulation {
     std::vector<RigidTransform> present_;
     std::vector<bool> leftOutDolls_;
     std::vector<bool> leftOutProps_;
-    std::vector<PosedSkins::Motion> motions_;  // one a doll, of previous_ and present_
-    std::unique_ptr<PosedSkins> skins_;        // once something is drawn
-    std::vector<RigidTransform> mixed_;        // one doll's bodies between the two
+    std::vector<PosedSkins::Motion> motions_;                // one a doll, of previous_ and present_
+    std::unique_ptr<PosedSkins> skins_;                      // once something is drawn
+    std::vector<RigidTransform> mixed_;                      // one doll's bodies between the two
+    std::vector<std::vector<std::vector<vec3>>> skinReach_;  // one an asset, by body; empty: not asked for yet
     mutable std::vector<physics::BodyState> scratch_;
 };
 

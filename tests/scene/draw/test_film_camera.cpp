@@ -193,3 +193,38 @@ TEST_CASE("the extent of a scene holds its dolls, its walls and the ground below
     for (const RigidTransform& body : simulation->worldFromBody(0))
         CHECK((body.translation.z > low.z && body.translation.z < high.z));
 }
+
+TEST_CASE("what a figure wears and carries is in the picture as well: capes, wings and scythes") {
+    const auto asset = test::bipedRagdoll();
+    const auto plain = simulationOf(*asset, "drop");
+    FilmCamera before(plain->scenario(), kFilm.aspect());
+    before.update(*plain, 1.0F, 0.0F);
+    std::vector<vec3>& skin = asset->character.meshes.front().positions;
+    vec3& blade = *std::max_element(skin.begin(), skin.end(), [](const vec3& a, const vec3& b) { return a.y < b.y; });
+    blade += vec3(0, 1.6F, 0.9F);
+    const auto simulation = simulationOf(*asset, "drop");
+    std::vector<vec3> points;
+    addExtentOfDoll(*simulation, 0, 1.0F, points);
+    const auto highest = [](const std::vector<vec3>& all) {
+        return std::max_element(all.begin(), all.end(), [](const vec3& a, const vec3& b) { return a.y < b.y; })->y;
+    };
+    std::vector<vec3> bodies;
+    addExtentOfDoll(*plain, 0, 1.0F, bodies);
+    CHECK(highest(points) > highest(bodies) + 0.5F);
+    FilmCamera film(simulation->scenario(), kFilm.aspect());
+    film.update(*simulation, 1.0F, 0.0F);
+    CHECK(film.camera.distance > before.camera.distance);
+    const auto shows = [&](const vec3& point) {
+        const auto seen = render::project(film.camera, point, kFilm);
+        return seen && seen->x > 0 && seen->x < kFilm.width && seen->y > 0 && seen->y < kFilm.height;
+    };
+    CHECK(std::all_of(points.begin(), points.end(), shows));
+    for (int frame = 0; frame < 4 * static_cast<int>(kFramesPerSecond); ++frame) {
+        simulation->step();
+        simulation->step();
+        film.update(*simulation, 1.0F, 1.0F / kFramesPerSecond);
+    }
+    points.clear();
+    addExtentOfDoll(*simulation, 0, 1.0F, points);
+    CHECK(std::all_of(points.begin(), points.end(), shows));
+}
