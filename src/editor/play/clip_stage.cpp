@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/puppet/stand_on_ground.hpp"
 #include "scene/run/start_pose.hpp"
 
 namespace lutka::editor {
@@ -43,7 +44,8 @@ void ClipStage::place(scene::Simulation& simulation) const {
     placement.clip = start_;
     auto bodies = scene::startBodies(simulation.assetOf(doll_), simulation.options(), placement);
     if (!bodies) return;  // its file is another one now
-    const RigidTransform& worldFromModel = simulation.worldFromModel(doll_);
+    const RigidTransform worldFromModel = scene::standingPlace(simulation.world(), simulation.assetOf(doll_),
+                                                               simulation.scenario(), simulation.worldFromModel(doll_));
     for (physics::BodyState& body : bodies.value()) {
         body.worldFromBody = worldFromModel * body.worldFromBody;
         body.linearVelocity = worldFromModel.rotation * body.linearVelocity;

@@ -88,6 +88,9 @@ void Player::restore(const Motion& motion, bool all) {
     for (int doll = 0; doll < simulation.dollCount(); ++doll) {
         const auto was = before.find(entityOfDoll(doll));
         if (was == before.end() || (!all && !startsAsBefore(was->first))) continue;
+        const bool begun = seconds() > 0.0 || stage_;
+        // Who gets muscles before anything has happened stands where the puppets' scene places it.
+        if (!all && !begun && simulation.puppets() != nullptr && !was->second->puppet) continue;
         const scene::RagdollAsset& asset = simulation.assetOf(doll);
         const std::vector<physics::BodyProfile>& oldBodies = motion.bodies[was->second->asset];
         if (asset.character.skeleton.parents.size() != was->second->modelFromJoint.size()) continue;
@@ -98,7 +101,6 @@ void Player::restore(const Motion& motion, bool all) {
                           was->second->worldFromModel, bodies);
         }
         simulation.world().setBodies(simulation.dollId(doll), same ? was->second->bodies : bodies);
-        const bool begun = seconds() > 0.0 || stage_;
         if (simulation.puppets() != nullptr) resumePuppet(*simulation.puppets(), doll, *was->second, begun);
     }
     simulation.refresh();

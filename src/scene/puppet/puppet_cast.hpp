@@ -38,6 +38,8 @@ class PuppetCast {
     [[nodiscard]] static Result<std::unique_ptr<PuppetCast>> create(std::span<const RagdollAsset* const> assets,
                                                                     const Scenario& scenario, PuppetPlay play);
 
+    /// Where the dolls begin, one a doll, in place of the scenario's; before begin().
+    void place(std::span<const Placement> placements) { placements_.assign(placements.begin(), placements.end()); }
     /// Takes the dolls over where they are in the world.
     void begin(physics::World& world, std::span<const physics::DollId> dolls);
     /// Lets go of the dolls: call it before their world ends.

@@ -9,6 +9,7 @@
 #include "core/assert.hpp"
 #include "core/random.hpp"
 #include "scene/asset/skin_reach.hpp"
+#include "scene/puppet/stand_on_ground.hpp"
 #include "scene/run/make_world.hpp"
 #include "scene/run/start_pose.hpp"
 
@@ -165,6 +166,10 @@ void Simulation::build() {
         world_->addStatic(shape);
     for (const physics::DynamicProp& prop : scenario_.props)
         world_->addProp(prop);
+    if (puppets_ != nullptr && !puppets_->settings().limp) {
+        standOnGround(*world_, assets_, scenario_);
+        puppets_->place(scenario_.dolls);
+    }
     for (int doll = 0; doll < dollCount(); ++doll) {
         placeAtStart(doll);
         dollIds_.push_back(world_->addDoll(assetOf(doll).profile, scratch_));
