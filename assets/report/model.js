@@ -50,8 +50,9 @@
   renderer.shadowMap.type = THREE.PCFSoftShadowMap;
 
   const size = data.heightM;
+  const fieldOfView = 35;
   const scene = new THREE.Scene();
-  const camera = new THREE.PerspectiveCamera(35, 1, size * 0.02, size * 60);
+  const camera = new THREE.PerspectiveCamera(fieldOfView, 1, size * 0.02, size * 60);
   const sun = new THREE.DirectionalLight(0xfff4e6, 1.6);
   sun.castShadow = true;
   sun.shadow.mapSize.set(2048, 2048);
@@ -302,7 +303,9 @@
     sun.position.copy(target).add(new THREE.Vector3(2.2, 4.5, 2.6).multiplyScalar(size));
     target.add(orbit.shift);
     const narrow = Math.max(1, 1.05 / camera.aspect);
-    const distance = 2.05 * size * orbit.distance * narrow;
+    // All of the skin has room however the figure turns about its middle, hoods and wings too.
+    const whole = (1.03 * data.reachM) / Math.sin((fieldOfView * Math.PI) / 360);
+    const distance = Math.max(2.05 * size, whole) * orbit.distance * narrow;
     camera.position.set(
       target.x + distance * Math.cos(orbit.pitch) * Math.sin(orbit.yaw),
       Math.max(target.y + distance * Math.sin(orbit.pitch), 0.03 * size),

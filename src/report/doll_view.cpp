@@ -217,12 +217,25 @@ Json dropJson(const DropTrace& drop, const Tracks& tracks) {
     return {{"poses", drop.poses}, {"bodies", packed(bodies)}, {"tracks", packed(tracks.values(drop))}};
 }
 
+// How far the skin reaches from the middle of the bodies in the bind pose, metres.
+float reachOf(const scene::RagdollAsset& asset) {
+    vec3 middle(0);
+    for (const RigidTransform& body : asset.rig.bindModelFromBody)
+        middle += body.translation / static_cast<float>(asset.rig.bindModelFromBody.size());
+    float reach = 0.0F;
+    for (const animation::SkinnedMesh& mesh : asset.character.meshes)
+        for (const vec3& position : mesh.positions)
+            reach = std::max(reach, glm::distance(middle, position));
+    return reach;
+}
+
 }  // namespace
 
 Json dollViewJson(const scene::RagdollAsset& asset, std::span<const DropTrace> drops) {
     const Tracks tracks(asset.character, drops);
     Json json;
     json["heightM"] = jsonNumber(asset.profile.heightM);
+    json["reachM"] = jsonNumber(reachOf(asset));
     json["secondsAPose"] = drops.empty() ? 0.0F : drops.front().dt * static_cast<float>(DropTrace::kStepsAPose);
     json["textures"] = texturesJson(asset.character);
     for (const char* list : {"meshes", "bodies", "constraints", "drops"})

@@ -51,6 +51,19 @@ std::string htmlEscaped(std::string_view text) {
     return out;
 }
 
+std::string htmlOfMessage(std::string_view text) {
+    std::string out = htmlEscaped(text);
+    std::size_t from = 0;
+    while (true) {
+        const std::size_t open = out.find('`', from);
+        const std::size_t close = open == std::string::npos ? open : out.find('`', open + 1);
+        if (close == std::string::npos) return out;
+        const std::string code = "<code>" + out.substr(open + 1, close - open - 1) + "</code>";
+        out.replace(open, close + 1 - open, code);
+        from = open + code.size();
+    }
+}
+
 std::string scriptJson(const nlohmann::ordered_json& json) {
     std::string out;
     for (const char c : json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace))

@@ -10,6 +10,9 @@ namespace lutka::reporting {
 /// characters other than tab and newline become U+FFFD.
 [[nodiscard]] std::string htmlEscaped(std::string_view text);
 
+/// The same of a message, in which what stands between two grave accents is code: `lutka inspect`.
+[[nodiscard]] std::string htmlOfMessage(std::string_view text);
+
 /// JSON for the content of a script element: nothing in it can end the element or begin a comment, since every '<' is
 /// written as an escape.
 [[nodiscard]] std::string scriptJson(const nlohmann::ordered_json& json);

@@ -116,7 +116,7 @@ std::string refusedHtml(const Library& library) {
         "it</th></tr></thead><tbody>\n";
     for (const RefusedModel& refused : library.refused) {
         out += fmt::format("<tr><td class=\"model\">{}</td><td>{}</td><td>{}</td></tr>\n", htmlEscaped(refused.model),
-                           htmlEscaped(refused.error.message), htmlEscaped(refused.error.mend));
+                           htmlOfMessage(refused.error.message), htmlOfMessage(refused.error.mend));
     }
     return out + "</tbody></table></div></section>\n";
 }

@@ -182,7 +182,7 @@ std::string findingsHtml(const physics::Diagnosis& diagnosis) {
                         severity, htmlEscaped(finding.code),
                         finding.place.empty() ? "" : " at " + htmlEscaped(finding.place), htmlEscaped(finding.measure));
         if (!finding.mend.empty()) {
-            out += fmt::format("<p class=\"mend\">{}{}</p>", htmlEscaped(finding.mend),
+            out += fmt::format("<p class=\"mend\">{}{}</p>", htmlOfMessage(finding.mend),
                                finding.mendable ? " <code>lutka check --fix</code> does it." : "");
         }
         out += "</div></li>\n";
@@ -231,7 +231,7 @@ std::string notesHtml(const scene::RagdollAsset& asset) {
     if (notes.empty()) return "";
     std::string out = "<ul class=\"notes\">\n";
     for (const std::string& note : notes)
-        out += fmt::format("<li>{}</li>\n", htmlEscaped(note));
+        out += fmt::format("<li>{}</li>\n", htmlOfMessage(note));
     return out + "</ul>\n";
 }
 

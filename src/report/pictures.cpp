@@ -8,6 +8,7 @@
 #include "render/png_bytes.hpp"
 #include "scene/draw/draw_simulation.hpp"
 #include "scene/draw/film_camera.hpp"
+#include "scene/draw/scene_extent.hpp"
 #include "scene/run/simulation.hpp"
 
 namespace lutka::reporting {
@@ -15,7 +16,7 @@ namespace {
 
 constexpr render::Extent kPictureSize{480, 600};
 constexpr render::Extent kThumbnailSize{120, 150};
-constexpr float kCloser = 0.65F;     // than a film, which leaves room for what comes
+constexpr float kRoom = 0.06F;       // of the picture, on each side of the figure
 constexpr float kGlassSkin = 0.25F;  // opacity under bodies and limits
 
 // The scene `drop`, whose figure is let down onto the floor.
@@ -51,12 +52,11 @@ struct Photographer::State {
     std::string paint(scene::Simulation& simulation, const scene::DebugLayers& layers, float opacity,
                       render::Extent size) {
         if (!show(simulation.asset())) return "";
-        scene::FilmCamera camera(simulation.scenario(), size.aspect());
-        camera.followDoll(0);
-        camera.update(simulation, 1.0F, 0.0F);
+        std::vector<vec3> points;
+        scene::addExtentOfDoll(simulation, 0, 1.0F, points);
         render::FrameDescription frame;
-        frame.camera = camera.camera;
-        render::dolly(frame.camera, kCloser);
+        frame.camera = scene::FilmCamera(simulation.scenario(), size.aspect()).camera;
+        render::framePoints(frame.camera, points, size.aspect(), {kRoom, kRoom, kRoom, kRoom});
         scene::SimulationDrawer drawer;
         drawer.draw(simulation, handle, layers, 1.0F, opacity, frame);
         renderer.draw(frame, size);

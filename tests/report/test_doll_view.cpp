@@ -1,5 +1,6 @@
 #include "report/doll_view.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
@@ -127,4 +128,15 @@ TEST_CASE("bodies and constraints go into the view as the profile has them") {
         CHECK(json["constraints"][i]["child"] == constraint.child);
     }
     CHECK(unpacked<float>(json["drops"][0]["bodies"]).size() == 7 * asset->profile.bodies.size());
+}
+
+TEST_CASE("the view knows how far the skin reaches, and has room for what stands out") {
+    const auto asset = test::bipedRagdoll();
+    const std::vector<DropTrace> drops = {shortFall(*asset)};
+    const float before = dollViewJson(*asset, drops)["reachM"].get<float>();
+    CHECK(before > 0.4F * asset->profile.heightM);
+    CHECK(before < asset->profile.heightM);
+    std::vector<vec3>& skin = asset->character.meshes.front().positions;
+    std::max_element(skin.begin(), skin.end(), [](const vec3& a, const vec3& b) { return a.y < b.y; })->y += 2.0F;
+    CHECK(dollViewJson(*asset, drops)["reachM"].get<float>() == Approx(before + 2.0F).margin(0.25));
 }

@@ -14,6 +14,13 @@ TEST_CASE("text of files can't be markup in a page") {
     CHECK(htmlEscaped("Šime\ttab") == "Šime\ttab");
 }
 
+TEST_CASE("what a message has between grave accents is code, and nothing else is markup") {
+    CHECK(htmlOfMessage("`lutka inspect` shows <it>; `--rig any`") ==
+          "<code>lutka inspect</code> shows &lt;it&gt;; <code>--rig any</code>");
+    CHECK(htmlOfMessage("one ` alone, and `<b>`") == "one <code> alone, and </code>&lt;b&gt;`");
+    CHECK(htmlOfMessage("") == "");
+}
+
 TEST_CASE("what is no UTF-8 and control characters become the replacement character") {
     const std::string bad = "\xEF\xBF\xBD";
     CHECK(htmlEscaped("a\xFF z") == "a" + bad + " z");
