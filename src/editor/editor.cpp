@@ -17,8 +17,17 @@ Result<std::unique_ptr<Editor>> Editor::create(const EditorOptions& options) {
     std::unique_ptr<Editor> editor(new Editor);
     const EditorOptions heard = editor->hearReaders(all.value());
     auto document = EditorDocument::open(heard.model, heard.load);
+    const bool isOffered = !document && !fromScene && !heard.standIn.empty() && scene::wantsAnyRig(document.error());
+    FileFlow::AnyRigOffer offer;
+    if (isOffered) {
+        offer = {heard.model, document.error().message, heard.load.import.figure};
+        scene::LoadOptions plain;
+        plain.import.loadTextures = heard.load.import.loadTextures;
+        document = EditorDocument::open(heard.standIn, plain);
+    }
     if (!document) return document.error();
     if (auto begun = editor->begin(std::move(document).value(), heard); !begun) return begun.error();
+    if (isOffered) editor->opening_.offerAnyRig(std::move(offer));
     if (fromScene) editor->document().sceneDocument().setFile(options.sceneFile);
     return editor;
 }
@@ -136,7 +145,7 @@ void Editor::handleKey(const InputEvent& event, const UiCapture& capture) {
 // own Enter and Esc, so an offer waits for its end.
 bool Editor::answersBy(const InputEvent& event) {
     const bool escape = event.key == Key::escape;
-    const bool offered = !busy() && !files_.offeredAnyRig().empty();
+    const bool offered = !busy() && !files_.offeredAnyRig().model.empty();
     if (escape && view.help) {
         view.help = false;
     } else if (escape && swing() != nullptr) {
@@ -371,8 +380,11 @@ void Editor::dropCopies(int count) {
 }
 
 void Editor::setPuppets(const std::optional<scene::ScenePuppets>& puppets) {
-    editScene(puppets ? "Muscles on" : "Go limp", "",
-              [&](scene::EntityScene& scene) { scene.simulation.puppets = puppets; });
+    SceneSettings settings = document().sceneDocument().settings();
+    settings.entities.simulation.puppets = puppets;
+    const char* label = puppets ? "Muscles on" : "Go limp";
+    // Undo brings back who stood or walked, and where: else a figure that lies would be led to where it began.
+    edit([&](EditorDocument& document) { return document.setScene(settings, label, "", true); });
 }
 
 void Editor::placeCamera(scene::EntityId id) {

@@ -30,7 +30,8 @@ struct UiCapture {
 /// by InputEvents and Actions. The application feeds it; panels read it and call it; tests do both.
 class Editor {
   public:
-    /// Loads the model and sets the scene up; fails as loadRagdoll() and makeScenario() do.
+    /// Loads the model and sets the scene up; fails as loadRagdoll() and makeScenario() do. With
+    /// EditorOptions::standIn a model that is no humanoid is offered as a ragdoll of any skeleton.
     [[nodiscard]] static Result<std::unique_ptr<Editor>> create(const EditorOptions& options);
     /// For a document that is there already.
     [[nodiscard]] static Result<std::unique_ptr<Editor>> create(std::unique_ptr<EditorDocument> document,
@@ -94,6 +95,8 @@ class Editor {
     /// Opens a model (*.ragdoll.json: a profile for the present one; *.scene.json: a scene); the old scene stays when
     /// that fails. Asks first when there are unsaved changes.
     void open(const std::filesystem::path& file) { opening_.open(file); }
+    /// Another figure of the present model's file, counted from 1; asks first when there are unsaved changes.
+    void openFigure(int figure) { opening_.openFigure(figure); }
     /// The model before (below 0) or after the present one in its folder, by name; the first follows the last.
     void openBeside(int step) { opening_.openBeside(step); }
     /// Reads the model's file again, as another program has written it; the user's edits stay. Undo begins anew.

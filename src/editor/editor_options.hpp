@@ -13,6 +13,9 @@ namespace lutka::editor {
 
 struct EditorOptions {
     std::filesystem::path model;
+    /// Shown in the place of a `model` that is no humanoid, while the user is offered a ragdoll of any skeleton for
+    /// that; empty: such a model is refused.
+    std::filesystem::path standIn;
     scene::LoadOptions load;
     SceneSettings scene;
     std::filesystem::path sceneFile;  ///< *.scene.json in place of `scene`; `model` may be empty then.

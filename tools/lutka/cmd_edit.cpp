@@ -53,6 +53,9 @@ editor::ApplicationOptions applicationOptions(EditCommandOptions& options) {
     edit.model = options.ragdoll.model.model;
     if (fromFile) edit.sceneFile = options.scene.scene;
     if (edit.model.empty() && !fromFile) edit.model = orLeave(findAsset("models/mannequin.glb"));
+    // Who looks at a window is asked what becomes of an animal; a script is told.
+    if (const auto own = findAsset("models/mannequin.glb"); own && !options.headless && options.input.empty())
+        edit.standIn = own.value();
     edit.load = options.ragdoll.load();
     edit.load.import.loadTextures = true;
     edit.scene.scenario = options.scene.scene;

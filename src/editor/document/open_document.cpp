@@ -22,7 +22,8 @@ Opened started(Opened opened, const SceneSettings& scene) {
 
 }  // namespace
 
-Opened openModel(const std::filesystem::path& file, const scene::LoadOptions& load, const EditorDocument& present) {
+Opened openModel(const std::filesystem::path& file, const scene::LoadOptions& load, const EditorDocument& present,
+                 std::optional<int> figure) {
     SceneSettings settings = present.sceneDocument().settings();
     for (scene::Ragdoll& ragdoll : settings.entities.all<scene::Ragdoll>()) {
         if (!present.sceneDocument().isEdited(ragdoll)) continue;
@@ -33,7 +34,7 @@ Opened openModel(const std::filesystem::path& file, const scene::LoadOptions& lo
     }
     scene::LoadOptions plain = load;
     plain.profile.reset();
-    plain.import.figure.reset();
+    plain.import.figure = figure;
     return started(EditorDocument::open(file, plain), settings);
 }
 

@@ -74,11 +74,16 @@ class FileFlow {
     /// Ends the offer; gives what was offered.
     std::filesystem::path takeOffer() { return std::exchange(offeredProfile_, {}); }
 
-    /// A model was refused as no humanoid: it can be had as a ragdoll of any skeleton.
-    void offerAnyRig(const std::filesystem::path& model) { anyRigModel_ = model; }
-    /// That model; empty when there is none or the user has answered.
-    [[nodiscard]] const std::filesystem::path& offeredAnyRig() const { return anyRigModel_; }
-    std::filesystem::path takeAnyRig() { return std::exchange(anyRigModel_, {}); }
+    /// A model that was refused as no humanoid can be had as a ragdoll of any skeleton.
+    struct AnyRigOffer {
+        std::filesystem::path model;
+        std::string reason;         ///< Why it is no humanoid.
+        std::optional<int> figure;  ///< Which of the file's, counted from 1; unset: the one with most vertices.
+    };
+    void offerAnyRig(AnyRigOffer offer) { anyRig_ = std::move(offer); }
+    /// Whose model is empty when there is none or the user has answered.
+    [[nodiscard]] const AnyRigOffer& offeredAnyRig() const { return anyRig_; }
+    AnyRigOffer takeAnyRig() { return std::exchange(anyRig_, {}); }
 
   private:
     using Write = std::function<bool()>;
@@ -103,7 +108,7 @@ class FileFlow {
     std::optional<Replacing> replacing_;
     std::vector<std::filesystem::path> exported_;
     std::filesystem::path offeredProfile_;
-    std::filesystem::path anyRigModel_;
+    AnyRigOffer anyRig_;
     OfferedSave offeredSave_ = OfferedSave::none;
 };
 

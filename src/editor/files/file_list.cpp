@@ -89,4 +89,12 @@ std::string readablePath(const std::filesystem::path& path) {
     return below ? "~" + text.substr(prefix.size()) : text;
 }
 
+std::string nameAmong(std::span<const std::filesystem::path> files, const std::filesystem::path& file) {
+    const auto isCalledSo = [&](const std::filesystem::path& other) {
+        return other != file && other.filename() == file.filename();
+    };
+    const bool alone = std::none_of(files.begin(), files.end(), isCalledSo);
+    return alone ? file.filename().string() : (file.parent_path().filename() / file.filename()).string();
+}
+
 }  // namespace lutka::editor

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,5 +34,8 @@ inline constexpr std::size_t kMaxFileEntries = 2000;
 
 /// A path as people read it: the home folder as "~".
 [[nodiscard]] std::string readablePath(const std::filesystem::path& path);
+
+/// The file's name, with its folder's before it where others of the files are called the same: "knight/model.fbx".
+[[nodiscard]] std::string nameAmong(std::span<const std::filesystem::path> files, const std::filesystem::path& file);
 
 }  // namespace lutka::editor

@@ -62,20 +62,40 @@ void OpenCommands::open(const std::filesystem::path& file) {
     files_.takeAnyRig();
     files_.afterUnsaved([this, file] {
         auto opened = openModel(file, load_, document());
-        if (!opened) unread_ = file;
-        if (!opened && scene::wantsAnyRig(opened.error())) files_.offerAnyRig(file);
+        if (opened || !scene::wantsAnyRig(opened.error())) {
+            if (!opened) unread_ = file;
+            adopt(std::move(opened));
+        } else {
+            offerAnyRig({file, opened.error().message, {}});
+        }
+    });
+}
+
+// The offer tells the reason: a message beside it would only lie over it.
+void OpenCommands::offerAnyRig(FileFlow::AnyRigOffer offer) {
+    unread_ = offer.model;
+    workspace_.note(Toast::Kind::error, offer.model.string() + ": " + offer.reason);
+    files_.offerAnyRig(std::move(offer));
+}
+
+void OpenCommands::openFigure(int figure) {
+    files_.takeAnyRig();
+    files_.afterUnsaved([this, figure] {
+        const std::filesystem::path file = document().character().file;
+        auto opened = openModel(file, load_, document(), figure);
+        if (!opened && scene::wantsAnyRig(opened.error())) return offerAnyRig({file, opened.error().message, figure});
         adopt(std::move(opened));
     });
 }
 
 void OpenCommands::answerAnyRig(AnyRig answer) {
-    const std::filesystem::path file = files_.takeAnyRig();
-    if (answer == AnyRig::leave || file.empty()) return;
+    const FileFlow::AnyRigOffer offer = files_.takeAnyRig();
+    if (answer == AnyRig::leave || offer.model.empty()) return;
     scene::LoadOptions load = load_;
     load.fit.rig = physics::RigKind::any;
     load.fit.weighByVolume = true;
-    files_.afterUnsaved([this, file, load, answer] {
-        if (!adopt(openModel(file, load, document())) || answer != AnyRig::byHand) return;
+    files_.afterUnsaved([this, offer, load, answer] {
+        if (!adopt(openModel(offer.model, load, document(), offer.figure)) || answer != AnyRig::byHand) return;
         BodyCommands(workspace_).beginByHand();
         settle_();
     });

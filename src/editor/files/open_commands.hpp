@@ -32,6 +32,10 @@ class OpenCommands {
 
     /// A model; a profile for the present one (*.json); a scene (*.scene.json).
     void open(const std::filesystem::path& file);
+    /// Another figure of the present model's file, counted from 1.
+    void openFigure(int figure);
+    /// Tells why a model was refused, and offers it as a ragdoll of any skeleton.
+    void offerAnyRig(FileFlow::AnyRigOffer offer);
     /// The model before (below 0) or after the present one in its folder, by name; the first follows the last.
     void openBeside(int step);
     /// Reads the model's file again, as another program has written it; the user's edits stay. Undo begins anew.

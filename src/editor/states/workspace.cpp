@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "editor/editor_words.hpp"
 #include "editor/view/pick_targets.hpp"
 #include "editor/view/skin_picking.hpp"
 
@@ -219,12 +220,13 @@ bool Workspace::report(const Result<void>& result) {
 
 void Workspace::note(Toast::Kind kind, std::string text) {
     constexpr std::size_t maxLog = 500;
-    log.push_back({kind, std::move(text)});
+    log.push_back({kind, inEditorWords(std::move(text))});
     if (log.size() > maxLog) log.erase(log.begin());
 }
 
 void Workspace::say(Toast::Kind kind, std::string text) {
     constexpr std::size_t maxToasts = 4;
+    text = inEditorWords(std::move(text));
     note(kind, text);
     const bool shown = std::any_of(toasts.begin(), toasts.end(), [&](Toast& toast) { return toast.text == text; });
     if (shown) return;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "editor/files/file_list.hpp"
 #include "editor/ui/panels.hpp"
 #include "editor/ui/side_panels.hpp"
 #include "editor/ui/style.hpp"
@@ -23,19 +24,38 @@ void item(const PanelContext& context, Action action, bool enabled = true, bool 
     if (ImGui::MenuItem(name.c_str(), shortcutText(action).c_str(), checked, enabled)) context.editor.perform(action);
 }
 
+// Of a file with several; figures are counted from 1, as in what is told of the others.
+void figureMenu(const PanelContext& context) {
+    const animation::Character& character = context.editor.document().character();
+    if (!ImGui::BeginMenu("Figure of the file", character.figures.size() > 1)) return;
+    std::optional<int> chosen;
+    for (int i = 0; i < static_cast<int>(character.figures.size()); ++i) {
+        const animation::FigureInfo& figure = character.figures[static_cast<std::size_t>(i)];
+        const std::string line = fmt::format("{}: {}###{}", i + 1, figure.name, i);
+        if (ImGui::MenuItem(line.c_str(), nullptr, i == character.figure)) chosen = i + 1;
+        tooltip(fmt::format("{} joints, {} vertices", figure.joints.size(), figure.vertices));
+    }
+    ImGui::EndMenu();
+    if (chosen) context.editor.openFigure(*chosen);
+}
+
 void fileMenu(const PanelContext& context) {
     if (!ImGui::BeginMenu("File")) return;
     item(context, Action::openModel);
     item(context, Action::nextFile);
     item(context, Action::previousFile);
     item(context, Action::reload);
+    figureMenu(context);
     if (ImGui::MenuItem("Read it again whenever it changes", nullptr, context.editor.watching))
         context.editor.watching = !context.editor.watching;
     item(context, Action::openRecent, true, context.editor.view.gallery);
     if (ImGui::BeginMenu("Open recent", !context.state.recent.empty())) {
         std::optional<std::filesystem::path> chosen;
         for (const std::filesystem::path& file : context.state.recent) {
-            if (ImGui::MenuItem(file.filename().string().c_str())) chosen = file;
+            // By its path: several files of one name are several lines.
+            ImGui::PushID(file.c_str());
+            if (ImGui::MenuItem(nameAmong(context.state.recent, file).c_str())) chosen = file;
+            ImGui::PopID();
             tooltip(file.string());
         }
         if (chosen) context.editor.open(*chosen);

@@ -3,8 +3,17 @@
 #include <imgui.h>
 
 #include "animation/clip_reference.hpp"
+#include "editor/ui/widgets.hpp"
 
 namespace lutka::editor {
+
+bool beginClipCombo(const char* id, const std::string& preview) {
+    const float room = ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - 2.0F * ImGui::GetStyle().FramePadding.x;
+    const std::string shown = nameWithin(preview, room);
+    const bool open = ImGui::BeginCombo(id, shown.c_str(), ImGuiComboFlags_HeightLarge);
+    if (!open && shown != preview) tooltip(preview);
+    return open;
+}
 
 std::optional<std::string> chooseListedClip(std::span<const animation::Clip> clips, const std::string& present,
                                             const char* before) {

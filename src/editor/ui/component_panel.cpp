@@ -176,7 +176,7 @@ void drawClip(const PanelContext& context, Fields& fields, scene::Ragdoll& ragdo
     const auto& clips = context.editor.document().sceneDocument().assetOf(ragdoll).character.clips;
     labelled("Clip", fields.labelWidth());
     const std::string shown = ragdoll.clip ? shownClip(clips, ragdoll.clip->clip) : "none";
-    if (ImGui::BeginCombo("##clip", shown.c_str())) {
+    if (beginClipCombo("##clip", shown)) {
         if (ImGui::Selectable("none", !ragdoll.clip)) {
             ragdoll.clip.reset();
             fields.change("Clip");

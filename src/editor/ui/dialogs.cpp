@@ -200,19 +200,29 @@ void drawOffer(const PanelContext& context) {
 // Its keys are the view's (Editor::handle()): it is no popup, and the view goes on below it.
 void drawAnyRigOffer(const PanelContext& context) {
     Editor& editor = context.editor;
-    const std::filesystem::path file = editor.files().offeredAnyRig();
-    if (file.empty()) return;
+    context.state.offerBottom = 0.0F;
+    const FileFlow::AnyRigOffer& offer = editor.files().offeredAnyRig();
+    if (offer.model.empty()) return;
     placeInMiddle();
     std::optional<Editor::AnyRig> answer;
     if (ImGui::Begin("Not a human figure", nullptr, kDialog | ImGuiWindowFlags_NoCollapse)) {
-        ImGui::Text("%s was refused as a humanoid. Its bodies can be made", file.filename().string().c_str());
-        ImGui::TextUnformatted("from the joints and the skin alone, whatever it is.");
+        ImGui::PushTextWrapPos(std::min(context.px(440), ImGui::GetIO().DisplaySize.x * 0.9F));
+        const std::string file = offer.model.filename().string();
+        const std::string verb = offer.reason.starts_with("not a humanoid") ? " is " : ": ";
+        ImGui::TextUnformatted((file + verb + offer.reason + ".").c_str());
+        ImGui::Spacing();
+        ImGui::TextUnformatted("Its bodies can be made from the joints and the skin alone, whatever it is.");
+        ImGui::PopTextWrapPos();
+        ImGui::Spacing();
         if (ImGui::Button("Ragdoll of any skeleton")) answer = Editor::AnyRig::whole;
+        tooltip("Enter");
         ImGui::SameLine();
         if (ImGui::Button("By hand")) answer = Editor::AnyRig::byHand;
         tooltip("Begins with one body for all; you add the others");
         ImGui::SameLine();
         if (ImGui::Button("Leave it")) answer = Editor::AnyRig::leave;
+        tooltip("Esc");
+        context.state.offerBottom = ImGui::GetWindowPos().y + ImGui::GetWindowHeight();
     }
     ImGui::End();
     if (answer) editor.answerAnyRig(*answer);
@@ -253,15 +263,52 @@ void drawHelp(const PanelContext& context) {
     context.editor.view.help = open;
 }
 
+namespace {
+
+float toastHeight(const std::string& text, float width) {
+    return ImGui::CalcTextSize(text.c_str(), nullptr, false, width).y + 2.0F * ImGui::GetStyle().WindowPadding.y;
+}
+
+// As much of it as has room in a few lines, with a word on where the rest is.
+std::string toastText(const std::string& text, float width) {
+    constexpr float most = 6.0F;  // lines
+    const auto isShort = [&](const std::string& shown) {
+        return ImGui::CalcTextSize(shown.c_str(), nullptr, false, width).y <= most * ImGui::GetTextLineHeight() + 0.5F;
+    };
+    if (isShort(text)) return text;
+    constexpr const char* rest = " … (all of it in the tab Log)";
+    std::size_t end = text.size();
+    do {
+        end = text.find_last_of(' ', end - 1);
+    } while (end != std::string::npos && end > 0 && !isShort(text.substr(0, end) + rest));
+    return end == std::string::npos ? text : text.substr(0, end) + rest;
+}
+
+// The first of the toasts that are shown: older ones give way where there is no room below an offer for all.
+std::size_t firstToast(const PanelContext& context, const std::vector<Toast>& toasts, float width, float bottom) {
+    const float gap = context.px(6);
+    const float top = std::max(context.state.offerBottom, context.state.transportBottom) + gap;
+    std::size_t first = toasts.size();
+    for (float used = 0.0F; first > 0; --first) {
+        used += toastHeight(toastText(toasts[first - 1].text, width), width) + gap;
+        // The latest is told in any case.
+        if (first < toasts.size() && bottom - used < top) break;
+    }
+    return first;
+}
+
+}  // namespace
+
 void drawToasts(const PanelContext& context) {
     Editor& editor = context.editor;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const auto [left, right] = viewSpan(context);
     const float middle = (left + right) * 0.5F;
+    const float width = std::min(context.px(460), (right - left) * 0.9F);
     float bottom = size.y - ImGui::GetFrameHeight() - context.px(16);
     std::optional<std::size_t> closed;
     const std::vector<Toast>& toasts = editor.workspace().toasts;
-    for (std::size_t i = 0; i < toasts.size(); ++i) {
+    for (std::size_t i = firstToast(context, toasts, width, bottom); i < toasts.size(); ++i) {
         const Toast& toast = toasts[i];
         ImGui::SetNextWindowPos({middle, bottom}, ImGuiCond_Always, {0.5F, 1.0F});
         ImGui::SetNextWindowBgAlpha(0.94F);
@@ -272,8 +319,8 @@ void drawToasts(const PanelContext& context) {
         // A window of its own for each text, or it would have the size of the one before.
         ImGui::Begin(fmt::format("##toast{}", std::hash<std::string>{}(toast.text)).c_str(), nullptr,
                      kDialog | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoFocusOnAppearing);
-        ImGui::PushTextWrapPos(std::min(context.px(460), (right - left) * 0.9F));
-        ImGui::TextUnformatted(toast.text.c_str());
+        ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
+        ImGui::TextUnformatted(toastText(toast.text, width).c_str());
         ImGui::PopTextWrapPos();
         if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) closed = i;
         bottom -= ImGui::GetWindowHeight() + context.px(6);

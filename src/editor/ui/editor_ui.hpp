@@ -69,7 +69,8 @@ struct UiState {
     ShownAngles angles;
     double groupEnds = 0.0;         ///< When what one drag changes is over, Dear ImGui's seconds; 0: it is.
     float toolsRight = 0.0F;        ///< Where the view begins beside the tools, in a narrow one; else 0.
-    float transportBottom = 0.0F;   ///< Window units: where the view begins below it.
+    float transportBottom = 0.0F;   ///< Window units: where the view begins below it …
+    float offerBottom = 0.0F;       ///< … and where what an offer over the view covers ends; 0: there is none.
     AmendStats amendStats;          ///< May be empty.
     bool escapeTaken = false;       ///< In this frame, by a list or menu that it closed: no dialog below it ends.
     int copies = 8;                 ///< Of "Drop copies".

@@ -34,7 +34,7 @@ bool modelCard(const PanelContext& context, const std::filesystem::path& model, 
     }
     ImGui::EndDisabled();
     tooltip(readablePath(model));
-    const std::string name = model.filename().string();
+    const std::string name = nameAmong(context.state.recent, model);
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + size.x);
     ImGui::TextUnformatted(name.c_str());
     ImGui::PopTextWrapPos();

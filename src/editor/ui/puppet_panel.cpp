@@ -31,7 +31,7 @@ void drawClip(const PanelContext& context, const ScenePuppets& puppets) {
     const char* held = "the start pose";
     const auto& clips = editor.document().character().clips;
     const std::string shown = puppets.clip.empty() ? held : shownClip(clips, puppets.clip);
-    if (ImGui::BeginCombo("##follow", shown.c_str(), ImGuiComboFlags_HeightLarge)) {
+    if (beginClipCombo("##follow", shown)) {
         if (ImGui::Selectable(held, puppets.clip.empty())) chosen = "";
         if (const auto clip = chooseListedClip(clips, puppets.clip)) chosen = clip;
         ImGui::EndCombo();

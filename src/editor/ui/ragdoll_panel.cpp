@@ -154,12 +154,14 @@ void drawTable(const PanelContext& context) {
         const ConstraintProfile& c = profile.constraints[i - 1];
         const auto& bind = editor.document().asset().rig.bindModelFromBody;
         const physics::JointRange range = physics::jointRange(c, {bind[c.parent], bind[c.child]});
+        const bool isHinge = c.kind == ConstraintProfile::Kind::hinge;
         const std::string limits =
-            c.kind == ConstraintProfile::Kind::hinge
-                ? fmt::format("{:.0f}° to {:.0f}°", degrees(range.flexion.low), degrees(range.flexion.high))
-                : fmt::format("±{:.0f}  ±{:.0f}  ±{:.0f}°", degrees(c.cone.swingZ), degrees(c.cone.swingY),
-                              degrees(c.cone.twist));
-        const std::string seen = nameWithin(limits, ImGui::GetContentRegionAvail().x);
+            isHinge ? fmt::format("{:.0f}° to {:.0f}°", degrees(range.flexion.low), degrees(range.flexion.high))
+                    : fmt::format("±{:.0f}  ±{:.0f}  ±{:.0f}°", degrees(c.cone.swingZ), degrees(c.cone.swingY),
+                                  degrees(c.cone.twist));
+        const std::string first = isHinge ? fmt::format("{:.0f}° …", degrees(range.flexion.low))
+                                          : fmt::format("±{:.0f}° …", degrees(c.cone.swingZ));
+        const std::string seen = firstThatFits({limits, first, "…"}, ImGui::GetContentRegionAvail().x);
         ImGui::TextColored(mutedColor(), "%s", seen.c_str());
         if (seen != limits) tooltip(limits);
     }

@@ -134,7 +134,7 @@ void drawStart(const PanelContext& context) {
     labelled("Start pose", simulationLabelWidth(context));
     const std::string shown =
         scene.clip ? "Clip " + shownClip(clips, scene.clip->clip) : poses[static_cast<int>(scene.pose)];
-    if (ImGui::BeginCombo("##pose", shown.c_str(), ImGuiComboFlags_HeightLarge)) {
+    if (beginClipCombo("##pose", shown)) {
         for (int one = 0; one < 2; ++one) {
             if (ImGui::Selectable(poses[one], !scene.clip && static_cast<int>(scene.pose) == one)) pose = one;
         }

@@ -21,8 +21,8 @@ void chooseClip(const PanelContext& context) {
     std::string chosen;
     const auto& clips = editor.document().character().clips;
     const std::string preview = shown != nullptr ? shownClip(clips, shown->clip()) : "choose a clip";
-    ImGui::SetNextItemWidth(context.px(150));
-    if (!ImGui::BeginCombo("##clip", preview.c_str(), ImGuiComboFlags_HeightLarge)) return;
+    ImGui::SetNextItemWidth(context.px(170));
+    if (!beginClipCombo("##clip", preview)) return;
     for (std::size_t i = 0; i < clips.size(); ++i) {
         const std::string reference = animation::clipReference(clips, i);
         const std::string line =

@@ -90,6 +90,12 @@ std::string nameWithin(std::string_view name, float room) {
     });
 }
 
+std::string firstThatFits(std::initializer_list<std::string> texts, float room) {
+    const auto fits = [&](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x <= room; };
+    const auto* const first = std::find_if(texts.begin(), texts.end(), fits);
+    return first != texts.end() ? *first : *(texts.end() - 1);
+}
+
 void chip(const std::string& text, unsigned int color) {
     const ImVec2 padding(ImGui::GetStyle().FramePadding.x, 1.0F);
     const ImVec2 at = ImGui::GetCursorScreenPos();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -48,6 +49,10 @@ struct WidgetMemory {
                                          const std::function<float(std::string_view)>& widthOf);
 /// A name in the present font, cut in the middle where it is wider than `room`, window units.
 [[nodiscard]] std::string nameWithin(std::string_view name, float room);
+
+/// The first of the texts that is no wider than `room` in the present font, window units; the last where none is. For
+/// figures, which say something else when they are cut.
+[[nodiscard]] std::string firstThatFits(std::initializer_list<std::string> texts, float room);
 
 /// Where the text of a slider of that width stands, from its left edge, beside a knob whose middle is at `share` of the
 /// way: in the middle where there is room, else at the side that has more.

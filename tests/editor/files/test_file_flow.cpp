@@ -246,14 +246,14 @@ TEST_CASE("a model that is no humanoid is offered as a ragdoll of any skeleton, 
     const auto editor = makeEditor();
     const std::string fox = test::zooFile("fox/Fox.glb").string();
     send(*editor, filesDropped({fox}));
-    REQUIRE(editor->files().offeredAnyRig() == fox);
+    REQUIRE(editor->files().offeredAnyRig().model == fox);
     CHECK(editor->document().character().name == "biped");  // the old one stays until then
     editor->answerAnyRig(Editor::AnyRig::leave);
-    CHECK(editor->files().offeredAnyRig().empty());
+    CHECK(editor->files().offeredAnyRig().model.empty());
     CHECK(editor->document().character().name == "biped");
     send(*editor, filesDropped({fox}));
     editor->answerAnyRig(Editor::AnyRig::whole);
-    CHECK(editor->files().offeredAnyRig().empty());
+    CHECK(editor->files().offeredAnyRig().model.empty());
     const physics::RagdollProfile& profile = editor->document().profile();
     CHECK(editor->document().character().file == fox);
     CHECK_FALSE(physics::hasRoles(profile));
@@ -277,34 +277,59 @@ TEST_CASE("a model that is no humanoid is offered as a ragdoll of any skeleton, 
     CHECK(editor->document().profile().bodies.size() <= 10);
 }
 
+TEST_CASE("a model that is no humanoid begins a session with the offer over another one, where that may stand in") {
+    NEEDS_ZOO();
+    EditorOptions options;
+    options.model = test::zooFile("fox/Fox.glb");
+    CHECK_FALSE(Editor::create(options).ok());
+    options.standIn = LUTKA_ASSETS_DIR "/models/mannequin.glb";
+    options.load.import.metresPerFileUnit = 0.5F;  // of the fox alone
+    auto made = Editor::create(options);
+    REQUIRE(made.ok());
+    Editor& editor = *made.value();
+    CHECK(editor.document().character().name == "mannequin");
+    CHECK(editor.document().profile().heightM > 1.5F);
+    CHECK(editor.files().offeredAnyRig().model == options.model);
+    CHECK_THAT(editor.files().offeredAnyRig().reason, Catch::Contains("not a humanoid"));
+    // The offer says why: no message lies over it.
+    CHECK(editor.workspace().toasts.empty());
+    CHECK_THAT(editor.workspace().log.back().text, Catch::Contains("not a humanoid"));
+    send(editor, keyPressed(Key::enter));
+    CHECK(editor.document().character().file == options.model);
+    CHECK_FALSE(physics::hasRoles(editor.document().profile()));
+    // What is no model at all ends it as ever.
+    options.model = "nowhere.glb";
+    CHECK_FALSE(Editor::create(options).ok());
+}
+
 TEST_CASE("Enter and Esc answer the offer of any skeleton or what is under way in the view, and never both") {
     const auto editor = makeEditor();
     const fs::path refused = "nowhere/animal.glb";
     const Item chest{Item::Kind::body, 0, physics::bodyOf(editor->document().profile(), Role::chest)};
     editor->select(chest);
-    editor->files().offerAnyRig(refused);
+    editor->files().offerAnyRig({refused, "it has no arms", {}});
     for (const Key key : {Key::enter, Key::escape}) {
         send(*editor, keyPressed(Key::g));
         REQUIRE(editor->state() == State::grab);
         send(*editor, keyPressed(key));
         CHECK(editor->state() == State::selected);
-        CHECK(editor->files().offeredAnyRig() == refused);
+        CHECK(editor->files().offeredAnyRig().model == refused);
     }
     // The help stands over the offer.
     editor->view.help = true;
     send(*editor, keyPressed(Key::escape));
     CHECK_FALSE(editor->view.help);
-    CHECK(editor->files().offeredAnyRig() == refused);
+    CHECK(editor->files().offeredAnyRig().model == refused);
     send(*editor, keyPressed(Key::escape));
-    CHECK(editor->files().offeredAnyRig().empty());
+    CHECK(editor->files().offeredAnyRig().model.empty());
     CHECK(editor->workspace().selection.contains(chest));
     // A field or a list of the panels has its own Enter.
-    editor->files().offerAnyRig(refused);
+    editor->files().offerAnyRig({refused, "it has no arms", {}});
     send(*editor, keyPressed(Key::enter), {false, true});
-    CHECK(editor->files().offeredAnyRig() == refused);
+    CHECK(editor->files().offeredAnyRig().model == refused);
     const std::size_t told = editor->workspace().log.size();
     send(*editor, keyPressed(Key::enter));
-    CHECK(editor->files().offeredAnyRig().empty());
+    CHECK(editor->files().offeredAnyRig().model.empty());
     CHECK(editor->workspace().log.size() == told + 1);  // there is no such file
 }
 

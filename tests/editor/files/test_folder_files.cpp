@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "editor/files/file_list.hpp"
 #include "editor/files/folder_files.hpp"
 #include "support/catch.hpp"
 #include "support/command.hpp"
@@ -26,4 +27,12 @@ TEST_CASE("of files that are dropped together the scene is opened, else the mode
     for (const char* name : {"readme.txt", "skin.png", "knight.fbx"})
         std::ofstream(pack / name) << "x";
     CHECK(fileToOpen({(pack / "textures").string(), pack.string()}) == pack / "knight.fbx");
+}
+
+TEST_CASE("files of one name are told apart by their folders, and others are called by their names alone") {
+    const std::vector<fs::path> files = {"/a/knight/m.fbx", "/a/ogre/m.fbx", "/a/hero.glb", "m.fbx"};
+    CHECK(nameAmong(files, files[0]) == "knight/m.fbx");
+    CHECK(nameAmong(files, files[1]) == "ogre/m.fbx");
+    CHECK(nameAmong(files, files[2]) == "hero.glb");
+    CHECK(nameAmong(files, files[3]) == "m.fbx");
 }
