@@ -305,7 +305,9 @@ void drawToasts(const PanelContext& context) {
     const auto [left, right] = viewSpan(context);
     const float middle = (left + right) * 0.5F;
     const float width = std::min(context.px(460), (right - left) * 0.9F);
-    float bottom = size.y - ImGui::GetFrameHeight() - context.px(16);
+    // Over neither the panel below the view nor the timeline.
+    const float below = size.y - ImGui::GetFrameHeight() - panelBelowHeight(context) - context.px(16);
+    float bottom = context.state.timelineTop > 0.0F ? context.state.timelineTop - context.px(6) : below;
     std::optional<std::size_t> closed;
     const std::vector<Toast>& toasts = editor.workspace().toasts;
     for (std::size_t i = firstToast(context, toasts, width, bottom); i < toasts.size(); ++i) {

@@ -53,6 +53,7 @@ void EditorUi::build(Editor& editor, const FrameHistory& history) {
     drawTransport(context);
     drawTools(context);
     drawSelectionBox(context);
+    state.timelineTop = 0.0F;
     if (editor.view.clips) drawTimeline(context);
     editor.workspace().covered = coveredBy(context);
     dragRoleOverView(context);

@@ -70,6 +70,7 @@ struct UiState {
     double groupEnds = 0.0;         ///< When what one drag changes is over, Dear ImGui's seconds; 0: it is.
     float toolsRight = 0.0F;        ///< Where the view begins beside the tools, in a narrow one; else 0.
     float transportBottom = 0.0F;   ///< Window units: where the view begins below it …
+    float timelineTop = 0.0F;       ///< Where it ends above the timeline; 0: that is not shown.
     float offerBottom = 0.0F;       ///< … and where what an offer over the view covers ends; 0: there is none.
     AmendStats amendStats;          ///< May be empty.
     bool escapeTaken = false;       ///< In this frame, by a list or menu that it closed: no dialog below it ends.

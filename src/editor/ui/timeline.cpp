@@ -101,6 +101,7 @@ void drawTimeline(const PanelContext& context) {
     if (ImGui::Button("×", {context.px(26), 0})) editor.perform(Action::toggleClips);
     tooltip("F4: away with the clips; the doll goes back to where it was");
     if (editor.view.clips && editor.player().clip() != nullptr && narrow) drawScrub(context, 0.0F);
+    context.state.timelineTop = ImGui::GetWindowPos().y;
     ImGui::End();
     ImGui::PopStyleVar();
 }
