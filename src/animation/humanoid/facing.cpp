@@ -13,7 +13,7 @@ namespace {
 constexpr float kNames = 2.6F;
 constexpr float kNamesOfEveryLimb = 4.8F;
 constexpr float kNamesOfBlocks = 3.6F;
-constexpr float kFewestOfEveryLimb = 4.0F;  // pairs of joints
+constexpr float kFewestOfEveryLimb = 4.0F;  // pairs of joints that say their part
 // What hats and hair can mislead (the head's reach, where its skin is finer) says no more than this together.
 constexpr float kMostOfHead = 3.0F;
 constexpr float kVerticesOfFace = 100.0F;  // of a head whose finer side proves something
@@ -222,7 +222,7 @@ class FacingFinder {
             behind += trunk - (skin.count > 0 ? middle(skin) : framed_.positions[joint].z);
             ++count;
         }
-        if (count > 0) speak(behind / static_cast<float>(count) / size, 10.0F, 2.0F, "what hangs on the back says so");
+        if (count > 0) speak(behind / static_cast<float>(count) / size, 14.0F, 3.5F, "what hangs on the back says so");
     }
 
     void readHands() {
@@ -240,6 +240,7 @@ class FacingFinder {
         float agree = 0.0F;
         float counted = 0.0F;
         bool sayParts = true;
+        float said = 0.0F;
         for (const LimbCandidate* limb : {&legs_, &arms_}) {
             const float others = agree;
             for (std::size_t slot = 0; slot < limb->pairs.size(); ++slot) {
@@ -249,16 +250,18 @@ class FacingFinder {
                 const Side minus = rig_.names[pair(index).joints[1]].side;
                 if (plus == minus) continue;
                 counted += 1.0F;
-                sayParts = sayParts && pair(index).names[partsOf(limb->kind)[slot]] > 0.0F;
+                const bool says = pair(index).names[partsOf(limb->kind)[slot]] > 0.0F;
+                said += says ? 1.0F : 0.0F;
+                sayParts = sayParts && says;
                 agree += plus == Side::left || minus == Side::right ? 1.0F : -1.0F;
             }
             facing_.namesSplit = others * (agree - others) < 0.0F;
         }
         const bool ofBlocks = legs_.jointCount() == 1 && arms_.jointCount() == 1 && counted >= 2.0F;
-        const bool agrees = sayParts && std::abs(agree) >= counted;
-        const float weight = agrees && counted >= kFewestOfEveryLimb ? kNamesOfEveryLimb
-                             : agrees && ofBlocks                    ? kNamesOfBlocks
-                                                                     : kNames;
+        const bool agrees = std::abs(agree) >= counted;
+        const float weight = agrees && said >= kFewestOfEveryLimb ? kNamesOfEveryLimb
+                             : agrees && sayParts && ofBlocks     ? kNamesOfBlocks
+                                                                  : kNames;
         if (counted > 0.0F) facing_.names = weight * agree / counted;
         facing_.shapeReason = facing_.reason;
         if (std::abs(facing_.names) > loudest_ + 1.0F) facing_.reason = "left and right in the names say so";

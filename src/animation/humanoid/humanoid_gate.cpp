@@ -21,7 +21,8 @@ constexpr float kLeastHandHeight = 0.16F;        // above the feet, as a share o
 constexpr float kNamedBlock = 2.0F;
 constexpr float kBlocksShape = 1.0F;
 constexpr float kBlocksWhole = 5.0F;
-// Names of every joint of all four limbs, of hips and head carry a figure of any proportions whose trunk is upright.
+// Names of every joint of all four limbs, of hips and head carry a figure of any proportions whose trunk is upright;
+// where every limb has three joints, and nothing is a tail, hips need no name.
 constexpr float kToldTrunk = 8.0F;
 constexpr float kToldShape = 12.0F;
 // Of shape and half the whole, where no name speaks for a figure: upright; headless; lying or leaning; on its head or
@@ -162,12 +163,17 @@ bool trailsTail(const Figure& figure, const FramedRig& framed) {
     return false;
 }
 
+bool namesHead(const Figure& figure, const FramedRig& framed) {
+    const int head = figure.trunk.head;
+    return head != kNoJoint && framed.rig->names[head].parts[Part::head] >= kTellsTrunkEnd;
+}
+
 // Of the way from the shoulders to a head that is not named so, from upright; 0 without one, or where it is shorter
 // than the trunk. With a tail the name proves nothing: a raptor's joints may be called as a man's.
 float headTilt(const Figure& figure, const FramedRig& framed) {
     const int head = figure.trunk.head;
     if (head == kNoJoint) return 0.0F;
-    if (framed.rig->names[head].parts[Part::head] >= kTellsTrunkEnd && !hasTail(*framed.rig)) return 0.0F;
+    if (namesHead(figure, framed) && !hasTail(*framed.rig)) return 0.0F;
     vec3 way = framed.positions[head] - figure.arms.root;
     way.x = 0.0F;
     const bool far = glm::length(way) > glm::distance(figure.arms.root, figure.legs.root);
@@ -191,6 +197,16 @@ bool isBird(const Figure& figure, const FramedRig& framed, float tilt) {
         if (rig.names[joint].tail && rig.skinned && rig.directWeight[joint] > 0.0F) return true;
     }
     return false;
+}
+
+// Both legs hang on one arm: what a hand holds in a view of the player's own hands, a weapon or a pet, stands for them.
+bool hangOnOneArm(const Figure& figure, const FramedRig& framed) {
+    const RigFeatures& rig = *framed.rig;
+    const auto& legs = framed.pairs[figure.legs.first].joints;
+    const auto& arms = framed.pairs[figure.arms.first].joints;
+    return std::any_of(arms.begin(), arms.end(), [&](int arm) {
+        return std::all_of(legs.begin(), legs.end(), [&](int leg) { return rig.isAncestorOrSelf(arm, leg); });
+    });
 }
 
 float leastUnnamed(const Figure& figure) {
@@ -252,13 +268,16 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     if (creatureShare(framed, figure.legs) > 0.6F) return "what would be the legs are named as an animal's";
     if (figure.prior < 0.0F && areSeveral(framed, figure.legs))
         return "what would be a leg is several legs side by side";
+    if (hangOnOneArm(figure, framed)) return "what would be the legs hang on one of the arms";
     if (isScattered(figure, framed)) return "its parts hang on nothing and are named as no limbs";
     // Names alone never make a humanoid, but they carry one that is put together oddly.
     const float names = figure.legs.names + figure.arms.names + figure.trunk.names;
     const float whole = figure.score - figure.prior - names;
     if (names <= 0.0F && figure.shapeScore() + 0.5F * whole < leastUnnamed(figure))
         return "no figure stands upright in it";
-    const bool told = figure.legs.told && figure.arms.told && figure.trunk.names >= kToldTrunk;
+    const bool wholeLimbs = figure.legs.named && figure.arms.named && !hasTail(*framed.rig);
+    const bool toldTrunk = figure.trunk.names >= kToldTrunk || (wholeLimbs && namesHead(figure, framed));
+    const bool told = figure.legs.told && figure.arms.told && toldTrunk;
     const float helpShape =
         std::clamp(0.2F * names, -6.0F, 4.0F) + (blocks ? kBlocksShape : 0.0F) + (told ? kToldShape : 0.0F);
     const float helpWhole =

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "animation/humanoid/name_lexicon.hpp"
@@ -145,6 +146,28 @@ void leaveBlocksToGroups(RigFeatures& rig) {
     }
 }
 
+bool saysConcept(const NameEvidence& name, Concept meaning) {
+    return std::any_of(name.words.begin(), name.words.end(),
+                       [&](const std::string& word) { return conceptOf(word) == meaning; });
+}
+
+// A sleeve beside the arm, both of them meshes without a skin: worn, and no part of the arm.
+void leaveLimbsToWearers(RigFeatures& rig) {
+    const auto isMesh = [&](int joint) { return rig.rigidPart[joint] && rig.children[joint].empty(); };
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        const int group = rig.parents[joint];
+        NameEvidence& name = rig.names[joint];
+        if (group == kNoJoint || !isMesh(joint) || !saysConcept(name, Concept::cloth)) continue;
+        const auto isWearer = [&](int other) {
+            return isMesh(other) && rig.names[other].side == name.side && rig.names[other].meaningful &&
+                   !saysConcept(rig.names[other], Concept::cloth);
+        };
+        if (std::none_of(rig.children[group].begin(), rig.children[group].end(), isWearer)) continue;
+        name.parts.values.fill(kOfOtherPart);
+        name.helper = true;
+    }
+}
+
 // What moves nothing itself, below a head and named as one: where a helmet or one of several heads is put on.
 void leaveNameToHead(RigFeatures& rig) {
     const auto isPart = [&](int child) { return rig.rigidPart[child] && rig.children[child].empty(); };
@@ -158,11 +181,6 @@ void leaveNameToHead(RigFeatures& rig) {
         name.parts.values.fill(kOfOtherPart);
         name.helper = true;
     }
-}
-
-bool saysConcept(const NameEvidence& name, Concept meaning) {
-    return std::any_of(name.words.begin(), name.words.end(),
-                       [&](const std::string& word) { return conceptOf(word) == meaning; });
 }
 
 // "Arm 1, Arm 2, Arm 3": where one chain calls three joints or more by the same word for a limb, the word tells the
@@ -179,6 +197,42 @@ void flattenNumberedLimbs(RigFeatures& rig) {
         for (const Part part : arm ? std::array{Part::clavicle, Part::upperArm, Part::lowerArm, Part::hand}
                                    : std::array{Part::upperLeg, Part::lowerLeg, Part::foot, Part::toes})
             rig.names[joint].parts[part] = kSomeLimb;
+    }
+}
+
+// "Arm, Arm1, Arm2": bones of a biped whose language has one word for collarbone and arm. Where a hand hangs on the
+// third, or the first is far shorter than the second, they are the clavicle, the upper arm and the forearm.
+void readCountedArms(RigFeatures& rig) {
+    constexpr float kShort = 0.6F;  // of the second
+    const auto nextOf = [&](int joint, int number) {
+        std::vector<int> numbers = rig.names[joint].numbers;
+        if (number > 1) numbers.pop_back();
+        numbers.push_back(number);
+        for (const int child : rig.children[joint]) {
+            const NameEvidence& name = rig.names[child];
+            if (name.bareLimb && name.side == rig.names[joint].side && name.words == rig.names[joint].words &&
+                name.numbers == numbers)
+                return child;
+        }
+        return kNoJoint;
+    };
+    for (int first = 0; first < rig.count(); ++first) {
+        const NameEvidence& name = rig.names[first];
+        if (!name.bareLimb || name.side == Side::center || name.parts[Part::upperArm] <= 0.0F) continue;
+        const int second = nextOf(first, 1);
+        const int third = second != kNoJoint ? nextOf(second, 2) : kNoJoint;
+        if (third == kNoJoint) continue;
+        const auto isHand = [&](int child) { return rig.names[child].parts[Part::hand] >= kSurely; };
+        const bool hand = std::any_of(rig.children[third].begin(), rig.children[third].end(), isHand);
+        const float firstLength = glm::distance(rig.positions[first], rig.positions[second]);
+        const float secondLength = glm::distance(rig.positions[second], rig.positions[third]);
+        if (!hand && firstLength > kShort * secondLength) continue;
+        for (const auto& [joint, part] :
+             {std::pair{first, Part::clavicle}, std::pair{second, Part::upperArm}, std::pair{third, Part::lowerArm}}) {
+            rig.names[joint].bareLimb = false;
+            rig.names[joint].parts.values.fill(kSurelyNot);
+            rig.names[joint].parts[part] = kSurely;
+        }
     }
 }
 
@@ -273,9 +327,11 @@ void readLimbEnds(RigFeatures& rig) {
 void readNamesInTree(RigFeatures& rig) {
     readEndsAsLimbs(rig);
     readNamesOfEnds(rig);
+    readCountedArms(rig);
     readNamesInChains(rig);
     leaveNamesToPivots(rig);
     leaveBlocksToGroups(rig);
+    leaveLimbsToWearers(rig);
     leaveNameToHead(rig);
     flattenNumberedLimbs(rig);
     readLimbEnds(rig);

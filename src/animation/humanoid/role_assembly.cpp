@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <utility>
 
 #include "animation/humanoid/role_hierarchy.hpp"
 #include "animation/humanoid/segment_pivots.hpp"
@@ -14,7 +15,9 @@ namespace lutka::animation {
 namespace {
 
 constexpr float kCertain = 0.99F;
-constexpr float kLoneMargin = 2.0F;  // log-odds of a joint that is found on one side alone
+constexpr float kLeastWholeLeg = 0.3F;  // of the way from the floor to the shoulders, and …
+constexpr float kLeastWholeArm = 0.6F;  // … of the trunk: what a foot or hand alone does not reach
+constexpr float kLoneMargin = 2.0F;     // log-odds of a joint that is found on one side alone
 
 float probability(float logOdds) {
     return 1.0F / (1.0F + std::exp(-logOdds));
@@ -38,8 +41,10 @@ class RoleAssembler {
         bindTrunk();
         constexpr std::array<Role, 4> kLegs{Role::leftUpperLeg, Role::leftLowerLeg, Role::leftFoot, Role::leftToes};
         constexpr std::array<Role, 4> kArms{Role::leftUpperArm, Role::leftLowerArm, Role::leftHand, Role::leftShoulder};
-        bindLimb(figure_.legs, kLegs, figure_.margins.legs, "leg");
-        bindLimb(figure_.arms, kArms, figure_.margins.arms, "arm");
+        const LimbCandidate legs = asWhole(figure_.legs, reachesFromHip());
+        const LimbCandidate arms = asWhole(figure_.arms, reachesFromShoulder());
+        bindLimb(legs, kLegs, figure_.margins.legs, "leg");
+        bindLimb(arms, kArms, figure_.margins.arms, "arm");
         bindStrayJoints(rig_, probability(kLoneMargin) * sideTrust_, map_);
         bindSegmentPivots(rig_, map_);
         distrustAstray();
@@ -48,6 +53,33 @@ class RoleAssembler {
     }
 
   private:
+    // A limb of one joint that is called foot or hand, and goes all the way from the hip or the shoulder, is the limb.
+    [[nodiscard]] LimbCandidate asWhole(LimbCandidate limb, bool isLong) const {
+        const auto startsAbove = [&](int joint) {
+            const int parent = rig_.parents[joint];
+            if (parent == kNoJoint) return false;
+            const PartScores& names = rig_.names[parent].parts;
+            const std::array<Part, 4> parts = partsOf(limb.kind);
+            const float least = limb.kind == LimbKind::arm ? names[Part::clavicle] : 0.0F;
+            return std::max(names[parts[0]], names[parts[1]]) > std::max(least, 0.0F);
+        };
+        if (limb.jointCount() != 1 || limb.pairs[2] == kNoPair || !isLong) return limb;
+        if (startsAbove(figure_.framed.pairs[limb.first].joints[0])) return limb;
+        std::swap(limb.pairs[0], limb.pairs[2]);
+        return limb;
+    }
+
+    [[nodiscard]] bool reachesFromShoulder() const {
+        const LimbCandidate& arms = figure_.arms;
+        return arms.length > kLeastWholeArm * (arms.root.y - figure_.legs.root.y) && arms.length > arms.root.x;
+    }
+
+    // Its joints lie well above the floor, where the legs start.
+    [[nodiscard]] bool reachesFromHip() const {
+        const float floor = figure_.framed.floor;
+        return figure_.legs.root.y - floor > kLeastWholeLeg * (figure_.arms.root.y - floor);
+    }
+
     [[nodiscard]] std::string evidence(int joint, Part part) const {
         std::string text;
         const NameEvidence& name = rig_.names[joint];

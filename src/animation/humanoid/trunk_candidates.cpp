@@ -97,9 +97,10 @@ class TrunkFinder {
             // A spine that starts beside hips of their own, and not on them, starts at their height.
             const bool beside = !rig_.isAncestorOrSelf(joint, trunk.hips) && !rig_.isAncestorOrSelf(trunk.hips, joint);
             const float least = beside ? low - 0.06F * length_ : low;
-            const bool between = position(joint).y > std::min(least, position(trunk.chest).y) &&
-                                 position(joint).y < arms_.root.y + 0.1F * length_;
             const NameEvidence& name = rig_.names[joint];
+            const bool told = isTold() && name.parts[Part::trunk] >= kNamedTrunk && !isInPlaceOf(joint, trunk.hips);
+            const bool between = told || (position(joint).y > std::min(least, position(trunk.chest).y) &&
+                                          position(joint).y < arms_.root.y + 0.1F * length_);
             const bool otherPart = name.meaningful && name.parts[Part::trunk] < 0.0F && name.parts[Part::chest] < 0.0F;
             if (isCentral(joint) && between && !name.helper && !otherPart) joints.push_back(joint);
         }
@@ -199,9 +200,10 @@ class TrunkFinder {
         for (const int joint : central_) {
             if (joint == banned) continue;
             const float height = (position(joint).y - legs_.root.y) / length_;
+            const float place = near(height, 0.05F, 0.15F * slack_, 6.0F) +
+                                near((position(joint).z - legs_.root.z) / length_, 0.0F, 0.25F, 4.0F);
             float score = name(joint, Part::hips) + skinTerm(joint) + centralTerm(joint) +
-                          near(height, 0.05F, 0.15F * slack_, 6.0F) +
-                          near((position(joint).z - legs_.root.z) / length_, 0.0F, 0.25F, 4.0F);
+                          (areToldHips(joint) ? std::max(place, kNamedPose) : place);
             if (trunkRoot_ != kNoJoint && rig_.isAncestorOrSelf(joint, trunkRoot_)) score += 1.5F;
             if (joint == trunkRoot_) score += 0.6F;
             const bool clear = legs_.told || (!rig_.skinned && !rig_.names[joint].meaningful);
@@ -326,12 +328,21 @@ class TrunkFinder {
         return onward;
     }
 
+    // What carries limbs whose joints are all told is hips or chest by its name, in whatever frame a capture begins.
+    [[nodiscard]] bool areToldHips(int joint) const {
+        return isTold() && joint == legParent_ && name(joint, Part::hips) >= kNamedHips;
+    }
+    [[nodiscard]] bool isToldChest(int joint) const {
+        return isTold() && joint == armParent_ && name(joint, Part::chest) >= kNamedChest;
+    }
+    [[nodiscard]] bool isTold() const { return framed_.stance.byNames && legs_.named && arms_.named; }
+
     // Central joints from the thighs up to somewhat above the arms: no face, no tail.
     [[nodiscard]] std::vector<int> possibleChests(int banned) const {
         std::vector<int> chests;
         for (const int joint : central_) {
             const float height = (position(joint).y - legs_.root.y) / length_;
-            if (joint != banned && height > -0.6F && height < 1.4F) chests.push_back(joint);
+            if (joint != banned && ((height > -0.6F && height < 1.4F) || isToldChest(joint))) chests.push_back(joint);
         }
         return chests;
     }
@@ -362,7 +373,7 @@ class TrunkFinder {
                 near(below, 0.2F, 0.2F * slack_, 5.0F) + atMost(-below, 0.08F, 0.05F * slack_ * slack_, 3.0F);
             // Squat figures' arms start below the joint that they hang from; its name tells.
             const bool named = chest == armParent_ && name(chest, Part::chest) >= kNamedChest;
-            score += named ? std::max(height, kNamedPose) : height;
+            score += named || isToldChest(chest) ? std::max(height, kNamedPose) : height;
         }
         // Hips that are named so and carry the legs may hang beside the spine, on a joint of the whole body.
         const bool beside = (trunk.hips == legParent_ && name(trunk.hips, Part::hips) >= kNamedHips) ||
@@ -436,7 +447,7 @@ class TrunkFinder {
         for (int joint = rig_.parents[head]; joint != kNoJoint && joint != chest; joint = rig_.parents[joint]) {
             if (rig_.isAncestorOrSelf(joint, chest)) break;
             const bool between = position(joint).y > position(chest).y - 0.02F * length_;
-            if (isCentral(joint) && between) necks.push_back(joint);
+            if (isCentral(joint) && between && !rig_.names[joint].face) necks.push_back(joint);
         }
         return necks;
     }
