@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "animation/humanoid/completed_rig.hpp"
+#include "animation/humanoid/crowds.hpp"
 #include "animation/humanoid/figure.hpp"
 #include "animation/humanoid/imagined_limbs.hpp"
 #include "animation/humanoid/rig_features.hpp"
@@ -217,6 +218,33 @@ void tellMissingLimbs(HumanoidMap& map) {
     }
 }
 
+// Joints that the user or the file names stay, whatever stands beside them.
+std::vector<int> namedJoints(const Character& character, const MapOptions& options) {
+    std::vector<int> joints;
+    for (const auto& joint : options.fixed) {
+        if (joint) joints.push_back(*joint);
+    }
+    for (const auto& joint : jointsOfFile(character)) {
+        if (joint) joints.push_back(*joint);
+    }
+    return joints;
+}
+
+HumanoidMap mapWithoutCrowds(const WithoutCrowds& few, int leftOut, MapOptions options) {
+    for (auto& joint : options.fixed) {
+        if (!joint) continue;
+        const auto place = std::lower_bound(few.original.begin(), few.original.end(), *joint);
+        joint = static_cast<int>(place - few.original.begin());
+    }
+    HumanoidMap map = mapHumanoid(few.character, options);
+    for (auto& binding : map.roles) {
+        if (binding) binding->joint = few.original[static_cast<std::size_t>(binding->joint)];
+    }
+    if (!map.humanoid && !map.warnings.empty())
+        map.warnings.front() += fmt::format(" (without {} small parts side by side)", leftOut);
+    return map;
+}
+
 void listMissing(HumanoidMap& map) {
     map.missing.clear();
     for (int index = 0; index < kRoleCount; ++index) {
@@ -231,6 +259,8 @@ HumanoidMap mapHumanoid(const Character& character, const MapOptions& options) {
     for (const auto& joint : options.fixed)
         LUTKA_ASSERT(!joint || (*joint >= 0 && *joint < skeleton.jointCount()));
     if (skeleton.jointCount() == 0) return refused("it has no joints");
+    if (const auto few = leaveOutCrowds(character, namedJoints(character, options)))
+        return mapWithoutCrowds(*few, skeleton.jointCount() - few->character.skeleton.jointCount(), options);
     if (skeleton.jointCount() < kFewestJoints) {
         return refused(fmt::format("{} joint{} too few for a trunk, two arms and two legs", skeleton.jointCount(),
                                    skeleton.jointCount() == 1 ? " is" : "s are"));

@@ -1,0 +1,129 @@
+#include "animation/humanoid/crowds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "animation/humanoid/name_evidence.hpp"
+
+namespace lutka::animation {
+namespace {
+
+constexpr int kMostOfPart = 4;            // joints of a small part: no figure has fewer than five
+constexpr int kFewestOfCrowd = 256;       // parts side by side
+constexpr int kFewestOfMultitude = 2048;  // … of which names tell nothing any more
+constexpr int kHugeScene = 4096;          // joints: here groups of parts hang on groups, and …
+constexpr int kHugeScale = 16;            // … so many times fewer are a crowd
+constexpr int kFewestInScene = 2 * kFewestOfCrowd;
+
+// Joints that move a part of a skin.
+std::vector<bool> skinnedJoints(const Character& character) {
+    std::vector<bool> skinned(character.skeleton.names.size(), false);
+    for (const SkinnedMesh& mesh : character.meshes) {
+        if (mesh.rigid) continue;
+        for (std::size_t i = 0; i < mesh.joints.size() && i < mesh.weights.size(); ++i) {
+            for (int slot = 0; slot < kMaxInfluences; ++slot) {
+                const std::size_t joint = mesh.joints[i][slot];
+                if (mesh.weights[i][slot] > 0.0F && joint < skinned.size()) skinned[joint] = true;
+            }
+        }
+    }
+    return skinned;
+}
+
+bool speaksOfBody(const std::string& name) {
+    const NameEvidence evidence = nameEvidence(name);
+    return std::any_of(evidence.parts.values.begin(), evidence.parts.values.end(),
+                       [](float score) { return score > 0.0F; });
+}
+
+// Small parts below each joint: the tops of what has no skin and few joints, and whether a name there is of a body.
+struct Parts {
+    std::vector<bool> small;  // per joint: it and all below it are few, and move no skin
+    std::vector<bool> named;  // per joint: it or one below it is named as a part of a body
+};
+
+Parts findParts(const Character& character, const std::vector<int>& kept) {
+    const Skeleton& skeleton = character.skeleton;
+    const std::size_t count = skeleton.names.size();
+    const std::vector<bool> skinned = skinnedJoints(character);
+    Parts parts{std::vector<bool>(count, true), std::vector<bool>(count, false)};
+    std::vector<int> size(count, 1);
+    for (const int joint : kept)
+        parts.small[static_cast<std::size_t>(joint)] = false;
+    for (std::size_t joint = count; joint-- > 0;) {
+        if (skinned[joint] || size[joint] > kMostOfPart) parts.small[joint] = false;
+        parts.named[joint] = parts.named[joint] || speaksOfBody(skeleton.names[joint]);
+        if (skeleton.parents[joint] == kNoJoint) continue;
+        const auto parent = static_cast<std::size_t>(skeleton.parents[joint]);
+        size[parent] += size[joint];
+        if (!parts.small[joint]) parts.small[parent] = false;
+        if (parts.named[joint]) parts.named[parent] = true;
+    }
+    return parts;
+}
+
+std::vector<bool> findCrowds(const Skeleton& skeleton, const Parts& parts) {
+    const std::size_t count = skeleton.names.size();
+    std::vector<int> beside(count + 1, 0);   // per parent: small parts on it; the last is of those on none
+    std::vector<int> unnamed(count + 1, 0);  // … whose names say nothing
+    const auto parentOf = [&](std::size_t joint) {
+        return skeleton.parents[joint] == kNoJoint ? count : static_cast<std::size_t>(skeleton.parents[joint]);
+    };
+    for (std::size_t joint = 0; joint < count; ++joint) {
+        if (!parts.small[joint]) continue;
+        ++beside[parentOf(joint)];
+        if (!parts.named[joint]) ++unnamed[parentOf(joint)];
+    }
+    const int scale = skeleton.jointCount() > kHugeScene ? kHugeScale : 1;
+    std::vector<bool> gone(count, false);
+    for (std::size_t joint = 0; joint < count; ++joint) {
+        const std::size_t parent = parentOf(joint);
+        const bool ofCrowd = parts.small[joint] && (beside[parent] >= kFewestOfMultitude / scale ||
+                                                    (!parts.named[joint] && unnamed[parent] >= kFewestOfCrowd / scale));
+        gone[joint] = ofCrowd || (parent < count && gone[parent]);
+    }
+    return gone;
+}
+
+}  // namespace
+
+std::optional<WithoutCrowds> leaveOutCrowds(const Character& character, const std::vector<int>& kept) {
+    const Skeleton& skeleton = character.skeleton;
+    if (skeleton.jointCount() < kFewestInScene) return std::nullopt;
+    const std::vector<bool> gone = findCrowds(skeleton, findParts(character, kept));
+    if (std::none_of(gone.begin(), gone.end(), [](bool is) { return is; })) return std::nullopt;
+    WithoutCrowds left;
+    Skeleton& few = left.character.skeleton;
+    std::vector<int> fresh(gone.size(), kNoJoint);
+    for (std::size_t joint = 0; joint < gone.size(); ++joint) {
+        if (gone[joint]) continue;
+        const int parent = skeleton.parents[joint];
+        fresh[joint] = static_cast<int>(left.original.size());
+        left.original.push_back(static_cast<int>(joint));
+        few.names.push_back(skeleton.names[joint]);
+        few.parents.push_back(parent == kNoJoint ? kNoJoint : fresh[static_cast<std::size_t>(parent)]);
+        few.bindModelFromJoint.push_back(skeleton.bindModelFromJoint[joint]);
+        few.nodeParentFromJoint.push_back(skeleton.nodeParentFromJoint[joint]);
+        few.skinWeight.push_back(skeleton.skinWeight[joint]);
+    }
+    const auto freshOf = [&](std::uint16_t joint) {
+        return joint < fresh.size() && fresh[joint] != kNoJoint ? static_cast<std::uint16_t>(fresh[joint])
+                                                                : std::uint16_t{0};
+    };
+    for (const SkinnedMesh& mesh : character.meshes) {
+        const bool ofCrowd =
+            mesh.rigid && !mesh.joints.empty() && mesh.joints[0][0] < gone.size() && gone[mesh.joints[0][0]];
+        if (ofCrowd) continue;
+        left.character.meshes.push_back(mesh);
+        for (auto& joints : left.character.meshes.back().joints)
+            std::transform(joints.begin(), joints.end(), joints.begin(), freshOf);
+    }
+    for (const auto& [bone, joint] : character.vrmHumanoid) {
+        if (joint >= 0 && joint < skeleton.jointCount() && fresh[static_cast<std::size_t>(joint)] != kNoJoint)
+            left.character.vrmHumanoid[bone] = fresh[static_cast<std::size_t>(joint)];
+    }
+    return left;
+}
+
+}  // namespace lutka::animation
