@@ -79,8 +79,7 @@ class Completer {
     }
 
     static bool isNoLimb(const NameEvidence& name) {
-        constexpr float kNamed = 2.0F;
-        const auto said = [&](Part part) { return name.parts[part] >= kNamed; };
+        const auto said = [&](Part part) { return name.parts[part] >= kTellsTrunkEnd; };
         return name.helper || name.creature || name.tail || said(Part::hips) || said(Part::trunk) ||
                said(Part::chest) || said(Part::neck) || said(Part::head);
     }

@@ -10,14 +10,12 @@
 namespace lutka::animation {
 namespace {
 
-constexpr float kToldLimb = 1.5F;       // a name's score from which it says which part of a limb this is
-constexpr float kToldTrunkPart = 2.0F;  // … or hips, head and spine
-constexpr int kFewestTold = 2;          // parts of each limb that is there
-constexpr float kMostBeside = 0.35F;    // of the way from the hips up to the head, sideways of it
-constexpr float kLegsToRise = 1.54F;    // legs as long, where the arms start one above the hips
-constexpr float kArmsToLegs = 0.62F;    // of the legs' length, or of the rise from hips to shoulders
-constexpr float kShoulders = 0.85F;     // of the way from hips to head, where the trunk is one joint
-constexpr float kSkinOfJoint = 0.05F;   // share of the skin that an imagined joint moves
+constexpr int kFewestTold = 2;         // parts of each limb that is there
+constexpr float kMostBeside = 0.35F;   // of the way from the hips up to the head, sideways of it
+constexpr float kLegsToRise = 1.54F;   // legs as long, where the arms start one above the hips
+constexpr float kArmsToLegs = 0.62F;   // of the legs' length, or of the rise from hips to shoulders
+constexpr float kShoulders = 0.85F;    // of the way from hips to head, where the trunk is one joint
+constexpr float kSkinOfJoint = 0.05F;  // share of the skin that an imagined joint moves
 
 constexpr std::array<Part, 3> kArm{Part::upperArm, Part::lowerArm, Part::hand};
 constexpr std::array<Part, 3> kLeg{Part::upperLeg, Part::lowerLeg, Part::foot};
@@ -55,10 +53,10 @@ class Imaginer {
     [[nodiscard]] bool isTold(const std::array<Part, 3>& limb) const {
         const auto told = [&](Side side) {
             return std::count_if(limb.begin(), limb.end(),
-                                 [&](Part part) { return named(part, side, kToldLimb) != kNoJoint; });
+                                 [&](Part part) { return named(part, side, kTellsPartOfLimb) != kNoJoint; });
         };
-        return named(limb[0], Side::left, kToldLimb) != kNoJoint &&
-               named(limb[0], Side::right, kToldLimb) != kNoJoint && told(Side::left) >= kFewestTold &&
+        return named(limb[0], Side::left, kTellsPartOfLimb) != kNoJoint &&
+               named(limb[0], Side::right, kTellsPartOfLimb) != kNoJoint && told(Side::left) >= kFewestTold &&
                told(Side::right) >= kFewestTold;
     }
 
@@ -68,7 +66,7 @@ class Imaginer {
         for (int joint = 0; joint < rig_.count(); ++joint) {
             const NameEvidence& name = rig_.names[joint];
             if (name.side != Side::center || name.helper || !name.bareLimb || !rig_.carriesSkin(joint)) continue;
-            if (name.parts[Part::upperArm] < kToldLimb || !rig_.children[joint].empty()) continue;
+            if (name.parts[Part::upperArm] < kTellsPartOfLimb || !rig_.children[joint].empty()) continue;
             if (found != kNoJoint) return kNoJoint;
             found = joint;
         }
@@ -77,10 +75,10 @@ class Imaginer {
 
     // Two chains of one side with the names of one limb: the other limb bears them, too.
     [[nodiscard]] bool isToldTwice(Part upper) const {
-        const int first = named(upper, Side::left, kToldLimb);
+        const int first = named(upper, Side::left, kTellsPartOfLimb);
         for (int joint = 0; joint < rig_.count(); ++joint) {
             const NameEvidence& name = rig_.names[joint];
-            if (name.side != Side::left || name.helper || name.parts[upper] < kToldLimb) continue;
+            if (name.side != Side::left || name.helper || name.parts[upper] < kTellsPartOfLimb) continue;
             if (!rig_.carriesSkin(joint)) continue;
             if (!rig_.isAncestorOrSelf(first, joint) && !rig_.isAncestorOrSelf(joint, first)) return true;
         }
@@ -90,7 +88,7 @@ class Imaginer {
     // No joint that moves skin speaks of such a limb, on either side or none.
     [[nodiscard]] bool isAbsent(const std::array<Part, 3>& limb) const {
         for (int joint = 0; joint < rig_.count(); ++joint) {
-            const bool isHips = rig_.names[joint].parts[Part::hips] >= kToldTrunkPart;  // "hip" may be a thigh's
+            const bool isHips = rig_.names[joint].parts[Part::hips] >= kTellsTrunkEnd;  // "hip" may be a thigh's
             if (!rig_.carriesSkin(joint) || (isHips && rig_.names[joint].side == Side::center)) continue;
             if (joint == crossed_) continue;
             for (const Part part : limb) {
@@ -105,15 +103,15 @@ class Imaginer {
                            [](const NameEvidence& name) { return name.creature || name.tail; });
     }
 
-    // The hips, else what the spine hangs on, where that is called a root and moves skin of its own.
+    // The hips; else the parent of the spine, if it is called a root and moves skin of its own.
     [[nodiscard]] int lowestOfTrunk() const {
-        const int hips = named(Part::hips, Side::center, kToldTrunkPart);
+        const int hips = named(Part::hips, Side::center, kTellsTrunkEnd);
         if (hips != kNoJoint) return hips;
         for (int joint = 0; joint < rig_.count(); ++joint) {
             const NameEvidence& name = rig_.names[joint];
             const int root = rig_.parents[joint];
             if (name.helper || name.side != Side::center || root == kNoJoint) continue;
-            if (name.parts[Part::trunk] < kToldTrunkPart || rig_.names[root].parts[Part::hips] <= 0.0F) continue;
+            if (name.parts[Part::trunk] < kTellsTrunkEnd || rig_.names[root].parts[Part::hips] <= 0.0F) continue;
             if (!rig_.skinned || rig_.directWeight[root] > 0.0F) return root;
         }
         return crossed_ != kNoJoint ? bodyOfCrossedArms() : kNoJoint;
@@ -124,7 +122,7 @@ class Imaginer {
         const int body = rig_.parents[crossed_];
         if (body == kNoJoint || (rig_.skinned && rig_.directWeight[body] <= 0.0F)) return kNoJoint;
         for (const Side side : {Side::left, Side::right}) {
-            const int thigh = named(Part::upperLeg, side, kToldLimb);
+            const int thigh = named(Part::upperLeg, side, kTellsPartOfLimb);
             if (thigh == kNoJoint || rig_.parents[thigh] != body) return kNoJoint;
         }
         return body;
@@ -133,7 +131,7 @@ class Imaginer {
     // The head, else the neck, else the highest of at least two joints of a spine.
     [[nodiscard]] int topOfTrunk() const {
         for (const Part part : {Part::head, Part::neck}) {
-            const int joint = named(part, Side::center, kToldTrunkPart);
+            const int joint = named(part, Side::center, kTellsTrunkEnd);
             if (joint != kNoJoint) return joint;
         }
         int highest = kNoJoint;
@@ -141,7 +139,7 @@ class Imaginer {
         for (int joint = 0; joint < rig_.count(); ++joint) {
             const NameEvidence& name = rig_.names[joint];
             if (name.helper || name.side != Side::center) continue;
-            if (std::max(name.parts[Part::trunk], name.parts[Part::chest]) < kToldTrunkPart) continue;
+            if (std::max(name.parts[Part::trunk], name.parts[Part::chest]) < kTellsTrunkEnd) continue;
             ++count;
             if (highest == kNoJoint || rig_.positions[joint].y > rig_.positions[highest].y) highest = joint;
         }
@@ -150,16 +148,16 @@ class Imaginer {
 
     // From the right to the left, level; of the limbs that are there.
     [[nodiscard]] vec3 across(Part upper) const {
-        const vec3 left = rig_.positions[named(upper, Side::left, kToldLimb)];
-        const vec3 right = rig_.positions[named(upper, Side::right, kToldLimb)];
+        const vec3 left = rig_.positions[named(upper, Side::left, kTellsPartOfLimb)];
+        const vec3 right = rig_.positions[named(upper, Side::right, kTellsPartOfLimb)];
         const vec3 level(left.x - right.x, 0.0F, left.z - right.z);
         const float length = glm::length(level);
         return length > 0.0F ? level / length : vec3(0);
     }
 
     [[nodiscard]] std::optional<CompletedRig> withLegs(int hips) const {
-        const vec3 shoulders = 0.5F * (rig_.positions[named(Part::upperArm, Side::left, kToldLimb)] +
-                                       rig_.positions[named(Part::upperArm, Side::right, kToldLimb)]);
+        const vec3 shoulders = 0.5F * (rig_.positions[named(Part::upperArm, Side::left, kTellsPartOfLimb)] +
+                                       rig_.positions[named(Part::upperArm, Side::right, kTellsPartOfLimb)]);
         const float length = kLegsToRise * (shoulders.y - rig_.positions[hips].y);
         const vec3 aside = 0.15F * length * across(Part::upperArm);
         if (length <= 0.0F || glm::length(aside) <= 0.0F) return std::nullopt;
@@ -170,7 +168,7 @@ class Imaginer {
 
     [[nodiscard]] std::optional<CompletedRig> withArms(int hips, int top) const {
         int chest = rig_.parents[top];
-        while (chest != kNoJoint && rig_.names[chest].parts[Part::neck] >= kToldTrunkPart)
+        while (chest != kNoJoint && rig_.names[chest].parts[Part::neck] >= kTellsTrunkEnd)
             chest = rig_.parents[chest];
         if (chest == kNoJoint) return std::nullopt;
         const vec3 start =

@@ -8,9 +8,10 @@
 
 namespace lutka::animation {
 
-inline constexpr float kTellsPartOfLimb =
-    1.5F;  ///< A part's score from which a name says which part of a limb this is …
-inline constexpr float kTellsTrunkEnd = 2.0F;  ///< … and from which it says that this is the hips or the head.
+/// A part's score from which a name says that a joint is this part: of a limb …
+inline constexpr float kTellsPartOfLimb = 1.5F;
+/// … and of the trunk, from the hips to the head.
+inline constexpr float kTellsTrunkEnd = 2.0F;
 
 /// What a joint's name says.
 struct NameEvidence {

@@ -143,8 +143,8 @@ void readDrivingPrefix(const std::vector<std::string>& names, RigFeatures& rig) 
     }
 }
 
-// Where many joints say that they deform the skin and others that they are the machinery behind, what says neither is a
-// control for the animator. Without a skin one is as good as the other.
+// A rig of Rigify calls the joints that deform the skin DEF-…, and those of the machinery behind them MCH-…. All joints
+// but the first are then controls. Without a skin one is as good as the other.
 void readDeformingPrefix(const std::vector<std::string>& names, RigFeatures& rig) {
     constexpr int kFewest = 12;
     const auto count = [&](std::string_view prefix) {
@@ -172,13 +172,12 @@ void believeSkinnedControls(RigFeatures& rig) {
 // A leaf without skin that is named as a limb's lower part, where the upper one goes on in skin elsewhere: what the
 // limb's control points at ("knee" before the knee).
 bool isPole(const RigFeatures& rig, int joint, Part part) {
-    constexpr float kTellingName = 1.5F;
     if (!rig.children[joint].empty() || rig.subtreeWeight[joint] > 0.0F) return false;
     const Part upper = part == Part::lowerLeg ? Part::upperLeg : Part::upperArm;
     if (part == upper) return false;
     for (int above = 0; above < rig.count(); ++above) {
         const NameEvidence& name = rig.names[above];
-        if (name.side != rig.names[joint].side || name.parts[upper] < kTellingName) continue;
+        if (name.side != rig.names[joint].side || name.parts[upper] < kTellsPartOfLimb) continue;
         if (rig.isAncestorOrSelf(above, joint)) continue;
         const auto goesOn = [&](int child) { return rig.subtreeWeight[child] > 0.0F; };
         if (std::any_of(rig.children[above].begin(), rig.children[above].end(), goesOn)) return true;
@@ -189,7 +188,6 @@ bool isPole(const RigFeatures& rig, int joint, Part part) {
 // A file may hold the skin of a part alone (a face, trousers, an avatar's hands), and joints for the whole figure.
 // Where names tell all joints of arms and legs and many of those carry none, the skin proves nothing about the limbs.
 void doubtPartialSkin(RigFeatures& rig) {
-    constexpr float kTellingName = 1.5F;
     constexpr std::array<Part, 4> kLimbs{Part::upperArm, Part::lowerArm, Part::upperLeg, Part::lowerLeg};
     if (!rig.skinned) return;
     bool partly = false;
@@ -200,7 +198,7 @@ void doubtPartialSkin(RigFeatures& rig) {
             bool carries = false;
             for (int joint = 0; joint < rig.count(); ++joint) {
                 const NameEvidence& name = rig.names[joint];
-                if (name.side != side || name.helper || name.parts[part] < kTellingName) continue;
+                if (name.side != side || name.helper || name.parts[part] < kTellsPartOfLimb) continue;
                 if (isPole(rig, joint, part)) continue;
                 named = true;
                 carries = carries || rig.subtreeWeight[joint] > 0.0F;
