@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "core/files.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"

@@ -8,6 +8,7 @@
 
 #include "bench_frames.hpp"
 #include "commands.hpp"
+#include "console.hpp"
 #include "core/files.hpp"
 #include "options.hpp"
 #include "outputs.hpp"

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "core/files.hpp"
 #include "options.hpp"
 #include "outputs.hpp"

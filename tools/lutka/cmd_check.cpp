@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "core/files.hpp"
 #include "options.hpp"
 #include "outputs.hpp"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "core/files.hpp"
 #include "export/export_ragdoll.hpp"
 #include "options.hpp"

@@ -6,6 +6,7 @@
 #include "animation/clip_reference.hpp"
 #include "animation/joint_paths.hpp"
 #include "commands.hpp"
+#include "console.hpp"
 #include "options.hpp"
 
 namespace lutka::cli {

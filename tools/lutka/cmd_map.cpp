@@ -7,6 +7,7 @@
 #include "animation/segments/appendages.hpp"
 #include "animation/segments/segment_rig.hpp"
 #include "commands.hpp"
+#include "console.hpp"
 #include "core/files.hpp"
 #include "options.hpp"
 #include "outputs.hpp"

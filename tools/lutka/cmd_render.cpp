@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "core/files.hpp"
 #include "outputs.hpp"
 #include "render/frame_writer.hpp"

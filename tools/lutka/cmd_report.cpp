@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "core/files.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"

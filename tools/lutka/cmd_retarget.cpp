@@ -8,6 +8,7 @@
 #include "animation/retarget/retarget_clip.hpp"
 #include "clip_output.hpp"
 #include "commands.hpp"
+#include "console.hpp"
 #include "core/files.hpp"
 #include "options.hpp"
 #include "outputs.hpp"

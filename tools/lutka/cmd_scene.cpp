@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "core/files.hpp"
 #include "options.hpp"
 #include "scene/description/scene_file.hpp"

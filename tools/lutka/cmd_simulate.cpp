@@ -4,6 +4,7 @@
 
 #include "clip_output.hpp"
 #include "commands.hpp"
+#include "console.hpp"
 #include "run_simulation.hpp"
 #include "scene/measure/report.hpp"
 

@@ -183,8 +183,8 @@ LeftOver leftOver(const CLI::App& app, const std::vector<std::string>& plain) {
     return left;
 }
 
-// What is wrong with the arguments in our words, where CLI11's do not say which of them it is; else empty. `misses`:
-// CLI11 misses an option, which may be the one that is misspelled.
+// The argument that is misspelled, as a sentence for the user; empty if none is. CLI11's own message does not always
+// name it. `misses`: CLI11 says that an option is missing, which may be the misspelled one.
 std::string misspelled(const CLI::App& app, const std::vector<std::string>& plain, bool misses) {
     const std::vector<CLI::App*> given = app.get_subcommands();
     const LeftOver left = leftOver(app, plain);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -149,55 +148,7 @@ void addSolverOption(const Command& app, std::string& solver);
 /// WIDTHxHEIGHT in pixels, each in [16, 16384]; leaves with wrong usage otherwise.
 [[nodiscard]] render::Extent parseSize(const std::string& text);
 
-/// Whether --quiet was given.
-[[nodiscard]] bool isQuiet();
-
-/// Prints to stdout, well-formed and with control characters but line breaks as blanks: paths may bring all along.
-void printClean(std::string_view text);
-
-/// Prints what is for people to stdout, but not with --quiet.
-template <class... Args>
-void tell(fmt::format_string<Args...> format, Args&&... args) {
-    if (!isQuiet()) printClean(fmt::format(format, std::forward<Args>(args)...));
-}
-
-/// With --verbose: tells on stderr how long its life took.
-class Stopwatch {
-  public:
-    explicit Stopwatch(std::string what);
-    ~Stopwatch();
-    Stopwatch(const Stopwatch&) = delete;
-    Stopwatch& operator=(const Stopwatch&) = delete;
-
-  private:
-    std::string what_;
-    std::chrono::steady_clock::time_point begun_;
-};
-
 /// Reads the model and makes its ragdoll; leaves on errors.
 [[nodiscard]] std::unique_ptr<scene::RagdollAsset> loadAsset(const RagdollOptions& options);
-
-/// A bar on stderr, with the time left, while that is a terminal; silent otherwise and with --quiet.
-class Progress {
-  public:
-    Progress(std::string what, int total);
-    ~Progress();
-    Progress(const Progress&) = delete;
-    Progress& operator=(const Progress&) = delete;
-    void at(int done);
-
-  private:
-    std::string what_;
-    int total_;
-    bool terminal_;
-    std::chrono::steady_clock::time_point begun_;
-    std::chrono::steady_clock::time_point drawn_;
-};
-
-/// Prints the character's and the map's warnings to stderr, one a line.
-void printWarnings(const animation::Character& character);
-void printWarnings(const animation::HumanoidMap& map);
-/// Both, and a word when a profile of another rig was bound by role.
-void printWarnings(const scene::RagdollAsset& asset);
 
 }  // namespace lutka::cli

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "bake_outputs.hpp"
+#include "console.hpp"
 #include "core/files.hpp"
 #include "input_settings.hpp"
 #include "interrupt.hpp"
