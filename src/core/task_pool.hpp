@@ -24,11 +24,10 @@ class TaskPool {
     void parallelFor(std::size_t count, std::size_t grain,
                      const std::function<void(std::size_t begin, std::size_t end)>& body) const;
 
-    /// `rounds` of work on a row of items of which neighbours must not be worked on at the same time. Calls
-    /// body(round, item) for each round and item: in a round those of even number before their neighbours of odd
-    /// number, and those of the round before that are neighbours or the item itself before both. So it comes to the
-    /// same as one round after another, the even items first, at any number of threads. Nothing waits for more than its
-    /// neighbours. An exception reaches the caller as in parallelFor(). At most kMostItems.
+    /// `rounds` of work on a row of items of which neighbours must not be worked on at the same time: body(round, item)
+    /// for each round and item. The outcome is that of one round after another, the even items before the odd ones, at
+    /// any number of threads. A call waits only for those of its neighbours and its own item: in the round before, and,
+    /// for an odd item, in the same round. An exception reaches the caller as in parallelFor(). At most kMostItems.
     static constexpr int kMostItems = 64;
     void parallelRounds(int rounds, int items, const std::function<void(int round, int item)>& body) const;
 

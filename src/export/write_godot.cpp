@@ -183,8 +183,8 @@ class GodotWriter {
         return list;
     }
 
-    // A bone hangs on what its joint is told from (the rig's base), so that a body's nearest body above is its parent
-    // also where the file hangs a foot on an IK root.
+    // A bone's parent is the base of its joint in the rig, not the joint's parent in the file. So the nearest body
+    // above a body is its parent even where the file hangs a foot on an IK root.
     void skeleton() {
         text_.blank();
         text_.line("[node name=\"{}\" type=\"{}\" parent=\".\"]", skeletonName(), skeletonName());

@@ -121,7 +121,7 @@ void frameSphere(Camera& camera, const vec3& center, float radius, float aspect,
 
 // Along one axis of the picture an eye at `e`, `d` before the middle, sees a point (x across, f farther away) between
 // the slopes `low` and `high` when low * (f + d) <= x - e <= high * (f + d). Both ends are linear in e and d: the
-// nearest eye is where the point that reaches highest and the one that reaches lowest touch their edges.
+// nearest eye is the one for which the highest point touches one edge of the picture and the lowest the other.
 namespace {
 
 struct AxisReach {

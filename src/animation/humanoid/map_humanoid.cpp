@@ -179,8 +179,8 @@ float leastShapeOf(const CompletedRig& completed, const Figure& figure) {
     return named ? kLeastShapeOfImages : kLeastShapeUnnamed;
 }
 
-// A figure that lacks a whole arm or leg is read by the mirror image of the one that it has, and one that lacks both by
-// limbs as a human has them. Where names tell all limbs, none is missing, however a pose bends them.
+// A missing arm or leg is replaced by the mirror image of the other, and a missing pair by limbs of a human's
+// proportions. Where names tell all limbs, none is missing, however a pose bends them.
 Reading readFigure(const RigFeatures& rig) {
     Reading reading;
     reading.figure = findFigure(rig);

@@ -22,9 +22,9 @@ inline constexpr double kClearlyPlainer = 1.02;
 /// less where the trunk is bent over the legs. In [0, 1].
 [[nodiscard]] double stretch(std::span<const int> parents, std::span<const dmat4> scene);
 
-/// In a file with clips and no mesh, or with a few rigid ones (a face, a weapon), the nodes' own pose binds nothing,
-/// and some exporters write none: all nodes in one place, or along one axis. Such nodes are given the pose of the frame
-/// that shows the figure most plainly, the earliest of those that do; a warning tells which.
+/// In a file with clips and no mesh, or with a few rigid ones (a face, a weapon), the nodes' own pose binds nothing.
+/// Some exporters write none: all nodes stand in one place, or along one axis. Such nodes take the pose of the frame
+/// with the most plainness(), the earliest where several have it; a warning tells which.
 void poseBareSkeleton(SourceScene& scene);
 
 }  // namespace lutka::animation::rig_import

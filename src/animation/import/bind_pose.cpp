@@ -286,7 +286,8 @@ class BindSolver {
         return chooseFrame(box, meshNode, middle, alike, votes);
     }
 
-    // The frame that takes the joints' places in the mesh to where their nodes are, whatever sizes their frames have.
+    // The frame that takes the joints' positions in the mesh to those of their nodes. Scales of the joints' own frames
+    // do not count.
     std::optional<dmat4> frameByPlaces(const MeshInstance& mesh, const MeshExtent& box) const {
         std::vector<dvec3> inMesh;
         std::vector<dvec3> inScene;

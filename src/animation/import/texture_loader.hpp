@@ -17,9 +17,13 @@ namespace lutka::animation::rig_import {
 
 /// Finds and decodes a scene's pictures, each once.
 ///
-/// Looks among the embedded ones first, then at the path as written, then for its base name (also of an absolute
-/// Windows path) in the model's folder and its `textures` folders, whatever the case, and with another picture's ending
-/// where the one that is named is not there. Only what the folder admits is opened.
+/// Looks for a picture in this order; only what the folder admits is opened:
+/// 1. among the embedded ones;
+/// 2. at the path as written;
+/// 3. by its base name (also of an absolute Windows path) in the model's folder and its `textures` folders, whatever
+/// the
+///    case of its letters;
+/// 4. there with the ending of another kind of picture.
 class TextureLoader {
   public:
     /// Gives a picture that is in the model file itself, by its path or number there; nothing when it isn't.

@@ -42,8 +42,8 @@ enum class RootMotion { keep, extract };
 
 /// Plays clips of a library on one figure: layers of cross-faded clips, lowest first, over the bind pose.
 ///
-/// A clip that is started covers what its layer shows over its fade, along 3t² - 2t³, while that goes on. A fade may be
-/// interrupted at any moment by any number of others: the pose stays continuous, since what no longer fits among a
+/// A clip that is started fades in over what its layer shows, with the weight 3t² - 2t³; the clips below go on
+/// meanwhile. Any number of fades may interrupt one another, and the pose stays continuous: what no longer fits among a
 /// layer's plays is held as a pose. Everything is allocated when the player is made. The same calls give the same bits.
 class ClipPlayer {
   public:

@@ -16,9 +16,9 @@ struct RootMotionSettings {
     vec3 up{0, 1, 0};        ///< Unit, model space.
 };
 
-/// The ground frame of a pose: where the settings' joint is over the ground and how it heads, of which only the parts
-/// that are asked for. In model space; `parentFromJoint` holds jointCount() frames, `firstHeight` is the joint's height
-/// in the first frame. Identity without a joint.
+/// The ground frame of a pose, model space: the place of the settings' joint over the ground and its heading, as far as
+/// the settings ask for them. `parentFromJoint` holds jointCount() frames, `firstHeight` is the joint's height in the
+/// first frame. Identity without a joint.
 [[nodiscard]] RigidTransform groundFrame(const Skeleton& skeleton, const RootMotionSettings& settings,
                                          std::span<const RigidTransform> parentFromJoint, float firstHeight);
 

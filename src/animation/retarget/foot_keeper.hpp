@@ -16,19 +16,21 @@ struct FootMotion {
     std::array<float, 2> legReach{};        ///< From hip joint to ankle when straight, metres.
 };
 
-/// How the feet are to be moved so that they stand where the source's do: a point that stands in the source is held to
-/// one place and its height on the floor for as long, a heel that comes down before its ball takes over from it without
-/// a step, and between contacts the foot comes back to its own way within `blendSeconds`. No part of a sole goes below
-/// the floor. The hips move with what the standing feet need in the mean, and down where a leg is too short, smoothly
-/// over time. One shift a frame.
+/// How the feet are to be moved so that they stand where the source's do; one shift a frame.
+/// - While heel or ball stands in the source, it is held to one place at its height on the floor. From heel to ball the
+///   hold goes over without a jump.
+/// - Between contacts the foot comes back to its own way within `blendSeconds`.
+/// - No part of a sole goes below the floor.
+/// - The hips move by the mean of what the standing feet need, and down where a leg is too short, smoothly over time.
 [[nodiscard]] std::vector<FootShift> keepFeet(const AnatomicalRig& target, const FootMotion& motion,
                                               const std::array<FootContact, 2>& contacts, float framesPerSecond,
                                               float blendSeconds = 0.2F);
 
-/// How the hips are to be turned on top of what they do, a rotation vector a frame (FootShift::hipsTurn), so that feet
-/// that both stand need not be held by the legs: hips that are wide for the length of the legs draw the feet farther
-/// apart than the source's as they turn. `excessWidth`, of their width, [0, 1): by how much they are wider than the
-/// source's in proportion; with 0 they stay as they turn. In between they go on a straight way, smoothly over time.
+/// How the hips are to be turned on top of what they do, a rotation vector a frame (FootShift::hipsTurn). Hips that are
+/// wide for the length of the legs draw the feet farther apart than the source's as they turn; where both feet stand,
+/// the legs would have to make up for it. `excessWidth`, of their width, [0, 1): by how much they are wider than the
+/// source's in proportion; 0: no turn. Between frames in which both feet stand the turn is interpolated; all of it is
+/// smoothed over time.
 [[nodiscard]] std::vector<vec3> hipsTurns(const AnatomicalRig& target, const FootMotion& motion,
                                           const std::array<FootContact, 2>& contacts, float excessWidth,
                                           float framesPerSecond, float blendSeconds = 0.2F);

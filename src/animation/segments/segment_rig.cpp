@@ -10,8 +10,8 @@
 namespace lutka::animation {
 namespace {
 
-// Of any creature the skin tells what moves, also where limbs that have a man's names move none of it: their skin hangs
-// on other joints.
+// For a creature, the skin says which joints count. Joints with a man's names may move none of it: the skin of those
+// limbs then follows other joints.
 RigFeatures readCreature(const Character& character) {
     RigFeatures rig = readRig(character, true);
     rig.skinned = rig.skinned || rig.partlySkinned;

@@ -124,8 +124,8 @@ class EditorDocument {
     [[nodiscard]] const physics::Diagnosis& diagnosis() const;
     /// Whether mend() can do something about it.
     [[nodiscard]] bool canMend(const physics::Finding& finding) const;
-    /// Mends these findings (those that are mendable), and what of the same kinds comes to light by that, as one entry
-    /// of undo. What comes of a role on a wrong joint is mended there: the role is free again. Fails as
+    /// Mends these findings, as far as they are mendable, and others of the same kinds that come to light by it, as one
+    /// entry of undo. Where a role on a wrong joint is the cause, that role is set free. Fails as
     /// physics::applyMends() does, and with ErrorCode::input when they come back every time.
     [[nodiscard]] Result<void> mend(std::span<const physics::Finding> findings);
 

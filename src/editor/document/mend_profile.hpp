@@ -8,8 +8,9 @@
 
 namespace lutka::editor {
 
-/// The roles that the user fixed on joints that can't be theirs, as far as they bring about `asked`: `all` findings
-/// tell of a joint that is not below that of the role above, of the same body or of one that it is linked to.
+/// The roles that the user fixed on joints that can't be theirs, as far as they are the cause of findings in `asked`:
+/// those of bodies with a finding joint-not-below in `all`, and of their parents, where such a body is, or is linked
+/// to, one of those in `asked`.
 [[nodiscard]] std::vector<animation::Role> fixedToBlame(const DocumentState& state,
                                                         std::span<const physics::Finding> all,
                                                         std::span<const physics::Finding> asked);

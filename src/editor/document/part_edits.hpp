@@ -11,7 +11,7 @@
 
 namespace lutka::editor {
 
-/// What the user changed of one body and of the constraint that hangs it on its parent, whatever a new fit says.
+/// What the user changed of one body and of the constraint to its parent. It stays when the ragdoll is fitted anew.
 struct PartEdits {
     std::optional<physics::BodyShape> shape;
     std::optional<RigidTransform> jointFromBody;

@@ -8,8 +8,9 @@
 
 namespace lutka::editor {
 
-/// What was loaded or saved last, for each profile that a document was based on, and the files that are the session's
-/// own because it opened or wrote them. A base is named by the file it was read from; an empty name is the fit.
+/// What was loaded or saved last, one entry for each profile that the document was based on. A base is named by the
+/// file it was read from; an empty name is the fit. It also knows the session's own files: those that it opened or
+/// wrote.
 class SavedProfiles {
   public:
     /// The fit as it was made: nothing is on disk yet.

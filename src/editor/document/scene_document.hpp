@@ -59,11 +59,12 @@ class SceneDocument {
     [[nodiscard]] bool hasFile() const { return !file_.empty(); }
     /// The scene counts as saved there (it was just read from it).
     void setFile(const std::filesystem::path& file);
-    /// The file and what counts as saved in it are those of a document that gives way to this one.
+    /// Takes over the file, and what counts as saved in it, of the document that this one replaces.
     void takeFileOf(const SceneDocument& old);
     /// Writes the scene without taking the file for its own. As save() else.
     [[nodiscard]] Result<void> write(const std::filesystem::path& file) const;
-    /// Characters that name no model are written with that of the edited one, and its profile when that is a file.
+    /// A character without a model of its own is written with the model of the edited one, and with its profile's file
+    /// where it has one.
     [[nodiscard]] Result<void> save(const std::filesystem::path& file);
 
   private:

@@ -11,8 +11,8 @@ struct MonitorMeasures {
     float heightMm = 0.0F;
 };
 
-/// How much larger than on 96 dots per inch panels are to be: the user's own setting; where that says nothing, by the
-/// size of a pixel, so that a small 4K screen has panels that can be read. [0.75, 4].
+/// How much larger than on 96 dots per inch panels are to be, [0.75, 4]. The user's own setting comes first. Without
+/// one it goes by the size of a pixel, so that panels can be read on a small 4K screen.
 [[nodiscard]] float uiScaleFor(const MonitorMeasures& monitor);
 
 /// The window for panels of that scale: larger with them, and at most nine tenths of what the monitor has free; never

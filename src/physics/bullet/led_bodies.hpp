@@ -10,8 +10,9 @@
 
 namespace lutka::physics {
 
-/// The bodies of one doll that are led to a BodyTarget. Before a substep each has the velocity that leads it there: all
-/// of it where it is kinematic and so heavy that nothing changes it, else what a spring gives its own mass.
+/// The bodies of one doll that are led to a BodyTarget. Before a substep each gets a velocity towards its target. A
+/// kinematic one gets the whole velocity, and is so heavy that nothing changes it; others get what a spring gives their
+/// own mass.
 class LedBodies {
   public:
     /// `inertia` as the body was made with; all must outlive this. `gravity` is the world's.

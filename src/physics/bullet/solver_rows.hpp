@@ -299,8 +299,8 @@ template <class... Bodies>
     return normal.inverseEffectiveMass > 0.0F ? squareOf(change / normal.inverseEffectiveMass) : 0.0F;
 }
 
-// Warm starting, of any kind of rows: what the kept impulses do to the two bodies, the work that their targets ask of
-// them (target · impulse) and that of their softness (softness · impulse²), and the part of them that is applied.
+// Warm starting, for each kind of rows. gather(): what the kept impulses do to the two bodies. Then the work that their
+// targets ask of them (target · impulse), that of their softness (softness · impulse²), and the part that is applied.
 
 inline void gather(PushSum& a, PushSum& b, const PointRows& rows) {
     a.linear -= rows.impulse;

@@ -43,10 +43,13 @@ struct BoxManifold {
     int count = 0;
 };
 
-/// One normal for all points: that of the least overlap. Of a face they are the corners of the other box's face,
-/// clipped by its sides, that lie below it or less than `reach` metres above; of two edges it is where they are
-/// nearest, or both ends of what they share where they are nearly parallel, and the same of the edge on the other side
-/// of a face that lies across the other's edge. Empty where the boxes are kSamePlace or more apart.
+/// One normal for all points: that of the least overlap.
+/// - Of a face: the corners of the other box's face, clipped by the sides of this one, that lie below it or less than
+///   `reach` metres above it.
+/// - Of two edges: where they are nearest, or both ends of what they share where they are nearly parallel. Where one
+///   box's face lies across the other's edge, the edge on the other side of that face has its points, too.
+///
+/// Empty where the boxes are kSamePlace or more apart.
 [[nodiscard]] BoxManifold touchBoxes(const BoxPlace& a, const BoxPlace& b, float reach);
 
 }  // namespace lutka::physics

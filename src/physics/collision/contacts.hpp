@@ -43,10 +43,13 @@ struct ContactList {
     }
 };
 
-/// The contacts of A with B that are nearer than `margin` metres, in closed form: a lying capsule has one at each end,
-/// a box or hull on a plane one at each corner (of a box the four lowest, of a hull the eight), a round shape on a mesh
-/// as touchMesh() says, a box or hull on a mesh at its own corners, at the mesh's vertices and where its edges cross
-/// sharp ones of the mesh. Two of boxes and hulls, two planes or meshes are not handled: no contacts.
+/// The contacts of A with B that are nearer than `margin` metres, in closed form:
+/// - a capsule that lies has one at each end;
+/// - a box or hull on a plane has one at each corner, of a box at the four lowest, of a hull at the eight lowest;
+/// - a round shape on a mesh has those of touchMesh();
+/// - a box or hull on a mesh has them at its own corners, at the mesh's vertices, and where its edges cross sharp ones.
+///
+/// There are none between two of boxes and hulls, nor between two of planes and meshes: these are not handled.
 [[nodiscard]] ContactList findContacts(const CollisionGeometry& a, const CollisionGeometry& b, float margin);
 
 }  // namespace lutka::physics

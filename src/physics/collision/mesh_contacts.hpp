@@ -31,9 +31,9 @@ struct MeshContactList {
     void add(const MeshContact& contact);
 };
 
-/// Contacts of one point of a core, number `part` in [0, 63), nearer to the surface than `reach` metres: where the
-/// distance to the surface has a minimum of its own, so that neighbouring triangles of a plane give one contact with
-/// the plane's normal and nothing bumps into the edge between them, while the two sides of a valley give one each. A
+/// Contacts of one point of a core, number `part` in [0, 63), nearer to the surface than `reach` metres. There is one
+/// for each local minimum of the distance to the surface: neighbouring triangles of a plane give one contact with the
+/// plane's normal, so that nothing bumps into the edge between them, and the two sides of a valley give one each. A
 /// point behind the surface, up to kDeepestInMesh, has one contact that leads out the shortest way.
 void touchMesh(const TriangleMesh& mesh, const vec3& point, int part, float reach, MeshContactList& out);
 

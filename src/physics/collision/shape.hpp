@@ -49,8 +49,8 @@ namespace lutka::physics {
 /// Half the sides of the box along a hull's axes that has its moments, metres.
 [[nodiscard]] vec3 halfBoxOfMoments(const ConvexHull& hull);
 
-/// What stands best for a hull where there are no hulls: the box along its axes with its moments or, where it is
-/// clearly rounder than that, the capsule along the longest of them that is as long and as thick.
+/// The shape in place of a hull for engines without hulls: the box along the hull's axes that has its moments, or, for
+/// a clearly rounder hull, a capsule along the longest axis, as long and as thick as the hull.
 struct StandIn {
     PrimitiveShape shape;  ///< Capsule or box.
     RigidTransform hullFromShape;

@@ -53,9 +53,9 @@ struct CoreTouch {
     SurfaceDistance surface;
     int part = 0;  ///< 0: the core's start, 1: its end, 2: in between.
 };
-/// Either end of the core (in the box's frame) that is nearer to the box than `reach` metres, and the point in between
-/// that is nearest of all where an edge or corner of the box presses there: not where both ends are over the same face.
-/// A core of no length has its start alone.
+/// The points of a core (in the box's frame) that touch a box: each end that is nearer to it than `reach` metres, and
+/// the nearest point in between where an edge or corner of the box presses. There is none in between where both ends
+/// are over the same face. A core of no length has its start alone.
 struct CoreTouches {
     std::array<CoreTouch, 3> points;
     int count = 0;
@@ -65,8 +65,8 @@ struct CoreTouches {
 /// One of a box's twelve edges in its own frame: `index` % 4 tells the corner of its face, `index` / 4 its axis.
 [[nodiscard]] Segment boxEdge(const vec3& halfExtents, int index);
 
-/// Where the edge of another box (in this box's frame) is nearer to the box than `reach` metres: the two ends of what
-/// lies over the face that is nearest, or the one nearest point where that is an edge or a corner.
+/// Where the edge of another box (in this box's frame) is nearer to the box than `reach` metres. Where a face is
+/// nearest: the two ends of what lies over it. Where an edge or corner is: the one nearest point.
 struct EdgeTouches {
     std::array<CoreTouch, 2> points;  ///< `part`: 0 and 1 the ends, 2 the one point.
     int count = 0;

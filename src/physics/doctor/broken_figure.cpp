@@ -232,8 +232,9 @@ float touchingShare(const PlannedBody& body, const PlacedShape& shape, float hei
     return touching / areaOf(body);
 }
 
-// A body whose middle lies beside all the skin that follows it, and that hardly touches any of it: a capsule above the
-// skull, an arm's in the air. A leg of which clothes hide all but the ankle touches that.
+// A body that lies beside its skin: its middle is outside of all of it, and it hardly touches any. Examples are a
+// capsule above the skull, or an arm's in the air. A leg whose skin is the ankle alone, below trousers, does touch
+// that.
 void findBodiesBesideSkin(const BodyPlan& plan, std::span<const PlacedShape> shapes, std::vector<Finding>& findings) {
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const PlannedBody& body = plan.bodies[i];

@@ -299,8 +299,8 @@ void findEnds(BodyPlan& plan, const Character& character, const HumanoidMap& map
     }
 }
 
-// Where all joints of a figure, or those of all its pairs, stand in one place (parts that were modelled where they
-// belong, with their joints left at the origin), the joints tell nothing about where the figure's middle is.
+// Some figures have parts that were modelled in place, with their joints left at the origin. Where all joints stand in
+// one place, or the two of every pair do, they say nothing about where the figure's middle is.
 bool tellsMiddle(const BodyPlan& plan) {
     if (plan.bodies.size() == 1) return true;
     const float apart = kSymmetryTolerance * plan.heightM;

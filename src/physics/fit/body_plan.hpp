@@ -64,9 +64,10 @@ inline constexpr float kSymmetryTolerance = 0.02F;
 /// Which roles get a body: hips, spine, the topmost trunk role, head and the limbs, as far as they are mapped, and what
 /// the options add; with the segments and the skin of each. The map must be a humanoid's with hips.
 ///
-/// A joint's skin belongs to its own body, else to that of the nearest joint above it with a role (a role without a
-/// body counts for the nearest role above that has one), else, where a rig hangs limbs on control joints, to the body
-/// whose segment is nearest.
+/// A joint's skin belongs to the first of these bodies that there is:
+/// 1. the joint's own;
+/// 2. that of the nearest joint above it with a role; a role without a body counts for the nearest role above with one;
+/// 3. the one whose segment is nearest, as in rigs that hang limbs on control joints.
 [[nodiscard]] BodyPlan planBodies(const animation::Character& character, const animation::HumanoidMap& map,
                                   const FitOptions& options, std::span<const animation::Segment> segments = {});
 

@@ -30,13 +30,16 @@ struct BoxBounds {
     float nearM = 0.02F;         ///< Metres: skin nearer to the surface counts as covered.
 };
 
-/// A box in place of `capsule` where the skin is one, as the parts of figures made of blocks are: its mean distance
-/// from the box's surface is at most half of that from the capsule's (a quarter, where no 0.15 of the skin come within
-/// `nearM` that were not), and at most 0.12 of the box's thinnest half, which no round part keeps to; at least 0.9 of
-/// the skin is within `nearM`. Plates, thinner than 0.4 of their width, stay capsules: they slip through one another.
+/// A box in place of `capsule` where the skin is a block, as in figures made of blocks. All of this must hold:
+/// - the skin's mean distance from the box's surface is at most half of that from the capsule's, or a quarter where the
+///   box brings less than 0.15 of the skin to within `nearM`;
+/// - that distance is at most 0.12 of the box's smallest half extent, which no round part keeps to;
+/// - at least 0.9 of the skin is within `nearM`;
+/// - the box is at least 0.4 as thick as it is wide: thin plates slip through one another.
 ///
-/// The turn is the one of 18 in a quarter about the axis whose box of the skin's quantiles is nearest (a limb whose
-/// joints lie at the corners of its blocks has its box upright); then a coordinate search over middle and half extents.
+/// The search tries 18 turns in a quarter about the axis, each with the box of the skin's quantiles, and takes the
+/// nearest. A coordinate search over middle and half extents follows. A limb whose joints lie at the corners of its
+/// blocks has its box upright.
 [[nodiscard]] std::optional<PlacedBox> fitBox(const std::vector<SkinPoint>& points, const Capsule& capsule,
                                               const BoxBounds& bounds);
 

@@ -24,16 +24,19 @@ struct Capsule {
 
 /// A shape for every body of the plan.
 ///
-/// Each capsule minimises the area-weighted mean distance of its skin to its surface, cut off at 4 % of the height or,
-/// where that is more, half the spread of the part (so that hair, skirts and weapons weigh little), by a coordinate
-/// search that starts from robust quantiles. Limbs keep the axis from joint to joint, displaced towards the middle of
-/// the flesh, and end near the joints; trunk capsules stand or lie across, whichever fits better; the head stands; feet
-/// lie on the sole. Bodies with fewer than 24 points of skin get a man's proportions. Radii are kept between 1 % and 15
-/// % of the height (trunk 35, head 30 %). On a symmetric rig both sides are fitted as one and come out as mirror
-/// images. Bodies whose skin is a block become boxes (fitBox()), but for feet and the lowest bodies of legs. A trunk or
-/// head that several capsules cover clearly better (fitSeveralCapsules()) gets up to `mostShapes` of them, where none
-/// of the further ones comes into a body that is not linked. Bodies that are asked for as hulls become them
-/// (takeHulls()). Shapes of bodies that are not linked are then shrunk by up to a quarter where that keeps them apart.
+/// A coordinate search from robust quantiles finds the capsule with the least area-weighted mean distance between skin
+/// and surface. A distance counts at most 4 % of the height, or half the spread of the part where that is more, so that
+/// hair, skirts and weapons weigh little.
+/// - Limbs keep the axis from joint to joint, displaced towards the middle of the flesh, and end near the joints. Trunk
+///   capsules stand or lie across, whichever fits better. The head stands. Feet lie on the sole.
+/// - Bodies with fewer than 24 points of skin get a man's proportions.
+/// - Radii are between 1 % and 15 % of the height (trunk 35 %, head 30 %).
+/// - On a symmetric rig both sides are fitted as one and come out as mirror images.
+/// - Bodies whose skin is a block become boxes (fitBox()), but for feet and the lowest bodies of legs.
+/// - A trunk or head that several capsules cover clearly better (fitSeveralCapsules()) gets up to `mostShapes` of them,
+///   if none of the further ones reaches into a body that is not linked.
+/// - Bodies that are asked for as hulls become hulls (takeHulls()).
+/// - At last, shapes of bodies that are not linked shrink by up to a quarter where that keeps them apart.
 [[nodiscard]] std::vector<PlacedShape> fitShapes(const BodyPlan& plan, const Anatomy& anatomy,
                                                  int mostShapes = FitOptions{}.mostShapes);
 

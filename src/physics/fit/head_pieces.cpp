@@ -154,8 +154,9 @@ float shareWithin(const Piece& piece, const Aabb& box, float margin) {
     return static_cast<float>(inside) / static_cast<float>(piece.points.size());
 }
 
-// How far from the skull each piece's skin still tells the head's shape: all of those that lie on it, hair that begins
-// on it up to a margin, of what only touches it nothing. `box` becomes that of the skull with what lies on it.
+// How far from the skull each piece's skin still tells the head's shape. A piece that lies on the skull counts whole,
+// hair that begins on it up to a margin, a piece that only touches it not at all. `box` becomes that of the skull with
+// the pieces that count whole.
 std::vector<float> reachesOf(const std::vector<Piece>& pieces, std::size_t skull, Aabb& box) {
     constexpr float kAll = 1e9F;
     std::vector<float> reaches(pieces.size(), 0.0F);

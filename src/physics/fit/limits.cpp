@@ -39,8 +39,9 @@ std::string widenHinge(HingeLimits& limits, float angle, std::string_view child)
 
 constexpr float kFarthest = radians(200.0F);  // from the bind pose to the far side of a range
 
-// A twist is as wide to both sides as well. Legs whose knees bend forwards, and shins that end in feet far before them,
-// stand nearly half a turn from where a man's do: their twist is counted from the bind pose. Returns by how much.
+// A twist is as wide to both sides as well. Where knees bend forwards, or feet lie far before their shins, the bind
+// pose is nearly half a turn of twist from a man's: then the twist is counted from the bind pose. Returns the angle
+// between the two.
 float turnTowards(ConstraintProfile& constraint, float twist) {
     if (2.0F * std::abs(twist) + radians(kSpare) < kFarthest) return 0.0F;
     const quat turn = glm::angleAxis(twist, vec3(1, 0, 0));

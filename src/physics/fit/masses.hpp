@@ -22,8 +22,8 @@ namespace lutka::physics {
 /// `balanced` takes the square root of the table's shares, which halves every ratio on the logarithmic scale.
 void assignMasses(std::span<BodyProfile> bodies, const FitOptions& options);
 
-/// Gives every body without a role at least 0.7 of the mass of each body that hangs on it and 0.2 of the one that it
-/// hangs on (before the total is kept by scaling all): solvers hold no boulder by a thread. Inertias follow.
+/// Gives every body without a role at least 0.7 of the mass of each of its children and 0.2 of its parent's: solvers
+/// hold no heavy body by a light one. All masses are then scaled to the total that they had; inertias follow.
 void raiseLightSegments(RagdollProfile& profile);
 
 /// The role itself when it has a body, else the nearest body above it in its limb, else the nearest below it there,

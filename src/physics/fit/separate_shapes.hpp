@@ -13,9 +13,9 @@ namespace lutka::physics {
 /// constraint overlap as they like.
 void separateShapes(const BodyPlan& plan, std::vector<PlacedShape>& shapes);
 
-/// The pairs of bodies that shall not collide, beside the linked ones: those that overlap in the bind pose, and those
-/// linked through one body between them that overlap in at least half of the poses sampled over the range of both
-/// joints (neutral and both limits of each axis). Sorted, first < second.
+/// The pairs of bodies that shall not collide, beside the linked ones. They overlap in the bind pose, or one body lies
+/// between them and they overlap in at least half of the poses that its two joints take (neutral and both limits of
+/// each axis). Sorted, first < second.
 [[nodiscard]] std::vector<std::pair<int, int>> pairsToFilter(const RagdollProfile& profile,
                                                              const std::vector<RigidTransform>& modelFromBody);
 

@@ -17,13 +17,13 @@ struct Stance {
     std::vector<vec3> turn;     ///< World, radians: the child's pose is turned by it in its parent.
 };
 
-/// Keeps a doll that stands on its feet from falling over. What is brought to rest over the middle of its feet is the
-/// capture point, the centre of mass with its velocity over the pendulum's frequency (Pratt, Carff, Drakunov and
-/// Goswami 2006): where it would come to rest by itself.
+/// Keeps a doll that stands on its feet from falling over. It brings the capture point to rest over the middle of the
+/// feet. That is the centre of mass plus its velocity over the pendulum's frequency (Pratt, Carff, Drakunov and Goswami
+/// 2006): where the doll would come to rest by itself.
 ///
-/// Ankles press the feet on the ground beyond it, as far as heels and toes reach (the ankle strategy). Where that is
-/// not far enough, trunk and arms turn the way that it falls, so that what they take up of its turn the legs lose (the
-/// hip strategy; Horak and Nashner 1986); they come back slowly. It takes no steps.
+/// Ankle strategy: the ankles move the centre of pressure beyond the capture point, as far as heels and toes reach. Hip
+/// strategy (Horak and Nashner 1986): where that is not far enough, trunk and arms turn the way that the doll falls and
+/// take angular momentum from the legs; they come back slowly. It takes no steps.
 class Balance {
   public:
     /// The profile must outlive this.

@@ -60,7 +60,8 @@ class Puppet {
     /// An impulse in N s at a world point of a body: it acts, and the strength of that joint and, less, of its
     /// neighbours is lost for a while. Hits add up.
     void hit(int body, const vec3& point, const vec3& impulse);
-    /// The same of an impulse of so many N s, >= 0, that acts by itself, such as what flew against it.
+    /// The loss of strength of hit() alone, for an impulse, N s >= 0, that the world has applied itself: something flew
+    /// against the body.
     void feel(int body, float impulse);
     /// Knocks it out.
     void goLimp();

@@ -33,8 +33,8 @@ struct Bend {
     [[nodiscard]] vec3 end(float angle) const {
         return parentFrame * (upper + glm::angleAxis(angle, vec3(0, 0, 1)) * lower);
     }
-    // Of the two angles at which the end is so far away the one that is bent to where the hinge has more room; the
-    // straightest or the most bent where none is. Within the limits.
+    // The hinge's angle, within its limits, at which the end is so far away. Of two such angles it is the one towards
+    // the side on which the hinge has more room; where there is none, the straightest or the most bent one.
     [[nodiscard]] float angleFor(float distance, const HingeLimits& limits) const {
         const float along = upper.x * lower.x + upper.y * lower.y;
         const float across = upper.y * lower.x - upper.x * lower.y;
@@ -237,7 +237,8 @@ bool ReachablePose::unfold(const Limb& limb, std::span<RigidTransform> bodies) c
         closeJoints(bodies);
         return true;
     }
-    // The way that leads the foot away from the hip, also where the shin is so deep in that out would be beyond.
+    // The knee opens in the direction that leads the foot away from the hip, even where the shortest way out of the
+    // trunk is the other one.
     const vec3 shank = bodies[limb.end].translation - pivot;
     const float opens = glm::dot(glm::cross(axis, shank), pivot - hip) < 0.0F ? -1.0F : 1.0F;
     const quat wanted = glm::angleAxis(opens * turn.angle, axis) * bodies[limb.lower].rotation;

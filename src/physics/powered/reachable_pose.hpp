@@ -11,16 +11,16 @@
 
 namespace lutka::physics {
 
-/// Makes poses of a doll such that it can take them: no joint beyond its limits, and no arm or shin in the trunk and
-/// no leg in the other one. A motor that is led beyond a limit or into a body only leans on it, and what holds the doll
+/// Changes poses so that a doll can take them: no joint is beyond its limits, no arm or shin in the trunk, no leg in
+/// the other one. A motor that is led beyond a limit or into a body only presses against it, and the rest of the doll
 /// has to bear that.
 ///
 /// - Arms and legs with a hinge in their middle keep the place of their end as far as they can: the hinge takes the
 ///   angle at which the end is as far from the shoulder or hip, and the upper part aims it. Hands and feet keep their
 ///   turn in the world as far as their own limits let them.
 /// - All other joints take the nearest turn within their limits, and what hangs on them goes along.
-/// - Limbs, whole or not, that are in something are turned out of it about the shoulder or hip; a leg that is folded
-/// into the trunk
+/// - Limbs that overlap another body are turned out of it about the shoulder or hip; a leg that is folded into the
+/// trunk
 ///   opens its knee. Where that would break a limit the limit wins.
 class ReachablePose {
   public:

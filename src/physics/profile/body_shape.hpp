@@ -47,8 +47,8 @@ struct BodyShape : PrimitiveShape {
 /// Whether the hull's centroid is at the origin, to a hundredth of its reach.
 [[nodiscard]] bool isCentred(const ConvexHull& hull);
 
-/// A hull of points that are told in any frame, as a shape that is centred on its own origin along its principal axes,
-/// those that are nearest to the frame's.
+/// A hull, given in any frame, as a shape about its own centroid. The shape's axes are the hull's principal ones, in
+/// the order and with the signs that are nearest to the frame's.
 struct CentredHull {
     PrimitiveShape shape;  ///< Of kind hull.
     RigidTransform frameFromShape;

@@ -35,8 +35,8 @@ bool isTrunkLink(const BodyProfile& body) {
     return body.role && animation::sideOf(*body.role) == animation::Side::center;
 }
 
-// Whether what lies above the body's joint stays with its parent: where a limb leaves the trunk, and where a body
-// without a role is not the only one that hangs there.
+// Whether the joints between this body's and its parent's stay with the parent. They do where a limb leaves the trunk,
+// and where a body without a role has siblings.
 bool isLimbRoot(const RagdollProfile& profile, int body, int parent) {
     using enum Role;
     if (const auto& role = profile.bodies[body].role) {

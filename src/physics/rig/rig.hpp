@@ -50,8 +50,8 @@ struct Rig {
 [[nodiscard]] Result<Rig> bindRig(const RagdollProfile& profile, const animation::Skeleton& skeleton);
 
 /// Bodies at rest in a pose: `modelFromJoint` holds jointCount() frames, `bodies` one a body. The root body and all
-/// rotations are exactly the pose's; the other positions close the constraints, which is the same in the bind pose and
-/// keeps a pose that stretches a joint or bends the spine from tearing the doll at its first step.
+/// rotations are exactly the pose's. The other positions are those that close the constraints: in the bind pose the
+/// same, and a pose that stretches a joint or bends the spine does not tear the doll at its first step.
 void bodiesFromPose(const Rig& rig, std::span<const RigidTransform> modelFromJoint,
                     const RigidTransform& worldFromModel, std::span<BodyState> bodies);
 

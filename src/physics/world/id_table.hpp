@@ -8,8 +8,8 @@
 
 namespace lutka::physics {
 
-/// Gives out the ids of one kind and knows where what they name stands among those that are left, in the order of
-/// adding. That place is what a solver's own arrays are indexed by; it goes down when something before is removed.
+/// Gives out the ids of one kind, and maps each to its place: an index into a solver's own arrays, which hold what is
+/// left in the order of adding. A place goes down when something before it is removed.
 template <class IdType>
 class IdTable {
   public:

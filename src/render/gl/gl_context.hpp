@@ -22,8 +22,8 @@ struct WindowOptions {
 /// An OpenGL 3.3 core context with its functions loaded, current on the thread that made it. It owns its display
 /// connection or window; Renderer and every other GL object must die before it.
 ///
-/// For tests and debugging, of the environment: LUTKA_GL_DEBUG=1 ends the program with the first thing that the driver
-/// says against a call, LUTKA_GL_LOSE=N makes lost() answer yes from the Nth time on that it is asked.
+/// Environment variables for tests and debugging: LUTKA_GL_DEBUG=1 ends the program at the first error that the driver
+/// reports. LUTKA_GL_LOSE=N makes lost() return true from its Nth call on.
 class GlContext {
   public:
     /// Without a display or window, by EGL: Mesa's surfaceless platform first, then the GPUs that EGL enumerates, then

@@ -83,8 +83,8 @@ Result<std::optional<physics::RagdollProfile>> givenProfile(const LoadOptions& o
     return std::optional(std::move(read).value());
 }
 
-// Whose joints the profile's bodies are bound to, counted from 1, when that is another figure of the file than the one
-// that was taken. What is wrong with the profile is told later.
+// The figure of the file whose joints the profile names, counted from 1; nothing when it is the one that was taken.
+// What is wrong with the profile is told later.
 std::optional<int> figureOfProfile(const animation::Character& character, const LoadOptions& options) {
     if (options.import.figure || character.figures.size() < 2) return std::nullopt;
     const auto profile = givenProfile(options);

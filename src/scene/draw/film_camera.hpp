@@ -9,10 +9,13 @@
 
 namespace lutka::scene {
 
-/// The view of a picture or a film of a simulation: the scene's own camera where it has one; else its focus from its
-/// side (SceneSimulation::focusYaw), or, where that follows, a view that goes along with the dolls. Such a view shows a
-/// standing figure a little less than half as high as the picture, comes nearer to a single doll that lies, and shows
-/// of several dolls all.
+/// The view of a picture or a film of a simulation:
+/// 1. the scene's own camera, where it has one;
+/// 2. a view that goes along with the dolls, where the scene's focus follows them;
+/// 3. the scene's focus from its side (SceneSimulation::focusYaw).
+///
+/// A view that goes along shows a standing figure a little less than half as high as the picture. It comes nearer to a
+/// single doll that lies, and shows all of several dolls.
 class FilmCamera {
   public:
     /// `aspect`: width : height of the picture.

@@ -28,9 +28,9 @@ enum class Lying { prone, supine, leftSide, rightSide };
 /// The ways of a character from lying to standing, and which of them begins most like a pose.
 class GetUpClips {
   public:
-    /// The character's own clips whose names hold "get up" or "stand up" (with or without something between the words)
-    /// and that begin with the hips at less than half of the height that they end with; without any, those of the
-    /// donor, retargeted. Fails with ErrorCode::input when there are none at all. The asset must outlive this.
+    /// The character's own get-up clips, else those of the donor, retargeted. A get-up clip has "get up" or "stand up"
+    /// in its name, with or without something between the words, and its hips begin below half the height at which they
+    /// end. Fails with ErrorCode::input when there are none at all. The asset must outlive this.
     [[nodiscard]] static Result<GetUpClips> create(const RagdollAsset& asset, const RagdollAsset* donor);
     /// Whether the character has such clips itself.
     [[nodiscard]] static bool hasOwn(const RagdollAsset& asset);
@@ -42,9 +42,10 @@ class GetUpClips {
         RigidTransform worldFromStandard;  ///< Of the clip's ground: turned about the vertical, at `ground`.
         float distanceM = 0.0F;            ///< Root of the mean square, by mass, between points on the bodies.
     };
-    /// The frame from which the figure can go on with the least change: of those in which the hips are still low, that
-    /// whose points on all bodies come nearest to the doll's when it is turned about the vertical and shifted over
-    /// ground at the height `ground` (Kovar, Gleicher and Pighin 2002, "Motion Graphs", the distance of point clouds).
+    /// The frame from which the figure can go on with the least change, of those in which the hips are still low.
+    /// Frames are turned about the vertical and shifted over ground at the height `ground`, so that the points on their
+    /// bodies come nearest to the doll's; the nearest frame wins (the distance of point clouds: Kovar, Gleicher and
+    /// Pighin 2002, "Motion Graphs").
     [[nodiscard]] Match match(std::span<const RigidTransform> worldFromBody, float ground) const;
 
     [[nodiscard]] int clipCount() const { return static_cast<int>(clips_.size()); }

@@ -12,9 +12,9 @@
 
 namespace lutka::scene {
 
-/// What a puppet is to do, step for step: a raw motion, which is blended into from what was shown before, and kept out
-/// of the floor, within the wrists' limits and below a speed of the joints while that is not sure. All frames are one a
-/// body of the profile, world. Asset and floor keeper must outlive this.
+/// What a puppet is to do, step for step. It takes a raw motion and blends into it from what was shown before. While
+/// the puppet gets up, steps back or blends, the pose is kept out of the floor, within the wrists' limits and below a
+/// speed of the joints. All frames are one a body of the profile, world. Asset and floor keeper must outlive this.
 class ShownMotion {
   public:
     ShownMotion(const RagdollAsset& asset, const FloorKeeper& floor);

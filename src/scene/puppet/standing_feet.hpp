@@ -27,7 +27,7 @@ class StandingFeet {
         float dt = 1.0F / 60.0F;  ///< Seconds, > 0.
         float pace = 1.0F;        ///< Of the clip, over its own.
     };
-    /// The farthest that a foot which stands has slid over the ground from where it came to stand, metres; -1 where
+    /// How far the standing feet have slid over the ground since they came to stand, metres: the most of any; -1 where
     /// none stands.
     float slideAfter(const Step& step);
 

@@ -9,10 +9,15 @@
 
 namespace lutka::scene {
 
-/// Lets a figure that plays a clip made for a level floor walk over ramps and steps: its floor goes up and down with
-/// what its feet are over, each foot keeps its height over the ground, its sole turns with the slope, the hips come
-/// down where a leg is too short. What the feet are told of the ground is smoothed over time and looks a little ahead,
-/// so that a foot is over a step before it gets there. The asset must outlive this.
+/// Lets a figure that plays a clip made for a level floor walk over ramps and steps.
+/// - The figure's floor goes up and down with the ground below its feet.
+/// - Each foot keeps its height over the ground, and its sole turns with the slope.
+/// - The hips come down where a leg is too short.
+/// - Heights of the ground are smoothed over time and taken a little ahead, so that a foot is over a step before it
+/// gets
+///   there.
+///
+/// The asset must outlive this.
 class TerrainWalk {
   public:
     /// Nothing where the character has no two legs with feet.

@@ -98,8 +98,8 @@ void forEachTrack(const aiAnimation& animation, Visit visit) {
     }
 }
 
-// Where a .x says nothing, exporters mean frames or DirectX's own ticks: those where no keys of a track are nearer to
-// each other than 1/120 s of them, which would be more than a second of frames. Two keys tell nothing.
+// A .x file without a rate counts in frames or in DirectX's own ticks. It is ticks if the keys of each track are at
+// least 1/120 s of them apart: as frames that would be more than a second. Two keys alone tell nothing.
 double unstatedTicksPerSecond(const aiAnimation& animation) {
     constexpr double kLeastGap = kDirectXTicksPerSecond / 120.0;
     constexpr std::size_t kFewestKeys = 3;

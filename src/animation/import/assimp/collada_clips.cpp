@@ -88,7 +88,7 @@ std::string contentOf(const std::string& text, const std::vector<ColladaTag>& ta
     return content;
 }
 
-// All animations as one; the text as it is where they are one, where they stand in several libraries, or where two
+// All animations as one. The text stays as it is if there is one already, if they stand in several libraries, or if two
 // move the same thing.
 std::string inOneAnimation(const std::string& text, const std::vector<ColladaTag>& tags) {
     std::set<std::string_view> targets;

@@ -28,9 +28,9 @@ namespace lutka::animation::rig_import {
 /// The value of an attribute in a tag; empty where it has none, or one with entities.
 [[nodiscard]] std::string_view colladaAttribute(std::string_view tag, std::string_view name);
 
-/// The names of a document's nodes by their ids, of those whose id was made by a program and says nothing of the name
-/// ("id-bone-4" for "pelvis", as Godot writes it). Names that two nodes share are left out. `document` is
-/// the file's text as UTF-8.
+/// The names of a document's nodes by their ids. Only nodes whose id does not hold the name are in it, such as
+/// "id-bone-4" for "pelvis", which Godot writes. Names that two nodes share are left out. `document` is the file's text
+/// as UTF-8.
 [[nodiscard]] std::map<std::string, std::string> colladaNodeNames(std::string_view document);
 
 }  // namespace lutka::animation::rig_import

@@ -28,7 +28,7 @@ constexpr double kOnFloor = 0.15;
 constexpr double kOffFloor = 0.35;
 constexpr std::size_t kFramesLookedAt = 40;
 constexpr std::size_t kFramesToChooseFrom = 300;
-// stretch() of a zero pose that is taken, and of a frame that is in place of one that is bent more.
+// The least stretch() of a zero pose, and of a frame in its place.
 constexpr double kStraightEnough = 0.8;
 constexpr double kStraight = 0.85;
 

@@ -18,8 +18,8 @@ struct ModelTree {
     std::vector<std::string> names;
     std::vector<int> parents;
     std::vector<NodeTransform> transforms;
-    /// The origin of the scene's node in the file's: the pivot that the node of a rigid mesh turns about, which is
-    /// where Maya's meshes with frozen transforms have their joint; else 0.
+    /// The origin of the scene's node in the file's node. For a rigid mesh it is the pivot that the mesh turns about:
+    /// Maya's meshes with frozen transforms have their joint there. For all others it is 0.
     std::vector<dvec3> origins;
     std::map<int, int> nodeOfModel;            ///< Object index → node.
     std::vector<std::pair<int, int>> inOrder;  ///< Object index and node, in the order of the nodes.
@@ -29,8 +29,8 @@ struct ModelTree {
 /// origin to origin. One element a node in both spans.
 void evaluateTree(const ModelTree& tree, std::span<const NodeTransform> transforms, std::span<dmat4> parentFromNode);
 
-/// The handles of control rigs (effectors, which MotionBuilder saves along) are left out with what hangs on them,
-/// unless that is something else. Models that hang on no other one, or on each other in a ring, hang on the root. Fails
+/// The effectors of control rigs, which MotionBuilder saves along, are left out, with children that are effectors, too.
+/// Models without a parent, or in a ring of parents, are children of the root. Fails
 /// beyond 65,535 nodes and where they are nested deeper than 4,096.
 [[nodiscard]] Result<ModelTree> readModelTree(const Objects& objects, const std::string& location);
 
