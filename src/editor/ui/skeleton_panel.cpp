@@ -155,48 +155,70 @@ void roleTag(Role role, const std::string& joint) {
     dragRole(role);
 }
 
-void drawJoint(const PanelContext& context, const Tree& tree, int joint) {
-    Editor& editor = context.editor;
-    const animation::Skeleton& skeleton = editor.document().character().skeleton;
-    const auto active = editor.workspace().selection.active();
-    const physics::Rig& rig = editor.document().asset().rig;
-    const int body = bodyOfJoint(rig, joint);
-    const auto role = roleOfJoint(editor.document().state().map, joint);
-    const bool filtering = !context.state.jointFilter.empty();
-    const std::vector<Item>& items = editor.workspace().selection.items();
-    const bool selected = body >= 0 && std::any_of(items.begin(), items.end(), [&](const Item& item) {
-                              return item.kind == Item::Kind::body && item.index == body;
-                          });
+// What stands behind a joint's name: its role, else that it has a body, and how many shapes that has.
+void drawMarks(const PanelContext& context, int joint) {
+    const EditorDocument& document = context.editor.document();
+    const auto role = roleOfJoint(document.state().map, joint);
+    const int body = bodyOfJoint(document.asset().rig, joint);
+    if (role) {
+        roleTag(*role, document.character().skeleton.names[joint]);
+    } else if (body >= 0) {
+        ImGui::SameLine();
+        ImGui::TextColored(accentColor(), "%s", kBodyMark);
+        tooltip("It has a body of its own");
+    }
+    const std::size_t shapes = body < 0 ? 1 : 1 + document.profile().bodies[body].shape.more.size();
+    if (shapes > 1) {
+        ImGui::SameLine();
+        ImGui::TextColored(mutedColor(), "×%d", static_cast<int>(shapes));
+        tooltip(fmt::format("Its body has {} shapes", shapes));
+    }
+}
 
+bool isSelected(const Editor& editor, int body) {
+    const std::vector<Item>& items = editor.workspace().selection.items();
+    return body >= 0 && std::any_of(items.begin(), items.end(), [&](const Item& item) {
+               return item.kind == Item::Kind::body && item.index == body;
+           });
+}
+
+// The joint's line, with its name as far as there is room. Whether its children are shown.
+bool drawLine(const PanelContext& context, const Tree& tree, int joint) {
+    const EditorDocument& document = context.editor.document();
+    const std::string& name = document.character().skeleton.names[joint];
+    const int body = bodyOfJoint(document.asset().rig, joint);
     ImGuiTreeNodeFlags flags =
         ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_SpanAvailWidth | ImGuiTreeNodeFlags_DefaultOpen;
-    if (tree.children[joint].empty() || filtering) flags |= ImGuiTreeNodeFlags_Leaf;
-    if (selected) flags |= ImGuiTreeNodeFlags_Selected;
+    if (tree.children[joint].empty() || !context.state.jointFilter.empty()) flags |= ImGuiTreeNodeFlags_Leaf;
+    if (isSelected(context.editor, body)) flags |= ImGuiTreeNodeFlags_Selected;
     // Twigs of hair and fingers stay folded in the beginning.
     if (!tree.leads[joint]) flags &= ~ImGuiTreeNodeFlags_DefaultOpen;
-    const int wanted = context.state.scrollToJoint;
-    if (wanted >= 0 && wanted != joint && animation::isAncestorOrSelf(skeleton, joint, wanted)) {
-        ImGui::SetNextItemOpen(true);
-    }
-    ImGui::PushID(joint);
-    const bool plain = !role && body < 0;
+    const bool plain = body < 0 && !roleOfJoint(document.state().map, joint);
     if (plain) ImGui::PushStyleColor(ImGuiCol_Text, mutedColor());
     // What a deep line has no room for even so is reached by scrolling.
     const float room = ImGui::GetContentRegionAvail().x - arrowWidth() - marksWidth(context, joint);
     constexpr float least = 6.0F;  // letters
-    const std::string shown = nameWithin(skeleton.names[joint], std::max(room, least * ImGui::GetFontSize()));
+    const std::string shown = nameWithin(name, std::max(room, least * ImGui::GetFontSize()));
     const bool open = ImGui::TreeNodeEx("##joint", flags, "%s", shown.c_str());
     if (plain) ImGui::PopStyleColor();
-    if (shown != skeleton.names[joint]) tooltip(skeleton.names[joint]);
-    if (context.state.scrollToJoint == joint) {
-        // A line that is seen stays under the mouse that clicked it.
-        const float top = ImGui::GetWindowPos().y;
-        const float bottom = top + ImGui::GetWindowHeight() - ImGui::GetStyle().ScrollbarSize;
-        const bool seen = ImGui::GetItemRectMin().y >= top && ImGui::GetItemRectMax().y <= bottom;
-        if (!seen) ImGui::SetScrollHereY();
-        context.state.scrollToJoint = -1;
-    }
+    if (shown != name) tooltip(name);
+    return open;
+}
+
+// Scrolls to the line that was drawn last. One that is seen stays under the mouse that clicked it.
+void scrollToLine() {
+    const float top = ImGui::GetWindowPos().y;
+    const float bottom = top + ImGui::GetWindowHeight() - ImGui::GetStyle().ScrollbarSize;
+    const bool seen = ImGui::GetItemRectMin().y >= top && ImGui::GetItemRectMax().y <= bottom;
+    if (!seen) ImGui::SetScrollHereY();
+}
+
+// What is done to a joint on the line that was drawn last: selecting, dropping a role, the menu.
+void takeInput(const PanelContext& context, int joint) {
+    Editor& editor = context.editor;
+    const int body = bodyOfJoint(editor.document().asset().rig, joint);
     if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen() && body >= 0) {
+        const auto active = editor.workspace().selection.active();
         editor.select(Item{Item::Kind::body, active ? active->doll : 0, body}, ImGui::GetIO().KeyShift);
     }
     if (const auto dropped = droppedRole()) {
@@ -207,21 +229,24 @@ void drawJoint(const PanelContext& context, const Tree& tree, int joint) {
         if (physics::hasRoles(editor.document().profile())) assignMenu(context, joint);
         ImGui::EndPopup();
     }
-    if (role) {
-        roleTag(*role, skeleton.names[joint]);
-    } else if (body >= 0) {
-        ImGui::SameLine();
-        ImGui::TextColored(accentColor(), "%s", kBodyMark);
-        tooltip("It has a body of its own");
+}
+
+void drawJoint(const PanelContext& context, const Tree& tree, int joint) {
+    const int wanted = context.state.scrollToJoint;
+    const animation::Skeleton& skeleton = context.editor.document().character().skeleton;
+    if (wanted >= 0 && wanted != joint && animation::isAncestorOrSelf(skeleton, joint, wanted)) {
+        ImGui::SetNextItemOpen(true);
     }
-    const std::size_t shapes = body < 0 ? 1 : 1 + editor.document().profile().bodies[body].shape.more.size();
-    if (shapes > 1) {
-        ImGui::SameLine();
-        ImGui::TextColored(mutedColor(), "×%d", static_cast<int>(shapes));
-        tooltip(fmt::format("Its body has {} shapes", shapes));
+    ImGui::PushID(joint);
+    const bool open = drawLine(context, tree, joint);
+    if (wanted == joint) {
+        scrollToLine();
+        context.state.scrollToJoint = -1;
     }
+    takeInput(context, joint);
+    drawMarks(context, joint);
     if (open) {
-        if (!filtering) {
+        if (context.state.jointFilter.empty()) {
             for (const int child : tree.children[joint])
                 drawJoint(context, tree, child);
         }
