@@ -29,6 +29,8 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
                                               {"answerSpeed", &tuning.answerSpeed},
                                               {"ownDepth", &tuning.ownDepth},
                                               {"ownSpeed", &tuning.ownSpeed},
+                                              {"heapDepth", &tuning.heapDepth},
+                                              {"heapSpeed", &tuning.heapSpeed},
                                               {"ownMass", &tuning.ownMass},
                                               {"ownBlow", &tuning.ownBlow},
                                               {"ownLoad", &tuning.ownLoad},

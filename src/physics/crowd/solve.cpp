@@ -263,6 +263,10 @@ void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSu
     const auto paramsAt = [&](const Job& job, int index) {
         SubstepParams params = paramsFor[job.substeps];
         params.isHeap = isHeap(job) ? 1 : 0;
+        if (params.isHeap != 0) {
+            params.ownDepth = params.heapDepth;
+            params.ownSpeed = params.heapSpeed;
+        }
         params.warmStart = index == 0 ? 1 : 0;
         params.remaining = params.dt * static_cast<float>(job.substeps - index);
         return params;

@@ -23,14 +23,16 @@ struct SubstepTuning {
     float answerSpeed = 0.02F;  ///< m/s by which a contact may be wrong to be left out of them. Less: the same.
     int ownSweeps = 12;         ///< The same over contacts between bodies of one doll; in a job of several batches no
                                 ///< more than `answerSweeps`. Less: blows drive limbs deeper into the trunk.
-    float ownDepth = 0.002F;    ///< Metres that such a contact may go deep by the substep's end before it is one of
-                                ///< them. More: fewer answers, deeper limbs.
-    float ownSpeed = 0.1F;      ///< m/s that it closes with, else it is none of them. Less: some figures never rest.
-    float ownMass = 8.0F;       ///< By how much more than its two bodies' masses ask one is pressed at most, as the
-                                ///< answers show what hangs on them.
-    float ownBlow = 10.0F;      ///< m/s that it is pressed against at most, at that mass.
-    float ownLoad = 0.5F;       ///< m/s times the two bodies' mass that a load may begin with; it at most doubles in a
-                                ///< substep. More: blows go on as loads and gain energy.
+    float ownDepth = 0.0005F;   ///< Metres that such a contact may go deep by the substep's end before it is one of
+                                ///< them. More: limbs sink into the trunk, and mending fights the limits for ever.
+    float ownSpeed = 0.05F;     ///< m/s that it closes with, else it is none of them. Less: some figures never rest.
+    float heapDepth = 0.002F;   ///< Both in heaps (isHeap), in which an answer costs all dolls a look.
+    float heapSpeed = 0.1F;
+    float ownMass = 8.0F;     ///< By how much more than its two bodies' masses ask one is pressed at most, as the
+                              ///< answers show what hangs on them.
+    float ownBlow = 10.0F;    ///< m/s that it is pressed against at most, at that mass.
+    float ownLoad = 0.5F;     ///< m/s times the two bodies' mass that a load may begin with; it at most doubles in a
+                              ///< substep. More: blows go on as loads and gain energy.
     float nearSpeed = 8.0F;   ///< m/s that an approach may grow by within a substep: contacts farther off are left out.
     float mendGap = 0.0002F;  ///< Metres, and
     float mendAngle = 0.002F;       ///< rad: errors below which nothing is mended.
