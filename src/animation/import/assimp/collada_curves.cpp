@@ -121,9 +121,12 @@ struct Curve {
     [[nodiscard]] std::string_view kindOf(std::size_t key) const {
         return kinds != nullptr ? (*kinds)[key] : std::string_view("LINEAR");
     }
-    [[nodiscard]] bool turnsFar(std::size_t key) const {
-        constexpr double kFar = 2.0;  // degrees
-        return isAngle && width() == 1 && std::abs(value(key + 1, 0) - value(key, 0)) > kFar;
+    // Into how many pieces a straight turn from a key to the next is cut: of two degrees each.
+    [[nodiscard]] double piecesOfTurn(std::size_t key) const {
+        constexpr double kPiece = 2.0;  // degrees
+        constexpr double kMost = 10'000.0;
+        const bool counts = isAngle && width() == 1;
+        return counts ? std::clamp(std::ceil(std::abs(value(key + 1, 0) - value(key, 0)) / kPiece), 1.0, kMost) : 1.0;
     }
     struct Point {
         double time = 0.0;
@@ -175,9 +178,8 @@ void addBetween(const Curve& curve, std::size_t key, Pieces& pieces, std::size_t
         return;
     }
     const bool isSpline = curve.isSpline(key);
-    if (!isSpline && !curve.turnsFar(key)) return;
-    const auto parts = static_cast<std::size_t>(
-        std::min(std::ceil((end - start) / kSecondsAPiece - 0.01), static_cast<double>(kMostNumbers)));
+    const double most = isSpline ? static_cast<double>(kMostNumbers) : curve.piecesOfTurn(key);
+    const auto parts = static_cast<std::size_t>(std::min(std::ceil((end - start) / kSecondsAPiece - 0.01), most));
     for (std::size_t part = 1; part < parts && left > 0; ++part) {
         const double time = start + (end - start) * static_cast<double>(part) / static_cast<double>(parts);
         pieces.beginKey(time, curve, left);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 #include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "animation/import/fbx/curve.hpp"
@@ -55,18 +57,36 @@ std::vector<double> shapeWeights(double percent, const std::vector<double>& full
     return weights;
 }
 
+// The geometry's own numbers by their names.
+std::unordered_map<std::string_view, double> numbersOf(const Record& geometry) {
+    std::unordered_map<std::string_view, double> numbers;
+    for (const char* name : {"Properties60", "Properties70"}) {
+        const Record* list = geometry.child(name);
+        if (list == nullptr) continue;
+        for (const Record& property : list->children)
+            numbers[property.text(0)] = property.number(property.name == "P" ? 4 : 3);
+    }
+    return numbers;
+}
+
 // Those in the geometry itself, at the property of their name.
-void addOwnShapes(const Object& geometry, std::vector<dvec3>& points) {
-    for (const Record& shape : geometry.record->children) {
+void addOwnShapes(const Record& geometry, std::vector<dvec3>& points) {
+    if (geometry.child("Shape") == nullptr) return;
+    const auto percentages = numbersOf(geometry);
+    for (const Record& shape : geometry.children) {
         if (shape.name != "Shape") continue;
-        const double percent = geometry.properties.number(shape.text(0), 0.0);
-        if (std::abs(percent) > 1e-6) addShape(shape, percent / 100.0, {}, points);
+        const auto percent = percentages.find(shape.text(0));
+        if (percent != percentages.end() && std::abs(percent->second) > 1e-6)
+            addShape(shape, percent->second / 100.0, {}, points);
     }
 }
 
-bool hasOwnShape(const Record& geometry, std::string_view name) {
-    return std::any_of(geometry.children.begin(), geometry.children.end(),
-                       [name](const Record& shape) { return shape.name == "Shape" && shape.text(0) == name; });
+std::unordered_set<std::string_view> ownShapesOf(const Record& geometry) {
+    std::unordered_set<std::string_view> names;
+    for (const Record& shape : geometry.children) {
+        if (shape.name == "Shape") names.insert(shape.text(0));
+    }
+    return names;
 }
 
 // Whether a take (FBX 6) moves a shape of a model.
@@ -74,8 +94,9 @@ bool movesShape(const Record& take, const Objects& objects, double ticksPerSecon
     for (const Record& model : take.children) {
         const int index = model.name == "Model" ? objects.indexOf(model, 0) : -1;
         if (index < 0) continue;
+        const auto shapes = ownShapesOf(*objects[index].record);
         for (const Record& channel : model.children) {
-            if (channel.name != "Channel" || !hasOwnShape(*objects[index].record, channel.text(0))) continue;
+            if (channel.name != "Channel" || shapes.count(channel.text(0)) == 0) continue;
             const std::optional<Curve> curve = readChannel(channel, ticksPerSecond);
             if (curve && curve->moves()) return true;
         }
@@ -86,7 +107,7 @@ bool movesShape(const Record& take, const Objects& objects, double ticksPerSecon
 }  // namespace
 
 void addBlendShapes(const Objects& objects, int geometry, std::vector<dvec3>& points) {
-    addOwnShapes(objects[geometry], points);
+    addOwnShapes(*objects[geometry].record, points);
     for (const int blend : objects.children(geometry, "Deformer", "BlendShape")) {
         for (const int channel : objects.children(blend, "Deformer", "BlendShapeChannel")) {
             const Object& object = objects[channel];
@@ -115,9 +136,10 @@ bool movesBlendShapes(const Document& document, const Objects& objects) {
     for (int object = 0; object < static_cast<int>(objects.all().size()); ++object) {
         const bool isChannel = objects[object].kind == "Deformer" && objects[object].subKind == "BlendShapeChannel";
         if (!isChannel && objects[object].kind != "Geometry") continue;
+        const auto shapes = isChannel ? std::unordered_set<std::string_view>{} : ownShapesOf(*objects[object].record);
         for (const Connection& node : objects.childrenOf(object)) {
             if (objects[node.child].kind != "AnimationCurveNode") continue;
-            if (!isChannel && !hasOwnShape(*objects[object].record, node.property)) continue;
+            if (!isChannel && shapes.count(node.property) == 0) continue;
             if (std::ranges::any_of(objects.children(node.child, "AnimationCurve"), moves)) return true;
         }
     }
