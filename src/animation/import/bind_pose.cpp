@@ -50,13 +50,13 @@ struct Vote {
 };
 
 // Where a frame takes four points of a mesh, and how it scales it.
-struct Placed {
+struct MeshPlace {
     std::array<dvec3, 4> points;
     double scale = 1.0;
 };
 
-Placed placedBy(const MeshExtent& box, const dmat4& frame) {
-    Placed out;
+MeshPlace placedBy(const MeshExtent& box, const dmat4& frame) {
+    MeshPlace out;
     for (int corner = 0; corner < 4; ++corner) {
         dvec3 point = box.centre;
         if (corner > 0) point[corner - 1] += 0.5 * box.size;
@@ -67,7 +67,7 @@ Placed placedBy(const MeshExtent& box, const dmat4& frame) {
 }
 
 // How differently two frames place the mesh, in sizes of the placed mesh.
-double disagreement(const MeshExtent& box, const Placed& a, const Placed& b) {
+double disagreement(const MeshExtent& box, const MeshPlace& a, const MeshPlace& b) {
     double sum = 0.0;
     for (std::size_t corner = 0; corner < a.points.size(); ++corner)
         sum += glm::distance(a.points[corner], b.points[corner]);
@@ -85,7 +85,7 @@ const dmat4& medoid(const MeshExtent& box, std::vector<Vote>& votes) {
         std::stable_sort(votes.begin(), votes.end(), [](const Vote& a, const Vote& b) { return a.weight > b.weight; });
         votes.resize(kMaxVoters);
     }
-    std::vector<Placed> placed;
+    std::vector<MeshPlace> placed;
     placed.reserve(votes.size());
     for (const Vote& vote : votes)
         placed.push_back(placedBy(box, vote.sceneFromMesh));
