@@ -27,10 +27,19 @@ TipProportions proportionsOf(std::optional<Role> role) {
     return {0.14F, 0.35F};
 }
 
-// How far from its joint the middle of a body's skin lies; its skin is not empty.
-float medianDistance(const PlannedBody& body) {
-    return quantileOf(body.skin, 0.5F,
+// How far from its joint that share of a body's skin lies; its skin is not empty.
+float distanceOf(const PlannedBody& body, float share) {
+    return quantileOf(body.skin, share,
                       [&](const SkinPoint& point) { return glm::distance(point.position, body.start); });
+}
+float medianDistance(const PlannedBody& body) {
+    return distanceOf(body, 0.5F);
+}
+
+// A limb of one joint is as long as most of its skin reaches, but for what it carries.
+float reachOfWholeLimb(const PlannedBody& body, float heightM) {
+    constexpr float kMost = 0.6F;  // of the height: to the floor, for legs and for arms of a giant
+    return std::min(1.2F * distanceOf(body, 0.75F), kMost * heightM);
 }
 
 // A hand of a figure with large hands may reach as far as its forearm is long, a large head as far as most of it does.
@@ -40,6 +49,8 @@ float reachOf(const BodyPlan& plan, const PlannedBody& body) {
         return std::max(reach, 0.8F * plan.bodies[body.parent].length());
     }
     if (body.role == Role::head && !body.skin.empty()) return std::max(reach, 1.5F * medianDistance(body));
+    const bool starts = isEitherSide(body.role, Role::leftUpperArm) || isEitherSide(body.role, Role::leftUpperLeg);
+    if (starts && !body.skin.empty()) return std::max(reach, reachOfWholeLimb(body, plan.heightM));
     return reach;
 }
 

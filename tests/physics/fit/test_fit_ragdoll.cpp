@@ -425,6 +425,30 @@ TEST_CASE("a block that hangs behind its joint is lain along, not aslant from th
     }
 }
 
+TEST_CASE("a limb of one joint is as long as its skin, however long that is") {
+    const std::vector<test::JointSpec> joints{{"Body", -1, {0, 0.9F, 0}},        {"Head", 0, {0, 1.5F, 0}},
+                                              {"Arm_Left", 0, {0.3F, 1.42F, 0}}, {"Arm_Right", 0, {-0.3F, 1.42F, 0}},
+                                              {"Leg_Left", 0, {0.1F, 0.9F, 0}},  {"Leg_Right", 0, {-0.1F, 0.9F, 0}}};
+    std::vector<test::TubeSpec> skin{{0, {0, 1.5F, 0}, 0.2F}, {1, {0, 1.75F, 0}, 0.15F}};
+    for (const int joint : {2, 3, 4, 5}) {
+        const vec3& place = joints[static_cast<std::size_t>(joint)].position;
+        skin.push_back({joint, {place.x, joint < 4 ? 0.5F : 0.0F, 0}, 0.08F});
+    }
+    const animation::Character figure = test::makeFigure("long", joints, skin);
+    const animation::HumanoidMap map = animation::mapHumanoid(figure);
+    REQUIRE(map.humanoid);
+    const RagdollProfile profile = fitRagdoll(figure, map, {}).value();
+    int limbs = 0;
+    for (const BodyProfile& body : profile.bodies) {
+        const bool arm = body.role == Role::leftUpperArm || body.role == Role::rightUpperArm;
+        if (!arm && body.role != Role::leftUpperLeg && body.role != Role::rightUpperLeg) continue;
+        const RigidTransform placed = modelFromBody(figure, body);
+        CHECK(placed.translation.y - body.shape.halfLength - body.shape.radius < (arm ? 0.6F : 0.12F));
+        ++limbs;
+    }
+    CHECK(limbs == 4);
+}
+
 TEST_CASE("a weapon that an arm holds makes no arm thicker") {
     const auto armOf = [](bool armed) {
         std::vector<test::JointSpec> joints{{"Body", -1, {0, 0.75F, 0}},        {"Head", 0, {0, 1.5F, 0}},
