@@ -140,6 +140,27 @@ bool isOnAllFours(const Figure& figure, const FramedRig& framed) {
            angleTo(arms, legs) < kMostTilt;
 }
 
+// A level trunk above four splayed limbs without hands and feet, which end on one ground: a beast with a man's names.
+bool isCarriedByFour(const Figure& figure, const FramedRig& framed) {
+    constexpr float kLevel = 0.42F;      // sine of the trunk to the ground
+    constexpr float kSplayed = 0.3F;     // of a limb's length, to its side
+    constexpr float kDown = 0.25F;       // … down
+    constexpr float kOneGround = 0.25F;  // of the legs' length
+    if (!framed.rig->skinned) return false;
+    const Stance& stance = framed.stance;
+    const vec3 up(stance.across().y, stance.up.y, stance.through().y);
+    const vec3 trunk = figure.arms.root - figure.legs.root;
+    if (std::abs(glm::dot(trunk, up)) > kLevel * glm::length(trunk)) return false;
+    const LimbEnd foot = endOf(framed, figure.legs);
+    const LimbEnd hand = endOf(framed, figure.arms);
+    const auto goesDown = [&](const LimbCandidate& limb, const LimbEnd& end) {
+        return limb.pairs[2] == kNoPair && glm::dot(limb.root - end.place, up) > kDown * end.length &&
+               end.place.x - limb.root.x > kSplayed * end.length;
+    };
+    return goesDown(figure.legs, foot) && goesDown(figure.arms, hand) &&
+           std::abs(glm::dot(foot.place - hand.place, up)) < kOneGround * foot.length;
+}
+
 // Parts that neither hang on each other nor bear a limb's name: props side by side, whatever pattern they lie in.
 bool isScattered(const Figure& figure, const FramedRig& framed) {
     if (framed.rig->skinned || figure.legs.names > 0.0F || figure.arms.names > 0.0F) return false;
@@ -244,7 +265,8 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     const bool named = figure.posed ? areTold(figure.legs, figure.arms)
                                     : figure.legs.named && figure.arms.named && figure.prior >= 0.0F;
     if (figure.posed && !named) return "its names are not those of its limbs";
-    if (figure.posed && isOnAllFours(figure, framed)) return "it stands on all fours, whatever its names say";
+    if (figure.posed && (isOnAllFours(figure, framed) || isCarriedByFour(figure, framed)))
+        return "it stands on all fours, whatever its names say";
     if (tilt > kMostTilt) {
         return fmt::format("the trunk lies at {:.0f} degrees from upright: an animal, not a standing figure",
                            degrees(tilt));

@@ -196,6 +196,34 @@ TEST_CASE("what a player's own hands hold is no pair of legs", "[misnamed][refus
     CHECK(map.warnings.front().find("hang on one of the arms") != std::string::npos);
 }
 
+TEST_CASE("a small beast on splayed legs is none, though its joints have a man's names", "[misnamed][refusal]") {
+    std::vector<JointSpec> joints{{"Bip01 Pelvis", -1, {0, 0.33F, -0.17F}},
+                                  {"Bip01 Spine", 0, {0, 0.52F, -0.28F}},
+                                  {"Bip01 Neck", 1, {0, 0.53F, 0.3F}},
+                                  {"Bip01 Head", 2, {0, 0.53F, 0.35F}}};
+    std::vector<TubeSpec> skin{{0, {0, 0.45F, -0.25F}, 0.1F},
+                               {1, {0, 0.5F, 0.3F}, 0.2F},
+                               {2, {0, 0.5F, 0.36F}, 0.15F},
+                               {3, {0, 0.5F, 0.6F}, 0.12F}};
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string start = side > 0.0F ? "Bip01 L " : "Bip01 R ";
+        const auto add = [&](const char* name, int parent, const vec3& place, const vec3& tip) {
+            const vec3 mirrored(side, 1, 1);
+            joints.push_back({start + name, parent, place * mirrored});
+            const int joint = static_cast<int>(joints.size()) - 1;
+            skin.push_back({joint, tip * mirrored, 0.03F});
+            return joint;
+        };
+        const int thigh = add("Thigh", 0, {0.19F, 0.33F, -0.17F}, {0.33F, 0.28F, -0.26F});
+        add("Calf", thigh, {0.33F, 0.28F, -0.26F}, {0.42F, 0.03F, -0.34F});
+        const int collar = add("Clavicle", 2, {0.07F, 0.31F, 0.14F}, {0.16F, 0.31F, 0.13F});
+        const int arm = add("UpperArm", collar, {0.17F, 0.31F, 0.13F}, {0.32F, 0.28F, 0.19F});
+        add("Forearm", arm, {0.32F, 0.28F, 0.19F}, {0.42F, 0.03F, 0.24F});
+    }
+    const HumanoidMap map = animation::mapHumanoid(makeFigure("snark", joints, skin));
+    CHECK_FALSE(map.humanoid);
+}
+
 TEST_CASE("the end of an arm that has no part's name takes nothing from names that tell the sides", "[misnamed]") {
     // Its shins lean back, and so do its soles, though the figure faces +Z, as all its names say.
     std::vector<JointSpec> joints{{"Torso", -1, {0, 0.69F, 0}}, {"Chest", 0, {0, 1.1F, 0}}, {"Head", 1, {0, 1.5F, 0}}};
