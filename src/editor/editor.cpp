@@ -16,7 +16,11 @@ Result<std::unique_ptr<Editor>> Editor::create(const EditorOptions& options) {
     if (!all) return all.error();
     std::unique_ptr<Editor> editor(new Editor);
     const EditorOptions heard = editor->hearReaders(all.value());
-    auto document = EditorDocument::open(heard.model, heard.load);
+    // What the scene says of its first character is not for those that are opened later.
+    scene::LoadOptions load = heard.load;
+    if (heard.asInScene.figure) load.import.figure = heard.asInScene.figure;
+    takeRig(heard.asInScene, load);
+    auto document = EditorDocument::open(heard.model, load);
     const bool isOffered = !document && !fromScene && !heard.standIn.empty() && scene::wantsAnyRig(document.error());
     FileFlow::AnyRigOffer offer;
     if (isOffered) {

@@ -13,6 +13,7 @@ Result<EditorOptions> withSceneRead(const EditorOptions& options) {
         const auto* ragdoll = scene.value().find<scene::Ragdoll>(entity.id);
         if (ragdoll == nullptr || ragdoll->model.empty() || !options.model.empty()) continue;
         all.model = ragdoll->model;
+        all.asInScene = *ragdoll;
         if (!ragdoll->profile.empty()) all.load.profile = ragdoll->profile;
         break;
     }

@@ -17,6 +17,7 @@ struct EditorOptions {
     /// that; empty: such a model is refused.
     std::filesystem::path standIn;
     scene::LoadOptions load;
+    scene::Ragdoll asInScene;  ///< How a scene's file wants `model` to be taken; only `figure` and `rig` count.
     SceneSettings scene;
     std::filesystem::path sceneFile;  ///< *.scene.json in place of `scene`; `model` may be empty then.
     std::function<void(physics::WorldSettings&)> applyToWorld;  ///< Set: what was asked for beside the scene.

@@ -15,7 +15,9 @@ struct Saying {
 constexpr std::array kSayings{
     Saying{"`lutka inspect` shows the joint tree; a humanoid has a trunk, two arms and two legs. `--rig any`, in "
            "scenes and lists \"rig\": \"any\", makes a ragdoll of any skeleton",
-           "a humanoid has a trunk, two arms and two legs; open the file by itself to have a ragdoll of any skeleton"},
+           "a humanoid has a trunk, two arms and two legs; of a character of the scene \"Taken as\" (tab Scene) may be "
+           "any "
+           "skeleton"},
     Saying{"look at `lutka map` and bind the roles by hand, or take `--rig any`",
            "bind the roles by hand in the tab Mapping"},
     Saying{"`lutka build MODEL` lists the bodies", "the tab Body lists the bodies"},

@@ -10,6 +10,7 @@ using Opened = Result<std::unique_ptr<EditorDocument>>;
 Opened openAsset(const scene::Ragdoll& character, scene::LoadOptions load, const EditorDocument& present) {
     load.profile.reset();
     load.import.figure = character.figure;
+    takeRig(character, load);
     if (!character.profile.empty()) load.profile = character.profile;
     return EditorDocument::open(character.model.empty() ? present.character().file : character.model, load);
 }
@@ -29,6 +30,7 @@ Opened openModel(const std::filesystem::path& file, const scene::LoadOptions& lo
         if (!present.sceneDocument().isEdited(ragdoll)) continue;
         ragdoll.model.clear();
         ragdoll.figure.reset();
+        ragdoll.rig.reset();
         ragdoll.profile.clear();
         ragdoll.clip.reset();  // of the old one
     }

@@ -23,6 +23,12 @@ bool hasClip(const scene::RagdollAsset& asset, const std::string& name) {
 
 }  // namespace
 
+void takeRig(const scene::Ragdoll& character, scene::LoadOptions& load) {
+    if (!character.rig) return;
+    load.fit.rig = *character.rig;
+    load.fit.weighByVolume = *character.rig == physics::RigKind::any;
+}
+
 void SceneDocument::setOrigin(const animation::ImportOptions& import, const fs::path& profile) {
     load_.import = import;
     openedWith_ = profile;
@@ -41,18 +47,26 @@ const fs::path& SceneDocument::modelOf(const scene::Ragdoll& ragdoll) const {
 bool SceneDocument::isEdited(const scene::Ragdoll& ragdoll) const {
     if (!ragdoll.model.empty() && !samePath(ragdoll.model, edited_.character.file)) return false;
     if (ragdoll.figure && *ragdoll.figure != edited_.character.figure + 1) return false;
+    const auto rig = physics::hasRoles(edited_.profile) ? physics::RigKind::humanoid : physics::RigKind::any;
+    if (ragdoll.rig && *ragdoll.rig != rig) return false;
     if (ragdoll.profile.empty()) return ragdoll.model.empty() || openedWith_.empty();
     return samePath(ragdoll.profile, profileFile_) || samePath(ragdoll.profile, openedWith_);
+}
+
+SceneDocument::OtherKey SceneDocument::keyOf(const scene::Ragdoll& ragdoll) const {
+    return {modelOf(ragdoll), ragdoll.figure.value_or(0), ragdoll.profile,
+            ragdoll.rig.value_or(physics::RigKind::humanoid)};
 }
 
 Result<void> SceneDocument::loadOthers(const scene::EntityScene& scene) {
     for (const scene::Ragdoll& ragdoll : scene.all<scene::Ragdoll>()) {
         if (isEdited(ragdoll)) continue;
         const fs::path& model = modelOf(ragdoll);
-        const OtherKey key{model, ragdoll.figure.value_or(0), ragdoll.profile};
+        const OtherKey key = keyOf(ragdoll);
         if (others_.contains(key)) continue;
         scene::LoadOptions load = load_;
         load.import.figure = ragdoll.figure;
+        takeRig(ragdoll, load);
         if (!ragdoll.profile.empty()) load.profile = ragdoll.profile;
         auto asset = scene::loadRagdoll(model, load);
         if (!asset) return asset.error();
@@ -63,7 +77,7 @@ Result<void> SceneDocument::loadOthers(const scene::EntityScene& scene) {
 
 const scene::RagdollAsset& SceneDocument::assetOf(const scene::Ragdoll& ragdoll) const {
     if (isEdited(ragdoll)) return edited_;
-    const auto other = others_.find({modelOf(ragdoll), ragdoll.figure.value_or(0), ragdoll.profile});
+    const auto other = others_.find(keyOf(ragdoll));
     return other != others_.end() ? *other->second : edited_;
 }
 
@@ -174,6 +188,7 @@ Result<void> SceneDocument::write(const fs::path& file) const {
         if (!isEdited(ragdoll)) continue;
         if (ragdoll.model.empty()) ragdoll.model = edited_.character.file;
         if (edited_.character.figures.size() > 1) ragdoll.figure = edited_.character.figure + 1;
+        if (!physics::hasRoles(edited_.profile)) ragdoll.rig = physics::RigKind::any;
         if (ragdoll.profile.empty() && profileExists_) ragdoll.profile = profileFile_;
     }
     return scene::saveScene(file, written);

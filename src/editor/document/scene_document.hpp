@@ -75,8 +75,9 @@ class SceneDocument {
 
     const scene::RagdollAsset& edited_;
     SceneSettings settings_;
-    // Of the scene's other characters, by model, figure and profile. Kept for undo.
-    using OtherKey = std::tuple<std::filesystem::path, int, std::filesystem::path>;
+    // Of the scene's other characters, by model, figure, profile and what it is taken as. Kept for undo.
+    using OtherKey = std::tuple<std::filesystem::path, int, std::filesystem::path, physics::RigKind>;
+    [[nodiscard]] OtherKey keyOf(const scene::Ragdoll& ragdoll) const;
     std::map<OtherKey, std::unique_ptr<scene::RagdollAsset>> others_;
     scene::LoadOptions load_;
     std::filesystem::path openedWith_;
@@ -88,5 +89,8 @@ class SceneDocument {
     std::optional<std::filesystem::path> savedProfile_;
     bool unsaved_ = false;
 };
+
+/// What a scene says its character is to be taken as, weighed as on the command line; nothing where it says nothing.
+void takeRig(const scene::Ragdoll& character, scene::LoadOptions& load);
 
 }  // namespace lutka::editor

@@ -214,6 +214,14 @@ void draw(const PanelContext& context, Fields& fields, scene::Ragdoll& ragdoll) 
         editor.dialog = dialog;
     };
     if (fields.path("Model", ragdoll.model, "the character that is being edited")) browse(Editor::Dialog::chooseModel);
+    int rig = ragdoll.rig ? 1 + static_cast<int>(*ragdoll.rig) : 0;
+    fields.choice("Taken as", rig, "As the scene is opened\0A humanoid\0Any skeleton\0");
+    if (rig == 0) {
+        ragdoll.rig.reset();
+    } else {
+        ragdoll.rig = static_cast<physics::RigKind>(rig - 1);
+    }
+    tooltip("Any skeleton: bodies from the joints and the skin alone, for animals, hands and chains");
     if (fields.path("Profile", ragdoll.profile, "fitted, or the one that is being edited"))
         browse(Editor::Dialog::chooseProfile);
     int pose = ragdoll.pose ? 1 + static_cast<int>(*ragdoll.pose) : 0;

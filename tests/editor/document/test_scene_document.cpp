@@ -1,7 +1,9 @@
 #include "editor/document/scene_document.hpp"
 
 #include "editor/sessions.hpp"
+#include "scene/description/scene_file.hpp"
 #include "support/command.hpp"
+#include "support/zoo.hpp"
 
 using namespace lutka;
 using namespace lutka::editor;
@@ -74,4 +76,45 @@ TEST_CASE("a scene is unsaved from a change of its entities until it is saved or
     CHECK(session.document.file() == folder / "own.scene.json");
     session.document.adopt(before);  // the file has the box
     CHECK(session.document.unsaved());
+}
+
+TEST_CASE("a character that its scene takes as any skeleton is so in the editor: the first, another one, and saved") {
+    NEEDS_ZOO();
+    const test::ScratchFolder folder;
+    const std::filesystem::path fox = std::filesystem::canonical(test::zooFile("fox/Fox.glb"));
+    const auto asset = scene::makeRagdoll(test::makeBiped());
+    auto made = scene::makeScene("drop", 1, 0, scene::figureOf(*asset.value()).bounds);
+    REQUIRE(made.ok());
+    scene::EntityScene foxes = std::move(made).value();
+    foxes.all<scene::Ragdoll>().front().model = fox;
+    foxes.all<scene::Ragdoll>().front().rig = physics::RigKind::any;
+    const std::filesystem::path file = folder / "foxes.scene.json";
+    REQUIRE(scene::saveScene(file, foxes).ok());
+
+    EditorOptions options;
+    options.sceneFile = file;
+    const auto first = Editor::create(options);
+    REQUIRE(first.ok());
+    CHECK(first.value()->document().character().file == fox);
+    CHECK_FALSE(physics::hasRoles(first.value()->document().profile()));
+    CHECK(first.value()->document().sceneDocument().assets().size() == 1);
+
+    const auto editor = test::makeEditor();
+    test::send(*editor, filesDropped({file.string()}));
+    CHECK(editor->document().character().file == fox);
+    const std::filesystem::path again = folder / "again.scene.json";
+    REQUIRE(editor->document().sceneDocument().save(again).ok());
+    const auto read = scene::loadScene(again);
+    REQUIRE(read.ok());
+    CHECK(read.value().all<scene::Ragdoll>().front().rig == physics::RigKind::any);
+
+    // Beside a humanoid, which is the one that is edited.
+    const auto other = test::makeEditor();
+    CHECK_FALSE(other->editScene("Model", "",
+                                 [&](scene::EntityScene& scene) { scene.all<scene::Ragdoll>().front().model = fox; }));
+    CHECK(other->editScene("Model", "", [&](scene::EntityScene& scene) {
+        scene.all<scene::Ragdoll>().front().model = fox;
+        scene.all<scene::Ragdoll>().front().rig = physics::RigKind::any;
+    }));
+    CHECK(other->document().sceneDocument().assets().size() == 2);
 }
