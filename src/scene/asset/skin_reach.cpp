@@ -27,8 +27,10 @@ constexpr std::array<vec3, kDirections> directions() {
     int at = 0;
     for (int i = 0; i < 27; ++i) {
         if (i == 13) continue;  // none
-        all[static_cast<std::size_t>(at++)] = {static_cast<float>(i % 3 - 1), static_cast<float>(i / 3 % 3 - 1),
-                                               static_cast<float>(i / 9 - 1)};
+        const int x = i % 3 - 1;
+        const int y = i / 3 % 3 - 1;
+        const int z = i / 9 - 1;
+        all[static_cast<std::size_t>(at++)] = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
     }
     return all;
 }
