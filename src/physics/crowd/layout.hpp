@@ -218,6 +218,7 @@ struct DragLanes {
     Wide3 arm;      ///< As it will be half way through the substep.
     Wide3 bias;     ///< m/s
     Wide3 impulse;  ///< N s, of this substep.
+    Wide3 before;   ///< m/s, of its point as the substep began, when Batch::energy was taken.
     Wide gain;      ///< `weight` while the force is within its bound, else 0; kept between substeps.
     int body;
 };

@@ -349,16 +349,35 @@ LUTKA_LANES F keptEnergy(const BatchView& batch) {
     return kineticEnergy(batch, &BodyLanes::steadyVelocity, &BodyLanes::steadyAngular);
 }
 
-// What the pulls have given in this substep, joules: each its impulse times the mean of its point's velocity without
-// and with all that was solved for.
+// The velocity of a pull's point, m/s.
+LUTKA_LANES V3 pointVelocity(const BatchView& batch, const DragLanes& drag, Wide3 BodyLanes::*velocity,
+                             Wide3 BodyLanes::*angular) {
+    const BodyLanes& body = batch.bodies[drag.body];
+    return load(body.*velocity) + cross(load(body.*angular), load(drag.arm));
+}
+LUTKA_LANES V3 keptVelocity(const BatchView& batch, const DragLanes& drag) {
+    return pointVelocity(batch, drag, &BodyLanes::steadyVelocity, &BodyLanes::steadyAngular);
+}
+
+// What the pulls have given since the substep began, joules: each its impulse times the mean of its point's velocity
+// then and now. What contacts did to the pulled body alone says nothing about it: a light hand that is pulled onto the
+// own head would seem to take more than all of the doll has.
 LUTKA_LANES F workOfDrags(const BatchView& batch) {
     F work = all(0.0F);
     for (int i = 0; i < batch.dragCount; ++i) {
         const DragLanes& drag = batch.drags[i];
-        const BodyLanes& body = batch.bodies[drag.body];
-        const V3 velocity = load(body.loose) + load(body.steadyVelocity);
-        const V3 angular = load(body.looseAngular) + load(body.steadyAngular);
-        work = work + all(0.5F) * dot(load(drag.impulse), velocity + cross(angular, load(drag.arm)));
+        work = work + all(0.5F) * dot(load(drag.impulse), load(drag.before) + keptVelocity(batch, drag));
+    }
+    return work;
+}
+
+// The same, since all was done to the single bodies.
+LUTKA_LANES F workOnLoose(const BatchView& batch) {
+    F work = all(0.0F);
+    for (int i = 0; i < batch.dragCount; ++i) {
+        const DragLanes& drag = batch.drags[i];
+        const V3 loose = pointVelocity(batch, drag, &BodyLanes::loose, &BodyLanes::looseAngular);
+        work = work + all(0.5F) * dot(load(drag.impulse), loose + keptVelocity(batch, drag));
     }
     return work;
 }
@@ -374,9 +393,9 @@ LUTKA_LANES Mask gainsOver(F has, F given) {
 // with where nothing else pushes. Rows that only hold take some away.
 static Mask gainsEnergy(const BatchView& batch) {
     if (batch.motors != nullptr || batch.targets != nullptr) return noLanes();
-    const F loose = kineticEnergy(batch, &BodyLanes::loose, &BodyLanes::looseAngular);
-    const F given = load(*batch.struck) > all(0.0F) ? loose : least(loose, load(*batch.energy));
-    return gainsOver(keptEnergy(batch), given + workOfDrags(batch));
+    const F loose = kineticEnergy(batch, &BodyLanes::loose, &BodyLanes::looseAngular) + workOnLoose(batch);
+    const F began = load(*batch.energy) + workOfDrags(batch);
+    return gainsOver(keptEnergy(batch), load(*batch.struck) > all(0.0F) ? loose : least(loose, began));
 }
 
 static void solveAll(const BatchView& batch, const SubstepParams& params, Solving what) {
@@ -413,6 +432,8 @@ static void solve(const BatchView& batch, const SubstepParams& params, int first
         takeSupports(batch);
         store(*batch.answered, all(0.0F));
         store(*batch.energy, keptEnergy(batch));
+        for (int i = 0; i < batch.dragCount; ++i)
+            store(batch.drags[i].before, keptVelocity(batch, batch.drags[i]));
     } else {
         const F zero = all(0.0F);
         store(*batch.answered, taken.pressed > zero ? all(1.0F) : load(*batch.answered));
