@@ -15,6 +15,8 @@ constexpr int kFewestOfMultitude = 2048;  // … of which names tell nothing any
 constexpr int kHugeScene = 4096;          // joints: here groups of parts hang on groups, and …
 constexpr int kHugeScale = 16;            // … so many times fewer are a crowd
 constexpr int kFewestInScene = 2 * kFewestOfCrowd;
+constexpr int kLeastChain = 3;    // nodes, one below the other: as a limb has
+constexpr int kMostOfBody = 256;  // parts of a crowd that are taken for a body's by one sign: more are a crowd, too
 
 // Joints that move a part of a skin.
 std::vector<bool> skinnedJoints(const Character& character) {
@@ -31,36 +33,71 @@ std::vector<bool> skinnedJoints(const Character& character) {
     return skinned;
 }
 
-bool speaksOfBody(const std::string& name) {
-    const NameEvidence evidence = nameEvidence(name);
+bool speaksOfBody(const NameEvidence& evidence) {
     return std::any_of(evidence.parts.values.begin(), evidence.parts.values.end(),
                        [](float score) { return score > 0.0F; });
 }
 
+// Signs that a part is a body's, each of which may be many a part's in a scene.
+enum Sign : unsigned { kNone = 0, kChain = 1, kLimb = 2, kSidedLimb = 4 };
+constexpr std::array<Sign, 3> kSigns{kChain, kLimb, kSidedLimb};
+
+unsigned signsOfName(const NameEvidence& evidence) {
+    const PartScores& parts = evidence.parts;
+    constexpr std::array<Part, 8> kLimbs{Part::clavicle, Part::upperArm, Part::lowerArm, Part::hand,
+                                         Part::upperLeg, Part::lowerLeg, Part::foot,     Part::toes};
+    const bool limb =
+        std::any_of(kLimbs.begin(), kLimbs.end(), [&](Part part) { return parts[part] >= kTellsPartOfLimb; });
+    if (limb && evidence.side != Side::center) return kLimb | kSidedLimb;
+    return limb || parts[Part::head] >= kTellsTrunkEnd || parts[Part::hips] >= kTellsTrunkEnd ? kLimb : kNone;
+}
+
 // Small parts below each joint: the tops of what has no skin and few joints, and whether a name there is of a body.
 struct Parts {
-    std::vector<bool> small;  // per joint: it and all below it are few, and move no skin
-    std::vector<bool> named;  // per joint: it or one below it is named as a part of a body
+    std::vector<bool> small;      // per joint: it and all below it are few, and move no skin
+    std::vector<bool> named;      // per joint: it or one below it is named as a part of a body
+    std::vector<unsigned> signs;  // per joint: of it and of those below it
 };
 
-Parts findParts(const Character& character, const std::vector<int>& kept) {
+Parts findParts(const Character& character, const std::vector<int>& kept, bool useNames) {
     const Skeleton& skeleton = character.skeleton;
     const std::size_t count = skeleton.names.size();
     const std::vector<bool> skinned = skinnedJoints(character);
-    Parts parts{std::vector<bool>(count, true), std::vector<bool>(count, false)};
+    Parts parts{std::vector<bool>(count, true), std::vector<bool>(count, false), std::vector<unsigned>(count, kNone)};
     std::vector<int> size(count, 1);
+    std::vector<int> height(count, 1);
     for (const int joint : kept)
         parts.small[static_cast<std::size_t>(joint)] = false;
     for (std::size_t joint = count; joint-- > 0;) {
         if (skinned[joint] || size[joint] > kMostOfPart) parts.small[joint] = false;
-        parts.named[joint] = parts.named[joint] || speaksOfBody(skeleton.names[joint]);
+        if (useNames) {
+            const NameEvidence evidence = nameEvidence(skeleton.names[joint]);
+            parts.named[joint] = parts.named[joint] || speaksOfBody(evidence);
+            parts.signs[joint] |= signsOfName(evidence);
+        }
+        if (height[joint] >= kLeastChain) parts.signs[joint] |= kChain;
         if (skeleton.parents[joint] == kNoJoint) continue;
         const auto parent = static_cast<std::size_t>(skeleton.parents[joint]);
         size[parent] += size[joint];
         if (!parts.small[joint]) parts.small[parent] = false;
         if (parts.named[joint]) parts.named[parent] = true;
+        parts.signs[parent] |= parts.signs[joint];
+        height[parent] = std::max(height[parent], height[joint] + 1);
     }
     return parts;
+}
+
+// Limbs of rigid parts may hang beside a crowd. A sign that a whole crowd bears is none.
+void keepBodies(const Parts& parts, std::vector<bool>& gone) {
+    unsigned telling = kNone;
+    for (const Sign sign : kSigns) {
+        int bearers = 0;
+        for (std::size_t joint = 0; joint < gone.size(); ++joint)
+            bearers += gone[joint] && (parts.signs[joint] & sign) != 0 ? 1 : 0;
+        if (bearers <= kMostOfBody) telling |= sign;
+    }
+    for (std::size_t joint = 0; joint < gone.size(); ++joint)
+        gone[joint] = gone[joint] && (parts.signs[joint] & telling) == 0;
 }
 
 std::vector<bool> findCrowds(const Skeleton& skeleton, const Parts& parts) {
@@ -79,19 +116,23 @@ std::vector<bool> findCrowds(const Skeleton& skeleton, const Parts& parts) {
     std::vector<bool> gone(count, false);
     for (std::size_t joint = 0; joint < count; ++joint) {
         const std::size_t parent = parentOf(joint);
-        const bool ofCrowd = parts.small[joint] && (beside[parent] >= kFewestOfMultitude / scale ||
-                                                    (!parts.named[joint] && unnamed[parent] >= kFewestOfCrowd / scale));
-        gone[joint] = ofCrowd || (parent < count && gone[parent]);
+        gone[joint] = parts.small[joint] && (beside[parent] >= kFewestOfMultitude / scale ||
+                                             (!parts.named[joint] && unnamed[parent] >= kFewestOfCrowd / scale));
+    }
+    keepBodies(parts, gone);
+    for (std::size_t joint = 0; joint < count; ++joint) {
+        const std::size_t parent = parentOf(joint);
+        gone[joint] = gone[joint] || (parent < count && gone[parent]);
     }
     return gone;
 }
 
 }  // namespace
 
-std::optional<WithoutCrowds> leaveOutCrowds(const Character& character, const std::vector<int>& kept) {
+std::optional<WithoutCrowds> leaveOutCrowds(const Character& character, const std::vector<int>& kept, bool useNames) {
     const Skeleton& skeleton = character.skeleton;
     if (skeleton.jointCount() < kFewestInScene) return std::nullopt;
-    const std::vector<bool> gone = findCrowds(skeleton, findParts(character, kept));
+    const std::vector<bool> gone = findCrowds(skeleton, findParts(character, kept, useNames));
     if (std::none_of(gone.begin(), gone.end(), [](bool is) { return is; })) return std::nullopt;
     WithoutCrowds left;
     Skeleton& few = left.character.skeleton;

@@ -259,7 +259,7 @@ HumanoidMap mapHumanoid(const Character& character, const MapOptions& options) {
     for (const auto& joint : options.fixed)
         LUTKA_ASSERT(!joint || (*joint >= 0 && *joint < skeleton.jointCount()));
     if (skeleton.jointCount() == 0) return refused("it has no joints");
-    if (const auto few = leaveOutCrowds(character, namedJoints(character, options)))
+    if (const auto few = leaveOutCrowds(character, namedJoints(character, options), options.useNames))
         return mapWithoutCrowds(*few, skeleton.jointCount() - few->character.skeleton.jointCount(), options);
     if (skeleton.jointCount() < kFewestJoints) {
         return refused(fmt::format("{} joint{} too few for a trunk, two arms and two legs", skeleton.jointCount(),

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "animation/humanoid/crowds.hpp"
 #include "animation/humanoid/map_humanoid.hpp"
@@ -86,6 +88,47 @@ TEST_CASE("of hundreds of parts those stay that are named as the body's, or that
     const animation::HumanoidMap map = animation::mapHumanoid(scene, options);
     REQUIRE(map.humanoid);
     CHECK(map.jointOf(Role::leftToes) == fixed);
+}
+
+TEST_CASE("limbs of rigid parts that hang beside a crowd are none of it", "[crowds]") {
+    // A figure of blocks, and as many bolts on its root as are a multitude: below 4,096 joints and above.
+    for (const bool named : {true, false}) {
+        for (const int bolts : {named ? 3000 : 600, 5000}) {
+            INFO(bolts << " bolts, named: " << named);
+            std::vector<JointSpec> joints{{"root", -1, {0, 0, 0}}};
+            const auto add = [&](const std::string& name, int parent, const vec3& place) {
+                joints.push_back({named ? name : "Object_" + std::to_string(joints.size()), parent, place});
+                return static_cast<int>(joints.size()) - 1;
+            };
+            add("hips", 0, {0, 0.95F, 0});
+            add("torso", 0, {0, 1.2F, 0});
+            add("head", 0, {0, 1.6F, 0});
+            std::vector<int> tops;
+            for (const float side : {1.0F, -1.0F}) {
+                const std::string end = side > 0.0F ? "_L" : "_R";
+                const auto limb = [&](const char* upper, const char* lower, const char* last, vec3 at, vec3 step) {
+                    tops.push_back(add(upper + end, 0, at));
+                    add(last + end, add(lower + end, tops.back(), at + step), at + 2.0F * step);
+                };
+                limb("upper_arm", "forearm", "hand", {side * 0.2F, 1.4F, 0}, {side * 0.27F, 0, 0});
+                limb("thigh", "shin", "foot", {side * 0.1F, 0.9F, 0}, {0, -0.42F, 0.01F});
+            }
+            const int figure = static_cast<int>(joints.size());
+            for (int bolt = 0; bolt < bolts; ++bolt)
+                joints.push_back({"bolt_" + std::to_string(bolt), 0, {0.001F * static_cast<float>(bolt), 0, 1}});
+            animation::Character scene;
+            scene.skeleton = makeSkeleton(joints);
+            scene.skeleton.skinWeight.assign(joints.size(), 0.0F);
+            const auto few = animation::leaveOutCrowds(scene, {}, named);
+            REQUIRE(few);
+            CHECK(few->character.skeleton.jointCount() <= figure);
+            for (const int top : tops) {
+                for (int joint = top; joint < top + 3; ++joint)
+                    CHECK(std::binary_search(few->original.begin(), few->original.end(), joint));
+            }
+            if (named) CHECK(animation::mapHumanoid(scene).humanoid);
+        }
+    }
 }
 
 TEST_CASE("a figure of rigid parts, with many beside it, keeps all of its own", "[crowds]") {
