@@ -133,6 +133,25 @@ TEST_CASE("a figure that is inside out is turned, with a word") {
     }
 }
 
+TEST_CASE("a floor and a ceiling that face each other are not inside out") {
+    const TemporaryFolder folder;
+    Post room;
+    room.positions = {{0, 0, 0},    {1, 0, 0},    {1, 0, 1},    {0, 0, 1},
+                      {0, 1.8F, 0}, {1, 1.8F, 0}, {1, 1.8F, 1}, {0, 1.8F, 1}};
+    room.skin.resize(room.positions.size());
+    room.indices = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7};
+    GltfFile file;
+    const int node = file.addNode("Room", -1);
+    file.json["nodes"][node]["mesh"] = addPostMesh(file, room, mat4(1.0F), false);
+    file.saveBinary(folder / "room.glb");
+    const Character character = imported(folder / "room.glb");
+    CHECK_FALSE(warns(character, "point inwards"));
+    REQUIRE(character.meshes.size() == 1);
+    const SkinnedMesh& mesh = character.meshes[0];
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+        CHECK((mesh.positions[v].y < 0.5F ? 1.0F : -1.0F) * mesh.normals[v].y > 0.9F);
+}
+
 TEST_CASE("sheets that face each other are not inside out") {
     const TemporaryFolder folder;
     // A floor and a wall behind it, both seen from where one would stand.
