@@ -140,12 +140,14 @@ bool isOnAllFours(const Figure& figure, const FramedRig& framed) {
            angleTo(arms, legs) < kMostTilt;
 }
 
-// A level trunk above four splayed limbs without hands and feet, which end on one ground: a beast with a man's names.
+// A level trunk above four splayed limbs without hands and feet, which end on one ground and are of one length: a beast
+// with a man's names. The arms of a man who crawls are shorter than his legs.
 bool isCarriedByFour(const Figure& figure, const FramedRig& framed) {
     constexpr float kLevel = 0.42F;      // sine of the trunk to the ground
     constexpr float kSplayed = 0.3F;     // of a limb's length, to its side
     constexpr float kDown = 0.25F;       // … down
     constexpr float kOneGround = 0.25F;  // of the legs' length
+    constexpr float kOneLength = 0.8F;   // the shorter of the longer
     if (!framed.rig->skinned) return false;
     const Stance& stance = framed.stance;
     const vec3 up(stance.across().y, stance.up.y, stance.through().y);
@@ -153,6 +155,7 @@ bool isCarriedByFour(const Figure& figure, const FramedRig& framed) {
     if (std::abs(glm::dot(trunk, up)) > kLevel * glm::length(trunk)) return false;
     const LimbEnd foot = endOf(framed, figure.legs);
     const LimbEnd hand = endOf(framed, figure.arms);
+    if (std::min(foot.length, hand.length) < kOneLength * std::max(foot.length, hand.length)) return false;
     const auto goesDown = [&](const LimbCandidate& limb, const LimbEnd& end) {
         return limb.pairs[2] == kNoPair && glm::dot(limb.root - end.place, up) > kDown * end.length &&
                end.place.x - limb.root.x > kSplayed * end.length;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -151,20 +152,49 @@ bool saysConcept(const NameEvidence& name, Concept meaning) {
                        [&](const std::string& word) { return conceptOf(word) == meaning; });
 }
 
-// A sleeve beside the arm, both of them meshes without a skin: worn, and no part of the arm.
+// The limb that a name speaks of, or what is worn on it.
+enum class WornLimb { none, arm, leg };
+
+WornLimb wornLimbOf(const NameEvidence& name) {
+    using Meanings = std::initializer_list<Concept>;
+    const auto saysAny = [&](Meanings meanings) {
+        return std::any_of(meanings.begin(), meanings.end(), [&](Concept one) { return saysConcept(name, one); });
+    };
+    const auto hasAny = [&](std::initializer_list<std::string_view> words) {
+        return std::any_of(name.words.begin(), name.words.end(), [&](const std::string& word) {
+            return std::find(words.begin(), words.end(), word) != words.end();
+        });
+    };
+    if (hasAny({"sleeve", "sleeves"}) ||
+        saysAny({Concept::arm, Concept::upperArm, Concept::forearm, Concept::elbow, Concept::wrist, Concept::hand}))
+        return WornLimb::arm;
+    if (hasAny({"pants", "trousers"}) ||
+        saysAny({Concept::leg, Concept::thigh, Concept::shin, Concept::knee, Concept::ankle, Concept::foot}))
+        return WornLimb::leg;
+    return WornLimb::none;
+}
+
+// A sleeve beside the arm, both of them meshes without a skin: worn, and no part of the arm. Trousers beside arms are
+// all the legs that there are, and a shirt is the trunk.
 void leaveLimbsToWearers(RigFeatures& rig) {
     const auto isMesh = [&](int joint) { return rig.rigidPart[joint] && rig.children[joint].empty(); };
-    for (int joint = 0; joint < rig.count(); ++joint) {
-        const int group = rig.parents[joint];
-        NameEvidence& name = rig.names[joint];
-        if (group == kNoJoint || !isMesh(joint) || !saysConcept(name, Concept::cloth)) continue;
-        const auto isWearer = [&](int other) {
-            return isMesh(other) && rig.names[other].side == name.side && rig.names[other].meaningful &&
-                   !saysConcept(rig.names[other], Concept::cloth);
-        };
-        if (std::none_of(rig.children[group].begin(), rig.children[group].end(), isWearer)) continue;
-        name.parts.values.fill(kOfOtherPart);
-        name.helper = true;
+    const auto isCloth = [&](int joint) { return saysConcept(rig.names[joint], Concept::cloth); };
+    for (const std::vector<int>& children : rig.children) {
+        std::vector<std::pair<Side, WornLimb>> limbs;  // few, each once
+        const auto wornBy = [&](int joint) { return std::pair{rig.names[joint].side, wornLimbOf(rig.names[joint])}; };
+        for (const int joint : children) {
+            if (!isMesh(joint) || !rig.names[joint].meaningful || isCloth(joint)) continue;
+            const auto limb = wornBy(joint);
+            if (std::find(limbs.begin(), limbs.end(), limb) == limbs.end()) limbs.push_back(limb);
+        }
+        for (const int joint : children) {
+            if (limbs.empty() || !isMesh(joint) || !isCloth(joint)) continue;
+            const auto limb = wornBy(joint);
+            if (limb.first == Side::center || limb.second == WornLimb::none) continue;
+            if (std::find(limbs.begin(), limbs.end(), limb) == limbs.end()) continue;
+            rig.names[joint].parts.values.fill(kOfOtherPart);
+            rig.names[joint].helper = true;
+        }
     }
 }
 
@@ -200,8 +230,9 @@ void flattenNumberedLimbs(RigFeatures& rig) {
     }
 }
 
-// "Arm, Arm1, Arm2": bones of a biped whose language has one word for collarbone and arm. Where a hand hangs on the
-// third, or the first is far shorter than the second, they are the clavicle, the upper arm and the forearm.
+// "Arm, Arm1, Arm2": bones of a biped whose language has one word for collarbone and arm. Where the first is far
+// shorter than the second, or shorter and a hand hangs on the third, they are the clavicle, the upper arm and the
+// forearm; not below a bone that is the clavicle by its name.
 void readCountedArms(RigFeatures& rig) {
     constexpr float kShort = 0.6F;  // of the second
     const auto nextOf = [&](int joint, int number) {
@@ -216,6 +247,12 @@ void readCountedArms(RigFeatures& rig) {
         }
         return kNoJoint;
     };
+    const auto hasClavicleAbove = [&](int joint) {
+        const Side side = rig.names[joint].side;
+        for (int above = rig.parents[joint]; above != kNoJoint; above = rig.parents[above])
+            if (rig.names[above].side == side && rig.names[above].parts[Part::clavicle] >= kMaybe) return true;
+        return false;
+    };
     for (int first = 0; first < rig.count(); ++first) {
         const NameEvidence& name = rig.names[first];
         if (!name.bareLimb || name.side == Side::center || name.parts[Part::upperArm] <= 0.0F) continue;
@@ -226,7 +263,7 @@ void readCountedArms(RigFeatures& rig) {
         const bool hand = std::any_of(rig.children[third].begin(), rig.children[third].end(), isHand);
         const float firstLength = glm::distance(rig.positions[first], rig.positions[second]);
         const float secondLength = glm::distance(rig.positions[second], rig.positions[third]);
-        if (!hand && firstLength > kShort * secondLength) continue;
+        if (firstLength > (hand ? 1.0F : kShort) * secondLength || hasClavicleAbove(first)) continue;
         for (const auto& [joint, part] :
              {std::pair{first, Part::clavicle}, std::pair{second, Part::upperArm}, std::pair{third, Part::lowerArm}}) {
             rig.names[joint].bareLimb = false;

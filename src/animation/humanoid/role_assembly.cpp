@@ -41,10 +41,12 @@ class RoleAssembler {
         bindTrunk();
         constexpr std::array<Role, 4> kLegs{Role::leftUpperLeg, Role::leftLowerLeg, Role::leftFoot, Role::leftToes};
         constexpr std::array<Role, 4> kArms{Role::leftUpperArm, Role::leftLowerArm, Role::leftHand, Role::leftShoulder};
-        const LimbCandidate legs = asWhole(figure_.legs, reachesFromHip());
-        const LimbCandidate arms = asWhole(figure_.arms, reachesFromShoulder());
-        bindLimb(legs, kLegs, figure_.margins.legs, "leg");
-        bindLimb(arms, kArms, figure_.margins.arms, "arm");
+        std::array<float, 4> legMargins = figure_.margins.legs;
+        std::array<float, 4> armMargins = figure_.margins.arms;
+        const LimbCandidate legs = asWhole(figure_.legs, reachesFromHip(), legMargins);
+        const LimbCandidate arms = asWhole(figure_.arms, reachesFromShoulder(), armMargins);
+        bindLimb(legs, kLegs, legMargins, "leg");
+        bindLimb(arms, kArms, armMargins, "arm");
         bindStrayJoints(rig_, probability(kLoneMargin) * sideTrust_, map_);
         bindSegmentPivots(rig_, map_);
         distrustAstray();
@@ -54,7 +56,7 @@ class RoleAssembler {
 
   private:
     // A limb of one joint that is called foot or hand, and goes all the way from the hip or the shoulder, is the limb.
-    [[nodiscard]] LimbCandidate asWhole(LimbCandidate limb, bool isLong) const {
+    [[nodiscard]] LimbCandidate asWhole(LimbCandidate limb, bool isLong, std::array<float, 4>& margins) const {
         const auto startsAbove = [&](int joint) {
             const int parent = rig_.parents[joint];
             if (parent == kNoJoint) return false;
@@ -66,6 +68,7 @@ class RoleAssembler {
         if (limb.jointCount() != 1 || limb.pairs[2] == kNoPair || !isLong) return limb;
         if (startsAbove(figure_.framed.pairs[limb.first].joints[0])) return limb;
         std::swap(limb.pairs[0], limb.pairs[2]);
+        std::swap(margins[0], margins[2]);
         return limb;
     }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "animation/humanoid/map_humanoid.hpp"
+#include "animation/humanoid/rig_features.hpp"
 #include "placed_joints.hpp"
 #include "support/catch.hpp"
 #include "support/rigs.hpp"
@@ -117,6 +118,30 @@ TEST_CASE("arms that are counted from the collarbone on begin at the second join
     }
 }
 
+TEST_CASE("counted arms below a shoulder begin at the first joint", "[misnamed]") {
+    // As Blender numbers the bones that it splits one arm into.
+    for (const bool shoulders : {true, false}) {
+        INFO("shoulders: " << shoulders);
+        PlacedJoints rig;
+        const BipedTrunk trunk = addBipedTrunk(rig);
+        addBipedLegs(rig, trunk.hips);
+        for (const float side : {1.0F, -1.0F}) {
+            const std::string end = side > 0.0F ? ".L" : ".R";
+            const auto at = [&](float x) { return vec3(side * x, 1.42F, 0); };
+            const int top = shoulders ? rig.add("Shoulder" + end, trunk.chest, at(0.04F)) : trunk.chest;
+            const int arm = rig.add("Arm" + end, top, at(0.18F));
+            const int second = rig.add("Arm" + end + ".001", arm, at(0.46F));
+            const int third = rig.add("Arm" + end + ".002", second, at(0.6F));
+            rig.add("Hand" + end, third, at(0.73F));
+        }
+        const HumanoidMap map = rig.map(true);
+        REQUIRE(map.humanoid);
+        CHECK(rig.nameOf(map, Role::leftUpperArm) == "Arm.L");
+        CHECK(rig.nameOf(map, Role::leftHand) == "Hand.L");
+        CHECK(rig.nameOf(map, Role::rightShoulder) == (shoulders ? "Shoulder.R" : "none"));
+    }
+}
+
 TEST_CASE("a block from the hip to the floor is the leg, though it is called foot, and so is an arm", "[misnamed]") {
     const PlacedJoints whole = blocksOfEnds(true);
     const HumanoidMap limbs = mapBlocks(whole, true);
@@ -152,6 +177,32 @@ TEST_CASE("sleeves and trousers beside the limbs of a figure of blocks are worn"
     CHECK(rig.nameOf(map, Role::leftLowerArm) == "none");
     CHECK(rig.nameOf(map, Role::rightUpperLeg) == "rightLeg");
     CHECK(rig.nameOf(map, Role::rightLowerLeg) == "none");
+}
+
+TEST_CASE("trousers beside arms, and a shirt beside a head, are worn by none of them", "[misnamed]") {
+    // Boxes side by side on one node, as a flat figure's.
+    BlockFigure made;
+    PlacedJoints& rig = made.rig;
+    const int root = rig.add("root", -1, {0, 0, 0});
+    const auto box = [&](const std::string& name, const vec3& joint) {
+        const vec3 half(0.12F, 0.3F, 0.12F);
+        made.box(rig.add(name, root, joint), joint - half, joint + half);
+    };
+    box("Shirt", {0, 1.1F, 0});
+    box("Head", {0, 1.8F, 0});
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string end = side > 0.0F ? "_L" : "_R";
+        box("Pants" + end, {side * 0.13F, 0.4F, 0});
+        box("Arm" + end, {side * 0.38F, 1.2F, 0});
+        box("Sleeve" + end, {side * 0.38F, 1.2F, 0});
+    }
+    made.map();
+    const animation::RigFeatures features = animation::readRig(made.figure, true);
+    for (int joint = 0; joint < features.count(); ++joint) {
+        const std::string& name = rig.joints[static_cast<std::size_t>(joint)].name;
+        INFO(name);
+        CHECK(features.names[joint].helper == (name.find("Sleeve") == 0));
+    }
 }
 
 TEST_CASE("a jaw that carries the head is no neck", "[misnamed]") {
@@ -224,6 +275,35 @@ TEST_CASE("a small beast on splayed legs is none, though its joints have a man's
     CHECK_FALSE(map.humanoid);
 }
 
+TEST_CASE("a man who crawls is one, though his limbs have two joints each", "[misnamed]") {
+    std::vector<JointSpec> joints{{"Bip01 Pelvis", -1, {0, 0.4F, 0}},
+                                  {"Bip01 Spine", 0, {0, 0.44F, 0.25F}},
+                                  {"Bip01 Neck", 1, {0, 0.48F, 0.5F}},
+                                  {"Bip01 Head", 2, {0, 0.5F, 0.58F}}};
+    std::vector<TubeSpec> skin{{0, {0, 0.42F, 0.1F}, 0.15F},
+                               {1, {0, 0.46F, 0.4F}, 0.17F},
+                               {2, {0, 0.5F, 0.56F}, 0.07F},
+                               {3, {0, 0.52F, 0.8F}, 0.1F}};
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string start = side > 0.0F ? "Bip01 L " : "Bip01 R ";
+        const auto add = [&](const char* name, int parent, const vec3& place, const vec3& tip) {
+            const vec3 mirrored(side, 1, 1);
+            joints.push_back({start + name, parent, place * mirrored});
+            const int joint = static_cast<int>(joints.size()) - 1;
+            skin.push_back({joint, tip * mirrored, 0.05F});
+            return joint;
+        };
+        const int thigh = add("Thigh", 0, {0.1F, 0.4F, 0}, {0.35F, 0.25F, 0.1F});
+        add("Calf", thigh, {0.35F, 0.25F, 0.1F}, {0.5F, 0.02F, -0.25F});
+        const int collar = add("Clavicle", 2, {0.05F, 0.47F, 0.45F}, {0.17F, 0.47F, 0.45F});
+        const int arm = add("UpperArm", collar, {0.18F, 0.47F, 0.45F}, {0.38F, 0.3F, 0.5F});
+        add("Forearm", arm, {0.38F, 0.3F, 0.5F}, {0.5F, 0.03F, 0.55F});
+    }
+    const HumanoidMap map = animation::mapHumanoid(makeFigure("crawling", joints, skin));
+    INFO((map.warnings.empty() ? std::string() : map.warnings.front()));
+    CHECK(map.humanoid);
+}
+
 TEST_CASE("the end of an arm that has no part's name takes nothing from names that tell the sides", "[misnamed]") {
     // Its shins lean back, and so do its soles, though the figure faces +Z, as all its names say.
     std::vector<JointSpec> joints{{"Torso", -1, {0, 0.69F, 0}}, {"Chest", 0, {0, 1.1F, 0}}, {"Head", 1, {0, 1.5F, 0}}};
@@ -245,7 +325,10 @@ TEST_CASE("the end of an arm that has no part's name takes nothing from names th
     }
     const HumanoidMap map = animation::mapHumanoid(makeFigure("zombie", joints, skin));
     REQUIRE(map.humanoid);
-    const auto nameOf = [&](Role role) { return joints[static_cast<std::size_t>(map.jointOf(role))].name; };
+    const auto nameOf = [&](Role role) {
+        REQUIRE(map[role]);
+        return joints[static_cast<std::size_t>(map.jointOf(role))].name;
+    };
     CHECK(nameOf(Role::leftUpperArm) == "Arm_L");
     CHECK(nameOf(Role::rightLowerLeg) == "Shin_R");
 }
