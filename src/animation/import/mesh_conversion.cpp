@@ -1,7 +1,6 @@
 #include "animation/import/mesh_conversion.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +8,12 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <optional>
+#include <string_view>
+#include <unordered_set>
 #include <utility>
 
 #include "animation/import/mesh_repair.hpp"
+#include "animation/import/name_list.hpp"
 #include "animation/import/vertex_weights.hpp"
 
 namespace lutka::animation::rig_import {
@@ -72,17 +74,18 @@ class OtherPoses {
         const dvec3 extent = high - low;
         const double size = std::max({extent.x, extent.y, extent.z});
         std::vector<std::string> names;
+        std::unordered_set<std::string_view> known;
         double farthest = 0.0;
         for (const auto& [name, off] : found_) {
             if (!(off > kVisible * size)) continue;
             farthest = std::max(farthest, off / size);
-            if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+            if (known.insert(name).second) names.push_back(name);
         }
         if (names.empty()) return std::nullopt;
         return fmt::format(
             "bound in another pose than the rest of the figure: {}; bends of it may be off by up to "
             "{:.1f} % of the figure's size",
-            fmt::join(names, ", "), 100.0 * farthest);
+            firstOf(names), 100.0 * farthest);
     }
 
   private:

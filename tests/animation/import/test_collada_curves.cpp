@@ -130,6 +130,23 @@ TEST_CASE("turns about an axis that a Collada curve makes between far keys are c
           curveOf("LINEAR LINEAR LINEAR", "") + place);
 }
 
+TEST_CASE("turns about an axis that a Collada curve has a key for at each frame keep these keys") {
+    const std::string channel = "<channel source=\"#s\" target=\"n/turnX.ANGLE\"/>";
+    std::string baked = curveOf("LINEAR LINEAR LINEAR", "") + channel;
+    baked.replace(baked.find("0 1 1.5"), 7, "0 0.0416667 0.0833333");
+    CHECK(rig_import::straightenedCollada(baked).text == baked);
+}
+
+TEST_CASE("Collada samplers without an end are looked through once") {
+    // Tens of thousands, each of which would be looked for to the end of the document.
+    std::string open = "<library_animations><animation>";
+    for (int i = 0; i < 60'000; ++i)
+        open += "<sampler id=\"s\">";
+    open += "<channel source=\"#s\" target=\"n/turnX.ANGLE\"/>";
+    CHECK(rig_import::withOwnSamplers(open) == open);
+    CHECK(rig_import::straightenedCollada(open).text == open);
+}
+
 TEST_CASE("straight Collada curves, and splines without tangents, stay as they are") {
     for (const std::string& text : {curveOf("LINEAR LINEAR LINEAR", ""), curveOf("BEZIER BEZIER BEZIER", ""),
                                     curveOf("STEP", ""), std::string("<sampler>STEP"), std::string("STEP")})

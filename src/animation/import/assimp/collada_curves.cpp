@@ -121,11 +121,13 @@ struct Curve {
     [[nodiscard]] std::string_view kindOf(std::size_t key) const {
         return kinds != nullptr ? (*kinds)[key] : std::string_view("LINEAR");
     }
-    // Into how many pieces a straight turn from a key to the next is cut: of two degrees each.
+    // Into how many pieces a straight turn from a key to the next is cut: of two degrees each. Where keys lie as near
+    // as frames, the turn is baked already, and keys between them would hide how many frames a second has.
     [[nodiscard]] double piecesOfTurn(std::size_t key) const {
         constexpr double kPiece = 2.0;  // degrees
         constexpr double kMost = 10'000.0;
-        const bool counts = isAngle && width() == 1;
+        constexpr double kFrame = 1.0 / 20.0 + 1e-4;  // seconds
+        const bool counts = isAngle && width() == 1 && (*times)[key + 1] - (*times)[key] > kFrame;
         return counts ? std::clamp(std::ceil(std::abs(value(key + 1, 0) - value(key, 0)) / kPiece), 1.0, kMost) : 1.0;
     }
     struct Point {

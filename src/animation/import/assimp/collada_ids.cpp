@@ -90,10 +90,11 @@ std::string withOwnSamplers(std::string text) {
     for (std::size_t i = 0; i < tags.size(); ++i) {
         if (!tags[i].opens("sampler")) continue;
         const std::optional<std::size_t> past = pastColladaElement(tags, i, "sampler");
+        if (!past) break;  // nor does a later one end for sure: each would be looked for to the end of the document
         const std::string_view id = colladaAttribute(tags[i].text, "id");
-        if (!past || id.empty()) continue;
         const std::size_t start = tags[i].start;
-        samplers[std::string(id)] = std::string_view(text).substr(start, tags[*past - 1].end - start);
+        i = *past - 1;
+        if (!id.empty()) samplers[std::string(id)] = std::string_view(text).substr(start, tags[i].end - start);
     }
     std::unordered_map<std::string, std::size_t> uses;
     std::size_t copied = 0;

@@ -74,10 +74,14 @@ std::string withoutMorphs(const std::string& text) {
     // Assimp gives no mesh to what shows a morph over a geometry: it shows the geometry.
     constexpr std::string_view kController = "instance_controller";
     std::set<std::size_t> renamed;  // tags
+    std::size_t next = 0;           // past the element before: none stands in another
     for (const auto& [tag, past] : links) {
-        if (tags[tag].opens("skin") || controllers.count(past) > 0) continue;
+        if (tag < next || tags[tag].opens("skin") || controllers.count(past) > 0) continue;
+        const std::optional<std::size_t> end = pastColladaElement(tags, tag, kController);
+        if (!end) break;
+        next = *end;
         renamed.insert(tag);
-        if (!tags[tag].isEmpty()) renamed.insert(pastColladaElement(tags, tag, kController).value_or(tag + 1) - 1);
+        renamed.insert(next - 1);
     }
     ColladaEdits edits(text);
     for (std::size_t i = 0; i < tags.size(); ++i) {
@@ -120,7 +124,7 @@ class LibraryNodes {
         }
     }
 
-    [[nodiscard]] std::string moved() const {
+    [[nodiscard]] std::string moved() {
         if (moved_.empty()) return text_;
         std::string out;
         write(0, tags_.size(), 0, true, out);
@@ -133,7 +137,7 @@ class LibraryNodes {
     }
 
     // The tags from `first` to `last` and the text between them.
-    void write(std::size_t first, std::size_t last, int depth, bool whole, std::string& out) const {
+    void write(std::size_t first, std::size_t last, int depth, bool whole, std::string& out) {
         std::size_t at = whole ? 0 : startOf(first);
         const auto copyTo = [&](std::size_t end) { out += std::string_view(text_).substr(at, end - at); };
         for (std::size_t i = first; i < last; ++i) {
@@ -150,7 +154,11 @@ class LibraryNodes {
             if (shown == moved_.end() || depth >= kMostNested) continue;
             copyTo(tag.start);
             write(shown->second.first, shown->second.second, depth + 1, false, out);
-            if (!tag.isEmpty()) i = pastColladaElement(tags_, i, "instance_node").value_or(i + 1) - 1;
+            if (!tag.isEmpty() && !broken_) {
+                const std::optional<std::size_t> past = pastColladaElement(tags_, i, "instance_node");
+                broken_ = !past;
+                i = past.value_or(i + 1) - 1;
+            }
             at = tags_[i].end;
         }
         copyTo(whole ? text_.size() : tags_[last - 1].end);
@@ -158,6 +166,7 @@ class LibraryNodes {
 
     const std::string& text_;
     std::vector<ColladaTag> tags_;
+    bool broken_ = false;  // an element has no end, which is looked for once
     std::map<std::string, std::pair<std::size_t, std::size_t>> moved_;  // id → its first tag, and the one past it
 };
 

@@ -40,13 +40,14 @@ std::vector<double> fullPercentages(std::vector<double> stated, std::size_t shap
 std::vector<double> shapeWeights(double percent, const std::vector<double>& full) {
     constexpr std::size_t kUndeformed = static_cast<std::size_t>(-1);
     std::vector<std::pair<double, std::size_t>> keys = {{0.0, kUndeformed}};
-    for (std::size_t i = 0; i < full.size(); ++i) {
-        const bool known = std::ranges::any_of(keys, [&](const auto& key) { return key.first == full[i]; });
-        if (!known && std::isfinite(full[i])) keys.emplace_back(full[i], i);
-    }
+    for (std::size_t i = 0; i < full.size(); ++i)
+        if (std::isfinite(full[i])) keys.emplace_back(full[i], i);
+    // Of several at one percentage the first counts.
+    std::stable_sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    const auto atOne = [](const auto& a, const auto& b) { return a.first == b.first; };
+    keys.erase(std::unique(keys.begin(), keys.end(), atOne), keys.end());
     std::vector<double> weights(full.size(), 0.0);
     if (keys.size() < 2) return weights;
-    std::sort(keys.begin(), keys.end());
     const auto atOrAbove =
         std::find_if(keys.begin() + 1, keys.end() - 1, [&](const auto& key) { return key.first >= percent; });
     const auto& [low, lowShape] = *(atOrAbove - 1);

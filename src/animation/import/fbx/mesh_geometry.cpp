@@ -184,7 +184,8 @@ std::vector<MeshPart> GeometryReader::read(int geometry, const dmat4& meshFromGe
         if (!last) continue;
         if (whole && polygon.size() >= 3) {
             const float named = layers.materials.empty() ? 0.0F : layers.materials.at<1>(polygon.front())[0];
-            const int slot = static_cast<int>(std::clamp(named, 0.0F, static_cast<float>(kMaxSlot)));
+            // A file may hold what is no number.
+            const int slot = named >= 0.0F ? static_cast<int>(std::min(named, static_cast<float>(kMaxSlot))) : 0;
             auto part = parts.find(slot);
             if (part == parts.end()) {
                 const auto place = static_cast<std::size_t>(slot);
