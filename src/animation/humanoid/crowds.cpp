@@ -39,7 +39,7 @@ bool speaksOfBody(const NameEvidence& evidence) {
 }
 
 // Signs that a part is a body's, each of which may be many a part's in a scene.
-enum Sign : unsigned { kNone = 0, kChain = 1, kLimb = 2, kSidedLimb = 4 };
+enum Sign : unsigned { kNoSign = 0, kChain = 1, kLimb = 2, kSidedLimb = 4 };
 constexpr std::array<Sign, 3> kSigns{kChain, kLimb, kSidedLimb};
 
 unsigned signsOfName(const NameEvidence& evidence) {
@@ -49,7 +49,7 @@ unsigned signsOfName(const NameEvidence& evidence) {
     const bool limb =
         std::any_of(kLimbs.begin(), kLimbs.end(), [&](Part part) { return parts[part] >= kTellsPartOfLimb; });
     if (limb && evidence.side != Side::center) return kLimb | kSidedLimb;
-    return limb || parts[Part::head] >= kTellsTrunkEnd || parts[Part::hips] >= kTellsTrunkEnd ? kLimb : kNone;
+    return limb || parts[Part::head] >= kTellsTrunkEnd || parts[Part::hips] >= kTellsTrunkEnd ? kLimb : kNoSign;
 }
 
 // Small parts below each joint: the tops of what has no skin and few joints, and whether a name there is of a body.
@@ -63,7 +63,7 @@ Parts findParts(const Character& character, const std::vector<int>& kept, bool u
     const Skeleton& skeleton = character.skeleton;
     const std::size_t count = skeleton.names.size();
     const std::vector<bool> skinned = skinnedJoints(character);
-    Parts parts{std::vector<bool>(count, true), std::vector<bool>(count, false), std::vector<unsigned>(count, kNone)};
+    Parts parts{std::vector<bool>(count, true), std::vector<bool>(count, false), std::vector<unsigned>(count, kNoSign)};
     std::vector<int> size(count, 1);
     std::vector<int> height(count, 1);
     for (const int joint : kept)
@@ -89,7 +89,7 @@ Parts findParts(const Character& character, const std::vector<int>& kept, bool u
 
 // Limbs of rigid parts may hang beside a crowd. A sign that a whole crowd bears is none.
 void keepBodies(const Parts& parts, std::vector<bool>& gone) {
-    unsigned telling = kNone;
+    unsigned telling = kNoSign;
     for (const Sign sign : kSigns) {
         int bearers = 0;
         for (std::size_t joint = 0; joint < gone.size(); ++joint)

@@ -49,9 +49,9 @@ Enclosed enclosedBy(const std::vector<SkinnedMesh>& meshes) {
 }
 
 // Pieces whose triangles hang together, over all meshes: vertices at one place are one.
-class Pieces {
+class WeldedPieces {
   public:
-    Pieces(const std::vector<SkinnedMesh>& meshes, double grain) {
+    WeldedPieces(const std::vector<SkinnedMesh>& meshes, double grain) {
         struct Vertex {
             std::array<std::int64_t, 3> cell;
             std::size_t index;
@@ -97,7 +97,7 @@ class Pieces {
 // itself: sheets that face each other are open, though their areas cancel out.
 double openVolume(const std::vector<SkinnedMesh>& meshes, const dvec3& size) {
     constexpr double kGrain = 1e-5;  // of the size
-    Pieces pieces(meshes, kGrain * std::max({size.x, size.y, size.z}));
+    WeldedPieces pieces(meshes, kGrain * std::max({size.x, size.y, size.z}));
     std::vector<dvec3> areas(pieces.vertices(), dvec3(0.0));  // as vectors, which a closed surface has none of
     std::size_t first = 0;
     for (const SkinnedMesh& mesh : meshes) {
