@@ -20,14 +20,28 @@ Result<ClipStage> ClipStage::create(const scene::Simulation& simulation, int dol
     stage.bodies_ = asset.profile.bodies;
     stage.before_.resize(stage.bodies_.size());
     simulation.getBodies(doll, stage.before_);
+    stage.findPlace(simulation);
     return stage;
+}
+
+// Where the clip begins it stands; as it goes on it may jump or lie there.
+void ClipStage::findPlace(const scene::Simulation& simulation) {
+    scene::Placement placement;
+    placement.clip = scene::ClipStart{start_.clip, 0.0F};
+    worldFromModel_ = simulation.worldFromModel(doll_);
+    const auto bodies = scene::startBodies(simulation.assetOf(doll_), simulation.options(), placement);
+    if (!bodies) return;
+    worldFromModel_ = scene::standingPlace(simulation.world(), simulation.assetOf(doll_), simulation.scenario(), doll_,
+                                           bodies.value());
 }
 
 bool ClipStage::follow(const scene::Simulation& simulation) {
     const auto& dolls = simulation.scenario().dollEntities;
     const auto found = std::find(dolls.begin(), dolls.end(), entity_);
     doll_ = static_cast<int>(found - dolls.begin());
-    return found != dolls.end();
+    if (found == dolls.end()) return false;
+    findPlace(simulation);
+    return true;
 }
 
 void ClipStage::seek(float seconds) {
@@ -44,12 +58,10 @@ void ClipStage::place(scene::Simulation& simulation) const {
     placement.clip = start_;
     auto bodies = scene::startBodies(simulation.assetOf(doll_), simulation.options(), placement);
     if (!bodies) return;  // its file is another one now
-    const RigidTransform worldFromModel = scene::standingPlace(simulation.world(), simulation.assetOf(doll_),
-                                                               simulation.scenario(), simulation.worldFromModel(doll_));
     for (physics::BodyState& body : bodies.value()) {
-        body.worldFromBody = worldFromModel * body.worldFromBody;
-        body.linearVelocity = worldFromModel.rotation * body.linearVelocity;
-        body.angularVelocity = worldFromModel.rotation * body.angularVelocity;
+        body.worldFromBody = worldFromModel_ * body.worldFromBody;
+        body.linearVelocity = worldFromModel_.rotation * body.linearVelocity;
+        body.angularVelocity = worldFromModel_.rotation * body.angularVelocity;
     }
     simulation.world().setBodies(simulation.dollId(doll_), bodies.value());
     simulation.refresh();

@@ -44,10 +44,12 @@ class ClipStage {
 
   private:
     ClipStage() = default;
+    void findPlace(const scene::Simulation& simulation);
 
     scene::ClipStart start_;
     int doll_ = 0;
-    scene::EntityId entity_ = 0;  // the doll's: its number changes with the scene
+    scene::EntityId entity_ = 0;     // the doll's: its number changes with the scene
+    RigidTransform worldFromModel_;  // where it stands in the present simulation
     float length_ = 0.0F;
     std::vector<physics::BodyState> before_;
     std::vector<physics::BodyProfile> bodies_;  // whose states these are

@@ -161,13 +161,18 @@ void Simulation::build() {
     meter_.reset();
     shedder_.reset();
     dollIds_.clear();
+    const bool isFirst = world_ == nullptr;
     world_ = makeWorld(options_.world);
     for (const physics::StaticShape& shape : scenario_.statics)
         world_->addStatic(shape);
     for (const physics::DynamicProp& prop : scenario_.props)
         world_->addProp(prop);
     if (puppets_ != nullptr && !puppets_->settings().limp) {
-        standOnGround(*world_, assets_, scenario_);
+        const auto startOf = [this](int doll) -> std::span<const BodyState> {
+            if (options_.puppet->borrows) return {};
+            return starts_[startOfDoll_[doll]];
+        };
+        if (isFirst) standOnGround(*world_, assets_, startOf, scenario_);
         puppets_->place(scenario_.dolls);
     }
     for (int doll = 0; doll < dollCount(); ++doll) {

@@ -49,6 +49,16 @@ EditorOptions stillScene() {
 
 }  // namespace
 
+TEST_CASE("a clip is shown where the scene holds its figure, not on the floor below") {
+    EditorOptions options = stillScene();
+    options.scene.scenario = "hang";
+    const auto editor = editorWithClip(options);
+    const float before = placeOf(*editor, Role::hips).y;
+    send(*editor, keyPressed(Key::f4));
+    REQUIRE(editor->player().clip() != nullptr);
+    CHECK(placeOf(*editor, Role::hips).y == Approx(before).margin(0.1));
+}
+
 TEST_CASE("a clip plays, is scrubbed and stepped, and leaves the doll where it was") {
     const auto editor = editorWithClip(stillScene());
     const vec3 before = placeOf(*editor, Role::head);

@@ -20,8 +20,8 @@ const scene::RagdollAsset& standingMannequin() {
 }
 
 std::unique_ptr<scene::Simulation> withMuscles(std::string_view name, std::uint64_t seed, SolverKind solver,
-                                               bool limp = false) {
-    auto scenario = scene::makeScenario({.name = name, .seed = seed}, standingMannequin());
+                                               bool limp = false, int count = 1) {
+    auto scenario = scene::makeScenario({.name = name, .count = count, .seed = seed}, standingMannequin());
     REQUIRE(scenario);
     scene::SimulationOptions options;
     options.world.solver = solver;
@@ -66,9 +66,69 @@ TEST_CASE("on stairs and ramps it stands where it was above, and again after a r
         CHECK((first.rotation * vec3(0, 1, 0)).y > 0.999F);
         CHECK(lowestFoot(*simulation) > 1.0F);  // up there
         simulation->step();
+        CHECK(simulation->quality().floorPenetrationM < 0.005F);
         simulation->reset();
         CHECK(simulation->worldFromModel(0).translation == first.translation);
         CHECK(simulation->worldFromModel(0).rotation == first.rotation);
+    }
+}
+
+TEST_CASE("on a slope no foot begins in the ground, whatever way it heads") {
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+        INFO("seed " << seed);
+        const auto simulation = withMuscles("ramp", seed, SolverKind::crowd);
+        simulation->step();
+        CHECK(simulation->quality().floorPenetrationM < 0.005F);
+    }
+}
+
+TEST_CASE("dolls that are placed above each other do not begin in each other, nor after a reset") {
+    const auto simulation = withMuscles("pile", 0, SolverKind::crowd, false, 32);
+    std::vector<RigidTransform> first;
+    for (int doll = 0; doll < simulation->dollCount(); ++doll)
+        first.push_back(simulation->worldFromModel(doll));
+    for (int step = 0; step < 30; ++step)
+        simulation->step();
+    CHECK(simulation->quality().dollPenetrationM.max < 0.01F);
+    simulation->reset();
+    for (int doll = 0; doll < simulation->dollCount(); ++doll)
+        CHECK(simulation->worldFromModel(doll).translation == first[static_cast<std::size_t>(doll)].translation);
+}
+
+TEST_CASE("arms that only the bind pose spreads keep nobody from standing beside others") {
+    auto scenario = scene::makeScenario({.name = "pile", .count = 8}, standingMannequin());
+    REQUIRE(scenario);
+    scene::SimulationOptions options;
+    options.puppet.emplace().start.clip = "idle";
+    options.puppet->borrows = true;
+    const auto made = scene::Simulation::create(standingMannequin(), std::move(scenario).value(), options);
+    REQUIRE(made);
+    for (int doll = 0; doll < 8; ++doll) {
+        INFO("doll " << doll);
+        CHECK((made.value()->worldFromModel(doll).rotation * vec3(0, 1, 0)).y > 0.999F);
+    }
+}
+
+TEST_CASE("who is placed on a crate, or above one, is not put into it or below") {
+    const auto& asset = standingMannequin();
+    for (const float crateTop : {0.4F, 0.9F}) {
+        INFO("top at " << crateTop);
+        auto scenario = scene::makeScenario({.name = "drop"}, asset);
+        REQUIRE(scenario);
+        RigidTransform& placed = scenario.value().dolls[0].worldFromModel;
+        physics::DynamicProp crate;
+        crate.shape.kind = physics::BodyShape::Kind::box;
+        crate.shape.halfExtents = vec3(0.4F, 0.2F, 0.4F);
+        crate.massKg = 40.0F;
+        crate.state.worldFromBody.translation = {placed.translation.x, crateTop - 0.2F, placed.translation.z};
+        scenario.value().props.push_back(crate);
+        placed.translation.y = crateTop - scene::standingFloorOf(asset) + 0.05F;
+        const vec3 before = placed.translation;
+        scene::SimulationOptions options;
+        options.puppet.emplace().start.clip = "idle";
+        const auto made = scene::Simulation::create(asset, std::move(scenario).value(), options);
+        REQUIRE(made);
+        CHECK(made.value()->worldFromModel(0).translation == before);
     }
 }
 
