@@ -387,7 +387,8 @@ void Editor::setPuppets(const std::optional<scene::ScenePuppets>& puppets) {
     SceneSettings settings = document().sceneDocument().settings();
     settings.entities.simulation.puppets = puppets;
     const char* label = puppets ? "Muscles on" : "Go limp";
-    // Undo brings back who stood or walked, and where: else a figure that lies would be led to where it began.
+    // Undo of both brings back who stood, walked, lay or had yet to fall, and where: else a figure that lies would be
+    // led to where it began, and one that was put on the floor would stay there.
     edit([&](EditorDocument& document) { return document.setScene(settings, label, "", true); });
 }
 

@@ -14,10 +14,10 @@ namespace fs = std::filesystem;
 namespace {
 
 // What no window ever shows: other programs' words, and those of commands alone.
-bool isForTerminals(const std::string& file) {
+bool isForTerminals(const std::string& fileInSources) {
     for (const char* part : {"editor/", "report/", "scene/batch/", "scene/measure/", "scene/run/load_shedding",
                              "render/gl/gl_context", "scene/draw/debug_layers", "scene/asset/load_words"}) {
-        if (file.find(part) != std::string::npos) return true;
+        if (fileInSources.rfind(part, 0) == 0) return true;
     }
     return false;
 }
@@ -55,8 +55,11 @@ TEST_CASE("no message of the libraries tells the editor's user of commands and o
     // As a word of a sentence: alone it is the place of an error that only the command line makes.
     const std::regex ofTerminal("(`lutka |--[a-z])");
     int told = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(LUTKA_TESTS_DIR "/../src")) {
-        if (entry.path().extension() != ".cpp" || isForTerminals(entry.path().string())) continue;
+    const fs::path sources(LUTKA_TESTS_DIR "/../src");
+    for (const auto& entry : fs::recursive_directory_iterator(sources)) {
+        const fs::path ending = entry.path().extension();
+        const bool isSource = ending == ".cpp" || ending == ".hpp";
+        if (!isSource || isForTerminals(entry.path().lexically_relative(sources).generic_string())) continue;
         for (const std::string& literal : literalsOf(entry.path())) {
             const bool isSentence = literal.find(' ') != std::string::npos;
             if (!isSentence || !std::regex_search(literal, ofTerminal)) continue;

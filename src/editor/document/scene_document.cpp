@@ -23,10 +23,15 @@ bool hasClip(const scene::RagdollAsset& asset, const std::string& name) {
 
 }  // namespace
 
+void takeAnyRig(scene::LoadOptions& load) {
+    load.fit.rig = physics::RigKind::any;
+    if (load.fit.totalMassKg == physics::FitOptions().totalMassKg) load.fit.weighByVolume = true;
+}
+
 void takeRig(const scene::Ragdoll& character, scene::LoadOptions& load) {
     if (!character.rig) return;
     load.fit.rig = *character.rig;
-    load.fit.weighByVolume = *character.rig == physics::RigKind::any;
+    if (*character.rig == physics::RigKind::any) takeAnyRig(load);
 }
 
 void SceneDocument::setOrigin(const animation::ImportOptions& import, const fs::path& profile) {

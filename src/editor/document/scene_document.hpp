@@ -90,6 +90,8 @@ class SceneDocument {
     bool unsaved_ = false;
 };
 
+/// Has characters taken as any skeleton: weighed by their volume, or, where a mass is asked for, of that mass.
+void takeAnyRig(scene::LoadOptions& load);
 /// What a scene says its character is to be taken as, weighed as on the command line; nothing where it says nothing.
 void takeRig(const scene::Ragdoll& character, scene::LoadOptions& load);
 

@@ -92,8 +92,7 @@ void OpenCommands::answerAnyRig(AnyRig answer) {
     const FileFlow::AnyRigOffer offer = files_.takeAnyRig();
     if (answer == AnyRig::leave || offer.model.empty()) return;
     scene::LoadOptions load = load_;
-    load.fit.rig = physics::RigKind::any;
-    load.fit.weighByVolume = true;
+    takeAnyRig(load);
     files_.afterUnsaved([this, offer, load, answer] {
         if (!adopt(openModel(offer.model, load, document(), offer.figure)) || answer != AnyRig::byHand) return;
         BodyCommands(workspace_).beginByHand();

@@ -277,6 +277,19 @@ TEST_CASE("a model that is no humanoid is offered as a ragdoll of any skeleton, 
     CHECK(editor->document().profile().bodies.size() <= 10);
 }
 
+TEST_CASE("a model that is offered as a ragdoll of any skeleton keeps the mass that was asked for") {
+    NEEDS_ZOO();
+    EditorOptions options;
+    options.model = test::zooFile("fox/Fox.glb");
+    options.standIn = LUTKA_ASSETS_DIR "/models/mannequin.glb";
+    options.load.fit.totalMassKg = 40.0F;
+    auto made = Editor::create(options);
+    REQUIRE(made.ok());
+    made.value()->answerAnyRig(Editor::AnyRig::whole);
+    CHECK(made.value()->document().character().file == options.model);
+    CHECK(made.value()->document().profile().totalMassKg == 40.0F);
+}
+
 TEST_CASE("a model that is no humanoid begins a session with the offer over another one, where that may stand in") {
     NEEDS_ZOO();
     EditorOptions options;
