@@ -133,11 +133,13 @@ ChildProcess::Ended ChildProcess::finish() {
     Ended ended;
     if (input_ >= 0) ::close(std::exchange(input_, -1));
     int status = 0;
-    while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+    pid_t waited = -1;
+    while ((waited = ::waitpid(pid_, &status, 0)) < 0 && errno == EINTR) {
     }
+    const bool isKnown = waited == pid_;  // not where the caller has children reaped unseen (SIGCHLD ignored)
     exchangeRunning(pid_, 0);
     pid_ = -1;
-    ended.succeeded = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    ended.succeeded = isKnown && WIFEXITED(status) && WEXITSTATUS(status) == 0;
     ended.errorText = tailOf(errors_);
     ::close(std::exchange(errors_, -1));
     return ended;

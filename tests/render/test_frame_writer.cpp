@@ -1,3 +1,4 @@
+#include <signal.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -143,4 +144,13 @@ TEST_CASE("writing to a program that has gone fails instead of ending us") {
     const std::vector<std::uint8_t> much(std::size_t{4} << 20U, 7);
     CHECK_FALSE(gone.value().write(much));
     CHECK(gone.value().finish().succeeded);
+}
+
+TEST_CASE("a program whose end nobody could wait for has not succeeded") {
+    const auto before = ::signal(SIGCHLD, SIG_IGN);
+    Result<ChildProcess> program = ChildProcess::start({"false"});
+    REQUIRE(program.ok());
+    const ChildProcess::Ended ended = program.value().finish();
+    ::signal(SIGCHLD, before);
+    CHECK_FALSE(ended.succeeded);
 }
