@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "animation/import/affine.hpp"
+#include "animation/import/vertex_bounds.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {
@@ -23,20 +24,13 @@ struct Enclosed {
 };
 
 Enclosed enclosedBy(const std::vector<SkinnedMesh>& meshes) {
-    dvec3 low(1e30);
-    dvec3 high(-1e30);
-    for (const SkinnedMesh& mesh : meshes) {
-        for (const vec3& p : mesh.positions) {
-            low = glm::min(low, dvec3(p));
-            high = glm::max(high, dvec3(p));
-        }
-    }
+    const AabbOf<dvec3> bounds = vertexBounds(meshes);
     Enclosed out;
-    if (low.x > high.x) return out;
-    out.size = high - low;
+    if (bounds.empty()) return out;
+    out.size = bounds.size();
     out.box = out.size.x * out.size.y * out.size.z;
     // Holes count for least when volumes are taken about the middle.
-    const dvec3 middle = 0.5 * (low + high);
+    const dvec3 middle = bounds.middle();
     for (const SkinnedMesh& mesh : meshes) {
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
             const dvec3 a = dvec3(mesh.positions[mesh.indices[i]]) - middle;

@@ -14,6 +14,7 @@
 
 #include "animation/import/mesh_repair.hpp"
 #include "animation/import/name_list.hpp"
+#include "animation/import/vertex_bounds.hpp"
 #include "animation/import/vertex_weights.hpp"
 
 namespace lutka::animation::rig_import {
@@ -63,15 +64,7 @@ class OtherPoses {
 
     [[nodiscard]] std::optional<std::string> sentence(std::span<const SkinnedMesh> meshes) const {
         constexpr double kVisible = 0.002;
-        dvec3 low(1e30);
-        dvec3 high(-1e30);
-        for (const SkinnedMesh& mesh : meshes) {
-            for (const vec3& p : mesh.positions) {
-                low = glm::min(low, dvec3(p));
-                high = glm::max(high, dvec3(p));
-            }
-        }
-        const dvec3 extent = high - low;
+        const dvec3 extent = vertexBounds(meshes).size();
         const double size = std::max({extent.x, extent.y, extent.z});
         std::vector<std::string> names;
         std::unordered_set<std::string_view> known;
