@@ -163,6 +163,7 @@ void standOnGround(const physics::World& world, std::span<const RagdollAsset* co
                    Scenario& scenario) {
     const PuppetGround ground(scenario.statics);
     std::vector<Standing> dolls;
+    dolls.reserve(scenario.dolls.size());
     for (int doll = 0; doll < static_cast<int>(scenario.dolls.size()); ++doll)
         dolls.push_back(standingOf(*assets[static_cast<std::size_t>(scenario.dolls[doll].asset)], startOf(doll)));
     // Together, as neighbours who lie askew in the air are in each other's way but stand side by side.
