@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <numeric>
 #include <utility>
 
 #include "animation/import/affine.hpp"
 #include "animation/import/vertex_bounds.hpp"
+#include "core/union_find.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {
@@ -42,66 +42,57 @@ Enclosed enclosedBy(const std::vector<SkinnedMesh>& meshes) {
     return out;
 }
 
-// Pieces whose triangles hang together, over all meshes: vertices at one place are one.
-class WeldedPieces {
-  public:
-    WeldedPieces(const std::vector<SkinnedMesh>& meshes, double grain) {
-        struct Vertex {
-            std::array<std::int64_t, 3> cell;
-            std::size_t index;
-        };
-        std::vector<Vertex> vertices;
-        for (const SkinnedMesh& mesh : meshes) {
-            for (const vec3& p : mesh.positions) {
-                const dvec3 cell = dvec3(p) / grain;
-                vertices.push_back(
-                    {{std::llround(cell.x), std::llround(cell.y), std::llround(cell.z)}, vertices.size()});
-            }
-        }
-        above_.resize(vertices.size());
-        std::iota(above_.begin(), above_.end(), std::size_t{0});
-        std::sort(vertices.begin(), vertices.end(), [](const Vertex& a, const Vertex& b) { return a.cell < b.cell; });
-        for (std::size_t i = 1; i < vertices.size(); ++i)
-            if (vertices[i].cell == vertices[i - 1].cell) join(vertices[i - 1].index, vertices[i].index);
-        std::size_t first = 0;
-        for (const SkinnedMesh& mesh : meshes) {
-            for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-                join(first + mesh.indices[i], first + mesh.indices[i + 1]);
-                join(first + mesh.indices[i], first + mesh.indices[i + 2]);
-            }
-            first += mesh.positions.size();
+// Pieces whose triangles hang together, over all meshes: vertices at one place are one. Vertices count on from mesh to
+// mesh.
+UnionFind weldedPieces(const std::vector<SkinnedMesh>& meshes, double grain) {
+    struct Vertex {
+        std::array<std::int64_t, 3> cell;
+        int index;
+    };
+    std::vector<Vertex> vertices;
+    for (const SkinnedMesh& mesh : meshes) {
+        for (const vec3& p : mesh.positions) {
+            const dvec3 cell = dvec3(p) / grain;
+            vertices.push_back({{std::llround(cell.x), std::llround(cell.y), std::llround(cell.z)},
+                                static_cast<int>(vertices.size())});
         }
     }
-
-    // The number of a vertex's piece; vertices count on from mesh to mesh.
-    std::size_t of(std::size_t vertex) {
-        while (above_[vertex] != vertex)
-            vertex = above_[vertex] = above_[above_[vertex]];
-        return vertex;
+    UnionFind pieces;
+    pieces.reset(vertices.size());
+    std::sort(vertices.begin(), vertices.end(), [](const Vertex& a, const Vertex& b) { return a.cell < b.cell; });
+    for (std::size_t i = 1; i < vertices.size(); ++i)
+        if (vertices[i].cell == vertices[i - 1].cell) pieces.join(vertices[i - 1].index, vertices[i].index);
+    int first = 0;
+    for (const SkinnedMesh& mesh : meshes) {
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            const auto vertex = [&](std::size_t corner) { return first + static_cast<int>(mesh.indices[i + corner]); };
+            pieces.join(vertex(0), vertex(1));
+            pieces.join(vertex(0), vertex(2));
+        }
+        first += static_cast<int>(mesh.positions.size());
     }
-    [[nodiscard]] std::size_t vertices() const { return above_.size(); }
-
-  private:
-    void join(std::size_t a, std::size_t b) { above_[of(b)] = of(a); }
-
-    std::vector<std::size_t> above_;
-};
+    return pieces;
+}
 
 // How much of the volume depends on the point that it is taken about: 0 where no piece has a hole. Of each piece by
 // itself: sheets that face each other are open, though their areas cancel out.
 double openVolume(const std::vector<SkinnedMesh>& meshes, const dvec3& size) {
     constexpr double kGrain = 1e-5;  // of the size
-    WeldedPieces pieces(meshes, kGrain * std::max({size.x, size.y, size.z}));
-    std::vector<dvec3> areas(pieces.vertices(), dvec3(0.0));  // as vectors, which a closed surface has none of
-    std::size_t first = 0;
+    UnionFind pieces = weldedPieces(meshes, kGrain * std::max({size.x, size.y, size.z}));
+    std::size_t count = 0;
+    for (const SkinnedMesh& mesh : meshes)
+        count += mesh.positions.size();
+    std::vector<dvec3> areas(count, dvec3(0.0));  // of each piece, as vectors, which a closed surface has none of
+    int first = 0;
     for (const SkinnedMesh& mesh : meshes) {
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
             const dvec3 a(mesh.positions[mesh.indices[i]]);
             const dvec3 b(mesh.positions[mesh.indices[i + 1]]);
             const dvec3 c(mesh.positions[mesh.indices[i + 2]]);
-            areas[pieces.of(first + mesh.indices[i])] += 0.5 * glm::cross(b - a, c - a);
+            const int piece = pieces.find(first + static_cast<int>(mesh.indices[i]));
+            areas[static_cast<std::size_t>(piece)] += 0.5 * glm::cross(b - a, c - a);
         }
-        first += mesh.positions.size();
+        first += static_cast<int>(mesh.positions.size());
     }
     double open = 0.0;
     for (const dvec3& area : areas)
