@@ -4,8 +4,12 @@
 #include <vector>
 
 #include "export/export_ragdoll.hpp"
+#include "physics/collision/friction.hpp"
 
 namespace lutka::exporting {
+
+/// A doll's friction on the ground: what a body is written with where an engine takes the less of both sides'.
+inline constexpr float kContactFriction = physics::kBodyFriction * physics::kStaticFriction;
 
 /// The z-up world of robotics: x forward, y left, z up. Takes the standard stance (Y up, facing +Z, left at +X) to it.
 [[nodiscard]] quat zUpFromStandard();

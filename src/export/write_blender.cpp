@@ -64,7 +64,7 @@ def add_body(name, kind, size, place, mass):
     body.rigid_body.use_margin = True
     body.rigid_body.collision_margin = 0.0
     body.rigid_body.mass = mass
-    body.rigid_body.friction = 0.8
+    body.rigid_body.friction = 0.5  # Bullet multiplies both sides'
     body.rigid_body.linear_damping = 0.0
     body.rigid_body.angular_damping = 0.0
     return body

@@ -36,7 +36,7 @@ void addBody(Ragdoll& doll, btDynamicsWorld& world, std::unique_ptr<btCollisionS
              const btVector3& inertia, const btTransform& worldFromBody) {
     doll.motions.push_back(std::make_unique<btDefaultMotionState>(worldFromBody));
     btRigidBody::btRigidBodyConstructionInfo info(mass, doll.motions.back().get(), shape.get(), inertia);
-    info.m_friction = 0.8f;
+    info.m_friction = 0.5f;  // times the ground's: 0.8 there makes it what it is in Lutka
     doll.bodies.push_back(std::make_unique<btRigidBody>(info));
     doll.shapes.push_back(std::move(shape));
     world.addRigidBody(doll.bodies.back().get());

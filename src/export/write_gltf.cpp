@@ -22,7 +22,6 @@ using physics::PrimitiveShape;
 using physics::RagdollProfile;
 using Json = nlohmann::ordered_json;
 
-constexpr float kFriction = 0.8F;
 // A drive reaches the torque of our dry friction at this speed.
 constexpr float kSlipSpeed = 0.1F;  // rad/s
 
@@ -69,8 +68,9 @@ class GltfPhysicsWriter {
         : source_(source), profile_(source.profile), document_(container.json), binary_(container.binary) {}
 
     std::vector<std::string> write() {
-        physics_["physicsMaterials"] = Json::array({Json{{"staticFriction", jsonNumber(kFriction)},
-                                                         {"dynamicFriction", jsonNumber(kFriction)},
+        physics_["physicsMaterials"] = Json::array({Json{{"staticFriction", jsonNumber(physics::kBodyFriction)},
+                                                         {"dynamicFriction", jsonNumber(physics::kBodyFriction)},
+                                                         {"frictionCombine", "multiply"},
                                                          {"restitution", 0}}});
         for (std::size_t i = 0; i < profile_.bodies.size(); ++i)
             addBody(static_cast<int>(i));

@@ -228,7 +228,7 @@ class GodotWriter {
         }
         text_.line("body_offset = {}", transformText(b.jointFromBody));
         text_.line("mass = {}", numberText(b.massKg));
-        text_.line("friction = 0.8");
+        text_.line("friction = {}", numberText(kContactFriction));
         text_.line("bone_name = {}", quotedText(bones_[source_.rig.jointOfBody[index]]));
         for (std::size_t i = 0; i < shapes_.size(); ++i)
             if (shapes_[i].body == static_cast<std::size_t>(index)) shapeNode(i);

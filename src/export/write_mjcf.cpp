@@ -14,8 +14,6 @@ using physics::ConstraintProfile;
 using physics::PrimitiveShape;
 using physics::RagdollProfile;
 
-constexpr float kFloorFriction = 0.8F;
-
 class MjcfWriter {
   public:
     explicit MjcfWriter(const ExportSource& source)
@@ -40,11 +38,12 @@ class MjcfWriter {
 
   private:
     void header() {
+        // Of two geoms that with more priority has the say, so that the doll slides alike on any ground.
         text_.line("<compiler angle=\"radian\" inertiafromgeom=\"false\"/>");
         text_.line("<option timestep=\"0.002\" gravity=\"0 0 -9.81\"/>");
         text_.line("<default>");
         text_.line("  <joint armature=\"0\" damping=\"0\"/>");
-        text_.line("  <geom condim=\"3\" friction=\"{} 0.005 0.0001\"/>", numberText(kFloorFriction));
+        text_.line("  <geom condim=\"3\" priority=\"1\" friction=\"{} 0.005 0.0001\"/>", numberText(kContactFriction));
         text_.line("</default>");
     }
 

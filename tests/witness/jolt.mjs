@@ -30,7 +30,8 @@ function makeWorld() {
   settings.mObjectVsBroadPhaseLayerFilter = new Jolt.ObjectVsBroadPhaseLayerFilterTable(broad, 2, pairs, 2);
   const world = new Jolt.JoltInterface(settings);
   const floor = new Jolt.BodyCreationSettings(new Jolt.BoxShape(vec3([50, 1, 50]), 0.05), rvec3([0, -1, 0]), quat([0, 0, 0, 1]), Jolt.EMotionType_Static, kFloorLayer);
-  floor.mFriction = 0.8;
+  // Jolt takes the root of both sides' product, we the product (src/physics/collision/friction.hpp): hence the squares.
+  floor.mFriction = 0.8 ** 2;
   const bodies = world.GetPhysicsSystem().GetBodyInterface();
   bodies.AddBody(bodies.CreateBody(floor).GetID(), Jolt.EActivation_DontActivate);
   return world;
@@ -123,7 +124,7 @@ function makeRagdoll(system, worldFromHips) {
     part.mRotation = quat(multiply(worldFromHips.q, pose[b.name].q));
     part.mMotionType = Jolt.EMotionType_Dynamic;
     part.mObjectLayer = kLayer;
-    part.mFriction = 0.8;
+    part.mFriction = 0.5 ** 2;
     part.mOverrideMassProperties = Jolt.EOverrideMassProperties_MassAndInertiaProvided;
     part.mMassPropertiesOverride.mMass = b.massKg;
     part.mMassPropertiesOverride.mInertia = Jolt.Mat44.prototype.sScaleVec3(vec3(b.inertia));

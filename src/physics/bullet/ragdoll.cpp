@@ -9,6 +9,7 @@
 #include "core/assert.hpp"
 #include "physics/bullet/contact_gatherer.hpp"
 #include "physics/bullet/convert.hpp"
+#include "physics/collision/friction.hpp"
 
 namespace lutka::physics {
 
@@ -143,6 +144,7 @@ void Ragdoll::addBodies(DollId id, std::span<const BodyState> states, const Bull
         btRigidBody& made = *bodies_.back().body;
         name(made, id, static_cast<int>(i));
         made.setUserPointer(this);
+        made.setFriction(kBodyFriction);
         if (!stock) made.setDamping(tuning.linearDamping, tuning.angularDamping);
         if (!sleeping) made.setActivationState(DISABLE_DEACTIVATION);
         all.push_back(&made);

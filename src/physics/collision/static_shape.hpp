@@ -5,6 +5,7 @@
 #include "core/rigid_transform.hpp"
 #include "core/shape_kind.hpp"
 #include "physics/collision/collision_filter.hpp"
+#include "physics/collision/friction.hpp"
 #include "physics/collision/triangle_mesh.hpp"
 
 namespace lutka::physics {
@@ -13,11 +14,11 @@ namespace lutka::physics {
 struct StaticShape {
     using Kind = ShapeKind;
     Kind kind = Kind::plane;
-    RigidTransform worldFromShape;  ///< A plane is the shape's y = 0, solid below; a capsule lies along y; centred.
-    vec3 halfExtents{1, 1, 1};      ///< Box, metres.
-    float friction = 0.8F;
-    float radius = 0.5F;                       ///< Sphere and capsule, metres.
-    float halfLength = 0.5F;                   ///< Capsule: half the distance of the cap centres, metres.
+    RigidTransform worldFromShape;     ///< A plane is the shape's y = 0, solid below; a capsule lies along y; centred.
+    vec3 halfExtents{1, 1, 1};         ///< Box, metres.
+    float friction = kStaticFriction;  ///< Coulomb's, >= 0; a contact has it times kBodyFriction.
+    float radius = 0.5F;               ///< Sphere and capsule, metres.
+    float halfLength = 0.5F;           ///< Capsule: half the distance of the cap centres, metres.
     std::shared_ptr<const TriangleMesh> mesh;  ///< Mesh; not null.
     CollisionFilter filter;
 };

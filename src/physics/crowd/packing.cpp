@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "physics/collision/friction.hpp"
 #include "physics/crowd/jobs.hpp"
 #include "physics/crowd/target.hpp"
 

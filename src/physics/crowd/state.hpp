@@ -227,9 +227,6 @@ struct Job {
     return job.batches.size() >= 16;
 }
 
-/// The friction of every body: Bullet's default. As there, a contact's is the product of both sides'.
-inline constexpr float kBodyFriction = 0.5F;
-
 /// A doll's bounds in the world's frame, metres.
 struct Bounds {
     vec3 low, high;

@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "physics/collision/friction.hpp"
 #include "physics/crowd/bounds.hpp"
 #include "physics/crowd/target.hpp"
 
