@@ -5,8 +5,8 @@ include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
 set(LUTKA_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/Lutka")
-install(DIRECTORY src/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/lutka" FILES_MATCHING PATTERN "*.hpp"
-        PATTERN "editor" EXCLUDE)
+install(CODE "set(LUTKA_SOURCE_DIR \"${PROJECT_SOURCE_DIR}\")\nset(LUTKA_INCLUDE_DIR \"${CMAKE_INSTALL_INCLUDEDIR}\")")
+install(SCRIPT cmake/LutkaInstallHeaders.cmake)
 install(DIRECTORY assets DESTINATION "${CMAKE_INSTALL_DATADIR}/lutka" COMPONENT program)
 install(FILES LICENSE CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/lutka" COMPONENT program)
 install(FILES cmake/package/lutka.desktop DESTINATION "${CMAKE_INSTALL_DATADIR}/applications" COMPONENT program)
