@@ -1,5 +1,7 @@
 #include "scene/run/simulation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstring>
@@ -11,6 +13,7 @@
 #include "scene/asset/skin_reach.hpp"
 #include "scene/puppet/stand_on_ground.hpp"
 #include "scene/run/make_world.hpp"
+#include "scene/run/simulation_check.hpp"
 #include "scene/run/start_pose.hpp"
 
 namespace lutka::scene {
@@ -86,7 +89,8 @@ Result<std::unique_ptr<Simulation>> Simulation::create(const RagdollAsset& asset
 
 Result<std::unique_ptr<Simulation>> Simulation::create(std::vector<const RagdollAsset*> assets, Scenario scenario,
                                                        const SimulationOptions& options) {
-    LUTKA_ASSERT(!assets.empty());
+    if (const std::vector<std::string> problems = problemsOf(assets, scenario, options); !problems.empty())
+        return Error{ErrorCode::usage, fmt::format("{}", fmt::join(problems, "; ")), "simulation", {}};
     std::unique_ptr<Simulation> simulation(new Simulation(std::move(assets), std::move(scenario), options));
     if (auto found = simulation->findStarts(); !found) return found.error();
     if (auto found = simulation->findPuppets(); !found) return found.error();
@@ -137,7 +141,6 @@ Result<void> Simulation::findStarts() {
 
 Result<void> Simulation::findPuppets() {
     if (!options_.puppet) return {};
-    LUTKA_ASSERT(!options_.shed.any());
     if (!options_.puppet->led.empty() && options_.world.solver == physics::SolverKind::stock)
         return Error{ErrorCode::usage, "the solver 'stock' can't lead bodies to a clip", "kinematic",
                      "take 'crowd' or 'bullet'"};
@@ -149,7 +152,6 @@ Result<void> Simulation::findPuppets() {
 
 Result<void> Simulation::findClips() {
     if (!options_.play) return {};
-    LUTKA_ASSERT(!options_.shed.any());
     auto cast = ClipCast::create(assets_, *options_.play);
     if (!cast) return cast.error();
     clipCast_ = std::move(cast).value();

@@ -40,8 +40,9 @@ struct SimulationOptions {
 /// same bits at every step. The assets must outlive it.
 class Simulation {
   public:
-    /// `assets`: one or more, that the placements' `asset` count. Fails with ErrorCode::usage when a clip doesn't exist
-    /// (the known ones are listed).
+    /// `assets`: one or more, that the placements' `asset` count. Fails with ErrorCode::usage, all problems at once,
+    /// when an index names nothing, a number is not finite or out of its range, or options do not go together
+    /// (simulation_check.hpp); and when a clip doesn't exist (the known ones are listed).
     [[nodiscard]] static Result<std::unique_ptr<Simulation>> create(std::vector<const RagdollAsset*> assets,
                                                                     Scenario scenario,
                                                                     const SimulationOptions& options);

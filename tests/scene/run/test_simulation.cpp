@@ -1,6 +1,9 @@
 #include "scene/run/simulation.hpp"
 
+#include <array>
+#include <functional>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "animation/pose.hpp"
 #include "scene/run/bake.hpp"
@@ -11,6 +14,8 @@ using namespace lutka;
 using namespace lutka::scene;
 
 namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 std::unique_ptr<Simulation> start(const RagdollAsset& asset, std::string_view name,
                                   const SimulationOptions& options = {}, int count = 1, std::uint64_t seed = 0) {
@@ -131,6 +136,60 @@ TEST_CASE("a clip that is not there is a usage error that lists those that are")
     REQUIRE_FALSE(simulation);
     CHECK(simulation.error().code == ErrorCode::usage);
     CHECK(simulation.error().mend.find("turn") != std::string::npos);
+}
+
+TEST_CASE("what can't be simulated is refused with all that is wrong with it, and nothing is touched") {
+    struct Run {
+        Scenario scenario;
+        SimulationOptions options;
+    };
+    struct Fault {
+        const char* told;
+        std::function<void(Run&)> make;
+    };
+    const std::array faults{
+        Fault{"a step of 0 s", [](Run& run) { run.options.dt = 0.0F; }},
+        Fault{"a step of nan s", [](Run& run) { run.options.dt = kNan; }},
+        Fault{"gravity is not finite", [](Run& run) { run.options.world.gravity.y = kNan; }},
+        Fault{"substeps is 0", [](Run& run) { run.options.world.substeps = 0; }},
+        Fault{"iterations is 5000", [](Run& run) { run.options.world.iterations = 5000; }},
+        Fault{"linear damping is 1", [](Run& run) { run.options.world.linearDamping = 1.0F; }},
+        Fault{"angular damping is nan", [](Run& run) { run.options.world.angularDamping = kNan; }},
+        Fault{"the eye is not finite", [](Run& run) { run.options.eye = vec3(kNan); }},
+        Fault{"can't be spared",
+              [](Run& run) {
+                  run.options.puppet.emplace();
+                  run.options.shed.lodFrom = 10.0F;
+              }},
+        Fault{"doll 0 is of asset 1 of 1", [](Run& run) { run.scenario.dolls[0].asset = 1; }},
+        Fault{"doll 0 is of asset -1 of 1", [](Run& run) { run.scenario.dolls[0].asset = -1; }},
+        Fault{"doll 0 stands nowhere",
+              [](Run& run) { run.scenario.dolls[0].worldFromModel.rotation = quat(0, 0, 0, 0); }},
+        Fault{"doll 0 has a velocity", [](Run& run) { run.scenario.dolls[0].linearVelocity.x = kNan; }},
+        Fault{"the strength of doll 0", [](Run& run) { run.scenario.dolls[0].strength = -1.0F; }},
+        Fault{"a pin holds doll 7 of 1",
+              [](Run& run) {
+                  run.scenario.pins.push_back({7, "head"});
+              }},
+    };
+    const auto asset = test::bipedRagdoll();
+    for (const Fault& fault : faults) {
+        INFO(fault.told);
+        Run run{makeScenario({.name = "drop"}, *asset).value(), {}};
+        fault.make(run);
+        const auto refused = Simulation::create(*asset, std::move(run.scenario), run.options);
+        REQUIRE_FALSE(refused);
+        CHECK(refused.error().code == ErrorCode::usage);
+        CHECK(refused.error().message.find(fault.told) != std::string::npos);
+        CHECK(refused.error().message.find(';') == std::string::npos);  // nothing else
+    }
+    Scenario scenario = makeScenario({.name = "drop"}, *asset).value();
+    const std::vector<const RagdollAsset*> assets{asset.get(), nullptr};
+    scenario.dolls[0].asset = 5;
+    const auto refused = Simulation::create(assets, std::move(scenario), {});
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().message == "asset 1 is null; doll 0 is of asset 5 of 2");
+    CHECK(Simulation::create(std::vector<const RagdollAsset*>{}, {}, {}).error().message == "there is no asset");
 }
 
 TEST_CASE("a clip whose name ends in a number after @ is found by its whole name") {
