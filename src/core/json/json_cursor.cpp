@@ -162,4 +162,14 @@ std::vector<std::string> checkFormat(const nlohmann::json& document, const char*
     return problems;
 }
 
+Error refusedDocument(const JsonDocumentKind& kind, std::string_view source, std::span<const std::string> problems) {
+    constexpr std::size_t kMostTold = 50;
+    std::string message =
+        fmt::format("not a valid {}, {} problem{}:", kind.name, problems.size(), problems.size() == 1 ? "" : "s");
+    for (const std::string& problem : problems.first(std::min(problems.size(), kMostTold)))
+        message += "\n  " + problem;
+    if (problems.size() > kMostTold) message += fmt::format("\n  and {} more", problems.size() - kMostTold);
+    return {ErrorCode::input, std::move(message), std::string(source), std::string(kind.mend)};
+}
+
 }  // namespace lutka

@@ -5,7 +5,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "core/result.hpp"
 
 namespace lutka {
 
@@ -64,5 +67,14 @@ class JsonCursor {
 /// without them. Empty when they are `format` and `version`, or one of the versions from `oldest` on; 0: no older one.
 [[nodiscard]] std::vector<std::string> checkFormat(const nlohmann::json& document, const char* format, int version,
                                                    int oldest = 0);
+
+/// A kind of document that is refused with all that is wrong with it.
+struct JsonDocumentKind {
+    std::string_view name;  ///< "ragdoll profile"
+    std::string_view mend;  ///< Where its members are described.
+};
+/// ErrorCode::input with the problems, a line each, of more than 50 the first ones.
+[[nodiscard]] Error refusedDocument(const JsonDocumentKind& kind, std::string_view source,
+                                    std::span<const std::string> problems);
 
 }  // namespace lutka

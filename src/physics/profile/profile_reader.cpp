@@ -359,14 +359,7 @@ void readLists(const JsonCursor& at, RagdollProfile& profile, std::int64_t versi
     }
 }
 
-Error asError(std::string_view source, const std::vector<std::string>& problems) {
-    std::string message = problems.size() == 1
-                              ? "not a valid ragdoll profile, 1 problem:"
-                              : fmt::format("not a valid ragdoll profile, {} problems:", problems.size());
-    for (const std::string& problem : problems)
-        message += "\n  " + problem;
-    return {ErrorCode::input, std::move(message), std::string(source), "docs/profile.md describes every field"};
-}
+constexpr JsonDocumentKind kProfileDocument{"ragdoll profile", "docs/profile.md describes every field"};
 
 }  // namespace
 
@@ -377,7 +370,7 @@ Result<RagdollProfile> profileFromJson(std::string_view text, std::string_view s
     const json& document = parsed.value();
     std::vector<std::string> problems =
         checkFormat(document, profile_format::kName, RagdollProfile::kVersion, RagdollProfile::kOldestVersion);
-    if (!problems.empty()) return asError(source, problems);
+    if (!problems.empty()) return refusedDocument(kProfileDocument, source, problems);
     problems = duplicates;
     RagdollProfile profile;
     const JsonCursor root(document, problems);
@@ -385,7 +378,7 @@ Result<RagdollProfile> profileFromJson(std::string_view text, std::string_view s
     readHeader(root, profile, version);
     readLists(root, profile, version);
     if (problems.empty()) problems = validate(profile);
-    if (!problems.empty()) return asError(source, problems);
+    if (!problems.empty()) return refusedDocument(kProfileDocument, source, problems);
     return profile;
 }
 

@@ -97,13 +97,7 @@ void readRows(const JsonCursor& root, BatchPlan& plan) {
     }
 }
 
-Error notABatch(std::string_view source, const std::vector<std::string>& problems) {
-    std::string message =
-        problems.size() == 1 ? "not a valid batch:" : fmt::format("not a valid batch, {} problems:", problems.size());
-    for (const std::string& problem : problems)
-        message += "\n  " + problem;
-    return {ErrorCode::input, message, std::string(source), "docs/howto.md describes the list"};
-}
+constexpr JsonDocumentKind kBatchDocument{"batch", "docs/howto.md describes the list"};
 
 }  // namespace
 
@@ -113,7 +107,7 @@ Result<BatchPlan> batchFromJson(std::string_view text, std::string_view source, 
     if (!parsed) return parsed.error();
     const nlohmann::json& document = parsed.value();
     std::vector<std::string> problems = checkFormat(document, "lutka.batch", BatchPlan::kVersion);
-    if (!problems.empty()) return notABatch(source, problems);
+    if (!problems.empty()) return refusedDocument(kBatchDocument, source, problems);
     problems = duplicates;
     const JsonCursor root(document, problems);
     root.expectObject({"format", "version", "models", "scenes"},
@@ -133,7 +127,7 @@ Result<BatchPlan> batchFromJson(std::string_view text, std::string_view source, 
     if (root.has("seeds")) readSeeds(root["seeds"], document["seeds"], plan.seeds);
     readOptions(root, plan);
     if (problems.empty()) readRows(root, plan);
-    if (!problems.empty()) return notABatch(source, problems);
+    if (!problems.empty()) return refusedDocument(kBatchDocument, source, problems);
     return plan;
 }
 

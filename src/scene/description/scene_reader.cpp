@@ -346,15 +346,7 @@ void readEntity(const JsonCursor& at, std::size_t index, const std::filesystem::
     if (at.has("camera")) scene.add(id, readCamera(at["camera"]));
 }
 
-Error asError(std::string_view source, const std::vector<std::string>& problems) {
-    constexpr std::size_t most = 50;
-    std::string message = problems.size() == 1 ? "not a valid scene, 1 problem:"
-                                               : fmt::format("not a valid scene, {} problems:", problems.size());
-    for (std::size_t i = 0; i < std::min(problems.size(), most); ++i)
-        message += "\n  " + problems[i];
-    if (problems.size() > most) message += fmt::format("\n  and {} more", problems.size() - most);
-    return {ErrorCode::input, std::move(message), std::string(source), "docs/scene.md describes every member"};
-}
+constexpr JsonDocumentKind kSceneDocument{"scene", "docs/scene.md describes every member"};
 
 }  // namespace
 
@@ -364,7 +356,7 @@ Result<EntityScene> sceneFromJson(std::string_view text, std::string_view source
     const Result<json> parsed = parseJson(text, source, duplicates);
     if (!parsed) return parsed.error();
     if (problems = checkFormat(parsed.value(), scene_format::kName, EntityScene::kVersion); !problems.empty())
-        return asError(source, problems);
+        return refusedDocument(kSceneDocument, source, problems);
     problems = duplicates;
     const JsonCursor root(parsed.value(), problems);
     root.expectObject({"format", "version", "entities"}, {"$schema", "name", "simulation"});
@@ -378,7 +370,7 @@ Result<EntityScene> sceneFromJson(std::string_view text, std::string_view source
     }
     const std::vector<std::string> unsound = validate(scene);
     problems.insert(problems.end(), unsound.begin(), unsound.end());
-    if (!problems.empty()) return asError(source, problems);
+    if (!problems.empty()) return refusedDocument(kSceneDocument, source, problems);
     return scene;
 }
 
