@@ -1,26 +1,16 @@
 #include "export/text_builder.hpp"
 
+#include "core/markup.hpp"
+
 namespace lutka::exporting {
 
 std::string xmlEscaped(std::string_view text) {
     std::string out;
     for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += static_cast<unsigned char>(c) < 0x20 ? '_' : c;
-        }
+        if (const std::string_view entity = markupEntity(c); !entity.empty())
+            out += entity;
+        else
+            out += static_cast<unsigned char>(c) < 0x20 ? '_' : c;
     }
     return out;
 }

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/markup.hpp"
 #include "core/utf8.hpp"
 
 namespace lutka::reporting {
@@ -25,28 +26,14 @@ bool startsClosingTag(std::string_view text) {
 std::string htmlEscaped(std::string_view text) {
     std::string out;
     for (const char c : wellFormedUtf8(text, kReplacement)) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            case '\'':
-                out += "&#39;";
-                break;
-            default: {
-                const auto byte = static_cast<unsigned char>(c);
-                const bool control = (byte < 0x20 && c != '\t' && c != '\n') || byte == 0x7F;
-                control ? out += kReplacement : out += c;
-            }
-        }
+        const auto byte = static_cast<unsigned char>(c);
+        const bool isControl = (byte < 0x20 && c != '\t' && c != '\n') || byte == 0x7F;
+        if (const std::string_view entity = markupEntity(c); !entity.empty())
+            out += entity;
+        else if (isControl)
+            out += kReplacement;
+        else
+            out += c;
     }
     return out;
 }
