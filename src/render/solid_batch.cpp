@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/assert.hpp"
+#include "render/box_sides.hpp"
 #include "render/swing.hpp"
 
 namespace lutka::render {
@@ -68,23 +69,13 @@ void addSphere(SolidBatch& solids, const vec3& center, float radius, Color color
 }
 
 void addBox(SolidBatch& solids, const RigidTransform& worldFromBox, const vec3& halfExtents, Color color) {
-    for (int axis = 0; axis < 3; ++axis) {
-        for (const float sign : {-1.0F, 1.0F}) {
-            vec3 n(0);
-            vec3 u(0);
-            vec3 v(0);
-            n[axis] = sign;
-            u[(axis + 1) % 3] = halfExtents[(axis + 1) % 3];
-            v[(axis + 2) % 3] = sign * halfExtents[(axis + 2) % 3];
-            const vec3 middle = n * halfExtents;
-            const vec3 normal = worldFromBox.rotation * n;
-            const Corner a{worldFromBox * (middle - u - v), normal};
-            const Corner b{worldFromBox * (middle + u - v), normal};
-            const Corner c{worldFromBox * (middle + u + v), normal};
-            const Corner d{worldFromBox * (middle - u + v), normal};
-            addTriangle(solids, a, b, c, color);
-            addTriangle(solids, a, c, d, color);
-        }
+    for (const BoxSide& side : boxSides()) {
+        const vec3 normal = worldFromBox.rotation * side.normal;
+        const auto corner = [&](std::size_t index) {
+            return Corner{worldFromBox * (side.corners[index] * halfExtents), normal};
+        };
+        addTriangle(solids, corner(0), corner(1), corner(2), color);
+        addTriangle(solids, corner(0), corner(2), corner(3), color);
     }
 }
 

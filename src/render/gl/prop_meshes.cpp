@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "render/box_sides.hpp"
+
 namespace lutka::render {
 namespace {
 
@@ -21,19 +23,9 @@ void addQuad(std::vector<PropVertex>& out, const PropVertex& a, const PropVertex
 
 std::vector<PropVertex> boxVertices() {
     std::vector<PropVertex> out;
-    for (int axis = 0; axis < 3; ++axis) {
-        for (const float sign : {-1.0F, 1.0F}) {
-            vec3 n(0);
-            vec3 u(0);
-            vec3 v(0);
-            n[axis] = sign;
-            u[(axis + 1) % 3] = 1.0F;
-            v[(axis + 2) % 3] = sign;
-            const auto corner = [&](float along, float across) {
-                return PropVertex{vec3(0), n + along * u + across * v, n};
-            };
-            addQuad(out, corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1));
-        }
+    for (const BoxSide& side : boxSides()) {
+        const auto corner = [&](std::size_t index) { return PropVertex{vec3(0), side.corners[index], side.normal}; };
+        addQuad(out, corner(0), corner(1), corner(2), corner(3));
     }
     return out;
 }
