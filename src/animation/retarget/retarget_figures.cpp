@@ -18,7 +18,7 @@ vec3 between(const AnatomicalRig& rig, std::span<const RigidTransform> pose, Rol
     return (pose[rig.jointOf(a)].translation + pose[rig.jointOf(b)].translation) * 0.5F;
 }
 
-// x of a role's anatomical axes.
+// An axis of a role's anatomical frame, in the pose's space.
 vec3 axisOf(const AnatomicalRig& rig, std::span<const RigidTransform> pose, Role role, const vec3& axis) {
     return pose[rig.jointOf(role)].rotation * (rig.jointFromAnatomy[indexOf(role)] * axis);
 }
@@ -69,62 +69,69 @@ RetargetMeter::RetargetMeter(const Retargeter& retargeter, const std::array<Foot
         parts_.push_back({name, false, {}});
 }
 
+// Each part has its place in parts_, also where there is nothing to compare.
 void RetargetMeter::addDirections() {
+    std::size_t part = 0;
+    const auto note = [&](const std::optional<double>& degrees) {
+        if (degrees) parts_[part].degrees.add(*degrees);
+        ++part;
+    };
+    for (const Role role : kLimbs)
+        note(limbOff(role));
+    for (const Role role : kFeet)
+        note(footOff(role));
+    note(trunkOff());
+    note(neckOff());
+    note(axisOff(Role::head, {0, 0, 1}));
+}
+
+std::optional<double> RetargetMeter::limbOff(Role role) const {
     const AnatomicalRig& from = retargeter_.source();
     const AnatomicalRig& to = retargeter_.target();
-    const auto source = retargeter_.sourcePose();
-    const auto target = retargeter_.targetPose();
-    std::size_t part = 0;
-    const auto add = [&](const vec3& a, const vec3& b) { parts_[part++].degrees.add(degreesBetween(a, b)); };
-    const auto isStiff = [&](Role role) {
-        return std::any_of(to.stiffLimbs.begin(), to.stiffLimbs.end(), [&](const StiffLimb& limb) {
-            return to.jointOf(role) == limb.upper || to.jointOf(role) == limb.middle;
-        });
+    const bool ofLeg = isEitherSide(role, Role::leftUpperLeg) || isEitherSide(role, Role::leftLowerLeg);
+    if (ofLeg && !(from.hasLegs() && to.hasLegs())) return std::nullopt;
+    Role end = *endOfBone(role);
+    // Of a limb without a middle the whole way is compared, once.
+    const bool isStiff = std::any_of(to.stiffLimbs.begin(), to.stiffLimbs.end(), [&](const StiffLimb& limb) {
+        return to.jointOf(role) == limb.upper || to.jointOf(role) == limb.middle;
+    });
+    if (isStiff) {
+        if (to.isAdded(role)) return std::nullopt;
+        end = *endOfBone(end);
+    }
+    const auto isWhole = [&](const AnatomicalRig& rig) { return rig.has(role) && rig.has(end); };
+    if (!isWhole(from) || !isWhole(to)) return std::nullopt;
+    const auto way = [&](const AnatomicalRig& rig, std::span<const RigidTransform> pose) {
+        return pose[rig.jointOf(end)].translation - pose[rig.jointOf(role)].translation;
     };
-    for (const Role role : kLimbs) {
-        const bool ofLeg = isEitherSide(role, Role::leftUpperLeg) || isEitherSide(role, Role::leftLowerLeg);
-        if (ofLeg && !(from.hasLegs() && to.hasLegs())) {
-            ++part;
-            continue;
-        }
-        Role end = *endOfBone(role);
-        // Of a limb without a middle the whole way is compared, once.
-        if (isStiff(role)) {
-            if (to.isAdded(role)) {
-                ++part;
-                continue;
-            }
-            end = *endOfBone(end);
-        }
-        const auto isWhole = [&](const AnatomicalRig& rig) { return rig.has(role) && rig.has(end); };
-        if (!isWhole(from) || !isWhole(to)) {
-            ++part;
-            continue;
-        }
-        const auto way = [&](const AnatomicalRig& rig, std::span<const RigidTransform> pose) {
-            return pose[rig.jointOf(end)].translation - pose[rig.jointOf(role)].translation;
-        };
-        add(way(from, source), way(to, target));
-    }
-    for (const Role role : kFeet) {
-        if (to.isAdded(role) || from.isAdded(role))
-            ++part;
-        else
-            add(axisOf(from, source, role, {1, 0, 0}), axisOf(to, target, role, {1, 0, 0}));
-    }
+    return degreesBetween(way(from, retargeter_.sourcePose()), way(to, retargeter_.targetPose()));
+}
+
+std::optional<double> RetargetMeter::footOff(Role role) const {
+    if (retargeter_.target().isAdded(role) || retargeter_.source().isAdded(role)) return std::nullopt;
+    return axisOff(role, {1, 0, 0});
+}
+
+double RetargetMeter::trunkOff() const {
     const auto trunk = [](const AnatomicalRig& rig, std::span<const RigidTransform> pose) {
         return pose[rig.neckOrHead()].translation - between(rig, pose, Role::leftUpperLeg, Role::rightUpperLeg);
     };
-    add(trunk(from, source), trunk(to, target));
-    const bool necks = from.has(Role::neck) && to.has(Role::neck);
+    return degreesBetween(trunk(retargeter_.source(), retargeter_.sourcePose()),
+                          trunk(retargeter_.target(), retargeter_.targetPose()));
+}
+
+std::optional<double> RetargetMeter::neckOff() const {
+    if (!retargeter_.source().has(Role::neck) || !retargeter_.target().has(Role::neck)) return std::nullopt;
     const auto neck = [](const AnatomicalRig& rig, std::span<const RigidTransform> pose) {
         return pose[rig.jointOf(Role::head)].translation - pose[rig.neckOrHead()].translation;
     };
-    if (necks)
-        add(neck(from, source), neck(to, target));
-    else
-        ++part;
-    add(axisOf(from, source, Role::head, {0, 0, 1}), axisOf(to, target, Role::head, {0, 0, 1}));
+    return degreesBetween(neck(retargeter_.source(), retargeter_.sourcePose()),
+                          neck(retargeter_.target(), retargeter_.targetPose()));
+}
+
+double RetargetMeter::axisOff(Role role, const vec3& axis) const {
+    return degreesBetween(axisOf(retargeter_.source(), retargeter_.sourcePose(), role, axis),
+                          axisOf(retargeter_.target(), retargeter_.targetPose(), role, axis));
 }
 
 bool RetargetMeter::stands(std::size_t side, std::size_t point, int frame) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,12 @@ class RetargetMeter {
         std::array<std::array<float, 2>, 2> strayed{};
     };
     void addDirections();
+    // How far a part of the target points from where the source's does, degrees; unset where one of them has it not.
+    [[nodiscard]] std::optional<double> limbOff(Role role) const;
+    [[nodiscard]] std::optional<double> footOff(Role role) const;
+    [[nodiscard]] std::optional<double> neckOff() const;
+    [[nodiscard]] double trunkOff() const;
+    [[nodiscard]] double axisOff(Role role, const vec3& axis) const;
     void addFeet(const AnatomicalRig& rig, std::span<const RigidTransform> pose, float floor, float toCm, Feet& feet);
     [[nodiscard]] bool stands(std::size_t side, std::size_t point, int frame) const;
 
