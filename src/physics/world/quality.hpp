@@ -25,11 +25,11 @@ struct Quality {
     struct {
         float max = 0, p99 = 0;
     } dollPenetrationM;  ///< Between bodies of different dolls, once a frame; p99 over pairs less than 1 cm apart.
-    float energyGrowthJ =
-        0;  ///< Largest rise over the running minimum, less the work of drags, motors, forces and impulses.
+    /// Largest rise over the running minimum, less the work of drags, motors, forces and impulses.
+    float energyGrowthJ = 0;
     float initialEnergyJ = 0;  ///< At release, for the growth's share.
-    std::optional<float>
-        settleSeconds;           ///< From the first contact until all dolls are asleep or below 1 cm/s; unset: never.
+    /// From the first contact until all dolls are asleep or below 1 cm/s; unset: never.
+    std::optional<float> settleSeconds;
     float residualSpeedMps = 0;  ///< Root mean square of the bodies' speeds at the end.
     std::int64_t nonFinite = 0;  ///< Body states that were not finite.
 };

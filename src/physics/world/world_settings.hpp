@@ -40,9 +40,9 @@ inline constexpr std::array<SolverEntry, 3> kSolvers{{
 
 struct WorldSettings {
     SolverKind solver = SolverKind::crowd;
-    vec3 gravity{0, -9.81F, 0};  ///< m/s²
-    int threads = 1;
-    bool sleeping = true;
+    vec3 gravity{0, -9.81F, 0};   ///< m/s²
+    int threads = 1;              ///< Of a step, the calling one included; 0: one a processor. At most 256 are taken.
+    bool sleeping = true;         ///< Whether what lies still is left out of the steps until something wakes it.
     bool contactReports = false;  ///< Whether steps gather what contactReports() tells; costs a little.
     // Unset: the solver's own value. `stock` keeps Bullet's whatever is set here.
     std::optional<int> substeps;          ///< Equal parts a step, [1, 64]. More: stiffer joints, cost in proportion.

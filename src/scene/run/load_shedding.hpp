@@ -57,8 +57,7 @@ class LoadShedder {
     };
 
     /// `world`, made with `worldSettings`, holds `statics` and its dolls, one a kind of `kinds` in order, each of that
-    /// profile; they belong to the shedder from now on, and their
-    /// ids there change. World, profiles and rigs must
+    /// profile. They belong to the shedder from now on, and their ids there change. World, profiles and rigs must
     /// outlive it.
     LoadShedder(std::span<const Kind> kinds, physics::World& world, std::span<const physics::StaticShape> statics,
                 const physics::WorldSettings& worldSettings, const ShedSettings& settings);
