@@ -10,9 +10,9 @@ const stem = path.parse(model).name;
 const checks = new Checks(`retarget ${stem}`);
 const source = path.join(process.env.LUTKA_ASSETS, 'models/mannequin.glb');
 const file = path.join(folder, `${stem}.retargeted.glb`);
-function retarget() {
+function retarget(...options) {
   try {
-    return JSON.parse(run('retarget', source, '--clip', 'walk', '--to', model, '-o', file, '--json'));
+    return JSON.parse(run('retarget', source, '--clip', 'walk', '--to', model, '-o', file, '--json', ...options));
   } catch (failure) {
     if (failure.status !== 3) throw failure;
     checks.fact('refused as no whole figure');  // as it should be: without a file
@@ -22,9 +22,13 @@ function retarget() {
   }
 }
 fs.rmSync(file, { force: true });
+// Feet that stay on the floor cost directions: a lumberjack with large boots on short legs lifts his knees by up to 34 degrees
+// for soles that would be 9 cm in the floor. So limbs are judged with loose feet, and soles without.
+const loose = retarget('--loose-feet').limbDirectionDeg.mean;
 const figures = retarget();
-checks.fact(`limbs ${figures.limbDirectionDeg.mean.toFixed(2)} degrees, slide ${figures.footSlideCm.max.toFixed(2)} cm`);
-checks.that(figures.limbDirectionDeg.mean <= 3, `limbs point off by ${figures.limbDirectionDeg.mean} degrees`);
+checks.fact(`limbs ${loose.toFixed(2)} degrees, ${figures.limbDirectionDeg.mean.toFixed(2)} with feet on the floor, slide ${figures.footSlideCm.max.toFixed(2)} cm`);
+checks.that(loose <= 3, `limbs point off by ${loose} degrees`);
+checks.that(figures.floorPenetrationCm.max <= figures.sourceFloorPenetrationCm.max + 0.5, `soles ${figures.floorPenetrationCm.max} cm in the floor`);
 const report = await validator.validateBytes(new Uint8Array(fs.readFileSync(file)));
 checks.that(report.issues.numErrors === 0, `gltf-validator: ${JSON.stringify(report.issues.messages.slice(0, 3))}`);
 
