@@ -204,14 +204,18 @@ void bindConstraint(py::module_& module) {
             "kind",
             [](const ConstraintObject& c) { return c.get().kind == ConstraintProfile::Kind::hinge ? "hinge" : "cone"; },
             "'hinge' or 'cone'.")
-        .def_property_readonly("parent",
-                               [](const ConstraintObject& c) {
-                                   return BodyObject{c.profile, static_cast<std::size_t>(c.get().parent)};
-                               })
-        .def_property_readonly("child",
-                               [](const ConstraintObject& c) {
-                                   return BodyObject{c.profile, c.index + 1};
-                               })
+        .def_property_readonly(
+            "parent",
+            [](const ConstraintObject& c) {
+                return BodyObject{c.profile, static_cast<std::size_t>(c.get().parent)};
+            },
+            "The body that the child hangs on.")
+        .def_property_readonly(
+            "child",
+            [](const ConstraintObject& c) {
+                return BodyObject{c.profile, c.index + 1};
+            },
+            "The body that is moved by this joint; a constraint is called by its name.")
         .def_property(
             "hinge", &hingeOf,
             [](const ConstraintObject& c, const Numbers2& limits) {
@@ -267,7 +271,8 @@ void bindProfile(py::module_& module) {
             },
             py::arg("file"), "Writes a *.ragdoll.json, whole or not at all.")
         .def_property_readonly(
-            "name", [](const ProfileObject& p) { return py::bytes(p.get().name).attr("decode")("utf-8", "replace"); })
+            "name", [](const ProfileObject& p) { return py::bytes(p.get().name).attr("decode")("utf-8", "replace"); },
+            "Of the figure that it was made for.")
         .def_property_readonly(
             "height", [](const ProfileObject& p) { return p.get().heightM; }, "Of the standing figure, metres.")
         .def_property_readonly(

@@ -223,7 +223,8 @@ void bindMesh(py::module_& module) {
     py::class_<MeshObject> mesh(module, "Mesh", py::is_final(),
                                 "A mesh of the character in its bind pose, model space, metres.");
     neverMadeByItself(mesh, "a Mesh is a part of a Ragdoll: ragdoll.meshes");
-    mesh.def_property_readonly("name", [](const MeshObject& m) { return readable(m.get().name); })
+    mesh.def_property_readonly(
+            "name", [](const MeshObject& m) { return readable(m.get().name); }, "As the file has it.")
         .def_property_readonly("positions", &positionsOf, "(vertices, 3) floats: a read-only view.")
         .def_property_readonly("triangles", &trianglesOf, "(triangles, 3) indices of vertices: a read-only view.");
 }
@@ -243,7 +244,8 @@ void bindRagdoll(py::module_& module) {
         .def("with_profile", &withProfile, py::arg("profile"), "The same character with that profile.")
         .def("mended", &mended, "The profile with what the doctor can mend mended.")
         .def_property_readonly(
-            "map", [](const RagdollObject& r) { return mapObject(r.asset->character.skeleton, r.asset->map); })
+            "map", [](const RagdollObject& r) { return mapObject(r.asset->character.skeleton, r.asset->map); },
+            "Which joint plays which part, as lutka.map() gives it.")
         .def_property_readonly(
             "model", [](const RagdollObject& r) { return r.asset->character.file; }, "The file it came from.")
         .def_property_readonly(
@@ -270,7 +272,7 @@ void bindRagdoll(py::module_& module) {
                 return names;
             },
             "Names of the model's animations.")
-        .def_property_readonly("meshes", &meshesOf)
+        .def_property_readonly("meshes", &meshesOf, "The skin, a Mesh each; they keep the ragdoll alive.")
         .def_property_readonly(
             "warnings",
             [](const RagdollObject& r) {

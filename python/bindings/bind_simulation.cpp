@@ -324,11 +324,14 @@ void bindRunning(SimulationClass& simulation) {
             "Simulated so far.")
         .def_property_readonly(
             "dt", [](const SimulationObject& s) { return s.facts().options().dt; }, "Seconds a step.")
-        .def_property_readonly("scene", [](const SimulationObject& s) { return s.facts().scenario().name; })
+        .def_property_readonly(
+            "scene", [](const SimulationObject& s) { return s.facts().scenario().name; }, "The scene's name.")
         .def_property_readonly(
             "scene_seconds", [](const SimulationObject& s) { return s.facts().scenario().seconds; },
             "How long the scene takes, as its author has it.")
-        .def_property_readonly("doll_count", [](const SimulationObject& s) { return s.facts().dollCount(); })
+        .def_property_readonly(
+            "doll_count", [](const SimulationObject& s) { return s.facts().dollCount(); },
+            "How many dolls there are; they are counted from 0.")
         .def_property_readonly("ragdolls", &ragdollsOf, "The Ragdoll of each doll.")
         .def(
             "report",

@@ -190,3 +190,23 @@ def test_mypy_finds_nothing_against_the_stub_in_the_example():
 
 def test_the_report_of_a_checkup_is_json(ragdoll):
     assert json.dumps(lutka.check(ragdoll).facts())
+
+
+def test_everything_public_says_what_it_is():
+    silent = []
+    for name, thing in vars(lutka).items():
+        if name.startswith("_") or not callable(thing):
+            continue
+        members = vars(thing).items() if isinstance(thing, type) and thing.__module__ == "lutka._lutka" else ()
+        silent += [name] * (not thing.__doc__)
+        silent += [f"{name}.{member}" for member, value in members if not member.startswith("_") and not value.__doc__]
+    assert silent == []
+
+
+def test_errors_speak_of_arguments_not_of_options(ragdoll):
+    with pytest.raises(lutka.UsageError) as told:
+        lutka.Simulation(ragdoll, scene="nope")
+    assert told.value.location == "scene" and "--" not in str(told.value)
+    with pytest.raises(lutka.InputError) as told:
+        lutka.build(sys.executable)
+    assert "--" not in str(told.value)
