@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/crowd/batch_view.hpp"
 #include "physics/crowd/topology.hpp"
 #include "physics/rig/rig.hpp"
 

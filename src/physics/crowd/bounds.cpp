@@ -63,7 +63,7 @@ void findBounds(CrowdState& state, float dt) {
     });
 }
 
-Bounds worldBounds(const Doll& doll, float dt, float farther) {
+Aabb worldBounds(const Doll& doll, float dt, float farther) {
     const vec3 moved = farther + (doll.asleep() ? vec3(0) : glm::abs(doll.rootVelocity) * (kForesight * dt));
     return {doll.low - moved, doll.high + moved};
 }

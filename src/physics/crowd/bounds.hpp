@@ -14,7 +14,7 @@ void findBounds(CrowdState& state, Batch& batch, const Topology& topology, float
 
 /// The bounds that findBounds() gave a doll as seen from its root, with the root's own motion in `dt` s and `farther`
 /// metres more.
-[[nodiscard]] Bounds worldBounds(const Doll& doll, float dt, float farther = 0.0F);
+[[nodiscard]] Aabb worldBounds(const Doll& doll, float dt, float farther = 0.0F);
 [[nodiscard]] bool meet(const vec3& lowA, const vec3& highA, const vec3& lowB, const vec3& highB);
 
 }  // namespace lutka::physics::crowd

@@ -27,7 +27,7 @@ void sortAlongX(CrowdState& state, float dt) {
     for (std::size_t i = 0; i < state.sweptBoxes.size() * kLanes; ++i) {
         const bool isDoll = i < swept.size();
         if (isDoll) state.sweep[i] = swept[i].doll;
-        writeBox(state.sweptBoxes[i / kLanes], static_cast<int>(i % kLanes), isDoll ? swept[i].bounds : kNowhere);
+        writeBox(state.sweptBoxes[i / kLanes], static_cast<int>(i % kLanes), isDoll ? swept[i].bounds : Aabb{});
     }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "physics/crowd/layout.hpp"
+#include "physics/crowd/contact_lanes.hpp"
 #include "physics/crowd/substep_params.hpp"
 
 /// Rules for contacts between two bodies that hold alike for one contact (`float`) and for one a lane of the kernels.

@@ -163,10 +163,10 @@ void placeDoll(CrowdState& state, const Doll& doll) {
     for (int body = 0; body < doll.boxes * kLanes; ++body) {
         BoxLanes& boxes = state.stepBoxes[doll.firstBox + body / kLanes];
         const bool isBody = body < bodies;
-        writeBox(boxes, body % kLanes,
-                 isBody ? Bounds{readVector(batch.bodies[body].low, doll.lane),
-                                 readVector(batch.bodies[body].high, doll.lane)}
-                        : kNowhere);
+        writeBox(
+            boxes, body % kLanes,
+            isBody ? Aabb{readVector(batch.bodies[body].low, doll.lane), readVector(batch.bodies[body].high, doll.lane)}
+                   : Aabb{});
         if (isBody) state.stepBodies[doll.firstBody + body] = stepBody(state, doll, body);
     }
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/instruction_set.hpp"
-#include "physics/crowd/layout.hpp"
+#include "physics/crowd/kernel_set.hpp"
 
 namespace lutka::physics::crowd {
 

@@ -1,10 +1,10 @@
 #pragma once
 
-/// Between the solver's records (layout.hpp) and registers of eight lanes. Included by the kernels only, see
-/// core/simd/lanes.hpp.
+/// Between the solver's records (kernel_set.hpp and what it includes) and registers of eight lanes. Included by the
+/// kernels only, see core/simd/lanes.hpp.
 
 #include "core/simd/lanes.hpp"
-#include "physics/crowd/layout.hpp"
+#include "physics/crowd/kernel_set.hpp"
 
 namespace lutka::physics::crowd::LUTKA_KERNELS {
 

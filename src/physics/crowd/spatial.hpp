@@ -100,16 +100,6 @@ LUTKA_LANES Spatial movedTo(const Spatial& s, const V3& r) {
     const Matrix mixed = s.mixed + timesCross(rowsOf(s.linear), r);
     return {s.linear, mixed, shiftTurning(s.turning, s.mixed, mixed, r)};
 }
-// A rigid body seen from a point at `r` from its centre of mass.
-LUTKA_LANES Spatial rigidAt(F mass, const Symmetric& inertia, const V3& r) {
-    const F zero = all(0.0F);
-    const V3 m = r * mass;
-    const F xx = m.x * r.x, yy = m.y * r.y, zz = m.z * r.z;
-    return {{mass, mass, mass, zero, zero, zero},
-            {{V3{zero, -m.z, m.y}, V3{m.z, zero, -m.x}, V3{-m.y, m.x, zero}}},
-            {inertia.xx + (yy + zz), inertia.yy + (xx + zz), inertia.zz + (xx + yy), inertia.xy - m.x * r.y,
-             inertia.xz - m.x * r.z, inertia.yz - m.y * r.z}};
-}
 // J K Jᵀ of the weights K of a point's velocity, at an arm.
 LUTKA_LANES void addPoint(Spatial& s, const V3& arm, const Symmetric& k) {
     const Matrix rows = rowsOf(k);

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/aabb.hpp"
 #include "core/task_pool.hpp"
 #include "core/union_find.hpp"
 #include "physics/crowd/batch.hpp"
@@ -227,22 +228,15 @@ struct Job {
     return job.batches.size() >= 16;
 }
 
-/// A doll's bounds in the world's frame, metres.
-struct Bounds {
-    vec3 low, high;
-};
-
-/// Bounds that meet nothing.
-inline constexpr Bounds kNowhere{vec3(1e30F), vec3(-1e30F)};
-
-inline void writeBox(BoxLanes& boxes, int lane, const Bounds& bounds) {
+/// An empty box meets nothing.
+inline void writeBox(BoxLanes& boxes, int lane, const Aabb& bounds) {
     writeVector(boxes.low, lane, bounds.low);
     writeVector(boxes.high, lane, bounds.high);
 }
 
 /// A doll's place in the sweep along x.
 struct Swept {
-    Bounds bounds;
+    Aabb bounds;  ///< World.
     int doll = 0;
 };
 

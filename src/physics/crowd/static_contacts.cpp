@@ -105,7 +105,7 @@ class StaticContacts {
             near.clear();
         for (int lane = 0; lane < batch_.used; ++lane) {
             const Doll& doll = state_.dolls[batch_.doll[lane]];
-            const Bounds bounds = worldBounds(doll, dt_, farther_);
+            const Aabb bounds = worldBounds(doll, dt_, farther_);
             for (int i = 0; i < static_cast<int>(state_.statics.size()); ++i) {
                 if (!state_.statics[i].shape.filter.collidesWith(doll.filter)) continue;
                 if (!nearStatic(state_.statics[i], bounds.low, bounds.high)) continue;
@@ -265,7 +265,7 @@ class StaticContacts {
 
     // Metres between the doll's bounds and the nearest static that is no plane.
     float apartFromShapes(int lane) const {
-        const Bounds bounds = worldBounds(state_.dolls[batch_.doll[lane]], dt_, farther_);
+        const Aabb bounds = worldBounds(state_.dolls[batch_.doll[lane]], dt_, farther_);
         float apart = kFarM;
         for (const PlacedStatic& geometry : state_.statics) {
             if (geometry.shape.kind == StaticShape::Kind::plane) continue;

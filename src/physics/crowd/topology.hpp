@@ -2,7 +2,9 @@
 
 #include <vector>
 
-#include "physics/crowd/layout.hpp"
+#include "physics/crowd/body_lanes.hpp"
+#include "physics/crowd/joint_lanes.hpp"
+#include "physics/crowd/search_lanes.hpp"
 #include "physics/profile/profile.hpp"
 #include "physics/world/world.hpp"
 

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "physics/crowd/kernels.hpp"
-#include "physics/crowd/layout.hpp"
+#include "physics/crowd/substep_params.hpp"
 
 namespace lutka::physics::crowd {
 
