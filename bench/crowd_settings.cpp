@@ -60,19 +60,18 @@ void apply(physics::crowd::CrowdTuning& tuning, const std::string& setting) {
                                               {"sleepSpeed", &tuning.sleepSpeed},
                                               {"substepSpeed", &tuning.substepSpeed},
                                               {"substepTurn", &tuning.substepTurn},
+                                              {"fastSpeed", &tuning.fastSpeed},
+                                              {"fastTurn", &tuning.fastTurn},
                                               {"spared", &tuning.spared},
                                               {"deepShare", &tuning.deepShare},
                                               {"angularDamping", &tuning.angularDamping},
                                               {"leastGyration", &tuning.leastGyration}};
-    const std::map<std::string, int*> whole{{"substeps", &tuning.substeps},
-                                            {"calmSubsteps", &tuning.calmSubsteps},
-                                            {"passes", &tuning.passes},
-                                            {"patience", &tuning.patience},
-                                            {"mendEvery", &tuning.mendEvery},
-                                            {"restSubsteps", &tuning.restSubsteps},
-                                            {"answerSweeps", &tuning.answerSweeps},
-                                            {"ownSweeps", &tuning.ownSweeps},
-                                            {"mendSweeps", &tuning.mendSweeps}};
+    const std::map<std::string, int*> whole{
+        {"substeps", &tuning.substeps},         {"fastSubsteps", &tuning.fastSubsteps},
+        {"calmSubsteps", &tuning.calmSubsteps}, {"passes", &tuning.passes},
+        {"patience", &tuning.patience},         {"mendEvery", &tuning.mendEvery},
+        {"restSubsteps", &tuning.restSubsteps}, {"answerSweeps", &tuning.answerSweeps},
+        {"ownSweeps", &tuning.ownSweeps},       {"mendSweeps", &tuning.mendSweeps}};
     if (const auto real = reals.find(name); real != reals.end())
         *real->second = value;
     else if (const auto number = whole.find(name); number != whole.end())

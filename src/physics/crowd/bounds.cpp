@@ -58,7 +58,7 @@ void findBounds(CrowdState& state, float dt) {
             const Topology& topology = state.activeGroup[i]->topology;
             findBounds(state, batch, topology, dt);
             takeWays(state, batch, topology, dt);
-            findPace(state, batch, topology);
+            findPace(state, batch, topology, dt);
         }
     });
 }

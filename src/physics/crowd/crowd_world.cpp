@@ -181,7 +181,8 @@ void CrowdWorld::advance(float dt, const std::function<void()>& afterSubstep) {
     for (const TargetRecord& record : state_.targets)
         wakeDoll(record.doll);
     gatherActive(state_);
-    placeTargets(state_, dt / static_cast<float>(substepsPerStep()));
+    state_.stepSubsteps = substepsFor(state_, dt);
+    placeTargets(state_, dt / static_cast<float>(state_.stepSubsteps.usual));
     state_.reports.clear();
     if (state_.active.empty()) {  // all asleep: nothing can change
         times_ = {};

@@ -32,7 +32,7 @@ void findStruck(CrowdState& state) {
 unsigned hardHits(const CrowdState& state, const Batch& batch, float dt) {
     unsigned hits = 0;
     const auto isFast = [&](int lane) {
-        return batch.substepsOf[lane] == state.tuning.substeps && state.dolls[batch.doll[lane]].motors == 0;
+        return batch.substepsOf[lane] >= state.stepSubsteps.usual && state.dolls[batch.doll[lane]].motors == 0;
     };
     const auto add = [&](int lane, float speed) {
         hits |= (speed > kHardHit ? 1U : 0U) << static_cast<unsigned>(lane);

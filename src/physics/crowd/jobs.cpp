@@ -98,11 +98,12 @@ void makeJobs(CrowdState& state) {
         jobOf(record.doll).forces.push_back(&record);
     for (std::size_t i = 0; i < state.jobCount; ++i)
         setSubsteps(state, state.jobs[i]);
+    const auto takeUsual = [&](Job& job) { job.substeps = std::max(job.substeps, state.stepSubsteps.usual); };
     // A muscle or pull at its bound works against what may give way at once, however calm the doll is yet.
     for (const MotorRecord& record : state.motors)
-        if (record.bounded && !state.dolls[record.doll].asleep()) jobOf(record.doll).substeps = state.tuning.substeps;
+        if (record.bounded && !state.dolls[record.doll].asleep()) takeUsual(jobOf(record.doll));
     for (const DragRecord& record : state.drags)
-        if (record.bounded) jobOf(record.doll).substeps = state.tuning.substeps;
+        if (record.bounded) takeUsual(jobOf(record.doll));
     partTouches(state);
     packTouches(state);
 }

@@ -245,9 +245,11 @@ void keepPairs(CrowdState& state, std::size_t begin, std::size_t end) {
 void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSubstep) {
     const int parts = state.tuning.substeps;
     std::vector<SubstepParams>& paramsFor = state.scratch.paramsFor;
-    paramsFor.resize(static_cast<std::size_t>(parts) + 1);
-    for (int substeps = 1; substeps <= parts; ++substeps)
-        paramsFor[substeps] = paramsOf(state, dt / static_cast<float>(substeps));
+    paramsFor.assign(static_cast<std::size_t>(state.stepSubsteps.most) + 1, {});
+    for (std::size_t i = 0; i < state.jobCount; ++i) {
+        const int substeps = state.jobs[i].substeps;
+        if (paramsFor[substeps].dt == 0.0F) paramsFor[substeps] = paramsOf(state, dt / static_cast<float>(substeps));
+    }
     for (std::size_t i = 0; i < state.jobCount; ++i)
         state.jobs[i].dragWork = state.jobs[i].dragImpulse = state.jobs[i].motorWork = 0.0;
     // In the order of the jobs, so that the sum is the same at every thread count.
@@ -285,10 +287,10 @@ void solveJobs(CrowdState& state, float dt, const std::function<void()>& afterSu
     };
     if (afterSubstep) {
         for (int i = 0; i < parts; ++i) {
-            // A job of fewer substeps is behind by less than one of them.
+            // A job of fewer substeps is behind by less than one of them; one of more makes some in each part.
             forJobs(state, [&](Job& job) {
-                const int done = i * job.substeps / parts;
-                if (done < (i + 1) * job.substeps / parts) substep(job, done);
+                for (int done = i * job.substeps / parts; done < (i + 1) * job.substeps / parts; ++done)
+                    substep(job, done);
             });
             takeDragWork();
             afterSubstep();

@@ -264,6 +264,14 @@ struct PieceTouches {
 /// Which touches lie in the lanes of some blocks; -1 where a lane is empty.
 using BlockTouches = std::vector<std::array<int, kLanes>>;
 
+/// How many substeps a step of some length has: see substepsFor().
+struct StepSubsteps {
+    int rest = 1;   ///< Where hardly anything moves and nothing may fall asleep,
+    int calm = 1;   ///< where nothing moves fast,
+    int usual = 1;  ///< where things move as they do in a fall, and
+    int most = 1;   ///< where a doll by itself is faster than that.
+};
+
 /// What the parts of a step work with; kept so that a step allocates nothing.
 struct Scratch {
     std::vector<Swept> swept;
@@ -300,6 +308,7 @@ struct CrowdState {
     std::vector<DynamicProp> propSettings;  ///< One a prop, as it was added.
     std::vector<DragRecord> drags;          ///< In the order of the world's drags.
     double dragWork = 0.0;
+    StepSubsteps stepSubsteps;          ///< Of this step.
     std::vector<MotorRecord> motors;    ///< By doll and constraint.
     std::size_t nextMotor = 0;          ///< After the one that was set last.
     std::vector<TargetRecord> targets;  ///< By doll and body.

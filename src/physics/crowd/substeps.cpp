@@ -1,11 +1,15 @@
 #include "physics/crowd/substeps.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "physics/crowd/jobs.hpp"
 
 namespace lutka::physics::crowd {
 namespace {
+
+// Steps a second that CrowdTuning is made for.
+constexpr float kTunedRate = 60.0F;
 
 void scale(Wide& wide, const Wide& by) {
     for (int lane = 0; lane < kLanes; ++lane)
@@ -65,8 +69,27 @@ float paceOf(float heightM) {
     return std::clamp(heightM / kTunedM, kLeast, 1.0F);
 }
 
-void findPace(const CrowdState& state, Batch& batch, const Topology& topology) {
+StepSubsteps substepsFor(const CrowdState& state, float dt) {
+    constexpr float kRounding = 0.01F;  // substeps
+    constexpr int kMost = 64;
+    const CrowdTuning& tuning = state.tuning;
+    const bool isTold = state.settings.substeps.has_value();
+    const auto scaled = [&](int substeps) {
+        const float wanted = std::ceil(static_cast<float>(substeps) * dt * kTunedRate - kRounding);
+        return static_cast<int>(std::clamp(wanted, 1.0F, static_cast<float>(kMost)));
+    };
+    StepSubsteps found;
+    found.usual = isTold ? tuning.substeps : scaled(tuning.substeps);
+    found.calm = std::min(scaled(tuning.calmSubsteps), found.usual);
+    found.rest = std::min(scaled(tuning.restSubsteps), found.usual);
+    found.most = isTold ? found.usual : std::min(tuning.fastSubsteps * found.usual, kMost);
+    return found;
+}
+
+void findPace(const CrowdState& state, Batch& batch, const Topology& topology, float dt) {
     constexpr float kStill = 0.2F;  // of the speeds that ask for a substep
+    const StepSubsteps& step = state.stepSubsteps;
+    const float frames = dt * kTunedRate;  // that long is the step
     const CrowdTuning& tuning = state.tuning;
     Wide speed2;
     Wide turn2;
@@ -77,14 +100,22 @@ void findPace(const CrowdState& state, Batch& batch, const Topology& topology) {
     batch.substeps = 0;
     for (int lane = 0; lane < batch.used; ++lane) {
         const float pace = state.dolls[batch.doll[lane]].pace;
-        const float units2 = std::max(speed2.lane[lane] / unit2, turn2.lane[lane] / turnUnit2) / (pace * pace);
+        const float scale = frames / pace;
+        const float way2 = speed2.lane[lane] / unit2 * (scale * scale);
+        const float turned2 = turn2.lane[lane] / turnUnit2 * (scale * scale);
+        const float units2 = std::max(way2, turned2);
         const bool isStill = units2 < kStill * kStill;
         int& substeps = batch.substepsOf[lane];
         // What lies still and may not fall asleep is cheap in this way; where it may, it would only come to rest later.
         // Muscles may begin to move it at once.
         const bool rests = isStill && !state.settings.sleeping && state.dolls[batch.doll[lane]].motors == 0;
-        substeps = std::min(rests ? tuning.restSubsteps : tuning.calmSubsteps, tuning.substeps);
-        while (substeps < tuning.substeps && static_cast<float>(substeps * substeps) < units2)
+        substeps = rests ? step.rest : step.calm;
+        while (substeps < step.usual && static_cast<float>(substeps * substeps) < units2)
+            ++substeps;
+        // What is faster than in any fall needs more, if not in proportion.
+        const float fast2 =
+            std::max(way2 / (tuning.fastSpeed * tuning.fastSpeed), turned2 / (tuning.fastTurn * tuning.fastTurn));
+        while (substeps >= step.usual && substeps < step.most && static_cast<float>(substeps * substeps) < fast2)
             ++substeps;
         batch.isStill = batch.isStill && isStill;
         batch.substeps = std::max(batch.substeps, substeps);
@@ -93,20 +124,26 @@ void findPace(const CrowdState& state, Batch& batch, const Topology& topology) {
 
 void setSubsteps(CrowdState& state, Job& job) {
     const CrowdTuning& tuning = state.tuning;
-    const int all = tuning.substeps;
-    job.substeps = job.forces.empty() ? 1 : all;
+    const StepSubsteps& step = state.stepSubsteps;
+    const bool hasTargets =
+        std::any_of(job.batches.begin(), job.batches.end(), [](const Batch* batch) { return !batch->targets.empty(); });
+    if (hasTargets) {  // their springs are made for that number
+        job.substeps = step.usual;
+        return;
+    }
+    const int all = isHeap(job) ? step.usual : step.most;
+    job.substeps = job.forces.empty() ? 1 : step.usual;
     // A pull may begin to move what lies still.
-    if (!job.drags.empty()) job.substeps = std::max(job.substeps, std::min(tuning.calmSubsteps, all));
+    if (!job.drags.empty()) job.substeps = std::max(job.substeps, step.calm);
     int dolls = 0;  // without props
     bool isDriven = !job.drags.empty();
     std::vector<int>& needing = state.scratch.needing;
     needing.assign(static_cast<std::size_t>(all) + 1, 0);
     for (std::size_t i = 0; i < job.batches.size(); ++i) {
         const Batch& batch = *job.batches[i];
-        if (!batch.targets.empty()) job.substeps = all;
         dolls += job.topologies[i]->joints.empty() ? 0 : batch.used;
         for (int lane = 0; lane < batch.used; ++lane) {
-            ++needing[batch.substepsOf[lane]];
+            ++needing[std::min(batch.substepsOf[lane], all)];
             isDriven = isDriven || state.dolls[batch.doll[lane]].motors > 0;
         }
     }

@@ -9,12 +9,17 @@ namespace lutka::physics::crowd {
 /// a substep's speeds (CrowdTuning::substepSpeed), and more substeps at most.
 [[nodiscard]] float paceOf(float heightM);
 
-/// Sets by how its dolls move now how many substeps a step of the batch needs (CrowdTuning::substeps where anything is
-/// fast, fewer where all is slow) and whether it hardly moves at all.
-void findPace(const CrowdState& state, Batch& batch, const Topology& topology);
+/// How many substeps a step of `dt` seconds has. CrowdTuning's numbers are those of 1/60 s: a longer step has as many
+/// more, a shorter one fewer, so that a substep is about as long at any rate of frames. Where the settings tell how
+/// many, a step has no more than that, however long it is.
+[[nodiscard]] StepSubsteps substepsFor(const CrowdState& state, float dt);
 
-/// Sets Job::substeps: about the most that any doll of the job needs (CrowdTuning::spared), all where frames or forces
-/// act.
+/// Sets by how its dolls move now how many substeps a step of `dt` seconds needs for the batch
+/// (CrowdState::stepSubsteps) and whether it hardly moves at all.
+void findPace(const CrowdState& state, Batch& batch, const Topology& topology, float dt);
+
+/// Sets Job::substeps: about the most that any doll of the job needs (CrowdTuning::spared), the usual number at most in
+/// heaps, and just that where frames or forces act.
 void setSubsteps(CrowdState& state, Job& job);
 
 /// Impulses that are carried from step to step are those of one substep: fits them to one of `seconds`.

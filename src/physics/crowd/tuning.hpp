@@ -9,11 +9,14 @@ namespace lutka::physics::crowd {
 
 /// What decides quality and cost: of a substep (SubstepTuning), and of all that lies around it.
 struct CrowdTuning : SubstepTuning {
-    int substeps = 6;           ///< A step; >= 1. More: stiffer joints, shallower contacts, cost in proportion.
-    int calmSubsteps = 3;       ///< A step in which nothing moves fast, >= 1; no more than `substeps`.
-    int restSubsteps = 2;       ///< A step in which hardly anything moves in a world where nothing sleeps, likewise.
+    int substeps = 6;      ///< A step of 1/60 s; >= 1. More: stiffer joints, shallower contacts, cost in proportion.
+    int calmSubsteps = 3;  ///< A step in which nothing moves fast, >= 1; no more than `substeps`.
+    int restSubsteps = 2;  ///< A step in which hardly anything moves in a world where nothing sleeps, likewise.
     float substepSpeed = 0.5F;  ///< m/s of a body for each substep that a step needs: above six times that it has six.
     float substepTurn = 3.0F;   ///< rad/s, likewise.
+    int fastSubsteps = 4;       ///< Times `substeps` that a step of a doll by itself has at most, >= 1.
+    float fastSpeed = 5.0F;     ///< Times `substepSpeed` for each of those that go beyond `substeps`,
+    float fastTurn = 5.0F;      ///< and times `substepTurn`. Less: dearer, better in hits at 50 m/s and more.
     float spared = 0.2F;        ///< Substeps that the dolls of a job may be short of, a doll in the mean, while
     float deepShare = 0.01F;    ///< no more than this share of its contacts lie deep (TouchBrief), [0, 1].
     int mendEvery = 1;          ///< Errors of position are mended in every so many substeps, the last among them.

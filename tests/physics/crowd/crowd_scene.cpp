@@ -1,5 +1,6 @@
 #include "crowd_scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -64,6 +65,16 @@ Limbs besideEachOther(const std::vector<float>& sides, float apart) {
     for (std::size_t i = 0; i < sides.size(); ++i)
         limbs.bodies[i + 2].worldFromBody.translation.y += sides[i] * apart;
     return limbs;
+}
+
+float lowestPoint(const RagdollProfile& profile, const std::vector<BodyState>& bodies) {
+    float low = 1e9F;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const physics::BodyShape& shape = profile.bodies[i].shape;
+        const RigidTransform& at = bodies[i].worldFromBody;
+        low = std::min(low, at.translation.y - std::abs((at.rotation * vec3(0, shape.halfLength, 0)).y) - shape.radius);
+    }
+    return low;
 }
 
 StaticShape floorPlane() {

@@ -29,6 +29,9 @@ struct Limbs {
 };
 [[nodiscard]] Limbs besideEachOther(const std::vector<float>& sides, float apart);
 
+/// Of a doll of capsules, metres.
+[[nodiscard]] float lowestPoint(const physics::RagdollProfile& profile, const std::vector<physics::BodyState>& bodies);
+
 [[nodiscard]] physics::StaticShape floorPlane();
 [[nodiscard]] physics::StaticShape staticBox(const vec3& centre, const vec3& halfExtents);
 

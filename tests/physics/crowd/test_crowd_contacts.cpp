@@ -23,17 +23,6 @@ float highestBody(const physics::World& world, int doll) {
     return high;
 }
 
-// Of a doll of capsules.
-float lowestPoint(const physics::RagdollProfile& profile, const std::vector<BodyState>& bodies) {
-    float low = 1e9F;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const physics::BodyShape& shape = profile.bodies[i].shape;
-        const RigidTransform& at = bodies[i].worldFromBody;
-        low = std::min(low, at.translation.y - std::abs((at.rotation * vec3(0, shape.halfLength, 0)).y) - shape.radius);
-    }
-    return low;
-}
-
 // How deep the first two dolls lie in each other, metres.
 float depthOf(const physics::World& world, const physics::RagdollProfile& profile) {
     physics::DollOverlap overlap;
@@ -63,26 +52,6 @@ float deepestLimb(physics::World& world, const physics::RagdollProfile& doll, fl
                                                                 doll.bodies[other].shape, now[other].worldFromBody));
         });
     return deepest;
-}
-
-// Four light limbs that lie across each other a little, the lowest on the ground.
-Limbs tangledLimbs(std::uint64_t seed) {
-    Random random(seed);
-    Limbs limbs = besideEachOther({1.0F, 2.0F, 3.0F}, random.uniform(0.085F, 0.105F));
-    for (std::size_t b = 1; b < limbs.bodies.size(); ++b) {
-        physics::BodyProfile& body = limbs.doll.bodies[b];
-        body.massKg = b % 2 == 1 ? 0.4F : 1.5F;
-        body.inertia = physics::shapeInertia(body.shape, body.massKg);
-        RigidTransform& at = limbs.bodies[b].worldFromBody;
-        const vec3 anchor = at * limbs.doll.constraints[b - 1].childFromFrame.translation;
-        const vec3 axis(random.uniform(-0.3F, 0.3F), random.uniform(-1, 1), random.uniform(-0.4F, 0.4F));
-        const quat turn = glm::angleAxis(random.uniform(-0.15F, 0.15F), glm::normalize(axis));
-        at = {turn * at.rotation, anchor + turn * (at.translation - anchor)};
-    }
-    const float low = lowestPoint(limbs.doll, limbs.bodies);
-    for (BodyState& body : limbs.bodies)
-        body.worldFromBody.translation.y -= low;
-    return limbs;
 }
 
 }  // namespace
@@ -458,33 +427,4 @@ TEST_CASE("a light limb that a fast ball drives into another of its doll is met 
     }
     CHECK(hits);
     CHECK(deepest < 0.02F);
-}
-
-TEST_CASE("limbs of a doll that lie across each other are mended together, so that none goes deeper by that") {
-    const auto grownBy = [](float wedgeDepth) {
-        float most = 0.0F;
-        for (std::uint64_t seed = 0; seed < 130; ++seed) {
-            const Limbs limbs = tangledLimbs(seed);
-            const auto depthOfLimbs = [&](const std::vector<BodyState>& now) {
-                float depth = 0.0F;
-                for (std::size_t a = 1; a < now.size(); ++a)
-                    for (std::size_t b = a + 1; b < now.size(); ++b)
-                        depth = std::max(depth,
-                                         -physics::distanceBetween(limbs.doll.bodies[a].shape, now[a].worldFromBody,
-                                                                   limbs.doll.bodies[b].shape, now[b].worldFromBody));
-                return depth;
-            };
-            physics::crowd::CrowdTuning tuning;
-            tuning.wedgeDepth = wedgeDepth;
-            const auto world = createCrowdWorld(WorldSettings{}, tuning);
-            world->addStatic(floorPlane());
-            world->addDoll(limbs.doll, limbs.bodies);
-            const float before = depthOfLimbs(limbs.bodies);
-            for (int i = 0; i < 60; ++i)
-                world->step(kStep, [&] { most = std::max(most, depthOfLimbs(bodiesOf(*world, 0)) - before); });
-        }
-        return most;
-    };
-    CHECK(grownBy(1.0F) > 0.02F);  // each contact by itself, at any depth
-    CHECK(grownBy(physics::crowd::CrowdTuning{}.wedgeDepth) < 0.02F);
 }

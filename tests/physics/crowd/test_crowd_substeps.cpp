@@ -68,6 +68,7 @@ TEST_CASE("a world with a small figure has as many more substeps as that is smal
 TEST_CASE("a few dolls of a calm heap may have fewer substeps than they need, unless many lie deep in each other") {
     using namespace physics::crowd;
     CrowdState state(WorldSettings{}, CrowdTuning{});
+    state.stepSubsteps = substepsFor(state, kStep);
     state.dolls.resize(1);  // of which all lanes are
     const Topology topology = makeTopology(makeDoll(), 0.05F);
     std::vector<Batch> batches(5, Batch(topology));
