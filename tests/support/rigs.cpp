@@ -188,6 +188,35 @@ void addRoot(animation::Character& figure, animation::HumanoidMap& map) {
     }
 }
 
+void addParts(animation::Character& character, int count, const std::string& name, int group) {
+    animation::Skeleton& skeleton = character.skeleton;
+    const auto add = [&](const std::string& joint, int parent, const vec3& place, float weight) {
+        skeleton.names.push_back(joint);
+        skeleton.parents.push_back(parent);
+        RigidTransform frame;
+        frame.translation = place;
+        skeleton.bindModelFromJoint.push_back(frame);
+        skeleton.nodeParentFromJoint.emplace_back();
+        skeleton.skinWeight.push_back(weight);
+        return skeleton.jointCount() - 1;
+    };
+    const int room = add("room", -1, {0, 0, 0}, 0.0F);
+    int holder = room;
+    for (int part = 0; part < count; ++part) {
+        const vec3 place(static_cast<float>(part % 40) * 0.3F - 6.0F, 0.1F * static_cast<float>(part / 1600),
+                         static_cast<float>(part / 40 % 40) * 0.3F + 1.0F);
+        if (group > 0 && part % group == 0) holder = add("group", room, {0, 0, 0}, 0.0F);
+        const int node = add(name + std::to_string(part), holder, place, 3.0F);
+        animation::SkinnedMesh mesh;
+        mesh.rigid = true;
+        mesh.positions = {place, place + vec3(0.1F, 0, 0), place + vec3(0, 0.1F, 0)};
+        mesh.joints.assign(3, {static_cast<std::uint16_t>(node), 0, 0, 0});
+        mesh.weights.assign(3, {1, 0, 0, 0});
+        mesh.indices = {0, 1, 2};
+        character.meshes.push_back(mesh);
+    }
+}
+
 animation::HumanoidMap mapOfBiped(const animation::Character& biped) {
     animation::HumanoidMap map;
     map.humanoid = true;

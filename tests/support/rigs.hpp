@@ -43,6 +43,10 @@ struct TubeSpec {
 /// A joint "Scene" without skin above all that the figure has; its joints, and those of the map, move up by one.
 void addRoot(animation::Character& figure, animation::HumanoidMap& map);
 
+/// So many boxes beside the figure, each a mesh without a skin on a node of its own called by `name` and a number,
+/// below a root "room". They hang on nodes "group" of so many each, where `group` is not 0.
+void addParts(animation::Character& character, int count, const std::string& name, int group = 0);
+
 /// The map of makeBiped(), exact.
 [[nodiscard]] animation::HumanoidMap mapOfBiped(const animation::Character& biped);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "animation/carrying_joints.hpp"
 #include "animation/humanoid/name_evidence.hpp"
 
 namespace lutka::animation {
@@ -17,21 +18,6 @@ constexpr int kHugeScale = 16;            // … so many times fewer are a crowd
 constexpr int kFewestInScene = 2 * kFewestOfCrowd;
 constexpr int kLeastChain = 3;    // nodes, one below the other: as a limb has
 constexpr int kMostOfBody = 256;  // parts of a crowd that are taken for a body's by one sign: more are a crowd, too
-
-// Joints that move a part of a skin.
-std::vector<bool> skinnedJoints(const Character& character) {
-    std::vector<bool> skinned(character.skeleton.names.size(), false);
-    for (const SkinnedMesh& mesh : character.meshes) {
-        if (mesh.rigid) continue;
-        for (std::size_t i = 0; i < mesh.joints.size() && i < mesh.weights.size(); ++i) {
-            for (int slot = 0; slot < kMaxInfluences; ++slot) {
-                const std::size_t joint = mesh.joints[i][slot];
-                if (mesh.weights[i][slot] > 0.0F && joint < skinned.size()) skinned[joint] = true;
-            }
-        }
-    }
-    return skinned;
-}
 
 bool speaksOfBody(const NameEvidence& evidence) {
     return std::any_of(evidence.parts.values.begin(), evidence.parts.values.end(),
@@ -62,7 +48,7 @@ struct Parts {
 Parts findParts(const Character& character, const std::vector<int>& kept, bool useNames) {
     const Skeleton& skeleton = character.skeleton;
     const std::size_t count = skeleton.names.size();
-    const std::vector<bool> skinned = skinnedJoints(character);
+    const std::vector<bool> skinned = carryingJoints(character).skin;
     Parts parts{std::vector<bool>(count, true), std::vector<bool>(count, false), std::vector<unsigned>(count, kNoSign)};
     std::vector<int> size(count, 1);
     std::vector<int> height(count, 1);
@@ -128,6 +114,11 @@ std::vector<bool> findCrowds(const Skeleton& skeleton, const Parts& parts) {
 }
 
 }  // namespace
+
+int WithoutCrowds::placeOf(int joint) const {
+    const auto place = std::lower_bound(original.begin(), original.end(), joint);
+    return place != original.end() && *place == joint ? static_cast<int>(place - original.begin()) : kNoJoint;
+}
 
 std::optional<WithoutCrowds> leaveOutCrowds(const Character& character, const std::vector<int>& kept, bool useNames) {
     const Skeleton& skeleton = character.skeleton;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -11,6 +12,13 @@ namespace lutka::animation {
 struct WithoutCrowds {
     Character character;        ///< Skeleton and meshes alone: what the mapper reads.
     std::vector<int> original;  ///< Per joint of `character`: its index in the whole skeleton. Ascending.
+
+    /// Of a joint of the whole skeleton: its index in `character`, kNoJoint where it was left out.
+    [[nodiscard]] int placeOf(int joint) const;
+    /// Of a joint of `character`: its index in the whole skeleton; kNoJoint of kNoJoint.
+    [[nodiscard]] int originalOf(int joint) const {
+        return joint == kNoJoint ? kNoJoint : original[static_cast<std::size_t>(joint)];
+    }
 };
 
 /// Hundreds of small parts side by side, without a skin and without a name of the body, are a room or a machine and no

@@ -232,13 +232,11 @@ std::vector<int> namedJoints(const Character& character, const MapOptions& optio
 
 HumanoidMap mapWithoutCrowds(const WithoutCrowds& few, int leftOut, MapOptions options) {
     for (auto& joint : options.fixed) {
-        if (!joint) continue;
-        const auto place = std::lower_bound(few.original.begin(), few.original.end(), *joint);
-        joint = static_cast<int>(place - few.original.begin());
+        if (joint) joint = few.placeOf(*joint);
     }
     HumanoidMap map = mapHumanoid(few.character, options);
     for (auto& binding : map.roles) {
-        if (binding) binding->joint = few.original[static_cast<std::size_t>(binding->joint)];
+        if (binding) binding->joint = few.originalOf(binding->joint);
     }
     if (!map.humanoid && !map.warnings.empty())
         map.warnings.front() += fmt::format(" (without {} small parts side by side)", leftOut);

@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "animation/carrying_joints.hpp"
 #include "animation/counted_vertices.hpp"
 #include "animation/humanoid/names_in_tree.hpp"
 #include "core/aabb.hpp"
@@ -56,15 +57,10 @@ void readWeights(const Character& character, RigFeatures& rig) {
 
 // Where all parts are rigid, which joints carry one proves nothing: limbs may hang from joints that carry none.
 void readRigidParts(const Character& character, RigFeatures& rig) {
-    rig.rigidPart.assign(rig.positions.size(), false);
-    bool onlyRigid = !character.meshes.empty();
-    for (const SkinnedMesh& mesh : character.meshes) {
-        onlyRigid = onlyRigid && mesh.rigid;
-        if (mesh.rigid && !mesh.joints.empty() && mesh.joints[0][0] < rig.positions.size()) {
-            rig.rigidPart[mesh.joints[0][0]] = true;
-        }
-    }
-    if (onlyRigid) rig.skinned = false;
+    rig.rigidPart = carryingJoints(character).rigid;
+    const bool onlyRigid = std::all_of(character.meshes.begin(), character.meshes.end(),
+                                       [](const SkinnedMesh& mesh) { return mesh.rigid; });
+    if (onlyRigid && !character.meshes.empty()) rig.skinned = false;
 }
 
 // A rigid part's node may lie anywhere: at the origin of the file, or on the other side, where the part was mirrored in

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "animation/humanoid/crowds.hpp"
 #include "animation/segments/segment_sides.hpp"
 #include "animation/segments/segment_tree.hpp"
 #include "core/letter_case.hpp"
@@ -216,6 +217,21 @@ std::vector<Segment> branches(const AppendageSearch& search, const Character& ch
     return all;
 }
 
+// The character without the crowds of things beside it, which hang on no part of the figure. The joints that play a
+// role stay.
+std::optional<WithoutCrowds> withoutCrowds(const Character& character, const HumanoidMap& map) {
+    std::vector<int> kept;
+    for (const auto& binding : map.roles)
+        if (binding) kept.push_back(binding->joint);
+    return leaveOutCrowds(character, kept);
+}
+
+HumanoidMap mapOf(const WithoutCrowds& few, HumanoidMap map) {
+    for (auto& binding : map.roles)
+        if (binding) binding->joint = few.placeOf(binding->joint);
+    return map;
+}
+
 void makeNamesUnique(std::vector<Segment>& segments) {
     for (std::size_t i = 0; i < segments.size(); ++i) {
         const std::string base = segments[i].name;
@@ -245,13 +261,26 @@ std::optional<AppendageKind> appendageNamed(std::string_view name) {
 
 std::vector<Appendage> findAppendages(const Character& character, const HumanoidMap& map) {
     if (!map.humanoid) return {};
-    return AppendageSearch(character, map).find();
+    const auto few = withoutCrowds(character, map);
+    if (!few) return AppendageSearch(character, map).find();
+    std::vector<Appendage> found = findAppendages(few->character, mapOf(*few, map));
+    for (Appendage& appendage : found)
+        appendage.joint = few->originalOf(appendage.joint);
+    return found;
 }
 
 std::vector<Segment> appendageSegments(const Character& character, const HumanoidMap& map,
                                        std::span<const AppendageKind> kinds, int mostSegments) {
     constexpr float kCoarser = 1.2F;
     if (!map.humanoid || kinds.empty() || mostSegments < 1) return {};
+    if (const auto few = withoutCrowds(character, map)) {
+        std::vector<Segment> segments = appendageSegments(few->character, mapOf(*few, map), kinds, mostSegments);
+        for (Segment& segment : segments) {
+            segment.joint = few->originalOf(segment.joint);
+            segment.end = few->originalOf(segment.end);
+        }
+        return segments;
+    }
     const AppendageSearch search(character, map);
     std::vector<Appendage> wanted = search.find();
     std::erase_if(wanted,

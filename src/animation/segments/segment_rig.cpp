@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "animation/humanoid/crowds.hpp"
 #include "animation/segments/clip_hinges.hpp"
 #include "animation/segments/segment_sides.hpp"
 #include "animation/segments/segment_tree.hpp"
@@ -19,15 +20,20 @@ RigFeatures readCreature(const Character& character) {
     return rig;
 }
 
-}  // namespace
-
-SegmentedRig segmentRig(const Character& character, const SegmentOptions& options) {
+// The crowds of things beside a creature are no bodies of it, and time would grow with their square.
+SegmentedRig segmentsOf(const Character& character, const SegmentOptions& options) {
     constexpr float kFirstShortest = 0.04F;  // of the longest extent
     constexpr float kCoarser = 1.2F;
-    constexpr int kMost = 256;
-    LUTKA_ASSERT(options.mostSegments >= 1 && options.mostSegments <= kMost);
+    const auto few = leaveOutCrowds(character, {});
+    if (few && few->character.skeleton.jointCount() > 0) {
+        SegmentedRig result = segmentsOf(few->character, options);
+        for (Segment& segment : result.segments) {
+            segment.joint = few->originalOf(segment.joint);
+            segment.end = few->originalOf(segment.end);
+        }
+        return result;
+    }
     SegmentedRig result;
-    if (character.skeleton.jointCount() == 0) return result;
     const RigFeatures rig = readCreature(character);
     const RigMeasures measures = measureRig(rig);
     float shortest = kFirstShortest * measures.size;
@@ -40,6 +46,16 @@ SegmentedRig segmentRig(const Character& character, const SegmentOptions& option
     }
     result.standardFromModel = findSides(rig, measures.size, result.segments);
     orderSegments(result.segments);
+    return result;
+}
+
+}  // namespace
+
+SegmentedRig segmentRig(const Character& character, const SegmentOptions& options) {
+    constexpr int kMost = 256;
+    LUTKA_ASSERT(options.mostSegments >= 1 && options.mostSegments <= kMost);
+    if (character.skeleton.jointCount() == 0) return {};
+    SegmentedRig result = segmentsOf(character, options);
     findClipHinges(character, result.standardFromModel, result.segments);
     return result;
 }

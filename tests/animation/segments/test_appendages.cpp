@@ -1,6 +1,9 @@
 #include "animation/segments/appendages.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
 
 #include "support/catch.hpp"
 #include "support/rigs.hpp"
@@ -16,6 +19,26 @@ std::vector<std::string> namesOf(const std::vector<Segment>& segments) {
         names.push_back(segment.name);
     std::sort(names.begin(), names.end());
     return names;
+}
+
+// Adds the other one's joints and meshes behind those that are there.
+void append(Character& scene, const Character& other) {
+    Skeleton& all = scene.skeleton;
+    const int first = all.jointCount();
+    const auto join = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    join(all.names, other.skeleton.names);
+    join(all.bindModelFromJoint, other.skeleton.bindModelFromJoint);
+    join(all.nodeParentFromJoint, other.skeleton.nodeParentFromJoint);
+    join(all.skinWeight, other.skeleton.skinWeight);
+    for (const int parent : other.skeleton.parents)
+        all.parents.push_back(parent == kNoJoint ? kNoJoint : parent + first);
+    for (SkinnedMesh mesh : other.meshes) {
+        for (auto& joints : mesh.joints) {
+            for (std::uint16_t& joint : joints)
+                joint = static_cast<std::uint16_t>(joint + first);
+        }
+        scene.meshes.push_back(std::move(mesh));
+    }
 }
 
 }  // namespace
@@ -116,4 +139,42 @@ TEST_CASE("a plain figure has no appendages, and what is no humanoid is not aske
     for (const AppendageKind kind : kAppendageKinds)
         CHECK(appendageNamed(appendageName(kind)) == kind);
     CHECK_FALSE(appendageNamed("moustache").has_value());
+}
+
+TEST_CASE("hundreds of parts on the root that a figure hangs on are no appendages of it", "[crowds]") {
+    Character alone = test::makeBipedWithAppendages();
+    HumanoidMap map = test::mapOfBiped(alone);
+    test::addRoot(alone, map);
+    Character scene = alone;
+    test::addParts(scene, 600, "part_");
+    const int room = alone.skeleton.jointCount();
+    for (int joint = room; joint < scene.skeleton.jointCount(); ++joint)
+        scene.skeleton.parents[joint] = 0;
+    const auto expected = findAppendages(alone, map);
+    const auto found = findAppendages(scene, map);
+    REQUIRE(found.size() == expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+        CHECK(found[i].joint == expected[i].joint);
+    const std::array<AppendageKind, 2> kinds{AppendageKind::weapon, AppendageKind::other};
+    CHECK(namesOf(appendageSegments(scene, map, kinds, 40)) == namesOf(appendageSegments(alone, map, kinds, 40)));
+}
+
+TEST_CASE("appendages keep their joints where a crowd that comes before the figure is left out", "[crowds]") {
+    Character scene;
+    test::addParts(scene, 600, "part_");
+    const int first = scene.skeleton.jointCount();
+    const Character figure = test::makeBipedWithAppendages();
+    HumanoidMap map = test::mapOfBiped(figure);
+    const auto expected = findAppendages(figure, map);
+    append(scene, figure);
+    for (auto& binding : map.roles)
+        if (binding) binding->joint += first;
+    const auto found = findAppendages(scene, map);
+    REQUIRE(found.size() == expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+        CHECK(found[i].joint == first + expected[i].joint);
+    const std::array<AppendageKind, 1> kinds{AppendageKind::tail};
+    const auto segments = appendageSegments(scene, map, kinds, 40);
+    REQUIRE_FALSE(segments.empty());
+    CHECK(scene.skeleton.names[segments.front().joint] == "tail_01");
 }

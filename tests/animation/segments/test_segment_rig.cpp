@@ -273,3 +273,23 @@ TEST_CASE("hips with a joint for each leg in the middle are a pair, and the legs
     }
     CHECK(rig.segments[segmentNamed(rig, "Thigh.L")].kind == Segment::Kind::limb);
 }
+
+TEST_CASE("a creature among thousands of parts is parted as it is alone", "[crowds]") {
+    const Character alone = test::makeQuadruped();
+    Character scene = alone;
+    test::addParts(scene, 5000, "part_");
+    const SegmentedRig expected = segmentRig(alone);
+    const SegmentedRig rig = segmentRig(scene);
+    REQUIRE(rig.segments.size() == expected.segments.size());
+    for (std::size_t i = 0; i < rig.segments.size(); ++i) {
+        CHECK(rig.segments[i].name == expected.segments[i].name);
+        CHECK(rig.segments[i].joint == expected.segments[i].joint);
+        CHECK(rig.segments[i].end == expected.segments[i].end);
+    }
+}
+
+TEST_CASE("a crowd alone is still a thing with a body", "[crowds]") {
+    Character scene;
+    test::addParts(scene, 600, "part_");
+    CHECK_FALSE(segmentRig(scene).segments.empty());
+}
