@@ -12,14 +12,17 @@
 namespace lutka::animation {
 namespace {
 
-constexpr float kHeldAway = 0.5F;          // of the spread
-constexpr float kMaxCost = 1.8F;           // of a pair found by position
-constexpr float kMaxError = 0.10F;         // of the mirrored position, of the spread
-constexpr float kMinSeparation = 0.012F;   // of the spread; nearer joints lie in the plane
-constexpr float kOnlyChildLengths = 0.9F;  // … where each parent has no other child: one arm is longer
-constexpr float kMostLengthCost = 1.0F;    // of unequal lengths, where only children or names make the pair
-constexpr float kTreeDistance = 0.01F;     // decides between a limb and its copy in another skeleton
-constexpr float kChildLengths = 0.18F;     // log ratio of bone lengths of a pair found by structure
+constexpr float kHeldAway = 0.5F;           // of the spread
+constexpr float kMaxCost = 1.8F;            // of a pair found by position
+constexpr float kMaxError = 0.10F;          // of the mirrored position, of the spread
+constexpr float kMinSeparation = 0.012F;    // of the spread; nearer joints lie in the plane
+constexpr float kOnlyChildLengths = 0.9F;   // … where each parent has no other child: one arm is longer
+constexpr float kMostLengthCost = 1.0F;     // of unequal lengths, where only children or names make the pair
+constexpr float kRounding = 1e-3F;          // of the spread: what lies in the middle
+constexpr float kTreeDistance = 0.01F;      // decides between a limb and its copy in another skeleton
+constexpr float kChildLengths = 0.18F;      // log ratio of bone lengths of a pair found by structure
+constexpr float kAlikeBelowLengths = 0.4F;  // … where what is below them is as long
+constexpr float kLimbReach = 0.1F;          // of the spread: that of a limb
 
 vec3 mirrored(vec3 point) {
     point.x = -point.x;
@@ -132,8 +135,15 @@ class PairFinder {
         constexpr float kApart = 0.05F;
         const float own = framed_.positions[a].x - framed_.positions[b].x;
         const float below = centroids_[a].x - centroids_[b].x;
-        if ((std::abs(own) > kApart * framed_.spread ? own : own + below) < 0.0F) std::swap(a, b);
+        float order = std::abs(own) > kApart * framed_.spread ? own : own + below;
+        if (std::abs(order) < kRounding * framed_.spread) order = skinApart(a, b);
+        if (order < 0.0F) std::swap(a, b);
         addInOrder(a, b);
+    }
+
+    // Legs that turn about one point in the middle: which half the one's skin lies in.
+    [[nodiscard]] float skinApart(int a, int b) const {
+        return framed_.subtreeSkin[a].mean().x - framed_.subtreeSkin[b].mean().x;
     }
 
     // `a` is the joint of the +x half.
@@ -214,7 +224,8 @@ class PairFinder {
                 const bool apart = separation(a, b) > 0.05F * framed_.spread && areOnBothSides(a, b);
                 const bool named = nameCost(rig_.names[a], rig_.names[b]) < 0.0F;
                 const bool onlyTwo = parentA != parentB && isOnlyChild(parentA) && isOnlyChild(parentB);
-                if (lengths > (onlyTwo ? kOnlyChildLengths : kChildLengths) && !named) continue;
+                const float most = onlyTwo ? kOnlyChildLengths : goOnAlike(a, b) ? kAlikeBelowLengths : kChildLengths;
+                if (lengths > most && !named) continue;
                 if (parentA == parentB && !apart && !named) continue;
                 const float cost =
                     std::min(4.0F * lengths, onlyTwo || named ? kMostLengthCost : kMaxCost) + structureCost(a, b);
@@ -222,6 +233,23 @@ class PairFinder {
             }
         }
         addCheapest(candidates);
+    }
+
+    // Limbs that start unevenly, but are one as long as the other from there.
+    [[nodiscard]] bool goOnAlike(int a, int b) const {
+        const auto reach = [&](int top) {
+            float far = 0.0F;
+            for (int joint = 0; joint < rig_.count(); ++joint) {
+                if (rig_.isAncestorOrSelf(top, joint))
+                    far = std::max(far, glm::distance(framed_.positions[top], framed_.positions[joint]));
+            }
+            return far;
+        };
+        if (rig_.children[a].empty() || rig_.subtreeSize(a) != rig_.subtreeSize(b)) return false;
+        const float first = reach(a);
+        const float second = reach(b);
+        return std::min(first, second) > kLimbReach * framed_.spread &&
+               std::abs(std::log(first / second)) < kChildLengths;
     }
 
     // The pair that a joint hangs on, -1 without, and which of its two joints that is.
@@ -252,7 +280,6 @@ class PairFinder {
 
     // What lies in the middle but for rounding is on no side.
     [[nodiscard]] bool areOnBothSides(int a, int b) const {
-        constexpr float kRounding = 1e-3F;  // of the spread
         const float least = kRounding * framed_.spread;
         const float x = centroids_[a].x;
         const float other = centroids_[b].x;
@@ -289,7 +316,7 @@ void readSkin(FramedRig& framed) {
         const bool counts = rig.carriesSkin(joint);
         if (counts) framed.subtreeJoints[joint].add(framed.positions[joint]);
         if (counts && heights.empty()) heights.push_back(framed.positions[joint].y);
-        if (rig.parents[joint] == kNoJoint) continue;
+        if (rig.parents[joint] == kNoJoint || rig.names[joint].held) continue;
         framed.subtreeSkin[rig.parents[joint]].add(framed.subtreeSkin[joint]);
         framed.subtreeJoints[rig.parents[joint]].add(framed.subtreeJoints[joint]);
     }

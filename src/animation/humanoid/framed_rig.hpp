@@ -48,7 +48,7 @@ struct FramedRig {
     Stance stance;
     std::vector<vec3> positions;
     std::vector<Box> ownSkin;        ///< Vertices that each joint moves most.
-    std::vector<Box> subtreeSkin;    ///< … and all below it.
+    std::vector<Box> subtreeSkin;    ///< … and all below it but what is held by its name; like the next.
     std::vector<Box> subtreeJoints;  ///< Joints with skin at or below each joint (all joints where there is no skin).
     std::vector<JointPair> pairs;
     std::vector<int> pairOf;  ///< Per joint: index of its pair, or -1 for a central or lonely joint.

@@ -13,6 +13,8 @@ namespace {
 
 constexpr float kMostTilt = radians(40.0F);  // of the trunk from upright; hunched figures reach 30 degrees
 constexpr float kUprightTrunk = radians(20.0F);
+constexpr float kStraightTrunk = radians(8.0F);
+constexpr float kTallRise = 1.5F;                // of the arms' roots above the legs', as a share of the legs' height
 constexpr float kMostHeadTilt = radians(42.0F);  // … of a head without a name from above the shoulders
 constexpr float kMostBend = radians(22.0F);      // of trunk and legs of a figure that leans as a whole
 constexpr float kMostLegTilt = radians(50.0F);   // of the legs from straight down
@@ -224,12 +226,16 @@ bool isBird(const Figure& figure, const FramedRig& framed, float tilt) {
 }
 
 // Both legs hang on one arm: what a hand holds in a view of the player's own hands, a weapon or a pet, stands for them.
+// Where names tell whole limbs, and the hips hang on no arm, the file has hung the figure's own legs there by mistake.
 bool hangOnOneArm(const Figure& figure, const FramedRig& framed) {
     const RigFeatures& rig = *framed.rig;
     const auto& legs = framed.pairs[figure.legs.first].joints;
     const auto& arms = framed.pairs[figure.arms.first].joints;
+    const bool named = figure.legs.named && figure.arms.named;
     return std::any_of(arms.begin(), arms.end(), [&](int arm) {
-        return std::all_of(legs.begin(), legs.end(), [&](int leg) { return rig.isAncestorOrSelf(arm, leg); });
+        const auto hangsThere = [&](int joint) { return rig.isAncestorOrSelf(arm, joint); };
+        const bool ownLegs = named && !hangsThere(figure.trunk.hips);
+        return !ownLegs && std::all_of(legs.begin(), legs.end(), hangsThere);
     });
 }
 
@@ -284,7 +290,9 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
     const float hands = (figure.arms.tip.y - feet) / (figure.arms.root.y - feet);
     // Long arms of a goblin, upright by its trunk and told by its names.
     const bool blocks = figure.isBlocky() && figure.legs.names > kNamedBlock && figure.arms.names > kNamedBlock;
-    const bool upright = ((figure.legs.told && figure.arms.told) || blocks) && tilt < kUprightTrunk;
+    // So is one whose straight trunk is far longer than its legs: no animal's shoulders are that high.
+    const bool tall = tilt < kStraightTrunk && rise > kTallRise * (figure.legs.root.y - feet);
+    const bool upright = (((figure.legs.told && figure.arms.told) || blocks) && tilt < kUprightTrunk) || tall;
     if (hands < kLeastHandHeight && !named && !upright) return "the hands stand on the ground: a four-legged animal";
     if (creatureShare(framed, figure.arms) > 0.6F || creaturesBelow(framed, figure.arms) > 0.5F)
         return "what would be the arms are named as wings or front legs";

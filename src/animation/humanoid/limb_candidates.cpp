@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "animation/humanoid/limb_evidence.hpp"
+#include "animation/humanoid/limb_links.hpp"
+#include "animation/humanoid/limb_reach.hpp"
 
 namespace lutka::animation {
 namespace {
@@ -27,13 +29,15 @@ bool likelier(const LimbCandidate& a, const LimbCandidate& b) {
 
 class LimbFinder {
   public:
-    LimbFinder(const FramedRig& framed, LimbKind kind) : framed_(framed), kind_(kind), parts_(partsOf(kind)) {
+    LimbFinder(const FramedRig& framed, LimbKind kind)
+        : framed_(framed),
+          kind_(kind),
+          parts_(partsOf(kind)),
+          links_(framed, kind),
+          reach_(framed.pairs.size(), -1.0F) {
         const int count = static_cast<int>(framed.pairs.size());
         for (int pair = 0; pair < count; ++pair)
             place_.push_back(skinTerm(pair));
-        findRelations();
-        findEnds();
-        findLinks();
         if (kind == LimbKind::arm) findClavicles();
     }
 
@@ -70,106 +74,6 @@ class LimbFinder {
         return limb.pairs[1] == kNoPair ? kSlackOfOneJoint : 1.0F;
     }
 
-    void findRelations() {
-        const int count = static_cast<int>(framed_.pairs.size());
-        above_.resize(framed_.pairs.size());
-        for (int upper = 0; upper < count; ++upper) {
-            for (int lower = 0; lower < count; ++lower)
-                if (framed_.isAbove(upper, lower)) above_[lower].push_back(upper);
-        }
-        reach_.assign(framed_.pairs.size(), -1.0F);
-    }
-
-    void findLinks() {
-        const int count = static_cast<int>(framed_.pairs.size());
-        next_.resize(framed_.pairs.size());
-        for (int upper = 0; upper < count; ++upper) {
-            for (int lower = 0; lower < count; ++lower) {
-                links_.push_back(linkTerm(upper, lower));
-                if (links_.back() > kImpossible) next_[upper].push_back(lower);
-            }
-        }
-    }
-    [[nodiscard]] float link(int upper, int lower) const {
-        return links_[static_cast<std::size_t>(upper) * framed_.pairs.size() + static_cast<std::size_t>(lower)];
-    }
-
-    void findEnds() {
-        endsThere_.assign(framed_.pairs.size(), true);
-        for (const JointPair& pair : framed_.pairs) {
-            if (framed_.rig->skinned && (pair.ownWeight <= 0.0F || framed_.isTip(pair))) continue;
-            const int parent = framed_.rig->parents[pair.joints[0]];
-            for (int joint = parent; joint != kNoJoint; joint = framed_.rig->parents[joint]) {
-                if (framed_.pairOf[joint] >= 0) endsThere_[framed_.pairOf[joint]] = false;
-            }
-        }
-    }
-
-    // Skinned joints that lie between two placed ones and are passed over: twist joints and second segments lie on the
-    // straight line between them, an elbow or a knee does not.
-    [[nodiscard]] float skipped(int upper, int lower, bool straight = true) const {
-        float total = 0.0F;
-        int passed = 0;
-        const RigFeatures& rig = *framed_.rig;
-        const vec3& start = framed_.positions[at(upper).joints[0]];
-        const vec3 along = framed_.positions[at(lower).joints[0]] - start;
-        const float square = glm::dot(along, along) + 1e-9F;
-        for (int joint = rig.parents[at(lower).joints[0]]; joint != kNoJoint; joint = rig.parents[joint]) {
-            if (joint == at(upper).joints[0]) break;
-            const int pair = framed_.pairOf[joint];
-            if (pair < 0 || at(pair).helper || (rig.skinned && at(pair).ownWeight <= 0.0F)) continue;
-            const vec3 away = framed_.positions[joint] - start;
-            const vec3 off = away - glm::dot(away, along) / square * along;
-            if (++passed > kMostSkipped) return kImpossible;
-            total += kSkippedJoint;
-            if (straight) total += terms::kStraightTwist.near(glm::length(off) / std::sqrt(square));
-        }
-        return total;
-    }
-
-    // A limb goes on where most of the skin does: hands before thumbs, shins before pockets.
-    [[nodiscard]] float mainBranchTerm(int upper, int lower) const {
-        const RigFeatures& rig = *framed_.rig;
-        if (!rig.skinned) return 0.0F;
-        float total = 0.0F;
-        for (int side = 0; side < 2; ++side) {
-            int branch = at(lower).joints[side];
-            while (rig.parents[branch] != at(upper).joints[side])
-                branch = rig.parents[branch];
-            float widest = rig.subtreeWeight[branch];
-            for (const int sibling : rig.children[at(upper).joints[side]])
-                widest = std::max(widest, rig.subtreeWeight[sibling]);
-            total += 0.5F * std::log((rig.subtreeWeight[branch] + 1e-4F) / (widest + 1e-4F));
-        }
-        return kMainBranch * std::max(total, kLeastMainBranch);
-    }
-
-    // Whether `lower` may follow `upper` though it hangs elsewhere: rigs with feet under a control root, flat trees.
-    [[nodiscard]] bool mayContinueDetached(int upper, int lower) const {
-        const std::size_t pairs = framed_.pairs.size();
-        if (pairs > kMostPairsNamedDetached || (pairs > kMostPairsDetached && !saysLimb(lower))) return false;
-        if (framed_.isAbove(lower, upper) || upper == lower) return false;
-        const RigFeatures& rig = *framed_.rig;
-        if (rig.skinned && at(lower).ownWeight <= 0.0F) return false;
-        for (int joint = rig.parents[at(lower).joints[0]]; joint != kNoJoint; joint = rig.parents[joint]) {
-            const int pair = framed_.pairOf[joint];
-            if (pair >= 0 && !rig.names[joint].control && (!rig.skinned || at(pair).ownWeight > 0.0F)) return false;
-        }
-        return true;
-    }
-
-    // 0 below it in the tree, a loss where detached, kImpossible otherwise.
-    [[nodiscard]] float linkTerm(int upper, int lower) const {
-        if (framed_.isAbove(upper, lower)) {
-            const float passedOver = skipped(upper, lower);
-            return passedOver > kImpossible ? passedOver + mainBranchTerm(upper, lower) : kImpossible;
-        }
-        if (!mayContinueDetached(upper, lower)) return kImpossible;
-        if (areNamedInOrder(upper, lower)) return kDetachedNamed;
-        // A hand or foot by its name may hang on a control, though helpers hang on the limb.
-        return endsThere_[upper] || isSurelyEnd(lower) ? kDetached : kDetachedFromMore;
-    }
-
     // All readings that start at a pair: of one joint, two and three; the best few are kept.
     void findFrom(int root) {
         best_.clear();
@@ -180,11 +84,11 @@ class LimbFinder {
         candidate.pairs = {root, kNoPair, kNoPair, kNoPair};
         candidate.missing = kMissingEnd + kMissingMiddle;
         consider(candidate, 0.0F);
-        for (const int middle : next_[root]) {
+        for (const int middle : links_.next(root)) {
             if (!mayFollow(root, middle, 1)) continue;
             candidate.pairs = {root, middle, kNoPair, kNoPair};
             candidate.missing = kMissingEnd;
-            consider(candidate, link(root, middle));
+            consider(candidate, links_.link(root, middle));
             findEndsFrom(candidate);
         }
         std::stable_sort(best_.begin(), best_.end(), likelier);
@@ -197,29 +101,19 @@ class LimbFinder {
         const int root = candidate.pairs[0];
         const int middle = candidate.pairs[1];
         candidate.missing = 0.0F;
-        for (const int end : next_[middle]) {
+        for (const int end : links_.next(middle)) {
             if (end == root || !mayFollow(middle, end, 2) || framed_.rig->isOneOfFingers(at(end).joints[0])) continue;
             const float ratio = framed_.segment(root, middle) / framed_.segment(middle, end);
             if (ratio < kLeastRatio || ratio > kMostRatio) continue;
             candidate.pairs[2] = end;
-            consider(candidate, link(root, middle) + link(middle, end));
+            consider(candidate, links_.link(root, middle) + links_.link(middle, end));
         }
     }
 
     [[nodiscard]] bool mayFollow(int from, int to, int slot) const {
         return framed_.segment(from, to) >= kShortestSegment * framed_.spread &&
-               (rightWay(from, to) || (isNamed(from, slot - 1) && isNamed(to, slot)));
+               (rightWay(from, to) || (links_.isNamed(from, slot - 1) && links_.isNamed(to, slot)));
     }
-
-    [[nodiscard]] bool saysLimb(int pair) const { return isNamed(pair, 0) || isNamed(pair, 1) || isNamed(pair, 2); }
-
-    [[nodiscard]] bool areNamedInOrder(int upper, int lower) const {
-        return (isNamed(upper, 0) && isNamed(lower, 1)) || (isNamed(upper, 1) && isNamed(lower, 2));
-    }
-
-    [[nodiscard]] bool isSurelyEnd(int pair) const { return at(pair).names[parts_[2]] >= kSurelyNamed; }
-
-    [[nodiscard]] bool isNamed(int pair, int slot) const { return at(pair).names[parts_[slot]] >= kNamedPart; }
 
     // Legs go down but for those of seated and kneeling figures, which their names tell; arms may go anywhere.
     [[nodiscard]] bool rightWay(int from, int to) const {
@@ -231,14 +125,14 @@ class LimbFinder {
         candidate.score = links + candidate.missing;
         candidate.names = 0.0F;
         const auto& [upper, lower, end, extra] = candidate.pairs;
-        candidate.told =
-            lower != kNoPair && isNamed(upper, 0) && isNamed(lower, 1) && (end == kNoPair || isNamed(end, 2));
+        candidate.told = lower != kNoPair && links_.isNamed(upper, 0) && links_.isNamed(lower, 1) &&
+                         (end == kNoPair || links_.isNamed(end, 2));
         candidate.named = candidate.told && end != kNoPair;
         // Where names tell the stance, then also that a limb has one joint, or none between the first and its end.
-        const bool shorter =
-            framed_.stance.byNames && end == kNoPair && isNamed(upper, 0) && (lower == kNoPair || isNamed(lower, 2));
+        const bool shorter = framed_.stance.byNames && end == kNoPair && links_.isNamed(upper, 0) &&
+                             (lower == kNoPair || links_.isNamed(lower, 2));
         const int last = lower == kNoPair ? upper : lower;
-        candidate.whole = candidate.named || ((candidate.told || shorter) && endsThere_[last]);
+        candidate.whole = candidate.named || ((candidate.told || shorter) && links_.endsThere(last));
         kind_ == LimbKind::leg ? scoreLeg(candidate) : scoreArm(candidate);
         candidate.score += leftOver(candidate);
         nameByWords(candidate);
@@ -258,7 +152,7 @@ class LimbFinder {
     [[nodiscard]] float leftOver(const LimbCandidate& limb) const {
         if (limb.pairs[2] != kNoPair) return 0.0F;
         const int last = limb.pairs[1] != kNoPair ? limb.pairs[1] : limb.pairs[0];
-        if (endsThere_[last]) return 0.0F;
+        if (links_.endsThere(last)) return 0.0F;
         return limb.pairs[1] != kNoPair ? kLeftOverAfterTwo : kLeftOverAfterOne;
     }
 
@@ -284,27 +178,9 @@ class LimbFinder {
         }
         // The end of the skin below the last joint stands for the joint that is not there.
         const int last = middle != kNoPair ? middle : root;
-        limb.tip = farthest(last);
+        limb.tip = endOfSkin(framed_, kind_, root, last);
         const float before = middle != kNoPair ? framed_.segment(root, middle) : 0.0F;
         limb.length = before + glm::distance(at(last).position, limb.tip);
-    }
-
-    // Where the skin below a pair (else its joints) ends: as far down as a leg's goes, as far away as an arm's.
-    [[nodiscard]] vec3 farthest(int pair) const {
-        const vec3 from = at(pair).position;
-        vec3 tip = from;
-        for (int side = 0; side < 2; ++side) {
-            const int joint = at(pair).joints[side];
-            const bool skin = framed_.subtreeSkin[joint].count > 0;
-            const Box& box = skin ? framed_.subtreeSkin[joint] : framed_.subtreeJoints[joint];
-            if (box.count == 0) continue;
-            const vec3 mean = box.mean();
-            const float out = side == 0 ? box.high.x : -box.low.x;
-            const bool hangs = kind_ == LimbKind::leg || from.y - box.low.y > out - from.x;
-            const vec3 end = hangs ? vec3(std::abs(mean.x), box.low.y, mean.z) : vec3(out, mean.y, mean.z);
-            tip = side == 0 ? end : 0.5F * (tip + end);
-        }
-        return tip;
     }
 
     void scoreLeg(LimbCandidate& leg) const {
@@ -350,8 +226,8 @@ class LimbFinder {
         for (int pair = 0; pair < static_cast<int>(framed_.pairs.size()); ++pair) {
             // In a flat hierarchy names tell whose toes they are.
             const bool below = framed_.isAbove(foot, pair);
-            const bool told = isNamed(foot, 2) && at(pair).names[parts_[3]] >= kSurelyNamed;
-            if (!below && !(told && mayContinueDetached(foot, pair))) continue;
+            const bool told = links_.isNamed(foot, 2) && links_.isSurelyNamed(pair, 3);
+            if (!below && !(told && links_.mayContinueDetached(foot, pair))) continue;
             const vec3 away = at(pair).position - at(foot).position;
             const float distance = framed_.segment(foot, pair) / height;
             // Toes by their names may point up: in a bow the legs slant in the trunk's upright.
@@ -359,7 +235,7 @@ class LimbFinder {
             const float sideways = std::abs(away.x) / (glm::length(away) + 1e-6F);
             const float score = kToes + placing(pair, 3) + terms::kToeDistance.near(distance) +
                                 terms::kToesSideways.atMost(sideways) +
-                                (below ? skipped(foot, pair, false) : kDetachedNamed);
+                                (below ? links_.skipped(foot, pair, false) : kDetachedNamed);
             if (score <= best) continue;
             best = score;
             leg.pairs[3] = pair;
@@ -395,27 +271,11 @@ class LimbFinder {
         addClavicle(arm);
     }
 
-    // How far skinned joints go on below a pair, mean of both sides.
-    [[nodiscard]] float reachBeyond(int pair) const {
-        float& reach = reach_[pair];
-        if (reach >= 0.0F) return reach;
-        reach = 0.0F;
-        const RigFeatures& rig = *framed_.rig;
-        for (const int joint : at(pair).joints) {
-            float farthestJoint = 0.0F;
-            for (int other = 0; other < rig.count(); ++other) {
-                if (!rig.isAncestorOrSelf(joint, other) || (rig.skinned && rig.ownWeight[other] <= 0.0F)) continue;
-                farthestJoint =
-                    std::max(farthestJoint, glm::distance(framed_.positions[joint], framed_.positions[other]));
-            }
-            reach += 0.5F * farthestJoint;
-        }
-        return reach;
-    }
-
     // Beyond the hand there are fingers, not another segment.
     [[nodiscard]] float beyondTerm(int hand, float length) const {
-        const float reach = reachBeyond(hand) / length;
+        float& known = reach_[hand];
+        if (known < 0.0F) known = reachBeyond(framed_, hand);
+        const float reach = known / length;
         return reach > 0.0F ? terms::kBeyondHand.near(reach) : kNothingBeyondHand;
     }
 
@@ -440,7 +300,7 @@ class LimbFinder {
         for (int upper = 0; upper < count; ++upper) {
             for (int pair = 0; pair < count; ++pair) {
                 const bool may = framed_.isAbove(pair, upper) || areSiblings(pair, upper);
-                if (may && skipped(pair, upper, false) > kImpossible) clavicles_[upper].push_back(pair);
+                if (may && links_.skipped(pair, upper, false) > kImpossible) clavicles_[upper].push_back(pair);
             }
         }
     }
@@ -452,9 +312,9 @@ class LimbFinder {
         if (length < kShortestClavicle) return kImpossible;
         const float shape =
             terms::kClavicleLength.near(length) + terms::kClavicleAside.near(at(pair).position.x / arm.length);
-        const bool named = isNamed(pair, 3) && isNamed(upper, 0);
+        const bool named = links_.isNamed(pair, 3) && links_.isNamed(upper, 0);
         return kClavicle + placing(pair, 3) + (named ? std::max(shape, kNamedProportions) : shape) +
-               skipped(pair, upper, false) + unusedAbove(pair, arm.length) + (beside ? kDetached : 0.0F);
+               links_.skipped(pair, upper, false) + unusedAbove(pair, arm.length) + (beside ? kDetached : 0.0F);
     }
 
     // A clavicle may hang beside the upper arm instead of above it.
@@ -469,7 +329,7 @@ class LimbFinder {
     // Skinned pairs above the first one that the reading leaves over.
     [[nodiscard]] float unusedAbove(int first, float length) const {
         float total = 0.0F;
-        for (const int pair : above_[first]) {
+        for (const int pair : links_.above(first)) {
             const bool counts = !framed_.rig->skinned || at(pair).ownWeight > 0.0F;
             if (counts && !at(pair).helper && at(pair).position.x > kMiddle * length) total += kUnusedAbove;
         }
@@ -479,13 +339,10 @@ class LimbFinder {
     const FramedRig& framed_;
     LimbKind kind_;
     std::array<Part, 4> parts_;
+    LimbLinks links_;
     std::vector<float> place_;
-    std::vector<std::vector<int>> above_;  // per pair: the pairs above it in the tree
-    std::vector<float> links_;             // linkTerm() of every two pairs
-    std::vector<std::vector<int>> next_;   // per pair: those that may follow it in a limb
     std::vector<std::vector<int>> clavicles_;
     mutable std::vector<float> reach_;  // reachBeyond() of every pair once asked for, -1 before
-    std::vector<bool> endsThere_;       // per pair: no skinned pair below it
     std::vector<LimbCandidate> best_;
     std::vector<LimbCandidate> found_;
 };

@@ -194,14 +194,15 @@ NameEvidence nameEvidence(std::string_view name) {
     const bool fourLegged =
         (hasWord(tokens.words, "fore") || hasWord(tokens.words, "back")) && concepts.has(Concept::leg);
     // The front of a skirt, a tail of hair.
-    const bool worn = concepts.hasAny({Concept::cloth, Concept::hair});
-    evidence.creature = !worn && (fourLegged || concepts.has(Concept::creature));
-    evidence.tail = !worn && (hasWord(tokens.words, "tail") || hasWord(tokens.words, "tails"));
+    evidence.worn = concepts.hasAny({Concept::cloth, Concept::hair});
+    evidence.creature = !evidence.worn && (fourLegged || concepts.has(Concept::creature));
+    evidence.tail = !evidence.worn && (hasWord(tokens.words, "tail") || hasWord(tokens.words, "tails"));
     evidence.bareLimb = evidence.parts[Part::upperArm] == kBareLimb || evidence.parts[Part::upperLeg] == kBareLimb;
     evidence.face = concepts.has(Concept::face);
     evidence.finger = concepts.has(Concept::finger) && !concepts.has(Concept::toes);
     evidence.thumb = hasWord(tokens.words, "thumb") || hasWord(tokens.words, "thumbs");
     evidence.onBack = std::any_of(tokens.words.begin(), tokens.words.end(), isCarriedOnBack);
+    evidence.held = concepts.has(Concept::prop);
     evidence.helper = concepts.hasAny({Concept::twist, Concept::control, Concept::end, Concept::prop});
     evidence.meaningful = !concepts.empty();
     keepBelowControl(concepts, evidence);

@@ -28,6 +28,8 @@ struct NameEvidence {
     bool face = false;          ///< Eye, jaw, nose …: in front of the head.
     bool finger = false;        ///< Any of the hand's, thumbs and their palms among them.
     bool thumb = false;
+    bool held = false;    ///< Weapon, shield, prop, and what hangs on one: no part of the body.
+    bool worn = false;    ///< Cloth or hair: no part of the body.
     bool onBack = false;  ///< What figures carry on their backs: capes, packs, wings.
     bool tail = false;
     bool creature = false;           ///< Wing, paw, front leg …: not a human part.

@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/geometric.hpp>
 #include <initializer_list>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -218,12 +219,14 @@ void leaveNameToHead(RigFeatures& rig) {
 void flattenNumberedLimbs(RigFeatures& rig) {
     for (int joint = 0; joint < rig.count(); ++joint) {
         const NameEvidence& name = rig.names[joint];
-        if (!name.bareLimb || saysConcept(name, Concept::hand) || saysConcept(name, Concept::foot)) continue;
-        const auto alike = std::count_if(rig.names.begin(), rig.names.end(), [&](const NameEvidence& other) {
-            return other.side == name.side && other.words == name.words;
-        });
-        if (alike < 3) continue;
-        const bool arm = name.parts[Part::upperArm] > 0.0F;
+        if (!name.bareLimb || name.helper || saysConcept(name, Concept::hand) || saysConcept(name, Concept::foot))
+            continue;
+        // A name that stands twice is that of a copy of the whole skeleton.
+        std::set<std::vector<int>> alike;
+        for (const NameEvidence& other : rig.names)
+            if (other.side == name.side && other.words == name.words) alike.insert(other.numbers);
+        if (alike.size() < 3) continue;
+        const bool arm = saysConcept(name, Concept::arm);
         for (const Part part : arm ? std::array{Part::clavicle, Part::upperArm, Part::lowerArm, Part::hand}
                                    : std::array{Part::upperLeg, Part::lowerLeg, Part::foot, Part::toes})
             rig.names[joint].parts[part] = kSomeLimb;
@@ -359,6 +362,25 @@ void readLimbEnds(RigFeatures& rig) {
     }
 }
 
+// What hangs on a weapon is a part of it. A joint that parts of the body hang on is none, whatever its name says.
+void readHeldThings(RigFeatures& rig) {
+    const auto isOfBody = [&](int joint) {
+        const auto& parts = rig.names[joint].parts.values;
+        return std::any_of(parts.begin(), parts.end(), [](float score) { return score >= kMaybe; });
+    };
+    std::vector<bool> carriesBody(rig.names.size(), false);
+    for (int joint = rig.count() - 1; joint >= 0; --joint) {
+        carriesBody[joint] = carriesBody[joint] || isOfBody(joint);
+        if (rig.parents[joint] != kNoJoint && carriesBody[joint]) carriesBody[rig.parents[joint]] = true;
+    }
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        const int parent = rig.parents[joint];
+        const bool onHeld = parent != kNoJoint && rig.names[parent].held;
+        rig.names[joint].held = !carriesBody[joint] && (rig.names[joint].held || onHeld);
+        if (onHeld && rig.names[joint].held) rig.names[joint].parts.values.fill(kOfOtherPart);
+    }
+}
+
 }  // namespace
 
 void readNamesInTree(RigFeatures& rig) {
@@ -372,6 +394,7 @@ void readNamesInTree(RigFeatures& rig) {
     leaveNameToHead(rig);
     flattenNumberedLimbs(rig);
     readLimbEnds(rig);
+    readHeldThings(rig);
 }
 
 }  // namespace lutka::animation

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "animation/humanoid/evidence_terms.hpp"
+#include "animation/humanoid/stray_faces.hpp"
 
 namespace lutka::animation {
 namespace {
@@ -57,7 +58,7 @@ class TrunkFinder {
             isCentral_.push_back(standsInTheMiddle(joint));
             if (isCentral(joint)) central_.push_back(joint);
         }
-        findStrayFaces();
+        strayFaces_ = countStrayFaces(framed, central_, armRoot(), arms.root.y);
     }
 
     TrunkCandidate find(const TrunkBan& ban) {
@@ -207,7 +208,8 @@ class TrunkFinder {
             if (trunkRoot_ != kNoJoint && rig_.isAncestorOrSelf(joint, trunkRoot_)) score += 1.5F;
             if (joint == trunkRoot_) score += 0.6F;
             const bool clear = legs_.told || (!rig_.skinned && !rig_.names[joint].meaningful);
-            if (joint == trunkRoot_ && joint == thighParent_ && clear && !namesHips) score += kCarriesThighs;
+            const bool carries = joint == trunkRoot_ && joint == thighParent_ && !standsForSpine(joint);
+            if (carries && clear && !namesHips) score += kCarriesThighs;
             if (carriesLegsBelowControl(joint) && !namesHips) score += kCarriesThighs;
             if (rig_.skinned && ownSkin(joint) <= 0.0F) score += kUnskinnedHips;
             // The joint above would be the hips if it moves skin at the same height.
@@ -220,6 +222,16 @@ class TrunkFinder {
         }
         keepBest(hips, kHipsTried);
         return hips;
+    }
+
+    // Moves no skin, and a joint on it does, that starts the spine at the thighs' height: the armature's own node.
+    [[nodiscard]] bool standsForSpine(int joint) const {
+        constexpr float kAtThighs = 0.25F;  // of the trunk
+        if (!rig_.skinned || ownSkin(joint) > 0.0F) return false;
+        return std::any_of(rig_.children[joint].begin(), rig_.children[joint].end(), [&](int child) {
+            return isCentral(child) && ownSkin(child) > 0.0F && rig_.isAncestorOrSelf(child, armRoot()) &&
+                   std::abs(position(child).y - legs_.root.y) < kAtThighs * length_;
+        });
     }
 
     [[nodiscard]] std::vector<Scored> likelyHeads(int banned) const {
@@ -280,25 +292,6 @@ class TrunkFinder {
 
     // Two joints of a face hang on it: eyes, ears. A face in its place is part of it.
     [[nodiscard]] bool carriesFace(int joint) const { return !rig_.names[joint].face && facesOn(joint) >= 2; }
-
-    // Flattened rigs hang the joints of the face on the root: they belong to what is nearest to them.
-    void findStrayFaces() {
-        strayFaces_.assign(static_cast<std::size_t>(rig_.count()), 0);
-        for (int face = 0; face < rig_.count(); ++face) {
-            const int parent = rig_.parents[face];
-            if (!rig_.names[face].face || position(face).y < arms_.root.y) continue;
-            if (parent != kNoJoint && !rig_.isAncestorOrSelf(parent, armRoot())) continue;
-            int nearest = kNoJoint;
-            float least = kFarAway;
-            for (const int joint : central_) {
-                const float distance = glm::distance(position(joint), position(face));
-                if (rig_.names[joint].face || distance >= least) continue;
-                least = distance;
-                nearest = joint;
-            }
-            if (nearest != kNoJoint) ++strayFaces_[nearest];
-        }
-    }
 
     [[nodiscard]] int facesOn(int joint) const {
         int faces = strayFaces_[joint];

@@ -415,4 +415,34 @@ TEST_CASE("who bows deeply is a figure by his names, and stands upright on his l
     }
 }
 
+TEST_CASE("the node of an armature, which moves no skin, is not the hips beside the first joint of the spine",
+          "[named]") {
+    std::vector<JointSpec> joints{{"Armature", -1, {0.01F, 0.655F, 0.06F}},
+                                  {"Spine1", 0, {0, 0.704F, 0}},
+                                  {"Spine2", 1, {0, 0.97F, 0}},
+                                  {"Spine3", 2, {0, 1.27F, 0}},
+                                  {"Spine4", 3, {0, 1.54F, 0}},
+                                  {"Head", 4, {0, 1.715F, -0.05F}}};
+    for (const bool left : {true, false}) {
+        const std::string side = left ? ".l" : ".r";
+        const float x = left ? 1.0F : -1.0F;
+        const auto at = static_cast<int>(joints.size());
+        joints.push_back({"UpperArm" + side, 4, {0.2F * x, 1.57F, -0.02F}});
+        joints.push_back({"LowerArm" + side, at, {0.45F * x, 1.566F, -0.06F}});
+        joints.push_back({"Hand" + side, at + 1, {0.746F * x, 1.56F, -0.15F}});
+        joints.push_back({"UpperLeg" + side, 0, {0.16F * x, 0.68F, 0}});
+        joints.push_back({"LowerLeg" + side, at + 3, {0.17F * x, 0.4F, 0}});
+    }
+    animation::Character figure;
+    figure.skeleton = makeSkeleton(joints);
+    std::fill(figure.skeleton.skinWeight.begin(), figure.skeleton.skinWeight.end(), 100.0F);
+    figure.skeleton.skinWeight[0] = 0.0F;
+    const HumanoidMap map = animation::mapHumanoid(figure);
+    REQUIRE(map.humanoid);
+    CHECK(map.jointOf(Role::hips) == 1);
+    CHECK(map.jointOf(Role::spine) == 2);
+    CHECK(map.jointOf(Role::upperChest) == 4);
+    CHECK(map.jointOf(Role::head) == 5);
+}
+
 }  // namespace lutka::test

@@ -80,4 +80,47 @@ TEST_CASE("a large head that the whole trunk hangs on is the head, without a nam
     CHECK(map.missing.empty());
 }
 
+TEST_CASE("arms that start unevenly from the spine are a pair, where one is as long as the other", "[trees]") {
+    Rig rig;
+    const int hips = rig.add(-1, {0, 0.36F, 0}, {0, 0.62F, 0}, 0.12F);
+    const int chest = rig.add(hips, {0, 0.623F, 0}, {0, 0.82F, 0}, 0.12F);
+    const int head = rig.add(chest, {0, 0.824F, 0}, {0, 1.2F, 0}, 0.2F);
+    std::vector<int> arms;
+    for (const float side : {1.0F, -1.0F}) {
+        const float start = side > 0.0F ? 0.103F : 0.17F;
+        const float elbow = side > 0.0F ? 0.44F : 0.486F;
+        arms.push_back(rig.add(chest, onSide(side, start, 0.745F), onSide(side, elbow, 0.655F), 0.06F));
+        rig.add(arms.back(), onSide(side, elbow, 0.655F), onSide(side, elbow + 0.2F, 0.6F), 0.05F);
+    }
+    for (const float side : {1.0F, -1.0F}) {
+        const float thigh = side > 0.0F ? 0.118F : 0.098F;
+        const float knee = side > 0.0F ? 0.244F : 0.217F;
+        const int leg = rig.add(hips, onSide(side, thigh, 0.31F), onSide(side, knee, -0.02F), 0.07F);
+        rig.add(leg, onSide(side, knee, -0.026F), onSide(side, knee + 0.05F, -0.4F), 0.06F);
+    }
+    const HumanoidMap map = mapOf(rig);
+    CHECK(map.jointOf(Role::head) == head);
+    CHECK(map.jointOf(Role::leftUpperArm) + map.jointOf(Role::rightUpperArm) == arms[0] + arms[1]);
+    CHECK(map.jointOf(Role::leftLowerArm) + map.jointOf(Role::rightLowerArm) == arms[0] + arms[1] + 2);
+}
+
+TEST_CASE("long arms without names beside short legs are no forelegs, where the trunk is straight and tall",
+          "[trees][blocks]") {
+    Rig rig;
+    const int root = rig.add(-1, {0, 0.48F, 0}, {0, 0.8F, 0}, 0.2F);
+    const int chest = rig.add(root, {0, 0.8F, 0}, {0, 1.5F, 0}, 0.35F);
+    const int head = rig.add(chest, {0, 1.57F, 0}, {0, 2.0F, 0}, 0.2F);
+    std::vector<int> arms;
+    std::vector<int> legs;
+    for (const float side : {1.0F, -1.0F}) {
+        arms.push_back(rig.add(chest, onSide(side, 0.55F, 1.44F), onSide(side, 0.6F, 0.8F), 0.16F));
+        rig.add(arms.back(), onSide(side, 0.6F, 0.8F), onSide(side, 0.6F, 0.17F), 0.16F);
+        legs.push_back(rig.add(root, onSide(side, 0.18F, 0.47F), onSide(side, 0.18F, 0.0F), 0.12F));
+    }
+    const HumanoidMap map = mapOf(rig);
+    CHECK(map.jointOf(Role::head) == head);
+    CHECK(map.jointOf(Role::leftUpperArm) + map.jointOf(Role::rightUpperArm) == arms[0] + arms[1]);
+    CHECK(map.jointOf(Role::leftUpperLeg) + map.jointOf(Role::rightUpperLeg) == legs[0] + legs[1]);
+}
+
 }  // namespace lutka::test

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "animation/humanoid/limb_candidates.hpp"
+
+namespace lutka::animation {
+
+/// Where the skin at and below the last pair of a limb (else its joints) ends, in the stance, mean of both sides with
+/// the second mirrored: as far down as a leg's goes, as far away as an arm's. Stands for the joint that a limb lacks
+/// there. Where one arm is far longer than the other, and that one as long as an arm is, a weapon is weighted to it:
+/// the shorter one tells.
+[[nodiscard]] vec3 endOfSkin(const FramedRig& framed, LimbKind kind, int first, int last);
+
+/// How far joints with skin go on below a pair, mean of both sides.
+[[nodiscard]] float reachBeyond(const FramedRig& framed, int pair);
+
+}  // namespace lutka::animation
