@@ -1,19 +1,6 @@
 #include "export/text_builder.hpp"
 
-#include "core/markup.hpp"
-
 namespace lutka::exporting {
-
-std::string xmlEscaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        if (const std::string_view entity = markupEntity(c); !entity.empty())
-            out += entity;
-        else
-            out += static_cast<unsigned char>(c) < 0x20 ? '_' : c;
-    }
-    return out;
-}
 
 std::string quotedText(std::string_view text) {
     std::string out = "\"";

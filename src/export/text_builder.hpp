@@ -60,8 +60,6 @@ class TextBuilder {
     return text;
 }
 
-/// For an attribute or a text of XML; what XML can't hold (control characters) becomes '_'.
-[[nodiscard]] std::string xmlEscaped(std::string_view text);
 /// Between double quotes in C, C#, Python, JavaScript, JSON and Godot's scenes: backslash, quote and control characters
 /// are escaped.
 [[nodiscard]] std::string quotedText(std::string_view text);

@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/markup_text.hpp"
 #include "export/doll_layout.hpp"
 #include "export/text_builder.hpp"
 #include "export/three_hinges.hpp"
@@ -23,7 +24,7 @@ class MjcfWriter {
     }
 
     Exported write() {
-        text_.line("<mujoco model=\"{}\">", xmlEscaped(profile_.name));
+        text_.line("<mujoco model=\"{}\">", markupEscaped(profile_.name));
         text_.indent();
         header();
         meshes();

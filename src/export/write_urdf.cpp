@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/markup_text.hpp"
 #include "export/doll_layout.hpp"
 #include "export/text_builder.hpp"
 #include "export/three_hinges.hpp"
@@ -39,7 +40,7 @@ class UrdfWriter {
 
     Exported write() {
         text_.line("<?xml version=\"1.0\"?>");
-        text_.line("<robot name=\"{}\">", xmlEscaped(profile_.name));
+        text_.line("<robot name=\"{}\">", markupEscaped(profile_.name));
         text_.indent();
         link(0);
         for (const ConstraintProfile& constraint : profile_.constraints) {

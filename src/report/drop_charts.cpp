@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "report/html_text.hpp"
+#include "core/markup_text.hpp"
 #include "report/svg_chart.hpp"
 
 namespace lutka::reporting {
@@ -44,7 +44,7 @@ std::string lines(const std::string& label, const std::string& unit, std::span<c
 
 std::string worstText(const scene::MeasuredBound& bound, std::string_view what) {
     return fmt::format("{} {:.2f} {} after any substep; {:g} {} are allowed.", what, bound.worst,
-                       htmlEscaped(bound.unit), bound.bound, htmlEscaped(bound.unit));
+                       markupEscaped(bound.unit), bound.bound, markupEscaped(bound.unit));
 }
 
 std::string settleFigure(const scene::Checkup& checkup, std::span<const DropTrace> drops) {
@@ -68,13 +68,13 @@ std::string dropChartsHtml(const scene::Checkup& checkup, std::span<const DropTr
         out += fmt::format("<span class=\"key series-{}\">{}</span>", i + 1, dropName(i));
     out += "</div>\n<div class=\"charts\">\n";
     const scene::MeasuredBound* growth = boundNamed(checkup, "energy growth");
-    out +=
-        figure("Energy", lines("Energy over time", "J", drops, &DropTrace::energyJ, 1.0F, std::nullopt),
-               growth == nullptr
-                   ? std::string("Kinetic and potential, over the floor.")
-                   : fmt::format("Kinetic and potential, over the floor. It never rises by more than {:.2f} {} above "
-                                 "what was left; {:g} {} are allowed.",
-                                 growth->worst, htmlEscaped(growth->unit), growth->bound, htmlEscaped(growth->unit)));
+    out += figure(
+        "Energy", lines("Energy over time", "J", drops, &DropTrace::energyJ, 1.0F, std::nullopt),
+        growth == nullptr
+            ? std::string("Kinetic and potential, over the floor.")
+            : fmt::format("Kinetic and potential, over the floor. It never rises by more than {:.2f} {} above "
+                          "what was left; {:g} {} are allowed.",
+                          growth->worst, markupEscaped(growth->unit), growth->bound, markupEscaped(growth->unit)));
     const scene::MeasuredBound* separation = boundNamed(checkup, "joint separation");
     out += figure(
         "Joint separation",
@@ -89,8 +89,8 @@ std::string dropChartsHtml(const scene::Checkup& checkup, std::span<const DropTr
                       ? ""
                       : fmt::format("The farthest of all joints, after each step. A single joint kept up {:.2f} {} for "
                                     "two frames at worst; {:g} {} are allowed.",
-                                    violation->worst, htmlEscaped(violation->unit), violation->bound,
-                                    htmlEscaped(violation->unit)));
+                                    violation->worst, markupEscaped(violation->unit), violation->bound,
+                                    markupEscaped(violation->unit)));
     out += settleFigure(checkup, drops);
     return out + "</div>\n";
 }

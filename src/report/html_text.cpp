@@ -2,13 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/markup.hpp"
-#include "core/utf8.hpp"
+#include "core/markup_text.hpp"
 
 namespace lutka::reporting {
 namespace {
-
-constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
 
 bool startsClosingTag(std::string_view text) {
     constexpr std::string_view kTag = "</script";
@@ -23,23 +20,8 @@ bool startsClosingTag(std::string_view text) {
 
 }  // namespace
 
-std::string htmlEscaped(std::string_view text) {
-    std::string out;
-    for (const char c : wellFormedUtf8(text, kReplacement)) {
-        const auto byte = static_cast<unsigned char>(c);
-        const bool isControl = (byte < 0x20 && c != '\t' && c != '\n') || byte == 0x7F;
-        if (const std::string_view entity = markupEntity(c); !entity.empty())
-            out += entity;
-        else if (isControl)
-            out += kReplacement;
-        else
-            out += c;
-    }
-    return out;
-}
-
 std::string htmlOfMessage(std::string_view text) {
-    std::string out = htmlEscaped(text);
+    std::string out = markupEscaped(text);
     std::size_t from = 0;
     while (true) {
         const std::size_t open = out.find('`', from);

@@ -6,11 +6,7 @@
 
 namespace lutka::reporting {
 
-/// Any bytes as text of an HTML element or of a quoted attribute: markup is escaped, what is no UTF-8 and control
-/// characters other than tab and newline become U+FFFD.
-[[nodiscard]] std::string htmlEscaped(std::string_view text);
-
-/// The same of a message, in which what stands between two grave accents is code: `lutka inspect`.
+/// markupEscaped() of a message, in which what stands between two grave accents is code: `lutka inspect`.
 [[nodiscard]] std::string htmlOfMessage(std::string_view text);
 
 /// JSON for the content of a script element: nothing in it can end the element or begin a comment, since every '<' is

@@ -7,6 +7,7 @@
 
 #include "animation/import/model_ending.hpp"
 #include "core/base64.hpp"
+#include "core/markup_text.hpp"
 #include "report/html_text.hpp"
 #include "report/model_tables.hpp"
 
@@ -69,7 +70,7 @@ std::string countBadge(int count, const char* kind) {
 }
 
 std::string nameCell(const LibraryRow& row) {
-    const std::string name = htmlEscaped(row.model);
+    const std::string name = markupEscaped(row.model);
     const auto& findings = row.checkup.diagnosis.findings;
     std::string picture =
         row.thumbnail.empty()
@@ -115,7 +116,7 @@ std::string refusedHtml(const Library& library) {
         "<section><h2>Refused</h2>\n<div class=\"scroll\"><table><thead><tr><th>Model</th><th>Why</th><th>What mends "
         "it</th></tr></thead><tbody>\n";
     for (const RefusedModel& refused : library.refused) {
-        out += fmt::format("<tr><td class=\"model\">{}</td><td>{}</td><td>{}</td></tr>\n", htmlEscaped(refused.model),
+        out += fmt::format("<tr><td class=\"model\">{}</td><td>{}</td><td>{}</td></tr>\n", markupEscaped(refused.model),
                            htmlOfMessage(refused.error.message), htmlOfMessage(refused.error.mend));
     }
     return out + "</tbody></table></div></section>\n";
@@ -184,8 +185,8 @@ void sortLibrary(Library& library) {
 }
 
 std::string libraryReportHtml(const Library& library, const PageParts& parts, std::string_view version) {
-    return filled(parts.library, {{"folder", htmlEscaped(library.folder)},
-                                  {"version", htmlEscaped(version)},
+    return filled(parts.library, {{"folder", markupEscaped(library.folder)},
+                                  {"version", markupEscaped(version)},
                                   {"style", parts.style},
                                   {"summary", summaryHtml(library)},
                                   {"table", tableHtml(library)},

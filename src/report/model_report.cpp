@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base64.hpp"
+#include "core/markup_text.hpp"
 #include "report/doll_view.hpp"
 #include "report/drop_charts.hpp"
 #include "report/html_text.hpp"
@@ -22,7 +23,7 @@ std::string picturesHtml(const std::vector<Picture>& pictures) {
     for (const Picture& picture : pictures) {
         out += fmt::format(
             "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-            htmlEscaped(picture.caption), base64(picture.png));
+            markupEscaped(picture.caption), base64(picture.png));
     }
     return out.empty() ? "" : "<section class=\"pictures\">\n<h2>Pictures</h2>\n<div>\n" + out + "</div></section>\n";
 }
@@ -71,12 +72,12 @@ ModelFacts gatherFacts(const scene::RagdollAsset& asset, Photographer* photograp
 
 std::string modelReportHtml(const scene::RagdollAsset& asset, const ModelFacts& facts, const PageParts& parts,
                             std::string_view version) {
-    const std::string name = htmlEscaped(asset.character.name);
+    const std::string name = markupEscaped(asset.character.name);
     const std::string notes = notesHtml(asset);
     return filled(parts.model,
                   {{"name", name},
-                   {"file", htmlEscaped(asset.character.file.string())},
-                   {"version", htmlEscaped(version)},
+                   {"file", markupEscaped(asset.character.file.string())},
+                   {"version", markupEscaped(version)},
                    {"style", parts.style},
                    {"ring", scoreRing(facts.checkup.score)},
                    {"verdict", verdictOf(facts.checkup)},

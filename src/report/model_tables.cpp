@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/markup_text.hpp"
 #include "report/html_text.hpp"
 
 namespace lutka::reporting {
@@ -80,8 +81,8 @@ std::string rolesTable(const animation::HumanoidMap& map, const animation::Skele
         if (binding) {
             out += fmt::format(
                 "<tr><td>{}</td><td><code>{}</code></td><td class=\"number\">{:.0f} %</td><td>{}</td></tr>\n",
-                animation::roleName(role), htmlEscaped(skeleton.names[binding->joint]), binding->confidence * 100.0F,
-                htmlEscaped(binding->reason));
+                animation::roleName(role), markupEscaped(skeleton.names[binding->joint]), binding->confidence * 100.0F,
+                markupEscaped(binding->reason));
         } else if (animation::isRequired(role)) {
             out +=
                 fmt::format("<tr class=\"lacking\"><td>{}</td><td>–</td><td></td><td>required, not found</td></tr>\n",
@@ -122,8 +123,8 @@ std::string scorePartsHtml(const scene::Checkup& checkup) {
     std::string out = "<ul class=\"parts\">\n";
     for (const physics::ScorePart& part : checkup.diagnosis.parts) {
         const float share = part.of > 0.0F ? part.points / part.of : 0.0F;
-        out += fmt::format("<li><span>{}</span>{}<b>{:.0f}<small> / {:.0f}</small></b></li>\n", htmlEscaped(part.name),
-                           bar(share, scoreClass(share * 100.0F)), part.points, part.of);
+        out += fmt::format("<li><span>{}</span>{}<b>{:.0f}<small> / {:.0f}</small></b></li>\n",
+                           markupEscaped(part.name), bar(share, scoreClass(share * 100.0F)), part.points, part.of);
     }
     const auto kept = std::count_if(checkup.bounds.begin(), checkup.bounds.end(),
                                     [](const scene::MeasuredBound& bound) { return bound.worst <= bound.bound; });
@@ -162,11 +163,11 @@ std::string boundsTable(const scene::Checkup& checkup) {
         const bool kept = bound.worst <= bound.bound;
         const std::string worst = bound.worst >= kNeverSettled && bound.unit == "s"
                                       ? "never"
-                                      : fmt::format("{:.2f} {}", bound.worst, htmlEscaped(bound.unit));
+                                      : fmt::format("{:.2f} {}", bound.worst, markupEscaped(bound.unit));
         out += fmt::format(
             "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{:g} {}</td>"
             "<td><span class=\"badge {}\">{}</span></td></tr>\n",
-            htmlEscaped(bound.name), worst, bound.bound, htmlEscaped(bound.unit), kept ? "good" : "poor",
+            markupEscaped(bound.name), worst, bound.bound, markupEscaped(bound.unit), kept ? "good" : "poor",
             kept ? "kept" : "broken");
     }
     return out + "</tbody></table>\n";
@@ -177,10 +178,10 @@ std::string findingsHtml(const physics::Diagnosis& diagnosis) {
     std::string out = "<ul class=\"findings\">\n";
     for (const physics::Finding& finding : diagnosis.findings) {
         const char* severity = physics::severityName(finding.severity);
-        out +=
-            fmt::format("<li class=\"{0}\"><span class=\"badge {0}\">{0}</span><div><p><b>{1}</b>{2}: {3}</p>",
-                        severity, htmlEscaped(finding.code),
-                        finding.place.empty() ? "" : " at " + htmlEscaped(finding.place), htmlEscaped(finding.measure));
+        out += fmt::format("<li class=\"{0}\"><span class=\"badge {0}\">{0}</span><div><p><b>{1}</b>{2}: {3}</p>",
+                           severity, markupEscaped(finding.code),
+                           finding.place.empty() ? "" : " at " + markupEscaped(finding.place),
+                           markupEscaped(finding.measure));
         if (!finding.mend.empty()) {
             out += fmt::format("<p class=\"mend\">{}{}</p>", htmlOfMessage(finding.mend),
                                finding.mendable ? " <code>lutka check --fix</code> does it." : "");
@@ -197,7 +198,7 @@ std::string mappingTable(const scene::RagdollAsset& asset) {
         "<table><thead><tr><th>Body</th><th>Joint</th><th>Path</th></tr></thead><tbody>\n";
     for (const physics::BodyProfile& body : asset.profile.bodies) {
         out += fmt::format("<tr><td>{}</td><td><code>{}</code></td><td><code>{}</code></td></tr>\n",
-                           htmlEscaped(body.name), htmlEscaped(body.joint), htmlEscaped(body.jointPath));
+                           markupEscaped(body.name), markupEscaped(body.joint), markupEscaped(body.jointPath));
     }
     return out + "</tbody></table>\n";
 }
@@ -215,7 +216,7 @@ std::string bodiesTable(const physics::RagdollProfile& profile) {
         out += fmt::format(
             "<tr><td>{}</td><td>{}</td><td class=\"number\">{:.2f} kg</td><td>{}</td><td>{}</td><td>{}</td>"
             "<td class=\"number\">{}</td></tr>\n",
-            htmlEscaped(body.name), joint == nullptr ? "–" : htmlEscaped(profile.bodies[joint->parent].name),
+            markupEscaped(body.name), joint == nullptr ? "–" : markupEscaped(profile.bodies[joint->parent].name),
             body.massKg, bar(body.massKg / heaviest, "plain"), shapeText(body.shape),
             joint == nullptr ? "–" : limitText(*joint),
             joint == nullptr ? "–" : fmt::format("{:.2g} N m", joint->frictionNm));

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "report/html_text.hpp"
+#include "core/markup_text.hpp"
 
 namespace lutka::reporting {
 namespace {
@@ -38,7 +38,7 @@ std::string opened(const std::string& label, const Axes& axes, float height) {
     return fmt::format(
         "<svg class=\"chart\" viewBox=\"0 0 {:g} {:g}\" role=\"img\" aria-label=\"{}\" data-left=\"{:g}\" "
         "data-right=\"{:g}\" data-seconds=\"{:g}\">\n",
-        kWidth, height, htmlEscaped(label), kLeft, kRight, axes.seconds);
+        kWidth, height, markupEscaped(label), kLeft, kRight, axes.seconds);
 }
 
 void addTimeAxis(const Axes& axes, std::string& out) {
@@ -59,7 +59,7 @@ void addValueAxis(const LineChart& chart, const Axes& axes, std::string& out) {
                            y + 4, tickText(value));
     }
     out += fmt::format("<text class=\"tick\" x=\"{:g}\" y=\"12\" text-anchor=\"end\">{}</text>\n", kLeft - 8,
-                       htmlEscaped(chart.unit));
+                       markupEscaped(chart.unit));
 }
 
 void addLine(const ChartLine& line, std::size_t place, float secondsAValue, const Axes& axes, std::string& out) {
@@ -75,7 +75,7 @@ void addLine(const ChartLine& line, std::size_t place, float secondsAValue, cons
         out += fmt::format("{}{:.1f} {:.1f}", pen ? "L" : "M", x, axes.y(std::clamp(value, 0.0F, axes.top)));
         pen = true;
     }
-    out += fmt::format("\"><title>{}</title></path>\n", htmlEscaped(line.name));
+    out += fmt::format("\"><title>{}</title></path>\n", markupEscaped(line.name));
 }
 
 void close(const Axes& axes, std::string& out) {
@@ -119,7 +119,7 @@ std::string lineChartSvg(const LineChart& chart) {
                            axes.y(*chart.bound), axes.y(*chart.bound));
         out +=
             fmt::format("<text class=\"boundText\" x=\"{:g}\" y=\"{:.1f}\" text-anchor=\"end\">allowed: {} {}</text>\n",
-                        kRight, axes.y(*chart.bound) - 5, tickText(*chart.bound), htmlEscaped(chart.unit));
+                        kRight, axes.y(*chart.bound) - 5, tickText(*chart.bound), markupEscaped(chart.unit));
     }
     for (std::size_t i = 0; i < chart.lines.size(); ++i)
         addLine(chart.lines[i], i, chart.secondsAValue, axes, out);
@@ -149,7 +149,7 @@ std::string timeBarsSvg(const std::string& label, std::span<const TimeBar> bars,
         rect("air", 0, bar.beginS);
         rect(bar.endS ? "settling" : "settling never", bar.beginS, end);
         out += fmt::format("<text class=\"tick\" x=\"{:g}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>\n", kLeft - 8,
-                           y + kBar / 2 + 4, htmlEscaped(bar.name));
+                           y + kBar / 2 + 4, markupEscaped(bar.name));
         // Beside the bar where there is room, else on it.
         const std::string text = bar.endS ? fmt::format("{:.2f} s", *bar.endS - bar.beginS) : "never at rest";
         const bool beside = axes.x(end) + 60 < kRight;

@@ -3,30 +3,16 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base64.hpp"
-#include "core/utf8.hpp"
 #include "support/catch.hpp"
 
 using namespace lutka;
 using namespace lutka::reporting;
-
-TEST_CASE("text of files can't be markup in a page") {
-    CHECK(htmlEscaped("<b>\"a\" & 'b'</b>") == "&lt;b&gt;&quot;a&quot; &amp; &#39;b&#39;&lt;/b&gt;");
-    CHECK(htmlEscaped("Šime\ttab") == "Šime\ttab");
-}
 
 TEST_CASE("what a message has between grave accents is code, and nothing else is markup") {
     CHECK(htmlOfMessage("`lutka inspect` shows <it>; `--rig any`") ==
           "<code>lutka inspect</code> shows &lt;it&gt;; <code>--rig any</code>");
     CHECK(htmlOfMessage("one ` alone, and `<b>`") == "one <code> alone, and </code>&lt;b&gt;`");
     CHECK(htmlOfMessage("") == "");
-}
-
-TEST_CASE("what is no UTF-8 and control characters become the replacement character") {
-    const std::string bad = "\xEF\xBF\xBD";
-    CHECK(htmlEscaped("a\xFF z") == "a" + bad + " z");
-    CHECK(htmlEscaped(std::string("a\0b", 3)) == "a" + bad + "b");
-    CHECK(htmlEscaped("\x1B[1m") == bad + "[1m");
-    CHECK(wellFormedUtf8("\xC3\xA9\xC3", "?") == "\xC3\xA9?");
 }
 
 TEST_CASE("JSON in a script element holds nothing that could end it, and reads back the same") {
