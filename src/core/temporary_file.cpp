@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,8 +11,10 @@
 #include <atomic>
 #include <cerrno>
 #include <climits>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <system_error>
 #include <utility>
 
@@ -21,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kPrefix = ".lutka-";
-constexpr int kMostTries = 1000;
+constexpr int kMostTries = 100;
 constexpr std::size_t kLongestExtension = 16;
 
 Error unwritable(const fs::path& file, const std::string& what, int errorNumber) {
@@ -66,7 +69,22 @@ static_assert(std::atomic<int>::is_always_lock_free, "a signal handler must not 
 // As many as are written at a time, and more; a file beyond them is found by the next run alone.
 std::array<Note, 24> notes;
 
-// The name is noted before there is a file of it: it holds this process's number, so nobody else can have one.
+// A name that nobody else has. The process's number would not do: two containers that share a folder may have the same,
+// and a handler would remove the other's file by the name that is noted here.
+std::string ownName(std::string_view extension) {
+    std::array<std::uint64_t, 2> random{};
+    if (::getrandom(random.data(), sizeof random, 0) != static_cast<ssize_t>(sizeof random)) {
+        // Without the kernel's randomness: no two processes of a machine are alike in all of these.
+        static std::atomic<std::uint64_t> count = 0;
+        timespec now{};
+        ::clock_gettime(CLOCK_REALTIME, &now);
+        random = {static_cast<std::uint64_t>(::getpid()) << 32U | ++count,
+                  static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000U + static_cast<std::uint64_t>(now.tv_nsec)};
+    }
+    return fmt::format("{}{:016x}{:016x}{}", kPrefix, random[0], random[1], extension);
+}
+
+// The name is noted before there is a file of it: nobody else can have one.
 int noteDown(const fs::path& path) {
     if (path.native().size() >= PATH_MAX) return -1;
     for (std::size_t i = 0; i < notes.size(); ++i) {
@@ -100,7 +118,7 @@ Result<TemporaryFile> TemporaryFile::beside(const fs::path& target, std::string_
     if (extension.size() > kLongestExtension) extension = {};
     for (int number = 0; number < kMostTries; ++number) {
         fs::path path = target;
-        path.replace_filename(fmt::format("{}{}-{}{}", kPrefix, ::getpid(), number, extension));
+        path.replace_filename(ownName(extension));
         const int note = noteDown(path);
         const int handle = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
         const int failed = errno;

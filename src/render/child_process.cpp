@@ -132,12 +132,17 @@ void ChildProcess::killAll() noexcept {
 ChildProcess::Ended ChildProcess::finish() {
     Ended ended;
     if (input_ >= 0) ::close(std::exchange(input_, -1));
+    // Its number is struck off before it is given back: a signal handler that came in between would end whoever has it
+    // by then.
+    siginfo_t end{};
+    while (::waitid(P_PID, static_cast<id_t>(pid_), &end, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+    }
+    exchangeRunning(pid_, 0);
     int status = 0;
     pid_t waited = -1;
     while ((waited = ::waitpid(pid_, &status, 0)) < 0 && errno == EINTR) {
     }
     const bool isKnown = waited == pid_;  // not where the caller has children reaped unseen (SIGCHLD ignored)
-    exchangeRunning(pid_, 0);
     pid_ = -1;
     ended.succeeded = isKnown && WIFEXITED(status) && WEXITSTATUS(status) == 0;
     ended.errorText = tailOf(errors_);
