@@ -4,9 +4,28 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "physics/collision/shape.hpp"
 #include "scene/asset/body_bounds.hpp"
 
 namespace lutka::scene {
+namespace {
+
+// From `entry`, a point of the body in model space, over joint after joint away from `from` to the farthest surface.
+float reachFrom(const physics::RagdollProfile& profile, const physics::Rig& rig, int body, const vec3& entry,
+                int from) {
+    const RigidTransform& modelFromBody = rig.bindModelFromBody[body];
+    float reach = glm::distance(entry, modelFromBody.translation) + physics::boundingRadius(profile.bodies[body].shape);
+    for (const physics::ConstraintProfile& joint : profile.constraints) {
+        if (joint.parent != body && joint.child != body) continue;
+        const int next = joint.parent == body ? joint.child : joint.parent;
+        if (next == from) continue;
+        const vec3 anchor = rig.bindModelFromBody[joint.child] * joint.childFromFrame.translation;
+        reach = std::max(reach, glm::distance(entry, anchor) + reachFrom(profile, rig, next, anchor, body));
+    }
+    return reach;
+}
+
+}  // namespace
 
 FigureBounds figureBounds(const physics::RagdollProfile& profile, const physics::Rig& rig) {
     FigureBounds bounds{vec3(1e9F), vec3(-1e9F)};
@@ -32,6 +51,15 @@ FigureBounds figureBounds(const physics::RagdollProfile& profile, const physics:
         if (box.low.y > ground) continue;
         const vec3 reach = glm::max(glm::abs(box.low - middle), glm::abs(box.high - middle));
         bounds.stance = std::max(bounds.stance, std::hypot(reach.x, reach.z));
+    }
+    using physics::Role;
+    for (const Role role : {Role::leftHand, Role::leftLowerArm, Role::leftUpperArm}) {
+        const int hand = physics::bodyOf(profile, role);
+        if (hand < 0) continue;
+        bounds.handBody = profile.bodies[static_cast<std::size_t>(hand)].name;
+        bounds.hand = bounds.bodies[static_cast<std::size_t>(hand)].standardFromBody.translation;
+        bounds.handReach = reachFrom(profile, rig, hand, rig.bindModelFromBody[hand].translation, -1);
+        break;
     }
     return bounds;
 }

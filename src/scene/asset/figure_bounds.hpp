@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "scene/asset/ragdoll_asset.hpp"
@@ -19,6 +20,9 @@ struct FigureBounds {
     float stance = 0.0F;  ///< Metres from the middle, level, that what it stands on reaches: the wider, the deeper a
                           ///< tilted figure dips.
     std::vector<FigureBody> bodies{};  ///< What it is made of; none: not known.
+    std::string handBody{};            ///< Its left hand, or the last body of that arm; empty: it has none.
+    vec3 hand{0, 0, 0};                ///< The middle of that in the standard stance.
+    float handReach = 0.0F;            ///< Metres from there that it reaches at most, however its joints are stretched.
 };
 /// Over the surfaces of all bodies in the bind pose.
 [[nodiscard]] FigureBounds figureBounds(const physics::RagdollProfile& profile, const physics::Rig& rig);

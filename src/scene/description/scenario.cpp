@@ -253,16 +253,25 @@ void ramp(Context& context) {
     context.scene.simulation.seconds = 8.0F;
 }
 
+// How high the soles start so that nothing meets the floor once all of it hangs straight below the left hand.
+float hangingHeight(const FigureBounds& figure, const quat& turn) {
+    const vec3 toHand = turn * (figure.hand - 0.5F * (figure.low + figure.high));
+    return std::max(1.2F, figure.handReach + 0.1F - 0.5F * (figure.high.y - figure.low.y) - toHand.y);
+}
+
 void hang(Context& context) {
     look(context, 30, 8);
     addFloor(context);
+    float highest = 0.0F;
     for (int i = 0; i < context.count; ++i) {
-        const vec3 foot = gridPlace(i, context.count, kSpacing) + vec3(0, 1.2F, 0);
-        placeFeet(context, foot, smallTurn(context, i))
-            .pins.emplace_back(animation::roleName(animation::Role::leftHand));
+        const quat turn = smallTurn(context, i);
+        const float height = hangingHeight(context.figure, turn);
+        highest = std::max(highest, height);
+        placeFeet(context, gridPlace(i, context.count, kSpacing) + vec3(0, height, 0), turn)
+            .pins.push_back(context.figure.handBody.empty() ? "leftHand" : context.figure.handBody);
     }
     SceneSimulation& simulation = context.scene.simulation;
-    simulation.focus = {0, 1.7F, 0};
+    simulation.focus = {0, 0.5F + highest, 0};
     focusOnGrid(context, kSpacing);
     simulation.focusRadius = std::max(simulation.focusRadius, 1.9F);
     simulation.seconds = 10.0F;
@@ -429,7 +438,7 @@ constexpr std::array<Entry, 12> kEntries{{
     {{"pile", "into a pit of 6 by 6 metres"}, &pile},
     {{"stairs", "pushed down a flight of 12 stairs"}, &stairs},
     {{"ramp", "down a slope of 32 degrees"}, &ramp},
-    {{"hang", "by the left hand, 1.2 m above a floor"}, &hang},
+    {{"hang", "by the left hand, clear of the floor"}, &hang},
     {{"throw", "into a wall of 5 cm at 8 m/s"}, &throwAtWall},
     {{"balls", "hit by six balls of 4 kg"}, &balls},
     {{"walk", "walking, hit by balls, and on again"}, &walk},

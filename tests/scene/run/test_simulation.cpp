@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "animation/pose.hpp"
+#include "physics/collision/shape.hpp"
+#include "scene/asset/figure_bounds.hpp"
 #include "scene/run/bake.hpp"
 #include "support/catch.hpp"
 #include "support/ragdolls.hpp"
@@ -255,4 +257,29 @@ TEST_CASE("a doll that hangs by its hand stays up") {
     CHECK(glm::distance(simulation->worldFromBody(0)[hand].translation, held) < 0.25F);
     const int foot = physics::bodyOf(asset->profile, physics::Role::leftFoot);
     CHECK(simulation->worldFromBody(0)[foot].translation.y > 0.2F);
+}
+
+// By a hand that is low beside the hips a figure hangs by a whole height more than it stands.
+TEST_CASE("a figure that stands with its arms down hangs clear of the floor") {
+    const auto asset = scene::loadRagdoll(LUTKA_ASSETS_DIR "/models/mannequin.glb");
+    REQUIRE(asset);
+    const scene::FigureBounds bounds = scene::figureBounds(asset.value()->profile, asset.value()->rig);
+    CHECK(bounds.handReach > bounds.high.y - bounds.low.y);
+    for (const std::uint64_t seed : {0, 3}) {
+        auto scenario = scene::makeScenario({.name = "hang", .seed = seed}, *asset.value());
+        REQUIRE(scenario);
+        const auto simulation = scene::Simulation::create(*asset.value(), std::move(scenario).value(), {});
+        REQUIRE(simulation);
+        float lowest = 1e9F;
+        for (int step = 0; step < 480; ++step) {
+            simulation.value()->step();
+            const auto frames = simulation.value()->worldFromBody(0);
+            for (std::size_t body = 0; body < frames.size(); ++body) {
+                const physics::BodyShape& shape = asset.value()->profile.bodies[body].shape;
+                lowest = std::min(lowest, frames[body].translation.y - physics::boundingRadius(shape));
+            }
+        }
+        CAPTURE(seed, lowest);
+        CHECK(lowest > 0.0F);
+    }
 }
