@@ -130,9 +130,14 @@ void PuppetCast::startClip(Actor& actor, float seconds, physics::DollId doll) {
     bodies_.resize(now_.size());
     world_->getBodies(doll, bodies_);
     const bool isElsewhere = play_.borrows || seconds != actor.clips->startSeconds;
+    // On ramps and steps the pose is fitted to the ground there: begun in the level one, the doll would be pulled over.
+    const bool isFitted = actor.terrain && play_.meetsGround;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         bodies_[i].worldFromBody.translation.y += actor.lift;
-        if (isElsewhere) bodies_[i] = {now_[i], vec3(0), vec3(0)};
+        if (isElsewhere)
+            bodies_[i] = {now_[i], vec3(0), vec3(0)};
+        else if (isFitted)
+            bodies_[i].worldFromBody = now_[i];
     }
     world_->setBodies(doll, bodies_);
 }

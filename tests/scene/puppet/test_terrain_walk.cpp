@@ -100,6 +100,29 @@ TEST_CASE("a clip's feet meet a ramp and stairs, which they go through without b
     }
 }
 
+TEST_CASE("who begins on a ramp or on stairs begins in the pose that is fitted to them") {
+    for (const auto& [shapes, ahead] : {std::pair(rampUp(), 3.0F), std::pair(stairsUp(), 2.1F)}) {
+        scene::Scenario scenario;
+        scenario.statics = shapes;
+        scenario.dolls.emplace_back().worldFromModel.translation = {0, 1.0F, ahead};
+        PuppetPlay play;
+        play.start.clip = "walk";
+        play.pace = 0.95F;
+        scene::SimulationOptions options;
+        options.puppet = play;
+        auto made = scene::Simulation::create(walker(), scenario, options);
+        REQUIRE(made);
+        const auto wanted = made.value()->puppets()->pose(0, 0.0F);
+        const auto placed = made.value()->worldFromBody(0);
+        for (std::size_t body = 0; body < wanted.size(); ++body)
+            CHECK(glm::distance(wanted[body].translation, placed[body].translation) < 1e-4F);
+        for (int step = 0; step < 6; ++step)
+            made.value()->step();
+        CAPTURE(ahead);
+        CHECK(made.value()->puppets()->figures().rootM < 0.02F);
+    }
+}
+
 TEST_CASE("a powered walk goes up a ramp and stairs without being knocked out") {
     for (const bool isRamp : {true, false}) {
         const Walked walked = walkOn(isRamp ? rampUp() : stairsUp(), true, false, 3.6F);
