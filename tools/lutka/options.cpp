@@ -261,6 +261,20 @@ void SimulateOptions::addTo(const Command& app) {
     ragdoll.addTo(app, false);
     app.find("MODEL").describe("rigged character; none when the scene file names its characters");
     scene.addTo(app);
+    const Option clipOption = addStart(app);
+    const Option getUpFlag = addPuppet(app, clipOption);
+    const Option shedOption =
+        app.option("--shed", shed,
+                   "spare dolls far from the eye, from so many metres on: lod@10,apart@15,slow@20,frozen@40 or some");
+    app.option("--eye", eye,
+               "X,Y,Z in metres, where --shed measures from; default: the camera of a picture, else the scene's middle")
+        .commaSeparated(3)
+        .needs(shedOption);
+    shedOption.excludes(clipOption).excludes(getUpFlag);
+    addOutputs(app, clipOption);
+}
+
+Option SimulateOptions::addStart(const Command& app) {
     app.option("--seconds", seconds, "length of the run; default: what the scene needs").range(0.0, 3600.0);
     app.option("--hold", hold,
                "hold bodies where they start, by their names, comma separated: leftHand,head; with --rig any as "
@@ -279,6 +293,10 @@ void SimulateOptions::addTo(const Command& app) {
         .needs(clipOption);
     app.flag("--once", clipOnce, "the clip stays at its end instead of beginning anew").needs(clipOption);
     app.flag("--in-place", clipInPlace, "the clip without its way over the ground").needs(clipOption);
+    return clipOption;
+}
+
+Option SimulateOptions::addPuppet(const Command& app, const Option& clipOption) {
     const Option puppetOption =
         app.option(
                "--puppet", puppet,
@@ -303,16 +321,10 @@ void SimulateOptions::addTo(const Command& app) {
                "X,Y,Z with +Z ahead; or BODY@SECONDS:X,Y,Z in N s; may be repeated")
         .oneValueEach()
         .needs(puppetOption);
-    const Option getUpFlag =
-        app.flag("--getup", getUp, "limp dolls that have come to rest get up; without --puppet they fall first");
-    const Option shedOption =
-        app.option("--shed", shed,
-                   "spare dolls far from the eye, from so many metres on: lod@10,apart@15,slow@20,frozen@40 or some");
-    app.option("--eye", eye,
-               "X,Y,Z in metres, where --shed measures from; default: the camera of a picture, else the scene's middle")
-        .commaSeparated(3)
-        .needs(shedOption);
-    shedOption.excludes(clipOption).excludes(getUpFlag);
+    return app.flag("--getup", getUp, "limp dolls that have come to rest get up; without --puppet they fall first");
+}
+
+void SimulateOptions::addOutputs(const Command& app, const Option& clipOption) {
     const Option outOption =
         app.option("--out", bakedOut,
                    "write the first doll's fall: an animation of its skin (.glb), or its joints' motion (.bvh)");

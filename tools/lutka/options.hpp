@@ -126,6 +126,13 @@ struct SimulateOptions {
     [[nodiscard]] scene::SimulationOptions simulation(const scene::EntityScene& scene) const;
     /// Whether one of the outputs is stdout, which then holds nothing else.
     [[nodiscard]] bool fillsStandardOutput() const;
+
+  private:
+    /// Length and start pose; gives `--clip`.
+    Option addStart(const Command& app);
+    /// Muscles; gives `--getup`.
+    Option addPuppet(const Command& app, const Option& clipOption);
+    void addOutputs(const Command& app, const Option& clipOption);
 };
 
 /// The words that an option of named choices takes.
