@@ -18,16 +18,15 @@ Result<std::unique_ptr<Editor>> Editor::create(const EditorOptions& options) {
     const EditorOptions heard = editor->hearReaders(all.value());
     // What the scene says of its first character is not for those that are opened later.
     scene::LoadOptions load = heard.load;
-    if (heard.asInScene.figure) load.import.figure = heard.asInScene.figure;
-    takeRig(heard.asInScene, load);
-    auto document = EditorDocument::open(heard.model, load);
+    takeAs(heard.asInScene, load);
+    auto document = EditorDocument::open(heard.model, load, heard.load.fit);
     const bool isOffered = !document && !fromScene && !heard.standIn.empty() && scene::wantsAnyRig(document.error());
     FileFlow::AnyRigOffer offer;
     if (isOffered) {
-        offer = {heard.model, document.error().message, heard.load.import.figure};
+        offer = {heard.model, document.error().message, heard.load.import.figure, heard.load.profile.value_or("")};
         scene::LoadOptions plain;
         plain.import.loadTextures = heard.load.import.loadTextures;
-        document = EditorDocument::open(heard.standIn, plain);
+        document = EditorDocument::open(heard.standIn, plain, heard.load.fit);
     }
     if (!document) return document.error();
     if (auto begun = editor->begin(std::move(document).value(), heard); !begun) return begun.error();

@@ -16,7 +16,12 @@ struct EditorOptions {
     /// Shown in the place of a `model` that is no humanoid, while the user is offered a ragdoll of any skeleton for
     /// that; empty: such a model is refused.
     std::filesystem::path standIn;
-    scene::LoadOptions load;
+    /// Of any rig: weighed by its volume unless the caller wants a total.
+    scene::LoadOptions load = [] {
+        scene::LoadOptions plain;
+        plain.fit.weighByVolume = true;
+        return plain;
+    }();
     scene::Ragdoll asInScene;  ///< How a scene's file wants `model` to be taken; only `figure` and `rig` count.
     SceneSettings scene;
     std::filesystem::path sceneFile;  ///< *.scene.json in place of `scene`; `model` may be empty then.

@@ -25,9 +25,10 @@ struct PlayState;
 /// leaves everything as it was when it fails. Knows no window, no UI and no running simulation.
 class EditorDocument {
   public:
-    /// Loads the model (and the profile of `options`, when it names one).
+    /// Loads the model (and the profile of `options`, when it names one). `others`: SceneDocument::setOrigin().
     [[nodiscard]] static Result<std::unique_ptr<EditorDocument>> open(const std::filesystem::path& model,
-                                                                      const scene::LoadOptions& options = {});
+                                                                      const scene::LoadOptions& options = {},
+                                                                      const physics::FitOptions& others = {});
     /// For an asset that is there already.
     explicit EditorDocument(std::unique_ptr<scene::RagdollAsset> asset);
     EditorDocument(const EditorDocument&) = delete;  // its scene borrows its asset
@@ -113,8 +114,6 @@ class EditorDocument {
     [[nodiscard]] Result<void> setCone(int constraint, const physics::ConeTwistLimits& limits,
                                        const std::string& group = "");
     [[nodiscard]] Result<void> setFriction(int constraint, float frictionNm, const std::string& group = "");
-    [[nodiscard]] Result<void> resetPart(int body) { return resetParts(std::span(&body, 1)); }
-    [[nodiscard]] Result<void> mirrorPart(int body) { return mirrorParts(std::span(&body, 1)); }
     [[nodiscard]] Result<void> setFit(const physics::FitOptions& fit);
     /// Takes a profile from a file in place of the present one; another rig's is bound by role, and saved beside this
     /// model, not over its file. Fails with ErrorCode::input when it can't be read or doesn't fit the skeleton.
@@ -143,8 +142,9 @@ class EditorDocument {
     /// that is edited or none has a model.
     [[nodiscard]] Result<void> useScene(const std::filesystem::path& file, const scene::EntityScene& scene);
 
-    /// Ends a group of changes (the mouse was released).
-    void endGroup() { undo_.endGroup(); }
+    /// Ends a group of changes (the mouse was released, what was typed is done). One that ended as it began leaves no
+    /// entry of undo.
+    void endGroup();
     /// Takes the open group of changes back without a trace in undo or redo; nothing when none is open.
     void cancelGroup();
     [[nodiscard]] bool canUndo() const { return undo_.canUndo(); }

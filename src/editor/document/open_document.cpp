@@ -8,11 +8,12 @@ namespace {
 using Opened = Result<std::unique_ptr<EditorDocument>>;
 
 Opened openAsset(const scene::Ragdoll& character, scene::LoadOptions load, const EditorDocument& present) {
+    const physics::FitOptions others = load.fit;
     load.profile.reset();
-    load.import.figure = character.figure;
-    takeRig(character, load);
+    load.import.figure.reset();
+    takeAs(character, load);
     if (!character.profile.empty()) load.profile = character.profile;
-    return EditorDocument::open(character.model.empty() ? present.character().file : character.model, load);
+    return EditorDocument::open(character.model.empty() ? present.character().file : character.model, load, others);
 }
 
 Opened started(Opened opened, const SceneSettings& scene) {
@@ -24,7 +25,7 @@ Opened started(Opened opened, const SceneSettings& scene) {
 }  // namespace
 
 Opened openModel(const std::filesystem::path& file, const scene::LoadOptions& load, const EditorDocument& present,
-                 std::optional<int> figure) {
+                 const scene::Ragdoll& as) {
     SceneSettings settings = present.sceneDocument().settings();
     for (scene::Ragdoll& ragdoll : settings.entities.all<scene::Ragdoll>()) {
         if (!present.sceneDocument().isEdited(ragdoll)) continue;
@@ -36,8 +37,9 @@ Opened openModel(const std::filesystem::path& file, const scene::LoadOptions& lo
     }
     scene::LoadOptions plain = load;
     plain.profile.reset();
-    plain.import.figure = figure;
-    return started(EditorDocument::open(file, plain), settings);
+    plain.import.figure.reset();
+    takeAs(as, plain);
+    return started(EditorDocument::open(file, plain, load.fit), settings);
 }
 
 Opened reopenModel(const scene::LoadOptions& load, const EditorDocument& present) {
@@ -46,7 +48,8 @@ Opened reopenModel(const scene::LoadOptions& load, const EditorDocument& present
     plain.fit = present.state().fit;
     plain.import.figure.reset();
     if (present.character().figures.size() > 1) plain.import.figure = present.character().figure + 1;
-    auto opened = started(EditorDocument::open(present.character().file, plain), present.sceneDocument().settings());
+    auto opened =
+        started(EditorDocument::open(present.character().file, plain, load.fit), present.sceneDocument().settings());
     if (!opened) return opened;
     if (auto taken = opened.value()->takeEditsOf(present); !taken) return taken.error();
     opened.value()->sceneDocument().takeFileOf(present.sceneDocument());

@@ -13,12 +13,12 @@ namespace lutka::editor {
 /// profile that it names belongs to another one and is not used. All fail as EditorDocument::open() and startScene()
 /// do.
 
-/// The model of a file, in the place of the edited character in the present scene. `figure`: which of the file's,
-/// counted from 1; unset: the one with most vertices.
+/// The model of a file, in the place of the edited character in the present scene. `as`: which of the file's figures
+/// it is and what it is taken as; where that says nothing, the one with most vertices, and as `load` has it.
 [[nodiscard]] Result<std::unique_ptr<EditorDocument>> openModel(const std::filesystem::path& file,
                                                                 const scene::LoadOptions& load,
                                                                 const EditorDocument& present,
-                                                                std::optional<int> figure = {});
+                                                                const scene::Ragdoll& as = {});
 /// The same model read again, with the present one's edits, scene and files.
 [[nodiscard]] Result<std::unique_ptr<EditorDocument>> reopenModel(const scene::LoadOptions& load,
                                                                   const EditorDocument& present);

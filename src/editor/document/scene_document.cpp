@@ -23,19 +23,15 @@ bool hasClip(const scene::RagdollAsset& asset, const std::string& name) {
 
 }  // namespace
 
-void takeAnyRig(scene::LoadOptions& load) {
-    load.fit.rig = physics::RigKind::any;
-    if (load.fit.totalMassKg == physics::FitOptions().totalMassKg) load.fit.weighByVolume = true;
+void takeAs(const scene::Ragdoll& character, scene::LoadOptions& load) {
+    if (character.figure) load.import.figure = character.figure;
+    if (character.rig) load.fit.rig = *character.rig;
 }
 
-void takeRig(const scene::Ragdoll& character, scene::LoadOptions& load) {
-    if (!character.rig) return;
-    load.fit.rig = *character.rig;
-    if (*character.rig == physics::RigKind::any) takeAnyRig(load);
-}
-
-void SceneDocument::setOrigin(const animation::ImportOptions& import, const fs::path& profile) {
+void SceneDocument::setOrigin(const animation::ImportOptions& import, const physics::FitOptions& fit,
+                              const fs::path& profile) {
     load_.import = import;
+    load_.fit = fit;
     openedWith_ = profile;
 }
 
@@ -59,8 +55,7 @@ bool SceneDocument::isEdited(const scene::Ragdoll& ragdoll) const {
 }
 
 SceneDocument::OtherKey SceneDocument::keyOf(const scene::Ragdoll& ragdoll) const {
-    return {modelOf(ragdoll), ragdoll.figure.value_or(0), ragdoll.profile,
-            ragdoll.rig.value_or(physics::RigKind::humanoid)};
+    return {modelOf(ragdoll), ragdoll.figure.value_or(0), ragdoll.profile, ragdoll.rig.value_or(load_.fit.rig)};
 }
 
 Result<void> SceneDocument::loadOthers(const scene::EntityScene& scene) {
@@ -70,8 +65,8 @@ Result<void> SceneDocument::loadOthers(const scene::EntityScene& scene) {
         const OtherKey key = keyOf(ragdoll);
         if (others_.contains(key)) continue;
         scene::LoadOptions load = load_;
-        load.import.figure = ragdoll.figure;
-        takeRig(ragdoll, load);
+        load.import.figure.reset();
+        takeAs(ragdoll, load);
         if (!ragdoll.profile.empty()) load.profile = ragdoll.profile;
         auto asset = scene::loadRagdoll(model, load);
         if (!asset) return asset.error();
@@ -190,7 +185,12 @@ fs::path SceneDocument::file() const {
 Result<void> SceneDocument::write(const fs::path& file) const {
     scene::EntityScene written = scene();
     for (scene::Ragdoll& ragdoll : written.all<scene::Ragdoll>()) {
-        if (!isEdited(ragdoll)) continue;
+        if (!isEdited(ragdoll)) {
+            // The file is read where nobody says how to take them.
+            if (!ragdoll.rig && ragdoll.profile.empty() && load_.fit.rig == physics::RigKind::any)
+                ragdoll.rig = physics::RigKind::any;
+            continue;
+        }
         if (ragdoll.model.empty()) ragdoll.model = edited_.character.file;
         if (edited_.character.figures.size() > 1) ragdoll.figure = edited_.character.figure + 1;
         if (!physics::hasRoles(edited_.profile)) ragdoll.rig = physics::RigKind::any;

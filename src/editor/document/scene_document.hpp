@@ -25,8 +25,10 @@ class SceneDocument {
     SceneDocument& operator=(const SceneDocument&) = delete;
 
     /// How the edited character was opened: others are read alike, and with another profile than `profile`, or none,
-    /// the same model is another character of the scene.
-    void setOrigin(const animation::ImportOptions& import, const std::filesystem::path& profile);
+    /// the same model is another character of the scene. `fit` makes the ragdolls of the others, as far as the scene
+    /// says nothing of them.
+    void setOrigin(const animation::ImportOptions& import, const physics::FitOptions& fit,
+                   const std::filesystem::path& profile);
     /// Where the edited profile is saved, and whether it is a file by now; scenes that are saved name it then.
     void setProfileFile(const std::filesystem::path& file, bool exists);
 
@@ -90,9 +92,7 @@ class SceneDocument {
     bool unsaved_ = false;
 };
 
-/// Has characters taken as any skeleton: weighed by their volume, or, where a mass is asked for, of that mass.
-void takeAnyRig(scene::LoadOptions& load);
-/// What a scene says its character is to be taken as, weighed as on the command line; nothing where it says nothing.
-void takeRig(const scene::Ragdoll& character, scene::LoadOptions& load);
+/// Which figure of its file a scene says that its character is, and what that is taken as; what it leaves open stays.
+void takeAs(const scene::Ragdoll& character, scene::LoadOptions& load);
 
 }  // namespace lutka::editor

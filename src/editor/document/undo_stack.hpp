@@ -33,6 +33,8 @@ class UndoStack {
     void endGroup() { openGroup_.clear(); }
     [[nodiscard]] bool groupIsOpen() const { return !openGroup_.empty() && !undo_.empty(); }
 
+    /// The state before the open group. groupIsOpen() must hold.
+    [[nodiscard]] const Snapshot& beforeGroup() const { return undo_.back().snapshot; }
     /// Takes the open group back as if it had never been: the state before it. groupIsOpen() must hold.
     [[nodiscard]] Snapshot cancelGroup() {
         Snapshot before = std::move(undo_.back().snapshot);
@@ -49,7 +51,6 @@ class UndoStack {
     /// redo.
     [[nodiscard]] bool undoMoves() const { return !undo_.empty() && undo_.back().moves; }
     [[nodiscard]] bool redoMoves() const { return !redo_.empty() && redo_.back().moves; }
-    [[nodiscard]] std::size_t undoCount() const { return undo_.size(); }
 
     /// Labels of all that can be undone, the latest first, and of all that can be redone, the next first.
     [[nodiscard]] std::vector<std::string> undoLabels() const { return labels(undo_); }

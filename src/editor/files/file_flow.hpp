@@ -79,6 +79,7 @@ class FileFlow {
         std::filesystem::path model;
         std::string reason;         ///< Why it is no humanoid.
         std::optional<int> figure;  ///< Which of the file's, counted from 1; unset: the one with most vertices.
+        std::filesystem::path profile = {};  ///< A human figure's, which was asked for and is of no use to this one.
     };
     void offerAnyRig(AnyRigOffer offer) { anyRig_ = std::move(offer); }
     /// Whose model is empty when there is none or the user has answered.

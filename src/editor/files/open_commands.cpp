@@ -82,7 +82,9 @@ void OpenCommands::openFigure(int figure) {
     files_.takeAnyRig();
     files_.afterUnsaved([this, figure] {
         const std::filesystem::path file = document().character().file;
-        auto opened = openModel(file, load_, document(), figure);
+        scene::Ragdoll taken;
+        taken.figure = figure;
+        auto opened = openModel(file, load_, document(), taken);
         if (!opened && scene::wantsAnyRig(opened.error())) return offerAnyRig({file, opened.error().message, figure});
         adopt(std::move(opened));
     });
@@ -91,10 +93,11 @@ void OpenCommands::openFigure(int figure) {
 void OpenCommands::answerAnyRig(AnyRig answer) {
     const FileFlow::AnyRigOffer offer = files_.takeAnyRig();
     if (answer == AnyRig::leave || offer.model.empty()) return;
-    scene::LoadOptions load = load_;
-    takeAnyRig(load);
-    files_.afterUnsaved([this, offer, load, answer] {
-        if (!adopt(openModel(offer.model, load, document(), offer.figure)) || answer != AnyRig::byHand) return;
+    scene::Ragdoll taken;
+    taken.figure = offer.figure;
+    taken.rig = physics::RigKind::any;
+    files_.afterUnsaved([this, offer, taken, answer] {
+        if (!adopt(openModel(offer.model, load_, document(), taken)) || answer != AnyRig::byHand) return;
         BodyCommands(workspace_).beginByHand();
         settle_();
     });

@@ -212,6 +212,9 @@ void drawAnyRigOffer(const PanelContext& context) {
         ImGui::TextUnformatted((file + verb + offer.reason + ".").c_str());
         ImGui::Spacing();
         ImGui::TextUnformatted("Its bodies can be made from the joints and the skin alone, whatever it is.");
+        if (!offer.profile.empty())
+            ImGui::TextUnformatted(
+                (offer.profile.filename().string() + " is a human figure's and is left out.").c_str());
         ImGui::PopTextWrapPos();
         ImGui::Spacing();
         if (ImGui::Button("Ragdoll of any skeleton")) answer = Editor::AnyRig::whole;

@@ -123,7 +123,7 @@ TEST_CASE("while both sides are changed at once, an edit of one is the other's a
     shape.radius *= 1.4F;
     REQUIRE(document.setShape(left, shape).ok());
     CHECK(body(Role::rightUpperArm).shape.radius == Approx(shape.radius));
-    REQUIRE(document.resetPart(left).ok());
+    REQUIRE(document.resetParts(std::span(&left, 1)).ok());
     CHECK(body(Role::rightUpperArm).shape.radius != Approx(shape.radius));
     CHECK(body(Role::rightUpperArm).shape.radius == Approx(body(Role::leftUpperArm).shape.radius));
     send(*editor, keyPressed(Key::m, {true, false, false}));

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "editor/document/open_document.hpp"
@@ -54,6 +55,20 @@ TEST_CASE("changes of one drag are one entry of undo and the next drag is anothe
     document->undo();
     CHECK(kneeLimits(*document).upper == before);
     CHECK_FALSE(document->canUndo());
+}
+
+TEST_CASE("changes that end as they began leave no entry of undo") {
+    const auto document = makeDocument();
+    const int knee = constraintIndexOf(*document, Role::leftLowerLeg);
+    const physics::HingeLimits before = kneeLimits(*document);
+    REQUIRE(document->setHinge(knee, {-0.1F, 0.9F}, "hinge").ok());
+    REQUIRE(document->setHinge(knee, before, "hinge").ok());
+    document->endGroup();
+    CHECK_FALSE(document->canUndo());
+    CHECK_FALSE(document->unsaved());
+    REQUIRE(document->setHinge(knee, {-0.1F, 0.9F}, "hinge").ok());
+    document->endGroup();
+    CHECK(document->canUndo());
 }
 
 TEST_CASE("a cancelled drag leaves neither a change nor an entry") {
@@ -148,10 +163,10 @@ TEST_CASE("mirroring a part gives the other side its values") {
     const auto document = makeDocument();
     const int left = physics::bodyOf(document->profile(), Role::leftLowerLeg);
     REQUIRE(document->setHinge(left - 1, {-0.3F, 0.4F}).ok());
-    REQUIRE(document->mirrorPart(left).ok());
+    REQUIRE(document->mirrorParts(std::span(&left, 1)).ok());
     const int right = physics::bodyOf(document->profile(), Role::rightLowerLeg);
     CHECK(document->profile().constraints[right - 1].hinge.upper == 0.4F);
-    CHECK_FALSE(document->mirrorPart(physics::bodyOf(document->profile(), Role::head)).ok());
+    CHECK_FALSE(document->mirrorParts(std::array{physics::bodyOf(document->profile(), Role::head)}).ok());
 }
 
 TEST_CASE("a part that is reset is as fitted again") {
@@ -160,7 +175,7 @@ TEST_CASE("a part that is reset is as fitted again") {
     const auto fitted = physics::profileToJson(document->profile());
     REQUIRE(document->setMass(knee, 9.0F).ok());
     REQUIRE(document->setHinge(knee - 1, {-0.3F, 0.4F}).ok());
-    REQUIRE(document->resetPart(knee).ok());
+    REQUIRE(document->resetParts(std::span(&knee, 1)).ok());
     CHECK(physics::profileToJson(document->profile()) == fitted);
 }
 
@@ -248,7 +263,7 @@ TEST_CASE("the undo stack forgets its oldest entries and not its newest") {
     const int most = static_cast<int>(UndoStack<int>::kMaxEntries);
     for (int i = 0; i < most + 50; ++i)
         stack.changed(i, "change", "");
-    CHECK(stack.undoCount() == UndoStack<int>::kMaxEntries);
+    CHECK(stack.undoLabels().size() == UndoStack<int>::kMaxEntries);
     CHECK(stack.undo(999) == most + 49);
     CHECK(stack.redo(7) == 999);
 }

@@ -96,7 +96,7 @@ TEST_CASE("a body's place in its joint is edited and its anchors stay") {
     const PartEdits& edits = document->state().edits.at("leftLowerLeg");
     CHECK(edits.jointFromBody.has_value());
     CHECK_FALSE(edits.frames.has_value());
-    REQUIRE(document->resetPart(shin).ok());
+    REQUIRE(document->resetParts(std::span(&shin, 1)).ok());
     CHECK(document->profile().bodies[shin].jointFromBody.translation == was);
 }
 
@@ -114,7 +114,7 @@ TEST_CASE("a knee becomes a cone, survives a new mapping, and is a hinge again w
     const int chest = animation::findJoint(document->character().skeleton, "chest");
     REQUIRE(document->assignRole(Role::spine, chest).ok());
     CHECK(constraintOf(*document, Role::leftLowerLeg).kind == ConstraintProfile::Kind::coneTwist);
-    REQUIRE(document->resetPart(bodyOf(*document, Role::leftLowerLeg)).ok());
+    REQUIRE(document->resetParts(std::array{bodyOf(*document, Role::leftLowerLeg)}).ok());
     CHECK(constraintOf(*document, Role::leftLowerLeg).kind == ConstraintProfile::Kind::hinge);
 }
 
@@ -216,7 +216,7 @@ TEST_CASE("a joint's spring is an edit that is undone, copied, mirrored, saved a
         return std::abs(rest.w) > 0.99999F;
     };
     CHECK(isBind(left));
-    REQUIRE(document->mirrorPart(left).ok());
+    REQUIRE(document->mirrorParts(std::span(&left, 1)).ok());
     CHECK(spring(Role::rightUpperLeg).stiffness == 40.0F);
     CHECK(isBind(right));
     REQUIRE(document->pasteParts(std::array{bodyOf(*document, Role::leftLowerLeg)}, document->copyPart(left)).ok());
@@ -227,7 +227,7 @@ TEST_CASE("a joint's spring is an edit that is undone, copied, mirrored, saved a
     CHECK(saved.value().constraints[left - 1].spring.stiffness == 40.0F);
     CHECK_FALSE(set(-1.0F).ok());
     CHECK_FALSE(set(std::numeric_limits<float>::quiet_NaN()).ok());
-    REQUIRE(document->resetPart(left).ok());
+    REQUIRE(document->resetParts(std::span(&left, 1)).ok());
     CHECK_FALSE(spring(Role::leftUpperLeg).works());
 }
 
@@ -287,14 +287,14 @@ TEST_CASE("a body's strength is an edit that is undone, copied, mirrored, saved 
     document->undo();
     CHECK(strength(Role::leftLowerArm) == 1.0F);
     document->redo();
-    REQUIRE(document->mirrorPart(left).ok());
+    REQUIRE(document->mirrorParts(std::span(&left, 1)).ok());
     CHECK(strength(Role::rightLowerArm) == 0.25F);
     REQUIRE(document->pasteParts(std::array{bodyOf(*document, Role::leftHand)}, document->copyPart(left)).ok());
     CHECK(strength(Role::leftHand) == 0.25F);
     const auto saved = physics::profileFromJson(physics::profileToJson(document->profile()), "saved");
     REQUIRE(saved.ok());
     CHECK(saved.value().bodies[left].muscle.strength == 0.25F);
-    REQUIRE(document->resetPart(left).ok());
+    REQUIRE(document->resetParts(std::span(&left, 1)).ok());
     CHECK(strength(Role::leftLowerArm) == 1.0F);
 }
 
@@ -312,7 +312,7 @@ TEST_CASE("mirroring takes range, axes and place across the figure") {
                                   return {};
                               })
                 .ok());
-    REQUIRE(document->mirrorPart(left).ok());
+    REQUIRE(document->mirrorParts(std::span(&left, 1)).ok());
     const physics::JointRange mirrored = rangeOf(*document, Role::rightUpperLeg);
     CHECK(degrees(mirrored.side.low) == Approx(-60.0F).margin(0.5));
     CHECK(degrees(mirrored.side.high) == Approx(5.0F).margin(0.5));
@@ -325,7 +325,7 @@ TEST_CASE("mirroring takes range, axes and place across the figure") {
     CHECK(glm::distance(a, vec3(-b.x, b.y, b.z)) < 1e-3F);
     // Mirrored back, everything is where it was.
     const physics::JointRange own = rangeOf(*document, Role::leftUpperLeg);
-    REQUIRE(document->mirrorPart(right).ok());
+    REQUIRE(document->mirrorParts(std::span(&right, 1)).ok());
     CHECK(rangeOf(*document, Role::leftUpperLeg).twist.high == Approx(own.twist.high).margin(1e-3));
 }
 

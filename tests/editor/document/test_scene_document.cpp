@@ -118,3 +118,32 @@ TEST_CASE("a character that its scene takes as any skeleton is so in the editor:
     }));
     CHECK(other->document().sceneDocument().assets().size() == 2);
 }
+
+TEST_CASE("where a session takes every skeleton, so are all characters of a scene that does not say how") {
+    NEEDS_ZOO();
+    const test::ScratchFolder folder;
+    const auto asset = scene::makeRagdoll(test::makeBiped());
+    auto made = scene::makeScene("drop", 2, 0, scene::figureOf(*asset.value()).bounds);
+    REQUIRE(made.ok());
+    scene::EntityScene animals = std::move(made).value();
+    animals.all<scene::Ragdoll>()[0].model = std::filesystem::canonical(test::zooFile("fox/Fox.glb"));
+    animals.all<scene::Ragdoll>()[1].model =
+        std::filesystem::canonical(test::zooFile("quat_trex/dinosaurs_pack_Trex.glb"));
+    const std::filesystem::path file = folder / "animals.scene.json";
+    REQUIRE(scene::saveScene(file, animals).ok());
+
+    EditorOptions options;
+    options.sceneFile = file;
+    options.load.fit.rig = physics::RigKind::any;
+    const auto editor = Editor::create(options);
+    REQUIRE(editor.ok());
+    SceneDocument& document = editor.value()->document().sceneDocument();
+    REQUIRE(document.assets().size() == 2);
+    CHECK_FALSE(physics::hasRoles(document.assets()[1]->profile));
+    // Who reads the scene next needs not be told.
+    REQUIRE(document.save(file).ok());
+    const auto read = scene::loadScene(file);
+    REQUIRE(read.ok());
+    for (const scene::Ragdoll& ragdoll : read.value().all<scene::Ragdoll>())
+        CHECK(ragdoll.rig == physics::RigKind::any);
+}

@@ -282,12 +282,35 @@ TEST_CASE("a model that is offered as a ragdoll of any skeleton keeps the mass t
     EditorOptions options;
     options.model = test::zooFile("fox/Fox.glb");
     options.standIn = LUTKA_ASSETS_DIR "/models/mannequin.glb";
-    options.load.fit.totalMassKg = 40.0F;
+    // A person's weight is a weight like any other.
+    for (const float mass : {40.0F, 75.0F}) {
+        options.load.fit.totalMassKg = mass;
+        options.load.fit.weighByVolume = false;
+        auto made = Editor::create(options);
+        REQUIRE(made.ok());
+        made.value()->answerAnyRig(Editor::AnyRig::whole);
+        CHECK(made.value()->document().character().file == options.model);
+        CHECK(made.value()->document().profile().totalMassKg == mass);
+    }
+    options.load = EditorOptions().load;
     auto made = Editor::create(options);
     REQUIRE(made.ok());
     made.value()->answerAnyRig(Editor::AnyRig::whole);
+    CHECK(made.value()->document().profile().totalMassKg != 75.0F);
+}
+
+TEST_CASE("a human figure's profile that is of no use to an animal is told in the offer") {
+    NEEDS_ZOO();
+    const Neighbours here;
+    EditorOptions options;
+    options.model = test::zooFile("fox/Fox.glb");
+    options.standIn = here.model;
+    options.load.profile = here.profile;
+    auto made = Editor::create(options);
+    REQUIRE(made.ok());
+    CHECK(made.value()->files().offeredAnyRig().profile == here.profile);
+    made.value()->answerAnyRig(Editor::AnyRig::whole);
     CHECK(made.value()->document().character().file == options.model);
-    CHECK(made.value()->document().profile().totalMassKg == 40.0F);
 }
 
 TEST_CASE("a model that is no humanoid begins a session with the offer over another one, where that may stand in") {
