@@ -89,6 +89,23 @@ TEST_CASE("a value typed after a double click is one entry of undo, whatever its
     CHECK(now.bodies[leg].shape.kind == physics::BodyShape::Kind::capsule);
 }
 
+TEST_CASE("a field that is left by Esc, or with what stood in it, changes nothing") {
+    if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
+    const Scratch scratch;
+    Script script;
+    script.key(Key::space).click(612, 370);  // the left lower leg
+    // Its mass and its radius, which show fewer digits than there are; then a change that is one to be undone.
+    type(script.click(1130, 209).press().release().wait(2), "9.5").key(Key::escape).wait(40);
+    script.click(1130, 235).press().release().wait(2).key(Key::enter).wait(40);
+    type(script.click(1130, 261).press().release().wait(2), "50").key(Key::enter).wait(40);  // its length
+    script.move(640, 640).key(Key::z, kControl).wait(2).key(Key::s, kControl).wait(2);
+    const Outcome outcome = play(scratch, script);
+    NEEDS_DISPLAY_OF(outcome);
+    INFO(outcome.output);
+    REQUIRE(outcome.code == 0);
+    CHECK(physics::profileToJson(saved(scratch)) == physics::profileToJson(fitted(scratch)));
+}
+
 TEST_CASE("a script gives a thigh a second shape, whose fields come into sight, and types its width") {
     if (!layoutIsKnown()) SKIP_TEST("the package fonts-dejavu-core is not there");
     const Scratch scratch;

@@ -218,9 +218,10 @@ void drawMenuBar(const PanelContext& context) {
     const bool unsaved = document.unsaved() || document.sceneDocument().unsaved();
     const std::string name = document.character().name + (document.unsaved() ? " ●" : "") + "  /  " +
                              document.scene().name + (document.sceneDocument().unsaved() ? " ●" : "");
-    const float width = ImGui::CalcTextSize(name.c_str()).x;
-    ImGui::SameLine(ImGui::GetWindowWidth() - width - context.px(14));
-    ImGui::TextColored(unsaved ? accentColor() : mutedColor(), "%s", name.c_str());
+    const float room = ImGui::GetWindowWidth() - ImGui::GetCursorPosX() - context.px(28);
+    const std::string shown = room > context.px(40) ? nameWithin(name, room) : "";
+    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(shown.c_str()).x - context.px(14));
+    ImGui::TextColored(unsaved ? accentColor() : mutedColor(), "%s", shown.c_str());
     std::string what = document.character().file.string();
     if (document.unsaved()) what = "The ragdoll has unsaved changes: Ctrl+S saves " + document.profileFile().string();
     if (document.sceneDocument().unsaved()) {
@@ -249,8 +250,10 @@ void drawStatusBar(const PanelContext& context) {
     const std::string coarse = share < 1.0F ? fmt::format("picture at {:.0f} %   ", share * 100.0F) : "";
     const int held = player.held().count();
     const std::string still = held > 0 ? fmt::format("{} bodies held   ", held) : "";
-    const std::string right =
-        fmt::format("{}{}{}{:.2f} s   {:.0f} fps", still, coarse, slow, player.seconds(), context.history.fps());
+    const std::string time = fmt::format("{:.2f} s   {:.0f} fps", player.seconds(), context.history.fps());
+    // In a narrow window what is under way goes first.
+    const float room = size.x - ImGui::GetItemRectMax().x - context.px(28);
+    const std::string right = firstThatFits({still + coarse + slow + time, slow + time, time, ""}, room);
     ImGui::SameLine(size.x - ImGui::CalcTextSize(right.c_str()).x - context.px(14));
     ImGui::TextColored(late ? warningColor() : mutedColor(), "%s", right.c_str());
     ImGui::End();

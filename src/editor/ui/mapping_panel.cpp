@@ -43,7 +43,10 @@ void jointCombo(const PanelContext& context, Role role, int joint, bool fixed) {
         ImGui::SetKeyboardFocusHere();
     }
     ImGui::SetNextItemWidth(-1.0F);
-    ImGui::InputTextWithHint("##filter", "type to search", &filter);
+    // Enter takes the first one found, where something was searched for.
+    const bool entered =
+        ImGui::InputTextWithHint("##filter", "type to search", &filter, ImGuiInputTextFlags_EnterReturnsTrue);
+    bool takesFirst = entered && !filter.empty();
     // The list scrolls below the search, and begins where the joint is now.
     const float line = ImGui::GetTextLineHeightWithSpacing();
     constexpr float lines = 20.0F;
@@ -58,7 +61,8 @@ void jointCombo(const PanelContext& context, Role role, int joint, bool fixed) {
     for (int i = 0; i < skeleton.jointCount(); ++i) {
         if (!containsText(skeleton.names[i], filter)) continue;
         ImGui::PushID(i);
-        if (ImGui::Selectable(skeleton.names[i].c_str(), i == joint)) chosen = i;
+        if (ImGui::Selectable(skeleton.names[i].c_str(), i == joint) || takesFirst) chosen = i;
+        takesFirst = false;
         if (i == joint && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
         ImGui::PopID();
     }
@@ -127,6 +131,10 @@ float mappingTabWidth(const PanelContext& context) {
 void drawMappingTab(const PanelContext& context) {
     Editor& editor = context.editor;
     const animation::HumanoidMap& map = editor.document().state().map;
+    if (editor.document().state().fit.rig == physics::RigKind::any) {
+        mutedText("A ragdoll of any skeleton has no roles: its bodies go by the joints and the skin.");
+        return;
+    }
     if (ImGui::Button("Map again")) editor.edit([](EditorDocument& document) { return document.mapAgain(false); });
     tooltip("Assigns all roles anew around those that you fixed");
     ImGui::SameLine();

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "core/letter_case.hpp"
@@ -136,6 +137,13 @@ bool sliderBesideText(const char* id, Value& value, const Draw& draw, const Form
     if (ImGui::IsItemActivated() && !twice) {
         memory.slider = item;
         memory.before = static_cast<double>(before);
+    }
+    // A field shows a rounded value, and gives that back when nothing else was typed, or by Esc.
+    if (typing && changed && memory.slider == item) {
+        const Value typed = std::exchange(value, static_cast<Value>(memory.before));
+        const std::string unchanged = textAndShare(width).text;
+        value = typed;
+        if (textAndShare(width).text == unchanged) value = static_cast<Value>(memory.before);
     }
     if (typing || ImGui::TempInputIsActive(item)) return changed;
     const auto [text, share, knob] = textAndShare(width - 2.0F * kGrabPadding);
