@@ -1,3 +1,6 @@
+#include <cctype>
+#include <fstream>
+#include <iterator>
 #include <set>
 
 #include "editor/input/actions.hpp"
@@ -138,4 +141,21 @@ TEST_CASE("a frame's events are taken a press, a release or a key at a time, in 
     }
     CHECK(count == events.size());
     CHECK(inputSteps({}).size() == 1);
+}
+
+TEST_CASE("the page of the editor names every shortcut") {
+    std::ifstream file(LUTKA_TESTS_DIR "/../docs/editor.md");
+    const std::string page(std::istreambuf_iterator<char>(file), {});
+    REQUIRE_FALSE(page.empty());
+    const auto isPartOfName = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '+'; };
+    for (const Binding& binding : keyBindings()) {
+        const std::string keys = shortcutText(binding);
+        bool isNamed = false;
+        for (std::size_t at = page.find(keys); at != std::string::npos && !isNamed; at = page.find(keys, at + 1)) {
+            const std::size_t end = at + keys.size();
+            isNamed = !isPartOfName(page[at - 1]) && (end == page.size() || !isPartOfName(page[end]));
+        }
+        CAPTURE(keys, actionName(binding.action));
+        CHECK(isNamed);
+    }
 }
