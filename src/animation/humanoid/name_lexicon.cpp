@@ -29,7 +29,7 @@ constexpr Entry kEntries[] = {
      "object node nodes rootjoint"},
     {Concept::root, "root master cog reference trajectory motion world origin global center centre"},
     {Concept::hips,
-     "kalca hips pelvis pelvic cadera caderas becken huefte hufte bassin hanches bacino anca quadril pelve "
+     "kalca hips pelvis pelvic cadera caderas becken huefte hufte bassin hanches bacino bacia anca quadril pelve "
      "lowertorso hipsbone koshi kosi"},
     {Concept::hip, "hip hanche"},
     {Concept::spine,

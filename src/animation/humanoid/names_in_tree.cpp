@@ -23,6 +23,11 @@ constexpr float kOfOtherPart = -9.0F;  // no place for it at all
 constexpr float kRatherNot = 0.5F;     // the name tells the limb, and another part of it is likelier
 constexpr float kSomeLimb = 1.5F;      // the name tells the limb and no part of it
 
+bool saysConcept(const NameEvidence& name, Concept meaning) {
+    return std::any_of(name.words.begin(), name.words.end(),
+                       [&](const std::string& word) { return conceptOf(word) == meaning; });
+}
+
 // Whether a joint of that side, or one above it, is surely called one of the two parts.
 bool tellsLimb(const RigFeatures& rig, int joint, Side side, Part upper, Part middle) {
     for (; joint != kNoJoint && rig.names[joint].side == side; joint = rig.parents[joint]) {
@@ -71,6 +76,36 @@ void readNamesOfEnds(RigFeatures& rig) {
     }
 }
 
+// An elbow that moves nothing, beside an arm that goes on in skin, is what the elbow points at.
+bool isPoleBesideArm(const RigFeatures& rig, int elbow) {
+    if (!rig.skinned || rig.carriesSkin(elbow)) return false;
+    const std::vector<int>& siblings = rig.children[rig.parents[elbow]];
+    return std::any_of(siblings.begin(), siblings.end(), [&](int sibling) {
+        return rig.names[sibling].side == rig.names[elbow].side && rig.carriesSkin(sibling) &&
+               rig.names[sibling].parts[Part::upperArm] >= kMaybe;
+    });
+}
+
+// "Shoulder, forearm, arm" from above: who so calls them means the fore part of the arm and the rest of it.
+void readForearmsAboveArms(RigFeatures& rig) {
+    for (int lower = 0; lower < rig.count(); ++lower) {
+        const int upper = rig.parents[lower];
+        const int shoulder = upper == kNoJoint ? kNoJoint : rig.parents[upper];
+        if (shoulder == kNoJoint) continue;
+        const Side side = rig.names[lower].side;
+        if (rig.names[upper].side != side || rig.names[shoulder].side != side) continue;
+        if (!rig.names[lower].bareLimb || !saysConcept(rig.names[lower], Concept::arm)) continue;
+        if (rig.names[upper].parts[Part::lowerArm] < kSurely || rig.names[shoulder].parts[Part::clavicle] < kMaybe)
+            continue;
+        for (const auto& [joint, part] : {std::pair{shoulder, Part::clavicle}, std::pair{upper, Part::upperArm},
+                                          std::pair{lower, Part::lowerArm}}) {
+            rig.names[joint].bareLimb = false;
+            rig.names[joint].parts.values.fill(kSurelyNot);
+            rig.names[joint].parts[part] = kSurely;
+        }
+    }
+}
+
 // A word of two meanings has one where its neighbour has the other: a shoulder above an arm is the clavicle and that
 // arm the upper arm, one above an elbow is the upper arm itself; a leg below a thigh is the shin.
 void readNamesInChains(RigFeatures& rig) {
@@ -80,7 +115,7 @@ void readNamesInChains(RigFeatures& rig) {
         if (parent == kNoJoint || rig.names[parent].side != rig.names[joint].side) continue;
         PartScores& upper = rig.names[parent].parts;
         const bool isShoulder = upper[Part::clavicle] >= kMaybe && upper[Part::clavicle] < kSurely;
-        if (!isShoulder || rig.names[joint].parts[Part::lowerArm] < kSurely) continue;
+        if (!isShoulder || rig.names[joint].parts[Part::lowerArm] < kSurely || isPoleBesideArm(rig, joint)) continue;
         upper[Part::upperArm] = std::max(upper[Part::upperArm], kSurely);
         upper[Part::clavicle] = kSurelyNot;
     }
@@ -146,11 +181,6 @@ void leaveBlocksToGroups(RigFeatures& rig) {
         name.parts.values.fill(kOfOtherPart);
         name.helper = true;
     }
-}
-
-bool saysConcept(const NameEvidence& name, Concept meaning) {
-    return std::any_of(name.words.begin(), name.words.end(),
-                       [&](const std::string& word) { return conceptOf(word) == meaning; });
 }
 
 // The limb that a name speaks of, or what is worn on it.
@@ -387,6 +417,7 @@ void readNamesInTree(RigFeatures& rig) {
     readEndsAsLimbs(rig);
     readNamesOfEnds(rig);
     readCountedArms(rig);
+    readForearmsAboveArms(rig);
     readNamesInChains(rig);
     leaveNamesToPivots(rig);
     leaveBlocksToGroups(rig);

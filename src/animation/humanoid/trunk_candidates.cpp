@@ -25,6 +25,7 @@ constexpr float kNamedHead = 4.0F;        // a name's score from which it says h
 constexpr float kNamedPose = -2.0F;       // the most that the place of a head so named may cost
 constexpr float kOfTwoSkeletons = -4.0F;  // of a trunk and what hangs on it, of its copy
 constexpr float kArmsAboveChest = -1.5F;  // the arms hang on a joint between chest and neck
+constexpr float kNamedNoSkin = -2.0F;     // the most that a head so named, on top of all skin, costs without any
 constexpr float kCarriesFace = 3.0F;      // eyes or ears hang on it
 constexpr float kGoesOnAlike = -1.0F;     // the joint above it is named as its next segment
 constexpr float kWholeHead = 0.8F;        // of the skin above the arms
@@ -164,7 +165,6 @@ class TrunkFinder {
 
     [[nodiscard]] const vec3& position(int joint) const { return framed_.positions[joint]; }
     [[nodiscard]] float name(int joint, Part part) const { return rig_.names[joint].parts[part]; }
-
     [[nodiscard]] bool isCentral(int joint) const { return isCentral_[static_cast<std::size_t>(joint)]; }
     [[nodiscard]] bool standsInTheMiddle(int joint) const {
         const int pair = framed_.pairOf[joint];
@@ -174,7 +174,6 @@ class TrunkFinder {
         const float aside = !told ? 0.12F : framed_.stance.byNames ? 2.0F : 0.4F;
         return std::abs(position(joint).x) < aside * length_ && pair < 0;
     }
-
     // Share of the skin that a joint moves itself, or by leaves in the middle (rigid parts, collision volumes).
     [[nodiscard]] float ownSkin(int joint) const {
         float own = rig_.directWeight[joint];
@@ -248,15 +247,18 @@ class TrunkFinder {
             const bool above = position(joint).y > arms_.root.y + 0.25F * length_;
             anyAbove = anyAbove || (above && rig_.carriesSkin(joint));
         }
+        // Where nothing above the arms moves skin, the trunk moves the head's: its joint is there by its name.
+        const bool bare = skinAbove <= 0.0F && !anyAbove;
         std::vector<Scored> heads;
         for (const int joint : joints) {
             const float pose = near((position(joint).y - arms_.root.y) / length_, 0.32F, 0.2F, 5.0F) +
                                near((position(joint).z - arms_.root.z) / length_, 0.0F, 0.3F, 3.0F);
             const bool first = carriesTrunk(joint);
+            const float skin = bare && isNamedHead(joint) ? std::max(skinTerm(joint), kNamedNoSkin) : skinTerm(joint);
             // A head as well: the end of a long neck that keeps nearly all skin above the arms, where names tell limbs.
             const bool keepsAll = first || (skinAbove > 0.0F && legs_.names + arms_.names > 0.0F &&
                                             retainedSkin(joint) >= kWholeHead * skinAbove);
-            float score = name(joint, Part::head) + skinTerm(joint) + centralTerm(joint) +
+            float score = name(joint, Part::head) + skin + centralTerm(joint) +
                           (isNamedHead(joint) ? std::max(pose, kNamedPose)
                            : keepsAll         ? std::max(pose, kWholePose)
                                               : pose);
@@ -308,7 +310,6 @@ class TrunkFinder {
 
     // Skin at and below a joint, without what goes on upwards along the middle: much for a head, little for a neck.
     [[nodiscard]] float retainedSkin(int joint) const { return rig_.subtreeWeight[joint] - skinOnwards(joint); }
-
     // What hangs in the joint's own place is a part of it and goes nowhere.
     [[nodiscard]] float skinOnwards(int joint) const {
         float onward = 0.0F;
@@ -342,7 +343,6 @@ class TrunkFinder {
 
     [[nodiscard]] int armRoot() const { return framed_.pairs[arms_.first].joints[0]; }
     [[nodiscard]] int legRoot() const { return framed_.pairs[legs_.first].joints[0]; }
-
     [[nodiscard]] float chestScore(const TrunkCandidate& trunk, float neckScore) const {
         const int chest = trunk.chest;
         const vec3& place = position(chest);

@@ -382,4 +382,85 @@ TEST_CASE("hips that carry named legs keep their name, wherever a capture's firs
     CHECK(rig.nameOf(map, Role::rightFoot) == "RightFoot");
 }
 
+namespace {
+
+// A figure whose arms hang on a shoulder each: what `addArm` puts below one.
+template <typename AddArm>
+HumanoidMap figureWithArms(PlacedJoints& rig, AddArm addArm) {
+    const BipedTrunk trunk = addBipedTrunk(rig);
+    addBipedLegs(rig, trunk.hips);
+    for (const float side : {1.0F, -1.0F})
+        addArm(trunk.chest, side);
+    return rig.map(true);
+}
+
+}  // namespace
+
+TEST_CASE("what an elbow points at makes no upper arm of the shoulder that it hangs on", "[misnamed]") {
+    PlacedJoints rig;
+    const HumanoidMap map = figureWithArms(rig, [&](int chest, float side) {
+        const std::string end = side > 0.0F ? ".L" : ".R";
+        const int shoulder = rig.add("ombro" + end, chest, {side * 0.017F, 1.42F, 0});
+        rig.add("cotovelo" + end, shoulder, {side * 0.3F, 1.41F, -0.3F}, 0.0F);
+        const int upper = rig.add("braco" + end, shoulder, {side * 0.06F, 1.41F, 0});
+        const int fore = rig.add("antebraco" + end, upper, {side * 0.3F, 1.41F, 0});
+        rig.add("mao" + end, fore, {side * 0.58F, 1.41F, 0});
+    });
+    REQUIRE(map.humanoid);
+    CHECK(rig.nameOf(map, Role::leftShoulder) == "ombro.L");
+    CHECK(rig.nameOf(map, Role::leftUpperArm) == "braco.L");
+    CHECK(rig.nameOf(map, Role::leftLowerArm) == "antebraco.L");
+    CHECK(rig.nameOf(map, Role::rightUpperArm) == "braco.R");
+}
+
+TEST_CASE("an elbow beside what stands for the arm's volume still makes the shoulder the upper arm", "[misnamed]") {
+    PlacedJoints rig;
+    const HumanoidMap map = figureWithArms(rig, [&](int chest, float side) {
+        const std::string end = side > 0.0F ? "Left" : "Right";
+        const int collar = rig.add("mCollar" + end, chest, {side * 0.04F, 1.42F, 0}, 0.0F);
+        const int shoulder = rig.add("mShoulder" + end, collar, {side * 0.15F, 1.42F, 0}, 0.0F);
+        rig.add((side > 0.0F ? "L" : "R") + std::string("_UPPER_ARM"), shoulder, {side * 0.2F, 1.42F, 0});
+        const int elbow = rig.add("mElbow" + end, shoulder, {side * 0.4F, 1.42F, 0}, 0.0F);
+        rig.add((side > 0.0F ? "L" : "R") + std::string("_LOWER_ARM"), elbow, {side * 0.45F, 1.42F, 0});
+        rig.add("mWrist" + end, elbow, {side * 0.65F, 1.42F, 0});
+    });
+    REQUIRE(map.humanoid);
+    CHECK(rig.nameOf(map, Role::leftUpperArm) == "mShoulderLeft");
+    CHECK(rig.nameOf(map, Role::leftLowerArm) == "mElbowLeft");
+}
+
+TEST_CASE("a forearm between a shoulder and an arm is the upper arm", "[misnamed]") {
+    PlacedJoints rig;
+    const HumanoidMap map = figureWithArms(rig, [&](int chest, float side) {
+        const std::string start = side > 0.0F ? "Left" : "Right";
+        const int shoulder = rig.add(start + "Shoulder", chest, {0, 1.42F, 0});
+        const int upper = rig.add(start + "Forearm", shoulder, {side * 0.18F, 1.42F, 0});
+        rig.add(start + "Arm", upper, {side * 0.18F, 1.14F, 0});
+    });
+    REQUIRE(map.humanoid);
+    CHECK(rig.nameOf(map, Role::leftShoulder) == "LeftShoulder");
+    CHECK(rig.nameOf(map, Role::leftUpperArm) == "LeftForearm");
+    CHECK(rig.nameOf(map, Role::leftLowerArm) == "LeftArm");
+    CHECK(rig.nameOf(map, Role::rightLowerArm) == "RightArm");
+}
+
+TEST_CASE("a head by its name is the head, though the trunk moves its skin", "[misnamed]") {
+    PlacedJoints rig;
+    const int hips = rig.add("Hips", -1, {0, 0.888F, 0});
+    const int spine = rig.add("Spine", hips, {0, 0.962F, 0}, 900.0F);
+    rig.add("Head", spine, {0, 1.457F, 0}, 0.0F);
+    for (const float side : {1.0F, -1.0F}) {
+        const std::string start = side > 0.0F ? "Left" : "Right";
+        const int thigh = rig.add(start + "UpLeg", hips, {side * 0.105F, 0.785F, 0});
+        rig.add(start + "Foot", rig.add(start + "Leg", thigh, {side * 0.105F, 0.478F, 0}), {side * 0.105F, 0.131F, 0});
+        const int arm = rig.add(start + "Arm", spine, {side * 0.265F, 1.253F, 0});
+        rig.add(start + "Hand", rig.add(start + "ForeArm", arm, {side * 0.526F, 1.253F, 0}),
+                {side * 0.742F, 1.253F, 0});
+    }
+    const HumanoidMap map = rig.map(true);
+    REQUIRE(map.humanoid);
+    CHECK(rig.nameOf(map, Role::head) == "Head");
+    CHECK(rig.nameOf(map, Role::spine) == "Spine");
+}
+
 }  // namespace lutka::test
