@@ -15,7 +15,6 @@ using physics::BodyState;
 using physics::RagdollProfile;
 using physics::Role;
 
-constexpr float kDt = 1.0F / 60.0F;
 constexpr double kTwoFrames = 1.999 / 60.0;
 
 // A doll of the asset in its bind pose where a scene puts it, moving as the scene says.
@@ -89,10 +88,13 @@ Result<Fall> fall(const scene::RagdollAsset& asset, std::unique_ptr<physics::Wor
     JointWatch watch(profile);
     std::vector<BodyState> bodies(profile.bodies.size());
     double seconds = 0;
-    const double substep = static_cast<double>(kDt) / world->substepsPerStep();
-    const int steps = static_cast<int>(settings.seconds / kDt + 0.5F);
-    for (int i = 0; i < steps; ++i) {
-        world->step(kDt, [&] {
+    // By the time that is over, not by the meter's: that is of substeps, each rounded.
+    double begun = 0;
+    for (std::size_t i = 0; begun < static_cast<double>(settings.seconds) - 1e-3; ++i) {
+        const float dt = settings.frames[i % settings.frames.size()];
+        const double substep = static_cast<double>(dt) / world->substepsPerStep();
+        begun += static_cast<double>(dt);
+        world->step(dt, [&] {
             seconds += substep;
             meter.sample(seconds);
             world->getBodies(doll, bodies);

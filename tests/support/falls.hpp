@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "physics/world/quality.hpp"
 #include "physics/world/world.hpp"
@@ -16,6 +17,7 @@ struct FallSettings {
     std::string scene = "drop";
     std::uint64_t seed = 0;
     float seconds = 8.0F;
+    std::vector<float> frames = {1.0F / 60.0F};  ///< Seconds of the steps, over and over.
     /// Called once it is over, before the world goes; may be empty.
     std::function<void(const physics::World&, physics::DollId)> atEnd = {};
 };
