@@ -141,6 +141,26 @@ void readNamesInChains(RigFeatures& rig) {
     }
 }
 
+// In a flattened rig the shoulder carries nothing: beside a joint that is called arm it is the clavicle.
+void readFlatShoulders(RigFeatures& rig) {
+    const auto isArmBeside = [&](int joint, int shoulder) {
+        const NameEvidence& name = rig.names[joint];
+        return name.side == rig.names[shoulder].side && !name.helper && name.parts[Part::upperArm] >= kMaybe &&
+               name.parts[Part::clavicle] < kMaybe && rig.carriesSkin(joint) && !rig.isAncestorOrSelf(joint, shoulder);
+    };
+    for (int shoulder = 0; shoulder < rig.count(); ++shoulder) {
+        PartScores& parts = rig.names[shoulder].parts;
+        const bool isShoulder = parts[Part::clavicle] >= kMaybe && parts[Part::clavicle] < kSurely;
+        if (!isShoulder || rig.names[shoulder].side == Side::center || !rig.children[shoulder].empty()) continue;
+        for (int arm = 0; arm < rig.count(); ++arm) {
+            if (!isArmBeside(arm, shoulder)) continue;
+            parts[Part::clavicle] = kSurely;
+            parts[Part::upperArm] = kSurelyNot;
+            rig.names[arm].parts[Part::upperArm] = std::max(rig.names[arm].parts[Part::upperArm], kSurely);
+        }
+    }
+}
+
 // A rigid mesh that hangs on the joint of its name is no joint of its own: "Head" below "Head_jnt".
 void leaveNamesToPivots(RigFeatures& rig) {
     constexpr float kTellingName = 2.0F;
@@ -419,6 +439,7 @@ void readNamesInTree(RigFeatures& rig) {
     readCountedArms(rig);
     readForearmsAboveArms(rig);
     readNamesInChains(rig);
+    readFlatShoulders(rig);
     leaveNamesToPivots(rig);
     leaveBlocksToGroups(rig);
     leaveLimbsToWearers(rig);

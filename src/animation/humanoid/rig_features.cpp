@@ -21,6 +21,7 @@ namespace lutka::animation {
 namespace {
 
 constexpr std::size_t kMaxVertices = 12000;
+constexpr float kTellsSurely = 4.0F;  // a name's score: this part and no other
 
 void readWeights(const Character& character, RigFeatures& rig) {
     const Skeleton& skeleton = character.skeleton;
@@ -46,13 +47,6 @@ void readWeights(const Character& character, RigFeatures& rig) {
         rig.subtreeWeight[joint] *= scale;
     }
     rig.directWeight = rig.ownWeight;
-    // Rigid parts and collision volumes hang on their joint as leaves and carry its weight.
-    for (int joint = 0; joint < count; ++joint) {
-        if (rig.ownWeight[joint] > 0.0F) continue;
-        for (const int child : rig.children[joint]) {
-            if (rig.children[child].empty()) rig.ownWeight[joint] += rig.directWeight[child];
-        }
-    }
 }
 
 // Where all parts are rigid, which joints carry one proves nothing: limbs may hang from joints that carry none.
@@ -124,7 +118,14 @@ void findShadows(RigFeatures& rig) {
     }
 }
 
+// A root by its name and nothing else.
+bool isBareRoot(const NameEvidence& name) {
+    return name.parts[Part::hips] > 0.0F && name.parts[Part::hips] < 1.0F && !name.helper &&
+           std::find(name.words.begin(), name.words.end(), "root") != name.words.end();
+}
+
 // "c_spine_01.x" beside "spine_01.x": the first drives the second, and so does whatever else bears that prefix.
+// The root that has a control of its own and moves skin is the hips, not the file's.
 void readDrivingPrefix(const std::vector<std::string>& names, RigFeatures& rig) {
     constexpr std::string_view kPrefix = "c_";
     constexpr int kFewest = 3;
@@ -134,8 +135,12 @@ void readDrivingPrefix(const std::vector<std::string>& names, RigFeatures& rig) 
     });
     if (driven < kFewest) return;
     for (int joint = 0; joint < rig.count(); ++joint) {
-        if (names[joint].starts_with(kPrefix))
+        if (names[joint].starts_with(kPrefix)) {
             rig.names[joint] = nameEvidence("ctrl_" + names[joint].substr(kPrefix.size()));
+        } else if (rig.directWeight[joint] > 0.0F && isBareRoot(rig.names[joint]) &&
+                   all.count(std::string(kPrefix) + names[joint]) > 0) {
+            rig.names[joint].parts[Part::hips] = kTellsSurely;
+        }
     }
 }
 
@@ -207,6 +212,28 @@ void doubtPartialSkin(RigFeatures& rig) {
     }
     rig.partlySkinned = partly;
     if (rig.partlySkinned) rig.skinned = false;
+}
+
+// Rigid parts and collision volumes hang on their joint as leaves and carry its weight. A hand below a forearm, each
+// called so, carries its own.
+void readOwnWeights(RigFeatures& rig) {
+    const auto isOtherPart = [&](int joint, int child) {
+        const PartScores& above = rig.names[joint].parts;
+        const PartScores& below = rig.names[child].parts;
+        const auto tells = [](const PartScores& parts, const PartScores& others) {
+            for (std::size_t part = 0; part < parts.values.size(); ++part)
+                if (parts.values[part] >= kTellsSurely && others.values[part] < 0.0F) return true;
+            return false;
+        };
+        return !rig.rigidPart[child] && tells(above, below) && tells(below, above);
+    };
+    for (int joint = 0; joint < rig.count(); ++joint) {
+        if (rig.ownWeight[joint] > 0.0F) continue;
+        for (const int child : rig.children[joint]) {
+            if (rig.children[child].empty() && !isOtherPart(joint, child))
+                rig.ownWeight[joint] += rig.directWeight[child];
+        }
+    }
 }
 
 vec3 middleOf(const RigFeatures& rig) {
@@ -307,6 +334,7 @@ RigFeatures readRig(const Character& character, bool useNames) {
     }
     believeSkinnedControls(rig);
     readNamesInTree(rig);
+    readOwnWeights(rig);
     doubtPartialSkin(rig);
     findShadows(rig);
     return rig;

@@ -19,21 +19,23 @@ bool isTwistOf(const NameEvidence& name, const NameEvidence& half) {
         if (!meaning) continue;
         const bool shared = std::find(half.words.begin(), half.words.end(), word) != half.words.end();
         if (*meaning == Concept::twist) twist = true;
-        if (*meaning != Concept::twist && shared) samePart = true;
+        if (*meaning != Concept::twist && *meaning != Concept::noise && shared) samePart = true;
     }
     return twist && samePart && name.side == half.side;
 }
 
-// The twist joint beside `half` that lies as far before it as the next joint of the limb lies behind it, in one line.
+// The twist joint that lies as far before `half` as the next joint of the limb lies behind it, in one line. In a
+// flattened rig, where the limb's next joint does not hang on `half`, it hangs anywhere.
 int pivotBefore(const RigFeatures& rig, int half, int next) {
     constexpr float kLeastShare = 0.3F;
     constexpr float kMostShare = 0.7F;
     constexpr float kOffLine = 0.1F;  // of the segment
-    const int parent = rig.parents[half];
-    if (parent == kNoJoint || next == kNoJoint) return kNoJoint;
-    for (const int other : rig.children[parent]) {
+    if (next == kNoJoint) return kNoJoint;
+    for (int other = 0; other < rig.count(); ++other) {
         if (other == half || !rig.children[other].empty() || !rig.carriesSkin(other)) continue;
         if (!isTwistOf(rig.names[other], rig.names[half])) continue;
+        const bool flat = !rig.isAncestorOrSelf(half, next) && !rig.isAncestorOrSelf(half, other);
+        if (rig.parents[other] != rig.parents[half] && !flat) continue;
         const vec3 along = rig.positions[next] - rig.positions[other];
         const vec3 away = rig.positions[half] - rig.positions[other];
         const float square = glm::dot(along, along);

@@ -440,7 +440,8 @@ class TrunkFinder {
         for (int joint = rig_.parents[head]; joint != kNoJoint && joint != chest; joint = rig_.parents[joint]) {
             if (rig_.isAncestorOrSelf(joint, chest)) break;
             const bool between = position(joint).y > position(chest).y - 0.02F * length_;
-            if (isCentral(joint) && between && !rig_.names[joint].face) necks.push_back(joint);
+            const bool control = rig_.skinned && rig_.names[joint].helper && rig_.directWeight[joint] <= 0.0F;
+            if (isCentral(joint) && between && !rig_.names[joint].face && !control) necks.push_back(joint);
         }
         return necks;
     }

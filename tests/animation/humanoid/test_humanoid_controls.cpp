@@ -1,5 +1,6 @@
 // Rigs that hold their controls beside the joints that move the skin.
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -248,6 +249,58 @@ TEST_CASE("beside joints that say that they deform the skin, an animator's head 
     CHECK(rig.nameOf(map, Role::head) == "DEF-spine.004");
     CHECK(rig.nameOf(map, Role::hips) == "DEF-spine");
     CHECK(rig.nameOf(map, Role::rightFoot) == "DEF-foot.r");
+}
+
+TEST_CASE("a rig whose deforming joints were hung flat beside their controls is read by its names", "[controls]") {
+    // As an add-on's rig comes out of glTF; it stands, or dives head first.
+    for (const float lean : {0.0F, 1.9F}) {
+        INFO(lean);
+        const auto at = [&](float x, float y, float z = 0.0F) {
+            return vec3(x, y * std::cos(lean) - z * std::sin(lean), y * std::sin(lean) + z * std::cos(lean));
+        };
+        NamedRig rig;
+        rig.add("c_pos", "", at(0, 0));
+        rig.add("c_traj", "c_pos", at(0, 0));
+        rig.add("forearm.@", "c_traj", at(0.47F, 1.42F));
+        rig.add("hand.@", "forearm.@", at(0.72F, 1.42F), at(0.86F, 1.42F), 0.04F);
+        rig.add("forearm_stretch.@", "c_traj", at(0.47F, 1.42F), at(0.6F, 1.42F), 0.05F);
+        rig.add("forearm_twist.@", "forearm_stretch.@", at(0.6F, 1.42F), at(0.72F, 1.42F), 0.05F);
+        rig.add("arm_stretch.@", "c_traj", at(0.33F, 1.42F), at(0.47F, 1.42F), 0.06F);
+        rig.add("thigh_stretch.@", "c_traj", at(0.1F, 0.72F), at(0.1F, 0.52F), 0.08F);
+        rig.add("leg_stretch.@", "c_traj", at(0.1F, 0.5F), at(0.1F, 0.3F), 0.07F);
+        rig.add("leg_twist.@", "leg_stretch.@", at(0.1F, 0.29F), at(0.1F, 0.1F), 0.06F);
+        rig.add("head_scale_fix.x", "c_traj", at(0, 1.56F));
+        rig.add("c_head.x", "head_scale_fix.x", at(0, 1.56F));
+        rig.add("head.x", "c_head.x", at(0, 1.56F), at(0, 1.78F), 0.1F);
+        rig.add("c_root_master.x", "c_traj", at(0, 0.95F));
+        rig.add("c_root.x", "c_root_master.x", at(0, 1.05F));
+        rig.add("root.x", "c_root.x", at(0, 1.05F), at(0, 0.9F), 0.14F);
+        rig.add("c_thigh_b.@", "c_root.x", at(0.09F, 0.95F));
+        rig.add("thigh_twist.@", "c_thigh_b.@", at(0.1F, 0.93F), at(0.1F, 0.74F), 0.08F);
+        rig.add("c_thigh_fk.@", "c_thigh_b.@", at(0.1F, 0.93F));
+        rig.add("c_leg_fk.@", "c_thigh_fk.@", at(0.1F, 0.5F));
+        rig.add("leg_fk.@", "c_leg_fk.@", at(0.1F, 0.5F));
+        rig.add("foot.@", "leg_fk.@", at(0.1F, 0.09F), at(0.1F, 0.03F, 0.12F), 0.04F);
+        rig.add("toes_01.@", "foot.@", at(0.1F, 0.03F, 0.13F), at(0.1F, 0.03F, 0.2F), 0.03F);
+        rig.add("c_spine_01.x", "c_root_master.x", at(0, 1.1F));
+        rig.add("spine_01.x", "c_spine_01.x", at(0, 1.1F), at(0, 1.4F), 0.15F);
+        rig.add("c_neck.x", "c_spine_01.x", at(0, 1.47F));
+        rig.add("neck.x", "c_neck.x", at(0, 1.47F), at(0, 1.56F), 0.05F);
+        rig.add("c_shoulder.@", "c_spine_01.x", at(0.04F, 1.42F));
+        rig.add("shoulder.@", "c_shoulder.@", at(0.04F, 1.42F), at(0.18F, 1.42F), 0.06F);
+        rig.add("arm_twist.@", "c_shoulder.@", at(0.2F, 1.42F));
+        rig.add("c_arm_twist_offset.@", "arm_twist.@", at(0.2F, 1.42F), at(0.32F, 1.42F), 0.06F);
+        const HumanoidMap map = rig.map();
+        INFO((map.warnings.empty() ? std::string() : map.warnings.front()));
+        REQUIRE(map.humanoid);
+        for (const auto& [role, name] :
+             {std::pair{Role::hips, "root.x"}, std::pair{Role::spine, "spine_01.x"}, std::pair{Role::head, "head.x"},
+              std::pair{Role::leftUpperArm, "c_arm_twist_offset.l"}, std::pair{Role::leftLowerArm, "forearm_stretch.l"},
+              std::pair{Role::rightHand, "hand.r"}, std::pair{Role::rightUpperLeg, "thigh_twist.r"},
+              std::pair{Role::rightLowerLeg, "leg_stretch.r"}, std::pair{Role::leftFoot, "foot.l"},
+              std::pair{Role::neck, "none"}})
+            CHECK(rig.nameOf(map, role) == name);
+    }
 }
 
 }  // namespace lutka::test
