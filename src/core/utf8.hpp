@@ -13,4 +13,10 @@ namespace lutka {
 /// cursor and colour the terminal that they are printed on, and XML has no place for them.
 [[nodiscard]] std::string withoutControls(std::string_view text, char replacement);
 
+/// Whether the bytes begin with the mark of UTF-16, in either byte order.
+[[nodiscard]] bool isUtf16(std::string_view bytes);
+
+/// A text in UTF-16 that begins with its mark as UTF-8 without one; lone surrogates become question marks.
+[[nodiscard]] std::string utf8OfUtf16(std::string_view bytes);
+
 }  // namespace lutka

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <map>
 #include <set>
 #include <string>
@@ -60,9 +62,33 @@ bool showsSmallPart(const SourceScene& scene) {
     return kLeastShare * count(seen) < count(all);
 }
 
+// What a node shrinks to nothing is not seen: weapons and expressions are put away so. Unless a clip has a scale there.
+void hideShrunk(SourceScene& scene) {
+    constexpr double kNothing = 1e-6;
+    const std::size_t count = scene.nodes.size();
+    std::vector<bool> grows(count, false);
+    for (const SourceClip& clip : scene.clips)
+        for (const SourceChannel& channel : clip.channels)
+            if (channel.path == SourceChannel::Path::scale) grows[static_cast<std::size_t>(channel.node)] = true;
+    std::vector<glm::dmat3> sceneFromNode;
+    for (std::size_t node = 0; node < count; ++node) {
+        const SourceNode& one = scene.nodes[node];
+        const auto above = static_cast<std::size_t>(one.parent);
+        const glm::dmat3 own(one.parentFromNode);
+        sceneFromNode.push_back(one.parent < 0 ? own : sceneFromNode[above] * own);
+        if (one.parent >= 0 && grows[above]) grows[node] = true;
+    }
+    for (SourceInstance& instance : scene.instances) {
+        const glm::dmat3& place = sceneFromNode[static_cast<std::size_t>(instance.node)];
+        const bool shrunk = std::max({glm::length(place[0]), glm::length(place[1]), glm::length(place[2])}) < kNothing;
+        if (instance.skin < 0 && shrunk && !grows[static_cast<std::size_t>(instance.node)]) instance.hidden = true;
+    }
+}
+
 }  // namespace
 
 void leaveOutHidden(SourceScene& scene) {
+    hideShrunk(scene);
     std::vector<SourceInstance>& all = scene.instances;
     const bool hasSkin = std::any_of(all.begin(), all.end(), [](const SourceInstance& one) { return one.skin >= 0; });
     const auto showsFigure = [&](const SourceInstance& one) { return !one.hidden && (one.skin >= 0 || !hasSkin); };

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "animation/import/assimp/collada_text.hpp"
 #include "animation/import/assimp/read_with_assimp.hpp"
 #include "animation/import/bvh/read_bvh.hpp"
 #include "animation/import/clean_source.hpp"
@@ -21,6 +22,7 @@
 #include "animation/import/unread_format.hpp"
 #include "core/input_file.hpp"
 #include "core/letter_case.hpp"
+#include "core/utf8.hpp"
 
 namespace lutka::animation::rig_import {
 namespace {
@@ -47,6 +49,7 @@ bool isGltf(const fs::path& file, std::string_view start) {
     if (start.starts_with("glTF")) return true;
     const std::size_t first = start.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
     const std::string extension = lowerExtension(file);
+    if (isUtf16(start)) return extension == ".gltf";  // which no other format is
     return first != std::string_view::npos && start[first] == '{' &&
            (extension == ".gltf" || extension == ".glb" || extension == ".vrm");
 }
@@ -57,8 +60,15 @@ bool isBvh(const fs::path& file, std::string_view start) {
            (first != std::string_view::npos && start.substr(first).starts_with("HIERARCHY"));
 }
 
+// Of the texts in UTF-16 those of Collada and glTF are read.
+std::optional<Error> otherUtf16(const fs::path& file, std::string_view start) {
+    if (!isUtf16(start) || isCollada(start)) return std::nullopt;
+    return Error{ErrorCode::input, "is a text in UTF-16", file.string(), "save it as UTF-8, or export it again"};
+}
+
 Result<SourceScene> read(const fs::path& file, std::string_view start, const ImportOptions& options) {
     if (isGltf(file, start)) return readGltf(file, options);
+    if (std::optional<Error> refusal = otherUtf16(file, start)) return *std::move(refusal);
     if (fbx::isFbx({reinterpret_cast<const std::uint8_t*>(start.data()), start.size()})) return readFbx(file, options);
     if (isBvh(file, start)) return readBvh(file);
     if (std::optional<Error> refusal = unreadFormat(file, start)) return *std::move(refusal);

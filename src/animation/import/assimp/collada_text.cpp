@@ -15,60 +15,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/utf8.hpp"
+
 namespace lutka::animation::rig_import {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
-constexpr std::string_view kLittleEndianMark = "\xFF\xFE";
-constexpr std::string_view kBigEndianMark = "\xFE\xFF";
 constexpr std::string_view kNoBindShape = "<bind_shape_matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</bind_shape_matrix>";
-
-bool isUtf16(std::string_view bytes) {
-    return bytes.starts_with(kLittleEndianMark) || bytes.starts_with(kBigEndianMark);
-}
-
-void appendUtf8(std::uint32_t code, std::string& out) {
-    const auto put = [&](std::uint32_t byte) { out += static_cast<char>(static_cast<unsigned char>(byte)); };
-    const auto tail = [&](unsigned shift) { put(0x80U | ((code >> shift) & 0x3FU)); };
-    if (code < 0x80U) {
-        put(code);
-    } else if (code < 0x800U) {
-        put(0xC0U | (code >> 6U));
-        tail(0);
-    } else if (code < 0x10000U) {
-        put(0xE0U | (code >> 12U));
-        tail(6);
-        tail(0);
-    } else {
-        put(0xF0U | (code >> 18U));
-        tail(12);
-        tail(6);
-        tail(0);
-    }
-}
-
-// Lone surrogates become question marks. The declaration goes on saying UTF-16, which readers of a string ignore.
-std::string utf8Of(std::string_view bytes) {
-    const bool little = bytes.starts_with(kLittleEndianMark);
-    const auto unit = [&](std::size_t at) {
-        const auto first = static_cast<unsigned char>(bytes[at]);
-        const auto second = static_cast<unsigned char>(bytes[at + 1]);
-        return static_cast<std::uint32_t>(little ? first | (second << 8U) : second | (first << 8U));
-    };
-    std::string out;
-    out.reserve(bytes.size() / 2);
-    for (std::size_t at = 2; at + 1 < bytes.size(); at += 2) {
-        std::uint32_t code = unit(at);
-        if (code >= 0xD800U && code < 0xE000U) {
-            const std::uint32_t low = at + 3 < bytes.size() ? unit(at + 2) : 0;
-            const bool pair = code < 0xDC00U && low >= 0xDC00U && low < 0xE000U;
-            code = pair ? 0x10000U + ((code - 0xD800U) << 10U) + (low - 0xDC00U) : std::uint32_t{'?'};
-            at += pair ? 2 : 0;
-        }
-        appendUtf8(code, out);
-    }
-    return out;
-}
 
 // A tag with one blank before each attribute and its value in double quotes, as most exporters write it and as the rest
 // of the reading knows it; as it is where it is none.
@@ -359,8 +312,9 @@ std::string_view colladaAttribute(std::string_view tag, std::string_view name) {
     return text.find('&') == std::string_view::npos ? text : std::string_view{};
 }
 
+// The declaration goes on saying UTF-16, which readers of a string ignore.
 std::string decodedCollada(std::string_view bytes) {
-    return withPlainTags(isUtf16(bytes) ? utf8Of(bytes) : std::string(bytes));
+    return withPlainTags(isUtf16(bytes) ? utf8OfUtf16(bytes) : std::string(bytes));
 }
 
 bool isCollada(std::string_view start) {

@@ -169,6 +169,7 @@ std::optional<Curve> readCurve(const Record& record, double ticksPerSecond) {
         for (std::size_t n = 0; n < 4 && 4 * attribute + n < numbers.size(); ++n)
             data[i].numbers[n] = keyNumber(numbers[4 * attribute + n]);
     }
+    sortKeys(keys, data);
     setTangents(keys, data);
     return Curve(keys, readBeyond(record, "Pre-Extrapolation"), readBeyond(record, "Post-Extrapolation"));
 }

@@ -1,6 +1,8 @@
 #include "animation/import/fbx/objects.hpp"
 
 #include <algorithm>
+#include <set>
+#include <tuple>
 
 namespace lutka::animation::rig_import::fbx {
 namespace {
@@ -136,6 +138,7 @@ std::optional<int> Objects::endOf(const Record& connection, std::size_t place) c
 }
 
 void Objects::connect(const Record& section) {
+    std::set<std::tuple<int, int, std::string_view>> known;  // said twice, a curve would move its node twice as far
     for (const Record& record : section.children) {
         const std::string_view type = record.text(0);
         if (type != "OO" && type != "OP") continue;
@@ -143,6 +146,7 @@ void Objects::connect(const Record& section) {
         const std::optional<int> parent = endOf(record, 2);
         if (!child || !parent || *child < 0 || *child == *parent) continue;
         const Connection connection{*child, *parent, type == "OP" ? record.text(3) : std::string_view{}};
+        if (!known.emplace(connection.child, connection.parent, connection.property).second) continue;
         children_[static_cast<std::size_t>(*parent) + 1].push_back(connection);
         parents_[static_cast<std::size_t>(*child)].push_back(connection);
     }

@@ -54,7 +54,7 @@ class AsciiParser {
     void skipBlanks() {
         while (at_ < text_.size()) {
             if (text_[at_] == ';') {
-                at_ = std::min(text_.find('\n', at_), text_.size());
+                at_ = std::min(text_.find_first_of("\r\n", at_), text_.size());
             } else if (isBlank(text_[at_])) {
                 ++at_;
             } else {

@@ -123,6 +123,10 @@ class SceneReader {
                 fmt::format("left out: pictures whose property is none for colour, normals or glow: {}",
                             fmt::join(materials_.unread(), ", ")));
         }
+        if (!additiveMeshes_.empty())
+            scene_.warnings.push_back(fmt::format(
+                "joints of these meshes add to the others' motion in the file (additive clusters); read as shares: {}",
+                fmt::join(additiveMeshes_, ", ")));
         if (!dualQuaternionMeshes_.empty()) {
             scene_.warnings.push_back(fmt::format(
                 "skinned by dual quaternions in the file: {}; files are written, and pictures drawn, with linear "
@@ -151,6 +155,7 @@ class SceneReader {
         const std::optional<ReadSkin> skin =
             parts.empty() ? std::nullopt : readSkin(context, place.owner, place.model, points);
         if (skin) {
+            if (skin->isAdditive) additiveMeshes_.insert(objects_[place.model].name);
             if (!skin->isLinear) dualQuaternionMeshes_.insert(objects_[place.model].name);
             scene_.skins.push_back(skin->skin);
             for (SourceSkin::Joint& joint : scene_.skins.back().joints)
@@ -213,6 +218,7 @@ class SceneReader {
     std::map<int, int> materialOf_;
     std::map<int, std::string> uvSets_;
     std::set<std::string> dualQuaternionMeshes_;
+    std::set<std::string> additiveMeshes_;
 };
 
 }  // namespace

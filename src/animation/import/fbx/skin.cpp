@@ -17,6 +17,7 @@ struct Cluster {
     std::vector<double> points;
     std::vector<double> weights;
     double weight = 0.0;
+    bool isAdditive = false;
 };
 
 std::optional<dmat4> matrixOf(const Record& record, std::string_view name) {
@@ -42,6 +43,7 @@ std::vector<Cluster> clustersOf(const SkinContext& context, int owner) {
             if (const std::optional<dmat4> link = matrixOf(record, "TransformLink"))
                 cluster.sceneFromJoint = context.sceneFromFile * *link;
             cluster.jointFromMesh = matrixOf(record, "Transform");
+            if (const Record* mode = record.child("Mode")) cluster.isAdditive = mode->text(0) == "Additive";
             cluster.points = record.numbersOf("Indexes");
             cluster.weights = record.numbersOf("Weights");
             for (const double weight : cluster.weights)
@@ -144,6 +146,8 @@ std::optional<ReadSkin> readSkin(const SkinContext& context, int owner, int mesh
             out.skin.sceneFromMesh = joint * out.skin.joints.back().jointFromMesh;
     }
     addWeights(clusters, controlPoints, out);
+    out.isAdditive =
+        std::any_of(clusters.begin(), clusters.end(), [](const Cluster& cluster) { return cluster.isAdditive; });
     for (const int skin : context.objects.children(owner, "Deformer", "Skin")) {
         const Record* type = context.objects[skin].record->child("SkinningType");
         if (type != nullptr && (type->text(0) == "DualQuaternion" || type->text(0) == "Blend")) out.isLinear = false;

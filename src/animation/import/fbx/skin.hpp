@@ -18,7 +18,8 @@ struct ReadSkin {
     SourceSkin skin;
     std::vector<std::uint32_t> start;
     std::vector<SourceMesh::Influence> influences;
-    bool isLinear = true;  ///< False: the file blends by dual quaternions, all or some of the skin.
+    bool isLinear = true;     ///< False: the file blends by dual quaternions, all or some of the skin.
+    bool isAdditive = false;  ///< Some joints add to what the others make of a vertex; here they share it.
 };
 
 /// What skins are read with: scene nodes by model, where they stand, and the file's bind pose.

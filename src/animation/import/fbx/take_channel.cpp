@@ -96,6 +96,7 @@ std::optional<Curve> readChannel(const Record& record, double ticksPerSecond) {
         }
     }
     if (keys.empty()) return std::nullopt;
+    sortKeys(keys, data);
     setTangents(keys, data);
     return Curve(keys, readBeyond(record, "Pre-Extrapolation"), readBeyond(record, "Post-Extrapolation"));
 }

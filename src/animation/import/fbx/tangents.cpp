@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace lutka::animation::rig_import::fbx {
 namespace {
@@ -77,6 +78,21 @@ Interpolation interpolationOf(std::uint32_t flags) {
 float packedWeights(double right, double nextLeft) {
     const auto share = [](double weight) { return static_cast<std::uint32_t>(std::clamp(weight, 0.0, 1.0) * 1e4); };
     return std::bit_cast<float>(share(right) | share(nextLeft) << 16U);
+}
+
+void sortKeys(std::vector<Curve::Key>& keys, std::vector<KeyData>& data) {
+    const auto earlier = [&](std::size_t a, std::size_t b) { return keys[a].seconds < keys[b].seconds; };
+    std::vector<std::size_t> order(keys.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto isNoTime = [](const Curve::Key& key) { return std::isnan(key.seconds); };
+    if (std::is_sorted(order.begin(), order.end(), earlier) || std::any_of(keys.begin(), keys.end(), isNoTime)) return;
+    std::stable_sort(order.begin(), order.end(), earlier);
+    const std::vector<Curve::Key> oldKeys = keys;
+    const std::vector<KeyData> oldData = data;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        keys[i] = oldKeys[order[i]];
+        data[i] = oldData[order[i]];
+    }
 }
 
 void setTangents(std::vector<Key>& keys, const std::vector<KeyData>& data) {

@@ -31,6 +31,9 @@ struct KeyData {
 /// Two weights as the file packs them into one number: shares in units of 1/10,000, 16 bits each.
 [[nodiscard]] float packedWeights(double right, double nextLeft);
 
+/// Brings keys and their data (one element a key) into the order of time; those of one time stay as they were.
+void sortKeys(std::vector<Curve::Key>& keys, std::vector<KeyData>& data);
+
 /// Works out interpolation, slopes and weights of all keys from their data (one element a key).
 void setTangents(std::vector<Curve::Key>& keys, const std::vector<KeyData>& data);
 

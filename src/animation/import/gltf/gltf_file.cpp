@@ -11,6 +11,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "animation/import/gltf/gltf_text.hpp"
 #include "animation/import/source_limits.hpp"
 #include "animation/import/uri.hpp"
 #include "core/files.hpp"
@@ -66,36 +67,6 @@ std::vector<std::uint8_t> readWhole(const fs::path& file) {
     if (!bytes)
         throw Damage{fmt::format("{}: {}", file.filename().string(), bytes.error().message), bytes.error().mend};
     return std::move(bytes).value();
-}
-
-// Whether arrays and objects stand deeper within one another than kMaxJsonDepth: nlohmann's document is copied and
-// written by recursion.
-bool isNestedTooDeep(std::span<const std::uint8_t> text) {
-    int depth = 0;
-    bool quoted = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const std::uint8_t c = text[i];
-        if (quoted && c == '\\') ++i;
-        if (c == '"') quoted = !quoted;
-        if (quoted) continue;
-        if (c == '{' || c == '[') ++depth;
-        if (c == '}' || c == ']') --depth;
-        if (depth > kMaxJsonDepth) return true;
-    }
-    return false;
-}
-
-// JSON knows one kind of number, so some writers have 2.0 for 2: what is whole becomes an index here.
-void makeWhole(json& value) {
-    constexpr double kMost = 9e15;  // above, not all whole numbers are there
-    if (value.is_number_float()) {
-        const double number = value.get<double>();
-        if (number >= 0.0 && number < kMost && number == std::floor(number)) value = static_cast<std::uint64_t>(number);
-        return;
-    }
-    if (!value.is_structured()) return;
-    for (json& entry : value)
-        makeWhole(entry);
 }
 
 int base64Value(char c) {
@@ -168,13 +139,7 @@ void GltfFile::readContainer() {
             at += there;
         }
     }
-    if (text.size() > kMaxJsonBytes)
-        throw Damage{fmt::format("its JSON has more than {} MB", kMaxJsonBytes >> 20U), "export only the character"};
-    if (isNestedTooDeep(text))
-        throw Damage{fmt::format("its JSON is nested deeper than {}", kMaxJsonDepth), "export only the character"};
-    json_ = nlohmann::json::parse(text.begin(), text.end(), nullptr, false);
-    if (json_.is_discarded() || !json_.is_object()) throw Damage{"the glTF's JSON is broken or cut off"};
-    makeWhole(json_);
+    json_ = parseGltfText(text, leftOut_);
     if (!binary_.empty()) container_ = std::move(bytes);  // a vector that is moved stays where it is
     const nlohmann::json* asset = member(json_, "asset");
     std::string version = asset == nullptr ? "" : textOf(*asset, "version");
@@ -183,6 +148,9 @@ void GltfFile::readContainer() {
     if (number != nullptr && number->is_number()) version = fmt::format("{}", number->get<double>());
     if (!version.empty() && !version.starts_with("2"))
         throw Damage{fmt::format("is glTF {}; glTF 2.0 can be read", version), "convert it to glTF 2.0"};
+    const std::string least = asset == nullptr ? "" : textOf(*asset, "minVersion");
+    if (!least.empty() && least != "2.0")
+        throw Damage{fmt::format("needs a reader of glTF {}; glTF 2.0 can be read", least), "convert it to glTF 2.0"};
 }
 
 void GltfFile::checkExtensions() {

@@ -11,7 +11,7 @@ using nlohmann::json;
 const json* member(const json& object, const char* key) {
     if (!object.is_object()) return nullptr;
     const auto found = object.find(key);
-    return found == object.end() ? nullptr : &*found;
+    return found == object.end() || found->is_null() ? nullptr : &*found;
 }
 
 const json* arrayOf(const json& object, const char* key) {

@@ -15,7 +15,8 @@ struct Damage {
     std::string mend = "check that the file is whole, or export it again";
 };
 
-/// The member of an object; null where there is none (or where it is no object).
+/// The member of an object; null where there is none, where it is JSON's null (as some writers have what they leave
+/// out), or where `object` is none.
 [[nodiscard]] const nlohmann::json* member(const nlohmann::json& object, const char* key);
 /// The member, which must be an array; null where there is none. Throws Damage where it is something else.
 [[nodiscard]] const nlohmann::json* arrayOf(const nlohmann::json& object, const char* key);

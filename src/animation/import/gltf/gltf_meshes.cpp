@@ -84,6 +84,23 @@ std::vector<std::uint32_t> trianglesOf(const std::vector<std::uint32_t>& corners
     return triangles;
 }
 
+// The largest number of an index's type ends a strip or fan: glTF 2.0 forbids it, but graphics libraries have it so.
+bool isRestart(std::uint32_t index, std::size_t vertices) {
+    return index >= vertices && (index == 0xFFU || index == 0xFFFFU || index == 0xFFFFFFFFU);
+}
+
+std::vector<std::uint32_t> trianglesOfRuns(const std::vector<std::uint32_t>& corners, std::size_t mode,
+                                           std::size_t vertices) {
+    std::vector<std::uint32_t> triangles;
+    for (auto start = corners.begin(); start != corners.end();) {
+        const auto end = std::find_if(start, corners.end(), [&](std::uint32_t i) { return isRestart(i, vertices); });
+        const std::vector<std::uint32_t> run = trianglesOf({start, end}, mode);
+        triangles.insert(triangles.end(), run.begin(), run.end());
+        start = end == corners.end() ? end : end + 1;
+    }
+    return triangles;
+}
+
 void readIndices(GltfFile& file, const json& primitive, std::size_t mode, SourceMesh& mesh) {
     std::vector<std::uint32_t> corners;
     if (const std::optional<int> indices = indexOf(primitive, "indices", file.count("accessors"))) {
@@ -93,9 +110,10 @@ void readIndices(GltfFile& file, const json& primitive, std::size_t mode, Source
         for (std::size_t i = 0; i < corners.size(); ++i)
             corners[i] = static_cast<std::uint32_t>(i);
     }
-    if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t i) { return i >= mesh.positions.size(); }))
+    const std::size_t vertices = mesh.positions.size();
+    mesh.indices = mode == kTriangles ? trianglesOf(corners, mode) : trianglesOfRuns(corners, mode, vertices);
+    if (std::any_of(mesh.indices.begin(), mesh.indices.end(), [&](std::uint32_t i) { return i >= vertices; }))
         throw Damage{fmt::format("mesh '{}': a triangle names a vertex that is not there", mesh.name)};
-    mesh.indices = trianglesOf(corners, mode);
 }
 
 template <class T, class Make>
@@ -268,15 +286,16 @@ SourceSkin readSkin(GltfFile& file, const json& source, const NodeMap& nodes, So
     return skin;
 }
 
-// Influences that name no joint of the skin are dropped.
-void dropStrayInfluences(std::size_t slots, SourceMesh& mesh, GltfFile& file) {
-    bool stray = false;
-    for (SourceMesh::Influence& influence : mesh.influences) {
-        if (influence.slot < slots) continue;
-        influence = {0, 0.0F};
-        stray = true;
-    }
-    if (stray) file.leaveOut(fmt::format("weights of mesh '{}' for joints that its skin does not have", mesh.name));
+// The mesh without the influences that name no joint of a skin; nothing where all do. A copy: another skin may have
+// those joints.
+std::optional<SourceMesh> withoutStrayInfluences(std::size_t slots, const SourceMesh& mesh, GltfFile& file) {
+    const auto isStray = [&](const SourceMesh::Influence& influence) { return influence.slot >= slots; };
+    if (std::none_of(mesh.influences.begin(), mesh.influences.end(), isStray)) return std::nullopt;
+    file.leaveOut(fmt::format("weights of mesh '{}' for joints that its skin does not have", mesh.name));
+    SourceMesh kept = mesh;
+    for (SourceMesh::Influence& influence : kept.influences)
+        if (isStray(influence)) influence = {0, 0.0F};
+    return kept;
 }
 
 // Whether the file hides a scene's nodes, each by itself or by one above it, and no clip shows them.
@@ -311,13 +330,25 @@ void addMeshes(GltfFile& file, const NodeMap& nodes, SourceScene& out) {
     // The primitives of a mesh with the morphs of a node; nodes mostly share them.
     std::map<std::pair<int, std::vector<double>>, std::vector<int>> known;
     std::size_t vertices = 0;
+    const auto add = [&](SourceMesh mesh) {
+        vertices += mesh.positions.size();
+        if (vertices > kMaxVertices || out.meshes.size() >= kMaxMeshes)
+            throw Damage{fmt::format("has more than {} vertices or {} meshes", kMaxVertices, kMaxMeshes),
+                         "export only the character"};
+        out.meshes.push_back(std::move(mesh));
+        return static_cast<int>(out.meshes.size()) - 1;
+    };
     const std::vector<int> order = inSceneOrder(nodes);
     const std::vector<bool> hidden = hiddenNodes(file, nodes, order, out);
     for (const int index : order) {
         const json& node = file.element("nodes", index);
         const std::optional<int> meshIndex = indexOf(node, "mesh", file.count("meshes"));
         if (!meshIndex) continue;
-        const std::optional<int> skin = indexOf(node, "skin", skinCount);
+        std::optional<int> skin = indexOf(node, "skin", skinCount);
+        if (skin && countOf(file.element("skins", *skin), "joints") == 0) {
+            file.leaveOut("skins without joints");
+            skin.reset();
+        }
         if (skin && skinOf.count(*skin) == 0) {
             skinOf[*skin] = static_cast<int>(out.skins.size());
             out.skins.push_back(readSkin(file, file.element("skins", *skin), nodes, out));
@@ -330,17 +361,17 @@ void addMeshes(GltfFile& file, const NodeMap& nodes, SourceScene& out) {
         for (std::size_t i = 0; isNew && primitives != nullptr && i < primitives->size(); ++i) {
             std::optional<SourceMesh> mesh = readPrimitive(file, (*primitives)[i], textOf(source, "name"), morphs);
             if (!mesh) continue;
-            vertices += mesh->positions.size();
-            if (vertices > kMaxVertices || out.meshes.size() >= kMaxMeshes)
-                throw Damage{fmt::format("has more than {} vertices or {} meshes", kMaxVertices, kMaxMeshes),
-                             "export only the character"};
-            found->second.push_back(static_cast<int>(out.meshes.size()));
-            out.meshes.push_back(*std::move(mesh));
+            found->second.push_back(add(*std::move(mesh)));
         }
         for (const int mesh : found->second) {
             const bool bound = skin && !out.meshes[mesh].influences.empty();
-            if (bound) dropStrayInfluences(out.skins[skinOf[*skin]].joints.size(), out.meshes[mesh], file);
-            out.instances.push_back({mesh, nodes[index], bound ? skinOf[*skin] : -1, hidden[nodes[index]]});
+            int placed = mesh;
+            if (bound) {
+                const std::size_t slots = out.skins[skinOf[*skin]].joints.size();
+                std::optional<SourceMesh> kept = withoutStrayInfluences(slots, out.meshes[mesh], file);
+                if (kept) placed = add(*std::move(kept));
+            }
+            out.instances.push_back({placed, nodes[index], bound ? skinOf[*skin] : -1, hidden[nodes[index]]});
         }
     }
 }

@@ -10,16 +10,24 @@ namespace {
 
 using nlohmann::json;
 
-glm::dvec3 vectorOf(const json& object, const char* key, const glm::dvec3& otherwise) {
-    const std::optional<std::vector<double>> numbers = numbersOf(object, key, 3);
+// So many numbers of a node; what is something else is told.
+std::optional<std::vector<double>> partOf(GltfFile& file, const json& node, const char* key, std::size_t count) {
+    std::optional<std::vector<double>> numbers = numbersOf(node, key, count);
+    if (!numbers && member(node, key) != nullptr)
+        file.leaveOut(fmt::format("the {} of nodes that have no {} finite numbers there", key, count));
+    return numbers;
+}
+
+glm::dvec3 vectorOf(GltfFile& file, const json& node, const char* key, const glm::dvec3& otherwise) {
+    const std::optional<std::vector<double>> numbers = partOf(file, node, key, 3);
     return numbers ? glm::dvec3((*numbers)[0], (*numbers)[1], (*numbers)[2]) : otherwise;
 }
 
-SourceTrs partsOf(const json& node) {
+SourceTrs partsOf(GltfFile& file, const json& node) {
     SourceTrs parts;
-    parts.translation = vectorOf(node, "translation", glm::dvec3(0.0));
-    parts.scale = vectorOf(node, "scale", glm::dvec3(1.0));
-    if (const std::optional<std::vector<double>> q = numbersOf(node, "rotation", 4)) {
+    parts.translation = vectorOf(file, node, "translation", glm::dvec3(0.0));
+    parts.scale = vectorOf(file, node, "scale", glm::dvec3(1.0));
+    if (const std::optional<std::vector<double>> q = partOf(file, node, "rotation", 4)) {
         const glm::dquat rotation((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
         if (glm::length(rotation) > 1e-9) parts.rotation = glm::normalize(rotation);
     }
@@ -31,16 +39,16 @@ glm::dmat4 matrixOf(const SourceTrs& parts) {
            glm::scale(glm::dmat4(1.0), parts.scale);
 }
 
-SourceNode nodeOf(const json& source, int index, int parent) {
+SourceNode nodeOf(GltfFile& file, const json& source, int index, int parent) {
     SourceNode node;
     node.name = textOf(source, "name");
     if (node.name.empty()) node.name = fmt::format("nodes[{}]", index);
     node.parent = parent;
-    if (const std::optional<std::vector<double>> m = numbersOf(source, "matrix", 16)) {
+    if (const std::optional<std::vector<double>> m = partOf(file, source, "matrix", 16)) {
         for (int i = 0; i < 16; ++i)
             node.parentFromNode[i / 4][i % 4] = (*m)[static_cast<std::size_t>(i)];
     } else {
-        node.trs = partsOf(source);
+        node.trs = partsOf(file, source);
         node.parentFromNode = matrixOf(*node.trs);
     }
     return node;
@@ -85,7 +93,7 @@ std::vector<bool> physicsFrames(const GltfFile& file) {
 
 }  // namespace
 
-NodeMap addNodes(const GltfFile& file, SourceScene& out) {
+NodeMap addNodes(GltfFile& file, SourceScene& out) {
     struct Pending {
         int node;
         int parent;
@@ -117,8 +125,8 @@ NodeMap addNodes(const GltfFile& file, SourceScene& out) {
         if (next.depth > kMaxDepth) refuse(nestedTooDeep(""));
         const json& source = file.element("nodes", next.node);
         map[next.node] = static_cast<int>(out.nodes.size());
-        out.nodes.push_back(nodeOf(source, next.node, next.parent));
-        const std::vector<int> children = indicesOf(source, "children", count);
+        out.nodes.push_back(nodeOf(file, source, next.node, next.parent));
+        const std::vector<int> children = childrenOf(file, next.node);
         for (auto child = children.rbegin(); child != children.rend(); ++child) {
             if (!leftOut[*child]) pending.push_back({*child, map[next.node], next.depth + 1});
         }

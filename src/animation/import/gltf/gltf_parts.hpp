@@ -14,14 +14,18 @@ namespace lutka::animation::rig_import::gltf {
 /// glTF node index → node of the plain scene; -1 for those that are not in the scene that is shown.
 using NodeMap = std::vector<int>;
 
+/// The children of a node, each once. Throws Damage where one is not there.
+[[nodiscard]] std::vector<int> childrenOf(const GltfFile& file, int node);
+
 /// The nodes that have no parent, of the scene that is read: the default one, or the first where the file names none;
 /// of the whole file where that scene is empty or there is none. Where that scene holds no skinned mesh and another
 /// does, that one is read, and a warning tells it if the file named the first. The tops of trees that hold joints of a
-/// skin in it come along, though the scene leaves them out.
+/// skin in it come along, though the scene leaves them out. Nodes that a scene lists twice, or beside one above them,
+/// are there once, which is told.
 [[nodiscard]] std::vector<int> rootsOf(const GltfFile& file, std::vector<std::string>& warnings);
 
 /// Adds the nodes of the scene that is read (of all nodes where the file has no scenes), depth first.
-[[nodiscard]] NodeMap addNodes(const GltfFile& file, SourceScene& out);
+[[nodiscard]] NodeMap addNodes(GltfFile& file, SourceScene& out);
 
 /// Adds the materials, and with `loadTextures` their pictures.
 void addMaterials(GltfFile& file, bool loadTextures, SourceScene& out);

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "animation/import/gltf/gltf_parts.hpp"
+#include "animation/import/source_limits.hpp"
 
 namespace lutka::animation::rig_import::gltf {
 namespace {
@@ -19,7 +20,7 @@ NodeTree treeOf(const GltfFile& file) {
     const std::size_t count = file.count("nodes");
     tree.parents.assign(count, -1);
     for (std::size_t node = 0; node < count; ++node) {
-        tree.children.push_back(indicesOf(file.element("nodes", static_cast<int>(node)), "children", count));
+        tree.children.push_back(childrenOf(file, static_cast<int>(node)));
         for (const int child : tree.children.back())
             tree.parents[child] = static_cast<int>(node);
     }
@@ -76,6 +77,33 @@ int sceneOf(const GltfFile& file, const NodeTree& tree, std::vector<std::string>
     return first;
 }
 
+// Whether a node hangs below itself.
+bool isInRing(const NodeTree& tree, int node) {
+    int above = tree.parents[node];
+    for (int depth = 0; above >= 0 && above != node && depth < kMaxDepth; ++depth)
+        above = tree.parents[above];
+    return above == node;
+}
+
+// Some writers list all nodes of a scene, and not those alone that hang on no other; or one twice.
+void keepTops(const NodeTree& tree, std::vector<int>& roots, std::vector<std::string>& warnings) {
+    std::vector<int> below;
+    for (const int root : roots)
+        below.insert(below.end(), tree.children[root].begin(), tree.children[root].end());
+    const std::vector<bool> hang = reachedFrom(tree, below);
+    std::vector<bool> isListed(tree.parents.size(), false);
+    const std::size_t listed = roots.size();
+    std::erase_if(roots, [&](int root) {
+        const bool again = isListed[root] || (hang[root] && !isInRing(tree, root));
+        isListed[root] = true;
+        return again;
+    });
+    if (roots.size() < listed)
+        warnings.push_back(fmt::format(
+            "the scene lists {} of its nodes once more, or beside nodes that they hang on: they are there once",
+            listed - roots.size()));
+}
+
 // Adds the tops of the trees that hold the joints of skins which these nodes use.
 void bringJoints(const GltfFile& file, const NodeTree& tree, std::vector<int>& roots) {
     const std::vector<bool> reached = reachedFrom(tree, roots);
@@ -102,11 +130,19 @@ void bringJoints(const GltfFile& file, const NodeTree& tree, std::vector<int>& r
 
 }  // namespace
 
+std::vector<int> childrenOf(const GltfFile& file, int node) {
+    std::vector<int> children = indicesOf(file.element("nodes", node), "children", file.count("nodes"));
+    std::set<int> seen;
+    std::erase_if(children, [&](int child) { return !seen.insert(child).second; });
+    return children;
+}
+
 std::vector<int> rootsOf(const GltfFile& file, std::vector<std::string>& warnings) {
     const NodeTree tree = treeOf(file);
     std::vector<int> roots;
     if (file.count("scenes") > 0) {
         roots = sceneRoots(file, sceneOf(file, tree, warnings));
+        keepTops(tree, roots, warnings);
         bringJoints(file, tree, roots);
         if (!roots.empty()) return roots;
     }

@@ -315,6 +315,22 @@ TEST_CASE("an FBX skin that blends by dual quaternions is told, a linear one is 
     }
 }
 
+TEST_CASE("clusters of an FBX that add to others are told") {
+    for (const std::string mode : {"Additive", "Total1", "Normalize"}) {
+        INFO(mode);
+        std::vector<FbxRecord> sections = skinnedSquare({}, dmat4(1.0), dmat4(1.0));
+        for (FbxRecord& record : sections[0].children) {
+            if (record.name == "Deformer" && std::get<std::string>(record.values.back()) == "Cluster")
+                record.children.push_back({"Mode", {mode}, {}});
+        }
+        const SourceScene scene = readAll(sections);
+        const bool told = std::ranges::any_of(scene.warnings, [](const std::string& warning) {
+            return warning.find("additive clusters); read as shares: Body") != std::string::npos;
+        });
+        CHECK(told == (mode == "Additive"));
+    }
+}
+
 TEST_CASE("blend shapes that an FBX moves are told, those with curves that stand still are not") {
     for (const double last : {100.0, 40.0}) {
         INFO(last);

@@ -138,6 +138,31 @@ TEST_CASE("an FBX clip that begins later than the file's time line does not wait
     }
 }
 
+TEST_CASE("keys of an FBX may stand in any order, its links twice and its lines end in any way") {
+    Records objects{model(7, "Arm", {})};
+    Records links{fbxLink(7, 0)};
+    addTurn(0, 90, objects, links);
+    for (FbxRecord& object : objects) {
+        for (FbxRecord& child : object.children) {
+            if (child.name == "KeyTime") child = row("KeyTime", {2 * kTicks, 0.0, kTicks});
+            if (child.name == "KeyValueFloat") child = row("KeyValueFloat", {30, 0, 90});
+            if (child.name == "KeyAttrRefCount") child = wholes("KeyAttrRefCount", {3});
+        }
+    }
+    const Records once = links;
+    links.insert(links.end(), once.begin(), once.end());
+    std::string text = "; a comment\n" + asciiFbx(document(objects, links));
+    for (const char end : {'\n', '\r'}) {
+        std::ranges::replace(text, '\n', end);
+        const Result<SourceScene> read = readBytes("; FBX 7.4.0 project file" + std::string(1, end) + text);
+        REQUIRE(read.ok());
+        const SourceScene& scene = read.value();
+        REQUIRE(scene.clips.size() == 1);
+        CHECK(difference(parentFromNodes(scene, scene.clips[0], 0.5)[1], xyz({45, 20, 30})) < 1e-4);
+        CHECK(difference(parentFromNodes(scene, scene.clips[0], 1.5)[1], xyz({60, 20, 30})) < 1e-4);
+    }
+}
+
 TEST_CASE("what is no number in an ASCII FBX is none, in Microsoft's spelling too") {
     const auto sections = document({model(1, "Body", {}), square({})}, {fbxLink(1, 0), fbxLink(3, 1)});
     for (const std::string spelling : {"-1.#IND", "1.#QNAN", "1.#INF00", "nan"}) {
