@@ -124,7 +124,12 @@ struct SolidAxis {
 
 void tryFaces(const Solid& of, const Solid& other, bool ofA, SolidAxis& best) {
     for (const Plane& face : of.faces()) {
-        const float distance = -other.support(-face.normal) - face.offset;
+        // One point that is as deep as what was found already is enough to leave the face.
+        float distance = std::numeric_limits<float>::max();
+        for (const vec3& point : other.points()) {
+            distance = std::min(distance, glm::dot(face.normal, point) - face.offset);
+            if (distance <= best.distance) break;
+        }
         if (distance <= best.distance) continue;
         best = {distance, ofA ? -face.normal : face.normal, ofA, !ofA, nullptr, nullptr};
     }
@@ -135,9 +140,10 @@ void tryFaces(const Solid& of, const Solid& other, bool ofA, SolidAxis& best) {
 bool spanAFace(const SolidEdge& a, const SolidEdge& b) {
     const float cba = -glm::dot(b.left, a.turn);
     const float dba = -glm::dot(b.right, a.turn);
+    if (!(cba * dba < 0.0F)) return false;  // so are most pairs
     const float adc = glm::dot(a.left, b.turn);
     const float bdc = glm::dot(a.right, b.turn);
-    return cba * dba < 0.0F && adc * bdc < 0.0F && cba * bdc > 0.0F;
+    return adc * bdc < 0.0F && cba * bdc > 0.0F;
 }
 
 // Some edges of a solid.
@@ -299,15 +305,35 @@ void gatherOnFace(const Solid& reference, const Solid& other, const vec3& outwar
     if (depth < 0.0F) addDeepest(other, outward, depth, out);
 }
 
+// The balls around edges, by which most pairs are seen to be too far apart.
+struct EdgeBalls {
+    std::array<vec3, kMostEdges> middles;
+    std::array<float, kMostEdges> radii;
+
+    EdgeBalls(const Solid& solid, const ChosenEdges& chosen) {
+        for (int i = 0; i < chosen.count; ++i) {
+            const Segment segment = solid.segmentOf(*chosen.edges[i]);
+            middles[i] = 0.5F * (segment.start + segment.end);
+            radii[i] = 0.5F * glm::distance(segment.start, segment.end);
+        }
+    }
+};
+
 // The nearest points of two edges of solids that are apart.
 void gatherBetweenEdges(const Solid& a, const Solid& b, float range, vec3& normal, Candidates& out) {
+    constexpr float kSlack = 1e-5F;  // metres: more than rounding brings a ball nearer
     const ChosenEdges ofA = edgesNear(a, b, range);
     const ChosenEdges ofB = edgesNear(b, a, range);
+    const EdgeBalls ballsA(a, ofA);
+    const EdgeBalls ballsB(b, ofB);
     float least = range;
-    for (const SolidEdge* edgeA : ofA.all()) {
-        for (const SolidEdge* edgeB : ofB.all()) {
-            const Segment first = a.segmentOf(*edgeA);
-            const Segment second = b.segmentOf(*edgeB);
+    for (int i = 0; i < ofA.count; ++i) {
+        const Segment first = a.segmentOf(*ofA.edges[i]);
+        for (int k = 0; k < ofB.count; ++k) {
+            const vec3 apart = ballsA.middles[i] - ballsB.middles[k];
+            const float reach = least + ballsA.radii[i] + ballsB.radii[k] + kSlack;
+            if (glm::dot(apart, apart) > reach * reach) continue;
+            const Segment second = b.segmentOf(*ofB.edges[k]);
             const SegmentPair at = closestBetweenSegments(first, second);
             const vec3 between = first.at(at.s) - second.at(at.t);
             const float gap = glm::length(between);
