@@ -63,8 +63,9 @@ struct Kernels {
     /// What this one would run through holds there, and unless it is the last, arms are foreseen anew. A probe changes
     /// nothing but velocities, and returns 0.
     unsigned (*mendOnce)(const BatchView& batch, const SubstepParams& params, unsigned firmly, MendPass kind);
-    /// Takes back all mending in some lanes, a bit mask.
-    void (*mendNot)(const BatchView& batch, unsigned lanes);
+    /// Takes back all mending in some lanes, a bit mask. What lies deep in static geometry is moved out of it as a
+    /// whole.
+    void (*mendNot)(const BatchView& batch, const SubstepParams& params, unsigned lanes);
     /// Positions and orientations with the velocities, which are the steady ones again afterwards.
     void (*advance)(const BatchView& batch, const SubstepParams& params);
     /// Sets the view's live blocks, which all the others work on.

@@ -111,7 +111,7 @@ void mendInPasses(const Kernels& kernels, const BatchView& view, const SubstepPa
         unsolved = kernels.mendOnce(view, params, firmly, left > 1 ? MendPass::more : MendPass::last);
         if (unsolved == 0) return;
     }
-    kernels.mendNot(view, unsolved);
+    kernels.mendNot(view, params, unsolved);
 }
 
 // One batch's, from the velocities that pair contacts have left.

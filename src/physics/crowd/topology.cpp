@@ -49,6 +49,16 @@ BodyConstants constantsOf(const BodyShape& shape, float massKg, const vec3& iner
     return constants;
 }
 
+// Half the width that a range has at least, radians. One of no width has its stops on both sides at once: what is
+// locked trembled between them for ever.
+constexpr float kLeastHalf = radians(1.0F);
+
+HingeLimits widened(const HingeLimits& limits) {
+    if (limits.upper - limits.lower >= 2.0F * kLeastHalf) return limits;
+    const float middle = 0.5F * (limits.lower + limits.upper);
+    return {middle - kLeastHalf, middle + kLeastHalf};
+}
+
 JointConstants constantsOf(const ConstraintProfile& constraint) {
     JointConstants constants{};
     constants.parent = constraint.parent;
@@ -58,12 +68,17 @@ JointConstants constantsOf(const ConstraintProfile& constraint) {
     copy(constants.childAnchor, constraint.childFromFrame.translation);
     copy(constants.parentFrame, constraint.parentFromFrame.rotation);
     copy(constants.childFrame, constraint.childFromFrame.rotation);
-    const ConeTwistLimits& cone = constraint.cone;
-    copy(constants.limit, constants.isHinge != 0 ? vec3(constraint.hinge.lower, constraint.hinge.upper, 0)
-                                                 : vec3(cone.swingY, cone.swingZ, cone.twist));
+    if (constants.isHinge != 0) {
+        const HingeLimits hinge = widened(constraint.hinge);
+        copy(constants.limit, vec3(hinge.lower, hinge.upper, 0));
+    } else {
+        copy(constants.limit,
+             glm::max(vec3(constraint.cone.swingY, constraint.cone.swingZ, constraint.cone.twist), vec3(kLeastHalf)));
+    }
+    const float y = constants.limit[0];
+    const float z = constants.limit[1];
     constants.longAxis = -1;
-    if (constants.isHinge == 0 && std::max(cone.swingY, cone.swingZ) > kRound * std::min(cone.swingY, cone.swingZ))
-        constants.longAxis = cone.swingY > cone.swingZ ? 0 : 1;
+    if (constants.isHinge == 0 && std::max(y, z) > kRound * std::min(y, z)) constants.longAxis = y > z ? 0 : 1;
     constants.frictionNm = constraint.frictionNm;
     return constants;
 }

@@ -282,12 +282,25 @@ static unsigned mendOnce(const BatchView& batch, const SubstepParams& params, un
     return bits(wrong | pass.astray);
 }
 
-// Takes back all mending in some lanes.
-static void mendNot(const BatchView& batch, unsigned lanes) {
+// Takes back all mending in some lanes. What lies deeper in static geometry than the fastest push mends in a substep
+// leaves it as a rigid body: that opens no joint and runs through no limit, where pushes at single points fold the doll
+// up and are never solved. Where it lies on both sides of a wall, the side of the most points wins.
+static void mendNot(const BatchView& batch, const SubstepParams& params, unsigned lanes) {
     const Mask taken = lanesOf(lanes);
+    const F zero = all(0.0F);
+    V3 out{zero, zero, zero};
+    for (int i = 0; i < batch.contactCount; ++i) {
+        const StaticContactLanes& contact = batch.contacts[i];
+        if (contact.near == 0) continue;
+        const Mask isDeep = load(contact.bias) <= all(-params.pushSpeed);
+        out = out + load(contact.normal) * (isDeep ? all(1.0F) : zero);
+    }
+    const F length2 = dot(out, out);
+    const F speed = length2 > all(0.25F) ? all(params.pushSpeed) / squareRoot(most(length2, all(0.25F))) : zero;
+    out = out * speed;
     for (int b = 0; b < batch.bodyCount; ++b) {
         BodyLanes& body = batch.bodies[b];
-        store(body.velocity, choose(taken, load(body.steadyVelocity), load(body.velocity)));
+        store(body.velocity, choose(taken, load(body.steadyVelocity) + out, load(body.velocity)));
         store(body.angular, choose(taken, load(body.steadyAngular), load(body.angular)));
     }
 }

@@ -81,6 +81,7 @@ class World : public WorldView {
 
     /// One frame of `dt` seconds in `substepsPerStep()` equal substeps; `afterSubstep`, when set, is called after each.
     /// The crowd may take fewer, longer ones where nothing moves fast; what it has not moved yet is then where it was.
+    /// In a step of more than 1/60 s, or where something is very fast, it may take several for one of those.
     void step(float dt, const std::function<void()>& afterSubstep = {});
     /// Dolls whose motion stopped making sense at the end of a step: not finite, faster than DollGuard::kMostSpeed, or
     /// with more energy than DollGuard::kMostGain allows. Each was put back to where it was before that step and to
