@@ -34,6 +34,20 @@ HumanoidMap refused(std::string reason) {
     return map;
 }
 
+// Hands and feet by their names that hang on the trunk: figures whose arms and legs are not there at all.
+bool floatsHandsAndFeet(const RigFeatures& rig) {
+    const auto isThere = [&](Part part, Side side) {
+        const int joint = rig.namedJoint(part, side, kTellsPartOfLimb);
+        return joint != kNoJoint && rig.carriesSkin(joint);
+    };
+    for (const Side side : {Side::left, Side::right}) {
+        if (!isThere(Part::hand, side) || !isThere(Part::foot, side)) return false;
+        for (const Part part : {Part::upperArm, Part::lowerArm, Part::upperLeg, Part::lowerLeg})
+            if (isThere(part, side)) return false;
+    }
+    return true;
+}
+
 // A fixed binding speaks as the loudest name: the search is drawn to it and keeps the rest consistent.
 void teachFixed(const FixedJoints& fixed, RigFeatures& rig) {
     for (int index = 0; index < kRoleCount; ++index) {
@@ -273,7 +287,10 @@ HumanoidMap mapHumanoid(const Character& character, const MapOptions& options) {
     const Reading reading = readFigure(rig);
     const Figure& figure = reading.figure;
     const std::optional<quat> knownStance = stanceOfBindings(known, skeleton);
-    HumanoidMap map = figure.refusal.empty() ? assembleRoles(figure, rig) : refused(figure.refusal);
+    HumanoidMap map =
+        figure.refusal.empty()
+            ? assembleRoles(figure, rig)
+            : refused(floatsHandsAndFeet(rig) ? "its hands and feet hang on no arms and legs" : figure.refusal);
     if (!map.humanoid && !knownStance) return map;
     if (map.humanoid) addWarnings(figure, map);
     if (map.humanoid && reading.ofImages) tellMissingLimbs(map);

@@ -211,4 +211,23 @@ TEST_CASE("legs that a file hangs on an arm by mistake are the figure's", "[held
     }
 }
 
+TEST_CASE("hands and feet that float beside a body are refused with that reason", "[held][refusal]") {
+    // In a pose, as the idle clip has them; it faces +X.
+    std::vector<JointSpec> joints{{"Armature", -1, {0, 0.31F, 0}},
+                                  {"Body", 0, {0, 0.41F, 0}},
+                                  {"Head", 1, {0, 0.86F, 0}},
+                                  {"Hand_left", 1, {0.55F, 0.79F, -0.13F}},
+                                  {"Hand_right", 1, {0.34F, 0.73F, 0.13F}},
+                                  {"Foot_left", 0, {-0.09F, 0.14F, -0.15F}},
+                                  {"Foot_right", 0, {-0.09F, 0.14F, 0.15F}}};
+    std::vector<TubeSpec> skin{{1, {0, 0.85F, 0}, 0.25F}, {2, {0, 1.6F, 0}, 0.3F}};
+    for (const int hand : {3, 4})
+        skin.push_back({hand, joints[static_cast<std::size_t>(hand)].position + vec3(0.12F, 0, 0), 0.08F});
+    for (const int foot : {5, 6})
+        skin.push_back({foot, joints[static_cast<std::size_t>(foot)].position + vec3(0.2F, -0.1F, 0), 0.08F});
+    const HumanoidMap map = animation::mapHumanoid(makeFigure("chef", joints, skin));
+    REQUIRE_FALSE(map.humanoid);
+    CHECK(map.warnings.front().find("hang on no arms and legs") != std::string::npos);
+}
+
 }  // namespace lutka::test
