@@ -317,12 +317,9 @@ std::string refusalOf(const Figure& figure, const FramedRig& framed) {
         std::clamp(0.6F * names, -10.0F, 10.0F) + (blocks ? kBlocksWhole : 0.0F) + (told ? kToldShape : 0.0F);
     if (figure.shapeScore() + helpShape < kLeastShapeScore)
         return fmt::format("the limbs have not the proportions of a human figure (score {:.1f})", figure.shapeScore());
-    if (whole + helpWhole < kLeastWholeScore) {
-        return fmt::format(
-            "too little tells a figure: too few joints of its limbs, or of its trunk, and names of none "
-            "(score {:.1f})",
-            whole);
-    }
+    if (whole + helpWhole < kLeastWholeScore)
+        return fmt::format("too little tells a figure: its limbs or its trunk have too few joints (score {:.1f})",
+                           whole);
     return {};
 }
 
