@@ -423,9 +423,9 @@ BodyPlan planBodies(const Character& character, const HumanoidMap& map, std::spa
     hangSegments(plan, character);
     const std::vector<animation::Appendage> appendages =
         map.humanoid ? animation::findAppendages(character, map) : std::vector<animation::Appendage>{};
+    plan.held = jointsOfHeldWeapons(plan, character, appendages);
     const std::vector<SkinPoint> hanging =
-        gatherSkin(plan, character, map.standardFromModel, jointsHangingOnHead(plan, character, appendages),
-                   jointsOfHeldWeapons(plan, character, appendages));
+        gatherSkin(plan, character, map.standardFromModel, jointsHangingOnHead(plan, character, appendages), plan.held);
     hangOnHead(plan, hanging);
     plan.heightM = roles.empty() ? creatureSize(plan, character, map) : figureHeight(plan, jointSpan(plan));
     settleHeadSkin(plan, hanging);

@@ -45,6 +45,7 @@ struct BodyPlan {
     /// Where the trunk's skin was split by height because the rig leaves a trunk body next to none: the upper bounds of
     /// the trunk bodies from the hips on, but for the topmost; empty where the rig's own weights decide.
     std::vector<float> trunkBounds;
+    std::vector<bool> held;  ///< One a joint: it moves what is held, which is no body's skin (jointsOfHeldWeapons()).
 
     [[nodiscard]] int bodyOf(Role role) const;
     /// -1 where there is none of that name.

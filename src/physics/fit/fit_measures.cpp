@@ -203,12 +203,13 @@ FitMeasures measureSkin(const animation::Character& character, const BodyPlan& p
             static_cast<double>(counted[part]) / static_cast<double>(std::max<std::size_t>(mesh.positions.size(), 1));
         const std::vector<int> owners = ownersOfVertices(plan, mesh, toStandard);
         for (std::size_t vertex = 0; vertex < owners.size(); ++vertex) {
+            if (plan.held[mesh.joints[vertex][0]]) continue;
             const vec3 point = bodyFromStandard[owners[vertex]] * (toStandard * mesh.positions[vertex]);
             const float distance = std::abs(signedDistance(shapes[owners[vertex]].shape, point));
             near += distance <= kNearSkin * plan.heightM ? each : 0.0;
+            all += each;
             ++measures.vertices;
         }
-        all += each * static_cast<double>(owners.size());
     }
     if (measures.vertices == 0) return measures;
     measures.skinNear = static_cast<float>(near / all);

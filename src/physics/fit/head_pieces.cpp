@@ -130,6 +130,12 @@ class HeadSkin {
     std::vector<Piece> pieces_;
 };
 
+// Whether a piece's middle lies beyond the head's joint, as a skull's does; a beard's hangs below it.
+bool isBeyondJoint(const Piece& piece, const PlannedBody& head) {
+    const vec3 middle = piece.sum / static_cast<float>(piece.points.size());
+    return glm::dot(middle - head.start, head.end - head.start) > 0.0F;
+}
+
 // The index of the skull itself: the largest of the pieces that begin at the head's joint and lie beyond it.
 std::optional<std::size_t> skullOf(const std::vector<Piece>& pieces, const PlannedBody& head) {
     float largest = 0.0F;
@@ -138,10 +144,8 @@ std::optional<std::size_t> skullOf(const std::vector<Piece>& pieces, const Plann
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const Piece& piece = pieces[i];
-        const vec3 middle = piece.sum / static_cast<float>(piece.points.size());
         const bool begins = piece.box.distanceTo(head.start) <= kAtJoint * piece.box.diagonal();
-        const bool isBeyond = glm::dot(middle - head.start, head.end - head.start) > 0.0F;
-        if (!begins || !isBeyond || piece.area < kLargeEnough * largest) continue;
+        if (!begins || !isBeyondJoint(piece, head) || piece.area < kLargeEnough * largest) continue;
         if (!best || piece.area > pieces[*best].area) best = i;
     }
     return best;
@@ -155,9 +159,9 @@ float shareWithin(const Piece& piece, const Aabb& box, float margin) {
 }
 
 // How far from the skull each piece's skin still tells the head's shape. A piece that lies on the skull counts whole,
-// hair that begins on it up to a margin, a piece that only touches it not at all. `box` becomes that of the skull with
-// the pieces that count whole.
-std::vector<float> reachesOf(const std::vector<Piece>& pieces, std::size_t skull, Aabb& box) {
+// hair that begins on it up to a margin, what only touches it or hangs from it (a beard) not at all. `box` becomes that
+// of the skull with the pieces that count whole.
+std::vector<float> reachesOf(const std::vector<Piece>& pieces, std::size_t skull, const PlannedBody& head, Aabb& box) {
     constexpr float kAll = 1e9F;
     std::vector<float> reaches(pieces.size(), 0.0F);
     reaches[skull] = kAll;
@@ -171,7 +175,7 @@ std::vector<float> reachesOf(const std::vector<Piece>& pieces, std::size_t skull
             Aabb larger = box;
             larger.add(pieces[i].box);
             const bool isWhole = larger.diagonal() <= most;
-            reaches[i] = isWhole ? kAll : margin;
+            reaches[i] = isWhole ? kAll : isBeyondJoint(pieces[i], head) ? margin : 0.0F;
             if (isWhole) box = larger;
             grown = grown || isWhole;
         }
@@ -189,7 +193,7 @@ void hangPiecesOfHead(const BodyPlan& plan, const animation::Character& characte
     const std::optional<std::size_t> skull = skullOf(skin.pieces(), plan.bodies[head]);
     if (!skull || skin.pieces().size() < 2) return;
     Aabb box;
-    const std::vector<float> reaches = reachesOf(skin.pieces(), *skull, box);
+    const std::vector<float> reaches = reachesOf(skin.pieces(), *skull, plan.bodies[head], box);
     for (std::size_t m = 0; m < owners.size(); ++m) {
         for (std::size_t v = 0; v < owners[m].size(); ++v) {
             const int piece = skin.pieceOf(m, v);
