@@ -1,12 +1,19 @@
 #pragma once
 
 /// The rows that take part in the tree solver: which of them hold, and what they push. See tree_kernels.hpp.
+///
+/// A row is one equation J v + bias = 0 between velocities: a joint's stop, a contact's normal, friction. Three numbers
+/// belong to each: its `impulse` (N s or N m s, kept from substep to substep), its `weight` (by how much a speed that
+/// is wrong changes the impulse: N s per m/s, N m s per rad/s) and its `gain`, which is the weight while the row holds
+/// and 0 while it does not. ask…() comes on the way up the tree: it decides whether the row holds and adds it to the
+/// equations. update…() comes on the way down: it takes the impulse that came of it and tells where the decision was
+/// wrong. All of it happens in eight lanes at once, so decisions are masks, not branches.
 
 #include "physics/crowd/static_kernels.hpp"
 
 namespace lutka::physics::crowd::LUTKA_KERNELS {
 
-// Which pass this is.
+// Which pass over the tree this is: a substep makes several until the guess of which rows hold is right.
 struct Pass {
     bool mending;  ///< Mends errors of position on top of the steady velocities; friction rests and nothing is kept.
     F applied;     ///< 1 where the rows' impulses are already in the velocities, else 0.
@@ -27,16 +34,18 @@ struct JointTerms {
     Symmetric weight;
 };
 
-// The speed that a one-sided row asks to be added. A row ahead of its stop (positive bias) may close in; in late lanes
-// a row that holds stops at once instead, which takes energy away whatever the guess was.
+// The speed (m/s or rad/s) with which a one-sided row may still go towards its stop. Ahead of the stop (positive bias)
+// that is what just reaches it in this substep. In late lanes, where passes did not agree on what holds, a row that
+// holds allows nothing: that can only take energy away, whether or not it should have held.
 LUTKA_LANES F oneSidedBias(F bias, const Mask& held, const Pass& pass) {
     const F zero = all(0.0F);
     const F ahead = most(bias, zero);
     return (held & pass.late) ? zero : ahead;
 }
 
-// What a mending pass asks of a one-sided row: one that holds keeps its speed or mends its overrun; one that was run
-// over and leaves too slowly joins it. Returns the row's gain and the speed that is to be taken off.
+// What a mending pass asks of a one-sided row. One that holds keeps its speed, or leaves with the speed that mends its
+// overrun. One that is overrun, did not hold and leaves more slowly than that holds from now on. Returns the row's gain
+// and the speed that is to be taken off.
 struct Mended {
     F gain, off;
 };
@@ -72,8 +81,9 @@ struct OneSided {
 };
 LUTKA_LANES OneSided decideOneSided(F impulse, F rate, F bias, F weight, F gain, const Pass& pass) {
     const F zero = all(0.0F);
-    // What holds is judged with the weight that it has been solved with, and not with one that has grown since: many
-    // times a row's true mass makes of a slow parting a pull.
+    // The row was solved with the weight of the pass before, and whether it still presses is judged with that one. Its
+    // weight may have grown since (updateStatic). With the new one, which can be many times the mass behind the row, a
+    // contact that parts slowly would look as if it had to pull.
     const F solved = gain > zero ? gain : weight;
     const Mask reached = impulse - solved * (rate + oneSidedBias(bias, noLanes(), pass)) > zero;
     const Mask holds = reached | (pass.late & (gain > zero));
@@ -351,8 +361,9 @@ LUTKA_LANES void askStatic(const BodyLanes& body, StaticContactLanes& contact, c
         return;
     }
     const F impulse = load(contact.normalImpulse);
-    // What comes slowly to a surface ahead may just meet it or just miss it. Guessed to hold, it pulls all else down to
-    // the surface; what does meet it is held from the next pass or substep on.
+    // A point that comes slowly (contactTolerance) to a surface ahead, and did not press before, may meet it or not. To
+    // guess that it does would pull the whole doll down to the surface. So the first pass takes it for one that misses;
+    // if it meets the surface after all, the next pass or substep holds it.
     const F bias = load(contact.bias);
     const Mask mayMiss = pass.alone & (bias > zero) & (impulse <= zero) & (motion.rate > all(-params.contactTolerance));
     const F rate = pass.begun ? motion.rate : (mayMiss ? zero : motion.rate);

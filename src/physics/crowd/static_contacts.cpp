@@ -246,7 +246,8 @@ class StaticContacts {
         }
     }
 
-    // How far the bodies may go until they must be looked at again.
+    // Sets BodyLanes::room: how many metres each body's surface may still move before a static contact could be
+    // missing.
     void giveRoom() {
         // Whatever comes near something else than planes is looked at again in every substep; until then it may go as
         // far as that is away, beyond what the bounds were grown by.
@@ -353,8 +354,9 @@ class StaticContacts {
         }
     }
 
-    // The half spaces that a body is about to be in: where it passes an edge within a substep, the one that is nearest
-    // at its beginning is not the one that it is in at its end.
+    // A contact stands for one face or edge of a box or mesh, as a half space. A body that slides past an edge within a
+    // substep is nearest to one of them at its beginning and inside another at its end. So the search is made a second
+    // time, for where the body will be if nothing stops it, and what that finds is added.
     void foresee(const ShapeRef& of, int lane, int index, const PlacedShape& placed, const StaticTouches& found,
                  std::size_t& slot) {
         const BodyState body = readBody(batch_.bodies[of.body], lane);

@@ -27,8 +27,9 @@
 
 namespace lutka::physics::crowd::LUTKA_KERNELS {
 
-// What a pass adds of what was done to the bodies: nothing, what has been done since the last sweep, or all that has
-// been done in this substep, with which the joints are solved from the beginning.
+// Pushes on single bodies (gravity, contacts between bodies) change body.velocity; the sweep's own result is
+// body.steadyVelocity, with which all joints hold. What a sweep brings in of the difference: nothing, what was pushed
+// since the last sweep, or all pushes of this substep, to solve the joints from the beginning.
 enum class Fresh { nothing, since, whole };
 
 // A body's inertia about its centre with that of everything below it, what was done to it since the last sweep
