@@ -8,6 +8,7 @@
 
 #include "animation/pose.hpp"
 #include "physics/collision/shape.hpp"
+#include "physics/profile/constraint_state.hpp"
 
 namespace lutka::scene {
 namespace {
@@ -22,6 +23,14 @@ constexpr float kStrengthSeconds = 0.3F;  // in which the strength of one that g
 quat headingOf(const quat& turn) {
     const float length = std::hypot(turn.w, turn.y);
     return length > 1e-4F ? quat(turn.w / length, 0, turn.y / length, 0) : quat(1, 0, 0, 0);
+}
+
+bool isNearLimits(const physics::RagdollProfile& profile, std::span<const RigidTransform> worldFromBody) {
+    constexpr float kMostBeyond = radians(20.0F);
+    return std::all_of(profile.constraints.begin(), profile.constraints.end(), [&](const auto& joint) {
+        return physics::measureConstraint(joint, worldFromBody[joint.parent], worldFromBody[joint.child]).violation <=
+               kMostBeyond;
+    });
 }
 
 }  // namespace
@@ -131,7 +140,8 @@ void PuppetCast::startClip(Actor& actor, float seconds, physics::DollId doll) {
     world_->getBodies(doll, bodies_);
     const bool isElsewhere = play_.borrows || seconds != actor.clips->startSeconds;
     // On ramps and steps the pose is fitted to the ground there: begun in the level one, the doll would be pulled over.
-    const bool isFitted = actor.terrain && play_.meetsGround;
+    // Where a slope asks far more of an ankle than it can give, the limit would turn the foot into the ground at once.
+    const bool isFitted = actor.terrain && play_.meetsGround && isNearLimits(actor.asset->profile, now_);
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         bodies_[i].worldFromBody.translation.y += actor.lift;
         if (isElsewhere)
