@@ -47,7 +47,8 @@ std::vector<animation::Role> fixedToBlame(const DocumentState& state, std::span<
         }
     };
     for (const Finding& cause : all) {
-        if (cause.code != "joint-not-below" || cause.bodies.empty()) continue;
+        const bool isOfMap = cause.code == "joint-not-below" || cause.code == "limb-uneven";
+        if (!isOfMap || cause.bodies.empty()) continue;
         const bool concerns = std::any_of(asked.begin(), asked.end(), [&](const Finding& finding) {
             return std::any_of(finding.bodies.begin(), finding.bodies.end(), [&](const std::string& body) {
                 return linked(state.profile, body, cause.bodies.front());

@@ -9,8 +9,8 @@
 namespace lutka::editor {
 
 /// The roles that the user fixed on joints that can't be theirs, as far as they are the cause of findings in `asked`:
-/// those of bodies with a finding joint-not-below in `all`, and of their parents, where such a body is, or is linked
-/// to, one of those in `asked`.
+/// those of bodies with a finding joint-not-below or limb-uneven in `all`, and of their parents, where such a body is,
+/// or is linked to, one of those in `asked`.
 [[nodiscard]] std::vector<animation::Role> fixedToBlame(const DocumentState& state,
                                                         std::span<const physics::Finding> all,
                                                         std::span<const physics::Finding> asked);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 #include <initializer_list>
 
@@ -51,8 +52,8 @@ class Examination {
                 {Severity::info,
                  "not-humanoid",
                  "",
-                 "no body has a role: role-unmapped, roles-few, joint-not-below, hinge-reversed and hinge-askew do not "
-                 "apply",
+                 "no body has a role: role-unmapped, roles-few, joint-not-below, limb-uneven, hinge-reversed and "
+                 "hinge-askew do not apply",
                  "",
                  false,
                  {}});
@@ -108,6 +109,39 @@ class Examination {
                                                       wordsOf(hanging), skeleton.names[map_.jointOf(*above)]),
                                           "map a joint below it, unless the rig drives this limb by an IK root", false,
                                           childOf(c)});
+        }
+    }
+
+    // A role on a joint farther out or in makes one half of a limb many times as long as the other. Of 110 limbs of
+    // real figures the most is 2.5 times.
+    void checkLimbs(Diagnosis& diagnosis, const animation::Skeleton& skeleton) {
+        constexpr float kMostUneven = 3.0F;
+        constexpr float kPoint = 5e-3F;  // of the height, as chain-degenerate has it
+        using Limb = std::array<Role, 3>;
+        constexpr std::array<Limb, 4> kLimbs{Limb{Role::leftUpperArm, Role::leftLowerArm, Role::leftHand},
+                                             Limb{Role::rightUpperArm, Role::rightLowerArm, Role::rightHand},
+                                             Limb{Role::leftUpperLeg, Role::leftLowerLeg, Role::leftFoot},
+                                             Limb{Role::rightUpperLeg, Role::rightLowerLeg, Role::rightFoot}};
+        for (const auto& [upper, lower, end] : kLimbs) {
+            const int middle = bodyOf(profile_, lower);
+            const std::array<int, 3> joints{map_.jointOf(upper), map_.jointOf(lower), map_.jointOf(end)};
+            if (middle < 0 || *std::min_element(joints.begin(), joints.end()) == animation::kNoJoint) continue;
+            const auto lengthTo = [&](int i) {
+                return glm::distance(skeleton.bindModelFromJoint[joints[i - 1]].translation,
+                                     skeleton.bindModelFromJoint[joints[i]].translation);
+            };
+            const auto [shorter, longer] = std::minmax({lengthTo(1), lengthTo(2)});
+            // Joints in one place are told as such.
+            if (shorter < kPoint * profile_.heightM || longer <= kMostUneven * shorter) continue;
+            const Role longHalf = lengthTo(1) > lengthTo(2) ? upper : lower;
+            diagnosis.findings.push_back({Severity::warning,
+                                          "limb-uneven",
+                                          nameOf(lower),
+                                          fmt::format("{} is {:.1f} times as long as the other half of the limb",
+                                                      nameOf(longHalf), longer / shorter),
+                                          "map the joints at the elbow or knee and at the wrist or ankle",
+                                          false,
+                                          {nameOf(lower)}});
         }
     }
 
@@ -425,6 +459,7 @@ Diagnosis diagnose(const RagdollProfile& profile, const animation::Character& ch
     }
     examination.checkMap(diagnosis);
     examination.checkHierarchy(diagnosis, character.skeleton);
+    examination.checkLimbs(diagnosis, character.skeleton);
     examination.checkMasses(diagnosis);
     examination.checkLimits(diagnosis);
     examination.checkOverlaps(diagnosis);

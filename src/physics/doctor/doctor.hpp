@@ -50,6 +50,9 @@ struct Diagnosis {
 /// - `roles-few` fewer than half of the required roles have a joint, and head or a whole limb has none (error)
 /// - `joint-not-below` a role's joint is not below that of the role above it, or hangs on another limb (error; warning
 ///   where both sides are built so, as feet under an IK root, and in a flat tree)
+/// - `limb-uneven` one half of an arm or leg is more than three times as long as the other: a role is on a joint
+/// farther
+///   out or in (warning)
 /// - `skin-outside-bodies` most of the skin is more than 6 % of the height (of a thick body: 74 % of its radius) from
 ///   all bodies, and few of these have skin of their own about them; or much of it lies at bodies of other parts than
 ///   the one that moves it (error)
@@ -72,7 +75,7 @@ struct Diagnosis {
 /// - `body-tiny`, `body-huge` radius below 0.8 % of the height, or above what any fit gives (warning)
 /// - `chain-degenerate` two linked joints nearer than 0.5 % of the height (warning)
 /// - `not-humanoid` which of these checks do not apply to a ragdoll without roles: role-unmapped, roles-few,
-///   joint-not-below, hinge-reversed and hinge-askew (info)
+///   joint-not-below, limb-uneven, hinge-reversed and hinge-askew (info)
 /// - `note` what the fit had to bend (info)
 [[nodiscard]] Diagnosis diagnose(const RagdollProfile& profile, const animation::Character& character,
                                  const animation::HumanoidMap& map);

@@ -160,3 +160,20 @@ TEST_CASE("a thigh on the joint of its foot is questioned at once, and one Fix m
     for (const physics::Finding& finding : errors())
         CHECK(finding.code != "joint-not-below");
 }
+
+TEST_CASE("a forearm's role that was fixed on the hand is told by the doctor, and mended by mapping it anew") {
+    auto opened = EditorDocument::open(LUTKA_ASSETS_DIR "/models/mannequin.glb");
+    REQUIRE(opened);
+    EditorDocument& document = *opened.value();
+    const int elbow = document.state().map.jointOf(Role::leftLowerArm);
+    REQUIRE(document.assignRole(Role::leftLowerArm, document.state().map.jointOf(Role::leftHand)));
+    const std::vector<physics::Finding> found = document.diagnosis().findings;
+    const auto uneven =
+        std::find_if(found.begin(), found.end(), [](const auto& finding) { return finding.code == "limb-uneven"; });
+    REQUIRE(uneven != found.end());
+    REQUIRE(document.canMend(*uneven));
+    REQUIRE(document.mend(std::span(&*uneven, 1)));
+    CHECK(document.state().map.jointOf(Role::leftLowerArm) == elbow);
+    for (const physics::Finding& finding : document.diagnosis().findings)
+        CHECK(finding.code != "limb-uneven");
+}
